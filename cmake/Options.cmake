@@ -35,9 +35,9 @@ if(DEBURR_COVERAGE)
 endif()
 
 # Unit tests are compiled to be run once, and what only starts simulations and shows their results is
-# a small part of a run: -O1 takes two thirds of the time of -O3.
+# a small part of a run: -O1 takes two thirds of the time of -O3, -Og four fifths of that.
 add_library(deburr_light_options INTERFACE)
-target_compile_options(deburr_light_options INTERFACE $<$<CONFIG:Release>:-O1>)
+target_compile_options(deburr_light_options INTERFACE $<$<CONFIG:Release>:-Og>)
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)

@@ -22,4 +22,7 @@ void walk_all(const std::function<void(sc_core::sc_object&)>& visit) {
   for (sc_core::sc_object* object : sc_core::sc_get_top_level_objects()) walk(*object, visit);
 }
 
+// Here, and not in each place that destroys one.
+Counter::~Counter() = default;
+
 }  // namespace deburr::rtl

@@ -16,6 +16,7 @@ namespace deburr::rtl {
 class Counter : public sc_core::sc_object {
  public:
   Counter(const char* name, const char* unit, const char* meaning);
+  ~Counter() override;
   const char* kind() const override { return "deburr_counter"; }
 
   Counter& operator++() {

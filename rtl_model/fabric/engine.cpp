@@ -38,4 +38,7 @@ std::vector<const MemoryBase*> Engine::memories() const { return below<MemoryBas
 std::vector<const Histogram*> Engine::histograms() const { return below<Histogram>(*this); }
 std::vector<const LinkBase*> Engine::links() const { return below<LinkBase>(*this); }
 
+// Here, and not in each place that destroys one.
+Engine::~Engine() = default;
+
 }  // namespace deburr::rtl

@@ -38,6 +38,7 @@ namespace deburr::rtl {
 
 class Engine : public sc_core::sc_module {
  public:
+  ~Engine() override;
   const char* kind() const override { return "deburr_engine"; }
 
   ControlRegisters control;

@@ -87,4 +87,7 @@ std::vector<Histogram::Bin> Histogram::bins(std::size_t at_most) const {
   return merged;
 }
 
+// Here, and not in each place that destroys one.
+Histogram::~Histogram() = default;
+
 }  // namespace deburr::rtl

@@ -22,6 +22,7 @@ class Histogram : public sc_core::sc_object {
   };
 
   Histogram(const char* name, const char* unit, const char* meaning);
+  ~Histogram() override;
   const char* kind() const override { return "deburr_histogram"; }
 
   // Values in a row are mostly alike: they are counted here, and put into their bin by settle().

@@ -103,4 +103,10 @@ void PortBase::resolve(LinkBase& link) {
   owner = name();
 }
 
+// Here, and not in each place that destroys one.
+LinkBase::~LinkBase() = default;
+
+// Here, and not in each place that destroys one.
+PortBase::~PortBase() = default;
+
 }  // namespace deburr::rtl

@@ -33,6 +33,7 @@ namespace deburr::rtl {
 // hierarchy come from the module that declares it.
 class LinkBase : public sc_core::sc_object {
  public:
+  ~LinkBase() override;
   const char* kind() const override { return "deburr_link"; }
 
   bool can_push(Cycle cycle) const { return cycle >= tail_->push_from; }
@@ -179,6 +180,7 @@ std::string link_package(const std::string& name, sc_core::sc_object& root);
 // the unit around it (in any order).
 class PortBase : public sc_core::sc_object {
  public:
+  ~PortBase() override;
   enum class Side { kConsumer, kProducer };
   Side side() const { return side_; }
   bool bound() const { return base_ != nullptr; }

@@ -366,4 +366,8 @@ void PortedMemory::fail(const Port& port, Cycle cycle, const std::string& what) 
       fmt::format("{}: cycle {}: {} port {}: {}", name(), cycle, kind, port.user, what));
 }
 
+// Here, and not in each place that destroys one.
+MemoryBase::~MemoryBase() = default;
+PortedMemory::~PortedMemory() = default;
+
 }  // namespace deburr::rtl

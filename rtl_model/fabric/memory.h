@@ -96,6 +96,7 @@ class MemoryBase : public sc_core::sc_object {
 
   // ConfigError if the shape cannot be built: with what to do about it.
   MemoryBase(const char* name, MemoryShape shape);
+  ~MemoryBase() override;
   const char* kind() const override { return "deburr_memory"; }
 
   const MemoryShape& shape() const { return shape_; }
@@ -150,6 +151,7 @@ class MemoryBase : public sc_core::sc_object {
 class PortedMemory : public MemoryBase {
  public:
   PortedMemory(const char* name, MemoryShape shape);
+  ~PortedMemory() override;
   void reset() override;
   void check_ports() const override;
   // Accesses since reset, of all ports.

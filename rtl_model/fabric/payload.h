@@ -220,7 +220,7 @@ class PayloadBuilder {
       : shape_(shape), payload_(static_cast<const std::byte*>(payload)) {}
 
   template <class T>
-  PayloadNode root(const T& payload) {
+  [[gnu::cold]] PayloadNode root(const T& payload) {
     if constexpr (HasFields<T>) {
       return structure("", payload);
     } else {
@@ -231,25 +231,25 @@ class PayloadBuilder {
 
   // --- The visitor ---
   template <class M>
-  void operator()(std::string_view name, const M& member, std::uint32_t bits,
-                  std::string_view format = {}, std::string_view letters = {}) {
+  [[gnu::cold]] void operator()(std::string_view name, const M& member, std::uint32_t bits,
+                                std::string_view format = {}, std::string_view letters = {}) {
     add(leaf(std::string(name), member, bits, format, letters, kAll));
   }
   template <class M>
-  void operator()(std::string_view name, const M& member) {
+  [[gnu::cold]] void operator()(std::string_view name, const M& member) {
     add(part(std::string(name), member, kAll));
   }
   template <class M>
-  void lanes(std::string_view name, const M& member, std::uint32_t bits,
-             std::string_view format = {}, std::string_view letters = {}) {
+  [[gnu::cold]] void lanes(std::string_view name, const M& member, std::uint32_t bits,
+                           std::string_view format = {}, std::string_view letters = {}) {
     add(leaf(std::string(name), member, bits, format, letters, shape_.lanes));
   }
   template <class M>
-  void lanes(std::string_view name, const M& member) {
+  [[gnu::cold]] void lanes(std::string_view name, const M& member) {
     add(part(std::string(name), member, shape_.lanes));
   }
   template <class M>
-  void lane_bits(std::string_view name, const M& member, std::uint32_t most) {
+  [[gnu::cold]] void lane_bits(std::string_view name, const M& member, std::uint32_t most) {
     add(field(std::string(name), member,
               static_cast<std::uint32_t>(count(path_ + std::string(name), shape_.lanes, most)),
               "a bit a lane"));
@@ -260,8 +260,9 @@ class PayloadBuilder {
 
   void add(PayloadNode node) { into_->children.push_back(std::move(node)); }
   template <class M>
-  PayloadNode leaf(std::string name, const M& member, std::uint32_t bits, std::string_view format,
-                   std::string_view letters, std::size_t limit) {
+  [[gnu::cold]] PayloadNode leaf(std::string name, const M& member, std::uint32_t bits,
+                                 std::string_view format, std::string_view letters,
+                                 std::size_t limit) {
     if constexpr (IsArray<M>::value) {
       constexpr bool kInnermost = !IsArray<typename M::value_type>::value;
       PayloadNode node = array(name);
@@ -278,7 +279,7 @@ class PayloadBuilder {
     }
   }
   template <class M>
-  PayloadNode part(std::string name, const M& member, std::size_t limit) {
+  [[gnu::cold]] PayloadNode part(std::string name, const M& member, std::size_t limit) {
     if constexpr (IsArray<M>::value) {
       PayloadNode node = array(name);
       limit = count(path_ + name, limit, member.size());
@@ -296,7 +297,7 @@ class PayloadBuilder {
     }
   }
   template <class T>
-  PayloadNode structure(const std::string& name, const T& payload) {
+  [[gnu::cold]] PayloadNode structure(const std::string& name, const T& payload) {
     constexpr Measure kListed = measure<T>();
     if constexpr (std::is_aggregate_v<T>)
       static_assert(members<T>() == kListed.members, "the list leaves out a member");
@@ -312,8 +313,8 @@ class PayloadBuilder {
     return node;
   }
   template <class M>
-  PayloadNode field(std::string name, const M& member, std::uint32_t bits,
-                    std::string_view format) {
+  [[gnu::cold]] PayloadNode field(std::string name, const M& member, std::uint32_t bits,
+                                  std::string_view format) {
     static_assert(std::is_integral_v<M> || std::is_enum_v<M>);
     return field(std::move(name), reinterpret_cast<const std::byte*>(&member) - payload_, sizeof(M),
                  bits, format, std::is_signed_v<M>);
@@ -347,7 +348,7 @@ class Payload {
   };
 
   template <class T>
-  static Payload of(const PayloadShape& shape = {}) {
+  [[gnu::cold]] static Payload of(const PayloadShape& shape = {}) {
     const T payload{};
     return Payload(detail::PayloadBuilder(shape, &payload).root(payload), shape);
   }

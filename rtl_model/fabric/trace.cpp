@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "rtl_model/fabric/counters.h"
+#include "rtl_model/fabric/glob.h"
 #include "rtl_model/fabric/register_block.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
@@ -47,27 +48,6 @@ std::pair<std::vector<std::string>, std::string> split(const std::string& name) 
 }
 
 }  // namespace
-
-bool glob_match(const std::string& pattern, const std::string& text) {
-  // The usual two pointers: on a mismatch, let the last * take one character more.
-  std::size_t p = 0, t = 0, star = std::string::npos, mark = 0;
-  while (t < text.size()) {
-    if (p < pattern.size() && pattern[p] == '*') {
-      star = p++;
-      mark = t;
-    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
-      ++p;
-      ++t;
-    } else if (star != std::string::npos) {
-      p = star + 1;
-      t = ++mark;
-    } else {
-      return false;
-    }
-  }
-  while (p < pattern.size() && pattern[p] == '*') ++p;
-  return p == pattern.size();
-}
 
 Trace::Trace(ClockDomain& clock, const TraceOptions& options) : clock_(clock), options_(options) {
   file_.open(options_.file, std::ios::out | std::ios::trunc);

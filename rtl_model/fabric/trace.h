@@ -73,7 +73,4 @@ class Trace final : public Clocked {
   bool started_ = false;
 };
 
-// Does `text` match a pattern with * and ?
-bool glob_match(const std::string& pattern, const std::string& text);
-
 }  // namespace deburr::rtl

@@ -66,4 +66,7 @@ void Unit::check_ports() const {
   }
 }
 
+// Here, and not in each place that destroys one.
+Unit::~Unit() = default;
+
 }  // namespace deburr::rtl

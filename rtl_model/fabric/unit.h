@@ -38,6 +38,7 @@ class Unit : public Clocked, public sc_core::sc_module {
     std::uint64_t cycles;
   };
 
+  ~Unit() override;
   const char* kind() const override { return "deburr_unit"; }
   ClockDomain& clock() const { return clock_; }
 

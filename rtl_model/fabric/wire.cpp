@@ -49,4 +49,10 @@ void WirePortBase::resolve(WireBase& wire) {
   wire.driver_ = name();
 }
 
+// Here, and not in each place that destroys one.
+WireBase::~WireBase() = default;
+
+// Here, and not in each place that destroys one.
+WirePortBase::~WirePortBase() = default;
+
 }  // namespace deburr::rtl

@@ -39,6 +39,7 @@ inline constexpr NoResetTag kNoReset{};
 // The part of a wire that does not depend on its type.
 class WireBase : public sc_core::sc_object {
  public:
+  ~WireBase() override;
   const char* kind() const override { return "deburr_wire"; }
   bool combinational() const { return kind_ == WireKind::kCombinational; }
   const Payload& payload() const { return payload_; }
@@ -162,6 +163,7 @@ using CombinationalWire = Wire<T, WireKind::kCombinational>;
 // the unit around it (in any order).
 class WirePortBase : public sc_core::sc_object {
  public:
+  ~WirePortBase() override;
   enum class Side { kReader, kDriver };
   Side side() const { return side_; }
   bool bound() const { return base_ != nullptr; }

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Many mutants of many files: which of them, in which order, and what became of them."""
+import collections
 import concurrent.futures
 import contextlib
+import hashlib
 import json
 import os
 import pathlib
@@ -16,7 +18,6 @@ import yaml
 from mutation.mutants import shown
 from mutation.tree import Problem, digest
 
-ROUND = 8  # mutants of a file before it is the next file's turn
 PROFILE = ("conf", "partition", "time", "memory", "cpus", "tasks", "options", "setup")
 
 
@@ -37,24 +38,39 @@ def sample(mutants, count, seed):
     return places[:count] if count else places
 
 
+def drawn(mutants, count, each, seed):
+    """(file, place) of `count` of all mutants (0: all), drawn at random over all files, in the order of
+    the draw, and then of as many more as every file needs to have `each`. The number by which a mutant
+    stands in the draw depends on nothing but the mutant and the seed, so that a larger sample begins with
+    a smaller one."""
+    def number(file, mutant):
+        text = f"{seed} {file} {mutant.begin} {mutant.kind} {mutant.text}"
+        return hashlib.sha256(text.encode()).digest()
+
+    order = sorted((number(file, mutant), file, place) for file, all_of in mutants.items()
+                   for place, mutant in enumerate(all_of))
+    order = [(file, place) for _, file, place in order]
+    chosen, rest = (order[:count], order[count:]) if count else (order, [])
+    of_file = collections.Counter(file for file, _ in chosen)
+    for file, place in rest:
+        if of_file[file] < each:
+            of_file[file] += 1
+            chosen.append((file, place))
+    return chosen
+
+
 class Campaign:
     """Results are lines of JSON in `work`/results, a file for each who writes: what is there is not
     done again, and a file that has changed begins anew."""
 
-    def __init__(self, tree, judge, count, seed, say):
+    def __init__(self, tree, judge, count, each, seed, say):
         self.tree, self.judge, self.say = tree, judge, say
-        self.chosen = {file: sample(all_of, count, seed) for file, all_of in tree.mutants.items()}
+        self.chosen = drawn(tree.mutants, count, each, seed)
         self.lock = threading.Lock()
 
     def key(self, file, place):
         mutant = self.tree.mutants[file][place]
         return (str(file), digest(self.tree.sources[file]), mutant.begin, mutant.kind, mutant.text)
-
-    def in_rounds(self):
-        """(file, place) such that an interrupted campaign has seen something of every file."""
-        rounds = max((len(places) for places in self.chosen.values()), default=0) // ROUND + 1
-        return [(file, place) for turn in range(rounds) for file, places in self.chosen.items()
-                for place in sorted(places[turn * ROUND:(turn + 1) * ROUND])]
 
     def run(self, jobs, alone, again, explained=(), name="local", part=0, parts=1):
         """Judges what is not judged yet, or if `again` survived and is not `explained`: behind
@@ -63,7 +79,7 @@ class Campaign:
         done = {key_of(entry) for entry in read_results(self.tree.work)
                 if not again or entry["verdict"] != "survived"
                 or (entry["file"], entry["was"], entry["is"]) in explained}
-        wanted = [item for n, item in enumerate(self.in_rounds())
+        wanted = [item for n, item in enumerate(self.chosen)
                   if n % parts == part and self.key(*item) not in done]
         folder = self.tree.work / "results"
         folder.mkdir(exist_ok=True)

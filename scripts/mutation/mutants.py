@@ -4,11 +4,26 @@ import bisect
 import collections
 import re
 
+from mutation import statements
+
 # Code whose text may look like an operator or a number: comments, texts, characters, directives.
 NO_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\''
                      r'|^[ \t]*#[^\n]*|\bstatic_assert\b[^;]*;|\bvirtual\b[^;{}]* = 0;', re.S | re.M)
+# Of several lines, which NO_CODE takes for code from the second one on: directives, and texts as they are.
+LONG = re.compile(r'^[ \t]*#(?:[^\n]*\\\n)+[^\n]*|\bR"(\w*)\(.*?\)\1"', re.S | re.M)
 COMPARISONS = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "=="}
-OTHER = {"+": "-", "-": "+", "+=": "-=", "-=": "+=", "&&": "||", "||": "&&"}
+OTHER = {"+": "-", "-": "+", "+=": "-=", "-=": "+=", "&&": "||", "||": "&&",
+         "<<": ">>", ">>": "<<", "<<=": ">>=", ">>=": "<<=",
+         "&": "|", "|": "&", "^": "&", "&=": "|=", "|=": "&=", "^=": "&="}
+
+
+def masks(text):
+    """A hexadecimal constant with its lowest bit flipped, and without its highest one."""
+    digits, suffix = re.fullmatch(r"0[xX]([\da-fA-F']+)([uUlLzZ]*)", text).groups()
+    value = int(digits.replace("'", ""), 16)
+    found = [value ^ 1] + ([value ^ 1 << value.bit_length() - 1] if value > 1 else [])
+    return [f"0x{changed:X}{suffix}" for changed in dict.fromkeys(found)]
+
 
 # Kind, what it looks for, and what that may become. clang-format puts blanks around binary
 # operators, and none around the brackets of templates and the signs of numbers.
@@ -19,13 +34,28 @@ RULES = [
      lambda text: [str(int(text) + 1)] + ([str(int(text) - 1)] if int(text) else [])),
     ("stall", re.compile(r"!?(?<![\w.>)\]])(?:\w+(?:\[[^][]*\])?(?:\.|->))+can_(?:push|pop)\(\w+\)"),
      lambda text: ["false" if text[0] == "!" else "true"]),
+    # Texts are written with <<, and nothing else can be done with them.
+    ("shift", re.compile(r"(?<= )(?<!\" )(<<=|>>=|<<|>>)(?=\s+[^\s\"])"), lambda text: [OTHER[text]]),
+    ("bits", re.compile(r"(?<= )(&=|\|=|\^=|&|\||\^)(?=\s)"), lambda text: [OTHER[text]]),
+    ("literal", re.compile(r"\b(?:true|false)\b"),
+     lambda text: ["false" if text == "true" else "true"]),
+    ("hexadecimal", re.compile(r"(?<![\w.'])0[xX][\da-fA-F']+[uUlLzZ]*(?![\w.'])"), masks),
+    ("min_max", re.compile(r"\bstd::(?:min|max)(?=[(<])"),
+     lambda text: ["std::max" if text == "std::min" else "std::min"]),
 ]
+# What is left out, by statements.py; in a function that resets, each is a reset.
+LEFT_OUT = {"assignment": "statement", "target": "statement", "call": "call", "exit": "exit"}
+KINDS = [kind for kind, _, _ in RULES] + [*dict.fromkeys(LEFT_OUT.values()), "reset"]
 NAMES = {"<": "Less", "<=": "LessEqual", ">": "Greater", ">=": "GreaterEqual", "==": "Equal",
-         "!=": "NotEqual", "+": "Plus", "-": "Minus", "+=": "Add", "-=": "Subtract"}
-INFIX = {"<": ">=", "<=": ">=", ">": ">=", "!=": "=="}
+         "!=": "NotEqual", "+": "Plus", "-": "Minus", "+=": "Add", "-=": "Subtract",
+         "<<": "ShiftLeft", ">>": "ShiftRight", "<<=": "ShiftLeftBy", ">>=": "ShiftRightBy",
+         "&": "BitAnd", "|": "BitOr", "^": "BitXor", "&=": "BitAndWith", "|=": "BitOrWith",
+         "^=": "BitXorWith"}
+INFIX = {"<": ">=", "<=": ">=", ">": ">=", "!=": "==", ">>": "<<"}
 
 # Values that members have before they are given others: nobody reads most of them, so that their
-# mutants are no faults. What a reset leaves is written where it is done.
+# mutants are no faults. What a reset leaves is written where it is done. `constant` goes by the look
+# of a line, since its mutants are those of old records; the other kinds go by statements.scan().
 DEFAULTS = re.compile(r"^ {2}(?: {2})?(?!static|const|return|using|for|if)[\w:<>,* ]+? \w+(?: = \d+)?"
                       r"(?:,\s+\w+(?: = \d+)?)*;", re.M)
 HEADER = re.compile(r"^#(?:ifndef \w+_H|pragma once)", re.M)
@@ -39,14 +69,28 @@ def code_of(source):
                        source)
 
 
+def for_statements(source, code):
+    """The code with blanks for the rest of what is no code."""
+    pieces, at = [], 0
+    for match in LONG.finditer(source):
+        pieces += [code[at:match.start()], re.sub(r"[^\n]", " ", match.group())]
+        at = match.end()
+    return "".join(pieces + [code[at:]])
+
+
 def mutants_of(source):
     """Every mutant of a source text, in order."""
     code = code_of(source)
     unread = {at for m in (DEFAULTS.finditer(code) if HEADER.search(source) else ())
               for at in range(m.start(), m.end())}
+    parts, defaults = statements.scan(for_statements(source, code))
+    unset = {at for begin, end in defaults for at in range(begin, end)}
+    not_read = {"constant": unread, "literal": unset, "hexadecimal": unset}
     found = [Mutant(kind, m.start(), m.end(), text) for kind, pattern, variants in RULES
-             for m in pattern.finditer(code) if kind != "constant" or m.start() not in unread
+             for m in pattern.finditer(code) if m.start() not in not_read.get(kind, ())
              for text in variants(m.group())]
+    found += [Mutant("reset" if part.reset else LEFT_OUT[part.kind], part.begin, part.end, "")
+              for part in parts]
     # A constant's mutants stand one after the other, one more first: switch.h counts on it.
     return sorted(found, key=lambda m: (m.begin, m.kind, -int(m.text) if m.text.isdigit() else 0))
 
@@ -97,10 +141,16 @@ def schema_of(source, first, dropped=frozenset(), plain=None):
         inserts.append((end, 0, -begin, -level, after))
 
     for place, mutant in enumerate(mutants):
+        if plain is not None and place != plain and (
+                mutants[plain].begin <= mutant.begin < mutants[plain].end):
+            continue  # it goes with what stands there no more, or has the other's place
         number, was = first + place, source[mutant.begin:mutant.end]
         switch = f"::deburr_mutant::on<{number}>()"
         if plain == place:
             replaced[mutant.begin] = (mutant.end, mutant.text)
+            if was in ("&", "|", "^"):  # which bind unlike each other
+                replaced[mutant.begin] = (mutant.end, f"{was} ::deburr_mutant::{NAMES[was]}"
+                                          f"<::deburr_mutant::kAlone>{{}} {was}")
             if was in ("&&", "||"):
                 left, right = operands(code, mutant.begin, mutant.end)
                 enclose(left[0], right[1], 1, "(", ")")
@@ -112,6 +162,19 @@ def schema_of(source, first, dropped=frozenset(), plain=None):
             if mutant.begin not in replaced and int(mutant.text) > int(was):
                 replaced[mutant.begin] = (mutant.end,
                                           f"::deburr_mutant::constant<{number}>({was})")
+        elif mutant.kind == "hexadecimal":
+            before = replaced.get(mutant.begin, (0, f"({was})"))[1]
+            replaced[mutant.begin] = (mutant.end, f"({switch} ? {mutant.text} : {before[1:]}")
+        elif mutant.kind == "literal":
+            replaced[mutant.begin] = (mutant.end, f"({was} != {switch})")
+        elif mutant.kind == "min_max":
+            replaced[mutant.begin] = (mutant.end, f"::deburr_mutant::Extreme<{number}>::{was[5:]}")
+        elif not mutant.text and was.rstrip() != was:  # `a = ` of `a = b = 0`
+            enclose(mutant.begin, mutant.begin + len(was.rstrip()[:-1].rstrip()), 0,
+                    f"::deburr_mutant::kept<{number}>(", ")")
+        elif not mutant.text:
+            # It has an else of its own, so that it takes none from an if around it.
+            inserts.append((mutant.begin, 1, -mutant.end, -1, f"if ({switch}) {{}} else "))
         elif mutant.kind == "stall":
             if plain is None or not mutant.begin <= mutants[plain].begin < mutant.end:
                 enclose(mutant.begin, mutant.end, 2,
@@ -153,4 +216,5 @@ def shown(source, mutant):
     end = source.find("\n", mutant.end)
     line = source[begin:end if end >= 0 else None]
     after = source[begin:mutant.begin] + mutant.text + source[mutant.end:begin + len(line)]
-    return source.count("\n", 0, begin) + 1, line.strip(), after.strip()
+    # Of a statement over several lines the first one is shown.
+    return source.count("\n", 0, begin) + 1, line.strip(), after.strip() or ";"

@@ -2,7 +2,9 @@
 """The record of a campaign, the explanations of its survivors, and the page of both."""
 import collections
 import json
+import math
 import pathlib
+import textwrap
 
 from mutation import mutants
 from mutation.tree import digest
@@ -10,14 +12,19 @@ from mutation.tree import digest
 RECORD = pathlib.Path("tb/mutation/record.json")
 SURVIVORS = pathlib.Path("tb/mutation/survivors.json")
 PAGE = pathlib.Path("docs/mutation.md")
+VERDICTS = ("killed", "survived", "invalid")
 GOAL = 95
+Z = 1.959964  # of a confidence of 95 %
 HEAD = """# Mutants of both models
 
-What the tests do not see: `scripts/mutate --all` plants every small fault that it knows (a flipped comparison, `+` for
-`-`, `&&` for `||`, an off-by-one constant, a stall that never holds) in `golden/` and `rtl_model/`, one at a time, and
-runs the tests that reach it until one fails ([verification](verification.md#mutants)). `scripts/mutate --report` makes
-this page from `tb/mutation/record.json`, the result of the last campaign, and `tb/mutation/survivors.json`, which says
-of a survivor why no test could see it.
+What the tests do not see: `scripts/mutate --all` plants the small faults that it knows (an operator, a constant or a
+condition changed, a statement, a call or a reset left out) in `golden/` and `rtl_model/`, one at a time, and runs the
+tests that reach it until one fails ([verification](verification.md#mutants)). `scripts/mutate --report` makes this page
+from `tb/mutation/record.json`, the result of the last campaign, and `tb/mutation/survivors.json`, which says of a
+survivor why no test could see it.
+
+A rate is of the mutants that were judged. What stands behind it in brackets is where that of all mutants lies, with a
+confidence of 95 % (Wilson's interval), if the judged ones are a random sample of all.
 
 """
 
@@ -27,14 +34,19 @@ def record_of(results, sources):
     record = {}
     for file, source in sources.items():
         content = digest(source)
-        known = {(m.begin, m.kind, m.text) for m in mutants.mutants_of(source)}
+        all_of = mutants.mutants_of(source)
+        known = {(m.begin, m.kind, m.text) for m in all_of}
         own = [r for r in results if r["file"] == str(file) and r["hash"] == content
                and (r["begin"], r["kind"], r["text"]) in known]
         counts = collections.Counter(r["verdict"] for r in own)
+        of_kind = collections.Counter(m.kind for m in all_of)
+        verdicts = collections.Counter((r["kind"], r["verdict"]) for r in own)
         record[str(file)] = {
             "hash": content, "mutants": len(known),
             "alone": sum(r["way"] == "alone" for r in own),
             "killed": counts["killed"], "invalid": counts["invalid"],
+            "kinds": {kind: [of_kind[kind]] + [verdicts[kind, verdict] for verdict in VERDICTS]
+                      for kind in mutants.KINDS if of_kind[kind]},
             "survived": sorted([r["was"], r["is"]] for r in own if r["verdict"] == "survived")}
     return record
 
@@ -72,9 +84,61 @@ def explanations(root):
     return {(e["file"], e["was"], e["is"]): e["reason"] for e in entries}
 
 
+def interval(part, whole):
+    """Wilson's, in tenths of a percent, rounded away from the rate."""
+    if not whole:
+        return 0, 1000
+    rate, square = part / whole, Z * Z
+    centre = rate + square / (2 * whole)
+    reach = Z * math.sqrt(rate * (1 - rate) / whole + square / (4 * whole * whole))
+    low, high = ((centre + sign * reach) / (1 + square / whole) * 1000 for sign in (-1, 1))
+    # What is whole stays so, whatever the arithmetic leaves behind the point.
+    return (math.floor(low + 1e-9) if part else 0), (math.ceil(high - 1e-9) if part < whole else 1000)
+
+
 def percent(part, whole):
+    """A rate and its interval."""
+    if not whole:
+        return "-"
+    low, high = interval(part, whole)
     # Rounded down, so that nothing looks whole that is not.
-    return f"{part * 1000 // whole / 10:.1f}" if whole else "-"
+    return f"{part * 1000 // whole / 10:.1f} ({low / 10:.1f} to {high / 10:.1f})"
+
+
+def run_of(row):
+    return row["killed"] + row["explained"] + row["survived"]
+
+
+def goal_of(rows, drawn):
+    """The folders by what is known of the goal, which is said of all if the judged were `drawn` of all."""
+    lists = {"reached": [], "open": [], "missed": []}
+    for name, row in rows.items():
+        counted = row["killed"] + row["survived"]
+        if not run_of(row):
+            continue
+        reached = row["killed"] * 100 >= GOAL * counted
+        sure = drawn and interval(row["killed"], counted)[0] >= GOAL * 10
+        lists["missed" if not reached else "reached" if sure else "open"].append(
+            f"`{name}` {percent(row['killed'], counted)}, {run_of(row)} of {row['mutants']} judged")
+    texts = {"reached": "Of all mutants, with that confidence, it is reached by",
+             "open": "Of those that were judged, which do not say it of all, it is reached by",
+             "missed": "It is missed by"}
+    return " ".join(f"{texts[name]}: {'; '.join(found)}." for name, found in lists.items() if found)
+
+
+def kinds_of(record):
+    """The table by kinds, of the files whose record knows them."""
+    totals = {kind: [0] * (1 + len(VERDICTS)) for kind in mutants.KINDS}
+    for entry in record.values():
+        for kind, counts in entry.get("kinds", {}).items():
+            totals[kind] = [a + b for a, b in zip(totals[kind], counts)]
+    lines = ["| kind | mutants | judged | not compiled | killed | killed % of the judged |",
+             "|---|---|---|---|---|---|"]
+    for kind, (all_of, killed, survived, invalid) in totals.items():
+        if all_of:
+            lines.append(f"| {kind} | {all_of} | {killed + survived} | {invalid} | {killed} "
+                         f"| {percent(killed, killed + survived)} |")
+    return "\n".join(lines) + "\n\n" if len(lines) > 2 else ""
 
 
 def page_of(root, record):
@@ -82,28 +146,36 @@ def page_of(root, record):
     rows = judged(record, explained)
     total = sum(rows.values(), collections.Counter())
     lines = ["| folder | files | mutants | judged | not compiled | killed | survived: explained "
-             "| survived: open | killed % | of those not explained % |",
+             "| survived: open | killed % of the judged | of those not explained % |",
              "|---|---|---|---|---|---|---|---|---|---|"]
     for name, row in [*rows.items(), ("all", total)]:
-        run = row["killed"] + row["explained"] + row["survived"]
         lines.append(
-            f"| `{name}` | {row['files']} | {row['mutants']} | {run} | {row['invalid']} "
+            f"| `{name}` | {row['files']} | {row['mutants']} | {run_of(row)} | {row['invalid']} "
             f"| {row['killed']} | {row['explained']} | {row['survived']} "
-            f"| {percent(row['killed'], run)} "
+            f"| {percent(row['killed'], run_of(row))} "
             f"| {percent(row['killed'], row['killed'] + row['survived'])} |")
-    run = total["killed"] + total["explained"] + total["survived"] + total["invalid"]
-    below = [name for name, row in rows.items() if row["killed"] * 100 < GOAL * (
-        row["killed"] + row["survived"])]
+    tried = run_of(total) + total["invalid"]
     text = HEAD + "\n".join(lines) + "\n\n"
     text += wrapped(
-        f"Of {total['mutants']} mutants {run} were tried, {total['alone']} of them compiled alone; "
-        f"{total['mutants'] - run} were not, since the campaign was ended before them, or since they "
-        "wait to be compiled alone: what the compiler works out costs a build each. `not compiled` "
-        "are no programs, and count nowhere. The goal "
-        f"is {GOAL} % of those that are not explained; "
-        + ("every folder reaches it." if not below else
-           "below it: " + ", ".join(f"`{name}`" for name in below) + ".")) + "\n"
-    text += "\n## Survivors that are explained\n\n"
+        f"Of {total['mutants']} mutants {tried} were tried, {total['alone']} of them compiled alone; "
+        f"{total['mutants'] - tried} were not, since they were not drawn, since the campaign was "
+        "ended before them, or since they wait to be compiled alone: what the compiler works out "
+        "costs a build each. `not compiled` are no programs, and count nowhere.") + "\n\n"
+    old = [file for file, entry in record.items() if "kinds" not in entry]
+    text += wrapped(f"The goal is {GOAL} % of those that are not explained. "
+                    + goal_of(rows, not old)) + "\n\n"
+    if old:
+        text += wrapped(
+            f"{len(old)} of {len(record)} files were judged before the generator knew the kinds "
+            + ", ".join(mutants.KINDS[mutants.KINDS.index("shift"):]) + ", and not at random over "
+            "all: mutants of these kinds are not among those of the table, and intervals say too "
+            "much of folders in which whole files were left out.") + "\n\n"
+    text += kinds_of(record)
+    nothing = without_verdict(record)
+    if nothing:
+        text += wrapped(f"{len(nothing)} files have mutants, of which none was judged: "
+                        + ", ".join(f"`{file}`" for file in nothing) + ".") + "\n\n"
+    text += "## Survivors that are explained\n\n"
     text += wrapped("Nobody can see these: the program does the same, or what it does otherwise is "
                     "not part of any contract.") + "\n\n"
     for (file, was, becomes), reason in sorted(explained.items()):
@@ -119,8 +191,20 @@ def page_of(root, record):
     return text
 
 
+def without_verdict(record):
+    """Files of the record that have mutants, and none that was judged."""
+    return sorted(file for file, entry in record.items()
+                  if entry["mutants"] and not entry["killed"] + entry["invalid"] + len(entry["survived"]))
+
+
+def untried(root, record, files):
+    """The same of the files of today, which may be newer than the record."""
+    new = [str(file) for file in files if str(file) not in record
+           and mutants.mutants_of((root / file).read_text(encoding="utf-8"))]
+    return sorted(new + [file for file in without_verdict(record) if (root / file).exists()])
+
+
 def wrapped(text):
-    import textwrap
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False)
 
 

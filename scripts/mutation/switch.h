@@ -11,11 +11,14 @@
 #include <concepts>
 #include <cstdlib>
 #include <cstring>
+#include <initializer_list>
 #include <type_traits>
 
 namespace deburr_mutant {
 
 inline constexpr unsigned kMost = 1U << 16;
+// The number of what is compiled alone, and is always on.
+inline constexpr unsigned kAlone = kMost;
 enum State : unsigned char { kOff, kOn, kAsked };
 enum Answer : unsigned char { kReached = 1, kNoSuchOperator = 2 };
 
@@ -50,12 +53,17 @@ inline Switches switches;
 // Off where a constant is computed: such a mutant is compiled alone.
 template <unsigned n>
 [[gnu::always_inline]] constexpr bool on() {
-  if (std::is_constant_evaluated()) return false;
-  return switches.state[n] != kOff && answer(n, kReached);
+  if constexpr (n == kAlone) {
+    return true;
+  } else {
+    if (std::is_constant_evaluated()) return false;
+    return switches.state[n] != kOff && answer(n, kReached);
+  }
 }
 
 template <unsigned n>
 [[gnu::always_inline]] constexpr void no_such_operator() {
+  static_assert(n != kAlone);
   if (std::is_constant_evaluated()) return;
   if (switches.state[n] != kOff) answer(n, kNoSuchOperator);
 }
@@ -66,6 +74,46 @@ template <unsigned n, class T>
   if (on<n>()) return value + 1;
   if (value != 0 && on<n + 1>()) return value - 1;
   return value;
+}
+
+// std::min and std::max, one of which is the other.
+template <unsigned n>
+struct Extreme {
+  template <class T>
+  [[gnu::always_inline]] static constexpr const T& min(const T& a, const T& b) {
+    return (b < a) != on<n>() ? b : a;
+  }
+  template <class T>
+  [[gnu::always_inline]] static constexpr const T& max(const T& a, const T& b) {
+    return (a < b) != on<n>() ? b : a;
+  }
+  template <class T>
+  static constexpr T min(std::initializer_list<T> all) {
+    const T* found = all.begin();
+    for (const T& each : all) found = &min(*found, each);
+    return *found;
+  }
+  template <class T>
+  static constexpr T max(std::initializer_list<T> all) {
+    const T* found = all.begin();
+    for (const T& each : all) found = &max(*found, each);
+    return *found;
+  }
+};
+
+// `kept(a) = kept(b) = 0` is `a = b = 0`, or leaves one of them as it was.
+template <unsigned n, class T>
+struct Kept {
+  T& target;
+  template <class U = T>
+  [[gnu::always_inline]] constexpr T operator=(U&& value) const {
+    if (on<n>()) return static_cast<T>(value);
+    return target = static_cast<U&&>(value);
+  }
+};
+template <unsigned n, class T>
+[[gnu::always_inline]] constexpr Kept<n, T> kept(T& target) {
+  return {target};
 }
 
 // `left infix Name<n>{} infix right` is `left was right`, with the same precedence.
@@ -100,6 +148,11 @@ DEBURR_MUTANT_OPERATOR(Equal, ==, ==, !=)
 DEBURR_MUTANT_OPERATOR(NotEqual, ==, !=, ==)
 DEBURR_MUTANT_OPERATOR(Plus, +, +, -)
 DEBURR_MUTANT_OPERATOR(Minus, -, -, +)
+DEBURR_MUTANT_OPERATOR(ShiftLeft, <<, <<, >>)
+DEBURR_MUTANT_OPERATOR(ShiftRight, <<, >>, <<)
+DEBURR_MUTANT_OPERATOR(BitAnd, &, &, |)
+DEBURR_MUTANT_OPERATOR(BitOr, |, |, &)
+DEBURR_MUTANT_OPERATOR(BitXor, ^, ^, &)
 #undef DEBURR_MUTANT_OPERATOR
 
 // `left infix Name<n>{} infix right`, from the right.
@@ -129,6 +182,11 @@ DEBURR_MUTANT_OPERATOR(Minus, -, -, +)
   }
 DEBURR_MUTANT_ASSIGNMENT(Add, +=, -=)
 DEBURR_MUTANT_ASSIGNMENT(Subtract, -=, +=)
+DEBURR_MUTANT_ASSIGNMENT(ShiftLeftBy, <<=, >>=)
+DEBURR_MUTANT_ASSIGNMENT(ShiftRightBy, >>=, <<=)
+DEBURR_MUTANT_ASSIGNMENT(BitAndWith, &=, |=)
+DEBURR_MUTANT_ASSIGNMENT(BitOrWith, |=, &=)
+DEBURR_MUTANT_ASSIGNMENT(BitXorWith, ^=, &=)
 #undef DEBURR_MUTANT_ASSIGNMENT
 
 }  // namespace deburr_mutant

@@ -69,7 +69,7 @@ class Tree:
         if self.remembered.exists():
             for file, (content, places) in json.loads(self.remembered.read_text()).items():
                 path = pathlib.Path(file)
-                if path in self.sources and digest(self.sources[path]) == content:
+                if path in self.sources and self.numbered(path) == content:
                     self.dropped[path] = set(places)
         self.tests = tests
 
@@ -79,6 +79,10 @@ class Tree:
         if needed and done.returncode != 0:
             raise Problem(f"{command[0]} failed\n{done.stdout[-4000:]}\n{done.stderr[-4000:]}")
         return done
+
+    def numbered(self, file):
+        """What the places of a file's mutants depend on: its text, and the kinds that there are."""
+        return digest(mutants.schema_of(self.sources[file], 0))
 
     def put(self, file, plain=None):
         """Writes a file with its schema, and the mutant `plain` as it is."""
@@ -110,7 +114,7 @@ class Tree:
             if not self.drop(done.stdout):
                 raise Problem(f"the tests do not build\n{done.stdout[-4000:]}")
         self.remembered.write_text(json.dumps({
-            str(file): [digest(self.sources[file]), sorted(places)]
+            str(file): [self.numbered(file), sorted(places)]
             for file, places in self.dropped.items() if places}))
 
     def drop(self, errors):

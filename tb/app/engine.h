@@ -162,6 +162,9 @@ class Engine {
   }
   virtual void add_parameters(ParameterSet& set) = 0;
   virtual std::vector<Shorthand> shorthands() const = 0;
+  // Options of runs that are worth a look, for its --help: one at least. What they read is called
+  // mesh.obj or frame.png.
+  virtual std::vector<std::string_view> examples() const = 0;
   // After everything that was given has been set: fills in what follows from it (presets), and
   // refuses what was given and has no effect.
   virtual void resolve(ParameterSet&) {}

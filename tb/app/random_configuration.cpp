@@ -174,9 +174,9 @@ bool is_quick(const ParameterSet& set) {
 }
 
 // The engine with these settings; null where it, or what is said above, refuses one.
-class Candidate {
+class DrawnConfiguration {
  public:
-  Candidate(const std::string& engine, const RandomDraws& draws, const Settings& settings)
+  DrawnConfiguration(const std::string& engine, const RandomDraws& draws, const Settings& settings)
       : draws_(draws), engine_(engine_named(engine)), bound_(*engine_) {
     for (const auto& [name, value] : settings) bound_.set.set(name, value, "--set");
   }
@@ -221,7 +221,7 @@ Settings accepted(const std::string& engine, const RandomDraws& draws, const Set
     Settings refused;
     for (auto& setting : wanted) {
       settings.push_back(std::move(setting));
-      if (Candidate(engine, draws, settings).is_resolved()) continue;
+      if (DrawnConfiguration(engine, draws, settings).is_resolved()) continue;
       refused.push_back(std::move(settings.back()));
       settings.pop_back();
     }
@@ -257,7 +257,7 @@ Settings random_configuration(const std::string& engine, std::uint64_t seed,
         wanted.emplace_back(parameter.name, drawn(draws, parameter, random));
     std::erase_if(wanted, [&](const auto& setting) { return stays.contains(setting.first); });
     Settings settings = accepted(engine, draws, given, std::move(wanted));
-    Candidate candidate(engine, draws, settings);
+    DrawnConfiguration candidate(engine, draws, settings);
     if (candidate.is_resolved() && candidate.is_accepted()) {
       settings.erase(settings.begin(),
                      settings.begin() + static_cast<std::ptrdiff_t>(given.size()));

@@ -161,6 +161,13 @@ std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines)
   return page;
 }
 
+std::vector<std::string> fault_names(Engine& engine) {
+  const SilentRenaming silent;
+  Result result;
+  engine.describe_statistics(result);
+  return result.faults;
+}
+
 namespace {
 
 // By the names of their modules.

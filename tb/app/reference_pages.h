@@ -20,6 +20,9 @@ std::string registers_page(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string registers_header(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string coverage_page(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string datasheets_page(const std::vector<std::unique_ptr<Engine>>& engines);
+// Names of the faults that an engine's environment can plant, as --fault takes them. Elaborates the
+// model, as statistics_page() does.
+std::vector<std::string> fault_names(Engine& engine);
 // Names of all bins that runs of an engine may have.
 std::set<std::string> coverage_bins(const std::string& engine);
 

@@ -162,6 +162,7 @@ void simulate(Simulation& simulation, Environment& environment, RunContext& cont
 void describe(Simulation& simulation, Environment& environment, Result& result) {
   simulation.elaborate(environment);
   simulation.collect(result);
+  result.faults = simulation.faults().known_names();
 }
 
 }  // namespace deburr::tb

@@ -64,7 +64,20 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };
 
-// Calls take(bytes, size) over the content of a regular file.
+// Calls take(bytes, size) over what is left of an open file.
+template <class Take>
+void read_chunks(const fs::path& file, int descriptor, Take take) {
+  std::vector<char> buffer(1 << 16);
+  for (;;) {
+    const ssize_t got = ::read(descriptor, buffer.data(), buffer.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(file, "read", errno);
+    if (got == 0) return;
+    take(buffer.data(), static_cast<std::size_t>(got));
+  }
+}
+
+// The same over the content of a regular file.
 template <class Take>
 void read_chunks(const fs::path& file, Take take) {
   // Without O_NONBLOCK a pipe would be waited for until someone writes into it.
@@ -74,26 +87,31 @@ void read_chunks(const fs::path& file, Take take) {
   if (::fstat(in.value(), &info) != 0) fail(file, "examine", errno);
   if (!S_ISREG(info.st_mode))
     throw FileError(fmt::format("cannot read '{}': it is not a regular file", file.string()));
-  std::vector<char> buffer(1 << 16);
-  for (;;) {
-    const ssize_t got = ::read(in.value(), buffer.data(), buffer.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail(file, "read", errno);
-    if (got == 0) return;
-    take(buffer.data(), static_cast<std::size_t>(got));
-  }
+  read_chunks(file, in.value(), take);
+}
+
+// Takes chunks into a text, up to a size.
+auto take_into(std::string& text, const fs::path& file, std::size_t max_bytes) {
+  return [&text, &file, max_bytes](const char* bytes, std::size_t size) {
+    if (text.size() + size > max_bytes)
+      throw FileError(
+          fmt::format("cannot read '{}': it is larger than {} bytes", file.string(), max_bytes));
+    text.append(bytes, size);
+  };
 }
 
 }  // namespace
 
 std::string read_file(const fs::path& file, std::size_t max_bytes) {
   std::string text;
-  read_chunks(file, [&](const char* bytes, std::size_t size) {
-    if (text.size() + size > max_bytes)
-      throw FileError(
-          fmt::format("cannot read '{}': it is larger than {} bytes", file.string(), max_bytes));
-    text.append(bytes, size);
-  });
+  read_chunks(file, take_into(text, file, max_bytes));
+  return text;
+}
+
+std::string read_standard_input(std::size_t max_bytes) {
+  std::string text;
+  const fs::path name(kStandardInput);
+  read_chunks(name, STDIN_FILENO, take_into(text, name, max_bytes));
   return text;
 }
 

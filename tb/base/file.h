@@ -13,6 +13,10 @@ namespace deburr::tb {
 
 // Reads a regular file of at most `max_bytes`; FileError otherwise.
 std::string read_file(const std::filesystem::path& file, std::size_t max_bytes);
+// The name of the standard input, which may be a pipe.
+inline constexpr std::string_view kStandardInput = "/dev/stdin";
+// All of the standard input, to its end; FileError where that is more than `max_bytes`.
+std::string read_standard_input(std::size_t max_bytes);
 // SHA-256 of a file's content, lower-case hexadecimal.
 std::string sha256_of_file(const std::filesystem::path& file);
 std::string sha256(std::string_view bytes);

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tb/base/interrupt.h"
 
+#include <fcntl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <csignal>
 
 namespace deburr::tb {
@@ -10,6 +15,36 @@ namespace {
 volatile std::sig_atomic_t interrupt_requested = 0;
 
 extern "C" void on_interrupt(int) { interrupt_requested = 1; }
+
+// What is still to be said must not fail because the terminal is gone.
+void leave_terminal(int descriptor) {
+  termios settings{};
+  if (::tcgetattr(descriptor, &settings) == 0 || errno != EIO) return;
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere < 0) return;
+  ::dup2(nowhere, descriptor);
+  ::close(nowhere);
+}
+
+// Calls nothing but what POSIX allows in a handler.
+extern "C" void on_hangup(int) {
+  const int before = errno;
+  interrupt_requested = 1;
+  leave_terminal(STDOUT_FILENO);
+  leave_terminal(STDERR_FILENO);
+  errno = before;
+}
+
+// A shell that ends sends it to its jobs, and the kernel to those in front: the second one is not
+// another one's wish. One that is ignored (nohup) stays ignored.
+void catch_hangups() {
+  struct sigaction action {};
+  if (sigaction(SIGHUP, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) return;
+  action = {};
+  action.sa_handler = on_hangup;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGHUP, &action, nullptr);
+}
 
 }  // namespace
 
@@ -24,6 +59,7 @@ void catch_interrupts() {
   action.sa_flags = static_cast<int>(SA_RESETHAND);  // the second signal acts as if never caught
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  catch_hangups();
 }
 
 bool interrupted() { return interrupt_requested != 0; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C in a run: the first one asks for a clean end, the second one kills.
+// Ctrl-C in a run: the first one asks for a clean end, the second one kills. So does SIGTERM; a
+// terminal that is closed (SIGHUP) asks for a clean end, however often.
 #pragma once
 
 #include <exception>
@@ -10,7 +11,7 @@ namespace deburr::tb {
 void let_full_files_fail();
 // Lets a write into a pipe that nobody reads fail instead of killing.
 void let_broken_pipes_fail();
-// Takes over SIGINT and SIGTERM, for commands that ask interrupted() while they work.
+// Takes over SIGINT, SIGTERM and SIGHUP, for commands that ask interrupted() while they work.
 void catch_interrupts();
 bool interrupted();
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "spec/error.h"
 #include "tb/base/file.h"
@@ -97,20 +98,22 @@ bool has_several_documents(const std::string& text, Surveyor& surveyor) {
 
 }  // namespace
 
-YamlFile::YamlFile(const std::filesystem::path& file, std::size_t most) : path_(file) {
-  const std::string text = read_file(file, most);
+YamlFile::YamlFile(const std::filesystem::path& file, std::size_t most)
+    : YamlFile(file, read_file(file, most)) {}
+
+YamlFile::YamlFile(std::filesystem::path file, const std::string& text) : path_(std::move(file)) {
   try {
     Surveyor surveyor(path_);
     if (has_several_documents(text, surveyor))
       throw ConfigError(
           fmt::format("{}: holds more than one YAML document, or begins with what belongs to none, "
                       "such as ','; one is expected",
-                      file.string()));
+                      path_.string()));
     root_ = YAML::Load(text);
   } catch (const YAML::Exception& e) {
     const std::string line =
         e.mark.is_null() ? "" : fmt::format(":{}:{}", e.mark.line + 1, e.mark.column + 1);
-    throw ConfigError(fmt::format("{}{}: not valid YAML: {}", file.string(), line, e.msg));
+    throw ConfigError(fmt::format("{}{}: not valid YAML: {}", path_.string(), line, e.msg));
   }
 }
 

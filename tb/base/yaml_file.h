@@ -26,6 +26,8 @@ class YamlFile {
   // FileError for a file that cannot be read, or has more bytes; ConfigError for what is no YAML,
   // for more than one document, and for aliases without an end.
   explicit YamlFile(const std::filesystem::path& file, std::size_t most = kMaxBytes);
+  // The same of a text that was read already.
+  YamlFile(std::filesystem::path file, const std::string& text);
 
   const YAML::Node& root() const { return root_; }
   const std::filesystem::path& path() const { return path_; }
@@ -40,12 +42,20 @@ class YamlFile {
   void require_keys(const YAML::Node& map, const std::vector<std::string>& known) const;
   std::string scalar(const YAML::Node& node, std::string_view what) const;
   bool boolean(const YAML::Node& node, std::string_view what) const;
+  // Addresses of 32 bits may be hexadecimal: 0x7fc0.
   template <class Number>
   Number number(const YAML::Node& node, std::string_view what) const {
     const std::string text = scalar(node, what);
     Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
+    const char* const last = text.data() + text.size();
+    std::from_chars_result read{};
+    if (std::uint32_t address = 0; text.starts_with("0x")) {
+      read = std::from_chars(text.data() + 2, last, address, 16);
+      value = static_cast<Number>(address);
+    } else {
+      read = std::from_chars(text.data(), last, value);
+    }
+    if (read.ec != std::errc() || read.ptr != last)
       fail(node, fmt::format("'{}' = '{}' wants a number", what, text));
     return value;
   }

@@ -64,10 +64,10 @@ Scene rings(std::uint32_t passes) {
                            static_cast<std::uint8_t>(i % 5 == 0 ? flag::kBoundary : 0)});
   for (std::uint32_t i = 0; i <= kKept; ++i) {
     // Rings of 60 to 220 steps of some 4 pixels, side by side.
-    const std::uint32_t ring = i / 220 / passes;
+    const std::uint32_t ring = i / 220 / passes, row = ring / 6;
     const double angle = (i % 220) * 2 * 3.14159265358979 / 220, radius = 60 + ring % 5 * 20;
     const double x = 200 + ring % 6 * 170 + radius * std::cos(angle + ring),
-                 y = 160 + ring / 6 * 90 + radius * std::sin(angle + ring);
+                 y = 160 + row * 90 + radius * std::sin(angle + ring);
     scene.vertices.push_back({static_cast<std::int32_t>(std::floor(256 * x)),
                               static_cast<std::int32_t>(std::floor(256 * y)), 9'000'000, true});
   }
@@ -209,6 +209,7 @@ void ratio(int count) {
 }  // namespace
 }  // namespace deburr::tb
 
+// NOLINTNEXTLINE(bugprone-exception-escape): an exception ends it, and is said.
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (arguments.size() >= 2 && arguments[0] == "--frames")

@@ -263,6 +263,7 @@ int print_trade() {
 }  // namespace
 }  // namespace deburr::tb
 
+// NOLINTNEXTLINE(bugprone-exception-escape): an exception ends it, and is said.
 int main(int argc, char** argv) {
   if (argc >= 6 && std::strcmp(argv[1], "--frames") == 0)
     return deburr::tb::count_instructions(argv[2], argv[3], std::atoi(argv[4]),

@@ -42,6 +42,7 @@ struct CompareOptions {
   std::vector<std::filesystem::path> paths;
   Tolerances tolerances;
   std::filesystem::path page;
+  bool all = false;  // counters, too
 };
 
 std::string text(const Json& value) { return value.get<std::string>(); }
@@ -81,7 +82,30 @@ void print_parameters(const Json& comparison, const Json& inputs) {
   fmt::print("\n");
 }
 
-void print_runs(const Json& comparison) {
+bool is_worse(const Json& value) {
+  return std::any_of(value.at("cells").begin(), value.at("cells").end(),
+                     [](const Json& cell) { return cell.value("worse", false); });
+}
+
+// What a reader looks for first, and what is worse; behind it all else that differs.
+std::pair<std::vector<const Json*>, std::vector<const Json*>> by_weight(const Json& comparison) {
+  std::pair<std::vector<const Json*>, std::vector<const Json*>> split;
+  const Json &figures = comparison.at("figures"), &values = comparison.at("values");
+  const auto with_key = [](const Json& list, const Json& key) {
+    return std::find_if(list.begin(), list.end(),
+                        [&](const Json& entry) { return entry.at("key") == key; });
+  };
+  for (const Json& figure : figures)
+    if (const auto found = with_key(values, figure.at("key")); found != values.end())
+      split.first.push_back(&*found);
+  for (const Json& value : values) {
+    if (with_key(figures, value.at("key")) != figures.end()) continue;
+    (is_worse(value) ? split.first : split.second).push_back(&value);
+  }
+  return split;
+}
+
+void print_runs(const Json& comparison, bool all) {
   print_parameters(comparison, comparison.at("runs"));
   if (comparison.at("values").empty()) {
     fmt::print("no value differs\n");
@@ -92,10 +116,12 @@ void print_runs(const Json& comparison) {
     rows[0].push_back(text(run.at("name")));
     if (rows[0].size() > 2) rows[0].insert(rows[0].end(), {"", ""});  // change and judgement
   }
-  for (const Json& value : comparison.at("values")) {
+  auto [shown, others] = by_weight(comparison);
+  if (all) shown.insert(shown.end(), others.begin(), others.end());
+  for (const Json* value : shown) {
     std::vector<std::string>& row = rows.emplace_back();
-    row.push_back(text(value.at("key")));
-    for (const Json& cell : value.at("cells")) {
+    row.push_back(text(value->at("key")));
+    for (const Json& cell : value->at("cells")) {
       row.push_back(text(cell.at("text")));
       if (!cell.contains("judgement")) continue;
       const std::string judgement = text(cell.at("judgement"));
@@ -103,7 +129,10 @@ void print_runs(const Json& comparison) {
       row.push_back(cell.at("worse").get<bool>() ? "WORSE" : judgement == "equal" ? "" : judgement);
     }
   }
-  print(rows);
+  if (!shown.empty()) print(rows);
+  if (!all && !others.empty())
+    fmt::print("{} more value{} differ{}: --all shows counters and the rest\n", others.size(),
+               others.size() == 1 ? "" : "s", others.size() == 1 ? "s" : "");
 }
 
 void print_worst_points(const Json& comparison) {
@@ -155,9 +184,7 @@ std::vector<std::string> what_is_worse(const Json& comparison) {
   std::vector<std::string> worse;
   if (comparison.at("kind") == "runs") {
     for (const Json& value : comparison.at("values"))
-      if (std::any_of(value.at("cells").begin(), value.at("cells").end(),
-                      [](const Json& cell) { return cell.value("worse", false); }))
-        worse.push_back(text(value.at("key")));
+      if (is_worse(value)) worse.push_back(text(value.at("key")));
     return worse;
   }
   for (std::size_t i = 0; i < comparison.at("summary").size(); ++i)
@@ -225,7 +252,9 @@ Outcome compare_results(const CompareOptions& options, bool json) {
     fmt::print(stderr, "deburr: warning: {}\n", text(warning));
     if (text(warning).find("idealised") != std::string::npos) idealised = ", IDEALISED";
   }
-  if (!json) comparison.at("kind") == "runs" ? print_runs(comparison) : print_sweeps(comparison);
+  if (!json)
+    comparison.at("kind") == "runs" ? print_runs(comparison, options.all)
+                                    : print_sweeps(comparison);
   if (!options.page.empty()) {
     write_file_atomically(options.page, comparison_page(comparison));
     if (!json) fmt::print("{}\n", options.page.string());
@@ -238,7 +267,7 @@ Outcome compare_results(const CompareOptions& options, bool json) {
   } else {
     outcome.text = "PASS compare: nothing is worse by more than its tolerance" + idealised;
   }
-  if (json) outcome.comparison = comparison.dump();
+  if (json) outcome.details = Json{{"comparison", comparison}}.dump();
   return outcome;
 }
 
@@ -255,6 +284,8 @@ Outcome rebuild_reports(const std::vector<std::string>& directories) {
 void add_compare(CLI::App& app, CommandLine& line) {
   CLI::App* command = app.add_subcommand(
       "compare", "Runs or sweeps side by side; fails when one is worse than the first");
+  show_examples(*command, {"deburr compare out/a out/b --html out/a_b.html",
+                           "deburr compare out/sweeps/before out/sweeps/after --cycles-percent 5"});
   const auto options = std::make_shared<CompareOptions>();
   command
       ->add_option("DIR", options->paths,
@@ -283,6 +314,7 @@ void add_compare(CLI::App& app, CommandLine& line) {
       ->check(tolerance());
   command->add_option("--html", options->page, "Write all of it as one self-contained page")
       ->type_name("FILE");
+  command->add_flag("--all", options->all, "Of runs: print every value that differs, counters too");
   command->add_flag("--json", line.json, "Print one JSON object: exit code, outcome, comparison");
   command->callback([options, &line] {
     line.action = [options, &line] { return compare_results(*options, line.json); };
@@ -292,6 +324,7 @@ void add_compare(CLI::App& app, CommandLine& line) {
 void add_report(CLI::App& app, CommandLine& line) {
   CLI::App* command =
       app.add_subcommand("report", "Rebuild report.html from result.json and manifest.json");
+  show_examples(*command, {"deburr report out/a out/b"});
   const auto directories = std::make_shared<std::vector<std::string>>();
   command->add_option("DIR", *directories, "Run directories")->required();
   command->callback([directories, &line] {

@@ -25,13 +25,12 @@
 #include "tb/base/shell.h"
 #include "tb/results/build_info.h"
 #include "tb/results/parameter_set.h"
+#include "tb/results/result.h"
 
 namespace deburr::tb {
 namespace {
 
 using spec::ExitCode;
-
-constexpr std::size_t kMaxResultBytes = std::size_t{64} << 20;
 
 std::string quoted_command(int argc, char** argv) {
   std::string command;
@@ -39,22 +38,24 @@ std::string quoted_command(int argc, char** argv) {
   return command;
 }
 
-int finish(const Outcome& outcome, const std::string& command, bool json) {
+int finish(const Outcome& outcome, const CommandLine& line) {
   std::fflush(stdout);
-  if (json) {
+  const std::string repro =
+      outcome.repro.empty() ? line.text : shell_quoted(line.words[0]) + " " + outcome.repro;
+  if (line.json) {
     nlohmann::ordered_json object = {
-        {"exit_code", outcome.code}, {"outcome", outcome.text}, {"command", command}};
+        {"exit_code", outcome.code}, {"outcome", outcome.text}, {"command", line.text}};
+    if (outcome.code != 0) object["repro"] = repro;
     if (!outcome.directory.empty()) {
       object["directory"] = outcome.directory.string();
       object["result"] = nlohmann::ordered_json::parse(
           read_file(outcome.directory / outcome.result, kMaxResultBytes));
     }
-    if (!outcome.comparison.empty())
-      object["comparison"] = nlohmann::ordered_json::parse(outcome.comparison);
+    if (!outcome.details.empty()) object.update(nlohmann::ordered_json::parse(outcome.details));
     fmt::print("{}\n", object.dump(2));
     return outcome.code;
   }
-  if (outcome.code != 0) fmt::print("REPRO: {}\n", command);
+  if (outcome.code != 0) fmt::print("REPRO: {}\n", repro);
   fmt::print("RESULT: {}\n", outcome.text);
   return outcome.code;
 }
@@ -73,13 +74,6 @@ int flushed(int code) {
 Outcome failure(int code, const char* kind, const std::string& text) {
   fmt::print(stderr, "deburr: {}\n", text);
   return {code, fmt::format("FAIL {}: {}", kind, headline(text))};
-}
-
-// Those without a group are started by the program itself, and nobody is told of them.
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  std::vector<const CLI::App*> commands = app.get_subcommands(nullptr);
-  std::erase_if(commands, [](const CLI::App* command) { return command->get_group().empty(); });
-  return commands;
 }
 
 std::string quoted_names(const std::vector<const CLI::App*>& commands) {
@@ -113,16 +107,11 @@ std::string explain(const CLI::App& app, int argc, char** argv, const std::strin
       }
       if (name == word && option->get_items_expected_min() > 0) ++i;  // its value
     } else if (!word.starts_with("-") && !commands.empty()) {
-      const auto next = std::find_if(commands.begin(), commands.end(),
-                                     [&](const CLI::App* c) { return c->get_name() == word; });
-      if (next == commands.end()) {
-        std::vector<std::string> known;
-        known.reserve(commands.size());
-        for (const CLI::App* other : commands) known.push_back(other->get_name());
-        return see(fmt::format("no '{} {}'{}, known are {}", path, word,
-                               did_you_mean(near_matches(word, known)), quoted_names(commands)));
+      try {
+        command = &command_named(*command, path, word);
+      } catch (const spec::ConfigError& unknown) {
+        return see(unknown.what());
       }
-      command = *next;
       path += " " + word;
     }
   }
@@ -141,12 +130,16 @@ int run(int argc, char** argv, void (*add)(CLI::App&, CommandLine&)) {
   });
   app.require_subcommand(1);
   app.footer(
+      "Examples:\n"
+      "  deburr help run\n"
+      "  deburr params memory\n"
+      "  deburr compare out/a out/b --html out/a_b.html\n\n"
       "Exit codes: 0 pass, 1 mismatch or worse, 2 usage or configuration, 3 simulation error or\n"
       "--max-cycles reached, 4 deadlock, 5 file, 130 interrupted. The last line is RESULT: ..., "
       "on\n"
       "failure after REPRO: ...");
   CommandLine line{quoted_command(argc, argv), argv, false, nullptr};
-  const auto ended = [&](const Outcome& outcome) { return finish(outcome, line.text, line.json); };
+  const auto ended = [&](const Outcome& outcome) { return finish(outcome, line); };
   add(app, line);
   try {
     app.parse(argc, argv);
@@ -175,6 +168,32 @@ int run(int argc, char** argv, void (*add)(CLI::App&, CommandLine&)) {
 }
 
 }  // namespace
+
+// Those without a group are started by the program itself.
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+  std::vector<const CLI::App*> commands = app.get_subcommands(nullptr);
+  std::erase_if(commands, [](const CLI::App* command) { return command->get_group().empty(); });
+  return commands;
+}
+
+const CLI::App& command_named(const CLI::App& app, const std::string& path,
+                              const std::string& name) {
+  const std::vector<const CLI::App*> commands = commands_of(app);
+  std::vector<std::string> known;
+  known.reserve(commands.size());
+  for (const CLI::App* command : commands) {
+    if (command->get_name() == name) return *command;
+    known.push_back(command->get_name());
+  }
+  throw spec::ConfigError(
+      known.empty() ? fmt::format("no '{} {}': '{}' has no commands", path, name, path)
+                    : fmt::format("no '{} {}'{}, known are {}", path, name,
+                                  did_you_mean(near_matches(name, known)), quoted_names(commands)));
+}
+
+void show_examples(CLI::App& command, const std::vector<std::string>& lines) {
+  command.footer(fmt::format("Examples:\n  {}", fmt::join(lines, "\n  ")));
+}
 
 int run_command_line(int argc, char** argv, void (*add)(CLI::App& app, CommandLine& line)) {
   let_full_files_fail();

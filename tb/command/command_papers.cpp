@@ -9,6 +9,7 @@ namespace deburr::tb {
 void add_papers(CLI::App& app, CommandLine& line, PapersAction action) {
   CLI::App* command =
       app.add_subcommand("papers", "Reproduce the tables and figures of the papers");
+  show_examples(*command, {"deburr papers --out out/papers", "deburr papers 004 --quick"});
   const auto options = std::make_shared<PapersOptions>();
   command->add_option("--out", options->out, "Directory for index.html, papers.json and pictures")
       ->capture_default_str();

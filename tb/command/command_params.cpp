@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,22 @@
 namespace deburr::tb {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct ParamsCommand {
   std::string unit, markdown;
   bool c_header = false;
 };
 
-Outcome print_params(const ParamsCommand& command) {
+Json to_json(const Engine& engine, const Parameter& p) {
+  Json json = {{"engine", engine.name()}, {"name", p.name},   {"kind", kind_name(p)},
+               {"default", p.json()},     {"range", p.range}, {"unit", p.unit},
+               {"meaning", p.meaning}};
+  if (!p.aliases.empty()) json["aliases"] = p.aliases;
+  return json;
+}
+
+Outcome print_params(const ParamsCommand& command, bool json) {
   const auto all = engines();
   if (command.c_header) {
     fmt::print("{}", registers_header(all));
@@ -52,6 +63,7 @@ Outcome print_params(const ParamsCommand& command) {
   std::vector<std::string> groups;
   std::vector<Parameter> shown;
   std::vector<BuildLimit> limits;
+  Json listed = Json::array();  // of each engine, whose defaults may be others
   for (const auto& engine : all) {
     ParameterSet set;
     RunParameters run = engine->run_parameters();
@@ -62,7 +74,9 @@ Outcome print_params(const ParamsCommand& command) {
       if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
       const bool known = std::any_of(shown.begin(), shown.end(),
                                      [&](const Parameter& other) { return other.name == p.name; });
-      if (!known && (command.unit.empty() || command.unit == group)) shown.push_back(p);
+      if (!command.unit.empty() && command.unit != group) continue;
+      if (!known) shown.push_back(p);
+      listed.push_back(to_json(*engine, p));
     }
     for (const BuildLimit& limit : set.build_limits()) {
       const std::string& about = limit.parameters.front();
@@ -75,6 +89,14 @@ Outcome print_params(const ParamsCommand& command) {
     throw spec::ConfigError(fmt::format("no unit '{}'{} (known: {})", command.unit,
                                         did_you_mean(near_matches(command.unit, groups)),
                                         fmt::join(groups, ", ")));
+  if (json) {
+    Json rules = Json::array();
+    for (const BuildLimit& limit : limits)
+      rules.push_back({{"parameters", limit.parameters}, {"must", limit.must}});
+    Outcome outcome{0, fmt::format("PASS params: {} parameters", shown.size())};
+    outcome.details = Json{{"parameters", listed}, {"limits", rules}}.dump();
+    return outcome;
+  }
   std::size_t name = 0, kind = 0, value = 0, range = 0, unit = 0;
   for (const Parameter& p : shown) {
     kind = std::max(kind, kind_name(p).size());
@@ -97,6 +119,8 @@ Outcome print_params(const ParamsCommand& command) {
 void add_params(CLI::App& app, CommandLine& line) {
   CLI::App* command =
       app.add_subcommand("params", "List every parameter: kind, default, range, unit, meaning");
+  show_examples(*command, {"deburr params memory", "deburr params --markdown registers",
+                           "deburr params --c-header"});
   const auto options = std::make_shared<ParamsCommand>();
   command->add_option("UNIT", options->unit,
                       "Only these: run, scene, sampler, texture, memory, ...");
@@ -107,12 +131,19 @@ void add_params(CLI::App& app, CommandLine& line) {
   markdown->expected(0, 1)
       ->default_str("parameters")
       ->check(CLI::IsMember({"parameters", "statistics", "registers", "coverage", "datasheets"}));
+  CLI::Option* const c_header =
+      command
+          ->add_flag("--c-header", options->c_header,
+                     "Print the registers of every engine as a C header instead")
+          ->excludes(markdown);
   command
-      ->add_flag("--c-header", options->c_header,
-                 "Print the registers of every engine as a C header instead")
-      ->excludes(markdown);
-  command->callback(
-      [options, &line] { line.action = [options] { return print_params(*options); }; });
+      ->add_flag("--json", line.json,
+                 "Print one JSON object: exit code, outcome, parameters, limits")
+      ->excludes(markdown)
+      ->excludes(c_header);
+  command->callback([options, &line] {
+    line.action = [options, &line] { return print_params(*options, line.json); };
+  });
 }
 
 }  // namespace deburr::tb

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,8 +17,10 @@
 #include "tb/app/engine.h"
 #include "tb/app/run_once.h"
 #include "tb/app/shorthands.h"
+#include "tb/base/file.h"
 #include "tb/base/headline.h"
 #include "tb/base/interrupt.h"
+#include "tb/base/shell.h"
 #include "tb/command/commands.h"
 #include "tb/results/report.h"
 
@@ -50,12 +53,39 @@ std::vector<Assignment> expand(const Shorthand& shorthand, const std::string& va
   return {{shorthand.parameter, value, shorthand.option}};
 }
 
-void apply(const RunOptions& options, ParameterSet& set) {
+void refuse_empty_names(const RunOptions& options) {
   for (const auto& [name, value] : {std::pair("--config", options.config), {"--out", options.out}})
     if (value && value->empty())
       throw ConfigError(
           fmt::format("{}: expected a name, got '': give one, or leave out {}", name, name));
-  if (options.config) set.load(*options.config);
+}
+
+// What --config holds. It is read once: a pipe gives it once.
+std::string configuration_of(const RunOptions& options) {
+  if (!options.config) return "";
+  return *options.config == kStandardInput ? read_standard_input(kMaxConfigurationBytes)
+                                           : read_file(*options.config, kMaxConfigurationBytes);
+}
+
+// As printf makes the text of it again, in one line.
+std::string printed(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '\n')
+      escaped += "\\n";
+    else if (c == '\\')
+      escaped += "\\\\";
+    else if (static_cast<unsigned char>(c) < ' ')
+      escaped += fmt::format("\\0{:03o}", static_cast<unsigned char>(c));
+    else
+      escaped += c;
+  }
+  return "printf %b " + shell_quoted(escaped);
+}
+
+void apply(const RunOptions& options, const std::string& configuration, const std::string& engine,
+           ParameterSet& set) {
+  if (options.config) set.load(*options.config, configuration, engine);
   // The same parameter given twice with different values would silently lose one of them.
   std::map<std::string, Assignment> given;
   std::vector<Assignment> all = options.shorthands;
@@ -123,9 +153,13 @@ std::string figures_of(const Result& r) {
   return text;
 }
 
-Outcome run_engine(Engine& engine, const RunOptions& options, const CommandLine& line) {
+Outcome run_engine(Engine& engine, const RunOptions& options, CommandLine& line) {
+  refuse_empty_names(options);
+  const std::string configuration = configuration_of(options);
+  if (options.config == kStandardInput)
+    line.text = fmt::format("{} | {}", printed(configuration), line.text);
   BoundEngine bound(engine);
-  apply(options, bound.set);
+  apply(options, configuration, std::string(engine.name()), bound.set);
   bound.resolve();
   RunContext context(options.out.value_or(fmt::format("out/{}", engine.name())), bound.set,
                      line.text, static_cast<std::uint64_t>(bound.run.seed));
@@ -140,7 +174,7 @@ Outcome run_engine(Engine& engine, const RunOptions& options, const CommandLine&
   catch_interrupts();
   const RunEnd end =
       run_once(bound, context, options.wait ? IfTaken::kWait : IfTaken::kRefuse, [&] {
-        if (options.config) context.add_configuration(*options.config);
+        if (options.config) context.add_configuration(*options.config, configuration);
         return true;
       });
   const Result& result = end.result;
@@ -217,12 +251,21 @@ void add_run(CLI::App& app, CommandLine& line) {
   CLI::App* run =
       app.add_subcommand("run", "Simulate an engine and check it against its golden model");
   run->require_subcommand(1);
+  std::vector<std::string> examples;
   for (std::unique_ptr<Engine>& owned : engines()) {
     const std::shared_ptr<Engine> engine = std::move(owned);
     CLI::App* command =
         run->add_subcommand(std::string(engine->name()), std::string(engine->summary()));
+    std::vector<std::string> lines;
+    for (const std::string_view arguments : engine->examples())
+      lines.push_back(fmt::format("deburr run {} {}", engine->name(), arguments));
+    examples.push_back(lines.front());
+    show_examples(*command, lines);
     const auto options = std::make_shared<RunOptions>();
-    command->add_option("--config", options->config, "YAML file of parameters")->type_name("FILE");
+    command
+        ->add_option("--config", options->config,
+                     "YAML file of parameters, or a run's manifest.json")
+        ->type_name("FILE");
     command->add_option("--set", options->sets, "Any parameter of `deburr params`; may be repeated")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
@@ -250,6 +293,7 @@ void add_run(CLI::App& app, CommandLine& line) {
       line.action = [engine, options, &line] { return run_engine(*engine, *options, line); };
     });
   }
+  show_examples(*run, examples);
 }
 
 }  // namespace deburr::tb

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "spec/error.h"
@@ -94,21 +95,24 @@ Outcome run_search(const SweepOptions& options, const SweepDefinition& sweep,
   say_left_out(options, end.plan);
   if (!end.interrupted && !end.missing)
     write_collection(sweep, end.plan, place, collect(sweep, place));
-  return ended(options, "search " + sweep.name, place, before,
-               end.interrupted ? kInterruptedExit : 0);
+  Outcome outcome =
+      ended(options, "search " + sweep.name, place, before, end.interrupted ? kInterruptedExit : 0);
+  return end.interrupted || end.missing ? outcome : with_collection(std::move(outcome), place);
 }
 
 Outcome collect_points(const std::string& what, const SweepDefinition& sweep, const Plan& plan,
                        const SweepPlace& place) {
   const Collection collection = collect(sweep, place);
   write_collection(sweep, plan, place, collection);
-  return {0, fmt::format("PASS {}: {} of {} collected, {} failed, {} missing{}; {}", what,
-                         grouped(collection.done), points_of(plan.points),
-                         grouped(collection.failed), grouped(collection.missing),
-                         sweep.objectives.empty()
-                             ? ""
-                             : fmt::format(", {} on the front", grouped(collection.front)),
-                         (place.directory / "index.html").string())};
+  return with_collection(
+      {0, fmt::format("PASS {}: {} of {} collected, {} failed, {} missing{}; {}", what,
+                      grouped(collection.done), points_of(plan.points), grouped(collection.failed),
+                      grouped(collection.missing),
+                      sweep.objectives.empty()
+                          ? ""
+                          : fmt::format(", {} on the front", grouped(collection.front)),
+                      (place.directory / "index.html").string())},
+      place);
 }
 
 Outcome sweep(const SweepOptions& options) {
@@ -119,7 +123,7 @@ Outcome sweep(const SweepOptions& options) {
   if (options.action == "plan")
     return planned_outcome(what, planned(options, definition, place), place);
   if (options.action == "run") return run_sweep(options, definition, place);
-  if (options.action == "status") return show_status(what, place);
+  if (options.action == "status") return show_status(options, what, place);
   return collect_points(what, definition, make_plan(definition, place), place);
 }
 
@@ -130,7 +134,7 @@ Outcome search(const SweepOptions& options) {
   if (options.action == "run") return run_search(options, definition, place);
   if (options.action == "status") {
     say_changes(options, options.action, place, definition.file);
-    return show_status(what, place);
+    return show_status(options, what, place);
   }
   const Plan plan = read_plan(place.directory);
   if (!changes_since(plan, definition.file).empty())
@@ -144,6 +148,8 @@ Outcome search(const SweepOptions& options) {
 
 void add_sweep(CLI::App& app, CommandLine& line) {
   CLI::App* command = app.add_subcommand("sweep", "Many runs of an engine over axes of parameters");
+  show_examples(*command, {"deburr sweep first.yaml plan", "deburr sweep first.yaml run --jobs 4",
+                           "deburr sweep first.yaml collect"});
   const auto options = std::make_shared<SweepOptions>();
   command->add_option("FILE", options->file, "YAML file of the sweep")->required();
   command
@@ -152,11 +158,13 @@ void add_sweep(CLI::App& app, CommandLine& line) {
                    "it is; collect: table, front and effects as CSV, JSON and a page")
       ->required()
       ->check(CLI::IsMember({"plan", "run", "status", "collect"}));
-  add_point_options(*command, *options);
+  add_point_options(*command, *options, line);
   command->callback([options, &line] { line.action = [options] { return sweep(*options); }; });
 
   CLI::App* searching = app.add_subcommand(
       "search", "The Pareto front of a sweep with a part of its points, by NSGA-II");
+  show_examples(*searching,
+                {"deburr search first.yaml --runs 100", "deburr search first.yaml status"});
   const auto sought = std::make_shared<SweepOptions>();
   sought->action = "run";
   sought->search.population = 0;
@@ -187,7 +195,7 @@ void add_sweep(CLI::App& app, CommandLine& line) {
                       "Evaluate every generation of NSGA-II, instead of guessing most of them");
   add_seed(*searching, "The same one asks for the same points (1)",
            [seed = &sought->search.seed](std::uint64_t given) { *seed = given; });
-  add_point_options(*searching, *sought);
+  add_point_options(*searching, *sought, line);
   searching->callback([sought, &line] { line.action = [sought] { return search(*sought); }; });
 
   CLI::App* worker = app.add_subcommand("sweep-worker", "Runs a chunk of a sweep")->group("");

@@ -15,5 +15,6 @@ void add_report(CLI::App& app, CommandLine& line);
 void add_sweep(CLI::App& app, CommandLine& line);
 void add_regress(CLI::App& app, CommandLine& line);
 void add_completion(CLI::App& app, CommandLine& line);
+void add_help(CLI::App& app, CommandLine& line);
 
 }  // namespace deburr::tb

@@ -13,5 +13,6 @@ int main(int argc, char** argv) {
     deburr::tb::add_sweep(app, line);
     deburr::tb::add_regress(app, line);
     deburr::tb::add_completion(app, line);
+    deburr::tb::add_help(app, line);
   });
 }

@@ -19,16 +19,16 @@ struct PointOptions {
   std::string slurm;
   std::filesystem::path out = "out";
   unsigned jobs = 0;
-  bool retry = false, quiet = false;
+  bool retry = false, quiet = false, json = false;
 };
-void add_point_options(CLI::App& command, PointOptions& options);
+void add_point_options(CLI::App& command, PointOptions& options, CommandLine& line);
 // --seed; `take` is given what it says.
 void add_seed(CLI::App& command, const std::string& meaning,
               const std::function<void(std::uint64_t)>& take);
 
 // "1 point", "1,000 points"
 std::string points_of(std::uint64_t number);
-// Unless quiet.
+// Unless quiet; with --json on the error stream.
 void say(const PointOptions& options, const std::string& text);
 void say_left_out(const PointOptions& options, const Plan& plan);
 
@@ -48,6 +48,8 @@ Outcome ended(const PointOptions& options, const std::string& what, const SweepP
 void say_changes(const PointOptions& options, const std::string& action, const SweepPlace& place,
                  const std::filesystem::path& file);
 Outcome planned_outcome(const std::string& what, const Plan& plan, const SweepPlace& place);
-Outcome show_status(const std::string& what, const SweepPlace& place);
+Outcome show_status(const PointOptions& options, const std::string& what, const SweepPlace& place);
+// With collected.json of the place.
+Outcome with_collection(Outcome outcome, const SweepPlace& place);
 
 }  // namespace deburr::tb

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/memory_model_parameters.h"
 #include "tb/results/parameter_set.h"
 
 namespace deburr::tb {
@@ -44,7 +44,7 @@ void describe(MemoryTiming& p, Visitor& v) {
 template <class Visitor>
 void describe(MemoryErrors& p, Visitor& v) {
   v.integer("error_address", p.error_address, -1, std::int64_t{1} << 32, "byte",
-            "First address that answers with an error; -1: none.");
+            "First address that answers with an error, such as 0x7fc0; -1: none.");
   v.integer("error_bytes", p.error_bytes, 1, std::int64_t{1} << 32, "byte",
             "Bytes from error_address that answer with an error.");
 }

@@ -33,6 +33,13 @@ bool FaultPlan::planted(std::string_view environment, std::string_view name) con
   return false;
 }
 
+std::vector<std::string> FaultPlan::known_names() const {
+  std::vector<std::string> names;
+  names.reserve(known_.size());
+  for (const Known& known : known_) names.push_back(known.full_name());
+  return names;
+}
+
 std::vector<std::string> FaultPlan::link_faults() const {
   std::vector<std::string> links;
   for (const std::string& given : given_) {

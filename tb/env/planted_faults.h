@@ -32,6 +32,8 @@ class FaultPlan {
   // Before all environments are known too, since hardware is built with it: a name that turns out
   // to mean two faults is refused by link_faults().
   bool planted(std::string_view environment, std::string_view name) const;
+  // All that environments know, in their order.
+  std::vector<std::string> known_names() const;
   // What the harness plants. ConfigError for a name that nobody knows, that two environments know,
   // or whose fault cannot be planted.
   std::vector<std::string> link_faults() const;

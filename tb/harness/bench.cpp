@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "rtl_model/fabric/counters.h"
+#include "rtl_model/fabric/glob.h"
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"

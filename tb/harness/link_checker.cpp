@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "rtl_model/fabric/counters.h"
-#include "rtl_model/fabric/trace.h"
+#include "rtl_model/fabric/glob.h"
 #include "spec/error.h"
 
 namespace deburr::tb {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "rtl_model/fabric/counters.h"
-#include "rtl_model/fabric/trace.h"
+#include "rtl_model/fabric/glob.h"
 #include "spec/error.h"
 
 namespace deburr::tb {

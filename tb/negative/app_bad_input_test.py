@@ -1,8 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Bad input to the command: each kind has its exit code and says what is wrong. See --help."""
+import hashlib
 import json
 import os
+import pty
+import re
 import resource
 import shutil
 import signal
@@ -217,6 +220,76 @@ class Configuration(CommandTest):
     def test_missing_file(self):
         self.run_texture(5, "--config", self.path("none.yaml"), says="none.yaml")
 
+    def manifest(self):
+        with open(self.path("out/manifest.json")) as file:
+            return json.load(file)
+
+    def test_a_manifest(self):
+        """It gives what its run was given; presets and options count as they did."""
+        self.write("t.png", png(8, 8))
+        self.run_texture(0, "--texture", "t.png", "--preset", "paper", "--set", "texture.cache.ways=2", "--seed", "7")
+        first = self.manifest()
+        self.assertEqual(first["working_directory"], os.path.realpath(self.directory))
+        self.assertEqual({p["name"]: p["from"] for p in first["parameters"] if p["name"] in
+                          ("texture.cache.ways", "texture.footprint", "memory.latency")},
+                         {"texture.cache.ways": "given", "texture.footprint": "preset paper", "memory.latency": "default"})
+        os.rename(self.path("out"), self.path("first"))
+        config = ("--config", self.path("first/manifest.json"))
+        command = ("run", "texture", *config, "--out", self.path("out"))
+        self.expect(0, *command)
+        again = self.manifest()
+        for key in ("configuration", "golden", "seed"):
+            self.assertEqual(again[key], first[key])
+        self.assertEqual([p["from"] for p in again["parameters"]], [p["from"] for p in first["parameters"]])
+        # From another folder the files are where they were; another preset can be chosen.
+        os.mkdir(self.path("elsewhere"))
+        self.expect(0, *command, "--preset", "deburr", cwd=self.path("elsewhere"))
+        again = self.manifest()
+        self.assertEqual(again["configuration"]["scene.texture"], os.path.realpath(self.path("t.png")))
+        self.assertNotEqual(again["configuration"]["texture.footprint"], first["configuration"]["texture.footprint"])
+        self.assertEqual(again["configuration"]["texture.cache.ways"], 2)
+        self.expect(2, "run", "frame", *config, "--out", self.path("out"),
+                    says="first/manifest.json:4: this manifest is of a run of 'texture', and not of 'frame'")
+        self.expect(2, "run", "texture", *config, "--out", self.path("first"), says="its results would replace it")
+
+    def test_a_manifest_of_other_defaults(self):
+        self.run_texture(0)
+        manifest = self.manifest()
+        manifest["configuration"].update({"memory.latency": 77, "no.more": 1})
+        file = self.write("old.json", json.dumps(manifest, indent=2))
+        done = self.run_texture(2, "--config", file, says="old.json:")
+        self.assertIn("unknown parameter 'no.more'", done.stderr)
+        del manifest["configuration"]["no.more"]
+        self.write("old.json", json.dumps(manifest, indent=2))
+        self.run_texture(0, "--config", file)
+        self.assertEqual(self.manifest()["configuration"]["memory.latency"], 77)
+
+    def test_the_standard_input(self):
+        text = "texture:\n  cache: {bytes: 8192}\t# it's 8 \\n\nsampler.mode: linear\n"
+        done = self.run_texture(1, "--config", "/dev/stdin", "--fault", "flip-bit", input=text)
+        repro = next(line for line in done.stdout.splitlines() if line.startswith("REPRO: "))
+        manifest = self.manifest()
+        self.assertEqual(manifest["configuration"]["texture.cache.bytes"], 8192)
+        self.assertEqual(manifest["inputs"][-1], {
+            "file": "/dev/stdin", "sha256": hashlib.sha256(text.encode()).hexdigest(), "role": "configuration",
+            "bytes": len(text)})
+        again = subprocess.run(["bash", "-c", repro.removeprefix("REPRO: ")], cwd=self.directory, text=True,
+                               capture_output=True, stdin=subprocess.DEVNULL)
+        self.assertEqual(again.returncode, 1, again.stderr)
+        self.assertEqual(self.manifest()["configuration"], manifest["configuration"])
+        self.run_texture(2, "--config", "/dev/stdin", input="a: 1\nb: 2\n", says="/dev/stdin:1: unknown parameter 'a'")
+        self.run_texture(5, "--config", "/dev/stdin", input="#" * (2 << 20), says="'/dev/stdin': it is larger than")
+        with open(self.write("run.yaml", text)) as file:
+            self.run_texture(0, "--config", "/dev/stdin", stdin=file)
+
+    def test_trilinear(self):
+        for engine in ("texture", "frame"):
+            for given in (("--mode", "trilinear"), ("--set", "sampler.mode=trilinear")):
+                done = self.run_command("run", engine, *given, "--size", "16x16", "--show-config")
+                self.assertIn('sampler.mode: "linear_mipmap_linear"', done.stdout, done.stderr)
+        self.config(0, "sampler.mode: trilinear\n")
+        self.assertEqual(self.manifest()["configuration"]["sampler.mode"], "linear_mipmap_linear")
+
     def test_set_unknown(self):
         self.run_texture(2, "--set", "texture.fotprint=half", says=["--set", "texture.footprint"])
 
@@ -291,6 +364,13 @@ class Configuration(CommandTest):
             self.expect(2, "run", engine, "--set", "sampler.min_lod=512", "--set",
                         "sampler.max_lod=511", "--out", self.path("out"),
                         says=["sampler.min_lod = 512", "sampler.max_lod = 511"])
+
+    def test_hexadecimal_addresses(self):
+        """As errors print them."""
+        self.run_texture(3, "--set", "memory.error_address=0x40", "--set", "memory.error_bytes=0x4000000")
+        with open(self.path("out/manifest.json")) as file:
+            configuration = json.load(file)["configuration"]
+        self.assertEqual((configuration["memory.error_address"], configuration["memory.error_bytes"]), (64, 4 << 24))
 
     def test_errors_that_nobody_meets(self):
         self.run_texture(2, "--set", "memory.error_address=2147483584",
@@ -502,6 +582,40 @@ class Interruption(CommandTest):
         self.assertGreater(result["checks"]["comparisons"], 0)
         self.assertTrue(os.path.exists(self.path("out/report.html")))
 
+    def test_a_terminal_that_is_closed(self):
+        """SIGHUP, from the kernel and from the shell, and nobody reads what goes to the terminal."""
+        with open(self.path("said"), "w") as said:
+            process, terminal = pty.fork()
+            if process == 0:
+                os.dup2(said.fileno(), 1)
+                os.execl(DEBURR, "deburr", "run", "texture", "--size", "2048x2048", "--trace", "texture.texels",
+                         "--out", self.path("out"))
+        seen = b""
+        while b"texture  " not in seen:
+            seen += os.read(terminal, 4096)
+        os.close(terminal)
+        os.kill(process, signal.SIGHUP)
+        _, status = os.waitpid(process, 0)
+        self.assertEqual(os.waitstatus_to_exitcode(status), 130)
+        with open(self.path("said")) as said:
+            self.assertRegex(said.read(), r"\nRESULT: INTERRUPTED texture: [^\n]*\n\Z")
+        result = self.result()
+        self.assertEqual((result["verdict"], result["interrupted"], result["checks"]["mismatches"]),
+                         ("unchecked", True, 0))
+        self.assertGreater(result["checks"]["comparisons"], 0)
+        self.assertTrue(os.path.exists(self.path("out/report.html")))
+
+    def test_nohup(self):
+        """A hangup that is ignored stays ignored."""
+        process = subprocess.Popen(["nohup", DEBURR, "run", "texture", "--size", "300x300", "--out", self.path("out")],
+                                   text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        while not self.claimed():
+            self.assertIsNone(process.poll())
+            time.sleep(0.01)
+        process.send_signal(signal.SIGHUP)
+        out, err = process.communicate(timeout=300)
+        self.assertEqual(process.returncode, 0, out + err)
+
     def interrupt(self, when, *arguments):
         """The command, interrupted once when(); how long it took from then, and its output."""
         process = subprocess.Popen([DEBURR, "run", *arguments, "--out", self.path("out")],
@@ -575,6 +689,33 @@ class Results(CommandTest):
         self.expect(1, "compare", self.path("a"), self.path("b"), says=["cycles", "WORSE"])
         self.expect(0, "compare", self.path("b"), self.path("a"))
         self.expect(0, "compare", self.path("a"), self.path("b"), "--cycles-percent", "1e12")
+
+    def test_what_matters_comes_first(self):
+        """About twenty rows; counters are asked for."""
+        self.run_texture(0, "--set", "texture.cache.bytes=1024", "--set", "memory.latency=400")
+        loose = ("--cycles-percent", "1000", "--throughput-percent", "99")
+        command = ("compare", self.path("a"), self.path("out"), *loose)
+        short = self.expect(0, *command).stdout
+        more = re.search(r"(?m)^(\d+) more values differ: --all shows counters and the rest$", short)
+        rows = short[short.index("\n\n") + 2:more.start()].splitlines()[1:]
+        self.assertEqual([row.split()[0] for row in rows][:2], ["cycles", "throughput.value"])
+        self.assertLess(len(rows), 26)
+        whole = self.expect(0, *command, "--all").stdout
+        all_rows = whole[whole.index("\n\n") + 2:whole.index("RESULT: ")].splitlines()[1:]
+        self.assertEqual([row.split() for row in all_rows[:len(rows)]], [row.split() for row in rows])
+        self.assertEqual(len(all_rows), len(rows) + int(more[1]))
+        self.assertGreater(int(more[1]), 50)
+        self.assertTrue(any(row.startswith("units.") for row in all_rows))
+        self.assertFalse(any(row.startswith("units.") for row in rows))
+        answer = json.loads(self.run_command(*command, "--json").stdout)
+        self.assertEqual(len(answer["comparison"]["values"]), len(all_rows))
+
+    def test_what_is_worse_is_shown_whatever_it_is(self):
+        with open(self.path("b/result.json")) as file:
+            checks = json.load(file)["checks"]
+        self.change(checks={**checks, "mismatches": 3})
+        done = self.expect(1, "compare", self.path("a"), self.path("b"))
+        self.assertRegex(done.stdout, r"(?m)^checks.mismatches .* WORSE$")
 
     def test_no_tolerance(self):
         self.change(cycles=10**9)

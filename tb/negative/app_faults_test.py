@@ -60,6 +60,12 @@ class Faults(CommandTest):
         self.assertIn("1 pixels were not delivered", captions["after"])
         self.fault("drop-colour", 3, "vanished", *self.CHECKED)
 
+    def test_the_last_colour_never_comes(self):
+        """Nothing comes behind it that would show the gap."""
+        done, result = self.fault("drop:colours:1023", 1, "1 expected but never came", *self.UNCHECKED)
+        self.assertEqual(result["checks"]["mismatches"], 1)
+        self.assertEqual(result["scoreboards"]["colours"], {"comparisons": 1023, "mismatches": 1})
+
     def test_duplicated_colour(self):
         done, result = self.fault("duplicate-colour", 1, "mismatch", *self.UNCHECKED)
         self.assertEqual(result["checks"]["mismatches"], 1)

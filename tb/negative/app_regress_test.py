@@ -177,6 +177,20 @@ class Testplans(CommandTest):
         self.expect(0, "regress", "t.yaml", "collect", "--seed", "1")
         self.assertTrue(all(report()[name] != before[name] for name in ("collected.json", "index.html")))
 
+    def test_a_rerun_of_nothing(self):
+        self.write("t.yaml", HEAD)
+        self.expect(2, "regress", "t.yaml", "rerun", says="rerun: of what? 'rerun --failed' runs again what has failed")
+        self.expect(2, "regress", "t.yaml", "--failed", says="--failed goes with 'rerun'")
+        self.expect(5, "regress", "t.yaml", "rerun", "--failed", says="there is no report of 't' in 'out/regressions'")
+        self.expect(5, "regress", "t.yaml", "rerun", "--failed", "--seed", "3",
+                    says="there is no report in 'out/regressions/t-3'")
+        self.expect(0, "regress", "t.yaml", "--seed", "4")
+        done = self.expect(0, "regress", "t.yaml", "rerun", "--failed")
+        self.assertIn("rerun       0 of 0 runs that had failed pass now", done.stdout)
+        self.assertIn("RESULT: PASS regression t --seed 4: ", done.stdout)
+        self.write("out/regressions/t-4/collected.json", "{}")
+        self.expect(5, "regress", "t.yaml", "rerun", "--failed", says="is not a report of this version")
+
     def test_seeds(self):
         self.write("t.yaml", HEAD)
         for seed in ("-1", "18446744073709551616", "1.5", "0x10", "today", " 1", ""):

@@ -202,6 +202,18 @@ class Surroundings(Sweeps):
         self.expect(5, "sweep", "s.yaml", "run", says="ninja was not found",
                     env={"PATH": "/nonexistent"})
 
+    def test_names_that_tools_read_otherwise(self):
+        for out in ("a|b", "-x", "--retry", " a $b: 'c'"):
+            name = "s|t.yaml" if out == "a|b" else "s.yaml"
+            self.write(name, BASE + AXES)
+            self.expect(0, "sweep", name, "run", f"--out={out}", says="4 points, 4 done (4 in this run)")
+            self.expect(0, "sweep", name, "collect", f"--out={out}")
+            stem = name.removesuffix(".yaml")
+            self.assertTrue(os.path.exists(self.path(f"{out}/sweeps/{stem}/index.html")))
+            self.expect(0, "run", "texture", "--size", "8x8", f"--out={out}/run")
+            self.assertTrue(os.path.exists(self.path(f"{out}/run/result.json")))
+        self.expect(0, "sweep", "s.yaml", "run", "--out", "-x", says="4 done (0 in this run)")
+
     def limited(self, size):
         return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))}
 

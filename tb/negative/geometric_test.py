@@ -3,6 +3,7 @@
 """Bad input and planted faults of `deburr run geometric`: each has its exit code and says what is wrong; awkward but
 legal meshes pass. See --help of unittest."""
 import os
+import resource
 import unittest
 
 from app_support import CommandTest, png
@@ -83,6 +84,20 @@ class Configuration(Base):
         self.refused(["touched words", "the build has 16"], "geometric.touched_words=16",
                      scene=("--scene", "cube", "--size", "48x65"))
         self.refused(["16128 faces", "8192", "face_limit"], "geometric.face_limit=8192", scene=("--scene", "sphere"))
+
+    def test_too_many_faces_are_refused_before_anything_is_rendered(self):
+        """The truth of this frame takes many minutes; refused in seconds of a processor."""
+        for engine, smoothing in (("geometric", ()), ("frame", ("--smoothing", "geometric"))):
+            size = "4096x4096" if engine == "geometric" else "64x64"
+            command = ("run", engine, *smoothing, "--scene", "sphere", "--size", size, "--truth", "--out", self.path("out"))
+            self.expect(2, *command, "--set", "geometric.face_limit=8192",
+                        says="the mesh 'sphere' has 16128 faces, and the hardware holds the facing bits of 8192: give it more "
+                             "(--set geometric.face_limit=16384), or simplify the mesh",
+                        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (40, 40)))
+        wide = ("--scene", "cube", "--size", "4096x4096", "--truth")
+        self.run_engine(2, *wide, "--set", "geometric.line_pixels=2048", says="raise line_pixels",
+                        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (40, 40)))
+        self.run_engine(0, "--scene", "sphere", "--size", "64x48", "--set", "geometric.face_limit=16384")
 
     def test_what_has_no_effect(self):
         self.refused(["reciprocal_table", "no effect", "pipelined = false"], "geometric.reciprocal_table=4")

@@ -2,12 +2,18 @@
 // junit.xml, collected.json and index.html of a regression.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <system_error>
+#include <utility>
 
 #include "spec/error.h"
 #include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
 #include "tb/regress/junit.h"
 #include "tb/regress/regression_result.h"
 #include "tb/results/build_info.h"
@@ -20,6 +26,10 @@ namespace {
 namespace fs = std::filesystem;
 namespace mustache = kainjow::mustache;
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kCollectedFile = "collected.json";
+constexpr int kReportSchema = 1;
+constexpr std::size_t kMaxReportBytes = 256u << 20;
 
 constexpr std::string_view name_of(PointState state) {
   return state == PointState::kDone     ? "passed"
@@ -78,6 +88,10 @@ Json to_json(const FailureBucket& bucket, const RegressionResult& result, const 
         {"reason", example.failure.reason},
         {"directory", seen_from(place, point_directory(place.points(), example.point.name))},
         {"command", command_of(example.point)}}}};
+  // A run that was refused or killed has left none.
+  const fs::path result_file = point_directory(place.points(), example.point.name) / "result.json";
+  if (std::error_code error; fs::exists(result_file, error))
+    json["example"]["result"] = seen_from(place, result_file);
   if (!bucket.directory.empty())
     json["waves"] = {{"file", seen_from(place, bucket.directory / "trace.vcd")},
                      {"report", seen_from(place, bucket.directory / "report.html")}};
@@ -94,7 +108,7 @@ Json to_json(const Bins& bins) {
 
 Json json_of(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan,
              const SweepPlace& place, const RegressionResult& result) {
-  Json json = {{"schema", 1},
+  Json json = {{"schema", kReportSchema},
                {"testplan", testplan.name},
                {"title", testplan.title},
                {"base_seed", base_seed},
@@ -253,6 +267,7 @@ mustache::data row_of(const Json& feature) {
   }
   row.set("covered", bins == 0 ? "-" : fmt::format("{} of {}", grouped(hit), grouped(bins)));
   row.set("traces", traces);
+  row.set("has_checks", all_checks > 0);
   row.set("checks", checks);
   row.set("coverage", coverage);
   return row;
@@ -279,8 +294,10 @@ mustache::data card_of(const Json& bucket) {
     card.set(key, bucket.at(key).get<std::string>());
   card.set("runs", grouped(bucket.at("runs").get<std::uint64_t>()));
   const Json& example = bucket.at("example");
-  for (const char* key : {"name", "reason", "directory", "command"})
+  for (const char* key : {"name", "reason", "command"})
     card.set(std::string("example_") + key, example.at(key).get<std::string>());
+  card.set("has_result", example.contains("result"));
+  card.set("example_result", example.value("result", ""));
   card.set("has_waves", bucket.contains("waves"));
   if (bucket.contains("waves")) {
     card.set("waves", bucket.at("waves").at("file").get<std::string>());
@@ -334,6 +351,7 @@ std::string page_of(const Json& json) {
   page.set("features", features);
   page.set("has_buckets", !json.at("buckets").empty());
   page.set("buckets", buckets);
+  page.set("has_coverage", !json.at("coverage").empty());
   page.set("coverage", coverage);
   page.set("data", json_for_script(drawn));
   mustache::mustache text{std::string(embedded::regression_template())};
@@ -350,8 +368,45 @@ void write_regression(const Testplan& testplan, std::uint64_t base_seed, const P
                     collected = json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n",
                     page = page_of(json);
   write_files_atomically({{place.directory / "junit.xml", junit},
-                          {place.directory / "collected.json", collected},
+                          {place.directory / kCollectedFile, collected},
                           {place.directory / "index.html", page}});
+}
+
+std::uint64_t seed_of_last_report(const fs::path& out, const std::string& testplan) {
+  const fs::path all = regression_place_of(out, testplan, 0).directory.parent_path();
+  std::optional<std::pair<fs::file_time_type, std::uint64_t>> last;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(all, error)) {
+    const std::string name = entry.path().filename().string();
+    std::uint64_t seed = 0;
+    if (!name.starts_with(testplan + "-")) continue;
+    const char* const end = name.data() + name.size();
+    const auto [rest, wrong] = std::from_chars(name.data() + testplan.size() + 1, end, seed);
+    const fs::file_time_type written = fs::last_write_time(entry.path() / kCollectedFile, error);
+    if (wrong != std::errc() || rest != end || error) continue;
+    last = std::max(last, std::optional(std::pair(written, seed)));
+  }
+  if (!last)
+    throw spec::FileError(
+        fmt::format("there is no report of '{}' in '{}': 'run' it first", testplan, all.string()));
+  return last->second;
+}
+
+std::set<std::string> failed_in_report(const SweepPlace& place) {
+  const fs::path file = place.directory / kCollectedFile;
+  std::error_code error;
+  if (!fs::exists(file, error))
+    throw spec::FileError(
+        fmt::format("there is no report in '{}': 'run' it first", place.directory.string()));
+  const Json json = Json::parse(read_file(file, kMaxReportBytes), nullptr, false);
+  if (!json.is_object() || json.value("schema", 0) != kReportSchema)
+    throw spec::FileError(
+        fmt::format("'{}' is not a report of this version: 'collect' it again", file.string()));
+  std::set<std::string> failed;
+  for (const Json& run : json.value("runs", Json::array()))
+    if (run.value("state", "") == name_of(PointState::kFailed))
+      failed.insert(run.value("name", ""));
+  return failed;
 }
 
 }  // namespace deburr::tb

@@ -11,19 +11,18 @@
 #include <tuple>
 #include <utility>
 
-#include "rtl_model/fabric/trace.h"
+#include "rtl_model/fabric/glob.h"
 #include "tb/base/file.h"
 #include "tb/base/near_matches.h"
 #include "tb/regress/failure_message.h"
 #include "tb/results/parameter_set.h"
+#include "tb/results/result.h"
 
 namespace deburr::tb {
 namespace {
 
 namespace fs = std::filesystem;
 using SortedJson = nlohmann::json;
-
-constexpr std::size_t kMaxResultBytes = 64u << 20;
 
 // Null where the run has left none.
 SortedJson result_in(const fs::path& directory) {
@@ -45,9 +44,9 @@ std::vector<std::string> keys_of(const Map& map) {
   return keys;
 }
 
-class Collector {
+class RunCollector {
  public:
-  Collector(const Testplan& testplan, const SweepPlace& place)
+  RunCollector(const Testplan& testplan, const SweepPlace& place)
       : testplan_(testplan), place_(place) {}
 
   RegressionResult run() {
@@ -183,7 +182,7 @@ bool RegressionResult::holds() const {
 }
 
 RegressionResult collect_regression(const Testplan& testplan, const SweepPlace& place) {
-  return Collector(testplan, place).run();
+  return RunCollector(testplan, place).run();
 }
 
 std::vector<PlannedPoint> runs_with_waves(const RegressionResult& result, const SweepPlace& place) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -81,5 +82,10 @@ void add_waves(RegressionResult& result, const std::vector<PlannedPoint>& runs,
 // and those of before.
 void write_regression(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan,
                       const SweepPlace& place, const RegressionResult& result);
+
+// The base seed of the report of this testplan that was written last. FileError where none is.
+std::uint64_t seed_of_last_report(const std::filesystem::path& out, const std::string& testplan);
+// Names (PointOrigin::name) of the runs that the report there says have failed. FileError as above.
+std::set<std::string> failed_in_report(const SweepPlace& place);
 
 }  // namespace deburr::tb

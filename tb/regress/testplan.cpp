@@ -16,7 +16,7 @@
 #include <system_error>
 #include <utility>
 
-#include "rtl_model/fabric/trace.h"
+#include "rtl_model/fabric/glob.h"
 #include "spec/error.h"
 #include "tb/app/engine.h"
 #include "tb/app/reference_pages.h"

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <system_error>
 #include <utility>
 
 #include "spec/error.h"
@@ -27,24 +29,100 @@ bool parse_number(std::string_view text, Number& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
+// Decimal, or hexadecimal as addresses are printed: 0x7fffffc0.
+bool parse_integer(std::string_view text, std::int64_t& value) {
+  if (!text.starts_with("0x")) return parse_number(text, value);
+  text.remove_prefix(2);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  return error == std::errc() && end == text.data() + text.size() && !text.starts_with('-');
+}
+
 std::string join(const std::vector<std::string_view>& names, std::string_view separator) {
   return fmt::format("{}", fmt::join(names, separator));
 }
 
-// A configuration has a few dozen keys; anything far beyond is not a configuration.
-constexpr std::size_t kMaxConfigurationBytes = 1 << 20;
 constexpr int kMaxNesting = 16;
+constexpr std::string_view kGiven = "given", kDefault = "default";  // in a manifest's parameters
+
+// An entry of a map; undefined where the map has none.
+YAML::Node entry_of(const YAML::Node& map, const char* key) {
+  return map.IsMap() ? map[key] : YAML::Node(YAML::NodeType::Undefined);
+}
+std::string scalar_of(const YAML::Node& map, const char* key) {
+  const YAML::Node entry = entry_of(map, key);
+  return entry.IsDefined() && entry.IsScalar() ? entry.Scalar() : "";
+}
+bool is_map(const YAML::Node& node) { return node.IsDefined() && node.IsMap(); }
+
+// A run's manifest.json: what the run was given. The rest follows from that again, but a default
+// that was another one stays as it was.
+class Manifest {
+ public:
+  static bool is_one(const YAML::Node& root) {
+    return !scalar_of(root, "schema").empty() && !scalar_of(root, "unit").empty() &&
+           is_map(entry_of(root, "configuration"));
+  }
+
+  Manifest(const YamlFile& yaml, std::string_view engine)
+      : yaml_(yaml), folder_(scalar_of(yaml.root(), "working_directory")) {
+    const YAML::Node& root = yaml.root();
+    if (const std::string unit = scalar_of(root, "unit"); !engine.empty() && unit != engine)
+      yaml.fail(root["unit"],
+                fmt::format("this manifest is of a run of '{}', and not of '{}'", unit, engine));
+    for (const auto& parameter : entry_of(root, "parameters"))
+      from_[scalar_of(parameter, "name")] = scalar_of(parameter, "from");
+    for (const auto& input : entry_of(root, "inputs"))
+      if (scalar_of(input, "role").empty()) inputs_.insert(scalar_of(input, "file"));
+  }
+
+  void apply(ParameterSet& set) const {
+    for (const auto& entry : yaml_.root()["configuration"]) {
+      const std::string name = yaml_.scalar(entry.first, "configuration");
+      const std::string value = yaml_.scalar(entry.second, name);
+      if (!follows(set.find(name), value))
+        set.set(name, where_it_was(value), yaml_.where(entry.first), ParameterSet::Origin::kFile);
+    }
+  }
+
+ private:
+  // Whether it comes to this by itself. A manifest that does not say is taken as it is.
+  bool follows(const Parameter* parameter, const std::string& value) const {
+    if (!parameter) return false;
+    const auto found = from_.find(parameter->name);
+    if (found == from_.end() || found->second.empty() || found->second == kGiven) return false;
+    return found->second != kDefault || parameter->text() == value ||
+           parameter->json().dump() == value;
+  }
+
+  // Names of files are as seen from the folder in which the run was started.
+  std::string where_it_was(const std::string& value) const {
+    std::error_code error;
+    if (folder_.empty() || value.empty() || !inputs_.contains(value) ||
+        folder_ == std::filesystem::current_path(error))
+      return value;
+    return (folder_ / value).lexically_normal().string();
+  }
+
+  const YamlFile& yaml_;
+  std::filesystem::path folder_;
+  std::map<std::string, std::string> from_;
+  std::set<std::string> inputs_;
+};
 
 class YamlLoader {
  public:
-  YamlLoader(ParameterSet& set, const YamlFile& yaml) : set_(set), yaml_(yaml) {}
+  YamlLoader(ParameterSet& set, const YamlFile& yaml, std::string_view engine)
+      : set_(set), yaml_(yaml), engine_(engine) {}
 
   void load() {
     const YAML::Node& root = yaml_.root();
     if (root.IsNull()) return;
     if (!root.IsMap())
       yaml_.fail(root, fmt::format("expected a map of parameters, got {}", YamlFile::kind(root)));
-    walk(root, "", 0);
+    if (Manifest::is_one(root))
+      Manifest(yaml_, engine_).apply(set_);
+    else
+      walk(root, "", 0);
   }
 
  private:
@@ -74,6 +152,7 @@ class YamlLoader {
 
   ParameterSet& set_;
   const YamlFile& yaml_;
+  std::string_view engine_;
   std::map<std::string, std::string> seen_;
 };
 
@@ -108,7 +187,7 @@ void ParameterSet::Binder::integer(std::string_view name, std::int64_t& value, s
       [&value] { return nlohmann::ordered_json(value); },
       [&value, min, max](std::string_view text) -> std::string {
         std::int64_t parsed = 0;
-        if (!parse_number(text, parsed)) return fmt::format("wants an integer {}..{}", min, max);
+        if (!parse_integer(text, parsed)) return fmt::format("wants an integer {}..{}", min, max);
         if (parsed < min || parsed > max) return fmt::format("is outside {}..{}", min, max);
         value = parsed;
         return "";
@@ -124,7 +203,7 @@ void ParameterSet::Binder::integer(std::string_view name, std::int32_t& value, s
       [&value] { return nlohmann::ordered_json(value); },
       [&value, min, max](std::string_view text) -> std::string {
         std::int64_t parsed = 0;
-        if (!parse_number(text, parsed)) return fmt::format("wants an integer {}..{}", min, max);
+        if (!parse_integer(text, parsed)) return fmt::format("wants an integer {}..{}", min, max);
         if (parsed < min || parsed > max) return fmt::format("is outside {}..{}", min, max);
         value = static_cast<std::int32_t>(parsed);
         return "";
@@ -200,6 +279,18 @@ const Parameter* ParameterSet::find(std::string_view name) const {
   return found == parameters_.end() ? nullptr : &*found;
 }
 
+void ParameterSet::alias(std::string_view name, std::string_view word, std::string_view value) {
+  const auto found = std::find_if(parameters_.begin(), parameters_.end(),
+                                  [&](const Parameter& p) { return p.name == name; });
+  DEBURR_CHECK(found != parameters_.end(),
+               fmt::format("'{}' is a word of unknown '{}'", word, name));
+  found->aliases.emplace_back(word);
+  found->parse = [parse = std::move(found->parse), word = std::string(word),
+                  value = std::string(value)](std::string_view text) {
+    return parse(text == word ? std::string_view(value) : text);
+  };
+}
+
 std::vector<std::string> ParameterSet::near_matches(std::string_view name) const {
   std::vector<std::string> names;
   for (const Parameter& p : parameters_) names.push_back(p.name);
@@ -263,7 +354,17 @@ void ParameterSet::set_assignment(std::string_view assignment, std::string_view 
 }
 
 void ParameterSet::load(const std::filesystem::path& file) {
-  YamlLoader(*this, YamlFile(file, kMaxConfigurationBytes)).load();
+  YamlLoader(*this, YamlFile(file, kMaxConfigurationBytes), "").load();
+}
+
+void ParameterSet::load(const std::filesystem::path& file, const std::string& text,
+                        std::string_view engine) {
+  YamlLoader(*this, YamlFile(file, text), engine).load();
+}
+
+std::string_view ParameterSet::origin(const Parameter& parameter) const {
+  if (given(parameter.name)) return kGiven;
+  return parameter.implied_by.empty() ? kDefault : std::string_view(parameter.implied_by);
 }
 
 nlohmann::ordered_json ParameterSet::resolved() const {

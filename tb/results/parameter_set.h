@@ -26,6 +26,10 @@
 
 namespace deburr::tb {
 
+// A configuration has a few dozen keys, and a manifest a few hundred; anything far beyond is
+// neither.
+inline constexpr std::size_t kMaxConfigurationBytes = 1 << 20;
+
 // What a change of a parameter changes. Runs that agree in rules and inputs (and in the seed) share
 // one golden result, whatever they are built with.
 enum class ParameterKind : std::uint8_t {
@@ -51,6 +55,7 @@ struct Parameter {
   std::function<std::string()> text;                   // the value now
   std::function<nlohmann::ordered_json()> json;        // the same, typed
   std::function<std::string(std::string_view)> parse;  // "" or why the text is refused
+  std::vector<std::string> aliases{};                  // other words for values, as of alias()
 };
 
 inline std::string_view kind_name(const Parameter& parameter) {
@@ -90,6 +95,9 @@ class ParameterSet {
         [engine = std::string(prefix), &values] { spec::check_build(engine, values); });
   }
 
+  // Another word for a value of a parameter: what the field calls it.
+  void alias(std::string_view name, std::string_view word, std::string_view value);
+
   enum class Origin { kCommandLine, kFile };
   // `where` is put in front of every complaint: "run.yaml:12" or "--set".
   void set(std::string_view name, std::string_view text, std::string_view where,
@@ -99,8 +107,10 @@ class ParameterSet {
   // "a.b=value", as given to --set.
   void set_assignment(std::string_view assignment, std::string_view where);
   // Applies a YAML file: nested maps or dotted keys. Unknown, duplicate, misshapen or out-of-range
-  // entries are errors with file and line.
+  // entries are errors with file and line. A run's manifest.json gives what that run was given.
   void load(const std::filesystem::path& file);
+  // The same of a text that was read already. A manifest must be of a run of the engine.
+  void load(const std::filesystem::path& file, const std::string& text, std::string_view engine);
 
   const std::vector<Parameter>& all() const { return parameters_; }
   const Parameter* find(std::string_view name) const;
@@ -108,6 +118,8 @@ class ParameterSet {
   bool given(std::string_view name) const { return given_.contains(name); }
   // Parameters that were given something else than their preset makes of them.
   std::vector<const Parameter*> changed() const;
+  // Where its value comes from, for the manifest: "given", what implied it, or "default".
+  std::string_view origin(const Parameter& parameter) const;
   // ConfigError if it was given although it has no effect. A file, which may be a whole resolved
   // configuration, may hold its default.
   void refuse(std::string_view name, std::string_view why) const;

@@ -70,6 +70,12 @@ std::string joined(std::initializer_list<std::string_view> parts) {
   return text;
 }
 
+// Progress is worth no failure: the terminal of a run may be gone.
+void tell(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 // The last column stays free: a terminal that has filled it may begin the next line.
 std::size_t room() { return std::max<std::size_t>(terminal_columns(STDERR_FILENO), 2) - 1; }
 
@@ -160,23 +166,16 @@ void Waiting::update() {
   shown_ = true;
   const std::string text =
       fmt::format("{}  {}", label_, time_text(std::chrono::duration<double>(now - start_).count()));
-  if (terminal_)
-    fmt::print(stderr, "\r{}\033[K", cut(text, room()));
-  else
-    fmt::print(stderr, "{}\n", text);
-  std::fflush(stderr);
+  tell(terminal_ ? fmt::format("\r{}\033[K", cut(text, room())) : text + "\n");
 }
 
 void Progress::show(std::uint64_t done, Clock::time_point now) {
   last_ = now;
   shown_ = true;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  if (terminal_) {
-    fmt::print(stderr, "\r{}\033[K", fitted(room(), label_, unit_, done, total_, seconds, note_));
-    std::fflush(stderr);
-  } else {
-    fmt::print(stderr, "{}\n", joined({line(label_, unit_, done, total_, seconds), note_}));
-  }
+  tell(terminal_
+           ? fmt::format("\r{}\033[K", fitted(room(), label_, unit_, done, total_, seconds, note_))
+           : joined({line(label_, unit_, done, total_, seconds), note_}) + "\n");
 }
 
 }  // namespace deburr::tb

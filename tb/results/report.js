@@ -167,6 +167,10 @@
   // ---- charts ----
   const stallColours = ['#d08a2c', '#b9503f', '#7c62a8', '#8b9138', '#b0608c', '#5c7fb5', '#9a7654',
                         '#4f8f6b', '#c9ab3a', '#72777e'];
+  // One a cause, wherever on the page it is drawn.
+  const stallCauses = [...new Set(Object.values(data.result.units).flatMap((unit) =>
+      Object.keys(unit.stalls).filter((cause) => unit.stalls[cause] > 0)))];
+  const colourOfCause = (cause) => stallColours[stallCauses.indexOf(cause) % stallColours.length];
   let charts = [];
 
   // ---- windows ----
@@ -222,8 +226,6 @@
     if (units.length > 0) {
       const cycles = ([, unit]) => unit.busy + unit.idle +
           Object.values(unit.stalls).reduce((a, b) => a + b, 0);
-      const causes = [...new Set(units.flatMap(([, unit]) => Object.keys(unit.stalls)))]
-          .filter((cause) => units.some(([, unit]) => unit.stalls[cause] > 0));
       const share = (count, unit) => cycles(unit) ? 100 * count / cycles(unit) : 0;
       const series = (label, colour, get) => ({
         label, backgroundColor: colour, maxBarThickness: 22,
@@ -235,8 +237,8 @@
           labels: horizontal(units.map(([name]) => name), 'units-box'),
           datasets: [
             series('busy', css('--busy'), (unit) => unit.busy),
-            ...causes.map((cause, i) => series(`stalled: ${cause.replaceAll('_', ' ')}`,
-                stallColours[i % stallColours.length], (unit) => unit.stalls[cause] || 0)),
+            ...stallCauses.map((cause) => series(`stalled: ${cause.replaceAll('_', ' ')}`,
+                colourOfCause(cause), (unit) => unit.stalls[cause] || 0)),
             series('idle', css('--idle'), (unit) => unit.idle)
           ]
         },
@@ -418,8 +420,8 @@
     const causes = Object.entries(unit.stalls || {}).filter(([, values]) => values.some((v) => v > 0));
     add('unit-time', 'bar', [
       bars('busy', css('--busy'), share(unit.busy)),
-      ...causes.map(([cause, values], i) => bars(`stalled: ${cause.replaceAll('_', ' ')}`,
-          stallColours[i % stallColours.length], share(values))),
+      ...causes.map(([cause, values]) => bars(`stalled: ${cause.replaceAll('_', ' ')}`,
+          colourOfCause(cause), share(values))),
       bars('idle', css('--idle'), share(unit.idle))
     ], '% of cycles', {stacked: true, max: 100});
 

@@ -22,8 +22,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using spec::FileError;
 
-constexpr std::size_t kMaxResultBytes = 64u << 20;
-
 Json json_of(const WorkValue& value) {
   return std::visit(
       [](auto known) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -22,6 +23,8 @@
 namespace deburr::tb {
 
 inline constexpr int kResultSchema = 3;
+// No reader takes more of one of our JSON files.
+inline constexpr std::size_t kMaxResultBytes = std::size_t{64} << 20;
 
 enum class Verdict { kPass, kFail, kUnchecked };
 
@@ -163,6 +166,7 @@ struct Result {
   std::vector<Figure> figures;
   std::optional<Quality> quality;
   double host_seconds = 0, host_cpu_seconds = 0;
+  std::vector<std::string> faults;  // that can be planted; of a model that is described, not run
 
   double mcycles_per_s() const {
     return host_seconds > 0 ? static_cast<double>(cycles) / host_seconds / 1e6 : 0;

@@ -131,16 +131,17 @@ void RunContext::add_inputs(const std::vector<fs::path>& files) {
   if (shared_) shared_->files().refuse_changed(files);
 }
 
-void RunContext::add_configuration(const fs::path& file) {
-  list(file, content_of(file), "configuration");
+// As it was read: a pipe gives it once.
+void RunContext::add_configuration(const fs::path& file, const std::string& text) {
+  list(file, sha256(text), "configuration")["bytes"] = text.size();
 }
 
-void RunContext::list(const fs::path& file, std::string_view content, std::string_view role) {
+Json& RunContext::list(const fs::path& file, std::string_view content, std::string_view role) {
   directory_.refuse_to_replace(file);
   Json entry = input_entry(file, content, role);
   std::error_code error;
   if (entry.contains("sha256")) entry["bytes"] = fs::file_size(file, error);
-  listed_->inputs.push_back(std::move(entry));
+  return listed_->inputs.emplace_back(std::move(entry));
 }
 
 void RunContext::add_image(const std::string& name, const Image& image, std::string title,
@@ -222,6 +223,9 @@ Json RunContext::manifest(const Result& result) const {
   json["title"] = title_;
   json["summary"] = summary_;
   json["command"] = command_;
+  // What names of files are relative to.
+  std::error_code error;
+  json["working_directory"] = fs::current_path(error).string();
   json["seed"] = seed_;
   json["version"] = build.version;
   json["commit"] = build.commit;
@@ -243,6 +247,7 @@ Json RunContext::manifest(const Result& result) const {
     json["parameters"].push_back({{"name", p.name},
                                   {"kind", kind_name(p)},
                                   {"value", p.text()},
+                                  {"from", parameters_.origin(p)},
                                   {"default", p.default_value},
                                   {"range", p.range},
                                   {"unit", p.unit},

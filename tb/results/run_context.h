@@ -89,8 +89,8 @@ class RunContext {
   // Lists files that the result depends on, those too that were looked for in vain. ConfigError if
   // the results would replace one.
   void add_inputs(const std::vector<std::filesystem::path>& files);
-  // The same of a file that said how to run, as the parameters do.
-  void add_configuration(const std::filesystem::path& file);
+  // The same of a file that said how to run, as the parameters do, and what it said.
+  void add_configuration(const std::filesystem::path& file, const std::string& text);
   // Where what is written while the run goes is until the run is over: waves, lines asked of
   // memory, fragments.
   std::filesystem::path trace_file() const { return draft_file("trace.vcd"); }
@@ -113,7 +113,8 @@ class RunContext {
 
  private:
   std::filesystem::path draft_file(const char* name) const;
-  void list(const std::filesystem::path& file, std::string_view content, std::string_view role);
+  nlohmann::ordered_json& list(const std::filesystem::path& file, std::string_view content,
+                               std::string_view role);
   bool may_share_golden() const;
   std::string key_of_golden(const std::vector<std::string_view>& built) const;
   std::string golden_key() const;

@@ -28,7 +28,6 @@ namespace fs = std::filesystem;
 namespace mustache = kainjow::mustache;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMaxResultBytes = 64u << 20;
 constexpr const char* kUnitOfThroughput = "see throughput.unit";  // statistics()
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -305,6 +304,7 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
                     {"front", all.front}};
   json["inputs"] = inputs_of(plan, "definition");
   json["left_out"] = plan.left_out;
+  json["reports"] = plan.reports;  // whether each point that is done has a report.html
   // As seen from the sweep's directory, where the page is.
   json["points_directory"] =
       fs::proximate(fs::absolute(place.points()), fs::absolute(place.directory)).string();
@@ -358,6 +358,64 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
   return json;
 }
 
+std::string cell_text(const Json& value) {
+  return value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+// The table without script: rows of the front first, so many.
+constexpr std::size_t kMostRows = 200;
+
+void set_table(const Json& json, mustache::data& page) {
+  mustache::data columns{mustache::data::type::list}, rows{mustache::data::type::list};
+  const auto add_to = [](mustache::data& list, const char* key, const std::string& text,
+                         bool metric) {
+    mustache::data entry;
+    entry.set(key, text);
+    entry.set("metric", metric);
+    list << entry;
+  };
+  for (const Json& axis : json.at("axes"))
+    add_to(columns, "title", axis.at("name").get<std::string>(), false);
+  for (const Json& metric : json.at("metrics")) {
+    const auto unit = metric.at("unit").get<std::string>();
+    add_to(columns, "title",
+           metric.at("name").get<std::string>() + (unit.empty() ? "" : " (" + unit + ")"), true);
+  }
+  std::vector<const Json*> points;
+  for (const Json& point : json.at("points")) points.push_back(&point);
+  std::stable_partition(points.begin(), points.end(),
+                        [](const Json* point) { return point->contains("front"); });
+  const bool cut = points.size() > kMostRows;
+  if (cut) points.resize(kMostRows);
+  const fs::path folder = json.at("points_directory").get<std::string>();
+  for (const Json* point : points) {
+    mustache::data row, cells{mustache::data::type::list};
+    for (const Json& value : point->at("at")) add_to(cells, "text", cell_text(value), false);
+    const Json identical = point->value("identical", Json::array());
+    for (std::size_t i = 0; i < json.at("metrics").size(); ++i) {
+      const Json& name = json.at("metrics")[i].at("name");
+      const bool same = std::find(identical.begin(), identical.end(), name) != identical.end();
+      add_to(cells, "text", same ? "identical" : cell_text(point->at("values")[i]), true);
+    }
+    const auto name = point->at("name").get<std::string>();
+    const auto state = point->at("state").get<std::string>();
+    row.set("cells", cells);
+    row.set("kind", std::string(point->contains("front") ? "front"
+                                : state == "failed"      ? state
+                                                         : ""));
+    row.set("has_result", state == "done");
+    row.set("result", (point_directory(folder, name) / "result.json").string());
+    row.set("name", name.substr(0, 8));
+    row.set("note",
+            state + (point->contains("failure") ? ": " + cell_text(point->at("failure")) : ""));
+    rows << row;
+  }
+  page.set("columns", columns);
+  page.set("rows", rows);
+  page.set("is_cut", cut);
+  page.set("rows_shown", grouped(points.size()));
+}
+
 std::string page_of(const Json& json) {
   mustache::data page;
   page.set("style", std::string(embedded::style_css()));
@@ -382,6 +440,7 @@ std::string page_of(const Json& json) {
     notes << entry;
   }
   page.set("left_out", notes);
+  set_table(json, page);
   mustache::mustache text{std::string(embedded::sweep_template())};
   DEBURR_CHECK(text.is_valid(), "sweep.mustache: " + text.error_message());
   return text.render(page);

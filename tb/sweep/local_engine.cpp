@@ -33,22 +33,16 @@ using spec::FileError;
 constexpr std::uint64_t kMostInChunk = 64;
 constexpr std::uint64_t kChunksPerJob = 4;  // so that nobody waits long for the last one
 
-// As Ninja reads a path.
-std::string ninja_path(const fs::path& path) {
-  std::string text;
-  for (const char c : path.string()) {
-    if (c == '\n')
-      throw FileError(
-          fmt::format("'{}': a path with a line break is more than Ninja takes", path.string()));
-    if (c == '$' || c == ' ' || c == ':') text += '$';
-    text += c;
-  }
-  return text;
-}
-
+// As the value of a variable. In a path a '|' could not be written: paths are such values.
 std::string ninja_value(const std::string& value) {
   std::string text;
-  for (const char c : value) text += c == '$' ? std::string("$$") : std::string(1, c);
+  for (const char c : value) {
+    if (c == '\n')
+      throw FileError(
+          fmt::format("'{}': a name with a line break is more than Ninja takes", value));
+    if (c == '$' || (c == ' ' && text.empty())) text += '$';
+    text += c;
+  }
   return text;
 }
 
@@ -148,16 +142,15 @@ std::uint64_t write_tasks(const Plan& plan, const SweepPlace& place, const fs::p
                   ninja_value(shell_quoted(place.directory.string())),
                   ninja_value(shell_quoted(pending.string()))));
   for (std::uint64_t task = 0; task < tasks; ++task)
-    ninja[task] +=
-        fmt::format("builddir = {}\n", ninja_path(folder / fmt::format("ninja_{}", task)));
+    ninja[task] += fmt::format("folder = {}\nbuilddir = $folder/ninja_{}\n",
+                               ninja_value(folder.string()), task);
   std::string lines;
   for (std::uint64_t chunk = 0; chunk < chunks; ++chunk) {
     const std::size_t from = chunk * size;
     const std::size_t to = std::min<std::size_t>(points.size(), from + size);
     // Neighbours, which have their input in common, stay in one task.
-    ninja[chunk * tasks / chunks] +=
-        fmt::format("build {}: chunk\n  lines = {} {}\n",
-                    ninja_path(folder / fmt::format("chunk_{}", chunk)), lines.size(), to - from);
+    ninja[chunk * tasks / chunks] += fmt::format("build $folder/chunk_{}: chunk\n  lines = {} {}\n",
+                                                 chunk, lines.size(), to - from);
     for (std::size_t i = from; i < to; ++i) lines += line_of(points[i]) + "\n";
   }
   write_file_atomically(pending, lines);

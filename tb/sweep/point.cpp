@@ -120,11 +120,15 @@ void remove_failure(const fs::path& directory) {
   fs::remove(directory / kFailure, ignored);
 }
 
-std::string command_of(const std::string& engine, const std::vector<Setting>& settings) {
-  std::string command = "deburr run " + engine;
+std::string arguments_of(const std::string& engine, const std::vector<Setting>& settings) {
+  std::string arguments = "run " + engine;
   for (const Setting& setting : settings)
-    command += " --set " + shell_quoted(fmt::format("{}={}", setting.name, setting.value));
-  return command;
+    arguments += " --set " + shell_quoted(fmt::format("{}={}", setting.name, setting.value));
+  return arguments;
+}
+
+std::string command_of(const std::string& engine, const std::vector<Setting>& settings) {
+  return "deburr " + arguments_of(engine, settings);
 }
 
 }  // namespace deburr::tb

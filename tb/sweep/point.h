@@ -60,7 +60,9 @@ Failure read_failure(const std::filesystem::path& directory);
 void write_failure(const std::filesystem::path& directory, const Failure& failure);
 void remove_failure(const std::filesystem::path& directory);
 
-// `deburr run ENGINE --set ...`, without --out.
+// `run ENGINE --set ...`, without --out: what `deburr` runs the point alone with.
+std::string arguments_of(const std::string& engine, const std::vector<Setting>& settings);
+// The same with the program's name in front.
 std::string command_of(const std::string& engine, const std::vector<Setting>& settings);
 
 }  // namespace deburr::tb

@@ -50,7 +50,7 @@ std::string time_left(const SweepPlace& place) {
 
 }  // namespace
 
-Status look(const SweepPlace& place) {
+Status look(const SweepPlace& place, const Plan& plan) {
   Status status;
   for_each_point(points_file(place.directory), [&](const PlannedPoint& point) {
     const fs::path directory = point_directory(place.points(), point.name);
@@ -65,11 +65,9 @@ Status look(const SweepPlace& place) {
         ++status.missing;
         break;
       case PointState::kFailed:
-        if (status.failures.size() < kFailuresShown) {
-          const Failure failure = read_failure(directory);
-          status.failures.push_back(
-              fmt::format("{}: {}: {}", directory.string(), failure.kind, failure.reason));
-        }
+        if (status.failures.size() < kFailuresShown)
+          status.failures.push_back({directory, read_failure(directory),
+                                     arguments_of(plan.engine_of(point), plan.settings_of(point))});
         ++status.failed;
         break;
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,19 @@
 
 namespace deburr::tb {
 
+struct FailedPoint {
+  std::filesystem::path directory;
+  Failure failure;
+  std::string arguments;  // of `deburr`, which run it alone
+};
+
 struct Status {
   std::uint64_t done = 0, running = 0, failed = 0, missing = 0;
-  std::vector<std::string> failures;  // the first ones: directory, and why
+  std::vector<FailedPoint> failures;  // the first ones
   std::string time_left;              // of a run under way; empty: none is
 };
-Status look(const SweepPlace& place);
+// `plan` is that of the place.
+Status look(const SweepPlace& place, const Plan& plan);
 
 // Says when a run of so many points began, for the time left.
 void note_start(const SweepPlace& place, std::uint64_t points);

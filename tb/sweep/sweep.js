@@ -46,6 +46,13 @@
     return made;
   };
 
+  // By a click, or by Enter where the keyboard is.
+  function pressable(item, act) {
+    item.tabIndex = 0;
+    item.addEventListener('click', act);
+    item.addEventListener('keydown', (event) => { if (event.key === 'Enter') act(); });
+  }
+
   // ---- one point ----
   const quoted = (word) =>
     /^[A-Za-z0-9_\-./=,:+@%]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
@@ -59,6 +66,7 @@
     return `deburr run ${data.engine}` + settings.map(([n, v]) => ' --set ' + quoted(`${n}=${v}`)).join('');
   }
   const directoryOf = (p) => `${data.points_directory}/${p.name.slice(0, 2)}/${p.name}`;
+  const filesOf = [...(data.reports ? ['report.html'] : []), 'result.json', 'manifest.json'];
   let chosen = null;
   function choose(p) {
     chosen = p;
@@ -72,7 +80,7 @@
     const pre = element('pre', commandOf(p), box, 'code');
     pre.style.whiteSpace = 'pre-wrap';
     const links = element('p', '', box);
-    for (const name of ['report.html', 'result.json', 'manifest.json']) {
+    for (const name of p.state === 'done' ? filesOf : []) {
       const link = element('a', name, links);
       link.href = `${directoryOf(p)}/${name}`;
       links.append(' ');
@@ -106,6 +114,29 @@
     const beyond = values.length > 0 ? high + ((high - low) * 0.08 || 1) : 1;
     return (p) => column.value(p) === Infinity ? beyond : column.value(p);
   }
+  // The fronts, one for each circumstance that points must agree in, by what tells them apart.
+  const frontAxes = data.for_each.map((name) => data.axes.findIndex((axis) => axis.name === name));
+  const fronts = new Map();
+  for (const p of done.filter((q) => q.front)) {
+    const where = frontAxes.map((i) => `${data.axes[i].name} = ${p.at[i]}`).join(', ');
+    if (!fronts.has(where)) fronts.set(where, []);
+    fronts.get(where).push(p);
+  }
+  if (fronts.size > 1)
+    byId('fronts').textContent = 'Fronts: ' +
+      [...fronts].map(([where, points]) => `${where}: ${points.length}`).join('; ') + ' points.';
+  const dashes = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
+  function linesOfFronts(x, y, across, up, colour, groups) {
+    if (!goals.includes(x.name) || !goals.includes(y.name) || x === y) return [];
+    const same = frontAxes.length === 1 && frontAxes[0] === colour.axis;
+    return [...fronts].map(([where, points], i) => ({
+      label: `front${where === '' ? '' : ' of ' + where}`,
+      data: points.map((p) => ({x: across(p), y: up(p), point: p})).sort((a, b) => a.x - b.x || a.y - b.y),
+      showLine: true, pointRadius: 0, pointHitRadius: 0, borderWidth: 1.5,
+      borderColor: same ? palette[groups.indexOf(points[0].at[colour.axis])] ?? ink : ink,
+      backgroundColor: 'transparent', borderDash: same ? [] : dashes[i % dashes.length],
+    }));
+  }
   function drawScatter() {
     const x = columnOf(byId('across').value), y = columnOf(byId('up').value);
     const colour = columnOf(byId('colour').value);
@@ -123,6 +154,8 @@
         pointRadius: points.map((p) => p.front ? 6 : 3),
       };
     });
+    const lines = linesOfFronts(x, y, across, up, colour, groups);
+    sets.push(...lines);
     scatter?.destroy();
     const scale = (column) => ({
       title: {display: true, text: titled(column), color: ink},
@@ -138,7 +171,7 @@
           if (items.length > 0) choose(sets[items[0].datasetIndex].data[items[0].index].point);
         },
         plugins: {
-          legend: {display: groups.length > 1, labels: {boxWidth: 12}},
+          legend: {display: groups.length > 1 || lines.length > 1, labels: {boxWidth: 12}},
           tooltip: {callbacks: {label: (item) => {
             const p = item.raw.point;
             return [`${x.name} ${x.text(p)}, ${y.name} ${y.text(p)}`,
@@ -170,7 +203,11 @@
       element('h3', `${effect.axis} (moves it by ${shown(span)})`, box);
       const frame = element('div', undefined, box, 'chart');
       frame.style.height = '150px';
-      effectCharts.push(new Chart(element('canvas', undefined, frame), {
+      const canvas = element('canvas', undefined, frame);
+      canvas.setAttribute('role', 'img');
+      canvas.setAttribute('aria-label', `Mean of ${name} by ${effect.axis}: ` +
+          effect.means.map(([label, mean]) => `${label}: ${shown(mean)}`).join(', '));
+      effectCharts.push(new Chart(canvas, {
         type: 'line',
         data: {labels: effect.means.map((m) => m[0]),
                datasets: [{data: means, borderColor: accent, backgroundColor: accent, pointRadius: 3}]},
@@ -224,7 +261,7 @@
       const cell = element('th', titled(column) + (sortBy === column ? (descending ? ' ▾' : ' ▴') : ''), titles,
                            'sort' + (column.metric !== undefined ? ' n' : ''));
       cell.title = column.meaning ?? '';
-      cell.addEventListener('click', () => {
+      pressable(cell, () => {
         descending = sortBy === column && !descending;
         sortBy = column;
         drawTable();
@@ -242,12 +279,12 @@
                           (p.front ? 'front ' : '') + (p.state === 'failed' ? 'failed ' : '') + (p === chosen ? 'chosen' : ''));
       for (const column of columns) element('td', column.text(p), row, column.metric !== undefined ? 'n' : '');
       const last = element('td', undefined, row);
-      if (p.state === 'done') element('a', p.name.slice(0, 8), last).href = `${directoryOf(p)}/report.html`;
+      if (p.state === 'done') element('a', p.name.slice(0, 8), last).href = `${directoryOf(p)}/${filesOf[0]}`;
       else element('span', p.failure ? `${p.state}: ${p.failure}` : p.state, last);
-      row.addEventListener('click', () => choose(p));
+      pressable(row, () => choose(p));
     }
     byId('shown').textContent = `${points.length} of ${data.points.length} points` +
-      (points.length > kMostRows ? `, the first ${kMostRows} are shown` : '') + '; a click on a row shows its command.';
+      (points.length > kMostRows ? `, the first ${kMostRows} are shown` : '') + '; a click on a row, or Enter, shows its command.';
   }
 
   // ---- parallel coordinates ----

@@ -98,7 +98,8 @@ class Added(unittest.TestCase):
 
     def test_completion(self):
         script = self.deburr(0, "completion", "bash")
-        self.assertIn(f"'deburr run {NAME}:posteriser.rounding') words='truncate nearest'", script)
+        self.assertIn(f"'deburr run {NAME}:posteriser.rounding') found='truncate nearest'", script)
+        self.assertRegex(script, rf"'deburr run {NAME}:--fault'\) found='[^']*wrong-rule")
 
     def test_soak(self):
         self.call(0, SOAK, "--engines", NAME, "--runs", "6", "--long-every", "6", says=["long run", "RESULT: PASS"])

@@ -147,7 +147,7 @@ TEST_P(Report, ShowsARunOverTimeAndOverThePicture) {
   browse("--dump-dom", "dom.log");
   const std::string dom = log("dom.log");
   EXPECT_THAT(dom, testing::HasSubstr("Window 3: cycles 3,004 to 4,004."));
-  EXPECT_THAT(dom, testing::ContainsRegex("--out [^ ]*run --trace '\\*' --trace-from 3004 "
+  EXPECT_THAT(dom, testing::ContainsRegex("--maps --out [^ ]*run --trace '\\*' --trace-from 3004 "
                                           "--trace-to 4004</pre>"));
   for (const char* const text :
        {"data-role=\"map_samples\"", "map_latency.pfm", "latency_fifo_entries",

@@ -56,10 +56,13 @@ class FirstSweep(unittest.TestCase):
             self.assertIn("(../images/" + os.path.basename(PICTURE) + ")", text)
             if not BROWSER:
                 return
-            dom = browse(page, "--dump-dom")
+            dom = re.sub("(?s)<noscript>.*?</noscript>", "", browse(page, "--dump-dom"))
             across = re.search(r'<select id="across">(.*?)</select>', dom, re.S).group(1)
             for metric in ("cycles", "rate", "memory_bits"):
                 self.assertIn(metric, across)
+            fronts = re.search(r'<span id="fronts">Fronts: (.*?) points\.</span>', dom)[1]
+            sizes = dict(re.findall(r"memory\.latency = (\d+): (\d+)", fronts))
+            self.assertEqual((sorted(sizes), sum(map(int, sizes.values()))), (["200", "50"], 13))
             self.assertEqual(len(re.findall(r"<tr[^>]*>\s*<td", dom)), 32)
             shot = os.path.join(ROOT if WRITE else directory, PICTURE if WRITE else "page.png")
             browse(page, f"--screenshot={shot}")

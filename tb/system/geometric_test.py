@@ -26,11 +26,11 @@ f 1 2 3\nf 1 3 4\n"""
     DEPTHS = ("--set", "geometric.depth_lines=256")
     PIXELS, BLOCKS = 4 * 32 - 1, 4 * 9 - 4  # pixel (17, 17) is cut twice
 
-    def square(self, *arguments, depths=DEPTHS):
-        mesh = os.path.join(os.path.dirname(self.out), "square.obj")
-        with open(mesh, "w") as file:
-            file.write(self.MESH)
-        return self.run_engine("geometric", "--in", mesh, *self.VIEW, *depths, *arguments)
+    def square(self, *arguments, depths=DEPTHS, mesh=MESH):
+        path = os.path.join(os.path.dirname(self.out), "square.obj")
+        with open(path, "w") as file:
+            file.write(mesh)
+        return self.run_engine("geometric", "--in", path, *self.VIEW, *depths, *arguments)
 
     def test_figures_of_a_frame(self):
         r = self.square()
@@ -77,6 +77,14 @@ f 1 2 3\nf 1 3 4\n"""
             work = self.square("--walkers", str(walkers))["work"]
             self.assertEqual(work["line_walker_groups"], 4 * groups)
             self.assertAlmostEqual(work["columns_a_clock"], 32 / groups)
+
+    def test_columns_without_a_candidate(self):
+        """A quarter of a pixel further left, both upright lines lie between two columns of pixels and cover none."""
+        mesh = self.MESH.replace("v -0.4609375", "v -0.46875").replace("v 0.5390625", "v 0.53125")
+        work = self.square(mesh=mesh)["work"]
+        self.assertEqual((work["line_walker_columns"], work["coverage_unit_candidates"]), (128, 64))
+        self.assertEqual(work["line_walker_groups"], 4 * 9)
+        self.assertAlmostEqual(work["columns_a_clock"], 32 / 9)
 
     def test_the_first_line_of_an_idle_engine(self):
         """Two edges a clock wait for nothing but vertices and depth, behind each other: the sum of the units'

@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <tuple>
 
@@ -76,6 +77,31 @@ INSTANTIATE_TEST_SUITE_P(Morphological, RenderedFrame,
                                           testing::Values(std::pair{1280, 720},
                                                           std::pair{1920, 1080})),
                          name_of<Size>);
+
+// Hashes are compared with hashes of the same model elsewhere, so that what none looks at is seen
+// here alone.
+TEST(Morphological, TheHashIsOfEveryChannelAndTapOfEveryPixel) {
+  const Frames frames = {blocks(40, 30)};
+  MorphologicalRunOptions options;
+  options.morphological = preset(Preset::kDeburr);
+  Simulation simulation(options);
+  MorphologicalEnvironment environment(simulation, frames, options);
+  simulation.elaborate(environment);
+  simulation.run();
+  environment.check();
+  OutputHash hash;
+  for (std::size_t i = 0; i < environment.taps().size(); ++i) {
+    const Rgba8& p = environment.frame().pixels[i];
+    const spec::morphological::BlendTap& t = environment.taps()[i];
+    const int bytes[] = {p[0], p[1], p[2], p[3], t.first, t.second, t.edges, t.horizontal};
+    std::uint64_t word = 0;
+    for (std::size_t n = std::size(bytes); n-- > 0;)
+      word = word * 256 + static_cast<std::uint64_t>(bytes[n]);
+    hash.add(word);
+  }
+  EXPECT_EQ(environment.taps().size(), pixels_of(frames));
+  EXPECT_EQ(environment.pixel_hash(), hash.value());
+}
 
 TEST(Morphological, FullHdAt60FramesFitsIn148MHz) {
   const Parameters p;

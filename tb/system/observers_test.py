@@ -97,6 +97,7 @@ class Windows(unittest.TestCase):
                     self.assertEqual(sum(link["histogram"]), result["cycles"])
                     self.assertEqual(sum(i * n for i, n in enumerate(link["histogram"])), link["occupancy"])
                     self.assertAlmostEqual(link["mean"], link["occupancy"] / result["cycles"])
+                    self.assertAlmostEqual(link["full_percent"], 100 * link["histogram"][-1] / result["cycles"])
 
     def test_they_change_nothing_and_are_off_by_default(self):
         with tempfile.TemporaryDirectory() as out:

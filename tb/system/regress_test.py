@@ -8,6 +8,7 @@ usage: regress_test.py DEBURR [CLASS]
 import glob
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -218,6 +219,15 @@ class Passing(RegressTest):
         collected = self.regress("collect", code=3)
         self.assertIn(changed + "points that are as before keep their results", collected)
         self.assertIn(f"{POINTS + 3} points, {POINTS} passed, 0 failed in 0 buckets, 3 missing", collected)
+        # Nothing failed, and what there is was checked and covered: it is the missing runs that count.
+        report = self.collected()
+        self.assertEqual([report["counts"][k] for k in ("failed", "failed_checks", "holes")], [0, 0, 0])
+        self.assertEqual([(f["missing"], f["holds"]) for f in report["features"]], [(2, False), (1, False)])
+        self.assertFalse(report["holds"])
+        with open(self.path("out/regressions/small-7/index.html")) as file:
+            page = file.read()
+        self.assertIn(">FAILED</span>", page)
+        self.assertEqual(page.count(">does not hold</span>"), 2)
         self.assertNotIn("changed  ", self.regress("status"))
         self.regress("run")
         after = self.inodes()
@@ -254,9 +264,99 @@ class Failing(RegressTest):
         out = self.regress("-j2", code=1)
         self.assertIn(f"{POINTS} passed, 3 failed in 2 buckets, 0 missing", out)
         self.check_fault(POINTS)
+        # The line that shows it again is the example of the largest bucket, and no other run.
+        repro = out[out.index("REPRO: "):].splitlines()[0].removeprefix("REPRO: ")
+        self.assertEqual(repro.removeprefix(DEBURR), self.collected()["buckets"][0]["example"]["command"].removeprefix("deburr"))
         before = self.inodes()
         self.regress("run", code=1)
         self.assertEqual(self.inodes(), before, "neither failures nor waves are made again")
+
+    def test_the_page_has_no_dead_links_and_no_empty_sections(self):
+        """A run that cannot read its texture leaves no result, and no coverage."""
+        self.write("bad.png", "no picture")
+        unread = """  - id: unread
+    title: A texture that cannot be read
+    traces: [{page: docs/unit.md, says: Stalls change nothing.}]
+    stimuli: [{name: bad, engine: texture, base: {scene: {width: 24, height: 16, texture: bad.png}}}]
+    checks: {colours: 1}
+"""
+        self.write("plans/small.yaml", TESTPLAN + FAULT + unread)
+        self.assertIn("failed in 3 buckets", self.regress("-j2", code=1))
+        page = self.page()
+        self.assertIn("Coverage of all runs", page)
+        self.assertEqual(page.count(">result.json</a>"), 2)
+        self.write("plans/alone.yaml", "title: Alone\nfeatures:\n" + unread)
+        self.regress("-j2", code=1, name="alone")
+        page = self.page("alone")
+        self.assertNotIn("Coverage of all runs", page)
+        self.assertNotIn(">result.json</a>", page)
+        self.assertRegex(page, "<h1>Alone <span")
+
+    def page(self, name="small"):
+        place = self.path(f"out/regressions/{name}-7")
+        with open(os.path.join(place, "index.html")) as file:
+            page = file.read()
+        for link in re.findall(r'href="([^"#]*)"', page):
+            self.assertTrue(os.path.exists(os.path.join(place, link)), link)
+        self.assertEqual(page.count("<table"), page.count('class="scroll"><table'), "none is wider than a phone")
+        self.assertNotRegex(page, r'<canvas id="[^"]*">', "each chart says in words what it shows")
+        self.assertNotRegex(page, r"<(ul|tbody|section)[^>]*>\s*</")
+        return page
+
+    def test_what_failed_is_run_again_by_one_command(self):
+        self.write("plans/small.yaml", TESTPLAN + FAULT)
+        self.regress("-j2", code=1)
+        failed = {point[0] for point in self.points() if point[3] == "broken"}
+        before = self.inodes()
+        again = self.rerun(code=1)
+        self.assertIn("rerun       0 of 3 runs that had failed pass now, 3 fail\n", again)
+        self.assertIn(f"RESULT: FAIL regression small --seed 7: {POINTS + 3} points, {POINTS} passed, 3 failed", again)
+        changed = {os.path.basename(os.path.dirname(path)) for path, inode in self.inodes().items()
+                   if before.get(path) != inode}
+        self.assertEqual(changed, failed)
+        # Where other runs have no result the report is that of before, and the verdict of these runs alone.
+        os.remove(next(path for path in before if os.path.basename(os.path.dirname(path)) not in failed
+                       and os.path.basename(os.path.dirname(path)) in {point[0] for point in self.points()}))
+        report = self.collected()
+        again = self.rerun(code=1)
+        self.assertRegex(again, r"RESULT: FAIL regression small --seed 7: 0 of 3 runs that had failed pass now, 3 fail; other")
+        self.assertRegex(again, r"(?m)^failed      broken/fault/base/0: mismatch: ")
+        self.assertEqual(self.collected(), report)
+        # Without the fault they are other points, of the same names.
+        self.write("plans/small.yaml", TESTPLAN + FAULT.replace(", run.fault: flip-bit", "")
+                   .replace(", run.fault: stuck-ready", ""))
+        again = self.rerun()
+        self.assertIn("RESULT: PASS regression small --seed 7: 3 of 3 runs that had failed pass now, 0 fail; other", again)
+        self.regress("run", "-j2")
+        self.assertIn("rerun       0 of 0 runs that had failed pass now, 0 fail\n", self.rerun())
+        self.assertEqual(self.collected()["counts"]["failed"], 0)
+
+    def test_what_is_mended_makes_the_report_hold(self):
+        mended = FAULT.replace(", run.fault: flip-bit", "").replace(", run.fault: stuck-ready", "")
+        self.write("plans/small.yaml", TESTPLAN + FAULT)
+        self.regress("-j2", code=1)
+        self.write("plans/small.yaml", TESTPLAN + mended)
+        again = self.rerun("-j2")
+        self.assertIn("rerun       3 of 3 runs that had failed pass now, 0 fail\n", again)
+        self.assertIn(f"RESULT: PASS regression small --seed 7: {POINTS + 3} points, {POINTS + 3} passed, 0 failed", again)
+        self.assertTrue(self.collected()["holds"])
+
+    def test_the_last_report_is_meant(self):
+        self.write("plans/small.yaml", TESTPLAN + FAULT)
+        for seed in ("9", "7"):
+            self.regress("-j2", code=1, seed=seed)
+        os.utime(self.path("out/regressions/small-9/collected.json"), (1, 1))
+        out = self.rerun(code=1)
+        self.assertIn("regression small --seed 7: ", out)
+        self.write("plans/small.yaml", TESTPLAN)
+        out = self.rerun("--seed", "9")
+        self.assertIn("gone        broken/fault/base/0: the testplan has no such run any more", out)
+
+    def rerun(self, *arguments, code=0):
+        done = subprocess.run([DEBURR, "regress", "plans/small.yaml", "rerun", "--failed", *arguments],
+                              cwd=self.directory, text=True, capture_output=True, timeout=600)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout
 
 
 class Killed(RegressTest):

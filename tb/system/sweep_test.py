@@ -9,6 +9,7 @@ import csv
 import glob
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -100,6 +101,28 @@ class Points(SweepTest):
         for row, mine in zip(rows, cost):
             dominated = any(o[0] <= mine[0] and o[1] <= mine[1] and o != mine for o in cost)
             self.assertEqual(row["front"], "0" if dominated else "1")
+
+    def test_the_table_without_script(self):
+        """Every point with its values, the front first, and links to what is there."""
+        self.write("cache.yaml", SWEEP + "reports: false\n")
+        self.run_sweep("cache.yaml", "run")
+        rows = self.rows("cache")
+        place = os.path.join(self.directory, "out/sweeps/cache")
+        with open(os.path.join(place, "index.html")) as file:
+            page = file.read()
+        self.assertNotRegex(page, r'<canvas id="[^"]*">', "each chart says in words what it shows")
+        table = re.search(r"(?s)<noscript>.*?</noscript>", page)[0]
+        self.assertIn('<th class="n">cycles (clk)</th>', table)
+        lines = re.findall(r'<tr class="(front)?">(.*?)</tr>', table)
+        cells = [[re.sub("<[^>]*>", "", cell) for cell in re.findall("<td.*?</td>", line)] for _, line in lines]
+        fronts = sum(row["front"] == "1" for row in rows)
+        self.assertEqual([front for front, _ in lines], ["front"] * fronts + [""] * (POINTS - fronts))
+        axes = ("texture.cache.bytes", "texture.cache.ways", "memory.latency", "cycles", "bits", "lines")
+        self.assertEqual(sorted(cells), sorted([row[axis] for axis in axes] + [row["point"][:8]] for row in rows))
+        for link in re.findall(r'href="([^"]*)"', table):
+            self.assertTrue(os.path.exists(os.path.join(place, link)), link)
+        data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page)[1])
+        self.assertFalse(data["reports"], "so the script links no report")
 
     def test_a_point_is_what_its_command_runs(self):
         self.write("cache.yaml", SWEEP)
@@ -421,6 +444,23 @@ class Failing(SweepTest):
         self.assertIn("0 done (0 in this run), 12 failed", self.run_sweep("faulty.yaml", "run", "-j2", code=1))
         for reason in reasons:
             self.assertTrue(os.path.exists(reason))
+
+    def test_the_command_that_shows_a_failure_again_runs_that_point(self):
+        for command in ("sweep", "search"):
+            done = subprocess.run([DEBURR, command, "faulty.yaml", "run", "-j2"], cwd=self.directory, text=True,
+                                  capture_output=True)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            failed = re.search(r"(?m)^failed      (\S+): mismatch: ", done.stdout)[1]
+            repro = re.search(r"(?m)^REPRO: (.*)$", done.stdout)[1]
+            self.assertTrue(repro.startswith(f"{DEBURR} run texture --set "), repro)
+            again = subprocess.run(["bash", "-c", repro], cwd=self.directory, text=True, capture_output=True)
+            self.assertEqual(again.returncode, 1, again.stderr)
+            with open(os.path.join(self.directory, "out/texture/manifest.json")) as file:
+                alone = json.load(file)
+            with open(os.path.join(self.directory, failed, "manifest.json")) as file:
+                point = json.load(file)
+            for key in ("configuration", "golden"):
+                self.assertEqual(alone[key], point[key])
 
     def test_two_at_the_same_points(self):
         self.write("other.yaml", self.faulty)

@@ -9,6 +9,7 @@ import json
 import os
 import pty
 import re
+import shutil
 import signal
 import struct
 import subprocess
@@ -198,8 +199,134 @@ class LastLine(Many):
             self.assertRegex(out.splitlines()[-1], f"^RESULT: (INTERRUPTED|PASS) {name}: ")
 
     def test_what_only_prints_has_none(self):
-        for arguments in (["params", "texture"], ["completion", "bash"], ["--version"]):
+        for arguments in (["params", "texture"], ["completion", "bash"], ["completion", "zsh"], ["completion", "fish"], ["help"],
+                          ["--version"]):
             self.assertNotIn("RESULT:", self.last_line(*arguments))
+
+
+class Help(unittest.TestCase):
+    """Every page of help has examples, and `help` shows them all."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="deburr_help_")
+        self.addCleanup(scratch.cleanup)
+        self.directory = scratch.name
+
+    def said(self, *arguments, code=0):
+        done = subprocess.run([DEBURR, *arguments], cwd=self.directory, text=True, capture_output=True, timeout=300)
+        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}{done.stderr}")
+        return done.stdout
+
+    def pages(self):
+        commands = re.findall(r"(?m)^  ([a-z-]+) ", self.said("--help").split("Subcommands:\n")[1].split("\n\n")[0])
+        self.assertTrue({"run", "sweep", "compare", "completion", "help"} <= set(commands), commands)
+        return [(), *((command,) for command in commands), *(("run", engine) for engine in engines())]
+
+    def examples(self, page):
+        lines = self.said(*page, "--help").split("\nExamples:\n")[1].split("\n\n")[0].splitlines()
+        self.assertGreater(len(lines), 0)
+        return [line.strip() for line in lines]
+
+    def test_help_is_what_the_option_says(self):
+        for page in self.pages():
+            self.assertEqual(self.said("help", *page), self.said(*page, "--help"))
+        self.assertIn("no 'deburr rum': did you mean 'run'?, known are run, ", self.said("help", "rum", code=2))
+        self.assertIn(f"no 'deburr run {engines()[0]} x'", self.said("help", "run", engines()[0], "x", code=2))
+
+    def test_examples(self):
+        for page in self.pages():
+            for line in self.examples(page):
+                self.assertTrue(line.startswith(" ".join(("deburr", *page))), f"{page}: {line}")
+                command = [word for word in line.split()[1:] if word.isalpha()][:2 if "run" in line.split() else 1]
+                known = self.said(*command, "--help")
+                for option in re.findall(r" (--[a-z-]+)", line):
+                    self.assertIn(option, known, line)
+
+    def test_examples_of_runs(self):
+        """What they read is there, and each is taken as it is."""
+        with open(os.path.join(self.directory, "mesh.obj"), "w") as file:
+            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.said("run", engines()[0], "--size", "32x32", "--out", "picture")
+        os.rename(os.path.join(self.directory, "picture/after.png"), os.path.join(self.directory, "frame.png"))
+        for engine in engines():
+            for line in self.examples(("run", engine)):
+                self.assertIn("run.seed: 1", self.said(*line.split()[1:], "--show-config"), line)
+
+
+class Documents(Many):
+    """With --json the standard output is one document, and everything else goes to the error stream."""
+
+    def answer(self, *arguments, code=0):
+        done = subprocess.run([DEBURR, *arguments, "--json"], cwd=self.directory, text=True, capture_output=True,
+                              timeout=300)
+        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}{done.stderr}")
+        answer = json.loads(done.stdout)
+        self.assertEqual(answer["exit_code"], code)
+        self.assertIn(arguments[0], answer["command"])
+        return answer, done.stderr
+
+    def collected(self, place):
+        with open(os.path.join(self.directory, place, "collected.json")) as file:
+            return json.load(file)
+
+    def test_sweep(self):
+        with open(os.path.join(self.directory, "cache.yaml"), "a") as file:
+            file.write("constraints: ['texture.cache.bytes < 4096']\n")
+        planned, said = self.answer("sweep", "cache.yaml", "plan")
+        self.assertEqual(planned["counts"], {"points": 8, "inputs": 1, "done": 0})
+        self.assertEqual(planned["left_out"], ["4 by the constraint 'texture.cache.bytes < 4096'"])
+        self.assertIn("left out    4 by the constraint", said)
+        ran, _ = self.answer("sweep", "cache.yaml", "run", "-j2")
+        self.assertEqual(ran["counts"], {"points": 8, "done": 8, "done_in_this_run": 8, "failed": 0, "missing": 0})
+        self.assertEqual((ran["directory"], ran["failures"]), ("out/sweeps/cache", []))
+        self.assertTrue(ran["outcome"].startswith("PASS sweep cache: "))
+        status, _ = self.answer("sweep", "cache.yaml", "status")
+        self.assertEqual(status["counts"], {"points": 8, "done": 8, "running": 0, "failed": 0, "queued": 0})
+        collected, _ = self.answer("sweep", "cache.yaml", "collect")
+        self.assertEqual(collected["result"], self.collected("out/sweeps/cache"))
+
+    def test_a_sweep_that_fails(self):
+        with open(os.path.join(self.directory, "faulty.yaml"), "w") as file:
+            file.write(SWEEP.replace("run.images: false", "run: {images: false, fault: flip-bit}"))
+        for action, code in (("run", 1), ("status", 0)):
+            answer, _ = self.answer("sweep", "faulty.yaml", action, code=code)
+            self.assertEqual(answer["counts"]["failed"], 12)
+            self.assertEqual(len(answer["failures"]), 10, "the first ones")
+            failure = answer["failures"][0]
+            self.assertEqual(failure["kind"], "mismatch")
+            self.assertTrue(failure["command"].startswith("deburr run texture --set "))
+            self.assertTrue(os.path.exists(os.path.join(self.directory, failure["directory"], "failure.json")))
+            if code:
+                self.assertEqual(answer["repro"].split(" ", 1)[1], failure["command"].split(" ", 1)[1])
+        self.assertEqual(self.answer("sweep", "none.yaml", "run", code=5)[0]["outcome"][:10], "FAIL file:")
+
+    def test_search(self):
+        answer, _ = self.answer("search", "cache.yaml", "--runs", "8")
+        self.assertEqual(answer["counts"]["done"], 8)
+        self.assertEqual(answer["result"], self.collected("out/searches/cache"))
+
+    def test_regress(self):
+        self.assertEqual(self.answer("regress", "small.yaml", "plan", "--seed", "3")[0]["counts"]["points"], 12)
+        for arguments in (("run", "--seed", "3"), ("collect", "--seed", "3"), ("rerun", "--failed")):
+            answer, said = self.answer("regress", "small.yaml", *arguments)
+            self.assertEqual(answer["result"], self.collected("out/regressions/small-3"))
+            self.assertIn("--seed 3", answer["command"])
+        self.assertIn("rerun       0 of 0", said)
+        self.assertEqual(self.answer("regress", "small.yaml", "status", "--seed", "3")[0]["counts"]["done"], 12)
+
+    def test_params(self):
+        answer, _ = self.answer("params")
+        engine = engines()[0]
+        modes = [p for p in answer["parameters"] if p["name"] == "sampler.mode"]
+        self.assertEqual({p["engine"] for p in modes} & {engine}, {engine})
+        self.assertEqual((modes[0]["default"], modes[0]["aliases"]), ("linear_mipmap_linear", ["trilinear"]))
+        self.assertTrue(any("texture.cache.bytes" in rule["parameters"] for rule in answer["limits"]))
+        clocks = {p["engine"]: p["default"] for p in answer["parameters"] if p["name"] == "run.clock_mhz"}
+        self.assertEqual(set(clocks), set(engines()))
+        some, _ = self.answer("params", "memory")
+        self.assertTrue(all(p["name"].startswith("memory.") for p in some["parameters"]))
+        self.answer("params", "memry", code=2)
+        self.answer("params", "--markdown", code=2)
 
 
 class Screen:
@@ -316,21 +443,54 @@ class Bar(Many):
 
 
 class Completion(unittest.TestCase):
-    """As bash does it: `deburr completion bash` is sourced, and asked."""
+    """As bash does it: `deburr completion bash` is sourced, and asked. The other shells ask the same below."""
 
     def complete(self, *words):
         script = (f'source <("{DEBURR}" completion bash) || exit 9\n'
                   'COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _deburr\n'
                   'printf "%s\\n" "${COMPREPLY[@]}"')
-        done = subprocess.run(["bash", "-c", script, "bash", "deburr", *words], text=True,
-                              capture_output=True)
+        return self.asked("bash", "-c", script, "bash", "deburr", *words)
+
+    def asked(self, *command):
+        done = subprocess.run(command, text=True, capture_output=True, cwd=FOLDER)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return done.stdout.split()
+
+    # The words of `--set NAME=VALUE` as the shell counts them.
+    def setting(self, name, value):
+        return (name, "=", value) if value else (name, "=")
+
+    # What it makes of a value of a setting.
+    def value(self, name, value):
+        return value
+
+    FILES = []  # where the shell itself looks for files
 
     def test_commands(self):
         self.assertEqual(self.complete("pa"), ["papers", "params"])
         self.assertEqual(set(self.complete("run", "")) - {"--help"},
                          set(engines()))
+        self.assertEqual(self.complete("help", "swe"), ["sweep"])
+        self.assertEqual(self.complete("help", "run", engines()[0][:3]), [engines()[0]])
+
+    def test_actions(self):
+        for command, actions in (("sweep", ["collect", "plan", "run", "status"]), ("search", ["collect", "run", "status"]),
+                                 ("regress", ["collect", "plan", "rerun", "run", "status"])):
+            self.assertEqual(sorted(self.complete(command, "a.yaml", "")), actions)
+            self.assertEqual(self.complete(command, "--jobs", "4", "a.yaml", "--quiet", "st"), ["status"])
+        self.assertEqual(self.complete("regress", "st"), ["status"])
+        self.assertEqual(self.complete("sweep", ""), self.FILES)
+        self.assertEqual(self.complete("sweep", "a.yaml", "run", "--re"), ["--retry"])
+
+    def test_units(self):
+        self.assertEqual(self.complete("params", "mem"), ["memory"])
+        self.assertEqual(self.complete("params", "--markdown", "reg"), ["registers"])
+
+    def test_faults(self):
+        self.assertEqual(self.complete("run", "texture", "--fault", "flip-b"), ["flip-bit"])
+        self.assertIn("texture.flip-bit", self.complete("run", "frame", "--fault", "texture.flip"))
+        self.assertEqual(self.complete("run", "texture", "--set", *self.setting("run.fault", "flip-b")),
+                         [self.value("run.fault", "flip-bit")])
 
     def test_options(self):
         self.assertEqual(self.complete("run", "texture", "--trace-f"), ["--trace-from"])
@@ -340,17 +500,18 @@ class Completion(unittest.TestCase):
 
     def test_values(self):
         self.assertIn("linear_mipmap_linear", self.complete("run", "texture", "--mode", "linear"))
+        self.assertEqual(self.complete("run", "texture", "--mode", "tri"), ["trilinear"])
         self.assertEqual(self.complete("run", "frame", "--preset", "mlaa-"), ["mlaa-slope"])
         self.assertEqual(self.complete("completion", "b"), ["bash"])
-        self.assertEqual(self.complete("run", "texture", "--in", ""), [], "bash knows the files")
+        self.assertEqual(self.complete("run", "texture", "--in", ""), self.FILES)
 
     def test_parameters(self):
         self.assertEqual(self.complete("run", "texture", "--set", "texture.cache.by"),
                          ["texture.cache.bytes="])
-        self.assertEqual(self.complete("run", "texture", "--set", "sampler.layout", "=", "li"),
-                         ["linear"])
-        self.assertEqual(self.complete("run", "texture", "--set", "sampler.layout", "="),
-                         ["linear", "tiled"])
+        self.assertEqual(self.complete("run", "texture", "--set", *self.setting("sampler.layout", "li")),
+                         [self.value("sampler.layout", "linear")])
+        self.assertEqual(self.complete("run", "texture", "--set", *self.setting("sampler.layout", "")),
+                         [self.value("sampler.layout", value) for value in ("linear", "tiled")])
 
     def test_every_parameter_and_option_is_there(self):
         known = set(self.complete("run", "texture", "--set", ""))
@@ -366,9 +527,52 @@ class Completion(unittest.TestCase):
                          - {"--truth-samples"} - options, set())
 
 
+class OneWord:
+    """Shells for which NAME=VALUE is one word."""
+
+    def setting(self, name, value):
+        return (f"{name}={value}",)
+
+
+@unittest.skipUnless(shutil.which("zsh"), "no zsh")
+class CompletionZsh(OneWord, Completion):
+    """As zsh does it, whose own functions only say what they were given."""
+
+    FILES = ["files"]
+
+    def complete(self, *words):
+        script = (f'source <("{DEBURR}" completion zsh) || exit 9\n'
+                  'compset() { prefix=${words[CURRENT]%%=*}=; }\n'
+                  '_files() { print files; }\n'
+                  'compadd() {\n'
+                  '  local word found=1; while [[ $1 != -- ]]; do shift; done; shift\n'
+                  '  for word; do [[ $prefix$word != ${words[CURRENT]}* ]] || { print -- $word; found=0; }; done\n'
+                  '  return $found\n'
+                  '}\n'
+                  'words=("$@"); CURRENT=$#; prefix=; _deburr; true')
+        return self.asked("zsh", "-fc", script, "zsh", "deburr", *words)
+
+
+@unittest.skipUnless(shutil.which("fish"), "no fish")
+class CompletionFish(OneWord, Completion):
+    """As fish does it."""
+
+    FILES = ["here.yaml"]
+
+    def value(self, name, value):
+        return f"{name}={value}"
+
+    def complete(self, *words):
+        line = " ".join(("deburr", *words)) if words[-1] else " ".join(("deburr", *words[:-1], ""))
+        return self.asked("fish", "--no-config", "-c", f"'{DEBURR}' completion fish | source; complete -C '{line}'")
+
+
 if __name__ == "__main__":
     if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
         print(__doc__)
         sys.exit(0 if len(sys.argv) >= 2 else 2)
-    DEBURR = sys.argv.pop(1)
-    unittest.main()
+    DEBURR = os.path.abspath(sys.argv.pop(1))
+    with tempfile.TemporaryDirectory(prefix="deburr_terminal_") as FOLDER:
+        with open(os.path.join(FOLDER, "here.yaml"), "w"):
+            pass
+        unittest.main()

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "tb/base/forked.h"
+#include "tb/engines/texture/texture_expectation.h"
 #include "tb/harness/test_paths.h"
 #include "tb/system/texture_runs.h"
 
@@ -29,6 +30,27 @@ void expect_identical(const TextureOutcome& outcome, int line_bytes = 64) {
   EXPECT_GT(outcome.fills, 0u);
 }
 
+// Hashes are compared with hashes of the same model elsewhere, so that what none looks at is seen
+// here alone.
+TEST(Texture, TheHashIsOfEveryChannelAndPlaceOfEveryColour) {
+  const TextureRunOptions options;
+  const TextureScene scene(picture("tunnel", 32), {}, 1);
+  Simulation simulation(options);
+  TextureEnvironment environment(simulation, scene, options);
+  simulation.elaborate(environment);
+  simulation.run();
+  environment.check();
+  OutputHash hash;
+  const TextureExpectation expected = expected_of(scene, options.texture);
+  for (const spec::texture::Colour& colour : expected.colours) {
+    hash.add(colour.tag);
+    hash.add(2u * colour.lane + (colour.last ? 1 : 0));
+    for (std::size_t c = 0; c < 4; ++c) hash.add(colour.rgba[c]);
+  }
+  EXPECT_EQ(environment.delivered(), expected.colours.size());
+  EXPECT_EQ(environment.colour_hash(), hash.value());
+}
+
 // ---- three scenes x six modes x five sample counts ----------------------------------------------
 
 using Mode = std::tuple<const char*, int, int>;
@@ -40,8 +62,8 @@ TEST_P(EveryMode, IsIdenticalToGolden) {
   sampler.mode = static_cast<spec::texture::MinFilter>(mode);
   sampler.anisotropy = static_cast<std::uint8_t>(lb_n);
   for (const TextureRunOptions& options : {paper_options(), TextureRunOptions{}})
-    expect_identical(
-        forked<TextureOutcome>([&] { return simulate(picture(source, 128), sampler, options); }));
+    expect_identical(forked<TextureOutcome>(
+        [&, &name = source] { return simulate(picture(name, 128), sampler, options); }));
 }
 
 INSTANTIATE_TEST_SUITE_P(

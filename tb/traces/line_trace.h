@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/clocked.h"
 #include "tb/traces/trace_file.h"
 
 namespace deburr::tb {

@@ -12,7 +12,7 @@
 #include "rtl_model/fabric/unit.h"
 #include "spec/morphological/packets.h"
 #include "spec/texture/packets.h"
-#include "tb/engines/morphological/frame_source.h"
+#include "tb/engines/morphological/morphological_input.h"
 #include "tb/engines/texture/texture_scene.h"
 
 namespace deburr::tb {

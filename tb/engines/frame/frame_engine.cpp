@@ -54,7 +54,7 @@ class FrameCommand final : public Engine {
   void add_parameters(ParameterSet& set) override {
     set.add("run", ParameterKind::kRun, look_up_trace_);
     set.add("scene", ParameterKind::kInput, scene_);
-    set.add("sampler", ParameterKind::kInput, sampler_);
+    add_sampler(set, sampler_);
     set.add("frame", ParameterKind::kRule, choice_);
     set.add_engine("texture", texture_);
     add_memory(set, "memory", memory_);
@@ -87,6 +87,10 @@ class FrameCommand final : public Engine {
           "texture.srgb_output = encoded");
   }
 
+  std::vector<std::string_view> examples() const override {
+    return {"--scene object --size 512x512 --storage memory --truth --out out/whole",
+            "--in mesh.obj --smoothing geometric-morphological --out out/joined"};
+  }
   std::vector<Shorthand> shorthands() const override {
     return joined(joined(scene_shorthands("object"), smoothing_shorthands()),
                   {{"--smoothing", "frame.smoothing",
@@ -159,6 +163,7 @@ class FrameCommand final : public Engine {
 
   void judge(const TextureScene& scene) const {
     refuse_nothing_drawn(scene);
+    if (has_geometric(choice_.smoothing)) refuse_too_many_faces(scene.scene(), geometric_);
     if (has_morphological(choice_.smoothing))
       golden::morphological::check_frame(morphological_, scene.stream().width,
                                          scene.stream().height);

@@ -54,6 +54,10 @@ class GeometricCommand final : public Engine {
     preset_label_ = preset_label(set, parameters_);
   }
 
+  std::vector<std::string_view> examples() const override {
+    return {"--in mesh.obj --size 1280x720 --truth --out out/mesh",
+            "--scene wing --preset gpaa --walkers 2"};
+  }
   std::vector<Shorthand> shorthands() const override {
     return joined({{"--scene", "scene.source",
                     "Scene: cube, wheelcover (default), wing, canopy, sphere, ..."},
@@ -124,7 +128,14 @@ class GeometricCommand final : public Engine {
   LongRun long_run() const override { return {{{"scene.count", "60"}}}; }
 
  private:
+  // What is known before anything is rendered.
+  void judge(const Scene& scene) const {
+    refuse_too_many_faces(scene, parameters_);
+    golden::geometric::check_frame(parameters_, {scene_.width, scene_.height, 0, 0, 0});
+  }
+
   void judge(const LoadedGeometricFrame& loaded) const {
+    judge(loaded.scene);
     refuse_nothing_drawn(loaded.scene, loaded.frame.depth);
     const geometric::Frame& frame = loaded.frame;
     golden::geometric::check_frame(
@@ -137,10 +148,13 @@ class GeometricCommand final : public Engine {
     const bool truth = run.truth && !context.judging_only();
     return context.shared<LoadedGeometricFrame>("geometric frame", {"scene.", "run.truth"}, [&] {
       Waiting waiting(truth ? "rendering frame and truth" : "rendering the frame", context.quiet());
-      return load_geometric_frame(scene_, static_cast<std::uint32_t>(run.seed), truth, [&] {
-        waiting.update();
-        return interrupted();
-      });
+      return load_geometric_frame(
+          scene_, static_cast<std::uint32_t>(run.seed), truth,
+          [&] {
+            waiting.update();
+            return interrupted();
+          },
+          [&](const Scene& scene) { judge(scene); });
     });
   }
 

@@ -64,10 +64,12 @@ void shuffle_edges(geometric::Frame& frame, std::uint64_t seed) {
 }
 
 LoadedGeometricFrame load_geometric_frame(const GeometricSceneParameters& p, std::uint32_t seed,
-                                          bool truth, const std::function<bool()>& interrupted) {
+                                          bool truth, const std::function<bool()>& interrupted,
+                                          const std::function<void(const Scene&)>& accept) {
   if (!is_scene_name(p.source)) refuse_what_has_no_edges(p.source);
   LoadedGeometricFrame loaded;
   loaded.scene = load_scene(p.source, {.seed = seed, .plain = true});
+  if (accept) accept(loaded.scene);
   look(loaded.scene, p);
   loaded.frame = geometric::make_frame(loaded.scene, p.width, p.height);
   refuse_empty(loaded.scene, loaded.frame.table);

@@ -55,11 +55,12 @@ struct LoadedGeometricFrame {
   std::vector<std::filesystem::path> inputs;  // files that it was made of, or looked for in vain
 };
 
-// ConfigError for what is neither a scene nor a mesh, and for a mesh without edges; FileError as of
-// import_mesh(); Interrupted.
-LoadedGeometricFrame load_geometric_frame(const GeometricSceneParameters& parameters,
-                                          std::uint32_t seed, bool truth,
-                                          const std::function<bool()>& interrupted = nullptr);
+// `accept` may throw for a scene that nothing is rendered of then. ConfigError for what is neither
+// a scene nor a mesh, and for a mesh without edges; FileError as of import_mesh(); Interrupted.
+LoadedGeometricFrame load_geometric_frame(
+    const GeometricSceneParameters& parameters, std::uint32_t seed, bool truth,
+    const std::function<bool()>& interrupted = nullptr,
+    const std::function<void(const Scene&)>& accept = nullptr);
 
 // LoadedGeometricFrame::inputs, without loading.
 std::vector<std::filesystem::path> frame_files(const GeometricSceneParameters& parameters,

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <string_view>
 
 #include "spec/check_build.h"
+#include "spec/error.h"
+#include "spec/geometric/records.h"
 
 namespace deburr::tb {
 namespace {
@@ -57,6 +60,22 @@ void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Paramet
     if (p.reciprocal_table == 0)
       refuse("reciprocal_table", "geometric.pipelined = true takes a line every clock without one");
   }
+}
+
+void refuse_too_many_faces(const Scene& scene, const spec::geometric::Parameters& p) {
+  constexpr std::uint64_t kStep = spec::geometric::kFacesInLine;
+  const std::uint64_t faces = scene.mesh.triangles.size();
+  const std::string mesh = fmt::format("the mesh '{}' has {} faces", scene.name, faces);
+  if (faces > spec::geometric::kMaxFaces)
+    throw spec::ConfigError(
+        fmt::format("{}, and {} are the most that the engine takes: simplify it", mesh,
+                    spec::geometric::kMaxFaces));
+  if (p.select == spec::geometric::Select::kEdges &&
+      faces > static_cast<std::uint64_t>(p.face_limit))
+    throw spec::ConfigError(
+        fmt::format("{}, and the hardware holds the facing bits of {}: give it more (--set "
+                    "geometric.face_limit={}), or simplify the mesh",
+                    mesh, p.face_limit, (faces + kStep - 1) / kStep * kStep));
 }
 
 std::vector<std::string> build_notes(const spec::geometric::Parameters& p) {

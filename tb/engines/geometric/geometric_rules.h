@@ -9,6 +9,7 @@
 #include "spec/geometric/parameters.h"
 #include "tb/app/engine.h"
 #include "tb/results/parameter_set.h"
+#include "tb/scene/scenes.h"
 
 namespace deburr::tb {
 
@@ -20,6 +21,9 @@ std::string preset_label(const ParameterSet& set, const spec::geometric::Paramet
 
 // ConfigError for a parameter that was given and has no effect. After apply_preset().
 void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Parameters& values);
+
+// ConfigError for a mesh with more faces than the hardware has facing bits, or than any has.
+void refuse_too_many_faces(const Scene& scene, const spec::geometric::Parameters& values);
 
 // What the result says of a build that wastes what it has.
 std::vector<std::string> build_notes(const spec::geometric::Parameters& values);

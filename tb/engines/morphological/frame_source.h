@@ -3,24 +3,14 @@
 // beat, a beat a clock. One frame at a time; a reset forgets it.
 #pragma once
 
-#include <cstdint>
-#include <functional>
 #include <systemc>
-#include <vector>
 
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/platform/morphological_records.h"
 #include "spec/morphological/packets.h"
-#include "tb/scene/image.h"
+#include "tb/engines/morphological/morphological_input.h"
 
 namespace deburr::tb {
-
-// A frame and its depth, U24; no depth: empty.
-struct MorphologicalInput {
-  Image image;
-  std::vector<std::uint32_t> depth;
-  platform::PixelFrame view() const { return {image.width, image.height, image.pixels, depth}; }
-};
 
 class FrameSource final : public rtl::Unit {
  public:

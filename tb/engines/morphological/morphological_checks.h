@@ -12,7 +12,7 @@
 #include "rtl_model/platform/host.h"
 #include "rtl_model/platform/memory_model.h"
 #include "spec/morphological/packets.h"
-#include "tb/engines/morphological/frame_source.h"
+#include "tb/engines/morphological/morphological_input.h"
 #include "tb/engines/morphological/morphological_setup.h"
 #include "tb/env/environment.h"
 #include "tb/env/raster_scoreboard.h"

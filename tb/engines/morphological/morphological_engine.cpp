@@ -61,6 +61,11 @@ class MorphologicalCommand final : public Engine {
     preset_label_ = preset_label(set, parameters_);
   }
 
+  std::vector<std::string_view> examples() const override {
+    return {"--scene road --size 1280x720 --out out/road",
+            "--in frame.png --preset smaa --lanes 2 --out out/smaa",
+            "--storage memory --set memory.latency=200"};
+  }
   std::vector<Shorthand> shorthands() const override {
     return joined(
         {{"--in", "frame.source",

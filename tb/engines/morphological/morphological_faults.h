@@ -10,7 +10,7 @@
 
 #include "rtl_model/morphological/morphological_engine.h"
 #include "spec/morphological/parameters.h"
-#include "tb/engines/morphological/frame_source.h"
+#include "tb/engines/morphological/morphological_input.h"
 #include "tb/engines/morphological/morphological_setup.h"
 #include "tb/env/planted_faults.h"
 

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tb/engines/morphological/frame_source.h"
+#include "tb/engines/morphological/morphological_input.h"
 #include "tb/scene/image.h"
 #include "tb/scene/truth.h"
 

@@ -52,12 +52,17 @@ class TextureEngine final : public Engine {
     set.add("run", ParameterKind::kRun, trace_out_);
     set.add("scene", ParameterKind::kInput, scene_);
     set.add("scene", ParameterKind::kInput, trace_in_);
-    set.add("sampler", ParameterKind::kInput, sampler_);
+    add_sampler(set, sampler_);
     set.add("sequence", ParameterKind::kInput, sequence_);
     set.add_engine("texture", texture_);
     add_memory(set, "memory", memory_);
   }
 
+  std::vector<std::string_view> examples() const override {
+    return {"--scene tunnel --size 640x360 --aniso 8 --truth --out out/tunnel",
+            "--in mesh.obj --preset paper --mode trilinear --out out/mesh",
+            "--windows 2000 --maps --set memory.latency=200"};
+  }
   std::vector<Shorthand> shorthands() const override {
     return joined(
         scene_shorthands("plane"),

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <string_view>
 
 #include "spec/check_build.h"
@@ -41,6 +42,13 @@ std::string preset_label(const ParameterSet& set, const spec::texture::Parameter
   return label;
 }
 
+void add_sampler(ParameterSet& set, SamplerParameters& sampler) {
+  set.add("sampler", ParameterKind::kInput, sampler);
+  constexpr auto kTrilinear =
+      static_cast<std::size_t>(spec::texture::MinFilter::kLinearMipmapLinear);
+  set.alias("sampler.mode", "trilinear", spec::texture::kMinFilterNames[kTrilinear]);
+}
+
 void refuse_nothing_drawn(const TextureScene& scene) {
   if (scene.stream().counts.fragments > 0) return;
   refuse_empty_picture(scene.scene(), scene.stream().width, scene.stream().height);
@@ -62,7 +70,8 @@ std::vector<Shorthand> scene_shorthands(const std::string& default_scene) {
       {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
       {"--texture", "scene.texture", "checker, road, brick, zone_plate, ..., or an image file"},
       {"--size", "scene.width", "Size of the picture, WxH (512x512)", "scene.height"},
-      {"--mode", "sampler.mode", "Minification filter, one of GL's six (linear_mipmap_linear)"},
+      {"--mode", "sampler.mode",
+       "Minification filter, one of GL's six, or trilinear (linear_mipmap_linear)"},
       {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8 or 16 (default)"}};
 }
 

@@ -20,6 +20,9 @@ void apply_preset(ParameterSet& set, const spec::texture::Parameters& values);
 // "preset paper", or "preset paper, changed: axes".
 std::string preset_label(const ParameterSet& set, const spec::texture::Parameters& values);
 
+// The parameters "sampler.*": `trilinear` is a word for linear_mipmap_linear.
+void add_sampler(ParameterSet& set, SamplerParameters& sampler);
+
 // ConfigError for a scene that draws nothing, and for levels of which none lies in the range.
 void refuse_nothing_drawn(const TextureScene& scene);
 void refuse_empty_lod_range(const SamplerParameters& sampler);

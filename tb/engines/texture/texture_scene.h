@@ -73,7 +73,7 @@ struct SamplerParameters {
 template <class Visitor>
 void describe(SamplerParameters& p, Visitor& v) {
   v.choice("mode", p.mode, spec::texture::kMinFilterNames,
-           "Minification filter, one of GL's six modes.");
+           "Minification filter, one of GL's six modes; trilinear: linear_mipmap_linear.");
   v.choice("magnification", p.magnification, spec::texture::kMagFilterNames,
            "Magnification filter.");
   v.choice("anisotropy", p.anisotropy, kAnisotropyNames, "Largest number of samples, N_max.");

@@ -52,6 +52,16 @@ std::string lists_of_lists(int levels) {
   return text;
 }
 
+TEST_F(YamlFileTest, TakesHexadecimalNumbers) {
+  const YamlFile file = read("[0x7fC0, 0xffffffff, 0x1ffffffff, 0x, 0x-1, 16, 1.5]");
+  const auto number = [&](int i) { return file.number<double>(file.root()[i], "from"); };
+  EXPECT_EQ(number(0), 0x7fc0);
+  EXPECT_EQ(number(1), 4294967295.0);
+  for (int i = 2; i < 5; ++i) EXPECT_THROW(number(i), spec::ConfigError) << i;
+  EXPECT_EQ(number(5), 16);
+  EXPECT_EQ(number(6), 1.5);
+}
+
 TEST_F(YamlFileTest, TakesAliasesOfAliases) {
   const YamlFile file = read(lists_of_lists(5));
   EXPECT_EQ(file.root()["a5"][9][8][7][6][5].Scalar(), "x");

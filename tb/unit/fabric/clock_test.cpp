@@ -103,8 +103,9 @@ TEST(ClockDomain, AShuffledOrderSaysNothingOfTheNext) {
     }
     before = now;
   }
+  constexpr double kExpected = static_cast<double>(kClocks) / kMembers;
   for (const auto& row : met)
-    for (const int times : row) EXPECT_NEAR(times, kClocks / kMembers, kClocks / kMembers / 10);
+    for (const int times : row) EXPECT_NEAR(times, kExpected, kExpected / 10);
 }
 
 TEST(ClockDomain, RunUntilGivesUpAfterItsLimit) {

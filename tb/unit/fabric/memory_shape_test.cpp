@@ -977,6 +977,20 @@ TEST(MemoryCost, AMemoryPortBuffersWhatMayComeBack) {
                spec::CheckFailed);
 }
 
+// Flip-flops end at 16 384 bits, and not at one more.
+TEST(MemoryCost, FlipFlopsEndAtTheirLastBit) {
+  const auto flops = [](std::uint64_t words, std::uint32_t bits) {
+    const MemoryBase memory("memory",
+                            {.words = words, .word_bits = bits, .kind = MemoryKind::kFlops});
+    return memory.logical_bits();
+  };
+  EXPECT_EQ(flops(128, 128), 16'384U);
+  EXPECT_THAT(text_of<spec::ConfigError>([&] { flops(113, 145); }),
+              AllOf(HasSubstr("16385 bits as flops"), HasSubstr("at most 16384 bits")));
+  EXPECT_EQ(MemoryBase::kind_for(16'384), MemoryKind::kFlops);
+  EXPECT_EQ(MemoryBase::kind_for(16'385), MemoryKind::kSram);
+}
+
 TEST(MemoryCost, ADeepFifoIsSram) {
   const rtl::Fifo<std::uint32_t> shallow("shallow", 512), deep("deep", 513);
   EXPECT_EQ(shallow.memory_kind(), MemoryKind::kFlops);

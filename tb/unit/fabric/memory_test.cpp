@@ -20,22 +20,33 @@ using rtl::MemoryRequest;
 using rtl::MemoryResponse;
 using rtl::MemoryStatus;
 
-// Pushed in 0, sent in 1, arrives at 1+L, pushed in 2+L, in the sink in 3+L: not before, not after.
+// Pushed in 0, sent in 1, arrives at 1+L, pushed in 2+L, in the sink in 3+L: not before, not after;
+// of reads and of writes.
 TEST(MemoryPort, LatencyIsExact) {
-  for (const std::uint32_t latency : {0U, 1U, 2U, 20U, 100U}) {
-    const std::string text = in_child([&] {
-      System s({}, with_latency(latency));
-      s.driver.send(read_of(5));
-      s.clock.run(latency + 3);
-      if (s.sink.received() != 0) return std::string("too early");
-      s.clock.run(1);
-      if (s.sink.received() != 1 || !right(s.sink.beats()[0])) return std::string("too late");
-      return fmt::format("{} {}", s.sink.cycles()[0], s.port.latency.max());
-    });
-    // Pushed in 0, popped in 1.
-    EXPECT_EQ(text, fmt::format("{} {}", 1 + rtl::MemoryPort::datasheet().latency.clocks + latency,
-                                latency + 1));
-  }
+  for (const bool write : {false, true})
+    for (const std::uint32_t latency : {0U, 1U, 2U, 20U, 100U}) {
+      const std::string text = in_child([&] {
+        System s({}, with_latency(latency));
+        MemoryRequest request = read_of(5);
+        request.write = write;
+        request.byte_mask = ~std::uint64_t{0};
+        s.driver.send(request);
+        s.clock.run(latency + 3);
+        if (s.sink.received() != 0) return std::string("too early");
+        s.clock.run(1);
+        if (s.sink.received() != 1) return std::string("too late");
+        const MemoryResponse& response = s.sink.beats()[0];
+        if (write ? !response.write || response.status != MemoryStatus::kOk : !right(response))
+          return std::string("another answer");
+        return fmt::format("{} {}x{}", s.sink.cycles()[0], s.port.latency.count(),
+                           s.port.latency.max());
+      });
+      // Pushed in 0, popped in 1.
+      EXPECT_EQ(text,
+                fmt::format("{} 1x{}", 1 + rtl::MemoryPort::datasheet().latency.clocks + latency,
+                            latency + 1))
+          << write;
+    }
 }
 
 TEST(MemoryPort, OneRequestAClockWhenEnoughMayBeOutstanding) {

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "rtl_model/fabric/glob.h"
 #include "rtl_model/fabric/register_block.h"
 #include "rtl_model/platform/memory_model.h"
 #include "rtl_model/platform/register_host.h"

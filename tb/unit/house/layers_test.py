@@ -28,6 +28,11 @@ ROOMS = ["base", "scene", "stimuli", "harness", "results", "traces", "env", "tra
          "regress", "command", "papers", "soak"]
 # Engines do not include each other; a composition stands on its parts.
 COMPOSITIONS = {"frame"}
+# Rooms that stand beside the simulation: no header on their way is SystemC's, which takes longer to compile than
+# all of theirs. Nor is json.hpp in a header, where json_fwd.hpp does.
+WITHOUT_SYSTEMC = {"base", "scene", "stimuli", "results", "training", "sweep", "regress", "command", "soak"}
+SYSTEMC = {"systemc", "tlm", "tlm_utils"}
+JSON = "nlohmann/json.hpp"
 SOURCE = {".h", ".cpp", ".cmake", ".py", ".txt"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 FLOATING = re.compile(r"\b(float|double)\b")
@@ -48,6 +53,22 @@ def in_order(where, wanted):
     return ROOMS.index(below) <= ROOMS.index(room)
 
 
+def way_to_systemc(root, name, seen):
+    """The includes by which a file comes to a header of SystemC, or None."""
+    headers = [include.group(1) for include in
+               map(INCLUDE.match, (root / name).read_text(encoding="utf-8").splitlines()) if include]
+    for header in headers:
+        if header.split("/")[0] in SYSTEMC:
+            return [name, header]
+    for header in headers:
+        if header not in seen and (root / header).is_file():
+            seen.add(header)
+            way = way_to_systemc(root, header, seen)
+            if way:
+                return [name, *way]
+    return None
+
+
 def violations(root):
     """Yields 'file:line: rule' for every broken rule below root."""
     for layer, allowed in ALLOWED.items():
@@ -60,6 +81,10 @@ def violations(root):
                 yield f"{where}:1: no SPDX licence line"
             if path.suffix not in {".h", ".cpp"}:
                 continue
+            way = (way_to_systemc(root, str(where), set())
+                   if layer == "tb" and where.parts[1] in WITHOUT_SYSTEMC else None)
+            if way:
+                yield f"{where}:1: SystemC beside the simulation: " + " -> ".join(way)
             ideal = where.parts[:2] == ("golden", "ideal")
             for number, line in enumerate(lines, 1):
                 include = INCLUDE.match(line)
@@ -69,6 +94,8 @@ def violations(root):
                         yield f"{where}:{number}: relative include {name}"
                     if name == "systemc.h":
                         yield f"{where}:{number}: <systemc.h> instead of <systemc>"
+                    if layer == "tb" and name == JSON and path.suffix == ".h" and where.parts[1] not in TESTS_ALONE:
+                        yield f"{where}:{number}: {JSON} in a header"
                     if name == "random":
                         yield f"{where}:{number}: <random> instead of tb/base/random.h"
                     if layer in {"spec", "golden"} and name.split("/")[0] in {"systemc", "tlm"}:
@@ -122,6 +149,8 @@ def planted_faults_are_caught():
         "tb/unit/b.cpp": "std::uniform_int_distribution<int> pick(0, 3);",
         "tb/app/a.cpp": '#include "tb/unit/scene/fixtures.h"',
         "tb/app/b.cpp": '#include "tb/sweep/point.h"',
+        "tb/app/c.h": "#include <nlohmann/json.hpp>",
+        "tb/results/a.h": "#include <systemc>",
         "tb/base/a.cpp": '#include "tb/results/result.h"',
         "tb/engines/foo/a.cpp": '#include "tb/engines/bar/bar_environment.h"',
         "golden/b.cpp": "double x;",
@@ -137,6 +166,13 @@ def planted_faults_are_caught():
             path.write_text("// SPDX-License-Identifier: MIT\n" + line + "\n", encoding="utf-8")
             if len(list(violations(pathlib.Path(folder)))) != 1:
                 missed.append(f"{name}: {line}")
+    with tempfile.TemporaryDirectory() as folder:
+        for name, include in (("tb/sweep/a.cpp", "rtl_model/fabric/a.h"), ("rtl_model/fabric/a.h", "systemc")):
+            path = pathlib.Path(folder) / name
+            path.parent.mkdir(parents=True)
+            path.write_text(f'// SPDX-License-Identifier: MIT\n#include "{include}"\n', encoding="utf-8")
+        if len(list(violations(pathlib.Path(folder)))) != 1:
+            missed.append("tb/sweep/a.cpp: SystemC through a header")
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "spec/b.h"
         path.parent.mkdir(parents=True)

@@ -83,7 +83,8 @@ class Mutate(unittest.TestCase):
         self.assertIn("without any fault", done.stderr)
 
     def test_wrong_command_lines(self):
-        for arguments in (["tiny_test.cpp"], ["rtl_model/none.h"], ["tiny_script.sh"],
+        for arguments in (["tiny_test.cpp"], ["rtl_model/none.h"], ["tiny_script.sh"], ["--all"],
+                          ["--all", "--each", "-1", "--work", self.root / "../copy"],
                           ["rtl_model/tiny/tiny.h", "--tests", "none_test"],
                           ["rtl_model/tiny/tiny.h", "--work", self.root / "copy"]):
             self.assertEqual(self.mutate(*arguments).returncode, 2, arguments)
@@ -119,8 +120,20 @@ class Mutate(unittest.TestCase):
         self.assertEqual((len(again), set(again)), (7 + 4, set(lines)))
 
         page = (self.root / "docs/mutation.md").read_text(encoding="utf-8")
-        self.assertIn("| `rtl_model/tiny` | 1 | 7 | 7 | 0 | 3 | 0 | 4 | 42.8 | 42.8 |", page)
+        self.assertIn("| `rtl_model/tiny` | 1 | 7 | 7 | 0 | 3 | 0 | 4 | 42.8 (15.8 to 75.0) | 42.8 (15.8 to 75.0) |",
+                      page)
+        self.assertIn("It is missed by: `rtl_model/tiny` 42.8 (15.8 to 75.0), 7 of 7 judged.", page)
+        self.assertIn("| comparison | 2 | 2 | 0 | 1 | 50.0 (9.4 to 90.6) |", page)
         self.assertEqual(self.mutate("--check").returncode, 0)
+        (self.root / "docs/mutation.md").write_text("", encoding="utf-8")
+        self.assertIn("is not made from the record", self.mutate("--check").stderr)
+        self.assertEqual(self.mutate("--report").returncode, 1, "from the record alone")
+        self.assertEqual((self.root / "docs/mutation.md").read_text(encoding="utf-8"), page)
+        new = self.root / "golden/new.cpp"
+        new.parent.mkdir()
+        new.write_text("int f() { return 1; }\n", encoding="utf-8")
+        self.assertIn("1 files have mutants and no verdict: golden/new.cpp", self.mutate("--check").stdout)
+        new.unlink()
 
         survivors = [entry for entry in map(json.loads, lines) if entry["verdict"] == "survived"]
         explained = [{"file": e["file"], "was": e["was"], "is": e["is"], "reason": "tiny"}
@@ -149,7 +162,8 @@ class Mutate(unittest.TestCase):
     def test_a_switch_does_what_the_text_would(self):
         """Every mutant of functions over small numbers, behind its switch and as it stands."""
         module = self.module()
-        source = """#include <string>
+        source = """#include <algorithm>
+#include <string>
 inline int pure(int a, int b, int c) { return a < b && b <= c || !(a > c) && (b >= c || a == b); }
 inline bool seen(int& n, bool is) { n += 5; return is; }
 inline int asked(int a, int b) { int n = 3; const bool is = seen(n, a > 1) && seen(n, a != b) || seen(n, b == 2); return is ? n : b - 1 - n + 2; }
@@ -161,32 +175,52 @@ template <bool is> int chosen(char c) { return is && c != 'b' || c == '"' && c ?
 inline int both(char c) { return chosen<true>(c) + chosen<false>(c); }
 inline bool row(int a, int b, int c) { return a > 1 && b > 1 && c > 1 && a != b || a == 0 || b == 0 && c > 2 || c == 1; }
 inline bool lambda(int a) { return [&] { return a > 1 && a < 3; }() || (a ? a == 1 && true : false); }
+inline unsigned bits(unsigned a, unsigned b) { unsigned r = a << b | a >> 1 & 0x5u ^ b; r <<= b; r >>= a & 1; r &= ~a; r |= b; r ^= 0x1; return r; }
+inline int limits(int a, int b) { return std::min(a, b) * 64 + std::max<int>(a, 2) * 8 + std::max({a, b, 1}) + std::min({b, 2}); }
+struct Held {
+  int x = 1, y = 2, z = 3;
+  bool set = true;
+  void reset(int a) { x = y = z = a; if (a == 2) set = false; else set = true; }
+  void go(int a) {
+    if (a == 0) return;
+    if (a == 1) { ++x; return; }
+    for (int i = 0; i < 4; ++i) { if (i == a) break; if (i == 1) continue; y += i; }
+    switch ("abcd"[a]) { case 'd': step(); break; case 'c': z += x; default: x -= 1; }
+    auto twice = [&](int n) { step(); z += n; };
+    twice(a);
+  }
+  void step() { z = y++; }
+  int sum() const { return x + 10 * y + 100 * z + (set ? 1000 : 0); }
+};
+inline int held(int a, int b) { Held h; h.go(a); int s = h.sum(); h.reset(b); h.go(a); return s * 31 + h.sum(); }
+inline int early(int a) { if (a < 1) return 5; try { if (a == 2) throw a; } catch (int n) { return n; } return 7; }
 """
         call = """for (int a = 0; a < 4; ++a) for (int b = 0; b < 4; ++b) {
-  out << asked(a, b) << sums(a, b) << texts(a) << odd(a) << lambda(a)
+  out << asked(a, b) << sums(a, b) << texts(a) << odd(a) << lambda(a) << bits(a, b)
+      << limits(a, b) << held(a, b) << early(a)
       << both("ab\\""[a]) << 1e-9;
   for (int c = 0; c < 4; ++c) out << pure(a, b, c) << row(a, b, c); }
 """
         all_of = module.mutants.mutants_of(source)
-        plain = ["#include <iostream>\n#include <sstream>\n#include <string>\n"]
+        plain = ["#include <algorithm>\n#include <iostream>\n#include <sstream>\n#include <string>\n"]
         places = frozenset(range(len(all_of)))
         texts = [module.mutants.schema_of(source, 0, places, place) for place in sorted(places)]
         # A mutant that is no program is left out on both sides: - between texts, -= to one.
         possible = [n for n, text in enumerate(texts) if '- "z"' not in text
                     and '-= "y"' not in text]
         for n in possible:
-            plain.append(f"namespace m{n} {{\n{texts[n].partition(chr(10))[2]}}}\n"
+            plain.append(f"namespace m{n} {{\n{texts[n].partition('<string>')[2]}}}\n"
                          f"void f{n}(std::ostream& out) {{ using namespace m{n}; {call} }}\n")
         plain.append("int main() {" + "".join(f"f{n}(std::cout); std::cout << '\\n';"
                                                for n in possible) + "}\n")
         schema = (module.mutants.schema_of(source, 0)
                   + "#include <iostream>\nint main() { std::ostream& out = std::cout; "
                   + call + "}\n")
-        for name, text, flags in (("plain", "".join(plain), []), ("schema", schema, [
-                "-include", str(SOURCE / "scripts/mutation/switch.h")])):
+        for name, text in (("plain", "".join(plain)), ("schema", schema)):
             (self.root / f"{name}.cpp").write_text(text, encoding="utf-8")
-            subprocess.run(["g++", "-std=c++20", "-w", "-Wno-narrowing", *flags, "-o",
-                            self.root / name, self.root / f"{name}.cpp"], check=True)
+            subprocess.run(["g++", "-std=c++20", "-w", "-Wno-narrowing", "-include",
+                            SOURCE / "scripts/mutation/switch.h", "-o", self.root / name,
+                            self.root / f"{name}.cpp"], check=True)
         wanted = subprocess.run([self.root / "plain"], capture_output=True, text=True,
                                 check=True).stdout.splitlines()
         without = subprocess.run([self.root / "schema"], capture_output=True, text=True,
@@ -196,12 +230,15 @@ inline bool lambda(int a) { return [&] { return a > 1 && a < 3; }() || (a ? a ==
         for n, line in zip(possible, wanted, strict=True):
             seen[n] = subprocess.run([self.root / "schema"], capture_output=True, text=True,
                                      check=True, env={"DEBURR_MUTANT": str(n)}).stdout
-            if "constexpr int k" in source[source.rfind(";", 0, all_of[n].begin):all_of[n].begin]:
+            before = source[source.rfind(";", 0, all_of[n].begin):all_of[n].begin]
+            if "constexpr int k" in before or before.endswith("chosen<"):  # the compiler works it out
                 self.assertEqual(seen[n], without, texts[n])
             else:
                 self.assertEqual(seen[n], line, texts[n])
-        self.assertGreater(len(possible), 60)
-        self.assertGreater(sum(text != without for text in seen.values()), 50)
+        self.assertGreater(len(possible), 200)
+        self.assertGreater(sum(text != without for text in seen.values()), 180)
+        effective = {all_of[n].kind for n, text in seen.items() if text != without}
+        self.assertEqual(effective | {"stall"}, set(module.mutants.KINDS), "each kind has an effect")
 
     @staticmethod
     def module():
@@ -237,19 +274,119 @@ inline bool lambda(int a) { return [&] { return a > 1 && a < 3; }() || (a ? a ==
             self.assertTrue(found(f"tb/{room}/file.cpp") or room == "oracle", room)
         self.assertIn("results_result_test", found("tb/results/statistics.cpp"))
 
-    def test_the_operators(self):
+    def texts(self, source, *kinds):
         module = self.module()
+        return [source[:m.begin] + m.text + source[m.end:] for m in module.mutants.mutants_of(source)
+                if not kinds or m.kind in kinds]
 
-        def texts(source):
-            return [source[:m.begin] + m.text + source[m.end:] for m in module.mutants.mutants_of(source)]
-
+    def test_the_operators(self):
+        texts = self.texts
         self.assertEqual(texts("if (!out.can_push(cycle)) return;"), ["if (false) return;"])
         self.assertEqual(texts("a && b"), ["a || b"])
         self.assertEqual(texts("a - 1"), ["a + 1", "a - 2", "a - 0"])
         header = "#ifndef A_H\nstruct A {\n  int a = 0, b = 1;\n  static constexpr int kC = 2;\n};\n"
         self.assertEqual(len(texts(header)), 2, "what members are before they are set is no fault")
-        no_code = '#if 1 < 2\n/* 1 + 2 */ f("1 == 2", \'1\', 0x10, 1\'000, 1e-9, T<3u>)'
+        no_code = '#if 1 < 2\n/* 1 + 2 */ f("1 == 2", \'1\', 1\'000, 1e-9, T<3u>)'
         self.assertEqual(texts(no_code), [])
+
+    def test_literals(self):
+        self.assertEqual(self.texts("f(true, untrue, false)"), ["f(false, untrue, false)", "f(true, untrue, true)"])
+        self.assertEqual(self.texts("struct A {\n  bool a = true;\n  static constexpr bool kB = false;\n};", "literal"),
+                         ["struct A {\n  bool a = true;\n  static constexpr bool kB = true;\n};"])
+        self.assertEqual(self.texts("std::true_type a; // true"), [])
+
+    def test_hexadecimal_constants(self):
+        self.assertEqual(self.texts("a(0x5)"), ["a(0x4)", "a(0x1)"])
+        self.assertEqual(self.texts("a(0xFF'00u)"), ["a(0xFF01u)", "a(0x7F00u)"])
+        self.assertEqual(self.texts("a(0x1, 0x0)"), ["a(0x0, 0x0)", "a(0x1, 0x1)"])
+        self.assertEqual(self.texts("struct A {\n  int a = 0x10, b = 0x20;\n};"), [])
+        self.assertEqual(self.texts("a(0x1p3)"), [])
+
+    def test_shifts_and_bits(self):
+        self.assertEqual(self.texts("a << b"), ["a >> b"])
+        self.assertEqual(self.texts("a >>= b"), ["a <<= b"])
+        self.assertEqual(self.texts('out << "a" << b << \'c\';'), [], "texts are written")
+        self.assertEqual(self.texts("A<B<int>> f(const C& c, D&& d);"), [])
+        self.assertEqual(self.texts("a & b"), ["a | b"])
+        self.assertEqual(self.texts("a | b"), ["a & b"])
+        self.assertEqual(self.texts("a ^ b"), ["a & b"])
+        self.assertEqual(self.texts("a &= b"), ["a |= b"])
+        self.assertEqual(self.texts("f(&a, [&] {})"), [])
+
+    def test_min_and_max(self):
+        self.assertEqual(self.texts("std::min(a, b)"), ["std::max(a, b)"])
+        self.assertEqual(self.texts("std::max<int>(a, b)"), ["std::min<int>(a, b)"])
+        self.assertEqual(self.texts("std::max_element(a, b) + std::minmax(a, b)", "min_max"), [])
+
+    def test_what_is_left_out(self):
+        def left(body):
+            source = f"int f(A& a) {{ {body} }}"
+            return [text[14:-2] for text in self.texts(source, "statement", "call", "exit", "reset")]
+
+        self.assertEqual(left("x = 1;"), [";"])
+        self.assertEqual(left("*a.b[i](2)->c |= g(x);"), [";"])
+        self.assertEqual(left("++x; y--;"), ["; y--;", "++x; ;"])
+        self.assertEqual(left("a.b(c); ns::f<int>(d);"), ["; ns::f<int>(d);", "a.b(c); ;"])
+        self.assertEqual(left("x = y[i = 1] = z;"), ["y[i = 1] = z;", "x = z;"])
+        self.assertEqual(left("if (a) b(); else [[unlikely]] c = 1;"),
+                         ["if (a) ; else [[unlikely]] c = 1;", "if (a) b(); else [[unlikely]] ;"])
+        self.assertEqual(left("for (i = 0; i < n; ++i) go(i);"), ["for (i = 0; i < n; ++i) ;"])
+        self.assertEqual(left("run([&](int b) { go(b); });"), [";", "run([&](int b) { ; });"])
+        self.assertEqual(left("const auto b = [] { c(); }(), d = e;"), ["const auto b = [] { ; }(), d = e;"])
+        self.assertEqual(left("b = [&] { return c; };"), [";"])
+        self.assertEqual(left("switch (a) { case A::kB: c(); break; default: d(); }"),
+                         ["switch (a) { case A::kB: ; break; default: d(); }",
+                          "switch (a) { case A::kB: c(); ; default: d(); }",
+                          "switch (a) { case A::kB: c(); break; default: ; }"])
+        self.assertEqual(left("if (a) return 1; if (b) { throw C(); }"),
+                         ["if (a) ; if (b) { throw C(); }", "if (a) return 1; if (b) { ; }"])
+        # Declarations, what gives a function its value, and initialisers.
+        for body in ("int x = 3;", "A b(c);", "auto [b, c] = d();", "A b{c};", "return x = 3;", "throw A();",
+                     "static_cast<void>(x);", "const auto g = A{1, {2}};", "using A = B;", "A* b = c();"):
+            self.assertEqual(left(body), [], body)
+        for source in ("struct A {\n  A();\n  A(const A&) = delete;\n  B b = B();\n};", "int x = f();",
+                       "enum class A { kB = 1 };", "A::A() : b_{f()}, c_(g()) {}",
+                       "template <class T>\nconcept C = requires(T t) { t.f(); };",
+                       "#define A(x) \\\n  void f() { \\\n    x = 1; \\\n  }\n"):
+            self.assertEqual(self.texts(source, "statement", "call", "exit", "reset"), [], source)
+
+    def test_resets(self):
+        module = self.module()
+        source = "void A::reset() {\n  a_ = b_ = 0;\n  for (B& b : c_) b.clear();\n}\nvoid A::go() { a_ = 1; }\n"
+        found = [(m.kind, source[m.begin:m.end]) for m in module.mutants.mutants_of(source) if not m.text]
+        self.assertEqual(found, [("reset", "a_ = "), ("reset", "b_ = "), ("reset", "b.clear()"),
+                                 ("statement", "a_ = 1")])
+
+    def test_samples_are_of_all_mutants(self):
+        """Of three files, one of which has most of the mutants."""
+        module = self.module()
+        drawn = module.campaign.drawn
+        all_of = {pathlib.PurePath(name): module.mutants.mutants_of("f(1)\n" * lines)
+                  for name, lines in (("a.h", 5), ("b.h", 100), ("c.h", 0))}
+        a, b, _ = all_of
+        whole = drawn(all_of, 0, 0, 1)
+        self.assertEqual(sorted(whole), [(a, n) for n in range(10)] + [(b, n) for n in range(200)])
+        some = drawn(all_of, 42, 0, 1)
+        self.assertEqual(some, whole[:42], "a larger sample begins with a smaller one")
+        self.assertEqual(some, drawn(dict(reversed(all_of.items())), 42, 0, 1))
+        self.assertNotEqual(some, drawn(all_of, 42, 0, 2))
+        counts = [sum(file == name for seed in range(50) for file, _ in drawn(all_of, 42, 0, seed)) for name in (a, b)]
+        self.assertEqual(sum(counts), 42 * 50)
+        self.assertTrue(60 <= counts[0] <= 140, f"2 of 42 a draw: {counts}")
+        for each, wanted in ((1, 1), (8, 8), (40, 10)):
+            more = drawn(all_of, 42, each, 1)
+            self.assertEqual(more[:42], some)
+            of_a = [place for file, place in more if file == a]
+            self.assertEqual((len(of_a), len(set(of_a))), (max(wanted, sum(file == a for file, _ in some)),) * 2)
+        self.assertEqual([file for file, _ in drawn(all_of, 42, 45, 1)].count(b), 45)
+
+    def test_intervals(self):
+        """Wilson's of 95 %, in tenths of a percent, against values computed apart."""
+        interval = self.module().report.interval
+        for (part, whole), (low, high) in (((54, 54), (933, 1000)), ((36, 37), (861, 996)), ((0, 10), (0, 278)),
+                                           ((5, 10), (236, 764)), ((6028, 6353), (943, 954)), ((0, 0), (0, 1000)),
+                                           ((1, 1), (206, 1000))):
+            self.assertEqual(interval(part, whole), (low, high), (part, whole))
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@
 #include "tb/regress/failure_message.h"
 #include "tb/regress/junit.h"
 #include "tb/regress/regression_plan.h"
+#include "tb/regress/regression_result.h"
 #include "tb/regress/testplan.h"
 
 namespace deburr::tb::regress_test {
@@ -84,6 +85,17 @@ TEST(SeedOfToday, IsADay) {
   EXPECT_GT(seed, 20240000u);
   EXPECT_LE(seed % 10000 / 100, 12u);
   EXPECT_LE(seed % 100, 31u);
+}
+
+TEST(FeatureResult, HoldsOnlyIfEveryRunPassed) {
+  FeatureResult result;
+  result.passed = 3;
+  EXPECT_TRUE(result.holds());
+  result.missing = 1;
+  EXPECT_FALSE(result.holds()) << "a run that never was shows nothing";
+  result.missing = 0;
+  result.failed = 1;
+  EXPECT_FALSE(result.holds());
 }
 
 TEST(Junit, CountsAndEscapes) {

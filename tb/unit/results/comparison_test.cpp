@@ -48,6 +48,8 @@ TEST(Judge, ByTheValuesOwnDirectionAndTolerance) {
   EXPECT_EQ(of("checks.mismatches", 0, 1), Judgement::kWorse);
   EXPECT_EQ(of("checks.mismatches", 1, 1), Judgement::kWorse) << "wrong on both sides";
   EXPECT_EQ(of("checks.mismatches", 1, 0), Judgement::kBetter);
+  EXPECT_EQ(of("checks.mismatches", 0, std::nullopt), Judgement::kWorse) << "nobody looked";
+  EXPECT_EQ(of("checks.mismatches", std::nullopt, 0), Judgement::kEqual);
   EXPECT_EQ(of("memory_bits.total.physical", 100, 101), Judgement::kWorse) << "no tolerance";
   EXPECT_EQ(of("memory_bits.rom.physical", std::nullopt, 8), Judgement::kWorse);
   EXPECT_EQ(of("memory_bits.rom.physical", 8, std::nullopt), Judgement::kBetter);

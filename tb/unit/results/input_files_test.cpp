@@ -137,7 +137,7 @@ TEST_F(InputFilesOfARun, InAManifest) {
   RunContext context(path_ / "out", parameters_, "x", 0);
   context.claim();
   context.add_inputs({write("a", "one"), path_ / "none"});
-  context.add_configuration(write("c.yaml", "two"));
+  context.add_configuration(write("c.yaml", "two"), "two");
   context.finish({});
   const Json manifest = Json::parse(read_file(path_ / "out/manifest.json", 1 << 20));
   const Json expected = {{{"file", path_ / "a"}, {"sha256", sha256("one")}, {"bytes", 3}},

@@ -117,6 +117,35 @@ TEST_F(Parameters, WrongValuesNameTheOriginTheValueAndTheRange) {
   EXPECT_EQ(values_.ways, 2) << "a refused value must not be kept";
 }
 
+TEST_F(Parameters, IntegersMayBeHexadecimal) {
+  set_.set("unit.cycles", "0x7fFFffc0", "test");
+  EXPECT_EQ(values_.cycles, 0x7fffffc0);
+  set_.set("unit.cache.ways", "0x10", "test");
+  EXPECT_EQ(values_.ways, 16);
+  set_.load(file("unit.cycles: 0xff\n"));
+  EXPECT_EQ(values_.cycles, 255);
+  for (const char* value :
+       {"0x", "0x-1", "-0x1", "0X10", "0x1g", "1f", "0x 1", "0xffffffffffffffffff"})
+    EXPECT_THAT(complaint([&] { set_.set("unit.cycles", value, "--set"); }),
+                HasSubstr("wants an integer"))
+        << value;
+  EXPECT_THAT(complaint([&] { set_.set("unit.cache.ways", "0x11", "--set"); }),
+              HasSubstr("is outside 1..16"));
+}
+
+TEST_F(Parameters, AnotherWordForAValue) {
+  EXPECT_THAT(complaint([&] { set_.set("unit.colour", "scarlet", "test"); }),
+              HasSubstr("wants one of"));
+  set_.alias("unit.colour", "scarlet", "red");
+  set_.set("unit.colour", "scarlet", "test");
+  EXPECT_EQ(values_.colour, Colour::kRed);
+  EXPECT_EQ(set_.find("unit.colour")->text(), "red") << "results have one word for it";
+  set_.set("unit.colour", "green", "test");
+  EXPECT_EQ(values_.colour, Colour::kGreen);
+  EXPECT_THAT(complaint([&] { set_.set("unit.colour", "carlet", "test"); }),
+              HasSubstr("wants one of"));
+}
+
 TEST_F(Parameters, UnknownNamesShowNearMatches) {
   EXPECT_THAT(complaint([&] { set_.set("unit.cache.wasy", "1", "--set"); }),
               HasSubstr("did you mean 'unit.cache.ways'?"));

@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <string>
 #include <string_view>
@@ -409,6 +410,16 @@ TEST(Compare, EachJudgedValueIsJudgedInItsDirection) {
   EXPECT_FALSE(worse([](Result& r) { r.host_seconds = 100; })) << "the host is not judged";
 }
 
+TEST(Compare, AResultWithoutItsMismatchesIsWorse) {
+  const Json a = as_read(sample_result());
+  for (const char* key : {"mismatches", "traffic_mismatches"}) {
+    Json b = a;
+    b["checks"].erase(key);
+    EXPECT_TRUE(compare(a, b, {}).worse) << key;
+    EXPECT_FALSE(compare(b, a, {}).worse) << key;
+  }
+}
+
 TEST(Compare, OnlyWhatDiffersOrIsWorseIsListed) {
   const Json a = to_json(sample_result());
   EXPECT_TRUE(compare(a, a, {}).values.empty());
@@ -463,6 +474,23 @@ TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
   for (const char* reference : {"src=\"http", "href=\"http", "@import", "<link"})
     EXPECT_THAT(page, Not(HasSubstr(reference)));
+  // Each chart says in words what it shows, contents lead somewhere, a cause has one colour.
+  EXPECT_THAT(page, Not(testing::ContainsRegex("<canvas id=\"[a-z-]*\">")));
+  // No table is wider than a phone: each has a box of its own that scrolls.
+  const auto count = [&](std::string_view text) {
+    std::size_t found = 0;
+    for (std::size_t at = page.find(text); at != std::string::npos; at = page.find(text, at + 1))
+      ++found;
+    return found;
+  };
+  EXPECT_GT(count("<table"), 5u);
+  EXPECT_EQ(count("<table"), count("class=\"scroll\"><table"));
+  const std::regex link("href=\"#([a-z-]+)\"");
+  std::size_t links = 0;
+  for (std::sregex_iterator i(page.begin(), page.end(), link), end; i != end; ++i, ++links)
+    EXPECT_THAT(page, HasSubstr("id=\"" + (*i)[1].str() + "\""));
+  EXPECT_GE(links, 9u);
+  EXPECT_EQ(page.find("stallColours["), page.rfind("stallColours["));
   const Json manifest = Json::parse(read_file(path_ / "manifest.json", 1 << 20));
   for (const char* key :
        {"commit", "compiler", "systemc", "command", "seed", "configuration", "inputs", "host"})

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/engine.h"
-#include "rtl_model/fabric/trace.h"
+#include "rtl_model/fabric/glob.h"
 #include "rtl_model/fabric/wire.h"
 #include "tb/unit/page_table.h"
 

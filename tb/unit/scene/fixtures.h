@@ -82,10 +82,12 @@ std::string file_error(Action&& action) {
   return "";
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a name that is declared takes none.
 #define DEBURR_REQUIRE_DATA(folder)                                   \
   const ::std::filesystem::path folder = ::deburr::tb::data_folder(); \
   if (!::std::filesystem::is_directory(folder / "meshes"))            \
   GTEST_SKIP() << "no data folder: set DEBURR_DATA to one"
+// NOLINTEND(bugprone-macro-parentheses)
 
 // A scene on the plane z = 0 in which (x, y) is a position on the screen in pixels, w = 1
 // everywhere. `size` is a power of two, so that positions are exact.

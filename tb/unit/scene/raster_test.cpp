@@ -395,7 +395,7 @@ void expect_coverage_of_rays(const Scene& scene, int size, const std::string& wh
         want += here ? 1 : 0;
         for (int k = 0; k < 4; ++k)
           sure = sure && hit(scene, rays, triangle, x + 0.5 + (k % 2 - 0.5) / 32,
-                             y + 0.5 + (k / 2 - 0.5) / 32) == here;
+                             y + 0.5 + ((k < 2 ? 0 : 1) - 0.5) / 32) == here;
       }
       if (!sure) {
         ++unsure;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lines that a memory port asks for, as records: the clock of the request, a record a line of a
-// burst, the bytes that are enabled.
+// burst, the bytes that are enabled; look-ups of a cache with the clock of each.
 #include "tb/traces/line_trace.h"
 
 #include <fcntl.h>
@@ -18,6 +18,7 @@
 #include "rtl_model/platform/memory_model.h"
 #include "spec/error.h"
 #include "tb/harness/driver.h"
+#include "tb/unit/rtl/texture/cache_bench.h"
 
 namespace deburr::tb::line_trace_test {
 namespace {
@@ -119,6 +120,25 @@ TEST_F(Lines, AreBytesAsDocumented) {
   EXPECT_EQ(u32(last + 16), 8u);
   EXPECT_EQ(all[last + 20], 1);
   EXPECT_EQ(all.substr(last + 21), std::string(3, '\0'));
+}
+
+TEST_F(Lines, OfLookUpsHaveTheClockOfTheLookUp) {
+  texture_rtl::CacheBench bench;
+  LineTrace trace(file_, {"some_unit", 148.5, TraceFormat::kText, true});
+  bench.ends.source.add(texture_rtl::in_line(3));
+  bench.ends.source.add(texture_rtl::in_line(3));
+  bench.clock.run(100);
+  bench.ends.source.add(texture_rtl::in_line(3));
+  bench.clock.run(10);
+  trace.finish();
+  // Pushed in 0, 1 and 100; the sets are read a clock later, and looked up in the next one. The
+  // miss queue takes the miss in 3 and asks for the line in 4.
+  EXPECT_EQ(bytes(),
+            "# deburr-lines 1\n# engine some_unit\n# clock_mhz 148.5\n"
+            "# port 0 memory 64 cache.memory_port\n# port 1 look_ups 64 cache.tag_stage\n"
+            "# clock event address bytes port\n2 miss 0x000000c0 64 1\n"
+            "3 merged 0x000000c0 64 1\n5 read 0x000000c0 64 0\n"
+            "102 hit 0x000000c0 64 1\n# end 4\n");
 }
 
 TEST_F(Lines, OfNobodyAreRefused) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "spec/error.h"
@@ -56,6 +57,50 @@ Outcome run(const SimulationOptions& options, const GeometricSetup& setup, std::
     environment.check();
     return outcome_of(simulation, environment);
   });
+}
+
+// Hashes are compared with hashes of the same model elsewhere, so that what none looks at is seen
+// here alone.
+TEST(GeometricEnvironment, TheHashIsOfEveryChannelOfEveryPixel) {
+  const std::vector<geometric::Frame> frames = {small_frame()};
+  Simulation simulation({});
+  GeometricEnvironment environment(simulation, frames, small_setup());
+  simulation.elaborate(environment);
+  simulation.run();
+  OutputHash hash;
+  for (const Rgba8& pixel : environment.expected_frame().pixels) {
+    std::uint64_t word = 0;
+    for (std::size_t c = 4; c-- > 0;) word = word * 256 + pixel[c];
+    hash.add(word);
+  }
+  EXPECT_EQ(environment.pixel_hash(), hash.value());
+}
+
+// Golden's bins of look-ups against the counters of the hardware.
+TEST(GeometricEnvironment, GoldenFetchesAsTheHardwareLooksUp) {
+  const std::vector<geometric::Frame> frames = {small_frame()};
+  Simulation simulation({});
+  GeometricEnvironment environment(simulation, frames, small_setup());
+  simulation.elaborate(environment);
+  simulation.run();
+  environment.check();
+  const auto& engine = environment.engine();
+  const Coverage coverage = environment.coverage();
+  const auto fetches = [&](const char* cache, const char* outcome) {
+    return coverage.bins().at(std::string("geometric/fetch/") + cache + '/' + outcome);
+  };
+  const auto ordered = [&](const char* cache) {
+    return fetches(cache, "miss") + fetches(cache, "replaced");
+  };
+  EXPECT_EQ(ordered("vertex"), engine.vertex_fetch.misses.value());
+  EXPECT_EQ(ordered("vertex") + fetches("vertex", "hit"), engine.vertex_fetch.lookups.value());
+  EXPECT_LT(engine.vertex_fetch.lookups.value(), 2 * engine.work().kept_edges)
+      << "edges with both vertices in a line";
+  EXPECT_GT(engine.vertex_fetch.lookups.value(), engine.work().kept_edges) << "and in two";
+  EXPECT_EQ(ordered("depth"), engine.depth_test.misses.value());
+  EXPECT_EQ(fetches("block", "miss") + fetches("block", "read-back"),
+            engine.weight_combiner.misses.value());
+  EXPECT_EQ(fetches("block", "read-back"), engine.weight_combiner.blocks_read.value());
 }
 
 TEST(GeometricEnvironment, AResetInAnyPhaseBeginsTheFrameAgain) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "tb/base/random.h"
 #include "tb/unit/golden/geometric/support.h"
@@ -22,6 +23,7 @@ using spec::geometric::Combine;
 using spec::geometric::Crease;
 using spec::geometric::Layout;
 using spec::geometric::Parameters;
+using spec::geometric::Region;
 using spec::geometric::Select;
 using tb::geometric::Drawing;
 
@@ -128,6 +130,25 @@ TEST(Coverage, BinsCountWhatTheWorkCounts) {
   EXPECT_EQ(
       hits.at("fetch/block/hit") + hits.at("fetch/block/miss") + hits.at("fetch/block/read-back"),
       work.passed);
+  // An edge looks up the lines of its vertices, which may be one; what is not found is read.
+  const auto drawing = tb::geometric::vector_drawing();
+  std::uint64_t vertex_lines = 0, in_one_line = 0;
+  for (std::size_t i = 0; i < drawing.edges.size(); ++i) {
+    if (!golden::geometric::is_kept(golden.classes()[i])) continue;
+    const auto& edge = drawing.edges[i];
+    const bool one =
+        edge.v0 / spec::geometric::kVerticesInLine == edge.v1 / spec::geometric::kVerticesInLine;
+    in_one_line += one ? 1 : 0;
+    vertex_lines += one ? 1 : 2;
+  }
+  EXPECT_GT(in_one_line, 0u);
+  EXPECT_EQ(sum("fetch/vertex"), vertex_lines);
+  for (const auto& [cache, region] :
+       {std::pair{"vertex", Region::kVertices}, {"depth", Region::kDepth}}) {
+    const std::string name = std::string("fetch/") + cache;
+    EXPECT_EQ(hits.at(name + "/miss") + hits.at(name + "/replaced"),
+              golden.traffic().read(region).size());
+  }
   golden.clear_coverage();
   for (const CoverageBin& bin : golden.coverage().bins()) EXPECT_EQ(bin.hits, 0u);
 }

@@ -404,6 +404,33 @@ TEST(Accounts, OfOneLine) {
   EXPECT_EQ(b.engine.edge_latency.count(), 1u);
   EXPECT_EQ(b.engine.edge_latency.sum(), 97u);
 }
+// Nothing but the begin, and the end on its way through all units and through the resolve: who has
+// nothing to read waits for nothing.
+TEST(Accounts, OfAFrameWithoutEdges) {
+  EngineBench b;
+  b.load(blank(16, 8));
+  EXPECT_EQ(b.run(), 193u);
+  const std::map<std::string, std::string> wanted = {
+      {"frame_sequencer", "busy 193"},
+      {"facing_store", "busy 2, memory 24, idle 167"},
+      // Tags are cleared, and the end goes clock by clock through the stages.
+      {"edge_reader", "busy 1, idle 192"},
+      {"edge_classifier", "busy 3, idle 190"},
+      {"vertex_fetch", "busy 68, idle 125"},
+      {"line_setup", "busy 22, idle 171"},
+      {"line_walker", "busy 1, idle 192"},
+      {"coverage_unit", "busy 2, idle 191"},
+      {"depth_test", "busy 134, idle 59"},
+      {"weight_combiner", "busy 132, idle 61"},
+      {"frame_copier", "idle 193"},
+      {"block_scanner", "busy 4, idle 189"},
+      {"block_fetch", "busy 4, idle 189"},
+      {"resolver", "busy 7, idle 186"},
+      // A line of facing bits.
+      {"memory_arbiter", "busy 2, idle 191"},
+      {"memory_port", "busy 2, memory 20, idle 171"}};
+  EXPECT_EQ(accounts_of(b), wanted);
+}
 // The same line among edges of every other kind: none of them is counted.
 TEST(Accounts, LatencyIsThatOfLinesWithAPixelThatPasses) {
   EngineBench b;

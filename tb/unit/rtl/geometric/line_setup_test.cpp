@@ -239,6 +239,31 @@ TEST(LineSetup, LinesOfTheTableWaitForNoDivider) {
   EXPECT_EQ(spread(p, std::vector<EdgeEnds>(101, some_line(1023))), "100");
   EXPECT_EQ(spread(p, std::vector<EdgeEnds>(11, some_line(1024))), "130");
 }
+// Of every length that a table has, a 256th of a pixel too: none of them takes a divider, which is
+// busy with the line before them.
+TEST(LineSetup, NoLengthOfATableWaitsForADivider) {
+  Parameters p;
+  p.pipelined = false;
+  for (int bits = 1; bits <= spec::geometric::kMaxReciprocalBits; ++bits) {
+    p.reciprocal_table = bits;
+    const int lengths = (1 << bits) - 1;
+    const std::string got = in_child([&] {
+      SetupBench b(p);
+      std::vector<EdgeEnds> edges = {some_line()};
+      // From the centre of a pixel on, so that each has a column.
+      for (int length = 1; length <= lengths; ++length)
+        edges.push_back(edge(true, {128, 1000, 1}, {128 + length, 1000, 7}));
+      b.run(edges);
+      const auto& taken = b.ends.sink.taken;
+      return std::to_string(taken[taken.size() - 2].cycle - taken.front().cycle) + " clocks, " +
+             std::to_string(b.unit.table_lines.value()) + " by the table, divider " +
+             std::to_string(b.unit.divider_clocks.value());
+    });
+    EXPECT_EQ(got, std::to_string(lengths) + " clocks, " + std::to_string(lengths) +
+                       " by the table, divider 13")
+        << bits;
+  }
+}
 TEST(LineSetup, ADroppedEdgeTakesAClock) {
   std::vector<EdgeEnds> edges(100, some_line());
   for (std::size_t i = 1; i < 99; i += 2) edges[i].vertex[0].usable = false;

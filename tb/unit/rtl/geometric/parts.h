@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "rtl_model/fabric/histogram.h"
 #include "rtl_model/geometric/edge_latency.h"
 #include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/memory_arbiter.h"
@@ -31,6 +32,15 @@ inline std::string in_child(const std::function<std::string()>& simulation) {
 inline void expect_latency_of(const rtl::Datasheet& sheet, const std::string& measured) {
   EXPECT_EQ(measured, std::to_string(sheet.latency.clocks))
       << "by the datasheet of " << title(sheet);
+}
+
+// "1 x 3, 4 x 1": each value of a histogram, and how often.
+inline std::string text_of(const rtl::Histogram& histogram) {
+  std::string text;
+  for (const rtl::Histogram::Bin& bin : histogram.bins())
+    text +=
+        (text.empty() ? "" : ", ") + std::to_string(bin.low) + " x " + std::to_string(bin.count);
+  return text;
 }
 
 // Pushes its tokens as fast as they are taken.
@@ -56,7 +66,7 @@ class Source final : public rtl::Unit {
   std::size_t next_ = 0;
 };
 
-// Takes every token at once, and notes when.
+// Takes every token at once, from clock `opens` on, and notes when.
 template <class T>
 class Taker final : public rtl::Unit {
  public:
@@ -67,12 +77,13 @@ class Taker final : public rtl::Unit {
   rtl::In<T> in{"in"};
   Taker(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
   rtl::Activity tick(Cycle cycle) override {
-    if (!in.can_pop(cycle)) return rtl::kIdle;
+    if (cycle < opens || !in.can_pop(cycle)) return rtl::kIdle;
     taken.push_back({cycle, in.take(cycle)});
     return rtl::kBusy;
   }
   void reset() override { taken.clear(); }
   std::vector<Taken> taken;
+  Cycle opens = 0;
 };
 
 template <class From, class To>

@@ -1,81 +1,60 @@
 // SPDX-License-Identifier: MIT
-// Reset of the geometric engine at every clock of a frame: what comes after it is, to the bit and
-// to the clock, what comes after a reset of an engine that never had a frame; every register and
-// every counter of every unit included.
-#include <nlohmann/json.hpp>
-
-#include "tb/harness/statistics.h"
-#include "tb/unit/rtl/geometric/support.h"
+// Reset of the geometric engine, of every kind of build, at every clock of a frame and behind a
+// refused start: what comes after it is, to the bit and to the clock, what comes after a reset of
+// an engine that never had a frame; every register and every counter of every unit included. And a
+// frame behind another one is what it is by itself.
+#include "tb/unit/rtl/geometric/trail.h"
 
 namespace deburr::tb::geometric_rtl::reset_test {
 namespace {
 
-using spec::geometric::CacheLines;
-
-// The contract's scene, cut to a small frame.
-Scene small_scene(int width, int height, std::size_t edges) {
-  Scene scene = contract_scene();
-  scene.edges.resize(edges);
-  Scene cut = scene;
-  cut.width = width;
-  cut.height = height;
-  cut.colours.clear();
-  cut.depths.clear();
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const auto at = static_cast<std::size_t>(y * scene.width + x);
-      cut.colours.push_back(scene.colours[at]);
-      cut.depths.push_back(scene.depths[at]);
-    }
-  return cut;
+// An engine of the contract's vectors with little room, and what is set beside that.
+struct Build {
+  char configuration;
+  const char* settings = "";
+  int right = 0;  // how far its frames are moved to the right, which makes them as much wider
+};
+void PrintTo(const Build& build, std::ostream* out) {
+  *out << build.configuration << ' ' << build.settings;
+  if (build.right != 0) *out << ", " << build.right << " pixels to the right";
 }
 
-struct Trail {
-  std::vector<spec::geometric::LineRecord> lines;
-  std::vector<spec::geometric::Candidate> candidates;
-  std::vector<spec::geometric::BlockRecord> blocks;
-  std::vector<std::uint64_t> reads, writes;
-  std::uint64_t pixels = 0;
-  std::string statistics, registers;
-};
-
-class EveryClock : public ::testing::TestWithParam<char> {
+class EveryClock : public ::testing::TestWithParam<Build> {
  protected:
   static Parameters parameters() {
-    Parameters p = configuration(GetParam()).p;
-    p.depth_lines = p.weight_blocks = p.vertex_lines = CacheLines::k16;
-    p.fills = 8;
-    p.latency_fifo = 12;
-    p.line_fifo = 4;
+    Parameters p = configuration(GetParam().configuration).p;
+    apply_settings(p,
+                   "depth_lines=16 weight_blocks=16 vertex_lines=16 fills=8 latency_fifo=12 "
+                   "line_fifo=4");
+    apply_settings(p, GetParam().settings);
     return p;
   }
+  Trail run(const Scene& scene) {
+    b.load(scene);
+    b.run(20'000);
+    return trail_of(b);
+  }
+  // The same behind a reset, which has left nothing to read.
+  Trail run_after_reset(const Scene& scene) {
+    b.reset(40);  // what memory still owes has come by then
+    EXPECT_EQ(registers_of(b), at_reset);
+    EXPECT_TRUE(b.engine.idle());
+    return run(scene);
+  }
+  void SetUp() override {
+    b.reset();
+    at_reset = registers_of(b);
+  }
+
+  const int right = GetParam().right;
+  const Scene broken = small_scene(right + 41, 37, 60, right),
+              whole = small_scene(right + 37, 26, 30, right);
+  EngineBench b{parameters()};
+  std::string at_reset;
 };
 
-std::string registers_of(EngineBench& b) {
-  std::string text;
-  for (const spec::RegisterInfo& info : spec::geometric::kRegisters)
-    text += std::string(info.name) + "=" + std::to_string(b.bus.read(info.offset)) + " ";
-  return text;
-}
-
-TEST_P(EveryClock, OfAFrameMayBeTheLast) {
-  EngineBench b(parameters());
-  const Scene broken = small_scene(41, 37, 60), whole = small_scene(37, 26, 30);
-  b.reset();
-  const std::string at_reset = registers_of(b);
-  const auto finish = [&] {
-    b.load(whole);
-    b.run(20'000);
-    return Trail{b.lines,
-                 b.candidates,
-                 b.blocks,
-                 b.memory.lines_read(),
-                 b.memory.lines_written(),
-                 b.pixel_hash(),
-                 statistics(b.clock).dump(),
-                 registers_of(b)};
-  };
-  const Trail fresh = finish();
+TEST_P(EveryClock, AnyClockOfAFrameMayBeTheLast) {
+  const Trail fresh = run(whole);
   ASSERT_GT(fresh.blocks.size(), 10u);
   ASSERT_GT(b.writes(b.bases.weights).size(), 5u);
   b.reset();
@@ -89,21 +68,84 @@ TEST_P(EveryClock, OfAFrameMayBeTheLast) {
     b.start();
     b.clock.run(at);
     ASSERT_FALSE(b.engine.idle());
-    b.reset(40);  // what memory still owes has come by then
-    ASSERT_EQ(registers_of(b), at_reset);
-    ASSERT_TRUE(b.engine.idle());
-    const Trail after = finish();
-    ASSERT_EQ(after.lines, fresh.lines);
-    ASSERT_EQ(after.candidates, fresh.candidates);
-    ASSERT_EQ(after.blocks, fresh.blocks);
-    ASSERT_EQ(after.reads, fresh.reads);
-    ASSERT_EQ(after.writes, fresh.writes);
-    ASSERT_EQ(after.pixels, fresh.pixels);
-    ASSERT_EQ(after.registers, fresh.registers);
-    ASSERT_EQ(after.statistics, fresh.statistics);
+    ASSERT_EQ(trail_difference(fresh, run_after_reset(whole)), "");
   }
 }
-INSTANTIATE_TEST_SUITE_P(Configurations, EveryClock, ::testing::Values('c', 'e', 'h'));
+
+// A start that is refused, before it is judged and after that.
+TEST_P(EveryClock, ARefusedStartIsForgotten) {
+  const Trail fresh = run(whole);
+  for (const Cycle at : {0, 1, 2, 9}) {
+    SCOPED_TRACE("reset " + std::to_string(at) + " clocks behind a start");
+    b.reset();
+    b.load(broken);
+    b.bus.write(reg::kSize, 0);
+    b.start();
+    b.clock.run(at);
+    if (at > 0) {
+      ASSERT_EQ(b.driver.refusal(), spec::geometric::Refusal::kSize);
+    }
+    ASSERT_EQ(trail_difference(fresh, run_after_reset(whole)), "");
+  }
+}
+
+// The last block of one frame lies to the left of the first block of the other: what the one took
+// for the original of a blended pixel is none of the other's business, whether the frame ended or a
+// reset ended it.
+TEST_P(EveryClock, ABlockOfTheFrameBeforeIsNoNeighbour) {
+  // Lines down the rightmost column of block (5, 1), which takes from the right, and down the
+  // leftmost one of block (6, 1), which takes from the left.
+  const auto one_block = [&](bool second) {
+    Scene scene = small_scene(right + 37, 12, 0, right);
+    if (second) std::reverse(scene.colours.begin(), scene.colours.end());
+    const int x = 256 * (right + 24) + (second ? 60 : -60);
+    scene.vertices = {{x, 4 * 256, 0xFFFFFF, true}, {x, 8 * 256, 0xFFFFFF, true}};
+    scene.facing = {true};
+    scene.edges = {{0, 1, 0, 0, spec::geometric::flag::kBoundary}};
+    return scene;
+  };
+  const Scene before = one_block(false), after = one_block(true);
+  const Trail fresh = run(after);
+  ASSERT_EQ(fresh.blocks.size(), 1u);
+  ASSERT_EQ(fresh.blocks[0].x, right / 4 + 6);
+  ASSERT_EQ(fresh.blocks[0].blended, 0x1111);
+  ASSERT_EQ(fresh.blocks[0].weights[0][2], 60);
+  b.reset();
+  b.load(before);
+  const Cycle last = b.run(20'000);
+  ASSERT_EQ(b.blocks.size(), 1u);
+  ASSERT_EQ(b.blocks[0].x, right / 4 + 5);
+  ASSERT_EQ(b.blocks[0].blended, 0x8888);
+  EXPECT_EQ(frame_difference(fresh, run(after)), "");
+  const Cycle resolve = b.bus.read(reg::kResolveCycles);
+  ASSERT_LT(resolve, last);
+  for (Cycle at = last - resolve; at < last; ++at) {
+    SCOPED_TRACE("reset " + std::to_string(at) + " clocks into a frame");
+    b.reset();
+    b.load(before);
+    b.start();
+    b.clock.run(at);
+    ASSERT_EQ(trail_difference(fresh, run_after_reset(after)), "");
+  }
+}
+
+TEST_P(EveryClock, AFrameBehindAnotherIsWhatItIsByItself) {
+  const Trail fresh = run(whole);
+  b.reset();
+  const Trail first = run(broken);
+  EXPECT_EQ(frame_difference(fresh, run(whole)), "");
+  EXPECT_EQ(frame_difference(fresh, run(whole)), "");
+  EXPECT_EQ(frame_difference(first, run(broken)), "");
+}
+
+// Wide frames have two words of touched blocks a row.
+INSTANTIATE_TEST_SUITE_P(
+    Builds, EveryClock,
+    ::testing::Values(Build{'c'}, Build{'e'}, Build{'h'}, Build{'c', "pipelined=false"},
+                      Build{'d', "pipelined=false dividers=3 reciprocal_table=8"},
+                      Build{'g', "edge_lanes=4 walkers=1 resolve_lanes=4"},
+                      Build{'f', "edge_lanes=1 resolve_lanes=1 edge_lines=4 resolve_lines=16"},
+                      Build{'c', "", 480}, Build{'d', "pipelined=false", 480}));
 
 }  // namespace
 }  // namespace deburr::tb::geometric_rtl::reset_test

@@ -229,6 +229,81 @@ TEST(Resolve, WeightsOfMemoryComeALatencyLater) {
   expect_latency(BlockFetch::datasheet(), b.at["blocks"][0] + 1 - b.at["fetched"][0] - (20 + 6));
 }
 
+// ---- Originals
+
+// R of the colours that a frame begins with; the other channels are 0.
+int red(int x, int y) { return (7 * x + 11 * y) % 256; }
+// Half of the pixel itself and half of its neighbour, as docs/number_formats_morphological.md
+// rounds it.
+int half_of_both(int own, int other) {
+  const int v = 128 * (other - own), moved = (std::abs(v) + 128) >> 8;
+  return v < 0 ? own - moved : own + moved;
+}
+
+struct OriginalsBench : ResolveBench {
+  static constexpr int kSize = 64;
+  OriginalsBench() : ResolveBench(in_codes(), kSize, kSize) { load(0); }
+  static Parameters in_codes() {
+    Parameters p;
+    p.linear_light = false;
+    return p;
+  }
+  // What memory has; `moved` to tell one frame from another.
+  void load(int moved) {
+    std::vector<spec::geometric::Rgba8> colours;
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x)
+        colours.push_back({static_cast<std::uint8_t>(red(x + moved, y)), 0, 0, 255});
+    memory.preload(0x40000, platform::colour_buffer({Layout::kTiled, kSize, kSize}, colours));
+  }
+  // The blended pixel at (x, y).
+  int blended(int x, int y) const {
+    for (const auto& block : resolved) {
+      const auto place = static_cast<std::size_t>(4 * (y % 4) + x % 4);
+      if (block.x == x / 4 && block.y == y / 4 && (block.blended >> place & 1))
+        return block.pixels[place][0];
+    }
+    return -1;
+  }
+};
+constexpr std::uint16_t kLeftColumn = 0x1111, kRightColumn = 0x8888;
+
+// The last column of the block before stands for the left neighbours of the block beside it, and
+// of no other one: not of that in the row below, which comes next where nothing else is touched.
+TEST(Resolve, OriginalsToTheLeftAreThoseOfTheBlockBesideInItsRow) {
+  for (const auto& [bx, by] : {std::pair{4, 2}, {4, 3}, {5, 2}}) {
+    const std::string got = in_child([bx = bx, by = by] {
+      OriginalsBench b;
+      b.touch(3, 2, kRightColumn, true);
+      b.touch(bx, by, kLeftColumn, true);
+      b.run();
+      std::string wrong;
+      for (int i = 0; i < 4; ++i) {
+        const int y = 8 + i, x = 4 * bx, row = 4 * by + i;
+        if (b.blended(15, y) != half_of_both(red(15, y), red(14, y))) wrong += "first ";
+        if (b.blended(x, row) != half_of_both(red(x, row), red(x - 1, row))) wrong += "second ";
+      }
+      return wrong;
+    });
+    EXPECT_EQ(got, "") << bx << ' ' << by;
+  }
+}
+
+// Nor of a block of the next frame, whose first one it may be.
+TEST(Resolve, OriginalsEndWithTheirFrame) {
+  OriginalsBench b;
+  b.touch(3, 2, kRightColumn, true);
+  b.run();
+  EXPECT_EQ(b.blended(15, 8), half_of_both(red(15, 8), red(14, 8)));
+  constexpr int kMoved = 5;
+  b.load(kMoved);
+  b.begin(OriginalsBench::kSize, OriginalsBench::kSize);
+  b.touch(4, 2, kLeftColumn, true);
+  b.run();
+  for (int y = 8; y < 12; ++y)
+    EXPECT_EQ(b.blended(16, y), half_of_both(red(16 + kMoved, y), red(15 + kMoved, y))) << y;
+}
+
 // Clocks a block, of many: one is max(lines, beats, lines to write) in the Resolver, and lines +
 // lines to write at the port. The first reads are ahead of the first write.
 Cycle per_block(const Parameters& p, std::uint16_t pixels, bool vertical) {

@@ -208,14 +208,18 @@ struct Asker final : rtl::Unit {
       memory.responses_in.pop(cycle);
     }
     if (asked.size() < wanted && memory.requests_out.can_push(cycle)) {
-      memory.read(cycle, 64 * static_cast<std::uint32_t>(asked.size()),
-                  static_cast<std::uint32_t>(asked.size()));
+      const auto number = static_cast<std::uint32_t>(asked.size());
+      if (writes(number))
+        memory.write(cycle, 64 * number, number, ~std::uint64_t{0}).fill(0);
+      else
+        memory.read(cycle, 64 * number, number);
       asked.push_back(cycle);
     }
     return rtl::kBusy;
   }
   void reset() override {}
   std::size_t wanted = 0;
+  std::function<bool(std::uint32_t number)> writes = [](std::uint32_t) { return false; };
   Cycle takes_from = 0;
   std::vector<Cycle> asked, answered;
 };
@@ -244,6 +248,29 @@ TEST(MemoryArbiter, AnAnswerWaitsForItsClient) {
   EXPECT_TRUE(asker.answered.empty());
   b.clock.run(20);
   EXPECT_THAT(asker.answered, ::testing::ElementsAre(100, 101, 102, 103, 104));
+  // Two came after 23 clocks, asked for in 0 and 1; those asked for in 2, 3 and 4 left the arbiter
+  // in 101, 102 and 103.
+  EXPECT_THAT(asker.asked, ::testing::ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_EQ(text_of(b.arbiter.read_latency(Client::kDepth)), "23 x 2, 98 x 3");
+}
+// Its reads alone, in the histogram of who asked.
+TEST(MemoryArbiter, TheLatencyOfReadsIsThatOfReads) {
+  Frame b({});
+  b.tie();
+  Asker asker("asker", b.clock), other("other", b.clock);
+  b.arbiter.connect(Client::kWeights, asker.memory);
+  b.arbiter.connect(Client::kResolve, other.memory);
+  asker.wanted = other.wanted = 6;
+  asker.writes = [](std::uint32_t number) { return number % 3 == 1; };
+  other.writes = [](std::uint32_t) { return true; };
+  b.clock.run(100);
+  ASSERT_EQ(asker.answered.size(), 6u);
+  ASSERT_EQ(other.answered.size(), 6u);
+  EXPECT_EQ(text_of(b.arbiter.read_latency(Client::kWeights)), "23 x 4");
+  for (std::size_t i = 0; i < kClients; ++i)
+    if (static_cast<Client>(i) != Client::kWeights) {
+      EXPECT_EQ(text_of(b.arbiter.read_latency(static_cast<Client>(i))), "") << kClientNames[i];
+    }
 }
 TEST(MemoryArbiter, ServesEachOfEightAfterSevenOthers) {
   Frame b({});
@@ -326,6 +353,19 @@ TEST(LineWalker, APixelAClockAndWalker) {
     EXPECT_EQ(got, std::to_string(1500 / count - 1) + " 1500");
   }
 }
+TEST(LineWalker, CountsTheColumnsOfEachLine) {
+  WalkerBench b(Lanes::kFour);
+  std::size_t groups = 0;
+  for (const int count : {501, 1, 8192, 3, 499, 1, 4, 500, 3, 1}) {
+    b.ends.source.add(WalkerBench::line(0, count));
+    groups += static_cast<std::size_t>(count + 3) / 4;
+  }
+  finish(b, b.ends, groups);
+  EXPECT_EQ(text_of(b.unit.line_columns),
+            "1 x 3, 3 x 2, 4 x 1, 499 x 1, 500 x 1, 501 x 1, 8192 x 1");
+  EXPECT_EQ(b.unit.line_columns.sum(), 3u + 6 + 4 + 499 + 500 + 501 + 8192);
+  EXPECT_EQ(b.unit.columns.value(), b.unit.line_columns.sum());
+}
 TEST(LineWalker, GroupsEndAtBlocks) {
   WalkerBench b(Lanes::kFour);
   b.ends.source.add(WalkerBench::line(3, 4));              // 1 + 3
@@ -388,6 +428,24 @@ TEST(CoverageUnit, AGroupWithoutACandidateTakesAClockAndLeavesNothing) {
   b.ends.source.add(CoverageBench::group(false, 7, 9));
   finish(b, b.ends, 2);
   EXPECT_EQ(spread(b.ends), 31u);
+}
+// It needs no room behind the unit, and waits for none; one with a candidate does.
+TEST(CoverageUnit, AGroupWithoutACandidateGoesOnWhereThereIsNoRoom) {
+  CoverageBench b;
+  const Cycle begin = b.clock.cycle();
+  b.ends.sink.opens = begin + 100;
+  // Two fill the link.
+  for (int i = 0; i < 2; ++i) b.ends.source.add(CoverageBench::group(false, 7, 9));
+  for (int i = 0; i < 30; ++i) b.ends.source.add(CoverageBench::group(false, 7, -32768));
+  b.clock.run(50);
+  EXPECT_EQ(b.ends.in.pops(), 32u);
+  EXPECT_EQ(b.unit.stalled_cycles(), 0u);
+  // Sent in 50, taken in 51; it would leave in 52, and does in 101, a clock after the first one.
+  b.ends.source.add(CoverageBench::group(false, 7, 9));
+  b.clock.run(60);
+  ASSERT_EQ(b.ends.sink.taken.size(), 3u);
+  EXPECT_EQ(b.unit.stalled_cycles(), 101u - 52);
+  EXPECT_EQ(b.ends.sink.taken[2].cycle, begin + 102);
 }
 TEST(CoverageUnit, EveryDistance) {
   CoverageBench b;
@@ -485,6 +543,27 @@ TEST(DepthTest, EightLinesTakeFourClocksOrEightMisses) {
   finish(b, b.ends, 7);
   EXPECT_EQ(spread(b.ends), 6u * 4);
   EXPECT_EQ(b.unit.misses.value(), 56u);
+}
+// Eight groups of one line, seven of two, and so on.
+TEST(DepthTest, CountsTheLinesOfEachGroup) {
+  DepthBench b(DepthBench::raster());
+  for (int lines = 1; lines <= 8; ++lines) {
+    // Two of each pixel at the left side of its block, one of a pixel further in.
+    CandidateToken token = DepthBench::column(4, lines);
+    const auto pixels = static_cast<std::size_t>(lines + 1) / 2;
+    token.candidates = static_cast<std::uint8_t>((1u << pixels) - 1);
+    if (lines % 2) ++token.place[pixels - 1];
+    for (int i = 0; i < 9 - lines; ++i) b.ends.source.add(token);
+  }
+  finish(b, b.ends, 36);
+  EXPECT_EQ(text_of(b.unit.group_lines), "1 x 8, 2 x 7, 3 x 6, 4 x 5, 5 x 4, 6 x 3, 7 x 2, 8 x 1");
+  EXPECT_EQ(b.unit.lookups.value(), 8u + 14 + 18 + 20 + 20 + 18 + 14 + 8);
+  // The end is no group.
+  CandidateToken end{};
+  end.end = true;
+  b.ends.source.add(end);
+  finish(b, b.ends, 37);
+  EXPECT_EQ(b.unit.group_lines.count(), 36u);
 }
 TEST(DepthTest, APairTakesAClockWithAMiss) {
   // Two lines each, the pixel's and that of the block to its left, which the group before brought.

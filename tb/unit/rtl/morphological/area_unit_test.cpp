@@ -415,6 +415,50 @@ Parameters with_table(AreaSource layout, int lanes_code = 0) {
   return p;
 }
 
+// Where the ends of a line lie, by the formulas of docs/number_formats_morphological.md: S13, and a
+// tie goes up, which is a pixel further to the left for the start.
+TEST(TableEnds, AreRoundedToPixelsOf13Bits) {
+  constexpr std::int64_t kOne = std::int64_t{1} << 24;
+  struct Row {
+    std::int64_t height;    // .24, of the first edge above the line's lower end
+    std::uint32_t inverse;  // .12
+    std::int32_t first, last;
+  };
+  for (const Row& row : std::initializer_list<Row>{
+           {kOne / 2, 6 << 12, -3, 3},
+           // 2 1/2 pixels, and a 4096th of a pixel less or more
+           {kOne / 2, 5 << 12, -3, 3},
+           {kOne / 2, (5 << 12) - 1, -2, 2},
+           {kOne / 2, (5 << 12) + 1, -3, 3},
+           {-kOne / 2, 5 << 12, 2, 8},  // -2 1/2 and 7 1/2
+           {-kOne / 2, (5 << 12) + 1, 3, 8},
+           {kOne * 3 / 2, 5 << 12, -8, -2},
+           // The height itself has twelve bits: half of the last one counts as it.
+           {2048, 2048 << 12, -1, 2048},
+           {2047, 2048 << 12, 0, 2048},
+           {-2048, 2048 << 12, 0, 2048},
+           {-2049, 2048 << 12, 0, 2049},
+           // Long lines, and what 13 bits do not hold.
+           {kOne, 2047 << 12, -2047, 0},
+           {kOne, 2049 << 12, -2049, 0},
+           {0, 2049 << 12, 0, 2049},
+           {kOne, 4095 << 12, -4095, 0},
+           {0, 4095 << 12, 0, 4095},
+           {kOne, (4096 << 12) - 1, -4096, 0},
+           {0, (4096 << 12) - 1, 0, 4095},
+           {kOne * 3 / 2, 3000 << 12, -4096, -1500},
+           {-kOne / 2, 3000 << 12, 1500, 4095},
+           {2 * kOne, 4095 << 12, -4096, -4095},
+           {-kOne, 4095 << 12, 4095, 4095}}) {
+    AreaWalk walk;
+    walk.t = row.height - kOne / 2;
+    walk.inverse = row.inverse;
+    TableShares::set_ends(walk);
+    EXPECT_EQ(walk.first_end(), row.first) << row.height << ' ' << row.inverse;
+    EXPECT_EQ(walk.last_end(), row.last) << row.height << ' ' << row.inverse;
+  }
+}
+
 TEST_P(AreaLanes, LatencyOfTheDatasheetWithATableToo) {
   const Cycle latency =
       AreaUnit::slot_datasheet(with_table(AreaSource::kTableFull, GetParam())).latency.clocks;

@@ -291,6 +291,27 @@ TEST(EdgeMemory, TheWindowKnowsWhichRowsItHolds) {
   }
 }
 
+// With every edge set a step may go along any line but the frame's right border, where only the
+// edges across it are left: there is none to go along, whatever the corners are.
+TEST(EdgeMemory, NoStepGoesAlongTheRightBorder) {
+  constexpr int kWidth = 150;
+  constexpr std::uint8_t kAll = kBeforeBit | kAfterBit | kFirstBit | kSecondBit;
+  Shown shown(built(true), kWidth, 70, 30, 1000);
+  EdgeWindow& window = shown.memories.window;
+  Cycle cycle = 0;
+  for (const bool right : {false, true})
+    for (const int length : {1, 2, 7}) {
+      const auto hits = [&](int line, std::uint8_t corner) {
+        const Trial trial{line, 30, length, 20, right, corner, corner};
+        window.read(++cycle, 0, trial);
+        return window.hits(++cycle, 0, trial);
+      };
+      EXPECT_EQ(hits(kWidth - 1, kAll), kEqual | kLonger | (length > 1 ? kShorter : 0));
+      EXPECT_EQ(hits(kWidth, kAll), 0);
+      EXPECT_EQ(hits(kWidth, kFirstBit), 0) << "its corners are as they are";
+    }
+}
+
 // A port shows as many words as the longest step can lie in, and a class with them: 65 columns from
 // the last one of a word on.
 TEST(EdgeMemory, TheLongestStepLiesInTheWordsOfAPort) {

@@ -23,14 +23,15 @@ struct Variant {
   int divider_interval;
   int width;  // of the frame after the reset
   std::uint32_t memory_latency;
-  bool smaa = false;     // with all of its blocks
-  bool learned = false;  // shares
+  bool smaa = false;          // with all of its blocks
+  bool learned = false;       // shares
+  const char* settings = "";  // beside that
 };
 void PrintTo(const Variant& v, std::ostream* out) {
   *out << int{spec::morphological::kLaneCount[static_cast<std::size_t>(v.lanes_code)]} << " lanes, "
        << spec::morphological::kStorageNames[static_cast<std::size_t>(v.storage)] << ", interval "
        << v.divider_interval << ", width " << v.width << (v.smaa ? ", smaa" : "")
-       << (v.learned ? ", learned" : "");
+       << (v.learned ? ", learned" : "") << ' ' << v.settings;
 }
 
 // All that a frame leaves behind.
@@ -72,50 +73,65 @@ class EveryClock : public ::testing::TestWithParam<Variant> {
       p.round_corners = true;
       p.blend = spec::morphological::BlendRule::kStrongest;
     }
+    apply_settings(p, v.settings);
     return p;
   }
-};
-
-TEST_P(EveryClock, OfAFrameMayBeTheLast) {
-  const Parameters p = parameters();
-  const bool in_memory = p.storage == spec::morphological::Storage::kMemory;
-  EngineBench::Options options;
-  options.memory_latency = GetParam().memory_latency;
-  EngineBench bench(p, options);
-  const int width = GetParam().width;
-  // Neither ends with a line of memory, so that lines are padded. The second: small steps, and
-  // beside them an edge that is longer than the reach.
-  const Frame broken = noise(29, 12),
-              whole = draw(width, 11, [&](int x, int y) {
-                return grey(x < width - 2 ? (y + x) / 3 % 2 * 255 : (x - width + 2) * 255);
-              });
-  const Frame* frame = nullptr;
-  std::vector<spec::morphological::PixelBeat> beats;
-  bench.driver.send([&](std::uint64_t i, spec::morphological::PixelBeat& beat) {
-    if (i >= beats.size()) return false;
-    beat = beats[i];
-    return true;
-  });
-  Trail trail;
-  bench.engine.observe_runs(
-      [&](const spec::morphological::RunRecord& run) { trail.runs.push_back(run); });
-  bench.engine.observe_lines(
-      [&](const spec::morphological::LineRecord& line) { trail.lines.push_back(line); });
-  const auto reset_to = [&](const Frame& next, Cycle clocks) {
+  static EngineBench::Options options() {
+    EngineBench::Options options;
+    options.memory_latency = GetParam().memory_latency;
+    return options;
+  }
+  // With depths, and marks for who looks at them.
+  static Frame marked(Frame frame) {
+    for (std::size_t i = 0; i < frame.pixel.size(); ++i) {
+      frame.depth[i] = std::uint32_t{frame.pixel[i][0]} << 16;
+      if (i % 5 == 0) frame.pixel[i][3] = 254;
+    }
+    return frame;
+  }
+  void SetUp() override {
+    bench.driver.send([this](std::uint64_t i, spec::morphological::PixelBeat& beat) {
+      if (i >= beats.size()) return false;
+      beat = beats[i];
+      return true;
+    });
+    bench.engine.observe_runs(
+        [this](const spec::morphological::RunRecord& run) { trail.runs.push_back(run); });
+    bench.engine.observe_lines(
+        [this](const spec::morphological::LineRecord& line) { trail.lines.push_back(line); });
+  }
+  // The frame of the next beats.
+  void expect(const Frame& next) {
+    frame = &next;
+    bench.software.set_size(next.width, next.height);
+    wanted += beats_of(next, lanes_of(p)).size();
+    trail = {};
+  }
+  void reset(Cycle clocks) {
     bench.clock.set_reset_n(false);
     bench.clock.run(clocks);
     bench.clock.set_reset_n(true);
-    frame = &next;
+    wanted = 0;
+  }
+  void reset_to(const Frame& next, Cycle clocks) {
+    reset(clocks);
     beats = beats_of(next, lanes_of(p));
-    bench.software.set_size(next.width, next.height);
-    trail = {};
-  };
-  const auto finish = [&] {
+    expect(next);
+  }
+  const Trail& finish() {
     const Cycle begin = bench.clock.cycle();
     EXPECT_TRUE(bench.clock.run_until(
-        [&] { return bench.sink.received() == beats.size() && bench.engine.idle(); }, 20'000));
-    trail.beats = bench.sink.beats();
-    for (const Cycle cycle : bench.sink.cycles()) trail.cycles.push_back(cycle - begin);
+        [&] {
+          return bench.sink.received() == wanted &&
+                 (bench.bus.read(reg::kStatus) & reg::kStatusIdle) != 0;
+        },
+        20'000));
+    const auto from = static_cast<std::ptrdiff_t>(bench.sink.beats().size() -
+                                                  beats_of(*frame, lanes_of(p)).size());
+    trail.beats = {bench.sink.beats().begin() + from, bench.sink.beats().end()};
+    for (auto cycle = bench.sink.cycles().begin() + from; cycle != bench.sink.cycles().end();
+         ++cycle)
+      trail.cycles.push_back(*cycle - begin);
     trail.work = bench.engine.work();
     trail.frame_cycles = bench.engine.sequencer.frame_cycles.value();
     trail.record_stalls = bench.engine.extractor.record_stalls.value();
@@ -125,8 +141,25 @@ TEST_P(EveryClock, OfAFrameMayBeTheLast) {
       trail.memory = bench.memory->dump(0, static_cast<std::uint64_t>(64 * frame->height));
     }
     return trail;
-  };
+  }
 
+  const Parameters p = parameters();
+  const bool in_memory = p.storage == spec::morphological::Storage::kMemory;
+  EngineBench bench{p, options()};
+  // Neither ends with a line of memory, so that lines are padded. The second: small steps, and
+  // beside them an edge that is longer than the reach.
+  const Frame broken = marked(noise(29, 12)),
+              whole = marked(draw(GetParam().width, 11, [](int x, int y) {
+                const int width = GetParam().width;
+                return grey(x < width - 2 ? (y + x) / 3 % 2 * 255 : (x - width + 2) * 255);
+              }));
+  const Frame* frame = nullptr;
+  std::vector<spec::morphological::PixelBeat> beats;
+  std::size_t wanted = 0;  // beats since the last reset
+  Trail trail;
+};
+
+TEST_P(EveryClock, OfAFrameMayBeTheLast) {
   reset_to(whole, 1);
   const Trail fresh = finish();
   ASSERT_FALSE(fresh.lines.empty());
@@ -160,6 +193,59 @@ TEST_P(EveryClock, OfAFrameMayBeTheLast) {
   }
 }
 
+// A frame without a size, or one that is too wide: nothing is taken, and a reset forgets it.
+TEST_P(EveryClock, OfARefusedFrameMayBeTheLast) {
+  reset_to(whole, 1);
+  const Trail fresh = finish();
+  for (const std::uint32_t size : {0u, 33u | 12u << 16})
+    for (const Cycle at : {1, 2, 3, 20}) {
+      SCOPED_TRACE("reset " + std::to_string(at) + " clocks behind a frame of " +
+                   std::to_string(size & 0x3FFF) + " pixels");
+      reset_to(broken, 1);
+      bench.bus.write(reg::kSize, size);
+      bench.clock.run(at);
+      ASSERT_EQ(bench.engine.work(), spec::morphological::Work{});
+      ASSERT_EQ((bench.bus.read(reg::kStatus) & reg::kStatusFraming) != 0, at > 1);
+      reset_to(whole, 1);
+      ASSERT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle);
+      const Trail& after = finish();
+      ASSERT_EQ(after.beats, fresh.beats);
+      ASSERT_EQ(after.runs, fresh.runs);
+      ASSERT_EQ(after.work, fresh.work);
+      ASSERT_EQ(after.cycles, fresh.cycles);
+      ASSERT_EQ(after.lines, fresh.lines);
+      ASSERT_EQ(after.frame_cycles, fresh.frame_cycles);
+      ASSERT_EQ(after.record_stalls, fresh.record_stalls);
+    }
+}
+
+// Frames of different sizes, one behind the other: each is what it is by itself. The engine is
+// disabled while a frame is inside, so that the next one waits for its size.
+TEST_P(EveryClock, AFrameBehindAnotherIsWhatItIsByItself) {
+  reset_to(broken, 1);
+  const Trail first = finish();
+  reset_to(whole, 1);
+  const Trail fresh = finish();
+  reset(1);
+  beats.clear();
+  const std::vector<const Frame*> frames = {&broken, &whole, &whole, &broken};
+  for (const Frame* next : frames) {
+    const auto more = beats_of(*next, lanes_of(p));
+    beats.insert(beats.end(), more.begin(), more.end());
+  }
+  for (const Frame* next : frames) {
+    expect(*next);
+    bench.bus.write(reg::kControl, reg::kControlEnable);
+    bench.clock.run(5);
+    ASSERT_EQ(bench.bus.read(reg::kStatus) & reg::kStatusIdle, 0u);
+    bench.bus.write(reg::kControl, 0);
+    const Trail &after = finish(), &expected = next == &whole ? fresh : first;
+    EXPECT_EQ(after.beats, expected.beats);
+    EXPECT_EQ(after.runs, expected.runs);
+    EXPECT_EQ(after.memory, expected.memory);
+  }
+}
+
 // The frame of one beat a row has its first record a few clocks after the reset. Where a line is
 // answered in the clock in which another is written, its read waits.
 INSTANTIATE_TEST_SUITE_P(
@@ -183,6 +269,27 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{1, spec::morphological::Storage::kLineBuffers, 8, 9, 20, false, true},
         Variant{2, spec::morphological::Storage::kLineBuffers, 16, 4, 20, false, true},
         Variant{2, spec::morphological::Storage::kMemory, 5, 9, 21, false, true}));
+
+// Every rule of edges, lines and areas in some build, and every time of a trial.
+INSTANTIATE_TEST_SUITE_P(
+    Rules, EveryClock,
+    ::testing::Values(
+        Variant{0, spec::morphological::Storage::kLineBuffers, 16, 9, 20, false, false,
+                "predictor=fit contiguous=true safe=true trim=true "
+                "edges.local_contrast=symmetric trial_clocks=1"},
+        Variant{1, spec::morphological::Storage::kLineBuffers, 16, 31, 20, false, false,
+                "edges.source=predicated edges.local_contrast=smaa trial_clocks=2"},
+        Variant{2, spec::morphological::Storage::kLineBuffers, 16, 9, 20, false, false,
+                "edges.source=depth leave=half trial_clocks=3 predictor_units=2"},
+        Variant{0, spec::morphological::Storage::kMemory, 16, 31, 20, false, false,
+                "edges.threshold_mode=dynamic edges.local_contrast=paper leave=beside "
+                "trial_clocks=8 linear_light=false"},
+        Variant{1, spec::morphological::Storage::kLineBuffers, 16, 9, 20, true, false,
+                "area=table_full edges.threshold_mode=dynamic edges.dynamic_luma=current"},
+        Variant{2, spec::morphological::Storage::kLineBuffers, 16, 31, 20, true, false,
+                "area=table_minimal leave=marked"},
+        Variant{1, spec::morphological::Storage::kLineBuffers, 16, 9, 20, false, true,
+                "predictor=fit trim=true leave=half trial_clocks=5"}));
 
 // Frames of ordinary size, with a reset in mid-run.
 class ResetAt : public ::testing::TestWithParam<int> {

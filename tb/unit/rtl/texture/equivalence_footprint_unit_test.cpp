@@ -26,11 +26,11 @@ std::vector<std::uint32_t> side_corners() {
 }
 
 class FootprintEquivalence : public testing::TestWithParam<int> {};
+// `exact` has no combinational part and is only fed through the pipeline below.
+class FootprintSideEquivalence : public testing::TestWithParam<int> {};
 
-// The combinational part; `exact` has none and is only fed through the pipeline below.
-TEST_P(FootprintEquivalence, SideIsTheRule) {
+TEST_P(FootprintSideEquivalence, SideIsTheRule) {
   const auto rule = static_cast<spec::texture::FootprintRule>(GetParam());
-  if (rule == spec::texture::FootprintRule::kExact) return;
   Verdict v;
   const auto compare = [&](std::uint32_t s, std::uint32_t t) {
     ++v.compared;
@@ -111,9 +111,19 @@ TEST_P(FootprintEquivalence, NoticesAWrongBit) {
   expect_noticed(compare_footprint(static_cast<spec::texture::FootprintRule>(GetParam()), true));
 }
 
-INSTANTIATE_TEST_SUITE_P(Texture, FootprintEquivalence, testing::Range(0, 5), [](const auto& p) {
-  return std::string(spec::texture::kFootprintNames[static_cast<std::size_t>(p.param)]);
-});
+std::string name_of_rule(const testing::TestParamInfo<int>& info) {
+  return std::string(spec::texture::kFootprintNames[static_cast<std::size_t>(info.param)]);
+}
+
+constexpr auto rule_number(spec::texture::FootprintRule rule) { return static_cast<int>(rule); }
+
+INSTANTIATE_TEST_SUITE_P(Texture, FootprintEquivalence, testing::Range(0, 5), name_of_rule);
+INSTANTIATE_TEST_SUITE_P(Texture, FootprintSideEquivalence,
+                         testing::Values(rule_number(spec::texture::FootprintRule::kHalf),
+                                         rule_number(spec::texture::FootprintRule::kQuarter),
+                                         rule_number(spec::texture::FootprintRule::kTwoSegment),
+                                         rule_number(spec::texture::FootprintRule::kMax)),
+                         name_of_rule);
 
 }  // namespace
 }  // namespace deburr::tb::equivalence_footprint_unit_test

@@ -69,9 +69,9 @@ Verdict compare_level(spec::texture::Axes axes, spec::texture::CountRule count,
     bench.reset();
     write(store, d);
     std::vector<hw::Log2Token> tokens;
-    for (std::uint8_t h = 0; h < d.size(); ++h) {
+    for (std::size_t h = 0; h < d.size(); ++h) {
       hw::Ticket ticket = kTicket;
-      ticket.texture = h;
+      ticket.texture = static_cast<std::uint8_t>(h);
       for (const std::int32_t lb_max : corners) {
         const std::int32_t near = lb_max - static_cast<std::int32_t>(random.below(5 * 4096));
         for (const std::int32_t lb_min :

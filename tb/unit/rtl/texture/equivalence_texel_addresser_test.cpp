@@ -28,7 +28,7 @@ Verdict compare_addresser(bool fault) {
     bench.reset();
     write(store, d);
     std::vector<hw::SampleToken> tokens;
-    for (std::uint8_t h = 0; h < d.size(); ++h) {
+    for (std::size_t h = 0; h < d.size(); ++h) {
       for (int i = 0; i < 1500; ++i) {
         const auto level = static_cast<std::uint8_t>(random.below(d[h].levels));
         const auto position = [&](std::uint16_t size) -> std::int64_t {
@@ -48,7 +48,7 @@ Verdict compare_addresser(bool fault) {
         };
         const std::int64_t s = position(d[h].width), t = position(d[h].height);
         hw::Ticket ticket = kTicket;
-        ticket.texture = h;
+        ticket.texture = static_cast<std::uint8_t>(h);
         tokens.push_back({ticket, s, t, static_cast<std::uint16_t>(random.below(257)),
                           static_cast<std::uint8_t>(random.below(32)),
                           static_cast<std::uint8_t>(random.below(8)), level, random.chance(700),

@@ -3,11 +3,13 @@
 // does with a job, clock by clock.
 #include "tb/harness/engine_state.h"
 #include "tb/unit/rtl/texture/support.h"
+#include "tb/unit/spec/vectors.h"
 
 namespace deburr::tb::texture_rtl::reset_test {
 namespace {
 
 namespace reg = spec::texture::reg;
+using spec::texture::Preset;
 using State = std::vector<std::string>;
 
 constexpr std::int32_t kTexel = spec::texture::kCoordinateOne / 64;  // of a 64 x 64 texture
@@ -24,23 +26,22 @@ std::vector<std::uint32_t> descriptor_registers() {
   return offsets;
 }
 
-using Variant = std::tuple<spec::texture::Replacement, spec::texture::Preset>;
+// Rules of a preset, and what is set beside them.
+struct Build {
+  Preset preset;
+  const char* settings;
+};
+void PrintTo(const Build& build, std::ostream* out) {
+  *out << spec::texture::kPresetNames[static_cast<std::size_t>(build.preset)] << ' '
+       << build.settings;
+}
 
-class AfterReset : public testing::TestWithParam<Variant> {
+class AfterReset : public testing::TestWithParam<Build> {
  protected:
   static spec::texture::Parameters parameters() {
-    spec::texture::Parameters p;
-    if (std::get<1>(GetParam()) == spec::texture::Preset::kPaper) {
-      p = paper_rules();
-    } else {
-      p.axes = spec::texture::Axes::kEight;
-      p.axis_clocks = 4;
-      p.srgb_output = spec::texture::SrgbOutput::kEncoded;
-    }
-    p.cache_bytes = 512;
-    p.cache_outstanding = 4;
-    p.cache_fifo_depth = 8;
-    p.cache_replacement = std::get<0>(GetParam());
+    spec::texture::Parameters p = preset_parameters(GetParam().preset);
+    apply_settings(p, "cache.bytes=512 cache.outstanding=4 cache.fifo_depth=8");
+    apply_settings(p, GetParam().settings);
     return p;
   }
   State state() { return engine_state(bench.unit, bench.bus, descriptor_registers()); }
@@ -128,12 +129,29 @@ TEST_P(AfterReset, TheNextJobIsThatOfANewUnit) {
   EXPECT_EQ(state_difference(fresh, job()), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Texture, AfterReset,
-                         testing::Combine(testing::Values(spec::texture::Replacement::kLru,
-                                                          spec::texture::Replacement::kFifo,
-                                                          spec::texture::Replacement::kRandom),
-                                          testing::Values(spec::texture::Preset::kPaper,
-                                                          spec::texture::Preset::kDeburr)));
+// Every replacement by both presets; then every rule and every size of a line in some build.
+INSTANTIATE_TEST_SUITE_P(
+    Texture, AfterReset,
+    testing::Values(Build{Preset::kPaper, "cache.replacement=lru"},
+                    Build{Preset::kPaper, "cache.replacement=fifo"},
+                    Build{Preset::kPaper, "cache.replacement=random"},
+                    Build{Preset::kDeburr,
+                          "cache.replacement=lru axes=eight axis_clocks=4 srgb_output=encoded"},
+                    Build{Preset::kDeburr,
+                          "cache.replacement=fifo axes=eight axis_clocks=4 srgb_output=encoded"},
+                    Build{Preset::kDeburr,
+                          "cache.replacement=random axes=eight axis_clocks=4 srgb_output=encoded"},
+                    Build{Preset::kPaper,
+                          "footprint=exact log2=exact count=ceil kernel=tent cache.ways=1"},
+                    Build{Preset::kPaper,
+                          "footprint=two_segment log2=corrected cache.line_bytes=32 "
+                          "cache.ways=8"},
+                    Build{Preset::kDeburr,
+                          "footprint=max count=ceil count_cap=texel axis_clocks=2 "
+                          "cache.line_bytes=128"},
+                    Build{Preset::kDeburr,
+                          "footprint=quarter log2=mitchell kernel=tent spread=80 "
+                          "cache.line_bytes=32 cache.ways=4 cache.replacement=random"}));
 
 }  // namespace
 }  // namespace deburr::tb::texture_rtl::reset_test

@@ -44,6 +44,7 @@ class PosteriserCommand final : public Engine {
     set.add("picture", ParameterKind::kInput, picture_);
     set.add_engine("posteriser", parameters_);
   }
+  std::vector<std::string_view> examples() const override { return {"--size 31x17 --bits 2"}; }
   std::vector<Shorthand> shorthands() const override {
     return {{"--size", "picture.width", "Size of the picture, WxH (32x24)", "picture.height"},
             {"--bits", "posteriser.bits", "Levels of a colour, as a power of two"}};

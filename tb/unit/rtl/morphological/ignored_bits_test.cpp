@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// What the morphological engine is given and has no use for: depths where edges need none, alphas
+// where nothing is marked, lanes behind the last pixel of a row, what lies between the rows of a
+// frame in memory. Whatever is there, pixels, taps, work and clocks are the same; and what is not
+// ignored counts, or the noise would prove nothing.
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tb/base/random.h"
+#include "tb/harness/engine_state.h"
+#include "tb/unit/rtl/morphological/support.h"
+#include "tb/unit/rtl/morphological/vectors.h"
+
+namespace deburr::tb::morphological_rtl::ignored_bits_test {
+namespace {
+
+using spec::morphological::EdgeSource;
+using spec::morphological::Leave;
+using spec::morphological::PixelBeat;
+
+struct Build {
+  spec::morphological::Preset preset;
+  const char* settings;
+};
+void PrintTo(const Build& b, std::ostream* out) {
+  *out << spec::morphological::kPresetNames[static_cast<std::size_t>(b.preset)] << ' '
+       << b.settings;
+}
+
+// What comes of a frame; of alpha nothing, which passes.
+struct Trail {
+  std::vector<std::array<int, 7>> pixels;  // R, G, B, and the tap
+  std::vector<Cycle> cycles;               // of the beats
+  std::vector<std::string> state;
+};
+
+class IgnoredBits : public ::testing::TestWithParam<Build> {
+ protected:
+  static constexpr int kWidth = 29, kHeight = 21;  // whole neither in beats nor in lines of memory
+  static Parameters parameters() {
+    Parameters p = preset(GetParam().preset, 8, 20);
+    p.line_pixels = 64;
+    apply_settings(p, "diagonal_steps=4 steps=4");
+    apply_settings(p, GetParam().settings);
+    return p;
+  }
+  // Stairs, nearer where they are brighter; every seventh pixel is marked.
+  static Frame stairs() {
+    const auto above = [](int x, int y) { return (x + 3 * y) / 7 % 2; };
+    Frame frame = draw(kWidth, kHeight, [&](int x, int y) {
+      Rgba8 pixel = grey(above(x, y) * 200 + 20);
+      pixel[3] = (x + 5 * y) % 7 == 0 ? 254 : 255;
+      return pixel;
+    });
+    for (int i = 0; i < kWidth * kHeight; ++i)
+      frame.depth[static_cast<std::size_t>(i)] =
+          4'000'000 + 9'000'000 * static_cast<std::uint32_t>(above(i % kWidth, i / kWidth));
+    return frame;
+  }
+  // A frame whose beats are changed on their way.
+  Trail run(
+      const std::function<void(PixelBeat&)>& change,
+      const std::function<void()>& each_clock = [] {}) {
+    bench.clock.set_reset_n(false);
+    bench.clock.run(40);
+    bench.clock.set_reset_n(true);
+    const Cycle begin = bench.clock.cycle();
+    auto beats = beats_of(stairs(), lanes_of(p));
+    for (PixelBeat& beat : beats) change(beat);
+    bench.driver.send([&](std::uint64_t i, PixelBeat& beat) {
+      if (i >= beats.size()) return false;
+      beat = beats[i];
+      return true;
+    });
+    bench.software.set_size(kWidth, kHeight);
+    bench.bench->run(
+        [&] {
+          each_clock();
+          return bench.sink.received() == beats.size() && bench.engine.idle();
+        },
+        100'000);
+    Trail trail;
+    for (const spec::morphological::BlendedBeat& beat : bench.sink.beats())
+      for (std::size_t i = 0; i < beat.count; ++i)
+        trail.pixels.push_back({beat.pixel[i][0], beat.pixel[i][1], beat.pixel[i][2],
+                                beat.tap[i].horizontal, beat.tap[i].first, beat.tap[i].second,
+                                beat.tap[i].edges});
+    for (const Cycle cycle : bench.sink.cycles()) trail.cycles.push_back(cycle - begin);
+    trail.state = engine_state(bench.engine, bench.bus);
+    return trail;
+  }
+  static std::string difference(const Trail& a, const Trail& b) {
+    if (a.pixels != b.pixels) return "pixels";
+    if (a.cycles != b.cycles) return "clocks";
+    return state_difference(a.state, b.state);
+  }
+
+  const Parameters p = parameters();
+  EngineBench bench{p};
+  Random random{1, "noise"};
+};
+
+TEST_P(IgnoredBits, ChangeNothing) {
+  const Trail fresh = run([](PixelBeat&) {});
+  ASSERT_GT(bench.engine.work().blended_pixels, 50u);
+  const bool depth_counts =
+      p.edge_source == EdgeSource::kDepth || p.edge_source == EdgeSource::kPredicated;
+  const auto depths = [&](std::uint32_t bits) {
+    return run([&, bits](PixelBeat& beat) {
+      for (std::uint32_t& depth : beat.depth) depth ^= random.word() & bits;
+    });
+  };
+  // 24 bits, and these where edges are of depth.
+  EXPECT_EQ(difference(fresh, depths(0xFF000000)), "");
+  EXPECT_EQ(difference(fresh, depths(0xFFFFFFFF)) != "", depth_counts);
+  const auto alphas = [&](std::uint32_t bits) {
+    return run([&, bits](PixelBeat& beat) {
+      for (Rgba8& pixel : beat.pixel)
+        pixel[3] = static_cast<std::uint8_t>(pixel[3] ^ (random.word() & bits));
+    });
+  };
+  // The mark is bit 0, where one is looked for.
+  EXPECT_EQ(difference(fresh, alphas(0xFE)), "");
+  EXPECT_EQ(difference(fresh, alphas(0xFF)) != "", p.leave != Leave::kNone);
+  // Lanes behind the last pixel of a row.
+  const auto lanes = [&](bool used) {
+    return run([&, used](PixelBeat& beat) {
+      for (std::size_t i = used ? 0 : beat.count; i < beat.pixel.size(); ++i) {
+        for (std::uint8_t& channel : beat.pixel[i])
+          channel = static_cast<std::uint8_t>(random.word());
+        beat.depth[i] = random.word();
+      }
+    });
+  };
+  EXPECT_EQ(difference(fresh, lanes(false)), "");
+  EXPECT_NE(difference(fresh, lanes(true)), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Builds, IgnoredBits,
+    ::testing::Values(
+        Build{spec::morphological::Preset::kMlaa, "lanes=4"},
+        Build{spec::morphological::Preset::kMlaaSlope, "edges.source=depth lanes=2"},
+        Build{spec::morphological::Preset::kDeburrLine,
+              "edges.source=predicated edges.threshold_off_depth_edge=65535 leave=half"},
+        Build{spec::morphological::Preset::kSmaa, "lanes=2 leave=marked"},
+        Build{spec::morphological::Preset::kSmaaDynamic, "lanes=4 leave=beside"},
+        Build{spec::morphological::Preset::kDeburr, "lanes=4 storage=memory leave=masked"}));
+
+// Padding is written 0 and read back with its line.
+class Padding : public IgnoredBits {};
+TEST_P(Padding, OfRowsInMemoryIsNotLookedAt) {
+  constexpr std::uint32_t kStride = 128;
+  const Trail fresh = run([](PixelBeat&) {});
+  // In every clock, so that no line is read without it.
+  const auto noise = [&](std::uint32_t from, std::uint32_t to) {
+    return run([](PixelBeat&) {},
+               [&, from, to] {
+                 std::vector<std::uint8_t> bytes(to - from);
+                 for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.word());
+                 for (std::uint32_t y = 0; y < kHeight; ++y)
+                   bench.memory->preload(y * kStride + from, bytes);
+               });
+  };
+  EXPECT_EQ(difference(fresh, noise(4 * kWidth, kStride)), "");
+  EXPECT_NE(difference(fresh, noise(4 * kWidth - 4, kStride)), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Builds, Padding,
+    ::testing::Values(Build{spec::morphological::Preset::kMlaa, "storage=memory"},
+                      Build{spec::morphological::Preset::kMlaa, "storage=memory lanes=2"},
+                      Build{spec::morphological::Preset::kDeburr,
+                            "storage=memory lanes=4 leave=masked"}));
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl::ignored_bits_test
