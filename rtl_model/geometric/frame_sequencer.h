@@ -12,8 +12,8 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/parameter_store.h"
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/geometric/common/parameter_store.h"
+#include "rtl_model/geometric/common/tokens.h"
 
 namespace deburr::rtl::geometric {
 

@@ -33,10 +33,11 @@
 #include "rtl_model/morphological/blend/blender.h"
 #include "rtl_model/morphological/blend/diagonal_unit.h"
 #include "rtl_model/morphological/blend/pixel_store.h"
+#include "rtl_model/morphological/blend/shares_loader.h"
+#include "rtl_model/morphological/common/parameter_store.h"
 #include "rtl_model/morphological/front/edge_detector.h"
 #include "rtl_model/morphological/front/luma_unit.h"
 #include "rtl_model/morphological/front/slot_sequencer.h"
-#include "rtl_model/morphological/parameter_store.h"
 #include "rtl_model/morphological/runs/edge_rows.h"
 #include "rtl_model/morphological/runs/edge_window.h"
 #include "rtl_model/morphological/runs/endpoint_predictor.h"
@@ -73,7 +74,8 @@ class MorphologicalEngine final : public Engine {
   EndpointPredictor predictor_h, predictor_v;
   LineUnit divider_h, divider_v;
   AreaUnit area;
-  std::unique_ptr<DiagonalUnit> diagonals;  // only with diagonals
+  std::unique_ptr<SharesLoader> shares_loader;  // only with learned shares
+  std::unique_ptr<DiagonalUnit> diagonals;      // only with diagonals
   PixelStore pixel_store;
   Blender blender;
   std::unique_ptr<MemoryPort> memory_port;  // only with storage = memory

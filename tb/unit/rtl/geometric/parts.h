@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "rtl_model/fabric/histogram.h"
-#include "rtl_model/geometric/edge_latency.h"
+#include "rtl_model/geometric/common/edge_latency.h"
+#include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/frame_sequencer.h"
-#include "rtl_model/geometric/memory_arbiter.h"
 #include "tb/base/forked.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/geometric/support.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What links and wires carry, by number format and by the tables of the page.
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/geometric/common/tokens.h"
 
 #include "tb/unit/rtl/formats.h"
 #include "tb/unit/rtl/geometric/support.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What links carry, by number format and by the table of the page.
-#include "rtl_model/morphological/tokens.h"
+#include "rtl_model/morphological/common/tokens.h"
 
 #include "tb/unit/rtl/formats.h"
 #include "tb/unit/rtl/morphological/support.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rtl_model/geometric/parameter_store.h"
+#include "rtl_model/geometric/common/parameter_store.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rtl_model/geometric/memory_arbiter.h"
+#include "rtl_model/geometric/common/memory_arbiter.h"
 
 #include <string>
 

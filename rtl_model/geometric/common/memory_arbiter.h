@@ -18,7 +18,7 @@
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/geometric/parameter_store.h"
+#include "rtl_model/geometric/common/parameter_store.h"
 
 namespace deburr::rtl::geometric {
 
