@@ -56,6 +56,9 @@ class FillBuffer {
     DEBURR_CHECK(
         entry < entries_ && arrived_[entry] == kNever,
         std::string(memory_.name()) + ": entry " + std::to_string(entry) + " filled twice");
+    DEBURR_CHECK(offset + beat.size() <= line_bytes_,
+                 std::string(memory_.name()) + ": a beat at byte " + std::to_string(offset) +
+                     " of a line of " + std::to_string(line_bytes_));
     write_.write(cycle, entry);
     std::copy(beat.begin(), beat.end(), &bytes_[std::size_t{entry} * line_bytes_ + offset]);
     if (!complete) return;

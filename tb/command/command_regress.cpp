@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/base/file.h"
 #include "tb/base/interrupt.h"
 #include "tb/command/commands.h"
 #include "tb/command/point_options.h"
@@ -48,8 +49,7 @@ struct RegressOptions : PointOptions {
 
   // `deburr regress status` is about the default testplan.
   void take_lone_action() {
-    if (std::find(kActions.begin(), kActions.end(), file) == kActions.end() ||
-        std::filesystem::exists(file))
+    if (std::find(kActions.begin(), kActions.end(), file) == kActions.end() || is_there(file))
       return;
     action = file;
     file = kDefaultTestplan;

@@ -46,6 +46,17 @@ TEST(TextureRtlFillBuffer, OneBeatAClock) {
   EXPECT_THROW(buffer.fill(10, 1, 0, kBeat, true), spec::CheckFailed);
 }
 
+// A beat that names a half of a line which has none, as a broken response may, is refused.
+TEST(TextureRtlFillBuffer, ABeatBehindTheLine) {
+  FillBuffer buffer("buffer", 4, 64);
+  buffer.reserve(1);
+  EXPECT_THROW(buffer.fill(10, 0, 64, kBeat, true), spec::CheckFailed);
+  FillBuffer wide("wide", 4, 128);
+  wide.reserve(1);
+  wide.fill(10, 0, 64, kBeat, false);
+  EXPECT_THROW(wide.fill(11, 0, 128, kBeat, true), spec::CheckFailed);
+}
+
 // Above 16 kbit it is SRAM; a line of two beats is written half by half.
 TEST(TextureRtlFillBuffer, LinesOf128BytesComeInTwoBeats) {
   FillBuffer buffer("buffer", 64, 128);
