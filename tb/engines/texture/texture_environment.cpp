@@ -34,7 +34,7 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
       setup_(setup),
       faults_(simulation.faults(), this->name(), setup_),
       quad_driver_("driver", simulation.clock()),
-      unit_("texture", simulation.clock(), faults_.as_built()),
+      unit_("texture", simulation.clock(), faults_.as_built(), memory_clocks(setup_)),
       memory_("memory", simulation.clock().period(),
               memory_model_parameters(setup.memory, scene.memory().bytes().size(),
                                       simulation.options().seed)),
