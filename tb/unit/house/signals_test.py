@@ -5,7 +5,9 @@ links and wires alone.
 
 No unit holds or is given another unit by reference or pointer, none has a pointer that is set from
 outside, and none asks by a function what a wire would tell (observers, which return nothing, are
-for checks). Registers, memories' ports and instruments are no units and may be shared.
+for checks). Registers, memories' ports and instruments are no units and may be shared. A part that
+keeps a memory (a store of lines on their way, say) has one owner; another unit holds a side of it that the
+part declares, `Store::Reader`, as of a memory a port.
 """
 import argparse
 import pathlib
@@ -19,6 +21,17 @@ COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
 CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\s*(?:final\s*)?:\s*([^{;]*)\{")
 BASES = re.compile(r"\bpublic\s+(?:[\w:]+::)?(Unit|Engine|sc_module)\b")
 POINTER = re.compile(r"^\s*(?:const\s+)?[\w:]+(?:<[^;]*>)?(?:\s+const)?\s*\*\s*(?:const\s+)?\w+\s*(?:=\s*nullptr|\{\s*\})?\s*;")
+PART = re.compile(r"^(?:class|struct)\s+(\w+)\s*(?:final\s*)?\{", re.M)
+MEMORY = re.compile(r"^\s*(?:std::(?:array|vector|deque)\s*<\s*)?Memory<[^;()]*\b\w+\s*(?:\{[^;]*)?;", re.M)
+# (unit, part): who is given a part whole, and why.
+WHOLE = {
+    ("RunExtractor", "EdgeWindow"): "writes it",
+    ("RunExtractor", "EdgeRows"): "writes them",
+    ("EndpointPredictor", "EdgeWindow"): "makes EdgePorts of it, as many as its schedule has",
+    ("EndpointPredictor", "EdgeRows"): "makes EdgePorts of them, as many as its schedule has",
+    ("AreaUnit", "SharesRom"): "shows its own to the registers",
+    ("Resolver", "FillStore"): "uses the lines that BlockFetch reserves and fills",
+}
 FUNCTION = re.compile(r"\bstd::function<\s*(?!void\b)([^()]*?)\(")
 
 
@@ -52,8 +65,14 @@ def own_lines(body):
         depth += line.count("{") - line.count("}")
 
 
-def violations(root):
-    """Yields 'file:line: rule' for every broken rule below root."""
+def parts(text):
+    """Names of classes without a base that keep memories."""
+    return {match.group(1) for match in PART.finditer(text)
+            if any(MEMORY.search(line) for _, line, _ in own_lines(body_of(text, match.end())))}
+
+
+def violations(root, whole):
+    """Yields 'file:line: rule' for every broken rule below root; `whole`: who is given a part whole."""
     headers = {}
     for path in sorted((root / "rtl_model").rglob("*.h")):
         if path.relative_to(root).parts[1] in NO_ENGINES:
@@ -63,6 +82,9 @@ def violations(root):
         headers[path.relative_to(root)] = COMMENT.sub(lambda c: "\n" * c.group().count("\n"), text)
     found = {name: list(classes(text)) for name, text in headers.items()}
     units = {c[0] for list_ in found.values() for c in list_ if c[1] == "Unit"}
+    stores = {name for text in headers.values() for name in parts(text)}
+    shared = re.compile(rf"\b({'|'.join(sorted(stores)) or '(?!)'})\b(?:<[^;<>]*>)?\s*(?:const\s*)?[&*]")
+    met = set()
     for where, list_ in found.items():
         for name, base, first, body in list_:
             others = "|".join(sorted(units - {name})) or "(?!)"
@@ -71,6 +93,11 @@ def violations(root):
             for offset, line in enumerate(body.split("\n")):
                 if held.search(line):
                     yield f"{where}:{first + offset}: {name} holds or is given {held.search(line)[1]}: join them by a link or a wire"
+                part = shared.search(line) if base == "Unit" else None
+                if part:
+                    met.add((name, part[1]))
+                if part and (name, part[1]) not in whole:
+                    yield f"{where}:{first + offset}: {name} holds or is given the whole {part[1]}: declare its side, {part[1]}::Reader"
                 if base == "Unit" and owned.search(line):
                     yield f"{where}:{first + offset}: {name} holds {owned.search(line)[1]}: join them by a link or a wire"
             if base != "Unit":
@@ -80,11 +107,15 @@ def violations(root):
                     yield f"{where}:{first + offset}: {name} has a pointer that is set from outside"
                 if public and FUNCTION.search(line):
                     yield f"{where}:{first + offset}: {name} asks by a function: use a wire"
+    for name, part in sorted(set(whole) - met):
+        yield f"{name} is not given {part} any more: take it off the list"
 
 
 def planted_faults_are_caught():
     """Plants one fault of each kind and returns those that were missed."""
-    unit = "class Other final : public Unit {\n public:\n  void reset();\n};\n"
+    unit = ("class Other final : public Unit {\n public:\n  void reset();\n};\n"
+            "template <class Word>\nclass Store {\n public:\n  class Reader {\n    Store* store_;\n  };\n\n private:\n"
+            "  Memory<Word> memory_;\n};\nclass Rules {\n  int lanes_;\n};\n")
     faults = {
         "a reference": "class A final : public Unit {\n  const Other& other_;\n};",
         "a constructor's reference": "class A final : public Unit {\n public:\n  A(int lanes,\n    Other& other);\n};",
@@ -96,7 +127,16 @@ def planted_faults_are_caught():
         "a pointer without a value": "class A final : public Unit {\n public:\n  const Probe<int>* probe;\n};",
         "a question": "class A final : public Unit {\n public:\n  std::function<bool(Cycle)> done;\n};",
     }
+    faults |= {
+        "a part that keeps a memory": "class A final : public Unit {\n  Store<Line>& lines_;\n};",
+        "a constructor's part": "class A final : public Unit {\n public:\n  A(int lanes,\n    const Store<Line>& lines);\n};",
+    }
     fine = {
+        "its own part": "class A final : public Unit {\n public:\n  Store<Line> lines;\n};",
+        "a part's side": "class A final : public Unit {\n public:\n  A(const Store<Line>::Reader& lines);\n\n private:\n"
+                         "  Store<Line>::Reader lines_;\n};",
+        "a part without a memory": "class A final : public Unit {\n  const Rules& rules_;\n};",
+        "who is on the list": "class Writer final : public Unit {\n  Store<Line>& lines_;\n};",
         "an owner": "class A final : public Engine {\n public:\n  Other other;\n  std::unique_ptr<Other> second;\n};",
         "an observer": "class A final : public Unit {\n public:\n  std::function<void(const Beat&)> observer;\n};",
         "itself": "class A final : public Unit {\n  struct Side {\n    const A& unit;\n  };\n};",
@@ -111,8 +151,12 @@ def planted_faults_are_caught():
                 path = pathlib.Path(folder) / "rtl_model/engine/a.h"
                 path.parent.mkdir(parents=True)
                 path.write_text(unit + text + "\n", encoding="utf-8")
-                if len(list(violations(pathlib.Path(folder)))) != wanted:
+                named = {("Writer", "Store"): "writes it"} if "Writer" in text else {}
+                if len(list(violations(pathlib.Path(folder), named))) != wanted:
                     missed.append(what)
+    with tempfile.TemporaryDirectory() as folder:
+        if len(list(violations(pathlib.Path(folder), {("Writer", "Store"): "wrote it"}))) != 1:
+            missed.append("a name that is on the list for nothing")
     return missed
 
 
@@ -123,7 +167,7 @@ def main():
     missed = planted_faults_are_caught()
     for fault in missed:
         print(f"planted fault not caught, or said of what is fine: {fault}")
-    found = list(violations(root))
+    found = list(violations(root, WHOLE))
     for violation in found:
         print(violation)
     sys.exit(1 if found or missed else 0)

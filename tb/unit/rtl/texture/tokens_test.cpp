@@ -29,6 +29,12 @@ TEST(TextureRtlTokens, LinksAreThoseOfThePage) {
   table.expect_links("largest cache", TextureUnit("largest", clock, largest));
 }
 
+TEST(TextureRtlTokens, WiresAreThoseOfThePage) {
+  ClockDomain clock("clock", tb::texture_rtl::period());
+  TextureUnit unit("unit", clock, {});
+  tb::EnginePage("texture_unit.md", "wire").expect_wires(unit);
+}
+
 TEST(TextureRtlTokens, MemoriesAreThoseOfThePage) {
   ClockDomain clock("clock", tb::texture_rtl::period());
   spec::texture::Parameters p;
