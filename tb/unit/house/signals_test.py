@@ -16,26 +16,18 @@ import tempfile
 
 # Rooms of rtl_model that are no engine.
 NO_ENGINES = {"fabric", "platform"}
-# What stands between units, or is no hardware: by engine, with the reason.
+# What stands between units, or is no hardware, with the reason.
 SHARED = {
-    "geometric": {
-        "ClockDomain": "the clock, for a START between two edges",
-        "ControlRegisters": "the registers behind the bus, which the ParameterStore alone holds",
-        "FillStore": "places for lines on their way: BlockFetch reserves and fills them, Resolver uses them",
-        "EdgeLatency": "an instrument",
-    },
-    "morphological": {
-        "ParameterStore": "the registers, decoded",
-        "EdgeWindow": "a memory with a port a user",
-        "EdgeRows": "a memory with a port a user",
-        "PortSchedule": "which clock of a port is whose",
-        "LatencyProbe": "an instrument",
-    },
-    "texture": {
-        "ControlRegisters": "the registers behind the bus",
-        "FillBuffer": "places for lines on their way: MissQueue fills them, DataStage uses them",
-        "LatencyProbe": "an instrument",
-    },
+    "ClockDomain": "the clock",
+    "ControlRegisters": "the registers behind the bus",
+    "ParameterStore": "the registers, decoded, where they are no module",
+    "EdgeWindow": "a memory with a port a user",
+    "EdgeRows": "a memory with a port a user",
+    "PortSchedule": "which clock of a port is whose",
+    "FillStore": "places for lines on their way: one unit reserves and fills them, another uses them",
+    "FillBuffer": "places for lines on their way: one unit fills them, another uses them",
+    "EdgeLatency": "an instrument",
+    "LatencyProbe": "an instrument",
 }
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
 CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\s*(?:final\s*)?:\s*([^{;]*)\{")
@@ -101,7 +93,7 @@ def violations(root):
                 if base == "Unit" and owned.search(line):
                     yield f"{where}:{first + offset}: {name} holds {owned.search(line)[1]}: join them by a link or a wire"
                 reference = REFERENCE.search(line)
-                if reference and reference[1] not in modules[engine] | SHARED.get(engine, {}).keys():
+                if reference and reference[1] not in modules[engine] | SHARED.keys():
                     yield f"{where}:{first + offset}: {name} holds {reference[1]}, which SHARED does not name: use a link or a wire"
             if base != "Unit":
                 continue
@@ -113,13 +105,14 @@ def violations(root):
 
 
 def not_shared(root):
-    """Yields what SHARED names and no module holds."""
-    for engine, names in SHARED.items():
-        text = "\n".join(COMMENT.sub("", path.read_text(encoding="utf-8"))
-                         for path in sorted((root / "rtl_model" / engine).rglob("*.h")))
-        held = {match[1] for match in map(REFERENCE.search, text.split("\n")) if match}
-        for name in sorted(names.keys() - held):
-            yield f"SHARED names {name} of {engine}, which no module holds: drop it"
+    """Yields what SHARED names and nothing in an engine holds."""
+    held = set()
+    for path in (root / "rtl_model").rglob("*.h"):
+        if path.relative_to(root).parts[1] not in NO_ENGINES:
+            lines = COMMENT.sub("", path.read_text(encoding="utf-8")).split("\n")
+            held.update(match[1] for match in map(REFERENCE.search, lines) if match)
+    for name in sorted(SHARED.keys() - held):
+        yield f"SHARED names {name}, which nothing holds: drop it"
 
 
 def planted_faults_are_caught():
@@ -135,7 +128,6 @@ def planted_faults_are_caught():
         "a module's reference": "class A final : public sc_core::sc_module {\n  Other& other_;\n};",
         "a module that is no unit": "class A final : public Unit {\n  const Store& store_;\n};",
         "what is not shared": "class A final : public Unit {\n  struct Side {\n    const Table<Word>& table;\n  };\n};",
-        "what another engine shares": "class A final : public Unit {\n  ParameterStore& store_;\n};",
         "a pointer from outside": "class A final : public Unit {\n public:\n  Latency* latency = nullptr;  // or none\n};",
         "a pointer without a value": "class A final : public Unit {\n public:\n  const Probe<int>* probe;\n};",
         "a question": "class A final : public Unit {\n public:\n  std::function<bool(Cycle)> done;\n};",
@@ -144,6 +136,7 @@ def planted_faults_are_caught():
         "an owner": "class A final : public Engine {\n public:\n  Other other;\n  std::unique_ptr<Other> second;\n};",
         "an observer": "class A final : public Unit {\n public:\n  std::function<void(const Beat&)> observer;\n};",
         "itself": "class A final : public Unit {\n  struct Side {\n    const A& unit;\n  };\n};",
+        "registers": "class A final : public Unit {\n  const ParameterStore& store_;\n};",
         "an instrument": "class A final : public Unit {\n  EdgeLatency& latency_;\n};",
         "a local name": "class A final : public Unit {\n  void work() {\n    const Table& table = tables_[0];\n  }\n};",
         "a comment": "class A final : public Unit {\n  // Other& is joined by a link.\n  int x_;\n};",
@@ -153,7 +146,7 @@ def planted_faults_are_caught():
     for cases, wanted in ((faults, 1), (fine, 0)):
         for what, text in cases.items():
             with tempfile.TemporaryDirectory() as folder:
-                path = pathlib.Path(folder) / "rtl_model/geometric/a.h"
+                path = pathlib.Path(folder) / "rtl_model/engine/a.h"
                 path.parent.mkdir(parents=True)
                 path.write_text(unit + text + "\n", encoding="utf-8")
                 if len(list(violations(pathlib.Path(folder)))) != wanted:
