@@ -1,48 +1,28 @@
 // SPDX-License-Identifier: MIT
-// The rules of the frame under way, decoded from the registers, and where its pixels lie.
+// The registers' side of the engine: START, what stands against a frame, its rules, and the sticky
+// bits of STATUS.
 //
-// Where: beside the pipe; every unit reads the rules, which stand still while a frame is under way.
-// Timing: a write counts from the next clock edge on; the rules are latched when START is judged. A
-// write while a frame is under way is ignored (CONTROL and STATUS excepted) and sets a sticky bit.
-// Codes of RULES that no choice has count as code 0. Cost: the registers, and 60 bits of sizes.
-// Made for 250 MHz; longest path: 11 x 11 multiply (words of the TouchedMap).
+// Where: beside the pipe, in front of the registers. A write counts from the next clock edge on:
+// START is on `start` in the clock after its write. In that clock the FrameSequencer answers with
+// `latch`, and gets `refusal`: the registers as they are then become the rules, which units read
+// from the next clock on, or the frame is refused, which has an effect on REFUSAL and STATUS alone.
+// A write while a frame is under way is ignored (CONTROL and STATUS excepted) and sets a sticky
+// bit. Codes of RULES that no choice has count as code 0. A pulse of a sticky bit sets it in its
+// clock. Nothing in here is ticked. Cost: the registers, and 60 bits of sizes. Made for 250 MHz;
+// longest path: 11 x 11 multiply (words of the TouchedMap).
 #pragma once
 
 #include <cstdint>
+#include <systemc>
 
+#include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/control_registers.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/geometric/common/frame_rules.h"
 #include "spec/geometric/parameters.h"
 #include "spec/geometric/registers.h"
 
 namespace deburr::rtl::geometric {
-
-struct FrameRules {
-  std::int32_t width = 0, height = 0;  // U14, pixels
-  spec::geometric::Select select{};
-  spec::geometric::Crease crease{};
-  spec::geometric::DepthTest depth_test{};
-  std::uint32_t depth_bias = 1;  // U5, 1..24
-  spec::geometric::Combine combine{};
-  bool linear_light = false, mark = false, tiled = false, frame_copy = false;
-  std::uint32_t edge_count = 0, vertex_count = 0, face_count = 0;
-  std::uint32_t edge_base = 0, vertex_base = 0, face_base = 0, depth_base = 0, colour_base = 0,
-                weight_base = 0, copy_base = 0;
-  std::uint32_t blocks_across = 0, blocks_down = 0;  // U12
-  std::uint32_t words_across = 0;                    // U5, words of the TouchedMap in a row
-  std::uint32_t touched_words = 0;                   // U16
-  std::uint32_t lines_across = 0;  // raster: lines of memory a row; tiled: tiles across
-
-  // Lines of memory of the colours.
-  std::uint32_t frame_lines() const {
-    return tiled ? 4 * lines_across * ((static_cast<std::uint32_t>(height) + 7) / 8)
-                 : lines_across * static_cast<std::uint32_t>(height);
-  }
-  // Byte offset of the line of memory (u, v): a multiply 13 x 10.
-  std::uint32_t line_offset(std::uint32_t u, std::uint32_t v) const {
-    if (!tiled) return (v * lines_across + u) << 6;
-    return ((v >> 1) * lines_across + (u >> 1)) << 8 | (v & 1) << 7 | (u & 1) << 6;
-  }
-};
 
 // CONTROL and STATUS, for the engine's ControlRegisters.
 ControlLayout control_layout();
@@ -52,24 +32,33 @@ FrameRules decode(const ControlRegisters& registers);
 // Why it is not drawn.
 spec::geometric::Refusal refusal(const FrameRules& rules, bool enabled,
                                  const spec::geometric::Parameters& parameters);
+inline PayloadShape refusal_shape() { return {.widths = {{"value", 3}}}; }
 
-class ParameterStore {
+class ParameterStore final : public sc_core::sc_module {
  public:
+  WireOut<FrameRules> rules_out{"rules_out"};
+  PulseOut start_out{"start_out"};
+  OnPulse latch_in{"latch_in", [this](Cycle cycle) { latch(cycle); }};
+  WireOut<spec::geometric::Refusal, WireKind::kCombinational> refusal_out{"refusal_out"};
+  // Each sets its bit of STATUS.
+  OnPulse frame_done_in, invalid_edge_in, memory_error_in;
+
   // Gives the registers the reset values that parameters set.
-  ParameterStore(ControlRegisters& registers, const spec::geometric::Parameters& parameters);
+  ParameterStore(const sc_core::sc_module_name& name, ClockDomain& clock,
+                 ControlRegisters& registers, const spec::geometric::Parameters& parameters);
 
-  // --- Wires to the blocks ---
-  const FrameRules& rules() const { return rules_; }
-  void set_sticky(std::uint32_t status_bits) { registers_.set_sticky(status_bits); }
-  bool enabled() const { return registers_.enabled(); }
-
-  // The registers as they are become the rules; gives what stands against it.
-  spec::geometric::Refusal latch(bool enabled);
+  // START is written and not yet judged. Between edges.
+  bool starting() const { return starting_; }
 
  private:
+  void start();
+  void latch(Cycle cycle);
+
+  ClockDomain& clock_;
   ControlRegisters& registers_;
   const spec::geometric::Parameters parameters_;
-  FrameRules rules_;
+  bool starting_ = false, start_enabled_ = false;  // the latter as START was written
+  spec::geometric::Refusal refused_{};
 };
 
 }  // namespace deburr::rtl::geometric
