@@ -6,6 +6,7 @@ set(DEBURR_PROGRAM_FOLDER "${CMAKE_INSTALL_LIBEXECDIR}/deburr")
 set(DEBURR_DATA_FOLDER "${CMAKE_INSTALL_DATADIR}/deburr")
 add_dependencies(deburr_installed deburr_complete)
 
+set_target_properties(deburr deburr_papers PROPERTIES INSTALL_RPATH "$ORIGIN")
 install(TARGETS deburr deburr_papers RUNTIME DESTINATION "${DEBURR_PROGRAM_FOLDER}" COMPONENT program)
 foreach(module deburr_images deburr_evolution)
   if(TARGET ${module})
