@@ -16,6 +16,7 @@
 #include "spec/error.h"
 #include "tb/base/file.h"
 #include "tb/base/interrupt.h"
+#include "tb/base/ready_file.h"
 #include "tb/command/commands.h"
 #include "tb/command/point_options.h"
 #include "tb/regress/regression_plan.h"
@@ -60,7 +61,7 @@ class Regression {
  public:
   explicit Regression(const RegressOptions& options)
       : options_(options),
-        testplan_(part_of(read_testplan(options.file), options.divide)),
+        testplan_(part_of(read_testplan(ready_file(options.file)), options.divide)),
         base_seed_(base_seed_of(options, testplan_)),
         place_(regression_place_of(options.out, testplan_.name, base_seed_)),
         what_(fmt::format("regression {} --seed {}", testplan_.name, base_seed_)) {}

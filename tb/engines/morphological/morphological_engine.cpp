@@ -10,9 +10,9 @@
 
 #include "golden/morphological/configuration.h"
 #include "rtl_model/morphological/datasheets.h"
+#include "rtl_model/morphological/register_section.h"
 #include "spec/error.h"
 #include "spec/morphological/check_build.h"
-#include "spec/morphological/registers.h"
 #include "tb/app/input_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
@@ -125,10 +125,7 @@ class MorphologicalCommand final : public Engine {
   }
   std::vector<std::string_view> maps() const override { return {"edges", "run_length", "steps"}; }
 
-  RegisterSection registers() const override {
-    return {"MorphologicalEngine",
-            {spec::morphological::kRegisters.begin(), spec::morphological::kRegisters.end()}};
-  }
+  rtl::RegisterSection registers() const override { return rtl::morphological::register_section(); }
   CoverageSection coverage() const override {
     return {"Morphological engine",
             morphological_coverage(golden::morphological::MorphologicalGolden({})),

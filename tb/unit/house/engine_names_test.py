@@ -51,6 +51,9 @@ NAMED = {
             "tb/system/coverage_test.py", "tb/system/figures_test.py", "tb/system/observers_test.py", "tb/system/shared_golden_test.cpp",
             "tb/system/inputs_test.py", "tb/system/sweep_test.py", "tb/system/terminal_test.py", "tb/unit/env/planted_faults_test.cpp",
             "tb/unit/house/mutate_test.py", "tb/unit/results/result_test.cpp", "tb/env/collect.h"],
+        "an example of an engine, in what is built from installed files": [
+            "examples/installed_test.py", "examples/platform/main.cpp", "examples/platform/painter.cpp",
+            "examples/platform/painter.h"],
         "the one choice by which an engine has no memory": ["tb/traces/line_trace.cpp"],
         "names of memories are cut in a chart": ["tb/results/report.js"],
         "tables of pages are measured, its own among them": [
