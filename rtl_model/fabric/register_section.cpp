@@ -122,7 +122,7 @@ std::string repetition_macros(const RegisterSection& section) {
 
 // ---- SystemRDL ----
 
-constexpr std::string_view kReserved[] = {"abstract",    "accesstype", "addressingtype",
+constexpr std::string_view kKeywords[] = {"abstract",    "accesstype", "addressingtype",
                                           "addrmap",     "alias",      "all",
                                           "bit",         "boolean",    "bothedge",
                                           "compact",     "component",  "constraint",
@@ -150,7 +150,7 @@ std::string rdl_name(std::string_view name) {
   for (const char c : name) text += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
   if (std::isdigit(static_cast<unsigned char>(text[0]))) text.insert(0, 1, '_');
   const bool reserved =
-      std::find(std::begin(kReserved), std::end(kReserved), text) != std::end(kReserved);
+      std::find(std::begin(kKeywords), std::end(kKeywords), text) != std::end(kKeywords);
   return reserved ? "\\" + text : text;
 }
 
