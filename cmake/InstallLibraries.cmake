@@ -58,6 +58,9 @@ file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/installed/registers.cpp" @ONLY CONT
 
 #include "rtl_model/fabric/register_section.h"
 @includes@
+// SystemC's library asks for it.
+extern "C" int sc_main(int /*argc*/, char** /*argv*/) { return 1; }
+
 int main() {
   const std::vector<deburr::rtl::RegisterSection> sections = {
 @sections@  };
