@@ -73,7 +73,7 @@ class Scratch(unittest.TestCase):
 
 class Install(unittest.TestCase):
     def test_it_installs_and_may_be_moved(self):
-        place = BUILD / "examples"
+        place = BUILD / "installed_here"
         shutil.rmtree(place, ignore_errors=True)
         call(CMAKE, "--install", BUILD, "--prefix", place / "first", env=dict(os.environ))
         (place / "first").rename(PREFIX)
