@@ -7,6 +7,9 @@
 # probed by linking, and the definition is put on the imported target.
 #
 # SystemC 3.0 and later install a CMake package of their own (SystemCLanguage); it is preferred.
+#
+# It is installed with Deburr's CMake package, whose user needs the same SC_CPLUSPLUS. Why nothing was found
+# is in SystemC_NOT_FOUND_MESSAGE.
 
 find_package(SystemCLanguage CONFIG QUIET)
 if(SystemCLanguage_FOUND)
@@ -54,17 +57,18 @@ if(SystemC_INCLUDE_DIR AND SystemC_LIBRARY AND NOT DEFINED SystemC_BASELINE)
   unset(CMAKE_REQUIRED_QUIET)
 endif()
 
+unset(SystemC_NOT_FOUND_MESSAGE)
 if(NOT SystemC_INCLUDE_DIR OR NOT SystemC_LIBRARY)
-  set(_why "SystemC was not found: install Debian's package libsystemc-dev, or set SYSTEMC_HOME to an installation of SystemC 2.3.3 or later.")
+  set(SystemC_NOT_FOUND_MESSAGE "SystemC was not found: install Debian's package libsystemc-dev, or set SYSTEMC_HOME to an installation of SystemC 2.3.3 or later.")
 elseif(NOT SystemC_BASELINE)
-  set(_why "SystemC was found at ${SystemC_LIBRARY}, but a C++20 program links with it under no baseline of C++11, 14, 17 or 20: rebuild it with -std=c++17 or later (and look at CMakeFiles/CMakeError.log for the linker's words).")
+  set(SystemC_NOT_FOUND_MESSAGE "SystemC was found at ${SystemC_LIBRARY}, but a C++20 program links with it under no baseline of C++11, 14, 17 or 20: rebuild it with -std=c++17 or later (and look at CMakeFiles/CMakeError.log for the linker's words).")
 endif()
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(SystemC
   REQUIRED_VARS SystemC_LIBRARY SystemC_INCLUDE_DIR SystemC_BASELINE
   VERSION_VAR SystemC_VERSION
-  REASON_FAILURE_MESSAGE "${_why}")
+  REASON_FAILURE_MESSAGE "${SystemC_NOT_FOUND_MESSAGE}")
 
 if(SystemC_FOUND AND NOT TARGET SystemC::systemc)
   add_library(SystemC::systemc UNKNOWN IMPORTED)

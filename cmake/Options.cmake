@@ -4,7 +4,13 @@ option(DEBURR_WERROR "Treat warnings as errors (on in CI)" OFF)
 option(DEBURR_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer" OFF)
 option(DEBURR_FUZZ "Build the fuzzers (clang with libFuzzer)" OFF)
 option(DEBURR_COVERAGE "Build with gcov line coverage" OFF)
+option(DEBURR_PROGRAM "Build the command `deburr`; OFF: the libraries alone, and no tests" ON)
+option(BUILD_SHARED_LIBS "Install shared libraries" OFF)
 option(DEBURR_UNITY "Compile sources in batches: a third of the time, but no file stands alone" ON)
+
+if(BUILD_SHARED_LIBS)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+endif()
 
 add_library(deburr_options INTERFACE)
 target_compile_features(deburr_options INTERFACE cxx_std_20)

@@ -3,35 +3,21 @@
 
 #include <algorithm>
 #include <bit>
-#include <string>
 
-#include "spec/error.h"
+#include "spec/texture/check_build.h"
 
 namespace deburr::golden::texture {
 namespace {
 
 constexpr std::uint32_t kShiftRegisterStart = 0xACE1;
 
-std::uint32_t power_of_two(const char* name, std::int32_t value) {
-  if (value <= 0 || !std::has_single_bit(static_cast<std::uint32_t>(value))) {
-    throw spec::ConfigError(std::string(name) + " is " + std::to_string(value) +
-                            ": it must be a power of two");
-  }
-  return static_cast<std::uint32_t>(value);
-}
-
 }  // namespace
 
 CachePredictor::CachePredictor(const spec::texture::Parameters& parameters)
-    : replacement_(parameters.cache_replacement) {
-  const std::uint32_t bytes = power_of_two("cache.bytes", parameters.cache_bytes);
-  const std::uint32_t line = power_of_two("cache.line_bytes", parameters.cache_line_bytes);
-  ways_ = power_of_two("cache.ways", parameters.cache_ways);
-  if (bytes < line * ways_) {
-    throw spec::ConfigError("cache.bytes is " + std::to_string(bytes) + ", less than one set of " +
-                            std::to_string(ways_) + " ways of " + std::to_string(line) +
-                            " bytes: raise cache.bytes or lower cache.ways");
-  }
+    : replacement_(spec::texture::check_build(parameters).cache_replacement),
+      ways_(static_cast<std::uint32_t>(parameters.cache_ways)) {
+  const auto bytes = static_cast<std::uint32_t>(parameters.cache_bytes);
+  const auto line = static_cast<std::uint32_t>(parameters.cache_line_bytes);
   line_shift_ = std::countr_zero(line);
   set_mask_ = bytes / (line * ways_) - 1;
   tags_.resize(bytes / line);

@@ -16,7 +16,7 @@ namespace deburr::golden::texture {
 
 class CachePredictor {
  public:
-  // Throws ConfigError: capacity, line size or ways no powers of two, or less than one set.
+  // Throws ConfigError for what cannot be built (spec/texture/check_build.h).
   explicit CachePredictor(const spec::texture::Parameters& parameters);
 
   // Looks a line up and makes it present. True: it was present; false: one fill of the whole line.
@@ -57,8 +57,9 @@ class CachePredictor {
   std::uint32_t victim(std::span<const Way> set);
 
   spec::texture::Replacement replacement_;
+  std::uint32_t ways_;
   int line_shift_ = 0;
-  std::uint32_t ways_ = 0, set_mask_ = 0;
+  std::uint32_t set_mask_ = 0;
   std::vector<Way> tags_;  // set by set
   std::uint64_t time_ = 0;
   std::uint32_t shift_register_ = 0;  // 16 bits

@@ -66,7 +66,7 @@ class TextureGolden {
   enum class Traffic { kPredict, kIgnore };  // kIgnore: no fills and no memory errors; faster
 
   // `memory` is not copied: it must outlive this object, and may change between quads only where no
-  // predicted line is present. Throws ConfigError (cache geometry).
+  // predicted line is present. Throws ConfigError for what cannot be built.
   TextureGolden(const spec::texture::Parameters& parameters, std::span<const std::uint8_t> memory,
                 Traffic traffic = Traffic::kPredict);
 

@@ -50,29 +50,33 @@ void ClockDomain::claim(WireBase& wire) {
 }
 
 // A combinational wire is driven before it is read: its driver is added before its readers, and
-// they keep that order.
+// they keep that order. What is not ticked (registers behind a bus) drives between edges, or in
+// answer to a unit that reads it then, and takes at once.
 void ClockDomain::join_combinational() {
   std::vector<std::size_t> group(
       units_.size());  // the lowest number of a unit that it is joined to
   std::iota(group.begin(), group.end(), std::size_t{0});
-  const auto unit_of = [&](const std::string& port) {
+  const auto unit_of = [&](const std::string& port) -> std::optional<std::size_t> {
     const sc_core::sc_object* object = sc_core::sc_find_object(port.c_str());
     while (object && !dynamic_cast<const Unit*>(object)) object = object->get_parent_object();
+    if (!object) return std::nullopt;
     const auto found = std::find(units_.begin(), units_.end(), object);
-    DEBURR_CHECK(found != units_.end(), fmt::format("{} is a port of no unit", port));
+    DEBURR_CHECK(found != units_.end(), fmt::format("{} is a port of no unit of {}", port, name()));
     return static_cast<std::size_t>(found - units_.begin());
   };
   for (const WireBase* wire : wires_) {
     if (!wire->combinational() || wire->driver().empty()) continue;
-    const std::size_t driver = unit_of(wire->driver());
+    const std::optional<std::size_t> driver = unit_of(wire->driver());
+    if (!driver) continue;
     for (const std::string& port : wire->readers()) {
-      const std::size_t reader = unit_of(port);
-      DEBURR_CHECK(driver < reader,
+      const std::optional<std::size_t> reader = unit_of(port);
+      if (!reader) continue;
+      DEBURR_CHECK(*driver < *reader,
                    fmt::format("{} is combinational, so {} has to be ticked before {}: construct "
                                "it first",
-                               wire->name(), units_[driver]->name(), units_[reader]->name()));
-      const std::size_t from = std::max(group[driver], group[reader]),
-                        to = std::min(group[driver], group[reader]);
+                               wire->name(), units_[*driver]->name(), units_[*reader]->name()));
+      const std::size_t from = std::max(group[*driver], group[*reader]),
+                        to = std::min(group[*driver], group[*reader]);
       std::replace(group.begin(), group.end(), from, to);
     }
   }
@@ -92,6 +96,9 @@ void ClockDomain::end_of_elaboration() {
     const sc_core::sc_object* around = memory.get_parent_object();
     while (around && !dynamic_cast<const Unit*>(around)) around = around->get_parent_object();
     if (!around) memories_.push_back(&memory);
+  });
+  for_each<WirePortBase>([](const WirePortBase& port) {
+    DEBURR_CHECK(port.bound(), fmt::format("{} is not bound to a wire", port.name()));
   });
   for (Unit* unit : units_) {
     unit->check_ports();

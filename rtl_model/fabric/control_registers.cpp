@@ -24,7 +24,7 @@ ControlRegisters::ControlRegisters(const char* name, std::span<const spec::Regis
     if (registers.table()[i].access == spec::Access::kReadWrite)
       registers.on_write(i, [this, i](std::uint32_t value) { written(i, value); });
   }
-  registers.on_write(index(layout.status), [this](std::uint32_t value) { sticky_ &= ~value; });
+  registers.on_write(index(layout.status), [this](std::uint32_t value) { keep(sticky_ & ~value); });
   registers.on_read(index(layout.status),
                     [this] { return sticky_ | (busy_() ? 0 : layout_.idle); });
   enabled_ = value(layout.control) & layout.enable;
@@ -106,7 +106,7 @@ void ControlRegisters::reset() {
     registers.set(i, resets_[i]);
   }
   enabled_ = value(layout_.control) & layout_.enable;
-  sticky_ = 0;
+  keep(0);
   for (const spec::RegisterInfo& r : registers.table())
     if (r.access == spec::Access::kReadWrite && r.offset != layout_.control) changed_(r.offset);
 }

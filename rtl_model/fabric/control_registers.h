@@ -6,8 +6,9 @@
 // CONTROL: enable; clear the counters (command); further commands, which wait for nobody: while the
 // engine is busy they are refused. STATUS: idle, and sticky bits that a one clears; one of them
 // says that a register was written while the engine was busy. Such a write is taken or ignored, as
-// the layout says. Bits that no field has read as 0. What the values mean is the engine's business:
-// it decodes them in on_change(). Cost: 32 flip-flops a writable register.
+// the layout says. The interrupt is high while one of the sticky bits is set. Bits that no field
+// has read as 0. What the values mean is the engine's business: it decodes them in on_change().
+// Cost: 32 flip-flops a writable register.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +40,8 @@ class ControlRegisters {
 
   // --- Wires to the blocks ---
   bool enabled() const { return enabled_; }
-  void set_sticky(std::uint32_t status_bits) { sticky_ |= status_bits; }
+  void set_sticky(std::uint32_t status_bits) { keep(sticky_ | status_bits); }
+  bool interrupt() const { return sticky_ != 0; }
   std::uint32_t value(std::uint32_t offset) const { return registers.get(index(offset)); }
   // Debug writes go past the masks: the values as the hardware would hold them.
   void mask_values();
@@ -47,6 +49,8 @@ class ControlRegisters {
   // --- Wiring, while the engine is built ---
   void on_busy(std::function<bool()> busy) { busy_ = std::move(busy); }
   void on_clear_counters(std::function<void()> clear) { clear_counters_ = std::move(clear); }
+  // After the interrupt has changed: in a clock, or by a write to STATUS.
+  void on_interrupt(std::function<void()> changed) { interrupt_changed_ = std::move(changed); }
   // A further command of CONTROL.
   void on_command(std::uint32_t control_bit, std::function<void()> action);
   // After every write that was taken, and after a reset: the values have changed.
@@ -84,12 +88,17 @@ class ControlRegisters {
   std::size_t index(std::uint32_t offset) const;
   void written(std::size_t index, std::uint32_t value);
   void write_control(std::uint32_t value);
+  void keep(std::uint32_t sticky) {
+    const bool before = interrupt();
+    sticky_ = sticky;
+    if (interrupt() != before) interrupt_changed_();
+  }
 
   ControlLayout layout_;
   std::vector<std::uint32_t> masks_, resets_, kept_;  // kept: before a write
   std::vector<Command> commands_;
   std::function<bool()> busy_ = [] { return false; };
-  std::function<void()> clear_counters_ = [] {};
+  std::function<void()> clear_counters_ = [] {}, interrupt_changed_ = [] {};
   std::function<void(std::uint32_t)> changed_ = [](std::uint32_t) {};
   std::vector<std::function<void(std::uint32_t)>> taken_;  // by register
   bool enabled_ = true;

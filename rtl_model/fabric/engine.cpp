@@ -26,6 +26,11 @@ Engine::Engine(const sc_core::sc_module_name& name, ClockDomain& clock,
   control.on_busy([this] { return !idle(); });
   control.on_clear_counters([this] { clear_counters(); });
   clock.on_reset([this] { control.reset(); });
+  control.on_interrupt([this, &clock] { clock.notify(interrupt_changed_); });
+  interrupt.bind(interrupt_level_);
+  SC_METHOD(drive_interrupt);
+  sensitive << interrupt_changed_;
+  dont_initialize();
 }
 
 void Engine::clear_counters() {

@@ -13,7 +13,7 @@
 //
 // A clear command (CONTROL) resets every Counter below the engine, whether a register shows it or
 // not, and nothing else: the account of clocks and the histograms are instruments of the model and
-// go on. A reset gives every register its reset value.
+// go on. A reset gives every register its reset value, and lowers the interrupt.
 #pragma once
 
 #include <array>
@@ -47,6 +47,10 @@ class Engine : public sc_core::sc_module {
   tlm_utils::simple_target_socket<RegisterBlock>& registers = control.registers.bus;
   // nullptr: built without memory, and there is no such socket.
   tlm::tlm_initiator_socket<>* memory() const { return port_ ? &port_->memory : nullptr; }
+  // High while a sticky bit of STATUS is set: a frame is done, or something went wrong. Software
+  // lowers it with a write of ones to those bits. It follows in the delta cycle after the edge, or
+  // after the write; sc_in<bool> ports bind to it, or nothing does.
+  sc_core::sc_export<sc_core::sc_signal_in_if<bool>> interrupt{"interrupt"};
   // For a target that does not accept every end of a response. Before the first request.
   void end_responses(ResponseEnd how) {
     if (port_) port_->response_end = how;
@@ -70,7 +74,12 @@ class Engine : public sc_core::sc_module {
   void uses(MemoryPort& port) { port_ = &port; }
 
  private:
+  SC_HAS_PROCESS(Engine);
+  void drive_interrupt() { interrupt_level_.write(control.interrupt()); }
+
   MemoryPort* port_ = nullptr;
+  sc_core::sc_signal<bool> interrupt_level_{"interrupt_level"};
+  sc_core::sc_event interrupt_changed_;
 };
 
 }  // namespace deburr::rtl

@@ -52,6 +52,7 @@ PayloadShape response_shape(const MemoryPortParameters& port, std::uint32_t addr
 struct MemoryPort::Transaction final : tlm::tlm_generic_payload {
   explicit Transaction(tlm::tlm_mm_interface* owner) : tlm_generic_payload(owner) {}
   std::vector<std::uint8_t> data, enables;
+  std::uint64_t address = 0;  // as it was sent: an interconnect may change the payload's
   std::uint32_t tag = 0, epoch = 0;
   std::uint16_t lines = 1;
   std::uint16_t next_line = 0;  // write: beats gathered; read: beats responded
@@ -138,7 +139,8 @@ Activity MemoryPort::work(Cycle cycle) {
         t.next_line = 0;
         t.write = request.write;
         t.arrived = false;
-        t.set_address(request.address);
+        t.address = request.address;
+        t.set_address(t.address);
         t.data.resize(std::size_t{t.lines} * parameters_.line_bytes);
         t.bytes = t.data.size();
         t.masked = false;
@@ -223,7 +225,7 @@ tlm::tlm_sync_enum MemoryPort::nb_transport_bw(tlm::tlm_generic_payload& payload
       throw spec::SimulationError(fmt::format(
           "{}: the memory sent phase {} backwards, for address {:#x}: only END_REQ and BEGIN_RESP "
           "may come from a target",
-          name(), phase.get_name(), payload.get_address()));
+          name(), phase.get_name(), t.address));
     return tlm::TLM_ACCEPTED;  // a phase of an extended protocol, which a base-protocol port
                                // ignores
   }
@@ -234,12 +236,12 @@ tlm::tlm_sync_enum MemoryPort::nb_transport_bw(tlm::tlm_generic_payload& payload
   if (!begins) return tlm::TLM_ACCEPTED;
   if (t.arrived)
     throw spec::SimulationError(fmt::format("{}: the memory answered the {} of {:#x} twice", name(),
-                                            t.write ? "write" : "read", t.get_address()));
+                                            t.write ? "write" : "read", t.address));
   if (responding_)
     throw spec::SimulationError(
         fmt::format("{}: the memory began the response for {:#x} before the one for {:#x} was "
                     "ended",
-                    name(), t.get_address(), responding_->get_address()));
+                    name(), t.address, responding_->address));
   if (response_end == ResponseEnd::kCall) {
     t.acquire();
     responding_ = &t;
@@ -317,7 +319,7 @@ bool MemoryPort::respond(Cycle cycle) {
   if (!t->arrived || cycle < t->visible) return false;
 
   MemoryResponse& response = responses_out.emplace(cycle);
-  response.address = t->get_address() + std::uint64_t{t->next_line} * parameters_.line_bytes;
+  response.address = t->address + std::uint64_t{t->next_line} * parameters_.line_bytes;
   response.tag = t->tag;
   response.line = t->next_line;
   response.write = t->write;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <utility>
 
@@ -12,20 +11,6 @@
 
 namespace deburr::rtl {
 namespace {
-
-const char* access_name(spec::Access access) {
-  switch (access) {
-    case spec::Access::kReadWrite:
-      return "RW";
-    case spec::Access::kReadOnly:
-      return "RO";
-    case spec::Access::kCommand:
-      return "WO";
-    case spec::Access::kWriteOneToClear:
-      return "W1C";
-  }
-  return "?";
-}
 
 // Registers travel little-endian, whatever the host is.
 void store(std::uint8_t* to, std::uint32_t value) {
@@ -101,7 +86,10 @@ std::uint32_t RegisterBlock::read(std::size_t index) const {
                        : values_[index];
 }
 
-void RegisterBlock::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time&) {
+void RegisterBlock::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+  if (delay != sc_core::SC_ZERO_TIME &&
+      sc_core::sc_get_current_process_handle().proc_kind() == sc_core::SC_THREAD_PROC_)
+    wait(std::exchange(delay, sc_core::SC_ZERO_TIME));
   const int found = find(payload.get_address());
   const bool write = payload.is_write();
   const auto refuse = [&](tlm::tlm_response_status status) { payload.set_response_status(status); };
@@ -144,86 +132,6 @@ unsigned RegisterBlock::transport_dbg(tlm::tlm_generic_payload& payload) {
     }
   payload.set_response_status(done ? tlm::TLM_OK_RESPONSE : tlm::TLM_ADDRESS_ERROR_RESPONSE);
   return done;
-}
-
-namespace {
-
-std::string codes_of(const spec::Field& field) {
-  std::string text;
-  for (std::size_t code = 0; code < field.codes.size(); ++code)
-    text += fmt::format("{}{} {}", code > 0 ? ", " : "", code, field.codes[code]);
-  return text;
-}
-
-std::string meaning_of(const spec::Field& field) {
-  if (field.meaning.empty()) return codes_of(field);
-  if (field.codes.empty()) return std::string(field.meaning);
-  return fmt::format("{}; {}", codes_of(field), field.meaning);
-}
-
-std::string bits_of(const spec::Field& field) {
-  return field.high == field.low ? fmt::format("[{}]", field.low)
-                                 : fmt::format("[{}:{}]", field.high, field.low);
-}
-
-// Registers of the same fields stand in one row.
-std::string field_table_markdown(std::span<const spec::RegisterInfo> table) {
-  std::vector<std::pair<std::span<const spec::Field>, std::string>> groups;
-  for (const spec::RegisterInfo& r : table) {
-    if (r.fields.empty()) continue;
-    const auto same = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
-      return group.first.data() == r.fields.data();
-    });
-    if (same == groups.end())
-      groups.emplace_back(r.fields, fmt::format("`{}`", r.name));
-    else
-      same->second += fmt::format(", `{}`", r.name);
-  }
-  if (groups.empty()) return {};
-  std::string text = "\n| register | bits | field | meaning |\n|---|---|---|---|\n";
-  for (const auto& [fields, names] : groups)
-    for (const spec::Field& field : fields)
-      text += fmt::format("| {} | {} | `{}` | {} |\n", names, bits_of(field), field.name,
-                          meaning_of(field));
-  return text;
-}
-
-std::string upper(std::string_view name) {
-  std::string text;
-  for (const char c : name)
-    text += std::isalnum(static_cast<unsigned char>(c))
-                ? static_cast<char>(std::toupper(static_cast<unsigned char>(c)))
-                : '_';
-  return text;
-}
-
-}  // namespace
-
-std::string register_table_markdown(std::span<const spec::RegisterInfo> table) {
-  std::string text = "| offset | name | access | reset | meaning |\n|---|---|---|---|---|\n";
-  for (const spec::RegisterInfo& r : table)
-    text += fmt::format("| 0x{:03X} | `{}` | {} | 0x{:08X} | {} |\n", r.offset, r.name,
-                        access_name(r.access), r.reset, r.meaning);
-  return text + field_table_markdown(table);
-}
-
-std::string register_c_macros(std::span<const spec::RegisterInfo> table, std::string_view prefix) {
-  std::string text;
-  for (const spec::RegisterInfo& r : table) {
-    const std::string name = fmt::format("{}_{}", prefix, upper(r.name));
-    text += fmt::format("\n/* {}: {} */\n#define {} 0x{:03X}u\n", access_name(r.access), r.meaning,
-                        name, r.offset);
-    if (r.reset != 0) text += fmt::format("#define {}_RESET 0x{:08X}u\n", name, r.reset);
-    for (const spec::Field& field : r.fields) {
-      const std::string full = fmt::format("{}_{}", name, upper(field.name));
-      text += fmt::format("#define {0}_MASK 0x{1:08X}u{3}\n#define {0}_SHIFT {2}u\n", full,
-                          field.mask(), field.low,
-                          field.meaning.empty() ? "" : fmt::format(" /* {} */", field.meaning));
-      for (std::size_t code = 0; code < field.codes.size(); ++code)
-        text += fmt::format("#define {}_{} {}u\n", full, upper(field.codes[code]), code);
-    }
-  }
-  return text;
 }
 
 }  // namespace deburr::rtl

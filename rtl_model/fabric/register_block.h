@@ -8,7 +8,9 @@
 // BYTE_ENABLE_ERROR; write to a read-only or read of a write-only register -> COMMAND_ERROR.
 // transport_dbg reads and writes any span of whole registers, without side effects but those of
 // on_debug_write(), and stops at the first hole. A write at the time of a clock edge counts for
-// that edge. Cost: 32 flip-flops a writable register.
+// that edge. A thread that is ahead of simulated time (temporal decoupling) waits until that has
+// come: the registers are those of its own time, whatever its quantum is. Who cannot wait is served
+// at once, with its delay unchanged. Cost: 32 flip-flops a writable register.
 #pragma once
 
 #include <tlm_utils/simple_target_socket.h>
@@ -17,7 +19,6 @@
 #include <functional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <systemc>
 #include <tlm>
 #include <vector>
@@ -70,12 +71,5 @@ class RegisterBlock final : public sc_core::sc_module {
   std::vector<std::function<std::uint32_t()>> values_read_;
   std::vector<Shown> shown_;
 };
-
-// As Markdown: | offset | name | access | reset | meaning |, and behind it a table of the fields,
-// | register | bits | field | meaning |.
-std::string register_table_markdown(std::span<const spec::RegisterInfo> table);
-// For a user's software, in C: PREFIX_NAME is an offset; PREFIX_NAME_RESET a reset value other than
-// 0; PREFIX_NAME_FIELD_MASK and _SHIFT a field, PREFIX_NAME_FIELD_CODE a choice of it.
-std::string register_c_macros(std::span<const spec::RegisterInfo> table, std::string_view prefix);
 
 }  // namespace deburr::rtl

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "rtl_model/fabric/wire.h"
-
 namespace deburr::rtl {
 
 Unit::Unit(const sc_core::sc_module_name& name, ClockDomain& clock)
@@ -61,8 +59,6 @@ void Unit::check_ports() const {
   for (const sc_core::sc_object* child : get_child_objects()) {
     if (const auto* port = dynamic_cast<const PortBase*>(child))
       DEBURR_CHECK(port->bound(), fmt::format("{} is not bound to a link", port->name()));
-    if (const auto* port = dynamic_cast<const WirePortBase*>(child))
-      DEBURR_CHECK(port->bound(), fmt::format("{} is not bound to a wire", port->name()));
   }
 }
 

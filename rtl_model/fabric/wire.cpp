@@ -12,6 +12,19 @@ void WireBase::fail(const char* what, Cycle cycle) const {
       readers_.empty() ? "unbound" : fmt::format("{}", fmt::join(readers_, ", "))));
 }
 
+void Pulse::raise(Cycle cycle) {
+  if (raised_ == cycle) fail("raised twice in a clock", cycle);
+  const bool goes_on = cycle != 0 && raised_ == cycle - 1;
+  count(cycle, goes_on ? 0U : 2U, true);  // its fall, too
+  raised_ = cycle;
+  for (const std::function<void(Cycle)>* take : takers_) (*take)(cycle);
+}
+
+const std::byte* Pulse::seen(Cycle cycle) const {
+  static constexpr bool kLow = false, kHigh = true;
+  return reinterpret_cast<const std::byte*>(read(cycle) ? &kHigh : &kLow);
+}
+
 void WirePortBase::bind_wire(WireBase& wire) {
   DEBURR_CHECK(!base_ && !outer_, fmt::format("{} is bound twice", name()));
   resolve(wire);

@@ -12,6 +12,10 @@
 //   * Combinational: what is driven in clock t is read in t and in no other clock. Latency 0. The
 //     domain ticks the driver before its readers, also when it shuffles.
 //
+// A Pulse is a combinational wire of one bit that is low in every clock in which it is not raised:
+// an event that sets a status bit or loads a register. A register that no unit's tick writes takes
+// it through OnPulse.
+//
 // Never stalls. Reading an undriven wire, driving it twice in a clock, a second driver and an
 // unbound port stop the simulation with the names of wire, driver and readers. Cost: the bits of T,
 // as registers or as gates of the driver. The clock domain of the units that it joins resets it.
@@ -20,6 +24,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <systemc>
 #include <type_traits>
@@ -63,8 +68,8 @@ class WireBase : public sc_core::sc_object {
   WireBase(const char* name, Payload payload, WireKind kind)
       : sc_object(name), payload_(std::move(payload)), kind_(kind) {}
   // Counts a value that readers see from `from` on.
-  void count(Cycle from, bool changed, bool level) {
-    changes_ += changed;
+  void count(Cycle from, std::uint32_t changes, bool level) {
+    changes_ += changes;
     if (combinational()) {
       high_ += level;
       return;
@@ -159,6 +164,25 @@ class Wire final : public WireBase {
 template <class T>
 using CombinationalWire = Wire<T, WireKind::kCombinational>;
 
+class Pulse final : public WireBase {
+ public:
+  explicit Pulse(const char* name)
+      : WireBase(name, Payload::of<bool>({}), WireKind::kCombinational) {}
+  bool read(Cycle cycle) const { return cycle == raised_; }
+  // Once a clock at most.
+  void raise(Cycle cycle);
+  const std::byte* seen(Cycle cycle) const override;
+  void reset() override {
+    raised_ = kNever;
+    forget(false);
+  }
+
+ private:
+  friend class OnPulse;
+  Cycle raised_ = kNever;
+  std::vector<const std::function<void(Cycle)>*> takers_;
+};
+
 // A named end of a wire on a unit's border. Bind it to a wire, or to the port of the same kind of
 // the unit around it (in any order).
 class WirePortBase : public sc_core::sc_object {
@@ -214,6 +238,47 @@ class WireOut final : public WirePortBase {
  private:
   void resolved(WireBase& wire) override { wire_ = static_cast<Wire<T, kKind>*>(&wire); }
   Wire<T, kKind>* wire_ = nullptr;
+};
+
+class PulseIn final : public WirePortBase {
+ public:
+  explicit PulseIn(const char* name) : WirePortBase(name, Side::kReader) {}
+  const char* kind() const override { return "deburr_wire_in"; }
+  void operator()(Pulse& pulse) { bind_wire(pulse); }
+
+  bool read(Cycle cycle) const { return pulse_->read(cycle); }
+
+ private:
+  void resolved(WireBase& wire) override { pulse_ = static_cast<Pulse*>(&wire); }
+  Pulse* pulse_ = nullptr;
+};
+
+class PulseOut final : public WirePortBase {
+ public:
+  explicit PulseOut(const char* name) : WirePortBase(name, Side::kDriver) {}
+  const char* kind() const override { return "deburr_wire_out"; }
+  void operator()(Pulse& pulse) { bind_wire(pulse); }
+
+  void raise(Cycle cycle) { pulse_->raise(cycle); }
+
+ private:
+  void resolved(WireBase& wire) override { pulse_ = static_cast<Pulse*>(&wire); }
+  Pulse* pulse_ = nullptr;
+};
+
+// A register that a pulse sets or loads at the end of its clock. For what is not ticked: registers
+// behind a bus. The action writes registers alone, so it is of no account whether units of that
+// clock have been ticked.
+class OnPulse final : public WirePortBase {
+ public:
+  OnPulse(const char* name, std::function<void(Cycle)> action)
+      : WirePortBase(name, Side::kReader), action_(std::move(action)) {}
+  const char* kind() const override { return "deburr_wire_in"; }
+  void operator()(Pulse& pulse) { bind_wire(pulse); }
+
+ private:
+  void resolved(WireBase& wire) override { static_cast<Pulse&>(wire).takers_.push_back(&action_); }
+  const std::function<void(Cycle)> action_;
 };
 
 }  // namespace deburr::rtl

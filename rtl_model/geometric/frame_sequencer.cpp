@@ -4,18 +4,12 @@
 namespace deburr::rtl::geometric {
 namespace {
 
-namespace reg = spec::geometric::reg;
-
 void hold(Counter& counter, Cycle clocks) {
   counter.reset();
   counter += clocks;
 }
 
 }  // namespace
-
-FrameSequencer::FrameSequencer(const sc_core::sc_module_name& name, ClockDomain& clock,
-                               ParameterStore& store)
-    : Unit(name, clock), store_(store) {}
 
 void FrameSequencer::enter(Cycle cycle, Phase next) {
   state_ = next;
@@ -30,13 +24,9 @@ bool FrameSequencer::begun(Cycle cycle) const {
 Activity FrameSequencer::tick(Cycle cycle) {
   switch (state_) {
     case Phase::kIdle:
-      if (!started_) return kIdle;
-      started_ = false;
-      refused_ = store_.latch(start_enabled_);
-      if (refused_ != spec::geometric::Refusal::kNone) {
-        store_.set_sticky(reg::kStatusRefused);
-        return kBusy;
-      }
+      if (!start_in.read(cycle)) return kIdle;
+      latch_out.raise(cycle);
+      if (refusal_in.read(cycle) != spec::geometric::Refusal::kNone) return kBusy;
       begun_ = cycle;
       enter(cycle, Phase::kBegin);
       break;
@@ -53,7 +43,7 @@ Activity FrameSequencer::tick(Cycle cycle) {
       hold(frame_cycles, cycle - begun_ + 1);
       hold(edge_cycles, drawn_ - begun_ + 1);
       hold(resolve_cycles, cycle - drawn_);
-      store_.set_sticky(reg::kStatusFrameDone);
+      frame_done_out.raise(cycle);
       enter(cycle, Phase::kIdle);
       break;
   }
@@ -62,8 +52,6 @@ Activity FrameSequencer::tick(Cycle cycle) {
 
 void FrameSequencer::reset() {
   state_ = Phase::kIdle;
-  started_ = start_enabled_ = false;
-  refused_ = {};
   begun_ = drawn_ = 0;
 }
 

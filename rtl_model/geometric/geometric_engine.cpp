@@ -29,23 +29,23 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
       edge_lanes_(lanes(parameters_.edge_lanes)),
       walkers_(lanes(parameters_.walkers)),
       port_(port_of(parameters_)),
-      store(control, parameters_),
-      frame_sequencer("frame_sequencer", clock, store),
-      memory_arbiter("memory_arbiter", clock, store, port_),
-      facing_store("facing_store", clock, parameters_, store),
-      edge_reader("edge_reader", clock, parameters_, store, latency_),
-      edge_classifier("edge_classifier", clock, parameters_, store, facing_store.words, latency_),
-      vertex_fetch("vertex_fetch", clock, parameters_, store),
-      line_setup("line_setup", clock, parameters_, store, latency_),
+      parameter_store("parameter_store", clock, control, parameters_),
+      frame_sequencer("frame_sequencer", clock),
+      memory_arbiter("memory_arbiter", clock, port_),
+      facing_store("facing_store", clock, parameters_),
+      edge_reader("edge_reader", clock, parameters_, latency_),
+      edge_classifier("edge_classifier", clock, parameters_, facing_store.words, latency_),
+      vertex_fetch("vertex_fetch", clock, parameters_),
+      line_setup("line_setup", clock, parameters_, latency_),
       line_walker("line_walker", clock, parameters_, latency_),
-      coverage_unit("coverage_unit", clock, store, latency_),
-      depth_test("depth_test", clock, parameters_, store, latency_),
-      weight_combiner("weight_combiner", clock, parameters_, store, latency_),
-      frame_copier("frame_copier", clock, store),
-      block_scanner("block_scanner", clock, parameters_, store, weight_combiner.touched_port()),
-      block_fetch("block_fetch", clock, parameters_, store, weight_combiner.tag_port(),
+      coverage_unit("coverage_unit", clock, latency_),
+      depth_test("depth_test", clock, parameters_, latency_),
+      weight_combiner("weight_combiner", clock, parameters_, latency_),
+      frame_copier("frame_copier", clock),
+      block_scanner("block_scanner", clock, parameters_, weight_combiner.touched_port()),
+      block_fetch("block_fetch", clock, parameters_, weight_combiner.tag_port(),
                   weight_combiner.data_port()),
-      resolver("resolver", clock, parameters_, store, block_fetch.colours),
+      resolver("resolver", clock, parameters_, block_fetch.colours),
       memory_port("memory_port", clock, port_),
       edges_("edges", 2, edge_lanes_),
       lines_("line_fifo", static_cast<std::uint32_t>(parameters_.line_fifo)),
@@ -87,6 +87,32 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
   memory_arbiter.responses_in(responses_);
   uses(memory_port);
 
+  parameter_store.start_out(start_);
+  frame_sequencer.start_in(start_);
+  frame_sequencer.latch_out(latch_);
+  parameter_store.latch_in(latch_);
+  parameter_store.refusal_out(refusal_);
+  frame_sequencer.refusal_in(refusal_);
+  frame_sequencer.frame_done_out(frame_done_);
+  parameter_store.frame_done_in(frame_done_);
+  edge_classifier.invalid_edge_out(invalid_edge_);
+  parameter_store.invalid_edge_in(invalid_edge_);
+  memory_arbiter.memory_error_out(memory_error_);
+  parameter_store.memory_error_in(memory_error_);
+
+  parameter_store.rules_out(rules_);
+  facing_store.rules_in(rules_);
+  edge_reader.rules_in(rules_);
+  edge_classifier.rules_in(rules_);
+  vertex_fetch.rules_in(rules_);
+  line_setup.rules_in(rules_);
+  coverage_unit.rules_in(rules_);
+  depth_test.rules_in(rules_);
+  weight_combiner.rules_in(rules_);
+  frame_copier.rules_in(rules_);
+  block_scanner.rules_in(rules_);
+  block_fetch.rules_in(rules_);
+  resolver.rules_in(rules_);
   frame_sequencer.phase_out(phase_);
   facing_store.phase_in(phase_);
   edge_reader.phase_in(phase_);
@@ -110,12 +136,6 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
   frame_sequencer.drawn_in(drawn_);
   frame_sequencer.copied_in(copied_);
   frame_sequencer.resolved_in(resolved_);
-
-  // Enable has its new value by now.
-  control.on_command(reg::kControlStart, [this] { frame_sequencer.start(store.enabled()); });
-  control.registers.on_read(control.registers.index_of("REFUSAL"), [this] {
-    return static_cast<std::uint32_t>(frame_sequencer.refused());
-  });
 
   const std::pair<std::uint32_t, const Counter*> shown[] = {
       {reg::kEdges, &edge_classifier.edges},

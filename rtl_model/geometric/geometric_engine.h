@@ -2,16 +2,32 @@
 // The geometric engine: smooths the jagged edges of a finished frame along the edges of its mesh
 // (docs/geometric.md; phases, latencies, memories: docs/geometric_hardware.md).
 //
-//   FrameSequencer      FacingStore
-//                            |
+//   registers (TLM-2.0 target)                       memory (TLM-2.0 initiator)
+//       |                                                |
+//   ParameterStore                                   MemoryPort
+//       | ^                                              |
+//       v |                                          MemoryArbiter -- all that read or write memory
+//   FrameSequencer
+//                   FacingStore
+//                       | facing bits
+//                       v
 //   EdgeReader -> EdgeClassifier -> VertexFetch -> LineSetup -> line FIFO -> LineWalker
-//       -> CoverageUnit -> DepthTest -> WeightCombiner
-//                                            | when all is drawn
-//   FrameCopier                        BlockScanner -> BlockFetch -> block FIFO -> Resolver
+//                                                                                |
+//       +------------------------------------------------------------------------+
+//       v
+//   CoverageUnit -> DepthTest -> WeightCombiner       FrameCopier (with frame_copy)
+//                                      |
+//       +------------------------------+ when all is drawn
+//       v
+//   BlockScanner -> BlockFetch -> block FIFO -> Resolver
 //
-//   FrameSequencer -- phase --> units -- loaded, cleared, drawn, copied, resolved -->
-//   FrameSequencer all that read or write memory -> MemoryArbiter -> MemoryPort: memory (TLM-2.0
-//   initiator) ParameterStore: registers (TLM-2.0 target)
+//   wires: ParameterStore -- rules, FrameSequencer -- phase --> units of the pipe
+//          ParameterStore -- start, refusal --> FrameSequencer
+//          FrameSequencer -- latch, frame_done --> ParameterStore
+//          EdgeClassifier -- invalid_edge, MemoryArbiter -- memory_error --> ParameterStore
+//          FacingStore -- facing_loaded, VertexFetch -- vertices_cleared,
+//          DepthTest -- depth_cleared, WeightCombiner -- weights_cleared, drawn,
+//          FrameCopier -- copied, Resolver -- resolved --> FrameSequencer
 //
 // Everything is in order; only memory answers in any. Source: Persson, GPAA; paper 002.
 #pragma once
@@ -24,7 +40,9 @@
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/edge_latency.h"
+#include "rtl_model/geometric/common/edge_latency.h"
+#include "rtl_model/geometric/common/memory_arbiter.h"
+#include "rtl_model/geometric/common/parameter_store.h"
 #include "rtl_model/geometric/edges/edge_classifier.h"
 #include "rtl_model/geometric/edges/edge_reader.h"
 #include "rtl_model/geometric/edges/facing_store.h"
@@ -34,8 +52,6 @@
 #include "rtl_model/geometric/lines/depth_test.h"
 #include "rtl_model/geometric/lines/line_setup.h"
 #include "rtl_model/geometric/lines/line_walker.h"
-#include "rtl_model/geometric/memory_arbiter.h"
-#include "rtl_model/geometric/parameter_store.h"
 #include "rtl_model/geometric/resolve/block_fetch.h"
 #include "rtl_model/geometric/resolve/block_scanner.h"
 #include "rtl_model/geometric/resolve/frame_copier.h"
@@ -61,7 +77,7 @@ class GeometricEngine final : public Engine {
 
  public:
   // --- The blocks, in the order of the figure ---
-  ParameterStore store;
+  ParameterStore parameter_store;
   FrameSequencer frame_sequencer;
   MemoryArbiter memory_arbiter;
   FacingStore facing_store;
@@ -83,11 +99,16 @@ class GeometricEngine final : public Engine {
   const Histogram& edge_latency = weight_combiner.edge_latency;
 
   // No frame is under way. Between edges.
-  bool idle() const override { return frame_sequencer.idle(); }
+  bool idle() const override { return !parameter_store.starting() && frame_sequencer.idle(); }
   // Counts since they were cleared.
   spec::geometric::Work work() const;
 
  private:
+  // From the registers to the units, and what sets their sticky bits.
+  Wire<FrameRules> rules_{"rules", FrameRules{}};
+  Pulse start_{"start"}, latch_{"latch"};
+  CombinationalWire<spec::geometric::Refusal> refusal_{"refusal", refusal_shape()};
+  Pulse frame_done_{"frame_done"}, invalid_edge_{"invalid_edge"}, memory_error_{"memory_error"};
   // From the FrameSequencer to the units, and back to it.
   Wire<Phase> phase_{"phase", Phase::kIdle, phase_shape()};
   Wire<bool> facing_loaded_{"facing_loaded", false}, vertices_cleared_{"vertices_cleared", false},

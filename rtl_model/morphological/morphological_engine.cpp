@@ -23,6 +23,8 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
       divider_h("divider_h", clock, parameters_, store, spec::morphological::Axis::kHorizontal),
       divider_v("divider_v", clock, parameters_, store, spec::morphological::Axis::kVertical),
       area("area", clock, parameters_, store),
+      shares_loader(area.shares_rom() ? std::make_unique<SharesLoader>(control, *area.shares_rom())
+                                      : nullptr),
       diagonals(parameters_.diagonals
                     ? std::make_unique<DiagonalUnit>("diagonals", clock, parameters_, store)
                     : nullptr),
@@ -66,7 +68,6 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   blender.pixels_out(pixels_out);
   blender.frames_done_out(frames_done_);
   sequencer.frames_done_in(frames_done_);
-  if (SharesRom* const rom = area.shares_rom()) store.connect(*rom);
   if (diagonals) {
     columns_ = std::make_unique<Link<DiagonalColumnsToken>>(
         "diagonal_columns", 2, diagonal_columns_shape(parameters_, store.lanes()));

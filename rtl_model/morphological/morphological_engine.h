@@ -2,21 +2,34 @@
 // The morphological engine: smooths jagged edges of a finished frame
 // (docs/morphological_engine.md; slots, latency, memories: docs/morphological_hardware.md).
 //
+//                                                                                      pixels_out
+//                                                                                           ^
 //   pixels_in -> SlotSequencer -> LumaUnit -> EdgeDetector -> RunExtractor -> AreaUnit -> Blender
-//                     |                      EdgeWindow --+---+    |    |        ^ lines    |  ^
-//                     |                                   v        |    |        |          |  |
-//                     |        LineUnit h, v <- EndpointPredictor <-+   | fetch  |          v  |
-//                     |              |               h, v      records  |        |  pixels_out |
-//                     |              +----------------------------------|--------+             |
-//                     |                                                 v                      |
-//                     +------------------------------------------> PixelStore -----------------+
-//   ParameterStore: registers (TLM-2.0 target)                          |
-//                                     memory (TLM-2.0 initiator), storage = memory only
+//                    |                                         |  |  |  |      ^   ^        ^
+//                    |            EdgeWindow, EdgeRows <-------+  |  |  |      |   |        |
+//                    |                |                           |  |  |      |   |        |
+//                    |                v                           |  |  |      |   |        |
+//                    |            EndpointPredictor h, v <--------+  |  |      |   |        |
+//                    |                |                              |  |      |   |        |
+//                    |                v                              |  |      |   |        |
+//                    |            LineUnit h, v ------------ lines --|--|------+   |        |
+//                    |                                               |  |          |        |
+//                    |            DiagonalUnit <------ columns ------+  |          |        |
+//                    |                +------------------ shares -------|----------+        |
+//                    |                                                  |                   |
+//                    +- beats --> PixelStore <-------- fetches ---------+                   |
+//                                   |   +--------------------- pixels ----------------------+
+//      registers (TLM-2.0 target)   |
+//          |          |             v
+//   ParameterStore  SharesLoader  MemoryPort: memory (TLM-2.0 initiator)
+//
+// DiagonalUnit, MemoryPort and SharesLoader are there if diagonals, storage = memory and learned
+// shares are built.
 //
 // A frame is a sequence of slots, one a clock at most. Unstalled, beat j popped in clock c is
 // pushed out in clock c + (R + 5) x BPR + kPipelineLatency; one beat (1, 2 or 4 pixels) a clock.
-// Stalls:
-// `records` (extractor), `upstream` (sequencer), `memory` and `rows` (pixel store), `downstream`.
+// Stalls: `records` (extractor), `upstream` (sequencer), `memory` and `rows` (pixel store),
+// `downstream`.
 // Source: Reshetov 2009; paper 000.
 #pragma once
 
@@ -33,10 +46,11 @@
 #include "rtl_model/morphological/blend/blender.h"
 #include "rtl_model/morphological/blend/diagonal_unit.h"
 #include "rtl_model/morphological/blend/pixel_store.h"
+#include "rtl_model/morphological/blend/shares_loader.h"
+#include "rtl_model/morphological/common/parameter_store.h"
 #include "rtl_model/morphological/front/edge_detector.h"
 #include "rtl_model/morphological/front/luma_unit.h"
 #include "rtl_model/morphological/front/slot_sequencer.h"
-#include "rtl_model/morphological/parameter_store.h"
 #include "rtl_model/morphological/runs/edge_rows.h"
 #include "rtl_model/morphological/runs/edge_window.h"
 #include "rtl_model/morphological/runs/endpoint_predictor.h"
@@ -73,7 +87,8 @@ class MorphologicalEngine final : public Engine {
   EndpointPredictor predictor_h, predictor_v;
   LineUnit divider_h, divider_v;
   AreaUnit area;
-  std::unique_ptr<DiagonalUnit> diagonals;  // only with diagonals
+  std::unique_ptr<SharesLoader> shares_loader;  // only with learned shares
+  std::unique_ptr<DiagonalUnit> diagonals;      // only with diagonals
   PixelStore pixel_store;
   Blender blender;
   std::unique_ptr<MemoryPort> memory_port;  // only with storage = memory

@@ -49,7 +49,7 @@ MemoryShape bank_shape(const spec::texture::Parameters& p) {
 }  // namespace
 
 DataStage::DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
-                     const spec::texture::Parameters& p, FillBuffer& fills)
+                     const spec::texture::Parameters& p, const FillBuffer::Reader& fills)
     : Unit(name, clock),
       fills_(fills),
       line_log2_(log2_of(p.cache_line_bytes)),
@@ -172,6 +172,7 @@ void DataStage::write_fill(Cycle cycle, const CacheToken& request) {
   for (std::size_t at = 0; at < line_bytes; at += turn_)
     std::copy_n(line + at, turn_, &bytes_[slot * line_bytes + (at ^ turn)]);
   fills_.release(cycle);
+  uses_line_ = true;
   ++lines_written;
   ++fills_done_;
 }

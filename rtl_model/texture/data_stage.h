@@ -9,7 +9,8 @@
 // same request can overwrite them (the banks are read-first; fills begin in the clock of the last
 // pass that reads a hit); texels that missed are taken from the fill as it passes. Stalls, stage by
 // stage: `wait_fill` (a line has not arrived), `write_fill` (more lines to write), `bank_conflict`
-// (more passes to read), `downstream`.
+// (more passes to read), `downstream`. `line_used_out`, a register, is high in the clock after each
+// line that is written.
 #pragma once
 
 #include <array>
@@ -20,6 +21,7 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/texture/fill_buffer.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/parameters.h"
@@ -30,12 +32,15 @@ class DataStage final : public Unit {
  public:
   In<CacheToken> requests_in{"requests_in"};
   Out<TexelQuadToken> texels_out{"texels_out"};
+  WireOut<bool> line_used_out{"line_used_out"};
 
   DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
-            const spec::texture::Parameters& parameters, FillBuffer& fills);
+            const spec::texture::Parameters& parameters, const FillBuffer::Reader& fills);
   Activity tick(Cycle cycle) override {
+    uses_line_ = false;
     const Activity activity = work(cycle);
     fills_.read_ahead(cycle);
+    if (uses_line_ != line_used_out.driven()) line_used_out.drive(cycle, uses_line_);
     return activity;
   }
   void reset() override;
@@ -61,7 +66,7 @@ class DataStage final : public Unit {
   void write_fill(Cycle cycle, const CacheToken& request);
   void finish(Cycle cycle, const CacheToken& request);
 
-  FillBuffer& fills_;
+  FillBuffer::Reader fills_;
   std::uint32_t line_log2_, words_a_line_, turn_;
   Memory<void> banks_;
   std::array<ReadPort<void>, 4> reads_{
@@ -74,6 +79,7 @@ class DataStage final : public Unit {
   bool started_ = false;
   Schedule schedule_{};
   int passes_done_ = 0, fills_done_ = 0;
+  bool uses_line_ = false;  // in this clock
   // One of the words that were asked for last, and when: for the check, no hardware.
   const ReadPort<void>* issued_ = nullptr;
   std::uint64_t issued_word_ = 0;

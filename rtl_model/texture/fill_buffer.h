@@ -2,9 +2,10 @@
 // Lines on their way from memory: entries are reserved and released in the order of fills, and
 // filled in any order.
 //
-// Where: inside the MissQueue, read by the DataStage. The oldest line is read ahead as soon as it
-// has arrived, so that it waits on the output register. An entry that is released in t can be
-// reserved from t+1 on.
+// Where: inside the MissQueue, which orders lines and fills their entries; the DataStage uses them
+// through a Reader, as a unit accesses a memory through its port. The oldest line is read ahead as
+// soon as it has arrived, so that it waits on the output register. An entry that is released in t
+// can be reserved from t+1 on.
 #pragma once
 
 #include <algorithm>
@@ -23,6 +24,22 @@ namespace deburr::rtl::texture {
 
 class FillBuffer {
  public:
+  // The side of the DataStage: the oldest fill only. A copy is one more handle of the same side.
+  class Reader {
+   public:
+    // In every clock, after anything else: reads the next line, if it is there and the output
+    // register is free.
+    void read_ahead(Cycle cycle) { lines_->read_ahead(cycle); }
+    bool ready(Cycle cycle) const { return lines_->ready(cycle); }
+    const std::uint8_t* line(Cycle cycle) const { return lines_->line(cycle); }
+    void release(Cycle cycle) { lines_->release(cycle); }
+
+   private:
+    friend class FillBuffer;
+    explicit Reader(FillBuffer& lines) : lines_(&lines) {}
+    FillBuffer* lines_;
+  };
+
   FillBuffer(const char* name, std::uint32_t entries, std::uint32_t line_bytes)
       : entries_(entries),
         line_bytes_(line_bytes),
@@ -42,6 +59,8 @@ class FillBuffer {
                .content = "lines on their way: has it come?"}),
         arrived_(entries, kNever) {}
 
+  Reader reader() { return Reader(*this); }
+
   // --- Side of the MissQueue ---
   bool can_reserve(Cycle cycle) const { return held(cycle) < entries_; }
   std::uint32_t reserve(Cycle cycle) {
@@ -56,6 +75,9 @@ class FillBuffer {
     DEBURR_CHECK(
         entry < entries_ && arrived_[entry] == kNever,
         std::string(memory_.name()) + ": entry " + std::to_string(entry) + " filled twice");
+    DEBURR_CHECK(offset + beat.size() <= line_bytes_,
+                 std::string(memory_.name()) + ": a beat at byte " + std::to_string(offset) +
+                     " of a line of " + std::to_string(line_bytes_));
     write_.write(cycle, entry);
     std::copy(beat.begin(), beat.end(), &bytes_[std::size_t{entry} * line_bytes_ + offset]);
     if (!complete) return;
@@ -63,9 +85,17 @@ class FillBuffer {
     arrived_[entry] = cycle;
   }
 
-  // --- Side of the DataStage: the oldest fill only ---
-  // In every clock, after anything else: reads the next line, if it is there and the output
-  // register is free.
+  // Entries held by fills that had not been used before `cycle`.
+  std::uint64_t held(Cycle cycle) const { return reserved_ - released_ + (released_at_ == cycle); }
+  void reset() {
+    reserved_ = released_ = read_ = 0;
+    released_at_ = read_at_ = kNever;
+    std::fill(arrived_.begin(), arrived_.end(), kNever);
+  }
+
+  static Datasheet datasheet();
+
+ private:
   void read_ahead(Cycle cycle) {
     if (read_ != released_ || reserved_ == released_) return;
     oldest_.read(cycle, oldest());
@@ -86,19 +116,6 @@ class FillBuffer {
     released_at_ = cycle;
   }
 
-  // Fills that have been used, as seen in `cycle`.
-  std::uint64_t released(Cycle cycle) const { return released_ - (released_at_ == cycle); }
-  // Entries held by fills that had not been used before `cycle`.
-  std::uint64_t held(Cycle cycle) const { return reserved_ - released(cycle); }
-  void reset() {
-    reserved_ = released_ = read_ = 0;
-    released_at_ = read_at_ = kNever;
-    std::fill(arrived_.begin(), arrived_.end(), kNever);
-  }
-
-  static Datasheet datasheet();
-
- private:
   std::uint32_t oldest() const { return static_cast<std::uint32_t>(released_ % entries_); }
 
   // A word may be read at the last byte of the last line.

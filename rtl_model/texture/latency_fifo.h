@@ -5,6 +5,7 @@
 // latency in clocks, misses overlap with work and cost no time. Source: Igehy et al., 1998.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <systemc>
 
@@ -20,17 +21,25 @@ class LatencyFifo final : public Unit {
  public:
   In<CacheToken> requests_in{"requests_in"};
 
+  // Of a depth that is sized: depth().
   LatencyFifo(const sc_core::sc_module_name& name, ClockDomain& clock,
               const spec::texture::Parameters& parameters);
   Activity tick(Cycle cycle) override;
   void reset() override { entries.reset(); }
 
-  // The least depth at which misses cost no time, of a memory with this latency that takes
-  // `transfer` clocks for a line: a request stays for the time of a miss, without the stages around
-  // the FIFO, and may miss four lines, which come one behind the other.
-  static constexpr std::int32_t depth_for(std::int32_t latency, std::int32_t transfer) {
+  // What the memory takes, in clocks: to answer, and to transfer a line.
+  struct MemoryClocks {
+    std::int32_t latency = 100, transfer = 1;
+  };
+  // The depth as ordered; for 0 the least at which misses cost no time, if there are so many: a
+  // request stays for the time of a miss, without the stages around the FIFO, and may miss four
+  // lines, which come one behind the other.
+  static constexpr std::int32_t depth(const spec::texture::Build& build,
+                                      const MemoryClocks& memory) {
+    if (build.cache_fifo_depth != 0) return build.cache_fifo_depth;
     constexpr std::int32_t kAroundMemory = 3;
-    return latency + 4 * transfer + kAroundMemory;
+    return std::min(memory.latency + 4 * memory.transfer + kAroundMemory,
+                    spec::texture::kMostFifoDepth);
   }
 
   Fifo<CacheToken> entries;  // read by the DataStage

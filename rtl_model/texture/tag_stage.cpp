@@ -7,9 +7,8 @@
 namespace deburr::rtl::texture {
 
 TagStage::TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
-                   const spec::texture::Parameters& p, const FillBuffer& fills)
+                   const spec::texture::Parameters& p)
     : Unit(name, clock),
-      fills_(fills),
       tags_("tags", p),
       line_log2_(log2_of(p.cache_line_bytes)),
       turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
@@ -18,6 +17,7 @@ TagStage::TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
       fifo_full_(declare_stall("fifo_full", "the latency FIFO takes nothing")) {}
 
 Activity TagStage::tick(Cycle cycle) {
+  used_ += line_used_in.read(cycle) ? 1 : 0;
   const bool arrives = texels_in.can_pop(cycle);
   if (occupied_) {
     if (!requests_out.can_push(cycle)) return fifo_full_;
@@ -66,13 +66,13 @@ inline void TagStage::read_sets(Cycle cycle) {
 }
 
 // One line of the request in stage 2.
-inline TagStage::Line TagStage::look_up_line(Cycle cycle, std::uint64_t released, std::size_t texel,
-                                             CacheToken& out, MissToken& missed) {
+inline TagStage::Line TagStage::look_up_line(Cycle cycle, std::size_t texel, CacheToken& out,
+                                             MissToken& missed) {
   const std::uint32_t line = request_.line[texel];
   tags_.check(cycle, texel, line, request_.read_at);
   if (const std::uint32_t slot = tags_.find(line); slot != TagStore::kAbsent) {
     tags_.use(slot);
-    const bool under_way = fill_number_[slot] > released;
+    const bool under_way = fill_number_[slot] > used_;
     under_way ? ++merged : ++hits;
     if (observer) [[unlikely]]
       observer(cycle, line, under_way ? LookUp::kMerged : LookUp::kHit);
@@ -102,20 +102,19 @@ inline void TagStage::look_up(Cycle cycle, CacheToken& out) {
   ++requests;
   const Request& r = request_;
   const std::uint32_t offset_mask = (1u << line_log2_) - 1;
-  const std::uint64_t released = fills_.released(cycle);
   MissToken missed{};
   // To a compiler first[i] might be more than i.
   std::array<std::uint32_t, 4> place{};
   std::array<std::uint8_t, 4> source{};
   if (r.one_line) {
-    const Line line = look_up_line(cycle, released, 0, out, missed);
+    const Line line = look_up_line(cycle, 0, out, missed);
     place.fill(line.place);
     source.fill(line.source);
   } else {
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t first = r.first[i];
-      const Line line = first == i ? look_up_line(cycle, released, i, out, missed)
-                                   : Line{place[first], source[first]};
+      const Line line =
+          first == i ? look_up_line(cycle, i, out, missed) : Line{place[first], source[first]};
       place[i] = line.place;
       source[i] = line.source;
     }
@@ -140,7 +139,7 @@ bool TagStage::would_miss() const {
 void TagStage::reset() {
   tags_.reset();
   std::fill(fill_number_.begin(), fill_number_.end(), 0);
-  ordered_ = 0;
+  ordered_ = used_ = 0;
   occupied_ = false;
 }
 

@@ -5,7 +5,8 @@
 // Where: head of the TextureCache. The lines of a request are looked up one after the other; what
 // it changes reaches the sets that the next one reads in the same clock, so there is no bubble.
 // Stalls: `miss_queue_full` (the request misses and the MissQueue takes nothing), `fifo_full` (the
-// LatencyFifo takes nothing). Tags change when a fill is ordered, data when it is used: see Order
+// LatencyFifo takes nothing). `line_used_in` tells hits from lines whose fill is under way, for the
+// counters alone. Tags change when a fill is ordered, data when it is used: see Order
 // of fills in docs/texture_unit.md. Source: Igehy, Eldridge, Proudfoot, "Prefetching in a texture
 // cache architecture", 1998.
 #pragma once
@@ -18,7 +19,7 @@
 
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/texture/fill_buffer.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/texture/tag_store.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/parameters.h"
@@ -32,10 +33,10 @@ class TagStage final : public Unit {
   In<TexelToken> texels_in{"texels_in"};
   Out<CacheToken> requests_out{"requests_out"};
   Out<MissToken> misses_out{"misses_out"};
+  WireIn<bool> line_used_in{"line_used_in"};  // of the DataStage: it has used the oldest fill
 
-  // `fills`: tells how many fills have been used.
   TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
-           const spec::texture::Parameters& parameters, const FillBuffer& fills);
+           const spec::texture::Parameters& parameters);
   Activity tick(Cycle cycle) override;
   void reset() override;
   void invalidate() { tags_.invalidate(); }
@@ -67,19 +68,17 @@ class TagStage final : public Unit {
     std::uint32_t place;  // of its slot, what its bytes change places by below it; 0: it missed
     std::uint8_t source;  // as in CacheToken
   };
-  Line look_up_line(Cycle cycle, std::uint64_t released, std::size_t texel, CacheToken& out,
-                    MissToken& missed);
+  Line look_up_line(Cycle cycle, std::size_t texel, CacheToken& out, MissToken& missed);
   [[gnu::noinline]] Line order(std::uint32_t line, std::size_t texel, CacheToken& out,
                                MissToken& missed);
 
-  const FillBuffer& fills_;
   TagStore tags_;
   std::uint32_t line_log2_;
   std::uint32_t turn_;  // bytes
   // Number of the last fill ordered for each slot, counted from 1: a line is under way until that
   // many fills have been used. For the counters: an instrument, no hardware.
   std::vector<std::uint64_t> fill_number_;
-  std::uint64_t ordered_ = 0;
+  std::uint64_t ordered_ = 0, used_ = 0;
   Activity miss_queue_full_, fifo_full_;
   // Registers.
   Request request_{};

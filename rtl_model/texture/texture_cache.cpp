@@ -30,9 +30,9 @@ TextureCache::TextureCache(const sc_core::sc_module_name& name, ClockDomain& clo
                            const spec::texture::Parameters& p, ControlRegisters& registers)
     : sc_module(name),
       miss_queue("miss_queue", clock, p, registers),
-      tag_stage("tag_stage", clock, p, miss_queue.fills),
+      tag_stage("tag_stage", clock, p),
       latency_fifo("latency_fifo", clock, p),
-      data_stage("data_stage", clock, p, miss_queue.fills),
+      data_stage("data_stage", clock, p, miss_queue.fills.reader()),
       memory_port("memory_port", clock, port_parameters(p)),
       misses_("misses", 2, miss_shape(p)),
       requests_("requests", 2, cache_shape(p)),
@@ -52,6 +52,9 @@ TextureCache::TextureCache(const sc_core::sc_module_name& name, ClockDomain& clo
   memory_port.requests_in(memory_requests_);
   memory_port.responses_out(memory_responses_);
   miss_queue.responses_in(memory_responses_);
+
+  data_stage.line_used_out(line_used_);
+  tag_stage.line_used_in(line_used_);
 }
 
 Datasheet TextureCache::datasheet() {

@@ -3,13 +3,15 @@
 // latency overlaps with work.
 //
 //     texels_in -> TagStage -> LatencyFifo -> DataStage -> texels_out
-//                     |                          ^
-//                     +-> MissQueue (fill buffer)+
-//                             |
-//                         MemoryPort (TLM-2.0)
+//                   |    ^                     |    ^
+//                   |    +----- line_used -----+    |
+//                   +-> MissQueue (fill buffer) ----+
+//                           |
+//                       MemoryPort (TLM-2.0)
 //
-// Links of two places stand between its blocks. Fill order, merged misses: docs/texture_unit.md.
-// Source: Igehy, Eldridge, Proudfoot, "Prefetching in a texture cache architecture", 1998.
+// Links of two places stand between its blocks; `line_used` is a wire. Fill order, merged misses:
+// docs/texture_unit.md. Source: Igehy, Eldridge, Proudfoot, "Prefetching in a texture cache
+// architecture", 1998.
 #pragma once
 
 #include <systemc>
@@ -17,6 +19,7 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/texture/data_stage.h"
 #include "rtl_model/texture/latency_fifo.h"
 #include "rtl_model/texture/miss_queue.h"
@@ -45,6 +48,7 @@ class TextureCache final : public sc_core::sc_module {
   Link<CacheToken> requests_;
   Link<MemoryRequest> memory_requests_;
   Link<MemoryResponse> memory_responses_;
+  Wire<bool> line_used_{"line_used", false};
 };
 
 }  // namespace deburr::rtl::texture

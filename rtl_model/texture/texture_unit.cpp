@@ -1,27 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/texture/texture_unit.h"
 
-#include "spec/error.h"
 #include "spec/texture/check_build.h"
 
 namespace deburr::rtl::texture {
 namespace {
 
-const spec::texture::Parameters& checked(const spec::texture::Parameters& p) {
-  check_build(p);
-  if (p.cache_fifo_depth == 0)
-    throw spec::ConfigError(
-        "texture.cache.fifo_depth = 0: hardware has a depth of 2 or more; 0 sizes it from the "
-        "latency of memory, which only who knows the memory can do");
+spec::texture::Parameters sized(spec::texture::Parameters p,
+                                const LatencyFifo::MemoryClocks& memory) {
+  p.cache_fifo_depth = LatencyFifo::depth(p, memory);
   return p;
 }
 
 }  // namespace
 
 TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const spec::texture::Parameters& parameters)
+                         const spec::texture::Parameters& parameters,
+                         const LatencyFifo::MemoryClocks& memory)
     : Engine(name, clock, register_table(), control_layout()),
-      parameters_(checked(parameters)),
+      parameters_(sized(check_build(parameters), memory)),
       address("address", clock, parameters_, control, descriptors_, probe_),
       cache("cache", clock, parameters_, control),
       filter("filter", clock, parameters_, probe_) {

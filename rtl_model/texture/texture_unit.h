@@ -31,9 +31,11 @@ class TextureUnit final : public Engine {
   In<spec::texture::Quad> quads_in{"quads_in"};
   Out<spec::texture::Colour> colours_out{"colours_out"};
 
-  // ConfigError for what cannot be built (spec/texture/check_build.h), and for a FIFO of depth 0.
+  // ConfigError for what cannot be built (spec/texture/check_build.h). What the memory takes sizes
+  // a latency FIFO whose depth is ordered as 0.
   TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::texture::Parameters& parameters);
+              const spec::texture::Parameters& parameters,
+              const LatencyFifo::MemoryClocks& memory = {});
 
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
@@ -51,6 +53,7 @@ class TextureUnit final : public Engine {
   const Histogram& fragment_latency = filter.fragment_latency;
 
   bool idle() const override;
+  // As built: with the depth of the FIFO.
   const spec::texture::Parameters& parameters() const { return parameters_; }
 
  private:

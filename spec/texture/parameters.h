@@ -38,6 +38,7 @@ inline constexpr std::array<std::string_view, 3> kReplacementNames = {"lru", "fi
 inline constexpr std::int32_t kMostCacheWays = 8;
 // Tags stand in flip-flops, which end at 16 kbit.
 inline constexpr std::int32_t kMostCacheLines = 512;
+inline constexpr std::int32_t kMostFifoDepth = 4096;
 inline constexpr std::int32_t kLeastCacheBytes = 256;
 inline constexpr std::int32_t kLeastCacheLineBytes = 32, kMostCacheLineBytes = 128;
 
@@ -103,7 +104,7 @@ void describe(Build& p, Visitor& v) {
            "Which way of a full set is replaced.");
   v.integer("cache.outstanding", p.cache_outstanding, 4, 256, "line",
             "Line fills in flight: entries of the miss queue and of the fill buffer.");
-  v.integer("cache.fifo_depth", p.cache_fifo_depth, 0, 4096, "request",
+  v.integer("cache.fifo_depth", p.cache_fifo_depth, 0, kMostFifoDepth, "request",
             "Depth of the latency FIFO between tag check and data read, 2 or more; 0 sizes it from "
             "the latency of memory.");
   v.integer("axis_clocks", p.axis_clocks, 1, 4, "clk",

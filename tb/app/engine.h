@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/datasheet.h"
-#include "spec/registers.h"
+#include "rtl_model/fabric/register_section.h"
 #include "tb/app/random_draws.h"
 #include "tb/harness/coverage.h"
 #include "tb/results/parameter_set.h"
@@ -116,15 +116,6 @@ struct Shorthand {
   std::string second_parameter{}, given = "true";
 };
 
-// Of docs/registers.md and the C header: an engine's registers, and what stands behind their table
-// and their macros.
-struct RegisterSection {
-  std::string module;  // as its page calls it; empty: the engine has no registers of its own
-  std::vector<spec::RegisterInfo> rows;
-  std::string note{}, c_text{};
-  std::string macros{};  // what the names of its macros begin with; follows from its name
-};
-
 // Of docs/datasheets.md: an engine's units.
 struct DatasheetSection {
   std::string module;  // as its page calls it; empty: the engine has no units of its own
@@ -193,7 +184,7 @@ class Engine {
   virtual std::vector<std::string_view> maps() const { return {}; }
 
   // ---- reference pages
-  virtual RegisterSection registers() const { return {}; }
+  virtual rtl::RegisterSection registers() const { return {}; }
   virtual CoverageSection coverage() const { return {}; }
   virtual DatasheetSection datasheets() const { return {}; }
 

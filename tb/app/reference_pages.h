@@ -18,6 +18,8 @@ std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines)
 std::string registers_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // The registers of every engine as macros, for software in C or C++.
 std::string registers_header(const std::vector<std::unique_ptr<Engine>>& engines);
+// The same as SystemRDL.
+std::string registers_systemrdl(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string coverage_page(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string datasheets_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // Names of the faults that an engine's environment can plant, as --fault takes them. Elaborates the

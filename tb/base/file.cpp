@@ -102,6 +102,16 @@ auto take_into(std::string& text, const fs::path& file, std::size_t max_bytes) {
 
 }  // namespace
 
+bool is_there(const std::filesystem::path& path) {
+  std::error_code why;
+  return std::filesystem::exists(path, why);
+}
+
+bool is_folder(const std::filesystem::path& path) {
+  std::error_code why;
+  return std::filesystem::is_directory(path, why);
+}
+
 std::string read_file(const fs::path& file, std::size_t max_bytes) {
   std::string text;
   read_chunks(file, take_into(text, file, max_bytes));

@@ -11,6 +11,9 @@
 
 namespace deburr::tb {
 
+// What cannot be asked for, as by a name that is too long, is not there.
+bool is_there(const std::filesystem::path& path);
+bool is_folder(const std::filesystem::path& path);
 // Reads a regular file of at most `max_bytes`; FileError otherwise.
 std::string read_file(const std::filesystem::path& file, std::size_t max_bytes);
 // The name of the standard input, which may be a pipe.

@@ -15,6 +15,7 @@
 #include "spec/error.h"
 #include "tb/app/run_once.h"
 #include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
 #include "tb/command/commands.h"
 #include "tb/results/compare_runs.h"
 #include "tb/results/compare_sweeps.h"
@@ -235,7 +236,7 @@ void check_page(const CompareOptions& options) {
   const std::filesystem::path folder = std::filesystem::absolute(options.page).parent_path();
   for (const std::filesystem::path& path : options.paths) {
     const std::filesystem::path read =
-        std::filesystem::is_directory(path) ? path : std::filesystem::absolute(path).parent_path();
+        is_folder(path) ? path : std::filesystem::absolute(path).parent_path();
     std::error_code none;  // what is not there is said by who reads it
     if (std::filesystem::equivalent(folder, read, none))
       throw spec::ConfigError(

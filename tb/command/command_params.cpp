@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 
 struct ParamsCommand {
   std::string unit, markdown;
-  bool c_header = false;
+  bool c_header = false, systemrdl = false;
 };
 
 Json to_json(const Engine& engine, const Parameter& p) {
@@ -38,6 +38,10 @@ Outcome print_params(const ParamsCommand& command, bool json) {
   const auto all = engines();
   if (command.c_header) {
     fmt::print("{}", registers_header(all));
+    return {};
+  }
+  if (command.systemrdl) {
+    fmt::print("{}", registers_systemrdl(all));
     return {};
   }
   if (command.markdown == "parameters") {
@@ -136,11 +140,18 @@ void add_params(CLI::App& app, CommandLine& line) {
           ->add_flag("--c-header", options->c_header,
                      "Print the registers of every engine as a C header instead")
           ->excludes(markdown);
+  CLI::Option* const systemrdl =
+      command
+          ->add_flag("--systemrdl", options->systemrdl,
+                     "Print the registers of every engine as SystemRDL instead")
+          ->excludes(markdown)
+          ->excludes(c_header);
   command
       ->add_flag("--json", line.json,
                  "Print one JSON object: exit code, outcome, parameters, limits")
       ->excludes(markdown)
-      ->excludes(c_header);
+      ->excludes(c_header)
+      ->excludes(systemrdl);
   command->callback([options, &line] {
     line.action = [options, &line] { return print_params(*options, line.json); };
   });

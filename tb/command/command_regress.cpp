@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/base/file.h"
 #include "tb/base/interrupt.h"
+#include "tb/base/ready_file.h"
 #include "tb/command/commands.h"
 #include "tb/command/point_options.h"
 #include "tb/regress/regression_plan.h"
@@ -48,8 +50,7 @@ struct RegressOptions : PointOptions {
 
   // `deburr regress status` is about the default testplan.
   void take_lone_action() {
-    if (std::find(kActions.begin(), kActions.end(), file) == kActions.end() ||
-        std::filesystem::exists(file))
+    if (std::find(kActions.begin(), kActions.end(), file) == kActions.end() || is_there(file))
       return;
     action = file;
     file = kDefaultTestplan;
@@ -60,7 +61,7 @@ class Regression {
  public:
   explicit Regression(const RegressOptions& options)
       : options_(options),
-        testplan_(part_of(read_testplan(options.file), options.divide)),
+        testplan_(part_of(read_testplan(ready_file(options.file)), options.divide)),
         base_seed_(base_seed_of(options, testplan_)),
         place_(regression_place_of(options.out, testplan_.name, base_seed_)),
         what_(fmt::format("regression {} --seed {}", testplan_.name, base_seed_)) {}

@@ -12,6 +12,7 @@
 
 #include "spec/error.h"
 #include "tb/base/interrupt.h"
+#include "tb/base/ready_file.h"
 #include "tb/command/commands.h"
 #include "tb/command/point_options.h"
 #include "tb/results/progress.h"
@@ -116,7 +117,7 @@ Outcome collect_points(const std::string& what, const SweepDefinition& sweep, co
 }
 
 Outcome sweep(const SweepOptions& options) {
-  const SweepDefinition definition = read_sweep(options.file);
+  const SweepDefinition definition = read_sweep(ready_file(options.file));
   const SweepPlace place = place_of(options.out, definition.name);
   const std::string what = "sweep " + definition.name;
   say_changes(options, options.action, place, definition.file);
@@ -128,7 +129,7 @@ Outcome sweep(const SweepOptions& options) {
 }
 
 Outcome search(const SweepOptions& options) {
-  const SweepDefinition definition = read_sweep(options.file);
+  const SweepDefinition definition = read_sweep(ready_file(options.file));
   const SweepPlace place = search_place_of(options.out, definition.name);
   const std::string what = "search " + definition.name;
   if (options.action == "run") return run_search(options, definition, place);

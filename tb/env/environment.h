@@ -21,6 +21,7 @@
 #include "rtl_model/platform/host.h"
 #include "rtl_model/platform/memory_model.h"
 #include "spec/registers.h"
+#include "tb/base/fnv.h"
 #include "tb/env/memory_parameters.h"
 #include "tb/env/simulation.h"
 #include "tb/harness/coverage.h"
@@ -145,18 +146,17 @@ class RegisterScoreboard {
   Scoreboard<Status> board_;
 };
 
-// FNV-1a, to compare runs that must not differ.
+// To compare runs that must not differ: FNV-1a of words, mixed after each.
 class OutputHash {
  public:
   void add(std::uint64_t value) {
-    constexpr std::uint64_t kPrime = 0x100000001B3ULL;
-    hash_ = (hash_ ^ value) * kPrime;
+    hash_ = fnv_step(hash_, value);
     hash_ ^= hash_ >> 29;
   }
   std::uint64_t value() const { return hash_; }
 
  private:
-  std::uint64_t hash_ = 0xCBF29CE484222325ULL;
+  std::uint64_t hash_ = kFnvStart;
 };
 
 }  // namespace deburr::tb

@@ -74,15 +74,18 @@ class RegisterNoise {
 };
 
 // `work` for one seed after another, each in a process of its own, until it says something: at
-// least `seeds`, and on until DEBURR_FUZZ_SECONDS are over where that is set. Returns the first
-// complaint with its seed; a crash and a hang are complaints.
+// least `seeds`, and on until DEBURR_FUZZ_SECONDS are over where that is set; with DEBURR_FUZZ_SEED
+// for that one alone. Returns the first complaint with its seed; a crash and a hang are complaints.
 inline std::string first_complaint(std::uint64_t seeds,
                                    const std::function<std::string(std::uint64_t)>& work) {
   using Clock = std::chrono::steady_clock;
   const char* const wanted = std::getenv("DEBURR_FUZZ_SECONDS");
   const Clock::time_point end = Clock::now() + std::chrono::seconds(wanted ? std::atoi(wanted) : 0);
+  const char* const alone = std::getenv("DEBURR_FUZZ_SEED");
+  const std::uint64_t first = alone ? std::strtoull(alone, nullptr, 10) : 1;
   constexpr unsigned kHangSeconds = 100;
-  for (std::uint64_t seed = 1; seed <= seeds || Clock::now() < end; ++seed) {
+  for (std::uint64_t seed = first; alone ? seed == first : seed <= seeds || Clock::now() < end;
+       ++seed) {
     std::string said;
     try {
       said = forked_text([&] {

@@ -248,8 +248,7 @@ std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
 }
 
 Json read_result(const std::filesystem::path& path) {
-  const std::filesystem::path file =
-      std::filesystem::is_directory(path) ? path / "result.json" : path;
+  const std::filesystem::path file = is_folder(path) ? path / "result.json" : path;
   Json json = Json::parse(read_file(file, kMaxResultBytes), nullptr, false);
   if (json.is_discarded()) throw FileError(fmt::format("'{}' is not valid JSON", file.string()));
   if (!json.is_object() || json.value("schema", Json()) != kResultSchema)

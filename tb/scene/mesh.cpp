@@ -11,6 +11,7 @@
 #include <map>
 
 #include "spec/error.h"
+#include "tb/base/fnv.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/import.h"
 #include "tb/scene/mesh_builder.h"
@@ -193,7 +194,7 @@ V2d box_projection(const V3d& p, const V3d& normal) {
 }  // namespace
 
 std::size_t MeshBuilder::Hash::operator()(const Vertex& vertex) const {
-  std::uint64_t hash = 0xCBF29CE484222325u;
+  std::uint64_t hash = kFnvStart;
   for (std::uint64_t value : bits(vertex)) {
     hash = (hash ^ value) * 0x9E3779B97F4A7C15u;
     hash ^= hash >> 29;

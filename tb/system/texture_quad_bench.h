@@ -50,7 +50,7 @@ class QuadBench {
   QuadBench(const QuadInput& input, const spec::texture::Parameters& parameters,
             platform::MemoryModelParameters memory = {}, const BenchOptions& options = {})
       : input_(input),
-        unit_("texture", clock_, sized(parameters, memory)),
+        unit_("texture", clock_, parameters, memory_clocks(memory)),
         memory_("memory", clock_.period(), sized(memory, input)),
         parameters_(parameters) {
     driver_.beats_out(quads_);
@@ -130,14 +130,9 @@ class QuadBench {
   rtl::texture::TextureUnit& unit() { return unit_; }
 
  private:
-  // With a FIFO for this memory's latency, unless one is ordered.
-  static spec::texture::Parameters sized(spec::texture::Parameters p,
-                                         const platform::MemoryModelParameters& memory) {
-    const std::uint32_t latency = std::max(memory.latency_min, memory.latency_max);
-    if (p.cache_fifo_depth == 0)
-      p.cache_fifo_depth =
-          rtl::texture::LatencyFifo::depth_for(static_cast<std::int32_t>(latency), 1);
-    return p;
+  static rtl::texture::LatencyFifo::MemoryClocks memory_clocks(
+      const platform::MemoryModelParameters& memory) {
+    return {static_cast<std::int32_t>(std::max(memory.latency_min, memory.latency_max)), 1};
   }
   static platform::MemoryModelParameters sized(platform::MemoryModelParameters memory,
                                                const QuadInput& input) {

@@ -186,6 +186,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 // ---- depth of the latency FIFO
 
+std::int32_t fifo_depth(const TextureRunOptions& options) {
+  return rtl::texture::LatencyFifo::depth(options.texture, memory_clocks(options));
+}
+
 std::uint64_t cycles_with(TextureRunOptions options, std::int32_t fifo_depth) {
   options.texture.cache_fifo_depth = fifo_depth;
   return forked<std::uint64_t>([&] { return simulate(picture("plane", 64), {}, options).cycles; });

@@ -11,6 +11,7 @@
 
 #include "spec/error.h"
 #include "spec/morphological/tables.h"
+#include "tb/base/fnv.h"
 #include "tb/base/random.h"
 
 namespace deburr::tb::training {
@@ -219,9 +220,9 @@ ShareTables train(const std::vector<std::vector<ShareSample>>& frames, const Rec
 }
 
 std::uint64_t hash_of(const std::string& text) {
-  std::uint64_t h = 0xCBF29CE484222325;
-  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001B3;
-  return h;
+  FnvHash hash;
+  for (const char c : text) hash.byte(static_cast<unsigned char>(c));
+  return hash.value();
 }
 
 }  // namespace deburr::tb::training

@@ -13,9 +13,9 @@ using spec::geometric::Crease;
 using spec::geometric::Select;
 
 EdgeClassifier::EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain& clock,
-                               const spec::geometric::Parameters& p, ParameterStore& store,
-                               Memory<std::uint32_t>& facing, EdgeLatency& latency)
-    : Unit(name, clock), store_(store), latency_(latency) {
+                               const spec::geometric::Parameters& p, Memory<std::uint32_t>& facing,
+                               EdgeLatency& latency)
+    : Unit(name, clock), latency_(latency) {
   for (int lane = 0; lane < spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)];
        ++lane)
     for (const char* const face : {" f0", " f1"})
@@ -24,7 +24,7 @@ EdgeClassifier::EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain&
 
 // Stage 1.
 void EdgeClassifier::look(Cycle cycle, Beat& beat) {
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = rules_in.read(cycle);
   const bool selects = rules.select == Select::kEdges;
   beat.valid = beat.looked = 0;
   for (std::size_t lane = 0; lane < beat.edges.count; ++lane) {
@@ -57,11 +57,10 @@ void EdgeClassifier::choose_bits(Cycle cycle, Beat& beat) {
 }
 
 // Stage 3, of one lane.
-bool EdgeClassifier::keeps(const EdgeFields& edge, bool valid, bool facing0, bool facing1) {
-  const FrameRules& rules = store_.rules();
+bool EdgeClassifier::keeps(const FrameRules& rules, const EdgeFields& edge, bool valid,
+                           bool facing0, bool facing1) {
   if (!valid) {
     ++invalid_edges;
-    store_.set_sticky(spec::geometric::reg::kStatusInvalidEdge);
     return false;
   }
   if (edge.flags & flag::kBoundary) {
@@ -85,11 +84,13 @@ bool EdgeClassifier::keeps(const EdgeFields& edge, bool valid, bool facing0, boo
   return crease;
 }
 
-void EdgeClassifier::classify(const Beat& beat) {
+void EdgeClassifier::classify(Cycle cycle, const Beat& beat) {
+  const FrameRules& rules = rules_in.read(cycle);
   edges += beat.edges.count;
+  if (std::popcount(beat.valid) != beat.edges.count) invalid_edge_out.raise(cycle);
   for (std::size_t lane = 0; lane < beat.edges.count; ++lane) {
-    const bool kept = keeps(beat.edges.edge[lane], beat.valid >> lane & 1, beat.facing0 >> lane & 1,
-                            beat.facing1 >> lane & 1);
+    const bool kept = keeps(rules, beat.edges.edge[lane], beat.valid >> lane & 1,
+                            beat.facing0 >> lane & 1, beat.facing1 >> lane & 1);
     latency_.judge(kept);
     if (!kept) continue;
     ++kept_edges;
@@ -120,7 +121,7 @@ Activity EdgeClassifier::tick(Cycle cycle) {
   if (!arrives && pipe_.empty()) return kIdle;
   pipe_.move();
   if (const Beat* beat = pipe_.at(3)) {
-    classify(*beat);
+    classify(cycle, *beat);
     if (pending_ != 0 && edges_out.can_push(cycle)) leave(cycle);
   }
   if (Beat* beat = pipe_.at(2)) choose_bits(cycle, *beat);

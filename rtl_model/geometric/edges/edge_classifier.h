@@ -14,20 +14,24 @@
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/geometric/edge_latency.h"
-#include "rtl_model/geometric/parameter_store.h"
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/geometric/common/edge_latency.h"
+#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/tokens.h"
 
 namespace deburr::rtl::geometric {
 
 class EdgeClassifier final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   In<EdgeBeat> edges_in{"edges_in"};
   Out<KeptEdge> edges_out{"edges_out"};
+  // An index is out of range.
+  PulseOut invalid_edge_out{"invalid_edge_out"};
 
   EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain& clock,
-                 const spec::geometric::Parameters& parameters, ParameterStore& store,
-                 Memory<std::uint32_t>& facing, EdgeLatency& latency);
+                 const spec::geometric::Parameters& parameters, Memory<std::uint32_t>& facing,
+                 EdgeLatency& latency);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -53,14 +57,14 @@ class EdgeClassifier final : public Unit {
   };
   void look(Cycle cycle, Beat& beat);
   void choose_bits(Cycle cycle, Beat& beat);
-  void classify(const Beat& beat);
-  bool keeps(const EdgeFields& edge, bool valid, bool facing0, bool facing1);
+  void classify(Cycle cycle, const Beat& beat);
+  bool keeps(const FrameRules& rules, const EdgeFields& edge, bool valid, bool facing0,
+             bool facing1);
   void leave(Cycle cycle);
 
   static constexpr std::uint8_t kEnd = 1u << kLanes;  // of pending_
-  ParameterStore& store_;
-  EdgeLatency& latency_;                        // an instrument
-  std::vector<ReadPort<std::uint32_t>> ports_;  // lane, face
+  EdgeLatency& latency_;                              // an instrument
+  std::vector<ReadPort<std::uint32_t>> ports_;        // lane, face
   Pipe<Beat, 3> pipe_;
   std::uint8_t pending_ = 0;  // lanes of the beat in stage 3 that have not left
 };

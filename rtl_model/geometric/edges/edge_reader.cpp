@@ -12,10 +12,8 @@ using spec::geometric::kIndexMask;
 using spec::geometric::kLineBytes;
 
 EdgeReader::EdgeReader(const sc_core::sc_module_name& name, ClockDomain& clock,
-                       const spec::geometric::Parameters& p, const ParameterStore& store,
-                       EdgeLatency& latency)
+                       const spec::geometric::Parameters& p, EdgeLatency& latency)
     : Unit(name, clock),
-      store_(store),
       latency_(latency),
       lanes_(spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)]),
       buffer_("edge_buffer", p.edge_lines, kLineBytes * 8, "edges read ahead"),
@@ -23,7 +21,7 @@ EdgeReader::EdgeReader(const sc_core::sc_module_name& name, ClockDomain& clock,
       stalled_edges_(declare_stall("edges", "the next line of edges has not come")) {}
 
 bool EdgeReader::ask(Cycle cycle) {
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = rules_in.read(cycle);
   const std::uint32_t lines = (rules.edge_count + kEdgesInLine - 1) / kEdgesInLine;
   if (asked_ == lines || !buffer_.can_reserve(cycle) || !memory.requests_out.can_push(cycle))
     return false;
@@ -34,7 +32,7 @@ bool EdgeReader::ask(Cycle cycle) {
 }
 
 Activity EdgeReader::hand_on(Cycle cycle) {
-  const std::uint32_t left = store_.rules().edge_count - handed_;
+  const std::uint32_t left = rules_in.read(cycle).edge_count - handed_;
   if (phase_in.read(cycle) != Phase::kEdges) return left ? stalled_facing_ : kIdle;
   if (left != 0 && !buffer_.ready(cycle)) return stalled_edges_;
   if (!edges_out.can_push(cycle)) return kStalledDownstream;

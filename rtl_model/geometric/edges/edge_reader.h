@@ -12,22 +12,23 @@
 
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/edge_latency.h"
-#include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/memory_arbiter.h"
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/geometric/common/edge_latency.h"
+#include "rtl_model/geometric/common/fill_store.h"
+#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/memory_arbiter.h"
+#include "rtl_model/geometric/common/tokens.h"
 
 namespace deburr::rtl::geometric {
 
 class EdgeReader final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   WireIn<Phase> phase_in{"phase_in"};
   MemoryClient memory;
   Out<EdgeBeat> edges_out{"edges_out"};
 
   EdgeReader(const sc_core::sc_module_name& name, ClockDomain& clock,
-             const spec::geometric::Parameters& parameters, const ParameterStore& store,
-             EdgeLatency& latency);
+             const spec::geometric::Parameters& parameters, EdgeLatency& latency);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -39,7 +40,6 @@ class EdgeReader final : public Unit {
   bool ask(Cycle cycle);
   Activity hand_on(Cycle cycle);
 
-  const ParameterStore& store_;
   EdgeLatency& latency_;  // an instrument
   const std::uint32_t lanes_;
   FillStore<Line> buffer_;

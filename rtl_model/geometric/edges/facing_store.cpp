@@ -14,7 +14,7 @@ std::uint32_t edge_lanes_of(const spec::geometric::Parameters& p) {
 }  // namespace
 
 FacingStore::FacingStore(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const spec::geometric::Parameters& p, const ParameterStore& store)
+                         const spec::geometric::Parameters& p)
     : Unit(name, clock),
       words("facing", {.words = static_cast<std::uint64_t>(p.face_limit) / 32,
                        .word_bits = 32,
@@ -22,7 +22,6 @@ FacingStore::FacingStore(const sc_core::sc_module_name& name, ClockDomain& clock
                        .banks = kWordsInLine,
                        .span = kWordsInLine,
                        .content = "facing bits"}),
-      store_(store),
       stalled_memory_(declare_stall("memory", "waits for facing bits")) {}
 
 Activity FacingStore::tick(Cycle cycle) {
@@ -44,7 +43,7 @@ Activity FacingStore::tick(Cycle cycle) {
     }
     return did ? kBusy : kIdle;
   }
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = rules_in.read(cycle);
   const std::uint32_t lines =
       rules.select == spec::geometric::Select::kAll
           ? 0

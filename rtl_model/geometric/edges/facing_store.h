@@ -12,20 +12,22 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/memory_arbiter.h"
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/memory_arbiter.h"
+#include "rtl_model/geometric/common/tokens.h"
 #include "spec/geometric/records.h"
 
 namespace deburr::rtl::geometric {
 
 class FacingStore final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   WireIn<Phase> phase_in{"phase_in"};
   WireOut<bool> loaded_out{"loaded_out"};
   MemoryClient memory;
 
   FacingStore(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::geometric::Parameters& parameters, const ParameterStore& store);
+              const spec::geometric::Parameters& parameters);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -38,7 +40,6 @@ class FacingStore final : public Unit {
  private:
   static constexpr std::size_t kWordsInLine = spec::geometric::kFacesInLine / 32;
 
-  const ParameterStore& store_;
   WritePort<std::uint32_t> write_{words, "responses"};
   Activity stalled_memory_;
   std::uint32_t asked_ = 0, answered_ = 0;  // U12, lines

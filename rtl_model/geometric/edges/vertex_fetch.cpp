@@ -29,9 +29,8 @@ VertexFields decode_vertex(const Line& line, std::size_t vertex) {
 }  // namespace
 
 VertexFetch::VertexFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const spec::geometric::Parameters& p, const ParameterStore& store)
+                         const spec::geometric::Parameters& p)
     : Unit(name, clock),
-      store_(store),
       lines_(lines_of(p)),
       tags_("vertex_tags", {.words = lines_,
                             .word_bits = kVertexTagBits,
@@ -64,7 +63,8 @@ Activity VertexFetch::look_up(Cycle cycle) {
       const auto order = [&](std::size_t which) -> Activity {
         if (!fills_.can_reserve(cycle)) return stalled_fills_;
         if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
-        memory.read(cycle, store_.rules().vertex_base + line[which] * spec::geometric::kLineBytes,
+        memory.read(cycle,
+                    rules_in.read(cycle).vertex_base + line[which] * spec::geometric::kLineBytes,
                     fills_.reserve());
         tag_write_.write(cycle, lookup_.index[which], line[which] | kValid);
         lookup_.missed |= static_cast<std::uint8_t>(1u << which);

@@ -14,14 +14,16 @@
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/memory_arbiter.h"
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/geometric/common/fill_store.h"
+#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/memory_arbiter.h"
+#include "rtl_model/geometric/common/tokens.h"
 
 namespace deburr::rtl::geometric {
 
 class VertexFetch final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   WireIn<Phase> phase_in{"phase_in"};
   WireOut<bool> cleared_out{"cleared_out"};
   In<KeptEdge> edges_in{"edges_in"};
@@ -29,7 +31,7 @@ class VertexFetch final : public Unit {
   MemoryClient memory;
 
   VertexFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::geometric::Parameters& parameters, const ParameterStore& store);
+              const spec::geometric::Parameters& parameters);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -66,7 +68,6 @@ class VertexFetch final : public Unit {
   Activity deliver(Cycle cycle);
   bool install(Cycle cycle, std::size_t which);
 
-  const ParameterStore& store_;
   const std::uint32_t lines_;
   Memory<std::uint32_t> tags_;  // line + valid bit
   std::array<ReadPort<std::uint32_t>, 2> tag_ports_{ReadPort<std::uint32_t>{tags_, "v0"},

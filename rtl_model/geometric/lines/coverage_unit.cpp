@@ -12,12 +12,12 @@ constexpr std::int32_t kFractionMask = 2 * kHalf - 1;
 
 }  // namespace
 
-void CoverageUnit::find(const GroupToken& group, CandidateToken& out) {
+void CoverageUnit::find(Cycle cycle, const GroupToken& group, CandidateToken& out) const {
   out.end = group.end;
   out.candidates = out.forward = 0;
   if (group.end) return;
-  const FrameRules& rules = store_.rules();
-  const std::int32_t rows = group.vertical ? rules.width : rules.height;
+  const FrameRules& rules = rules_in.read(cycle);
+  const auto rows = static_cast<std::int32_t>(group.vertical ? rules.width : rules.height);
   out.vertical = group.vertical;
   const auto major = static_cast<std::uint16_t>(group.column >> 2);
   // A group with a candidate has its rows in the frame.
@@ -59,7 +59,7 @@ Activity CoverageUnit::tick(Cycle cycle) {
       candidates_out.push(cycle, *done);
     }
   }
-  if (arrives) find(groups_in.take(cycle), pipe_.enter());
+  if (arrives) find(cycle, groups_in.take(cycle), pipe_.enter());
   return kBusy;
 }
 

@@ -11,20 +11,21 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/geometric/edge_latency.h"
-#include "rtl_model/geometric/parameter_store.h"
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/geometric/common/edge_latency.h"
+#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/tokens.h"
 
 namespace deburr::rtl::geometric {
 
 class CoverageUnit final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   In<GroupToken> groups_in{"groups_in"};
   Out<CandidateToken> candidates_out{"candidates_out"};
 
-  CoverageUnit(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store,
-               EdgeLatency& latency)
-      : Unit(name, clock), store_(store), latency_(latency) {}
+  CoverageUnit(const sc_core::sc_module_name& name, ClockDomain& clock, EdgeLatency& latency)
+      : Unit(name, clock), latency_(latency) {}
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
 
@@ -33,9 +34,8 @@ class CoverageUnit final : public Unit {
   static Datasheet datasheet();
 
  private:
-  void find(const GroupToken& group, CandidateToken& out);
+  void find(Cycle cycle, const GroupToken& group, CandidateToken& out) const;
 
-  const ParameterStore& store_;
   EdgeLatency& latency_;  // an instrument
   Pipe<CandidateToken, 2> pipe_;
 };

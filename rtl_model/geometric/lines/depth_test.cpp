@@ -24,10 +24,8 @@ void for_each_lane(std::uint32_t lanes, Visit&& visit) {
 }  // namespace
 
 DepthTest::DepthTest(const sc_core::sc_module_name& name, ClockDomain& clock,
-                     const spec::geometric::Parameters& p, const ParameterStore& store,
-                     EdgeLatency& latency)
+                     const spec::geometric::Parameters& p, EdgeLatency& latency)
     : Unit(name, clock),
-      store_(store),
       latency_(latency),
       lines_(spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.depth_lines)]),
       index_bits_(spec::geometric::kCacheLineBits[static_cast<std::size_t>(p.depth_lines)]),
@@ -54,11 +52,10 @@ bool DepthTest::clear(Cycle cycle) {
 }
 
 // Its number among the group's lines.
-std::uint8_t DepthTest::add_line(Wanted& wanted, Place line) const {
+std::uint8_t DepthTest::add_line(Wanted& wanted, Place line, bool tiled) const {
   Lookup& l = wanted.lookup;
   for (std::uint8_t i = 0; i < l.count; ++i)
     if (wanted.line[i] == line) return i;
-  const bool tiled = store_.rules().tiled;
   const std::uint32_t half = (index_bits_ + 1) / 2;
   const std::uint32_t low = tiled ? half : half > 3 ? half - 2 : 1;
   wanted.line[l.count] = line;
@@ -68,15 +65,16 @@ std::uint8_t DepthTest::add_line(Wanted& wanted, Place line) const {
 }
 
 // Stage 1.
-void DepthTest::find_lines(const CandidateToken& group, Wanted& out) const {
-  const FrameRules& rules = store_.rules();
+void DepthTest::find_lines(Cycle cycle, const CandidateToken& group, Wanted& out) const {
+  const FrameRules& rules = rules_in.read(cycle);
   Lookup& l = out.lookup;
   l.group = group;
   l.count = l.missed = 0;
   if (group.end || rules.depth_test == spec::geometric::DepthTest::kOff) return;
   const auto find = [&](std::uint32_t x, std::uint32_t y, std::uint8_t& line, std::uint8_t& word) {
     const auto at = [&](std::uint32_t u, std::uint32_t v, std::uint32_t w) {
-      line = add_line(out, {static_cast<std::uint16_t>(u), static_cast<std::uint16_t>(v)});
+      line = add_line(out, {static_cast<std::uint16_t>(u), static_cast<std::uint16_t>(v)},
+                      rules.tiled);
       word = static_cast<std::uint8_t>(w);
     };
     if (rules.tiled)
@@ -106,7 +104,7 @@ void DepthTest::read_tags(Cycle cycle) {
 Activity DepthTest::order(Cycle cycle, std::size_t which) {
   if (!fills_.can_reserve(cycle)) return stalled_fills_;
   if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = rules_in.read(cycle);
   const Place line = looking_.line[which];
   memory.read(cycle, rules.depth_base + rules.line_offset(line.u, line.v), fills_.reserve());
   tag_write_.write(cycle, looking_.lookup.index[which], depth_tag_of(line.u, line.v, rules.tiled));
@@ -121,7 +119,7 @@ Activity DepthTest::look_up_pair(Cycle cycle) {
   const auto found = [&](std::size_t port) {
     const Place line = looking_.line[pair_ + port];
     return tag_ports_[port].at(cycle, l.index[pair_ + port], looked_) ==
-           depth_tag_of(line.u, line.v, store_.rules().tiled);
+           depth_tag_of(line.u, line.v, rules_in.read(cycle).tiled);
   };
   if (!first_done_) {
     const bool missed = !found(0), two = pair_ + 1 < l.count, other_missed = two && !found(1);
@@ -163,15 +161,15 @@ Activity DepthTest::look_up(Cycle cycle) {
     read_tags(cycle);
   }
   if (!has_addressed_ && candidates_in.can_pop(cycle)) {
-    find_lines(candidates_in.take(cycle), addressed_);
+    find_lines(cycle, candidates_in.take(cycle), addressed_);
     has_addressed_ = did = true;
   }
   return did ? kBusy : kIdle;
 }
 
-void DepthTest::capture(Work& work, std::size_t which, const DepthLine& line) const {
+void DepthTest::capture(Cycle cycle, Work& work, std::size_t which, const DepthLine& line) const {
   const Lookup& l = work.lookup;
-  const bool farther = store_.rules().depth_test == spec::geometric::DepthTest::kFarther;
+  const bool farther = rules_in.read(cycle).depth_test == spec::geometric::DepthTest::kFarther;
   for_each_lane(l.group.candidates, [&](std::size_t lane) {
     if (l.own_line[lane] == which) work.own[lane] = line[l.own_word[lane]];
     if (farther && l.other_line[lane] == which) work.other[lane] = line[l.other_word[lane]];
@@ -184,14 +182,14 @@ void DepthTest::capture_words(Cycle cycle) {
   for (std::size_t port = 0; port < 2; ++port)
     if (reading_ >> port & 1) {
       const std::size_t which = reading_step_ + port;
-      capture(work, which, data_ports_[port].at(cycle, work.lookup.index[which]));
+      capture(cycle, work, which, data_ports_[port].at(cycle, work.lookup.index[which]));
     }
   reading_ = 0;
 }
 
 // Stage 6.
 void DepthTest::test(Cycle cycle, Work& work) {
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = rules_in.read(cycle);
   const CandidateToken& group = work.lookup.group;
   std::uint8_t passing = 0;
   for_each_lane(group.candidates, [&](std::size_t lane) {
@@ -242,7 +240,7 @@ Activity DepthTest::deliver(Cycle cycle) {
     const std::size_t which = step_ + (pair & 1 ? 0 : 1);
     const DepthLine& line = fills_.line(cycle);
     data_write_.write(cycle, l.index[which], line);
-    capture(work_, which, line);
+    capture(cycle, work_, which, line);
     fills_.release(cycle);
     l.missed &= static_cast<std::uint8_t>(~(1u << which));
     installed_ |= static_cast<std::uint8_t>(1u << which);

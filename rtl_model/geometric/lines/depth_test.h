@@ -18,15 +18,17 @@
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/edge_latency.h"
-#include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/memory_arbiter.h"
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/geometric/common/edge_latency.h"
+#include "rtl_model/geometric/common/fill_store.h"
+#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/memory_arbiter.h"
+#include "rtl_model/geometric/common/tokens.h"
 
 namespace deburr::rtl::geometric {
 
 class DepthTest final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   WireIn<Phase> phase_in{"phase_in"};
   WireOut<bool> cleared_out{"cleared_out"};
   In<CandidateToken> candidates_in{"candidates_in"};
@@ -34,8 +36,7 @@ class DepthTest final : public Unit {
   MemoryClient memory;
 
   DepthTest(const sc_core::sc_module_name& name, ClockDomain& clock,
-            const spec::geometric::Parameters& parameters, const ParameterStore& store,
-            EdgeLatency& latency);
+            const spec::geometric::Parameters& parameters, EdgeLatency& latency);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -86,18 +87,17 @@ class DepthTest final : public Unit {
   };
 
   bool clear(Cycle cycle);
-  void find_lines(const CandidateToken& group, Wanted& out) const;
-  std::uint8_t add_line(Wanted& wanted, Place line) const;
+  void find_lines(Cycle cycle, const CandidateToken& group, Wanted& out) const;
+  std::uint8_t add_line(Wanted& wanted, Place line, bool tiled) const;
   void read_tags(Cycle cycle);
   Activity look_up(Cycle cycle);
   Activity look_up_pair(Cycle cycle);
   Activity order(Cycle cycle, std::size_t which);
-  void capture(Work& work, std::size_t which, const DepthLine& line) const;
+  void capture(Cycle cycle, Work& work, std::size_t which, const DepthLine& line) const;
   void capture_words(Cycle cycle);
   Activity deliver(Cycle cycle);
   void test(Cycle cycle, Work& work);
 
-  const ParameterStore& store_;
   EdgeLatency& latency_;  // an instrument
   const std::uint32_t lines_, index_bits_;
   Memory<std::uint32_t> tags_;

@@ -52,10 +52,8 @@ std::uint32_t quotient(std::uint32_t divisor) {
 }  // namespace
 
 LineSetup::LineSetup(const sc_core::sc_module_name& name, ClockDomain& clock,
-                     const spec::geometric::Parameters& p, const ParameterStore& store,
-                     EdgeLatency& latency)
+                     const spec::geometric::Parameters& p, EdgeLatency& latency)
     : Unit(name, clock),
-      store_(store),
       latency_(latency),
       pipelined_(p.pipelined),
       table_bits_(static_cast<std::uint32_t>(p.reciprocal_table)),
@@ -65,7 +63,7 @@ LineSetup::LineSetup(const sc_core::sc_module_name& name, ClockDomain& clock,
       dividers_(static_cast<std::size_t>(p.dividers)) {}
 
 // Stages 1 and 2.
-void LineSetup::find_axis(Beat& beat) {
+void LineSetup::find_axis(Cycle cycle, Beat& beat) {
   beat.dropped = false;
   if (beat.ends.end) return;
   const VertexFields *a = &beat.ends.vertex[0], *b = &beat.ends.vertex[1];
@@ -80,9 +78,9 @@ void LineSetup::find_axis(Beat& beat) {
                       down = static_cast<std::uint32_t>(std::abs(dy));
   const bool horizontal = across > down;
   if ((horizontal ? dx : dy) < 0) std::swap(a, b);
-  const FrameRules& rules = store_.rules();
-  const std::int32_t columns = horizontal ? rules.width : rules.height,
-                     rows = horizontal ? rules.height : rules.width;
+  const FrameRules& rules = rules_in.read(cycle);
+  const auto columns = static_cast<std::int32_t>(horizontal ? rules.width : rules.height),
+             rows = static_cast<std::int32_t>(horizontal ? rules.height : rules.width);
   const std::int32_t major1 = horizontal ? b->x : b->y, minor1 = horizontal ? b->y : b->x;
   beat.major0 = horizontal ? a->x : a->y;
   beat.minor0 = horizontal ? a->y : a->x;
@@ -191,7 +189,7 @@ bool LineSetup::advance_front(Cycle cycle) {
   if (Beat* beat = front_.at(kFront); beat && !beat->dropped && !beat->ends.end)
     normalise(cycle, *beat);
   if (Beat* beat = front_.at(2)) {
-    find_axis(*beat);
+    find_axis(cycle, *beat);
     if (!beat->ends.end) latency_.set_up(!beat->dropped);
   }
   if (ends_in.can_pop(cycle)) front_.enter().ends = ends_in.take(cycle);

@@ -17,20 +17,21 @@
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/geometric/edge_latency.h"
-#include "rtl_model/geometric/parameter_store.h"
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/geometric/common/edge_latency.h"
+#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/tokens.h"
 
 namespace deburr::rtl::geometric {
 
 class LineSetup final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   In<EdgeEnds> ends_in{"ends_in"};
   Out<LineToken> lines_out{"lines_out"};
 
   LineSetup(const sc_core::sc_module_name& name, ClockDomain& clock,
-            const spec::geometric::Parameters& parameters, const ParameterStore& store,
-            EdgeLatency& latency);
+            const spec::geometric::Parameters& parameters, EdgeLatency& latency);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -68,7 +69,7 @@ class LineSetup final : public Unit {
     std::uint32_t share;         // U0.24, t
     spec::geometric::LineRecord line;
   };
-  void find_axis(Beat& beat);
+  void find_axis(Cycle cycle, Beat& beat);
   void normalise(Cycle cycle, Beat& beat);
   void divide(Cycle cycle, Beat& beat) const;
   static void scale(Beat& beat);
@@ -77,7 +78,6 @@ class LineSetup final : public Unit {
   void deliver(Cycle cycle, const Beat& beat);
   bool advance_front(Cycle cycle);
 
-  const ParameterStore& store_;
   EdgeLatency& latency_;  // an instrument
   const bool pipelined_;
   const std::uint32_t table_bits_;

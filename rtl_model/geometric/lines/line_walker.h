@@ -11,8 +11,8 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/geometric/edge_latency.h"
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/geometric/common/edge_latency.h"
+#include "rtl_model/geometric/common/tokens.h"
 
 namespace deburr::rtl::geometric {
 

@@ -15,12 +15,11 @@ constexpr std::uint32_t kColourPlace = 1u << (kPlaceBits - 1);
 }  // namespace
 
 BlockFetch::BlockFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
-                       const spec::geometric::Parameters& p, const ParameterStore& store,
-                       const ReadPort<std::uint32_t>& tags, const ReadPort<BlockWeights>& weights)
+                       const spec::geometric::Parameters& p, const ReadPort<std::uint32_t>& tags,
+                       const ReadPort<BlockWeights>& weights)
     : Unit(name, clock),
       colours("resolve_colours", p.resolve_lines / 2, 8 * spec::geometric::kLineBytes,
               "colours on their way to the resolve"),
-      store_(store),
       places_(p),
       tag_port_(tags),
       data_port_(weights),
@@ -42,7 +41,7 @@ Activity BlockFetch::look_up(Cycle cycle) {
       if (!lookup.cached) {
         if (!weights_.can_reserve(cycle)) return stalled_weights_;
         if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
-        const FrameRules& rules = store_.rules();
+        const FrameRules& rules = rules_in.read(cycle);
         memory.read(cycle,
                     rules.weight_base +
                         spec::geometric::kLineBytes * (block_.y * rules.blocks_across + block_.x),
@@ -62,10 +61,9 @@ Activity BlockFetch::look_up(Cycle cycle) {
 }
 
 // What a pixel takes from, by its weights: bits of `lines`.
-std::uint32_t BlockFetch::lines_of_pixel(const BlockToken& block, std::uint32_t pixel,
-                                         bool horizontal) const {
+std::uint32_t BlockFetch::lines_of_pixel(bool tiled, const BlockToken& block, std::uint32_t pixel,
+                                         bool horizontal) {
   const std::uint32_t x = pixel & 3, y = pixel >> 2;
-  const bool tiled = store_.rules().tiled;
   const spec::geometric::Weights& w = block.weights[pixel];
   const bool first = w[horizontal ? 2 : 0] != 0, second = w[horizontal ? 3 : 1] != 0;
   const std::uint32_t row = tiled ? 1 : y + 1;
@@ -83,9 +81,9 @@ std::uint32_t BlockFetch::lines_of_pixel(const BlockToken& block, std::uint32_t 
 }
 
 // What memory gives as weights may be anything.
-void BlockFetch::limit(BlockToken& block) const {
-  const FrameRules& rules = store_.rules();
-  const std::int32_t last_x = rules.width - 1, last_y = rules.height - 1;
+void BlockFetch::limit(const FrameRules& rules, BlockToken& block) {
+  const auto last_x = static_cast<std::int32_t>(rules.width) - 1,
+             last_y = static_cast<std::int32_t>(rules.height) - 1;
   for (std::int32_t pixel = 0; pixel < spec::geometric::kBlockPixels; ++pixel) {
     const std::int32_t x = 4 * block.x + (pixel & 3), y = 4 * block.y + (pixel >> 2);
     const bool inside = x <= last_x && y <= last_y;
@@ -99,8 +97,8 @@ void BlockFetch::limit(BlockToken& block) const {
 }
 
 // Stage 4.
-void BlockFetch::choose(BlockToken& block) const {
-  limit(block);
+void BlockFetch::choose(const FrameRules& rules, BlockToken& block) {
+  limit(rules, block);
   block.blended = block.horizontal = 0;
   block.lines = 0;
   for (std::uint32_t pixel = 0; pixel < spec::geometric::kBlockPixels; ++pixel) {
@@ -110,7 +108,7 @@ void BlockFetch::choose(BlockToken& block) const {
     block.blended = static_cast<std::uint16_t>(block.blended | 1u << pixel);
     block.horizontal =
         static_cast<std::uint16_t>(block.horizontal | std::uint32_t{horizontal} << pixel);
-    block.lines |= lines_of_pixel(block, pixel, horizontal);
+    block.lines |= lines_of_pixel(rules.tiled, block, pixel, horizontal);
   }
 }
 
@@ -121,7 +119,7 @@ Activity BlockFetch::ask(Cycle cycle) {
   if (to_ask_ != 0) {
     if (!colours.can_reserve(cycle)) return stalled_colours_;
     if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
-    const FrameRules& rules = store_.rules();
+    const FrameRules& rules = rules_in.read(cycle);
     const auto line = static_cast<std::uint32_t>(std::countr_zero(to_ask_));
     const std::uint32_t i = line / 3, j = line % 3;
     const std::uint32_t u = (rules.tiled ? asking_.x : asking_.x >> 2) + j - 1,
@@ -145,7 +143,7 @@ Activity BlockFetch::deliver(Cycle cycle) {
   if (is_fetched_ && !is_asking_) {
     if (!token_.end) {
       if (fetched_.cached) token_.weights = data_port_.at(cycle, fetched_.index);
-      choose(token_);
+      choose(rules_in.read(cycle), token_);
     }
     asking_ = token_;
     to_ask_ = token_.lines;

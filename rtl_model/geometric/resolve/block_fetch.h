@@ -15,23 +15,26 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/memory_arbiter.h"
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/geometric/common/fill_store.h"
+#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/memory_arbiter.h"
+#include "rtl_model/geometric/common/tokens.h"
 #include "rtl_model/geometric/weights/weight_memories.h"
 
 namespace deburr::rtl::geometric {
 
 class BlockFetch final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   In<TouchedBlock> blocks_in{"blocks_in"};
   Out<BlockToken> blocks_out{"blocks_out"};
   MemoryClient memory;
   FillStore<Line> colours;
 
   BlockFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
-             const spec::geometric::Parameters& parameters, const ParameterStore& store,
-             const ReadPort<std::uint32_t>& tags, const ReadPort<BlockWeights>& weights);
+             const spec::geometric::Parameters& parameters, const ReadPort<std::uint32_t>& tags,
+             const ReadPort<BlockWeights>& weights);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -55,11 +58,11 @@ class BlockFetch final : public Unit {
   Activity look_up(Cycle cycle);
   Activity deliver(Cycle cycle);
   Activity ask(Cycle cycle);
-  void choose(BlockToken& block) const;
-  void limit(BlockToken& block) const;
-  std::uint32_t lines_of_pixel(const BlockToken& block, std::uint32_t pixel, bool horizontal) const;
+  static void choose(const FrameRules& rules, BlockToken& block);
+  static void limit(const FrameRules& rules, BlockToken& block);
+  static std::uint32_t lines_of_pixel(bool tiled, const BlockToken& block, std::uint32_t pixel,
+                                      bool horizontal);
 
-  const ParameterStore& store_;
   const WeightPlaces places_;
   ReadPort<std::uint32_t> tag_port_;
   ReadPort<BlockWeights> data_port_;

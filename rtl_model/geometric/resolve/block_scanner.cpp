@@ -8,10 +8,9 @@ namespace deburr::rtl::geometric {
 using spec::geometric::kBlocksInWord;
 
 BlockScanner::BlockScanner(const sc_core::sc_module_name& name, ClockDomain& clock,
-                           const spec::geometric::Parameters& p, const ParameterStore& store,
+                           const spec::geometric::Parameters& p,
                            const ReadPort<TouchedWord>& touched)
     : Unit(name, clock),
-      store_(store),
       touched_port_(touched),
       above_("touched_above", {.words = static_cast<std::uint64_t>((p.line_pixels + 511) / 512),
                                .word_bits = kBlocksInWord,
@@ -21,7 +20,7 @@ BlockScanner::BlockScanner(const sc_core::sc_module_name& name, ClockDomain& clo
 
 // Stage 2.
 void BlockScanner::load(Cycle cycle) {
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = rules_in.read(cycle);
   left_ = touched_port_.at(cycle, taken_);
   above_word_ = row_ == 0 ? TouchedWord{} : above_read_.now(cycle, column_);
   above_write_.write(cycle, column_, left_);
@@ -40,7 +39,7 @@ Activity BlockScanner::tick(Cycle cycle) {
     return kIdle;
   }
   if (ended_) return kIdle;
-  const std::uint32_t words = store_.rules().touched_words;
+  const std::uint32_t words = rules_in.read(cycle).touched_words;
   const bool any = left_.bits[0] | left_.bits[1];
   const bool finished = !any && taken_ == words;
   if ((any || finished) && !blocks_out.can_push(cycle)) return kStalledDownstream;

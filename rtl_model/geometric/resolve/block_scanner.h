@@ -12,20 +12,20 @@
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/parameter_store.h"
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/tokens.h"
 #include "rtl_model/geometric/weights/weight_memories.h"
 
 namespace deburr::rtl::geometric {
 
 class BlockScanner final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   WireIn<Phase> phase_in{"phase_in"};
   Out<TouchedBlock> blocks_out{"blocks_out"};
 
   BlockScanner(const sc_core::sc_module_name& name, ClockDomain& clock,
-               const spec::geometric::Parameters& parameters, const ParameterStore& store,
-               const ReadPort<TouchedWord>& touched);
+               const spec::geometric::Parameters& parameters, const ReadPort<TouchedWord>& touched);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -34,7 +34,6 @@ class BlockScanner final : public Unit {
  private:
   void load(Cycle cycle);
 
-  const ParameterStore& store_;
   ReadPort<TouchedWord> touched_port_;
   Memory<TouchedWord> above_;
   ReadPort<TouchedWord> above_read_{above_, "this row"};

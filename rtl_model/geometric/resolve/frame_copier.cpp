@@ -7,10 +7,8 @@ namespace deburr::rtl::geometric {
 
 using spec::geometric::kLineBytes;
 
-FrameCopier::FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const ParameterStore& store)
+FrameCopier::FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock)
     : Unit(name, clock),
-      store_(store),
       buffer_("copy_buffer", kLines, 8 * kLineBytes, "lines between read and write",
               MemoryKind::kFlops),
       stalled_memory_(declare_stall("memory", "the next line has not come")) {}
@@ -25,7 +23,7 @@ Activity FrameCopier::tick(Cycle cycle) {
     return kIdle;
   }
   if (copied_out.driven()) return kIdle;
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = rules_in.read(cycle);
   const std::uint32_t lines = rules.frame_copy ? rules.frame_lines() : 0;
   bool did = false;
   if (memory.responses_in.can_pop(cycle)) {

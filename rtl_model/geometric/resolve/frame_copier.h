@@ -11,20 +11,22 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/memory_arbiter.h"
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/geometric/common/fill_store.h"
+#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/memory_arbiter.h"
+#include "rtl_model/geometric/common/tokens.h"
 
 namespace deburr::rtl::geometric {
 
 class FrameCopier final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   WireIn<Phase> phase_in{"phase_in"};
   // Every line is copied, or none is to be.
   WireOut<bool> copied_out{"copied_out"};
   MemoryClient memory;
 
-  FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store);
+  FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -34,7 +36,6 @@ class FrameCopier final : public Unit {
 
  private:
   static constexpr std::int32_t kLines = 16;
-  const ParameterStore& store_;
   FillStore<Line> buffer_;
   Activity stalled_memory_;
   std::uint32_t asked_ = 0, written_ = 0, answered_ = 0;  // U23, lines

@@ -25,10 +25,8 @@ spec::geometric::Rgba8 pixel_of(const Line& line, std::size_t pixel) {
 }  // namespace
 
 Resolver::Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
-                   const spec::geometric::Parameters& p, const ParameterStore& store,
-                   FillStore<Line>& colours)
+                   const spec::geometric::Parameters& p, FillStore<Line>& colours)
     : Unit(name, clock),
-      store_(store),
       colours_(colours),
       lanes_(resolve_lanes_of(p)),
       originals_("originals", {.words = static_cast<std::uint64_t>((p.line_pixels + 3) / 4),
@@ -63,10 +61,10 @@ Resolver::Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
 }
 
 // Stage 1: line `number` = 3 i + j of the block (BlockToken::lines).
-void Resolver::place(const Line& line, std::uint32_t number) {
+void Resolver::place(bool tiled, const Line& line, std::uint32_t number) {
   const std::size_t i = number / 3, j = number % 3;
   Window& w = window_;
-  if (store_.rules().tiled) {
+  if (tiled) {
     for (std::size_t k = 0; k < 4; ++k) {
       if (i == 0) w.up[k] = pixel_of(line, 12 + k);
       if (i == 2) w.down[k] = pixel_of(line, k);
@@ -105,7 +103,8 @@ Activity Resolver::load(Cycle cycle) {
   }
   if (to_load_ == 0) return kStalledDownstream;
   if (!colours_.ready(cycle)) return stalled_colours_;
-  place(colours_.line(cycle), static_cast<std::uint32_t>(std::countr_zero(to_load_)));
+  place(rules_in.read(cycle).tiled, colours_.line(cycle),
+        static_cast<std::uint32_t>(std::countr_zero(to_load_)));
   colours_.release(cycle);
   to_load_ &= to_load_ - 1;
   return kBusy;
@@ -133,7 +132,7 @@ void Resolver::move_on(Cycle cycle) {
     has_left_ = false;
     return;
   }
-  if (!store_.rules().frame_copy) restore(cycle, token);
+  if (!rules_in.read(cycle).frame_copy) restore(cycle, token);
   Originals below;
   left_.blended = 0;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -151,7 +150,7 @@ void Resolver::move_on(Cycle cycle) {
 // Stage 3.
 void Resolver::take_pixels(Cycle cycle, Beat& beat) {
   const BlockToken& token = block(blended_block_);
-  const bool linear = store_.rules().linear_light;
+  const bool linear = rules_in.read(cycle).linear_light;
   beat.block = static_cast<std::uint8_t>(blended_block_ % kBlocks);
   beat.count = 0;
   for (; to_blend_ != 0 && beat.count < lanes_; to_blend_ &= to_blend_ - 1) {
@@ -182,7 +181,7 @@ void Resolver::take_pixels(Cycle cycle, Beat& beat) {
 
 // Stage 4.
 void Resolver::subtract(Cycle cycle, Beat& beat) {
-  const bool linear = store_.rules().linear_light;
+  const bool linear = rules_in.read(cycle).linear_light;
   for (std::size_t lane = 0; lane < beat.count; ++lane) {
     Operands& o = beat.operands[lane];
     for (std::size_t c = 0; c < 3; ++c) {
@@ -208,7 +207,7 @@ void Resolver::multiply(Beat& beat) {
 
 // Stage 6.
 void Resolver::round(Cycle cycle, Beat& beat) {
-  const bool linear = store_.rules().linear_light;
+  const bool linear = rules_in.read(cycle).linear_light;
   for (std::size_t lane = 0; lane < beat.count; ++lane) {
     Operands& o = beat.operands[lane];
     for (std::size_t c = 0; c < 3; ++c) {
@@ -221,7 +220,7 @@ void Resolver::round(Cycle cycle, Beat& beat) {
 
 // Stage 7.
 void Resolver::encode(Cycle cycle, const Beat& beat) {
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = rules_in.read(cycle);
   for (std::size_t lane = 0; lane < beat.count; ++lane) {
     const Operands& o = beat.operands[lane];
     Rgba& result = results_[o.pixel];
@@ -231,11 +230,11 @@ void Resolver::encode(Cycle cycle, const Beat& beat) {
     result[3] = static_cast<std::uint8_t>(rules.mark ? o.code[0][3] & 0xFE : o.code[0][3]);
   }
   blended_pixels += beat.count;
-  if (beat.last) close(beat.block);
+  if (beat.last) close(beat.block, rules.tiled);
 }
 
 // A block is complete.
-void Resolver::close(std::uint32_t number) {
+void Resolver::close(std::uint32_t number, bool tiled) {
   const BlockToken& token = block(number);
   if (token.end) {
     ended_ = true;
@@ -244,7 +243,7 @@ void Resolver::close(std::uint32_t number) {
   ++blocks;
   written_block_ = number;
   written_ = results_;
-  if (store_.rules().tiled) {
+  if (tiled) {
     to_write_ = token.blended != 0;
   } else {
     for (std::uint32_t row = 0; row < 4; ++row)
@@ -264,7 +263,7 @@ void Resolver::close(std::uint32_t number) {
 // Stage 8; false: the link takes nothing.
 bool Resolver::write(Cycle cycle) {
   if (!memory.requests_out.can_push(cycle)) return false;
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = rules_in.read(cycle);
   const BlockToken& token = block(written_block_);
   const auto row = static_cast<std::uint32_t>(std::countr_zero(to_write_));
   const std::uint32_t first_pixel = rules.tiled ? 0 : 4 * row, pixels = rules.tiled ? 16 : 4,

@@ -19,14 +19,16 @@
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/memory_arbiter.h"
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/geometric/common/fill_store.h"
+#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/memory_arbiter.h"
+#include "rtl_model/geometric/common/tokens.h"
 
 namespace deburr::rtl::geometric {
 
 class Resolver final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   WireIn<Phase> phase_in{"phase_in"};
   // The frame's end has come, and every write is answered.
   WireOut<bool> resolved_out{"resolved_out"};
@@ -34,8 +36,7 @@ class Resolver final : public Unit {
   MemoryClient memory;
 
   Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
-           const spec::geometric::Parameters& parameters, const ParameterStore& store,
-           FillStore<Line>& colours);
+           const spec::geometric::Parameters& parameters, FillStore<Line>& colours);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -75,7 +76,7 @@ class Resolver final : public Unit {
 
   BlockToken& block(std::uint32_t number) { return blocks_[number % kBlocks]; }
   Activity load(Cycle cycle);
-  void place(const Line& line, std::uint32_t number);
+  void place(bool tiled, const Line& line, std::uint32_t number);
   void move_on(Cycle cycle);
   void restore(Cycle cycle, const BlockToken& block);
   void take_pixels(Cycle cycle, Beat& beat);
@@ -83,11 +84,10 @@ class Resolver final : public Unit {
   static void multiply(Beat& beat);
   void round(Cycle cycle, Beat& beat);
   void encode(Cycle cycle, const Beat& beat);
-  void close(std::uint32_t number);
+  void close(std::uint32_t number, bool tiled);
   bool write(Cycle cycle);
   bool blend(Cycle cycle);
 
-  const ParameterStore& store_;
   FillStore<Line>& colours_;  // of the BlockFetch, which fills it
   const std::uint32_t lanes_;
   Memory<Originals> originals_;

@@ -17,10 +17,8 @@ constexpr std::uint64_t kWholeLine = ~std::uint64_t{0};
 }  // namespace
 
 WeightCombiner::WeightCombiner(const sc_core::sc_module_name& name, ClockDomain& clock,
-                               const spec::geometric::Parameters& p, const ParameterStore& store,
-                               EdgeLatency& latency)
+                               const spec::geometric::Parameters& p, EdgeLatency& latency)
     : Unit(name, clock),
-      store_(store),
       latency_(latency),
       places_(p),
       blocks_(spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.weight_blocks)]),
@@ -52,7 +50,7 @@ WeightCombiner::WeightCombiner(const sc_core::sc_module_name& name, ClockDomain&
       spilled_(static_cast<std::size_t>(p.fills), 0) {}
 
 Activity WeightCombiner::clear(Cycle cycle) {
-  const std::uint32_t words = store_.rules().touched_words, all = std::max(words, blocks_);
+  const std::uint32_t words = rules_in.read(cycle).touched_words, all = std::max(words, blocks_);
   if (clearing_ == all) return kIdle;
   if (clearing_ < words) touched_write_.write(cycle, clearing_, TouchedWord{});
   if (clearing_ < blocks_) tag_write_.write(cycle, clearing_, 0);
@@ -60,8 +58,8 @@ Activity WeightCombiner::clear(Cycle cycle) {
   return kBusy;
 }
 
-std::uint32_t WeightCombiner::address_of(std::uint32_t x, std::uint32_t y) const {
-  const FrameRules& rules = store_.rules();
+std::uint32_t WeightCombiner::address_of(Cycle cycle, std::uint32_t x, std::uint32_t y) const {
+  const FrameRules& rules = rules_in.read(cycle);
   return rules.weight_base + spec::geometric::kLineBytes * (y * rules.blocks_across + x);
 }
 
@@ -94,7 +92,7 @@ Activity WeightCombiner::look_up_block(Cycle cycle) {
       lookup_.old_y = there >> 11 & 0x7FF;
     }
     if (lookup_.reads) {
-      memory.read(cycle, address_of(x, y), fills_.reserve());
+      memory.read(cycle, address_of(cycle, x, y), fills_.reserve());
       ++blocks_read;
     } else {
       TouchedWord word = touched;
@@ -125,7 +123,7 @@ Activity WeightCombiner::look_up(Cycle cycle) {
   if (lookup_.group.end) return kBusy;
   const std::uint32_t x = lookup_.group.block_x, y = lookup_.group.block_y;
   lookup_.index = static_cast<std::uint16_t>(places_.index_of(x, y));
-  touched_at_ = y * store_.rules().words_across + x / spec::geometric::kBlocksInWord;
+  touched_at_ = y * rules_in.read(cycle).words_across + x / spec::geometric::kBlocksInWord;
   tag_port_.read(cycle, lookup_.index);
   touched_port_.read(cycle, touched_at_);
   return kBusy;
@@ -139,7 +137,7 @@ void WeightCombiner::combine(Cycle cycle, Work& work) {
   if (!l.missed || l.replaces) {
     const BlockWeights& there = past ? before->block : data_port_.at(cycle, l.index);
     if (l.replaces) {
-      Line& line = memory.write(cycle, address_of(l.old_x, l.old_y), l.spill, kWholeLine);
+      Line& line = memory.write(cycle, address_of(cycle, l.old_x, l.old_y), l.spill, kWholeLine);
       for (std::size_t i = 0; i < there.size(); ++i)
         std::copy(there[i].begin(), there[i].end(),
                   line.begin() + static_cast<std::ptrdiff_t>(4 * i));
@@ -148,7 +146,7 @@ void WeightCombiner::combine(Cycle cycle, Work& work) {
     }
     if (!l.missed) work.block = there;
   }
-  const bool last = store_.rules().combine == spec::geometric::Combine::kLast;
+  const bool last = rules_in.read(cycle).combine == spec::geometric::Combine::kLast;
   for (std::uint32_t left = l.group.candidates; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
     Weights& weights = work.block[l.group.place[lane]];

@@ -19,16 +19,18 @@
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/edge_latency.h"
-#include "rtl_model/geometric/fill_store.h"
-#include "rtl_model/geometric/memory_arbiter.h"
-#include "rtl_model/geometric/tokens.h"
+#include "rtl_model/geometric/common/edge_latency.h"
+#include "rtl_model/geometric/common/fill_store.h"
+#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/memory_arbiter.h"
+#include "rtl_model/geometric/common/tokens.h"
 #include "rtl_model/geometric/weights/weight_memories.h"
 
 namespace deburr::rtl::geometric {
 
 class WeightCombiner final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   WireIn<Phase> phase_in{"phase_in"};
   WireOut<bool> cleared_out{"cleared_out"};
   // The frame's end has come, and every write is answered.
@@ -37,8 +39,7 @@ class WeightCombiner final : public Unit {
   MemoryClient memory;
 
   WeightCombiner(const sc_core::sc_module_name& name, ClockDomain& clock,
-                 const spec::geometric::Parameters& parameters, const ParameterStore& store,
-                 EdgeLatency& latency);
+                 const spec::geometric::Parameters& parameters, EdgeLatency& latency);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -87,13 +88,12 @@ class WeightCombiner final : public Unit {
   Activity deliver(Cycle cycle);
   void combine(Cycle cycle, Work& work);
   void answer(Cycle cycle);
-  std::uint32_t address_of(std::uint32_t x, std::uint32_t y) const;
+  std::uint32_t address_of(Cycle cycle, std::uint32_t x, std::uint32_t y) const;
   bool spilling(std::uint32_t tag) const;
   void note(std::optional<Cycle> latency) {
     if (latency) edge_latency.record(*latency);
   }
 
-  const ParameterStore& store_;
   EdgeLatency& latency_;  // an instrument
   const WeightPlaces places_;
   const std::uint32_t blocks_;

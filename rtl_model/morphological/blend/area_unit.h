@@ -47,8 +47,8 @@
 #include "rtl_model/morphological/blend/area_walk.h"
 #include "rtl_model/morphological/blend/learned_shares.h"
 #include "rtl_model/morphological/blend/table_shares.h"
-#include "rtl_model/morphological/parameter_store.h"
-#include "rtl_model/morphological/tokens.h"
+#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 

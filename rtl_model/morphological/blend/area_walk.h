@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdint>
 
-#include "rtl_model/morphological/parameter_store.h"
-#include "rtl_model/morphological/tokens.h"
+#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 

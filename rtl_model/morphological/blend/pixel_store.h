@@ -29,8 +29,8 @@
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/parameter_store.h"
-#include "rtl_model/morphological/tokens.h"
+#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 

@@ -14,8 +14,8 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/parameter_store.h"
-#include "rtl_model/morphological/tokens.h"
+#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 

@@ -24,7 +24,7 @@
 #include <deque>
 
 #include "rtl_model/fabric/memory.h"
-#include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/common/parameter_store.h"
 #include "rtl_model/morphological/runs/trial.h"
 
 namespace deburr::rtl::morphological {

@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/memory.h"
-#include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/common/parameter_store.h"
 #include "rtl_model/morphological/runs/trial.h"
 
 namespace deburr::rtl::morphological {

@@ -16,11 +16,11 @@
 
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/common/tokens.h"
 #include "rtl_model/morphological/runs/edge_port.h"
 #include "rtl_model/morphological/runs/port_schedule.h"
 #include "rtl_model/morphological/runs/predictor.h"
-#include "rtl_model/morphological/tokens.h"
 
 namespace deburr::rtl::morphological {
 

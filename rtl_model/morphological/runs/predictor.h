@@ -34,11 +34,11 @@
 #include <cstdint>
 
 #include "rtl_model/fabric/counters.h"
-#include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/common/tokens.h"
 #include "rtl_model/morphological/runs/edge_port.h"
 #include "rtl_model/morphological/runs/line_bounds.h"
 #include "rtl_model/morphological/runs/port_schedule.h"
-#include "rtl_model/morphological/tokens.h"
 
 namespace deburr::rtl::morphological {
 

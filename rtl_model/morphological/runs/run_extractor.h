@@ -33,10 +33,10 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/common/tokens.h"
 #include "rtl_model/morphological/runs/edge_rows.h"
 #include "rtl_model/morphological/runs/edge_window.h"
-#include "rtl_model/morphological/tokens.h"
 
 namespace deburr::rtl::morphological {
 

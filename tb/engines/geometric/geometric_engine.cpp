@@ -10,8 +10,8 @@
 
 #include "golden/geometric/configuration.h"
 #include "rtl_model/geometric/datasheets.h"
+#include "rtl_model/geometric/register_section.h"
 #include "spec/geometric/check_build.h"
-#include "spec/geometric/registers.h"
 #include "tb/app/input_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
@@ -110,10 +110,7 @@ class GeometricCommand final : public Engine {
     return {"lines", "passed", "weight", "depth_reads"};
   }
 
-  RegisterSection registers() const override {
-    return {"GeometricEngine",
-            {spec::geometric::kRegisters.begin(), spec::geometric::kRegisters.end()}};
-  }
+  rtl::RegisterSection registers() const override { return rtl::geometric::register_section(); }
   CoverageSection coverage() const override {
     CoverageSection section{"Geometric engine", declared_geometric_coverage(),
                             geometric_coverage_groups()};

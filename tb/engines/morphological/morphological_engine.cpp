@@ -10,13 +10,14 @@
 
 #include "golden/morphological/configuration.h"
 #include "rtl_model/morphological/datasheets.h"
+#include "rtl_model/morphological/register_section.h"
 #include "spec/error.h"
 #include "spec/morphological/check_build.h"
-#include "spec/morphological/registers.h"
 #include "tb/app/input_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
+#include "tb/base/file.h"
 #include "tb/base/interrupt.h"
 #include "tb/engines/morphological/morphological_coverage.h"
 #include "tb/engines/morphological/morphological_draws.h"
@@ -124,10 +125,7 @@ class MorphologicalCommand final : public Engine {
   }
   std::vector<std::string_view> maps() const override { return {"edges", "run_length", "steps"}; }
 
-  RegisterSection registers() const override {
-    return {"MorphologicalEngine",
-            {spec::morphological::kRegisters.begin(), spec::morphological::kRegisters.end()}};
-  }
+  rtl::RegisterSection registers() const override { return rtl::morphological::register_section(); }
   CoverageSection coverage() const override {
     return {"Morphological engine",
             morphological_coverage(golden::morphological::MorphologicalGolden({})),
@@ -201,7 +199,7 @@ class MorphologicalCommand final : public Engine {
     const bool depth_used = parameters_.edge_source == spec::morphological::EdgeSource::kDepth ||
                             parameters_.edge_source == spec::morphological::EdgeSource::kPredicated;
     // load_frame() has its own words for a truth beside a scene, and for a file that is not there.
-    if (is_rendered(frame_) || !std::filesystem::exists(frame_.source)) return;
+    if (is_rendered(frame_) || !is_there(frame_.source)) return;
     for (const char* name : {"frame.width", "frame.height"})
       set.refuse(name, "frame.source is an image file, which has a size of its own");
     set.refuse("frame.truth_samples", "an image file is judged by the file frame.truth (--truth)");

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "spec/error.h"
+#include "tb/base/file.h"
 #include "tb/scene/depth_codes.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/scenes.h"
@@ -104,7 +105,7 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
           "frame.truth and frame.depth go with an image file; a scene has its own");
     frame = rendered(p, seed, interrupted, kept);
   } else {
-    if (std::filesystem::path(p.source).extension().empty() && !std::filesystem::exists(p.source)) {
+    if (std::filesystem::path(p.source).extension().empty() && !is_there(p.source)) {
       std::string known;
       for (const SceneName& scene : scene_names()) known += fmt::format(" {}", scene.name);
       throw spec::ConfigError(

@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "rtl_model/texture/datasheets.h"
-#include "rtl_model/texture/descriptors.h"
+#include "rtl_model/texture/register_section.h"
 #include "spec/error.h"
 #include "spec/texture/check_build.h"
 #include "spec/texture/descriptor.h"
-#include "spec/texture/registers.h"
 #include "tb/app/input_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
@@ -157,23 +156,7 @@ class TextureEngine final : public Engine {
     return {"samples", "level", "misses", "latency"};
   }
 
-  RegisterSection registers() const override {
-    namespace reg = spec::texture::reg;
-    // One descriptor stands for all.
-    constexpr std::uint32_t kSecond = reg::kTextureBase + reg::kTextureStride;
-    RegisterSection section{"TextureUnit", {}};
-    for (const spec::RegisterInfo& r : rtl::texture::register_table())
-      if (r.offset < kSecond) section.rows.push_back(r);
-    section.note = fmt::format(
-        "Textures 1..{} follow with the same registers, each 0x{:X} bytes after the one before.",
-        spec::texture::kMaxTextures - 1, reg::kTextureStride);
-    section.c_text = fmt::format(
-        "\n/* From a register of TEXTURE0 to the same of the next texture; there are "
-        "DEBURR_TEXTURE_COUNT. */\n"
-        "#define DEBURR_TEXTURE_STRIDE 0x{:02X}u\n#define DEBURR_TEXTURE_COUNT {}u\n",
-        reg::kTextureStride, spec::texture::kMaxTextures);
-    return section;
-  }
+  rtl::RegisterSection registers() const override { return rtl::texture::register_section(); }
   CoverageSection coverage() const override {
     return {"Texture unit", TextureCoverage::declared(), TextureCoverage::groups()};
   }

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -13,15 +12,7 @@
 namespace deburr::tb {
 namespace {
 
-using golden::texture::TextureGolden;
-
-constexpr std::uint64_t kMemoryGrain = 64;  // longer reads are recorded in parts of this size
-
-TextureGolden golden_model(const TextureScene& scene, const TextureSetup& setup, bool used) {
-  return make_golden(scene, setup.texture,
-                     used ? TextureGolden::Traffic::kPredict : TextureGolden::Traffic::kIgnore,
-                     error_range(setup.memory));
-}
+constexpr std::size_t kLineBytes = 64;  // of the line that is read twice
 
 }  // namespace
 
@@ -34,7 +25,7 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
       setup_(setup),
       faults_(simulation.faults(), this->name(), setup_),
       quad_driver_("driver", simulation.clock()),
-      unit_("texture", simulation.clock(), faults_.as_built()),
+      unit_("texture", simulation.clock(), faults_.as_built(), memory_clocks(setup_)),
       memory_("memory", simulation.clock().period(),
               memory_model_parameters(setup.memory, scene.memory().bytes().size(),
                                       simulation.options().seed)),
@@ -42,18 +33,13 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
       driver_(host_, memory_),
       meter_(this->name(), unit_, memory_, scene.memory()),
       stranger_("stranger"),
-      golden_(golden_model(scene, setup, golden())),
-      colour_board_("colours", 0, [this](const spec::texture::Colour& c) { return describe(c); }),
-      fill_board_("line fills", 0,
-                  [](const Fill& f) { return fmt::format("read of address {:#x}", f.address); }),
-      register_board_(spec::texture::kRegisters) {
+      checks_(scene_, setup_, sent_, golden()) {
   know(TextureFaults::list());
-  let_blind({&colour_board_, &fill_board_, &register_board_.board()});
+  let_blind({&checks_.colours, &checks_.fills, &checks_.registers.board()});
   namespace reg = spec::texture::reg;
-  let_miscount(register_board_,
+  let_miscount(checks_.registers,
                std::array{reg::kFragments, reg::kBilinears, reg::kLineFills, reg::kClamped,
                           reg::kSaturated, reg::kMemoryErrors, reg::kInvalidFragments});
-  colour_board_.call_items([this](const spec::texture::Colour& c) { return place(c); });
   quad_driver_.beats_out(quads_);
   unit_.quads_in(quads_);
   unit_.colours_out(colours);
@@ -84,11 +70,14 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
     quad = quad_.quad;
     sent_.add(quad_);
     if (setup_.observer) setup_.observer(quad_);
-    if (coverage_) coverage_->see(golden_, quad);
+    if (coverage_) coverage_->see(checks_.golden_model(), quad);
     return true;
   });
+  if (golden())
+    quad_driver_.on_send = [this](rtl::Cycle, const spec::texture::Quad&) {
+      checks_.expect(quad_, quad_driver_.sent() - 1);
+    };
   clear_outputs();
-  expect_from_golden();
 }
 
 QuadSource TextureEnvironment::open() const {
@@ -105,40 +94,11 @@ std::uint64_t TextureEnvironment::fragments() const {
   return setup_.foreign.open ? setup_.foreign.fragments : scene_.stream().counts.fragments;
 }
 
-void TextureEnvironment::expect_line(std::uint32_t line) {
-  const std::uint64_t line_bytes = golden_.cache().line_bytes(), begin = line * line_bytes;
-  for (std::uint64_t a = begin; a < begin + line_bytes; a += kMemoryGrain) fill_board_.expect({a});
-}
-
-void TextureEnvironment::expect_from_golden() {
-  if (!golden()) return;
-  const auto expect_colour = [this](const spec::texture::Colour& colour) {
-    colour_board_.expect(colour);
-    tb::show(quad_, colour, golden_frame_);
-  };
-  if (setup_.expectation) {
-    quad_driver_.on_send = [this, expect_colour](rtl::Cycle, const spec::texture::Quad&) {
-      const TextureExpectation& all = *setup_.expectation;
-      const std::uint64_t quad = quad_driver_.sent() - 1;
-      const TextureExpectation::Behind from = quad > 0 ? all.behind[quad - 1]
-                                                       : TextureExpectation::Behind(),
-                                       to = all.behind[quad];
-      for (std::size_t i = from.fills; i < to.fills; ++i) expect_line(all.fills[i]);
-      for (std::size_t i = from.colours; i < to.colours; ++i) expect_colour(all.colours[i]);
-    };
-    return;
-  }
-  golden_.set_fill_sink([this](std::uint32_t line) { expect_line(line); });
-  quad_driver_.on_send = [this, expect_colour](rtl::Cycle, const spec::texture::Quad& quad) {
-    golden_.process(quad, expect_colour);
-  };
-}
-
 void TextureEnvironment::clear_outputs() {
-  frame_ = golden_frame_ = FrameAssembler(scene_.stream(), scene_.scene()).frame();
+  frame_ = FrameAssembler(scene_.stream(), scene_.scene()).frame();
   source_ = open();
   sent_ = {};
-  fills_judged_ = 0;
+  checks_.begin(frame_);
   delivered_ = 0;
   hash_ = {};
   if (maps_) maps_->clear();
@@ -157,12 +117,7 @@ void TextureEnvironment::configure() {
 
 void TextureEnvironment::watch() {
   if (fetch_again_ && memory_.lines_read().size() > kFaultyRequest) fetch_again();
-  if (golden())
-    for (; fills_judged_ < memory_.lines_read().size(); ++fills_judged_)
-      fill_board_.got({memory_.lines_read()[fills_judged_]}, simulation().clock().cycle());
-  if (fetch_again_) return;
-  memory_.forget_lines();
-  fills_judged_ = 0;
+  checks_.judge_traffic(memory_, simulation().clock().cycle(), !fetch_again_);
 }
 
 bool TextureEnvironment::done() const {
@@ -171,29 +126,11 @@ bool TextureEnvironment::done() const {
 
 void TextureEnvironment::restart() {
   memory_.clear_statistics();
-  colour_board_.restart();
-  fill_board_.restart();
+  checks_.restart();
   clear_outputs();
-  golden_ = golden_model(scene_, setup_, golden());
-  expect_from_golden();
 }
 
-void TextureEnvironment::finish() {
-  if (!golden()) return;
-  namespace reg = spec::texture::reg;
-  colour_board_.require(fragments());
-  fill_board_.require(std::max<std::uint64_t>(1, memory_.bytes_read() / kMemoryGrain));
-  const golden::texture::TextureWork& work = golden_work();
-  const std::pair<std::uint32_t, std::uint64_t> expected[] = {
-      {reg::kFragments, work.fragments},
-      {reg::kBilinears, work.bilinears},
-      {reg::kLineFills, work.line_fills},
-      {reg::kClamped, work.clamped},
-      {reg::kSaturated, work.saturated},
-      {reg::kMemoryErrors, work.memory_errors},
-      {reg::kInvalidFragments, work.invalid_fragments}};
-  register_board_.judge(host_, expected);
-}
+void TextureEnvironment::finish() { checks_.finish(fragments(), memory_, host_); }
 
 void TextureEnvironment::refuse_memory_errors() {
   if (const std::uint32_t errors = driver_.memory_errors(); errors != 0)
@@ -216,10 +153,8 @@ void TextureEnvironment::judge(rtl::Cycle cycle, const spec::texture::Colour& co
   hash_.add(colour.tag);
   hash_.add(static_cast<std::uint64_t>(colour.lane) << 1 | (colour.last ? 1 : 0));
   for (const std::uint8_t channel : colour.rgba) hash_.add(channel);
-  const std::uint64_t before = colour_board_.mismatches();
-  if (golden()) colour_board_.got(colour, cycle);
   // After a mismatch tags and lanes may be anything; the picture then shows what can be placed.
-  const bool trusted = !golden() || colour_board_.mismatches() == before;
+  const bool trusted = checks_.got(colour, cycle);
   const TracedQuad* quad = sent_.take(colour, trusted);
   if (!quad || !quad->shows(colour.lane)) return;
   tb::show(*quad, colour, frame_);
@@ -228,7 +163,7 @@ void TextureEnvironment::judge(rtl::Cycle cycle, const spec::texture::Colour& co
 
 void TextureEnvironment::fetch_again() {
   fetch_again_ = false;
-  std::array<unsigned char, kMemoryGrain> data{};
+  std::array<unsigned char, kLineBytes> data{};
   tlm::tlm_generic_payload payload;
   payload.set_command(tlm::TLM_READ_COMMAND);
   payload.set_address(memory_.lines_read()[kFaultyRequest]);
@@ -237,17 +172,6 @@ void TextureEnvironment::fetch_again() {
   payload.set_streaming_width(static_cast<unsigned>(data.size()));
   sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
   stranger_.memory->b_transport(payload, delay);
-}
-
-std::string TextureEnvironment::place(const spec::texture::Colour& c) const {
-  const TracedQuad* quad = sent_.find(c.tag);
-  if (!quad || !quad->placed || c.lane >= 4) return "no pixel";
-  return fmt::format("pixel ({}, {})", quad->x(c.lane), quad->y(c.lane));
-}
-
-std::string TextureEnvironment::describe(const spec::texture::Colour& c) const {
-  return fmt::format("tag {} lane {}{} RGBA ({}, {}, {}, {})", c.tag, c.lane, c.last ? " last" : "",
-                     c.rgba[0], c.rgba[1], c.rgba[2], c.rgba[3]);
 }
 
 // ---- results ------------------------------------------------------------------------------------

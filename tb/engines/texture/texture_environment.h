@@ -28,6 +28,7 @@
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
 #include "tb/engines/texture/sent_quads.h"
+#include "tb/engines/texture/texture_checks.h"
 #include "tb/engines/texture/texture_coverage.h"
 #include "tb/engines/texture/texture_faults.h"
 #include "tb/engines/texture/texture_maps.h"
@@ -59,9 +60,9 @@ class TextureEnvironment final : public Environment {
   void refuse_unused_errors() const override;
   Amount amount() const override;
   bool memory_at_rest() const override { return memory_.at_rest(); }
-  Boards outputs() const override { return {&colour_board_}; }
-  Boards traffic() const override { return {&fill_board_}; }
-  Boards counters() const override { return {&register_board_.board()}; }
+  Boards outputs() const override { return {&checks_.colours}; }
+  Boards traffic() const override { return {&checks_.fills}; }
+  Boards counters() const override { return {&checks_.registers.board()}; }
   void collect(Result& result) const override { meter_.collect(result); }
   void show_parts(Observer& observer) const override {
     meter_.show_parts(observer, quads_, colours);
@@ -78,10 +79,8 @@ class TextureEnvironment final : public Environment {
   // By pixel, whether a colour came for it.
   const std::vector<std::uint8_t>& came() const { return came_; }
   // The golden model's picture of the same fragments (empty without golden).
-  const Image& golden_frame() const { return golden_frame_; }
-  const golden::texture::TextureWork& golden_work() const {
-    return setup_.expectation ? setup_.expectation->work : golden_.work();
-  }
+  const Image& golden_frame() const { return checks_.golden_frame(); }
+  const golden::texture::TextureWork& golden_work() const { return checks_.work(); }
   std::uint64_t delivered() const { return delivered_; }
   // Over all colours and tags in order.
   std::uint64_t colour_hash() const { return hash_.value(); }
@@ -91,10 +90,6 @@ class TextureEnvironment final : public Environment {
   platform::RegisterHost& host() { return host_; }
 
  private:
-  struct Fill {
-    std::uint64_t address;
-    friend bool operator==(const Fill&, const Fill&) = default;
-  };
   // For the fault of a fetch that nobody ordered.
   struct Stranger : sc_core::sc_module {
     explicit Stranger(const sc_core::sc_module_name& name) : sc_module(name) {}
@@ -103,12 +98,8 @@ class TextureEnvironment final : public Environment {
 
   QuadSource open() const;
   std::uint64_t fragments() const;
-  void expect_from_golden();
-  void expect_line(std::uint32_t line);
   void clear_outputs();
   void fetch_again();
-  std::string place(const spec::texture::Colour& colour) const;
-  std::string describe(const spec::texture::Colour& colour) const;
 
   const TextureScene& scene_;
   TextureSetup setup_;
@@ -123,19 +114,14 @@ class TextureEnvironment final : public Environment {
   TextureMeter meter_;
   Stranger stranger_;
 
-  golden::texture::TextureGolden golden_;
-  Scoreboard<spec::texture::Colour> colour_board_;
-  Scoreboard<Fill> fill_board_;
-  RegisterScoreboard register_board_;
   QuadSource source_;
   TracedQuad quad_;  // the one that is being sent
   SentQuads sent_;
-  Image frame_, golden_frame_;
+  TextureChecks checks_;
+  Image frame_;
   std::vector<std::uint8_t> came_;
   std::unique_ptr<TextureMaps> maps_;
   std::optional<TextureCoverage> coverage_;
-  // Of the lines that memory still knows, and of those before.
-  std::size_t fills_judged_ = 0;
   std::uint64_t delivered_ = 0;
   OutputHash hash_;
   bool fetch_again_ = false;

@@ -32,7 +32,6 @@ std::vector<PlantedFault> TextureFaults::list() {
 
 spec::texture::Parameters TextureFaults::as_built() const {
   spec::texture::Parameters p = setup_.texture;
-  p.cache_fifo_depth = fifo_depth(setup_);
   if (planted("wrong-replacement")) p.cache_replacement = spec::texture::Replacement::kFifo;
   return p;
 }

@@ -7,6 +7,7 @@
 
 #include "rtl_model/fabric/engine.h"
 #include "rtl_model/platform/memory_model.h"
+#include "rtl_model/texture/latency_fifo.h"
 #include "spec/texture/parameters.h"
 #include "tb/engines/texture/texture_expectation.h"
 #include "tb/env/memory_parameters.h"
@@ -32,7 +33,7 @@ struct TextureSetup {
   // Connects the engine with its memory; null: directly.
   std::function<void(rtl::Engine&, platform::MemoryModel&)> connect{};
 };
-// The depth of the latency FIFO: as ordered, or for 0 what hides this memory's latency.
-std::int32_t fifo_depth(const TextureSetup& setup);
+// What this memory takes at most.
+rtl::texture::LatencyFifo::MemoryClocks memory_clocks(const TextureSetup& setup);
 
 }  // namespace deburr::tb

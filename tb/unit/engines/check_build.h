@@ -51,14 +51,15 @@ inline std::string text_of_error(const std::function<void()>& work) {
   return "taken";
 }
 
-// A visitor that sets one of the integers to a value beside its range.
+// A visitor that sets one of the integers to an end of its range, or to the value beside it.
 class EndSetter {
  public:
-  explicit EndSetter(std::size_t number, bool above) : left_(number), above_(above) {}
+  EndSetter(std::size_t number, bool above, bool beside)
+      : left_(number), above_(above), beside_(beside ? 1 : 0) {}
   void integer(std::string_view name, std::int32_t& value, std::int32_t min, std::int32_t max,
                std::string_view, std::string_view) {
     if (left_-- != 0) return;
-    value = above_ ? max + 1 : min - 1;
+    value = above_ ? max + beside_ : min - beside_;
     name_ = name;
     range_ = std::to_string(min) + ".." + std::to_string(max);
     value_ = value;
@@ -74,6 +75,7 @@ class EndSetter {
  private:
   std::size_t left_;
   bool above_;
+  std::int32_t beside_;
   std::string name_, range_;
   std::int32_t value_ = 0;
 };
@@ -122,10 +124,8 @@ class AnyValue {
 template <class Parameters, class Hardware>
 class BuildChecks {
  public:
-  // `sized`: what an environment does to parameters before it builds.
-  BuildChecks(std::string engine, std::vector<Unbuildable> table,
-              std::function<void(Parameters&)> sized = nullptr)
-      : engine_(std::move(engine)), table_(std::move(table)), sized_(std::move(sized)) {}
+  BuildChecks(std::string engine, std::vector<Unbuildable> table)
+      : engine_(std::move(engine)), table_(std::move(table)) {}
 
   // Every rule has a row of the table that breaks it and no other.
   void expect_a_row_a_rule() const {
@@ -152,24 +152,28 @@ class BuildChecks {
 
   // A value beside the range of each integer. On the command line the range's words come first.
   void expect_ranges() const {
-    for (std::size_t number = 0;; ++number) {
-      for (const bool above : {false, true}) {
-        Parameters p;
-        EndSetter setter(number, above);
-        describe(p, setter);
-        if (setter.name().empty()) {
-          EXPECT_GT(number, 0u);
-          return;
-        }
-        const std::string outside = " is outside " + setter.range();
-        const std::string text = text_of_error([&] { check_build(p); });
-        EXPECT_THAT(text, testing::StartsWith(engine_ + "." + setter.name() + " = " +
-                                              std::to_string(setter.value()) + outside));
-        EXPECT_EQ(built(p), text);
-        const Unbuildable given = {{{setter.name(), std::to_string(setter.value())}}, "", ""};
-        EXPECT_THAT(text_of_error([&] { resolve(given); }), testing::HasSubstr(outside));
-      }
-    }
+    for_each_end(true, [&](const Parameters& p, const EndSetter& set) {
+      const std::string outside = " is outside " + set.range();
+      const std::string text = text_of_error([&] { check_build(p); });
+      EXPECT_THAT(text, testing::StartsWith(engine_ + "." + set.name() + " = " +
+                                            std::to_string(set.value()) + outside));
+      EXPECT_EQ(built(p), text);
+      EXPECT_THAT(text_of_error([&] { resolve(given(set)); }), testing::HasSubstr(outside));
+    });
+  }
+
+  // Both ends of each integer's range, all else at its default: what is shown can be built, or the
+  // same rule rejects it everywhere.
+  void expect_ends() const {
+    std::size_t taken = 0, rejected = 0;
+    for_each_end(false, [&](const Parameters& p, const EndSetter& set) {
+      const std::string text = text_of_error([&] { check_build(p); });
+      EXPECT_EQ(built(p), text) << set.name() << " = " << set.value();
+      ++(text == "taken" ? taken : rejected);
+      if (text == "taken") return;  // of no use without another parameter, perhaps
+      EXPECT_EQ(text_of_error([&] { resolve(given(set)); }), text);
+    });
+    EXPECT_GT(taken, rejected);
   }
 
   // No other reason keeps hardware from being built: neither a memory's shape nor a check inside.
@@ -192,6 +196,26 @@ class BuildChecks {
   }
 
  private:
+  // Calls `visit` with the defaults but for one integer at an end of its range, or beside it.
+  void for_each_end(bool beside,
+                    const std::function<void(const Parameters&, const EndSetter&)>& visit) const {
+    for (std::size_t number = 0;; ++number) {
+      for (const bool above : {false, true}) {
+        Parameters p;
+        EndSetter set(number, above, beside);
+        describe(p, set);
+        if (set.name().empty()) {
+          EXPECT_GT(number, 0u);
+          return;
+        }
+        visit(p, set);
+      }
+    }
+  }
+  static Unbuildable given(const EndSetter& set) {
+    return {{{set.name(), std::to_string(set.value())}}, "", ""};
+  }
+
   Parameters parameters_of(const Unbuildable& row) const {
     Parameters p;
     ParameterSet set;
@@ -234,8 +258,7 @@ class BuildChecks {
 
   // What the constructor says. In a process of its own: a model that throws in its midst leaves
   // SystemC's hierarchy torn.
-  std::string built(Parameters p) const {
-    if (sized_) sized_(p);
+  std::string built(const Parameters& p) const {
     return forked_text([&]() -> std::string {
       try {
         rtl::ClockDomain clock("clock", sc_core::sc_time(4, sc_core::SC_NS));
@@ -280,7 +303,6 @@ class BuildChecks {
 
   std::string engine_;
   std::vector<Unbuildable> table_;
-  std::function<void(Parameters&)> sized_;
 };
 
 }  // namespace deburr::tb

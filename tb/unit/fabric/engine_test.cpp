@@ -108,9 +108,9 @@ struct Bed {
   rtl::ClockDomain clock{"clock", sc_core::sc_time(10, sc_core::SC_NS)};
   Engine engine;
   platform::RegisterHost host;
-  explicit Bed(bool ignores) : engine("engine", clock, ignores), host("host") {
+  explicit Bed(bool ignores, bool start = true) : engine("engine", clock, ignores), host("host") {
     host.bus.bind(engine.registers);
-    clock.run(1);
+    if (start) clock.run(1);
   }
 };
 
@@ -217,6 +217,60 @@ TEST(Engine, ResetGivesEveryRegisterItsResetValue) {
   EXPECT_EQ(bed.host.read(kControl), 1U);
   bed.engine.busy = true;
   EXPECT_EQ(bed.host.read(kStatus), 0U);  // no bit of errors is left
+}
+
+// Sets a sticky bit in one clock, in the middle of many that the domain runs at once.
+class Raiser final : public rtl::Unit {
+ public:
+  Raiser(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, Engine& engine, Cycle when)
+      : Unit(name, clock), engine_(engine), when_(when) {}
+  rtl::Activity tick(Cycle cycle) override {
+    if (cycle == when_ || cycle == when_ + 3) engine_.control.set_sticky(2);
+    return rtl::kBusy;
+  }
+  void reset() override {}
+
+ private:
+  Engine& engine_;
+  Cycle when_;
+};
+
+// Somebody outside: writes down each change of the line.
+struct Listener : sc_core::sc_module {
+  sc_core::sc_in<bool> line{"line"};
+  std::vector<std::string> changes;
+  SC_HAS_PROCESS(Listener);
+  explicit Listener(const sc_core::sc_module_name& name) : sc_module(name) {
+    SC_METHOD(changed);
+    sensitive << line;
+    dont_initialize();
+  }
+  void changed() {
+    changes.push_back(fmt::format("{} {}", line.read(), sc_core::sc_time_stamp().value() / 10'000));
+  }
+};
+
+TEST(Engine, InterruptIsHighWhileAStickyBitIsSet) {
+  for (const bool fast : {true, false}) {
+    const std::string result = in_child([&] {
+      Bed bed(true, false);
+      Raiser raiser("raiser", bed.clock, bed.engine, 500);
+      Listener listener("listener");
+      listener.line(bed.engine.interrupt);
+      bed.clock.set_fast_path(fast);
+      bed.clock.run(600);
+      bed.host.write(kStatus, 4);  // another bit: it stays high
+      bed.clock.run(100);
+      bed.host.write(kStatus, 2);
+      bed.clock.run(100);
+      bed.engine.control.set_sticky(2 | 4);
+      bed.clock.run(100);
+      bed.clock.set_reset_n(false);
+      bed.clock.run(1);
+      return fmt::format("{}", fmt::join(listener.changes, ", "));
+    });
+    EXPECT_EQ(result, "true 500, false 700, true 800, false 900") << fast;
+  }
 }
 
 // After a reset an engine decodes what a host can set, and CONTROL is not among it.

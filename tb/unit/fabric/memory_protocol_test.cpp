@@ -6,6 +6,7 @@
 #include <tlm_utils/peq_with_cb_and_phase.h>
 #include <tlm_utils/simple_target_socket.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -226,6 +227,66 @@ TEST(MemoryPort, WorksWithABlockingTarget) {
   EXPECT_GT(slow.size(), 1000U) << slow;
   EXPECT_EQ(slow.find('!'), std::string::npos) << "wrong data";
   for (const ResponseEnd end : kEnds) EXPECT_EQ(run(end, true), slow);
+}
+
+// What interconnects and memories may do to a payload, or forget to do.
+struct OddTarget : sc_core::sc_module {
+  enum class What { kMovesAddress, kLeavesIncomplete, kRefusesEnables };
+  tlm_utils::simple_target_socket<OddTarget> socket{"socket"};
+  What what;
+  OddTarget(const sc_core::sc_module_name& name, What does) : sc_module(name), what(does) {
+    socket.register_b_transport(this, &OddTarget::transport);
+  }
+  void transport(tlm::tlm_generic_payload& payload, sc_time&) {
+    const std::uint64_t address = payload.get_address();
+    for (unsigned i = 0; i < payload.get_data_length() && payload.is_read(); ++i)
+      payload.get_data_ptr()[i] = pattern(address + i);
+    if (what == What::kMovesAddress) payload.set_address(address % (2 * rtl::kLineBytes));
+    if (what == What::kRefusesEnables && payload.get_byte_enable_ptr())
+      return payload.set_response_status(tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
+    if (what != What::kLeavesIncomplete) payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  }
+};
+
+// A read, a burst of two, a whole line written, half a line written: `status.line@address` of each
+// response, and what was counted.
+std::string answers_of(OddTarget::What what) {
+  return in_child([&] {
+    Side side({.outstanding = 1, .max_burst_lines = 2});
+    OddTarget target("target", what);
+    side.port.memory.bind(target.socket);
+    std::vector<MemoryRequest> requests = {read_of(5), read_of(8), read_of(11), read_of(12)};
+    requests[1].lines = 2;
+    requests[2].write = requests[3].write = true;
+    requests[2].byte_mask = ~std::uint64_t{0};
+    requests[3].byte_mask = 0xFFFFFFFF;
+    for (const MemoryRequest& request : requests) side.driver.send(request);
+    if (!side.clock.run_until([&] { return side.sink.received() == 5; }, 1000))
+      return std::string("not done");
+    std::string text;
+    for (const MemoryResponse& response : side.sink.beats()) {
+      const bool empty = std::all_of(response.data.begin(), response.data.end(),
+                                     [](std::uint8_t byte) { return byte == 0; });
+      text += fmt::format("{}.{}@{}{} ", static_cast<int>(response.status), response.line,
+                          response.address / rtl::kLineBytes, empty ? "-" : "");
+    }
+    return text + fmt::format("errors {}", side.port.errors.value());
+  });
+}
+
+TEST(MemoryPort, AResponseHasTheAddressThatWasRequested) {
+  EXPECT_EQ(answers_of(OddTarget::What::kMovesAddress),
+            "0.0@5 0.0@8 0.1@9 0.0@11- 0.0@12- errors 0");
+}
+
+TEST(MemoryPort, ATargetThatSetsNoStatusFailed) {
+  EXPECT_EQ(answers_of(OddTarget::What::kLeavesIncomplete),
+            "2.0@5- 2.0@8- 2.1@9- 2.0@11- 2.0@12- errors 4");
+}
+
+TEST(MemoryPort, ATargetWithoutByteEnablesFailsPartsOfLinesAlone) {
+  EXPECT_EQ(answers_of(OddTarget::What::kRefusesEnables),
+            "0.0@5 0.0@8 0.1@9 0.0@11- 2.0@12- errors 1");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/register_block.h"
+#include "rtl_model/fabric/register_section.h"
 #include "rtl_model/platform/register_host.h"
 #include "spec/error.h"
 
@@ -164,6 +165,106 @@ TEST_F(Registers, ADebugWriteHasAnActionOfItsOwn) {
   EXPECT_EQ(bus.write(8, 7), tlm::TLM_OK_RESPONSE);
   EXPECT_THAT(by_debug, testing::ElementsAre(6));
   EXPECT_THAT(by_bus, testing::ElementsAre(7));
+}
+
+// Software that runs ahead of simulated time.
+struct Ahead : sc_core::sc_module {
+  tlm_utils::simple_initiator_socket<Ahead> socket{"socket"};
+  std::vector<std::string> written;  // time of the write, time of its end, delay then
+  sc_core::sc_time took_effect;
+  SC_HAS_PROCESS(Ahead);
+  explicit Ahead(const sc_core::sc_module_name& name) : sc_module(name) { SC_THREAD(run); }
+  // Gives the delay that the access comes back with.
+  sc_core::sc_time write(const sc_core::sc_time& ahead) {
+    std::uint32_t word = 7;
+    tlm::tlm_generic_payload payload;
+    payload.set_command(tlm::TLM_WRITE_COMMAND);
+    payload.set_address(8);
+    payload.set_data_ptr(reinterpret_cast<unsigned char*>(&word));
+    payload.set_data_length(4);
+    payload.set_streaming_width(4);
+    sc_core::sc_time delay = ahead;
+    socket->b_transport(payload, delay);
+    return delay;
+  }
+  void run() {
+    for (const int ns : {0, 30, 5}) {
+      const sc_core::sc_time delay = write(sc_core::sc_time(ns, sc_core::SC_NS));
+      written.push_back(took_effect.to_string() + ", " + sc_core::sc_time_stamp().to_string() +
+                        ", " + delay.to_string());
+    }
+  }
+};
+
+TEST(RegisterTime, AThreadThatIsAheadWaitsForItsAccess) {
+  rtl::RegisterBlock block("block", kTable);
+  Ahead ahead("ahead");
+  ahead.socket.bind(block.bus);
+  block.on_write(kCommand, [&](std::uint32_t) { ahead.took_effect = sc_core::sc_time_stamp(); });
+  sc_core::sc_start(sc_core::sc_time(100, sc_core::SC_NS));
+  EXPECT_THAT(ahead.written,
+              testing::ElementsAre("0 s, 0 s, 0 s", "30 ns, 30 ns, 0 s", "35 ns, 35 ns, 0 s"));
+  // From outside of processes nobody can wait: at once, and the delay stays the caller's.
+  EXPECT_EQ(ahead.write(sc_core::sc_time(30, sc_core::SC_NS)),
+            sc_core::sc_time(30, sc_core::SC_NS));
+  EXPECT_EQ(ahead.took_effect, sc_core::sc_time(100, sc_core::SC_NS));
+}
+
+// Approximately timed: BEGIN_REQ, and the response comes by a call.
+struct NonBlocking : sc_core::sc_module, tlm::tlm_mm_interface {
+  tlm_utils::simple_initiator_socket<NonBlocking> socket{"socket"};
+  std::vector<tlm::tlm_response_status> responses;
+  std::uint32_t word = 0, enables = ~std::uint32_t{0};
+  tlm::tlm_generic_payload payload{this};
+  explicit NonBlocking(const sc_core::sc_module_name& name) : sc_module(name) {
+    socket.register_nb_transport_bw(this, &NonBlocking::backward);
+  }
+  void free(tlm::tlm_generic_payload*) override {}
+  tlm::tlm_sync_enum backward(tlm::tlm_generic_payload& given, tlm::tlm_phase& phase,
+                              sc_core::sc_time&) {
+    if (phase != tlm::BEGIN_RESP) return tlm::TLM_ACCEPTED;
+    responses.push_back(given.get_response_status());
+    phase = tlm::END_RESP;
+    return tlm::TLM_UPDATED;
+  }
+  void send(tlm::tlm_command command, std::uint64_t address, bool with_enables = false) {
+    payload.acquire();
+    payload.set_command(command);
+    payload.set_address(address);
+    payload.set_data_ptr(reinterpret_cast<unsigned char*>(&word));
+    payload.set_data_length(4);
+    payload.set_streaming_width(4);
+    payload.set_byte_enable_ptr(with_enables ? reinterpret_cast<unsigned char*>(&enables)
+                                             : nullptr);
+    payload.set_byte_enable_length(4);
+    payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+    tlm::tlm_phase phase = tlm::BEGIN_REQ;
+    sc_core::sc_time delay;
+    EXPECT_EQ(socket->nb_transport_fw(payload, phase, delay), tlm::TLM_ACCEPTED);
+    sc_core::sc_start(sc_core::sc_time(1, sc_core::SC_NS));
+    payload.release();
+  }
+};
+
+TEST(RegisterTime, AnswersNonBlockingAccessesToo) {
+  rtl::RegisterBlock block("block", kTable);
+  NonBlocking bus("bus");
+  bus.socket.bind(block.bus);
+  sc_core::sc_start(sc_core::SC_ZERO_TIME);
+  bus.send(tlm::TLM_READ_COMMAND, 0);
+  EXPECT_EQ(bus.word, 5U);
+  bus.word = 9;
+  bus.send(tlm::TLM_WRITE_COMMAND, 0);
+  EXPECT_EQ(block.get(kControl), 9U);
+  bus.word = 3;
+  bus.send(tlm::TLM_WRITE_COMMAND, 0, true);
+  bus.send(tlm::TLM_WRITE_COMMAND, 4);
+  bus.send(tlm::TLM_READ_COMMAND, 0x0C);
+  EXPECT_EQ(block.get(kControl), 9U);
+  EXPECT_THAT(bus.responses, testing::ElementsAre(tlm::TLM_OK_RESPONSE, tlm::TLM_OK_RESPONSE,
+                                                  tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE,
+                                                  tlm::TLM_COMMAND_ERROR_RESPONSE,
+                                                  tlm::TLM_ADDRESS_ERROR_RESPONSE));
 }
 
 TEST_F(Registers, NamesAndTexts) {

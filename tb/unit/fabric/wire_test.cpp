@@ -20,6 +20,7 @@ using rtl::ClockDomain;
 using rtl::CombinationalWire;
 using rtl::Cycle;
 using rtl::kNoReset;
+using rtl::Pulse;
 using rtl::Wire;
 using rtl::WireIn;
 using rtl::WireKind;
@@ -96,6 +97,36 @@ TEST(Wire, CombinationalIsThereInItsClockAndInNoOther) {
   EXPECT_THROW(wire.drive(5, 8), spec::CheckFailed);
   wire.reset();
   EXPECT_THAT(refused(5), HasSubstr("cycle 5"));
+}
+
+// ---- A pulse
+
+TEST(Pulse, IsHighInItsClockAndLowInEveryOther) {
+  Pulse pulse("pulse");
+  EXPECT_FALSE(pulse.read(0));
+  pulse.raise(0);
+  EXPECT_TRUE(pulse.read(0));
+  EXPECT_FALSE(pulse.read(1));
+  pulse.raise(4);
+  EXPECT_FALSE(pulse.read(0));
+  EXPECT_FALSE(pulse.read(3));
+  EXPECT_TRUE(pulse.read(4));
+  EXPECT_FALSE(pulse.read(5));
+  EXPECT_EQ(*pulse.seen(4), std::byte{1});
+  EXPECT_EQ(*pulse.seen(5), std::byte{0});
+  EXPECT_THAT(text_of<spec::CheckFailed>([&] { pulse.raise(4); }),
+              HasSubstr("pulse: cycle 4: raised twice in a clock"));
+  pulse.reset();
+  EXPECT_FALSE(pulse.read(4));
+}
+TEST(Pulse, CountsBothItsEdges) {
+  Pulse pulse("pulse");
+  for (const Cycle cycle : {0, 3, 4, 5, 9}) pulse.raise(cycle);
+  EXPECT_EQ(pulse.changes(), 6u);
+  EXPECT_EQ(pulse.high_clocks(20), 5u);
+  pulse.reset();
+  EXPECT_EQ(pulse.changes(), 0u);
+  EXPECT_EQ(pulse.high_clocks(20), 0u);
 }
 
 // ---- Units
@@ -255,6 +286,80 @@ TEST(Wire, HasOneDriverOfOneClockAndNoLoosePort) {
                 return std::string("ran");
               }),
               HasSubstr("wire joins two clock domains"));
+}
+
+// Registers that nothing ticks: a write between edges is a pulse in the clock that comes; the unit
+// answers in that clock, and the registers answer it.
+class Registers final : public sc_core::sc_module {
+ public:
+  rtl::PulseOut go_out{"go_out"};
+  rtl::OnPulse load_in{"load_in", [this](Cycle cycle) {
+                         loaded = written;
+                         value_out.drive(cycle, loaded);
+                       }};
+  WireOut<std::uint8_t, WireKind::kCombinational> value_out{"value_out"};
+  explicit Registers(const sc_core::sc_module_name& name) : sc_module(name) {}
+  std::uint8_t written = 0, loaded = 0;
+};
+class Loader final : public rtl::Unit {
+ public:
+  rtl::PulseIn go_in{"go_in"};
+  rtl::PulseOut load_out{"load_out"};
+  WireIn<std::uint8_t, WireKind::kCombinational> value_in{"value_in"};
+  Loader(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
+  Activity tick(Cycle cycle) override {
+    if (!go_in.read(cycle)) return rtl::kIdle;
+    load_out.raise(cycle);
+    text += std::to_string(cycle) + ":" + std::to_string(value_in.read(cycle)) + " ";
+    return rtl::kBusy;
+  }
+  void reset() override {}
+  std::string text;
+};
+struct LoaderBench {
+  explicit LoaderBench(bool binds_all = true) {
+    registers.go_out(go);
+    loader.go_in(go);
+    loader.load_out(load);
+    if (binds_all) registers.load_in(load);
+    registers.value_out(value);
+    loader.value_in(value);
+  }
+  void write(std::uint8_t word) {
+    registers.written = word;
+    registers.go_out.raise(clock.cycle());
+  }
+  ClockDomain clock{"clock", kPeriod};
+  Loader loader{"loader", clock};
+  Registers registers{"registers"};
+  Pulse go{"go"}, load{"load"};
+  CombinationalWire<std::uint8_t> value{"value"};
+};
+TEST(Pulse, JoinsAUnitAndRegistersInAClock) {
+  EXPECT_EQ(in_child([] {
+              LoaderBench b;
+              b.write(7);
+              b.registers.written = 8;  // counts: it is loaded at the edge
+              b.clock.run(3);
+              b.write(9);
+              b.clock.run(3);
+              b.write(10);  // a reset falls upon it
+              b.clock.set_reset_n(false);
+              b.clock.run(1);
+              b.clock.set_reset_n(true);
+              b.clock.run(3);
+              return b.loader.text + std::to_string(b.registers.loaded);
+            }),
+            "0:8 3:9 9");
+}
+// Also of what is no unit.
+TEST(Pulse, HasNoLoosePort) {
+  EXPECT_THAT(in_child([] {
+                LoaderBench b(false);
+                b.clock.run(1);
+                return std::string("ran");
+              }),
+              HasSubstr("registers.load_in is not bound to a wire"));
 }
 
 // Ports of a module around units hand the wire on, whichever is bound first.

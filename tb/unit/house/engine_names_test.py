@@ -30,7 +30,6 @@ NAMED = {
         "the paper whose method it is": ["tb/papers/papers_002.cpp"],
         "tables of pages are measured, its own among them": [
             "scripts/measurement/results.py"],
-        "its model's speed is counted": ["tb/speed"],
     },
     "morphological": {
         "it blends in the same light, by the same tables": [
@@ -52,17 +51,19 @@ NAMED = {
             "tb/system/coverage_test.py", "tb/system/figures_test.py", "tb/system/observers_test.py", "tb/system/shared_golden_test.cpp",
             "tb/system/inputs_test.py", "tb/system/sweep_test.py", "tb/system/terminal_test.py", "tb/unit/env/planted_faults_test.cpp",
             "tb/unit/house/mutate_test.py", "tb/unit/results/result_test.cpp", "tb/env/collect.h"],
+        "an example of an engine, in what is built from installed files": [
+            "examples/installed_test.py", "examples/platform/main.cpp", "examples/platform/painter.cpp",
+            "examples/platform/painter.h"],
         "the one choice by which an engine has no memory": ["tb/traces/line_trace.cpp"],
         "names of memories are cut in a chart": ["tb/results/report.js"],
         "tables of pages are measured, its own among them": [
             "scripts/measurement/recipes.py", "scripts/measurement/results.py"],
-        "its model's speed is counted": ["tb/speed"],
     },
 }
 
 # Rooms that name no engine: each is told what engines there are.
 GENERAL = re.compile(r"CMakeLists\.txt|cmake/|golden/CMakeLists\.txt|rtl_model/CMakeLists\.txt|spec/[^/]*$|"
-                     r"tb/(CMakeLists\.txt|app/|base/|command/|baselines/check\.py|fuzz/|regress/|results/|soak/|sweep/|testplan/|"
+                     r"tb/(CMakeLists\.txt|app/|base/|command/|baselines/check\.py|fuzz/|regress/|results/|soak/|speed$|sweep/|testplan/|"
                      r"engines/[^/]*$|unit/CMakeLists\.txt|system/smoke\.cmake)|scripts/coverage")
 
 

@@ -69,8 +69,40 @@ def way_to_systemc(root, name, seen):
     return None
 
 
+def includes_between_folders(root):
+    """folder -> folder that it includes -> the first such line."""
+    includes = {}
+    for layer in ALLOWED:
+        for path in sorted((root / layer).rglob("*")):
+            if path.suffix not in {".h", ".cpp"}:
+                continue
+            where = path.relative_to(root)
+            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+                include = INCLUDE.match(line)
+                wanted = pathlib.PurePosixPath(include.group(1)).parent if include else None
+                if wanted and wanted.parts and wanted.parts[0] in ALLOWED and wanted != where.parent:
+                    includes.setdefault(where.parent, {}).setdefault(wanted, f"{where}:{number}")
+    return includes
+
+
+def circles(root):
+    """Folders stand in an order: yields each include from which a way leads back."""
+    includes = includes_between_folders(root)
+    for folder in includes:
+        for wanted, line in includes[folder].items():
+            seen, ways = {wanted}, [wanted]
+            while ways and folder not in seen:
+                for next_one in includes.get(ways.pop(), {}):
+                    if next_one not in seen:
+                        seen.add(next_one)
+                        ways.append(next_one)
+            if folder in seen:
+                yield f"{line}: {folder} includes {wanted}, from where a way leads back"
+
+
 def violations(root):
     """Yields 'file:line: rule' for every broken rule below root."""
+    yield from circles(root)
     for layer, allowed in ALLOWED.items():
         for path in sorted((root / layer).rglob("*")):
             if not path.is_file() or path.suffix not in SOURCE:
@@ -173,6 +205,15 @@ def planted_faults_are_caught():
             path.write_text(f'// SPDX-License-Identifier: MIT\n#include "{include}"\n', encoding="utf-8")
         if len(list(violations(pathlib.Path(folder)))) != 1:
             missed.append("tb/sweep/a.cpp: SystemC through a header")
+    ring = ("rtl_model/foo", "rtl_model/foo/below", "rtl_model/foo/common")
+    for length in (2, 3):
+        with tempfile.TemporaryDirectory() as folder:
+            for place, wanted in zip(ring[:length], (*ring[1:length], ring[0])):
+                path = pathlib.Path(folder) / place / "a.h"
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(f'// SPDX-License-Identifier: MIT\n#include "{wanted}/a.h"\n', encoding="utf-8")
+            if len(list(violations(pathlib.Path(folder)))) != length:
+                missed.append(f"{length} folders that include each other")
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "spec/b.h"
         path.parent.mkdir(parents=True)

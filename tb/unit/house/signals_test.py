@@ -3,9 +3,10 @@
 """Checks on the headers of the engines that the module tree is the block diagram: units are joined by
 links and wires alone.
 
-No unit holds or is given another unit by reference or pointer, none has a pointer that is set from
-outside, and none asks by a function what a wire would tell (observers, which return nothing, are
-for checks). Registers, memories' ports and instruments are no units and may be shared.
+No module holds or is given another one of its engine by reference or pointer, no unit has a pointer
+that is set from outside, and none asks by a function what a wire would tell (observers, which return
+nothing, are for checks). What a module does hold by reference is in the list SHARED. Handles of a
+memory's ports are values.
 """
 import argparse
 import pathlib
@@ -15,10 +16,24 @@ import tempfile
 
 # Rooms of rtl_model that are no engine.
 NO_ENGINES = {"fabric", "platform"}
+# What stands between units, or is no hardware, with the reason.
+SHARED = {
+    "ClockDomain": "the clock",
+    "ControlRegisters": "the registers behind the bus",
+    "ParameterStore": "the registers, decoded, where they are no module",
+    "EdgeWindow": "a memory with a port a user",
+    "EdgeRows": "a memory with a port a user",
+    "PortSchedule": "which clock of a port is whose",
+    "FillStore": "places for lines on their way: one unit reserves and fills them, another uses them",
+    "EdgeLatency": "an instrument",
+    "LatencyProbe": "an instrument",
+}
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
 CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\s*(?:final\s*)?:\s*([^{;]*)\{")
 BASES = re.compile(r"\bpublic\s+(?:[\w:]+::)?(Unit|Engine|sc_module)\b")
 POINTER = re.compile(r"^\s*(?:const\s+)?[\w:]+(?:<[^;]*>)?(?:\s+const)?\s*\*\s*(?:const\s+)?\w+\s*(?:=\s*nullptr|\{\s*\})?\s*;")
+# Without an initialiser: a member, not a local name.
+REFERENCE = re.compile(r"^\s*(?:const\s+)?(?:\w+::)*(\w+)(?:<[^;]*>)?(?:\s+const)?\s*&\s*\w+\s*;")
 FUNCTION = re.compile(r"\bstd::function<\s*(?!void\b)([^()]*?)\(")
 
 
@@ -62,10 +77,13 @@ def violations(root):
         text = path.read_text(encoding="utf-8")
         headers[path.relative_to(root)] = COMMENT.sub(lambda c: "\n" * c.group().count("\n"), text)
     found = {name: list(classes(text)) for name, text in headers.items()}
-    units = {c[0] for list_ in found.values() for c in list_ if c[1] == "Unit"}
+    modules = {}
     for where, list_ in found.items():
+        modules.setdefault(where.parts[1], set()).update(c[0] for c in list_)
+    for where, list_ in found.items():
+        engine = where.parts[1]
         for name, base, first, body in list_:
-            others = "|".join(sorted(units - {name})) or "(?!)"
+            others = "|".join(sorted(modules[engine] - {name})) or "(?!)"
             held = re.compile(rf"\b({others})\b\s*(?:const\s*)?[&*]")
             owned = re.compile(rf"\b(?:unique_ptr|shared_ptr|reference_wrapper)\s*<\s*(?:const\s+)?({others})\b")
             for offset, line in enumerate(body.split("\n")):
@@ -73,6 +91,9 @@ def violations(root):
                     yield f"{where}:{first + offset}: {name} holds or is given {held.search(line)[1]}: join them by a link or a wire"
                 if base == "Unit" and owned.search(line):
                     yield f"{where}:{first + offset}: {name} holds {owned.search(line)[1]}: join them by a link or a wire"
+                reference = REFERENCE.search(line)
+                if reference and reference[1] not in modules[engine] | SHARED.keys():
+                    yield f"{where}:{first + offset}: {name} holds {reference[1]}, which SHARED does not name: use a link or a wire"
             if base != "Unit":
                 continue
             for offset, line, public in own_lines(body):
@@ -82,9 +103,21 @@ def violations(root):
                     yield f"{where}:{first + offset}: {name} asks by a function: use a wire"
 
 
+def not_shared(root):
+    """Yields what SHARED names and nothing in an engine holds."""
+    held = set()
+    for path in (root / "rtl_model").rglob("*.h"):
+        if path.relative_to(root).parts[1] not in NO_ENGINES:
+            lines = COMMENT.sub("", path.read_text(encoding="utf-8")).split("\n")
+            held.update(match[1] for match in map(REFERENCE.search, lines) if match)
+    for name in sorted(SHARED.keys() - held):
+        yield f"SHARED names {name}, which nothing holds: drop it"
+
+
 def planted_faults_are_caught():
     """Plants one fault of each kind and returns those that were missed."""
-    unit = "class Other final : public Unit {\n public:\n  void reset();\n};\n"
+    unit = ("class Other final : public Unit {\n public:\n  void reset();\n};\n"
+            "class Store final : public sc_core::sc_module {\n  int x_;\n};\n")
     faults = {
         "a reference": "class A final : public Unit {\n  const Other& other_;\n};",
         "a constructor's reference": "class A final : public Unit {\n public:\n  A(int lanes,\n    Other& other);\n};",
@@ -92,6 +125,8 @@ def planted_faults_are_caught():
         "a smart pointer": "class A final : public Unit {\n  std::unique_ptr<Other> other_;\n};",
         "in a struct inside": "class A final : public Unit {\n  struct Side {\n    Other const& other;\n  };\n};",
         "a module's reference": "class A final : public sc_core::sc_module {\n  Other& other_;\n};",
+        "a module that is no unit": "class A final : public Unit {\n  const Store& store_;\n};",
+        "what is not shared": "class A final : public Unit {\n  struct Side {\n    const Table<Word>& table;\n  };\n};",
         "a pointer from outside": "class A final : public Unit {\n public:\n  Latency* latency = nullptr;  // or none\n};",
         "a pointer without a value": "class A final : public Unit {\n public:\n  const Probe<int>* probe;\n};",
         "a question": "class A final : public Unit {\n public:\n  std::function<bool(Cycle)> done;\n};",
@@ -101,6 +136,8 @@ def planted_faults_are_caught():
         "an observer": "class A final : public Unit {\n public:\n  std::function<void(const Beat&)> observer;\n};",
         "itself": "class A final : public Unit {\n  struct Side {\n    const A& unit;\n  };\n};",
         "registers": "class A final : public Unit {\n  const ParameterStore& store_;\n};",
+        "an instrument": "class A final : public Unit {\n  EdgeLatency& latency_;\n};",
+        "a local name": "class A final : public Unit {\n  void work() {\n    const Table& table = tables_[0];\n  }\n};",
         "a comment": "class A final : public Unit {\n  // Other& is joined by a link.\n  int x_;\n};",
         "its own pointer": "class A final : public Unit {\n public:\n  A();\n\n private:\n  Beat* newest_ = nullptr;\n};",
     }
@@ -123,7 +160,7 @@ def main():
     missed = planted_faults_are_caught()
     for fault in missed:
         print(f"planted fault not caught, or said of what is fine: {fault}")
-    found = list(violations(root))
+    found = [*violations(root), *not_shared(root)]
     for violation in found:
         print(violation)
     sys.exit(1 if found or missed else 0)

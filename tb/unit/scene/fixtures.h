@@ -17,6 +17,7 @@
 #include <string_view>
 
 #include "spec/error.h"
+#include "tb/base/fnv.h"
 #include "tb/harness/test_paths.h"
 #include "tb/scene/scenes.h"
 
@@ -59,11 +60,11 @@ inline std::string read_bytes(const fs::path& path) {
 // FNV-1a of all bytes of a picture.
 template <class Pixel>
 std::uint64_t fnv(const ImageOf<Pixel>& image) {
-  std::uint64_t hash = 0xCBF29CE484222325u;
+  FnvHash hash;
   for (const Pixel& pixel : image.pixels)
     for (const std::uint8_t byte : std::bit_cast<std::array<std::uint8_t, sizeof(Pixel)>>(pixel))
-      hash = (hash ^ byte) * 0x100000001B3u;
-  return hash;
+      hash.byte(byte);
+  return hash.value();
 }
 
 // Runs `action`, which must throw a FileError, and returns its text.

@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 
+#include "tb/base/fnv.h"
 #include "tb/base/random.h"
 #include "tb/scene/rasteriser.h"
 #include "tb/unit/scene/fixtures.h"
@@ -549,10 +550,8 @@ TEST(Stream, OddSizesAndSmallestPicture) {
 }
 
 std::uint64_t fnv(const FragmentStream& stream) {
-  std::uint64_t hash = 0xCBF29CE484222325u;
-  auto add = [&](std::uint64_t value) {
-    for (int i = 0; i < 8; ++i) hash = (hash ^ (value >> (8 * i) & 0xFF)) * 0x100000001B3u;
-  };
+  FnvHash hash;
+  const auto add = [&](std::uint64_t value) { hash.lowest_first(value, 8); };
   for (const spec::texture::Quad& q : stream.quads) {
     add(static_cast<std::uint64_t>(q.x) << 32 | q.y);
     add(static_cast<std::uint64_t>(q.texture) << 16 | static_cast<std::uint64_t>(q.coverage) << 8 |
@@ -561,7 +560,7 @@ std::uint64_t fnv(const FragmentStream& stream) {
       add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(q.s[lane])) << 32 |
           static_cast<std::uint32_t>(q.t[lane]));
   }
-  return hash;
+  return hash.value();
 }
 
 TEST(Stream, SameBitsEverywhere) {

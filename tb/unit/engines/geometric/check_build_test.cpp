@@ -27,6 +27,8 @@ TEST(GeometricCheckBuild, RejectsAlikeWhereverItIsAsked) { checks().expect_the_s
 
 TEST(GeometricCheckBuild, RejectsWhatIsOutOfRange) { checks().expect_ranges(); }
 
+TEST(GeometricCheckBuild, ShowsRangesThatCanBeBuilt) { checks().expect_ends(); }
+
 TEST(GeometricCheckBuild, LeavesNothingThatCannotBeBuilt) {
   checks().expect_all_else_is_built(300);
 }

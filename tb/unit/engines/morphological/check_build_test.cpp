@@ -45,6 +45,8 @@ TEST(MorphologicalCheckBuild, RejectsAlikeWhereverItIsAsked) { checks().expect_t
 
 TEST(MorphologicalCheckBuild, RejectsWhatIsOutOfRange) { checks().expect_ranges(); }
 
+TEST(MorphologicalCheckBuild, ShowsRangesThatCanBeBuilt) { checks().expect_ends(); }
+
 TEST(MorphologicalCheckBuild, LeavesNothingThatCannotBeBuilt) {
   checks().expect_all_else_is_built(300);
 }

@@ -34,10 +34,6 @@ BuildChecks<Parameters, rtl::texture::TextureUnit> checks() {
               {{{"cache.bytes", "32768"}, {"cache.line_bytes", "32"}, {"cache.ways", "8"}},
                "cache.bytes",
                "at most 512 lines"},
-          },
-          // As an environment does, which knows the memory.
-          [](Parameters& p) {
-            if (p.cache_fifo_depth == 0) p.cache_fifo_depth = 64;
           }};
 }
 
@@ -46,6 +42,8 @@ TEST(TextureCheckBuild, HasARowForEveryRule) { checks().expect_a_row_a_rule(); }
 TEST(TextureCheckBuild, RejectsAlikeWhereverItIsAsked) { checks().expect_the_same_words(); }
 
 TEST(TextureCheckBuild, RejectsWhatIsOutOfRange) { checks().expect_ranges(); }
+
+TEST(TextureCheckBuild, ShowsRangesThatCanBeBuilt) { checks().expect_ends(); }
 
 TEST(TextureCheckBuild, LeavesNothingThatCannotBeBuilt) { checks().expect_all_else_is_built(300); }
 

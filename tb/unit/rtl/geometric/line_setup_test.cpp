@@ -19,7 +19,8 @@ using spec::geometric::LineRecord;
 
 struct SetupBench : Frame {
   explicit SetupBench(const Parameters& p = {}, int width = 1280, int height = 720)
-      : Frame(p), unit("unit", clock, p, store, edge_latency), ends(clock) {
+      : Frame(p), unit("unit", clock, p, edge_latency), ends(clock) {
+    unit.rules_in(rules);
     unit.ends_in(ends.in);
     unit.lines_out(ends.out);
     begin(width, height);

@@ -93,8 +93,8 @@ TEST(FrameRules, OtherBitsOfRulesAreNotLookedAt) {
   raw.write(reg::kRules, 0xFFFF0002);
   EXPECT_EQ(text_of(decode(raw)), "0 0 0 0 0 1 0 0 0 ");
   raw.write(reg::kSize, 0xC000C000 | size_of(40, 30));
-  EXPECT_EQ(decode(raw).width, 40);
-  EXPECT_EQ(decode(raw).height, 30);
+  EXPECT_EQ(decode(raw).width, 40u);
+  EXPECT_EQ(decode(raw).height, 30u);
 }
 
 // A build's parameters are the reset value: each of them alone against that of none.
@@ -158,8 +158,8 @@ TEST(FrameRules, SizesAreRoundedUp) {
     b.bus.write(reg::kRules, s.tiled ? 1u << 14 : 0);
     const FrameRules f = decode(b.control);
     SCOPED_TRACE(std::to_string(s.width) + " x " + std::to_string(s.height));
-    EXPECT_EQ(f.width, static_cast<std::int32_t>(s.width));
-    EXPECT_EQ(f.height, static_cast<std::int32_t>(s.height));
+    EXPECT_EQ(f.width, s.width);
+    EXPECT_EQ(f.height, s.height);
     EXPECT_EQ(f.blocks_across, s.blocks_across);
     EXPECT_EQ(f.blocks_down, s.blocks_down);
     EXPECT_EQ(f.words_across, s.words_across);
@@ -241,18 +241,80 @@ TEST(Refusals, BeginBeyondTheLimit) {
   p.line_pixels = 8192;
   EXPECT_EQ(with([](FrameRules& f) { f.width = 8192; }), Refusal::kNone);
 }
-// What was refused leaves the rules of the frame before.
+// What was refused leaves the rules of the frame before; a START is taken in the clock after its
+// write, with the registers as they are then, and units read the rules a clock later.
 TEST(Refusals, LeaveTheRulesAsTheyWere) {
   Frame b({});
-  b.bus.write(reg::kSize, size_of(40, 30));
-  ASSERT_EQ(b.store.latch(true), Refusal::kNone);
-  b.bus.write(reg::kSize, size_of(0, 30));
-  EXPECT_EQ(b.store.latch(true), Refusal::kSize);
-  EXPECT_EQ(b.store.rules().width, 40);
+  for (rtl::WireIn<bool>* const in :
+       {&b.sequencer.drawn_in, &b.sequencer.copied_in, &b.sequencer.resolved_in})
+    (*in)(b.high);  // a frame ends at once
+  b.tie();
+  const auto width = [&] { return b.rules.read(b.clock.cycle()).width; };
+  const auto start = [&](std::uint32_t w, std::uint32_t enable) {
+    b.bus.write(reg::kSize, size_of(w, 30));
+    b.bus.write(reg::kControl, reg::kControlStart | enable);
+    EXPECT_TRUE(b.store.starting());
+    b.clock.run(1);
+    EXPECT_FALSE(b.store.starting());
+    return static_cast<Refusal>(b.bus.read(reg::kRefusal));
+  };
+  const auto refused = [&] { return (b.bus.read(reg::kStatus) & reg::kStatusRefused) != 0; };
+  EXPECT_EQ(start(40, reg::kControlEnable), Refusal::kNone);
+  EXPECT_EQ(width(), 40u);
+  EXPECT_FALSE(b.sequencer.idle());
+  EXPECT_FALSE(refused());
+  b.clock.run(10);
+  ASSERT_TRUE(b.sequencer.idle());
+  EXPECT_NE(b.bus.read(reg::kStatus) & reg::kStatusFrameDone, 0u);
+  EXPECT_EQ(start(0, reg::kControlEnable), Refusal::kSize);
+  EXPECT_TRUE(b.sequencer.idle());
+  EXPECT_TRUE(refused());
+  EXPECT_EQ(start(60, 0), Refusal::kDisabled);
+  EXPECT_EQ(width(), 40u);
   b.bus.write(reg::kSize, size_of(50, 30));
-  EXPECT_EQ(b.store.rules().width, 40) << "until the next frame begins";
-  EXPECT_EQ(b.store.latch(true), Refusal::kNone);
-  EXPECT_EQ(b.store.rules().width, 50);
+  EXPECT_EQ(width(), 40u) << "until the next frame begins";
+  EXPECT_EQ(start(50, reg::kControlEnable), Refusal::kNone);
+  EXPECT_EQ(width(), 50u);
+  EXPECT_EQ(b.rules.changes(), 2u);
+  EXPECT_EQ(b.latch.high_clocks(b.clock.cycle()), 4u);
+}
+
+// Each sticky bit is set in the clock of its event, which a write of one clears, and is set again
+// by the next: an edge out of range, an answer with an error, the end of the frame.
+TEST(StickyBits, AreSetInTheClockOfTheirPulse) {
+  EngineBench b;
+  Scene scene = contract_scene();
+  for (int i = 0; i < 3; ++i) scene.edges.push_back({1000, 0, 0, 0, 0});
+  b.load(scene);
+  b.memory.fail_range(b.bases.depth, b.bases.depth + 64 * 5);
+  b.start();
+  struct Bit {
+    std::uint32_t bit;
+    const char* wire;
+    std::uint64_t clocks = 0;
+  };
+  Bit bits[] = {{reg::kStatusInvalidEdge, "invalid_edge"},
+                {reg::kStatusMemoryError, "memory_error"},
+                {reg::kStatusFrameDone, "frame_done"}};
+  while (!b.engine.idle()) {
+    const Cycle cycle = b.clock.cycle();
+    b.clock.run(1);
+    const std::uint32_t status = b.bus.read(reg::kStatus);
+    for (Bit& bit : bits) {
+      bool raised = false;
+      rtl::for_each<rtl::Pulse>(b.engine, [&](const rtl::Pulse& pulse) {
+        if (std::string(pulse.basename()) == bit.wire) raised = pulse.read(cycle);
+      });
+      EXPECT_EQ((status & bit.bit) != 0, raised) << bit.wire << " in clock " << cycle;
+      bit.clocks += raised;
+    }
+    b.bus.write(reg::kStatus, status);
+  }
+  EXPECT_EQ(b.engine.edge_classifier.invalid_edges.value(), 12u + 3u);  // those of the contract
+  EXPECT_GE(bits[0].clocks, 2u);  // two lanes: the three came in two beats
+  EXPECT_EQ(bits[1].clocks, b.engine.memory_arbiter.memory_errors.value());
+  EXPECT_GE(bits[1].clocks, 2u);
+  EXPECT_EQ(bits[2].clocks, 1u);
 }
 
 // ---- what registers show

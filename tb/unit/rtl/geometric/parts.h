@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "rtl_model/fabric/histogram.h"
-#include "rtl_model/geometric/edge_latency.h"
+#include "rtl_model/geometric/common/edge_latency.h"
+#include "rtl_model/geometric/common/memory_arbiter.h"
+#include "rtl_model/geometric/common/parameter_store.h"
 #include "rtl_model/geometric/frame_sequencer.h"
-#include "rtl_model/geometric/memory_arbiter.h"
 #include "tb/base/forked.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/geometric/support.h"
@@ -103,22 +104,33 @@ struct Ends {
 struct Frame {
   explicit Frame(const Parameters& parameters, std::uint32_t clocks = 20)
       : control("registers", spec::geometric::kRegisters, rtl::geometric::control_layout()),
-        store(control, parameters),
-        sequencer("sequencer", clock, store),
+        store("parameter_store", clock, control, parameters),
+        sequencer("sequencer", clock),
         port_parameters{.outstanding = static_cast<std::uint32_t>(parameters.memory_outstanding)},
-        arbiter("arbiter", clock, store, port_parameters),
+        arbiter("arbiter", clock, port_parameters),
         port("port", clock, port_parameters),
         memory("memory", period(), EngineBench::memory_parameters({.latency = clocks})),
         requests("requests"),
         responses("responses") {
     bus.bus.bind(control.registers.bus);
-    control.on_command(reg::kControlStart, [this] { sequencer.start(true); });
     arbiter.requests_out(requests);
     port.requests_in(requests);
     port.responses_out(responses);
     arbiter.responses_in(responses);
     port.memory.bind(memory.ports);
     sequencer.phase_out(phase);
+    store.rules_out(rules);
+    store.start_out(start);
+    sequencer.start_in(start);
+    sequencer.latch_out(latch);
+    store.latch_in(latch);
+    store.refusal_out(refusal);
+    sequencer.refusal_in(refusal);
+    sequencer.frame_done_out(frame_done);
+    store.frame_done_in(frame_done);
+    arbiter.memory_error_out(memory_error);
+    store.memory_error_in(memory_error);
+    store.invalid_edge_in(invalid_edge);
   }
   // A wire of its own for what a unit drives, which the sequencer may wait for.
   rtl::Wire<bool>& wire(rtl::WireOut<bool>& from, rtl::WireIn<bool>* to = nullptr) {
@@ -170,6 +182,11 @@ struct Frame {
   rtl::Link<rtl::MemoryResponse> responses;
   rtl::Wire<rtl::geometric::Phase> phase{"phase", rtl::geometric::Phase::kIdle,
                                          rtl::geometric::phase_shape()};
+  rtl::Wire<rtl::geometric::FrameRules> rules{"rules", rtl::geometric::FrameRules{}};
+  rtl::CombinationalWire<spec::geometric::Refusal> refusal{"refusal",
+                                                           rtl::geometric::refusal_shape()};
+  rtl::Pulse start{"start"}, latch{"latch"}, frame_done{"frame_done"}, memory_error{"memory_error"},
+      invalid_edge{"invalid_edge"};
   rtl::Wire<bool> high{"high", true}, low{"low", false};
   rtl::geometric::EdgeLatency edge_latency;
 

@@ -23,10 +23,10 @@ using spec::geometric::Layout;
 struct ResolveBench : Frame {
   explicit ResolveBench(const Parameters& p = {}, int width = 1024, int height = 64)
       : Frame(p),
-        combiner("combiner", clock, p, store, edge_latency),
-        scanner("scanner", clock, p, store, combiner.touched_port()),
-        fetch("fetch", clock, p, store, combiner.tag_port(), combiner.data_port()),
-        resolver("resolver", clock, p, store, fetch.colours),
+        combiner("combiner", clock, p, edge_latency),
+        scanner("scanner", clock, p, combiner.touched_port()),
+        fetch("fetch", clock, p, combiner.tag_port(), combiner.data_port()),
+        resolver("resolver", clock, p, fetch.colours),
         weights("weights"),
         touched("touched"),
         blocks("blocks", 16),
@@ -35,6 +35,10 @@ struct ResolveBench : Frame {
     arbiter.connect(Client::kBlocks, fetch.memory);
     arbiter.connect(Client::kResolve, resolver.memory);
     source.out(weights);
+    combiner.rules_in(rules);
+    scanner.rules_in(rules);
+    fetch.rules_in(rules);
+    resolver.rules_in(rules);
     combiner.weights_in(weights);
     scanner.blocks_out(touched);
     fetch.blocks_in(touched);
@@ -347,8 +351,8 @@ TEST(Resolve, IntervalOfABlock) {
 struct ReaderBench : Frame {
   explicit ReaderBench(const Parameters& p, std::uint32_t edges, std::uint32_t faces)
       : Frame(p),
-        facing("facing", clock, p, store),
-        reader("reader", clock, p, store, edge_latency),
+        facing("facing", clock, p),
+        reader("reader", clock, p, edge_latency),
         beats("beats"),
         taker("taker", clock) {
     arbiter.connect(Client::kFacing, facing.memory);
@@ -358,6 +362,8 @@ struct ReaderBench : Frame {
       ports.emplace_back(facing.words, "test");
     reader.edges_out(beats);
     taker.in(beats);
+    facing.rules_in(rules);
+    reader.rules_in(rules);
     facing.phase_in(phase);
     reader.phase_in(phase);
     wire(facing.loaded_out, &sequencer.facing_loaded_in);
@@ -409,8 +415,9 @@ Cycle copy_clocks(std::uint32_t latency, int width, int height) {
   Parameters p;
   p.frame_copy = true;
   Frame b(p, latency);
-  FrameCopier copier("copier", b.clock, b.store);
+  FrameCopier copier("copier", b.clock);
   b.arbiter.connect(Client::kCopy, copier.memory);
+  copier.rules_in(b.rules);
   copier.phase_in(b.phase);
   const rtl::Wire<bool>& copied = b.wire(copier.copied_out);
   b.bus.write(reg::kCopyBase, 0x40000);
@@ -445,8 +452,9 @@ TEST(FrameCopier, CopiesEveryLineOnceAndThenIsIdle) {
       p.frame_copy = true;
       p.layout = layout;
       Frame b(p);
-      FrameCopier copier("copier", b.clock, b.store);
+      FrameCopier copier("copier", b.clock);
       b.arbiter.connect(Client::kCopy, copier.memory);
+      copier.rules_in(b.rules);
       copier.phase_in(b.phase);
       const rtl::Wire<bool>& copied = b.wire(copier.copied_out);
       std::vector<std::uint8_t> bytes(kBytes);

@@ -5,8 +5,8 @@
 #include <tuple>
 #include <vector>
 
-#include "rtl_model/geometric/edge_latency.h"
-#include "rtl_model/geometric/fill_store.h"
+#include "rtl_model/geometric/common/edge_latency.h"
+#include "rtl_model/geometric/common/fill_store.h"
 #include "spec/error.h"
 #include "tb/unit/rtl/geometric/support.h"
 

@@ -34,14 +34,17 @@ void finish(F& frame, const E& ends, std::size_t tokens) {
 struct ClassifierBench : Frame {
   explicit ClassifierBench(const Parameters& p)
       : Frame(p),
-        facing("facing", clock, p, store),
-        unit("unit", clock, p, store, facing.words, edge_latency),
+        facing("facing", clock, p),
+        unit("unit", clock, p, facing.words, edge_latency),
         ends(clock) {
     arbiter.connect(Client::kFacing, facing.memory);
     facing.phase_in(phase);
     wire(facing.loaded_out);
     unit.edges_in(ends.in);
     unit.edges_out(ends.out);
+    unit.invalid_edge_out(invalid_edge);
+    facing.rules_in(rules);
+    unit.rules_in(rules);
     bus.write(reg::kVertexCount, 100);
     begin(64, 64);
   }
@@ -97,7 +100,7 @@ TEST(EdgeClassifier, IndicesEndBeforeTheirCounts) {
   p.edge_lanes = Lanes::kFour;
   ClassifierBench b(p);
   b.bus.write(reg::kFaceCount, 40);
-  ASSERT_EQ(b.store.latch(true), spec::geometric::Refusal::kNone);
+  b.rules.drive(b.clock.cycle() - 1, decode(b.control));
   struct Row {
     EdgeFields edge;
     bool valid;
@@ -126,8 +129,9 @@ TEST(EdgeClassifier, IndicesEndBeforeTheirCounts) {
 
 // ---- VertexFetch
 struct VertexBench : Frame {
-  VertexBench() : Frame({}), unit("unit", clock, {}, store), ends(clock) {
+  VertexBench() : Frame({}), unit("unit", clock, {}), ends(clock) {
     arbiter.connect(Client::kVertices, unit.memory);
+    unit.rules_in(rules);
     unit.edges_in(ends.in);
     unit.ends_out(ends.out);
     unit.phase_in(phase);
@@ -380,7 +384,8 @@ TEST(LineWalker, GroupsEndAtBlocks) {
 
 // ---- CoverageUnit
 struct CoverageBench : Frame {
-  CoverageBench() : Frame({}), unit("unit", clock, store, edge_latency), ends(clock) {
+  CoverageBench() : Frame({}), unit("unit", clock, edge_latency), ends(clock) {
+    unit.rules_in(rules);
     unit.groups_in(ends.in);
     unit.candidates_out(ends.out);
     begin(64, 48);
@@ -482,8 +487,9 @@ TEST(CoverageUnit, TiesAndBorders) {
 // ---- DepthTest
 struct DepthBench : Frame {
   explicit DepthBench(const Parameters& p = {})
-      : Frame(p), unit("unit", clock, p, store, edge_latency), ends(clock) {
+      : Frame(p), unit("unit", clock, p, edge_latency), ends(clock) {
     arbiter.connect(Client::kDepth, unit.memory);
+    unit.rules_in(rules);
     unit.candidates_in(ends.in);
     unit.weights_out(ends.out);
     unit.phase_in(phase);
@@ -653,8 +659,9 @@ TEST(DepthTest, ShowsEachCandidate) {
 // ---- WeightCombiner: nothing comes out of it
 struct CombinerBench : Frame {
   explicit CombinerBench(const Parameters& p = {})
-      : Frame(p), unit("unit", clock, p, store, edge_latency), in("in"), source("source", clock) {
+      : Frame(p), unit("unit", clock, p, edge_latency), in("in"), source("source", clock) {
     arbiter.connect(Client::kWeights, unit.memory);
+    unit.rules_in(rules);
     unit.weights_in(in);
     source.out(in);
     unit.phase_in(phase);

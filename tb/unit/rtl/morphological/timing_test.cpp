@@ -5,6 +5,7 @@
 #include <string>
 #include <tuple>
 
+#include "tb/base/fnv.h"
 #include "tb/base/forked.h"
 #include "tb/base/random.h"
 #include "tb/harness/monitor.h"
@@ -302,7 +303,7 @@ TEST(EvaluationOrder, DoesNotMatter) {
     EngineBench bench(p, options);
     const std::uint64_t pixels = hash(bench.run(blocks()));
     std::uint64_t h = pixels;
-    for (const Cycle c : bench.sink.cycles()) h = (h ^ c) * 1099511628211u;
+    for (const Cycle c : bench.sink.cycles()) h = fnv_step(h, c);
     return Digest{pixels, h};
   };
   const auto plain = forked<Digest>([&] { return digest(std::nullopt); });

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What links carry, by number format and by the table of the page.
-#include "rtl_model/morphological/tokens.h"
+// What links carry, by number format and by the table of the page; and the figures of the engine.
+#include "rtl_model/morphological/common/tokens.h"
 
+#include "tb/unit/rtl/figure.h"
 #include "tb/unit/rtl/formats.h"
 #include "tb/unit/rtl/morphological/support.h"
 #include "tb/unit/rtl/page_table.h"
@@ -37,6 +38,24 @@ TEST(Tokens, LinksAreThoseOfThePage) {
                      MorphologicalEngine("deburr", clock, tb::morphological_rtl::deburr()));
   table.expect_links("smaa", MorphologicalEngine("smaa", clock, tb::morphological_rtl::smaa()));
   table.expect_links("mlaa, 4 lanes, memory", MorphologicalEngine("memory", clock, memory));
+}
+
+// With all that an engine can be built with: learned shares exclude diagonals.
+TEST(Figures, AreTheModuleTree) {
+  ClockDomain clock("clock", tb::morphological_rtl::period());
+  spec::morphological::Parameters learned = tb::morphological_rtl::deburr(),
+                                  diagonal = tb::morphological_rtl::smaa();
+  learned.storage = diagonal.storage = spec::morphological::Storage::kMemory;
+  const MorphologicalEngine with_learned("learned", clock, learned),
+      with_diagonals("diagonal", clock, diagonal);
+  ASSERT_TRUE(with_learned.memory_port && with_learned.shares_loader);
+  ASSERT_TRUE(with_diagonals.memory_port && with_diagonals.diagonals);
+  const std::string header = "rtl_model/morphological/morphological_engine.h";
+  for (const MorphologicalEngine* const engine : {&with_learned, &with_diagonals})
+    for (const tb::Figure& figure :
+         {tb::Figure::of_header(header), tb::Figure::of_page("morphological_engine.md")})
+      for (const char* const unit : {"DiagonalUnit", "SharesLoader", "EdgeRows", "Blender"})
+        tb::expect_figure(figure, *engine, header, unit);
 }
 
 }  // namespace

@@ -126,6 +126,7 @@ struct StageBench {
   explicit StageBench(const CacheToken& first) {
     stage.requests_in(requests);
     stage.texels_out(texels);
+    stage.line_used_out(line_used);
     requests.push(0, first);
     clock.run(2);  // taken in 1
   }
@@ -146,7 +147,8 @@ struct StageBench {
   FillBuffer fills{"fills", 4, 64};
   rtl::Link<CacheToken> requests{"requests"};
   rtl::Link<TexelQuadToken> texels{"texels"};
-  DataStage stage{"stage", clock, parameters(), fills};
+  rtl::Wire<bool> line_used{"line_used", false};
+  DataStage stage{"stage", clock, parameters(), fills.reader()};
 };
 
 TEST(TextureRtlDataStage, LatencyOfTheDatasheet) {
@@ -171,9 +173,11 @@ Clocks clocks_of(const CacheToken& token) {
   FillBuffer fills("fills", 4, 64);
   rtl::Link<CacheToken> requests("requests");
   rtl::Link<TexelQuadToken> texels("texels");
-  DataStage stage("stage", clock, StageBench::parameters(), fills);
+  rtl::Wire<bool> line_used("line_used", false);
+  DataStage stage("stage", clock, StageBench::parameters(), fills.reader());
   stage.requests_in(requests);
   stage.texels_out(texels);
+  stage.line_used_out(line_used);
   const std::array<std::uint8_t, 64> line{};
   for (std::uint8_t i = 0; i < token.fills; ++i) {
     fills.fill(clock.cycle(), fills.reserve(clock.cycle()), 0, line, true);
@@ -185,6 +189,9 @@ Clocks clocks_of(const CacheToken& token) {
   const Cycle ready = ready_at(clock, texels, 40);
   // Taken a clock after the push; the last clock of stage 1 is one before the push of the texels.
   const auto stalls = stage.stalls();
+  // Lines are written one a clock at the end of a request: the wire is high for so many clocks.
+  EXPECT_EQ(line_used.high_clocks(clock.cycle()), token.fills);
+  EXPECT_EQ(line_used.changes(), token.fills == 0 ? 0u : 2u);
   return {ready - 1 - (pushed + 1), stalls[1].cycles, stalls[2].cycles, stalls[3].cycles};
 }
 

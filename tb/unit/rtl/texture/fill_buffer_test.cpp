@@ -17,25 +17,26 @@ constexpr std::array<std::uint8_t, 64> kBeat = {11, 22};
 // used.
 TEST(TextureRtlFillBuffer, ALineIsThereTwoClocksAfterItsBeat) {
   FillBuffer buffer("buffer", 4, 64);
+  FillBuffer::Reader lines = buffer.reader();
   const Cycle there = 10 + FillBuffer::datasheet().latency.clocks;
   for (int i = 0; i < 3; ++i) buffer.reserve(1);
   buffer.fill(10, 0, 0, kBeat, true);
-  buffer.read_ahead(10);
-  EXPECT_FALSE(buffer.ready(11));
+  lines.read_ahead(10);
+  EXPECT_FALSE(lines.ready(11));
   buffer.fill(11, 1, 0, kBeat, true);
-  buffer.read_ahead(11);
-  EXPECT_FALSE(buffer.ready(11));
-  EXPECT_THROW(buffer.line(11), spec::CheckFailed);  // its word comes in 12
-  EXPECT_FALSE(buffer.ready(there - 1));
-  ASSERT_TRUE(buffer.ready(there));
-  EXPECT_EQ(buffer.line(there)[1], 22);
-  buffer.release(12);
-  buffer.read_ahead(12);
-  ASSERT_TRUE(buffer.ready(13));
-  buffer.release(13);
-  buffer.read_ahead(13);
-  EXPECT_FALSE(buffer.ready(14));
-  EXPECT_THROW(buffer.line(14), spec::CheckFailed);  // there is still the line of before
+  lines.read_ahead(11);
+  EXPECT_FALSE(lines.ready(11));
+  EXPECT_THROW(lines.line(11), spec::CheckFailed);  // its word comes in 12
+  EXPECT_FALSE(lines.ready(there - 1));
+  ASSERT_TRUE(lines.ready(there));
+  EXPECT_EQ(lines.line(there)[1], 22);
+  lines.release(12);
+  lines.read_ahead(12);
+  ASSERT_TRUE(lines.ready(13));
+  lines.release(13);
+  lines.read_ahead(13);
+  EXPECT_FALSE(lines.ready(14));
+  EXPECT_THROW(lines.line(14), spec::CheckFailed);  // there is still the line of before
 }
 
 TEST(TextureRtlFillBuffer, OneBeatAClock) {
@@ -46,46 +47,60 @@ TEST(TextureRtlFillBuffer, OneBeatAClock) {
   EXPECT_THROW(buffer.fill(10, 1, 0, kBeat, true), spec::CheckFailed);
 }
 
+// A beat that names a half of a line which has none, as a broken response may, is refused.
+TEST(TextureRtlFillBuffer, ABeatBehindTheLine) {
+  FillBuffer buffer("buffer", 4, 64);
+  buffer.reserve(1);
+  EXPECT_THROW(buffer.fill(10, 0, 64, kBeat, true), spec::CheckFailed);
+  FillBuffer wide("wide", 4, 128);
+  wide.reserve(1);
+  wide.fill(10, 0, 64, kBeat, false);
+  EXPECT_THROW(wide.fill(11, 0, 128, kBeat, true), spec::CheckFailed);
+}
+
 // Above 16 kbit it is SRAM; a line of two beats is written half by half.
 TEST(TextureRtlFillBuffer, LinesOf128BytesComeInTwoBeats) {
   FillBuffer buffer("buffer", 64, 128);
+  FillBuffer::Reader lines = buffer.reader();
   buffer.reserve(1);
   buffer.fill(10, 0, 64, kBeat, false);
-  buffer.read_ahead(11);
-  EXPECT_FALSE(buffer.ready(12));
+  lines.read_ahead(11);
+  EXPECT_FALSE(lines.ready(12));
   buffer.fill(12, 0, 0, kBeat, true);
-  buffer.read_ahead(13);
-  ASSERT_TRUE(buffer.ready(14));
-  EXPECT_EQ(buffer.line(14)[65], 22);
-  EXPECT_EQ(buffer.line(14)[0], 11);
+  lines.read_ahead(13);
+  ASSERT_TRUE(lines.ready(14));
+  EXPECT_EQ(lines.line(14)[65], 22);
+  EXPECT_EQ(lines.line(14)[0], 11);
 }
 
 // The output register has one word: the next line cannot be read in the clock in which the one
 // before it was.
 TEST(TextureRtlFillBuffer, OneReadAClock) {
   FillBuffer buffer("buffer", 4, 64);
+  FillBuffer::Reader lines = buffer.reader();
   for (std::uint32_t i = 0; i < 2; ++i) {
     buffer.reserve(1);
     buffer.fill(10 + i, i, 0, kBeat, true);
   }
-  buffer.read_ahead(12);
-  buffer.release(12);
-  EXPECT_THAT(refusal([&] { buffer.read_ahead(12); }), Refuses("buffer", kTooMany));
+  lines.read_ahead(12);
+  lines.release(12);
+  EXPECT_THAT(refusal([&] { lines.read_ahead(12); }), Refuses("buffer", kTooMany));
 }
 
 // An entry that is used again: the line before it still stands on the output register.
 TEST(TextureRtlFillBuffer, TheLineBeforeInTheSameEntryIsStale) {
   FillBuffer buffer("buffer", 1, 64);
+  FillBuffer::Reader lines = buffer.reader();
   buffer.reserve(1);
   buffer.fill(10, 0, 0, kBeat, true);
-  buffer.read_ahead(11);
-  buffer.line(12);
-  buffer.release(12);
+  lines.read_ahead(11);
+  lines.line(12);
+  lines.release(12);
   buffer.reserve(13);
   buffer.fill(20, 0, 0, kBeat, true);
-  buffer.read_ahead(21);
-  EXPECT_THAT(refusal([&] { buffer.line(21); }), Refuses("buffer", kEarly));
-  EXPECT_EQ(refusal([&] { buffer.line(22); }), "nothing");
+  lines.read_ahead(21);
+  EXPECT_THAT(refusal([&] { lines.line(21); }), Refuses("buffer", kEarly));
+  EXPECT_EQ(refusal([&] { lines.line(22); }), "nothing");
 }
 
 // Flip-flops up to 16 kbit, SRAM above; a line of two beats needs a write mask of one.
@@ -109,14 +124,15 @@ TEST(TextureRtlFillBuffer, IsBuiltAsItsBitsSay) {
 
 TEST(TextureRtlFillBuffer, HasNoMoreEntriesThanItSays) {
   FillBuffer buffer("buffer", 2, 64);
+  FillBuffer::Reader lines = buffer.reader();
   EXPECT_EQ(buffer.reserve(1), 0u);
   EXPECT_TRUE(buffer.can_reserve(2));
   EXPECT_EQ(buffer.reserve(2), 1u);
   EXPECT_FALSE(buffer.can_reserve(3));
   EXPECT_THAT(refusal([&] { buffer.reserve(3); }), Refuses("buffer", "no entry is free"));
   buffer.fill(4, 0, 0, kBeat, true);
-  buffer.read_ahead(5);
-  buffer.release(6);
+  lines.read_ahead(5);
+  lines.release(6);
   EXPECT_FALSE(buffer.can_reserve(6));  // from the next clock on
   EXPECT_EQ(buffer.reserve(7), 0u);
 }

@@ -83,9 +83,10 @@ TEST(TextureRtlMissQueue, ALineOfTwoBeatsFailsOnce) {
     b.clock.run(3);
   };
   const auto use = [&] {
-    b.queue.fills.read_ahead(b.clock.cycle());
-    ASSERT_TRUE(b.queue.fills.ready(b.clock.cycle() + 1));
-    b.queue.fills.release(b.clock.cycle() + 1);
+    FillBuffer::Reader lines = b.queue.fills.reader();
+    lines.read_ahead(b.clock.cycle());
+    ASSERT_TRUE(lines.ready(b.clock.cycle() + 1));
+    lines.release(b.clock.cycle() + 1);
     b.clock.run(2);
   };
   std::uint64_t errors = 0;

@@ -210,19 +210,11 @@ struct Store {
   platform::RegisterHost bus;
 };
 
-// With a FIFO that hides this memory's latency, unless one is ordered.
-inline spec::texture::Parameters sized(spec::texture::Parameters p, std::uint32_t latency) {
-  if (p.cache_fifo_depth == 0)
-    p.cache_fifo_depth =
-        rtl::texture::LatencyFifo::depth_for(static_cast<std::int32_t>(latency), 1);
-  return p;
-}
-
 // The whole unit between source and sink, by the paper's rules unless others are given.
 struct UnitBench {
   explicit UnitBench(const spec::texture::Parameters& parameters = paper_rules(),
                      std::uint32_t latency = kMemoryLatency, std::uint32_t scatter = 0)
-      : unit("unit", clock, sized(parameters, latency + scatter)),
+      : unit("unit", clock, parameters, {static_cast<std::int32_t>(latency + scatter), 1}),
         memory("memory", period(), memory_parameters(latency, scatter)) {
     unit.quads_in(quads);
     unit.colours_out(colours);

@@ -2,6 +2,8 @@
 // The TagStage in the cache: merged misses, the order of fills, hits behind misses.
 #include <set>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/cache_bench.h"
@@ -30,21 +32,62 @@ TEST(TextureRtlTagStage, SecondRequestForALineInFlightIsMerged) {
   EXPECT_EQ(b.ends.sink.taken[3].cycle, first + 3);
 }
 
-// The stage alone, whose request hits nothing.
+// The stage alone: nobody takes what it misses.
+struct StageBench {
+  StageBench() {
+    stage.texels_in(ends.in);
+    stage.requests_out(ends.out);
+    stage.misses_out(misses);
+    stage.line_used_in(line_used);
+  }
+  ClockDomain clock{"clock", period()};
+  Ends<TexelToken, CacheToken> ends{clock};
+  Link<MissToken> misses{"misses"};
+  rtl::Wire<bool> line_used{"line_used", false};
+  TagStage stage{"stage", clock, small_cache()};
+};
+
 TEST(TextureRtlTagStage, LatencyAndIntervalOfTheDatasheet) {
-  ClockDomain clock("clock", period());
-  FillBuffer fills("fills", 4, 64);
-  TagStage stage("stage", clock, small_cache(), fills);
-  Ends<TexelToken, CacheToken> ends(clock);
-  Link<MissToken> misses("misses");
-  stage.texels_in(ends.in);
-  stage.requests_out(ends.out);
-  stage.misses_out(misses);
-  for (int i = 0; i < 9; ++i) ends.source.add(in_line(0));
-  clock.run(20);
-  ASSERT_EQ(ends.sink.taken.size(), 9u);
-  expect_clocks(TagStage::datasheet(), clocks_of(ends.sink), 1);
+  StageBench b;
+  for (int i = 0; i < 9; ++i) b.ends.source.add(in_line(0));
+  b.clock.run(20);
+  ASSERT_EQ(b.ends.sink.taken.size(), 9u);
+  expect_clocks(TagStage::datasheet(), clocks_of(b.ends.sink), 1);
 }
+
+// A line is a hit from the clock on that comes after its use; a reset forgets lines and uses.
+constexpr Cycle kFirstLookUp = 2;  // of the first request, which misses
+class LineUsed : public testing::TestWithParam<Cycle> {};
+TEST_P(LineUsed, ALineIsUnderWayUntilTheWireSaysThatItIsUsed) {
+  const Cycle used = GetParam();
+  StageBench b;
+  std::vector<std::pair<Cycle, LookUp>> seen;
+  b.stage.observer = [&](Cycle cycle, std::uint32_t, LookUp outcome) {
+    seen.emplace_back(cycle, outcome);
+  };
+  for (int i = 0; i < 4; ++i) b.ends.source.add(in_line(0));
+  b.clock.run(used);
+  b.line_used.drive(used, true);
+  b.clock.run(1);
+  b.line_used.drive(used + 1, false);
+  b.clock.run(10);
+  ASSERT_EQ(seen.size(), 4u);
+  EXPECT_EQ(seen[0], std::pair(kFirstLookUp, LookUp::kMiss));
+  for (Cycle i = 1; i < 4; ++i)
+    EXPECT_EQ(seen[i], std::pair(kFirstLookUp + i,
+                                 kFirstLookUp + i <= used ? LookUp::kMerged : LookUp::kHit));
+  b.clock.set_reset_n(false);
+  b.clock.run(1);
+  b.clock.set_reset_n(true);
+  seen.clear();
+  for (int i = 0; i < 2; ++i) b.ends.source.add(in_line(0));
+  b.clock.run(10);
+  ASSERT_EQ(seen.size(), 2u);
+  EXPECT_EQ(seen[0].second, LookUp::kMiss);
+  EXPECT_EQ(seen[1].second, LookUp::kMerged);
+}
+INSTANTIATE_TEST_SUITE_P(TextureRtlTagStage, LineUsed,
+                         testing::Values(kFirstLookUp, kFirstLookUp + 1, kFirstLookUp + 2));
 
 // The observer sees each line once a request, in the clock of its look-up.
 TEST(TextureRtlTagStage, ShowsWhatBecameOfEachLine) {

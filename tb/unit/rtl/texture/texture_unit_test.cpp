@@ -565,10 +565,28 @@ TEST(TextureRtlUnit, AccountsForTheTablesOfItsRules) {
   EXPECT_EQ(found["unit.address.walker.reciprocal"].first, 16u * 17);
 }
 
+// Ordered as 0, the FIFO is as deep as the memory asks for; who does not know it gets 100 clocks.
+TEST(TextureRtlUnit, SizesTheLatencyFifo) {
+  ClockDomain clock("clock", period());
+  spec::texture::Parameters ordered;
+  ordered.cache_fifo_depth = 33;
+  const rtl::texture::TextureUnit plain("plain", clock, {}), slow("slow", clock, {}, {300, 4}),
+      slowest("slowest", clock, {}, {4090, 1}), as_ordered("as_ordered", clock, ordered, {300, 4});
+  const auto depth = [](const rtl::texture::TextureUnit& unit) {
+    const std::uint64_t built = unit.cache.latency_fifo.entries.words();
+    EXPECT_EQ(static_cast<std::uint64_t>(unit.parameters().cache_fifo_depth), built);
+    return built;
+  };
+  EXPECT_EQ(depth(plain), 100u + 4 + 3);
+  EXPECT_EQ(depth(slow), 300u + 4 * 4 + 3);
+  EXPECT_EQ(depth(slowest), 4096u);
+  EXPECT_EQ(depth(as_ordered), 33u);
+}
+
 TEST(TextureRtlUnit, RefusesImpossibleParameters) {
   ClockDomain clock("clock", period());
   const auto error = [&](const char* name, auto change) -> std::string {
-    spec::texture::Parameters p = sized({}, kMemoryLatency);
+    spec::texture::Parameters p;
     change(p);
     try {
       rtl::texture::TextureUnit unit(name, clock, p);
@@ -591,7 +609,7 @@ TEST(TextureRtlUnit, RefusesImpossibleParameters) {
               HasSubstr("cache.ways = 16 is outside 1..8"));
   EXPECT_THAT(error("h", [](auto& p) { p.cache_bytes = 65536; }), HasSubstr("at most 32768"));
   EXPECT_THAT(error("i", [](auto& p) { p.cache_fifo_depth = 1; }), HasSubstr("at least 2 places"));
-  EXPECT_THAT(error("j", [](auto& p) { p.cache_fifo_depth = 0; }), HasSubstr("sizes it from"));
+  EXPECT_EQ(error("j", [](auto& p) { p.cache_fifo_depth = 0; }), "none");
   EXPECT_THAT(error("k", [](auto& p) { p.axis_clocks = 3; }), HasSubstr("power of two"));
   EXPECT_THAT(error("l",
                     [](auto& p) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What links carry, by number format and by the tables of the page.
+// What links carry, by number format and by the tables of the page; and the figures of the engine.
 #include "rtl_model/texture/tokens.h"
 
+#include "tb/unit/rtl/figure.h"
 #include "tb/unit/rtl/formats.h"
 #include "tb/unit/rtl/page_table.h"
 #include "tb/unit/rtl/texture/support.h"
@@ -29,6 +30,12 @@ TEST(TextureRtlTokens, LinksAreThoseOfThePage) {
   table.expect_links("largest cache", TextureUnit("largest", clock, largest));
 }
 
+TEST(TextureRtlTokens, WiresAreThoseOfThePage) {
+  ClockDomain clock("clock", tb::texture_rtl::period());
+  TextureUnit unit("unit", clock, {});
+  tb::EnginePage("texture_unit.md", "wire").expect_wires(unit);
+}
+
 TEST(TextureRtlTokens, MemoriesAreThoseOfThePage) {
   ClockDomain clock("clock", tb::texture_rtl::period());
   spec::texture::Parameters p;
@@ -36,6 +43,26 @@ TEST(TextureRtlTokens, MemoriesAreThoseOfThePage) {
   p.log2 = spec::texture::Log2Rule::kExact;
   p.srgb_output = spec::texture::SrgbOutput::kEncoded;
   tb::EnginePage("texture_unit.md", "memory").expect_memories(TextureUnit("unit", clock, p));
+}
+
+// In both builds: an AxisUnit stands in the place of the FootprintUnit.
+TEST(TextureFigures, AreTheModuleTree) {
+  ClockDomain clock("clock", tb::texture_rtl::period());
+  const std::string header = "rtl_model/texture/texture_unit.h",
+                    address = "rtl_model/texture/address_unit.h",
+                    cache = "rtl_model/texture/texture_cache.h";
+  for (const auto& [name, axes] : {std::pair{"two", spec::texture::Axes::kTwo},
+                                   std::pair{"eight", spec::texture::Axes::kEight}}) {
+    spec::texture::Parameters p;
+    p.cache_fifo_depth = 107;
+    p.axes = axes;
+    const TextureUnit unit(name, clock, p);
+    tb::expect_figure(tb::Figure::of_header(header), unit, header, "TextureCache");
+    tb::expect_figure(tb::Figure::of_page("texture_unit.md"), unit, header, "FilterPipeline",
+                      {address, cache});
+    tb::expect_figure(tb::Figure::of_header(address), unit.address, address, "AxisUnit");
+    tb::expect_figure(tb::Figure::of_header(cache), unit.cache, cache, "MissQueue");
+  }
 }
 
 // Without an order of the ways a set is its tags and two bits a way.

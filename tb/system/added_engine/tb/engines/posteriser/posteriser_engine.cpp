@@ -76,8 +76,9 @@ class PosteriserCommand final : public Engine {
     return {"before", "after", "golden", "difference", "change"};
   }
   std::vector<std::string_view> maps() const override { return {"level"}; }
-  RegisterSection registers() const override {
+  rtl::RegisterSection registers() const override {
     return {"Posteriser",
+            "DEBURR_POSTERISER",
             {spec::posteriser::kRegisters.begin(), spec::posteriser::kRegisters.end()}};
   }
   CoverageSection coverage() const override {

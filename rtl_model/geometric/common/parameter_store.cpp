@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rtl_model/geometric/parameter_store.h"
+#include "rtl_model/geometric/common/parameter_store.h"
 
 #include <algorithm>
 
@@ -32,8 +32,8 @@ FrameRules decode(const ControlRegisters& registers) {
   const std::uint32_t size = registers.value(reg::kSize), rules = registers.value(reg::kRules);
   FrameRules f;
   const std::uint32_t width = reg::size::kWidth.of(size), height = reg::size::kHeight.of(size);
-  f.width = static_cast<std::int32_t>(width);
-  f.height = static_cast<std::int32_t>(height);
+  f.width = width;
+  f.height = height;
   namespace field = reg::rules;
   f.select = choice<spec::geometric::Select>(field::kSelect, rules);
   f.crease = choice<spec::geometric::Crease>(field::kCrease, rules);
@@ -68,10 +68,10 @@ Refusal refusal(const FrameRules& f, bool enabled, const spec::geometric::Parame
     return value > static_cast<std::uint32_t>(limit);
   };
   if (!enabled) return Refusal::kDisabled;
-  if (f.width < 1 || f.height < 1 || f.width > spec::geometric::kMaxFrameSize ||
-      f.height > spec::geometric::kMaxFrameSize)
+  if (f.width < 1 || f.height < 1 || over(f.width, spec::geometric::kMaxFrameSize) ||
+      over(f.height, spec::geometric::kMaxFrameSize))
     return Refusal::kSize;
-  if (f.width > p.line_pixels) return Refusal::kWidth;
+  if (over(f.width, p.line_pixels)) return Refusal::kWidth;
   if (over(f.touched_words, p.touched_words)) return Refusal::kTouchedWords;
   if (f.edge_count > spec::geometric::kMaxEdges) return Refusal::kEdgeCount;
   if (f.vertex_count > spec::geometric::kMaxVertices) return Refusal::kVertexCount;
@@ -80,17 +80,44 @@ Refusal refusal(const FrameRules& f, bool enabled, const spec::geometric::Parame
   return Refusal::kNone;
 }
 
-ParameterStore::ParameterStore(ControlRegisters& registers, const spec::geometric::Parameters& p)
-    : registers_(registers), parameters_(p) {
+ParameterStore::ParameterStore(const sc_core::sc_module_name& name, ClockDomain& clock,
+                               ControlRegisters& registers, const spec::geometric::Parameters& p)
+    : sc_module(name),
+      frame_done_in("frame_done_in",
+                    [this](Cycle /*cycle*/) { registers_.set_sticky(reg::kStatusFrameDone); }),
+      invalid_edge_in("invalid_edge_in",
+                      [this](Cycle /*cycle*/) { registers_.set_sticky(reg::kStatusInvalidEdge); }),
+      memory_error_in("memory_error_in",
+                      [this](Cycle /*cycle*/) { registers_.set_sticky(reg::kStatusMemoryError); }),
+      clock_(clock),
+      registers_(registers),
+      parameters_(p) {
   registers.set_reset(reg::kRules, spec::geometric::rules_word(p));
+  registers.on_command(reg::kControlStart, [this] { start(); });
+  registers.on_read(reg::kRefusal, [this] { return static_cast<std::uint32_t>(refused_); });
+  clock.on_reset([this] {
+    starting_ = start_enabled_ = false;
+    refused_ = Refusal::kNone;
+  });
 }
 
-Refusal ParameterStore::latch(bool enabled) {
+// A bus write, between edges. Enable has its new value by now.
+void ParameterStore::start() {
+  starting_ = true;
+  start_enabled_ = registers_.enabled();
+  start_out.raise(clock_.cycle());
+}
+
+void ParameterStore::latch(Cycle cycle) {
+  starting_ = false;
   registers_.mask_values();
   const FrameRules rules = decode(registers_);
-  const Refusal why = refusal(rules, enabled, parameters_);
-  if (why == Refusal::kNone) rules_ = rules;
-  return why;
+  refused_ = refusal(rules, start_enabled_, parameters_);
+  refusal_out.drive(cycle, refused_);
+  if (refused_ == Refusal::kNone)
+    rules_out.drive(cycle, rules);
+  else
+    registers_.set_sticky(reg::kStatusRefused);
 }
 
 }  // namespace deburr::rtl::geometric

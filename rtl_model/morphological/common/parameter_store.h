@@ -7,10 +7,10 @@
 // sets a sticky bit. Codes of RULES that no choice has count as code 0; steps are limited to
 // window_rows / 2 - 2, those of SMAA's searches to their ranges; what was not built (depth lines
 // with source = luma) reads as 0, and `contiguous`, crossings, tables, diagonals and corners count
-// as off in an engine that was built without them, and so do learned shares. The tables of these
-// are loaded here, a word a write. A reset gives every register its reset value; SIZE is 0 then and
-// must be written again. The tables stay as they are. Cost: 15 x 32 flip-flops twice (registers,
-// decoded products of the frame inside). Made for 300 MHz; longest path: 16-bit multiply by 255.
+// as off in an engine that was built without them, and so do learned shares, whose registers read 0
+// then (else: SharesLoader). A reset gives every register its reset value; SIZE is 0 then and must
+// be written again. Cost: 15 x 32 flip-flops twice (registers, decoded products of the frame
+// inside). Made for 300 MHz; longest path: 16-bit multiply by 255.
 #pragma once
 
 #include <cstdint>
@@ -58,15 +58,10 @@ struct Decoded {
 };
 Decoded decode(const ControlRegisters& registers, const spec::morphological::Parameters& p);
 
-class SharesRom;
-
 class ParameterStore {
  public:
   // Gives the registers the reset values that parameters set.
   ParameterStore(ControlRegisters& registers, const spec::morphological::Parameters& parameters);
-
-  // The tables that SHARES_ADDRESS and SHARES_DATA load; without them the registers read 0.
-  void connect(SharesRom& rom);
 
   // --- Wires to the blocks ---
   // Of the frame inside.
@@ -84,11 +79,7 @@ class ParameterStore {
   int reach_rows() const { return reach_rows_; }  // R
 
  private:
-  std::uint32_t shares_address() const;
-  void load_share(std::uint32_t value);
-
   ControlRegisters& registers_;
-  SharesRom* shares_ = nullptr;
   const spec::morphological::Parameters parameters_;
   const int lanes_, reach_rows_;
   FrameRules rules_;

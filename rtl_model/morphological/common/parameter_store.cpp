@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "rtl_model/morphological/parameter_store.h"
+#include "rtl_model/morphological/common/parameter_store.h"
 
 #include <algorithm>
-
-#include "rtl_model/morphological/blend/shares_rom.h"
 
 namespace deburr::rtl::morphological {
 namespace {
@@ -114,24 +112,6 @@ ParameterStore::ParameterStore(ControlRegisters& registers,
   registers.on_busy([this] { return inside_; });
   for (const std::uint32_t offset : {reg::kSharesAddress, reg::kSharesData, reg::kSharesSum})
     registers.on_read(offset, [] { return 0u; });
-}
-
-void ParameterStore::connect(SharesRom& rom) {
-  shares_ = &rom;
-  registers_.on_read(reg::kSharesAddress, [this] { return shares_address(); });
-  registers_.on_read(reg::kSharesData, [this] { return shares_->entry(shares_address()); });
-  registers_.on_read(reg::kSharesSum, [this] { return shares_->sum(); });
-  registers_.on_taken(reg::kSharesData, [this](std::uint32_t value) { load_share(value); });
-}
-
-std::uint32_t ParameterStore::shares_address() const {
-  return reg::shares_address::kEntry.of(registers_.value(reg::kSharesAddress));
-}
-
-void ParameterStore::load_share(std::uint32_t value) {
-  const std::uint32_t address = shares_address();
-  shares_->load(address, static_cast<std::uint8_t>(value));
-  registers_.set(reg::kSharesAddress, reg::shares_address::kEntry.in(address + 1));
 }
 
 bool ParameterStore::latch() {

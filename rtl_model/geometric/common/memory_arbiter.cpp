@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rtl_model/geometric/memory_arbiter.h"
+#include "rtl_model/geometric/common/memory_arbiter.h"
 
 #include <string>
 
@@ -25,8 +25,8 @@ MemoryArbiter::Side::Side(Client which, const MemoryPortParameters& port)
 }
 
 MemoryArbiter::MemoryArbiter(const sc_core::sc_module_name& name, ClockDomain& clock,
-                             ParameterStore& store, const MemoryPortParameters& port)
-    : Unit(name, clock), store_(store) {
+                             const MemoryPortParameters& port)
+    : Unit(name, clock) {
   for (std::size_t i = 0; i < kClients; ++i)
     sides_[i] = std::make_unique<Side>(static_cast<Client>(i), port);
 }
@@ -45,7 +45,7 @@ Activity MemoryArbiter::tick(Cycle cycle) {
     if (side.responses_out.can_push(cycle)) {
       if (response.status != MemoryStatus::kOk) {
         ++memory_errors;
-        store_.set_sticky(spec::geometric::reg::kStatusMemoryError);
+        memory_error_out.raise(cycle);
       }
       MemoryResponse& out = side.responses_out.emplace(cycle);
       out = response;

@@ -2,7 +2,7 @@
 // Brings the requests of all units to the one memory port, and each answer back to who asked.
 //
 // Where: between the units and the MemoryPort. Round robin. The tag is the client and the client's
-// own number. An answer with an error is counted, sets a sticky bit and reads as zeros. Stalls:
+// own number. An answer with an error is counted, raises `memory_error` and reads as zeros. Stalls:
 // `downstream` (the port takes nothing). Units take answers in the clock in which they come, so
 // answers never wait.
 #pragma once
@@ -18,7 +18,7 @@
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/geometric/parameter_store.h"
+#include "rtl_model/fabric/wire.h"
 
 namespace deburr::rtl::geometric {
 
@@ -67,8 +67,10 @@ class MemoryArbiter final : public Unit {
  public:
   Out<MemoryRequest> requests_out{"requests_out"};
   In<MemoryResponse> responses_in{"responses_in"};
+  // An answer has an error.
+  PulseOut memory_error_out{"memory_error_out"};
 
-  MemoryArbiter(const sc_core::sc_module_name& name, ClockDomain& clock, ParameterStore& store,
+  MemoryArbiter(const sc_core::sc_module_name& name, ClockDomain& clock,
                 const MemoryPortParameters& port);
   // Binds a unit to its place.
   void connect(Client which, MemoryClient& client);
@@ -92,7 +94,6 @@ class MemoryArbiter final : public Unit {
     Histogram read_latency;      // of its reads
     std::vector<Cycle> granted;  // by its own number, which one read has at a time
   };
-  ParameterStore& store_;
   std::array<std::unique_ptr<Side>, kClients> sides_;
   RoundRobin round_robin_{static_cast<int>(kClients)};
 };

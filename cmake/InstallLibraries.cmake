@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: MIT
+# What others link: libdeburr-golden and libdeburr-models, one archive each (or shared, BUILD_SHARED_LIBS) of
+# all libraries of golden/ and of rtl_model/, their headers, the CMake package `deburr` and pkg-config files.
+# Before tb/, whose tests have libraries of these layers too.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(DEBURR_PACKAGE_FOLDER "${CMAKE_INSTALL_LIBDIR}/cmake/deburr")
+# Sources include "spec/...", "golden/..." and "rtl_model/...": so do those of others.
+set(DEBURR_INCLUDE_FOLDER "${CMAKE_INSTALL_INCLUDEDIR}/deburr")
+
+# deburr_installed_library(<component> <layer> [PUBLIC ...] [PRIVATE ...]): deburr::<component>, of all
+# libraries of the layer, and what it links.
+function(deburr_installed_library component layer)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  set(target deburr_${component})
+  get_property(parts GLOBAL PROPERTY DEBURR_LIBRARIES_OF_${layer})
+  list(TRANSFORM parts REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
+  add_library(${target} ${objects})
+  set_target_properties(${target} PROPERTIES
+    LINKER_LANGUAGE CXX OUTPUT_NAME deburr-${component} EXPORT_NAME ${component}
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} INTERFACE "$<INSTALL_INTERFACE:${DEBURR_INCLUDE_FOLDER}>")
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  install(TARGETS ${target} EXPORT deburr_${component}
+    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
+  install(EXPORT deburr_${component} NAMESPACE deburr:: FILE deburr-${component}.cmake
+    DESTINATION "${DEBURR_PACKAGE_FOLDER}" COMPONENT development)
+endfunction()
+deburr_installed_library(golden golden)
+deburr_installed_library(models rtl_model PUBLIC SystemC::systemc PRIVATE fmt::fmt)
+
+foreach(layer spec golden rtl_model)
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/${layer}" DESTINATION "${DEBURR_INCLUDE_FOLDER}"
+    COMPONENT development FILES_MATCHING PATTERN "*.h")
+endforeach()
+
+# The registers of every engine as a C header.
+set(sections "")
+set(includes "")
+set(engines "")
+set(sorted ${DEBURR_ENGINES})
+list(SORT sorted)
+foreach(engine ${sorted})
+  if(EXISTS "${PROJECT_SOURCE_DIR}/rtl_model/${engine}/register_section.h")
+    string(APPEND includes "#include \"rtl_model/${engine}/register_section.h\"\n")
+    string(APPEND sections "      deburr::rtl::${engine}::register_section(),\n")
+    list(APPEND engines deburr::rtl_${engine})
+  endif()
+endforeach()
+set(DEBURR_REGISTERS_HEADER "${PROJECT_BINARY_DIR}/installed/deburr_registers.h")
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/installed/registers.cpp" @ONLY CONTENT [[
+// Made by cmake/InstallLibraries.cmake: writes a C header of the registers of every engine.
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "rtl_model/fabric/register_section.h"
+@includes@
+// SystemC's library asks for it.
+extern "C" int sc_main(int /*argc*/, char** /*argv*/) { return 1; }
+
+int main() {
+  const std::vector<deburr::rtl::RegisterSection> sections = {
+@sections@  };
+  const std::string header = deburr::rtl::register_c_header(sections);
+  const bool written = std::fwrite(header.data(), 1, header.size(), stdout) == header.size();
+  return written && std::fflush(stdout) == 0 ? 0 : 1;
+}
+]])
+add_executable(deburr_registers "${PROJECT_BINARY_DIR}/installed/registers.cpp")
+target_link_libraries(deburr_registers PRIVATE ${engines} deburr::fabric deburr_options)
+add_custom_command(OUTPUT "${DEBURR_REGISTERS_HEADER}"
+  COMMAND deburr_registers > "${DEBURR_REGISTERS_HEADER}" DEPENDS deburr_registers
+  COMMENT "Writing the C header of the registers")
+add_custom_target(deburr_registers_header ALL DEPENDS "${DEBURR_REGISTERS_HEADER}")
+install(FILES "${DEBURR_REGISTERS_HEADER}" DESTINATION "${DEBURR_INCLUDE_FOLDER}" COMPONENT development)
+
+# For find_package(deburr [version] COMPONENTS golden models).
+set(package "${PROJECT_BINARY_DIR}/installed/cmake")
+configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/package/deburr-config.cmake.in"
+  "${package}/deburr-config.cmake" INSTALL_DESTINATION "${DEBURR_PACKAGE_FOLDER}"
+  PATH_VARS DEBURR_INCLUDE_FOLDER)
+write_basic_package_version_file("${package}/deburr-version.cmake" COMPATIBILITY SameMinorVersion)
+configure_file("${CMAKE_CURRENT_LIST_DIR}/package/deburr-config-version.cmake.in"
+  "${package}/deburr-config-version.cmake" @ONLY)
+install(FILES "${package}/deburr-config.cmake" "${package}/deburr-config-version.cmake"
+  "${package}/deburr-version.cmake" "${CMAKE_CURRENT_LIST_DIR}/FindSystemC.cmake"
+  DESTINATION "${DEBURR_PACKAGE_FOLDER}" COMPONENT development)
+
+# deburr_pkg_config(<component> <description> [REQUIRES ...] [FLAGS ...]): paths are relative to the file.
+function(deburr_pkg_config component description)
+  cmake_parse_arguments(ARG "" "" "REQUIRES;FLAGS" ${ARGN})
+  file(RELATIVE_PATH up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+  string(REGEX REPLACE "/$" "" up "${up}")
+  list(JOIN ARG_REQUIRES ", " requires)
+  list(JOIN ARG_FLAGS " " flags)
+  set(name deburr-${component})
+  configure_file("${PROJECT_SOURCE_DIR}/cmake/package/deburr.pc.in"
+    "${PROJECT_BINARY_DIR}/installed/${name}.pc" @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/installed/${name}.pc"
+    DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT development)
+endfunction()
+set(flags "")
+if(SystemC_BASELINE AND NOT SystemC_BASELINE STREQUAL "native")
+  set(flags "-DSC_CPLUSPLUS=${SystemC_BASELINE}")
+endif()
+deburr_pkg_config(golden "Bit-exact golden models of anti-aliasing hardware")
+# fmt: a static library does not say what it links.
+deburr_pkg_config(models "Cycle-accurate SystemC models of anti-aliasing hardware"
+  REQUIRES systemc fmt FLAGS ${flags})
+
+# All that `cmake --install` copies.
+add_custom_target(deburr_installed DEPENDS deburr_golden deburr_models deburr_registers_header)

@@ -1,0 +1,314 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""What `cmake --install` leaves, and the examples, built from the installed files in an environment that has
+nothing else of the repository. Install puts it all into BUILD/examples/prefix, which the other classes use.
+
+usage: installed_test.py CMAKE BUILD SOURCE CXX [unittest options]"""
+import concurrent.futures
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CMAKE, BUILD, SOURCE, CXX = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1)), pathlib.Path(sys.argv.pop(1)), sys.argv.pop(1)
+PREFIX = BUILD / "examples/prefix"
+INCLUDE = PREFIX / "include/deburr"
+# What a user's shell has at least; nothing of ours.
+EMPTY = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "LC_ALL": "C.UTF-8"}
+
+INCLUDED = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)
+OURS = ("spec/", "golden/", "rtl_model/")
+SYSTEMC = ("systemc", "tlm", "tlm_utils/")
+OTHERS = ("fmt/",)
+
+
+def call(*command, code=0, cwd=None, env=None, timeout=600):
+    """What a command says."""
+    done = subprocess.run([str(word) for word in command], cwd=cwd, env=env or EMPTY, text=True, timeout=timeout,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    wanted = code if isinstance(code, tuple) else (code,)
+    if done.returncode not in wanted:
+        raise AssertionError(f"{command}\nexit code {done.returncode}, expected {wanted}\n{done.stdout}")
+    return done.stdout
+
+
+def one_file(pattern):
+    found = list(PREFIX.glob(pattern))
+    if len(found) != 1:
+        raise AssertionError(f"{pattern}: {len(found)} files")
+    return found[0]
+
+
+def pkg_config(*arguments, code=0):
+    folder = one_file("lib*/**/pkgconfig/deburr-golden.pc").parent
+    return call("pkg-config", *arguments, code=code, env=EMPTY | {"PKG_CONFIG_PATH": str(folder)}).split()
+
+
+class Scratch(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="deburr_installed_")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, name, text):
+        file = self.folder / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+        return file
+
+    def project(self, find, link="", main="int main() {}"):
+        """A project of a user's."""
+        self.write("main.cpp", main)
+        self.write("CMakeLists.txt", "cmake_minimum_required(VERSION 3.25)\nproject(user LANGUAGES CXX)\n"
+                   f"find_package({find})\nadd_executable(user main.cpp)\ntarget_link_libraries(user PRIVATE {link})\n")
+
+    def configure(self, *options, code=0):
+        return " ".join(call(CMAKE, "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={PREFIX}",
+                             f"-DCMAKE_CXX_COMPILER={CXX}", *options, code=code).split())
+
+
+class Install(unittest.TestCase):
+    def test_it_installs_and_may_be_moved(self):
+        place = BUILD / "installed_here"
+        shutil.rmtree(place, ignore_errors=True)
+        call(CMAKE, "--install", BUILD, "--prefix", place / "first", env=dict(os.environ))
+        (place / "first").rename(PREFIX)
+
+
+class Files(Scratch):
+    """What there is, and that it stands alone."""
+
+    def test_everything_is_there(self):
+        for pattern in ("bin/deburr", "libexec/deburr/deburr", "libexec/deburr/deburr_papers",
+                        "libexec/deburr/libdeburr_images.so", "libexec/deburr/libdeburr_evolution.so",
+                        "lib*/**/libdeburr-golden.*[ao]", "lib*/**/libdeburr-models.*[ao]",
+                        "include/deburr/deburr_registers.h", "share/man/man1/deburr.1",
+                        "share/bash-completion/completions/deburr", "share/zsh/vendor-completions/_deburr",
+                        "share/fish/vendor_completions.d/deburr.fish", "share/deburr/sweeps/texture_cache.yaml",
+                        "share/deburr/tb/testplan/smoke.yaml", "share/deburr/docs/platform.md",
+                        "share/doc/deburr/copyright", "share/doc/libdeburr-dev/changelog.gz"):
+            one_file(pattern)
+        headers = {file.relative_to(SOURCE) for layer in OURS for file in (SOURCE / layer).rglob("*.h")}
+        installed = {file.relative_to(INCLUDE) for file in INCLUDE.rglob("*.h")}
+        self.assertEqual(headers | {pathlib.Path("deburr_registers.h")}, installed)
+
+    def test_no_file_names_the_trees(self):
+        names = [str(path).encode() for path in (SOURCE, BUILD)]
+
+        def naming(folder):
+            found = []
+            for file in folder.rglob("*"):
+                content = file.read_bytes() if file.is_file() and not file.is_symlink() else b""
+                if content[:4] == b"\x7fELF":  # messages of checks may say where they stand
+                    content = call("readelf", "-d", file).encode()
+                elif content[:7] == b"!<arch>":
+                    continue
+                if any(name in content for name in names) or file.is_symlink() and os.path.isabs(os.readlink(file)):
+                    found.append(file.name)
+            return found
+
+        self.assertEqual(naming(PREFIX), [])
+        self.write("planted.cmake", f'include("{BUILD}/x.cmake")')
+        (self.folder / "planted").symlink_to(SOURCE)
+        self.assertEqual(sorted(naming(self.folder)), ["planted", "planted.cmake"])
+
+
+def foreign_includes(root):
+    """file: header, of what others would have to install."""
+    found = []
+    for file in sorted(root.rglob("*.h")):
+        for header in INCLUDED.findall(file.read_text(encoding="utf-8")):
+            standard = "/" not in header and not header.endswith((".h", ".hpp"))
+            known = header.startswith((*OURS, *OTHERS)) or header in SYSTEMC or header.startswith("tlm_utils/")
+            if not known and not standard:
+                found.append(f"{file.relative_to(root)}: {header}")
+            if not file.is_relative_to(root / "rtl_model") and (header in SYSTEMC or header.startswith("tlm_utils/")):
+                found.append(f"{file.relative_to(root)}: {header}")
+    return found
+
+
+def compiles(header, flags):
+    """The compiler's words on a program that includes this header alone, twice."""
+    text = f'#include "{header}"\n#include "{header}"\n'
+    done = subprocess.run([CXX, "-fsyntax-only", "-x", "c++", "-Wall", "-Wextra", "-Werror", *flags, "-"], input=text,
+                          env=EMPTY, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    return done.stdout if done.returncode else ""
+
+
+class Headers(Scratch):
+    def test_they_need_systemc_fmt_and_the_standard_library(self):
+        self.assertEqual(foreign_includes(INCLUDE), [])
+        self.write("spec/a.h", "#include <vector>\n#include <systemc>\n")
+        self.write("rtl_model/a.h", '#include <tlm>\n#include <nlohmann/json.hpp>\n#include "tb/base/file.h"\n')
+        self.assertEqual(foreign_includes(self.folder), ["rtl_model/a.h: nlohmann/json.hpp", "rtl_model/a.h: tb/base/file.h",
+                                                         "spec/a.h: systemc"])
+
+    def test_each_stands_alone(self):
+        golden, models = pkg_config("--cflags", "deburr-golden"), pkg_config("--cflags", "deburr-models")
+        headers = sorted(file.relative_to(INCLUDE) for file in INCLUDE.rglob("*.h"))
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            said = pool.map(lambda header: compiles(header, models if header.parts[0] == "rtl_model" else golden), headers)
+            wrong = {str(header): words for header, words in zip(headers, said) if words}
+        self.assertEqual(wrong, {})
+        self.write("leans.h", "#pragma once\ninline std::string name();\n")
+        self.assertNotEqual(compiles("leans.h", [*golden, f"-I{self.folder}"]), "")
+
+
+GOLDEN_MAIN = """#include "golden/morphological/morphological_golden.h"
+int main() {
+  deburr::spec::morphological::Parameters parameters;
+  return deburr::golden::morphological::MorphologicalGolden(parameters).parameters().steps == parameters.steps ? 0 : 1;
+}
+"""
+MODELS_MAIN = """#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/platform/register_host.h"
+#include "rtl_model/platform/texture_driver.h"
+#include "rtl_model/texture/texture_unit.h"
+int sc_main(int, char**) {
+  const sc_core::sc_time period(2, sc_core::SC_NS);
+  deburr::rtl::ClockDomain clock("clock", period);
+  deburr::spec::texture::Parameters parameters;
+  parameters.cache_fifo_depth = 32;
+  deburr::rtl::texture::TextureUnit unit("unit", clock, parameters);
+  deburr::platform::MemoryModel memory("memory", period);
+  deburr::platform::RegisterHost host("host");
+  host.bus.bind(unit.registers);
+  unit.memory()->bind(memory.ports);
+  deburr::rtl::Link<deburr::spec::texture::Quad> quads("quads");
+  deburr::rtl::Link<deburr::spec::texture::Colour> colours("colours");
+  unit.quads_in(quads);
+  unit.colours_out(colours);
+  clock.run(10);
+  deburr::platform::TextureDriver driver(host, memory);
+  driver.identify();
+  return driver.idle() ? 0 : 1;
+}
+"""
+
+
+class Packages(Scratch):
+    """find_package and pkg-config, as a user calls them."""
+
+    def test_golden_needs_no_systemc(self):
+        self.project("deburr 0.2 REQUIRED COMPONENTS golden", "deburr::golden", GOLDEN_MAIN)
+        self.configure("-DCMAKE_DISABLE_FIND_PACKAGE_SystemC=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON")
+        call(CMAKE, "--build", self.folder / "build")
+        call(self.folder / "build/user")
+
+    def test_models(self):
+        self.project("deburr REQUIRED COMPONENTS models", "deburr::models", MODELS_MAIN)
+        self.configure()
+        call(CMAKE, "--build", self.folder / "build")
+        call(self.folder / "build/user")
+
+    def test_pkg_config(self):
+        for name, main in (("golden", GOLDEN_MAIN), ("models", MODELS_MAIN)):
+            file = self.write(f"{name}.cpp", main)
+            call(CXX, file, "-o", self.folder / name, *pkg_config("--cflags", "--libs", f"deburr-{name}"))
+            call(self.folder / name)
+        self.assertEqual(pkg_config("--modversion", "deburr-golden"), pkg_config("--modversion", "deburr-models"))
+
+    def test_what_is_missing_is_said(self):
+        here = pkg_config("--modversion", "deburr-golden")[0]
+        for find, options, words in (
+                ("deburr 9.9 REQUIRED", [], ("libdeburr-dev", "9.9", here)),
+                ("deburr REQUIRED COMPONENTS golden texture", [], ("no component texture", "golden and models")),
+                ("deburr REQUIRED COMPONENTS models", ["-DSystemC_LIBRARY="], ("libsystemc-dev", "SYSTEMC_HOME")),
+                ("deburr REQUIRED", ["-DSystemC_LIBRARY="], ("libsystemc-dev",)),
+                ("deburr REQUIRED COMPONENTS models", ["-DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON"], ("libfmt-dev",))):
+            shutil.rmtree(self.folder / "build", ignore_errors=True)
+            self.project(find)
+            said = self.configure(*options, code=1)
+            for word in words:
+                self.assertIn(word, said, find)
+
+    def test_what_is_optional_may_be_absent(self):
+        self.project("deburr REQUIRED COMPONENTS golden OPTIONAL_COMPONENTS models", "deburr::golden", GOLDEN_MAIN)
+        self.configure("-DSystemC_LIBRARY=")
+
+
+class Program(Scratch):
+    def deburr(self, *arguments, code=0):
+        return call(PREFIX / "bin/deburr", *arguments, code=code, cwd=self.folder)
+
+    def test_it_runs_from_its_prefix_alone(self):
+        self.assertIn("PASS texture", self.deburr("run", "texture", "--scene", "plane", "--size", "32x32", "--out", "out"))
+        self.assertTrue((self.folder / "out/report.html").exists())
+
+    def test_it_finds_what_stands_beside_it(self):
+        self.deburr("run", "morphological", "--in", PREFIX / "share/deburr/docs/images/comparison.png", "--out", "out")
+        said = self.deburr("papers", "nothing", "--out", "papers", code=2)
+        self.assertNotIn("cannot be started", said)
+        self.assertIn("nothing", said)
+
+    def test_it_finds_ready_sweeps_and_testplans(self):
+        self.assertIn("PASS sweep texture_cache", self.deburr("sweep", "sweeps/texture_cache.yaml", "plan"))
+        self.assertIn("PASS", self.deburr("regress", "plan"))
+        self.assertIn("PASS", self.deburr("regress", "tb/testplan/nightly.yaml", "plan", "--divide", "1000"))
+        # One's own comes first, and what is nowhere is said as it was named.
+        self.write("sweeps/texture_cache.yaml", "title: mine\nengine: none\n")
+        self.deburr("sweep", "sweeps/texture_cache.yaml", "plan", code=2)
+        self.assertIn("sweeps/none.yaml", self.deburr("sweep", "sweeps/none.yaml", "plan", code=5))
+
+    def test_the_manual_and_the_completion_are_the_programs(self):
+        manual = (PREFIX / "share/man/man1/deburr.1").read_text(encoding="utf-8")
+        self.assertEqual(manual, self.deburr("help", "--man"))
+        commands = re.findall(r"^  ([a-z]+) ", self.deburr("--help").split("Subcommands:")[1].split("\n\n")[0], re.M)
+        self.assertGreaterEqual(len(commands), 9)
+        for command in commands:
+            self.assertIn(f".SS deburr {command}\n", manual)
+        if shutil.which("man"):
+            self.assertIn("deburr regress", call("man", "-l", PREFIX / "share/man/man1/deburr.1"))
+        for shell, file in (("bash", "bash-completion/completions/deburr"), ("zsh", "zsh/vendor-completions/_deburr"),
+                            ("fish", "fish/vendor_completions.d/deburr.fish")):
+            self.assertEqual((PREFIX / "share" / file).read_text(encoding="utf-8"), self.deburr("completion", shell))
+        self.assertEqual((INCLUDE / "deburr_registers.h").read_text(encoding="utf-8"), self.deburr("params", "--c-header"))
+
+
+class Platform(Scratch):
+    def test_the_example_draws_its_picture_and_finds_violations(self):
+        shutil.copytree(SOURCE / "examples/platform", self.folder, dirs_exist_ok=True)
+        self.configure()
+        call(CMAKE, "--build", self.folder / "build", "--parallel", os.cpu_count())
+        program = self.folder / "build/platform"
+        said = call(program, "--out", "picture.ppm", cwd=self.folder)
+        self.assertIn("PASS picture", said)
+        self.assertTrue((self.folder / "picture.ppm").read_bytes().startswith(b"P6"))
+        # Of each port more than nothing went by.
+        ports = re.findall(r"^(\w+) +(\d+) +(\d+) +(\d+) +(\d+)$", said, re.M)
+        self.assertEqual(len(ports), 7, said)
+        for name, blocking, non_blocking, length, _ in ports:
+            self.assertGreater(int(blocking) + int(non_blocking), 0, name)
+            self.assertGreater(int(length), 0, name)
+        # A quantum changes when software speaks to memory, and no register access.
+        for quantum in (0, 50, 100_000):
+            self.assertEqual(call(program, "--quantum", quantum), said, quantum)
+        violations = re.findall(r"^([\w-]+): (.*)$", call(program, "--violations"), re.M)
+        self.assertGreaterEqual(len(violations), 20)
+        for name, rule in violations:
+            found = call(program, "--plant", name, code=1)
+            self.assertRegex(found, rf"FAIL .*(software|texture)_bus: {rule}: ", name)
+
+
+class Libraries(Scratch):
+    def test_they_configure_with_their_packages_alone(self):
+        """The preset `libraries`, where nothing is found but what scripts/packages.txt lists for it."""
+        sections = (SOURCE / "scripts/packages.txt").read_text(encoding="utf-8").split("\n\n")
+        listed = next(section for section in sections if "[libraries build]" in section)
+        self.assertIn("libsystemc-dev", listed)
+        absent = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in (
+            "OpenSSL", "yaml-cpp", "CLI11", "nlohmann_json", "ZLIB", "Imath", "tinyobjloader", "TinyGLTF", "OpenImageIO",
+            "pagmo", "GTest", "benchmark", "Python3")]
+        call(CMAKE, "--preset", "libraries", "-B", self.folder, *absent, cwd=SOURCE)
+        commands = call("ninja", "-C", self.folder, "-n")
+        self.assertIn("libdeburr-models.a", commands)
+        self.assertNotRegex(commands, r" tb/")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// A platform of one's own around two engines of Deburr:
+//
+//   Software --------- b_transport ---------+                +--- memory
+//                                           |                +--- registers of the texture unit
+//   TextureUnit.memory -- nb_transport -----+--- Router -----+--- registers of the smoother
+//                                           |                +--- register of the painter
+//   MorphologicalEngine.memory -- nb_t. ----+
+//
+//   Painter -> TextureUnit -> Painter -> MorphologicalEngine -> Display        (links, a beat a
+//   clock)
+//
+// Between every initiator and every target stands a checker of the base protocol. Software draws a
+// frame, waits for the smoother's interrupt, and the picture is compared with the one that is
+// known.
+//
+//   platform [--out FILE.ppm] [--quantum NS] [--plant VIOLATION] [--violations]
+//
+// Exit code: 0 passed, 1 a wrong picture or a violation of the protocol, 2 wrong command line.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <deque>
+#include <memory>
+#include <systemc>
+#include <tlm>
+
+#include "memory_map.h"
+#include "painter.h"
+#include "protocol_checker.h"
+#include "router.h"
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/morphological/morphological_engine.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/texture/texture_unit.h"
+#include "software.h"
+#include "spec/error.h"
+#include "violator.h"
+
+namespace platform {
+namespace {
+
+const sc_core::sc_time kPeriod(2, sc_core::SC_NS);
+constexpr std::uint32_t kExpectedHash = 0;
+constexpr std::uint64_t kMostClocks = 1'000'000;
+
+deburr::spec::texture::Parameters texture_parameters() {
+  auto parameters =
+      deburr::spec::texture::preset_parameters(deburr::spec::texture::Preset::kDeburr);
+  parameters.cache_fifo_depth = 64;
+  return parameters;
+}
+
+deburr::spec::morphological::Parameters smoother_parameters() {
+  auto parameters = deburr::spec::morphological::preset_parameters(
+      deburr::spec::morphological::Preset::kDeburrLine);
+  parameters.line_pixels = kWidth;
+  parameters.storage = deburr::spec::morphological::Storage::kMemory;
+  return parameters;
+}
+
+deburr::platform::MemoryModelParameters memory_parameters() {
+  deburr::platform::MemoryModelParameters parameters;
+  parameters.bytes = kMemoryBytes;
+  parameters.latency_min = 20;
+  parameters.latency_max = 40;  // responses overtake each other
+  return parameters;
+}
+
+// A checker between an initiator and a target; where a violation is planted, that on its side.
+struct Hop {
+  ProtocolChecker checker;
+  std::unique_ptr<Violator> violator;
+
+  template <class Initiator, class Target>
+  Hop(const char* name, Initiator& initiator, Target& target,
+      const ViolationInfo* planted = nullptr)
+      : checker(name) {
+    if (planted)
+      violator =
+          std::make_unique<Violator>(sc_core::sc_gen_unique_name("violator"), planted->violation);
+    if (!planted) {
+      initiator.bind(checker.from_initiator);
+      checker.to_target.bind(target);
+    } else if (planted->by_target) {
+      initiator.bind(checker.from_initiator);
+      checker.to_target.bind(violator->from_initiator);
+      violator->to_target.bind(target);
+    } else {
+      initiator.bind(violator->from_initiator);
+      violator->to_target.bind(checker.from_initiator);
+      checker.to_target.bind(target);
+    }
+  }
+};
+
+class Platform {
+ public:
+  explicit Platform(const ViolationInfo* planted) {
+    const auto by = [&](bool software) {
+      return planted && planted->by_software == software ? planted : nullptr;
+    };
+    hops_.emplace_back("software_bus", software_.bus, router_.initiators, by(true));
+    hops_.emplace_back("texture_bus", *texture_.memory(), router_.initiators, by(false));
+    hops_.emplace_back("smoother_bus", *smoother_.memory(), router_.initiators);
+    router_.map(kMemory, kMemoryBytes);
+    hops_.emplace_back("memory_port", router_.targets, memory_.ports);
+    router_.map(kTextureUnit, kRegisterBytes);
+    hops_.emplace_back("texture_registers", router_.targets, texture_.registers);
+    router_.map(kSmoother, kRegisterBytes);
+    hops_.emplace_back("smoother_registers", router_.targets, smoother_.registers);
+    router_.map(kPainter, kRegisterBytes);
+    hops_.emplace_back("painter_registers", router_.targets, painter_.registers.bus);
+
+    software_.texture_interrupt(texture_.interrupt);
+    software_.smoother_interrupt(smoother_.interrupt);
+    software_.on_end = [this] { ended_ = true; };
+    // One engine ends its responses by a call, the other one in the return.
+    texture_.end_responses(deburr::rtl::ResponseEnd::kCall);
+
+    painter_.quads_out(quads_);
+    texture_.quads_in(quads_);
+    texture_.colours_out(colours_);
+    painter_.colours_in(colours_);
+    painter_.pixels_out(pixels_);
+    smoother_.pixels_in(pixels_);
+    smoother_.pixels_out(blended_);
+    display_.pixels_in(blended_);
+  }
+
+  void run() {
+    const auto done = [this] { return ended_ && display_.complete(); };
+    if (!clock_.run_until(done, kMostClocks))
+      throw deburr::spec::SimulationError("the frame was not done in " +
+                                          std::to_string(kMostClocks) + " clocks");
+    for (const Hop& hop : hops_) hop.checker.check_finished();
+  }
+
+  void report() const {
+    std::printf("%-20s %9s %13s %9s %11s\n", "port", "blocking", "non-blocking", "bytes",
+                "in flight");
+    for (const Hop& hop : hops_)
+      std::printf("%-20s %9llu %13llu %9llu %11llu\n", hop.checker.name(),
+                  static_cast<unsigned long long>(hop.checker.blocking()),
+                  static_cast<unsigned long long>(hop.checker.non_blocking()),
+                  static_cast<unsigned long long>(hop.checker.bytes()),
+                  static_cast<unsigned long long>(hop.checker.most_in_flight()));
+    std::printf(
+        "clocks %llu, of them the smoother's frame %u; %u bilinear samples, %u pixels blended\n",
+        static_cast<unsigned long long>(clock_.cycle()), software_.frame_clocks(),
+        software_.bilinears(), software_.blended_pixels());
+  }
+
+  const Frame& picture() const { return display_.frame(); }
+  bool failed() const { return software_.texture_failed(); }
+
+ private:
+  deburr::rtl::ClockDomain clock_{"clock", kPeriod};
+  deburr::rtl::texture::TextureUnit texture_{"texture", clock_, texture_parameters()};
+  deburr::rtl::morphological::MorphologicalEngine smoother_{"smoother", clock_,
+                                                            smoother_parameters()};
+  Painter painter_{"painter", clock_};
+  Display display_{"display", clock_};
+  deburr::rtl::Link<deburr::spec::texture::Quad> quads_{"quads"};
+  deburr::rtl::Link<deburr::spec::texture::Colour> colours_{"colours"};
+  deburr::rtl::Link<deburr::spec::morphological::PixelBeat> pixels_{"pixels"};
+  deburr::rtl::Link<deburr::spec::morphological::BlendedBeat> blended_{"blended"};
+  deburr::platform::MemoryModel memory_{"memory", kPeriod, memory_parameters()};
+  Router router_{"router"};
+  Software software_{"software"};
+  std::deque<Hop> hops_;
+  bool ended_ = false;
+};
+
+struct Options {
+  const char* out = nullptr;
+  const ViolationInfo* planted = nullptr;
+  long quantum = 1000;  // ns
+};
+
+int usage(const char* what) {
+  std::fprintf(stderr,
+               "platform: %s\nusage: platform [--out FILE.ppm] [--quantum NS] [--plant VIOLATION] "
+               "[--violations]\n",
+               what);
+  return 2;
+}
+
+int run(const Options& options) {
+  tlm::tlm_global_quantum::instance().set(
+      sc_core::sc_time(static_cast<double>(options.quantum), sc_core::SC_NS));
+  Platform platform(options.planted);
+  try {
+    platform.run();
+  } catch (const std::exception& error) {
+    std::printf("FAIL %s\n", error.what());
+    return 1;
+  }
+  platform.report();
+  if (options.out && !platform.picture().write_ppm(options.out))
+    return usage("the picture cannot be written");
+  const std::uint32_t hash = platform.picture().hash();
+  const bool right = hash == kExpectedHash && !platform.failed();
+  std::printf("%s picture %08X, expected %08X%s\n", right ? "PASS" : "FAIL", hash, kExpectedHash,
+              platform.failed() ? "; the texture unit interrupts with an error" : "");
+  return right ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace platform
+
+int sc_main(int argc, char** argv) {
+  platform::Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--violations") {
+      for (const platform::ViolationInfo& each : platform::violations())
+        std::printf("%s: %s\n", each.name, each.rule);
+      return 0;
+    }
+    if (i + 1 == argc) return platform::usage(("what is " + word + "?").c_str());
+    const char* const value = argv[++i];
+    if (word == "--out") {
+      options.out = value;
+    } else if (word == "--quantum") {
+      char* end = nullptr;
+      options.quantum = std::strtol(value, &end, 10);
+      if (*end || options.quantum < 0) return platform::usage("--quantum wants nanoseconds");
+    } else if (word == "--plant") {
+      for (const platform::ViolationInfo& each : platform::violations())
+        if (std::strcmp(each.name, value) == 0) options.planted = &each;
+      if (!options.planted) return platform::usage("no such violation (see --violations)");
+    } else {
+      return platform::usage(("what is " + word + "?").c_str());
+    }
+  }
+  return platform::run(options);
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "painter.h"
+
+#include <cstdio>
+
+namespace platform {
+
+using deburr::rtl::Activity;
+using deburr::rtl::Cycle;
+using deburr::spec::texture::Quad;
+
+namespace {
+
+constexpr Rgba8 kSky = {148, 184, 220, 255}, kBoard = {214, 62, 40, 255};
+constexpr int kHorizon = 24;  // the row at which the floor begins
+
+// A board of slanted edges, in halves of a pixel.
+bool on_board(int x, int y) {
+  const int u = 2 * x + 1, v = 2 * y + 1;
+  return 7 * u + 2 * v > 840 && 7 * u + 2 * v < 1540 && 9 * v - 2 * u > 10 && 9 * v - 2 * u < 900;
+}
+bool on_floor(int x, int y) { return y >= kHorizon && !on_board(x, y); }
+
+// Of the floor, S7.24: the depth is as one over the row's distance to the horizon.
+std::int32_t along(int y) { return (16 << 24) / (2 * (y - kHorizon) + 5); }
+std::int32_t across(int x, int y) { return (2 * x + 1 - kWidth) * (along(y) / 64); }
+
+constexpr int kQuadsAcross = kWidth / 2, kQuads = kQuadsAcross * (kHeight / 2);
+
+}  // namespace
+
+std::uint32_t Frame::hash() const {
+  std::uint32_t hash = 0x811C9DC5;
+  for (const Rgba8& pixel : pixels)
+    for (int c = 0; c < 3; ++c) hash = (hash ^ pixel[static_cast<std::size_t>(c)]) * 0x01000193;
+  return hash;
+}
+
+bool Frame::write_ppm(const char* file) const {
+  std::FILE* out = std::fopen(file, "wb");
+  if (!out) return false;
+  std::fprintf(out, "P6 %d %d 255\n", kWidth, kHeight);
+  for (const Rgba8& pixel : pixels) std::fwrite(pixel.data(), 1, 3, out);
+  const bool written = !std::ferror(out);
+  return std::fclose(out) == 0 && written;
+}
+
+Painter::Painter(const sc_core::sc_module_name& name, deburr::rtl::ClockDomain& clock)
+    : Unit(name, clock) {
+  registers.on_write(registers.index_of("START"), [this](std::uint32_t) {
+    reset();
+    painting_ = true;
+  });
+}
+
+void Painter::reset() {
+  painting_ = false;
+  quad_ = awaited_ = pixel_ = 0;
+}
+
+Activity Painter::tick(Cycle cycle) {
+  if (!painting_) return deburr::rtl::kIdle;
+  const bool took = take_colour(cycle), asked = send_quad(cycle), sent = send_pixel(cycle);
+  return took || asked || sent ? deburr::rtl::kBusy : deburr::rtl::kStalledDownstream;
+}
+
+// Four pixels, of which the floor's want a colour. All four have coordinates, which tell the
+// texture unit how large a pixel is in the texture.
+bool Painter::send_quad(Cycle cycle) {
+  if (quad_ == kQuads || !quads_out.can_push(cycle)) return false;
+  Quad quad;
+  quad.tag = static_cast<std::uint32_t>(quad_);
+  quad.coverage = 0;
+  const int x = quad_ % kQuadsAcross * 2, y = quad_ / kQuadsAcross * 2;
+  quad.x = static_cast<std::uint16_t>(x);
+  quad.y = static_cast<std::uint16_t>(y);
+  for (int lane = 0; lane < 4; ++lane) {
+    const int px = x + lane % 2, py = y + lane / 2;
+    frame_.at(px, py) = on_board(px, py) ? kBoard : kSky;
+    if (py < kHorizon) continue;
+    quad.s[static_cast<std::size_t>(lane)] = across(px, py);
+    quad.t[static_cast<std::size_t>(lane)] = along(py);
+    if (on_floor(px, py)) {
+      quad.coverage = static_cast<std::uint8_t>(quad.coverage | 1 << lane);
+      ++awaited_;
+    }
+  }
+  if (quad.coverage) quads_out.push(cycle, quad);
+  ++quad_;
+  return true;
+}
+
+bool Painter::take_colour(Cycle cycle) {
+  if (!colours_in.can_pop(cycle)) return false;
+  const auto& colour = colours_in.take(cycle);
+  const int quad = static_cast<int>(colour.tag);
+  frame_.at(quad % kQuadsAcross * 2 + colour.lane % 2, quad / kQuadsAcross * 2 + colour.lane / 2) =
+      colour.rgba;
+  --awaited_;
+  return true;
+}
+
+bool Painter::send_pixel(Cycle cycle) {
+  if (quad_ < kQuads || awaited_ > 0 || !pixels_out.can_push(cycle)) return false;
+  const int x = pixel_ % kWidth, y = pixel_ / kWidth;
+  deburr::spec::morphological::PixelBeat beat;
+  beat.count = 1;
+  beat.pixel[0] = frame_.at(x, y);
+  beat.start_of_frame = pixel_ == 0;
+  beat.end_of_row = x == kWidth - 1;
+  pixels_out.push(cycle, beat);
+  if (++pixel_ == kWidth * kHeight) painting_ = false;
+  return true;
+}
+
+Activity Display::tick(Cycle cycle) {
+  if (!pixels_in.can_pop(cycle)) return deburr::rtl::kIdle;
+  const auto& beat = pixels_in.take(cycle);
+  if (beat.start_of_frame) shown_ = 0;
+  frame_.at(shown_ % kWidth, shown_ / kWidth) = beat.pixel[0];
+  ++shown_;
+  return deburr::rtl::kBusy;
+}
+
+}  // namespace platform

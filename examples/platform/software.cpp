@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "software.h"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <vector>
+
+#include "deburr_registers.h"
+#include "memory_map.h"
+#include "painter.h"
+#include "spec/error.h"
+
+namespace platform {
+
+// Value in its place within a register: FIELD(DEBURR_TEXTURE_TEXTURE0_SIZE_WIDTH, 64).
+#define FIELD(name, value) (static_cast<std::uint32_t>(value) << name##_SHIFT & name##_MASK)
+// A named choice: CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_FORMAT, RGBA8).
+#define CHOICE(name, code) FIELD(name, name##_##code)
+
+namespace {
+
+const sc_core::sc_time kAccess(20, sc_core::SC_NS);  // that software takes for each access
+
+using Level = std::vector<std::array<std::uint8_t, 4>>;
+constexpr unsigned kSide = 64, kLevels = 7;
+
+// Tiles of a floor.
+Level level_0() {
+  Level texels(kSide * kSide);
+  for (unsigned y = 0; y < kSide; ++y)
+    for (unsigned x = 0; x < kSide; ++x) {
+      const bool light = (x / 16 + y / 16) % 2 == 0, joint = x % 16 == 0 || y % 16 == 0;
+      const auto grain = static_cast<std::uint8_t>((x * 7 + y * 13 + x * y) % 16);
+      const auto base = static_cast<std::uint8_t>(joint ? 60 : light ? 208 : 112);
+      texels[y * kSide + x] = {static_cast<std::uint8_t>(base + grain), base,
+                               static_cast<std::uint8_t>(base - grain), 255};
+    }
+  return texels;
+}
+
+Level half_of(const Level& level, unsigned side) {
+  Level half(side / 2 * (side / 2));
+  for (unsigned y = 0; y < side / 2; ++y)
+    for (unsigned x = 0; x < side / 2; ++x)
+      for (unsigned c = 0; c < 4; ++c) {
+        unsigned sum = 2;
+        for (unsigned i = 0; i < 4; ++i) sum += level[(2 * y + i / 2) * side + 2 * x + i % 2][c];
+        half[y * (side / 2) + x][c] = static_cast<std::uint8_t>(sum / 4);
+      }
+  return half;
+}
+
+}  // namespace
+
+Software::Software(const sc_core::sc_module_name& name) : sc_module(name) { SC_THREAD(program); }
+
+void Software::program() {
+  time_.reset();
+  expect(kTextureUnit + DEBURR_TEXTURE_ID, DEBURR_TEXTURE_ID_RESET);
+  expect(kSmoother + DEBURR_MORPHOLOGICAL_ID, DEBURR_MORPHOLOGICAL_ID_RESET);
+  set_up_texture();
+  set_up_smoother();
+  look_at_memory();
+  write(kPainter + kPainterStart, 1);
+  wait_for_frame();
+  frame_clocks_ = read(kSmoother + DEBURR_MORPHOLOGICAL_FRAME_CYCLES);
+  blended_pixels_ = read(kSmoother + DEBURR_MORPHOLOGICAL_BLENDED_PIXELS);
+  bilinears_ = read(kTextureUnit + DEBURR_TEXTURE_BILINEARS);
+  texture_failed_ = texture_interrupt.read();  // it tells of errors alone
+  time_.sync();
+  on_end();
+}
+
+// The mip chain into memory, then descriptor 0. Rows of a level begin at multiples of 64 bytes.
+void Software::set_up_texture() {
+  std::uint64_t address = kTexture;
+  Level level = level_0();
+  for (unsigned k = 0, side = kSide; k < kLevels; ++k, side /= 2) {
+    if (k > 0) level = half_of(level, 2 * side);
+    write(kTextureUnit + DEBURR_TEXTURE_TEXTURE0_BASE_0 + 4 * k,
+          static_cast<std::uint32_t>(address));
+    for (unsigned y = 0; y < side; ++y) {
+      access(tlm::TLM_WRITE_COMMAND, address, level[y * side].data(), 4 * side);
+      address += (4 * side + 63) / 64 * 64;
+    }
+  }
+  write(kTextureUnit + DEBURR_TEXTURE_TEXTURE0_SIZE,
+        FIELD(DEBURR_TEXTURE_TEXTURE0_SIZE_WIDTH, kSide) |
+            FIELD(DEBURR_TEXTURE_TEXTURE0_SIZE_HEIGHT, kSide));
+  write(kTextureUnit + DEBURR_TEXTURE_TEXTURE0_LOD_CLAMP,
+        FIELD(DEBURR_TEXTURE_TEXTURE0_LOD_CLAMP_MAX_LOD, 12 << 8));
+  write(kTextureUnit + DEBURR_TEXTURE_TEXTURE0_MODE,
+        CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_FORMAT, RGBA8) |
+            CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_LAYOUT, LINEAR) |
+            CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_WRAP_S, REPEAT) |
+            CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_WRAP_T, REPEAT) |
+            CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_MIN_FILTER, LINEAR_MIPMAP_LINEAR) |
+            CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_MAG_FILTER, LINEAR) |
+            FIELD(DEBURR_TEXTURE_TEXTURE0_MODE_LEVELS, kLevels) |
+            FIELD(DEBURR_TEXTURE_TEXTURE0_MODE_MAX_COUNT_LOG2, 3));
+}
+
+// Its rules are those that it was built with.
+void Software::set_up_smoother() {
+  write(kSmoother + DEBURR_MORPHOLOGICAL_PIXEL_BASE, static_cast<std::uint32_t>(kFrame));
+  write(kSmoother + DEBURR_MORPHOLOGICAL_SIZE,
+        FIELD(DEBURR_MORPHOLOGICAL_SIZE_WIDTH, kWidth) |
+            FIELD(DEBURR_MORPHOLOGICAL_SIZE_HEIGHT, kHeight));
+}
+
+// As a debugger would, without time; and whether memory may be read past the bus, which this memory
+// does not offer.
+void Software::look_at_memory() {
+  Level row(kSide);
+  tlm::tlm_generic_payload payload;
+  payload.set_command(tlm::TLM_READ_COMMAND);
+  payload.set_address(kTexture);
+  payload.set_data_ptr(row[0].data());
+  payload.set_data_length(4 * kSide);
+  payload.set_streaming_width(4 * kSide);
+  const Level level = level_0();
+  if (bus->transport_dbg(payload) != 4 * kSide ||
+      !std::equal(row.begin(), row.end(), level.begin()))
+    throw deburr::spec::SimulationError(std::string(name()) + ": the texture is not in memory");
+  tlm::tlm_dmi direct;
+  if (bus->get_direct_mem_ptr(payload, direct))
+    throw deburr::spec::SimulationError(std::string(name()) + ": memory offers direct access");
+}
+
+// An interrupt comes at its time: software waits until that time is its own.
+void Software::wait_for_frame() {
+  time_.sync();
+  while (!smoother_interrupt.read()) wait(smoother_interrupt.posedge_event());
+  const std::uint32_t status = read(kSmoother + DEBURR_MORPHOLOGICAL_STATUS);
+  if (!(status & DEBURR_MORPHOLOGICAL_STATUS_FRAME_DONE_MASK) ||
+      (status & (DEBURR_MORPHOLOGICAL_STATUS_FRAMING_MASK |
+                 DEBURR_MORPHOLOGICAL_STATUS_MEMORY_ERROR_MASK))) {
+    std::ostringstream text;
+    text << name() << ": the smoother interrupts with STATUS 0x" << std::hex << status;
+    throw deburr::spec::SimulationError(text.str());
+  }
+  write(kSmoother + DEBURR_MORPHOLOGICAL_STATUS, DEBURR_MORPHOLOGICAL_STATUS_FRAME_DONE_MASK);
+  wait(sc_core::SC_ZERO_TIME);
+  wait(sc_core::SC_ZERO_TIME);
+  if (smoother_interrupt.read())
+    throw deburr::spec::SimulationError(std::string(name()) + ": the interrupt stays high");
+}
+
+// ---- the bus ----
+
+void Software::access(tlm::tlm_command command, std::uint64_t address, void* data, unsigned bytes) {
+  tlm::tlm_generic_payload payload;
+  payload.set_command(command);
+  payload.set_address(address);
+  payload.set_data_ptr(static_cast<unsigned char*>(data));
+  payload.set_data_length(bytes);
+  payload.set_streaming_width(bytes);
+  sc_core::sc_time delay = time_.get_local_time();
+  bus->b_transport(payload, delay);
+  if (payload.is_response_error()) {
+    std::ostringstream text;
+    text << name() << ": access to 0x" << std::hex << address << ": "
+         << payload.get_response_string();
+    throw deburr::spec::SimulationError(text.str());
+  }
+  time_.set(delay + kAccess);
+  if (time_.need_sync()) time_.sync();
+}
+
+// Registers are little-endian.
+std::uint32_t Software::read(std::uint64_t address) {
+  std::array<std::uint8_t, 4> bytes{};
+  access(tlm::TLM_READ_COMMAND, address, bytes.data(), 4);
+  std::uint32_t value = 0;
+  for (unsigned i = 0; i < 4; ++i) value |= static_cast<std::uint32_t>(bytes[i]) << (8 * i);
+  return value;
+}
+
+void Software::write(std::uint64_t address, std::uint32_t value) {
+  std::array<std::uint8_t, 4> bytes{};
+  for (unsigned i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(value >> (8 * i));
+  access(tlm::TLM_WRITE_COMMAND, address, bytes.data(), 4);
+}
+
+void Software::expect(std::uint64_t address, std::uint32_t value) {
+  if (read(address) == value) return;
+  std::ostringstream text;
+  text << name() << ": another unit than expected at 0x" << std::hex << address;
+  throw deburr::spec::SimulationError(text.str());
+}
+
+}  // namespace platform

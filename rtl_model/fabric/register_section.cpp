@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/fabric/register_section.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <utility>
+
+namespace deburr::rtl {
+namespace {
+
+const char* access_name(spec::Access access) {
+  switch (access) {
+    case spec::Access::kReadWrite:
+      return "RW";
+    case spec::Access::kReadOnly:
+      return "RO";
+    case spec::Access::kCommand:
+      return "WO";
+    case spec::Access::kWriteOneToClear:
+      return "W1C";
+  }
+  return "?";
+}
+
+std::string codes_of(const spec::Field& field) {
+  std::string text;
+  for (std::size_t code = 0; code < field.codes.size(); ++code)
+    text += fmt::format("{}{} {}", code > 0 ? ", " : "", code, field.codes[code]);
+  return text;
+}
+
+std::string meaning_of(const spec::Field& field) {
+  if (field.meaning.empty()) return codes_of(field);
+  if (field.codes.empty()) return std::string(field.meaning);
+  return fmt::format("{}; {}", codes_of(field), field.meaning);
+}
+
+std::string bits_of(const spec::Field& field) {
+  return field.high == field.low ? fmt::format("[{}]", field.low)
+                                 : fmt::format("[{}:{}]", field.high, field.low);
+}
+
+// Registers of the same fields stand in one row.
+std::string field_table_markdown(std::span<const spec::RegisterInfo> table) {
+  std::vector<std::pair<std::span<const spec::Field>, std::string>> groups;
+  for (const spec::RegisterInfo& r : table) {
+    if (r.fields.empty()) continue;
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
+      return group.first.data() == r.fields.data();
+    });
+    if (same == groups.end())
+      groups.emplace_back(r.fields, fmt::format("`{}`", r.name));
+    else
+      same->second += fmt::format(", `{}`", r.name);
+  }
+  if (groups.empty()) return {};
+  std::string text = "\n| register | bits | field | meaning |\n|---|---|---|---|\n";
+  for (const auto& [fields, names] : groups)
+    for (const spec::Field& field : fields)
+      text += fmt::format("| {} | {} | `{}` | {} |\n", names, bits_of(field), field.name,
+                          meaning_of(field));
+  return text;
+}
+
+std::string upper(std::string_view name) {
+  std::string text;
+  for (const char c : name)
+    text += std::isalnum(static_cast<unsigned char>(c))
+                ? static_cast<char>(std::toupper(static_cast<unsigned char>(c)))
+                : '_';
+  return text;
+}
+
+}  // namespace
+
+std::string register_table_markdown(std::span<const spec::RegisterInfo> table) {
+  std::string text = "| offset | name | access | reset | meaning |\n|---|---|---|---|---|\n";
+  for (const spec::RegisterInfo& r : table)
+    text += fmt::format("| 0x{:03X} | `{}` | {} | 0x{:08X} | {} |\n", r.offset, r.name,
+                        access_name(r.access), r.reset, r.meaning);
+  return text + field_table_markdown(table);
+}
+
+std::string register_c_macros(std::span<const spec::RegisterInfo> table, std::string_view prefix) {
+  std::string text;
+  for (const spec::RegisterInfo& r : table) {
+    const std::string name = fmt::format("{}_{}", prefix, upper(r.name));
+    text += fmt::format("\n/* {}: {} */\n#define {} 0x{:03X}u\n", access_name(r.access), r.meaning,
+                        name, r.offset);
+    if (r.reset != 0) text += fmt::format("#define {}_RESET 0x{:08X}u\n", name, r.reset);
+    for (const spec::Field& field : r.fields) {
+      const std::string full = fmt::format("{}_{}", name, upper(field.name));
+      text += fmt::format("#define {0}_MASK 0x{1:08X}u{3}\n#define {0}_SHIFT {2}u\n", full,
+                          field.mask(), field.low,
+                          field.meaning.empty() ? "" : fmt::format(" /* {} */", field.meaning));
+      for (std::size_t code = 0; code < field.codes.size(); ++code)
+        text += fmt::format("#define {}_{} {}u\n", full, upper(field.codes[code]), code);
+    }
+  }
+  return text;
+}
+
+namespace {
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+// From a register to the same of the next one.
+std::string repetition_macros(const RegisterSection& section) {
+  if (!section.repeated) return {};
+  const auto& [name, stride, count] = *section.repeated;
+  return fmt::format(
+      "\n/* From a register of {1}0 to the same of the next {2}; there are {0}_COUNT. */\n"
+      "#define {0}_STRIDE 0x{3:02X}u\n#define {0}_COUNT {4}u\n",
+      section.macros, name, lower(name), stride, count);
+}
+
+// ---- SystemRDL ----
+
+constexpr std::string_view kKeywords[] = {"abstract",    "accesstype", "addressingtype",
+                                          "addrmap",     "alias",      "all",
+                                          "bit",         "boolean",    "bothedge",
+                                          "compact",     "component",  "constraint",
+                                          "default",     "encode",     "enum",
+                                          "external",    "false",      "field",
+                                          "fullalign",   "hw",         "inside",
+                                          "internal",    "level",      "longint",
+                                          "mem",         "na",         "negedge",
+                                          "nonsticky",   "number",     "onreadtype",
+                                          "onwritetype", "posedge",    "property",
+                                          "r",           "rclr",       "ref",
+                                          "reg",         "regalign",   "regfile",
+                                          "rset",        "ruser",      "rw",
+                                          "rw1",         "signal",     "string",
+                                          "struct",      "this",       "true",
+                                          "type",        "unsigned",   "w",
+                                          "w1",          "wclr",       "woclr",
+                                          "woset",       "wot",        "wr",
+                                          "wset",        "wuser",      "wzc",
+                                          "wzs",         "wzt"};
+
+// A name of ours as an identifier; a reserved word is one behind a backslash.
+std::string rdl_name(std::string_view name) {
+  std::string text;
+  for (const char c : name) text += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  if (std::isdigit(static_cast<unsigned char>(text[0]))) text.insert(0, 1, '_');
+  const bool reserved =
+      std::find(std::begin(kKeywords), std::end(kKeywords), text) != std::end(kKeywords);
+  return reserved ? "\\" + text : text;
+}
+
+std::string rdl_text(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+const char* rdl_access(spec::Access access) {
+  switch (access) {
+    case spec::Access::kReadWrite:
+      return "sw = rw; hw = r;";
+    case spec::Access::kReadOnly:
+      return "sw = r; hw = w;";
+    case spec::Access::kCommand:
+      return "sw = w; hw = r;";
+    case spec::Access::kWriteOneToClear:
+      return "sw = rw; onwrite = woclr; hw = w;";
+  }
+  return "";
+}
+
+std::string rdl_field(const spec::RegisterInfo& info, const spec::Field& field,
+                      const std::string& indent) {
+  std::string text;
+  const int width = field.high - field.low + 1;
+  if (!field.codes.empty()) {
+    text += fmt::format("{}enum {}_codes {{", indent, rdl_name(field.name));
+    for (std::size_t code = 0; code < field.codes.size(); ++code)
+      text += fmt::format(" {} = {}'d{};", rdl_name(field.codes[code]), width, code);
+    text += " };\n";
+  }
+  text += fmt::format("{}field {{ {}", indent, rdl_access(info.access));
+  if (!field.codes.empty()) text += fmt::format(" encode = {}_codes;", rdl_name(field.name));
+  if (!field.meaning.empty()) text += fmt::format(" desc = {};", rdl_text(field.meaning));
+  return text + fmt::format(" }} {}[{}:{}] = {}'h{:X};\n", rdl_name(field.name), field.high,
+                            field.low, width, field.of(info.reset));
+}
+
+// A register of one number has one field.
+std::string rdl_register(const spec::RegisterInfo& info, std::string_view name, std::uint32_t base,
+                         const std::string& indent) {
+  constexpr spec::Field kWhole{"value", 31, 0, {}};
+  std::string text = fmt::format("{0}reg {{\n{0}  desc = {1};\n", indent, rdl_text(info.meaning));
+  const std::span<const spec::Field> fields =
+      info.fields.empty() ? std::span(&kWhole, 1) : info.fields;
+  for (const spec::Field& field : fields) text += rdl_field(info, field, indent + "  ");
+  return text + fmt::format("{}}} {} @ 0x{:03X};\n", indent, rdl_name(name), info.offset - base);
+}
+
+std::string rdl_map(const RegisterSection& section) {
+  std::string text = fmt::format(
+      "\naddrmap {} {{\n  name = {};\n  default regwidth = 32;\n  default accesswidth = 32;\n",
+      lower(section.macros), rdl_text(section.module));
+  const std::string prefix = section.repeated ? section.repeated->name + "0_" : "";
+  std::string repeated;
+  std::uint32_t base = 0;
+  for (const spec::RegisterInfo& info : section.rows) {
+    if (prefix.empty() || !info.name.starts_with(prefix)) {
+      text += rdl_register(info, info.name, 0, "  ");
+      continue;
+    }
+    if (repeated.empty()) base = info.offset;
+    repeated += rdl_register(info, info.name.substr(prefix.size()), base, "    ");
+  }
+  if (section.repeated)
+    text += fmt::format("  regfile {{\n{}  }} {}[{}] @ 0x{:03X} += 0x{:X};\n", repeated,
+                        section.repeated->name, section.repeated->count, base,
+                        section.repeated->stride);
+  return text + "};\n";
+}
+
+}  // namespace
+
+std::string register_page(const RegisterSection& section) {
+  std::string page =
+      fmt::format("\n## {}\n\n{}", section.module, register_table_markdown(section.rows));
+  if (!section.repeated) return page;
+  const auto& [name, stride, count] = *section.repeated;
+  return page + fmt::format(
+                    "\n{}{}s 1..{} follow with the same registers, each 0x{:X} bytes after the one "
+                    "before.\n",
+                    name.substr(0, 1), lower(name.substr(1)), count - 1, stride);
+}
+
+std::string register_systemrdl(std::span<const RegisterSection> sections) {
+  std::string text =
+      "// SPDX-License-Identifier: MIT\n"
+      "// Registers of Deburr's engines as SystemRDL 2.0, an address map each. Bits without a "
+      "field "
+      "read as 0.\n"
+      "// Generated by `deburr params --systemrdl`; do not edit.\n";
+  for (const RegisterSection& section : sections) text += rdl_map(section);
+  return text;
+}
+
+std::string register_c_header(std::span<const RegisterSection> sections) {
+  std::string header =
+      "/* SPDX-License-Identifier: MIT */\n"
+      "/* Registers of Deburr's engines, for software that programs them: byte offsets, masks and "
+      "shifts of\n"
+      " * fields, codes of choices. Generated by `deburr params --c-header`; do not edit. */\n"
+      "#ifndef DEBURR_REGISTERS_H\n#define DEBURR_REGISTERS_H\n";
+  for (const RegisterSection& section : sections)
+    header += register_c_macros(section.rows, section.macros) + repetition_macros(section);
+  return header + "\n#endif\n";
+}
+
+}  // namespace deburr::rtl

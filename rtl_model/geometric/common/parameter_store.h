@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The registers' side of the engine: START, what stands against a frame, its rules, and the sticky
+// bits of STATUS.
+//
+// Where: beside the pipe, in front of the registers. A write counts from the next clock edge on:
+// START is on `start` in the clock after its write. In that clock the FrameSequencer answers with
+// `latch`, and gets `refusal`: the registers as they are then become the rules, which units read
+// from the next clock on, or the frame is refused, which has an effect on REFUSAL and STATUS alone.
+// A write while a frame is under way is ignored (CONTROL and STATUS excepted) and sets a sticky
+// bit. Codes of RULES that no choice has count as code 0. A pulse of a sticky bit sets it in its
+// clock. Nothing in here is ticked. Cost: the registers, and 60 bits of sizes. Made for 250 MHz;
+// longest path: 11 x 11 multiply (words of the TouchedMap).
+#pragma once
+
+#include <cstdint>
+#include <systemc>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/control_registers.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/geometric/common/frame_rules.h"
+#include "spec/geometric/parameters.h"
+#include "spec/geometric/registers.h"
+
+namespace deburr::rtl::geometric {
+
+// CONTROL and STATUS, for the engine's ControlRegisters.
+ControlLayout control_layout();
+
+// What the registers say of a frame.
+FrameRules decode(const ControlRegisters& registers);
+// Why it is not drawn.
+spec::geometric::Refusal refusal(const FrameRules& rules, bool enabled,
+                                 const spec::geometric::Parameters& parameters);
+inline PayloadShape refusal_shape() { return {.widths = {{"value", 3}}}; }
+
+class ParameterStore final : public sc_core::sc_module {
+ public:
+  WireOut<FrameRules> rules_out{"rules_out"};
+  PulseOut start_out{"start_out"};
+  OnPulse latch_in{"latch_in", [this](Cycle cycle) { latch(cycle); }};
+  WireOut<spec::geometric::Refusal, WireKind::kCombinational> refusal_out{"refusal_out"};
+  // Each sets its bit of STATUS.
+  OnPulse frame_done_in, invalid_edge_in, memory_error_in;
+
+  // Gives the registers the reset values that parameters set.
+  ParameterStore(const sc_core::sc_module_name& name, ClockDomain& clock,
+                 ControlRegisters& registers, const spec::geometric::Parameters& parameters);
+
+  // START is written and not yet judged. Between edges.
+  bool starting() const { return starting_; }
+
+ private:
+  void start();
+  void latch(Cycle cycle);
+
+  ClockDomain& clock_;
+  ControlRegisters& registers_;
+  const spec::geometric::Parameters parameters_;
+  bool starting_ = false, start_enabled_ = false;  // the latter as START was written
+  spec::geometric::Refusal refused_{};
+};
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/morphological/blend/shares_loader.h"
+
+#include "spec/morphological/registers.h"
+
+namespace deburr::rtl::morphological {
+
+namespace reg = spec::morphological::reg;
+
+SharesLoader::SharesLoader(ControlRegisters& registers, SharesRom& rom)
+    : registers_(registers), rom_(rom) {
+  registers_.on_read(reg::kSharesAddress, [this] { return address(); });
+  registers_.on_read(reg::kSharesData, [this] { return rom_.entry(address()); });
+  registers_.on_read(reg::kSharesSum, [this] { return rom_.sum(); });
+  registers_.on_taken(reg::kSharesData, [this](std::uint32_t value) { load(value); });
+}
+
+std::uint32_t SharesLoader::address() const {
+  return reg::shares_address::kEntry.of(registers_.value(reg::kSharesAddress));
+}
+
+void SharesLoader::load(std::uint32_t value) {
+  const std::uint32_t entry = address();
+  rom_.load(entry, static_cast<std::uint8_t>(value));
+  registers_.set(reg::kSharesAddress, reg::shares_address::kEntry.in(entry + 1));
+}
+
+}  // namespace deburr::rtl::morphological
