@@ -51,8 +51,8 @@ struct Walk {
   }
 
   Registers registers{small(), 20, 7};
-  rtl::Counter stored{"stored", "records", ""}, conflicts{"conflicts", "clk", ""};
-  rtl::Counter horizontal{"horizontal", "edges", ""}, vertical{"vertical", "edges", ""};
+  rtl::Counter stored{"stored", "records", "stored"}, conflicts{"conflicts", "clk", "waited"};
+  rtl::Counter horizontal{"horizontal", "edges", "along"}, vertical{"vertical", "edges", "down"};
   RecordStore records;
   RecordWalk walk{"record_walk", registers.store, records, {horizontal, vertical}};
 };
