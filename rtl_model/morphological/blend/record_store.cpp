@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kSpanBits = 12, kCoordinateBits = 13, kLengthBits = 12;
 // t S4.24 and growth U2.24, inverse, span, two sides.
-constexpr std::uint32_t kLineBits = 29 + 26 + 24 + kSpanBits + 4;
+constexpr std::uint32_t kRecordBits = 29 + 26 + 24 + kSpanBits + 4;
 constexpr std::uint32_t kCornerBits = 4 + 2;  // far bits, part
 constexpr std::uint32_t kLearnedBits = 1;     // has no line: part, shape, classes in its place
 // Row, odd column, length.
@@ -26,7 +26,7 @@ bool has_crossings(const spec::morphological::Parameters& p) {
 }
 
 std::uint32_t record_bits(const spec::morphological::Parameters& p) {
-  return kLineBits + (p.round_corners ? kCornerBits : 0) +
+  return kRecordBits + (p.round_corners ? kCornerBits : 0) +
          (p.area == spec::morphological::AreaSource::kLearned ? kLearnedBits : 0);
 }
 
