@@ -433,7 +433,7 @@ class Libraries(Scratch):
             "OpenSSL", "yaml-cpp", "CLI11", "nlohmann_json", "ZLIB", "Imath", "tinyobjloader", "TinyGLTF", "OpenImageIO",
             "pagmo", "GTest", "benchmark", "Python3")]
         call(CMAKE, "--preset", "libraries", "-B", self.folder, *absent, cwd=SOURCE)
-        commands = call("ninja", "-C", self.folder, "-n")
+        commands = call("ninja", "-C", self.folder, "-t", "commands")
         self.assertIn("libdeburr-models.a", commands)
         self.assertNotRegex(commands, r" tb/")
 
