@@ -37,7 +37,6 @@ struct MorphologicalHandle final : FrameHandle {
   void reset() override {
     model.drop();
     clear_frame();
-    edges.reset();
   }
 
   std::span<const Plane> planes() const override { return kMorphologicalPlanes; }

@@ -158,6 +158,16 @@ TEST(Parameters, CheckSaysWhatCannotBeBuiltInTheWordsOfTheCommand) {
   DEBURR_EXPECT_TAKEN(handle, deburr_texture_quad(handle.get(), 0, 15, 0, s, s, rgba));
 }
 
+TEST(Parameters, AreCheckedOfEveryEngine) {
+  const Handle smoother(deburr_morphological_new()), drawn(deburr_geometric_new());
+  DEBURR_EXPECT_TAKEN(smoother, deburr_set(smoother.get(), "window_rows", "11"));
+  DEBURR_EXPECT_REFUSED(smoother, DEBURR_CONFIGURATION, "must be an even number of rows",
+                        deburr_check(smoother.get()));
+  DEBURR_EXPECT_TAKEN(drawn, deburr_set(drawn.get(), "face_limit", "8193"));
+  DEBURR_EXPECT_REFUSED(drawn, DEBURR_CONFIGURATION, "must be a multiple of 512",
+                        deburr_check(drawn.get()));
+}
+
 TEST(Calls, NullHandlesAreErrors) {
   char text[200];
   const std::uint8_t byte = 0;
@@ -259,7 +269,10 @@ TEST(Calls, UnknownNamesGetTheListOfThoseThatThereAre) {
     for (const char* name : {"", ".preset", "preset.", "frame.preset", "Preset"})
       EXPECT_EQ(deburr_set(handle.get(), name, "deburr"), DEBURR_ARGUMENT) << name;
     EXPECT_EQ(deburr_set(handle.get(), (engine + ".preset").c_str(), "deburr"), DEBURR_OK);
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "no counter is named 'pixel'; there are ",
+    char first[64];
+    DEBURR_EXPECT_TAKEN(handle, deburr_counter_name(handle.get(), 0, first, sizeof first));
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT,
+                          "no counter is named 'pixel'; there are " + std::string(first) + ", ",
                           deburr_counter(handle.get(), "pixel", &value));
     std::uint32_t parameters = 0, counters = 0;
     DEBURR_EXPECT_TAKEN(handle, deburr_parameter_count(handle.get(), &parameters));
@@ -298,13 +311,22 @@ TEST(Errors, AreKeptUntilTheNextOneAndCutToTheirPlace) {
   DEBURR_EXPECT_TAKEN(handle, deburr_check(handle.get()));
   EXPECT_EQ(error_of(handle.get(), status), whole);
   EXPECT_EQ(error_of(handle.get(), DEBURR_OK), "");
-  char text[12];
+  char text[12] = "before";
+  EXPECT_EQ(deburr_error(handle.get(), DEBURR_OK, text, sizeof text), DEBURR_OK);
+  EXPECT_STREQ(text, "");
   EXPECT_EQ(deburr_error(handle.get(), status, text, sizeof text), DEBURR_OK);
   EXPECT_EQ(std::string(text), whole.substr(0, 11));
   EXPECT_EQ(deburr_error(handle.get(), status, text, 1), DEBURR_OK);
   EXPECT_STREQ(text, "");
   EXPECT_EQ(deburr_error(handle.get(), status, text, 0), DEBURR_ARGUMENT);
   EXPECT_EQ(deburr_error(handle.get(), status, nullptr, 9), DEBURR_ARGUMENT);
+}
+
+TEST(Errors, WithoutAnyThereIsNoTextButOfMemory) {
+  const Handle handle(deburr_texture_new());
+  EXPECT_EQ(error_of(handle.get(), DEBURR_ARGUMENT), "");
+  // There may have been no memory for a text.
+  EXPECT_THAT(error_of(handle.get(), DEBURR_MEMORY), testing::HasSubstr("no memory left"));
 }
 
 TEST(Version, HasThreeNumbers) {

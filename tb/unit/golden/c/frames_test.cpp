@@ -94,8 +94,11 @@ void give(deburr_golden* golden, const Image& image, std::uint32_t gap) {
 
 std::vector<std::uint32_t> random_depth(const Image& image, tb::Random& random) {
   std::vector<std::uint32_t> depth(image.pixels.size());
-  // The upper byte counts for nothing.
-  for (std::uint32_t& d : depth) d = random.chance(700) ? 0x12345678 : random.word();
+  // The upper byte counts for nothing, the lowest bit does where it is alone.
+  for (std::uint32_t& d : depth)
+    d = random.chance(500) ? 0x12345678 : random.chance(500) ? random.word() : 0x77000001;
+  std::fill_n(depth.begin(), depth.size() / 8, 0x55000000u);
+  for (std::size_t i = 0; i < depth.size() / 8; ++i) depth[i] += random.below(2);
   return depth;
 }
 std::vector<std::uint32_t> of_24_bits(std::vector<std::uint32_t> depth) {
@@ -163,7 +166,8 @@ TEST(Morphological, FramesAreThoseOfTheGoldenModelWithEveryPreset) {
 
 TEST(Morphological, DepthAndEdgesOfSomeoneElseAreTakenAsTheyAreGiven) {
   tb::Random random(6);
-  const Image image = tb::stimuli::rendered_like(80, 50, 20);
+  Image image = tb::stimuli::rendered_like(80, 50, 20);
+  for (auto& pixel : image.pixels) pixel[3] = static_cast<std::uint8_t>(random.next());
   const std::vector<std::uint32_t> depth = random_depth(image, random);
   const Handle handle(deburr_morphological_new());
   DEBURR_EXPECT_TAKEN(handle, deburr_frame_detail(handle.get(), 1));
@@ -305,11 +309,30 @@ TEST(Geometric, FramesAreThoseOfTheGoldenModelWithEveryPreset) {
     EXPECT_EQ(counter_of(handle.get(), "kept_edges"), golden.work().kept_edges);
     EXPECT_EQ(counter_of(handle.get(), "candidates"), golden.work().candidates);
     EXPECT_EQ(counter_of(handle.get(), "blended_pixels"), golden.work().blended_pixels);
-    // Without depth, where nothing is tested.
+    // Without depth, where nothing is tested; that of the last frame went with it.
     DEBURR_EXPECT_TAKEN(handle, deburr_frame_begin(handle.get(), 8, 8));
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "the frame has no depth",
+                          deburr_frame_process(handle.get()));
     DEBURR_EXPECT_TAKEN(handle, deburr_set(handle.get(), "depth_test", "off"));
     DEBURR_EXPECT_TAKEN(handle, deburr_frame_process(handle.get()));
   }
+}
+
+// One line between two rows, at the depth of the frame: 16 pixels, as long as no bit is lost.
+TEST(Geometric, TheLowestBitOfADepthCounts) {
+  const Handle handle(deburr_geometric_new());
+  const std::vector<std::uint32_t> depth(256, 1), edge = {0, 1, 1u << 24, 0};
+  const std::vector<std::uint32_t> vertices = {0,        8 * 256 - 64, 1, 1,  //
+                                               16 * 256, 8 * 256 - 64, 1, 1};
+  DEBURR_EXPECT_TAKEN(handle, deburr_frame_begin(handle.get(), 16, 16));
+  DEBURR_EXPECT_TAKEN(handle, deburr_frame_depth(handle.get(), depth.data(), depth.size(), 0));
+  DEBURR_EXPECT_TAKEN(handle,
+                      deburr_geometric_vertices(handle.get(), vertices.data(), vertices.size()));
+  DEBURR_EXPECT_TAKEN(handle, deburr_geometric_edges(handle.get(), edge.data(), edge.size()));
+  DEBURR_EXPECT_TAKEN(
+      handle, deburr_geometric_facing(handle.get(), 8, std::array<std::uint8_t, 1>{1}.data(), 1));
+  DEBURR_EXPECT_TAKEN(handle, deburr_frame_process(handle.get()));
+  EXPECT_EQ(counter_of(handle.get(), "blended_pixels"), 16u);
 }
 
 // ---- both ---------------------------------------------------------------------------------------
@@ -405,6 +428,39 @@ TEST(BadCalls, GiveAnErrorAndChangeNothing) {
     EXPECT_EQ(counter_of(golden, "blended_pixels"), 0u);
     EXPECT_EQ(tb::c::value_of(golden, "line_pixels"), "65");
   }
+}
+
+TEST(Frames, MayBeAsLargeAsTheEngineTakesThem) {
+  for (const tb::c::New make : {deburr_morphological_new, deburr_geometric_new}) {
+    const Handle handle(make());
+    DEBURR_EXPECT_TAKEN(handle, deburr_frame_begin(handle.get(), 8192, 1));
+    DEBURR_EXPECT_TAKEN(handle, deburr_frame_begin(handle.get(), 1, 8192));
+  }
+}
+
+TEST(Detail, CountsFromTheNextFrameOn) {
+  const Handle smoother(deburr_morphological_new()), drawn(deburr_geometric_new());
+  std::uint32_t value = 0;
+  std::uint8_t classes = 77;
+  const std::vector<std::uint32_t> edge(4, 0);
+  DEBURR_EXPECT_TAKEN(drawn, deburr_geometric_edges(drawn.get(), edge.data(), edge.size()));
+  for (const bool detail : {false, true, false}) {
+    for (deburr_golden* const golden : {smoother.get(), drawn.get()}) {
+      DEBURR_EXPECT_TAKEN(golden, deburr_frame_detail(golden, detail ? 1 : 0));
+      DEBURR_EXPECT_TAKEN(golden, deburr_frame_begin(golden, 2, 2));
+      DEBURR_EXPECT_TAKEN(golden, deburr_frame_put(golden, 0, 0, 0xFFFFFFFF, 1));
+      DEBURR_EXPECT_TAKEN(golden, deburr_frame_process(golden));
+    }
+    for (const char* plane : {"pixels", "edges", "shares"})
+      DEBURR_EXPECT_TAKEN(smoother, deburr_plane_pixel(smoother.get(), plane, 0, 0, &value));
+    for (const char* plane : {"pixels", "weights"})
+      DEBURR_EXPECT_TAKEN(drawn, deburr_plane_pixel(drawn.get(), plane, 0, 0, &value));
+    const int status = detail ? DEBURR_OK : DEBURR_ARGUMENT;
+    for (const char* plane : {"taps", "decisions"})
+      EXPECT_EQ(deburr_plane_pixel(smoother.get(), plane, 0, 0, &value), status);
+    EXPECT_EQ(deburr_geometric_classes(drawn.get(), &classes, 1), status);
+  }
+  EXPECT_EQ(classes, 0);
 }
 
 TEST(BadCalls, OfOneEngineAlone) {

@@ -289,6 +289,12 @@ TEST(State, TexturesAndMemoryOutliveNewParametersAndCountersDoNot) {
   EXPECT_EQ(counter_of(handle.get(), "fragments"), 0u);
   EXPECT_EQ(red(handle.get()), 255);
   EXPECT_EQ(counter_of(handle.get(), "line_fills"), 1u);
+  // A descriptor that is written between quads.
+  DEBURR_EXPECT_TAKEN(handle, deburr_texture_field(handle.get(), 0, "levels", "0"));
+  EXPECT_EQ(red(handle.get()), 0);
+  DEBURR_EXPECT_TAKEN(handle, deburr_texture_register(handle.get(), 0, reg::kMode, 1 << 20));
+  DEBURR_EXPECT_TAKEN(handle, deburr_texture_field(handle.get(), 0, "layout", "tiled"));
+  EXPECT_EQ(red(handle.get()), 255);
   // A memory that shrinks keeps what it holds; what is outside reads as zero.
   DEBURR_EXPECT_TAKEN(handle, deburr_texture_memory(handle.get(), 1 << 20));
   EXPECT_EQ(red(handle.get()), 255);
@@ -297,6 +303,35 @@ TEST(State, TexturesAndMemoryOutliveNewParametersAndCountersDoNot) {
   DEBURR_EXPECT_TAKEN(handle, deburr_texture_memory(handle.get(), 0));
   EXPECT_EQ(red(handle.get()), 0);
   EXPECT_EQ(counter_of(handle.get(), "memory_errors"), 1u);
+}
+
+TEST(Levels, MayEndAtTheLastAddressAndReplaceBasesThatAreWrong) {
+  const Handle handle = white_texture();
+  std::uint64_t behind = 0;
+  DEBURR_EXPECT_TAKEN(handle, deburr_texture_field(handle.get(), 0, "base0", "4294967295"));
+  DEBURR_EXPECT_REFUSED(handle, DEBURR_CONFIGURATION, "the base of a level is no multiple of 64",
+                        deburr_texture_check(handle.get(), 0));
+  DEBURR_EXPECT_TAKEN(handle, deburr_texture_place(handle.get(), 0, (1ull << 32) - 256, &behind));
+  EXPECT_EQ(behind, 1ull << 32);
+  DEBURR_EXPECT_TAKEN(handle, deburr_texture_check(handle.get(), 0));
+  EXPECT_EQ(red(handle.get()), 0);  // there is no memory
+  DEBURR_EXPECT_TAKEN(handle, deburr_texture_memory(handle.get(), 1024));
+  DEBURR_EXPECT_TAKEN(handle, deburr_texture_place(handle.get(), 0, 512, &behind));
+  EXPECT_EQ(red(handle.get()), 0);
+  const std::vector<std::uint8_t> bytes(256, 200);
+  DEBURR_EXPECT_TAKEN(handle, deburr_texture_write(handle.get(), 512, bytes.data(), bytes.size()));
+  EXPECT_EQ(red(handle.get()), 200);
+}
+
+TEST(State, BeforeTheFirstQuadNothingWasFetched) {
+  const Handle handle = white_texture();
+  std::uint32_t line = 77, count = 77;
+  DEBURR_EXPECT_TAKEN(handle, deburr_texture_fills(handle.get(), &line, 1, &count));
+  EXPECT_EQ(count, 0u);
+  EXPECT_EQ(line, 77u);
+  EXPECT_EQ(red(handle.get()), 255);
+  DEBURR_EXPECT_TAKEN(handle, deburr_texture_fills(handle.get(), nullptr, 0, &count));
+  EXPECT_EQ(count, 1u);
 }
 
 TEST(BadTextureCalls, GiveAnErrorAndChangeNothing) {
@@ -323,14 +358,19 @@ TEST(BadTextureCalls, GiveAnErrorAndChangeNothing) {
                         deburr_texture_read(golden, 200, bytes.data(), 64));
   DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "texture 16 is outside 0..15",
                         deburr_texture_register(golden, 16, 0, 0));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "offset 2 is none of a descriptor's registers",
+  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT,
+                        "offset 2 is none of a descriptor's registers, 0, 4, .. 64",
                         deburr_texture_register(golden, 0, 2, 0));
   DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "offset 68 is none of a descriptor's registers",
                         deburr_texture_register(golden, 0, 68, 0));
   DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "texture 16 is outside 0..15",
                         deburr_texture_field(golden, 16, "width", "4"));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "unknown field of a texture 'depth'; there are ",
+  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT,
+                        "unknown field of a texture 'depth'; there are width, height, format, ",
                         deburr_texture_field(golden, 0, "depth", "4"));
+  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "max_lod, base0 to base12",
+                        deburr_texture_field(golden, 0, "depth", "4"));
+  DEBURR_EXPECT_TAKEN(golden, deburr_texture_read(golden, 256, nullptr, 0));
   for (const auto& [name, text] : {std::pair<const char*, const char*>{"width", "65536"},
                                    {"width", "-1"},
                                    {"width", "four"},
@@ -338,6 +378,7 @@ TEST(BadTextureCalls, GiveAnErrorAndChangeNothing) {
                                    {"format", "0"},
                                    {"bias", "32768"},
                                    {"bias", "-32769"},
+                                   {"bias", "0x-1"},
                                    {"base0", "4294967296"},
                                    {"base0", "-64"},
                                    {"base13", "0"},
