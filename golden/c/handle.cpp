@@ -25,17 +25,24 @@ void put_cut(std::string_view from, char* text, std::size_t size) {
 
 }  // namespace
 
-void require(bool condition, const std::string& text) {
-  if (!condition) throw ArgumentError(text);
+void require(bool condition, std::string_view text) {
+  if (!condition) throw ArgumentError(std::string(text));
 }
 
+// Calls are many, and complaints few: texts are made for these alone.
 void require_pointer(const void* pointer, std::string_view what) {
-  require(pointer != nullptr, std::string(what) + " is NULL");
+  if (!pointer) throw ArgumentError(std::string(what) + " is NULL");
 }
 
 void require_below(std::uint64_t value, std::uint64_t limit, std::string_view what) {
-  require(value < limit, std::string(what) + " " + std::to_string(value) + " is outside 0.." +
-                             std::to_string(limit - 1));
+  if (value < limit) return;
+  throw ArgumentError(std::string(what) + " " + std::to_string(value) + " is outside 0.." +
+                      std::to_string(limit - 1));
+}
+
+void refuse_kind(const char* given, const char* wanted) {
+  throw ArgumentError(std::string("a handle of the engine ") + given +
+                      " was given; it takes one of " + wanted);
 }
 
 void put_text(std::string_view from, char* text, std::size_t size) {

@@ -22,7 +22,7 @@ class ArgumentError : public std::runtime_error {
 };
 
 // ArgumentError unless the condition holds.
-void require(bool condition, const std::string& text);
+void require(bool condition, std::string_view text);
 // ArgumentError for a null pointer; `what` is the argument's name.
 void require_pointer(const void* pointer, std::string_view what);
 void require_below(std::uint64_t value, std::uint64_t limit, std::string_view what);
@@ -92,6 +92,8 @@ class Turn {
 // The status of the exception in hand, whose text is kept behind the function's name.
 int status_of_exception(deburr_golden& golden, const char* function) noexcept;
 
+[[noreturn]] void refuse_kind(const char* given, const char* wanted);
+
 // Runs `work` for a function of the interface.
 template <class Work>
 int call(deburr_golden* golden, const char* function, Work&& work) noexcept {
@@ -111,8 +113,7 @@ template <class Kind, class Work>
 int call_of(deburr_golden* golden, const char* function, Work&& work) noexcept {
   return call(golden, function, [&](deburr_golden& any) {
     auto* const own = dynamic_cast<Kind*>(&any);
-    require(own != nullptr, std::string("a handle of the engine ") + any.engine() +
-                                " was given; it takes one of " + Kind::kWanted);
+    if (!own) refuse_kind(any.engine(), Kind::kWanted);
     work(*own);
   });
 }
