@@ -69,7 +69,7 @@ void AreaUnit::ask_edge(Beat& beat, std::size_t number, const StoredRecord& reco
 
 // The edges that no record covers.
 void AreaUnit::ask_gaps(const Beat& beat) {
-  for (std::size_t number = 0; number < 2 * beat.walk.count; ++number) {
+  for (std::size_t number = 0; number < std::size_t{2} * beat.walk.count; ++number) {
     const unsigned edges = number % 2 ? beat.next_left : beat.next_top;
     if ((edges >> number / 2 & 1) != 0 && beat.walk.edge(number).from == 0)
       learned_->ask_gap(number);
