@@ -33,8 +33,34 @@ deburr_installed_library(models rtl_model PUBLIC SystemC::systemc PRIVATE fmt::f
 
 foreach(layer spec golden rtl_model)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${layer}" DESTINATION "${DEBURR_INCLUDE_FOLDER}"
-    COMPONENT development FILES_MATCHING PATTERN "*.h")
+    COMPONENT development FILES_MATCHING PATTERN "*.h" PATTERN "golden/c" EXCLUDE)
 endforeach()
+
+# The C interface is of libdeburr-golden: its header, and what SystemVerilog needs of it. Shared, it has a
+# library of its own too, which exports nothing else and keeps its number as long as no function changes.
+install(FILES "${PROJECT_SOURCE_DIR}/golden/c/deburr_golden.h" DESTINATION "${DEBURR_INCLUDE_FOLDER}"
+  COMPONENT development)
+set(DEBURR_SYSTEMVERILOG_FOLDER "${CMAKE_INSTALL_DATADIR}/deburr/systemverilog")
+install(FILES "${PROJECT_SOURCE_DIR}/golden/c/systemverilog/deburr_golden_pkg.sv"
+  "${PROJECT_SOURCE_DIR}/golden/c/systemverilog/deburr_golden_dpi.c"
+  DESTINATION "${DEBURR_SYSTEMVERILOG_FOLDER}" COMPONENT development)
+if(BUILD_SHARED_LIBS)
+  get_property(parts GLOBAL PROPERTY DEBURR_LIBRARIES_OF_golden)
+  list(TRANSFORM parts REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
+  set(exported "${CMAKE_CURRENT_LIST_DIR}/c_interface.map")
+  add_library(deburr_c_library SHARED ${objects})
+  set_target_properties(deburr_c_library PROPERTIES
+    LINKER_LANGUAGE CXX OUTPUT_NAME deburr-golden-c EXPORT_NAME golden_c LINK_DEPENDS "${exported}"
+    VERSION ${PROJECT_VERSION} SOVERSION 0)
+  target_link_options(deburr_c_library PRIVATE "-Wl,--version-script=${exported}")
+  target_include_directories(deburr_c_library INTERFACE "$<INSTALL_INTERFACE:${DEBURR_INCLUDE_FOLDER}>")
+  install(TARGETS deburr_c_library EXPORT deburr_golden
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
+endif()
+# What a program in C has to link beside an archive of C++.
+set(DEBURR_CXX_RUNTIME ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
+list(FILTER DEBURR_CXX_RUNTIME INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+|c\\+\\+abi|m)$")
+list(REMOVE_DUPLICATES DEBURR_CXX_RUNTIME)
 
 # The registers of every engine as a C header.
 set(sections "")
@@ -81,7 +107,7 @@ install(FILES "${DEBURR_REGISTERS_HEADER}" DESTINATION "${DEBURR_INCLUDE_FOLDER}
 set(package "${PROJECT_BINARY_DIR}/installed/cmake")
 configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/package/deburr-config.cmake.in"
   "${package}/deburr-config.cmake" INSTALL_DESTINATION "${DEBURR_PACKAGE_FOLDER}"
-  PATH_VARS DEBURR_INCLUDE_FOLDER)
+  PATH_VARS DEBURR_INCLUDE_FOLDER DEBURR_SYSTEMVERILOG_FOLDER)
 write_basic_package_version_file("${package}/deburr-version.cmake" COMPATIBILITY SameMinorVersion)
 configure_file("${CMAKE_CURRENT_LIST_DIR}/package/deburr-config-version.cmake.in"
   "${package}/deburr-config-version.cmake" @ONLY)
@@ -89,9 +115,15 @@ install(FILES "${package}/deburr-config.cmake" "${package}/deburr-config-version
   "${package}/deburr-version.cmake" "${CMAKE_CURRENT_LIST_DIR}/FindSystemC.cmake"
   DESTINATION "${DEBURR_PACKAGE_FOLDER}" COMPONENT development)
 
-# deburr_pkg_config(<component> <description> [REQUIRES ...] [FLAGS ...]): paths are relative to the file.
+# deburr_pkg_config(<component> <description> [REQUIRES ...] [FLAGS ...] [LIBRARIES ...]): paths are relative to
+# the file.
 function(deburr_pkg_config component description)
-  cmake_parse_arguments(ARG "" "" "REQUIRES;FLAGS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "REQUIRES;FLAGS;LIBRARIES" ${ARGN})
+  if(NOT ARG_LIBRARIES)
+    set(ARG_LIBRARIES deburr-${component})
+  endif()
+  list(TRANSFORM ARG_LIBRARIES PREPEND "-l")
+  list(JOIN ARG_LIBRARIES " " libraries)
   file(RELATIVE_PATH up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
   string(REGEX REPLACE "/$" "" up "${up}")
   list(JOIN ARG_REQUIRES ", " requires)
@@ -106,10 +138,20 @@ set(flags "")
 if(SystemC_BASELINE AND NOT SystemC_BASELINE STREQUAL "native")
   set(flags "-DSC_CPLUSPLUS=${SystemC_BASELINE}")
 endif()
-deburr_pkg_config(golden "Bit-exact golden models of anti-aliasing hardware")
+deburr_pkg_config(golden "Bit-exact golden models of anti-aliasing hardware" FLAGS -std=c++20)
+if(BUILD_SHARED_LIBS)
+  set(libraries deburr-golden-c)
+else()
+  set(libraries deburr-golden ${DEBURR_CXX_RUNTIME})
+endif()
+deburr_pkg_config(golden-c "Bit-exact golden models of anti-aliasing hardware, for C and SystemVerilog"
+  LIBRARIES ${libraries})
 # fmt: a static library does not say what it links.
 deburr_pkg_config(models "Cycle-accurate SystemC models of anti-aliasing hardware"
-  REQUIRES systemc fmt FLAGS ${flags})
+  REQUIRES systemc fmt FLAGS -std=c++20 ${flags})
 
 # All that `cmake --install` copies.
 add_custom_target(deburr_installed DEPENDS deburr_golden deburr_models deburr_registers_header)
+if(TARGET deburr_c_library)
+  add_dependencies(deburr_installed deburr_c_library)
+endif()

@@ -9,6 +9,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -24,6 +25,8 @@ INCLUDED = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)
 OURS = ("spec/", "golden/", "rtl_model/")
 SYSTEMC = ("systemc", "tlm", "tlm_utils/")
 OTHERS = ("fmt/",)
+STANDARD_C = ("stddef.h", "stdint.h")
+DECLARED = re.compile(r"^[a-z].*?\b(deburr_\w+)\(", re.M)
 
 
 def call(*command, code=0, cwd=None, env=None, timeout=600):
@@ -74,7 +77,8 @@ class Scratch(unittest.TestCase):
 class Install(unittest.TestCase):
     def test_it_installs_and_may_be_moved(self):
         place = BUILD / "installed_here"
-        shutil.rmtree(place, ignore_errors=True)
+        for folder in (place, PREFIX):
+            shutil.rmtree(folder, ignore_errors=True)
         call(CMAKE, "--install", BUILD, "--prefix", place / "first", env=dict(os.environ))
         (place / "first").rename(PREFIX)
 
@@ -86,15 +90,19 @@ class Files(Scratch):
         for pattern in ("bin/deburr", "libexec/deburr/deburr", "libexec/deburr/deburr_papers",
                         "libexec/deburr/libdeburr_images.so", "libexec/deburr/libdeburr_evolution.so",
                         "lib*/**/libdeburr-golden.*[ao]", "lib*/**/libdeburr-models.*[ao]",
-                        "include/deburr/deburr_registers.h", "share/man/man1/deburr.1",
+                        "include/deburr/deburr_registers.h", "include/deburr/deburr_golden.h",
+                        "share/deburr/systemverilog/deburr_golden_pkg.sv",
+                        "share/deburr/systemverilog/deburr_golden_dpi.c", "share/man/man1/deburr.1",
                         "share/bash-completion/completions/deburr", "share/zsh/vendor-completions/_deburr",
                         "share/fish/vendor_completions.d/deburr.fish", "share/deburr/sweeps/texture_cache.yaml",
                         "share/deburr/tb/testplan/smoke.yaml", "share/deburr/docs/platform.md",
                         "share/doc/deburr/copyright", "share/doc/libdeburr-dev/changelog.gz"):
             one_file(pattern)
         headers = {file.relative_to(SOURCE) for layer in OURS for file in (SOURCE / layer).rglob("*.h")}
+        # Of the C interface there is its header alone.
+        headers = {file for file in headers if file.parts[:2] != ("golden", "c")}
         installed = {file.relative_to(INCLUDE) for file in INCLUDE.rglob("*.h")}
-        self.assertEqual(headers | {pathlib.Path("deburr_registers.h")}, installed)
+        self.assertEqual(headers | {pathlib.Path("deburr_registers.h"), pathlib.Path("deburr_golden.h")}, installed)
 
     def test_no_file_names_the_trees(self):
         names = [str(path).encode() for path in (SOURCE, BUILD)]
@@ -123,7 +131,8 @@ def foreign_includes(root):
     for file in sorted(root.rglob("*.h")):
         for header in INCLUDED.findall(file.read_text(encoding="utf-8")):
             standard = "/" not in header and not header.endswith((".h", ".hpp"))
-            known = header.startswith((*OURS, *OTHERS)) or header in SYSTEMC or header.startswith("tlm_utils/")
+            known = (header.startswith((*OURS, *OTHERS)) or header.startswith("tlm_utils/")
+                     or header in (*SYSTEMC, *STANDARD_C))
             if not known and not standard:
                 found.append(f"{file.relative_to(root)}: {header}")
             if not file.is_relative_to(root / "rtl_model") and (header in SYSTEMC or header.startswith("tlm_utils/")):
@@ -295,6 +304,125 @@ class Platform(Scratch):
             self.assertRegex(found, rf"FAIL .*(software|texture)_bus: {rule}: ", name)
 
 
+def exported(*command):
+    """The functions and objects that a library offers, of those the linker can see by their plain names."""
+    return {line.split()[-1] for line in call(*command).splitlines() if re.search(r" [TDBRVWi] ", line)}
+
+
+class C(Scratch):
+    """The C interface, and the example in plain C."""
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(SOURCE / "examples/c", self.folder, dirs_exist_ok=True)
+
+    def drawn(self, program, **how):
+        self.assertIn("PASS picture", call(program, "picture.ppm", cwd=self.folder, **how))
+        self.assertTrue((self.folder / "picture.ppm").read_bytes().startswith(b"P6"))
+
+    def test_with_cmake_and_no_other_language(self):
+        call(CMAKE, "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={PREFIX}")
+        call(CMAKE, "--build", self.folder / "build")
+        self.assertNotIn("CMAKE_CXX_COMPILER", (self.folder / "build/CMakeCache.txt").read_text(encoding="utf-8"))
+        self.drawn(self.folder / "build/draw")
+
+    def test_with_one_line_and_what_it_must_find(self):
+        flags = pkg_config("--cflags", "--libs", "deburr-golden-c")
+        call("cc", "-std=c99", self.folder / "draw.c", "-o", self.folder / "draw", *flags)
+        self.drawn(self.folder / "draw")
+        # A wrong picture and a call that fails.
+        draw = (self.folder / "draw.c").read_text(encoding="utf-8")
+        for old, new, code, words in (('"axes", "eight"', '"axes", "two"', 1, "FAIL picture"),
+                                      ('"preset", "deburr"', '"preset", "deblur"', 2, "draw: deburr_set: 'preset' = 'deblur'")):
+            self.assertIn(old, draw)
+            call("cc", "-std=c99", self.write("wrong.c", draw.replace(old, new)), "-o", self.folder / "wrong", *flags)
+            self.assertIn(words, call(self.folder / "wrong", code=code))
+
+    def test_every_function_is_there(self):
+        declared = set(DECLARED.findall((INCLUDE / "deburr_golden.h").read_text(encoding="utf-8")))
+        self.assertGreater(len(declared), 30)
+        found = exported("nm", "--defined-only", one_file("lib*/**/libdeburr-golden.*[ao]"))
+        self.assertEqual({name for name in found if name.startswith("deburr_")}, declared)
+
+    def test_the_shared_library_offers_nothing_else(self):
+        build = self.folder / "shared"
+        call(CMAKE, "--preset", "libraries", "-B", build, "-DBUILD_SHARED_LIBS=ON",
+             "-DCMAKE_BUILD_TYPE=Debug", cwd=SOURCE, env=dict(os.environ))
+        call(CMAKE, "--build", build, "--target", "deburr_c_library", "--parallel", os.cpu_count(),
+             env=dict(os.environ))
+        library = build / "libdeburr-golden-c.so"
+        declared = set(DECLARED.findall((INCLUDE / "deburr_golden.h").read_text(encoding="utf-8")))
+        self.assertEqual(exported("nm", "-D", "--defined-only", library), declared)
+        self.assertIn("[libdeburr-golden-c.so.0]", call("readelf", "-d", library))
+        call("cc", "-std=c99", f"-I{INCLUDE}", self.folder / "draw.c", "-o", self.folder / "draw", library)
+        self.drawn(self.folder / "draw", env=EMPTY | {"LD_LIBRARY_PATH": str(build)})
+
+
+# The quads of examples/systemverilog/testbench.sv, given to the C++ model.
+QUADS_MAIN = """#include <cstdio>
+#include <vector>
+#include "golden/texture/texture_golden.h"
+using namespace deburr;
+int main() {
+  std::uint32_t state = 1;
+  const auto random = [&] { return state = state * 1664525 + 1013904223; };
+  spec::texture::Descriptor d;
+  d.width = d.height = 16;
+  d.levels = 1;
+  d.max_lod = 0;
+  d.min_filter = spec::texture::MinFilter::kLinear;
+  std::vector<std::uint8_t> memory(1024);
+  for (std::uint32_t y = 0; y < 16; ++y)
+    for (std::uint32_t x = 0; x < 16; ++x)
+      for (std::uint32_t c = 0; c < 4; ++c)
+        memory[golden::texture::texel_address(d, 0, static_cast<int>(x), static_cast<int>(y)) + c] =
+            static_cast<std::uint8_t>(random() >> 24);
+  golden::texture::TextureGolden golden(spec::texture::Parameters{}, memory);
+  golden.set_texture(0, d);
+  std::uint64_t hash = 14695981039346656037u;
+  for (int i = 0; i < 1000000; ++i) {
+    spec::texture::Quad quad;
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      quad.s[lane] = static_cast<std::int32_t>(random());
+      quad.t[lane] = static_cast<std::int32_t>(random());
+    }
+    for (const auto& colour : golden.process(quad))
+      for (const std::uint8_t byte : colour.rgba) hash = (hash ^ byte) * 1099511628211u;
+  }
+  std::printf("%016llx\\n", static_cast<unsigned long long>(hash));
+}
+"""
+
+
+@unittest.skipUnless(shutil.which("verilator"), "verilator is not installed: scripts/install examples")
+class SystemVerilog(Scratch):
+    """The example in SystemVerilog, under Verilator."""
+
+    def test_the_testbench_agrees_and_finds_planted_faults(self):
+        shutil.copytree(SOURCE / "examples/systemverilog", self.folder, dirs_exist_ok=True)
+        said = call("make", f"PREFIX={PREFIX}", cwd=self.folder, env=EMPTY | {"CCACHE_DISABLE": "1"})
+        self.assertRegex(said, r"(?m)^PASS$")
+        self.assertRegex(said, r"edge detector: 20 frames, \d{4,} pixels with edges, 0 differ")
+        # 10^6 calls: what C++ computes of the same quads.
+        call(CXX, "-O2", self.write("quads.cpp", QUADS_MAIN), "-o", self.folder / "quads",
+             *pkg_config("--cflags", "--libs", "deburr-golden"))
+        self.assertIn("sampler: 1000000 quads, 4000000 colours, 0 differ, checksum " + call(self.folder / "quads"), said)
+        program = self.folder / "build/testbench"
+        for bug, words in ((1, "quad"), (2, "quad"), (3, "quad"), (4, "frame"), (5, "frame"), (6, "frame")):
+            said = call(program, f"+bug={bug}", "+quads=20000", code=-signal.SIGABRT)
+            self.assertRegex(said, rf"FAIL {words} \d+, .* expected ", bug)
+            self.assertNotRegex(said, r"(?m)^PASS$")
+        said = call(program, "+refused", "+quads=10", "+frames=1")
+        for words in ("status 1: deburr_set: 'depth_bias' = '99' is outside 1..24",
+                      "status 1: deburr_frame_pixels: pixels_size is 8; 4 rows need 64",
+                      "status 1: the handle is NULL", "parameters of the engine geometric: preset = deburr"):
+            self.assertIn(words, said)
+
+    def test_a_prefix_without_deburr_is_said(self):
+        shutil.copytree(SOURCE / "examples/systemverilog", self.folder, dirs_exist_ok=True)
+        self.assertIn(f"no deburr-golden-c below {self.folder}", call("make", f"PREFIX={self.folder}", cwd=self.folder, code=2))
+
+
 class Libraries(Scratch):
     def test_they_configure_with_their_packages_alone(self):
         """The preset `libraries`, where nothing is found but what scripts/packages.txt lists for it."""
@@ -305,7 +433,7 @@ class Libraries(Scratch):
             "OpenSSL", "yaml-cpp", "CLI11", "nlohmann_json", "ZLIB", "Imath", "tinyobjloader", "TinyGLTF", "OpenImageIO",
             "pagmo", "GTest", "benchmark", "Python3")]
         call(CMAKE, "--preset", "libraries", "-B", self.folder, *absent, cwd=SOURCE)
-        commands = call("ninja", "-C", self.folder, "-n")
+        commands = call("ninja", "-C", self.folder, "-t", "commands")
         self.assertIn("libdeburr-models.a", commands)
         self.assertNotRegex(commands, r" tb/")
 

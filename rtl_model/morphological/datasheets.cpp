@@ -17,7 +17,11 @@ std::vector<Datasheet> datasheets(const spec::morphological::Parameters& p) {
   if (learned) sheets.push_back(EndpointPredictor::class_datasheet(p));
   sheets.push_back(LineUnit::datasheet(p));
   if (learned) sheets.push_back(LineUnit::learned_datasheet());
-  sheets.insert(sheets.end(), {AreaUnit::slot_datasheet(p), AreaUnit::line_datasheet(p)});
+  sheets.insert(sheets.end(), {AreaUnit::datasheet(p), RecordStore::datasheet(p),
+                               RecordWalk::datasheet(), AnalyticShares::datasheet()});
+  if (TableShares::is_built(p)) sheets.push_back(TableShares::datasheet());
+  if (learned) sheets.push_back(LearnedShares::datasheet());
+  sheets.push_back(ShareRows::datasheet());
   if (p.diagonals) sheets.push_back(DiagonalUnit::datasheet(p));
   sheets.insert(sheets.end(), {PixelStore::datasheet(), Blender::datasheet()});
   return sheets;

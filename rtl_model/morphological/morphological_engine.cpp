@@ -140,7 +140,7 @@ void MorphologicalEngine::observe_runs(
 
 void MorphologicalEngine::observe_lines(
     std::function<void(const spec::morphological::LineRecord&)> observer) {
-  area.observer = std::move(observer);
+  area.observe_lines(std::move(observer));
 }
 
 }  // namespace deburr::rtl::morphological

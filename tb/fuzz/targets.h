@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What is fuzzed: everything that reads bytes which somebody else wrote. An input is taken, or
-// refused by a named error (spec/error.h); any other exception, a crash, a leak or a hang is a bug.
-// The same functions run under libFuzzer (fuzzer.cpp) and on what it once found (replay_test.cpp).
+// What is fuzzed: everything that reads bytes which somebody else wrote, and the C interface, whose
+// calls somebody else makes. An input is taken, or refused by a named error (spec/error.h); any
+// other exception, a crash, a leak or a hang is a bug. The same functions run under libFuzzer
+// (fuzzer.cpp) and on what it once found (replay_test.cpp).
 #pragma once
 
 #include <span>
@@ -17,7 +18,7 @@ struct FuzzTarget {
   std::vector<std::string> (*seeds)();  // small inputs that are taken; others are made of them
 };
 
-// pictures, depths, obj, gltf, traces, configurations
+// pictures, depths, obj, gltf, traces, configurations, c_calls
 std::span<const FuzzTarget> fuzz_targets();
 // Throws for an unknown name.
 const FuzzTarget& fuzz_target(std::string_view name);

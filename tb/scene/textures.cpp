@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -86,16 +87,36 @@ std::int64_t linear_of(int value, int half) {
   return std::llround(srgb_to_linear((value + 0.5 * half) / 255.0) * kLinearOne);
 }
 
-struct TransferTables {
+class TransferTables {
+ public:
   std::array<std::int64_t, 256> stored{}, linear{};  // byte -> value to average
-  std::array<std::int64_t, 255> boundary{};          // least linear light that rounds to i + 1
+
   TransferTables() {
     for (int v = 0; v < 256; ++v) {
       stored[static_cast<std::size_t>(v)] = v;
       linear[static_cast<std::size_t>(v)] = linear_of(v, 0);
-      if (v < 255) boundary[static_cast<std::size_t>(v)] = linear_of(v, 1);
+      boundary_[static_cast<std::size_t>(v)] =
+          v < 255 ? linear_of(v, 1) : std::numeric_limits<std::int64_t>::max();
     }
+    for (std::size_t s = 0; s < first_.size(); ++s)
+      first_[s] =
+          static_cast<std::uint8_t>(std::upper_bound(boundary_.begin(), boundary_.end(),
+                                                     static_cast<std::int64_t>(s) << kStepBits) -
+                                    boundary_.begin());
   }
+
+  // The byte whose linear light is nearest.
+  std::uint8_t byte_of(std::int64_t light) const {
+    std::uint8_t value = first_[static_cast<std::size_t>(light >> kStepBits)];
+    while (boundary_[value] <= light) ++value;
+    return value;
+  }
+
+ private:
+  // No two bytes begin within one step, so that a search from its first byte ends after one.
+  static constexpr int kStepBits = 12;
+  std::array<std::int64_t, 256> boundary_{};  // least linear light that rounds to i + 1
+  std::array<std::uint8_t, (kLinearOne >> kStepBits) + 1> first_{};  // byte at the step's begin
 };
 
 Image half_size(const Image& source, MipSpace space) {
@@ -104,7 +125,12 @@ Image half_size(const Image& source, MipSpace space) {
   const std::vector<Taps> across = box_taps(source.width, width);
   const std::vector<Taps> down = box_taps(source.height, height);
   const std::int64_t total = std::int64_t{source.width} * source.height;
-  auto rounded_mean = [total](std::int64_t sum) { return (2 * sum + total) / (2 * total); };
+  // Most textures have sides of powers of two; a division a channel is what such levels cost.
+  const auto bits = static_cast<std::uint64_t>(2 * total);
+  const int shift = std::has_single_bit(bits) ? std::countr_zero(bits) : 0;
+  auto rounded_mean = [total, shift](std::int64_t sum) {
+    return shift != 0 ? (2 * sum + total) >> shift : (2 * sum + total) / (2 * total);
+  };
 
   return fill(width, height, [&](int x, int y) {
     const Taps& h = across[static_cast<std::size_t>(x)];
@@ -125,10 +151,7 @@ Image half_size(const Image& source, MipSpace space) {
     for (std::size_t c = 0; c < 4; ++c) {
       const std::int64_t mean = rounded_mean(sum[c]);
       const bool encode = space == MipSpace::kSrgb && c < 3;
-      result[c] = static_cast<std::uint8_t>(
-          encode ? std::upper_bound(tables.boundary.begin(), tables.boundary.end(), mean) -
-                       tables.boundary.begin()
-                 : mean);
+      result[c] = encode ? tables.byte_of(mean) : static_cast<std::uint8_t>(mean);
     }
     return result;
   });

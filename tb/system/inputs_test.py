@@ -363,6 +363,22 @@ class Replaced(InputsTest):
 
 OPENED = re.compile(r'open(?:at2?)?\(.*O_(?:RDONLY|RDWR).*\) = \d+<(?P<path>[^>]*)>$')
 
+UNFINISHED = re.compile(r"^(?P<process>\d+) (?P<begin>.*) <unfinished \.\.\.>$")
+RESUMED = re.compile(r"^(?P<process>\d+) <\.\.\. \w+ resumed>(?P<rest>.*)$")
+
+
+def whole_calls(log):
+    """The calls of a trace, a line each: strace cuts one in two where another process comes between."""
+    begun = {}
+    for line in log:
+        line = line.strip()
+        if cut := UNFINISHED.match(line):
+            begun[cut["process"]] = cut["begin"]
+        elif rest := RESUMED.match(line):
+            yield f"{rest['process']} {begun.pop(rest['process'])}{rest['rest']}"
+        else:
+            yield line
+
 
 def differences(listed, opened, once=()):
     """What is wrong with these names of files, where a file is opened to be read and to be listed; once where what
@@ -391,8 +407,8 @@ class Traced(InputsTest):
         self.deburr(*arguments, tracer=self.tracer)
         paths = []
         with open(self.log) as log:
-            for line in log:
-                found = OPENED.search(line.strip())
+            for line in whole_calls(log):
+                found = OPENED.search(line)
                 if found and os.path.isfile(found["path"]):
                     paths.append(found["path"])
         own = [path for path in paths if path.startswith(self.directory + "/")]
@@ -418,6 +434,11 @@ class Traced(InputsTest):
     def check_run(self, engine, *arguments, least):
         opened = self.opened("run", engine, *arguments, "--out", "out/run")
         self.check(self.load("out/run/manifest.json")["inputs"], opened, least)
+
+    def test_calls_that_are_cut_in_two(self):
+        cut = ['7 openat(AT_FDCWD</w>, "a", O_RDONLY <unfinished ...>', '8 open("b", O_RDONLY) = 3</w/b>',
+               "7 <... openat resumed>) = 4</w/a>"]
+        self.assertEqual([OPENED.search(call)["path"] for call in whole_calls(cut)], ["/w/b", "/w/a"])
 
     def test_meshes_of_every_engine(self):
         self.write_obj()

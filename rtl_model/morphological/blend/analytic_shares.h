@@ -2,13 +2,8 @@
 // The area that a record's line cuts off at one of its edges: a trapezoid, or two triangles where
 // the line crosses the edge.
 //
-// Where: in the AreaUnit, behind its stage 3, with whose stages it moves. Latency 5, a beat a
-// clock. Stages, counted as the AreaUnit's: 4 k x growth; 5 t at both ends of the edge, quantised;
-// 6 squares, trapezoid; 7 triangles; 8 limits, sides. The model does the arithmetic at once, in
-// stage
-// 3. Formats: t S4.24, q U1.12, shares U0.8. Cost an axis and lane: a multiplier 26 x 12, two
-// 12 x 12 and two 24 x 24 (triangles). Made for 250 MHz; longest path: 24 x 24 multiply.
-// Source: Reshetov 2009; paper 000, section 2.
+// Where: in the AreaUnit, behind its RecordWalk, with whose stages it moves. The model does the
+// arithmetic at once, as an edge is asked for. Source: Reshetov 2009; paper 000, section 2.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +11,10 @@
 #include <cstdlib>
 #include <systemc>
 
-#include "rtl_model/morphological/blend/area_walk.h"
+#include "rtl_model/fabric/datasheet.h"
+#include "rtl_model/morphological/blend/edge_shares.h"
+#include "rtl_model/morphological/blend/stored_record.h"
+#include "spec/morphological/shapes.h"
 
 namespace deburr::rtl::morphological {
 
@@ -25,8 +23,8 @@ class AnalyticShares final : public sc_core::sc_module {
   explicit AnalyticShares(const sc_core::sc_module_name& name) : sc_module(name) {}
 
   // Of pixel k of a record.
-  static EdgeShares of(const AreaWalk& walk, std::uint32_t k) {
-    const std::int64_t t0 = walk.t + std::int64_t{walk.growth} * k, t1 = t0 + walk.growth;
+  static EdgeShares of(const StoredRecord& record, std::uint32_t k) {
+    const std::int64_t t0 = record.t + std::int64_t{record.growth} * k, t1 = t0 + record.growth;
     const std::uint32_t q0 = quantise(t0), q1 = quantise(t1);
     std::uint32_t before = 0, after = 0;
     if (t1 <= 0) {
@@ -34,16 +32,18 @@ class AnalyticShares final : public sc_core::sc_module {
     } else if (t0 >= 0) {
       after = trapezoid(q0, q1);
     } else {
-      before = triangle(q0, walk.inverse);
-      after = triangle(q1, walk.inverse);
+      before = triangle(q0, record.inverse);
+      after = triangle(q1, record.inverse);
     }
     using spec::morphological::Side;
     std::uint32_t first = 0, second = 0;
-    (walk.before == Side::kFirst ? first : second) += walk.before == Side::kNone ? 0 : before;
-    (walk.after == Side::kFirst ? first : second) += walk.after == Side::kNone ? 0 : after;
+    (record.before == Side::kFirst ? first : second) += record.before == Side::kNone ? 0 : before;
+    (record.after == Side::kFirst ? first : second) += record.after == Side::kNone ? 0 : after;
     return {static_cast<std::uint8_t>(limit(first)), static_cast<std::uint8_t>(limit(second)),
-            walk.span};
+            record.span};
   }
+
+  static Datasheet datasheet();
 
  private:
   // |t|, S.24, to U1.12: rounded, saturated.

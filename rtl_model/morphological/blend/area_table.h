@@ -2,17 +2,14 @@
 // SMAA's table of areas: the shares of a pixel by its distances to both ends of its run, as ROMs of
 // the layout that is built.
 //
-// Where: in the TableShares, which ask in three of its stages: the roots of both distances, the
-// four entries about them, the shares between these. A reader is a lane and axis. The four entries
-// lie in four ROMs, by the parities of both roots, so each gives one a read. Layouts: full: 16
-// tiles of two values, by the pattern; merged: 8 tiles, patterns 0, 5, 10 and 15 are not read, 7
-// and 14 read 6, 11 and 13 read 9; minimal: two tiles of one value, T, read for both sides, and U.
-// All give the same shares. Every word is computed from the formulas of
+// Where: in the TableShares (its datasheet has formats and cost), which ask in three of its stages:
+// the roots of both distances, the four entries about them, the shares between these. A reader is a
+// lane and axis. The four entries lie in four ROMs, by the parities of both roots, so each gives
+// one a read. Layouts: full: 16 tiles of two values, by the pattern; merged: 8 tiles, patterns 0,
+// 5, 10 and 15 are not read, 7 and 14 read 6, 11 and 13 read 9; minimal: two tiles of one value, T,
+// read for both sides, and U. All give the same shares. Every word is computed from the formulas of
 // docs/number_formats_morphological.md when the engine is built.
-// Formats: roots U4.8, entries U0.9 in eight bits, shares U0.8. Cost a reader: two reads of
-// sqrt_rom (225 x 12), one of each area_rom (minimal: two); three multipliers 9 x 8 and 18 x 8 for
-// each of two values. Made for 250 MHz; longest path: ROM read + 9-bit subtract, 18 x 8 multiply +
-// 25-bit add. Source: SMAA (Jimenez et al. 2012); paper 003 (merged); minimal is ours.
+// Source: SMAA (Jimenez et al. 2012); paper 003 (merged); minimal is ours.
 #pragma once
 
 #include <array>

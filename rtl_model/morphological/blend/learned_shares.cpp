@@ -14,7 +14,7 @@ void LearnedShares::move(Cycle cycle, BeatShares* shares) {
       visit(edge, beat->query[edge]);
     }
   };
-  // Stages 7 to 4.
+  // Stages 4 to 1.
   for_each(pipe_.at(5), [&](std::size_t edge, const SharesRom::Query& query) {
     const SharesRom::Shares found = rom.shares(cycle, edge, query);
     shares_of(*shares, edge) = {found.first, found.second, 0};
@@ -27,6 +27,27 @@ void LearnedShares::move(Cycle cycle, BeatShares* shares) {
   for_each(pipe_.at(2), [&](std::size_t edge, const SharesRom::Query& query) {
     rom.address(cycle, edge, query);
   });
+}
+
+Datasheet LearnedShares::datasheet() {
+  return {
+      .unit = "LearnedShares",
+      .does = "Shares of an edge whose record has no line, or that no record covers.",
+      .latency = {4},
+      .stages = {{"1",
+                  "pixels to both ends, class of each distance; for each of both sides codes and "
+                  "classes of the ends as it sees them, the nearer end; addresses of `shares_a`, "
+                  "`_b`, `_c`",
+                  "12-bit subtract and compare, choice of two"},
+                 {"2", "words of the three; A + B", "SRAM read + 9-bit add"},
+                 {"3", "+ C, limit, address of `share_rom`", "10-bit add, limit"},
+                 {"4", "share", "ROM read"}},
+      .formats = "words and z S3.4, shares U0.8.",
+      .cost =
+          "an axis and lane: a 12-bit subtract, two 12-bit comparators with a choice (the "
+          "nearer end), two encoders of a distance, for each side an E comparator of 5 bits, "
+          "two adders of 9 and 10 bits with a limit; reads of shares_a, _b, _c and share_rom "
+          "for each side. Once, for the sum, a multiplier 12 x 9 and an adder of 32 bits."};
 }
 
 }  // namespace deburr::rtl::morphological

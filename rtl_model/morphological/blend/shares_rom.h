@@ -2,15 +2,12 @@
 // Learned shares: those of an edge whose line no staircase tells, by what both ends of its run look
 // like, from three tables whose words add up.
 //
-// Where: in the LearnedShares, which ask in four of the AreaUnit's stages (in its datasheet). A
-// reader is a lane and axis; each has two sides, the pixels across its edge.
+// Where: in the LearnedShares, a stage of which each call is one (its datasheet has formats and
+// cost). A reader is a lane and axis; each has two sides, the pixels across its edge.
 // The three tables can be loaded through the registers while no frame is inside, when nobody reads:
 // so the ports that read are written. They keep their words in a reset. The sum that the registers
 // show is kept up with each word: the old word is on the output register when the new one comes.
-// Formats: words and z S3.4, shares U0.8. Cost a reader: two 12-bit comparators with a choice (the
-// nearer end), two encoders of a distance, for each side an E comparator of 5 bits, two adders of 9
-// and 10 bits with a limit; reads of A, B, C and share_rom for each side; for the sum a multiplier
-// 12 x 9 and an adder of 32 bits once. Source: ours (docs/morphological_shares.md).
+// Source: ours (docs/morphological_shares.md).
 #pragma once
 
 #include <array>
@@ -44,7 +41,7 @@ class SharesRom {
 
   explicit SharesRom(int lanes);
 
-  // --- Stages, counted as the AreaUnit's ---
+  // --- The LearnedShares' stages: the first two calls are in stage 1, the others in 2 to 4 ---
   // The pixel `before` pixels behind the record's start, `after` before its end.
   static Query ask(const Record& record, std::int32_t before, std::int32_t after);
   // An edge of no record.

@@ -9,19 +9,20 @@ TableShares::TableShares(const sc_core::sc_module_name& name,
                          spec::morphological::AreaSource layout, const ParameterStore& store)
     : sc_module(name), store_(store), table_(layout, store.lanes()) {}
 
-void TableShares::set_ends(AreaWalk& walk) {
+void TableShares::set_ends(StoredRecord& record) {
   constexpr std::int64_t kHalf = std::int64_t{1} << (spec::morphological::kRecipFractionBits - 1);
   // S5.12, above the line's lower end.
-  const std::int64_t height = (walk.t + kHalf + 2048) >> 12;
+  const std::int64_t height = (record.t + kHalf + 2048) >> 12;
   const auto limited = [](std::int64_t pixel) {
     return static_cast<std::int32_t>(std::clamp<std::int64_t>(pixel, -4096, 4095));
   };
-  const std::int64_t inverse = walk.inverse;
-  walk.set_ends(limited(-((height * inverse + kHalf) >> 24)),
-                limited(((4096 - height) * inverse + kHalf) >> 24));
+  const std::int64_t inverse = record.inverse;
+  record.set_ends(limited(-((height * inverse + kHalf) >> 24)),
+                  limited(((4096 - height) * inverse + kHalf) >> 24));
 }
 
-void TableShares::ask(std::size_t edge, const AreaWalk& walk, std::int32_t k, std::uint8_t near) {
+void TableShares::ask(std::size_t edge, const StoredRecord& record, std::int32_t k,
+                      std::uint8_t near) {
   Beat* beat = pipe_.at(1);
   if (!beat) {
     beat = &pipe_.enter();
@@ -29,15 +30,15 @@ void TableShares::ask(std::size_t edge, const AreaWalk& walk, std::int32_t k, st
   }
   beat->asks = static_cast<std::uint8_t>(beat->asks | 1u << edge);
   Search& search = beat->search[edge];
-  search.left = std::max(0, k - walk.first_end());
-  search.right = std::max(0, walk.last_end() - 1 - k);
-  search.query.shape = walk.shape;
-  search.far = walk.far;
+  search.left = std::max(0, k - record.first_end());
+  search.right = std::max(0, record.last_end() - 1 - k);
+  search.query.shape = record.shape;
+  search.far = record.far;
   search.near = near;
-  search.span = walk.span;
+  search.span = record.span;
 }
 
-// Stage 4: searches end at their limit, and an end beyond it is not seen.
+// Stage 1: searches end at their limit, and an end beyond it is not seen.
 void TableShares::cut(Cycle cycle, Beat& beat) {
   const std::int32_t most_left = 2 * store_.rules().search_steps - 1, most_right = most_left + 1;
   for_each(beat, [&](std::size_t edge, Search& search) {
@@ -50,7 +51,7 @@ void TableShares::cut(Cycle cycle, Beat& beat) {
   });
 }
 
-// Stages 6 to 4, and the arithmetic of 7 to 9.
+// Stages 3 to 1, and the arithmetic behind them.
 void TableShares::move_on(Cycle cycle, BeatShares* shares) {
   pipe_.move();
   if (Beat* beat = pipe_.at(4))
@@ -64,6 +65,23 @@ void TableShares::move_on(Cycle cycle, BeatShares* shares) {
       table_.address_entries(cycle, edge, search.query);
     });
   if (Beat* beat = pipe_.at(2)) cut(cycle, *beat);
+}
+
+Datasheet TableShares::datasheet() {
+  return {
+      .unit = "TableShares",
+      .does = "Shares of an edge by SMAA's table, by its distances to both ends of its line.",
+      .latency = {5},
+      .stages = {{"1", "k - a, b - 1 - k; limits, cut shape, addresses of `sqrt_rom`",
+                  "two 13-bit subtracts, one behind the other, + choice"},
+                 {"2", "roots, addresses of `area_rom`", "ROM read + 5-bit add"},
+                 {"3", "entries, differences of neighbours in l", "ROM read + 9-bit subtract"},
+                 {"4", "first interpolation", "9 x 8 multiply + 17-bit add"},
+                 {"5", "second, rounding; sides", "18 x 8 multiply + 25-bit add"}},
+      .formats = "a, b S13, distances S14, roots U4.8, entries U0.9 in eight bits, shares U0.8.",
+      .cost =
+          "an axis and lane: two reads of sqrt_rom (225 x 12), one of each area_rom (minimal: "
+          "two); three multipliers 9 x 8 and 18 x 8 for each of two values."};
 }
 
 }  // namespace deburr::rtl::morphological

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Shares by SMAA's table of areas: by the distances of an edge to both ends of its line.
 //
-// Where: in the AreaUnit, behind its stage 3, with whose stages it moves. Latency 6, a beat a
-// clock. Stages, counted as the AreaUnit's: 4 k - a, b - 1 - k, limits of the searches, shape that
-// is left, sqrt_rom: address; 5 roots, area_rom: address; 6 entries, differences; 7, 8
-// interpolation; 9 corner factor. The model does the arithmetic of 7 to 9 in stage 6. Where the
-// ends of a line lie is found as it is stored, in a clock of its own. Formats: a, b S13, shares
-// U0.8. Cost: AreaTable's; at the entrance of each axis and lane two multipliers 18 x 24; with
-// corners two 10 x 8. Made for 250 MHz; longest path: 18 x 24 multiply. Source: SMAA (Jimenez et
-// al. 2012); paper 003.
+// Where: in the AreaUnit, behind its RecordWalk, with whose stages it moves; the tables are the
+// AreaTable's. The model does the arithmetic of its stages 4 and 5, and the corner factor behind
+// them, in stage 3. Where the ends of a line lie is found as it is stored (RecordStore), in a clock
+// of its own. Source: SMAA (Jimenez et al. 2012); paper 003.
 #pragma once
 
 #include <array>
@@ -16,9 +12,12 @@
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/morphological/blend/area_table.h"
-#include "rtl_model/morphological/blend/area_walk.h"
+#include "rtl_model/morphological/blend/edge_shares.h"
+#include "rtl_model/morphological/blend/stored_record.h"
+#include "rtl_model/morphological/common/parameter_store.h"
 
 namespace deburr::rtl::morphological {
 
@@ -27,18 +26,26 @@ class TableShares final : public sc_core::sc_module {
   TableShares(const sc_core::sc_module_name& name, spec::morphological::AreaSource layout,
               const ParameterStore& store);
 
+  // Whether an engine of these parameters has it.
+  static bool is_built(const spec::morphological::Parameters& p) {
+    return p.area != spec::morphological::AreaSource::kAnalytic &&
+           p.area != spec::morphological::AreaSource::kLearned;
+  }
+
   // As a line is stored: where its ends lie, as if a step were its whole length, rounded to whole
   // pixels.
-  static void set_ends(AreaWalk& walk);
+  static void set_ends(StoredRecord& record);
 
-  // The stages move on: before stage 3 asks for its beat. `beat`: the shares of the AreaUnit's beat
-  // in stage 6, if there is one.
+  // The stages move on: before the walk asks for its beat. `beat`: the shares of the beat in stage
+  // 3 here, stage 6 of the AreaUnit, if there is one.
   void move(Cycle cycle, BeatShares* beat) {
     if (!pipe_.empty()) move_on(cycle, beat);
   }
-  // Stage 3: the edge of a beat that is pixel k of this record.
-  void ask(std::size_t edge, const AreaWalk& walk, std::int32_t k, std::uint8_t near);
+  // The walk's last stage: the edge of a beat that is pixel k of this record.
+  void ask(std::size_t edge, const StoredRecord& record, std::int32_t k, std::uint8_t near);
   void reset() { pipe_.reset(); }
+
+  static Datasheet datasheet();
 
  private:
   // An edge on its way through the table.
@@ -64,7 +71,7 @@ class TableShares final : public sc_core::sc_module {
 
   const ParameterStore& store_;
   AreaTable table_;
-  Pipe<Beat, 4> pipe_;  // stages 3 to 6
+  Pipe<Beat, 4> pipe_;  // the walk's last stage, and stages 1 to 3
 };
 
 }  // namespace deburr::rtl::morphological

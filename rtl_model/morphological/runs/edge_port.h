@@ -1,39 +1,44 @@
 // SPDX-License-Identifier: MIT
-// A read port of the memory that an axis has: columns for vertical runs, rows for horizontal ones.
+// What a predictor reads of the edges: the memory of its axis, through a port of its own. Columns
+// for vertical runs (EdgeWindow), rows for horizontal ones (EdgeRows).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-#include "rtl_model/morphological/runs/edge_rows.h"
-#include "rtl_model/morphological/runs/edge_window.h"
+#include "rtl_model/fabric/clocked.h"
+#include "rtl_model/morphological/runs/trial.h"
 
 namespace deburr::rtl::morphological {
 
+class EdgeMemory {
+ public:
+  EdgeMemory() = default;
+  EdgeMemory(const EdgeMemory&) = delete;
+  EdgeMemory& operator=(const EdgeMemory&) = delete;
+  virtual ~EdgeMemory() = default;
+
+  // The edges that the trial asks for; it keeps which those are.
+  virtual void read(Cycle cycle, std::size_t port, Trial& trial) = 0;
+  // In the clock after.
+  virtual std::uint8_t hits(Cycle cycle, std::size_t port, const Trial& trial) const = 0;
+  virtual std::uint8_t crossing_class(Cycle cycle, std::size_t port, const Trial& trial) const = 0;
+};
+
 class EdgePort {
  public:
-  EdgePort(EdgeWindow& window, int port)
-      : window_(&window), port_(static_cast<std::size_t>(port)) {}
-  EdgePort(EdgeRows& rows, int port) : rows_(&rows), port_(static_cast<std::size_t>(port)) {}
+  EdgePort(EdgeMemory& memory, int port) : memory_(memory), port_(static_cast<std::size_t>(port)) {}
 
-  void read(Cycle cycle, Trial& trial) {
-    if (window_ != nullptr)
-      window_->read(cycle, port_, trial);
-    else
-      rows_->read(cycle, port_, trial);
-  }
+  void read(Cycle cycle, Trial& trial) { memory_.read(cycle, port_, trial); }
   std::uint8_t hits(Cycle cycle, const Trial& trial) const {
-    return window_ != nullptr ? window_->hits(cycle, port_, trial)
-                              : rows_->hits(cycle, port_, trial);
+    return memory_.hits(cycle, port_, trial);
   }
   std::uint8_t crossing_class(Cycle cycle, const Trial& trial) const {
-    return window_ != nullptr ? window_->crossing_class(cycle, port_, trial)
-                              : rows_->crossing_class(cycle, port_, trial);
+    return memory_.crossing_class(cycle, port_, trial);
   }
 
  private:
-  EdgeWindow* window_ = nullptr;
-  EdgeRows* rows_ = nullptr;
+  EdgeMemory& memory_;
   std::size_t port_;
 };
 

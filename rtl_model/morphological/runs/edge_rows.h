@@ -25,6 +25,7 @@
 
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/runs/edge_port.h"
 #include "rtl_model/morphological/runs/trial.h"
 
 namespace deburr::rtl::morphological {
@@ -34,7 +35,7 @@ struct EdgeWord {
   std::uint64_t left = 0, top = 0;
 };
 
-class EdgeRows {
+class EdgeRows final : public EdgeMemory {
  public:
   EdgeRows(const spec::morphological::Parameters& parameters, const ParameterStore& store);
 
@@ -54,10 +55,9 @@ class EdgeRows {
   }
 
   // --- A predictor of horizontal runs: the columns of a step, of its row and of the one above ---
-  void read(Cycle cycle, std::size_t port, Trial& trial);
-  // In the clock after.
-  std::uint8_t hits(Cycle cycle, std::size_t port, const Trial& trial) const;
-  std::uint8_t crossing_class(Cycle cycle, std::size_t port, const Trial& trial) const;
+  void read(Cycle cycle, std::size_t port, Trial& trial) override;
+  std::uint8_t hits(Cycle cycle, std::size_t port, const Trial& trial) const override;
+  std::uint8_t crossing_class(Cycle cycle, std::size_t port, const Trial& trial) const override;
 
   std::array<Memory<EdgeWord>, 2> memory;  // even and odd rows
 

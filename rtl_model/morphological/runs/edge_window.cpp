@@ -93,7 +93,7 @@ void EdgeWindow::clear(std::int32_t beat) {
   }
 }
 
-void EdgeWindow::read(Cycle cycle, std::size_t port, const Trial& trial) {
+void EdgeWindow::read(Cycle cycle, std::size_t port, Trial& trial) {
   const std::int32_t first = std::max(trial.line - 1, 0);
   const std::int32_t last = std::min(trial.line, store_.rules().width - 1);
   lines_[port].read(cycle, at(first), static_cast<std::uint32_t>(last - first + 1));

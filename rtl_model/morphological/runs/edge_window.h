@@ -26,6 +26,7 @@
 
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/runs/edge_port.h"
 #include "rtl_model/morphological/runs/trial.h"
 
 namespace deburr::rtl::morphological {
@@ -35,7 +36,7 @@ struct EdgeBits {
   std::uint8_t left = 0, top = 0;
 };
 
-class EdgeWindow {
+class EdgeWindow final : public EdgeMemory {
  public:
   EdgeWindow(const char* name, const spec::morphological::Parameters& parameters,
              const ParameterStore& store);
@@ -72,10 +73,9 @@ class EdgeWindow {
   void turn_entry(std::int32_t x) { entries_[static_cast<std::size_t>(x)] ^= 1; }
 
   // --- A predictor of vertical runs: both columns beside the trial's lattice line ---
-  void read(Cycle cycle, std::size_t port, const Trial& trial);
-  // In the clock after.
-  std::uint8_t hits(Cycle cycle, std::size_t port, const Trial& trial) const;
-  std::uint8_t crossing_class(Cycle cycle, std::size_t port, const Trial& trial) const;
+  void read(Cycle cycle, std::size_t port, Trial& trial) override;
+  std::uint8_t hits(Cycle cycle, std::size_t port, const Trial& trial) const override;
+  std::uint8_t crossing_class(Cycle cycle, std::size_t port, const Trial& trial) const override;
 
   Memory<void> memory;
 

@@ -5,11 +5,10 @@
 
 namespace deburr::rtl::morphological {
 
-template <class Edges>
 EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
                                      const spec::morphological::Parameters& p,
-                                     const ParameterStore& store, Edges& edges, std::int32_t reach,
-                                     bool vertical)
+                                     const ParameterStore& store, EdgeMemory& edges,
+                                     std::int32_t reach, bool vertical)
     : Unit(name, clock),
       records_in("records_in", store.lanes()),
       sums_out("sums_out", store.lanes()),

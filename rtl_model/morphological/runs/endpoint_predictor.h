@@ -19,6 +19,8 @@
 #include "rtl_model/morphological/common/parameter_store.h"
 #include "rtl_model/morphological/common/tokens.h"
 #include "rtl_model/morphological/runs/edge_port.h"
+#include "rtl_model/morphological/runs/edge_rows.h"
+#include "rtl_model/morphological/runs/edge_window.h"
 #include "rtl_model/morphological/runs/port_schedule.h"
 #include "rtl_model/morphological/runs/predictor.h"
 
@@ -62,10 +64,9 @@ class EndpointPredictor final : public Unit {
     SumsToken result{};
   };
 
-  template <class Edges>
   EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
                     const spec::morphological::Parameters& parameters, const ParameterStore& store,
-                    Edges& edges, std::int32_t reach, bool vertical);
+                    EdgeMemory& edges, std::int32_t reach, bool vertical);
   Activity work(Cycle cycle);
 
   const PortSchedule schedule_;

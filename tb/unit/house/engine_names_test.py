@@ -28,6 +28,9 @@ NAMED = {
             "rtl_model/morphological/blend/blender.cpp", "spec/morphological/parameters.h"],
         "methods are compared there, each by its name": ["tb/oracle/comparison.cpp"],
         "the paper whose method it is": ["tb/papers/papers_002.cpp"],
+        "the C interface is one of all engines: its tests, and what is built from installed files": [
+            "examples/installed_test.py", "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
+            "tb/unit/golden/c/threads_test.cpp"],
         "tables of pages are measured, its own among them": [
             "scripts/measurement/results.py"],
     },
@@ -52,8 +55,11 @@ NAMED = {
             "tb/system/inputs_test.py", "tb/system/sweep_test.py", "tb/system/terminal_test.py", "tb/unit/env/planted_faults_test.cpp",
             "tb/unit/house/mutate_test.py", "tb/unit/results/result_test.cpp", "tb/env/collect.h"],
         "an example of an engine, in what is built from installed files": [
-            "examples/installed_test.py", "examples/platform/main.cpp", "examples/platform/painter.cpp",
-            "examples/platform/painter.h"],
+            "examples/c/draw.c", "examples/installed_test.py", "examples/platform/main.cpp",
+            "examples/platform/painter.cpp", "examples/platform/painter.h", "examples/systemverilog/edge_detector.sv",
+            "examples/systemverilog/testbench.sv"],
+        "the C interface is one of all engines: its tests": [
+            "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp"],
         "the one choice by which an engine has no memory": ["tb/traces/line_trace.cpp"],
         "names of memories are cut in a chart": ["tb/results/report.js"],
         "tables of pages are measured, its own among them": [

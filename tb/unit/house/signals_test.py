@@ -28,6 +28,8 @@ SHARED = {
     "EdgeLatency": "an instrument",
     "LatencyProbe": "an instrument",
 }
+# Parts of one unit, the first of which addresses the memories of the second.
+PARTS = {"RecordWalk": "RecordStore"}
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
 CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\s*(?:final\s*)?:\s*([^{;]*)\{")
 BASES = re.compile(r"\bpublic\s+(?:[\w:]+::)?(Unit|Engine|sc_module)\b")
@@ -77,20 +79,23 @@ def violations(root):
         text = path.read_text(encoding="utf-8")
         headers[path.relative_to(root)] = COMMENT.sub(lambda c: "\n" * c.group().count("\n"), text)
     found = {name: list(classes(text)) for name, text in headers.items()}
-    modules = {}
+    modules, units = {}, {}
     for where, list_ in found.items():
         modules.setdefault(where.parts[1], set()).update(c[0] for c in list_)
+        units.setdefault(where.parts[1], set()).update(c[0] for c in list_ if c[1] != "sc_module")
     for where, list_ in found.items():
         engine = where.parts[1]
         for name, base, first, body in list_:
-            others = "|".join(sorted(modules[engine] - {name})) or "(?!)"
+            others = "|".join(sorted(modules[engine] - {name, PARTS.get(name)})) or "(?!)"
             held = re.compile(rf"\b({others})\b\s*(?:const\s*)?[&*]")
-            owned = re.compile(rf"\b(?:unique_ptr|shared_ptr|reference_wrapper)\s*<\s*(?:const\s+)?({others})\b")
+            # A part that is not always built is owned, as one that is would be a member.
+            parts = "|".join(sorted(units[engine] - {name})) or "(?!)"
+            owned = re.compile(rf"\b(?:unique_ptr\s*<\s*(?:const\s+)?({parts})|(?:shared_ptr|reference_wrapper)\s*<\s*(?:const\s+)?({others}))\b")
             for offset, line in enumerate(body.split("\n")):
                 if held.search(line):
                     yield f"{where}:{first + offset}: {name} holds or is given {held.search(line)[1]}: join them by a link or a wire"
                 if base == "Unit" and owned.search(line):
-                    yield f"{where}:{first + offset}: {name} holds {owned.search(line)[1]}: join them by a link or a wire"
+                    yield f"{where}:{first + offset}: {name} holds {owned.search(line)[1] or owned.search(line)[2]}: join them by a link or a wire"
                 reference = REFERENCE.search(line)
                 if reference and reference[1] not in modules[engine] | SHARED.keys():
                     yield f"{where}:{first + offset}: {name} holds {reference[1]}, which SHARED does not name: use a link or a wire"
@@ -112,6 +117,8 @@ def not_shared(root):
             held.update(match[1] for match in map(REFERENCE.search, lines) if match)
     for name in sorted(SHARED.keys() - held):
         yield f"SHARED names {name}, which nothing holds: drop it"
+    for name in sorted(set(PARTS.values()) - held):
+        yield f"PARTS names {name}, which nothing holds: drop it"
 
 
 def planted_faults_are_caught():
@@ -123,6 +130,7 @@ def planted_faults_are_caught():
         "a constructor's reference": "class A final : public Unit {\n public:\n  A(int lanes,\n    Other& other);\n};",
         "a pointer": "class A final : public Unit {\n  Other* other_ = nullptr;\n};",
         "a smart pointer": "class A final : public Unit {\n  std::unique_ptr<Other> other_;\n};",
+        "a shared part": "class A final : public Unit {\n  std::shared_ptr<Store> store_;\n};",
         "in a struct inside": "class A final : public Unit {\n  struct Side {\n    Other const& other;\n  };\n};",
         "a module's reference": "class A final : public sc_core::sc_module {\n  Other& other_;\n};",
         "a module that is no unit": "class A final : public Unit {\n  const Store& store_;\n};",
@@ -133,6 +141,7 @@ def planted_faults_are_caught():
     }
     fine = {
         "an owner": "class A final : public Engine {\n public:\n  Other other;\n  std::unique_ptr<Other> second;\n};",
+        "a part that may be left out": "class A final : public Unit {\n  std::unique_ptr<Store> store_;\n};",
         "an observer": "class A final : public Unit {\n public:\n  std::function<void(const Beat&)> observer;\n};",
         "itself": "class A final : public Unit {\n  struct Side {\n    const A& unit;\n  };\n};",
         "registers": "class A final : public Unit {\n  const ParameterStore& store_;\n};",

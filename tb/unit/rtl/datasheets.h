@@ -50,7 +50,7 @@ void expect_notices_a_clock(const rtl::Datasheet& sheet, rtl::Clocks rtl::Datash
 }
 
 // Without its namespaces.
-inline std::string class_of(const rtl::Unit& unit) {
+inline std::string class_of(const sc_core::sc_object& unit) {
   const std::unique_ptr<char, decltype(&std::free)> name(
       abi::__cxa_demangle(typeid(unit).name(), nullptr, nullptr, nullptr), &std::free);
   const std::string whole = name.get();

@@ -111,9 +111,23 @@ LineToken three(Axis axis, int line, int start, std::uint32_t slot) {
 
 class AreaLanes : public ::testing::TestWithParam<int> {};
 
+// The latency of slots is that of its parts, one behind the other: a part's datasheet that is a
+// clock off is noticed.
+void expect_sum_of_parts(const rtl::Datasheet& shares, Cycle measured) {
+  const std::vector<rtl::Datasheet> parts = {RecordWalk::datasheet(), shares,
+                                             ShareRows::datasheet()};
+  for (std::size_t part = 0; part < parts.size(); ++part)
+    expect_notices_a_clock(parts[part], &rtl::Datasheet::latency, [&](const rtl::Datasheet& sheet) {
+      Cycle others = 0;
+      for (std::size_t other = 0; other < parts.size(); ++other)
+        if (other != part) others += parts[other].latency.clocks;
+      expect_latency(sheet, measured - others);
+    });
+}
+
 // A slot a clock goes in; of each that blends, shares come out nine clocks later.
 TEST_P(AreaLanes, LatencyAndIntervalOfTheDatasheet) {
-  const rtl::Datasheet sheet = AreaUnit::slot_datasheet(small(GetParam()));
+  const rtl::Datasheet sheet = AreaUnit::datasheet(small(GetParam()));
   Area bench(small(GetParam()), 11, 7);
   bench.send_slots(0);
   const std::uint32_t first = bench.slots_before(kLag), last = bench.slots_before(kLag + 7);
@@ -129,6 +143,7 @@ TEST_P(AreaLanes, LatencyAndIntervalOfTheDatasheet) {
   }
   EXPECT_EQ(bench.unit.busy_cycles(), last + 8);
   EXPECT_EQ(bench.unit.stalled_cycles(), 0u);
+  expect_sum_of_parts(AnalyticShares::datasheet(), bench.shares_gate.cycles[0] - (first + 1));
 }
 
 // A record of each axis, and one in the corner of the frame: 85, 11 | 11, 85, at its pixels and
@@ -195,7 +210,9 @@ TEST_P(AreaLanes, ARecordIsFinishedAClockAfterItsPopBehindItsSlot) {
   // Pairs of columns lie in half as many banks as there are lanes, so that lines wait there once.
   const int banks = std::max(1, bench.lanes / 2), clocks = bench.lanes / banks;
   ASSERT_EQ(done.beats.size(), static_cast<std::size_t>(2 * clocks));
-  expect_latency(AreaUnit::line_datasheet(small(GetParam())), done.cycles[0] - (even + 2));
+  expect_notices_a_clock(
+      RecordStore::datasheet(small(GetParam())), &rtl::Datasheet::latency,
+      [&](const rtl::Datasheet& sheet) { expect_latency(sheet, done.cycles[0] - (even + 2)); });
   for (int i = 0; i < clocks; ++i) {
     const auto clock = static_cast<std::size_t>(i), later = static_cast<std::size_t>(clocks + i);
     // Slot k is popped in k + 1 and in its second stage in k + 2, and so is the line popped. It is
@@ -283,6 +300,7 @@ std::array<int, 2> shipped(const SharesRom::Query& query) {
 // Shares of a learned record of each axis and of edges without one, nine clocks behind their slots;
 // none has a span.
 TEST_P(AreaLanes, LearnedSharesLieWhereTheirEdgesLie) {
+  const Cycle latency = AreaUnit::datasheet(with_shares(GetParam())).latency.clocks;
   Area bench(with_shares(GetParam()), 11, 9);
   const int lanes = bench.lanes;
   const auto slot_of = [&](int row, int x) {
@@ -317,7 +335,7 @@ TEST_P(AreaLanes, LearnedSharesLieWhereTheirEdgesLie) {
   int seen = 0;
   for (std::size_t at = 0; at < bench.shares_gate.beats.size(); ++at) {
     const ShareToken& token = bench.shares_gate.beats[at];
-    ASSERT_EQ(bench.shares_gate.cycles[at], first + at + 10);
+    ASSERT_EQ(bench.shares_gate.cycles[at], first + at + 1 + latency);
     for (int i = 0; i < lanes && token.slot.beat * lanes + i < 11; ++i) {
       const int x = token.slot.beat * lanes + i, y = token.slot.row - kLag;
       const auto of = [](const auto& edges, int ex, int ey, std::size_t side) {
@@ -450,18 +468,18 @@ TEST(TableEnds, AreRoundedToPixelsOf13Bits) {
            {-kOne / 2, 3000 << 12, 1500, 4095},
            {2 * kOne, 4095 << 12, -4096, -4095},
            {-kOne, 4095 << 12, 4095, 4095}}) {
-    AreaWalk walk;
-    walk.t = row.height - kOne / 2;
-    walk.inverse = row.inverse;
-    TableShares::set_ends(walk);
-    EXPECT_EQ(walk.first_end(), row.first) << row.height << ' ' << row.inverse;
-    EXPECT_EQ(walk.last_end(), row.last) << row.height << ' ' << row.inverse;
+    StoredRecord record;
+    record.t = row.height - kOne / 2;
+    record.inverse = row.inverse;
+    TableShares::set_ends(record);
+    EXPECT_EQ(record.first_end(), row.first) << row.height << ' ' << row.inverse;
+    EXPECT_EQ(record.last_end(), row.last) << row.height << ' ' << row.inverse;
   }
 }
 
 TEST_P(AreaLanes, LatencyOfTheDatasheetWithATableToo) {
   const Cycle latency =
-      AreaUnit::slot_datasheet(with_table(AreaSource::kTableFull, GetParam())).latency.clocks;
+      AreaUnit::datasheet(with_table(AreaSource::kTableFull, GetParam())).latency.clocks;
   Area bench(with_table(AreaSource::kTableFull, GetParam()), 11, 7);
   bench.send_slots(0);
   // In each row a record, so that the table is read.
@@ -477,6 +495,7 @@ TEST_P(AreaLanes, LatencyOfTheDatasheetWithATableToo) {
   }
   EXPECT_GE(any, 7u);
   EXPECT_EQ(bench.unit.stalled_cycles(), 0u);
+  expect_sum_of_parts(TableShares::datasheet(), bench.shares_gate.cycles[0] - (first + 1));
 }
 
 // What is one clock more than without a table; two banks a lane and axis, so that no line waits.
@@ -492,8 +511,10 @@ TEST_P(AreaLanes, WithATableARecordIsFinishedAClockLater) {
   bench.clock.run(slot + 40);
   ASSERT_EQ(bench.finished_gate.beats.size(), 1u);
   // Popped in slot + 2.
-  expect_latency(AreaUnit::line_datasheet(with_table(AreaSource::kTableMerged, GetParam())),
-                 bench.finished_gate.cycles[0] - (slot + 2));
+  expect_notices_a_clock(RecordStore::datasheet(with_table(AreaSource::kTableMerged, GetParam())),
+                         &rtl::Datasheet::latency, [&](const rtl::Datasheet& sheet) {
+                           expect_latency(sheet, bench.finished_gate.cycles[0] - (slot + 2));
+                         });
   EXPECT_EQ(bench.finished_gate.beats[0].count[0], 2 * bench.lanes);
   EXPECT_EQ(bench.unit.bank_conflicts.value(), 0u);
 }

@@ -25,11 +25,14 @@ TEST(MorphologicalDatasheets, AreTheContracts) {
                    {"EndpointPredictor, classes of crossings alone", 4 + 2, 4},
                    {"LineUnit, lines", 24 + 1, 1},
                    {"LineUnit, learned records", 1, 1},
-                   {"AreaUnit, slots", 9, 1},
-                   {"AreaUnit, lines", 2, 1},
-                   {"AreaUnit, slots, with learned shares", 9, 1},
-                   {"AreaUnit, slots, with a table", 9, 1},
-                   {"AreaUnit, lines, with a table", 3, 1},
+                   {"AreaUnit", 9, 1},
+                   {"RecordStore", 2, 1},
+                   {"RecordStore, with a table", 3, 1},
+                   {"RecordWalk", 3, 1},
+                   {"AnalyticShares", 5, 1},
+                   {"TableShares", 5, 1},
+                   {"LearnedShares", 4, 1},
+                   {"ShareRows", 1, 1},
                    {"DiagonalUnit", 9 + 5, 1},
                    {"PixelStore", 2, 1},
                    {"Blender", 6, 1}});
@@ -40,14 +43,14 @@ TEST(MorphologicalDatasheets, AddUpToThePipe) {
   Cycle sum = 0;
   for (const rtl::Datasheet& sheet :
        {SlotSequencer::datasheet(), LumaUnit::datasheet(), EdgeDetector::datasheet(),
-        RunExtractor::slot_datasheet(), AreaUnit::slot_datasheet({}), Blender::datasheet()})
+        RunExtractor::slot_datasheet(), AreaUnit::datasheet({}), Blender::datasheet()})
     sum += sheet.latency.clocks;
   EXPECT_EQ(sum, spec::morphological::kPipelineLatency + 1u);
   EXPECT_EQ(SlotSequencer::datasheet().latency.clocks, spec::morphological::kSequencerLatency);
   EXPECT_EQ(LumaUnit::datasheet().latency.clocks, spec::morphological::kLumaLatency);
   EXPECT_EQ(EdgeDetector::datasheet().latency.clocks, spec::morphological::kEdgeLatency);
   EXPECT_EQ(RunExtractor::slot_datasheet().latency.clocks, spec::morphological::kExtractorLatency);
-  EXPECT_EQ(AreaUnit::slot_datasheet({}).latency.clocks, spec::morphological::kAreaLatency);
+  EXPECT_EQ(AreaUnit::datasheet({}).latency.clocks, spec::morphological::kAreaLatency);
   EXPECT_EQ(PixelStore::datasheet().latency.clocks, spec::morphological::kPixelStoreLatency);
   EXPECT_EQ(Blender::datasheet().latency.clocks, spec::morphological::kBlenderLatency + 1u);
 }
@@ -62,6 +65,39 @@ TEST(MorphologicalDatasheets, EveryUnitWithDiagonalsHasOne) {
   ASSERT_TRUE(p.diagonals);
   const EngineBench b(p);
   expect_datasheets(b.engine, rtl::morphological::datasheets(p));
+}
+
+// The modules inside the AreaUnit are its parts, and each has one.
+void expect_parts(const AreaUnit& area, const Parameters& p,
+                  const std::vector<std::string>& expected) {
+  const std::vector<rtl::Datasheet> sheets = rtl::morphological::datasheets(p);
+  std::vector<std::string> parts;
+  for (const sc_core::sc_object* child : area.get_child_objects())
+    if (dynamic_cast<const sc_core::sc_module*>(child) != nullptr)
+      parts.push_back(class_of(*child));
+  EXPECT_THAT(parts, ::testing::UnorderedElementsAreArray(expected));
+  for (const std::string& part : parts)
+    EXPECT_TRUE(std::any_of(sheets.begin(), sheets.end(),
+                            [&](const rtl::Datasheet& sheet) { return sheet.unit == part; }))
+        << part << " has no datasheet";
+}
+
+TEST(MorphologicalDatasheets, EveryPartOfTheAreaUnitHasOne) {
+  const Parameters p = preset(Preset::kMlaa);
+  const EngineBench b(p);
+  expect_parts(b.engine.area, p, {"RecordStore", "RecordWalk", "AnalyticShares", "ShareRows"});
+}
+TEST(MorphologicalDatasheets, EveryPartWithLearnedSharesHasOne) {
+  const Parameters p = preset(Preset::kDeburr);
+  const EngineBench b(p);
+  expect_parts(b.engine.area, p,
+               {"RecordStore", "RecordWalk", "AnalyticShares", "LearnedShares", "ShareRows"});
+}
+TEST(MorphologicalDatasheets, EveryPartWithATableHasOne) {
+  const Parameters p = smaa(spec::morphological::Quality::kHigh);
+  const EngineBench b(p);
+  expect_parts(b.engine.area, p,
+               {"RecordStore", "RecordWalk", "AnalyticShares", "TableShares", "ShareRows"});
 }
 
 }  // namespace

@@ -302,7 +302,7 @@ TEST(EdgeMemory, NoStepGoesAlongTheRightBorder) {
   for (const bool right : {false, true})
     for (const int length : {1, 2, 7}) {
       const auto hits = [&](int line, std::uint8_t corner) {
-        const Trial trial{line, 30, length, 20, right, corner, corner};
+        Trial trial{line, 30, length, 20, right, corner, corner};
         window.read(++cycle, 0, trial);
         return window.hits(++cycle, 0, trial);
       };

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// A small device under test: the first block of a morphological engine, edges by colour. A pixel in
+// each clock, row by row; its edges leave a clock behind it. `bug` plants a fault; 0 is the device
+// as it should be.
+module edge_detector #(
+    parameter int WIDTH = 64
+) (
+    input  logic        clock,
+    input  int unsigned bug,
+    input  logic [ 7:0] least,  // codes; a larger or equal step of R, G or B is an edge
+    input  logic        valid,
+    input  logic        first,  // of the frame
+    input  logic [31:0] rgba,   // R in bits 7..0
+    output logic        edges_valid,
+    output logic [ 1:0] edges   // bit 0: to the left neighbour, bit 1: to the upper one
+);
+  logic [31:0] row[WIDTH];
+  logic [31:0] left;
+  int unsigned x, y;
+
+  function automatic logic is_edge(input logic [31:0] a, input logic [31:0] b);
+    logic [7:0] step;
+    step = 0;
+    for (int c = 0; c < 3; ++c) begin
+      automatic logic [7:0] p = a[8*c+:8], q = b[8*c+:8];
+      automatic logic [7:0] d = p > q ? p - q : q - p;
+      if (bug == 5 && c == 2) continue;  // looks at two channels
+      if (d > step) step = d;
+    end
+    return bug == 4 ? step > least : step >= least;  // 4: the threshold itself is none
+  endfunction
+
+  always_ff @(posedge clock) begin
+    automatic int unsigned at = first ? 0 : x, line = first ? 0 : y;
+    edges_valid <= valid;
+    if (valid) begin
+      edges[0] <= at != 0 && is_edge(rgba, left);
+      // 6: the row above one pixel too far
+      edges[1] <= line != 0 && is_edge(rgba, row[bug == 6 ? (at + 1) % WIDTH : at]);
+      left <= rgba;
+      row[at] <= rgba;
+      x <= at == WIDTH - 1 ? 0 : at + 1;
+      y <= at == WIDTH - 1 ? line + 1 : line;
+    end
+  end
+endmodule

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// What the handles of engines that smooth frames share: the frame that is being given, and planes
+// of the one that was smoothed.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "golden/c/handle.h"
+#include "golden/c/parameter_texts.h"
+#include "spec/error.h"
+
+namespace deburr::golden::c {
+
+using Rgba8 = std::array<std::uint8_t, 4>;
+
+// A plane of the results: up to four bytes a pixel, in order.
+struct Plane {
+  std::string_view name;
+  std::uint32_t pixel_bytes;
+  bool detail;  // of a model that keeps everything only
+};
+
+struct FrameSize {
+  std::uint32_t width = 0, height = 0;
+};
+
+struct FrameHandle : deburr_golden {
+  static constexpr const char* kWanted = "an engine that smooths frames";
+
+  virtual std::span<const Plane> planes() const = 0;
+  // Of the last frame that was smoothed; 0 without one.
+  virtual FrameSize result_size() const = 0;
+  virtual bool has_detail() const = 0;
+  virtual Rgba8 plane_pixel(std::size_t plane, int x, int y) const = 0;
+  virtual void keep_everything(bool on) = 0;
+  // A frame is about to be begun: what else was given of the last one goes.
+  virtual void begin_frame() {}
+  // Smooths the frame that was given.
+  virtual void process() = 0;
+
+  void clear_frame() {
+    width = height = 0;
+    pixels.clear();
+    depth.clear();
+    has_depth = false;
+  }
+  std::size_t index(std::uint32_t x, std::uint32_t y) const { return std::size_t{y} * width + x; }
+
+  // As given; rows without gaps.
+  std::uint32_t width = 0, height = 0;
+  std::vector<Rgba8> pixels;
+  std::vector<std::uint32_t> depth;
+  bool has_depth = false;
+};
+
+// ArgumentError without a frame that was begun.
+void require_frame(const FrameHandle& handle);
+
+// The model of an engine: made anew when a parameter has changed, and only if it takes the frame.
+template <class Golden, class Parameters>
+class FrameModel {
+ public:
+  // Calls work(golden) with a model of these parameters.
+  template <class Work>
+  void process(const Parameters& parameters, bool everything, Work&& work) {
+    if (!model_ || stale_) {
+      auto fresh =
+          std::make_unique<Golden>(parameters, everything ? Detail::kEverything : Detail::kPixels);
+      work(*fresh);
+      model_ = std::move(fresh);
+      stale_ = false;
+      everything_ = everything;
+      return;
+    }
+    try {
+      work(*model_);
+    } catch (const spec::ConfigError&) {
+      throw;  // said before anything was done
+    } catch (...) {
+      model_.reset();
+      throw;
+    }
+  }
+  void mark_stale() { stale_ = true; }
+  void drop() { model_.reset(); }
+  const Golden* get() const { return model_.get(); }
+  FrameSize size() const {
+    if (!model_) return {};
+    return {static_cast<std::uint32_t>(model_->width()),
+            static_cast<std::uint32_t>(model_->height())};
+  }
+  bool everything() const { return model_ && everything_; }
+
+ private:
+  using Detail = typename Golden::Detail;
+  std::unique_ptr<Golden> model_;
+  bool stale_ = false;
+  bool everything_ = false;
+};
+
+// The counts of an engine, by the names of the registers that show them (spec/ENGINE/packets.h).
+template <class Counts, class Registers, class Work>
+std::vector<Counter> counters_of(const Counts& counts, const Registers& registers,
+                                 const Work& work) {
+  std::vector<Counter> all;
+  for (const auto& count : counts) {
+    for (const auto& info : registers) {
+      if (info.offset != count.offset) continue;
+      std::string name(info.name);
+      for (char& letter : name)
+        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+      all.push_back({std::move(name), work.*count.count});
+    }
+  }
+  return all;
+}
+
+}  // namespace deburr::golden::c

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// The morphological engine's part of the C interface.
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "golden/c/frame_handle.h"
+#include "golden/morphological/morphological_golden.h"
+#include "spec/morphological/check_build.h"
+
+namespace deburr::golden::c {
+namespace {
+
+enum class MorphologicalPlane : std::size_t { kPixels, kEdges, kShares, kTaps, kDecisions };
+constexpr std::array<Plane, 5> kMorphologicalPlanes = {{{"pixels", 4, false},
+                                                        {"edges", 1, false},
+                                                        {"shares", 4, false},
+                                                        {"taps", 4, true},
+                                                        {"decisions", 1, true}}};
+
+struct MorphologicalHandle final : FrameHandle {
+  static constexpr const char* kWanted = "morphological";
+
+  const char* engine() const override { return "morphological"; }
+  void set(std::string_view name, std::string_view text) override {
+    texts.set(name, text);
+    model.mark_stale();
+  }
+  std::string get(std::string_view name) const override { return texts.get(name); }
+  void check() const override { check_build(texts.values()); }
+  std::span<const std::string> parameter_names() const override { return texts.names(); }
+  std::span<const Counter> counters() override {
+    shown = counters_of(spec::morphological::kWorkCounts, spec::morphological::kRegisters,
+                        model.get() ? model.get()->work() : spec::morphological::Work{});
+    return shown;
+  }
+  void reset() override {
+    model.drop();
+    clear_frame();
+  }
+
+  std::span<const Plane> planes() const override { return kMorphologicalPlanes; }
+  FrameSize result_size() const override { return model.size(); }
+  bool has_detail() const override { return model.everything(); }
+  void keep_everything(bool on) override {
+    everything = on;
+    model.mark_stale();
+  }
+  void begin_frame() override { edges.reset(); }
+  void process() override {
+    const int w = static_cast<int>(width), h = static_cast<int>(height);
+    const morphological::ImageView image(pixels, w, h);
+    model.process(texts.values(), everything, [&](morphological::MorphologicalGolden& golden) {
+      if (edges) {
+        golden.process(image, *edges);
+      } else {
+        golden.process(
+            image, has_depth ? morphological::DepthView(depth, w, h) : morphological::DepthView());
+      }
+    });
+  }
+  Rgba8 plane_pixel(std::size_t plane, int x, int y) const override {
+    const morphological::MorphologicalGolden& golden = *model.get();
+    const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(golden.width()) +
+                          static_cast<std::size_t>(x);
+    switch (static_cast<MorphologicalPlane>(plane)) {
+      case MorphologicalPlane::kEdges:
+        return {static_cast<std::uint8_t>((golden.edges().left.at(x, y) ? 1 : 0) |
+                                          (golden.edges().top.at(x, y) ? 2 : 0))};
+      case MorphologicalPlane::kShares: {
+        const auto top = golden.top_shares(x, y), left = golden.left_shares(x, y);
+        return {top.first, top.second, left.first, left.second};
+      }
+      case MorphologicalPlane::kTaps: {
+        const auto& tap = golden.taps()[i];
+        return {static_cast<std::uint8_t>(tap.horizontal), tap.first, tap.second, tap.edges};
+      }
+      case MorphologicalPlane::kDecisions:
+        return {static_cast<std::uint8_t>(golden.decisions()[i])};
+      case MorphologicalPlane::kPixels:
+        break;
+    }
+    return golden.pixels()[i];
+  }
+
+  ParameterTexts<spec::morphological::Parameters> texts{
+      "morphological", [](const spec::morphological::Parameters& p) {
+        return spec::morphological::preset_parameters(p.preset, p.quality);
+      }};
+  FrameModel<morphological::MorphologicalGolden, spec::morphological::Parameters> model;
+  std::optional<morphological::EdgePlanes> edges;
+  bool everything = false;
+  std::vector<Counter> shown;
+};
+
+[[noreturn]] void refuse_edges(int x, int y, unsigned bits, unsigned possible) {
+  throw ArgumentError("edges of (" + std::to_string(x) + ", " + std::to_string(y) + ") are " +
+                      std::to_string(bits) + "; of bit 0, left, and bit 1, above, " +
+                      std::to_string(possible) + " has those with a neighbour in the frame");
+}
+
+}  // namespace
+}  // namespace deburr::golden::c
+
+using deburr::golden::c::MorphologicalHandle;
+
+extern "C" {
+
+deburr_golden* deburr_morphological_new(void) {
+  return deburr::golden::c::new_handle<MorphologicalHandle>();
+}
+
+int deburr_morphological_edges(deburr_golden* golden, const uint8_t* edges, size_t edges_size,
+                               uint32_t stride) {
+  namespace c = deburr::golden::c;
+  return c::call_of<MorphologicalHandle>(golden, __func__, [&](MorphologicalHandle& h) {
+    c::require_frame(h);
+    const auto given = c::array_of(edges, edges_size, "edges");
+    const std::size_t distance = c::row_distance("edges", edges_size, h.width, h.height, stride);
+    const int width = static_cast<int>(h.width), height = static_cast<int>(h.height);
+    deburr::golden::morphological::EdgePlanes planes;
+    planes.left.resize(width, height);
+    planes.top.resize(width, height);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const unsigned bits =
+            given[static_cast<std::size_t>(y) * distance + static_cast<std::size_t>(x)];
+        const unsigned possible = (x == 0 ? 0 : 1) | (y == 0 ? 0 : 2);
+        if ((bits & ~possible) != 0) c::refuse_edges(x, y, bits, possible);
+        if ((bits & 1) != 0) planes.left.set(x, y);
+        if ((bits & 2) != 0) planes.top.set(x, y);
+      }
+    }
+    h.edges = std::move(planes);
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Walks along the records with the raster: finds of each edge of a beat the record that it lies in,
+// and its pixel there.
+//
+// Where: stages 1 to 3 of the AreaUnit, on the memories of its RecordStore; in slot row s it works
+// on row y = s - R - 4. Horizontal marks are read at their start, and the record stays in hand from
+// there on; vertical ones are read in every row. The model compares the marks in stage 2, to read
+// those records only that matter. Source: Reshetov 2009; paper 000, section 2.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <systemc>
+
+#include "rtl_model/fabric/counters.h"
+#include "rtl_model/fabric/datasheet.h"
+#include "rtl_model/morphological/blend/edge_shares.h"
+#include "rtl_model/morphological/blend/record_store.h"
+#include "rtl_model/morphological/blend/stored_record.h"
+#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/common/tokens.h"
+
+namespace deburr::rtl::morphological {
+
+class RecordWalk final : public sc_core::sc_module {
+ public:
+  static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;
+
+  // An edge of the raster and the record that it lies in.
+  struct Edge {
+    std::uint16_t k = 0;      // pixel of the record
+    std::uint8_t from = 0;    // 0 none, 1 in hand, 2 + b: read from bank b in this beat
+    std::uint8_t near = 0;    // which end, if corners are rounded: 0 start, 1 end, 2 none
+    std::uint16_t after = 0;  // pixels of the record behind it, with learned shares
+  };
+  // A beat in stages 1 to 3.
+  struct Beat {
+    std::int32_t row;              // whose edges it has
+    bool evaluates;                // that row is one of the frame
+    bool any;                      // one of the edges below lies in a record
+    std::uint32_t x, count, pair;  // its columns: the first one, how many; the first mark
+    // The output registers of the marks, as they were in the clock of the address.
+    std::array<AxisRecords::Mark, kLanes> row_mark;         // a pair of columns, with crossings one
+    std::array<AxisRecords::Mark, 2 * kLanes> column_mark;  // a column, with crossings two a column
+    std::array<Edge, kLanes> horizontal, vertical;
+
+    // By the number of the edge in its beat (kBeatEdges).
+    const Edge& edge(std::size_t number) const {
+      return (number % 2 ? vertical : horizontal)[number / 2];
+    }
+  };
+  // The AreaUnit's.
+  struct Counters {
+    Counter &horizontal_edges, &vertical_edges;
+  };
+
+  RecordWalk(const sc_core::sc_module_name& name, const ParameterStore& store, RecordStore& records,
+             Counters counters)
+      : sc_module(name),
+        store_(store),
+        lanes_(static_cast<std::size_t>(store.lanes())),
+        first_row_(store.reach_rows() + spec::morphological::kRowLag - 1),
+        pair_bits_(records.pair_bits()),
+        entry_bits_(records.entry_bits()),
+        records_(records),
+        row_(records.row()),
+        column_(records.column()),
+        counters_(counters) {}
+
+  // kSmaa: of an engine with crossings, corners, diagonals or a table; kLearned: with learned
+  // shares. Others do not pay for them.
+  // Stage 1: the addresses of the marks. Once a clock, from one place.
+  template <bool kSmaa>
+  inline void address(Cycle cycle, const Slot& slot, Beat& beat) {
+    const std::int32_t row = slot.row - first_row_;
+    const std::size_t x = slot.beat * lanes_;
+    beat.any = false;
+    beat.row = row;
+    beat.x = static_cast<std::uint32_t>(x);
+    beat.count = static_cast<std::uint32_t>(
+        std::min(lanes_, static_cast<std::size_t>(store_.rules().width) - x));
+    beat.evaluates = row >= 0 && row < store_.rules().height;
+    if (!beat.evaluates) return;
+    const std::size_t pair = records_.row_place<!kSmaa>(row, x);
+    const std::size_t column = x << (kSmaa ? entry_bits_ : 0);
+    beat.pair = static_cast<std::uint32_t>(pair);
+    row_.read_marks(cycle, pair, row_.banks());
+    column_.read_marks(cycle, column, kSmaa ? column_.banks() : lanes_);
+    constexpr std::size_t kShare = kSmaa ? 1 : 2;  // without crossings half of them are read
+    std::memcpy(beat.row_mark.data(), row_.marks_from(pair), sizeof beat.row_mark / kShare);
+    std::memcpy(beat.column_mark.data(), column_.marks_from(column),
+                sizeof beat.column_mark / kShare);
+  }
+  // Stage 2: the marks against the raster, and the addresses of the records.
+  template <bool kSmaa, bool kLearned>
+  void match(Cycle cycle, const Slot& slot, Beat& beat);
+  // Stage 3: `visit(number, record, edge)` gets each edge that lies in a record.
+  template <class Visit>
+  void visit_edges(Cycle cycle, const Beat& beat, Visit&& visit) {
+    for (std::size_t i = 0; i < beat.count; ++i) {
+      const Edge &along = beat.horizontal[i], &down = beat.vertical[i];
+      if (along.from) {
+        if (along.from >= 2 && along.k == 0)
+          hand_record_ = row_.record(cycle, records_.row_place<false>(beat.row, beat.x + i));
+        visit(2 * i, hand_record_, along);
+        ++counters_.horizontal_edges;
+      }
+      if (down.from) {
+        const std::size_t place = (std::size_t{beat.x} << entry_bits_) + down.from - 2u;
+        visit(2 * i + 1, column_.record(cycle, place), down);
+        ++counters_.vertical_edges;
+      }
+    }
+  }
+  void reset() { hand_.length = 0; }
+
+  static Datasheet datasheet();
+
+ private:
+  void match_smaa(Cycle cycle, Beat& beat);
+
+  const ParameterStore& store_;
+  const std::size_t lanes_;
+  const std::int32_t first_row_;  // of slots: that has the edges of row 0
+  const std::uint32_t pair_bits_, entry_bits_;
+  RecordStore& records_;
+  AxisRecords &row_, &column_;
+  Counters counters_;
+  AxisRecords::Mark hand_;    // the horizontal record in hand, stage 2
+  StoredRecord hand_record_;  // stage 3
+};
+
+}  // namespace deburr::rtl::morphological

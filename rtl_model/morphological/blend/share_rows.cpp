@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/morphological/blend/share_rows.h"
+
+namespace deburr::rtl::morphological {
+namespace {
+
+constexpr std::uint32_t kShareBits = 8, kSpanBits = 12;
+// Of a left edge both shares and the span, of a top one the second share and the span.
+constexpr std::uint32_t kWordBits = 3 * kShareBits + 2 * kSpanBits;
+
+}  // namespace
+
+ShareRows::ShareRows(const sc_core::sc_module_name& name, const spec::morphological::Parameters& p,
+                     const ParameterStore& store, std::size_t columns)
+    : sc_module(name),
+      store_(store),
+      lanes_(static_cast<std::size_t>(store.lanes())),
+      columns_(columns),
+      memory_("weight_lines", {.words = columns,
+                               .word_bits = kWordBits,
+                               .read_during_write = ReadDuringWrite::kNewWord,
+                               .banks = static_cast<std::uint32_t>(2 * lanes_),
+                               .span = static_cast<std::uint32_t>(lanes_ + 1),
+                               .content = "shares of a column's edges in the row above",
+                               .columns = static_cast<std::uint64_t>(p.line_pixels)}),
+      words_(columns / lanes_) {}
+
+Datasheet ShareRows::datasheet() {
+  return {
+      .unit = "ShareRows",
+      .does = "Keeps the shares of a row, and brings those of two rows to the Blender.",
+      .latency = {1, "1; the row above is addressed a clock before"},
+      .stages = {{"0", "address of the shares above"}, {"1", "shares, write back", "SRAM read"}},
+      .formats = "shares U0.8, spans U12.",
+      .cost =
+          "weight_lines, a word of 48 bits a column: first, second and span of its left edge, "
+          "second and span of its top edge; 1R1W, 2 x lanes banks."};
+}
+
+}  // namespace deburr::rtl::morphological

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: MIT
+// What every engine of the C interface has: parameters as the command takes them, presets, counters
+// by name, errors that say what was wrong and change nothing.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "spec/geometric/check_build.h"
+#include "spec/morphological/check_build.h"
+#include "spec/texture/check_build.h"
+#include "tb/results/parameter_set.h"
+#include "tb/unit/golden/c/support.h"
+
+namespace deburr::calls_test {
+namespace {
+
+using tb::c::error_of;
+using tb::c::Handle;
+using tb::c::names_of;
+using tb::c::value_of;
+
+// Texts for a parameter, of which the command takes some.
+std::vector<std::string> texts_for(const tb::Parameter& parameter) {
+  std::vector<std::string> texts = {parameter.default_value,
+                                    "",
+                                    "0",
+                                    "1",
+                                    "2",
+                                    "4",
+                                    "0x10",
+                                    "-1",
+                                    "0x-1",
+                                    "16 ",
+                                    "1.",
+                                    "true",
+                                    "no",
+                                    "none",
+                                    "99999",
+                                    "x",
+                                    "+1",
+                                    "65536"};
+  std::string word;
+  for (const char letter : parameter.range + " ") {
+    if (letter != ' ' && letter != '|' && letter != '.') {
+      word += letter;
+      continue;
+    }
+    if (!word.empty()) texts.push_back(word);
+    word.clear();
+  }
+  texts.emplace_back("99999999999999999999");
+  return texts;
+}
+
+template <class Parameters>
+void takes_what_the_command_takes(const std::string& engine, tb::c::New make) {
+  Parameters parameters;
+  tb::ParameterSet set;
+  set.add_engine(engine, parameters);
+  const Handle names(make());
+  std::vector<std::string> expected;
+  for (const tb::Parameter& parameter : set.all())
+    expected.push_back(parameter.name.substr(engine.size() + 1));
+  EXPECT_EQ(names_of(names.get()), expected);
+
+  int taken = 0, refused = 0;
+  for (const tb::Parameter& parameter : set.all()) {
+    for (const std::string& text : texts_for(parameter)) {
+      const Handle handle(make());
+      parameters = {};
+      std::string complaint;
+      try {
+        set.set(parameter.name, text, "test");
+      } catch (const spec::ConfigError& error) {
+        complaint = error.what();
+      }
+      const std::string shown = parameter.name + " = '" + text + "'";
+      const int status = deburr_set(handle.get(), parameter.name.c_str(), text.c_str());
+      if (complaint.empty()) {
+        ++taken;
+        EXPECT_EQ(status, DEBURR_OK) << shown << ": " << error_of(handle.get(), status);
+        EXPECT_EQ(value_of(handle.get(), parameter.name), parameter.text()) << shown;
+      } else {
+        ++refused;
+        EXPECT_EQ(status, DEBURR_ARGUMENT) << shown << ": " << complaint;
+        EXPECT_EQ(value_of(handle.get(), parameter.name), parameter.default_value) << shown;
+      }
+    }
+  }
+  EXPECT_GT(taken, 50);
+  EXPECT_GT(refused, 50);
+}
+
+TEST(Parameters, AreTakenAsTheCommandTakesThem) {
+  takes_what_the_command_takes<spec::texture::Parameters>("texture", deburr_texture_new);
+  takes_what_the_command_takes<spec::morphological::Parameters>("morphological",
+                                                                deburr_morphological_new);
+  takes_what_the_command_takes<spec::geometric::Parameters>("geometric", deburr_geometric_new);
+}
+
+template <class Parameters>
+void expect_values(deburr_golden* golden, const Parameters& expected) {
+  for (const std::string& name : names_of(golden))
+    EXPECT_EQ(value_of(golden, name), spec::value_text(expected, name)) << name;
+}
+
+TEST(Parameters, PresetsGiveWayToWhatIsSetByNameInWhateverOrder) {
+  for (std::size_t i = 0; i < spec::texture::kPresetNames.size(); ++i) {
+    const Handle handle(deburr_texture_new());
+    DEBURR_EXPECT_TAKEN(handle, deburr_set(handle.get(), "preset",
+                                           std::string(spec::texture::kPresetNames[i]).c_str()));
+    expect_values(handle.get(),
+                  spec::texture::preset_parameters(static_cast<spec::texture::Preset>(i)));
+  }
+  for (std::size_t i = 0; i < spec::geometric::kPresetNames.size(); ++i) {
+    const Handle handle(deburr_geometric_new());
+    DEBURR_EXPECT_TAKEN(handle, deburr_set(handle.get(), "preset",
+                                           std::string(spec::geometric::kPresetNames[i]).c_str()));
+    expect_values(handle.get(),
+                  spec::geometric::preset_parameters(static_cast<spec::geometric::Preset>(i)));
+  }
+  using spec::morphological::Preset;
+  using spec::morphological::Quality;
+  const std::array<std::array<const char*, 2>, 4> settings = {{{"quality", "ultra"},
+                                                               {"edges.threshold", "777"},
+                                                               {"preset", "smaa"},
+                                                               {"search_steps", "5"}}};
+  auto expected = spec::morphological::preset_parameters(Preset::kSmaa, Quality::kUltra);
+  expected.threshold = 777;
+  expected.search_steps = 5;
+  for (std::size_t first = 0; first < settings.size(); ++first) {
+    const Handle handle(deburr_morphological_new());
+    // Another value of the same name before counts for nothing.
+    DEBURR_EXPECT_TAKEN(handle, deburr_set(handle.get(), "preset", "mlaa-slope"));
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      const auto& [name, text] = settings[(first + i) % settings.size()];
+      DEBURR_EXPECT_TAKEN(handle, deburr_set(handle.get(), name, text));
+    }
+    expect_values(handle.get(), expected);
+  }
+}
+
+TEST(Parameters, CheckSaysWhatCannotBeBuiltInTheWordsOfTheCommand) {
+  const Handle handle(deburr_texture_new());
+  DEBURR_EXPECT_TAKEN(handle, deburr_check(handle.get()));
+  DEBURR_EXPECT_TAKEN(handle, deburr_set(handle.get(), "cache.ways", "3"));
+  DEBURR_EXPECT_REFUSED(handle, DEBURR_CONFIGURATION,
+                        "deburr_check: texture.cache.ways = 3: must be a power of two",
+                        deburr_check(handle.get()));
+  const std::int32_t s[4] = {};
+  std::uint8_t rgba[16];
+  DEBURR_EXPECT_REFUSED(handle, DEBURR_CONFIGURATION, "must be a power of two",
+                        deburr_texture_quad(handle.get(), 0, 15, 0, s, s, rgba));
+  DEBURR_EXPECT_TAKEN(handle, deburr_set(handle.get(), "cache.ways", "4"));
+  DEBURR_EXPECT_TAKEN(handle, deburr_texture_quad(handle.get(), 0, 15, 0, s, s, rgba));
+}
+
+TEST(Parameters, AreCheckedOfEveryEngine) {
+  const Handle smoother(deburr_morphological_new()), drawn(deburr_geometric_new());
+  DEBURR_EXPECT_TAKEN(smoother, deburr_set(smoother.get(), "window_rows", "11"));
+  DEBURR_EXPECT_REFUSED(smoother, DEBURR_CONFIGURATION, "must be an even number of rows",
+                        deburr_check(smoother.get()));
+  DEBURR_EXPECT_TAKEN(drawn, deburr_set(drawn.get(), "face_limit", "8193"));
+  DEBURR_EXPECT_REFUSED(drawn, DEBURR_CONFIGURATION, "must be a multiple of 512",
+                        deburr_check(drawn.get()));
+}
+
+TEST(Calls, NullHandlesAreErrors) {
+  char text[200];
+  const std::uint8_t byte = 0;
+  const std::uint32_t word = 0;
+  std::uint8_t out[16];
+  std::uint32_t number = 0;
+  std::uint64_t large = 0;
+  std::int64_t decided = 0;
+  const std::int32_t s[4] = {};
+  const std::vector<int> statuses = {
+      deburr_set(nullptr, "axes", "two"),
+      deburr_get(nullptr, "axes", text, sizeof text),
+      deburr_check(nullptr),
+      deburr_parameter_count(nullptr, &number),
+      deburr_parameter_name(nullptr, 0, text, sizeof text),
+      deburr_counter(nullptr, "pixels", &large),
+      deburr_counter_count(nullptr, &number),
+      deburr_counter_name(nullptr, 0, text, sizeof text),
+      deburr_reset(nullptr),
+      deburr_texture_memory(nullptr, 64),
+      deburr_texture_write(nullptr, 0, &byte, 1),
+      deburr_texture_read(nullptr, 0, out, 1),
+      deburr_texture_register(nullptr, 0, 0, 0),
+      deburr_texture_field(nullptr, 0, "width", "1"),
+      deburr_texture_check(nullptr, 0),
+      deburr_texture_place(nullptr, 0, 0, &large),
+      deburr_texture_level(nullptr, 0, 0, &byte, 1, 0),
+      deburr_texture_quad(nullptr, 0, 15, 0, s, s, out),
+      deburr_texture_analyse(nullptr, 0, 0, s, s, "samples", &decided),
+      deburr_texture_fills(nullptr, &number, 1, &number),
+      deburr_texture_invalidate(nullptr),
+      deburr_frame_begin(nullptr, 1, 1),
+      deburr_frame_pixels(nullptr, &byte, 1, 0),
+      deburr_frame_depth(nullptr, &word, 1, 0),
+      deburr_frame_put(nullptr, 0, 0, 0, 0),
+      deburr_frame_detail(nullptr, 1),
+      deburr_frame_process(nullptr),
+      deburr_plane_shape(nullptr, "pixels", &number, &number, &number),
+      deburr_plane(nullptr, "pixels", out, 1, 0),
+      deburr_plane_pixel(nullptr, "pixels", 0, 0, &number),
+      deburr_morphological_edges(nullptr, &byte, 1, 0),
+      deburr_geometric_vertices(nullptr, &word, 1),
+      deburr_geometric_edges(nullptr, &word, 1),
+      deburr_geometric_facing(nullptr, 1, &byte, 1),
+      deburr_geometric_classes(nullptr, out, 1)};
+  EXPECT_THAT(statuses, testing::Each(DEBURR_ARGUMENT));
+  EXPECT_THAT(error_of(nullptr, DEBURR_ARGUMENT), testing::HasSubstr("the handle is NULL"));
+  EXPECT_EQ(deburr_close(nullptr), DEBURR_OK);
+  EXPECT_STREQ(deburr_engine(nullptr), "");
+}
+
+TEST(Calls, NullTextsAndNumbersAreErrors) {
+  for (const tb::c::New make : tb::c::engines()) {
+    const Handle handle(make());
+    char text[256];
+    std::uint64_t value = 0;
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "deburr_set: name is NULL",
+                          deburr_set(handle.get(), nullptr, "1"));
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "text is NULL",
+                          deburr_set(handle.get(), "preset", nullptr));
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "name is NULL",
+                          deburr_get(handle.get(), nullptr, text, sizeof text));
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "text is NULL",
+                          deburr_get(handle.get(), "preset", nullptr, 10));
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "count is NULL",
+                          deburr_parameter_count(handle.get(), nullptr));
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "text is NULL",
+                          deburr_parameter_name(handle.get(), 0, nullptr, 10));
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "count is NULL",
+                          deburr_counter_count(handle.get(), nullptr));
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "name is NULL",
+                          deburr_counter(handle.get(), nullptr, &value));
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "value is NULL",
+                          deburr_counter(handle.get(), "pixels", nullptr));
+  }
+}
+
+TEST(Calls, TextsThatDoNotFitSayHowLongTheyAre) {
+  const Handle handle(deburr_texture_new());
+  char text[8] = "before";
+  // "deburr" and its zero.
+  DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "the text needs 7 bytes; text_size is 6",
+                        deburr_get(handle.get(), "preset", text, 6));
+  EXPECT_STREQ(text, "before");
+  DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "the text needs 7 bytes; text_size is 0",
+                        deburr_get(handle.get(), "preset", text, 0));
+  DEBURR_EXPECT_TAKEN(handle, deburr_get(handle.get(), "preset", text, 7));
+  EXPECT_STREQ(text, "deburr");
+}
+
+TEST(Calls, UnknownNamesGetTheListOfThoseThatThereAre) {
+  for (const tb::c::New make : tb::c::engines()) {
+    const Handle handle(make());
+    const std::string engine = deburr_engine(handle.get());
+    std::uint64_t value = 0;
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT,
+                          "deburr_set: unknown parameter 'presets'; there are preset, ",
+                          deburr_set(handle.get(), "presets", "deburr"));
+    for (const char* name : {"", ".preset", "preset.", "frame.preset", "Preset"})
+      EXPECT_EQ(deburr_set(handle.get(), name, "deburr"), DEBURR_ARGUMENT) << name;
+    EXPECT_EQ(deburr_set(handle.get(), (engine + ".preset").c_str(), "deburr"), DEBURR_OK);
+    char first[64];
+    DEBURR_EXPECT_TAKEN(handle, deburr_counter_name(handle.get(), 0, first, sizeof first));
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT,
+                          "no counter is named 'pixel'; there are " + std::string(first) + ", ",
+                          deburr_counter(handle.get(), "pixel", &value));
+    std::uint32_t parameters = 0, counters = 0;
+    DEBURR_EXPECT_TAKEN(handle, deburr_parameter_count(handle.get(), &parameters));
+    DEBURR_EXPECT_TAKEN(handle, deburr_counter_count(handle.get(), &counters));
+    EXPECT_GT(counters, 8u);
+    char text[64];
+    for (std::uint32_t i = 0; i < counters; ++i) {
+      DEBURR_EXPECT_TAKEN(handle, deburr_counter_name(handle.get(), i, text, sizeof text));
+      EXPECT_EQ(tb::c::counter_of(handle.get(), text), 0u) << text;
+    }
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "is outside 0..",
+                          deburr_counter_name(handle.get(), counters, text, sizeof text));
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "is outside 0..",
+                          deburr_parameter_name(handle.get(), parameters, text, sizeof text));
+  }
+}
+
+TEST(Calls, AHandleOfAnotherEngineIsAnError) {
+  const Handle texture(deburr_texture_new()), frames(deburr_morphological_new());
+  DEBURR_EXPECT_REFUSED(
+      texture, DEBURR_ARGUMENT,
+      "a handle of the engine texture was given; it takes one of an engine that smooths frames",
+      deburr_frame_begin(texture.get(), 1, 1));
+  DEBURR_EXPECT_REFUSED(frames, DEBURR_ARGUMENT, "it takes one of texture",
+                        deburr_texture_memory(frames.get(), 64));
+  DEBURR_EXPECT_REFUSED(frames, DEBURR_ARGUMENT, "it takes one of geometric",
+                        deburr_geometric_edges(frames.get(), nullptr, 0));
+}
+
+TEST(Errors, AreKeptUntilTheNextOneAndCutToTheirPlace) {
+  const Handle handle(deburr_texture_new());
+  const int status = deburr_set(handle.get(), "axes", "three");
+  EXPECT_EQ(status, DEBURR_ARGUMENT);
+  const std::string whole = error_of(handle.get(), status);
+  EXPECT_EQ(whole, "deburr_set: 'axes' = 'three' wants one of two, four, eight");
+  DEBURR_EXPECT_TAKEN(handle, deburr_check(handle.get()));
+  EXPECT_EQ(error_of(handle.get(), status), whole);
+  EXPECT_EQ(error_of(handle.get(), DEBURR_OK), "");
+  char text[12] = "before";
+  EXPECT_EQ(deburr_error(handle.get(), DEBURR_OK, text, sizeof text), DEBURR_OK);
+  EXPECT_STREQ(text, "");
+  EXPECT_EQ(deburr_error(handle.get(), status, text, sizeof text), DEBURR_OK);
+  EXPECT_EQ(std::string(text), whole.substr(0, 11));
+  EXPECT_EQ(deburr_error(handle.get(), status, text, 1), DEBURR_OK);
+  EXPECT_STREQ(text, "");
+  EXPECT_EQ(deburr_error(handle.get(), status, text, 0), DEBURR_ARGUMENT);
+  EXPECT_EQ(deburr_error(handle.get(), status, nullptr, 9), DEBURR_ARGUMENT);
+}
+
+TEST(Errors, WithoutAnyThereIsNoTextButOfMemory) {
+  const Handle handle(deburr_texture_new());
+  EXPECT_EQ(error_of(handle.get(), DEBURR_ARGUMENT), "");
+  // There may have been no memory for a text.
+  EXPECT_THAT(error_of(handle.get(), DEBURR_MEMORY), testing::HasSubstr("no memory left"));
+}
+
+TEST(Version, HasThreeNumbers) {
+  EXPECT_THAT(deburr_version(), testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
+}
+
+}  // namespace
+}  // namespace deburr::calls_test

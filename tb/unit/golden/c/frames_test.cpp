@@ -1,0 +1,518 @@
+// SPDX-License-Identifier: MIT
+// Engines that smooth frames, through the C interface: pixels and planes bit for bit those of the
+// golden models, rows with gaps, pixels one by one, edges of someone else; bad calls, which change
+// nothing.
+#include "tb/stimuli/frames.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "golden/geometric/geometric_golden.h"
+#include "golden/morphological/morphological_golden.h"
+#include "tb/base/random.h"
+#include "tb/unit/golden/c/support.h"
+#include "tb/unit/spec/geometric/vector_frame.h"
+
+namespace deburr::frames_test {
+namespace {
+
+using golden::geometric::GeometricGolden;
+using golden::morphological::MorphologicalGolden;
+using tb::Image;
+using tb::c::counter_of;
+using tb::c::Handle;
+
+constexpr std::uint8_t kGap = 0xA5;
+
+// Rows of bytes with gaps between them.
+struct Rows {
+  std::size_t row = 0, height = 0;
+  std::uint32_t stride = 0;
+  std::vector<std::uint8_t> bytes;
+
+  Rows(std::size_t r, std::size_t h, std::uint32_t gap)
+      : row(r),
+        height(h),
+        stride(static_cast<std::uint32_t>(r) + gap),
+        bytes((h - 1) * stride + r, kGap) {}
+  // Without the gaps, which must be as they were.
+  std::vector<std::uint8_t> packed() const {
+    std::vector<std::uint8_t> result;
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      if (i % stride < row) {
+        result.push_back(bytes[i]);
+      } else {
+        EXPECT_EQ(bytes[i], kGap);
+      }
+    }
+    return result;
+  }
+};
+
+template <class Pixel>
+std::vector<std::uint8_t> bytes_of(const std::vector<Pixel>& pixels) {
+  std::vector<std::uint8_t> bytes;
+  for (const Pixel& pixel : pixels) bytes.insert(bytes.end(), pixel.begin(), pixel.end());
+  return bytes;
+}
+
+std::vector<std::uint8_t> plane_of(deburr_golden* golden, const char* plane, std::uint32_t gap) {
+  std::uint32_t width = 0, height = 0, pixel_bytes = 0;
+  DEBURR_EXPECT_TAKEN(golden, deburr_plane_shape(golden, plane, &width, &height, &pixel_bytes));
+  Rows rows(std::size_t{width} * pixel_bytes, height, gap);
+  DEBURR_EXPECT_TAKEN(
+      golden, deburr_plane(golden, plane, rows.bytes.data(), rows.bytes.size(), rows.stride));
+  const std::vector<std::uint8_t> packed = rows.packed();
+  // The same one by one.
+  for (std::uint32_t i = 0; i < width * height; i += 7) {
+    std::uint32_t word = 0, expected = 0;
+    DEBURR_EXPECT_TAKEN(golden, deburr_plane_pixel(golden, plane, i % width, i / width, &word));
+    for (std::uint32_t b = 0; b < pixel_bytes; ++b)
+      expected |= std::uint32_t{packed[std::size_t{i} * pixel_bytes + b]} << (8 * b);
+    EXPECT_EQ(word, expected);
+  }
+  return packed;
+}
+
+void give(deburr_golden* golden, const Image& image, std::uint32_t gap) {
+  DEBURR_EXPECT_TAKEN(golden, deburr_frame_begin(golden, static_cast<std::uint32_t>(image.width),
+                                                 static_cast<std::uint32_t>(image.height)));
+  Rows rows(std::size_t{4} * static_cast<std::size_t>(image.width),
+            static_cast<std::size_t>(image.height), gap);
+  const std::vector<std::uint8_t> bytes = bytes_of(image.pixels);
+  for (std::size_t y = 0; y < rows.height; ++y)
+    std::memcpy(rows.bytes.data() + y * rows.stride, bytes.data() + y * rows.row, rows.row);
+  DEBURR_EXPECT_TAKEN(golden, deburr_frame_pixels(golden, rows.bytes.data(), rows.bytes.size(),
+                                                  gap == 0 ? 0 : rows.stride));
+}
+
+std::vector<std::uint32_t> random_depth(const Image& image, tb::Random& random) {
+  std::vector<std::uint32_t> depth(image.pixels.size());
+  // The upper byte counts for nothing, the lowest bit does where it is alone.
+  for (std::uint32_t& d : depth)
+    d = random.chance(500) ? 0x12345678 : random.chance(500) ? random.word() : 0x77000001;
+  std::fill_n(depth.begin(), depth.size() / 8, 0x55000000u);
+  for (std::size_t i = 0; i < depth.size() / 8; ++i) depth[i] += random.below(2);
+  return depth;
+}
+std::vector<std::uint32_t> of_24_bits(std::vector<std::uint32_t> depth) {
+  for (std::uint32_t& d : depth) d &= 0xFFFFFF;
+  return depth;
+}
+
+// ---- morphological ------------------------------------------------------------------------------
+
+void expect_same(deburr_golden* handle, const MorphologicalGolden& golden) {
+  EXPECT_EQ(plane_of(handle, "pixels", 0), bytes_of(golden.pixels()));
+  std::vector<std::uint8_t> edges, shares, taps, decisions;
+  for (int y = 0; y < golden.height(); ++y) {
+    for (int x = 0; x < golden.width(); ++x) {
+      edges.push_back(static_cast<std::uint8_t>((golden.edges().left.at(x, y) ? 1 : 0) +
+                                                (golden.edges().top.at(x, y) ? 2 : 0)));
+      for (const auto& [first, second] : {golden.top_shares(x, y), golden.left_shares(x, y)})
+        shares.insert(shares.end(),
+                      {static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(second)});
+    }
+  }
+  for (const auto& tap : golden.taps()) {
+    const auto horizontal = static_cast<std::uint8_t>(tap.horizontal ? 1 : 0);
+    taps.insert(taps.end(), {horizontal, tap.first, tap.second, tap.edges});
+  }
+  for (const auto decision : golden.decisions())
+    decisions.push_back(static_cast<std::uint8_t>(decision));
+  EXPECT_EQ(plane_of(handle, "edges", 3), edges);
+  EXPECT_EQ(plane_of(handle, "shares", 1), shares);
+  EXPECT_EQ(plane_of(handle, "taps", 5), taps);
+  EXPECT_EQ(plane_of(handle, "decisions", 0), decisions);
+  EXPECT_EQ(counter_of(handle, "pixels"), golden.work().pixels);
+  EXPECT_EQ(counter_of(handle, "edge_pixels"), golden.work().edge_pixels);
+  EXPECT_EQ(counter_of(handle, "blended_pixels"), golden.work().blended_pixels);
+  EXPECT_EQ(counter_of(handle, "diagonals"), golden.work().diagonal_pixels);
+  EXPECT_EQ(counter_of(handle, "left_pixels"), golden.work().left_pixels);
+}
+
+TEST(Morphological, FramesAreThoseOfTheGoldenModelWithEveryPreset) {
+  tb::Random random(5);
+  const std::vector<Image> images = {tb::stimuli::rendered_like(90, 70, 30),
+                                     tb::stimuli::noise_image(), tb::stimuli::line_image(),
+                                     Image(1, 1), Image(3, 1)};
+  std::uint64_t blended = 0;
+  for (const std::string_view preset : spec::morphological::kPresetNames) {
+    const Handle handle(deburr_morphological_new());
+    DEBURR_EXPECT_TAKEN(handle, deburr_frame_detail(handle.get(), 1));
+    DEBURR_EXPECT_TAKEN(handle, deburr_set(handle.get(), "preset", std::string(preset).c_str()));
+    const auto code = std::find(spec::morphological::kPresetNames.begin(),
+                                spec::morphological::kPresetNames.end(), preset) -
+                      spec::morphological::kPresetNames.begin();
+    const auto parameters =
+        spec::morphological::preset_parameters(static_cast<spec::morphological::Preset>(code));
+    for (const Image& image : images) {
+      MorphologicalGolden golden(parameters);
+      golden.process({image.pixels, image.width, image.height});
+      give(handle.get(), image, random.below(2) * random.below(40));
+      DEBURR_EXPECT_TAKEN(handle, deburr_frame_process(handle.get()));
+      expect_same(handle.get(), golden);
+      blended += golden.work().blended_pixels;
+    }
+  }
+  EXPECT_GT(blended, 5000u);
+}
+
+TEST(Morphological, DepthAndEdgesOfSomeoneElseAreTakenAsTheyAreGiven) {
+  tb::Random random(6);
+  Image image = tb::stimuli::rendered_like(80, 50, 20);
+  for (auto& pixel : image.pixels) pixel[3] = static_cast<std::uint8_t>(random.next());
+  const std::vector<std::uint32_t> depth = random_depth(image, random);
+  const Handle handle(deburr_morphological_new());
+  DEBURR_EXPECT_TAKEN(handle, deburr_frame_detail(handle.get(), 1));
+  DEBURR_EXPECT_TAKEN(handle, deburr_set(handle.get(), "edges.source", "depth"));
+  spec::morphological::Parameters parameters;
+  parameters.edge_source = spec::morphological::EdgeSource::kDepth;
+  MorphologicalGolden golden(parameters);
+  const golden::morphological::ImageView view(image.pixels, image.width, image.height);
+  const auto expected_depth = of_24_bits(depth);
+  golden.process(view, {expected_depth, image.width, image.height});
+  EXPECT_GT(golden.work().edge_pixels, 100u);
+
+  give(handle.get(), image, 0);
+  // With gaps of two.
+  std::vector<std::uint32_t> rows;
+  for (std::size_t y = 0; y < 50; ++y) {
+    rows.insert(rows.end(), depth.begin() + static_cast<std::ptrdiff_t>(80 * y),
+                depth.begin() + static_cast<std::ptrdiff_t>(80 * y + 80));
+    rows.insert(rows.end(), 2, 0);
+  }
+  DEBURR_EXPECT_TAKEN(handle, deburr_frame_depth(handle.get(), rows.data(), rows.size() - 2, 82));
+  DEBURR_EXPECT_TAKEN(handle, deburr_frame_process(handle.get()));
+  expect_same(handle.get(), golden);
+
+  // A pixel at a time.
+  const Handle stream(deburr_morphological_new());
+  DEBURR_EXPECT_TAKEN(stream, deburr_frame_detail(stream.get(), 1));
+  DEBURR_EXPECT_TAKEN(stream, deburr_set(stream.get(), "edges.source", "depth"));
+  DEBURR_EXPECT_TAKEN(stream, deburr_frame_begin(stream.get(), 80, 50));
+  for (std::uint32_t i = 0; i < depth.size(); ++i) {
+    std::uint32_t word = 0;
+    for (std::size_t c = 0; c < 4; ++c) word |= std::uint32_t{image.pixels[i][c]} << (8 * c);
+    DEBURR_EXPECT_TAKEN(stream, deburr_frame_put(stream.get(), i % 80, i / 80, word, depth[i]));
+  }
+  DEBURR_EXPECT_TAKEN(stream, deburr_frame_process(stream.get()));
+  expect_same(stream.get(), golden);
+
+  // Edges that another found, until another frame is begun.
+  std::vector<std::uint8_t> edges(image.pixels.size());
+  golden::morphological::EdgePlanes planes;
+  planes.left.resize(80, 50);
+  planes.top.resize(80, 50);
+  for (int y = 0; y < 50; ++y) {
+    for (int x = 0; x < 80; ++x) {
+      const bool left = x > 0 && random.chance(200), top = y > 0 && random.chance(200);
+      if (left) planes.left.set(x, y);
+      if (top) planes.top.set(x, y);
+      edges[static_cast<std::size_t>(80 * y + x)] =
+          static_cast<std::uint8_t>((left ? 1 : 0) + (top ? 2 : 0));
+    }
+  }
+  MorphologicalGolden other(parameters);
+  other.process(view, planes);
+  DEBURR_EXPECT_TAKEN(handle,
+                      deburr_morphological_edges(handle.get(), edges.data(), edges.size(), 0));
+  DEBURR_EXPECT_TAKEN(handle, deburr_frame_process(handle.get()));
+  expect_same(handle.get(), other);
+  give(handle.get(), image, 0);
+  DEBURR_EXPECT_TAKEN(handle, deburr_frame_depth(handle.get(), depth.data(), depth.size(), 0));
+  DEBURR_EXPECT_TAKEN(handle, deburr_frame_process(handle.get()));
+  expect_same(handle.get(), golden);
+}
+
+// ---- geometric ----------------------------------------------------------------------------------
+
+struct Words {
+  std::vector<std::uint32_t> vertices, edges;
+  std::vector<std::uint8_t> facing;
+};
+
+// As the records lie in memory, by hand.
+Words words_of(const tb::geometric::VectorFrame& frame) {
+  Words words;
+  for (const auto& v : frame.vertices) {
+    words.vertices.insert(words.vertices.end(),
+                          {static_cast<std::uint32_t>(v.x), static_cast<std::uint32_t>(v.y),
+                           v.depth | 0xAB000000, 0xFFFFFFF0 | (v.usable ? 1u : 0u)});
+  }
+  for (const auto& e : frame.edges) {
+    words.edges.insert(words.edges.end(),
+                       {e.v0 | 0xFF000000, e.v1 | 0x11000000,
+                        e.f0 | static_cast<std::uint32_t>(e.flags) << 24, e.f1 | 0x77000000});
+  }
+  words.facing.resize((frame.facing.size() + 7) / 8);
+  for (std::size_t f = 0; f < frame.facing.size(); ++f)
+    if (frame.facing[f])
+      words.facing[f / 8] = static_cast<std::uint8_t>(words.facing[f / 8] | 1u << (f % 8));
+  return words;
+}
+
+TEST(Geometric, FramesAreThoseOfTheGoldenModelWithEveryPreset) {
+  const tb::geometric::VectorFrame frame = tb::geometric::vector_frame();
+  const Words words = words_of(frame);
+  const auto faces = static_cast<std::uint32_t>(frame.facing.size());
+  for (std::size_t i = 0; i < spec::geometric::kPresetNames.size(); ++i) {
+    GeometricGolden golden(
+        spec::geometric::preset_parameters(static_cast<spec::geometric::Preset>(i)));
+    golden::geometric::FrameInput input;
+    input.image = {frame.colours, frame.width, frame.height};
+    input.depth = {frame.depths, frame.width, frame.height};
+    input.edges = frame.edges;
+    input.vertices = frame.vertices;
+    input.facing = {words.facing, faces};
+    golden.process(input);
+    EXPECT_GT(golden.work().blended_pixels, 50u);
+
+    const Handle handle(deburr_geometric_new());
+    DEBURR_EXPECT_TAKEN(handle, deburr_set(handle.get(), "geometric.preset",
+                                           std::string(spec::geometric::kPresetNames[i]).c_str()));
+    DEBURR_EXPECT_TAKEN(handle, deburr_frame_detail(handle.get(), 1));
+    DEBURR_EXPECT_TAKEN(handle,
+                        deburr_frame_begin(handle.get(), static_cast<std::uint32_t>(frame.width),
+                                           static_cast<std::uint32_t>(frame.height)));
+    const std::vector<std::uint8_t> pixels = bytes_of(frame.colours);
+    DEBURR_EXPECT_TAKEN(handle, deburr_frame_pixels(handle.get(), pixels.data(), pixels.size(), 0));
+    DEBURR_EXPECT_TAKEN(handle, deburr_geometric_vertices(handle.get(), words.vertices.data(),
+                                                          words.vertices.size()));
+    DEBURR_EXPECT_TAKEN(
+        handle, deburr_geometric_edges(handle.get(), words.edges.data(), words.edges.size()));
+    DEBURR_EXPECT_TAKEN(handle, deburr_geometric_facing(handle.get(), faces, words.facing.data(),
+                                                        words.facing.size()));
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT,
+                          "the frame has no depth: give one by deburr_frame_depth",
+                          deburr_frame_process(handle.get()));
+    DEBURR_EXPECT_TAKEN(
+        handle, deburr_frame_depth(handle.get(), frame.depths.data(), frame.depths.size(), 0));
+    DEBURR_EXPECT_TAKEN(handle, deburr_frame_process(handle.get()));
+    EXPECT_EQ(plane_of(handle.get(), "pixels", 4), bytes_of(golden.pixels()));
+    EXPECT_EQ(plane_of(handle.get(), "weights", 0), bytes_of(golden.weights()));
+    std::vector<std::uint8_t> classes(frame.edges.size());
+    DEBURR_EXPECT_TAKEN(handle,
+                        deburr_geometric_classes(handle.get(), classes.data(), classes.size()));
+    for (std::size_t e = 0; e < classes.size(); ++e)
+      EXPECT_EQ(classes[e], static_cast<std::uint8_t>(golden.classes()[e]));
+    DEBURR_EXPECT_REFUSED(
+        handle, DEBURR_ARGUMENT, "classes_size is 299; 300 edges need as many",
+        deburr_geometric_classes(handle.get(), classes.data(), classes.size() - 1));
+    EXPECT_EQ(counter_of(handle.get(), "edges"), golden.work().edges);
+    EXPECT_EQ(counter_of(handle.get(), "kept_edges"), golden.work().kept_edges);
+    EXPECT_EQ(counter_of(handle.get(), "candidates"), golden.work().candidates);
+    EXPECT_EQ(counter_of(handle.get(), "blended_pixels"), golden.work().blended_pixels);
+    // Without depth, where nothing is tested; that of the last frame went with it.
+    DEBURR_EXPECT_TAKEN(handle, deburr_frame_begin(handle.get(), 8, 8));
+    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "the frame has no depth",
+                          deburr_frame_process(handle.get()));
+    DEBURR_EXPECT_TAKEN(handle, deburr_set(handle.get(), "depth_test", "off"));
+    DEBURR_EXPECT_TAKEN(handle, deburr_frame_process(handle.get()));
+  }
+}
+
+// One line between two rows, at the depth of the frame: 16 pixels, as long as no bit is lost.
+TEST(Geometric, TheLowestBitOfADepthCounts) {
+  const Handle handle(deburr_geometric_new());
+  const std::vector<std::uint32_t> depth(256, 1), edge = {0, 1, 1u << 24, 0};
+  const std::vector<std::uint32_t> vertices = {0,        8 * 256 - 64, 1, 1,  //
+                                               16 * 256, 8 * 256 - 64, 1, 1};
+  DEBURR_EXPECT_TAKEN(handle, deburr_frame_begin(handle.get(), 16, 16));
+  DEBURR_EXPECT_TAKEN(handle, deburr_frame_depth(handle.get(), depth.data(), depth.size(), 0));
+  DEBURR_EXPECT_TAKEN(handle,
+                      deburr_geometric_vertices(handle.get(), vertices.data(), vertices.size()));
+  DEBURR_EXPECT_TAKEN(handle, deburr_geometric_edges(handle.get(), edge.data(), edge.size()));
+  DEBURR_EXPECT_TAKEN(
+      handle, deburr_geometric_facing(handle.get(), 8, std::array<std::uint8_t, 1>{1}.data(), 1));
+  DEBURR_EXPECT_TAKEN(handle, deburr_frame_process(handle.get()));
+  EXPECT_EQ(counter_of(handle.get(), "blended_pixels"), 16u);
+}
+
+// ---- both ---------------------------------------------------------------------------------------
+
+TEST(BadCalls, GiveAnErrorAndChangeNothing) {
+  for (const tb::c::New make : {deburr_morphological_new, deburr_geometric_new}) {
+    const Handle handle(make());
+    deburr_golden* const golden = handle.get();
+    std::vector<std::uint8_t> bytes(64, 1);
+    const std::vector<std::uint32_t> words(16, 1);
+    std::uint32_t number = 77;
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "no frame was begun: call deburr_frame_begin",
+                          deburr_frame_pixels(golden, bytes.data(), 64, 0));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "no frame was begun",
+                          deburr_frame_depth(golden, words.data(), 16, 0));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "no frame was begun",
+                          deburr_frame_put(golden, 0, 0, 0, 0));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "no frame was begun",
+                          deburr_frame_process(golden));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "no frame has been smoothed",
+                          deburr_plane(golden, "pixels", bytes.data(), 64, 0));
+    for (const auto& [width, height] :
+         {std::pair{0u, 1u}, {1u, 0u}, {8193u, 1u}, {1u, 8193u}, {~0u, ~0u}})
+      DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "1..8192 each way are possible",
+                            deburr_frame_begin(golden, width, height));
+    DEBURR_EXPECT_TAKEN(golden, deburr_frame_begin(golden, 4, 4));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "pixels is NULL",
+                          deburr_frame_pixels(golden, nullptr, 64, 0));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "pixels_size is 63; 4 rows need 64",
+                          deburr_frame_pixels(golden, bytes.data(), 63, 0));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "pixels_size is 0; 4 rows need 64",
+                          deburr_frame_pixels(golden, nullptr, 0, 0));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "pixels_size is 64; 4 rows need 67",
+                          deburr_frame_pixels(golden, bytes.data(), 64, 17));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "stride 15 is shorter than a row of pixels, 16",
+                          deburr_frame_pixels(golden, bytes.data(), 64, 15));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "pixels_size is 64; 4 rows need 12884901901",
+                          deburr_frame_pixels(golden, bytes.data(), 64, ~0u));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "depth_size is 15; 4 rows need 16",
+                          deburr_frame_depth(golden, words.data(), 15, 0));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "depth is NULL",
+                          deburr_frame_depth(golden, nullptr, 16, 0));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "x 4 is outside 0..3",
+                          deburr_frame_put(golden, 4, 0, 0, 0));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "y 4 is outside 0..3",
+                          deburr_frame_put(golden, 0, 4, 0, 0));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "everything is 2; 0 or 1 are meant",
+                          deburr_frame_detail(golden, 2));
+    // Of all that was refused nothing was kept: the frame is black, and opaque.
+    DEBURR_EXPECT_TAKEN(golden, deburr_frame_put(golden, 1, 0, 0xFF332211, 5));
+    DEBURR_EXPECT_TAKEN(golden, deburr_set(golden, "line_pixels", "64"));
+    DEBURR_EXPECT_TAKEN(golden, deburr_frame_process(golden));
+    const auto is_as_before = [&] {
+      DEBURR_EXPECT_TAKEN(golden, deburr_plane_pixel(golden, "pixels", 1, 0, &number));
+      EXPECT_NE(number, 0xFF000000);
+      DEBURR_EXPECT_TAKEN(golden, deburr_plane_pixel(golden, "pixels", 3, 3, &number));
+      EXPECT_EQ(number, 0xFF000000);
+    };
+    is_as_before();
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "unknown plane 'pixel'; there are pixels, ",
+                          deburr_plane(golden, "pixel", bytes.data(), 64, 0));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "plane is NULL",
+                          deburr_plane(golden, nullptr, bytes.data(), 64, 0));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "values_size is 63; 4 rows need 64",
+                          deburr_plane(golden, "pixels", bytes.data(), 63, 0));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "values is NULL",
+                          deburr_plane(golden, "pixels", nullptr, 64, 0));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "x 4 is outside 0..3",
+                          deburr_plane_pixel(golden, "pixels", 4, 0, &number));
+    EXPECT_EQ(deburr_plane_pixel(golden, "pixels", 0, 0, nullptr), DEBURR_ARGUMENT);
+    EXPECT_EQ(deburr_plane_shape(golden, "pixels", nullptr, &number, &number), DEBURR_ARGUMENT);
+    EXPECT_EQ(deburr_plane_shape(golden, "pixels", &number, nullptr, &number), DEBURR_ARGUMENT);
+    EXPECT_EQ(deburr_plane_shape(golden, "pixels", &number, &number, nullptr), DEBURR_ARGUMENT);
+    EXPECT_EQ(bytes, std::vector<std::uint8_t>(64, 1));
+    // A frame that the engine refuses, by the model that is there and by a new one.
+    DEBURR_EXPECT_TAKEN(golden, deburr_frame_begin(golden, 65, 1));
+    DEBURR_EXPECT_TAKEN(golden, deburr_frame_put(golden, 0, 0, 0, 0));
+    for (int i = 0; i < 2; ++i) {
+      DEBURR_EXPECT_REFUSED(golden, DEBURR_CONFIGURATION, "raise line_pixels",
+                            deburr_frame_process(golden));
+      is_as_before();
+      DEBURR_EXPECT_TAKEN(golden, deburr_set(golden, "linear_light", "false"));
+    }
+    DEBURR_EXPECT_TAKEN(golden, deburr_set(golden, "line_pixels", "65"));
+    DEBURR_EXPECT_TAKEN(golden, deburr_frame_process(golden));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "y 3 is outside 0..0",
+                          deburr_plane_pixel(golden, "pixels", 3, 3, &number));
+    DEBURR_EXPECT_TAKEN(golden, deburr_reset(golden));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "no frame has been smoothed",
+                          deburr_plane_pixel(golden, "pixels", 0, 0, &number));
+    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "no frame was begun",
+                          deburr_frame_process(golden));
+    EXPECT_EQ(counter_of(golden, "blended_pixels"), 0u);
+    EXPECT_EQ(tb::c::value_of(golden, "line_pixels"), "65");
+  }
+}
+
+TEST(Frames, MayBeAsLargeAsTheEngineTakesThem) {
+  for (const tb::c::New make : {deburr_morphological_new, deburr_geometric_new}) {
+    const Handle handle(make());
+    DEBURR_EXPECT_TAKEN(handle, deburr_frame_begin(handle.get(), 8192, 1));
+    DEBURR_EXPECT_TAKEN(handle, deburr_frame_begin(handle.get(), 1, 8192));
+  }
+}
+
+TEST(Detail, CountsFromTheNextFrameOn) {
+  const Handle smoother(deburr_morphological_new()), drawn(deburr_geometric_new());
+  std::uint32_t value = 0;
+  std::uint8_t classes = 77;
+  const std::vector<std::uint32_t> edge(4, 0);
+  DEBURR_EXPECT_TAKEN(drawn, deburr_geometric_edges(drawn.get(), edge.data(), edge.size()));
+  for (const bool detail : {false, true, false}) {
+    for (deburr_golden* const golden : {smoother.get(), drawn.get()}) {
+      DEBURR_EXPECT_TAKEN(golden, deburr_frame_detail(golden, detail ? 1 : 0));
+      DEBURR_EXPECT_TAKEN(golden, deburr_frame_begin(golden, 2, 2));
+      DEBURR_EXPECT_TAKEN(golden, deburr_frame_put(golden, 0, 0, 0xFFFFFFFF, 1));
+      DEBURR_EXPECT_TAKEN(golden, deburr_frame_process(golden));
+    }
+    for (const char* plane : {"pixels", "edges", "shares"})
+      DEBURR_EXPECT_TAKEN(smoother, deburr_plane_pixel(smoother.get(), plane, 0, 0, &value));
+    for (const char* plane : {"pixels", "weights"})
+      DEBURR_EXPECT_TAKEN(drawn, deburr_plane_pixel(drawn.get(), plane, 0, 0, &value));
+    const int status = detail ? DEBURR_OK : DEBURR_ARGUMENT;
+    for (const char* plane : {"taps", "decisions"})
+      EXPECT_EQ(deburr_plane_pixel(smoother.get(), plane, 0, 0, &value), status);
+    EXPECT_EQ(deburr_geometric_classes(drawn.get(), &classes, 1), status);
+  }
+  EXPECT_EQ(classes, 0);
+}
+
+TEST(BadCalls, OfOneEngineAlone) {
+  const Handle smoother(deburr_morphological_new());
+  std::vector<std::uint8_t> edges(4, 0);
+  const auto give_edges = [&](std::size_t size) {
+    return deburr_morphological_edges(smoother.get(), edges.data(), size, 0);
+  };
+  DEBURR_EXPECT_REFUSED(smoother, DEBURR_ARGUMENT, "no frame was begun", give_edges(4));
+  DEBURR_EXPECT_TAKEN(smoother, deburr_frame_begin(smoother.get(), 2, 2));
+  DEBURR_EXPECT_REFUSED(smoother, DEBURR_ARGUMENT, "edges_size is 3; 2 rows need 4", give_edges(3));
+  for (const auto& [i, bits] : {std::pair{0, 1}, {0, 2}, {1, 2}, {2, 1}, {3, 4}, {3, 255}}) {
+    edges.assign(4, 0);
+    edges[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(bits);
+    DEBURR_EXPECT_REFUSED(smoother, DEBURR_ARGUMENT, "has those with a neighbour in the frame",
+                          give_edges(4));
+  }
+  edges = {0, 1, 2, 3};
+  DEBURR_EXPECT_TAKEN(smoother, give_edges(4));
+  DEBURR_EXPECT_TAKEN(smoother, deburr_frame_process(smoother.get()));
+  DEBURR_EXPECT_REFUSED(smoother, DEBURR_ARGUMENT,
+                        "the plane 'taps' was not kept: call deburr_frame_detail with 1",
+                        deburr_plane(smoother.get(), "taps", edges.data(), 4, 0));
+
+  const Handle drawn(deburr_geometric_new());
+  const std::vector<std::uint32_t> words(8, 0);
+  const std::vector<std::uint8_t> bits(2, 0);
+  std::uint8_t classes = 0;
+  DEBURR_EXPECT_REFUSED(drawn, DEBURR_ARGUMENT, "words_size is 7; vertices have four words each",
+                        deburr_geometric_vertices(drawn.get(), words.data(), 7));
+  DEBURR_EXPECT_REFUSED(drawn, DEBURR_ARGUMENT, "words_size is 5; edges have four words each",
+                        deburr_geometric_edges(drawn.get(), words.data(), 5));
+  DEBURR_EXPECT_REFUSED(drawn, DEBURR_ARGUMENT, "words is NULL",
+                        deburr_geometric_edges(drawn.get(), nullptr, 4));
+  DEBURR_EXPECT_REFUSED(
+      drawn, DEBURR_ARGUMENT, "16777217 edges; at most 2^24 are possible",
+      deburr_geometric_edges(drawn.get(), words.data(), (std::size_t{1} << 26) + 4));
+  DEBURR_EXPECT_REFUSED(drawn, DEBURR_ARGUMENT, "the bits of 17 faces need 3 bytes",
+                        deburr_geometric_facing(drawn.get(), 17, bits.data(), 2));
+  DEBURR_EXPECT_REFUSED(drawn, DEBURR_ARGUMENT, "bits is NULL",
+                        deburr_geometric_facing(drawn.get(), 1, nullptr, 1));
+  DEBURR_EXPECT_REFUSED(drawn, DEBURR_ARGUMENT, "classes were not kept",
+                        deburr_geometric_classes(drawn.get(), &classes, 1));
+  // Edges of vertices and faces that are not there are the engine's business.
+  DEBURR_EXPECT_TAKEN(drawn, deburr_geometric_edges(drawn.get(), words.data(), 8));
+  DEBURR_EXPECT_TAKEN(drawn, deburr_frame_begin(drawn.get(), 2, 2));
+  DEBURR_EXPECT_TAKEN(drawn, deburr_frame_put(drawn.get(), 0, 0, 0, 0));
+  DEBURR_EXPECT_TAKEN(drawn, deburr_frame_process(drawn.get()));
+  EXPECT_EQ(counter_of(drawn.get(), "invalid_edges"), 2u);
+  DEBURR_EXPECT_REFUSED(drawn, DEBURR_ARGUMENT, "need 536870912 bytes",
+                        deburr_geometric_facing(drawn.get(), ~0u, bits.data(), 2));
+}
+
+}  // namespace
+}  // namespace deburr::frames_test

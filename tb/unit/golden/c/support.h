@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Handles of the C interface for tests.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "golden/c/deburr_golden.h"
+
+namespace deburr::tb::c {
+
+struct Close {
+  void operator()(deburr_golden* golden) const { EXPECT_EQ(deburr_close(golden), DEBURR_OK); }
+};
+using Handle = std::unique_ptr<deburr_golden, Close>;
+
+inline std::string error_of(deburr_golden* golden, int status) {
+  std::string text(4096, '\0');
+  deburr_error(golden, status, text.data(), text.size());
+  return text.c_str();
+}
+
+// Every engine's handle, in order.
+using New = deburr_golden* (*)();
+inline const std::vector<New>& engines() {
+  static const std::vector<New> all = {deburr_texture_new, deburr_morphological_new,
+                                       deburr_geometric_new};
+  return all;
+}
+
+inline std::string value_of(deburr_golden* golden, const std::string& name) {
+  std::string text(256, '\0');
+  const int status = deburr_get(golden, name.c_str(), text.data(), text.size());
+  EXPECT_EQ(status, DEBURR_OK) << error_of(golden, status);
+  return text.c_str();
+}
+
+inline std::vector<std::string> names_of(deburr_golden* golden) {
+  std::uint32_t count = 0;
+  EXPECT_EQ(deburr_parameter_count(golden, &count), DEBURR_OK);
+  std::vector<std::string> names;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    std::string text(256, '\0');
+    EXPECT_EQ(deburr_parameter_name(golden, i, text.data(), text.size()), DEBURR_OK);
+    names.emplace_back(text.c_str());
+  }
+  return names;
+}
+
+inline std::uint64_t counter_of(deburr_golden* golden, const std::string& name) {
+  std::uint64_t value = 0;
+  const int status = deburr_counter(golden, name.c_str(), &value);
+  EXPECT_EQ(status, DEBURR_OK) << error_of(golden, status);
+  return value;
+}
+
+}  // namespace deburr::tb::c
+
+// A call that must be taken, and one that must not, with words of its complaint.
+#define DEBURR_EXPECT_TAKEN(golden, call)                                                        \
+  do {                                                                                           \
+    const int status_of_call = (call);                                                           \
+    EXPECT_EQ(status_of_call, DEBURR_OK) << deburr::tb::c::error_of(&*(golden), status_of_call); \
+  } while (false)
+#define DEBURR_EXPECT_REFUSED(golden, status, words, call)                                       \
+  do {                                                                                           \
+    const int status_of_call = (call);                                                           \
+    EXPECT_EQ(status_of_call, (status));                                                         \
+    EXPECT_THAT(deburr::tb::c::error_of(&*(golden), status_of_call), testing::HasSubstr(words)); \
+  } while (false)

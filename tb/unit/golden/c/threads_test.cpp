@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Threads: each with a handle of its own work at once and get what they get alone; two with one
+// handle never do, and one of them is told.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "golden/c/handle.h"
+#include "tb/base/random.h"
+#include "tb/unit/golden/c/support.h"
+
+namespace deburr::threads_test {
+namespace {
+
+using tb::c::error_of;
+using tb::c::Handle;
+
+// A frame of noise, smoothed by a handle that is used a few hundred times on the way.
+std::vector<std::uint8_t> smoothed(deburr_golden* golden, std::uint64_t seed) {
+  constexpr std::uint32_t kSide = 48;
+  tb::Random random(seed);
+  std::vector<std::uint8_t> result(std::size_t{4} * kSide * kSide);
+  for (int frame = 0; frame < 4; ++frame) {
+    EXPECT_EQ(deburr_frame_begin(golden, kSide, kSide), DEBURR_OK);
+    for (std::uint32_t i = 0; i < kSide * kSide; ++i)
+      EXPECT_EQ(deburr_frame_put(golden, i % kSide, i / kSide,
+                                 random.chance(500) ? 0xFFFFFFFF : 0xFF000000, 0),
+                DEBURR_OK);
+    EXPECT_EQ(deburr_set(golden, "no such name", ""), DEBURR_ARGUMENT);
+    EXPECT_EQ(deburr_frame_process(golden), DEBURR_OK);
+    EXPECT_THAT(error_of(golden, DEBURR_ARGUMENT), testing::HasSubstr("'no such name'"));
+    EXPECT_EQ(deburr_plane(golden, "pixels", result.data(), result.size(), 0), DEBURR_OK);
+  }
+  return result;
+}
+
+TEST(Threads, WithHandlesOfTheirOwnDoNotDisturbEachOther) {
+  constexpr std::size_t kThreads = 4;
+  std::array<std::vector<std::uint8_t>, kThreads> results;
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < kThreads; ++i)
+      threads.emplace_back([&results, i] {
+        const Handle handle(deburr_morphological_new());
+        results[i] = smoothed(handle.get(), i / 2);
+      });
+  }
+  const Handle alone(deburr_morphological_new());
+  for (std::size_t i = 0; i < kThreads; ++i)
+    EXPECT_EQ(results[i], smoothed(alone.get(), i / 2)) << "thread " << i;
+  EXPECT_NE(results[0], results[2]);
+}
+
+// While a thread is in a call, every function of another one says so, and changes nothing.
+TEST(Threads, OfWhichOneIsInACallAreToldBusy) {
+  const Handle handle(deburr_geometric_new());
+  deburr_golden* const golden = handle.get();
+  DEBURR_EXPECT_TAKEN(golden, deburr_set(golden, "mark", "true"));
+  EXPECT_EQ(deburr_set(golden, "mark", "perhaps"), DEBURR_ARGUMENT);
+  char text[300] = "before";
+  std::uint32_t number = 77;
+  std::uint64_t value = 77;
+  const int inside = golden::c::call(golden, "a call", [&](deburr_golden&) {
+    const auto other = [&](auto&& calls) { std::jthread thread(calls); };
+    other([&] {
+      const std::vector<int> statuses = {deburr_set(golden, "mark", "false"),
+                                         deburr_get(golden, "mark", text, sizeof text),
+                                         deburr_check(golden),
+                                         deburr_reset(golden),
+                                         deburr_parameter_count(golden, &number),
+                                         deburr_parameter_name(golden, 0, text, sizeof text),
+                                         deburr_counter(golden, "edges", &value),
+                                         deburr_counter_count(golden, &number),
+                                         deburr_counter_name(golden, 0, text, sizeof text),
+                                         deburr_frame_begin(golden, 4, 4),
+                                         deburr_frame_process(golden),
+                                         deburr_texture_memory(golden, 64),
+                                         deburr_close(golden)};
+      EXPECT_THAT(statuses, testing::Each(DEBURR_BUSY));
+      EXPECT_STREQ(text, "before");
+      EXPECT_EQ(number, 77u);
+      EXPECT_EQ(value, 77u);
+      EXPECT_STREQ(deburr_engine(golden), "geometric");
+      // Its own error can be read; that of the thread inside has to wait.
+      EXPECT_EQ(deburr_error(golden, DEBURR_BUSY, text, sizeof text), DEBURR_OK);
+      EXPECT_THAT(std::string(text), testing::HasSubstr("in use by another thread"));
+      EXPECT_EQ(deburr_error(golden, DEBURR_ARGUMENT, text, sizeof text), DEBURR_BUSY);
+      EXPECT_THAT(std::string(text), testing::HasSubstr("in use by another thread"));
+    });
+  });
+  EXPECT_EQ(inside, DEBURR_OK);
+  EXPECT_EQ(tb::c::value_of(golden, "mark"), "true");
+  EXPECT_THAT(error_of(golden, DEBURR_ARGUMENT), testing::HasSubstr("'perhaps'"));
+}
+
+// Two that fight for one handle: each call is taken whole, or refused as busy.
+TEST(Threads, ThatShareAHandleAreRefusedAndNeverRace) {
+  const Handle handle(deburr_morphological_new());
+  deburr_golden* const golden = handle.get();
+  EXPECT_EQ(deburr_frame_begin(golden, 64, 64), DEBURR_OK);
+  std::atomic<int> taken{0}, busy{0}, other{0};
+  std::atomic<bool> done{false};
+  const auto fight = [&](int own) {
+    const std::string mine = std::to_string(own);
+    char text[64];
+    for (int i = 0; !done && i < 200'000; ++i) {
+      for (const int status :
+           {deburr_set(golden, "edges.threshold", mine.c_str()), deburr_frame_process(golden),
+            deburr_get(golden, "edges.threshold", text, sizeof text)}) {
+        ++(status == DEBURR_OK ? taken : status == DEBURR_BUSY ? busy : other);
+      }
+      if (busy > 20 && taken > 200) done = true;
+    }
+  };
+  { const std::jthread first(fight, 1000), second(fight, 2000); }
+  EXPECT_EQ(other, 0);
+  EXPECT_GT(taken, 200);
+  EXPECT_GT(busy, 20);
+  EXPECT_THAT(tb::c::value_of(golden, "edges.threshold"), testing::AnyOf("1000", "2000"));
+}
+
+// What a turn ends with: the next call is taken whatever the last one threw.
+TEST(Threads, ACallThatFailsGivesTheHandleBack) {
+  const Handle handle(deburr_texture_new());
+  for (const auto& [status, raise] :
+       {std::pair<int, void (*)()>{DEBURR_MEMORY, [] { throw std::bad_alloc(); }},
+        {DEBURR_MEMORY, [] { throw std::length_error("vector"); }},
+        {DEBURR_INTERNAL, [] { throw std::logic_error("check failed"); }},
+        {DEBURR_INTERNAL, [] { throw 7; }}}) {
+    EXPECT_EQ(golden::c::call(handle.get(), "a call", [raise = raise](deburr_golden&) { raise(); }),
+              status);
+    EXPECT_THAT(error_of(handle.get(), status), testing::StartsWith("a call: "));
+    EXPECT_EQ(deburr_check(handle.get()), DEBURR_OK);
+  }
+}
+
+}  // namespace
+}  // namespace deburr::threads_test

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// The parts of the AreaUnit alone: in which clocks each can do its stages at the earliest, and that
+// this is what its datasheet says.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "rtl_model/morphological/blend/area_unit.h"
+#include "tb/unit/rtl/datasheets.h"
+#include "tb/unit/rtl/morphological/parts.h"
+
+namespace deburr::tb::morphological_rtl::area_parts_test {
+namespace {
+
+using namespace rtl::morphological;  // NOLINT: a test of these
+
+constexpr std::size_t kColumns = 64, kRecords = 16;
+
+// A RecordStore with a vertical record in each of the first columns, in row 0, and its walk.
+struct Walk {
+  Walk() : records("record_store", small(), registers.store, kColumns, {stored, conflicts}) {
+    StoredRecord record;
+    for (std::size_t x = 0; x < kRecords; ++x) {
+      record.span = static_cast<std::uint16_t>(100 + x);
+      records.column().write(x, x, {0, 3, 0}, record);
+    }
+  }
+  // Column x in row 0, with the second stage so many clocks after the first one, and the third one
+  // so many after that. False: the memories do not allow it.
+  bool finds(std::uint16_t x, Cycle match, Cycle visit) {
+    const Slot slot{x, kLag - 1, x};
+    const Cycle cycle = Cycle{100} * (x + 1u);
+    RecordWalk::Beat beat{};
+    std::vector<int> spans;
+    try {
+      walk.address<false>(cycle, slot, beat);
+      walk.match<false, false>(cycle + match, slot, beat);
+      walk.visit_edges(
+          cycle + match + visit, beat,
+          [&](std::size_t number, const StoredRecord& record, const RecordWalk::Edge& edge) {
+            EXPECT_EQ(number, 1u) << "the left edge of lane 0";
+            EXPECT_EQ(edge.k, 0);
+            spans.push_back(record.span);
+          });
+    } catch (const spec::CheckFailed&) {
+      return false;
+    }
+    EXPECT_THAT(spans, ::testing::ElementsAre(100 + x));
+    return true;
+  }
+
+  Registers registers{small(), 20, 7};
+  rtl::Counter stored{"stored", "records", "stored"}, conflicts{"conflicts", "clk", "waited"};
+  rtl::Counter horizontal{"horizontal", "edges", "along"}, vertical{"vertical", "edges", "down"};
+  RecordStore records;
+  RecordWalk walk{"record_walk", registers.store, records, {horizontal, vertical}};
+};
+
+// No stage can be left out: each waits for the words that the one before has addressed.
+TEST(RecordWalkBlock, HasTheLatencyOfItsDatasheet) {
+  Walk bench;
+  // A column each, whose words no port has shown before.
+  std::uint16_t x = 0;
+  Cycle match = 0, visit = 0;
+  while (match < 5 && !bench.finds(x++, match, 5)) ++match;
+  while (visit < 5 && !bench.finds(x++, match, visit)) ++visit;
+  ASSERT_LE(x, kRecords);
+  // The next unit gets its edges a clock after the last stage.
+  expect_notices_a_clock(
+      RecordWalk::datasheet(), &rtl::Datasheet::latency,
+      [&](const rtl::Datasheet& sheet) { expect_latency(sheet, match + visit + 1); });
+}
+
+// Asked in one clock, it has the edge in the next; a beat of shares may be asked for in each.
+TEST(LearnedSharesBlock, HaveTheLatencyAndIntervalOfTheirDatasheet) {
+  LearnedShares unit("learned", 1);
+  StoredRecord record;
+  record.learned = true;
+  record.shape = 1 + 4 * 2;
+  record.start_class = 2;
+  record.end_class = 6;
+  constexpr Cycle kAsked = 10;
+  constexpr std::int32_t kLength = 3;
+  // Clocks in which shares leave the last stage.
+  std::vector<Cycle> clocks;
+  std::vector<int> sums;
+  for (Cycle cycle = kAsked; cycle < kAsked + 12; ++cycle) {
+    BeatShares shares{};
+    shares[0].top.span = 1;  // learned shares have none
+    unit.move(cycle, &shares);
+    if (shares[0].top.span == 0) {
+      clocks.push_back(cycle);
+      sums.push_back(shares[0].top.first + shares[0].top.second);
+    }
+    const auto k = static_cast<std::int32_t>(cycle - kAsked);
+    if (k < kLength) unit.ask(0, record, k, kLength - 1 - k);
+  }
+  ASSERT_EQ(clocks.size(), static_cast<std::size_t>(kLength));
+  EXPECT_GT(sums[0] + sums[1] + sums[2], 0);
+  for (Cycle& clock : clocks) ++clock;  // a register
+  const auto check = [&](const rtl::Datasheet& sheet) { expect_clocks(sheet, clocks, kAsked + 1); };
+  expect_notices_a_clock(LearnedShares::datasheet(), &rtl::Datasheet::latency, check);
+  expect_notices_a_clock(LearnedShares::datasheet(), &rtl::Datasheet::interval, check);
+}
+
+// The row above is addressed a clock before the shares of this row come, and what they were goes
+// out in the clock in which they do.
+TEST(ShareRowsBlock, HaveTheRowAboveAClockAfterItsAddress) {
+  const Registers registers(small(), 20, 7);
+  ShareRows rows("share_rows", small(), registers.store, kColumns);
+  const auto shares_of_row = [](int row) {
+    BeatShares shares{};
+    shares[0].top = {static_cast<std::uint8_t>(10 + row), static_cast<std::uint8_t>(20 + row), 3};
+    return shares;
+  };
+  ShareToken out{};
+  const auto join = [&](Cycle read, Cycle cycle, int row) {
+    rows.read(read, 0);
+    rows.join(cycle, 0, 1, 0, shares_of_row(row), out);
+  };
+  rows.write(10, 0, 0, shares_of_row(0));
+  EXPECT_THROW(join(20, 20, 1), spec::CheckFailed);
+  join(21, 22, 1);
+  EXPECT_TRUE(out.any);
+  EXPECT_EQ(out.shares[0].up, 20);
+  EXPECT_EQ(out.shares[0].down, 11);
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological_rtl::area_parts_test
