@@ -303,6 +303,15 @@ class Platform(Scratch):
             found = call(program, "--plant", name, code=1)
             self.assertRegex(found, rf"FAIL .*(software|texture)_bus: {rule}: ", name)
 
+    def test_a_wrong_register_is_a_wrong_picture(self):
+        shutil.copytree(SOURCE / "examples/platform", self.folder, dirs_exist_ok=True)
+        software = (self.folder / "software.cpp").read_text(encoding="utf-8")
+        self.assertIn("MAX_COUNT_LOG2, 3)", software)
+        self.write("software.cpp", software.replace("MAX_COUNT_LOG2, 3)", "MAX_COUNT_LOG2, 0)"))
+        self.configure()
+        call(CMAKE, "--build", self.folder / "build", "--parallel", os.cpu_count())
+        self.assertRegex(call(self.folder / "build/platform", code=1), r"FAIL picture .*: [1-9]\d* of 15360 pixels differ")
+
 
 def exported(*command):
     """The functions and objects that a library offers, of those the linker can see by their plain names."""

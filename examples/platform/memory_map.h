@@ -15,6 +15,7 @@ inline constexpr std::uint64_t kRegisterBytes = 0x1000;
 // In memory: the mip chain of the texture, then the rows of a frame that the smoother keeps there.
 inline constexpr std::uint64_t kTexture = kMemory, kFrame = kMemory + 0x8'0000;
 
+inline constexpr unsigned kSide = 64, kLevels = 7;  // of the texture
 inline constexpr int kWidth = 160, kHeight = 96;
 
 }  // namespace platform

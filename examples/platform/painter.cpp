@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "painter.h"
 
+#include <bit>
 #include <cstdio>
 
 namespace platform {
 
 using deburr::rtl::Activity;
 using deburr::rtl::Cycle;
-using deburr::spec::texture::Quad;
 
 namespace {
 
@@ -25,8 +25,6 @@ bool on_floor(int x, int y) { return y >= kHorizon && !on_board(x, y); }
 std::int32_t along(int y) { return (16 << 24) / (2 * (y - kHorizon) + 5); }
 std::int32_t across(int x, int y) { return (2 * x + 1 - kWidth) * (along(y) / 64); }
 
-constexpr int kQuadsAcross = kWidth / 2, kQuads = kQuadsAcross * (kHeight / 2);
-
 }  // namespace
 
 std::uint32_t Frame::hash() const {
@@ -43,6 +41,32 @@ bool Frame::write_ppm(const char* file) const {
   for (const Rgba8& pixel : pixels) std::fwrite(pixel.data(), 1, 3, out);
   const bool written = !std::ferror(out);
   return std::fclose(out) == 0 && written;
+}
+
+// Four pixels, of which the floor's want a colour. All four have coordinates, which tell the
+// texture unit how large a pixel is in the texture.
+Quad quad_of(int number) {
+  Quad quad;
+  quad.tag = static_cast<std::uint32_t>(number);
+  quad.coverage = 0;
+  quad.x = static_cast<std::uint16_t>(number % kQuadsAcross * 2);
+  quad.y = static_cast<std::uint16_t>(number / kQuadsAcross * 2);
+  for (int lane = 0; lane < 4; ++lane) {
+    const int x = quad.x + lane % 2, y = quad.y + lane / 2;
+    if (y < kHorizon) continue;
+    quad.s[static_cast<std::size_t>(lane)] = across(x, y);
+    quad.t[static_cast<std::size_t>(lane)] = along(y);
+    if (on_floor(x, y)) quad.coverage = static_cast<std::uint8_t>(quad.coverage | 1 << lane);
+  }
+  return quad;
+}
+
+Rgba8 plain_colour(int x, int y) { return on_board(x, y) ? kBoard : kSky; }
+
+void put(Frame& frame, const Colour& colour) {
+  const int quad = static_cast<int>(colour.tag);
+  frame.at(quad % kQuadsAcross * 2 + colour.lane % 2, quad / kQuadsAcross * 2 + colour.lane / 2) =
+      colour.rgba;
 }
 
 Painter::Painter(const sc_core::sc_module_name& name, deburr::rtl::ClockDomain& clock)
@@ -64,27 +88,14 @@ Activity Painter::tick(Cycle cycle) {
   return took || asked || sent ? deburr::rtl::kBusy : deburr::rtl::kStalledDownstream;
 }
 
-// Four pixels, of which the floor's want a colour. All four have coordinates, which tell the
-// texture unit how large a pixel is in the texture.
 bool Painter::send_quad(Cycle cycle) {
   if (quad_ == kQuads || !quads_out.can_push(cycle)) return false;
-  Quad quad;
-  quad.tag = static_cast<std::uint32_t>(quad_);
-  quad.coverage = 0;
-  const int x = quad_ % kQuadsAcross * 2, y = quad_ / kQuadsAcross * 2;
-  quad.x = static_cast<std::uint16_t>(x);
-  quad.y = static_cast<std::uint16_t>(y);
+  const Quad quad = quad_of(quad_);
   for (int lane = 0; lane < 4; ++lane) {
-    const int px = x + lane % 2, py = y + lane / 2;
-    frame_.at(px, py) = on_board(px, py) ? kBoard : kSky;
-    if (py < kHorizon) continue;
-    quad.s[static_cast<std::size_t>(lane)] = across(px, py);
-    quad.t[static_cast<std::size_t>(lane)] = along(py);
-    if (on_floor(px, py)) {
-      quad.coverage = static_cast<std::uint8_t>(quad.coverage | 1 << lane);
-      ++awaited_;
-    }
+    const int x = quad.x + lane % 2, y = quad.y + lane / 2;
+    frame_.at(x, y) = plain_colour(x, y);
   }
+  awaited_ += std::popcount(quad.coverage);
   if (quad.coverage) quads_out.push(cycle, quad);
   ++quad_;
   return true;
@@ -92,10 +103,7 @@ bool Painter::send_quad(Cycle cycle) {
 
 bool Painter::take_colour(Cycle cycle) {
   if (!colours_in.can_pop(cycle)) return false;
-  const auto& colour = colours_in.take(cycle);
-  const int quad = static_cast<int>(colour.tag);
-  frame_.at(quad % kQuadsAcross * 2 + colour.lane % 2, quad / kQuadsAcross * 2 + colour.lane / 2) =
-      colour.rgba;
+  put(frame_, colours_in.take(cycle));
   --awaited_;
   return true;
 }

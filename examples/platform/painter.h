@@ -23,6 +23,8 @@
 namespace platform {
 
 using deburr::spec::morphological::Rgba8;
+using deburr::spec::texture::Colour;
+using deburr::spec::texture::Quad;
 
 struct Frame {
   std::vector<Rgba8> pixels = std::vector<Rgba8>(kWidth * kHeight);
@@ -35,10 +37,16 @@ inline constexpr std::uint32_t kPainterStart = 0x00;
 inline constexpr std::array<deburr::spec::RegisterInfo, 1> kPainterRegisters = {
     {{kPainterStart, "START", deburr::spec::Access::kCommand, 0, "Any write starts a frame."}}};
 
+// What is painted, apart from when.
+inline constexpr int kQuadsAcross = kWidth / 2, kQuads = kQuadsAcross * (kHeight / 2);
+Quad quad_of(int number);                      // covers the pixels of the floor
+Rgba8 plain_colour(int x, int y);              // of board and sky
+void put(Frame& frame, const Colour& colour);  // of the floor, where its tag and lane say
+
 class Painter final : public deburr::rtl::Unit {
  public:
-  deburr::rtl::Out<deburr::spec::texture::Quad> quads_out{"quads_out"};
-  deburr::rtl::In<deburr::spec::texture::Colour> colours_in{"colours_in"};
+  deburr::rtl::Out<Quad> quads_out{"quads_out"};
+  deburr::rtl::In<Colour> colours_in{"colours_in"};
   deburr::rtl::Out<deburr::spec::morphological::PixelBeat> pixels_out{"pixels_out"};
   deburr::rtl::RegisterBlock registers{"registers", kPainterRegisters};
 

@@ -21,9 +21,11 @@ namespace platform {
 namespace {
 
 const sc_core::sc_time kAccess(20, sc_core::SC_NS);  // that software takes for each access
+// Behind a clock's edge, where the order of SystemC's processes, and so the quantum, would decide
+// in which clock the engines see an access.
+const sc_core::sc_time kPhase(1, sc_core::SC_NS);
 
 using Level = std::vector<std::array<std::uint8_t, 4>>;
-constexpr unsigned kSide = 64, kLevels = 7;
 
 // Tiles of a floor.
 Level level_0() {
@@ -57,6 +59,7 @@ Software::Software(const sc_core::sc_module_name& name) : sc_module(name) { SC_T
 
 void Software::program() {
   time_.reset();
+  wait(kPhase);
   expect(kTextureUnit + DEBURR_TEXTURE_ID, DEBURR_TEXTURE_ID_RESET);
   expect(kSmoother + DEBURR_MORPHOLOGICAL_ID, DEBURR_MORPHOLOGICAL_ID_RESET);
   set_up_texture();
@@ -132,6 +135,7 @@ void Software::look_at_memory() {
 void Software::wait_for_frame() {
   time_.sync();
   while (!smoother_interrupt.read()) wait(smoother_interrupt.posedge_event());
+  wait(kPhase);
   const std::uint32_t status = read(kSmoother + DEBURR_MORPHOLOGICAL_STATUS);
   if (!(status & DEBURR_MORPHOLOGICAL_STATUS_FRAME_DONE_MASK) ||
       (status & (DEBURR_MORPHOLOGICAL_STATUS_FRAMING_MASK |

@@ -55,8 +55,9 @@ NAMED = {
             "tb/system/inputs_test.py", "tb/system/sweep_test.py", "tb/system/terminal_test.py", "tb/unit/env/planted_faults_test.cpp",
             "tb/unit/house/mutate_test.py", "tb/unit/results/result_test.cpp", "tb/env/collect.h"],
         "an example of an engine, in what is built from installed files": [
-            "examples/c/draw.c", "examples/installed_test.py", "examples/platform/main.cpp",
-            "examples/platform/painter.cpp", "examples/platform/painter.h", "examples/systemverilog/edge_detector.sv",
+            "examples/c/draw.c", "examples/installed_test.py", "examples/platform/expected.cpp",
+            "examples/platform/expected.h", "examples/platform/main.cpp", "examples/platform/painter.cpp",
+            "examples/platform/painter.h", "examples/systemverilog/edge_detector.sv",
             "examples/systemverilog/testbench.sv"],
         "the C interface is one of all engines: its tests": [
             "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp"],

@@ -127,7 +127,7 @@ TEST_P(IgnoredBits, AreNoOthers) {
     const bool counts =
         std::any_of(words.begin(), words.end(), [](std::uint32_t word) { return word != 0; });
     const Trail got = run(region, [](std::uint32_t m) { return std::bit_floor(m); });
-    EXPECT_EQ(frame_difference(fresh, got) != "", counts) << spec::geometric::kRegionNames[i];
+    EXPECT_EQ(!frame_difference(fresh, got).empty(), counts) << spec::geometric::kRegionNames[i];
   }
 }
 

@@ -114,7 +114,7 @@ TEST_P(IgnoredBits, ChangeNothing) {
   };
   // 24 bits, and these where edges are of depth.
   EXPECT_EQ(difference(fresh, depths(0xFF000000)), "");
-  EXPECT_EQ(difference(fresh, depths(0xFFFFFFFF)) != "", depth_counts);
+  EXPECT_EQ(!difference(fresh, depths(0xFFFFFFFF)).empty(), depth_counts);
   const auto alphas = [&](std::uint32_t bits) {
     return run([&, bits](PixelBeat& beat) {
       for (Rgba8& pixel : beat.pixel)
@@ -123,7 +123,7 @@ TEST_P(IgnoredBits, ChangeNothing) {
   };
   // The mark is bit 0, where one is looked for.
   EXPECT_EQ(difference(fresh, alphas(0xFE)), "");
-  EXPECT_EQ(difference(fresh, alphas(0xFF)) != "", p.leave != Leave::kNone);
+  EXPECT_EQ(!difference(fresh, alphas(0xFF)).empty(), p.leave != Leave::kNone);
   // Lanes behind the last pixel of a row.
   const auto lanes = [&](bool used) {
     return run([&, used](PixelBeat& beat) {
