@@ -23,6 +23,17 @@ void TextureMeter::collect(Result& result) const {
       "Cost of a fragment in clocks while nothing stalls.");
   add(result, "misses_per_texel", ratio(number(lines), 4 * number(bilinears)), "line/texel",
       "Line fills over texels asked for.");
+  add(result, "texel_hits_percent", 100 - 100 * ratio(number(lines), 4 * number(bilinears)), "%",
+      "Texels asked for that ordered no line: 100 - 100 x misses_per_texel.");
+  const rtl::texture::TagStage& tags = unit_.cache.tag_stage;
+  const double look_ups =
+      number(tags.hits.value()) + number(tags.merged.value()) + number(tags.misses.value());
+  add(result, "look_up_hits_percent", 100 * ratio(number(tags.hits.value()), look_ups), "%",
+      "Look-ups of tags, one a line of a request, that found their line in the data banks.");
+  add(result, "look_up_merged_percent", 100 * ratio(number(tags.merged.value()), look_ups), "%",
+      "Look-ups that found the fill of their line under way: they order none, and wait for it.");
+  add(result, "look_up_misses_percent", 100 * ratio(number(tags.misses.value()), look_ups), "%",
+      "Look-ups that ordered a fill.");
   add(result, "texels_fetched_per_fragment",
       ratio(number(lines) * unit_.parameters().cache_line_bytes / texel_bytes, number(fragments)),
       "texel/fragment", "Texels of all lines fetched over fragments.");
@@ -48,6 +59,9 @@ void TextureMeter::collect_headline(Result& result) const {
   result.figures = {{"Fragments", key("fragments")},
                     {"Bilinear requests of a fragment", key("bilinears_per_fragment")},
                     {"Line fills of a texel", key("misses_per_texel")},
+                    {"Texels without a line fill", key("texel_hits_percent")},
+                    {"Look-ups that hit", key("look_up_hits_percent")},
+                    {"Look-ups of a line under way", key("look_up_merged_percent")},
                     {"Texels fetched for a fragment", key("texels_fetched_per_fragment")}};
   result.bottleneck = find_bottleneck(result.units, figure("filter"));
 }
