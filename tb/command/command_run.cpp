@@ -141,6 +141,11 @@ std::string figures_of(const Result& r) {
                     r.bottleneck->cause,
                     100 * static_cast<double>(r.bottleneck->cycles) / static_cast<double>(r.cycles),
                     r.bottleneck->meaning);
+  for (const TerminalLine& line : r.terminal)
+    text += fmt::format("{:<11} {}\n", line.name, line.text);
+  if (r.bytes_read + r.bytes_written > 0)
+    text += fmt::format("memory      {:.3g} GB/s read, {:.3g} written at {:g} MHz\n",
+                        r.gb_per_s(r.bytes_read), r.gb_per_s(r.bytes_written), r.clock_mhz);
   if (r.quality) {
     text += fmt::format("quality     {}", decibels(r.quality->psnr_db, r.quality->psnr_before_db));
     if (r.quality->psnr_edge_db)

@@ -140,6 +140,11 @@ struct MismatchLine {
   std::string check, where, item, field, expected, got;
 };
 
+// A line of what a run says at its end: "hits", "98.1 % of look-ups".
+struct TerminalLine {
+  std::string name, text;
+};
+
 struct Result {
   std::string unit;
   Verdict verdict = Verdict::kUnchecked;
@@ -164,12 +169,19 @@ struct Result {
   std::optional<std::map<std::string, std::uint64_t>> coverage;  // hits by bin; run.coverage
   std::vector<WorkItem> work;
   std::vector<Figure> figures;
+  std::vector<TerminalLine> terminal;  // the engine's own; the file has their figures in `work`
   std::optional<Quality> quality;
   double host_seconds = 0, host_cpu_seconds = 0;
   std::vector<std::string> faults;  // that can be planted; of a model that is described, not run
 
   double mcycles_per_s() const {
     return host_seconds > 0 ? static_cast<double>(cycles) / host_seconds / 1e6 : 0;
+  }
+  // Mean rate over the run, at clock_mhz; 10^9 bytes a second.
+  double gb_per_s(std::uint64_t bytes) const {
+    return cycles > 0
+               ? static_cast<double>(bytes) * clock_mhz / (1000 * static_cast<double>(cycles))
+               : 0;
   }
 };
 

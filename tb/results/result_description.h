@@ -79,12 +79,6 @@ inline LinkOccupancy occupancy_of(const LinkFigures& link) {
   return o;
 }
 
-inline double gb_per_s(std::uint64_t bytes, const Result& r) {
-  return r.cycles > 0
-             ? static_cast<double>(bytes) * r.clock_mhz / (1000 * static_cast<double>(r.cycles))
-             : 0.0;
-}
-
 template <class Visitor>
 void describe(const MemoryFigures& m, Visitor& v) {
   v.value("content", m.content, "", "What a memory of the model holds.");
@@ -201,9 +195,9 @@ void describe(const Result& r, Visitor& v) {
   v.group("memory", [&] {
     v.value("bytes_read", r.bytes_read, "byte", "Bytes read from memory.");
     v.value("bytes_written", r.bytes_written, "byte", "Bytes written to memory.");
-    v.value("read_gb_per_s", gb_per_s(r.bytes_read, r), "GB/s",
+    v.value("read_gb_per_s", r.gb_per_s(r.bytes_read), "GB/s",
             "Mean rate of reads at clock_mhz, over the whole run; 10^9 bytes a second.");
-    v.value("written_gb_per_s", gb_per_s(r.bytes_written, r), "GB/s", "The same of writes.");
+    v.value("written_gb_per_s", r.gb_per_s(r.bytes_written), "GB/s", "The same of writes.");
     v.value("lines_filled", r.lines_filled, "line",
             "Reads of memory: lines of the cache, or of the frame where it waits in memory.");
   });
