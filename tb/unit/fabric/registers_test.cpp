@@ -270,8 +270,8 @@ TEST(RegisterTime, AnswersNonBlockingAccessesToo) {
                                                   tlm::TLM_ADDRESS_ERROR_RESPONSE));
 }
 
-// An initiator that ends each response late: the next request goes as soon as the last one is ended,
-// and its response has to wait for the end of the one before (response exclusion).
+// An initiator that ends each response late: the next request goes as soon as the last one is
+// ended, and its response has to wait for the end of the one before (response exclusion).
 struct Late : sc_core::sc_module, tlm::tlm_mm_interface {
   struct Access {
     tlm::tlm_generic_payload payload;
@@ -350,7 +350,8 @@ TEST(RegisterTime, AResponseWaitsForTheEndOfTheOneBefore) {
   late.add(tlm::TLM_READ_COMMAND, 0x0C, 0);
   late.send();
   sc_core::sc_start(sc_core::sc_time(200, sc_core::SC_NS));
-  EXPECT_THAT(late.seen, testing::ElementsAre("r0@10", "e0@35", "r1@35", "e1@60", "r2@60", "e2@85"));
+  EXPECT_THAT(late.seen,
+              testing::ElementsAre("r0@10", "e0@35", "r1@35", "e1@60", "r2@60", "e2@85"));
   EXPECT_EQ(block.get(kControl), 11U);
   EXPECT_EQ(late.accesses[1]->word, 11U);
   EXPECT_EQ(late.accesses[1]->payload.get_response_status(), tlm::TLM_OK_RESPONSE);
