@@ -44,6 +44,11 @@ set(DEBURR_SYSTEMVERILOG_FOLDER "${CMAKE_INSTALL_DATADIR}/deburr/systemverilog")
 install(FILES "${PROJECT_SOURCE_DIR}/golden/c/systemverilog/deburr_golden_pkg.sv"
   "${PROJECT_SOURCE_DIR}/golden/c/systemverilog/deburr_golden_dpi.c"
   DESTINATION "${DEBURR_SYSTEMVERILOG_FOLDER}" COMPONENT development)
+# For copying: each folder is a project of its own.
+foreach(example c platform systemverilog)
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples/${example}" DESTINATION "${CMAKE_INSTALL_DATADIR}/deburr/examples"
+    COMPONENT development)
+endforeach()
 if(BUILD_SHARED_LIBS)
   get_property(parts GLOBAL PROPERTY DEBURR_LIBRARIES_OF_golden)
   list(TRANSFORM parts REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)

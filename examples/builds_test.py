@@ -13,7 +13,7 @@ import sys
 import unittest
 
 sys.dont_write_bytecode = True
-from installed_test import (BUILD, CMAKE, CXX, DECLARED, EMPTY, GOLDEN_MAIN, INCLUDE, MODELS_MAIN, PREFIX, SOURCE,  # noqa: E402
+from installed_test import (BUILD, CMAKE, CXX, DECLARED, EMPTY, EXAMPLES, GOLDEN_MAIN, INCLUDE, MODELS_MAIN, PREFIX, SOURCE,  # noqa: E402
                             Scratch, call, exported, one_file, pkg_config)
 
 OTHER = "g++" if "clang" in CXX else "clang++"
@@ -36,7 +36,7 @@ class Compiler(Scratch):
 
     def test_the_platform_draws_the_same_picture(self):
         prefix = built("other-compiler", f"-DCMAKE_CXX_COMPILER={OTHER}")
-        shutil.copytree(SOURCE / "examples/platform", self.folder, dirs_exist_ok=True)
+        shutil.copytree(EXAMPLES / "platform", self.folder, dirs_exist_ok=True)
         said = []
         for compiler, where in ((CXX, PREFIX), (OTHER, prefix)):
             build = self.folder / compiler.replace("/", "_")
@@ -78,7 +78,7 @@ class Shared(Scratch):
         self.assertIn("[libdeburr-golden-c.so.0]", call("readelf", "-d", library))
         env = EMPTY | {"PKG_CONFIG_PATH": str(self.libraries / "pkgconfig"), "LD_LIBRARY_PATH": str(self.libraries)}
         flags = call("pkg-config", "--cflags", "--libs", "deburr-golden-c", env=env).split()
-        call("cc", "-std=c99", SOURCE / "examples/c/draw.c", "-o", self.folder / "draw", *flags)
+        call("cc", "-std=c99", EXAMPLES / "c/draw.c", "-o", self.folder / "draw", *flags)
         self.assertIn("PASS picture", call(self.folder / "draw", "picture.ppm", cwd=self.folder, env=env))
 
 

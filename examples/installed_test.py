@@ -19,6 +19,7 @@ import unittest
 CMAKE, BUILD, SOURCE, CXX = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1)), pathlib.Path(sys.argv.pop(1)), sys.argv.pop(1)
 PREFIX = BUILD / "examples/prefix"
 INCLUDE = PREFIX / "include/deburr"
+EXAMPLES = PREFIX / "share/deburr/examples"
 # What a user's shell has at least; nothing of ours.
 EMPTY = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "LC_ALL": "C.UTF-8"}
 
@@ -125,6 +126,10 @@ class Files(Scratch):
         # Of the C interface there is its header alone.
         headers = {file for file in headers if file.parts[:2] != ("golden", "c")}
         installed = {file.relative_to(INCLUDE) for file in INCLUDE.rglob("*.h")}
+        examples = {file.relative_to(SOURCE / "examples") for folder in ("c", "platform", "systemverilog")
+                    for file in (SOURCE / "examples" / folder).rglob("*")}
+        self.assertGreater(len(examples), 20)
+        self.assertLessEqual(examples, {file.relative_to(EXAMPLES) for file in EXAMPLES.rglob("*")})
         self.assertEqual(headers | {pathlib.Path("deburr_registers.h"), pathlib.Path("deburr_golden.h")}, installed)
 
     def test_no_file_names_the_trees(self):
@@ -319,7 +324,7 @@ class Program(Scratch):
 
 class Platform(Scratch):
     def test_the_example_draws_its_picture_and_finds_violations(self):
-        shutil.copytree(SOURCE / "examples/platform", self.folder, dirs_exist_ok=True)
+        shutil.copytree(EXAMPLES / "platform", self.folder, dirs_exist_ok=True)
         self.configure()
         alone(CMAKE, "--build", self.folder / "build", "--parallel", os.cpu_count())
         program = self.folder / "build/platform"
@@ -342,7 +347,7 @@ class Platform(Scratch):
             self.assertRegex(found, rf"FAIL .*(software|texture)_bus: {rule}: ", name)
 
     def test_a_wrong_register_is_a_wrong_picture(self):
-        shutil.copytree(SOURCE / "examples/platform", self.folder, dirs_exist_ok=True)
+        shutil.copytree(EXAMPLES / "platform", self.folder, dirs_exist_ok=True)
         software = (self.folder / "software.cpp").read_text(encoding="utf-8")
         self.assertIn("MAX_COUNT_LOG2, 3)", software)
         self.write("software.cpp", software.replace("MAX_COUNT_LOG2, 3)", "MAX_COUNT_LOG2, 0)"))
@@ -361,7 +366,7 @@ class C(Scratch):
 
     def setUp(self):
         super().setUp()
-        shutil.copytree(SOURCE / "examples/c", self.folder, dirs_exist_ok=True)
+        shutil.copytree(EXAMPLES / "c", self.folder, dirs_exist_ok=True)
 
     def drawn(self, program, **how):
         self.assertIn("PASS picture", alone(program, "picture.ppm", cwd=self.folder, **how))
@@ -433,7 +438,7 @@ class SystemVerilog(Scratch):
     """The example in SystemVerilog, under Verilator."""
 
     def test_the_testbench_agrees_and_finds_planted_faults(self):
-        shutil.copytree(SOURCE / "examples/systemverilog", self.folder, dirs_exist_ok=True)
+        shutil.copytree(EXAMPLES / "systemverilog", self.folder, dirs_exist_ok=True)
         said = alone("make", f"PREFIX={PREFIX}", cwd=self.folder, env=EMPTY | {"CCACHE_DISABLE": "1"})
         self.assertRegex(said, r"(?m)^PASS$")
         self.assertRegex(said, r"edge detector: 20 frames, \d{4,} pixels with edges, 0 differ")
@@ -455,13 +460,13 @@ class SystemVerilog(Scratch):
     @unittest.skipUnless(shutil.which("iverilog"), "iverilog is not installed: scripts/install examples")
     def test_another_simulator_takes_the_devices(self):
         for name in ("bilinear_sampler", "edge_detector"):
-            source = SOURCE / f"examples/systemverilog/{name}.sv"
+            source = EXAMPLES / f"systemverilog/{name}.sv"
             call("iverilog", "-g2012", "-s", name, "-o", self.folder / "out", source)
             self.write("wrong.sv", source.read_text(encoding="utf-8").replace("always_ff", "always_fff", 1))
             call("iverilog", "-g2012", "-s", name, "-o", self.folder / "out", self.folder / "wrong.sv", code=(1, 2, 3, 4, 5))
 
     def test_a_prefix_without_deburr_is_said(self):
-        shutil.copytree(SOURCE / "examples/systemverilog", self.folder, dirs_exist_ok=True)
+        shutil.copytree(EXAMPLES / "systemverilog", self.folder, dirs_exist_ok=True)
         self.assertIn(f"no deburr-golden-c below {self.folder}", alone("make", f"PREFIX={self.folder}", cwd=self.folder, code=2))
 
 
