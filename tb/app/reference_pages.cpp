@@ -169,9 +169,6 @@ std::vector<std::string> fault_names(Engine& engine) {
   return result.faults;
 }
 
-namespace {
-
-// By the names of their modules.
 std::vector<rtl::RegisterSection> register_sections(
     const std::vector<std::unique_ptr<Engine>>& engines) {
   std::vector<rtl::RegisterSection> sections;
@@ -182,8 +179,6 @@ std::vector<rtl::RegisterSection> register_sections(
             [](const auto& a, const auto& b) { return a.module < b.module; });
   return sections;
 }
-
-}  // namespace
 
 std::string registers_page(const std::vector<std::unique_ptr<Engine>>& engines) {
   std::string page =

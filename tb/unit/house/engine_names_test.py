@@ -33,6 +33,7 @@ NAMED = {
             "tb/unit/golden/c/threads_test.cpp"],
         "tables of pages are measured, its own among them": [
             "scripts/measurement/results.py"],
+        "its part of the command line is promised": ["tb/unit/app/stable.txt"],
     },
     "morphological": {
         "it blends in the same light, by the same tables": [
@@ -65,6 +66,7 @@ NAMED = {
         "names of memories are cut in a chart": ["tb/results/report.js"],
         "tables of pages are measured, its own among them": [
             "scripts/measurement/recipes.py", "scripts/measurement/results.py"],
+        "its part of the command line is promised": ["tb/unit/app/stable.txt"],
     },
 }
 

@@ -1,0 +1,215 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Other builds than the one that installed_test.py installs: the libraries by the other compiler and as shared ones,
+SystemC by a CMake package of its own, Debian packages. Builds stay in BUILD/examples, so that the next time compiles
+what has changed.
+
+usage: builds_test.py CMAKE BUILD SOURCE CXX [unittest options]"""
+import os
+import pathlib
+import re
+import shutil
+import sys
+import unittest
+
+sys.dont_write_bytecode = True
+from installed_test import (BUILD, CMAKE, CXX, DECLARED, EMPTY, EXAMPLES, GOLDEN_MAIN, INCLUDE, MODELS_MAIN, PREFIX, SOURCE,  # noqa: E402
+                            Scratch, call, exported, one_file, pkg_config)
+
+OTHER = "g++" if "clang" in CXX else "clang++"
+
+
+def built(name, *options):
+    """The preset `libraries` with these options, installed: the prefix."""
+    build, prefix = BUILD / "examples" / name, BUILD / "examples" / f"{name}-prefix"
+    env = dict(os.environ)
+    call(CMAKE, "--preset", "libraries", "-B", build, "-DDEBURR_WERROR=ON", *options, cwd=SOURCE, env=env)
+    call(CMAKE, "--build", build, "--parallel", os.cpu_count(), env=env, timeout=1500)
+    shutil.rmtree(prefix, ignore_errors=True)
+    call(CMAKE, "--install", build, "--prefix", prefix, env=env)
+    return prefix
+
+
+@unittest.skipUnless(shutil.which(OTHER), f"{OTHER} is not installed: scripts/install examples")
+class Compiler(Scratch):
+    """A release build by the compiler that this tree is not built with."""
+
+    def test_the_platform_draws_the_same_picture(self):
+        prefix = built("other-compiler", f"-DCMAKE_CXX_COMPILER={OTHER}")
+        shutil.copytree(EXAMPLES / "platform", self.folder, dirs_exist_ok=True)
+        said = []
+        for compiler, where in ((CXX, PREFIX), (OTHER, prefix)):
+            build = self.folder / compiler.replace("/", "_")
+            call(CMAKE, "-S", self.folder, "-B", build, f"-DCMAKE_PREFIX_PATH={where}", f"-DCMAKE_CXX_COMPILER={compiler}")
+            call(CMAKE, "--build", build, "--parallel", os.cpu_count())
+            said.append(call(build / "platform"))
+        self.assertIn("PASS picture", said[0])
+        self.assertEqual(*said)
+
+
+class Shared(Scratch):
+    """Shared libraries, compiled without much of an optimiser."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.prefix = built("shared", "-DBUILD_SHARED_LIBS=ON", "-DCMAKE_BUILD_TYPE=Debug", f"-DCMAKE_CXX_COMPILER={CXX}")
+        cls.libraries = next(cls.prefix.glob("lib*/**/libdeburr-golden.so")).parent
+        cls.version = pkg_config("--modversion", "deburr-golden")[0]
+
+    def test_programs_link_them(self):
+        self.project("deburr REQUIRED", "deburr::golden deburr::models", MODELS_MAIN)
+        call(CMAKE, "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}",
+             f"-DCMAKE_CXX_COMPILER={CXX}")
+        call(CMAKE, "--build", self.folder / "build")
+        call(self.folder / "build/user")
+        env = EMPTY | {"PKG_CONFIG_PATH": str(self.libraries / "pkgconfig"), "LD_LIBRARY_PATH": str(self.libraries)}
+        for name, main in (("golden", GOLDEN_MAIN), ("models", MODELS_MAIN)):
+            flags = call("pkg-config", "--cflags", "--libs", f"deburr-{name}", env=env).split()
+            call(CXX, self.write(f"{name}.cpp", main), "-o", self.folder / name, *flags)
+            call(self.folder / name, env=env)
+            needed = call("readelf", "-d", self.folder / name)
+            self.assertIn(f"[libdeburr-{name}.so.{self.version.rsplit('.', 1)[0]}]", needed)
+
+    def test_the_c_interface_exports_nothing_else(self):
+        library = self.libraries / "libdeburr-golden-c.so"
+        declared = set(DECLARED.findall((INCLUDE / "deburr_golden.h").read_text(encoding="utf-8")))
+        self.assertGreater(len(declared), 30)
+        self.assertEqual(exported("nm", "-D", "--defined-only", library), declared)
+        self.assertIn("[libdeburr-golden-c.so.0]", call("readelf", "-d", library))
+        env = EMPTY | {"PKG_CONFIG_PATH": str(self.libraries / "pkgconfig"), "LD_LIBRARY_PATH": str(self.libraries)}
+        flags = call("pkg-config", "--cflags", "--libs", "deburr-golden-c", env=env).split()
+        call("cc", "-std=c99", EXAMPLES / "c/draw.c", "-o", self.folder / "draw", *flags)
+        self.assertIn("PASS picture", call(self.folder / "draw", "picture.ppm", cwd=self.folder, env=env))
+
+
+PACKAGE = """set(SystemC_CXX_STANDARD 17)
+if(NOT TARGET SystemC::systemc AND NOT "{library}" STREQUAL "")
+  add_library(SystemC::systemc UNKNOWN IMPORTED)
+  set_target_properties(SystemC::systemc PROPERTIES IMPORTED_LOCATION "{library}"
+    INTERFACE_INCLUDE_DIRECTORIES "{include}" INTERFACE_COMPILE_FEATURES cxx_std_17)
+endif()
+"""
+VERSION = """set(PACKAGE_VERSION "{version}")
+set(PACKAGE_VERSION_COMPATIBLE TRUE)
+"""
+ASKS = """cmake_minimum_required(VERSION 3.25)
+project(user LANGUAGES CXX)
+set(CMAKE_CXX_STANDARD 23)
+list(PREPEND CMAKE_MODULE_PATH "{modules}")
+find_package(SystemC {how})
+message("standard of the project: ${{CMAKE_CXX_STANDARD}}")
+if(SystemC_FOUND)
+  find_package(SystemC REQUIRED)
+  get_target_property(definitions SystemC::systemc INTERFACE_COMPILE_DEFINITIONS)
+  message("SystemC ${{SystemC_VERSION}}, ${{definitions}}")
+  set(CMAKE_CXX_STANDARD 20)
+  add_executable(user main.cpp)
+  target_link_libraries(user PRIVATE SystemC::systemc)
+endif()
+"""
+MAIN = """#include <systemc>
+int sc_main(int, char**) { return sc_core::sc_delta_count() != 0; }
+"""
+DEBIAN = "-DCMAKE_DISABLE_FIND_PACKAGE_SystemCLanguage=ON"
+
+
+class SystemC(Scratch):
+    """FindSystemC.cmake, as installed, on made-up packages as SystemC 3.0 has one, around the library of this machine."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("main.cpp", MAIN)
+        self.asks("REQUIRED")
+        self.configure(DEBIAN)
+        cache = (self.folder / "build/CMakeCache.txt").read_text(encoding="utf-8")
+        self.library, self.include = (re.search(rf"^SystemC_{what}:\w+=(.*)$", cache, re.M)[1]
+                                      for what in ("LIBRARY", "INCLUDE_DIR"))
+
+    def asks(self, how):
+        self.write("CMakeLists.txt", ASKS.format(modules=one_file("lib*/**/FindSystemC.cmake").parent, how=how))
+
+    def package(self, library, version="3.0.1"):
+        folder = "systemc/lib/cmake/SystemCLanguage"
+        self.write(f"{folder}/SystemCLanguageConfig.cmake", PACKAGE.format(library=library, include=self.include))
+        self.write(f"{folder}/SystemCLanguageConfigVersion.cmake", VERSION.format(version=version))
+        return f"-DSystemCLanguage_DIR={self.folder / folder}"
+
+    def test_its_baseline_is_probed_and_a_program_links(self):
+        # In the build that has probed Debian's, too.
+        for fresh in (False, True):
+            if fresh:
+                shutil.rmtree(self.folder / "build")
+            said = self.configure(self.package(self.library))
+            self.assertIn("SystemC 3.0.1, ", said)
+            self.assertIn("standard of the project: 23", said)
+            self.assertLessEqual(said.count("SC_CPLUSPLUS="), 1)
+            call(CMAKE, "--build", self.folder / "build")
+            call(self.folder / "build/user")
+        back = self.configure(DEBIAN)
+        self.assertNotIn("SystemC 3.0.1", back)
+        call(CMAKE, "--build", self.folder / "build")
+        call(self.folder / "build/user")
+
+    def test_what_cannot_be_used_is_said(self):
+        stub = self.folder / "libsystemc.a"
+        call("ar", "rcs", stub)
+        for options, words in (
+                ([self.package("")], "defines no target SystemC::systemc: install SystemC again, or configure with"),
+                ([self.package(self.library, "2.3.1")], "SystemC 2.3.1 at"),
+                ([self.package(self.library, "2.3.1")], "is too old. Install Debian's package libsystemc-dev"),
+                ([self.package(stub)], "a C++20 program links with it under no baseline"),
+                ([DEBIAN, "-DSystemC_LIBRARY=", "-DSystemC_INCLUDE_DIR="], "SystemC was not found. Install Debian's package")):
+            # The folder holds the last of them.
+            if not options[0].endswith("=ON"):
+                library = {"defines": "", "a C++20": stub}.get(words[:7], self.library)
+                self.package(library, "2.3.1" if "2.3.1" in words or "old" in words else "3.0.1")
+            for how, code in (("REQUIRED", 1), ("QUIET", 0)):
+                shutil.rmtree(self.folder / "build", ignore_errors=True)
+                self.asks(how)
+                said = self.configure(*options, code=code)
+                self.assertIn("standard of the project: 23" if code == 0 else words, said)
+
+    def test_another_one_than_the_libraries_were_built_with(self):
+        package = self.package(self.library, "3.9.9")
+        self.project("deburr REQUIRED COMPONENTS models")
+        said = self.configure(package, code=1)
+        self.assertRegex(said, r"built with SystemC \S+, and SystemC 3\.9\.9 was found: install that version, or build Deburr")
+
+
+class Debian(Scratch):
+    """`cpack -G DEB`, of this build."""
+
+    @classmethod
+    def setUpClass(cls):
+        if not shutil.which("dpkg-shlibdeps"):
+            raise unittest.SkipTest("dpkg-dev is not installed")
+        folder = BUILD / "examples/packages"
+        shutil.rmtree(folder, ignore_errors=True)
+        call(pathlib.Path(CMAKE).with_name("cpack"), "--config", BUILD / "CPackConfig.cmake", "-B", folder, "-G", "DEB",
+             cwd=BUILD, env=dict(os.environ))
+        cls.packages = {re.match(r"[a-z0-9-]+", file.name)[0]: file for file in folder.glob("*.deb")}
+
+    def test_they_stand_alone(self):
+        self.assertEqual(set(self.packages), {"deburr", "libdeburr-dev"})
+        version = pkg_config("--modversion", "deburr-golden")[0]
+        for name, depends in (("deburr", ("libsystemc", "libc6")), ("libdeburr-dev", ("libsystemc-dev", "libfmt-dev"))):
+            fields = call("dpkg-deb", "--field", self.packages[name])
+            self.assertRegex(fields, rf"(?m)^Version: {re.escape(version)}$")
+            for package in depends:
+                self.assertRegex(fields, rf"(?m)^Depends: .*\b{package}")
+            call("dpkg-deb", "--extract", self.packages[name], self.folder / "root")
+        self.assertIn(version, call(self.folder / "root/usr/bin/deburr", "--version"))
+        self.project("deburr REQUIRED", "deburr::golden", GOLDEN_MAIN)
+        call(CMAKE, "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={self.folder / 'root/usr'}",
+             f"-DCMAKE_CXX_COMPILER={CXX}")
+        call(CMAKE, "--build", self.folder / "build")
+        call(self.folder / "build/user")
+
+    @unittest.skipUnless(shutil.which("lintian"), "lintian is not installed: scripts/install examples")
+    def test_lintian_accepts_them(self):
+        said = call("lintian", "--no-tag-display-limit", "--fail-on", "error", *self.packages.values(), env=dict(os.environ))
+        self.assertNotRegex(said, r"(?m)^[EW]: ")
+
+
+if __name__ == "__main__":
+    unittest.main()
