@@ -69,6 +69,9 @@ inline constexpr int kTileSize = 8;            // pixels of a tile, each way
 inline constexpr int kBlocksInWord = 128;      // blocks of a row whose touched bits share a word
 inline constexpr int kMaxReciprocalBits = 11;  // of the table's lengths
 inline constexpr int kMinFills = 8;            // a group may order eight lines of depth
+// Places, where they are not sized from the latency of memory.
+inline constexpr std::int32_t kMinResolveLines = 16, kMaxResolveLines = 512;
+inline constexpr std::int32_t kMinCopyLines = 2, kMaxCopyLines = 256;
 
 // Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
 struct Rules {
@@ -103,7 +106,8 @@ struct Build {
   std::int32_t fills = 64;
   std::int32_t latency_fifo = 128;
   Lanes resolve_lanes = Lanes::kTwo;
-  std::int32_t resolve_lines = 64;
+  std::int32_t resolve_lines = 0;  // 0: sized from the latency of memory
+  std::int32_t copy_lines = 0;     // 0: the same
   std::int32_t memory_outstanding = 128;
 };
 
@@ -163,8 +167,12 @@ void describe(Build& p, Visitor& v) {
   v.integer("latency_fifo", p.latency_fifo, 4, 1024, "token",
             "Look-ups that wait for their lines, for each of the three caches.");
   v.choice("resolve_lanes", p.resolve_lanes, kLanesNames, "Pixels blended a clock.");
-  v.integer("resolve_lines", p.resolve_lines, 16, 256, "line",
-            "Lines of colours and weights on their way to the resolve.");
+  v.integer("resolve_lines", p.resolve_lines, 0, kMaxResolveLines, "line",
+            "Lines of colours and weights on their way to the resolve, 16 or more; 0 sizes it from "
+            "the latency of memory.");
+  v.integer("copy_lines", p.copy_lines, 0, kMaxCopyLines, "line",
+            "Lines between read and write while the frame is copied, 2 or more; 0 sizes it from "
+            "the latency of memory.");
   v.integer("memory.outstanding", p.memory_outstanding, kMinFills, 1024, "transaction",
             "Transactions in flight.");
 }

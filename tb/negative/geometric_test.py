@@ -46,6 +46,12 @@ class Meshes(Base):
         self.run_engine(2, "--scene", "cube", *away, says="draws nothing")
         self.assertFalse(os.path.exists(self.path("out")))
 
+    def test_every_edge_is_dropped(self):
+        inside = ("--scene", "cube", "--size", "32x32", "--set", "scene.eye=0,0,0", "--set", "scene.target=0,0,1")
+        note = "all 18 edges were dropped (18 turned away from the eye): nothing was smoothed"
+        self.run_engine(0, *inside, says=["PASS", note])
+        self.assertIn(note, self.notes())
+
     def test_one_triangle(self):
         self.mesh(0, "one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "--set", "scene.eye=0,0,2", says="PASS")
         self.assertEqual(self.result()["work"]["edge_classifier_boundary_edges"], 3)

@@ -44,8 +44,10 @@ std::optional<std::uint32_t> GeometricFaults::face_of_a_fault() const {
 std::optional<std::size_t> GeometricFaults::block_that_takes_from_above() const {
   constexpr int kInside = 16;  // blocks in the stages of the resolve
   if (frames_.empty() || setup_.geometric.frame_copy) return std::nullopt;
-  const std::int32_t ahead = kInside + setup_.geometric.resolve_lines / 4 +
-                             std::max(setup_.memory.latency, setup_.memory.latency_max);
+  const rtl::MemoryClocks memory = memory_clocks(setup_);
+  const std::int32_t ahead = kInside +
+                             rtl::geometric::sized(setup_.geometric, memory).resolve_lines / 4 +
+                             memory.latency;
   const geometric::Frame& frame = frames_.front();
   golden::geometric::GeometricGolden golden(setup_.geometric);
   const std::vector<Rgba8>& after = golden.process(frame.input());
