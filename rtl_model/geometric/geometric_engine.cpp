@@ -40,7 +40,7 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
       vertex_fetch("vertex_fetch", clock, parameters_),
       line_setup("line_setup", clock, parameters_, latency_),
       line_walker("line_walker", clock, parameters_, latency_),
-      coverage_unit("coverage_unit", clock, latency_),
+      coverage_unit("coverage_unit", clock, parameters_, latency_),
       depth_test("depth_test", clock, parameters_, latency_),
       weight_combiner("weight_combiner", clock, parameters_, latency_),
       frame_copier("frame_copier", clock, parameters_),

@@ -211,6 +211,15 @@ class Faults(Base):
         self.fault("wrong-slope", 1, 1, *self.SMALL, "--set", "geometric.pipelined=false", "--set",
                    "geometric.reciprocal_table=11", board="lines")
 
+    def test_rules(self):
+        area = (*self.SMALL, "--set", "geometric.coverage=area")
+        self.fault("wrong-cull", 1, 1, board="status registers")
+        self.fault("wrong-cull", 1, 1, *self.SMALL, "--set", "geometric.cull=none", board="status registers")
+        self.fault("wrong-class", 3, 1, board="lines")
+        self.fault("wrong-area", 1, 1, *area, board="candidates")
+        self.fault("wrong-second", 3, 1, *area, board="candidates")
+        self.fault("wrong-nearer", 1, 1, *self.SMALL, "--set", "geometric.combine=outermost", board="blocks")
+
     def test_lines_and_groups(self):
         for name in ("drop-line", "duplicate-line", "drop-group", "duplicate-group", "wrong-direction"):
             with self.subTest(name):
@@ -267,6 +276,10 @@ class Faults(Base):
         for name, arguments, needs in (
                 ("wrong-facing", ("--preset", "gpaa"), "select = edges"),
                 ("wrong-slope", (), "reciprocal_table of at least 1"),
+                ("wrong-cull", ("--preset", "gpaa"), "select = edges"),
+                ("wrong-area", ("--set", "geometric.coverage=distance"), "coverage = area"),
+                ("wrong-second", ("--set", "geometric.coverage=distance"), "coverage = area"),
+                ("wrong-nearer", ("--set", "geometric.combine=max"), "combine = outermost"),
                 ("stale-depth", ("--set", "geometric.depth_test=off"), "depth_test = own, farther"),
                 ("stale-neighbour", ("--preset", "gpaa"), "frame_copy = false")):
             self.run_engine(2, *self.SMALL, *arguments, "--fault", name, says=[name, "needs", needs])
