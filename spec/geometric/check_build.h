@@ -12,7 +12,7 @@
 
 namespace deburr::spec::geometric {
 
-inline constexpr std::array<BuildRule<Parameters>, 5> kBuildRules = {{
+inline constexpr std::array<BuildRule<Parameters>, 6> kBuildRules = {{
     {{"reciprocal_table", "pipelined"},
      "must be 0 with pipelined dividers, which take a line every clock: a table has no effect",
      [](const Parameters& p) { return !p.pipelined || p.reciprocal_table == 0; },
@@ -20,6 +20,10 @@ inline constexpr std::array<BuildRule<Parameters>, 5> kBuildRules = {{
     {{"face_limit"},
      "must be a multiple of 512, since a line of memory fills as many facing bits at once",
      [](const Parameters& p) { return p.face_limit % kFacesInLine == 0; }},
+    {{"fills"},
+     "must be at least 8 lines, as many as a group of pixels may order; 0 sizes it from the latency "
+     "of memory",
+     [](const Parameters& p) { return p.fills == 0 || p.fills >= kMinFills; }},
     {{"fills", "memory.outstanding"},
      "must be at most memory.outstanding, so that every line on its way has a transaction",
      [](const Parameters& p) { return p.fills <= p.memory_outstanding; },

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Clocks of the geometric engine's hardware model, and frames for counting its instructions.
 //
-//   geometric_rtl_bench --frames <n> [preset [walkers [edge_lanes [layout [passes [latency]]]]]]
+//   geometric_rtl_bench --frames <n> [preset [walkers [edge_lanes [layout [passes [latency
+//       [parameters]]]]]]]
 //       n frames of 1280 x 720: 33 000 edges, a fifth of them kept, some 24 000 columns, passing
-//       the same places so many times (1), with a memory of so many clocks (20); cycles, then clocks
-//       of both phases and what the port alone would take, work, stalls, memories
+//       the same places so many times (1), with a memory of so many clocks (20), and other parameters as
+//       "fills=128 coverage=area"; cycles, then clocks of both phases and what the port alone would
+//       take, work, stalls, memories
 //   geometric_rtl_bench --idle <n>      n clocks of an engine that waits for a frame
 //   geometric_rtl_bench --dividers      clocks of the edges over dividers, with and without table
 //   geometric_rtl_bench --ratio <n>     how many times as fast the golden model draws the same
@@ -29,6 +31,7 @@
 #include "rtl_model/platform/geometric_driver.h"
 #include "rtl_model/platform/memory_model.h"
 #include "rtl_model/platform/register_host.h"
+#include "tb/base/apply_settings.h"
 #include "tb/base/forked.h"
 
 namespace deburr::tb {
@@ -130,6 +133,7 @@ void frames(int count, const std::vector<std::string>& arguments) {
   if (arguments.size() > 2) p.edge_lanes = choice<Lanes>(arguments[2], kLanesNames);
   if (arguments.size() > 3)
     p.layout = choice<spec::geometric::Layout>(arguments[3], spec::geometric::kLayoutNames);
+  if (arguments.size() > 6) apply_settings(p, arguments[6]);
   Frames f(p, arguments.size() > 4 ? static_cast<std::uint32_t>(std::stoi(arguments[4])) : 1,
            arguments.size() > 5 ? std::stoi(arguments[5]) : 20);
   for (int i = 0; i < count; ++i) f.run();

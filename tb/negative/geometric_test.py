@@ -119,7 +119,7 @@ class Configuration(Base):
 
     def test_what_cannot_be_built(self):
         self.refused(["face_limit = 8193", "512"], "geometric.face_limit=8193")
-        self.refused(["fills = 64", "memory.outstanding"], "geometric.memory.outstanding=32")
+        self.refused(["fills = 64", "memory.outstanding"], "geometric.fills=64", "geometric.memory.outstanding=32")
         self.refused(["geometric.walkers", "one of 1, 2, 4"], "geometric.walkers=3")
         self.refused(["1..24"], "geometric.depth_bias=25")
         self.refused(["memory.latency = 20000", "run.watchdog_cycles"], "memory.latency=20000")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Places for lines on their way to the resolve and through the copy, where they are ordered as 0: as
-// many as cover the latency of memory, so that lines come as fast as the port asks for them.
+// Places for lines on their way into the caches, to the resolve and through the copy, where they are
+// ordered as 0: as many as cover the latency of memory, so that lines come as fast as the port asks
+// for them.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,11 @@ inline constexpr std::int32_t kAroundMemory = 8;
 constexpr spec::geometric::Parameters sized(spec::geometric::Parameters p,
                                             const MemoryClocks& memory) {
   const std::int32_t round_trip = memory.latency + memory.transfer - 1 + kAroundMemory;
-  // A line a clock, in the half of the places that is for colours.
+  // A line a clock, if the port has so many transactions.
+  if (p.fills == 0)
+    p.fills = std::clamp(round_trip, std::int32_t{spec::geometric::kMinFills},
+                         std::min(std::int32_t{spec::geometric::kMaxFills}, p.memory_outstanding));
+  // The same, in the half of the places that is for colours.
   if (p.resolve_lines == 0)
     p.resolve_lines = std::clamp(2 * round_trip, spec::geometric::kMinResolveLines,
                                  spec::geometric::kMaxResolveLines);

@@ -25,9 +25,9 @@ struct ResolveBench : Frame {
   explicit ResolveBench(const Parameters& p = {}, int width = 1024, int height = 64,
                         std::uint32_t latency = 20)
       : Frame(p, latency),
-        combiner("combiner", clock, p, edge_latency),
+        combiner("combiner", clock, sized(p, {}), edge_latency),
         scanner("scanner", clock, p, combiner.touched_port()),
-        fetch("fetch", clock, rtl::geometric::sized(p, {}), combiner.tag_port(),
+        fetch("fetch", clock, sized(p, {}), combiner.tag_port(),
               combiner.data_port()),
         resolver("resolver", clock, p, fetch.colours),
         weights("weights"),

@@ -5,6 +5,7 @@
 #include <deque>
 #include <numeric>
 
+#include "rtl_model/geometric/common/sizing.h"
 #include "rtl_model/geometric/edges/edge_classifier.h"
 #include "rtl_model/geometric/edges/vertex_fetch.h"
 #include "rtl_model/geometric/lines/coverage_unit.h"
@@ -170,7 +171,7 @@ TEST(EdgeClassifier, EdgesOfFacesTurnedAwayAreCulledOrJudged) {
 
 // ---- VertexFetch
 struct VertexBench : Frame {
-  VertexBench() : Frame({}), unit("unit", clock, {}), ends(clock) {
+  VertexBench() : Frame({}), unit("unit", clock, sized({}, {})), ends(clock) {
     arbiter.connect(Client::kVertices, unit.memory);
     unit.rules_in(rules);
     unit.edges_in(ends.in);
@@ -657,7 +658,7 @@ TEST(CoverageUnit, AreasWaitForRoom) {
 // ---- DepthTest
 struct DepthBench : Frame {
   explicit DepthBench(const Parameters& p = {})
-      : Frame(p), unit("unit", clock, p, edge_latency), ends(clock) {
+      : Frame(p), unit("unit", clock, sized(p, {}), edge_latency), ends(clock) {
     arbiter.connect(Client::kDepth, unit.memory);
     unit.rules_in(rules);
     unit.candidates_in(ends.in);
@@ -936,7 +937,10 @@ TEST(DepthTest, ShowsEachCandidate) {
 // ---- WeightCombiner: nothing comes out of it
 struct CombinerBench : Frame {
   explicit CombinerBench(const Parameters& p = {})
-      : Frame(p), unit("unit", clock, p, edge_latency), in("in"), source("source", clock) {
+      : Frame(p),
+        unit("unit", clock, sized(p, {}), edge_latency),
+        in("in"),
+        source("source", clock) {
     arbiter.connect(Client::kWeights, unit.memory);
     unit.rules_in(rules);
     unit.weights_in(in);
