@@ -46,6 +46,12 @@ class Meshes(Base):
         self.run_engine(2, "--scene", "cube", *away, says="draws nothing")
         self.assertFalse(os.path.exists(self.path("out")))
 
+    def test_every_edge_is_dropped(self):
+        inside = ("--scene", "cube", "--size", "32x32", "--set", "scene.eye=0,0,0", "--set", "scene.target=0,0,1")
+        note = "all 18 edges were dropped (18 turned away from the eye): nothing was smoothed"
+        self.run_engine(0, *inside, says=["PASS", note])
+        self.assertIn(note, self.notes())
+
     def test_one_triangle(self):
         self.mesh(0, "one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "--set", "scene.eye=0,0,2", says="PASS")
         self.assertEqual(self.result()["work"]["edge_classifier_boundary_edges"], 3)
@@ -113,7 +119,7 @@ class Configuration(Base):
 
     def test_what_cannot_be_built(self):
         self.refused(["face_limit = 8193", "512"], "geometric.face_limit=8193")
-        self.refused(["fills = 64", "memory.outstanding"], "geometric.memory.outstanding=32")
+        self.refused(["fills = 64", "memory.outstanding"], "geometric.fills=64", "geometric.memory.outstanding=32")
         self.refused(["geometric.walkers", "one of 1, 2, 4"], "geometric.walkers=3")
         self.refused(["1..24"], "geometric.depth_bias=25")
         self.refused(["memory.latency = 20000", "run.watchdog_cycles"], "memory.latency=20000")
@@ -205,6 +211,15 @@ class Faults(Base):
         self.fault("wrong-slope", 1, 1, *self.SMALL, "--set", "geometric.pipelined=false", "--set",
                    "geometric.reciprocal_table=11", board="lines")
 
+    def test_rules(self):
+        area = (*self.SMALL, "--set", "geometric.coverage=area")
+        self.fault("wrong-cull", 1, 1, board="status registers")
+        self.fault("wrong-cull", 1, 1, *self.SMALL, "--set", "geometric.cull=none", board="status registers")
+        self.fault("wrong-class", 3, 1, board="lines")
+        self.fault("wrong-area", 1, 1, *area, board="candidates")
+        self.fault("wrong-second", 3, 1, *area, board="candidates")
+        self.fault("wrong-nearer", 1, 1, *self.SMALL, "--set", "geometric.combine=outermost", board="blocks")
+
     def test_lines_and_groups(self):
         for name in ("drop-line", "duplicate-line", "drop-group", "duplicate-group", "wrong-direction"):
             with self.subTest(name):
@@ -261,6 +276,10 @@ class Faults(Base):
         for name, arguments, needs in (
                 ("wrong-facing", ("--preset", "gpaa"), "select = edges"),
                 ("wrong-slope", (), "reciprocal_table of at least 1"),
+                ("wrong-cull", ("--preset", "gpaa"), "select = edges"),
+                ("wrong-area", ("--set", "geometric.coverage=distance"), "coverage = area"),
+                ("wrong-second", ("--set", "geometric.coverage=distance"), "coverage = area"),
+                ("wrong-nearer", ("--set", "geometric.combine=max"), "combine = outermost"),
                 ("stale-depth", ("--set", "geometric.depth_test=off"), "depth_test = own, farther"),
                 ("stale-neighbour", ("--preset", "gpaa"), "frame_copy = false")):
             self.run_engine(2, *self.SMALL, *arguments, "--fault", name, says=[name, "needs", needs])

@@ -5,10 +5,12 @@
 
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include "spec/check_build.h"
 #include "spec/error.h"
 #include "spec/geometric/records.h"
+#include "tb/results/report.h"
 
 namespace deburr::tb {
 namespace {
@@ -53,6 +55,7 @@ void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Paramet
   if (p.depth_test == spec::geometric::DepthTest::kOff)
     for (const char* const name : {"depth_bias", "depth_lines"})
       refuse(name, "geometric.depth_test = off reads no depth");
+  if (!p.frame_copy) refuse("copy_lines", "geometric.frame_copy = false copies nothing");
   if (p.pipelined) {
     refuse("dividers",
            "geometric.pipelined = true takes a line every clock: one divider is enough");
@@ -84,6 +87,20 @@ std::vector<std::string> build_notes(const spec::geometric::Parameters& p) {
       "geometric.latency_fifo = {} is below geometric.fills = {}: look-ups wait before all lines "
       "that may be on their way are asked for",
       p.latency_fifo, p.fills)};
+}
+
+std::vector<std::string> dropped_notes(const spec::geometric::Work& work) {
+  if (work.edges == 0 || work.lines != 0) return {};
+  std::string why;
+  for (const auto& [count, what] : {std::pair{work.back_edges, "turned away from the eye"},
+                                    {work.flat_edges, "no crease"},
+                                    {work.outside_edges, "behind the eye or outside the guard band"},
+                                    {work.empty_edges, "outside the frame"},
+                                    {work.degenerate_edges, "without length"},
+                                    {work.invalid_edges, "with an index out of range"}})
+    if (count != 0) why += fmt::format("{}{} {}", why.empty() ? "" : ", ", grouped(count), what);
+  return {fmt::format("all {} edges were dropped ({}): nothing was smoothed", grouped(work.edges),
+                      why)};
 }
 
 std::vector<Shorthand> edge_shorthands() {
