@@ -190,7 +190,7 @@ class Debian(Scratch):
         cls.packages = {re.match(r"[a-z0-9-]+", file.name)[0]: file for file in folder.glob("*.deb")}
 
     def test_they_stand_alone(self):
-        self.assertEqual(set(self.packages), {"deburr", "libdeburr-dev"})
+        self.assertLessEqual({"deburr", "libdeburr-dev"}, set(self.packages))
         version = pkg_config("--modversion", "deburr-golden")[0]
         for name, depends in (("deburr", ("libsystemc", "libc6")), ("libdeburr-dev", ("libsystemc-dev", "libfmt-dev"))):
             fields = call("dpkg-deb", "--field", self.packages[name])
