@@ -214,8 +214,8 @@ class Faults(Base):
 
     def test_rules(self):
         area = (*self.SMALL, "--set", "geometric.coverage=area")
-        self.fault("wrong-cull", 1, 1, board="status registers")
-        self.fault("wrong-cull", 1, 1, *self.SMALL, "--set", "geometric.cull=none", board="status registers")
+        for cull in ("none", "back"):
+            self.fault("wrong-cull", 1, 1, *self.SMALL, "--set", f"geometric.cull={cull}", board="status registers")
         self.fault("wrong-class", 3, 1, board="lines")
         self.fault("wrong-area", 1, 1, *area, board="candidates")
         self.fault("wrong-second", 3, 1, *area, board="candidates")

@@ -385,7 +385,9 @@ TEST(MemoryErrors, ReadAsZerosAndAreCounted) {
        {Row{bases.edges, "edges"}, Row{bases.vertices, "vertices"}, Row{bases.faces, "faces"},
         Row{bases.depth, "depth"}, Row{bases.weights, "weights"}, Row{bases.colour, "colour"}}) {
     const std::string got = in_child([&row] {
-      EngineBench b;
+      Parameters p;
+      p.cull = spec::geometric::Cull::kBack;
+      EngineBench b(p);
       b.load(contract_scene());
       b.memory.fail_range(row.base, row.base + kRegionBytes);
       b.run();
