@@ -47,7 +47,8 @@ class Meshes(Base):
         self.assertFalse(os.path.exists(self.path("out")))
 
     def test_every_edge_is_dropped(self):
-        inside = ("--scene", "cube", "--size", "32x32", "--set", "scene.eye=0,0,0", "--set", "scene.target=0,0,1")
+        inside = ("--scene", "cube", "--size", "32x32", "--set", "scene.eye=0,0,0", "--set", "scene.target=0,0,1",
+                  "--set", "geometric.cull=back")
         note = "all 18 edges were dropped (18 turned away from the eye): nothing was smoothed"
         self.run_engine(0, *inside, says=["PASS", note])
         self.assertIn(note, self.notes())
@@ -213,8 +214,8 @@ class Faults(Base):
 
     def test_rules(self):
         area = (*self.SMALL, "--set", "geometric.coverage=area")
-        self.fault("wrong-cull", 1, 1, board="status registers")
-        self.fault("wrong-cull", 1, 1, *self.SMALL, "--set", "geometric.cull=none", board="status registers")
+        for cull in ("none", "back"):
+            self.fault("wrong-cull", 1, 1, *self.SMALL, "--set", f"geometric.cull={cull}", board="status registers")
         self.fault("wrong-class", 3, 1, board="lines")
         self.fault("wrong-area", 1, 1, *area, board="candidates")
         self.fault("wrong-second", 3, 1, *area, board="candidates")

@@ -85,8 +85,7 @@ void CoverageUnit::find(Cycle cycle, const GroupToken& group, Beat& beat) const 
     const bool forward = distance > 0 || (distance == 0 && group.tie_forward);
     const std::int32_t neighbour = forward ? row + 1 : row - 1;
     const std::int32_t away = std::abs(distance), coverage = (kHalf - away + 128) >> 8;
-    const bool leaves =
-        rules.area && 2 * away + static_cast<std::int32_t>(slope) > 2 * kHalf;
+    const bool leaves = rules.area && 2 * away + static_cast<std::int32_t>(slope) > 2 * kHalf;
     if (row < 0 || row >= rows || neighbour < 0 || neighbour >= rows || (!leaves && coverage == 0))
       continue;
     const std::uint32_t column = (group.column + lane) & 3,
@@ -141,7 +140,7 @@ Activity CoverageUnit::tick(Cycle cycle) {
   const bool arrives = groups_in.can_pop(cycle);
   if (!arrives && pipe_.empty()) return kIdle;
   if (Beat* next = pipe_.at(2)) {
-    finish(cycle, *next);
+    if (next->leaves != 0) finish(cycle, *next);
     if ((next->out.candidates || next->out.end) && !candidates_out.can_push(cycle))
       return kStalledDownstream;
   }
@@ -155,7 +154,7 @@ Activity CoverageUnit::tick(Cycle cycle) {
       candidates_out.push(cycle, done);
     }
   }
-  if (const Beat* beat = pipe_.at(2)) look_up(cycle, *beat);
+  if (const Beat* beat = pipe_.at(2); beat && beat->leaves != 0) look_up(cycle, *beat);
   if (arrives) find(cycle, groups_in.take(cycle), pipe_.enter());
   return kBusy;
 }

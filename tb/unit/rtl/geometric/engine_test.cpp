@@ -4,6 +4,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "rtl_model/geometric/common/sizing.h"
 #include "spec/error.h"
 #include "tb/harness/statistics.h"
 #include "tb/unit/rtl/geometric/bounds.h"
@@ -290,6 +291,55 @@ TEST(Memories, TheTableHasHalfItsLengthsInWords) {
   EXPECT_EQ(bits, 25u);
 }
 
+// ---- places that are sized from the latency of memory
+
+TEST(Sizes, AreThoseOfThePage) {
+  const auto text = [](const Parameters& p, const rtl::MemoryClocks& memory) {
+    const Parameters s = rtl::geometric::sized(p, memory);
+    return std::to_string(s.fills) + " " + std::to_string(s.resolve_lines) + " " +
+           std::to_string(s.copy_lines);
+  };
+  EXPECT_EQ(text({}, {}), "108 216 54");
+  EXPECT_EQ(text({}, {20, 1}), "28 56 14");
+  EXPECT_EQ(text({}, {21, 1}), "29 58 15");
+  EXPECT_EQ(text({}, {20, 4}), "31 62 16");
+  // As few as can be built, as many as the port has transactions, as many as there may be.
+  EXPECT_EQ(text({}, {1, 1}), "9 18 5");
+  EXPECT_EQ(text({}, {121, 1}), "128 258 65");
+  Parameters p;
+  p.memory_outstanding = 1024;
+  EXPECT_EQ(text(p, {1000, 1}), "256 512 256");
+  p.fills = 8;
+  p.resolve_lines = 16;
+  p.copy_lines = 2;
+  EXPECT_EQ(text(p, {1000, 1}), "8 16 2");
+}
+
+// Clocks of a frame near its bounds at 100 clocks: more places save nothing to speak of, a quarter of
+// either costs a tenth at least.
+TEST(Sizes, CoverTheLatency) {
+  const auto clocks = [](std::int32_t fills, std::int32_t resolve_lines) {
+    return std::stod(in_child([&] {
+      Parameters p;
+      p.fills = fills;
+      p.resolve_lines = resolve_lines;
+      p.weight_blocks = CacheLines::k1024;
+      p.memory_outstanding = 256;
+      EngineOptions options;
+      options.latency = 100;
+      options.memory_bytes = 1u << 22;
+      EngineBench b(p, options);
+      b.load(short_lines(400, 200, 3000, 2000));
+      b.run();
+      return std::to_string(b.bus.read(reg::kFrameCycles));
+    }));
+  };
+  const double by_default = clocks(0, 0);
+  EXPECT_LE(by_default, 1.02 * clocks(216, 432));
+  EXPECT_GE(clocks(27, 216), 1.1 * by_default);
+  EXPECT_GE(clocks(108, 54), 1.1 * by_default);
+}
+
 // ---- frames with little in them
 
 TEST(Frames, WithoutEdgesReadFacingBitsAndCopyAlone) {
@@ -335,7 +385,9 @@ TEST(MemoryErrors, ReadAsZerosAndAreCounted) {
        {Row{bases.edges, "edges"}, Row{bases.vertices, "vertices"}, Row{bases.faces, "faces"},
         Row{bases.depth, "depth"}, Row{bases.weights, "weights"}, Row{bases.colour, "colour"}}) {
     const std::string got = in_child([&row] {
-      EngineBench b;
+      Parameters p;
+      p.cull = spec::geometric::Cull::kBack;
+      EngineBench b(p);
       b.load(contract_scene());
       b.memory.fail_range(row.base, row.base + kRegionBytes);
       b.run();

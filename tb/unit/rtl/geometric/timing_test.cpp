@@ -99,6 +99,7 @@ TEST(EdgeClassifier, KeptEdgesLeaveOneAClock) {
 TEST(EdgeClassifier, IndicesEndBeforeTheirCounts) {
   Parameters p;
   p.edge_lanes = Lanes::kFour;
+  p.cull = spec::geometric::Cull::kBack;
   ClassifierBench b(p);
   b.bus.write(reg::kFaceCount, 40);
   b.rules.drive(b.clock.cycle() - 1, decode(b.control));
@@ -608,7 +609,9 @@ TEST(CoverageUnit, AreasOfEveryDistanceAndSlope) {
 }
 // With coverage = distance a line cuts one pixel of a column, and no table is read.
 TEST(CoverageUnit, DistancesReadNoTable) {
-  CoverageBench b;
+  Parameters p;
+  p.coverage = spec::geometric::CoverageRule::kDistance;
+  CoverageBench b(p);
   for (int distance = -32768; distance < 32768; distance += 300) {
     GroupToken group = CoverageBench::group(false, 7, distance);
     group.slope = 1 << 24;
