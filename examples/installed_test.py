@@ -6,6 +6,7 @@ nothing else of the repository. Install puts it all into BUILD/examples/prefix, 
 usage: installed_test.py CMAKE BUILD SOURCE CXX [unittest options]"""
 import concurrent.futures
 import functools
+import json
 import os
 import pathlib
 import re
@@ -470,6 +471,114 @@ class SystemVerilog(Scratch):
         self.assertIn(f"no deburr-golden-c below {self.folder}", alone("make", f"PREFIX={self.folder}", cwd=self.folder, code=2))
 
 
+PYTHON = PREFIX / "lib/python3/dist-packages"
+NOTEBOOK = """import sys, nbclient, nbformat
+notebook = nbformat.read("notebook.ipynb", as_version=4)
+nbclient.NotebookClient(notebook, timeout=600, kernel_name="python3").execute()
+nbformat.write(notebook, "executed.ipynb")
+"""
+
+
+@unittest.skipUnless((PYTHON / "deburr").exists(), "the Python module was not built: scripts/install python")
+class Python(Scratch):
+    """The Python module, its page and its notebook, with Debian's python3 and the prefix alone."""
+
+    def python(self, program, code=0):
+        home = {"HOME": str(self.folder / "home"), "PYTHONPATH": str(PYTHON), "PYTHONDONTWRITEBYTECODE": "1"}
+        return call("/usr/bin/python3", "-c", program, code=code, cwd=self.folder, env=EMPTY | home)
+
+    def test_it_is_the_installed_one_and_finds_its_command(self):
+        said = self.python("import deburr, deburr._program as p; print(deburr.__file__, deburr._golden.__file__, p.program(), "
+                           "deburr.__version__)").split()
+        self.assertTrue(all(pathlib.Path(file).is_relative_to(PREFIX) for file in said[:3]), said)
+        self.assertEqual(said[3:], pkg_config("--modversion", "deburr-golden"))
+        self.assertTrue((PYTHON / "deburr/py.typed").exists())
+        self.assertEqual(sorted(file.name for file in PYTHON.rglob("*.py*") if file.is_symlink()), [])
+
+    def test_the_page_does_what_it_says(self):
+        page = (PREFIX / "share/deburr/docs/python.md").read_text(encoding="utf-8")
+        programs = re.findall(r"```python\n(.*?)```", page, re.S)
+        self.assertEqual(len(programs), 1)
+        said = self.python(programs[0]).splitlines()
+        self.assertEqual(said[0], "(1080, 1920, 4) 0")
+        cycles, rate, unit, misses = said[1].split()
+        self.assertGreater(int(cycles), 320 * 240)
+        self.assertGreater(float(rate), 0.5)
+        self.assertGreater(float(misses), 100)
+        self.assertTrue(unit.isidentifier())
+        self.assertIn("texture.cache.bytes", said[2])
+        self.assertEqual(len([line for line in said[3:] if "done" in line]), 4, said)
+
+    def test_golden_is_what_c_computes(self):
+        """A frame of noise, by the module and by a program in C."""
+        c = self.write("noise.c", """#include <deburr_golden.h>
+#include <stdio.h>
+int main(void) {
+  static uint8_t pixels[200 * 300 * 4];
+  uint32_t s = 1;
+  uint64_t hash = UINT64_C(14695981039346656037);
+  deburr_golden* golden = deburr_morphological_new();
+  for (size_t i = 0; i < sizeof pixels; ++i) pixels[i] = (uint8_t)((s = s * 1664525 + 1013904223) >> 24);
+  if (deburr_set(golden, "preset", "smaa") || deburr_frame_begin(golden, 300, 200) ||
+      deburr_frame_pixels(golden, pixels, sizeof pixels, 0) || deburr_frame_process(golden) ||
+      deburr_plane(golden, "pixels", pixels, sizeof pixels, 0))
+    return 1;
+  for (size_t i = 0; i < sizeof pixels; ++i) hash = (hash ^ pixels[i]) * UINT64_C(1099511628211);
+  printf("%016llx\\n", (unsigned long long)hash);
+  return deburr_close(golden);
+}
+""")
+        call("cc", "-std=c99", c, "-o", self.folder / "noise", *pkg_config("--cflags", "--libs", "deburr-golden-c"))
+        said = self.python("""import deburr, numpy
+s, values = 1, []
+for _ in range(200 * 300 * 4):
+    s = (s * 1664525 + 1013904223) % 2 ** 32
+    values.append(s >> 24)
+pixels = numpy.array(values, dtype=numpy.uint8).reshape(200, 300, 4)
+value = 14695981039346656037
+for byte in deburr.golden.morphological(pixels, preset="smaa").pixels.tobytes():
+    value = (value ^ byte) * 1099511628211 % 2 ** 64
+print(f"{value:016x}")
+""")
+        self.assertEqual(call(self.folder / "noise"), said)
+
+    def hits(self, *settings):
+        call(PREFIX / "bin/deburr", "run", "texture", "--out", "out", *settings, cwd=self.folder)
+        work = json.loads((self.folder / "out/result.json").read_text(encoding="utf-8"))["work"]
+        found = work["tag_stage_hits"] + work["tag_stage_merged"]
+        return found / (found + work["tag_stage_misses"])
+
+    def test_the_notebook_answers(self):
+        try:
+            self.python("import nbclient, ipykernel, pandas, matplotlib")
+        except AssertionError:
+            self.skipTest("a notebook's packages are not installed: scripts/install python")
+        shutil.copy(SOURCE / "examples/python/notebook.ipynb", self.folder)
+        self.python(NOTEBOOK)
+        cells = json.loads((self.folder / "executed.ipynb").read_text(encoding="utf-8"))["cells"]
+        outputs = [output for cell in cells for output in cell.get("outputs", [])]
+        self.assertGreaterEqual(sum("image/png" in output.get("data", {}) for output in outputs), 3)
+        text = "".join("".join(output.get("text", [])) for output in outputs)
+        answer = re.search(r"ANSWER: (\d+) KiB, (\d) ways?: ([\d.]+) % hits", text)
+        self.assertIsNotNone(answer, text)
+        # The command is asked: that is enough, and half of it is not, however many ways it has.
+        frame = ["--in", "hills.obj", "--size", "160x160", "--aniso", "8", "--texture", "brick", "--no-images",
+                 "--set", "scene.texture_size=512", "--set", "memory.latency=200", "--set", "scene.eye=0.1,0.35,1.3",
+                 "--set", "scene.target=0,-0.1,0"]
+        kib, ways = int(answer[1]), answer[2]
+        hits = self.hits(*frame, "--set", f"texture.cache.bytes={1024 * kib}", "--set", f"texture.cache.ways={ways}")
+        self.assertEqual(f"{100 * hits:.2f}", answer[3])
+        self.assertGreaterEqual(hits, 0.97)
+        for less in ("1", "2", "4"):
+            half = self.hits(*frame, "--set", f"texture.cache.bytes={512 * kib}", "--set", f"texture.cache.ways={less}")
+            self.assertLess(half, 0.97)
+        # A wrong name in it ends it, with the command's words.
+        notebook = (self.folder / "notebook.ipynb").read_text(encoding="utf-8")
+        self.assertIn("memory_latency=LATENCY", notebook)
+        self.write("notebook.ipynb", notebook.replace("memory_latency=LATENCY", "memory_latncy=LATENCY"))
+        self.assertIn("unknown parameter 'memory_latncy'", self.python(NOTEBOOK, code=1))
+
+
 class Libraries(Scratch):
     def test_they_configure_with_their_packages_alone(self):
         """The preset `libraries`, where nothing is found but what scripts/packages.txt lists for it."""
@@ -478,7 +587,7 @@ class Libraries(Scratch):
         self.assertIn("libsystemc-dev", listed)
         absent = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in (
             "OpenSSL", "yaml-cpp", "CLI11", "nlohmann_json", "ZLIB", "Imath", "tinyobjloader", "TinyGLTF", "OpenImageIO",
-            "pagmo", "GTest", "benchmark", "Python3")]
+            "pagmo", "GTest", "benchmark", "Python", "Python3", "pybind11")]
         call(CMAKE, "--preset", "libraries", "-B", self.folder, *absent, cwd=SOURCE)
         commands = call("ninja", "-C", self.folder, "-t", "commands")
         self.assertIn("libdeburr-models.a", commands)

@@ -31,6 +31,10 @@ NAMED = {
         "the C interface is one of all engines: its tests, and what is built from installed files": [
             "examples/installed_test.py", "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
             "tb/unit/golden/c/threads_test.cpp"],
+        "the Python module is one of all engines: its functions, types and tests": [
+            "python/bindings/ideal_python.cpp", "python/deburr/__init__.pyi", "python/deburr/golden.py",
+            "python/deburr/golden.pyi", "tb/system/python_golden_test.py", "tb/system/python_run_test.py",
+            "tb/system/python_stubs_test.py"],
         "tables of pages are measured, its own among them": [
             "scripts/measurement/results.py"],
         "its part of the command line is promised": ["tb/unit/app/stable.txt"],
@@ -60,6 +64,11 @@ NAMED = {
             "examples/platform/expected.h", "examples/platform/main.cpp", "examples/platform/painter.cpp",
             "examples/platform/painter.h", "examples/systemverilog/edge_detector.sv",
             "examples/systemverilog/testbench.sv"],
+        "the Python module is one of all engines: its functions, types and tests": [
+            "python/bindings/frames.cpp", "python/bindings/frames.h", "python/bindings/ideal_python.cpp",
+            "python/deburr/__init__.pyi", "python/deburr/golden.py", "python/deburr/golden.pyi",
+            "tb/bench/python_frames.cpp", "tb/bench/python_golden.py", "tb/system/python_golden_test.py",
+            "tb/system/python_run_test.py", "tb/system/python_stubs_test.py"],
         "the C interface is one of all engines: its tests": [
             "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp"],
         "the one choice by which an engine has no memory": ["tb/traces/line_trace.cpp"],

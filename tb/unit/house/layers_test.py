@@ -16,6 +16,7 @@ ALLOWED = {
     "spec": {"spec"},
     "golden": {"spec", "golden"},
     "rtl_model": {"spec", "rtl_model"},
+    "python": {"spec", "golden", "python"},
     "tb": {"spec", "golden", "rtl_model", "tb"},
 }
 # Rooms of tb that only tests look into; what the command is built from does not.
@@ -177,6 +178,7 @@ def planted_faults_are_caught():
         "rtl_model/fabric/a.cpp": '#include "rtl_model/platform/memory_model.h"',
         "golden/e.cpp": '#include "rtl_model/platform/foo_records.h"',
         "golden/d.cpp": "#include <systemc>",
+        "python/a.cpp": '#include "rtl_model/fabric/link.h"',
         "tb/b.cpp": "#include <systemc.h>",
         "tb/c.cpp": "assert(x > 0);",
         "tb/d.cpp": "#include <random>",

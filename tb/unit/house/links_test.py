@@ -15,11 +15,11 @@ LINK = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)")
 HEADING = re.compile(r"#+\s+(.*)")
 PLACEHOLDER = re.compile(r"@[A-Z_]{3,}@")
 CODE = re.compile(r"`([^`]+)`")
-FOLDERS = ("cmake", "docs", "examples", "golden", "rtl_model", "scripts", "spec", "tb")
+FOLDERS = ("cmake", "docs", "examples", "golden", "python", "rtl_model", "scripts", "spec", "tb")
 PATH = re.compile(rf"(?<![\w./-])((?:{'|'.join(FOLDERS)})/[\w./-]*\w/?|(?:\w+/)+\w+\.(?:h|cpp|py|md))(?![\w/{{])")
 # Qualified names, and single ones that can be no other word: CamelCase, kCamelCase.
 NAME = re.compile(r"(?<![\w:])(?:[A-Za-z_]\w*::)+\w+|\b[A-Z][a-z]+[A-Z]\w*|\bk[A-Z]\w+")
-SOURCES = (".h", ".cpp", ".cmake", ".txt", ".in")
+SOURCES = (".h", ".cpp", ".py", ".cmake", ".txt", ".in")
 
 
 def anchors(page):
