@@ -111,7 +111,7 @@ class Added(unittest.TestCase):
         for smoothing in (NAME, pair):
             self.deburr(0, "run", "frame", *small, "--smoothing", smoothing, "--set", "run.reset_after=900", says="PASS frame")
         # Nobody marks for who looks at no marks.
-        self.assertIn("  mark: false", self.deburr(0, "run", "frame", "--smoothing", pair, "--show-config"))
+        self.assertIn(f"{first}.mark: false", self.deburr(0, "run", "frame", "--smoothing", pair, "--show-config"))
         self.deburr(2, "run", "frame", "--set", "posteriser.bits=3", says=f"frame.smoothing = {values[0]} has no posteriser")
         self.deburr(0, "run", "frame", "--help", says=f" or {pair}")
         self.call(0, SOAK, "--engines", "frame", "--runs", "4", "--set", f"frame.smoothing={NAME}", says="RESULT: PASS")

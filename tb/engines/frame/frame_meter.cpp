@@ -23,8 +23,8 @@ void FrameMeter::collect(Result& result) const {
   add(result, "frame_buffer_bytes_written", parts_.buffer.bytes_written);
   add(result, "frame_buffer_bytes_read", parts_.buffer.bytes_read);
   add(result, "frame_buffer_bytes", std::uint64_t{FrameBuffer::kPixelBytes} * pixels(), "byte",
-      "Size of the frame buffer, which is not among the memories: what is written and read of it, "
-      "by who draws and who smooths rows, is not modelled in time.");
+      "Size of the frame buffer, which is not among the memories: what is drawn into it and read "
+      "of it is not modelled in time.");
 }
 
 void FrameMeter::show_parts(Observer& observer) const {

@@ -9,6 +9,7 @@
 #include "spec/check_build.h"
 #include "spec/error.h"
 #include "spec/geometric/records.h"
+#include "tb/app/input_rules.h"
 
 namespace deburr::tb {
 namespace {
@@ -31,15 +32,7 @@ void apply_preset(ParameterSet& set, const spec::geometric::Parameters& values) 
 }
 
 std::string preset_label(const ParameterSet& set, const spec::geometric::Parameters& values) {
-  std::string label = source_of(values);
-  bool first = true;
-  for (const Parameter* p : set.changed()) {
-    if (!p->name.starts_with(kGeometricPrefix)) continue;
-    label += first ? ", changed: " : ", ";
-    label += p->name.substr(kGeometricPrefix.size());
-    first = false;
-  }
-  return label;
+  return with_changes(source_of(values), set, kGeometricPrefix);
 }
 
 void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Parameters& p) {
