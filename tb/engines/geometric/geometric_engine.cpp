@@ -22,6 +22,7 @@
 #include "tb/engines/geometric/geometric_environment.h"
 #include "tb/engines/geometric/geometric_frames.h"
 #include "tb/engines/geometric/geometric_pictures.h"
+#include "tb/engines/geometric/geometric_role.h"
 #include "tb/engines/geometric/geometric_rules.h"
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
@@ -35,6 +36,7 @@ class GeometricCommand final : public Engine {
   std::string_view summary() const override {
     return "A lit scene and the edges of its mesh through the geometric engine";
   }
+  std::unique_ptr<CompositionRole> role() const override { return make_geometric_role(); }
 
   double clock_mhz() const override { return 250; }  // what its units are made for
 

@@ -10,6 +10,7 @@
 #include "spec/check_build.h"
 #include "spec/error.h"
 #include "spec/geometric/records.h"
+#include "tb/app/input_rules.h"
 #include "tb/results/report.h"
 
 namespace deburr::tb {
@@ -33,15 +34,7 @@ void apply_preset(ParameterSet& set, const spec::geometric::Parameters& values) 
 }
 
 std::string preset_label(const ParameterSet& set, const spec::geometric::Parameters& values) {
-  std::string label = source_of(values);
-  bool first = true;
-  for (const Parameter* p : set.changed()) {
-    if (!p->name.starts_with(kGeometricPrefix)) continue;
-    label += first ? ", changed: " : ", ";
-    label += p->name.substr(kGeometricPrefix.size());
-    first = false;
-  }
-  return label;
+  return with_changes(source_of(values), set, kGeometricPrefix);
 }
 
 void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Parameters& p) {
@@ -92,12 +85,13 @@ std::vector<std::string> build_notes(const spec::geometric::Parameters& p) {
 std::vector<std::string> dropped_notes(const spec::geometric::Work& work) {
   if (work.edges == 0 || work.lines != 0) return {};
   std::string why;
-  for (const auto& [count, what] : {std::pair{work.back_edges, "turned away from the eye"},
-                                    {work.flat_edges, "no crease"},
-                                    {work.outside_edges, "behind the eye or outside the guard band"},
-                                    {work.empty_edges, "outside the frame"},
-                                    {work.degenerate_edges, "without length"},
-                                    {work.invalid_edges, "with an index out of range"}})
+  for (const auto& [count, what] :
+       {std::pair{work.back_edges, "turned away from the eye"},
+        {work.flat_edges, "no crease"},
+        {work.outside_edges, "behind the eye or outside the guard band"},
+        {work.empty_edges, "outside the frame"},
+        {work.degenerate_edges, "without length"},
+        {work.invalid_edges, "with an index out of range"}})
     if (count != 0) why += fmt::format("{}{} {}", why.empty() ? "" : ", ", grouped(count), what);
   return {fmt::format("all {} edges were dropped ({}): nothing was smoothed", grouped(work.edges),
                       why)};

@@ -24,6 +24,7 @@
 #include "tb/engines/morphological/morphological_environment.h"
 #include "tb/engines/morphological/morphological_frames.h"
 #include "tb/engines/morphological/morphological_pictures.h"
+#include "tb/engines/morphological/morphological_role.h"
 #include "tb/engines/morphological/morphological_rules.h"
 #include "tb/results/progress.h"
 #include "tb/scene/image_bytes.h"
@@ -38,6 +39,7 @@ class MorphologicalCommand final : public Engine {
   std::string_view summary() const override {
     return "An image or a scene through the morphological engine, checked pixel by pixel";
   }
+  std::unique_ptr<CompositionRole> role() const override { return make_morphological_role(); }
 
   double clock_mhz() const override { return 148.5; }  // the pixel clock of 1080p60
 

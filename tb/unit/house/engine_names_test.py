@@ -17,8 +17,8 @@ import tempfile
 LIST = "tb/engines/engines.txt"
 LEFT_OUT = re.compile(r"docs/|README\.md|CHANGELOG\.md|LICENSES?|tb/mutation/|tb/unit/house/engine_names_test\.py|"
                       r"build/|out/|\.git/|\.ci/")
-# Of the composition, which is an engine of its own: its business are its parts.
-COMPOSITION = re.compile(r"(^|/)frame([_/.]|$)")
+# What runs compositions by name: their testplans, records and system tests. The composition itself names no part.
+COMPOSITION = re.compile(r"tb/engines/frame/[^/]*\.(yaml|json)$|tb/(system|negative)/frame_test\.py$")
 
 # engine -> why files name it -> which.
 NAMED = {
@@ -79,10 +79,10 @@ NAMED = {
     },
 }
 
-# Rooms that name no engine: each is told what engines there are.
+# Rooms that name no engine: each is told what engines there are. So is the composition: its parts declare themselves.
 GENERAL = re.compile(r"CMakeLists\.txt|cmake/|golden/CMakeLists\.txt|rtl_model/CMakeLists\.txt|spec/[^/]*$|"
                      r"tb/(CMakeLists\.txt|app/|base/|command/|baselines/check\.py|fuzz/|regress/|results/|soak/|speed$|sweep/|testplan/|"
-                     r"engines/[^/]*$|unit/CMakeLists\.txt|system/smoke\.cmake)|scripts/coverage")
+                     r"engines/[^/]*$|engines/frame/[^/]*\.(h|cpp|txt)$|unit/engines/frame/|unit/CMakeLists\.txt|system/smoke\.cmake)|scripts/coverage")
 
 
 def files(root):
@@ -117,7 +117,7 @@ def general_naming(engine, texts):
                       rf"engine: {engine}\b")
     # Comments of lists and scripts may take an example.
     plain = [(name, text if name.endswith((".h", ".cpp")) else re.sub(r"(?m)^ *#.*", "", text))
-             for name, text in texts if GENERAL.match(name)]
+             for name, text in texts if GENERAL.match(name) and f"engines/{engine}/" not in name]
     return {f"{name}: {code.search(text)[0]}" for name, text in plain if code.search(text)}
 
 
@@ -141,8 +141,9 @@ def planted_faults_are_caught():
     """A small tree: what must be found, and what must not."""
     def tree(folder, **changed):
         texts = {LIST: "# engines\nfoo\nfrobber\n", "spec/frobber/parameters.h": "namespace spec::frobber",
-                 "tb/app/engine.cpp": "for (engine : engines())", "tb/frame_mix.cpp": "frobber",
-                 "tb/papers/one.cpp": "the frobber of 2016", "docs/a.md": "frobber", **changed}
+                 "tb/app/engine.cpp": "for (engine : engines())",
+                 "tb/papers/one.cpp": "the frobber of 2016", "docs/a.md": "frobber",
+                 "tb/engines/frame/smoke.yaml": "frobber", **changed}
         root = pathlib.Path(folder)
         for name, text in texts.items():
             (root / name).parent.mkdir(parents=True, exist_ok=True)
@@ -151,7 +152,9 @@ def planted_faults_are_caught():
     named = {"frobber": {"a paper": ["tb/papers/one.cpp"]}}
     expected = [({}, 0), ({"tb/soak/soak.cpp": 'if (engine == "foo")'}, 1), ({"tb/scene/a.cpp": "of the frobber"}, 1),
                 ({"tb/results/a.cpp": '"frobber."'}, 2), ({"tb/papers/one.cpp": "of 2016"}, 1),
-                ({"tb/sweep/a.h": "a foo is no engine here"}, 0)]
+                ({"tb/sweep/a.h": "a foo is no engine here"}, 0),
+                ({"tb/engines/frame/frame_mix.cpp": "spec::foo::Rules p"}, 1),
+                ({"tb/unit/engines/frame/a.cpp": "of the frobber"}, 1)]
     missed = []
     for changed, count in expected:
         with tempfile.TemporaryDirectory() as folder:

@@ -27,8 +27,6 @@ PLATFORM_MAY_INCLUDE = {"platform", "fabric"}
 # Rooms of tb from below: a room includes itself and what stands before it. Tests and benchmarks stand above all.
 ROOMS = ["base", "scene", "stimuli", "harness", "results", "traces", "env", "training", "app", "engines", "sweep",
          "regress", "command", "papers", "soak"]
-# Engines do not include each other; a composition stands on its parts.
-COMPOSITIONS = {"frame"}
 # Rooms that stand beside the simulation: no header on their way is SystemC's, which takes longer to compile than
 # all of theirs. Nor is json.hpp in a header, where json_fwd.hpp does.
 WITHOUT_SYSTEMC = {"base", "scene", "stimuli", "results", "training", "sweep", "regress", "command", "soak"}
@@ -51,8 +49,9 @@ def in_order(where, wanted):
     room, below = where[1], wanted[1]
     if room not in ROOMS or below not in ROOMS:
         return True
+    # Engines do not include each other, nor does a composition.
     if room == below == "engines" and len(where) > 3 and len(wanted) > 3:
-        return where[2] == wanted[2] or where[2] in COMPOSITIONS
+        return where[2] == wanted[2]
     return ROOMS.index(below) <= ROOMS.index(room)
 
 
