@@ -79,6 +79,7 @@ class GeometricCommand final : public Engine {
         summary_line(frame));
     for (const std::string& note : loaded.notes) context.add_note(note);
     for (const std::string& note : build_notes(parameters_)) context.add_note(note);
+    for (const std::string& note : dropped_notes(frame, parameters_)) context.add_note(note);
     const std::vector<geometric::Frame> frames(static_cast<std::size_t>(scene_.count), frame);
     Simulation simulation(simulation_options(run, context));
     GeometricEnvironment environment(simulation, frames, {parameters_, memory_});
