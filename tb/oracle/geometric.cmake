@@ -12,6 +12,6 @@ deburr_test(geometric_morphological_test LABELS oracle TIMEOUT 900
   LINK deburr::geometric_frames deburr::ideal)
 deburr_library(solids LAYER tb SOURCES "${CMAKE_CURRENT_LIST_DIR}/solids.cpp" LINK deburr::scene)
 deburr_test(geometric_rules_test LABELS oracle TIMEOUT 900
-  LONG Rules[.]
+  LONG LineRules[.] Crossings[.]AreWorthMoreThanAllRules
   SOURCE "${CMAKE_CURRENT_LIST_DIR}/geometric_rules_test.cpp"
   LINK deburr::geometric_frames deburr::solids)

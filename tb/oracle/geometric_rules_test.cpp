@@ -138,7 +138,7 @@ void print_gains(const char* which, const std::vector<Measured>& all) {
 
 // ---- scenes that the project knows --------------------------------------------------------------
 
-TEST(Rules, GainOnKnownScenes) {
+TEST(LineRules, GainOnKnownScenes) {
   std::vector<Measured> all;
   for (const char* name :
        {"cube", "sphere", "wheelcover", "wing", "canopy", "cylinders", "object", "road", "terrain"})
@@ -148,7 +148,7 @@ TEST(Rules, GainOnKnownScenes) {
 
 // ---- and that it does not -----------------------------------------------------------------------
 
-TEST(Rules, GainOnOtherSolids) {
+TEST(LineRules, GainOnOtherSolids) {
   std::vector<Measured> all;
   for (const tb::SolidsName& kind : tb::solids_names())
     for (const std::uint64_t seed : {1u, 2u})
@@ -157,7 +157,7 @@ TEST(Rules, GainOnOtherSolids) {
   print_gains("solids", all);
 }
 
-TEST(Rules, GainOnOthersMeshes) {
+TEST(LineRules, GainOnOthersMeshes) {
   DEBURR_REQUIRE_DATA(data);
   std::vector<Measured> all;
   for (const char* name : {"kenney_truck", "teapot", "wing_open", "sphere32"}) {
@@ -170,7 +170,7 @@ TEST(Rules, GainOnOthersMeshes) {
 }
 
 // Drawn once the rules stood.
-TEST(Rules, GainOnWhatNothingWasTunedOn) {
+TEST(LineRules, GainOnWhatNothingWasTunedOn) {
   std::vector<Measured> all;
   for (const tb::SolidsName& kind : tb::solids_names())
     for (const std::uint64_t seed : {11u, 12u})
@@ -186,6 +186,39 @@ TEST(Rules, GainOnWhatNothingWasTunedOn) {
     }
   }
   print_gains("others", all);
+}
+
+// ---- surfaces through each other ----------------------------------------------------------------
+
+TEST(Crossings, AreWorthMoreThanAllRules) {
+  double mean = 0, worst = 1e9;
+  std::size_t views = 0;
+  for (const char* kind : {"crossing", "floor"}) {
+    for (const std::uint64_t seed : {1u, 2u, 11u, 12u}) {
+      const tb::Scene scene = tb::make_solids(kind, seed);
+      const Judge judge(scene, kWidth, kHeight, 8, nullptr, {.crossings = true});
+      tb::geometric::Frame without = judge.frame;
+      without.table = tb::build_edge_table(scene.mesh);
+      without.screen = tb::project_edges(without.table, scene.camera, kWidth, kHeight);
+      Parameters p = plain();
+      kWays[kBothSides].change(p);
+      const Image before = tb::geometric::smoothed(without, p).image,
+                  after = tb::geometric::smoothed(judge.frame, p).image;
+      const double gain = judge.edge_psnr(after) - judge.edge_psnr(before);
+      fmt::print("| {} {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} lines\n", kind,
+                 seed, judge.edge_psnr(judge.frame.image), judge.edge_psnr(judge.msaa),
+                 judge.edge_psnr(before), judge.edge_psnr(after), judge.silhouette_psnr(before),
+                 judge.silhouette_psnr(after), judge.frame.table.crossings);
+      EXPECT_GE(judge.silhouette_psnr(after), judge.silhouette_psnr(before) - 0.2) << kind << seed;
+      mean += gain;
+      worst = std::min(worst, gain);
+      ++views;
+    }
+  }
+  mean /= static_cast<double>(views);
+  fmt::print("| mean {:+.2f}, worst {:+.2f} |\n", mean, worst);
+  EXPECT_GT(mean, 4);
+  EXPECT_GT(worst, 0);
 }
 
 }  // namespace
