@@ -72,6 +72,18 @@ class Meshes(Base):
                         "scene.target=0.3,0.1,-1", says="PASS")
         self.assertGreater(self.result()["work"]["line_setup_outside_edges"], 0)
 
+    def test_an_eye_inside_of_a_cube(self):
+        """Every face is turned away: the run says that it did nothing, or draws them all the same."""
+        inside = ("--scene", "cube", "--size", "64x48", "--set", "scene.eye=0,0,0", "--set",
+                  "scene.target=0.6,0.3,-1", "--set", "scene.fov=1.6")
+        self.run_engine(0, *inside, "--set", "geometric.cull=back", says="PASS")
+        self.assertIn("all 18 edges were dropped (18 turned away from the eye)", self.notes())
+        self.assertIn("geometric.cull = none", self.notes())
+        self.assertEqual(self.result()["work"]["edge_classifier_kept_edges"], 0)
+        self.run_engine(0, *inside, "--set", "geometric.cull=none", says="PASS")
+        self.assertNotIn("edges were dropped", self.notes())
+        self.assertGreater(self.result()["work"]["edge_classifier_kept_edges"], 6)
+
     def test_a_pixel(self):
         self.run_engine(0, "--scene", "cube", "--size", "1x1", says="PASS")
         self.run_engine(0, "--scene", "cube", "--size", "1x100", says="PASS")
@@ -112,6 +124,13 @@ class Configuration(Base):
         self.refused(["crease", "no effect", "select = all"], "geometric.select=all", "geometric.crease=paper")
         self.run_engine(2, *self.SMALL, "--preset", "gpaa", "--set", "geometric.crease=shading", says="select = all")
         self.refused(["face_limit", "no effect"], "geometric.select=all", "geometric.face_limit=8192")
+        self.refused(["cull", "no effect", "select = all"], "geometric.select=all", "geometric.cull=none")
+        self.refused(["crease_depth", "no effect"], "geometric.select=all", "geometric.crease_depth=4")
+        self.refused(["crease_depth", "no effect", "crease = off"], "geometric.crease=off", "geometric.crease_depth=4")
+        self.refused(["crease_depth", "no effect"], "geometric.depth_test=off", "geometric.crease_depth=4")
+        for test in ("own", "off"):
+            self.refused(["combine", "no effect", "outermost is max"], "geometric.combine=outermost",
+                         f"geometric.depth_test={test}")
         self.refused(["depth_bias", "no effect"], "geometric.depth_test=off", "geometric.depth_bias=4")
         self.refused(["depth_lines", "no effect"], "geometric.depth_test=off", "geometric.depth_lines=64")
         self.refused(["scene.truth_samples", "no effect", "--truth"], "scene.truth_samples=4")
@@ -123,6 +142,7 @@ class Configuration(Base):
         self.refused(["fills = 64", "memory.outstanding"], "geometric.fills=64", "geometric.memory.outstanding=32")
         self.refused(["geometric.walkers", "one of 1, 2, 4"], "geometric.walkers=3")
         self.refused(["1..24"], "geometric.depth_bias=25")
+        self.refused(["0..24"], "geometric.crease_depth=25")
         self.refused(["memory.latency = 20000", "run.watchdog_cycles"], "memory.latency=20000")
 
     def test_notes_of_a_build(self):

@@ -17,13 +17,24 @@
 namespace deburr::tb {
 namespace {
 
-std::vector<geometric::Frame> frames_of(const DrawnScene& scene, Image image) {
+// What of the mesh is drawn, in a composition.
+struct DrawnEdges {
+  bool crossings = false;
+};
+
+template <class Visitor>
+void describe(DrawnEdges& p, Visitor& v) {
+  v.boolean("crossings", p.crossings,
+            "Draw the lines, too, along which faces of the mesh pass through each other.");
+}
+
+std::vector<geometric::Frame> frames_of(const DrawnScene& scene, Image image, bool crossings) {
   const FragmentStream& stream = scene.stream();
   geometric::Frame frame;
   frame.image = std::move(image);
   frame.depth = stream.depth;
   frame.depths = depth_codes(stream.depth);
-  frame.table = build_edge_table(scene.scene().mesh);
+  frame.table = build_edge_table(scene.scene().mesh, {.crossings = crossings});
   frame.screen = project_edges(frame.table, scene.scene().camera, stream.width, stream.height);
   std::vector<geometric::Frame> frames;
   frames.push_back(std::move(frame));
@@ -33,9 +44,9 @@ std::vector<geometric::Frame> frames_of(const DrawnScene& scene, Image image) {
 class GeometricStage final : public MeshStage {
  public:
   GeometricStage(Simulation& simulation, const DrawnScene& scene, Image frame,
-                 const GeometricSetup& setup)
+                 const GeometricSetup& setup, bool crossings)
       : parameters_(setup.geometric),
-        frames_(frames_of(scene, std::move(frame))),
+        frames_(frames_of(scene, std::move(frame), crossings)),
         environment_(simulation, frames_, setup, "geometric") {}
 
   Environment& environment() override { return environment_; }
@@ -75,6 +86,7 @@ class GeometricRole final : public MeshSmoother {
 
   void add_parameters(ParameterSet& set) override {
     set.add_engine("geometric", parameters_);
+    set.add("geometric", ParameterKind::kRule, edges_);
     add_memory(set, kGeometricMemory, memory_);
   }
   std::vector<std::string> prefixes() const override {
@@ -108,12 +120,13 @@ class GeometricRole final : public MeshSmoother {
   std::unique_ptr<MeshStage> build(Simulation& simulation, const DrawnScene& scene,
                                    Image frame) const override {
     return std::make_unique<GeometricStage>(simulation, scene, std::move(frame),
-                                            GeometricSetup{parameters_, memory_});
+                                            GeometricSetup{parameters_, memory_}, edges_.crossings);
   }
 
  private:
   spec::geometric::Parameters parameters_;
   MemoryParameters memory_;
+  DrawnEdges edges_;
   std::string label_;
 };
 
