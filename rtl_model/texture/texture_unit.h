@@ -35,7 +35,7 @@ class TextureUnit final : public Engine {
   // a latency FIFO whose depth is ordered as 0.
   TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
               const spec::texture::Parameters& parameters,
-              const LatencyFifo::MemoryClocks& memory = {});
+              const MemoryClocks& memory = {});
 
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 

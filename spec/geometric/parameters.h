@@ -76,7 +76,10 @@ inline constexpr int kBlockPixels = 16;        // of a block, and of a line of m
 inline constexpr int kTileSize = 8;            // pixels of a tile, each way
 inline constexpr int kBlocksInWord = 128;      // blocks of a row whose touched bits share a word
 inline constexpr int kMaxReciprocalBits = 11;  // of the table's lengths
-inline constexpr int kMinFills = 8;            // a group may order eight lines of depth
+inline constexpr int kMinFills = 8, kMaxFills = 256;  // a group may order eight lines of depth
+// Places, where they are not sized from the latency of memory.
+inline constexpr std::int32_t kMinResolveLines = 16, kMaxResolveLines = 512;
+inline constexpr std::int32_t kMinCopyLines = 2, kMaxCopyLines = 256;
 
 // Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
 struct Rules {
@@ -111,10 +114,11 @@ struct Build {
   Lanes walkers = Lanes::kFour;
   CacheLines depth_lines = CacheLines::k128;
   CacheLines weight_blocks = CacheLines::k128;
-  std::int32_t fills = 64;
+  std::int32_t fills = 0;  // 0: sized from the latency of memory
   std::int32_t latency_fifo = 128;
   Lanes resolve_lanes = Lanes::kTwo;
-  std::int32_t resolve_lines = 64;
+  std::int32_t resolve_lines = 0;  // 0: as fills
+  std::int32_t copy_lines = 0;     // 0: as fills
   std::int32_t memory_outstanding = 128;
 };
 
@@ -179,13 +183,18 @@ void describe(Build& p, Visitor& v) {
            "Lines of the depth cache, sixteen pixels each.");
   v.choice("weight_blocks", p.weight_blocks, kCacheLinesNames,
            "Blocks of 4 x 4 pixels whose weights are on the chip.");
-  v.integer("fills", p.fills, kMinFills, 256, "line",
-            "Lines on their way into each of the three caches.");
+  v.integer("fills", p.fills, 0, kMaxFills, "line",
+            "Lines on their way into each of the three caches, 8 or more; 0 sizes it from the "
+            "latency of memory.");
   v.integer("latency_fifo", p.latency_fifo, 4, 1024, "token",
             "Look-ups that wait for their lines, for each of the three caches.");
   v.choice("resolve_lanes", p.resolve_lanes, kLanesNames, "Pixels blended a clock.");
-  v.integer("resolve_lines", p.resolve_lines, 16, 256, "line",
-            "Lines of colours and weights on their way to the resolve.");
+  v.integer("resolve_lines", p.resolve_lines, 0, kMaxResolveLines, "line",
+            "Lines of colours and weights on their way to the resolve, 16 or more; 0 sizes it from "
+            "the latency of memory.");
+  v.integer("copy_lines", p.copy_lines, 0, kMaxCopyLines, "line",
+            "Lines between read and write while the frame is copied, 2 or more; 0 sizes it from "
+            "the latency of memory.");
   v.integer("memory.outstanding", p.memory_outstanding, kMinFills, 1024, "transaction",
             "Transactions in flight.");
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "rtl_model/geometric/common/sizing.h"
 #include "spec/geometric/parameters.h"
+#include "spec/geometric/records.h"
 #include "tb/env/memory_parameters.h"
 
 namespace deburr::tb {
@@ -10,5 +12,9 @@ struct GeometricSetup {
   spec::geometric::Parameters geometric;
   MemoryParameters memory;
 };
+// What this memory takes at most.
+inline rtl::MemoryClocks memory_clocks(const GeometricSetup& setup) {
+  return memory_clocks(setup.memory, spec::geometric::kLineBytes);
+}
 
 }  // namespace deburr::tb

@@ -141,7 +141,7 @@ TEST(Configuration, RefusesByName) {
   refused([](Parameters& p) { p.fills = 129; }, "memory.outstanding");
   refused([](Parameters& p) { p.face_limit = 8193; }, "face_limit");
   refused([](Parameters& p) { p.touched_words = 15; }, "touched_words");
-  refused([](Parameters& p) { p.fills = 7; }, "fills = 7 is outside 8..256");
+  refused([](Parameters& p) { p.fills = 7; }, "fills = 7: must be at least 8 lines");
   Parameters fills;
   fills.fills = fills.memory_outstanding = 64;  // as many as memory answers at once
   EXPECT_NO_THROW(check_build(fills));

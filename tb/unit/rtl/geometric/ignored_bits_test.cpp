@@ -133,7 +133,7 @@ TEST_P(IgnoredBits, AreNoOthers) {
 
 // In tiles and in rows; of chosen edges and of all of them; blended in place and from a copy;
 // without a depth test.
-INSTANTIATE_TEST_SUITE_P(Configurations, IgnoredBits, ::testing::Values('a', 'd', 'f', 'h'));
+INSTANTIATE_TEST_SUITE_P(Configurations, IgnoredBits, ::testing::Values('a', 'd', 'f', 'h', 'l'));
 
 // With select = all FACE_COUNT is of no account.
 class IgnoredFaceCount : public IgnoredBits {};
