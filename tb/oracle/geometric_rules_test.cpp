@@ -209,7 +209,7 @@ TEST(Crossings, AreWorthMoreThanAllRules) {
                  seed, judge.edge_psnr(judge.frame.image), judge.edge_psnr(judge.msaa),
                  judge.edge_psnr(before), judge.edge_psnr(after), judge.silhouette_psnr(before),
                  judge.silhouette_psnr(after), judge.frame.table.crossings);
-      EXPECT_GE(judge.silhouette_psnr(after), judge.silhouette_psnr(before) - 0.2) << kind << seed;
+      EXPECT_GE(judge.silhouette_psnr(after), judge.silhouette_psnr(before) - 0.3) << kind << seed;
       mean += gain;
       worst = std::min(worst, gain);
       ++views;

@@ -80,8 +80,8 @@ class GeometricCommand final : public Engine {
         "Geometric engine: " + std::filesystem::path(scene_.source).filename().string(),
         summary_line(frame));
     for (const std::string& note : loaded.notes) context.add_note(note);
-    for (const std::string& note :
-         build_notes(rtl::geometric::sized(parameters_, memory_clocks(GeometricSetup{parameters_, memory_}))))
+    for (const std::string& note : build_notes(rtl::geometric::sized(
+             parameters_, memory_clocks(GeometricSetup{parameters_, memory_}))))
       context.add_note(note);
     const std::vector<geometric::Frame> frames(static_cast<std::size_t>(scene_.count), frame);
     Simulation simulation(simulation_options(run, context));

@@ -52,12 +52,12 @@ void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Paramet
   if (p.depth_test == spec::geometric::DepthTest::kOff)
     for (const char* const name : {"depth_bias", "crease_depth", "depth_lines"})
       refuse(name, "geometric.depth_test = off reads no depth");
-  if (!p.frame_copy) refuse("copy_lines", "geometric.frame_copy = false copies nothing");
   if (p.combine == spec::geometric::Combine::kOutermost &&
       p.depth_test != spec::geometric::DepthTest::kFarther)
     refuse("combine",
            "without geometric.depth_test = farther no pixel is known to be nearer than its "
            "neighbour: outermost is max");
+  if (!p.frame_copy) refuse("copy_lines", "geometric.frame_copy = false copies nothing");
   if (p.pipelined) {
     refuse("dividers",
            "geometric.pipelined = true takes a line every clock: one divider is enough");
@@ -102,11 +102,13 @@ std::vector<std::string> dropped_notes(const spec::geometric::Work& work) {
         {work.degenerate_edges, "without length"},
         {work.invalid_edges, "with an index out of range"}})
     if (count != 0) why += fmt::format("{}{} {}", why.empty() ? "" : ", ", grouped(count), what);
-  return {fmt::format(
-      "all {} edges were dropped ({}): nothing was smoothed{}", grouped(work.edges), why,
-      work.back_edges == 0 ? ""
-                           : "; geometric.cull = none draws those that are turned away, for an eye "
-                             "inside of a mesh or one wound the other way")};
+  std::string note =
+      fmt::format("all {} edges were dropped ({}): nothing was smoothed", grouped(work.edges), why);
+  if (work.back_edges != 0)
+    note +=
+        "; geometric.cull = none draws those that are turned away, for an eye inside of a mesh or "
+        "one wound the other way";
+  return {note};
 }
 
 std::vector<Shorthand> edge_shorthands() {
