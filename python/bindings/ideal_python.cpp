@@ -43,6 +43,7 @@ template <class Visit>
 void record_fields(const ScreenLine& line, Visit& visit) {
   visit("p", line.p);
   visit("q", line.q);
+  visit("crease", line.crease);
 }
 
 }  // namespace deburr::golden::ideal
@@ -267,8 +268,8 @@ double psnr(const py::object& reference, const py::object& pixels) {
 
 // ---- the geometric engine's equations -----------------------------------------------------------
 
-py::array geometric_weights(const py::object& lines, const py::object& depth, bool last_wins,
-                            double depth_bias) {
+py::array geometric_weights(const py::object& lines, const py::object& depth,
+                            const ideal::GpaaOptions& options) {
   const py::array all =
       checked_list<ideal::ScreenLine>(lines, "lines", "an array of SCREEN_LINE of (n,)");
   const py::array depths =
@@ -279,8 +280,7 @@ py::array geometric_weights(const py::object& lines, const py::object& depth, bo
   std::vector<ideal::SideWeights> weights;
   {
     const py::gil_scoped_release others_run;
-    weights = ideal::side_weights(elements<ideal::ScreenLine>(all), values, width, height,
-                                  {last_wins, depth_bias});
+    weights = ideal::side_weights(elements<ideal::ScreenLine>(all), values, width, height, options);
   }
   return owned(std::move(weights), {height, width});
 }
@@ -407,11 +407,22 @@ void add_textures(py::module_& module) {
 
 void add_equations(py::module_& module) {
   const ideal::GpaaOptions g;
-  module.def("line_weights", &geometric_weights,
-             "Weights of the neighbours up, down, left and right of each pixel after all lines: "
-             "float64 of (height, width, 4).",
-             py::arg("lines"), py::arg("depth"), py::kw_only(), py::arg("last_wins") = g.last_wins,
-             py::arg("depth_bias") = g.depth_bias);
+  module.def(
+      "line_weights",
+      [](const py::object& lines, const py::object& depth, bool last_wins, bool outermost,
+         bool area, double depth_bias, double crease_depth) {
+        return geometric_weights(lines, depth,
+                                 {.last_wins = last_wins,
+                                  .outermost = outermost,
+                                  .area = area,
+                                  .depth_bias = depth_bias,
+                                  .crease_depth = crease_depth});
+      },
+      "Weights of the neighbours up, down, left and right of each pixel after all lines: "
+      "float64 of (height, width, 4).",
+      py::arg("lines"), py::arg("depth"), py::kw_only(), py::arg("last_wins") = g.last_wins,
+      py::arg("outermost") = g.outermost, py::arg("area") = g.area,
+      py::arg("depth_bias") = g.depth_bias, py::arg("crease_depth") = g.crease_depth);
   module.def("line_blend", &geometric_blend,
              "A frame of light, float64 of (height, width, 3), blended by such weights.",
              py::arg("light"), py::arg("weights"));

@@ -372,7 +372,7 @@ class Ideal(unittest.TestCase):
     def test_lines(self):
         """A horizontal edge a quarter into its pixels' row: a quarter of the neighbour."""
         lines = numpy.zeros(1, dtype=ideal.SCREEN_LINE)
-        lines[0] = ((0.0, 4.25, 0.5), (16.0, 4.25, 0.5))
+        lines[0] = ((0.0, 4.25, 0.5), (16.0, 4.25, 0.5), False)
         weights = ideal.line_weights(lines, numpy.full((8, 16), 0.5))
         self.assertTrue(numpy.allclose(weights[4, 1:-1].max(axis=1), 0.25))
         light = numpy.zeros((8, 16, 3))
