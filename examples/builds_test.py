@@ -1,8 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Other builds than the one that installed_test.py installs: the libraries by the other compiler and as shared ones,
-SystemC by a CMake package of its own, Debian packages. Builds stay in BUILD/examples, so that the next time compiles
-what has changed.
+"""Other builds than the one that installed_test.py installs: the libraries as shared ones, SystemC by a CMake package of
+its own, Debian packages. Builds stay in BUILD/examples, so that the next time compiles what has changed.
 
 usage: builds_test.py CMAKE BUILD SOURCE CXX [unittest options]"""
 import os
@@ -13,10 +12,8 @@ import sys
 import unittest
 
 sys.dont_write_bytecode = True
-from installed_test import (BUILD, CMAKE, CXX, DECLARED, EMPTY, EXAMPLES, GOLDEN_MAIN, INCLUDE, MODELS_MAIN, PREFIX, SOURCE,  # noqa: E402
+from installed_test import (BUILD, CMAKE, CXX, DECLARED, EMPTY, EXAMPLES, GOLDEN_MAIN, INCLUDE, MODELS_MAIN, SOURCE,  # noqa: E402
                             Scratch, call, exported, one_file, pkg_config)
-
-OTHER = "g++" if "clang" in CXX else "clang++"
 
 
 def built(name, *options):
@@ -28,23 +25,6 @@ def built(name, *options):
     shutil.rmtree(prefix, ignore_errors=True)
     call(CMAKE, "--install", build, "--prefix", prefix, env=env)
     return prefix
-
-
-@unittest.skipUnless(shutil.which(OTHER), f"{OTHER} is not installed: scripts/install examples")
-class Compiler(Scratch):
-    """A release build by the compiler that this tree is not built with."""
-
-    def test_the_platform_draws_the_same_picture(self):
-        prefix = built("other-compiler", f"-DCMAKE_CXX_COMPILER={OTHER}")
-        shutil.copytree(EXAMPLES / "platform", self.folder, dirs_exist_ok=True)
-        said = []
-        for compiler, where in ((CXX, PREFIX), (OTHER, prefix)):
-            build = self.folder / compiler.replace("/", "_")
-            call(CMAKE, "-S", self.folder, "-B", build, f"-DCMAKE_PREFIX_PATH={where}", f"-DCMAKE_CXX_COMPILER={compiler}")
-            call(CMAKE, "--build", build, "--parallel", os.cpu_count())
-            said.append(call(build / "platform"))
-        self.assertIn("PASS picture", said[0])
-        self.assertEqual(*said)
 
 
 class Shared(Scratch):
