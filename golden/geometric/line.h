@@ -59,10 +59,10 @@ struct Shares {
 };
 constexpr Shares shares(spec::geometric::CoverageRule rule, std::int32_t distance,
                         std::int32_t slope) {
+  if (rule == spec::geometric::CoverageRule::kDistance) return {coverage(distance), 0};
   const std::int32_t away = distance < 0 ? -distance : distance;
   const std::int32_t steep = slope < 0 ? -slope : slope;
-  const bool leaves = 2 * away + (steep >> 8) > 65536;
-  if (rule == spec::geometric::CoverageRule::kDistance || !leaves) return {coverage(distance), 0};
+  if (2 * away + (steep >> 8) <= 65536) return {coverage(distance), 0};  // stays in the pixel
   const int k = (steep + (1 << 18)) >> 19;
   const auto& areas = spec::geometric::kCutArea[static_cast<std::size_t>(k < 1 ? 0 : k - 1)];
   return {areas[static_cast<std::size_t>(away >> 10)],

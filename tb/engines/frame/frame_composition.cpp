@@ -37,7 +37,7 @@ std::vector<geometric::Frame> geometric_frames(const TextureScene& scene, const 
   frame.image = golden_image(scene, setup, golden);
   frame.depth = stream.depth;
   frame.depths = depth_codes(stream.depth);
-  frame.table = build_edge_table(scene.scene().mesh);
+  frame.table = build_edge_table(scene.scene().mesh, {.crossings = setup.crossings});
   frame.screen = project_edges(frame.table, scene.scene().camera, stream.width, stream.height);
   std::vector<geometric::Frame> frames;
   frames.push_back(std::move(frame));

@@ -41,6 +41,7 @@ struct FrameSetup {
   MorphologicalSetup morphological;
   GeometricSetup geometric;
   Smoothing smoothing = Smoothing::kMorphological;
+  bool crossings = false;  // of the mesh's faces are edges, too
 };
 
 class FrameComposition final : public Environment {

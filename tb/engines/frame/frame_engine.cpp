@@ -30,6 +30,7 @@ namespace {
 
 struct FrameChoice {
   Smoothing smoothing = Smoothing::kMorphological;
+  bool crossings = false;
 };
 
 template <class Visitor>
@@ -37,6 +38,9 @@ void describe(FrameChoice& p, Visitor& v) {
   v.choice("smoothing", p.smoothing, kSmoothingNames,
            "What smooths the textured frame: the morphological engine, the geometric one, or the "
            "first behind the second.");
+  v.boolean(
+      "crossings", p.crossings,
+      "The geometric engine draws the lines, too, along which faces pass through each other.");
 }
 
 // Why a parameter is what it is.
@@ -117,12 +121,11 @@ class FrameCommand final : public Engine {
       for (const std::string& note : build_notes(morphological_)) context.add_note(note);
     Simulation simulation(simulation_options(run, context));
     FrameComposition frame(simulation, scene, setup(choice_.smoothing));
-    simulate(simulation, frame, context, result, [&] {
-      if (frame.geometric)
-        for (const std::string& note : dropped_notes(frame.geometric->engine().work()))
-          context.add_note(note);
-      add_pictures(run, context, scene, frame, result);
-    });
+    if (has_geometric(choice_.smoothing))
+      for (const std::string& note : dropped_notes(frame.edges(), geometric_))
+        context.add_note(note);
+    simulate(simulation, frame, context, result,
+             [&] { add_pictures(run, context, scene, frame, result); });
   }
 
   std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
@@ -164,7 +167,8 @@ class FrameCommand final : public Engine {
     return {{texture_, memory_},
             {morphological_, frame_memory_},
             {geometric_, geometric_memory_},
-            smoothing};
+            smoothing,
+            choice_.crossings};
   }
 
   void judge(const TextureScene& scene) const {
@@ -192,7 +196,7 @@ class FrameCommand final : public Engine {
 
   void resolve_geometric(ParameterSet& set) {
     if (!has_geometric(choice_.smoothing)) {
-      for (const char* const prefix : {"geometric.", "geometric_memory."})
+      for (const char* const prefix : {"geometric.", "geometric_memory.", "frame.crossings"})
         set.refuse_all(prefix, "frame.smoothing = morphological draws no edges");
       return;
     }
