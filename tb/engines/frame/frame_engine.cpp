@@ -121,11 +121,12 @@ class FrameCommand final : public Engine {
       for (const std::string& note : build_notes(morphological_)) context.add_note(note);
     Simulation simulation(simulation_options(run, context));
     FrameComposition frame(simulation, scene, setup(choice_.smoothing));
-    if (has_geometric(choice_.smoothing))
-      for (const std::string& note : dropped_notes(frame.edges(), geometric_))
-        context.add_note(note);
-    simulate(simulation, frame, context, result,
-             [&] { add_pictures(run, context, scene, frame, result); });
+    simulate(simulation, frame, context, result, [&] {
+      if (frame.geometric)
+        for (const std::string& note : dropped_notes(frame.geometric->engine().work()))
+          context.add_note(note);
+      add_pictures(run, context, scene, frame, result);
+    });
   }
 
   std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {

@@ -81,12 +81,14 @@ class GeometricCommand final : public Engine {
     for (const std::string& note : build_notes(rtl::geometric::sized(
              parameters_, memory_clocks(GeometricSetup{parameters_, memory_}))))
       context.add_note(note);
-    for (const std::string& note : dropped_notes(frame, parameters_)) context.add_note(note);
     const std::vector<geometric::Frame> frames(static_cast<std::size_t>(scene_.count), frame);
     Simulation simulation(simulation_options(run, context));
     GeometricEnvironment environment(simulation, frames, {parameters_, memory_});
-    simulate(simulation, environment, context, result,
-             [&] { add_pictures(run, context, loaded, environment, result); });
+    simulate(simulation, environment, context, result, [&] {
+      for (const std::string& note : dropped_notes(environment.engine().work()))
+        context.add_note(note);
+      add_pictures(run, context, loaded, environment, result);
+    });
   }
 
   std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {

@@ -5,11 +5,12 @@
 
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
-#include "golden/geometric/classify.h"
 #include "spec/check_build.h"
 #include "spec/error.h"
 #include "spec/geometric/records.h"
+#include "tb/results/report.h"
 
 namespace deburr::tb {
 namespace {
@@ -58,12 +59,12 @@ void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Paramet
   if (p.depth_test == spec::geometric::DepthTest::kOff)
     for (const char* const name : {"depth_bias", "crease_depth", "depth_lines"})
       refuse(name, "geometric.depth_test = off reads no depth");
-  if (!p.frame_copy) refuse("copy_lines", "geometric.frame_copy = false copies nothing");
   if (p.combine == spec::geometric::Combine::kOutermost &&
       p.depth_test != spec::geometric::DepthTest::kFarther)
     refuse("combine",
            "without geometric.depth_test = farther no pixel is known to be nearer than its "
            "neighbour: outermost is max");
+  if (!p.frame_copy) refuse("copy_lines", "geometric.frame_copy = false copies nothing");
   if (p.pipelined) {
     refuse("dividers",
            "geometric.pipelined = true takes a line every clock: one divider is enough");
@@ -97,24 +98,23 @@ std::vector<std::string> build_notes(const spec::geometric::Parameters& p) {
       p.latency_fifo, p.fills)};
 }
 
-std::vector<std::string> dropped_notes(const geometric::Frame& frame,
-                                       const spec::geometric::Parameters& p) {
-  const golden::geometric::FrameInput input = frame.input();
-  std::size_t turned_away = 0;
-  for (const spec::geometric::Edge& edge : input.edges) {
-    const spec::geometric::EdgeClass c = golden::geometric::classify(
-        p, edge, static_cast<std::uint32_t>(input.vertices.size()), input.facing);
-    if (golden::geometric::is_kept(c)) return {};
-    turned_away += c == spec::geometric::EdgeClass::kBack;
-  }
-  std::string note = fmt::format(
-      "every edge was dropped, {} of {} since both faces are turned away: the frame "
-      "comes out as it went in",
-      turned_away, input.edges.size());
-  if (turned_away != 0)
+std::vector<std::string> dropped_notes(const spec::geometric::Work& work) {
+  if (work.edges == 0 || work.lines != 0) return {};
+  std::string why;
+  for (const auto& [count, what] :
+       {std::pair{work.back_edges, "turned away from the eye"},
+        {work.flat_edges, "no crease"},
+        {work.outside_edges, "behind the eye or outside the guard band"},
+        {work.empty_edges, "outside the frame"},
+        {work.degenerate_edges, "without length"},
+        {work.invalid_edges, "with an index out of range"}})
+    if (count != 0) why += fmt::format("{}{} {}", why.empty() ? "" : ", ", grouped(count), what);
+  std::string note =
+      fmt::format("all {} edges were dropped ({}): nothing was smoothed", grouped(work.edges), why);
+  if (work.back_edges != 0)
     note +=
-        "; geometric.cull = none draws them, for an eye inside of a mesh or one wound the "
-        "other way";
+        "; geometric.cull = none draws those that are turned away, for an eye inside of a mesh or "
+        "one wound the other way";
   return {note};
 }
 
