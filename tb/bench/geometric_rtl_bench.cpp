@@ -175,6 +175,7 @@ void dividers() {
     return forked_text([&] {
       Parameters p;
       p.edge_lanes = spec::geometric::Lanes::kFour;
+      p.coverage = spec::geometric::CoverageRule::kDistance;
       p.pipelined = pipelined;
       p.dividers = units;
       p.reciprocal_table = table;

@@ -251,6 +251,8 @@ TEST(Outermost, MendsHiddenLines) {
   spec::geometric::Parameters p =
       golden::geometric::preset_parameters(spec::geometric::Preset::kDeburr);
   p.mark = true;
+  p.coverage = spec::geometric::CoverageRule::kDistance;  // this rule alone
+  p.crease_depth = 0;
   for (const char* name : {"wheelcover", "canopy", "cylinders", "object", "terrain"}) {
     for (const int degrees : {0, 25, -50, 77}) {
       const Judge judge(turned(name, degrees), kWidth, kHeight, 8);

@@ -136,6 +136,18 @@ void print_gains(const char* which, const std::vector<Measured>& all) {
   }
 }
 
+// What is asked: silhouettes, in the mean; edges nowhere worse; lines of memory, in the mean.
+void expect_gain(const std::vector<Measured>& all, double silhouettes) {
+  EXPECT_GE(gain_of(all, kAll, &Figures::silhouettes).mean, silhouettes);
+  EXPECT_GE(gain_of(all, kAll, &Figures::edges).worst, -0.2);
+  EXPECT_GE(gain_of(all, kBothSides, &Figures::edges).worst, -0.2);
+  EXPECT_GE(gain_of(all, kBothSides, &Figures::silhouettes).mean, silhouettes - 0.1);
+  double lines = 0;
+  for (const Measured& m : all)
+    lines += static_cast<double>(m.lines[kAll]) / static_cast<double>(m.lines[0]);
+  EXPECT_LE(lines, 1.05 * static_cast<double>(all.size()));
+}
+
 // ---- scenes that the project knows --------------------------------------------------------------
 
 TEST(LineRules, GainOnKnownScenes) {
@@ -144,6 +156,7 @@ TEST(LineRules, GainOnKnownScenes) {
        {"cube", "sphere", "wheelcover", "wing", "canopy", "cylinders", "object", "road", "terrain"})
     all.push_back(measure(tb::make_scene(name), name));
   print_gains("known", all);
+  expect_gain(all, 3);
 }
 
 // ---- and that it does not -----------------------------------------------------------------------
@@ -155,6 +168,7 @@ TEST(LineRules, GainOnOtherSolids) {
       all.push_back(
           measure(tb::make_solids(kind.name, seed), fmt::format("{} {}", kind.name, seed)));
   print_gains("solids", all);
+  expect_gain(all, 1.5);
 }
 
 TEST(LineRules, GainOnOthersMeshes) {
@@ -167,6 +181,7 @@ TEST(LineRules, GainOnOthersMeshes) {
       all.push_back(measure(tb::turned(scene, degrees), fmt::format("{} {}", name, degrees)));
   }
   print_gains("meshes", all);
+  expect_gain(all, 2);
 }
 
 // Drawn once the rules stood.
@@ -186,6 +201,7 @@ TEST(LineRules, GainOnWhatNothingWasTunedOn) {
     }
   }
   print_gains("others", all);
+  expect_gain(all, 2);
 }
 
 // ---- surfaces through each other ----------------------------------------------------------------

@@ -42,21 +42,29 @@ class Clocks(unittest.TestCase):
     def test_dense_frames(self):
         """Rings side by side and on each other, near a memory and far from one, against what the port takes alone."""
         for passes, name in (("1", "side by side"), ("3", "three on each other")):
-            for latency in ("20", "100"):
-                edges, resolve, work, lines = frame("deburr", "4", "2", "tiled", passes, latency)
-                self.assertEqual(work["EDGES"], 33000)
-                self.assertEqual(work["KEPT_EDGES"], 6600)
-                bound = BEGIN + sum(lines)
-                self.assert_said(f"| {name} | {latency} | {said(work['BLENDED_PIXELS'])} | {said(work['COLUMNS'])} | "
-                                 f"{said(work['GROUPS'])} | {said(work['BLOCKS'])} | {said(edges)} | {said(resolve)} | "
-                                 f"**{said(edges + resolve)}** | {said(bound)} |")
-                self.assertGreater(edges + resolve, bound)
-                if passes == "1":
-                    self.assertGreaterEqual(work["BLENDED_PIXELS"], 22000)
+            for coverage in ("distance", "area"):
+                for latency in ("20", "100"):
+                    edges, resolve, work, lines = frame("deburr", "4", "2", "tiled", passes, latency,
+                                                        f"coverage={coverage}")
+                    self.assertEqual(work["EDGES"], 33000)
+                    self.assertEqual(work["KEPT_EDGES"], 6600)
+                    bound = BEGIN + sum(lines)
+                    self.assert_said(f"| {name} | {coverage} | {latency} | {said(work['BLENDED_PIXELS'])} | "
+                                     f"{said(work['COLUMNS'])} | {said(work['GROUPS'])} | {said(work['BLOCKS'])} | "
+                                     f"{said(edges)} | {said(resolve)} | **{said(edges + resolve)}** | {said(bound)} |")
+                    self.assertGreater(edges + resolve, bound)
+                    if passes == "1":
+                        self.assertGreaterEqual(work["BLENDED_PIXELS"], 22000)
+                        self.assertLess(edges + resolve, 1.05 * bound)
+
+    def test_sizes(self):
+        for parameter in ("fills", "resolve_lines"):
+            clocks = sum(frame("deburr", "4", "2", "tiled", "1", "100", f"coverage=distance {parameter}=64")[:2])
+            self.assert_said(f"{said(clocks)}{' clocks' if parameter == 'fills' else ''} with `{parameter}` = 64")
 
     def test_fewer_lanes_and_rows(self):
-        one_lane = sum(frame("deburr", "4", "1", "tiled", "3")[:2])
-        rows = sum(frame("deburr", "4", "2", "raster", "3")[:2])
+        one_lane = sum(frame("deburr", "4", "1", "tiled", "3", "20", "coverage=distance")[:2])
+        rows = sum(frame("deburr", "4", "2", "raster", "3", "20", "coverage=distance")[:2])
         self.assert_said(f"{said(one_lane)} with edge_lanes = 1, {said(rows)} in `raster`")
 
     def test_dividers(self):
