@@ -91,7 +91,8 @@ class ReportBuilder {
     page_.set("chart_js", std::string(embedded::chart_js()));
     page_.set("copy_js", std::string(embedded::copy_js()));
     page_.set("report_js", std::string(embedded::report_js()));
-    page_.set("data", json_for_script({{"result", result_}, {"windows", windows_}}));
+    page_.set("data", fmt::format(R"({{"result":{},"windows":{}}})", json_for_script(result_),
+                                  json_for_script(windows_)));
     mustache::mustache page{std::string(embedded::report_template())};
     if (!page.is_valid()) throw spec::CheckFailed("report.mustache: " + page.error_message());
     return page.render(page_);
@@ -619,13 +620,10 @@ class ReportBuilder {
 }  // namespace
 
 std::string json_for_script(const Json& json) {
-  std::string text;
-  for (const char c : json.dump()) {
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  }
+  std::string text = json.dump();
+  constexpr std::string_view kEscaped = "\\u003c";
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; at += kEscaped.size())
+    text.replace(at, 1, kEscaped);
   return text;
 }
 

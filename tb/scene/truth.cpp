@@ -567,17 +567,19 @@ Image light(const Scene& scene, const GBuffer& buffer) {
   const Phong phong(scene);
   const Transport transport(Transfer::kGamma22);
   Image image(width, height);
+  const auto finished = [&](const Colour& colour) {
+    Sum sum;
+    sum.add(colour);
+    return finish(sum, 1, transport);
+  };
   for (int y = 0; y < height; ++y) {
+    std::fill_n(&image.at(0, y), width, finished(sky_colour(scene, y, height, transport)));
     for (int x = 0; x < width; ++x) {
-      Sum sum;
-      Colour colour = sky_colour(scene, y, height, transport);
-      if (buffer.depth.at(x, y) > 0.0f) {
-        colour = buffer.albedo.at(x, y);
-        phong.shade(buffer.normal.at(x, y), view.ray(x + 0.5, y + 0.5), colour[0], colour[1],
-                    colour[2]);
-      }
-      sum.add(colour);
-      image.at(x, y) = finish(sum, 1, transport);
+      if (!(buffer.depth.at(x, y) > 0.0f)) continue;
+      Colour colour = buffer.albedo.at(x, y);
+      phong.shade(buffer.normal.at(x, y), view.ray(x + 0.5, y + 0.5), colour[0], colour[1],
+                  colour[2]);
+      image.at(x, y) = finished(colour);
     }
   }
   return image;

@@ -15,6 +15,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "spec/error.h"
@@ -24,6 +25,7 @@
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
 #include "tb/results/run_context.h"
+#include "tb/scene/png.h"
 
 namespace deburr::tb::result_test {
 namespace {
@@ -566,6 +568,33 @@ TEST_F(Page, SaysThatAMemoryIsIdealised) {
   const std::string page = page_of(ideal);
   EXPECT_THAT(page, HasSubstr("cannot be built as it is"));
   EXPECT_THAT(page, HasSubstr("cache_lines (nine ports)"));
+}
+
+// It is made of what was written, not of what is read; readers take other types, and null.
+TEST_F(Page, IsThatOfTheFile) {
+  Result result = full_result();
+  result.work.push_back({"unbounded", std::numeric_limits<double>::infinity(), "", "No end."});
+  result.work.push_back({"undefined", std::numeric_limits<double>::quiet_NaN(), "", "0 / 0."});
+  result.work.push_back({"whole", 7.0, "", "Without a fraction."});
+  result.throughput = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(page_of(result), build_report(path_));
+}
+
+// The golden model's picture is written from the hardware model's if it is the same one.
+TEST_F(Directory, KeepsPicturesApart) {
+  ParameterSet parameters;
+  RunContext context(path_, parameters, "x", 0);
+  context.set_leaves({{"a", "b", "c", "d"}, {}});
+  context.claim();
+  const Image first(4, 2, {1, 2, 3, 255}), taller(2, 4, {1, 2, 3, 255});
+  Image other = first;
+  other.pixels[7][1] = 9;
+  const std::vector<std::pair<std::string, Image>> all = {
+      {"a", first}, {"b", first}, {"c", other}, {"d", taller}};
+  for (const auto& [name, image] : all) context.add_image(name, image, "", "");
+  context.finish(sample_result());
+  for (const auto& [name, image] : all)
+    EXPECT_EQ(read_file(path_ / (name + ".png"), 1 << 20), encode_png(image)) << name;
 }
 
 // A result.json of an earlier version has none of the newer keys.
