@@ -189,6 +189,14 @@ class TextureUnit {
       c::put_level(h, texture, level, elements<std::uint8_t>(array), 0);
     });
   }
+  // What the registers of a texture's descriptor hold.
+  py::tuple words(std::uint32_t texture) {
+    return turn([&](c::TextureHandle& h) {
+      py::list words;
+      for (const std::uint32_t word : h.words(texture)) words.append(word);
+      return py::tuple(words);
+    });
+  }
   py::dict describe(std::uint32_t texture) {
     return turn([&](c::TextureHandle& h) {
       const spec::texture::Descriptor d = c::descriptor_of(h.words(texture));
@@ -252,6 +260,7 @@ void add_texture(py::module_& module) {
            [](TextureUnit& unit, std::uint32_t texture, std::uint64_t address) {
              return unit.turn([&](c::TextureHandle& h) { return c::place(h, texture, address); });
            })
+      .def("words", &TextureUnit::words)
       .def("describe", &TextureUnit::describe)
       .def("level", &TextureUnit::level)
       .def("resize",

@@ -30,6 +30,7 @@ def declare(function, rows):
     for row in rows:
         unit = f" {row['unit']}" if row["unit"] else ""
         lines.append(f"{argument(row['name'])} = {row['default']!r} ({row['range']}{unit})")
-        lines.extend(textwrap.wrap(row["meaning"], 96, initial_indent="    ", subsequent_indent="    "))
+        lines.extend(textwrap.wrap(row["meaning"], 96, initial_indent="    ", subsequent_indent="    ",
+                                   break_on_hyphens=False))
     function.__doc__ = "\n".join(lines)
     return function

@@ -11,7 +11,7 @@ import tempfile
 
 import numpy
 
-from deburr import _build, _pictures
+from deburr import _build, _golden, _pictures
 from deburr._declared import argument
 
 _INTERRUPTED = 130
@@ -29,7 +29,7 @@ class RunError(RuntimeError):
 
 def program():
     """Where the command is: beside this package, as it was installed, or on the PATH."""
-    beside = pathlib.Path(__file__).resolve().parent / _build.PROGRAM
+    beside = pathlib.Path(_golden.__file__).absolute().parent / _build.PROGRAM
     if os.access(beside, os.X_OK):
         return str(beside.resolve())
     found = shutil.which("deburr")

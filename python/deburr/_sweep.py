@@ -8,7 +8,7 @@ import tempfile
 import warnings
 
 from deburr._declared import argument
-from deburr._program import call, engines, known, settings
+from deburr._program import call, engines, known, parameters, settings
 
 _METRICS = {"cycles": "cycles", "rate": "throughput.value"}
 
@@ -36,13 +36,28 @@ def _definition(engine, axes, metrics, rest, given, folder):
             "metrics": _METRICS if metrics is None else metrics, "reports": False, **rest}
 
 
+def _typed(axis, declared):
+    """What makes a value of the axis of the text that a sweep has for it."""
+    default = declared.get(axis["name"], "")
+    if isinstance(default, bool):
+        return lambda text: text == "true"
+    if isinstance(default, (int, float)):
+        kind = float if isinstance(default, float) else lambda text: int(text, 0)
+        # Of an axis that is not given everywhere: "-".
+        return lambda text: text if text == "-" else kind(text)
+    return str
+
+
 def _rows(collected):
     """A dictionary a point: its values of the axes, its metrics, state, front and failure."""
+    declared = {row["name"]: row["default"] for row in parameters(collected["engine"])}
     axes = [axis["name"] for axis in collected["axes"]]
+    types = [_typed(axis, declared) for axis in collected["axes"]]
     metrics = [metric["name"] for metric in collected["metrics"]]
     rows = []
     for point in collected["points"]:
-        row = dict(zip(axes, point["at"]))
+        row = {name: kind(value) if isinstance(value, str) else value
+               for name, kind, value in zip(axes, types, point["at"])}
         values = [math.nan if value is None else value for value in point["values"]]
         row.update(zip(metrics, values))
         row.update({name: math.inf for name in point.get("identical", [])})

@@ -72,13 +72,28 @@ class TextureUnit:
         """Puts a texture behind those that are there: its mip levels, the largest first, each uint8 of (height, width,
         4), or of (height, width, bytes of a texel) in the format that `format` says. Fields are those of the
         descriptor's registers; width, height, levels and max_lod follow from the arrays unless they are given."""
-        levels = [levels] if isinstance(levels, numpy.ndarray) else list(levels)
-        for level in levels:
+        for level in levels if isinstance(levels, (list, tuple)) else [levels]:
             if not isinstance(level, numpy.ndarray) or level.dtype != numpy.uint8 or level.ndim != 3:
                 raise ValueError("levels: uint8 of (height, width, bytes of a texel) is wanted; "
                                  + _described(level) + " was given")
+        levels = [levels] if isinstance(levels, numpy.ndarray) else list(levels)
         if not levels:
             raise ValueError("levels: at least one is wanted")
+        before = self._unit.words(texture)
+        try:
+            end = self._describe(texture, levels, fields)
+        except BaseException:
+            for number, word in enumerate(before):
+                self._unit.set_register(texture, 4 * number, word)
+            raise
+        if end > self._unit.size():
+            self._unit.resize(end)
+        for number, level in enumerate(levels):
+            self._unit.level(texture, number, numpy.ascontiguousarray(level).reshape(-1))
+        self._end = -(-end // 64) * 64
+
+    def _describe(self, texture, levels, fields):
+        """Sets the descriptor of a texture that will lie behind the others; the address behind it."""
         height, width = levels[0].shape[:2]
         self._unit.set_fields(texture, {"width": width, "height": height, "levels": len(levels),
                                         "max_lod": 256 * (len(levels) - 1), **fields})
@@ -87,12 +102,7 @@ class TextureUnit:
             wanted = (max(1, height >> number), max(1, width >> number), size)
             if level.shape != wanted:
                 raise ValueError(f"level {number}: uint8 of {wanted} is wanted; {_described(level)} was given")
-        end = self._unit.place(texture, self._end)
-        if end > self._unit.size():
-            self._unit.resize(end)
-        for number, level in enumerate(levels):
-            self._unit.level(texture, number, numpy.ascontiguousarray(level).reshape(-1))
-        self._end = -(-end // 64) * 64
+        return self._unit.place(texture, self._end)
 
     def set_fields(self, texture=0, **fields):
         """Fields of a texture's registers by name: wrap_s="clamp_to_edge", bias=-128. All of them or none."""

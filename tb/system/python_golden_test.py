@@ -463,7 +463,9 @@ class BadCalls(unittest.TestCase):
         refused("bytes: uint8 of (n,)", unit.write, 0, b"1234")
         refused("levels: ", unit.load, None)
         refused("levels: ", unit.load, [])
-        refused("level 1: uint8 of (32, 32, 4) is wanted", unit.load, [checkerboard(), checkerboard()], texture=1)
+        for texture in (0, 1):  # one that is there stays as it is
+            refused("level 1: uint8 of (32, 32, 4) is wanted", unit.load, [checkerboard(), checkerboard()], texture)
+        refused("'format' = 'rgb'", unit.load, checkerboard(), wrap_s="clamp_to_edge", format="rgb")
         refused("sides that are powers of two", golden.mip_levels, vector_image("noise"))
         refused("both even", golden.quads_of, numpy.zeros((3, 4)), numpy.zeros((3, 4)))
         refused("covered", golden.quads_of, numpy.zeros((2, 4)), numpy.zeros((2, 4)), numpy.zeros((2, 4)))
@@ -565,6 +567,8 @@ class Threads(unittest.TestCase):
         quads = numpy.tile(once, 400)
         expected = unit.filter(once)
         main = threading.main_thread().ident
+        # A job in the background is started with Ctrl-C ignored.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
 
         def interrupt():
             time.sleep(0.2)
@@ -572,7 +576,7 @@ class Threads(unittest.TestCase):
         thread = threading.Thread(target=interrupt)
         thread.start()
         with self.assertRaises(KeyboardInterrupt):
-            while True:
+            for _ in range(200):
                 unit.filter(quads)
         thread.join()
         unit.reset()
