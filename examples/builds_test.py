@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Other builds than the one that installed_test.py installs: the libraries as shared ones, SystemC by a CMake package of
-its own, Debian packages. Builds stay in BUILD/examples, so that the next time compiles what has changed.
+"""What stands around the installed files: SystemC by a CMake package of its own, and Debian packages of this build.
 
 usage: builds_test.py CMAKE BUILD SOURCE CXX [unittest options]"""
 import os
@@ -12,54 +11,7 @@ import sys
 import unittest
 
 sys.dont_write_bytecode = True
-from installed_test import (BUILD, CMAKE, CXX, DECLARED, EMPTY, EXAMPLES, GOLDEN_MAIN, INCLUDE, MODELS_MAIN, SOURCE,  # noqa: E402
-                            Scratch, call, exported, one_file, pkg_config)
-
-
-def built(name, *options):
-    """The preset `libraries` with these options, installed: the prefix."""
-    build, prefix = BUILD / "examples" / name, BUILD / "examples" / f"{name}-prefix"
-    env = dict(os.environ)
-    call(CMAKE, "--preset", "libraries", "-B", build, "-DDEBURR_WERROR=ON", *options, cwd=SOURCE, env=env)
-    call(CMAKE, "--build", build, "--parallel", os.cpu_count(), env=env, timeout=1500)
-    shutil.rmtree(prefix, ignore_errors=True)
-    call(CMAKE, "--install", build, "--prefix", prefix, env=env)
-    return prefix
-
-
-class Shared(Scratch):
-    """Shared libraries, compiled without much of an optimiser."""
-
-    @classmethod
-    def setUpClass(cls):
-        cls.prefix = built("shared", "-DBUILD_SHARED_LIBS=ON", "-DCMAKE_BUILD_TYPE=Debug", f"-DCMAKE_CXX_COMPILER={CXX}")
-        cls.libraries = next(cls.prefix.glob("lib*/**/libdeburr-golden.so")).parent
-        cls.version = pkg_config("--modversion", "deburr-golden")[0]
-
-    def test_programs_link_them(self):
-        self.project("deburr REQUIRED", "deburr::golden deburr::models", MODELS_MAIN)
-        call(CMAKE, "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}",
-             f"-DCMAKE_CXX_COMPILER={CXX}")
-        call(CMAKE, "--build", self.folder / "build")
-        call(self.folder / "build/user")
-        env = EMPTY | {"PKG_CONFIG_PATH": str(self.libraries / "pkgconfig"), "LD_LIBRARY_PATH": str(self.libraries)}
-        for name, main in (("golden", GOLDEN_MAIN), ("models", MODELS_MAIN)):
-            flags = call("pkg-config", "--cflags", "--libs", f"deburr-{name}", env=env).split()
-            call(CXX, self.write(f"{name}.cpp", main), "-o", self.folder / name, *flags)
-            call(self.folder / name, env=env)
-            needed = call("readelf", "-d", self.folder / name)
-            self.assertIn(f"[libdeburr-{name}.so.{self.version.rsplit('.', 1)[0]}]", needed)
-
-    def test_the_c_interface_exports_nothing_else(self):
-        library = self.libraries / "libdeburr-golden-c.so"
-        declared = set(DECLARED.findall((INCLUDE / "deburr_golden.h").read_text(encoding="utf-8")))
-        self.assertGreater(len(declared), 30)
-        self.assertEqual(exported("nm", "-D", "--defined-only", library), declared)
-        self.assertIn("[libdeburr-golden-c.so.0]", call("readelf", "-d", library))
-        env = EMPTY | {"PKG_CONFIG_PATH": str(self.libraries / "pkgconfig"), "LD_LIBRARY_PATH": str(self.libraries)}
-        flags = call("pkg-config", "--cflags", "--libs", "deburr-golden-c", env=env).split()
-        call("cc", "-std=c99", EXAMPLES / "c/draw.c", "-o", self.folder / "draw", *flags)
-        self.assertIn("PASS picture", call(self.folder / "draw", "picture.ppm", cwd=self.folder, env=env))
+from installed_test import BUILD, CMAKE, CXX, GOLDEN_MAIN, Scratch, call, one_file, pkg_config  # noqa: E402
 
 
 PACKAGE = """set(SystemC_CXX_STANDARD 17)
@@ -184,11 +136,6 @@ class Debian(Scratch):
              f"-DCMAKE_CXX_COMPILER={CXX}")
         call(CMAKE, "--build", self.folder / "build")
         call(self.folder / "build/user")
-
-    @unittest.skipUnless(shutil.which("lintian"), "lintian is not installed: scripts/install examples")
-    def test_lintian_accepts_them(self):
-        said = call("lintian", "--no-tag-display-limit", "--fail-on", "error", *self.packages.values(), env=dict(os.environ))
-        self.assertNotRegex(said, r"(?m)^[EW]: ")
 
 
 if __name__ == "__main__":

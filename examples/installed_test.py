@@ -399,6 +399,19 @@ class C(Scratch):
         found = exported("nm", "--defined-only", one_file("lib*/**/libdeburr-golden.*[ao]"))
         self.assertEqual({name for name in found if name.startswith("deburr_")}, declared)
 
+    def test_the_shared_library_offers_nothing_else(self):
+        build = self.folder / "shared"
+        call(CMAKE, "--preset", "libraries", "-B", build, "-DBUILD_SHARED_LIBS=ON",
+             "-DCMAKE_BUILD_TYPE=Debug", cwd=SOURCE, env=dict(os.environ))
+        call(CMAKE, "--build", build, "--target", "deburr_c_library", "--parallel", os.cpu_count(),
+             env=dict(os.environ))
+        library = build / "libdeburr-golden-c.so"
+        declared = set(DECLARED.findall((INCLUDE / "deburr_golden.h").read_text(encoding="utf-8")))
+        self.assertEqual(exported("nm", "-D", "--defined-only", library), declared)
+        self.assertIn("[libdeburr-golden-c.so.0]", call("readelf", "-d", library))
+        call("cc", "-std=c99", f"-I{INCLUDE}", self.folder / "draw.c", "-o", self.folder / "draw", library)
+        self.drawn(self.folder / "draw", env=EMPTY | {"LD_LIBRARY_PATH": str(build)})
+
 
 # The quads of examples/systemverilog/testbench.sv, given to the C++ model.
 QUADS_MAIN = """#include <cstdio>

@@ -750,10 +750,10 @@ class Results(CommandTest):
         """A value of another kind, wherever: a named error, of the file."""
         with open(self.path("b/result.json")) as file:
             whole = json.load(file)
-        places = [(key,) for key in whole if key != "schema"] + [("meaning", key) for key in list(whole["meaning"])[::7]]
+        places = [(key,) for key in whole if key != "schema"] + [("meaning", key) for key in list(whole["meaning"])[::20]]
         damaged = 0
         for place in places:
-            for value in (None, 7, "x", [1, 2], {"a": 1}):
+            for value in (None, 7, {"a": 1}):
                 changed = json.loads(json.dumps(whole))
                 (changed if len(place) == 1 else changed[place[0]])[place[-1]] = value
                 self.write("b/result.json", json.dumps(changed))
