@@ -114,7 +114,6 @@ class Added(unittest.TestCase):
         self.assertIn(f"{first}.mark: false", self.deburr(0, "run", "frame", "--smoothing", pair, "--show-config"))
         self.deburr(2, "run", "frame", "--set", "posteriser.bits=3", says=f"frame.smoothing = {values[0]} has no posteriser")
         self.deburr(0, "run", "frame", "--help", says=f" or {pair}")
-        self.call(0, SOAK, "--engines", "frame", "--runs", "8", says="RESULT: PASS")
 
     def test_parameters_and_pages(self):
         self.deburr(0, "params", NAME, says=["posteriser.bits", "posteriser.link_depth", "must be 1 or an even"])
