@@ -254,6 +254,7 @@ class FrameCommand final : public Engine {
     if (golden) expected = frame.golden_frame();
     if (run.truth && whole)
       truth = judge_by_scene(scene, truth_options(), before, after, result, context);
+    if (whole) result.change = measure_change(before, after, truth.empty() ? nullptr : &truth);
     const SmoothedFrame smoothed{before,
                                  after,
                                  frame.delivered(),
