@@ -319,6 +319,12 @@ void add_compare(CLI::App& app, CommandLine& line) {
                    "Throughput may fall by this much")
       ->capture_default_str()
       ->check(tolerance());
+  command->add_option("--flip", tolerances.flip, "FLIP may grow by this much")
+      ->check(tolerance())
+      ->capture_default_str();
+  command->add_option("--ssim", tolerances.ssim, "SSIM may fall by this much")
+      ->check(tolerance())
+      ->capture_default_str();
   command->add_option("--psnr-db", tolerances.psnr_db, "PSNR may fall by this much")
       ->capture_default_str()
       ->check(tolerance());

@@ -149,6 +149,7 @@ class FrameCommand final : public Engine {
     if (golden) expected = frame.expected_frame();
     if (run.truth && whole)
       truth = drawer().judge_by_truth(scene, truth_options(), before, after, result, context);
+    if (whole) result.change = measure_change(before, after, truth.empty() ? nullptr : &truth);
     const SmoothedFrame smoothed{before,
                                  after,
                                  frame.delivered(),

@@ -197,7 +197,9 @@ class GeometricCommand final : public Engine {
                                  loaded.truth ? &*loaded.truth : nullptr,
                                  "the lit frame as it was rendered", loaded.truth_name});
     add_edge_pictures(context, loaded.frame, parameters_, engine.blocks());
-    if (loaded.truth && engine.done())
+    if (!engine.done()) return;
+    result.change = measure_change(before, after, loaded.truth ? &*loaded.truth : nullptr);
+    if (loaded.truth)
       result.quality =
           judge_quality(loaded.truth_name, before, after, *loaded.truth, &loaded.frame.depth);
   }

@@ -243,7 +243,9 @@ class MorphologicalCommand final : public Engine {
         {before, after, engine.delivered(), golden ? &expected : nullptr,
          loaded.truth ? &*loaded.truth : nullptr, "the frame as it came", loaded.truth_name},
         engine.taps());
-    if (loaded.truth && engine.delivered() == after.pixels.size())
+    if (engine.delivered() < after.pixels.size()) return;
+    result.change = measure_change(before, after, loaded.truth ? &*loaded.truth : nullptr);
+    if (loaded.truth)
       result.quality = judge_quality(loaded.truth_name, before, after, *loaded.truth,
                                      loaded.depth ? &*loaded.depth : nullptr);
   }
