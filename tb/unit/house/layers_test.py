@@ -20,7 +20,7 @@ ALLOWED = {
     "tb": {"spec", "golden", "rtl_model", "tb"},
 }
 # Rooms of tb that only tests look into; what the command is built from does not.
-TESTS_ALONE = {"unit", "system", "oracle", "negative", "bench", "baselines"}
+TESTS_ALONE = {"unit", "system", "oracle", "negative", "bench", "baselines", "hdl"}
 # rtl_model/platform is software's side: it knows engines by their registers in spec, and no engine
 # knows it.
 PLATFORM_MAY_INCLUDE = {"platform", "fabric"}
@@ -33,6 +33,9 @@ WITHOUT_SYSTEMC = {"base", "scene", "stimuli", "results", "training", "sweep", "
 SYSTEMC = {"systemc", "tlm", "tlm_utils"}
 JSON = "nlohmann/json.hpp"
 SOURCE = {".h", ".cpp", ".cmake", ".py", ".txt"}
+# What hdl/ includes: headers that the build prints (tb/hdl/print_headers.cpp).
+PRINTED = {"tokens.svh", "tables.svh", "descriptor.svh"}
+INCLUDE_OF_HDL = re.compile(r'^\s*`include\s+"([^"]+)"')
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 FLOATING = re.compile(r"\b(float|double)\b")
 THREADS = re.compile(r"\bSC_C?THREAD\b")
@@ -102,9 +105,27 @@ def circles(root):
                 yield f"{line}: {folder} includes {wanted}, from where a way leads back"
 
 
+def violations_of_hdl(root):
+    """The units in SystemVerilog see nothing of golden/ and rtl_model/ but the printed headers."""
+    for path in sorted((root / "hdl").rglob("*")):
+        if not path.is_file():
+            continue
+        lines = path.read_text(encoding="utf-8").splitlines()
+        where = path.relative_to(root)
+        if path.suffix == ".svh":
+            yield f"{where}:1: a header beside those that the build prints"
+        if "SPDX-License-Identifier: MIT" not in "\n".join(lines[:3]):
+            yield f"{where}:1: no SPDX licence line"
+        for number, line in enumerate(lines, 1):
+            include = INCLUDE_OF_HDL.match(line)
+            if include and include.group(1) not in PRINTED:
+                yield f"{where}:{number}: hdl includes {include.group(1)}"
+
+
 def violations(root):
     """Yields 'file:line: rule' for every broken rule below root."""
     yield from circles(root)
+    yield from violations_of_hdl(root)
     for layer, allowed in ALLOWED.items():
         for path in sorted((root / layer).rglob("*")):
             if not path.is_file() or path.suffix not in SOURCE:
@@ -196,6 +217,8 @@ def planted_faults_are_caught():
         "golden/c/a.h": "#ifdef FAST",
         "golden/c/a.cpp": "#ifdef __cplusplus",
         "golden/d.h": "#ifdef __cplusplus",
+        "hdl/foo/a.sv": '`include "rtl_model/foo/tokens.svh"',
+        "hdl/foo/tokens.svh": "`define A 1",
     }
     missed = []
     for name, line in faults.items():
