@@ -65,8 +65,8 @@ namespace deburr::rtl::geometric {
 
 class GeometricEngine final : public Engine {
  public:
-  // ConfigError for what cannot be built (spec/geometric/check_build.h). What the memory takes sizes
-  // places that are ordered as 0 (common/sizing.h).
+  // ConfigError for what cannot be built (spec/geometric/check_build.h). What the memory takes
+  // sizes places that are ordered as 0 (common/sizing.h).
   GeometricEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
                   const spec::geometric::Parameters& parameters, const MemoryClocks& memory = {});
   const char* kind() const override { return "deburr_geometric_engine"; }

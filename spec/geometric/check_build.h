@@ -21,7 +21,8 @@ inline constexpr std::array<BuildRule<Parameters>, 6> kBuildRules = {{
      "must be a multiple of 512, since a line of memory fills as many facing bits at once",
      [](const Parameters& p) { return p.face_limit % kFacesInLine == 0; }},
     {{"fills"},
-     "must be at least 8 lines, as many as a group of pixels may order; 0 sizes it from the latency "
+     "must be at least 8 lines, as many as a group of pixels may order; 0 sizes it from the "
+     "latency "
      "of memory",
      [](const Parameters& p) { return p.fills == 0 || p.fills >= kMinFills; }},
     {{"fills", "memory.outstanding"},

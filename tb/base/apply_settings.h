@@ -58,7 +58,8 @@ void apply_settings(Parameters& parameters, std::string_view settings) {
     SetByName set(one.substr(0, equals), one.substr(equals + 1));
     describe(parameters, set);
     if (!set.found())
-      throw std::invalid_argument(fmt::format("'{}' sets no parameter, or no value that it takes", one));
+      throw std::invalid_argument(
+          fmt::format("'{}' sets no parameter, or no value that it takes", one));
   }
 }
 

@@ -4,9 +4,9 @@
 //   geometric_rtl_bench --frames <n> [preset [walkers [edge_lanes [layout [passes [latency
 //       [parameters]]]]]]]
 //       n frames of 1280 x 720: 33 000 edges, a fifth of them kept, some 24 000 columns, passing
-//       the same places so many times (1), with a memory of so many clocks (20), and other parameters as
-//       "fills=128 coverage=area"; cycles, then clocks of both phases and what the port alone would
-//       take, work, stalls, memories
+//       the same places so many times (1), with a memory of so many clocks (20), and other
+//       parameters as "fills=128 coverage=area"; cycles, then clocks of both phases and what the
+//       port alone would take, work, stalls, memories
 //   geometric_rtl_bench --idle <n>      n clocks of an engine that waits for a frame
 //   geometric_rtl_bench --dividers      clocks of the edges over dividers, with and without table
 //   geometric_rtl_bench --ratio <n>     how many times as fast the golden model draws the same
@@ -141,7 +141,8 @@ void frames(int count, const std::vector<std::string>& arguments) {
   std::cout << fmt::format("last frame: {} clocks, edges {}, resolve {}\n", f.driver.clocks().frame,
                            f.driver.clocks().edges, f.driver.clocks().resolve);
   const std::uint64_t frames = static_cast<std::uint64_t>(count),
-                      all = f.engine.memory_port.reads.value() + f.engine.memory_port.writes.value(),
+                      all =
+                          f.engine.memory_port.reads.value() + f.engine.memory_port.writes.value(),
                       resolve = f.engine.block_fetch.weights_read.value() +
                                 f.engine.block_fetch.lines_read.value() +
                                 f.engine.resolver.lines_written.value();

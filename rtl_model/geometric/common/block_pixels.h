@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pixels of a block by their place in it, 4 y + x, and the pixel across a line: wires and a 2-bit add.
+// Pixels of a block by their place in it, 4 y + x, and the pixel across a line: wires and a 2-bit
+// add.
 #pragma once
 
 #include <cstdint>

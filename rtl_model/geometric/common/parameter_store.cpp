@@ -43,8 +43,8 @@ FrameRules decode(const ControlRegisters& registers) {
   f.linear_light = field::kLinearLight.of(rules) != 0;
   f.depth_bias =
       std::clamp(field::kDepthBias.of(rules), 1U, std::uint32_t{spec::geometric::kDepthBits});
-  f.crease_depth = std::min(field::kCreaseDepth.of(rules),
-                            std::uint32_t{spec::geometric::kDepthBits});
+  f.crease_depth =
+      std::min(field::kCreaseDepth.of(rules), std::uint32_t{spec::geometric::kDepthBits});
   f.area = choice<spec::geometric::CoverageRule>(field::kCoverage, rules) ==
            spec::geometric::CoverageRule::kArea;
   f.mark = field::kMark.of(rules) != 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Places for lines on their way into the caches, to the resolve and through the copy, where they are
-// ordered as 0: as many as cover the latency of memory, so that lines come as fast as the port asks
-// for them.
+// Places for lines on their way into the caches, to the resolve and through the copy, where they
+// are ordered as 0: as many as cover the latency of memory, so that lines come as fast as the port
+// asks for them.
 #pragma once
 
 #include <algorithm>

@@ -128,8 +128,8 @@ struct GroupToken {
 };
 
 // CoverageUnit -> DepthTest -> WeightCombiner: candidates in one block of 4 x 4 pixels, a column a
-// lane. A column's second candidate is the neighbour of its first, which takes from that; it may lie
-// in the next block across the line. Behind the test, those that passed.
+// lane. A column's second candidate is the neighbour of its first, which takes from that; it may
+// lie in the next block across the line. Behind the test, those that passed.
 struct CandidateToken {
   std::uint16_t block_x, block_y;  // U11
   bool vertical;                   // neighbours left or right, else up or down

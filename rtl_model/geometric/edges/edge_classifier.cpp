@@ -101,8 +101,7 @@ void EdgeClassifier::classify(Cycle cycle, const Beat& beat) {
     const EdgeClass c = class_of(rules, beat.edges.edge[lane], beat.valid >> lane & 1,
                                  beat.facing0 >> lane & 1, beat.facing1 >> lane & 1);
     if (Counter* const counter = counter_of(c)) ++*counter;
-    const bool kept =
-        c != EdgeClass::kInvalid && c != EdgeClass::kBack && c != EdgeClass::kFlat;
+    const bool kept = c != EdgeClass::kInvalid && c != EdgeClass::kBack && c != EdgeClass::kFlat;
     latency_.judge(kept);
     if (!kept) continue;
     ++kept_edges;

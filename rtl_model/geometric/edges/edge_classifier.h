@@ -41,9 +41,11 @@ class EdgeClassifier final : public Unit {
   Counter silhouette_edges{"silhouette_edges", "edges",
                            "edges between a face turned to the eye and one turned away"};
   Counter back_edges{"back_edges", "edges", "edges of two faces turned away, which cull drops"};
-  Counter crease_edges{"crease_edges", "edges", "creases between two faces turned to the eye, or not culled"};
-  Counter flat_edges{"flat_edges", "edges",
-                     "edges between two faces turned to the eye, or not culled, that are no crease"};
+  Counter crease_edges{"crease_edges", "edges",
+                       "creases between two faces turned to the eye, or not culled"};
+  Counter flat_edges{
+      "flat_edges", "edges",
+      "edges between two faces turned to the eye, or not culled, that are no crease"};
   Counter invalid_edges{"invalid_edges", "edges", "edges with an index out of range"};
   Counter kept_edges{"kept_edges", "edges", "edges whose vertices are fetched"};
 

@@ -45,8 +45,7 @@ CoverageUnit::CoverageUnit(const sc_core::sc_module_name& name, ClockDomain& clo
                            const spec::geometric::Parameters& p, EdgeLatency& latency)
     : Unit(name, clock),
       latency_(latency),
-      near_rom_("near_area_rom", rom_shape(lanes_of(p)),
-                std::span<const std::uint8_t>(areas(0))),
+      near_rom_("near_area_rom", rom_shape(lanes_of(p)), std::span<const std::uint8_t>(areas(0))),
       far_rom_("far_area_rom", rom_shape(lanes_of(p)),
                std::span<const std::uint8_t>(areas(kInHalf))) {
   for (std::uint32_t lane = 0; lane < lanes_of(p); ++lane) {

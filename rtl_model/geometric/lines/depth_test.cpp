@@ -190,8 +190,7 @@ void DepthTest::capture_words(Cycle cycle) {
 // Stage 6.
 void DepthTest::compare(Cycle cycle, Work& work) const {
   work.nearer = work.farther = 0;
-  const bool farther =
-      rules_in.read(cycle).depth_test == spec::geometric::DepthTest::kFarther;
+  const bool farther = rules_in.read(cycle).depth_test == spec::geometric::DepthTest::kFarther;
   for_each_lane(work.lookup.group.candidates, [&](std::size_t lane) {
     const std::uint32_t own = work.own[lane], other = work.other[lane];
     work.far[lane] = farther ? std::min(own, other) : own;
@@ -344,7 +343,8 @@ Datasheet DepthTest::datasheet() {
                   "24-bit shift, subtract and compare"}},
       .cost =
           "tags and data 2R1W, the lines on their way, the FIFO; 28 compares of lines, two "
-          "13 x 10 multiplies; a lane two 16 : 1 choices of 24 bits, a 24-bit minimum, two 24-bit shifts, "
+          "13 x 10 multiplies; a lane two 16 : 1 choices of 24 bits, a 24-bit minimum, two 24-bit "
+          "shifts, "
           "subtracts and compares."};
 }
 

@@ -4,8 +4,8 @@
 //
 // Where: behind the CoverageUnit, with a small cache of depth lines that looks ahead. A group of
 // which no candidate passes leaves nothing. A second candidate passes with the first of its column,
-// whose depths it shares. Lines of a group have different indices, so none replaces another. Stalls: `depth` (the line has not come), `fills` (no place for one),
-// `downstream`.
+// whose depths it shares. Lines of a group have different indices, so none replaces another.
+// Stalls: `depth` (the line has not come), `fills` (no place for one), `downstream`.
 #pragma once
 
 #include <array>

@@ -64,13 +64,16 @@ void FrameCopier::reset() {
 }
 
 Datasheet FrameCopier::datasheet() {
-  return {.unit = "FrameCopier",
-          .does = "Copies the whole frame before it is resolved (`frame_copy`).",
-          .latency = {0, "-"},
-          .interval = {2, "2 clocks of the port a line, while M + 8 <= 2 copy_lines; then (M + 8) / copy_lines"},
-          .stages = {{"1", "a line is read while a place is free, else one is written in its turn",
-                      "26-bit add"}},
-          .cost = "copy_buffer, two 32-bit addresses."};
+  return {
+      .unit = "FrameCopier",
+      .does = "Copies the whole frame before it is resolved (`frame_copy`).",
+      .latency = {0, "-"},
+      .interval =
+          {2,
+           "2 clocks of the port a line, while M + 8 <= 2 copy_lines; then (M + 8) / copy_lines"},
+      .stages = {{"1", "a line is read while a place is free, else one is written in its turn",
+                  "26-bit add"}},
+      .cost = "copy_buffer, two 32-bit addresses."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -306,7 +306,8 @@ Datasheet WeightCombiner::datasheet() {
       .cost =
           "tags, touched map and data 1R1W, the blocks on their way, the FIFO; the spill "
           "list, 23 bits each, compared with a tag at once: `fills` compares of 23 bits (108 "
-          "for a memory of 100 clocks) and a choice of its first free place; two 11 x 11 multiplies; a lane, of each "
+          "for a memory of 100 clocks) and a choice of its first free place; two 11 x 11 "
+          "multiplies; a lane, of each "
           "of its two candidates, a 16 : 1 place and an 8-bit compare."};
 }
 

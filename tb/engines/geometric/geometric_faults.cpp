@@ -54,9 +54,8 @@ std::optional<std::size_t> GeometricFaults::block_that_takes_from_above() const 
   constexpr int kInside = 16;  // blocks in the stages of the resolve
   if (frames_.empty() || setup_.geometric.frame_copy) return std::nullopt;
   const rtl::MemoryClocks memory = memory_clocks(setup_);
-  const std::int32_t ahead = kInside +
-                             rtl::geometric::sized(setup_.geometric, memory).resolve_lines / 4 +
-                             memory.latency;
+  const std::int32_t ahead =
+      kInside + rtl::geometric::sized(setup_.geometric, memory).resolve_lines / 4 + memory.latency;
   const geometric::Frame& frame = frames_.front();
   golden::geometric::GeometricGolden golden(setup_.geometric);
   const std::vector<Rgba8>& after = golden.process(frame.input());
@@ -88,8 +87,8 @@ std::vector<PlantedFault> GeometricFaults::list() const {
   };
   const std::string tested = unless(p.depth_test != spec::geometric::DepthTest::kOff,
                                     "geometric.depth_test = own, farther");
-  const std::string areas = unless(p.coverage == spec::geometric::CoverageRule::kArea,
-                                   "geometric.coverage = area");
+  const std::string areas =
+      unless(p.coverage == spec::geometric::CoverageRule::kArea, "geometric.coverage = area");
   std::string stale_neighbour;
   if (planted("stale-neighbour"))
     if (const auto block = block_that_takes_from_above())
@@ -99,7 +98,8 @@ std::vector<PlantedFault> GeometricFaults::list() const {
        unless(face_of_a_fault().has_value(), "geometric.select = edges, an edge of two faces")},
       {"wrong-slope", "Flips the lowest bit of every reciprocal in the table.", "",
        unless(p.reciprocal_table > 0, "geometric.reciprocal_table of at least 1")},
-      {"wrong-cull", "Edges between faces turned away are culled where they are to be judged, or judged.", "",
+      {"wrong-cull",
+       "Edges between faces turned away are culled where they are to be judged, or judged.", "",
        unless(p.select == spec::geometric::Select::kEdges, "geometric.select = edges")},
       {"wrong-class", "A kept edge is taken for a crease, or a crease for another edge.",
        "flip:geometric.kept:5:crease"},
@@ -108,8 +108,7 @@ std::vector<PlantedFault> GeometricFaults::list() const {
       {"wrong-second", "A column of a group of candidates has a second one too few, or too many.",
        "flip:geometric.candidates:20:seconds.0", areas},
       {"wrong-nearer", "No pixel is taken for nearer than its neighbour.", "",
-       unless(p.combine == spec::geometric::Combine::kOutermost,
-              "geometric.combine = outermost")},
+       unless(p.combine == spec::geometric::Combine::kOutermost, "geometric.combine = outermost")},
       {"drop-line", "Drops line 5 on its way to the walkers.",
        "drop:geometric.line_fifo_entries:5"},
       {"duplicate-line", "Walks line 5 twice.", "duplicate:geometric.line_fifo_entries:5"},

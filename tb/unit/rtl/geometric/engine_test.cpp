@@ -315,8 +315,8 @@ TEST(Sizes, AreThoseOfThePage) {
   EXPECT_EQ(text(p, {1000, 1}), "8 16 2");
 }
 
-// Clocks of a frame near its bounds at 100 clocks: more places save nothing to speak of, a quarter of
-// either costs a tenth at least.
+// Clocks of a frame near its bounds at 100 clocks: more places save nothing to speak of, a quarter
+// of either costs a tenth at least.
 TEST(Sizes, CoverTheLatency) {
   const auto clocks = [](std::int32_t fills, std::int32_t resolve_lines) {
     return std::stod(in_child([&] {
@@ -519,6 +519,7 @@ TEST(Accounts, LatencyIsThatOfLinesWithAPixelThatPasses) {
 // that there is but `fills`, and `downstream` of the Resolver.
 TEST(Accounts, OfAFrameThatWaits) {
   Parameters p;
+  p.coverage = spec::geometric::CoverageRule::kDistance;
   p.layout = spec::geometric::Layout::kRaster;
   p.pipelined = false;
   p.vertex_lines = p.depth_lines = p.weight_blocks = CacheLines::k16;
@@ -564,8 +565,7 @@ TEST_P(PageClocks, LieAboveTheBounds) {
   b.run();
   expect_bounds(b, scene, false);
 }
-INSTANTIATE_TEST_SUITE_P(Page, PageClocks,
-                         ::testing::Range('a', 'o'));
+INSTANTIATE_TEST_SUITE_P(Page, PageClocks, ::testing::Range('a', 'o'));
 
 class Clocks : public ::testing::TestWithParam<Lanes> {};
 TEST_P(Clocks, OfShortLinesAreNearTheBound) {

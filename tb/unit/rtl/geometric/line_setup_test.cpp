@@ -174,15 +174,16 @@ TEST(LineSetup, DropsInTheOrderOfThePage) {
   SetupBench b;
   VertexFields gone = vertex(300, 300, 5);
   gone.usable = false;
-  const auto lines = b.run({{{gone, gone}, false, false},                                // outside
-                            {{vertex(300, 300, 5), gone}, false, false},                 // outside
-                            {{vertex(300, 300, 5), vertex(300, 300, 9)}, false, false},  // degenerate
-                            {{vertex(300, 300, 5), vertex(301, 300, 9)}, false, false},  // empty
-                            {{vertex(128, -1, 5), vertex(999, -200, 9)}, false, false},  // before
-                            {{vertex(128, 720 * 256, 5), vertex(999, 190000, 9)}, false, false},  // behind
-                            {{vertex(128, 720 * 256 - 1, 5), vertex(999, 184400, 9)}, false, false},
-                            {{vertex(128, -1, 5), vertex(999, 0, 9)}, false, false},
-                            {{vertex(-300, -300, 5), vertex(128, 200, 9)}, false, false}});
+  const auto lines =
+      b.run({{{gone, gone}, false, false},                                         // outside
+             {{vertex(300, 300, 5), gone}, false, false},                          // outside
+             {{vertex(300, 300, 5), vertex(300, 300, 9)}, false, false},           // degenerate
+             {{vertex(300, 300, 5), vertex(301, 300, 9)}, false, false},           // empty
+             {{vertex(128, -1, 5), vertex(999, -200, 9)}, false, false},           // before
+             {{vertex(128, 720 * 256, 5), vertex(999, 190000, 9)}, false, false},  // behind
+             {{vertex(128, 720 * 256 - 1, 5), vertex(999, 184400, 9)}, false, false},
+             {{vertex(128, -1, 5), vertex(999, 0, 9)}, false, false},
+             {{vertex(-300, -300, 5), vertex(128, 200, 9)}, false, false}});
   EXPECT_EQ(lines.size(), 3u);
   EXPECT_EQ(b.unit.outside_edges.value(), 2u);
   EXPECT_EQ(b.unit.degenerate_edges.value(), 1u);

@@ -27,8 +27,7 @@ struct ResolveBench : Frame {
       : Frame(p, latency),
         combiner("combiner", clock, sized(p, {}), edge_latency),
         scanner("scanner", clock, p, combiner.touched_port()),
-        fetch("fetch", clock, sized(p, {}), combiner.tag_port(),
-              combiner.data_port()),
+        fetch("fetch", clock, sized(p, {}), combiner.tag_port(), combiner.data_port()),
         resolver("resolver", clock, p, fetch.colours),
         weights("weights"),
         touched("touched"),
@@ -364,8 +363,10 @@ TEST(Resolve, WaitingIsNotBusy) {
     Lanes lanes;
     std::uint64_t each;  // max(lines, beats)
   };
-  for (const Blocks& block : {Blocks{0x0060, Lanes::kTwo, 1}, {0x000F, Lanes::kFour, 2},
-                              {0x000F, Lanes::kTwo, 2}, {0xFFFF, Lanes::kTwo, 8}})
+  for (const Blocks& block : {Blocks{0x0060, Lanes::kTwo, 1},
+                              {0x000F, Lanes::kFour, 2},
+                              {0x000F, Lanes::kTwo, 2},
+                              {0xFFFF, Lanes::kTwo, 8}})
     for (const std::uint32_t latency : {5u, 20u, 200u}) {
       const std::string got = in_child([&] {
         constexpr int kBlocks = 40;

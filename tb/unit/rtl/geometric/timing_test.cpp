@@ -900,10 +900,11 @@ TEST(DepthTest, SecondCandidatesPassWithTheFirst) {
   b.ends.source.add(token);
   finish(b, b.ends, 1);
   using spec::geometric::Direction;
-  const std::vector<spec::geometric::Candidate> wanted = {
-      {0, 1, Direction::kDown, 90, 100, true}, {1, 1, Direction::kUp, 80, 99, false},
-      {1, 0, Direction::kDown, 8, 99, false},  {2, 1, Direction::kDown, 70, 100, true},
-      {2, 2, Direction::kUp, 7, 100, true}};
+  const std::vector<spec::geometric::Candidate> wanted = {{0, 1, Direction::kDown, 90, 100, true},
+                                                          {1, 1, Direction::kUp, 80, 99, false},
+                                                          {1, 0, Direction::kDown, 8, 99, false},
+                                                          {2, 1, Direction::kDown, 70, 100, true},
+                                                          {2, 2, Direction::kUp, 7, 100, true}};
   EXPECT_EQ(shown, wanted);
   EXPECT_EQ(b.unit.passed.value(), 3u);
   EXPECT_EQ(b.unit.lookups.value(), 1u);
@@ -997,9 +998,8 @@ TEST(WeightCombiner, AGroupAClockWhateverBlock) {
 }
 // Weights of pixel (x, y), once its block has left the cache.
 spec::geometric::Weights weights_at(CombinerBench& b, int x, int y) {
-  const std::vector<std::uint8_t> bytes =
-      b.memory.dump(static_cast<std::uint64_t>(64 * (y / 4 * 512 + x / 4) + 4 * (y % 4 * 4 + x % 4)),
-                    4);
+  const std::vector<std::uint8_t> bytes = b.memory.dump(
+      static_cast<std::uint64_t>(64 * (y / 4 * 512 + x / 4) + 4 * (y % 4 * 4 + x % 4)), 4);
   return {bytes[0], bytes[1], bytes[2], bytes[3]};
 }
 // Sends every block of the first rows to memory: others take their places.
@@ -1100,8 +1100,12 @@ TEST(WeightCombiner, OutermostKeepsTheSmallestOfWhatIsNearer) {
                std::to_string(weights_at(b, 5, 6)[0]);
       });
       const bool outermost = rule == Combine::kOutermost;
-      const int first = rule == Combine::kLast ? 60 : outermost && which == 1 ? 20 : 90,
-                second = rule == Combine::kLast ? 30 : outermost && which == 2 ? 10 : 45;
+      const int first = rule == Combine::kLast    ? 60
+                        : outermost && which == 1 ? 20
+                                                  : 90,
+                second = rule == Combine::kLast    ? 30
+                         : outermost && which == 2 ? 10
+                                                   : 45;
       EXPECT_EQ(got, std::to_string(first) + " " + std::to_string(second))
           << static_cast<int>(rule) << " " << which;
     }
