@@ -64,32 +64,16 @@ class SystemC(Scratch):
         folder = "systemc/lib/cmake/SystemCLanguage"
         self.write(f"{folder}/SystemCLanguageConfig.cmake", PACKAGE.format(library=library, include=self.include))
         self.write(f"{folder}/SystemCLanguageConfigVersion.cmake", VERSION.format(version=version))
-        return f"-DSystemCLanguage_DIR={self.folder / folder}"
-
-    def test_its_baseline_is_probed_and_a_program_links(self):
-        # In the build that has probed Debian's, too.
-        for fresh in (False, True):
-            if fresh:
-                shutil.rmtree(self.folder / "build")
-            said = self.configure(self.package(self.library))
-            self.assertIn("SystemC 3.0.1, ", said)
-            self.assertIn("standard of the project: 23", said)
-            self.assertLessEqual(said.count("SC_CPLUSPLUS="), 1)
-            call(CMAKE, "--build", self.folder / "build")
-            call(self.folder / "build/user")
-        back = self.configure(DEBIAN)
-        self.assertNotIn("SystemC 3.0.1", back)
-        call(CMAKE, "--build", self.folder / "build")
-        call(self.folder / "build/user")
+        return [f"-DSystemCLanguage_DIR={self.folder / folder}", DEBIAN.replace("ON", "OFF")]
 
     def test_what_cannot_be_used_is_said(self):
         stub = self.folder / "libsystemc.a"
         call("ar", "rcs", stub)
         for options, words in (
-                ([self.package("")], "defines no target SystemC::systemc: install SystemC again, or configure with"),
-                ([self.package(self.library, "2.3.1")], "SystemC 2.3.1 at"),
-                ([self.package(self.library, "2.3.1")], "is too old. Install Debian's package libsystemc-dev"),
-                ([self.package(stub)], "a C++20 program links with it under no baseline"),
+                (self.package(""), "defines no target SystemC::systemc: install SystemC again, or configure with"),
+                (self.package(self.library, "2.3.1"), "SystemC 2.3.1 at"),
+                (self.package(self.library, "2.3.1"), "is too old. Install Debian's package libsystemc-dev"),
+                (self.package(stub), "a C++20 program links with it under no baseline"),
                 ([DEBIAN, "-DSystemC_LIBRARY=", "-DSystemC_INCLUDE_DIR="], "SystemC was not found. Install Debian's package")):
             # The folder holds the last of them.
             if not options[0].endswith("=ON"):
@@ -100,12 +84,6 @@ class SystemC(Scratch):
                 self.asks(how)
                 said = self.configure(*options, code=code)
                 self.assertIn("standard of the project: 23" if code == 0 else words, said)
-
-    def test_another_one_than_the_libraries_were_built_with(self):
-        package = self.package(self.library, "3.9.9")
-        self.project("deburr REQUIRED COMPONENTS models")
-        said = self.configure(package, code=1)
-        self.assertRegex(said, r"built with SystemC \S+, and SystemC 3\.9\.9 was found: install that version, or build Deburr")
 
 
 class Debian(Scratch):
