@@ -71,14 +71,15 @@ endfunction()
 function(deburr_hdl_runtime)
   get_filename_component(root "${DEBURR_VERILATOR}" REALPATH)
   cmake_path(GET root PARENT_PATH root)
-  find_path(DEBURR_VERILATOR_INCLUDE verilated.h HINTS "${root}/../share/verilator/include" REQUIRED)
+  deburr_find(path DEBURR_VERILATOR_INCLUDE verilator NAMES verilated.h
+              HINTS "${root}/../share/verilator/include")
   add_library(deburr_verilated STATIC "${DEBURR_VERILATOR_INCLUDE}/verilated.cpp"
                                       "${DEBURR_VERILATOR_INCLUDE}/verilated_threads.cpp")
   target_include_directories(deburr_verilated SYSTEM PUBLIC "${DEBURR_VERILATOR_INCLUDE}"
                                                             "${DEBURR_VERILATOR_INCLUDE}/vltstd")
   target_compile_features(deburr_verilated PUBLIC cxx_std_20)
   target_compile_options(deburr_verilated PRIVATE -w)
-  find_package(Threads REQUIRED)
+  deburr_find_package(Threads g++)
   target_link_libraries(deburr_verilated PUBLIC Threads::Threads)
 endfunction()
 

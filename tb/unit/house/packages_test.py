@@ -15,8 +15,10 @@ import tempfile
 # What is for others, and stands in their build.
 NOT_OURS = ("examples/", "cmake/package/", "cmake/FindSystemC.cmake", "cmake/Packages.cmake", "build/")
 BARE = re.compile(r"^\s*(find_\w+|pkg_check_modules|pkg_search_module)\s*\(([^)]*)\)", re.M)
-# Looked for without being needed: a compiler cache, Mesa, and what pkg-config may know instead of CMake.
-OPTIONAL = {"CCACHE_PROGRAM", "PC_OracleEgl", "PC_OpenImageIO", "PC_OracleOpenImageIO", "OpenImageIO", "pagmo", "GTest"}
+# Looked for without being needed: a compiler cache, Mesa, what reads SystemVerilog, what a Python module is made of, and
+# what pkg-config may know instead of CMake.
+OPTIONAL = {"DEBURR_VERILATOR", "DEBURR_MAKE", "Python", "pybind11",
+            "CCACHE_PROGRAM", "PC_OracleEgl", "PC_OpenImageIO", "PC_OracleOpenImageIO", "OpenImageIO", "pagmo", "GTest"}
 NAMED = re.compile(r"\bdeburr_(?:find_package|find|missing|missing_module)\(([^)]*)\)")
 
 
