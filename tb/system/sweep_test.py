@@ -323,7 +323,8 @@ objectives: {maximise: [psnr], minimise: [bits]}
         flat, chess = (next(r["directory"] for r in rows if r["scene.texture"] == name)
                        for name in ("flat.pgm", "chess.pgm"))
         loose = ("--cycles-percent", "1000", "--throughput-percent", "99")
-        self.assertIn("worse: quality.psnr_db;", self.run_compare(flat, chess, *loose, code=1) + ";")
+        self.assertIn("worse: quality.psnr_db, quality.flip, quality.ssim;",
+                      self.run_compare(flat, chess, *loose, code=1) + ";")
         # The edges, that it has no more, are missed; the picture is not.
         self.assertIn("worse: quality.psnr_edge_db,", self.run_compare(chess, flat, *loose, code=1))
 
