@@ -123,9 +123,12 @@ def geometric(
     preset: typing.Literal['gpaa', 'gpaa-optimised', 'deburr'] = ...,
     select: typing.Literal['all', 'edges'] = ...,
     crease: typing.Literal['off', 'paper', 'shading'] = ...,
+    cull: typing.Literal['none', 'back'] = ...,
+    coverage: typing.Literal['distance', 'area'] = ...,
     depth_test: typing.Literal['off', 'own', 'farther'] = ...,
     depth_bias: int = ...,
-    combine: typing.Literal['max', 'last'] = ...,
+    crease_depth: int = ...,
+    combine: typing.Literal['max', 'last', 'outermost'] = ...,
     linear_light: bool = ...,
     mark: bool = ...,
     layout: typing.Literal['raster', 'tiled'] = ...,
@@ -147,6 +150,7 @@ def geometric(
     latency_fifo: int = ...,
     resolve_lanes: int = ...,
     resolve_lines: int = ...,
+    copy_lines: int = ...,
     memory_outstanding: int = ...,
 ) -> GeometricFrame: ...
 

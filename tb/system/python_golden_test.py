@@ -181,7 +181,7 @@ class Vectors(unittest.TestCase):
                  "weights": 0x60000, "copy": 0x70000}
         hashes = table("geometric.md", ["", "preset", "beside it"])
         counts = {row[""]: row for row in table("geometric.md", ["", "edges", "boundary"])}
-        self.assertEqual(len(hashes), 8)
+        self.assertEqual(len(hashes), 14)
         for row in hashes:
             preset = row["preset"].strip("`")
             frame = golden.geometric(pixels, depth, vertices=vertices, edges=edges, facing=facing, bases=bases,

@@ -281,7 +281,7 @@ class Sweeps(Scratch):
                 ("axes: a dictionary", ("texture",), {}),
                 ("unknown", ("texture", {"memory_latncy": [50]}), {}),
                 ("memory.latency", ("texture", {"memory_latency": ["soon"]}), {}),
-                ("no result has the key 'cycle'", ("texture", {"memory_latency": [50]}), {**TINY, "metrics": ["cycle"]}),
+                ("no result of 'texture' has the key 'cycle'", ("texture", {"memory_latency": [50]}), {**TINY, "metrics": ["cycle"]}),
                 ("unknown parameter", ("texture", {"memory_latency": [50]}), {"nobody": 1})):
             with self.subTest(words), self.assertRaises(ValueError) as caught:
                 deburr.sweep(*arguments, **named)

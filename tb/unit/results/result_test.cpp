@@ -458,7 +458,7 @@ TEST(Compare, OnlyWhatDiffersOrIsWorseIsListed) {
   r.cycles += 1;
   std::vector<std::string> keys;
   for (const auto& value : compare(a, to_json(r), {}).values) keys.push_back(value.key);
-  EXPECT_THAT(keys, ElementsAre("cycles", "memory.read_gb_per_s"));
+  EXPECT_THAT(keys, ::testing::ElementsAre("cycles", "memory.read_gb_per_s"));
   r.cycles -= 1;
   r.mismatches = 3;
   const Comparison same = compare(to_json(r), to_json(r), {});
