@@ -47,7 +47,8 @@ class Meshes(Base):
         self.assertFalse(os.path.exists(self.path("out")))
 
     def test_every_edge_is_dropped(self):
-        inside = ("--scene", "cube", "--size", "32x32", "--set", "scene.eye=0,0,0", "--set", "scene.target=0,0,1")
+        inside = ("--scene", "cube", "--size", "64x48", "--set", "scene.eye=0,0,0", "--set",
+                  "scene.target=0.6,0.3,-1", "--set", "scene.fov=1.6")
         note = "all 26 edges were dropped (26 turned away from the eye): nothing was smoothed"
         self.run_engine(0, *inside, "--set", "geometric.cull=back", says=["PASS", note])
         self.assertIn(note, self.notes())
