@@ -4,69 +4,96 @@
 # SystemC bakes the C++ baseline that it was built for into a symbol name
 # (sc_api_version_2_3_4_cxx201703L), and a program compiled for another baseline does not link unless
 # SC_CPLUSPLUS is set to the library's. Which baseline that is differs between packages, so it is
-# probed by linking, and the definition is put on the imported target.
+# probed by linking, and the definition is put on the target.
 #
 # SystemC 3.0 and later install a CMake package of their own (SystemCLanguage); it is preferred.
 #
 # It is installed with Deburr's CMake package, whose user needs the same SC_CPLUSPLUS. Why nothing was found
 # is in SystemC_NOT_FOUND_MESSAGE.
+unset(SystemC_NOT_FOUND_MESSAGE)
+set(_systemc_oldest 2.3.3)
+set(_systemc_help "Install Debian's package libsystemc-dev, or set SYSTEMC_HOME to an installation of SystemC ${_systemc_oldest} or later, or add the place of a CMake package of SystemC 3.0 to CMAKE_PREFIX_PATH.")
 
+unset(PC_SystemC_FOUND)
 find_package(SystemCLanguage CONFIG QUIET)
 if(SystemCLanguage_FOUND)
   set(SystemC_VERSION "${SystemCLanguage_VERSION}")
-  if(NOT TARGET SystemC::systemc)
-    message(FATAL_ERROR "SystemCLanguage was found but defines no target SystemC::systemc.")
+  set(_systemc_place "${SystemCLanguage_DIR}")
+  set(_systemc_required SystemCLanguage_DIR SystemC_BASELINE)
+  if(TARGET SystemC::systemc)
+    set(_systemc_libraries SystemC::systemc)
+    set(_systemc_includes "")
+  else()
+    set(_systemc_libraries "")
+    set(SystemC_NOT_FOUND_MESSAGE "The CMake package of SystemC at ${SystemCLanguage_DIR} defines no target SystemC::systemc: install SystemC again, or configure with -DCMAKE_DISABLE_FIND_PACKAGE_SystemCLanguage=ON to do without that package.")
   endif()
-  set(SystemC_FOUND TRUE)
-  return()
+else()
+  find_package(PkgConfig QUIET)
+  if(PkgConfig_FOUND)
+    pkg_check_modules(PC_SystemC QUIET systemc)
+  endif()
+  find_path(SystemC_INCLUDE_DIR NAMES systemc tlm
+            HINTS ${PC_SystemC_INCLUDEDIR} ENV SYSTEMC_HOME PATH_SUFFIXES include)
+  find_library(SystemC_LIBRARY NAMES systemc
+               HINTS ${PC_SystemC_LIBDIR} ENV SYSTEMC_HOME PATH_SUFFIXES lib lib64 lib-linux64)
+  set(SystemC_VERSION "${PC_SystemC_VERSION}")
+  set(_systemc_place "${SystemC_LIBRARY}")
+  set(_systemc_required SystemC_LIBRARY SystemC_INCLUDE_DIR SystemC_BASELINE)
+  set(_systemc_libraries "${SystemC_LIBRARY}")
+  set(_systemc_includes "${SystemC_INCLUDE_DIR}")
+  if(NOT SystemC_INCLUDE_DIR OR NOT SystemC_LIBRARY)
+    set(_systemc_libraries "")
+    set(SystemC_NOT_FOUND_MESSAGE "SystemC was not found. ${_systemc_help}")
+  endif()
+  mark_as_advanced(SystemC_INCLUDE_DIR SystemC_LIBRARY)
+endif()
+if(_systemc_libraries AND SystemC_VERSION AND SystemC_VERSION VERSION_LESS _systemc_oldest)
+  set(_systemc_libraries "")
+  set(SystemC_NOT_FOUND_MESSAGE "SystemC ${SystemC_VERSION} at ${_systemc_place} is too old. ${_systemc_help}")
 endif()
 
-find_package(PkgConfig QUIET)
-if(PkgConfig_FOUND)
-  pkg_check_modules(PC_SystemC QUIET systemc)
-endif()
-find_path(SystemC_INCLUDE_DIR NAMES systemc tlm
-          HINTS ${PC_SystemC_INCLUDEDIR} ENV SYSTEMC_HOME PATH_SUFFIXES include)
-find_library(SystemC_LIBRARY NAMES systemc
-             HINTS ${PC_SystemC_LIBDIR} ENV SYSTEMC_HOME PATH_SUFFIXES lib lib64 lib-linux64)
-set(SystemC_VERSION "${PC_SystemC_VERSION}")
-
-if(SystemC_INCLUDE_DIR AND SystemC_LIBRARY AND NOT DEFINED SystemC_BASELINE)
+# A function, so that nothing of it stays in the project that asks.
+function(_systemc_probe)
+  set(baselines native 201703L 201402L 201103L 202002L)
+  set(probed "${_systemc_libraries} ${_systemc_place}")
+  if(NOT "${SystemC_PROBED}" STREQUAL probed)  # perhaps another library
+    unset(SystemC_BASELINE CACHE)
+    foreach(baseline IN LISTS baselines)
+      unset(SystemC_LINKS_AS_CXX_${baseline} CACHE)
+    endforeach()
+  endif()
+  if(NOT _systemc_libraries OR SystemC_BASELINE)
+    return()
+  endif()
   include(CheckCXXSourceCompiles)
-  set(_probe "#include <systemc>\nint sc_main(int, char**) { return sc_core::sc_delta_count() != 0; }")
-  foreach(_baseline native 201703L 201402L 201103L 202002L)
-    set(CMAKE_REQUIRED_INCLUDES "${SystemC_INCLUDE_DIR}")
-    set(CMAKE_REQUIRED_LIBRARIES "${SystemC_LIBRARY}")
-    # Not a flag: with CMAKE_CXX_EXTENSIONS off, CMake would put its own -std= behind it.
-    set(CMAKE_CXX_STANDARD 20)
+  set(CMAKE_REQUIRED_INCLUDES "${_systemc_includes}")
+  set(CMAKE_REQUIRED_LIBRARIES "${_systemc_libraries}")
+  # Not a flag: with CMAKE_CXX_EXTENSIONS off, CMake would put its own -std= behind it.
+  set(CMAKE_CXX_STANDARD 20)
+  set(CMAKE_REQUIRED_QUIET TRUE)
+  foreach(baseline IN LISTS baselines)
     set(CMAKE_REQUIRED_DEFINITIONS "")
-    if(NOT _baseline STREQUAL "native")
-      set(CMAKE_REQUIRED_DEFINITIONS "-DSC_CPLUSPLUS=${_baseline}")
+    if(NOT baseline STREQUAL "native")
+      set(CMAKE_REQUIRED_DEFINITIONS "-DSC_CPLUSPLUS=${baseline}")
     endif()
-    set(CMAKE_REQUIRED_QUIET TRUE)
-    check_cxx_source_compiles("${_probe}" SystemC_LINKS_AS_CXX_${_baseline})
-    if(SystemC_LINKS_AS_CXX_${_baseline})
-      set(SystemC_BASELINE "${_baseline}" CACHE INTERNAL "C++ baseline of the SystemC library")
+    check_cxx_source_compiles(
+      "#include <systemc>\nint sc_main(int, char**) { return sc_core::sc_delta_count() != 0; }"
+      SystemC_LINKS_AS_CXX_${baseline})
+    if(SystemC_LINKS_AS_CXX_${baseline})
+      set(SystemC_BASELINE "${baseline}" CACHE INTERNAL "C++ baseline of the SystemC library")
       break()
     endif()
   endforeach()
-  unset(CMAKE_REQUIRED_INCLUDES)
-  unset(CMAKE_REQUIRED_LIBRARIES)
-  unset(CMAKE_CXX_STANDARD)
-  unset(CMAKE_REQUIRED_DEFINITIONS)
-  unset(CMAKE_REQUIRED_QUIET)
-endif()
-
-unset(SystemC_NOT_FOUND_MESSAGE)
-if(NOT SystemC_INCLUDE_DIR OR NOT SystemC_LIBRARY)
-  set(SystemC_NOT_FOUND_MESSAGE "SystemC was not found: install Debian's package libsystemc-dev, or set SYSTEMC_HOME to an installation of SystemC 2.3.3 or later.")
-elseif(NOT SystemC_BASELINE)
-  set(SystemC_NOT_FOUND_MESSAGE "SystemC was found at ${SystemC_LIBRARY}, but a C++20 program links with it under no baseline of C++11, 14, 17 or 20: rebuild it with -std=c++17 or later (and look at CMakeFiles/CMakeError.log for the linker's words).")
+  set(SystemC_PROBED "${probed}" CACHE INTERNAL "The library that SystemC_BASELINE is of")
+endfunction()
+_systemc_probe()
+if(_systemc_libraries AND NOT SystemC_BASELINE)
+  set(SystemC_NOT_FOUND_MESSAGE "SystemC was found at ${_systemc_place}, but a C++20 program links with it under no baseline of C++11, 14, 17 or 20: rebuild it with -std=c++17 or later (and look at CMakeFiles/CMakeError.log for the linker's words).")
 endif()
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(SystemC
-  REQUIRED_VARS SystemC_LIBRARY SystemC_INCLUDE_DIR SystemC_BASELINE
+  REQUIRED_VARS ${_systemc_required}
   VERSION_VAR SystemC_VERSION
   REASON_FAILURE_MESSAGE "${SystemC_NOT_FOUND_MESSAGE}")
 
@@ -75,9 +102,11 @@ if(SystemC_FOUND AND NOT TARGET SystemC::systemc)
   set_target_properties(SystemC::systemc PROPERTIES
     IMPORTED_LOCATION "${SystemC_LIBRARY}"
     INTERFACE_INCLUDE_DIRECTORIES "${SystemC_INCLUDE_DIR}")
-  if(NOT SystemC_BASELINE STREQUAL "native")
+endif()
+if(SystemC_FOUND AND NOT SystemC_BASELINE STREQUAL "native")
+  get_target_property(_systemc_definitions SystemC::systemc INTERFACE_COMPILE_DEFINITIONS)
+  if(NOT "SC_CPLUSPLUS=${SystemC_BASELINE}" IN_LIST _systemc_definitions)
     set_property(TARGET SystemC::systemc APPEND PROPERTY
       INTERFACE_COMPILE_DEFINITIONS "SC_CPLUSPLUS=${SystemC_BASELINE}")
   endif()
 endif()
-mark_as_advanced(SystemC_INCLUDE_DIR SystemC_LIBRARY)

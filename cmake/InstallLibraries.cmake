@@ -44,6 +44,11 @@ set(DEBURR_SYSTEMVERILOG_FOLDER "${CMAKE_INSTALL_DATADIR}/deburr/systemverilog")
 install(FILES "${PROJECT_SOURCE_DIR}/golden/c/systemverilog/deburr_golden_pkg.sv"
   "${PROJECT_SOURCE_DIR}/golden/c/systemverilog/deburr_golden_dpi.c"
   DESTINATION "${DEBURR_SYSTEMVERILOG_FOLDER}" COMPONENT development)
+# For copying: each folder is a project of its own.
+foreach(example c platform systemverilog)
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples/${example}" DESTINATION "${CMAKE_INSTALL_DATADIR}/deburr/examples"
+    COMPONENT development)
+endforeach()
 if(BUILD_SHARED_LIBS)
   get_property(parts GLOBAL PROPERTY DEBURR_LIBRARIES_OF_golden)
   list(TRANSFORM parts REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
@@ -115,14 +120,14 @@ install(FILES "${package}/deburr-config.cmake" "${package}/deburr-config-version
   "${package}/deburr-version.cmake" "${CMAKE_CURRENT_LIST_DIR}/FindSystemC.cmake"
   DESTINATION "${DEBURR_PACKAGE_FOLDER}" COMPONENT development)
 
-# deburr_pkg_config(<component> <description> [REQUIRES ...] [FLAGS ...] [LIBRARIES ...]): paths are relative to
-# the file.
+# deburr_pkg_config(<component> <description> [REQUIRES ...] [FLAGS ...] [LIBRARIES ...]): paths of ours are
+# relative to the file.
 function(deburr_pkg_config component description)
   cmake_parse_arguments(ARG "" "" "REQUIRES;FLAGS;LIBRARIES" ${ARGN})
   if(NOT ARG_LIBRARIES)
     set(ARG_LIBRARIES deburr-${component})
   endif()
-  list(TRANSFORM ARG_LIBRARIES PREPEND "-l")
+  list(TRANSFORM ARG_LIBRARIES PREPEND "-l" REGEX "^[^/]")
   list(JOIN ARG_LIBRARIES " " libraries)
   file(RELATIVE_PATH up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
   string(REGEX REPLACE "/$" "" up "${up}")
@@ -146,9 +151,20 @@ else()
 endif()
 deburr_pkg_config(golden-c "Bit-exact golden models of anti-aliasing hardware, for C and SystemVerilog"
   LIBRARIES ${libraries})
+# SystemC's own CMake package, and a SYSTEMC_HOME, need have no systemc.pc.
+set(requires systemc)
+set(libraries "")
+if(NOT PC_SystemC_FOUND)
+  set(requires "")
+  get_target_property(folders SystemC::systemc INTERFACE_INCLUDE_DIRECTORIES)
+  list(TRANSFORM folders PREPEND "-I" OUTPUT_VARIABLE folders)
+  list(APPEND flags ${folders})
+  get_target_property(library SystemC::systemc LOCATION)
+  set(libraries deburr-models "${library}" pthread)
+endif()
 # fmt: a static library does not say what it links.
 deburr_pkg_config(models "Cycle-accurate SystemC models of anti-aliasing hardware"
-  REQUIRES systemc fmt FLAGS -std=c++20 ${flags})
+  REQUIRES ${requires} fmt FLAGS -std=c++20 ${flags} LIBRARIES ${libraries})
 
 # All that `cmake --install` copies.
 add_custom_target(deburr_installed DEPENDS deburr_golden deburr_models deburr_registers_header)

@@ -5,6 +5,9 @@
 set(DEBURR_PROGRAM_FOLDER "${CMAKE_INSTALL_LIBEXECDIR}/deburr")
 set(DEBURR_DATA_FOLDER "${CMAKE_INSTALL_DATADIR}/deburr")
 add_dependencies(deburr_installed deburr_complete)
+if(TARGET deburr_python)
+  add_dependencies(deburr_installed deburr_python)
+endif()
 
 set_target_properties(deburr deburr_papers PROPERTIES INSTALL_RPATH "$ORIGIN")
 install(TARGETS deburr deburr_papers RUNTIME DESTINATION "${DEBURR_PROGRAM_FOLDER}" COMPONENT program)

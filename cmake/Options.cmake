@@ -5,6 +5,9 @@ option(DEBURR_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitiz
 option(DEBURR_FUZZ "Build the fuzzers (clang with libFuzzer)" OFF)
 option(DEBURR_COVERAGE "Build with gcov line coverage" OFF)
 option(DEBURR_PROGRAM "Build the command `deburr`; OFF: the libraries alone, and no tests" ON)
+option(DEBURR_PYTHON "Build the Python module, where pybind11 and numpy are installed" ON)
+set(DEBURR_PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python that the module is for")
+option(DEBURR_HDL "Build the units of hdl/ (SystemVerilog) with Verilator, beside the model; needs BUILD_TESTING" OFF)
 option(BUILD_SHARED_LIBS "Install shared libraries" OFF)
 option(DEBURR_UNITY "Compile sources in batches: a third of the time, but no file stands alone" ON)
 

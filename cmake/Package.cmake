@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# `cpack -G DEB`: the packages deburr (the program) and libdeburr-dev (libraries and headers). Of the preset
+# `cpack -G DEB`: the packages deburr (the program), libdeburr-dev (libraries and headers) and python3-deburr. Of the preset
 # `package`, so that no path of the machine that built them stands in them.
 file(READ "${PROJECT_SOURCE_DIR}/LICENSE" license)
 string(REGEX REPLACE "^MIT License\n\nCopyright \\(c\\) ([^\n]*)\n\n" "" text "${license}")
@@ -26,6 +26,10 @@ install(FILES "${copyright}" "${changelog}" DESTINATION "${CMAKE_INSTALL_DATADIR
 if(DEBURR_PROGRAM)
   install(FILES "${copyright}" "${changelog}" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/deburr" COMPONENT program)
 endif()
+if(TARGET deburr_python)
+  install(FILES "${copyright}" "${changelog}" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/python3-deburr"
+    COMPONENT python)
+endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME deburr)
@@ -41,6 +45,9 @@ set(CPACK_COMPONENTS_ALL development)
 if(DEBURR_PROGRAM)
   list(PREPEND CPACK_COMPONENTS_ALL program)
 endif()
+if(TARGET deburr_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Cycle-accurate models of anti-aliasing hardware
  Runs SystemC models of a texture unit and of anti-aliasing engines on scenes
  and frames, checks each against a bit-exact golden model, and reports clocks,
@@ -54,4 +61,18 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Models of anti-aliasing hardware, l
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdeburr-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libsystemc-dev, libfmt-dev")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Models of anti-aliasing hardware, Python module
+ Golden models of a texture unit and of anti-aliasing engines, reference
+ filters and truth as functions on numpy arrays; runs and sweeps of their
+ SystemC models as arrays and tables.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-deburr)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+if(TARGET deburr_python)
+  # It is of the Python that it was compiled for.
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "deburr (= ${PROJECT_VERSION}), python3-numpy, \
+python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}~), python3 (<< ${Python_VERSION_MAJOR}.${next})")
+endif()
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, ninja-build")
 include(CPack)

@@ -5,6 +5,8 @@ nothing else of the repository. Install puts it all into BUILD/examples/prefix, 
 
 usage: installed_test.py CMAKE BUILD SOURCE CXX [unittest options]"""
 import concurrent.futures
+import functools
+import json
 import os
 import pathlib
 import re
@@ -18,6 +20,7 @@ import unittest
 CMAKE, BUILD, SOURCE, CXX = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1)), pathlib.Path(sys.argv.pop(1)), sys.argv.pop(1)
 PREFIX = BUILD / "examples/prefix"
 INCLUDE = PREFIX / "include/deburr"
+EXAMPLES = PREFIX / "share/deburr/examples"
 # What a user's shell has at least; nothing of ours.
 EMPTY = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "LC_ALL": "C.UTF-8"}
 
@@ -33,10 +36,32 @@ def call(*command, code=0, cwd=None, env=None, timeout=600):
     """What a command says."""
     done = subprocess.run([str(word) for word in command], cwd=cwd, env=env or EMPTY, text=True, timeout=timeout,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-    wanted = code if isinstance(code, tuple) else (code,)
+    wanted = (code,) if isinstance(code, int) else code
     if done.returncode not in wanted:
         raise AssertionError(f"{command}\nexit code {done.returncode}, expected {wanted}\n{done.stdout}")
     return done.stdout
+
+
+@functools.lru_cache
+def hiding():
+    """What has to stand before a command so that it sees nothing of the source and of the build but the prefix; None
+    where this user may not mount. Files of the two roots stay: nothing is installed with a path to one of them
+    (Files)."""
+    folders = [folder for root in (SOURCE, BUILD) for folder in sorted(root.iterdir())
+               if folder.is_dir() and not folder.is_symlink() and not PREFIX.is_relative_to(folder)]
+    script = 'for folder in "${@:1:$FOLDERS}"; do mount -t tmpfs none "$folder" || exit 99; done; exec "${@:FOLDERS+1}"'
+    for unshare in (["unshare", "--mount"], ["unshare", "--mount", "--map-root-user"]):
+        command = [*unshare, "env", f"FOLDERS={len(folders)}", "bash", "-c", script, "bash", *map(str, folders)]
+        done = subprocess.run([*command, "ls", SOURCE / "spec", BUILD / "CMakeFiles"], text=True, check=False,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        if done.returncode == 0 and not re.search(r"^(?!/)\S", done.stdout, re.M):
+            return command
+    return None
+
+
+def alone(*command, **how):
+    """What a command says that has the prefix and no more of us, where this user may hide the rest."""
+    return call(*(hiding() or []), *command, **how)
 
 
 def one_file(pattern):
@@ -70,7 +95,7 @@ class Scratch(unittest.TestCase):
                    f"find_package({find})\nadd_executable(user main.cpp)\ntarget_link_libraries(user PRIVATE {link})\n")
 
     def configure(self, *options, code=0):
-        return " ".join(call(CMAKE, "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={PREFIX}",
+        return " ".join(alone(CMAKE, "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={PREFIX}",
                              f"-DCMAKE_CXX_COMPILER={CXX}", *options, code=code).split())
 
 
@@ -102,6 +127,10 @@ class Files(Scratch):
         # Of the C interface there is its header alone.
         headers = {file for file in headers if file.parts[:2] != ("golden", "c")}
         installed = {file.relative_to(INCLUDE) for file in INCLUDE.rglob("*.h")}
+        examples = {file.relative_to(SOURCE / "examples") for folder in ("c", "platform", "systemverilog")
+                    for file in (SOURCE / "examples" / folder).rglob("*")}
+        self.assertGreater(len(examples), 20)
+        self.assertLessEqual(examples, {file.relative_to(EXAMPLES) for file in EXAMPLES.rglob("*")})
         self.assertEqual(headers | {pathlib.Path("deburr_registers.h"), pathlib.Path("deburr_golden.h")}, installed)
 
     def test_no_file_names_the_trees(self):
@@ -146,6 +175,18 @@ def compiles(header, flags):
     done = subprocess.run([CXX, "-fsyntax-only", "-x", "c++", "-Wall", "-Wextra", "-Werror", *flags, "-"], input=text,
                           env=EMPTY, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     return done.stdout if done.returncode else ""
+
+
+class Alone(Scratch):
+    """That the tests of the examples see nothing but the prefix."""
+
+    def test_the_trees_are_hidden_and_the_prefix_is_not(self):
+        if not hiding():
+            self.skipTest("this user may not mount")
+        self.assertEqual(alone("find", SOURCE / "spec", "-name", "*.h"), "")
+        self.assertIn("parameters.h", alone("find", PREFIX, "-name", "*.h"))
+        self.write("planted", "not hidden")
+        self.assertEqual(alone("cat", self.folder / "planted"), "not hidden")
 
 
 class Headers(Scratch):
@@ -204,15 +245,16 @@ class Packages(Scratch):
     """find_package and pkg-config, as a user calls them."""
 
     def test_golden_needs_no_systemc(self):
-        self.project("deburr 0.2 REQUIRED COMPONENTS golden", "deburr::golden", GOLDEN_MAIN)
+        here = pkg_config("--modversion", "deburr-golden")[0].rsplit(".", 1)[0]
+        self.project(f"deburr {here} REQUIRED COMPONENTS golden", "deburr::golden", GOLDEN_MAIN)
         self.configure("-DCMAKE_DISABLE_FIND_PACKAGE_SystemC=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON")
-        call(CMAKE, "--build", self.folder / "build")
+        alone(CMAKE, "--build", self.folder / "build")
         call(self.folder / "build/user")
 
     def test_models(self):
         self.project("deburr REQUIRED COMPONENTS models", "deburr::models", MODELS_MAIN)
         self.configure()
-        call(CMAKE, "--build", self.folder / "build")
+        alone(CMAKE, "--build", self.folder / "build")
         call(self.folder / "build/user")
 
     def test_pkg_config(self):
@@ -226,6 +268,7 @@ class Packages(Scratch):
         here = pkg_config("--modversion", "deburr-golden")[0]
         for find, options, words in (
                 ("deburr 9.9 REQUIRED", [], ("libdeburr-dev", "9.9", here)),
+                ("deburr 0.1 REQUIRED", [], ("libdeburr-dev", "0.1", here)),
                 ("deburr REQUIRED COMPONENTS golden texture", [], ("no component texture", "golden and models")),
                 ("deburr REQUIRED COMPONENTS models", ["-DSystemC_LIBRARY="], ("libsystemc-dev", "SYSTEMC_HOME")),
                 ("deburr REQUIRED", ["-DSystemC_LIBRARY="], ("libsystemc-dev",)),
@@ -243,7 +286,7 @@ class Packages(Scratch):
 
 class Program(Scratch):
     def deburr(self, *arguments, code=0):
-        return call(PREFIX / "bin/deburr", *arguments, code=code, cwd=self.folder)
+        return alone(PREFIX / "bin/deburr", *arguments, code=code, cwd=self.folder)
 
     def test_it_runs_from_its_prefix_alone(self):
         self.assertIn("PASS texture", self.deburr("run", "texture", "--scene", "plane", "--size", "32x32", "--out", "out"))
@@ -281,11 +324,11 @@ class Program(Scratch):
 
 class Platform(Scratch):
     def test_the_example_draws_its_picture_and_finds_violations(self):
-        shutil.copytree(SOURCE / "examples/platform", self.folder, dirs_exist_ok=True)
+        shutil.copytree(EXAMPLES / "platform", self.folder, dirs_exist_ok=True)
         self.configure()
-        call(CMAKE, "--build", self.folder / "build", "--parallel", os.cpu_count())
+        alone(CMAKE, "--build", self.folder / "build", "--parallel", os.cpu_count())
         program = self.folder / "build/platform"
-        said = call(program, "--out", "picture.ppm", cwd=self.folder)
+        said = alone(program, "--out", "picture.ppm", cwd=self.folder)
         self.assertIn("PASS picture", said)
         self.assertTrue((self.folder / "picture.ppm").read_bytes().startswith(b"P6"))
         # Of each port more than nothing went by.
@@ -296,21 +339,21 @@ class Platform(Scratch):
             self.assertGreater(int(length), 0, name)
         # A quantum changes when software speaks to memory, and no register access.
         for quantum in (0, 50, 100_000):
-            self.assertEqual(call(program, "--quantum", quantum), said, quantum)
-        violations = re.findall(r"^([\w-]+): (.*)$", call(program, "--violations"), re.M)
+            self.assertEqual(alone(program, "--quantum", quantum), said, quantum)
+        violations = re.findall(r"^([\w-]+): (.*)$", alone(program, "--violations"), re.M)
         self.assertGreaterEqual(len(violations), 20)
         for name, rule in violations:
-            found = call(program, "--plant", name, code=1)
+            found = alone(program, "--plant", name, code=1)
             self.assertRegex(found, rf"FAIL .*(software|texture)_bus: {rule}: ", name)
 
     def test_a_wrong_register_is_a_wrong_picture(self):
-        shutil.copytree(SOURCE / "examples/platform", self.folder, dirs_exist_ok=True)
+        shutil.copytree(EXAMPLES / "platform", self.folder, dirs_exist_ok=True)
         software = (self.folder / "software.cpp").read_text(encoding="utf-8")
         self.assertIn("MAX_COUNT_LOG2, 3)", software)
         self.write("software.cpp", software.replace("MAX_COUNT_LOG2, 3)", "MAX_COUNT_LOG2, 0)"))
         self.configure()
-        call(CMAKE, "--build", self.folder / "build", "--parallel", os.cpu_count())
-        self.assertRegex(call(self.folder / "build/platform", code=1), r"FAIL picture .*: [1-9]\d* of 15360 pixels differ")
+        alone(CMAKE, "--build", self.folder / "build", "--parallel", os.cpu_count())
+        self.assertRegex(alone(self.folder / "build/platform", code=1), r"FAIL picture .*: [1-9]\d* of 15360 pixels differ")
 
 
 def exported(*command):
@@ -323,29 +366,29 @@ class C(Scratch):
 
     def setUp(self):
         super().setUp()
-        shutil.copytree(SOURCE / "examples/c", self.folder, dirs_exist_ok=True)
+        shutil.copytree(EXAMPLES / "c", self.folder, dirs_exist_ok=True)
 
     def drawn(self, program, **how):
-        self.assertIn("PASS picture", call(program, "picture.ppm", cwd=self.folder, **how))
+        self.assertIn("PASS picture", alone(program, "picture.ppm", cwd=self.folder, **how))
         self.assertTrue((self.folder / "picture.ppm").read_bytes().startswith(b"P6"))
 
     def test_with_cmake_and_no_other_language(self):
-        call(CMAKE, "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={PREFIX}")
-        call(CMAKE, "--build", self.folder / "build")
+        alone(CMAKE, "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={PREFIX}")
+        alone(CMAKE, "--build", self.folder / "build")
         self.assertNotIn("CMAKE_CXX_COMPILER", (self.folder / "build/CMakeCache.txt").read_text(encoding="utf-8"))
         self.drawn(self.folder / "build/draw")
 
     def test_with_one_line_and_what_it_must_find(self):
         flags = pkg_config("--cflags", "--libs", "deburr-golden-c")
-        call("cc", "-std=c99", self.folder / "draw.c", "-o", self.folder / "draw", *flags)
+        alone("cc", "-std=c99", self.folder / "draw.c", "-o", self.folder / "draw", *flags)
         self.drawn(self.folder / "draw")
         # A wrong picture and a call that fails.
         draw = (self.folder / "draw.c").read_text(encoding="utf-8")
         for old, new, code, words in (('"axes", "eight"', '"axes", "two"', 1, "FAIL picture"),
                                       ('"preset", "deburr"', '"preset", "deblur"', 2, "draw: deburr_set: 'preset' = 'deblur'")):
             self.assertIn(old, draw)
-            call("cc", "-std=c99", self.write("wrong.c", draw.replace(old, new)), "-o", self.folder / "wrong", *flags)
-            self.assertIn(words, call(self.folder / "wrong", code=code))
+            alone("cc", "-std=c99", self.write("wrong.c", draw.replace(old, new)), "-o", self.folder / "wrong", *flags)
+            self.assertIn(words, alone(self.folder / "wrong", code=code))
 
     def test_every_function_is_there(self):
         declared = set(DECLARED.findall((INCLUDE / "deburr_golden.h").read_text(encoding="utf-8")))
@@ -408,28 +451,144 @@ class SystemVerilog(Scratch):
     """The example in SystemVerilog, under Verilator."""
 
     def test_the_testbench_agrees_and_finds_planted_faults(self):
-        shutil.copytree(SOURCE / "examples/systemverilog", self.folder, dirs_exist_ok=True)
-        said = call("make", f"PREFIX={PREFIX}", cwd=self.folder, env=EMPTY | {"CCACHE_DISABLE": "1"})
+        shutil.copytree(EXAMPLES / "systemverilog", self.folder, dirs_exist_ok=True)
+        said = alone("make", f"PREFIX={PREFIX}", cwd=self.folder, env=EMPTY | {"CCACHE_DISABLE": "1"})
         self.assertRegex(said, r"(?m)^PASS$")
         self.assertRegex(said, r"edge detector: 20 frames, \d{4,} pixels with edges, 0 differ")
         # 10^6 calls: what C++ computes of the same quads.
-        call(CXX, "-O2", self.write("quads.cpp", QUADS_MAIN), "-o", self.folder / "quads",
+        alone(CXX, "-O2", self.write("quads.cpp", QUADS_MAIN), "-o", self.folder / "quads",
              *pkg_config("--cflags", "--libs", "deburr-golden"))
         self.assertIn("sampler: 1000000 quads, 4000000 colours, 0 differ, checksum " + call(self.folder / "quads"), said)
         program = self.folder / "build/testbench"
         for bug, words in ((1, "quad"), (2, "quad"), (3, "quad"), (4, "frame"), (5, "frame"), (6, "frame")):
-            said = call(program, f"+bug={bug}", "+quads=20000", code=-signal.SIGABRT)
+            said = alone(program, f"+bug={bug}", "+quads=20000", code=-signal.SIGABRT)
             self.assertRegex(said, rf"FAIL {words} \d+, .* expected ", bug)
             self.assertNotRegex(said, r"(?m)^PASS$")
-        said = call(program, "+refused", "+quads=10", "+frames=1")
+        said = alone(program, "+refused", "+quads=10", "+frames=1")
         for words in ("status 1: deburr_set: 'depth_bias' = '99' is outside 1..24",
                       "status 1: deburr_frame_pixels: pixels_size is 8; 4 rows need 64",
                       "status 1: the handle is NULL", "parameters of the engine geometric: preset = deburr"):
             self.assertIn(words, said)
 
+    @unittest.skipUnless(shutil.which("iverilog"), "iverilog is not installed: scripts/install examples")
+    def test_another_simulator_takes_the_devices(self):
+        for name in ("bilinear_sampler", "edge_detector"):
+            source = EXAMPLES / f"systemverilog/{name}.sv"
+            call("iverilog", "-g2012", "-s", name, "-o", self.folder / "out", source)
+            self.write("wrong.sv", source.read_text(encoding="utf-8").replace("always_ff", "always_fff", 1))
+            call("iverilog", "-g2012", "-s", name, "-o", self.folder / "out", self.folder / "wrong.sv", code=range(1, 256))
+
     def test_a_prefix_without_deburr_is_said(self):
-        shutil.copytree(SOURCE / "examples/systemverilog", self.folder, dirs_exist_ok=True)
-        self.assertIn(f"no deburr-golden-c below {self.folder}", call("make", f"PREFIX={self.folder}", cwd=self.folder, code=2))
+        shutil.copytree(EXAMPLES / "systemverilog", self.folder, dirs_exist_ok=True)
+        self.assertIn(f"no deburr-golden-c below {self.folder}", alone("make", f"PREFIX={self.folder}", cwd=self.folder, code=2))
+
+
+PYTHON = PREFIX / "lib/python3/dist-packages"
+NOTEBOOK = """import sys, nbclient, nbformat
+notebook = nbformat.read("notebook.ipynb", as_version=4)
+nbclient.NotebookClient(notebook, timeout=600, kernel_name="python3").execute()
+nbformat.write(notebook, "executed.ipynb")
+"""
+
+
+@unittest.skipUnless((PYTHON / "deburr").exists(), "the Python module was not built: scripts/install python")
+class Python(Scratch):
+    """The Python module, its page and its notebook, with Debian's python3 and the prefix alone."""
+
+    def python(self, program, code=0):
+        home = {"HOME": str(self.folder / "home"), "PYTHONPATH": str(PYTHON), "PYTHONDONTWRITEBYTECODE": "1"}
+        return call("/usr/bin/python3", "-c", program, code=code, cwd=self.folder, env=EMPTY | home)
+
+    def test_it_is_the_installed_one_and_finds_its_command(self):
+        said = self.python("import deburr, deburr._program as p; print(deburr.__file__, deburr._golden.__file__, p.program(), "
+                           "deburr.__version__)").split()
+        self.assertTrue(all(pathlib.Path(file).is_relative_to(PREFIX) for file in said[:3]), said)
+        self.assertEqual(said[3:], pkg_config("--modversion", "deburr-golden"))
+        self.assertTrue((PYTHON / "deburr/py.typed").exists())
+        self.assertEqual(sorted(file.name for file in PYTHON.rglob("*.py*") if file.is_symlink()), [])
+
+    def test_the_page_does_what_it_says(self):
+        page = (PREFIX / "share/deburr/docs/python.md").read_text(encoding="utf-8")
+        programs = re.findall(r"```python\n(.*?)```", page, re.S)
+        self.assertEqual(len(programs), 1)
+        said = self.python(programs[0]).splitlines()
+        self.assertEqual(said[0], "(1080, 1920, 4) 0")
+        cycles, rate, unit, misses = said[1].split()
+        self.assertGreater(int(cycles), 320 * 240)
+        self.assertGreater(float(rate), 0.5)
+        self.assertGreater(float(misses), 100)
+        self.assertTrue(unit.isidentifier())
+        self.assertIn("texture.cache.bytes", said[2])
+        self.assertEqual(len([line for line in said[3:] if "done" in line]), 4, said)
+
+    def test_golden_is_what_c_computes(self):
+        """A frame of noise, by the module and by a program in C."""
+        c = self.write("noise.c", """#include <deburr_golden.h>
+#include <stdio.h>
+int main(void) {
+  static uint8_t pixels[200 * 300 * 4];
+  uint32_t s = 1;
+  uint64_t hash = UINT64_C(14695981039346656037);
+  deburr_golden* golden = deburr_morphological_new();
+  for (size_t i = 0; i < sizeof pixels; ++i) pixels[i] = (uint8_t)((s = s * 1664525 + 1013904223) >> 24);
+  if (deburr_set(golden, "preset", "smaa") || deburr_frame_begin(golden, 300, 200) ||
+      deburr_frame_pixels(golden, pixels, sizeof pixels, 0) || deburr_frame_process(golden) ||
+      deburr_plane(golden, "pixels", pixels, sizeof pixels, 0))
+    return 1;
+  for (size_t i = 0; i < sizeof pixels; ++i) hash = (hash ^ pixels[i]) * UINT64_C(1099511628211);
+  printf("%016llx\\n", (unsigned long long)hash);
+  return deburr_close(golden);
+}
+""")
+        call("cc", "-std=c99", c, "-o", self.folder / "noise", *pkg_config("--cflags", "--libs", "deburr-golden-c"))
+        said = self.python("""import deburr, numpy
+s, values = 1, []
+for _ in range(200 * 300 * 4):
+    s = (s * 1664525 + 1013904223) % 2 ** 32
+    values.append(s >> 24)
+pixels = numpy.array(values, dtype=numpy.uint8).reshape(200, 300, 4)
+value = 14695981039346656037
+for byte in deburr.golden.morphological(pixels, preset="smaa").pixels.tobytes():
+    value = (value ^ byte) * 1099511628211 % 2 ** 64
+print(f"{value:016x}")
+""")
+        self.assertEqual(call(self.folder / "noise"), said)
+
+    def hits(self, *settings):
+        call(PREFIX / "bin/deburr", "run", "texture", "--out", "out", *settings, cwd=self.folder)
+        work = json.loads((self.folder / "out/result.json").read_text(encoding="utf-8"))["work"]
+        found = work["tag_stage_hits"] + work["tag_stage_merged"]
+        return found / (found + work["tag_stage_misses"])
+
+    def test_the_notebook_answers(self):
+        try:
+            self.python("import nbclient, ipykernel, pandas, matplotlib")
+        except AssertionError:
+            self.skipTest("a notebook's packages are not installed: scripts/install python")
+        shutil.copy(SOURCE / "examples/python/notebook.ipynb", self.folder)
+        self.python(NOTEBOOK)
+        cells = json.loads((self.folder / "executed.ipynb").read_text(encoding="utf-8"))["cells"]
+        outputs = [output for cell in cells for output in cell.get("outputs", [])]
+        self.assertGreaterEqual(sum("image/png" in output.get("data", {}) for output in outputs), 3)
+        text = "".join("".join(output.get("text", [])) for output in outputs)
+        answer = re.search(r"ANSWER: (\d+) KiB, (\d) ways?: ([\d.]+) % hits", text)
+        self.assertIsNotNone(answer, text)
+        # The command is asked: that is enough, and half of it is not, however many ways it has.
+        frame = ["--in", "hills.obj", "--size", "160x160", "--aniso", "8", "--texture", "brick", "--no-images",
+                 "--set", "scene.texture_size=512", "--set", "memory.latency=200", "--set", "scene.eye=0.1,0.35,1.3",
+                 "--set", "scene.target=0,-0.1,0"]
+        kib, ways = int(answer[1]), answer[2]
+        hits = self.hits(*frame, "--set", f"texture.cache.bytes={1024 * kib}", "--set", f"texture.cache.ways={ways}")
+        self.assertEqual(f"{100 * hits:.2f}", answer[3])
+        self.assertGreaterEqual(hits, 0.97)
+        for less in ("1", "2", "4"):
+            half = self.hits(*frame, "--set", f"texture.cache.bytes={512 * kib}", "--set", f"texture.cache.ways={less}")
+            self.assertLess(half, 0.97)
+        # A wrong name in it ends it, with the command's words.
+        notebook = (self.folder / "notebook.ipynb").read_text(encoding="utf-8")
+        self.assertIn("memory_latency=LATENCY", notebook)
+        self.write("notebook.ipynb", notebook.replace("memory_latency=LATENCY", "memory_latncy=LATENCY"))
+        self.assertIn("unknown parameter 'memory_latncy'", self.python(NOTEBOOK, code=1))
 
 
 class Libraries(Scratch):
@@ -440,7 +599,7 @@ class Libraries(Scratch):
         self.assertIn("libsystemc-dev", listed)
         absent = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in (
             "OpenSSL", "yaml-cpp", "CLI11", "nlohmann_json", "ZLIB", "Imath", "tinyobjloader", "TinyGLTF", "OpenImageIO",
-            "pagmo", "GTest", "benchmark", "Python3")]
+            "pagmo", "GTest", "benchmark", "Python", "Python3", "pybind11")]
         call(CMAKE, "--preset", "libraries", "-B", self.folder, *absent, cwd=SOURCE)
         commands = call("ninja", "-C", self.folder, "-t", "commands")
         self.assertIn("libdeburr-models.a", commands)

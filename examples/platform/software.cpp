@@ -13,11 +13,6 @@
 
 namespace platform {
 
-// Value in its place within a register: FIELD(DEBURR_TEXTURE_TEXTURE0_SIZE_WIDTH, 64).
-#define FIELD(name, value) (static_cast<std::uint32_t>(value) << name##_SHIFT & name##_MASK)
-// A named choice: CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_FORMAT, RGBA8).
-#define CHOICE(name, code) FIELD(name, name##_##code)
-
 namespace {
 
 const sc_core::sc_time kAccess(20, sc_core::SC_NS);  // that software takes for each access
@@ -89,27 +84,27 @@ void Software::set_up_texture() {
     }
   }
   write(kTextureUnit + DEBURR_TEXTURE_TEXTURE0_SIZE,
-        FIELD(DEBURR_TEXTURE_TEXTURE0_SIZE_WIDTH, kSide) |
-            FIELD(DEBURR_TEXTURE_TEXTURE0_SIZE_HEIGHT, kSide));
+        DEBURR_IN(DEBURR_TEXTURE_TEXTURE0_SIZE_WIDTH, kSide) |
+            DEBURR_IN(DEBURR_TEXTURE_TEXTURE0_SIZE_HEIGHT, kSide));
   write(kTextureUnit + DEBURR_TEXTURE_TEXTURE0_LOD_CLAMP,
-        FIELD(DEBURR_TEXTURE_TEXTURE0_LOD_CLAMP_MAX_LOD, 12 << 8));
+        DEBURR_IN(DEBURR_TEXTURE_TEXTURE0_LOD_CLAMP_MAX_LOD, 12 << 8));
   write(kTextureUnit + DEBURR_TEXTURE_TEXTURE0_MODE,
-        CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_FORMAT, RGBA8) |
-            CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_LAYOUT, LINEAR) |
-            CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_WRAP_S, REPEAT) |
-            CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_WRAP_T, REPEAT) |
-            CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_MIN_FILTER, LINEAR_MIPMAP_LINEAR) |
-            CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_MAG_FILTER, LINEAR) |
-            FIELD(DEBURR_TEXTURE_TEXTURE0_MODE_LEVELS, kLevels) |
-            FIELD(DEBURR_TEXTURE_TEXTURE0_MODE_MAX_COUNT_LOG2, 3));
+        DEBURR_CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_FORMAT, RGBA8) |
+            DEBURR_CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_LAYOUT, LINEAR) |
+            DEBURR_CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_WRAP_S, REPEAT) |
+            DEBURR_CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_WRAP_T, REPEAT) |
+            DEBURR_CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_MIN_FILTER, LINEAR_MIPMAP_LINEAR) |
+            DEBURR_CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_MAG_FILTER, LINEAR) |
+            DEBURR_IN(DEBURR_TEXTURE_TEXTURE0_MODE_LEVELS, kLevels) |
+            DEBURR_IN(DEBURR_TEXTURE_TEXTURE0_MODE_MAX_COUNT_LOG2, 3));
 }
 
 // Its rules are those that it was built with.
 void Software::set_up_smoother() {
   write(kSmoother + DEBURR_MORPHOLOGICAL_PIXEL_BASE, static_cast<std::uint32_t>(kFrame));
   write(kSmoother + DEBURR_MORPHOLOGICAL_SIZE,
-        FIELD(DEBURR_MORPHOLOGICAL_SIZE_WIDTH, kWidth) |
-            FIELD(DEBURR_MORPHOLOGICAL_SIZE_HEIGHT, kHeight));
+        DEBURR_IN(DEBURR_MORPHOLOGICAL_SIZE_WIDTH, kWidth) |
+            DEBURR_IN(DEBURR_MORPHOLOGICAL_SIZE_HEIGHT, kHeight));
 }
 
 // As a debugger would, without time; and whether memory may be read past the bus, which this memory

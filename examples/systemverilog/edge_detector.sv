@@ -19,24 +19,30 @@ module edge_detector #(
   int unsigned x, y;
 
   function automatic logic is_edge(input logic [31:0] a, input logic [31:0] b);
-    logic [7:0] step;
+    logic [7:0] p, q, d, step;
     step = 0;
-    for (int c = 0; c < 3; ++c) begin
-      automatic logic [7:0] p = a[8*c+:8], q = b[8*c+:8];
-      automatic logic [7:0] d = p > q ? p - q : q - p;
-      if (bug == 5 && c == 2) continue;  // looks at two channels
-      if (d > step) step = d;
+    for (int c = 0; c < 3; c = c + 1) begin
+      p = a[8*c+:8];
+      q = b[8*c+:8];
+      d = p > q ? p - q : q - p;
+      // 5: looks at two channels
+      if (d > step && !(bug == 5 && c == 2)) step = d;
     end
     return bug == 4 ? step > least : step >= least;  // 4: the threshold itself is none
   endfunction
 
+  int unsigned at, line;  // of this pixel
+  assign at = first ? 0 : x;
+  assign line = first ? 0 : y;
+  // 6: the row above one pixel too far
+  logic [31:0] above;
+  assign above = row[bug == 6 ? (at + 1) % WIDTH : at];
+
   always_ff @(posedge clock) begin
-    automatic int unsigned at = first ? 0 : x, line = first ? 0 : y;
     edges_valid <= valid;
     if (valid) begin
       edges[0] <= at != 0 && is_edge(rgba, left);
-      // 6: the row above one pixel too far
-      edges[1] <= line != 0 && is_edge(rgba, row[bug == 6 ? (at + 1) % WIDTH : at]);
+      edges[1] <= line != 0 && is_edge(rgba, above);
       left <= rgba;
       row[at] <= rgba;
       x <= at == WIDTH - 1 ? 0 : at + 1;

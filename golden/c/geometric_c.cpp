@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "golden/c/frame_handle.h"
+#include "golden/c/geometric_handle.h"
 #include "golden/geometric/geometric_golden.h"
 #include "spec/geometric/check_build.h"
 #include "spec/geometric/records.h"
@@ -68,10 +69,7 @@ struct GeometricHandle final : FrameHandle {
                                                                           : golden.pixels()[i];
   }
 
-  ParameterTexts<spec::geometric::Parameters> texts{
-      "geometric", [](const spec::geometric::Parameters& p) {
-        return spec::geometric::preset_parameters(p.preset);
-      }};
+  ParameterTexts<spec::geometric::Parameters> texts = geometric_texts();
   FrameModel<geometric::GeometricGolden, spec::geometric::Parameters> model;
   std::vector<spec::geometric::Vertex> vertices;
   std::vector<spec::geometric::Edge> edges;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "golden/c/frame_handle.h"
+#include "golden/c/morphological_handle.h"
 #include "golden/morphological/morphological_golden.h"
 #include "spec/morphological/check_build.h"
 
@@ -83,21 +84,12 @@ struct MorphologicalHandle final : FrameHandle {
     return golden.pixels()[i];
   }
 
-  ParameterTexts<spec::morphological::Parameters> texts{
-      "morphological", [](const spec::morphological::Parameters& p) {
-        return spec::morphological::preset_parameters(p.preset, p.quality);
-      }};
+  ParameterTexts<spec::morphological::Parameters> texts = morphological_texts();
   FrameModel<morphological::MorphologicalGolden, spec::morphological::Parameters> model;
   std::optional<morphological::EdgePlanes> edges;
   bool everything = false;
   std::vector<Counter> shown;
 };
-
-[[noreturn]] void refuse_edges(int x, int y, unsigned bits, unsigned possible) {
-  throw ArgumentError("edges of (" + std::to_string(x) + ", " + std::to_string(y) + ") are " +
-                      std::to_string(bits) + "; of bit 0, left, and bit 1, above, " +
-                      std::to_string(possible) + " has those with a neighbour in the frame");
-}
 
 }  // namespace
 }  // namespace deburr::golden::c
@@ -118,20 +110,7 @@ int deburr_morphological_edges(deburr_golden* golden, const uint8_t* edges, size
     const auto given = c::array_of(edges, edges_size, "edges");
     const std::size_t distance = c::row_distance("edges", edges_size, h.width, h.height, stride);
     const int width = static_cast<int>(h.width), height = static_cast<int>(h.height);
-    deburr::golden::morphological::EdgePlanes planes;
-    planes.left.resize(width, height);
-    planes.top.resize(width, height);
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const unsigned bits =
-            given[static_cast<std::size_t>(y) * distance + static_cast<std::size_t>(x)];
-        const unsigned possible = (x == 0 ? 0 : 1) | (y == 0 ? 0 : 2);
-        if ((bits & ~possible) != 0) c::refuse_edges(x, y, bits, possible);
-        if ((bits & 1) != 0) planes.left.set(x, y);
-        if ((bits & 2) != 0) planes.top.set(x, y);
-      }
-    }
-    h.edges = std::move(planes);
+    h.edges = c::edge_planes(given, distance, width, height);
   });
 }
 

@@ -38,7 +38,7 @@ EdgeClass classify(const spec::geometric::Rules& rules, const Edge& edge,
   if (rules.select == Select::kAll) return EdgeClass::kUnclassified;
   const bool first = facing.at(edge.f0), second = facing.at(edge.f1);
   if (first != second) return EdgeClass::kSilhouette;
-  if (!first) return EdgeClass::kBack;
+  if (!first && rules.cull == spec::geometric::Cull::kBack) return EdgeClass::kBack;
   return is_crease(rules.crease, edge.flags) ? EdgeClass::kCrease : EdgeClass::kFlat;
 }
 

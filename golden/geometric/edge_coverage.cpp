@@ -17,6 +17,7 @@ using spec::geometric::Layout;
 using spec::geometric::Select;
 using spec::geometric::Vertex;
 
+constexpr std::array<std::string_view, 3> kTurnedAway = {"back/back", "none/crease", "none/flat"};
 constexpr std::array<std::string_view, 8> kOctants = {"right-down", "right-up",   "left-down",
                                                       "left-up",    "down-right", "down-left",
                                                       "up-right",   "up-left"};
@@ -31,7 +32,10 @@ constexpr std::array<std::string_view, 4> kTies = {"horizontal-rising", "horizon
 constexpr std::array<std::string_view, 4> kBorders = {"top", "bottom", "left", "right"};
 constexpr std::array<std::string_view, 4> kFarther = {"own", "other", "equal", "background"};
 constexpr std::array<std::string_view, 2> kTests = {"behind", "passed"};
-constexpr std::array<std::string_view, 4> kWeights = {"raised", "kept", "equal", "overwritten"};
+constexpr std::array<std::string_view, 2> kLimits = {"near", "far"};
+constexpr std::array<std::string_view, 2> kBlocks = {"same", "other"};
+constexpr std::array<std::string_view, 6> kWeights = {"raised",      "kept",    "equal",
+                                                      "overwritten", "lowered", "held"};
 constexpr std::array<std::string_view, 4> kGroups = {"length", "across", "along", "line"};
 constexpr std::array<std::string_view, 3> kCaches = {"vertex", "depth", "block"};
 constexpr std::array<std::string_view, 4> kFetches = {"hit", "miss", "replaced", "read-back"};
@@ -94,13 +98,23 @@ void EdgeCoverage::count_depth(std::uint32_t own, std::uint32_t other, bool pass
   ++depths_[farther][passed ? 1u : 0u];
 }
 
-void EdgeCoverage::count_weight(spec::geometric::Combine rule,
+void EdgeCoverage::count_turned_away(spec::geometric::Cull cull, EdgeClass c) {
+  if (cull == spec::geometric::Cull::kBack) {
+    ++turned_away_[0];
+  } else {
+    ++turned_away_[c == EdgeClass::kCrease ? 1 : 2];
+  }
+}
+
+void EdgeCoverage::count_weight(spec::geometric::Combine rule, bool nearer,
                                 const spec::geometric::Weights& before,
                                 spec::geometric::Direction direction, int coverage) {
-  std::array<std::uint64_t, 4>& outcomes = weights_[index(direction)];
+  std::array<std::uint64_t, 6>& outcomes = weights_[index(direction)];
   const int weight = before[index(direction)];
   if (rule == spec::geometric::Combine::kLast) {
     if (is_blended(before)) ++outcomes[3];
+  } else if (rule == spec::geometric::Combine::kOutermost && nearer && weight != 0) {
+    ++outcomes[coverage < weight ? 4u : coverage > weight ? 5u : 2u];
   } else {
     ++outcomes[coverage > weight ? 0u : coverage < weight ? 1u : 2u];
   }
@@ -127,6 +141,7 @@ void EdgeCoverage::for_each_bin(const BinSink& sink) const {
                          const auto& hits) {
     for (std::size_t i = 0; i < rows.size(); ++i) list(slash({group, rows[i]}), columns, hits[i]);
   };
+  list("turned-away", kTurnedAway, turned_away_);
   table("line", kOctants, kLengths, lines_);
   list("fate", kFates, fates_, 1);
   list("columns", kCuts, columns_);
@@ -137,6 +152,8 @@ void EdgeCoverage::for_each_bin(const BinSink& sink) const {
     for (std::size_t k = 0; k < kTests.size(); ++k)
       if (kFarther[i] != "background" || kTests[k] == "passed")
         sink(slash({"depth", kFarther[i], kTests[k]}), depths_[i][k]);
+  table("crease", kBorders, kLimits, creases_);
+  table("second", kBorders, kBlocks, seconds_);
   table("weight", kBorders, kWeights, weights_);
   list("group", kGroups, groups_);
   for (std::size_t i = 0; i < kCaches.size(); ++i)
@@ -164,6 +181,7 @@ std::vector<CoverageBin> EdgeCoverage::bins() const {
 template <class Visit>
 void EdgeCoverage::for_each_table(EdgeCoverage& a, const EdgeCoverage& b, Visit&& visit) {
   visit(a.classes_, b.classes_);
+  visit(a.turned_away_, b.turned_away_);
   visit(a.lines_, b.lines_);
   visit(a.fates_, b.fates_);
   visit(a.columns_, b.columns_);
@@ -171,6 +189,8 @@ void EdgeCoverage::for_each_table(EdgeCoverage& a, const EdgeCoverage& b, Visit&
   visit(a.ties_, b.ties_);
   visit(a.borders_, b.borders_);
   visit(a.depths_, b.depths_);
+  visit(a.creases_, b.creases_);
+  visit(a.seconds_, b.seconds_);
   visit(a.weights_, b.weights_);
   visit(a.groups_, b.groups_);
   visit(a.fetches_, b.fetches_);

@@ -3,6 +3,7 @@
 //
 // Counted by the golden, which knows every edge, line, candidate and block. Small named bins:
 //   class/<select>/<crease>/<class>      of edges
+//   turned-away/<cull>/<class>           of edges of two faces turned away
 //   line/<octant>/<length>               below a pixel, below four (the table's), longer
 //   fate/<fate>                          of kept edges that are no line
 //   columns/<cut>                        by the frame: at the start, at the end, both, none
@@ -10,6 +11,8 @@
 //   tie/<kind>                           a line exactly through a pixel's centre
 //   border/<border>                      a neighbour outside of it
 //   depth/<farther>/<outcome>            of the test against the farther pixel
+//   crease/<direction>/<limit>           of candidates of creases that passed that test
+//   second/<direction>/<block>           of second candidates: the first one's block or another
 //   weight/<direction>/<outcome>
 //   group/<end>                          what ended a group of columns
 //   fetch/<cache>/<outcome>
@@ -48,6 +51,7 @@ class EdgeCoverage {
   void count_class(const spec::geometric::Rules& rules, spec::geometric::EdgeClass c) {
     ++classes_[index(rules.select)][index(rules.crease)][index(c)];
   }
+  void count_turned_away(spec::geometric::Cull cull, spec::geometric::EdgeClass c);
   void count_fate(LineFate fate) { ++fates_[index(fate)]; }
   // Whether the ends of the edge from p to q were cut off by the frame, and its octant and length.
   void count_line(const spec::geometric::Vertex& p, const spec::geometric::Vertex& q, int width,
@@ -55,8 +59,15 @@ class EdgeCoverage {
   void count_tie(const spec::geometric::LineRecord& line);
   void count_outside(spec::geometric::Direction direction) { ++borders_[index(direction)]; }
   void count_depth(std::uint32_t own, std::uint32_t other, bool passed);
-  void count_weight(spec::geometric::Combine rule, const spec::geometric::Weights& before,
-                    spec::geometric::Direction direction, int coverage);
+  void count_crease(spec::geometric::Direction direction, bool near) {
+    ++creases_[index(direction)][near ? 0 : 1];
+  }
+  void count_second(spec::geometric::Direction direction, bool other_block) {
+    ++seconds_[index(direction)][other_block ? 1 : 0];
+  }
+  void count_weight(spec::geometric::Combine rule, bool nearer,
+                    const spec::geometric::Weights& before, spec::geometric::Direction direction,
+                    int coverage);
   void count_group(GroupEnd end) { ++groups_[index(end)]; }
   void count_fetch(CacheKind cache, Fetch outcome) { ++fetches_[index(cache)][index(outcome)]; }
   void count_tap(const spec::geometric::Weights& weights);
@@ -84,6 +95,7 @@ class EdgeCoverage {
   static void for_each_table(EdgeCoverage& a, const EdgeCoverage& b, Visit&& visit);
 
   std::array<std::array<std::array<std::uint64_t, 7>, 3>, 2> classes_{};
+  std::array<std::uint64_t, 3> turned_away_{};
   std::array<std::array<std::uint64_t, 3>, 8> lines_{};
   std::array<std::uint64_t, 6> fates_{};
   std::array<std::uint64_t, 4> columns_{};
@@ -91,7 +103,8 @@ class EdgeCoverage {
   std::array<std::uint64_t, 4> ties_{};
   std::array<std::uint64_t, 4> borders_{};
   std::array<std::array<std::uint64_t, 2>, 4> depths_{};
-  std::array<std::array<std::uint64_t, 4>, 4> weights_{};
+  std::array<std::array<std::uint64_t, 2>, 4> creases_{}, seconds_{};
+  std::array<std::array<std::uint64_t, 6>, 4> weights_{};
   std::array<std::uint64_t, 4> groups_{};
   std::array<std::array<std::uint64_t, 4>, 3> fetches_{};
   std::array<std::uint64_t, 3> taps_{};

@@ -197,6 +197,9 @@ void GeometricGolden::draw_edge(const Edge& edge) {
   if (everything_) {
     classes_.push_back(c);
     coverage_.count_class(parameters_, c);
+    const bool two_faces =
+        c == EdgeClass::kBack || c == EdgeClass::kCrease || c == EdgeClass::kFlat;
+    if (two_faces && !input_.facing.at(edge.f0)) coverage_.count_turned_away(parameters_.cull, c);
   }
   if (!is_kept(c)) return;
   ++work_.kept_edges;
@@ -220,6 +223,7 @@ void GeometricGolden::draw_edge(const Edge& edge) {
     case LineFate::kLine:
       break;
   }
+  line.crease = c == EdgeClass::kCrease;
   ++work_.lines;
   work_.columns += line.count;
   if (everything_) {
@@ -274,8 +278,8 @@ void GeometricGolden::walk(const LineRecord& line) {
     }
     ++group_size;
     if (static_cast<unsigned>(at.row) >= static_cast<unsigned>(rows)) continue;
-    const int share = geometric::coverage(at.distance);
-    if (share == 0) continue;
+    const Shares cut = shares(parameters_.coverage, at.distance, line.slope);
+    if (cut.first == 0) continue;
     const bool forward = is_forward(at.distance, line.tie_forward);
     const Direction to = direction(line.axis, forward);
     const int neighbour = at.row + (forward ? 1 : -1);
@@ -283,36 +287,57 @@ void GeometricGolden::walk(const LineRecord& line) {
       if (kFollow && everything_) coverage_.count_outside(to);
       continue;
     }
-    ++work_.candidates;
     const int x = horizontal ? c : at.row, y = horizontal ? at.row : c;
     const int nx = horizontal ? c : neighbour, ny = horizontal ? neighbour : c;
+    std::uint32_t own = 0, other = 0;
     bool passed = true;
     if (test) {
-      const std::uint32_t own = input_.depth.at(x, y) & 0xFFFFFF;
-      const std::uint32_t other = input_.depth.at(nx, ny) & 0xFFFFFF;
-      passed = passes(parameters_, at.depth, own, other);
+      own = input_.depth.at(x, y) & 0xFFFFFF;
+      other = input_.depth.at(nx, ny) & 0xFFFFFF;
+      passed = passes(parameters_, line.crease, at.depth, own, other);
       if (kFollow) {
         fetch_depth(x, y, nx, ny);
-        if (everything_ && parameters_.depth_test == spec::geometric::DepthTest::kFarther)
-          coverage_.count_depth(own, other, passed);
+        if (everything_) count_test(line, to, at.depth, own, other);
       }
     }
-    if (kFollow && everything_) {
-      if (at.distance == 0) coverage_.count_tie(line);
-      candidates_.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), to,
-                             static_cast<std::uint8_t>(share), at.depth, passed});
-    }
-    if (!passed) continue;
-    ++work_.passed;
-    const auto bx = static_cast<std::uint32_t>(x >> 2), by = static_cast<std::uint32_t>(y >> 2);
-    if (kFollow) look_up_block(bx, by);
-    touched_[by * static_cast<std::size_t>(layout_.block_columns()) + bx] = 1;
-    Weights& weights = weights_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                                static_cast<std::size_t>(x)];
-    if (kFollow && everything_) coverage_.count_weight(parameters_.combine, weights, to, share);
-    combine(parameters_.combine, weights, to, static_cast<std::uint8_t>(share));
+    if (kFollow && everything_ && at.distance == 0) coverage_.count_tie(line);
+    add_candidate<kFollow>(x, y, to, cut.first, at.depth, passed,
+                           is_nearer(parameters_, own, other));
+    if (cut.second == 0) continue;
+    if (kFollow && everything_) coverage_.count_second(opposite(to), neighbour >> 2 != block);
+    add_candidate<kFollow>(nx, ny, opposite(to), cut.second, at.depth, passed,
+                           is_nearer(parameters_, other, own));
   }
   if (kFollow && everything_) coverage_.count_group(GroupEnd::kLine);
+}
+
+template <bool kFollow>
+void GeometricGolden::add_candidate(int x, int y, Direction to, int share, std::uint32_t depth,
+                                    bool passed, bool nearer) {
+  ++work_.candidates;
+  if (kFollow && everything_) {
+    candidates_.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), to,
+                           static_cast<std::uint8_t>(share), depth, passed});
+  }
+  if (!passed) return;
+  ++work_.passed;
+  const auto bx = static_cast<std::uint32_t>(x >> 2), by = static_cast<std::uint32_t>(y >> 2);
+  if (kFollow) look_up_block(bx, by);
+  touched_[by * static_cast<std::size_t>(layout_.block_columns()) + bx] = 1;
+  Weights& weights = weights_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                              static_cast<std::size_t>(x)];
+  if (kFollow && everything_)
+    coverage_.count_weight(parameters_.combine, nearer, weights, to, share);
+  combine(parameters_.combine, nearer, weights, to, static_cast<std::uint8_t>(share));
+}
+
+void GeometricGolden::count_test(const LineRecord& line, Direction to, std::uint32_t depth,
+                                 std::uint32_t own, std::uint32_t other) {
+  const bool seen = is_seen(parameters_, depth, own, other);
+  if (parameters_.depth_test == spec::geometric::DepthTest::kFarther)
+    coverage_.count_depth(own, other, seen);
+  if (line.crease && seen && parameters_.crease_depth != 0)
+    coverage_.count_crease(to, is_near_crease(parameters_, depth, own, other));
 }
 
 void GeometricGolden::fetch_depth(int x, int y, int nx, int ny) {

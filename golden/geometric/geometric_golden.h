@@ -89,6 +89,11 @@ class GeometricGolden {
   }
   template <bool kFollow>
   void walk(const spec::geometric::LineRecord& line);
+  template <bool kFollow>
+  void add_candidate(int x, int y, spec::geometric::Direction to, int share, std::uint32_t depth,
+                     bool passed, bool nearer);
+  void count_test(const spec::geometric::LineRecord& line, spec::geometric::Direction to,
+                  std::uint32_t depth, std::uint32_t own, std::uint32_t other);
   void fetch_depth(int x, int y, int nx, int ny);
   void look_up_block(std::uint32_t bx, std::uint32_t by);
   void forget_block(int bx, int by);

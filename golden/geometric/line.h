@@ -11,6 +11,7 @@
 #include "spec/geometric/packets.h"
 #include "spec/geometric/parameters.h"
 #include "spec/geometric/records.h"
+#include "spec/geometric/tables.h"
 
 namespace deburr::golden::geometric {
 
@@ -29,7 +30,7 @@ bool is_usable(const spec::geometric::Vertex& vertex);
 // floor(2^48 / l) of a length l = L << (22 - e) that is normalised to 23 bits; U1.26.
 std::uint32_t reciprocal(std::uint32_t normalised_length);
 
-// `line` is written only if the edge is one.
+// `line` is written only if the edge is one; never `line.crease`, which is its class.
 LineFate set_up_line(const spec::geometric::Vertex& p, const spec::geometric::Vertex& q, int width,
                      int height, spec::geometric::LineRecord& line);
 
@@ -51,6 +52,22 @@ inline ColumnPoint point_at(std::int64_t position, std::int64_t depth) {
 constexpr int coverage(std::int32_t distance) {
   return (32768 - (distance < 0 ? -distance : distance) + 128) >> 8;
 }
+// What a line gives away, U0.8, of the pixel in which it meets the middle of a column, and of the
+// neighbour if it cuts that, too.
+struct Shares {
+  int first = 0, second = 0;
+};
+constexpr Shares shares(spec::geometric::CoverageRule rule, std::int32_t distance,
+                        std::int32_t slope) {
+  if (rule == spec::geometric::CoverageRule::kDistance) return {coverage(distance), 0};
+  const std::int32_t away = distance < 0 ? -distance : distance;
+  const std::int32_t steep = slope < 0 ? -slope : slope;
+  if (2 * away + (steep >> 8) <= 65536) return {coverage(distance), 0};  // stays in the pixel
+  const int k = (steep + (1 << 18)) >> 19;
+  const auto& areas = spec::geometric::kCutArea[static_cast<std::size_t>(k < 1 ? 0 : k - 1)];
+  return {areas[static_cast<std::size_t>(away >> 10)],
+          areas[static_cast<std::size_t>((65536 - away) >> 10)]};
+}
 // Whether the neighbour is the pixel below or to the right.
 constexpr bool is_forward(std::int32_t distance, bool tie_forward) {
   return distance > 0 || (distance == 0 && tie_forward);
@@ -62,13 +79,38 @@ constexpr spec::geometric::Direction direction(spec::geometric::Axis axis, bool 
   return forward ? Direction::kRight : Direction::kLeft;
 }
 
-// Whether a line at depth d is seen where pixel and neighbour have these depths; all U24.
-constexpr bool passes(const spec::geometric::Rules& rules, std::uint32_t d, std::uint32_t own,
-                      std::uint32_t other) {
-  if (rules.depth_test == spec::geometric::DepthTest::kOff) return true;
+// The opposite one: towards the pixel that a second candidate came from.
+constexpr spec::geometric::Direction opposite(spec::geometric::Direction direction) {
+  return static_cast<spec::geometric::Direction>(static_cast<unsigned>(direction) ^ 1u);
+}
+
+// The depth that a line is compared with, of pixel and neighbour; U24.
+constexpr std::uint32_t compared_depth(const spec::geometric::Rules& rules, std::uint32_t own,
+                                       std::uint32_t other) {
   const bool own_alone = rules.depth_test == spec::geometric::DepthTest::kOwn;
-  const std::uint32_t f = own_alone || own < other ? own : other;
+  return own_alone || own < other ? own : other;
+}
+// Whether a line at depth d is seen where pixel and neighbour have these depths; all U24.
+constexpr bool is_seen(const spec::geometric::Rules& rules, std::uint32_t d, std::uint32_t own,
+                       std::uint32_t other) {
+  if (rules.depth_test == spec::geometric::DepthTest::kOff) return true;
+  const std::uint32_t f = compared_depth(rules, own, other);
   return d >= f - (f >> rules.depth_bias);
+}
+// Whether both pixels show what meets in a crease at depth d.
+constexpr bool is_near_crease(const spec::geometric::Rules& rules, std::uint32_t d,
+                              std::uint32_t own, std::uint32_t other) {
+  if (rules.depth_test == spec::geometric::DepthTest::kOff || rules.crease_depth == 0) return true;
+  return compared_depth(rules, own, other) >= d - (d >> rules.crease_depth);
+}
+constexpr bool passes(const spec::geometric::Rules& rules, bool crease, std::uint32_t d,
+                      std::uint32_t own, std::uint32_t other) {
+  return is_seen(rules, d, own, other) && (!crease || is_near_crease(rules, d, own, other));
+}
+// Whether the pixel is nearer to the eye than its neighbour, as far as the rules know.
+constexpr bool is_nearer(const spec::geometric::Rules& rules, std::uint32_t own,
+                         std::uint32_t other) {
+  return rules.depth_test == spec::geometric::DepthTest::kFarther && own > other;
 }
 
 }  // namespace deburr::golden::geometric

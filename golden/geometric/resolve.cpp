@@ -11,14 +11,20 @@ using spec::geometric::Direction;
 using spec::geometric::Rgba8;
 using spec::geometric::Weights;
 
-void combine(spec::geometric::Combine rule, Weights& weights, Direction direction,
+void combine(spec::geometric::Combine rule, bool nearer, Weights& weights, Direction direction,
              std::uint8_t coverage) {
   std::uint8_t& weight = weights[static_cast<std::size_t>(direction)];
-  if (rule == spec::geometric::Combine::kMax) {
-    weight = std::max(weight, coverage);
-  } else {
-    weights = {};
-    weight = coverage;
+  switch (rule) {
+    case spec::geometric::Combine::kMax:
+      weight = std::max(weight, coverage);
+      return;
+    case spec::geometric::Combine::kLast:
+      weights = {};
+      weight = coverage;
+      return;
+    case spec::geometric::Combine::kOutermost:
+      weight = nearer && weight != 0 ? std::min(weight, coverage) : std::max(weight, coverage);
+      return;
   }
 }
 

@@ -10,7 +10,8 @@
 
 namespace deburr::golden::geometric {
 
-void combine(spec::geometric::Combine rule, spec::geometric::Weights& weights,
+// `nearer`: the pixel than the neighbour in this direction.
+void combine(spec::geometric::Combine rule, bool nearer, spec::geometric::Weights& weights,
              spec::geometric::Direction direction, std::uint8_t coverage);
 
 // The two weights that a pixel is blended with.

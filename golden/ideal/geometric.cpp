@@ -8,7 +8,14 @@
 
 namespace deburr::golden::ideal {
 
-std::vector<CutPixel> cut_pixels(const ScreenLine& line, int width, int height) {
+double cut_area(double slope, double distance) {
+  const double rise = std::abs(slope) / 2;
+  if (distance + rise <= 0.5) return 0.5 - distance;
+  const double corner = 0.5 + rise - distance;
+  return corner <= 0.0 ? 0.0 : corner * corner / (4 * rise);
+}
+
+std::vector<CutPixel> cut_pixels(const ScreenLine& line, int width, int height, bool area) {
   const double dx = line.q.x - line.p.x, dy = line.q.y - line.p.y;
   std::vector<CutPixel> result;
   if (dx == 0 && dy == 0) return result;
@@ -32,11 +39,18 @@ std::vector<CutPixel> cut_pixels(const ScreenLine& line, int width, int height) 
     const double distance = at - (row + 0.5);
     const bool forward = distance > 0.0 || (distance == 0.0 && horizontal && k > 0.0);
     const int neighbour = row + (forward ? 1 : -1);
-    const double coverage = 0.5 - std::abs(distance);
+    const double away = std::abs(distance);
+    const double coverage = area ? cut_area(k, away) : 0.5 - away;
     if (neighbour < 0 || neighbour >= rows || !(coverage > 0.0)) continue;
-    result.push_back({horizontal ? c : row, horizontal ? row : c,
-                      (horizontal ? 0 : 2) + (forward ? 1 : 0), distance, coverage,
-                      a.depth + (b.depth - a.depth) * share});
+    const double depth = a.depth + (b.depth - a.depth) * share;
+    const int axis = horizontal ? 0 : 2;
+    const auto add = [&](int minor, bool to_forward, double dis, double covered) {
+      result.push_back({horizontal ? c : minor, horizontal ? minor : c, axis + (to_forward ? 1 : 0),
+                        dis, covered, depth});
+    };
+    add(row, forward, distance, coverage);
+    const double second = area ? cut_area(k, 1.0 - away) : 0.0;
+    if (second > 0.0) add(neighbour, !forward, distance + (forward ? -1.0 : 1.0), second);
   }
   return result;
 }
@@ -56,15 +70,21 @@ std::vector<SideWeights> side_weights(std::span<const ScreenLine> lines,
                                       const GpaaOptions& options) {
   std::vector<SideWeights> weights(depth.size());
   for (const ScreenLine& line : lines) {
-    for (const CutPixel& cut : cut_pixels(line, width, height)) {
+    for (const CutPixel& cut : cut_pixels(line, width, height, options.area)) {
       const std::ptrdiff_t own = std::ptrdiff_t{cut.y} * width + cut.x;
       const std::ptrdiff_t other = own + towards(cut.direction, width);
       const double farther =
           std::min(depth[static_cast<std::size_t>(own)], depth[static_cast<std::size_t>(other)]);
       if (cut.depth < farther * (1.0 - options.depth_bias)) continue;
+      if (line.crease && farther < cut.depth * (1.0 - options.crease_depth)) continue;
       SideWeights& w = weights[static_cast<std::size_t>(own)];
       double& weight = w[static_cast<std::size_t>(cut.direction)];
-      const double raised = options.last_wins ? cut.coverage : std::max(weight, cut.coverage);
+      const bool lowered =
+          options.outermost && weight != 0.0 &&
+          depth[static_cast<std::size_t>(own)] > depth[static_cast<std::size_t>(other)];
+      const double raised = options.last_wins ? cut.coverage
+                            : lowered         ? std::min(weight, cut.coverage)
+                                              : std::max(weight, cut.coverage);
       if (options.last_wins) w = {};
       weight = raised;
     }

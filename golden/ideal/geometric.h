@@ -19,25 +19,33 @@ struct ScreenPoint {
 };
 struct ScreenLine {
   ScreenPoint p, q;
+  bool crease = false;
 };
 
-// A pixel that a line cuts, once a column of its longer axis.
+// A pixel that a line cuts, once a column of its longer axis, or twice where areas count.
 struct CutPixel {
   int x = 0, y = 0;
   int direction = 0;    // of the neighbour: 0 up, 1 down, 2 left, 3 right
   double distance = 0;  // dis of equation (7): along the shorter axis, down or right positive
-  double coverage = 0;  // 1/2 - |dis|, above 0
+  double coverage = 0;  // 1/2 - |dis|, or the area that the line cuts off; above 0
   double depth = 0;     // of the line
 };
-// Pixels of the frame with a neighbour in the frame, in the order of columns.
-std::vector<CutPixel> cut_pixels(const ScreenLine& line, int width, int height);
+// The area that a line of this slope, at most 1, cuts off a unit square from whose centre it is
+// `distance` >= 0 away in the middle of it.
+double cut_area(double slope, double distance);
+// Pixels of the frame with a neighbour in the frame, in the order of columns. With `area` a
+// column's second pixel follows the first.
+std::vector<CutPixel> cut_pixels(const ScreenLine& line, int width, int height, bool area = false);
 
 using SideWeights = std::array<double, 4>;  // up, down, left, right
 using Light = std::array<double, 3>;
 
 struct GpaaOptions {
-  bool last_wins = false;           // else the largest of each direction
+  bool last_wins = false;           // else the largest of each direction ...
+  bool outermost = false;           // ... or the smallest of a pixel in front of its neighbour
+  bool area = false;                // else distances along the shorter axis
   double depth_bias = 1.0 / 512.0;  // relative, against the farther of pixel and neighbour
+  double crease_depth = 1.0;        // how far that may lie behind a crease, relative
 };
 
 // Weights of all pixels after all lines, row by row. `depth` is near / w of each pixel.

@@ -42,11 +42,15 @@ int pattern_of(Crossing start, Crossing end) {
 }
 
 // The texture is indexed by square roots of the distances and filtered between its texels.
-SmaaWeights fetched_area(Crossing start, Crossing end, int l, int r) {
+SmaaWeights fetched_area(Crossing start, Crossing end, int l, int r, bool bytes) {
   const double u = std::sqrt(l), v = std::sqrt(r);
   const int i = static_cast<int>(u), j = static_cast<int>(v);
   const int pattern = pattern_of(start, end);
-  const auto texel = [&](int a, int b) { return smaa_area(pattern, a * a, b * b); };
+  const auto texel = [&](int a, int b) {
+    if (!bytes) return smaa_area(pattern, a * a, b * b);
+    const SmaaBytes entry = smaa_area_bytes(pattern, a * a, b * b);
+    return SmaaWeights{entry.g / 255.0, entry.r / 255.0};
+  };
   const auto mix = [](SmaaWeights a, SmaaWeights b, double t) {
     return SmaaWeights{std::lerp(a.first, b.first, t), std::lerp(a.second, b.second, t)};
   };
@@ -60,6 +64,12 @@ SmaaWeights fetched_area(Crossing start, Crossing end, int l, int r) {
 struct SmaaAxis {
   std::function<bool(int, int)> along, across;
   bool crossed(int x, int y) const { return across(x, y) || across(x, y - 1); }
+  // What a fetch of two pixels adds.
+  int length(int far, int near, int y, bool right) const {
+    return smaa_search_length(
+        {across(far, y - 1), across(near, y - 1), across(far, y), across(near, y)},
+        {along(far, y - 1), along(near, y - 1), along(far, y), along(near, y)}, right);
+  }
   Crossing crossing(int x, int y) const { return {across(x, y - 1), across(x, y)}; }
 };
 
@@ -69,8 +79,7 @@ int search_left(const SmaaAxis& axis, int x, int y, int steps) {
   int distance = -1;
   for (int fetch = 0; fetch < steps; ++fetch) {
     const int right = x - 2 * fetch, left = right - 1;
-    int seen = axis.along(right, y) ? 1 : 0;
-    if (seen == 1 && axis.along(left, y) && !axis.crossed(right, y)) seen = 2;
+    const int seen = axis.length(left, right, y, false);
     distance += seen;
     if (seen < 2 || axis.crossed(left, y)) break;
   }
@@ -82,8 +91,7 @@ int search_right(const SmaaAxis& axis, int x, int y, int steps) {
   int distance = 0;
   for (int fetch = 0; fetch < steps; ++fetch) {
     const int left = x + 1 + 2 * fetch, right = left + 1;
-    int seen = axis.along(left, y) && !axis.crossed(left, y) ? 1 : 0;
-    if (seen == 1 && axis.along(right, y) && !axis.crossed(right, y)) seen = 2;
+    const int seen = axis.length(right, left, y, true);
     distance += seen;
     if (seen < 2) break;
   }
@@ -95,7 +103,8 @@ SmaaWeights edge_weights(const SmaaAxis& axis, const SmaaSettings& settings, int
   const int l = search_left(axis, x, y, settings.search_steps);
   const int r = search_right(axis, x, y, settings.search_steps);
   const int start = x - l, end = x + r + 1;
-  SmaaWeights weights = fetched_area(axis.crossing(start, y), axis.crossing(end, y), l, r);
+  SmaaWeights weights =
+      fetched_area(axis.crossing(start, y), axis.crossing(end, y), l, r, settings.bytes);
   if (!settings.corner_keeps) return weights;
   // The nearer end counts; both share it if neither is.
   const double near_start = l <= r ? 1 : 0, near_end = r <= l ? 1 : 0;
@@ -119,7 +128,8 @@ struct DiagonalPoint {
 constexpr int kSamples = 30;
 
 // Share of the samples of a pixel that lie below a line; all of them if the line is a point.
-double samples_below(DiagonalPoint from, DiagonalPoint to, double px, double py) {
+// Samples on the line do not, but for those that rounding puts below it, if that is asked for.
+double samples_below(DiagonalPoint from, DiagonalPoint to, double px, double py, bool rounded) {
   int count = 0;
   for (int i = 0; i < kSamples; ++i) {
     for (int j = 0; j < kSamples; ++j) {
@@ -127,8 +137,8 @@ double samples_below(DiagonalPoint from, DiagonalPoint to, double px, double py)
                    y = py + static_cast<double>(j) / (kSamples - 1);
       const double side =
           (to.y - from.y) * (x - (from.x + to.x) / 2) + (from.x - to.x) * (y - (from.y + to.y) / 2);
-      constexpr double kOnTheLine = 1e-9;
-      count += (from.x == to.x && from.y == to.y) || side > kOnTheLine ? 1 : 0;
+      const double on_the_line = rounded ? 0 : 1e-9;
+      count += (from.x == to.x && from.y == to.y) || side > on_the_line ? 1 : 0;
     }
   }
   return static_cast<double>(count) / (kSamples * kSamples);
@@ -164,20 +174,26 @@ const std::vector<DiagonalPattern>& diagonal_patterns() {
 struct DiagonalValue {
   double a = 0, b = 0;
 };
-DiagonalValue diagonal_area(int e1, int e2, int d1, int d2) {
+DiagonalValue diagonal_area(int e1, int e2, int d1, int d2, bool rounded) {
   for (const DiagonalPattern& pattern : diagonal_patterns()) {
     if (pattern.e1 != e1 || pattern.e2 != e2) continue;
     const double length = d1 + d2 + 1;
     DiagonalValue value;
     for (const auto& [from, moving] : pattern.lines) {
       const DiagonalPoint to{moving.x + length, moving.y + length};
-      value.a += 1 - samples_below(from, to, 1 + d1, d1);
-      value.b += samples_below(from, to, 1 + d1, 1 + d1);
+      value.a += 1 - samples_below(from, to, 1 + d1, d1, rounded);
+      value.b += samples_below(from, to, 1 + d1, 1 + d1, rounded);
     }
     const auto lines = static_cast<double>(pattern.lines.size());
     return {value.a / lines, value.b / lines};
   }
   return {};
+}
+
+DiagonalValue fetched_diagonal(int e1, int e2, int d1, int d2, bool bytes) {
+  if (!bytes) return diagonal_area(e1, e2, d1, d2, false);
+  const SmaaBytes entry = smaa_diagonal_bytes(e1, e2, d1, d2);
+  return {entry.r / 255.0, entry.g / 255.0};
 }
 
 // A search as the shader walks it: it stops behind the first pixel without both edges, or at its
@@ -202,7 +218,9 @@ Walk walk(int x, int y, int dx, int dy, int steps, Fetch&& fetch) {
   return {z, !both, e.second};
 }
 
-std::optional<SmaaWeights> diagonal_weights(const SmaaEdges& edges, int steps, int x, int y) {
+std::optional<SmaaWeights> diagonal_weights(const SmaaEdges& edges, const SmaaSettings& settings,
+                                            int x, int y) {
+  const int steps = settings.diagonal_steps;
   SmaaWeights weights;
   const auto code = [](bool top, bool left) { return (top ? 2 : 0) + (left ? 1 : 0); };
   {
@@ -218,7 +236,8 @@ std::optional<SmaaWeights> diagonal_weights(const SmaaEdges& edges, int steps, i
     if (d1 + d2 > 2) {
       const int e1 = code(edges.top(x - d1 - 1, y + d1), edges.left(x - d1, y + d1));
       const int e2 = code(edges.top(x + d2 + 1, y - d2), edges.left(x + d2 + 1, y - d2 - 1));
-      const DiagonalValue v = diagonal_area(down.ended ? e1 : 0, up.ended ? e2 : 0, d1, d2);
+      const DiagonalValue v =
+          fetched_diagonal(down.ended ? e1 : 0, up.ended ? e2 : 0, d1, d2, settings.bytes);
       weights.second += v.a;
       weights.first += v.b;
     }
@@ -236,7 +255,8 @@ std::optional<SmaaWeights> diagonal_weights(const SmaaEdges& edges, int steps, i
     if (d1 + d2 > 2) {
       const int e1 = code(edges.top(x - d1 - 1, y - d1), edges.left(x - d1, y - d1 - 1));
       const int e2 = code(edges.top(x + d2 + 1, y + d2), edges.left(x + d2 + 1, y + d2));
-      const DiagonalValue v = diagonal_area(up.ended ? e1 : 0, down.ended ? e2 : 0, d1, d2);
+      const DiagonalValue v =
+          fetched_diagonal(up.ended ? e1 : 0, down.ended ? e2 : 0, d1, d2, settings.bytes);
       weights.first += v.a;
       weights.second += v.b;
     }
@@ -247,6 +267,24 @@ std::optional<SmaaWeights> diagonal_weights(const SmaaEdges& edges, int steps, i
 }
 
 }  // namespace
+
+SmaaBytes smaa_area_bytes(int pattern, int l, int r) {
+  const SmaaWeights area = smaa_area(pattern, l, r);
+  return {static_cast<int>(255 * area.second), static_cast<int>(255 * area.first)};
+}
+
+SmaaBytes smaa_diagonal_bytes(int e1, int e2, int d1, int d2) {
+  const DiagonalValue area = diagonal_area(e1, e2, d1, d2, true);
+  return {static_cast<int>(255 * area.a), static_cast<int>(255 * area.b)};
+}
+
+int smaa_search_length(const std::array<bool, 4>& across, const std::array<bool, 4>& along,
+                       bool right) {
+  // Far above, near above, far, near; lines above this one are another one's.
+  const bool near_crossed = across[1] || across[3], far_crossed = across[0] || across[2];
+  if (!along[3] || (right && near_crossed)) return 0;
+  return along[2] && !(right ? far_crossed : near_crossed) ? 2 : 1;
+}
 
 SmaaMargins left_margins(const SmaaLuma& luma, double threshold, int x, int y) {
   return margins(luma, threshold, x, y, luma_step(luma, x, y, x - 1, y));
@@ -272,7 +310,7 @@ SmaaPixelWeights smaa_weights(const SmaaEdges& edges, const SmaaSettings& settin
   const auto top = [&](int px, int py) { return edges.top(px, py); };
   const auto left = [&](int px, int py) { return edges.left(px, py); };
   if (settings.diagonal_steps > 0 && edges.top(x, y)) {
-    if (const auto diagonal = diagonal_weights(edges, settings.diagonal_steps, x, y)) {
+    if (const auto diagonal = diagonal_weights(edges, settings, x, y)) {
       weights.top = *diagonal;
       weights.diagonal = true;
       return weights;

@@ -5,11 +5,13 @@
 // (tb/oracle/smaa_test.cpp). Written from the published description, not from the engine's: it
 // knows no runs, no records and no windows, each pixel looks for its own ends, two pixels a fetch.
 // Jimenez, Echevarria, Sousa and Gutierrez, SMAA: Enhanced Subpixel Morphological Antialiasing,
-// 2012, and the shader published with it. Two liberties: edges outside the frame are none, where
-// the shader's sampler repeats the border, and areas keep their fraction, where its texture has
-// eight bits.
+// 2012, and the shader published with it. By default it takes two liberties, which can be had back:
+// edges outside the frame are none, where the shader's sampler repeats the border, and areas keep
+// their fraction, where its texture has eight bits.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,35 +22,58 @@
 
 namespace deburr::golden::ideal {
 
+// Edges outside the frame: none, or those of the outermost pixels, as the shader's sampler clamps.
+enum class SmaaBorder : std::uint8_t { kEnd, kClamp };
+
 struct SmaaSettings {
   double threshold = 0.1;
   int search_steps = 16;                      // of two pixels each
   int diagonal_steps = 8;                     // 0: no diagonals
   std::optional<double> corner_keeps = 0.25;  // share of a weight that stays at a sharp corner
+  bool bytes = false;  // areas as the published texture holds them, smaa_area_bytes() / 255
 };
+
+// An entry of the published area texture, subsample offset 0: its first value, which is the second
+// pixel's share, and its second value. Rounded down, and on a diagonal points on the line belong
+// where double precision puts them.
+struct SmaaBytes {
+  int r = 0, g = 0;
+};
+SmaaBytes smaa_area_bytes(int pattern, int l, int r);
+SmaaBytes smaa_diagonal_bytes(int e1, int e2, int d1, int d2);
+// What a search adds for its last fetch, 0..2, as the published search texture has it: four edges
+// along the line and four across it, the far pair of pixels first, of each pair the row above.
+int smaa_search_length(const std::array<bool, 4>& across, const std::array<bool, 4>& along,
+                       bool right);
 
 // Which pixels have an edge on their left, and which above them.
 class SmaaEdges {
  public:
-  SmaaEdges(int width, int height)
+  SmaaEdges(int width, int height, SmaaBorder border = SmaaBorder::kEnd)
       : width_(width),
         height_(height),
+        border_(border),
         left_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
         top_(left_.size()) {}
   int width() const { return width_; }
   int height() const { return height_; }
-  bool left(int x, int y) const { return inside(x, y) && left_[index(x, y)]; }
-  bool top(int x, int y) const { return inside(x, y) && top_[index(x, y)]; }
+  bool left(int x, int y) const { return read(left_, x, y); }
+  bool top(int x, int y) const { return read(top_, x, y); }
   void set_left(int x, int y, bool edge) { left_[index(x, y)] = edge; }
   void set_top(int x, int y, bool edge) { top_[index(x, y)] = edge; }
 
  private:
-  bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
+  bool read(const std::vector<bool>& edges, int x, int y) const {
+    if (border_ == SmaaBorder::kClamp)
+      return edges[index(std::clamp(x, 0, width_ - 1), std::clamp(y, 0, height_ - 1))];
+    return x >= 0 && y >= 0 && x < width_ && y < height_ && edges[index(x, y)];
+  }
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
            static_cast<std::size_t>(x);
   }
   int width_, height_;
+  SmaaBorder border_;
   std::vector<bool> left_, top_;
 };
 

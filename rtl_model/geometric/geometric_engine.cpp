@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "rtl_model/geometric/common/sizing.h"
 #include "spec/geometric/check_build.h"
 
 namespace deburr::rtl::geometric {
@@ -23,9 +24,10 @@ MemoryPortParameters port_of(const spec::geometric::Parameters& p) {
 }  // namespace
 
 GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
-                                 const spec::geometric::Parameters& parameters)
+                                 const spec::geometric::Parameters& parameters,
+                                 const MemoryClocks& memory)
     : Engine(name, clock, spec::geometric::kRegisters, control_layout()),
-      parameters_(check_build(parameters)),
+      parameters_(sized(check_build(parameters), memory)),
       edge_lanes_(lanes(parameters_.edge_lanes)),
       walkers_(lanes(parameters_.walkers)),
       port_(port_of(parameters_)),
@@ -38,10 +40,10 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
       vertex_fetch("vertex_fetch", clock, parameters_),
       line_setup("line_setup", clock, parameters_, latency_),
       line_walker("line_walker", clock, parameters_, latency_),
-      coverage_unit("coverage_unit", clock, latency_),
+      coverage_unit("coverage_unit", clock, parameters_, latency_),
       depth_test("depth_test", clock, parameters_, latency_),
       weight_combiner("weight_combiner", clock, parameters_, latency_),
-      frame_copier("frame_copier", clock),
+      frame_copier("frame_copier", clock, parameters_),
       block_scanner("block_scanner", clock, parameters_, weight_combiner.touched_port()),
       block_fetch("block_fetch", clock, parameters_, weight_combiner.tag_port(),
                   weight_combiner.data_port()),

@@ -38,6 +38,7 @@
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/engine.h"
 #include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/memory_clocks.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/common/edge_latency.h"
@@ -64,9 +65,10 @@ namespace deburr::rtl::geometric {
 
 class GeometricEngine final : public Engine {
  public:
-  // ConfigError for what cannot be built (spec/geometric/check_build.h).
+  // ConfigError for what cannot be built (spec/geometric/check_build.h). What the memory takes
+  // sizes places that are ordered as 0 (common/sizing.h).
   GeometricEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
-                  const spec::geometric::Parameters& parameters);
+                  const spec::geometric::Parameters& parameters, const MemoryClocks& memory = {});
   const char* kind() const override { return "deburr_geometric_engine"; }
 
  private:

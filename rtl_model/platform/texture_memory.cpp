@@ -53,9 +53,7 @@ std::uint32_t spread(std::uint32_t value, int mixed, int first) {
   return places;
 }
 
-}  // namespace
-
-std::uint32_t encode_texel(spec::texture::Format format, const Texel& texel) {
+inline std::uint32_t code_of(spec::texture::Format format, const Texel& texel) {
   const std::uint32_t r = texel[0], g = texel[1], b = texel[2], a = texel[3];
   switch (format) {
     case spec::texture::Format::kRgba8:
@@ -69,6 +67,25 @@ std::uint32_t encode_texel(spec::texture::Format format, const Texel& texel) {
       return (77 * r + 150 * g + 29 * b + 128) >> 8;
   }
   throw spec::ConfigError("unknown texture format");
+}
+
+// A function for each format: all texels of a level have the same one.
+template <spec::texture::Format kFormat>
+void put_texels(const TextureLevel& level, const TexelLayout& layout, std::uint8_t* memory) {
+  constexpr std::size_t kBytes = spec::texture::kFormatBytes[static_cast<std::size_t>(kFormat)];
+  const Texel* next = level.texels.data();
+  for (int y = 0; y < level.height; ++y)
+    for (int x = 0; x < level.width; ++x) {
+      const std::uint32_t texel = code_of(kFormat, *next++);
+      std::uint8_t* const to = memory + layout.offset_of(x, y);
+      for (std::size_t i = 0; i < kBytes; ++i) to[i] = static_cast<std::uint8_t>(texel >> (8 * i));
+    }
+}
+
+}  // namespace
+
+std::uint32_t encode_texel(spec::texture::Format format, const Texel& texel) {
+  return code_of(format, texel);
 }
 
 TexelLayout::TexelLayout(spec::texture::Layout layout, spec::texture::Format format, int width,
@@ -122,17 +139,22 @@ int TextureMemory::add(std::span<const TextureLevel> levels, spec::texture::Desc
 void TextureMemory::add_level(const TextureLevel& level, const spec::texture::Descriptor& d,
                               int index) {
   const TexelLayout layout = texel_layout(d, index);
-  const std::size_t base = bytes_.size(), texel_bytes = bytes_of(d.format);
+  const std::size_t base = bytes_.size();
   bytes_.resize((base + layout.bytes() + kTextureAlignment - 1) / kTextureAlignment *
                 kTextureAlignment);
-  const Texel* next = level.texels.data();
-  for (int y = 0; y < level.height; ++y)
-    for (int x = 0; x < level.width; ++x) {
-      const std::uint32_t texel = encode_texel(d.format, *next++);
-      std::uint8_t* const to = &bytes_[base + layout.offset_of(x, y)];
-      for (std::size_t i = 0; i < texel_bytes; ++i)
-        to[i] = static_cast<std::uint8_t>(texel >> (8 * i));
-    }
+  std::uint8_t* const memory = &bytes_[base];
+  switch (d.format) {
+    case spec::texture::Format::kRgba8:
+    case spec::texture::Format::kSrgb8A8:
+      return put_texels<spec::texture::Format::kRgba8>(level, layout, memory);
+    case spec::texture::Format::kRgb565:
+      return put_texels<spec::texture::Format::kRgb565>(level, layout, memory);
+    case spec::texture::Format::kRgba4444:
+      return put_texels<spec::texture::Format::kRgba4444>(level, layout, memory);
+    case spec::texture::Format::kL8:
+      return put_texels<spec::texture::Format::kL8>(level, layout, memory);
+  }
+  throw spec::ConfigError("unknown texture format");
 }
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> descriptor_registers(

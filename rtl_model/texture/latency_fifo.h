@@ -11,6 +11,7 @@
 
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/memory_clocks.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/parameters.h"
@@ -27,10 +28,6 @@ class LatencyFifo final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override { entries.reset(); }
 
-  // What the memory takes, in clocks: to answer, and to transfer a line.
-  struct MemoryClocks {
-    std::int32_t latency = 100, transfer = 1;
-  };
   // The depth as ordered; for 0 the least at which misses cost no time, if there are so many: a
   // request stays for the time of a miss, without the stages around the FIFO, and may miss four
   // lines, which come one behind the other.

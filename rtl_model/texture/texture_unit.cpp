@@ -6,8 +6,7 @@
 namespace deburr::rtl::texture {
 namespace {
 
-spec::texture::Parameters sized(spec::texture::Parameters p,
-                                const LatencyFifo::MemoryClocks& memory) {
+spec::texture::Parameters sized(spec::texture::Parameters p, const MemoryClocks& memory) {
   p.cache_fifo_depth = LatencyFifo::depth(p, memory);
   return p;
 }
@@ -15,8 +14,7 @@ spec::texture::Parameters sized(spec::texture::Parameters p,
 }  // namespace
 
 TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const spec::texture::Parameters& parameters,
-                         const LatencyFifo::MemoryClocks& memory)
+                         const spec::texture::Parameters& parameters, const MemoryClocks& memory)
     : Engine(name, clock, register_table(), control_layout()),
       parameters_(sized(check_build(parameters), memory)),
       address("address", clock, parameters_, control, descriptors_, probe_),

@@ -34,8 +34,7 @@ class TextureUnit final : public Engine {
   // ConfigError for what cannot be built (spec/texture/check_build.h). What the memory takes sizes
   // a latency FIFO whose depth is ordered as 0.
   TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::texture::Parameters& parameters,
-              const LatencyFifo::MemoryClocks& memory = {});
+              const spec::texture::Parameters& parameters, const MemoryClocks& memory = {});
 
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 

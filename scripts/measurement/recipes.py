@@ -11,4 +11,6 @@ MEASURED = ("results", "comparison", "geometric_quality", "morphological_quality
 HELD = {"mutation": "mutation_record", "coverage": "app_pages"}
 # Blocks that a program writes between its two marks, and the test that says the same of them.
 GENERATORS = {"comparison_page": "comparison_page.all_is_current",
-              "conformance_page": "conformance_page.is_current"}
+              "conformance_page": "conformance_page.is_current",
+              "MorphologicalHarm.OfFramesByFormula": "deburr_test(harm_test",
+              "MorphologicalHarm.OfFramesOfOthers": "deburr_test(harm_test"}

@@ -23,6 +23,7 @@ enum class Axis : std::uint8_t { kHorizontal, kVertical };  // major axis of a l
 struct LineRecord {
   Axis axis = Axis::kHorizontal;
   bool tie_forward = false;     // a line through a pixel's centre blends it down or right
+  bool crease = false;          // the class of its edge
   std::uint16_t first = 0;      // column
   std::uint16_t count = 0;      // columns, 1..8192
   std::int64_t position = 0;    // S15.24 pixels
@@ -34,6 +35,7 @@ struct LineRecord {
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("axis", self.axis, 1, "0 horizontal, 1 vertical");
     visit("tie_forward", self.tie_forward);
+    visit("crease", self.crease);
     visit("first", self.first, 13, "U13");
     visit("count", self.count, 14, "U14");
     visit("position", self.position, 40, "S15.24");
@@ -43,7 +45,8 @@ struct LineRecord {
   }
 };
 
-// A pixel that a line would blend with a neighbour.
+// A pixel that a line would blend with a neighbour. With coverage = area the second pixel of a
+// column follows the first.
 struct Candidate {
   std::uint16_t x = 0, y = 0;
   Direction direction = Direction::kUp;

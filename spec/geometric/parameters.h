@@ -26,8 +26,14 @@ inline constexpr std::array<std::string_view, 3> kCreaseNames = {"off", "paper",
 enum class DepthTest : std::uint8_t { kOff, kOwn, kFarther };
 inline constexpr std::array<std::string_view, 3> kDepthTestNames = {"off", "own", "farther"};
 
-enum class Combine : std::uint8_t { kMax, kLast };
-inline constexpr std::array<std::string_view, 2> kCombineNames = {"max", "last"};
+enum class Cull : std::uint8_t { kNone, kBack };
+inline constexpr std::array<std::string_view, 2> kCullNames = {"none", "back"};
+
+enum class CoverageRule : std::uint8_t { kDistance, kArea };
+inline constexpr std::array<std::string_view, 2> kCoverageNames = {"distance", "area"};
+
+enum class Combine : std::uint8_t { kMax, kLast, kOutermost };
+inline constexpr std::array<std::string_view, 3> kCombineNames = {"max", "last", "outermost"};
 
 enum class Layout : std::uint8_t { kRaster, kTiled };
 inline constexpr std::array<std::string_view, 2> kLayoutNames = {"raster", "tiled"};
@@ -63,20 +69,28 @@ inline constexpr int kSlopeBits = 24;          // fraction bits of slope and pos
 inline constexpr int kDistanceBits = 16;       // fraction bits of the distance to a line
 inline constexpr int kDepthStepBits = 12;      // fraction bits of a depth along a line
 inline constexpr int kMaxWeight = 128;         // U0.8: a half, the largest share of a neighbour
+inline constexpr int kAreaSlopes = 32;         // slopes of the table of areas, 1/32 each
+inline constexpr int kAreaDistances = 64;      // distances of it, 1/64 pixel each
 inline constexpr int kBlockSize = 4;           // pixels of a block, each way
 inline constexpr int kBlockPixels = 16;        // of a block, and of a line of memory
 inline constexpr int kTileSize = 8;            // pixels of a tile, each way
 inline constexpr int kBlocksInWord = 128;      // blocks of a row whose touched bits share a word
 inline constexpr int kMaxReciprocalBits = 11;  // of the table's lengths
-inline constexpr int kMinFills = 8;            // a group may order eight lines of depth
+inline constexpr int kMinFills = 8, kMaxFills = 256;  // a group may order eight lines of depth
+// Places, where they are not sized from the latency of memory.
+inline constexpr std::int32_t kMinResolveLines = 16, kMaxResolveLines = 512;
+inline constexpr std::int32_t kMinCopyLines = 2, kMaxCopyLines = 256;
 
 // Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
 struct Rules {
   Preset preset = Preset::kDeburr;
   Select select = Select::kEdges;
   Crease crease = Crease::kShading;
+  Cull cull = Cull::kBack;
+  CoverageRule coverage = CoverageRule::kDistance;
   DepthTest depth_test = DepthTest::kFarther;
   std::int32_t depth_bias = 9;
+  std::int32_t crease_depth = 0;
   Combine combine = Combine::kMax;
   bool linear_light = true;
   bool mark = false;
@@ -100,10 +114,11 @@ struct Build {
   Lanes walkers = Lanes::kFour;
   CacheLines depth_lines = CacheLines::k128;
   CacheLines weight_blocks = CacheLines::k128;
-  std::int32_t fills = 64;
+  std::int32_t fills = 0;  // 0: sized from the latency of memory
   std::int32_t latency_fifo = 128;
   Lanes resolve_lanes = Lanes::kTwo;
-  std::int32_t resolve_lines = 64;
+  std::int32_t resolve_lines = 0;  // 0: as fills
+  std::int32_t copy_lines = 0;     // 0: as fills
   std::int32_t memory_outstanding = 128;
 };
 
@@ -117,13 +132,23 @@ void describe(Rules& p, Visitor& v) {
            "Which edges are drawn: all of them, or boundaries, silhouettes and visible creases.");
   v.choice("crease", p.crease, kCreaseNames,
            "What a crease is: nothing, an angle (eq 4 of paper 002), or what changes the shading.");
+  v.choice("cull", p.cull, kCullNames,
+           "What becomes of edges between two faces turned away: judged as those of faces turned "
+           "to the eye, or dropped.");
+  v.choice("coverage", p.coverage, kCoverageNames,
+           "What a line gives a pixel: its distance along the column, or the area that it cuts "
+           "off, of the column's second pixel too.");
   v.choice("depth_test", p.depth_test, kDepthTestNames,
            "What a line must not lie behind: nothing, its pixel, or the farther of its pixel and "
            "the neighbour.");
   v.integer("depth_bias", p.depth_bias, 1, 24, "bit",
             "A line may lie behind by 2^-n of the depth that it is compared with.");
+  v.integer("crease_depth", p.crease_depth, 0, 24, "bit",
+            "What is compared may lie behind a crease by 2^-n of the crease's depth; 0: by any "
+            "depth.");
   v.choice("combine", p.combine, kCombineNames,
-           "Weights of several lines: the largest of each direction, or the last one alone.");
+           "Weights of several lines: the largest of each direction, the last one alone, or the "
+           "smallest of a direction whose neighbour is farther and else the largest.");
   v.boolean("linear_light", p.linear_light, "Blend in linear light instead of sRGB codes.");
   v.boolean("mark", p.mark,
             "Clear the low bit of alpha where a pixel was blended, for the engine that follows.");
@@ -158,13 +183,18 @@ void describe(Build& p, Visitor& v) {
            "Lines of the depth cache, sixteen pixels each.");
   v.choice("weight_blocks", p.weight_blocks, kCacheLinesNames,
            "Blocks of 4 x 4 pixels whose weights are on the chip.");
-  v.integer("fills", p.fills, kMinFills, 256, "line",
-            "Lines on their way into each of the three caches.");
+  v.integer("fills", p.fills, 0, kMaxFills, "line",
+            "Lines on their way into each of the three caches, 8 or more; 0 sizes it from the "
+            "latency of memory.");
   v.integer("latency_fifo", p.latency_fifo, 4, 1024, "token",
             "Look-ups that wait for their lines, for each of the three caches.");
   v.choice("resolve_lanes", p.resolve_lanes, kLanesNames, "Pixels blended a clock.");
-  v.integer("resolve_lines", p.resolve_lines, 16, 256, "line",
-            "Lines of colours and weights on their way to the resolve.");
+  v.integer("resolve_lines", p.resolve_lines, 0, kMaxResolveLines, "line",
+            "Lines of colours and weights on their way to the resolve, 16 or more; 0 sizes it from "
+            "the latency of memory.");
+  v.integer("copy_lines", p.copy_lines, 0, kMaxCopyLines, "line",
+            "Lines between read and write while the frame is copied, 2 or more; 0 sizes it from "
+            "the latency of memory.");
   v.integer("memory.outstanding", p.memory_outstanding, kMinFills, 1024, "transaction",
             "Transactions in flight.");
 }
@@ -180,13 +210,19 @@ struct PresetRow {
   Preset preset;
   Select select;
   Crease crease;
+  Cull cull;
+  CoverageRule coverage;
+  std::int32_t crease_depth;
   Combine combine;
   bool frame_copy;
 };
 inline constexpr std::array<PresetRow, 3> kPresets = {{
-    {Preset::kGpaa, Select::kAll, Crease::kPaper, Combine::kLast, true},
-    {Preset::kGpaaOptimised, Select::kEdges, Crease::kPaper, Combine::kLast, true},
-    {Preset::kDeburr, Select::kEdges, Crease::kShading, Combine::kMax, false},
+    {Preset::kGpaa, Select::kAll, Crease::kPaper, Cull::kBack, CoverageRule::kDistance, 0,
+     Combine::kLast, true},
+    {Preset::kGpaaOptimised, Select::kEdges, Crease::kPaper, Cull::kBack, CoverageRule::kDistance,
+     0, Combine::kLast, true},
+    {Preset::kDeburr, Select::kEdges, Crease::kShading, Cull::kBack, CoverageRule::kDistance, 0,
+     Combine::kMax, false},
 }};
 
 // Calls set(name, member, value) for all of it (spec/presets.h).
@@ -195,6 +231,9 @@ constexpr void for_each_of(Preset preset, Set&& set) {
   const PresetRow& row = row_of(kPresets, &PresetRow::preset, preset);
   set("select", &Rules::select, row.select);
   set("crease", &Rules::crease, row.crease);
+  set("cull", &Rules::cull, row.cull);
+  set("coverage", &Rules::coverage, row.coverage);
+  set("crease_depth", &Rules::crease_depth, row.crease_depth);
   set("combine", &Rules::combine, row.combine);
   set("frame_copy", &Build::frame_copy, row.frame_copy);
 }

@@ -54,7 +54,7 @@ enum class EdgeClass : std::uint8_t {
   kInvalid,  // an index is out of range: dropped
   kBoundary,
   kSilhouette,
-  kBack,  // both faces turned away: dropped
+  kBack,  // both faces turned away, cull = back: dropped
   kCrease,
   kFlat,         // dropped
   kUnclassified  // select = all, and no boundary

@@ -94,16 +94,21 @@ inline constexpr std::array kFields = {kWidth, kHeight};
 }  // namespace size
 namespace rules {
 inline constexpr Field kSelect{"select", 0, 0, {}, kSelectNames};
+inline constexpr Field kLinearLight{"linear_light", 1, 1, "1: blend in linear light"};
 inline constexpr Field kCrease{"crease", 3, 2, {}, kCreaseNames};
 inline constexpr Field kDepthTest{"depth_test", 5, 4, {}, kDepthTestNames};
-inline constexpr Field kCombine{"combine", 6, 6, {}, kCombineNames};
-inline constexpr Field kLinearLight{"linear_light", 7, 7, "1: blend in linear light"};
+inline constexpr Field kCombine{"combine", 7, 6, {}, kCombineNames};
 inline constexpr Field kDepthBias{"depth_bias", 12, 8, "1..24; 0 counts as 1, more as 24"};
 inline constexpr Field kMark{"mark", 13, 13, "1: clear bit 0 of alpha of blended pixels"};
 inline constexpr Field kLayout{"layout", 14, 14, {}, kLayoutNames};
 inline constexpr Field kFrameCopy{"frame_copy", 15, 15, "1: blend from a copy of the frame"};
-inline constexpr std::array kFields = {kSelect,    kCrease, kDepthTest, kCombine,  kLinearLight,
-                                       kDepthBias, kMark,   kLayout,    kFrameCopy};
+inline constexpr Field kCoverage{"coverage", 16, 16, {}, kCoverageNames};
+inline constexpr Field kCull{"cull", 17, 17, {}, kCullNames};
+inline constexpr Field kCreaseDepth{"crease_depth", 22, 18,
+                                    "1..24; 0: creases of any depth, more counts as 24"};
+inline constexpr std::array kFields = {kSelect,    kLinearLight, kCrease, kDepthTest,
+                                       kCombine,   kDepthBias,   kMark,   kLayout,
+                                       kFrameCopy, kCoverage,    kCull,   kCreaseDepth};
 }  // namespace rules
 namespace line_base {
 inline constexpr Field kAddress{"address", 31, 6, "bits 31..6 of a multiple of 64"};
@@ -161,11 +166,12 @@ inline constexpr std::array<RegisterInfo, 38> kRegisters = {{
     {reg::kBoundaryEdges, "BOUNDARY_EDGES", Access::kReadOnly, 0, "Edges of a single face."},
     {reg::kSilhouetteEdges, "SILHOUETTE_EDGES", Access::kReadOnly, 0,
      "Edges between a face turned to the eye and one turned away."},
-    {reg::kBackEdges, "BACK_EDGES", Access::kReadOnly, 0, "Edges of two faces turned away."},
+    {reg::kBackEdges, "BACK_EDGES", Access::kReadOnly, 0,
+     "Edges of two faces turned away, which cull drops."},
     {reg::kCreaseEdges, "CREASE_EDGES", Access::kReadOnly, 0,
-     "Creases between two faces turned to the eye."},
+     "Creases between two faces turned to the eye, or not culled."},
     {reg::kFlatEdges, "FLAT_EDGES", Access::kReadOnly, 0,
-     "Edges between two faces turned to the eye that are no crease."},
+     "Edges between two faces turned to the eye, or not culled, that are no crease."},
     {reg::kInvalidEdges, "INVALID_EDGES", Access::kReadOnly, 0,
      "Edges with an index out of range."},
     {reg::kKeptEdges, "KEPT_EDGES", Access::kReadOnly, 0, "Edges whose vertices were fetched."},
@@ -200,7 +206,8 @@ constexpr std::uint32_t rules_word(const Parameters& p) {
          rules::kDepthTest.in(code(p.depth_test)) | rules::kCombine.in(code(p.combine)) |
          rules::kLinearLight.in(code(p.linear_light)) | rules::kDepthBias.in(code(p.depth_bias)) |
          rules::kMark.in(code(p.mark)) | rules::kLayout.in(code(p.layout)) |
-         rules::kFrameCopy.in(code(p.frame_copy));
+         rules::kFrameCopy.in(code(p.frame_copy)) | rules::kCoverage.in(code(p.coverage)) |
+         rules::kCull.in(code(p.cull)) | rules::kCreaseDepth.in(code(p.crease_depth));
 }
 constexpr std::uint32_t size_word(std::uint32_t width, std::uint32_t height) {
   return reg::size::kWidth.in(width) | reg::size::kHeight.in(height);

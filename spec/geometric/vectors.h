@@ -75,7 +75,7 @@ struct FrameVector {
   FrameResult result;
 };
 
-inline constexpr std::array<FrameVector, 8> kFrameVectors = {{
+inline constexpr std::array<FrameVector, 14> kFrameVectors = {{
     {'a',
      Preset::kDeburr,
      "",
@@ -124,6 +124,43 @@ inline constexpr std::array<FrameVector, 8> kFrameVectors = {{
      {{0x095774cc41e669b3, 0x721dca7bb6a8d77f, 0xd81315c6f0a3ee49},
       {300, 166, 0, 0, 0, 0, 4, 296, 5, 1, 18, 272, 8105, 2864, 7264, 7264, 191, 2461},
       {50, 0, 2372, 2372, 1069, 701}}},
+    {'i',
+     Preset::kDeburr,
+     "combine=outermost",
+     {{0xc3ce220fdee8ccac, 0x6963ec3a36cd29fd, 0x0d06d946f9d45c98},
+      {300, 164, 63, 29, 20, 12, 12, 247, 5, 1, 15, 226, 6686, 2332, 5953, 4779, 191, 2148},
+      {50, 722, 438, 438, 585, 191}}},
+    {'j',
+     Preset::kDeburr,
+     "coverage=area",
+     {{0x2c9c418603df72cd, 0x948577d91edfa323, 0x7b401f738631a9e0},
+      {300, 164, 63, 29, 20, 12, 12, 247, 5, 1, 15, 226, 6686, 2332, 7980, 6375, 191, 2337},
+      {50, 722, 464, 464, 603, 191}}},
+    {'k',
+     Preset::kDeburr,
+     "crease_depth=4 cull=none",
+     {{0x28c126b9f3f5f4cb, 0x7c0f573092bd2b50, 0x0e85a0254825bd3f},
+      {300, 164, 63, 0, 38, 23, 12, 265, 5, 1, 17, 242, 7197, 2518, 6429, 4378, 191, 2088},
+      {50, 777, 389, 389, 573, 191}}},
+    {'l',
+     Preset::kDeburr,
+     "cull=none coverage=area crease_depth=4 combine=outermost",
+     {{0x5379abe68b366634, 0xb5da3d8095e1b3c7, 0x26d7228cfc0a75f2},
+      {300, 164, 63, 0, 38, 23, 12, 265, 5, 1, 17, 242, 7197, 2518, 8652, 5870, 191, 2292},
+      {50, 779, 419, 419, 615, 191}}},
+    {'m',
+     Preset::kDeburr,
+     "cull=none coverage=area crease_depth=4 combine=outermost layout=raster walkers=1 "
+     "depth_lines=16 weight_blocks=16 vertex_lines=16",
+     {{0x5379abe68b366634, 0xb5da3d8095e1b3c7, 0x158c42c91f62a50c},
+      {300, 164, 63, 0, 38, 23, 12, 265, 5, 1, 17, 242, 7197, 7197, 8652, 5870, 191, 2292},
+      {371, 4286, 1727, 1727, 1006, 693}}},
+    {'n',
+     Preset::kGpaa,
+     "coverage=area depth_test=own",
+     {{0x90df2ff5e5d7e9c7, 0x493a9c50771b9a09, 0xfb4b920d3d9abd4a},
+      {300, 166, 0, 0, 0, 0, 4, 296, 5, 1, 18, 272, 8105, 2864, 9861, 6107, 188, 2212},
+      {50, 729, 499, 499, 564, 188}}},
 }};
 
 // ---- lines --------------------------------------------------------------------------------------

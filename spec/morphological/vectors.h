@@ -48,7 +48,7 @@ struct FrameVector {
   FrameResult result;
 };
 
-inline constexpr std::array<FrameVector, 18> kFrameVectors = {{
+inline constexpr std::array<FrameVector, 22> kFrameVectors = {{
     {"noise_mlaa",
      VectorImage::kNoise,
      Preset::kMlaa,
@@ -158,6 +158,30 @@ inline constexpr std::array<FrameVector, 18> kFrameVectors = {{
      Quality::kHigh,
      "trim=false",
      {0x464376bac387fe0d, 1870, 1198, 0, 538, 222, 970, 5382, 0, 1552}},
+    {"noise_deburr",
+     VectorImage::kNoise,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "",
+     {0xe29b10101a0ad9c9, 4407, 2958, 0, 1390, 10, 10, 7378, 0, 5369}},
+    {"line_deburr",
+     VectorImage::kLine,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "",
+     {0x240793202f84f6b6, 436, 241, 0, 232, 128, 584, 2832, 0, 491}},
+    {"blocks_deburr",
+     VectorImage::kBlocks,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "",
+     {0xcf1dd1c5d67b6c59, 1926, 1217, 1, 549, 193, 738, 5801, 0, 2871}},
+    {"blocks_deburr_small",
+     VectorImage::kBlocks,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "steps=3 window_rows=10 reach_columns=7",
+     {0x7bcfc3977ff28c59, 1926, 1217, 26, 547, 227, 352, 3770, 0, 2875}},
 }};
 
 inline constexpr std::array<FrameVector, 33> kSmaaFrameVectors = {{

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include "spec/error.h"
+#include "tb/app/composition.h"
 #include "tb/base/near_matches.h"
 
 namespace deburr::tb {
+
+std::unique_ptr<CompositionRole> Engine::role() const { return nullptr; }
 
 std::unique_ptr<Engine> engine_named(const std::string& name) {
   std::vector<std::string> known;

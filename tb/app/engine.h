@@ -136,11 +136,16 @@ struct LongRun {
   std::vector<std::string_view> without{};
 };
 
+class CompositionRole;
+
 class Engine {
  public:
   virtual ~Engine() = default;
   virtual std::string_view name() const = 0;
   virtual std::string_view summary() const = 0;
+  // What it is in a composition, with parameters of its own (tb/app/composition.h); null: it is in
+  // none.
+  virtual std::unique_ptr<CompositionRole> role() const;
   // Engines that it is composed of, by name. Their maps (with "NAME_" in front), bins and draws are
   // its own too.
   virtual std::vector<std::string_view> parts() const { return {}; }

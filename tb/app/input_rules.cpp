@@ -73,4 +73,15 @@ void refuse_unused_memory(const ParameterSet& set, std::string_view prefix,
     refuse("error_bytes", fmt::format("{}.error_address names no address", prefix));
 }
 
+std::string with_changes(std::string label, const ParameterSet& set, std::string_view prefix) {
+  bool first = true;
+  for (const Parameter* p : set.changed()) {
+    if (!p->name.starts_with(prefix)) continue;
+    label += first ? ", changed: " : ", ";
+    label += p->name.substr(prefix.size());
+    first = false;
+  }
+  return label;
+}
+
 }  // namespace deburr::tb

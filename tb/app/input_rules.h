@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What is refused since a run of it would show nothing: an input that draws no pixel, a memory that
-// the watchdog would take for dead, a parameter of a memory without an effect.
+// the watchdog would take for dead, a parameter of a memory without an effect; and how a title says
+// which rules are not the preset's.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "tb/env/memory_parameters.h"
@@ -20,6 +22,9 @@ void refuse_nothing_drawn(const DepthImage& depth, std::string_view source);
 // `prefix` names the memory's parameters.
 void refuse_slow_memory(const ParameterSet& set, std::string_view prefix,
                         const MemoryParameters& memory);
+// What a title says of an engine's rules: "preset gpaa", or "preset gpaa, changed: combine" for
+// what was given beside the preset. `prefix` is that of the engine's parameters.
+std::string with_changes(std::string label, const ParameterSet& set, std::string_view prefix);
 // What was given of a memory and has no effect under the rest.
 void refuse_unused_memory(const ParameterSet& set, std::string_view prefix,
                           const MemoryParameters& memory);

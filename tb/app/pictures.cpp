@@ -11,15 +11,17 @@
 
 #include "tb/results/report.h"
 #include "tb/scene/compose.h"
+#include "tb/scene/flip.h"
 #include "tb/scene/quality.h"
+#include "tb/scene/ssim.h"
 
 namespace deburr::tb {
 namespace {
 
 constexpr int kAnyDifference = 255;  // gain that makes it full scale
 
-std::optional<double> value_of(double psnr) {
-  return std::isnan(psnr) ? std::nullopt : std::optional(psnr);
+std::optional<double> value_of(double measure) {
+  return std::isnan(measure) ? std::nullopt : std::optional(measure);
 }
 
 }  // namespace
@@ -38,7 +40,33 @@ Quality judge_quality(std::string reference, const Image& before, const Image& a
     quality.psnr_silhouette_db = value_of(psnr(after, truth, silhouettes));
     quality.psnr_silhouette_before_db = value_of(psnr(before, truth, silhouettes));
   }
+  const Image* const both[] = {&after, &before};
+  const std::vector<double> flips = flip(truth, both), similar = ssim(truth, both);
+  quality.flip = flips[0];
+  quality.flip_before = flips[1];
+  quality.ssim = value_of(similar[0]);
+  quality.ssim_before = value_of(similar[1]);
   return quality;
+}
+
+Change measure_change(const Image& before, const Image& after, const Image* truth) {
+  const auto percent = [](std::int64_t part, std::size_t whole) {
+    return 100 * static_cast<double>(part) / static_cast<double>(whole);
+  };
+  Change change;
+  const std::size_t all = before.pixels.size();
+  change.small_percent = percent(count_different(after, before, Change::kSmall), all);
+  change.large_percent = percent(count_different(after, before, Change::kLarge), all);
+  change.psnr_db = psnr(after, before);
+  if (!truth) return change;
+  const Mask right = inverted(edge_mask(*truth, before));
+  const auto there = static_cast<std::size_t>(count(right));
+  if (there == 0) return change;
+  change.right_small_percent =
+      percent(count_different(after, before, right, Change::kSmall), there);
+  change.right_large_percent =
+      percent(count_different(after, before, right, Change::kLarge), there);
+  return change;
 }
 
 Image without(Image image, const std::vector<bool>& missing, const Rgba8& colour) {

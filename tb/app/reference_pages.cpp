@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <span>
+#include <string>
 #include <string_view>
 #include <systemc>
 #include <utility>
@@ -140,24 +142,43 @@ std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "| key | unit | meaning |\n|---|---|---|\n";
   for (const Statistic& s : window_statistics())
     page += fmt::format("| `{}` | {} | {} |\n", s.name, cell(s.unit), cell(s.meaning));
+  std::set<std::string> known;  // of parts, as a composition has them
   for (const auto& engine : engines) {
+    const auto parts = engine->parts();
     Result result;
     engine->describe_statistics(result);
-    page += fmt::format("\n## {}\n\n| key | unit | meaning |\n|---|---|---|\n", engine->name());
+    page += fmt::format("\n## {}\n\n", engine->name());
+    if (!parts.empty())
+      page += fmt::format(
+          "What its parts have ({}) stands above, and in its results with their names in front: "
+          "`work.{}_...`.\nBeside that:\n\n",
+          fmt::join(parts, ", "), parts.front());
+    const auto is_of_part = [&](const std::string& name) {
+      if (parts.empty()) known.insert(fmt::format("{}_{}", engine->name(), name));
+      return !parts.empty() && known.contains(name);
+    };
+    page += "| key | unit | meaning |\n|---|---|---|\n";
     for (const WorkItem& item : result.work)
-      page +=
-          fmt::format("| `work.{}` | {} | {} |\n", item.name, cell(item.unit), cell(item.meaning));
+      if (!is_of_part(item.name))
+        page += fmt::format("| `work.{}` | {} | {} |\n", item.name, cell(item.unit),
+                            cell(item.meaning));
     for (const UnitCycles& unit : result.units)
       for (const StallCycles& stall : unit.stalls)
-        page += fmt::format("| `units.{}.stalls.{}` | clk | {} |\n", unit.name, stall.cause,
-                            cell(stall.meaning));
-    page +=
-        "\n| memory, with default parameters | kind | words x bits | ports | read latency | built "
-        "as | logical bits | physical bits | holds |\n|---|---|---|---|---|---|---|---|---|\n";
+        if (!is_of_part(fmt::format("{}.stalls.{}", unit.name, stall.cause)))
+          page += fmt::format("| `units.{}.stalls.{}` | clk | {} |\n", unit.name, stall.cause,
+                              cell(stall.meaning));
+    std::string memories;
     for (const MemoryFigures& m : result.memories)
-      page += fmt::format("| `memories.{}` | {} | {} x {} | {} | {} | {} | {} | {} | {} |\n",
-                          m.name, m.kind, m.words, m.word_bits, m.ports, m.read_latency, m.built_as,
-                          m.logical_bits, m.physical_bits, cell(m.content));
+      if (!is_of_part(m.name))
+        memories += fmt::format("| `memories.{}` | {} | {} x {} | {} | {} | {} | {} | {} | {} |\n",
+                                m.name, m.kind, m.words, m.word_bits, m.ports, m.read_latency,
+                                m.built_as, m.logical_bits, m.physical_bits, cell(m.content));
+    if (!memories.empty())
+      page +=
+          "\n| memory, with default parameters | kind | words x bits | ports | read latency | "
+          "built as | logical bits | physical bits | holds "
+          "|\n|---|---|---|---|---|---|---|---|---|\n" +
+          memories;
   }
   return page;
 }
@@ -169,9 +190,6 @@ std::vector<std::string> fault_names(Engine& engine) {
   return result.faults;
 }
 
-namespace {
-
-// By the names of their modules.
 std::vector<rtl::RegisterSection> register_sections(
     const std::vector<std::unique_ptr<Engine>>& engines) {
   std::vector<rtl::RegisterSection> sections;
@@ -182,8 +200,6 @@ std::vector<rtl::RegisterSection> register_sections(
             [](const auto& a, const auto& b) { return a.module < b.module; });
   return sections;
 }
-
-}  // namespace
 
 std::string registers_page(const std::vector<std::unique_ptr<Engine>>& engines) {
   std::string page =

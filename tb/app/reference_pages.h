@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "rtl_model/fabric/register_section.h"
 #include "tb/app/engine.h"
 
 namespace deburr::tb {
@@ -15,6 +16,9 @@ namespace deburr::tb {
 std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // Elaborates every engine's model: at most once a process, and not in one that simulates.
 std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines);
+// The registers of all engines that have some, by the names of their modules.
+std::vector<rtl::RegisterSection> register_sections(
+    const std::vector<std::unique_ptr<Engine>>& engines);
 std::string registers_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // The registers of every engine as macros, for software in C or C++.
 std::string registers_header(const std::vector<std::unique_ptr<Engine>>& engines);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Clocks of the geometric engine's hardware model, and frames for counting its instructions.
 //
-//   geometric_rtl_bench --frames <n> [preset [walkers [edge_lanes [layout [passes]]]]]
+//   geometric_rtl_bench --frames <n> [preset [walkers [edge_lanes [layout [passes [latency
+//       [parameters]]]]]]]
 //       n frames of 1280 x 720: 33 000 edges, a fifth of them kept, some 24 000 columns, passing
-//       the same places so many times; cycles, then clocks of both phases, work, stalls, memories
+//       the same places so many times (1), with a memory of so many clocks (20), and other
+//       parameters as "fills=128 coverage=area"; cycles, then clocks of both phases and what the
+//       port alone would take, work, stalls, memories
 //   geometric_rtl_bench --idle <n>      n clocks of an engine that waits for a frame
 //   geometric_rtl_bench --dividers      clocks of the edges over dividers, with and without table
 //   geometric_rtl_bench --ratio <n>     how many times as fast the golden model draws the same
@@ -28,6 +31,7 @@
 #include "rtl_model/platform/geometric_driver.h"
 #include "rtl_model/platform/memory_model.h"
 #include "rtl_model/platform/register_host.h"
+#include "tb/base/apply_settings.h"
 #include "tb/base/forked.h"
 
 namespace deburr::tb {
@@ -78,9 +82,9 @@ Scene rings(std::uint32_t passes) {
 }
 
 struct Frames {
-  explicit Frames(const Parameters& p, std::uint32_t passes = 1)
-      : engine("engine", clock, p),
-        memory("memory", {4, sc_core::SC_NS}, memory_parameters()),
+  explicit Frames(const Parameters& p, std::uint32_t passes = 1, std::int32_t latency = 20)
+      : engine("engine", clock, p, {latency, 1}),
+        memory("memory", {4, sc_core::SC_NS}, memory_parameters(latency)),
         driver(bus, memory, p) {
     engine.memory()->bind(memory.ports);
     bus.bus.bind(engine.registers);
@@ -90,8 +94,9 @@ struct Frames {
         {kWidth, kHeight, scene.edges, scene.vertices, kFaces, scene.facing, {}, scene.image});
     driver.program();
   }
-  static platform::MemoryModelParameters memory_parameters() {
+  static platform::MemoryModelParameters memory_parameters(std::int32_t latency) {
     platform::MemoryModelParameters p;
+    p.latency_min = p.latency_max = static_cast<std::uint32_t>(latency);
     p.bytes = kBytes;
     p.outstanding = 1024;
     p.record_reads = false;
@@ -128,11 +133,21 @@ void frames(int count, const std::vector<std::string>& arguments) {
   if (arguments.size() > 2) p.edge_lanes = choice<Lanes>(arguments[2], kLanesNames);
   if (arguments.size() > 3)
     p.layout = choice<spec::geometric::Layout>(arguments[3], spec::geometric::kLayoutNames);
-  Frames f(p, arguments.size() > 4 ? static_cast<std::uint32_t>(std::stoi(arguments[4])) : 1);
+  if (arguments.size() > 6) apply_settings(p, arguments[6]);
+  Frames f(p, arguments.size() > 4 ? static_cast<std::uint32_t>(std::stoi(arguments[4])) : 1,
+           arguments.size() > 5 ? std::stoi(arguments[5]) : 20);
   for (int i = 0; i < count; ++i) f.run();
   std::cout << fmt::format("{} cycles\n", f.clock.cycle());
   std::cout << fmt::format("last frame: {} clocks, edges {}, resolve {}\n", f.driver.clocks().frame,
                            f.driver.clocks().edges, f.driver.clocks().resolve);
+  const std::uint64_t frames = static_cast<std::uint64_t>(count),
+                      all =
+                          f.engine.memory_port.reads.value() + f.engine.memory_port.writes.value(),
+                      resolve = f.engine.block_fetch.weights_read.value() +
+                                f.engine.block_fetch.lines_read.value() +
+                                f.engine.resolver.lines_written.value();
+  std::cout << fmt::format("lines of memory a frame: edges {}, resolve {}\n",
+                           (all - resolve) / frames, resolve / frames);
   for (const auto& row : spec::geometric::kWorkCounts)
     for (const spec::RegisterInfo& info : spec::geometric::kRegisters)
       if (info.offset == row.offset)
@@ -161,6 +176,7 @@ void dividers() {
     return forked_text([&] {
       Parameters p;
       p.edge_lanes = spec::geometric::Lanes::kFour;
+      p.coverage = spec::geometric::CoverageRule::kDistance;
       p.pipelined = pipelined;
       p.dividers = units;
       p.reciprocal_table = table;

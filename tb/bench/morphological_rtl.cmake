@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-find_package(benchmark REQUIRED)
+deburr_find_package(benchmark libbenchmark-dev)
 add_executable(morphological_rtl_bench "${CMAKE_CURRENT_LIST_DIR}/morphological_rtl_bench.cpp")
 target_link_libraries(morphological_rtl_bench PRIVATE deburr::rtl_morphological
                                                       deburr::golden_morphological deburr::harness

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -245,6 +246,19 @@ void check_page(const CompareOptions& options) {
   }
 }
 
+// What is read here was written by deburr, and perhaps changed by somebody else since: a value of
+// another kind is a damaged file, whoever meets it.
+Outcome of_written_files(const std::vector<std::string>& paths,
+                         const std::function<Outcome()>& made) {
+  try {
+    return made();
+  } catch (const Json::exception& error) {
+    throw spec::FileError(
+        fmt::format("'{}': a result or a manifest is damaged ({}): run that again",
+                    fmt::join(paths, "', '"), error.what()));
+  }
+}
+
 Outcome compare_results(const CompareOptions& options, bool json) {
   check_page(options);
   const Json comparison = comparison_of(options);
@@ -305,6 +319,12 @@ void add_compare(CLI::App& app, CommandLine& line) {
                    "Throughput may fall by this much")
       ->capture_default_str()
       ->check(tolerance());
+  command->add_option("--flip", tolerances.flip, "FLIP may grow by this much")
+      ->check(tolerance())
+      ->capture_default_str();
+  command->add_option("--ssim", tolerances.ssim, "SSIM may fall by this much")
+      ->check(tolerance())
+      ->capture_default_str();
   command->add_option("--psnr-db", tolerances.psnr_db, "PSNR may fall by this much")
       ->capture_default_str()
       ->check(tolerance());
@@ -318,7 +338,10 @@ void add_compare(CLI::App& app, CommandLine& line) {
   command->add_flag("--all", options->all, "Of runs: print every value that differs, counters too");
   command->add_flag("--json", line.json, "Print one JSON object: exit code, outcome, comparison");
   command->callback([options, &line] {
-    line.action = [options, &line] { return compare_results(*options, line.json); };
+    line.action = [options, &line] {
+      const std::vector<std::string> paths(options->paths.begin(), options->paths.end());
+      return of_written_files(paths, [&] { return compare_results(*options, line.json); });
+    };
   });
 }
 
@@ -329,7 +352,9 @@ void add_report(CLI::App& app, CommandLine& line) {
   const auto directories = std::make_shared<std::vector<std::string>>();
   command->add_option("DIR", *directories, "Run directories")->required();
   command->callback([directories, &line] {
-    line.action = [directories] { return rebuild_reports(*directories); };
+    line.action = [directories] {
+      return of_written_files(*directories, [&] { return rebuild_reports(*directories); });
+    };
   });
 }
 

@@ -12,6 +12,7 @@
 #include "spec/error.h"
 #include "tb/app/engine.h"
 #include "tb/app/reference_pages.h"
+#include "tb/app/shorthands.h"
 #include "tb/base/near_matches.h"
 #include "tb/command/commands.h"
 #include "tb/results/parameter_set.h"
@@ -32,6 +33,22 @@ Json to_json(const Engine& engine, const Parameter& p) {
                {"meaning", p.meaning}};
   if (!p.aliases.empty()) json["aliases"] = p.aliases;
   return json;
+}
+
+// Short options of `deburr run ENGINE`, and what they stand for.
+void list_options(const Engine& engine, const ParameterSet& set, Json& listed) {
+  for (const Shorthand& shorthand : shorthands_of(engine)) {
+    Json parameters = {shorthand.parameter};
+    if (!shorthand.second_parameter.empty()) parameters.push_back(shorthand.second_parameter);
+    const Parameter* const parameter = set.find(shorthand.parameter);
+    DEBURR_CHECK(parameter, shorthand.option + " stands for an unknown parameter");
+    const bool is_switch = parameter->range == "true | false";
+    listed.push_back({{"engine", engine.name()},
+                      {"option", shorthand.option},
+                      {"parameters", parameters},
+                      {"given", is_switch ? Json(shorthand.given) : Json()},
+                      {"meaning", shorthand.help}});
+  }
 }
 
 Outcome print_params(const ParamsCommand& command, bool json) {
@@ -68,6 +85,7 @@ Outcome print_params(const ParamsCommand& command, bool json) {
   std::vector<Parameter> shown;
   std::vector<BuildLimit> limits;
   Json listed = Json::array();  // of each engine, whose defaults may be others
+  Json options = Json::array();
   for (const auto& engine : all) {
     ParameterSet set;
     RunParameters run = engine->run_parameters();
@@ -82,6 +100,7 @@ Outcome print_params(const ParamsCommand& command, bool json) {
       if (!known) shown.push_back(p);
       listed.push_back(to_json(*engine, p));
     }
+    if (command.unit.empty()) list_options(*engine, set, options);
     for (const BuildLimit& limit : set.build_limits()) {
       const std::string& about = limit.parameters.front();
       const bool known = std::find(limits.begin(), limits.end(), limit) != limits.end();
@@ -98,7 +117,7 @@ Outcome print_params(const ParamsCommand& command, bool json) {
     for (const BuildLimit& limit : limits)
       rules.push_back({{"parameters", limit.parameters}, {"must", limit.must}});
     Outcome outcome{0, fmt::format("PASS params: {} parameters", shown.size())};
-    outcome.details = Json{{"parameters", listed}, {"limits", rules}}.dump();
+    outcome.details = Json{{"parameters", listed}, {"options", options}, {"limits", rules}}.dump();
     return outcome;
   }
   std::size_t name = 0, kind = 0, value = 0, range = 0, unit = 0;

@@ -127,7 +127,13 @@ std::string decibels(const std::optional<double>& after, const std::optional<dou
   return text;
 }
 
-// Rate, bound, bottleneck and quality in a few lines.
+std::string measured(const std::optional<double>& after, const std::optional<double>& before) {
+  std::string text = fmt::format("{:.4f}", after.value_or(0));
+  if (before) text += fmt::format(" ({:+.4f})", *after - *before);
+  return text;
+}
+
+// Rate, bound, bottleneck, quality and what was changed in a few lines.
 std::string figures_of(const Result& r) {
   if (r.cycles == 0) return "";
   std::string text = fmt::format("rate        {:.3f} {}", r.throughput, r.throughput_unit);
@@ -141,6 +147,11 @@ std::string figures_of(const Result& r) {
                     r.bottleneck->cause,
                     100 * static_cast<double>(r.bottleneck->cycles) / static_cast<double>(r.cycles),
                     r.bottleneck->meaning);
+  for (const TerminalLine& line : r.terminal)
+    text += fmt::format("{:<11} {}\n", line.name, line.text);
+  if (r.bytes_read + r.bytes_written > 0)
+    text += fmt::format("memory      {:.3g} GB/s read, {:.3g} written at {:g} MHz\n",
+                        r.gb_per_s(r.bytes_read), r.gb_per_s(r.bytes_written), r.clock_mhz);
   if (r.quality) {
     text += fmt::format("quality     {}", decibels(r.quality->psnr_db, r.quality->psnr_before_db));
     if (r.quality->psnr_edge_db)
@@ -148,7 +159,20 @@ std::string figures_of(const Result& r) {
     if (r.quality->psnr_silhouette_db)
       text += ", silhouettes " +
               decibels(r.quality->psnr_silhouette_db, r.quality->psnr_silhouette_before_db);
+    if (r.quality->flip) text += ", FLIP " + measured(r.quality->flip, r.quality->flip_before);
+    if (r.quality->ssim) text += ", SSIM " + measured(r.quality->ssim, r.quality->ssim_before);
     text += fmt::format(" against {}\n", r.quality->reference);
+  }
+  if (r.change) {
+    const Change& c = *r.change;
+    text += fmt::format(
+        "changed     {:.2f} % of the pixels by more than {} codes, {:.2f} % by more "
+        "than {}",
+        c.small_percent, Change::kSmall, c.large_percent, Change::kLarge);
+    if (c.right_small_percent && c.right_large_percent)
+      text += fmt::format(" (of those that were right before {:.2f} % and {:.2f} %)",
+                          *c.right_small_percent, *c.right_large_percent);
+    text += fmt::format("; {} to what went in\n", decibels(c.psnr_db, std::nullopt));
   }
   return text;
 }

@@ -20,6 +20,7 @@
 #include "tb/sweep/collection.h"
 #include "tb/sweep/definition.h"
 #include "tb/sweep/local_engine.h"
+#include "tb/sweep/metric_keys.h"
 #include "tb/sweep/plan.h"
 #include "tb/sweep/search.h"
 #include "tb/sweep/slurm.h"
@@ -38,6 +39,7 @@ struct SweepOptions : PointOptions {
 };
 
 Plan planned(const SweepOptions& options, const SweepDefinition& sweep, const SweepPlace& place) {
+  require_known_metrics(sweep);
   Plan plan = make_plan(sweep, place);
   say_left_out(options, plan);
   return plan;
@@ -73,6 +75,7 @@ int run_generation(const SweepOptions& options, const SweepPlace& place, Plan pl
 Outcome run_search(const SweepOptions& options, const SweepDefinition& sweep,
                    const SweepPlace& place) {
   catch_interrupts();
+  require_known_metrics(sweep);
   fs::create_directories(place.directory);
   const SweepLock lock(place.directory);
   refuse_while_submitted(place);
@@ -106,12 +109,15 @@ Outcome collect_points(const std::string& what, const SweepDefinition& sweep, co
   const Collection collection = collect(sweep, place);
   write_collection(sweep, plan, place, collection);
   return with_collection(
-      {0, fmt::format("PASS {}: {} of {} collected, {} failed, {} missing{}; {}", what,
+      {0, fmt::format("PASS {}: {} of {} collected, {} failed, {} missing{}{}; {}", what,
                       grouped(collection.done), points_of(plan.points), grouped(collection.failed),
                       grouped(collection.missing),
                       sweep.objectives.empty()
                           ? ""
                           : fmt::format(", {} on the front", grouped(collection.front)),
+                      sweep.limits.empty()
+                          ? ""
+                          : fmt::format(", {} beyond the limits", grouped(collection.beyond)),
                       (place.directory / "index.html").string())},
       place);
 }

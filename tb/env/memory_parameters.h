@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "rtl_model/fabric/memory_clocks.h"
 #include "rtl_model/platform/memory_model_parameters.h"
 #include "tb/results/parameter_set.h"
 
@@ -69,6 +70,13 @@ inline platform::MemoryModelParameters memory_model_parameters(const MemoryParam
   m.bank_busy = static_cast<std::uint32_t>(p.bank_busy);
   m.outstanding = static_cast<std::uint32_t>(p.outstanding);
   return m;
+}
+
+// What it takes at most, for a line of so many bytes.
+inline rtl::MemoryClocks memory_clocks(const MemoryTiming& p, std::int32_t line_bytes) {
+  const std::int32_t transfer =
+      p.bytes_per_clock == 0 ? 1 : std::max(1, line_bytes / p.bytes_per_clock);
+  return {std::max(p.latency, p.latency_max), transfer};
 }
 
 // Bytes that answer with an error: [from, to).

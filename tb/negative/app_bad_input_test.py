@@ -746,6 +746,26 @@ class Results(CommandTest):
         self.expect(5, "compare", self.path("a"), self.path("b"), says="schema")
         self.expect(5, "report", self.path("b"))
 
+    def test_changed_by_hand(self):
+        """A value of another kind, wherever: a named error, of the file."""
+        with open(self.path("b/result.json")) as file:
+            whole = json.load(file)
+        places = [(key,) for key in whole if key != "schema"] + [("meaning", key) for key in list(whole["meaning"])[::20]]
+        damaged = 0
+        for place in places:
+            for value in (None, 7, {"a": 1}):
+                changed = json.loads(json.dumps(whole))
+                (changed if len(place) == 1 else changed[place[0]])[place[-1]] = value
+                self.write("b/result.json", json.dumps(changed))
+                for command in (("compare", self.path("a"), self.path("b")), ("report", self.path("b"))):
+                    done = self.run_command(*command)
+                    self.assertIn(done.returncode, (0, 1, 2, 5), f"{place} = {value}: {done.stderr}")
+                    damaged += done.returncode == 5
+                    if done.returncode == 5:
+                        self.assertIn("is damaged", done.stderr)
+                        self.assertIn(self.path("b"), done.stderr)
+        self.assertGreater(damaged, 10)
+
     def test_rebuilt_report_is_the_same(self):
         os.remove(self.path("b/report.html"))
         self.expect(0, "report", self.path("a"), self.path("b"))

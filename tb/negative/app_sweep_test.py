@@ -162,7 +162,7 @@ class Searches(Sweeps):
         self.write("s.yaml", BASE + AXES + "metrics: {clocks: cicles, bits: memory_bits.total.physical}\n"
                    "objectives: {minimise: [clocks, bits]}\n")
         self.expect(2, "search", "s.yaml", "--runs", "8",
-                    says="metric 'clocks': no result has the key 'cicles': did you mean 'cycles'")
+                    says="s.yaml:4: metric 'clocks': no result of 'texture' has the key 'cicles': did you mean 'cycles'")
 
     def test_nothing_there_and_something_else(self):
         self.write("s.yaml", BASE + AXES + self.GOALS)
@@ -182,10 +182,39 @@ class Searches(Sweeps):
 
 class Surroundings(Sweeps):
     def test_unknown_metric(self):
+        """Found before anything is run; one that runs of another kind would have, when it is collected."""
         self.write("s.yaml", BASE + AXES + "metrics: {clocks: cicles}\n")
+        for action in ("plan", "run"):
+            self.expect(2, "sweep", "s.yaml", action,
+                        says="s.yaml:4: metric 'clocks': no result of 'texture' has the key 'cicles': did you mean 'cycles'")
+        for key, near in (("units.filter.buzy", "units.filter.busy"), ("/units/filtre/busy", "units.filter.busy"),
+                          ("work.bilinear", "work.bilinears"), ("1 + work.bilinear", "work.bilinears")):
+            self.write("s.yaml", BASE + AXES + f"metrics: {{it: '{key}'}}\n")
+            self.expect(2, "sweep", "s.yaml", "plan", says=("has the key", f"'{near}'"))
+        self.write("s.yaml", BASE + AXES + "metrics: {psnr: quality.psnr_db}\n")
         self.expect(0, "sweep", "s.yaml", "run")
-        self.expect(2, "sweep", "s.yaml", "collect",
-                    says="metric 'clocks': no result has the key 'cicles': did you mean 'cycles'")
+        self.expect(2, "sweep", "s.yaml", "collect", says="metric 'psnr': no result has the key 'quality.psnr_db'")
+
+    def test_expressions(self):
+        def metric(text, *says):
+            self.refuse(BASE + AXES + f"metrics: {{it: '{text}'}}\n", "s.yaml:4: ", *says)
+
+        metric("1 + 2", "metric 'it': '1 + 2' has no key of result.json")
+        metric("cycles +", "metric 'cycles +': it ends too early")
+        metric("cycles 2", "'2' was not expected")
+        metric("cycles > 2", "expected a number, got true or false")
+        metric("2x * cycles", "'2x' is neither a key of result.json nor a number")
+
+    def test_limits(self):
+        def limit(text, *says):
+            self.refuse(BASE + AXES + f"metrics: {{clocks: cycles}}\nlimits: ['{text}']\n", "s.yaml:5: ", *says)
+
+        limit("clock < 10", "limit 'clock < 10': 'clock' is neither a metric nor a number: did you mean 'clocks'")
+        limit("clocks", "limit 'clocks' is no comparison of a metric by < <= > >=")
+        limit("clocks == 10", "is no comparison of a metric")
+        limit("clocks > 1 and clocks < 3", "give several limits one by one")
+        limit("1 < 2", "is no comparison of a metric")
+        self.refuse(BASE + AXES + "limits: cycles\n", "'limits' wants a list of comparisons of metrics, such as 'cycles <= 10'")
 
     def test_an_input_that_cannot_be_read(self):
         """It fails its own points, and only them; once it can be read they are done."""

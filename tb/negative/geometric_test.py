@@ -46,6 +46,17 @@ class Meshes(Base):
         self.run_engine(2, "--scene", "cube", *away, says="draws nothing")
         self.assertFalse(os.path.exists(self.path("out")))
 
+    def test_every_edge_is_dropped(self):
+        inside = ("--scene", "cube", "--size", "64x48", "--set", "scene.eye=0,0,0", "--set",
+                  "scene.target=0.6,0.3,-1", "--set", "scene.fov=1.6")
+        note = "all 26 edges were dropped (26 turned away from the eye): nothing was smoothed"
+        self.run_engine(0, *inside, "--set", "geometric.cull=back", says=["PASS", note])
+        self.assertIn(note, self.notes())
+        self.assertIn("geometric.cull = none draws those", self.notes())
+        self.run_engine(0, *inside, "--set", "geometric.cull=none", says="PASS")
+        self.assertNotIn("edges were dropped", self.notes())
+        self.assertGreater(self.result()["work"]["edge_classifier_kept_edges"], 6)
+
     def test_one_triangle(self):
         self.mesh(0, "one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "--set", "scene.eye=0,0,2", says="PASS")
         self.assertEqual(self.result()["work"]["edge_classifier_boundary_edges"], 3)
@@ -105,6 +116,13 @@ class Configuration(Base):
         self.refused(["crease", "no effect", "select = all"], "geometric.select=all", "geometric.crease=paper")
         self.run_engine(2, *self.SMALL, "--preset", "gpaa", "--set", "geometric.crease=shading", says="select = all")
         self.refused(["face_limit", "no effect"], "geometric.select=all", "geometric.face_limit=8192")
+        self.refused(["cull", "no effect", "select = all"], "geometric.select=all", "geometric.cull=none")
+        self.refused(["crease_depth", "no effect"], "geometric.select=all", "geometric.crease_depth=4")
+        self.refused(["crease_depth", "no effect", "crease = off"], "geometric.crease=off", "geometric.crease_depth=4")
+        self.refused(["crease_depth", "no effect"], "geometric.depth_test=off", "geometric.crease_depth=4")
+        for test in ("own", "off"):
+            self.refused(["combine", "no effect", "outermost is max"], "geometric.combine=outermost",
+                         f"geometric.depth_test={test}")
         self.refused(["depth_bias", "no effect"], "geometric.depth_test=off", "geometric.depth_bias=4")
         self.refused(["depth_lines", "no effect"], "geometric.depth_test=off", "geometric.depth_lines=64")
         self.refused(["scene.truth_samples", "no effect", "--truth"], "scene.truth_samples=4")
@@ -113,9 +131,10 @@ class Configuration(Base):
 
     def test_what_cannot_be_built(self):
         self.refused(["face_limit = 8193", "512"], "geometric.face_limit=8193")
-        self.refused(["fills = 64", "memory.outstanding"], "geometric.memory.outstanding=32")
+        self.refused(["fills = 64", "memory.outstanding"], "geometric.fills=64", "geometric.memory.outstanding=32")
         self.refused(["geometric.walkers", "one of 1, 2, 4"], "geometric.walkers=3")
         self.refused(["1..24"], "geometric.depth_bias=25")
+        self.refused(["0..24"], "geometric.crease_depth=25")
         self.refused(["memory.latency = 20000", "run.watchdog_cycles"], "memory.latency=20000")
 
     def test_notes_of_a_build(self):
@@ -205,6 +224,15 @@ class Faults(Base):
         self.fault("wrong-slope", 1, 1, *self.SMALL, "--set", "geometric.pipelined=false", "--set",
                    "geometric.reciprocal_table=11", board="lines")
 
+    def test_rules(self):
+        area = (*self.SMALL, "--set", "geometric.coverage=area")
+        for cull in ("none", "back"):
+            self.fault("wrong-cull", 1, 1, *self.SMALL, "--set", f"geometric.cull={cull}", board="status registers")
+        self.fault("wrong-class", 3, 1, board="lines")
+        self.fault("wrong-area", 1, 1, *area, board="candidates")
+        self.fault("wrong-second", 3, 1, *area, board="candidates")
+        self.fault("wrong-nearer", 1, 1, *self.SMALL, "--set", "geometric.combine=outermost", board="blocks")
+
     def test_lines_and_groups(self):
         for name in ("drop-line", "duplicate-line", "drop-group", "duplicate-group", "wrong-direction"):
             with self.subTest(name):
@@ -261,6 +289,10 @@ class Faults(Base):
         for name, arguments, needs in (
                 ("wrong-facing", ("--preset", "gpaa"), "select = edges"),
                 ("wrong-slope", (), "reciprocal_table of at least 1"),
+                ("wrong-cull", ("--preset", "gpaa"), "select = edges"),
+                ("wrong-area", ("--set", "geometric.coverage=distance"), "coverage = area"),
+                ("wrong-second", ("--set", "geometric.coverage=distance"), "coverage = area"),
+                ("wrong-nearer", ("--set", "geometric.combine=max"), "combine = outermost"),
                 ("stale-depth", ("--set", "geometric.depth_test=off"), "depth_test = own, farther"),
                 ("stale-neighbour", ("--preset", "gpaa"), "frame_copy = false")):
             self.run_engine(2, *self.SMALL, *arguments, "--fault", name, says=[name, "needs", needs])

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "golden/geometric/resolve.h"
 #include "golden/ideal/geometric.h"
 #include "golden/morphological/morphological_golden.h"
 #include "spec/geometric/tables.h"
@@ -248,42 +247,12 @@ TEST(Joined, TracksToo) {
 
 // ---- the outermost line -------------------------------------------------------------------------
 
-// The frame if of all candidates of a pixel for one neighbour the outermost counted, as seen from
-// what is nearer.
-Image by_outermost(const tb::geometric::Frame& frame, const spec::geometric::Parameters& p) {
-  GeometricGolden golden(p);
-  golden.process(frame.input());
-  std::vector<spec::geometric::Weights> weights(frame.depths.size());
-  constexpr int kX[] = {0, 0, -1, 1}, kY[] = {-1, 1, 0, 0};
-  for (const spec::geometric::Candidate& c : golden.candidates()) {
-    if (!c.passed) continue;
-    const auto d = static_cast<std::size_t>(c.direction);
-    const std::size_t own = frame.image.index(c.x, c.y),
-                      other = frame.image.index(c.x + kX[d], c.y + kY[d]);
-    std::uint8_t& weight = weights[own][d];
-    const bool smallest = frame.depths[own] > frame.depths[other] && weight != 0;
-    weight = smallest ? std::min(weight, c.coverage) : std::max(weight, c.coverage);
-  }
-  Image image = frame.image;
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const spec::geometric::Weights& w = weights[image.index(x, y)];
-      if (!golden::geometric::is_blended(w)) continue;
-      const golden::geometric::Tap tap = golden::geometric::tap_of(w);
-      const int dx = tap.left_right ? 1 : 0, dy = tap.left_right ? 0 : 1;
-      const tb::Rgba8& own = frame.image.at(x, y);
-      image.at(x, y) = golden::geometric::resolve(
-          p, tap, own, tap.first != 0 ? frame.image.at(x - dx, y - dy) : own,
-          tap.second != 0 ? frame.image.at(x + dx, y + dy) : own);
-    }
-  }
-  return image;
-}
-
-TEST(Outermost, WouldMendHiddenLines) {
+TEST(Outermost, MendsHiddenLines) {
   spec::geometric::Parameters p =
       golden::geometric::preset_parameters(spec::geometric::Preset::kDeburr);
   p.mark = true;
+  p.coverage = spec::geometric::CoverageRule::kDistance;  // this rule alone
+  p.crease_depth = 0;
   for (const char* name : {"wheelcover", "canopy", "cylinders", "object", "terrain"}) {
     for (const int degrees : {0, 25, -50, 77}) {
       const Judge judge(turned(name, degrees), kWidth, kHeight, 8);
@@ -295,10 +264,12 @@ TEST(Outermost, WouldMendHiddenLines) {
             golden.process({image.pixels, kWidth, kHeight}, {judge.frame.depths, kWidth, kHeight});
         return result;
       };
-      Image largest = judge.frame.image;
-      GeometricGolden golden(p, GeometricGolden::Detail::kPixels);
-      largest.pixels = golden.process(judge.frame.input());
-      const Image outermost = by_outermost(judge.frame, p);
+      const auto combined = [&](spec::geometric::Combine combine) {
+        p.combine = combine;
+        return tb::geometric::smoothed(judge.frame, p).image;
+      };
+      const Image largest = combined(spec::geometric::Combine::kMax);
+      const Image outermost = combined(spec::geometric::Combine::kOutermost);
       std::string row = fmt::format("| {} {} |", name, degrees);
       for (const Image& image :
            {judge.msaa, largest, outermost, followed(largest), followed(outermost)})

@@ -11,6 +11,6 @@ if(PC_OracleEgl_FOUND)
     LINK deburr::mesa)
 else()
   add_test(NAME mesa_test.absent COMMAND "${CMAKE_COMMAND}" -E echo
-           "skipped: the headers of EGL and OpenGL ES are absent (Debian: libegl-dev libgles-dev)")
+           "skipped: the headers of EGL and OpenGL ES are absent (scripts/install oracle)")
   set_tests_properties(mesa_test.absent PROPERTIES LABELS oracle SKIP_REGULAR_EXPRESSION "^skipped")
 endif()

@@ -5,7 +5,7 @@ pkg_check_modules(PC_OracleOpenImageIO QUIET IMPORTED_TARGET OpenImageIO)
 if(PC_OracleOpenImageIO_FOUND)
   set(oracle_openimageio PkgConfig::PC_OracleOpenImageIO)
 else()
-  find_package(OpenImageIO REQUIRED)
+  deburr_find_package(OpenImageIO libopenimageio-dev)
   set(oracle_openimageio OpenImageIO::OpenImageIO)
 endif()
 deburr_test(openimageio_test PROGRAM oracle_openimageio_tests LABELS oracle

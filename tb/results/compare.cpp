@@ -19,7 +19,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-enum class Judge { kNone, kLessIsBetter, kMoreIsBetter, kDecibel, kMustBeZero, kBits };
+enum class Judge {
+  kNone,
+  kLessIsBetter,
+  kMoreIsBetter,
+  kDecibel,
+  kFlip,
+  kSsim,
+  kMustBeZero,
+  kBits
+};
 
 struct Rule {
   std::string_view key;
@@ -38,6 +47,8 @@ constexpr Rule kRules[] = {
     {"quality.psnr_db", Judge::kDecibel},
     {"quality.psnr_edge_db", Judge::kDecibel},
     {"quality.psnr_silhouette_db", Judge::kDecibel},
+    {"quality.flip", Judge::kFlip},
+    {"quality.ssim", Judge::kSsim},
 };
 
 Judge judge_of(const std::string& key) {
@@ -53,8 +64,9 @@ using KeyValues = std::vector<std::pair<std::string, Json>>;
 void flatten(const Json& node, const std::string& path, KeyValues& values) {
   // The host's speed says nothing about the hardware, nor do bins of coverage say what is better,
   // the histogram has its percentiles, and what is identical is infinite.
-  if (path == "host" || path == "quality.identical" || path == "coverage" ||
-      path.ends_with("meaning") || path == "latency.histogram" || path == "schema")
+  if (path == "host" || path == "quality.identical" || path == "change.identical" ||
+      path == "coverage" || path.ends_with("meaning") || path == "latency.histogram" ||
+      path == "schema")
     return;
   if (node.is_object()) {
     for (const auto& [key, value] : node.items())
@@ -81,6 +93,10 @@ Judgement judge_numbers(Judge judge, double a, double b, const Tolerances& t) {
     if (b > a * (1 + percent / 100)) return Judgement::kWorse;
     return b < a * (1 - percent / 100) ? Judgement::kBetter : Judgement::kEqual;
   };
+  const auto more = [&](double by) {
+    if (b < a - by) return Judgement::kWorse;
+    return b > a + by ? Judgement::kBetter : Judgement::kEqual;
+  };
   if (a == b) return Judgement::kEqual;
   switch (judge) {
     case Judge::kLessIsBetter:
@@ -91,8 +107,12 @@ Judgement judge_numbers(Judge judge, double a, double b, const Tolerances& t) {
       if (b < a * (1 - t.throughput_percent / 100)) return Judgement::kWorse;
       return b > a * (1 + t.throughput_percent / 100) ? Judgement::kBetter : Judgement::kEqual;
     case Judge::kDecibel:
-      if (b < a - t.psnr_db) return Judgement::kWorse;
-      return b > a + t.psnr_db ? Judgement::kBetter : Judgement::kEqual;
+      return more(t.psnr_db);
+    case Judge::kSsim:
+      return more(t.ssim);
+    case Judge::kFlip:
+      if (b > a + t.flip) return Judgement::kWorse;
+      return b < a - t.flip ? Judgement::kBetter : Judgement::kEqual;
     default:
       return Judgement::kNone;
   }

@@ -16,6 +16,8 @@ struct Tolerances {
   double cycles_percent = 2;      // cycles, latency and memory traffic may grow by this much
   double throughput_percent = 2;  // throughput may fall by this much
   double psnr_db = 0.05;          // quality may fall by this much
+  double flip = 0.0005;           // FLIP may grow by this much
+  double ssim = 0.0005;           // SSIM may fall by this much
   // Bits of memory may grow by this much; without it they are judged, but fail nothing: what a
   // choice costs is not a fault of it.
   std::optional<double> memory_percent{};

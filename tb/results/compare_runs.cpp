@@ -225,7 +225,11 @@ Headlines headlines(const std::vector<Run>& runs) {
                    {"Memory, physical", "memory_bits.total.physical"},
                    {"PSNR", "quality.psnr_db"},
                    {"PSNR, edge pixels", "quality.psnr_edge_db"},
-                   {"PSNR, silhouettes", "quality.psnr_silhouette_db"}};
+                   {"PSNR, silhouettes", "quality.psnr_silhouette_db"},
+                   {"FLIP", "quality.flip"},
+                   {"SSIM", "quality.ssim"},
+                   {"Pixels changed by more than 2 codes", "change.over_2_percent"},
+                   {"Right pixels changed by more than 2 codes", "change.right_over_2_percent"}};
   for (const Run& run : runs)
     for (const Json& figure : run.result.value("figures", Json::array()))
       if (const std::string key = figure.value("key", "");

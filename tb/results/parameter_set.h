@@ -160,6 +160,13 @@ class ParameterSet {
           name, {names.begin(), names.end()}, [&value] { return static_cast<std::size_t>(value); },
           [&value](std::size_t index) { value = static_cast<Enum>(index); }, meaning);
     }
+    // Of names that are known at run time, which must outlive the set.
+    void choice(std::string_view name, std::size_t& value, const std::vector<std::string>& names,
+                std::string_view meaning) {
+      add_choice(
+          name, {names.begin(), names.end()}, [&value] { return value; },
+          [&value](std::size_t index) { value = index; }, meaning);
+    }
 
    private:
     void add(std::string_view name, std::string_view unit, std::string range,

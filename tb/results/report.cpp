@@ -8,6 +8,7 @@
 #include <cmath>
 #include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
+#include <tuple>
 #include <utility>
 
 #include "spec/error.h"
@@ -56,15 +57,19 @@ double number(const Json& json, const char* key) {
   return value.is_number() ? value.get<double>() : 0.0;
 }
 
-std::string decibels(const Json& value) {
+std::string two_digits(const Json& value) {
   if (is_infinite(value)) return "identical";
   return value.is_number() ? fmt::format("{:.2f}", value.get<double>()) : "-";
 }
 
-std::string gain_of(const Json& before, const Json& after) {
+std::string gain_of(const Json& before, const Json& after, int digits = 2) {
   if (!before.is_number() || !after.is_number() || is_infinite(before) || is_infinite(after))
     return "-";
-  return fmt::format("{:+.2f}", after.get<double>() - before.get<double>());
+  return fmt::format("{:+.{}f}", after.get<double>() - before.get<double>(), digits);
+}
+
+std::string fraction(const Json& value) {
+  return value.is_number() ? fmt::format("{:.4f}", value.get<double>()) : "-";
 }
 
 Json read_manifest(const fs::path& directory) {
@@ -91,7 +96,8 @@ class ReportBuilder {
     page_.set("chart_js", std::string(embedded::chart_js()));
     page_.set("copy_js", std::string(embedded::copy_js()));
     page_.set("report_js", std::string(embedded::report_js()));
-    page_.set("data", json_for_script({{"result", result_}, {"windows", windows_}}));
+    page_.set("data", fmt::format(R"({{"result":{},"windows":{}}})", json_for_script(result_),
+                                  json_for_script(windows_)));
     mustache::mustache page{std::string(embedded::report_template())};
     if (!page.is_valid()) throw spec::CheckFailed("report.mustache: " + page.error_message());
     return page.render(page_);
@@ -188,8 +194,8 @@ class ReportBuilder {
       const Json after = quality->value(edges ? "psnr_edge_db" : "psnr_db", Json());
       const Json before = quality->value(edges ? "psnr_edge_before_db" : "psnr_before_db", Json());
       const std::string gain = gain_of(before, after);
-      tile(edges ? "PSNR, edge pixels" : "PSNR", decibels(after), "dB",
-           gain == "-" ? "of what came out" : gain + " dB, before " + decibels(before));
+      tile(edges ? "PSNR, edge pixels" : "PSNR", two_digits(after), "dB",
+           gain == "-" ? "of what came out" : gain + " dB, before " + two_digits(before));
     }
     tile("Simulation", fmt::format("{:.2f}", number(result_["host"], "mcycles_per_s")), "Mcycle/s",
          fmt::format("{:.1f} s, {:.1f} s of them computing", number(result_["host"], "seconds"),
@@ -520,17 +526,49 @@ class ReportBuilder {
       page_.set("quality_reference", quality->value("reference", ""));
       mustache::data rows{mustache::data::type::list};
       for (const auto& [label, key] :
-           {std::pair("Whole frame", "psnr_"), std::pair("Edge pixels", "psnr_edge_"),
-            std::pair("Silhouette pixels", "psnr_silhouette_")}) {
+           {std::pair("PSNR, whole frame", "psnr_"), std::pair("PSNR, edge pixels", "psnr_edge_"),
+            std::pair("PSNR, silhouette pixels", "psnr_silhouette_")}) {
         const Json after = quality->value(std::string(key) + "db", Json());
         const Json before = quality->value(std::string(key) + "before_db", Json());
         if (after.is_null() && before.is_null()) continue;
         rows << row({{"name", label},
-                     {"before", decibels(before)},
-                     {"after", decibels(after)},
-                     {"gain", gain_of(before, after)}});
+                     {"before", two_digits(before)},
+                     {"after", two_digits(after)},
+                     {"gain", gain_of(before, after)},
+                     {"unit", "dB"}});
+      }
+      for (const auto& [label, key] :
+           {std::pair("FLIP, less is better", "flip"), std::pair("SSIM", "ssim")}) {
+        const Json after = quality->value(key, Json());
+        const Json before = quality->value(std::string(key) + "_before", Json());
+        if (after.is_null()) continue;
+        rows << row({{"name", label},
+                     {"before", fraction(before)},
+                     {"after", fraction(after)},
+                     {"gain", gain_of(before, after, 4)},
+                     {"unit", ""}});
       }
       page_.set("quality", rows);
+    }
+
+    const auto change = result_.find("change");
+    page_.set("has_change", change != result_.end());
+    if (change != result_.end()) {
+      mustache::data rows{mustache::data::type::list};
+      for (const auto& [label, all, right] :
+           {std::tuple("Changed by more than 2 codes", "over_2_percent", "right_over_2_percent"),
+            std::tuple("Changed by more than 16 codes", "over_16_percent",
+                       "right_over_16_percent")}) {
+        rows << row({{"name", label},
+                     {"all", two_digits(change->value(all, Json()))},
+                     {"right", two_digits(change->value(right, Json()))},
+                     {"unit", "%"}});
+      }
+      rows << row({{"name", "PSNR to what went in"},
+                   {"all", two_digits(change->value("psnr_db", Json()))},
+                   {"right", ""},
+                   {"unit", "dB"}});
+      page_.set("change", rows);
     }
 
     mustache::data parameters{mustache::data::type::list};
@@ -619,13 +657,10 @@ class ReportBuilder {
 }  // namespace
 
 std::string json_for_script(const Json& json) {
-  std::string text;
-  for (const char c : json.dump()) {
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  }
+  std::string text = json.dump();
+  constexpr std::string_view kEscaped = "\\u003c";
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; at += kEscaped.size())
+    text.replace(at, 1, kEscaped);
   return text;
 }
 

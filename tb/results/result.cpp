@@ -22,17 +22,28 @@ namespace {
 using Json = nlohmann::ordered_json;
 using spec::FileError;
 
+// As a reader of the file gets it: a page made of it must be that of the file. There a number that
+// is not negative has no sign, and one that is not finite is null.
+template <class T>
+Json json_of(const T& value) {
+  if constexpr (std::is_floating_point_v<T>)
+    return std::isfinite(value) ? Json(value) : Json();
+  else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+    return std::cmp_less(value, 0) ? Json(value) : Json(static_cast<std::uint64_t>(value));
+  else
+    return Json(value);
+}
 Json json_of(const WorkValue& value) {
   return std::visit(
       [](auto known) {
         if constexpr (std::is_same_v<decltype(known), std::monostate>)
           return Json();
         else
-          return Json(known);
+          return json_of(known);
       },
       value);
 }
-Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+Json json_of(const std::optional<double>& value) { return value ? json_of(*value) : Json(); }
 Json json_of(const std::vector<LatencyBin>& bins) {
   Json json = Json::array();
   for (const LatencyBin& bin : bins) json.push_back({{"from", bin.from}, {"count", bin.count}});
@@ -60,10 +71,6 @@ Json json_of(const std::vector<Figure>& figures) {
   }
   return json;
 }
-template <class T>
-Json json_of(const T& value) {
-  return Json(value);
-}
 
 // The file, with unit and meaning of each value by its path: "units.address.busy".
 class ResultWriter {
@@ -71,8 +78,8 @@ class ResultWriter {
   explicit ResultWriter(const Result& result) { describe(result, *this); }
   Json file() && {
     Json meanings = Json::object();
-    for (const auto& list : {meanings_, last_meanings_})
-      for (const auto& [path, meaning] : list) meanings[path] = meaning;
+    for (auto* const list : {&meanings_, &last_meanings_})
+      for (auto& [path, meaning] : *list) meanings[path] = std::move(meaning);
     json_["meaning"] = std::move(meanings);
     return std::move(json_);
   }

@@ -79,6 +79,16 @@ struct Quality {
   std::string reference;
   std::optional<double> psnr_db, psnr_edge_db, psnr_silhouette_db;
   std::optional<double> psnr_before_db, psnr_edge_before_db, psnr_silhouette_before_db;
+  std::optional<double> flip, flip_before, ssim, ssim_before;
+};
+
+// What was made of the picture that went in, right or wrong: shares of pixels that differ from it
+// by more than so many codes in R, G or B, of all and of those that were right before.
+struct Change {
+  static constexpr int kSmall = 2, kLarge = 16;  // codes
+  double small_percent = 0, large_percent = 0;
+  std::optional<double> right_small_percent, right_large_percent;  // there was a truth
+  double psnr_db = 0;                                              // to what went in
 };
 
 // A memory of the model and what it is built from. Logical bits are what the design asks for;
@@ -140,6 +150,11 @@ struct MismatchLine {
   std::string check, where, item, field, expected, got;
 };
 
+// A line of what a run says at its end: "hits", "98.1 % of look-ups".
+struct TerminalLine {
+  std::string name, text;
+};
+
 struct Result {
   std::string unit;
   Verdict verdict = Verdict::kUnchecked;
@@ -164,12 +179,20 @@ struct Result {
   std::optional<std::map<std::string, std::uint64_t>> coverage;  // hits by bin; run.coverage
   std::vector<WorkItem> work;
   std::vector<Figure> figures;
+  std::vector<TerminalLine> terminal;  // the engine's own; the file has their figures in `work`
   std::optional<Quality> quality;
+  std::optional<Change> change;
   double host_seconds = 0, host_cpu_seconds = 0;
   std::vector<std::string> faults;  // that can be planted; of a model that is described, not run
 
   double mcycles_per_s() const {
     return host_seconds > 0 ? static_cast<double>(cycles) / host_seconds / 1e6 : 0;
+  }
+  // Mean rate over the run, at clock_mhz; 10^9 bytes a second.
+  double gb_per_s(std::uint64_t bytes) const {
+    return cycles > 0
+               ? static_cast<double>(bytes) * clock_mhz / (1000 * static_cast<double>(cycles))
+               : 0;
   }
 };
 
@@ -187,12 +210,14 @@ nlohmann::ordered_json read_result(const std::filesystem::path& path);
 // identical is infinite.
 template <class Json>
 Json with_infinity(Json result) {
-  const auto quality = result.find("quality");
-  if (quality == result.end() || !quality->is_object()) return result;
-  const Json flags = quality->value("identical", Json::object());
-  if (flags.is_object())
+  for (const char* const group : {"quality", "change"}) {
+    const auto found = result.find(group);
+    if (found == result.end() || !found->is_object()) continue;
+    const Json flags = found->value("identical", Json::object());
+    if (!flags.is_object()) continue;
     for (const auto& [name, identical] : flags.items())
-      if (identical == true) (*quality)[name] = std::numeric_limits<double>::infinity();
+      if (identical == true) (*found)[name] = std::numeric_limits<double>::infinity();
+  }
   return result;
 }
 template <class Json>

@@ -55,6 +55,12 @@ inline std::vector<PsnrFigure> psnr_figures(const Quality& q) {
       {"psnr_silhouette_before_db", q.psnr_silhouette_before_db, kBefore}};
 }
 
+inline std::vector<PsnrFigure> psnr_figures(const Change& change) {
+  return {{"psnr_db", change.psnr_db,
+           "PSNR over the frame to the picture that went in; null where "
+           "change.identical.psnr_db is true."}};
+}
+
 // What follows from the clocks of a link.
 struct LinkOccupancy {
   std::uint64_t depth = 0, occupancy = 0, most = 0;
@@ -145,6 +151,33 @@ void describe(const Quality& q, Visitor& v) {
            "Whether both pictures agree in each pixel that counts for the PSNR of this name, which "
            "would be infinite and is null. Null without it: there is no such pixel.");
   });
+  constexpr std::string_view kBefore = "The same of the picture that went in.";
+  v.value("flip", q.flip, "",
+          "FLIP over the frame, 0 (equal) to 1: Andersson et al. 2020, its screen of 67 pixels a "
+          "degree.");
+  v.value("flip_before", q.flip_before, "", kBefore);
+  v.value("ssim", q.ssim, "",
+          "SSIM of luma over the frame, at most 1 (equal): Wang et al. 2004, full size; null where "
+          "a side is below its window of 11 pixels.");
+  v.value("ssim_before", q.ssim_before, "", kBefore);
+}
+
+template <class Visitor>
+void describe(const Change& c, Visitor& v) {
+  v.value("over_2_percent", c.small_percent, "%",
+          "Pixels that differ from what went in by more than 2 codes in R, G or B.");
+  v.value("over_16_percent", c.large_percent, "%", "The same by more than 16 codes.");
+  v.value("right_over_2_percent", c.right_small_percent, "%",
+          "Of the pixels that were right before, within 2 codes of the truth: those that differ "
+          "from what went in by more than 2 codes; null without a truth.");
+  v.value("right_over_16_percent", c.right_large_percent, "%", "The same by more than 16 codes.");
+  const std::vector<PsnrFigure> figures = psnr_figures(c);
+  for (const PsnrFigure& psnr : figures) v.value(psnr.name, psnr.finite(), "dB", psnr.meaning);
+  v.each("identical", figures, &PsnrFigure::name, [&](const PsnrFigure& psnr) {
+    v.item(psnr.identical(), "",
+           "Whether nothing was changed, so that the PSNR of this name would be infinite and is "
+           "null.");
+  });
 }
 
 template <class Visitor>
@@ -195,6 +228,9 @@ void describe(const Result& r, Visitor& v) {
   v.group("memory", [&] {
     v.value("bytes_read", r.bytes_read, "byte", "Bytes read from memory.");
     v.value("bytes_written", r.bytes_written, "byte", "Bytes written to memory.");
+    v.value("read_gb_per_s", r.gb_per_s(r.bytes_read), "GB/s",
+            "Mean rate of reads at clock_mhz, over the whole run; 10^9 bytes a second.");
+    v.value("written_gb_per_s", r.gb_per_s(r.bytes_written), "GB/s", "The same of writes.");
     v.value("lines_filled", r.lines_filled, "line",
             "Reads of memory: lines of the cache, or of the frame where it waits in memory.");
   });
@@ -249,6 +285,8 @@ void describe(const Result& r, Visitor& v) {
   v.value("figures", r.figures, "", "Keys of this file that a reader looks for first.");
   if (v.has(r.quality.has_value()))
     v.group("quality", [&] { describe(r.quality.value_or(Quality{}), v); });
+  if (v.has(r.change.has_value()))
+    v.group("change", [&] { describe(r.change.value_or(Change{}), v); });
   v.group("host", [&] {
     v.value("seconds", r.host_seconds, "s",
             "Time of the simulation on this host, set-up not included.");

@@ -11,15 +11,14 @@
 #include "spec/error.h"
 
 namespace deburr::tb {
-namespace {
 
-template <class A, class B>
-void require_same_size(const ImageOf<A>& a, const ImageOf<B>& b) {
-  if (a.width == b.width && a.height == b.height) return;
+void refuse_sizes(int width, int height, int other_width, int other_height) {
   throw spec::ConfigError(
-      fmt::format("pictures of different size cannot be compared: {} x {} and {} x {}", a.width,
-                  a.height, b.width, b.height));
+      fmt::format("pictures of different size cannot be compared: {} x {} and {} x {}", width,
+                  height, other_width, other_height));
 }
+
+namespace {
 
 int squared_difference(const Rgba8& a, const Rgba8& b) {
   int sum = 0;
@@ -108,6 +107,16 @@ std::int64_t count_different(const Image& a, const Image& b, int tolerance) {
   return different;
 }
 
+std::int64_t count_different(const Image& a, const Image& b, const Mask& mask, int tolerance) {
+  require_same_size(a, b);
+  require_same_size(a, mask);
+  std::int64_t different = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    if (mask.pixels[i] != 0)
+      different += largest_difference(a.pixels[i], b.pixels[i]) > tolerance ? 1 : 0;
+  return different;
+}
+
 int max_difference(const Image& a, const Image& b) {
   require_same_size(a, b);
   int largest = 0;
@@ -122,6 +131,13 @@ Mask edge_mask(const Image& truth, const Image& input, int threshold) {
   for (std::size_t i = 0; i < mask.pixels.size(); ++i)
     mask.pixels[i] = largest_difference(truth.pixels[i], input.pixels[i]) > threshold ? 1 : 0;
   return mask;
+}
+
+Mask inverted(const Mask& mask) {
+  Mask result(mask.width, mask.height);
+  std::transform(mask.pixels.begin(), mask.pixels.end(), result.pixels.begin(),
+                 [](std::uint8_t value) { return static_cast<std::uint8_t>(value == 0 ? 1 : 0); });
+  return result;
 }
 
 Mask silhouette_mask(const Mask& edges, const DepthImage& depth, double relative_step) {

@@ -9,6 +9,15 @@
 
 namespace deburr::tb {
 
+[[noreturn]] void refuse_sizes(int width, int height, int other_width, int other_height);
+
+// ConfigError where sizes differ.
+template <class A, class B>
+void require_same_size(const ImageOf<A>& a, const ImageOf<B>& b) {
+  if (a.width != b.width || a.height != b.height)
+    refuse_sizes(a.width, a.height, b.width, b.height);
+}
+
 // Mean squared error over R, G and B, in units of 1/255. Sizes must agree (ConfigError).
 double mean_squared_error(const Image& a, const Image& b);
 double mean_squared_error(const Image& a, const Image& b, const Mask& mask);  // NaN: mask is empty
@@ -26,10 +35,13 @@ double flicker_square(const Image& before, const Image& after, const Image& trut
 std::int64_t count(const Mask& mask);
 // Pixels that differ by more than `tolerance` in R, G or B, and the largest difference.
 std::int64_t count_different(const Image& a, const Image& b, int tolerance = 0);
+std::int64_t count_different(const Image& a, const Image& b, const Mask& mask, int tolerance = 0);
 int max_difference(const Image& a, const Image& b);
 
 // Edge pixels: truth and unfiltered input differ by more than 2/255 in a channel.
 Mask edge_mask(const Image& truth, const Image& input, int threshold = 2);
+// All others: pixels that were right as they were.
+Mask inverted(const Mask& mask);
 
 // Silhouette pixels: those of `edges` where the depth of one of the four neighbours differs by more
 // than 5 %: max > 1.05 min. The ratio makes it hold for depth and for inverse depth alike; 0,

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "spec/error.h"
@@ -484,11 +485,15 @@ Image render(const Scene& scene, const RenderOptions& options) {
   return image;
 }
 
-Image render_msaa4(const Scene& scene, int width, int height, Shading shading) {
-  struct Offset {
-    int x, y;
-  };
-  constexpr std::array<Offset, 4> kRotatedGrid{{{-32, -96}, {96, -32}, {-96, 32}, {32, 96}}};
+namespace {
+
+// In 1/256 of a pixel, from its centre.
+struct SampleOffset {
+  int x, y;
+};
+
+Image multi_sampled(const Scene& scene, int width, int height, Shading shading,
+                    std::span<const SampleOffset> offsets) {
   constexpr int kTileCells = 32;
   RenderOptions options;
   options.shading = shading;
@@ -498,13 +503,13 @@ Image render_msaa4(const Scene& scene, int width, int height, Shading shading) {
   const Shader shader(scene, primitives, view, options, transport);
   const Occlusion occlusion(primitives, width, height, kTileCells);
   ColourRow one;
-  std::array<std::vector<std::int32_t>, 4> owners;
+  std::vector<std::vector<std::int32_t>> owners(offsets.size());
   std::vector<double> depths;
   Image image(width, height);
   for (int row = 0; row < occlusion.rows(); ++row) {
     for (int column = 0; column < occlusion.columns(); ++column) {
-      for (std::size_t k = 0; k < 4; ++k)
-        occlusion.resolve(column, row, kRotatedGrid[k].x, kRotatedGrid[k].y, owners[k], depths);
+      for (std::size_t k = 0; k < offsets.size(); ++k)
+        occlusion.resolve(column, row, offsets[k].x, offsets[k].y, owners[k], depths);
       for (int y = row * kTileCells; y < std::min(height, (row + 1) * kTileCells); ++y) {
         const Colour background = sky_colour(scene, y, height, transport);
         for (int x = column * kTileCells; x < std::min(width, (column + 1) * kTileCells); ++x) {
@@ -513,7 +518,7 @@ Image render_msaa4(const Scene& scene, int width, int height, Shading shading) {
           Sum sum;
           std::int32_t shaded = kNobody;
           Colour colour = background;
-          for (std::size_t k = 0; k < 4; ++k) {
+          for (std::size_t k = 0; k < offsets.size(); ++k) {
             const std::int32_t owner = owners[k][at];
             if (owner != shaded) {
               shaded = owner;
@@ -522,12 +527,32 @@ Image render_msaa4(const Scene& scene, int width, int height, Shading shading) {
             }
             sum.add(colour);
           }
-          image.at(x, y) = finish(sum, 4, transport);
+          image.at(x, y) = finish(sum, static_cast<int>(offsets.size()), transport);
         }
       }
     }
   }
   return image;
+}
+
+}  // namespace
+
+Image render_msaa4(const Scene& scene, int width, int height, Shading shading) {
+  constexpr std::array<SampleOffset, 4> kRotatedGrid{{{-32, -96}, {96, -32}, {-96, 32}, {32, 96}}};
+  return multi_sampled(scene, width, height, shading, kRotatedGrid);
+}
+
+Image render_covered(const Scene& scene, int width, int height, int samples, Shading shading) {
+  constexpr int kMaxCoverage = 8;
+  if (samples < 1 || samples > kMaxCoverage)
+    throw spec::ConfigError(
+        fmt::format("{0} x {0} samples of coverage were asked for; 1 to {1} a side are possible",
+                    samples, kMaxCoverage));
+  std::vector<SampleOffset> grid;
+  const auto offset = [&](int i) { return 128 * (2 * i + 1) / samples - 128; };
+  for (int y = 0; y < samples; ++y)
+    for (int x = 0; x < samples; ++x) grid.push_back({offset(x), offset(y)});
+  return multi_sampled(scene, width, height, shading, grid);
 }
 
 DepthImage render_depth(const Scene& scene, int width, int height) {
@@ -567,17 +592,19 @@ Image light(const Scene& scene, const GBuffer& buffer) {
   const Phong phong(scene);
   const Transport transport(Transfer::kGamma22);
   Image image(width, height);
+  const auto finished = [&](const Colour& colour) {
+    Sum sum;
+    sum.add(colour);
+    return finish(sum, 1, transport);
+  };
   for (int y = 0; y < height; ++y) {
+    std::fill_n(&image.at(0, y), width, finished(sky_colour(scene, y, height, transport)));
     for (int x = 0; x < width; ++x) {
-      Sum sum;
-      Colour colour = sky_colour(scene, y, height, transport);
-      if (buffer.depth.at(x, y) > 0.0f) {
-        colour = buffer.albedo.at(x, y);
-        phong.shade(buffer.normal.at(x, y), view.ray(x + 0.5, y + 0.5), colour[0], colour[1],
-                    colour[2]);
-      }
-      sum.add(colour);
-      image.at(x, y) = finish(sum, 1, transport);
+      if (!(buffer.depth.at(x, y) > 0.0f)) continue;
+      Colour colour = buffer.albedo.at(x, y);
+      phong.shade(buffer.normal.at(x, y), view.ray(x + 0.5, y + 0.5), colour[0], colour[1],
+                  colour[2]);
+      image.at(x, y) = finished(colour);
     }
   }
   return image;

@@ -41,6 +41,11 @@ Image render(const Scene& scene, const RenderOptions& options);
 // linear light.
 Image render_msaa4(const Scene& scene, int width, int height, Shading shading = Shading::kLit);
 
+// The same with N x N samples on render()'s grid, 1..8: the frame with one sample, textures and
+// all, of which edges alone are smoothed. Where a pixel shows one surface it is that frame's.
+Image render_covered(const Scene& scene, int width, int height, int samples,
+                     Shading shading = Shading::kLit);
+
 // near/w at pixel centres, 0 = nothing there.
 DepthImage render_depth(const Scene& scene, int width, int height);
 

@@ -63,6 +63,32 @@ double number_of(const nlohmann::json* value) {
   return kNone;
 }
 
+// The first of its keys that the result lacks; empty: it has them all.
+std::string missing_key(const nlohmann::json& result, const Metric& metric) {
+  for (std::string& key : metric.keys())
+    if (!value_of(result, key)) return std::move(key);
+  return "";
+}
+
+// NaN where a key is missing or is no number, and where it divides by zero.
+double value_in(const nlohmann::json& result, const Metric& metric) {
+  if (!metric.expression) return number_of(value_of(result, metric.key));
+  try {
+    return metric.expression->number(
+        [&](const std::string& key) { return number_of(value_of(result, key)); });
+  } catch (const spec::ConfigError&) {
+    return kNone;
+  }
+}
+
+Expression::Lookup lookup_in(const SweepDefinition& sweep, const std::vector<double>& values) {
+  return [&](const std::string& name) {
+    for (std::size_t i = 0; i < sweep.metrics.size(); ++i)
+      if (sweep.metrics[i].name == name) return values[i];
+    return kNone;
+  };
+}
+
 nlohmann::json result_in(const fs::path& directory) {
   const fs::path file = directory / "result.json";
   auto result =
@@ -102,7 +128,7 @@ class Collector {
  private:
   void add(const PlannedPoint& planned) {
     const fs::path directory = point_directory(place_.points(), planned.name);
-    CollectedPoint point{planned.name, planned.sample, state_of(directory), "", {}, false};
+    CollectedPoint point{planned.name, planned.sample, state_of(directory), "", {}, false, ""};
     point.values.assign(sweep_.metrics.size(), kNone);
     switch (point.state) {
       case PointState::kDone:
@@ -130,15 +156,22 @@ class Collector {
       return;
     }
     for (std::size_t i = 0; i < sweep_.metrics.size(); ++i) {
-      const nlohmann::json* value = value_of(result, sweep_.metrics[i].key);
-      point.values[i] = number_of(value);
-      if (value && !found_[i]) learn(result, i);
+      point.values[i] = value_in(result, sweep_.metrics[i]);
+      if (!found_[i] && missing_key(result, sweep_.metrics[i]).empty()) learn(result, i);
     }
-    if (keys_.empty()) add_keys(result, "", keys_);
+    for (const Expression& limit : sweep_.limits)
+      if (point.beyond.empty() && limit.violation(lookup_in(sweep_, point.values)) > 0)
+        point.beyond = limit.text();
+    if (!point.beyond.empty()) ++all_.beyond;
+    if (first_result_.is_null()) first_result_ = result;
   }
 
   void learn(const nlohmann::json& result, std::size_t metric) {
     found_[metric] = true;
+    if (sweep_.metrics[metric].expression) {
+      all_.metrics[metric].meaning = sweep_.metrics[metric].key;
+      return;
+    }
     std::string key = sweep_.metrics[metric].key;
     if (key.starts_with('/')) {
       key.erase(0, 1);
@@ -155,11 +188,14 @@ class Collector {
   void refuse_unknown_metrics() const {
     if (all_.done == 0) return;
     for (std::size_t i = 0; i < found_.size(); ++i)
-      if (!found_[i])
-        throw spec::ConfigError(
-            fmt::format("{}: metric '{}': no result has the key '{}'{}", sweep_.file.string(),
-                        sweep_.metrics[i].name, sweep_.metrics[i].key,
-                        did_you_mean(near_matches(sweep_.metrics[i].key, keys_))));
+      if (!found_[i] && !first_result_.is_null()) {
+        std::vector<std::string> keys;
+        add_keys(first_result_, "", keys);
+        const std::string key = missing_key(first_result_, sweep_.metrics[i]);
+        throw spec::ConfigError(fmt::format("{}: metric '{}': no result has the key '{}'{}",
+                                            sweep_.file.string(), sweep_.metrics[i].name, key,
+                                            did_you_mean(near_matches(key, keys))));
+      }
   }
 
   // ---- front ------------------------------------------------------------------------------------
@@ -177,7 +213,7 @@ class Collector {
     };
     std::vector<CollectedPoint*> order;
     for (CollectedPoint& point : all_.points)
-      if (point.state == PointState::kDone &&
+      if (point.state == PointState::kDone && point.beyond.empty() &&
           std::none_of(goals.begin(), goals.end(),
                        [&](const auto& goal) { return std::isnan(point.values[goal.first]); }))
         order.push_back(&point);
@@ -249,7 +285,7 @@ class Collector {
   const SweepPlace& place_;
   Collection all_;
   std::vector<bool> found_;
-  std::vector<std::string> keys_;  // of the first result
+  nlohmann::json first_result_;  // for the keys that results have
 };
 
 // ---- writing ------------------------------------------------------------------------------------
@@ -276,12 +312,14 @@ std::string csv_of(const SweepDefinition& sweep, const SweepPlace& place, const 
   std::string text = "point,state";
   for (const Axis& axis : sweep.axes) text += fmt::format(",{}", csv_cell(axis.name));
   for (const MetricInfo& metric : all.metrics) text += fmt::format(",{}", csv_cell(metric.name));
-  text += ",front,failure,directory\n";
+  text += sweep.limits.empty() ? ",front,failure,directory\n" : ",front,beyond,failure,directory\n";
   for (const CollectedPoint& point : all.points) {
     text += fmt::format("{},{}", point.name, name_of(point.state));
     for (const std::string& label : point.sample) text += fmt::format(",{}", csv_cell(label));
     for (const double value : point.values) text += fmt::format(",{}", csv_number(value));
-    text += fmt::format(",{},{},{}\n", point.front ? 1 : 0, csv_cell(point.failure),
+    text += fmt::format(",{}", point.front ? 1 : 0);
+    if (!sweep.limits.empty()) text += fmt::format(",{}", csv_cell(point.beyond));
+    text += fmt::format(",{},{}\n", csv_cell(point.failure),
                         csv_cell(point_directory(place.points(), point.name).string()));
   }
   return text;
@@ -331,6 +369,10 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
   json["objectives"] = Json::array();
   for (const Objective& objective : sweep.objectives)
     json["objectives"].push_back({{"metric", objective.metric}, {"maximise", objective.maximise}});
+  if (!sweep.limits.empty()) {
+    json["counts"]["beyond"] = all.beyond;
+    for (const Expression& limit : sweep.limits) json["limits"].push_back(limit.text());
+  }
   json["for_each"] = Json::array();
   for (const std::size_t axis : sweep.front_axes) json["for_each"].push_back(sweep.axes[axis].name);
   json["effects"] = Json::array();
@@ -352,6 +394,7 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
     for (std::size_t i = 0; i < point.values.size(); ++i)
       if (std::isinf(point.values[i])) entry["identical"].push_back(all.metrics[i].name);
     if (point.front) entry["front"] = true;
+    if (!point.beyond.empty()) entry["beyond"] = point.beyond;
     if (!point.failure.empty()) entry["failure"] = point.failure;
     json["points"].push_back(std::move(entry));
   }
@@ -400,14 +443,17 @@ void set_table(const Json& json, mustache::data& page) {
     const auto name = point->at("name").get<std::string>();
     const auto state = point->at("state").get<std::string>();
     row.set("cells", cells);
-    row.set("kind", std::string(point->contains("front") ? "front"
-                                : state == "failed"      ? state
-                                                         : ""));
+    row.set("kind", std::string(point->contains("front")    ? "front"
+                                : point->contains("beyond") ? "beyond"
+                                : state == "failed"         ? state
+                                                            : ""));
     row.set("has_result", state == "done");
     row.set("result", (point_directory(folder, name) / "result.json").string());
     row.set("name", name.substr(0, 8));
     row.set("note",
-            state + (point->contains("failure") ? ": " + cell_text(point->at("failure")) : ""));
+            state + (point->contains("failure")  ? ": " + cell_text(point->at("failure"))
+                     : point->contains("beyond") ? ", beyond " + cell_text(point->at("beyond"))
+                                                 : ""));
     rows << row;
   }
   page.set("columns", columns);
@@ -433,6 +479,13 @@ std::string page_of(const Json& json) {
     page.set(key, count(key));
   page.set("is_partial", json.at("counts").at("done") != json.at("counts").at("points"));
   page.set("has_objectives", !json.at("objectives").empty());
+  const bool has_limits = json.contains("limits");
+  page.set("has_limits", has_limits);
+  if (has_limits) {
+    page.set("beyond", count("beyond"));
+    page.set("limits",
+             fmt::format("{}", fmt::join(json.at("limits").get<std::vector<std::string>>(), ", ")));
+  }
   mustache::data notes{mustache::data::type::list};
   for (const Json& note : json.at("left_out")) {
     mustache::data entry;
@@ -456,9 +509,14 @@ std::vector<double> values_of(const SweepDefinition& sweep, const fs::path& dire
   const nlohmann::json result = result_in(directory);
   std::vector<double> values;
   if (result.value("verdict", "") == "fail") return values;
-  for (const Metric& metric : sweep.metrics)
-    values.push_back(number_of(value_of(result, metric.key)));
+  for (const Metric& metric : sweep.metrics) values.push_back(value_in(result, metric));
   return values;
+}
+
+double beyond_limits(const SweepDefinition& sweep, const std::vector<double>& values) {
+  double all = 0;
+  for (const Expression& limit : sweep.limits) all += limit.violation(lookup_in(sweep, values));
+  return all;
 }
 
 void write_collection(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place,

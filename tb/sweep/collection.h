@@ -23,6 +23,7 @@ struct CollectedPoint {
   std::string failure;         // "deadlock: nothing has moved ..."
   std::vector<double> values;  // one a metric; NaN: it has none, infinity: identical pictures
   bool front = false;
+  std::string beyond;  // the first limit that its values miss
 };
 
 struct MetricInfo {
@@ -40,6 +41,7 @@ struct Collection {
   std::vector<CollectedPoint> points;
   std::vector<MainEffect> effects;
   std::uint64_t done = 0, failed = 0, missing = 0, front = 0;
+  std::uint64_t beyond = 0;  // done, and beyond a limit
 };
 
 // FileError when a result cannot be read; ConfigError for a metric that no result has.
@@ -48,6 +50,9 @@ Collection collect(const SweepDefinition& sweep, const SweepPlace& place);
 // The metrics of one point that is done, as CollectedPoint::values; empty where it failed.
 // FileError as collect().
 std::vector<double> values_of(const SweepDefinition& sweep, const std::filesystem::path& directory);
+
+// How far such values are beyond the sweep's limits, all of them together; 0: within.
+double beyond_limits(const SweepDefinition& sweep, const std::vector<double>& values);
 
 // collected.csv, collected.json and index.html in the sweep's directory.
 void write_collection(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -32,7 +33,7 @@ class Reader {
   SweepDefinition read() {
     const YAML::Node& root = yaml_.root();
     std::vector<std::string> known = stimulus_keys();
-    known.insert(known.end(), {"title", "metrics", "objectives", "reports", "chunk"});
+    known.insert(known.end(), {"title", "metrics", "limits", "objectives", "reports", "chunk"});
     yaml_.require_keys(root, known);
     read_engine(root);
     if (!root["axes"] && !root["points"])
@@ -40,6 +41,7 @@ class Reader {
     if (root["title"]) sweep_.title = scalar(root["title"], "title");
     read_stimuli(root);
     read_metrics(root["metrics"]);
+    read_limits(root["limits"]);
     read_objectives(root["objectives"]);
     if (root["reports"]) sweep_.reports = yaml_.boolean(root["reports"], "reports");
     if (root["chunk"]) sweep_.chunk = yaml_.count(root["chunk"], "chunk", 100'000);
@@ -368,15 +370,16 @@ class Reader {
 
   void read_metrics(const YAML::Node& metrics) {
     if (!metrics) {
-      sweep_.metrics = {{"cycles", "cycles"},
-                        {"rate", "throughput.value"},
-                        {"latency_p95", "latency.p95"},
-                        {"bytes_read", "memory.bytes_read"},
-                        {"memory_bits", "memory_bits.total.physical"}};
+      for (const auto& [name, key] :
+           {std::pair{"cycles", "cycles"}, std::pair{"rate", "throughput.value"},
+            std::pair{"latency_p95", "latency.p95"}, std::pair{"bytes_read", "memory.bytes_read"},
+            std::pair{"memory_bits", "memory_bits.total.physical"}})
+        sweep_.metrics.push_back({name, key, std::nullopt, yaml_.path().string()});
       return;
     }
     if (!metrics.IsMap() || metrics.size() == 0)
-      fail(metrics, fmt::format("'metrics' wants a map of names to keys of result.json, got {}",
+      fail(metrics, fmt::format("'metrics' wants a map of names to keys of result.json or "
+                                "expressions of them, got {}",
                                 kind(metrics)));
     for (const auto& entry : metrics) {
       const std::string name = entry.first.Scalar();
@@ -385,9 +388,61 @@ class Reader {
       for (const Axis& axis : sweep_.axes)
         if (axis.name == name)
           fail(entry.first, fmt::format("metric '{}' has the name of an axis", name));
-      sweep_.metrics.push_back({name, scalar(entry.second, name)});
-      if (sweep_.metrics.back().key.empty())
-        fail(entry.first, fmt::format("metric '{}' wants a key of result.json", name));
+      sweep_.metrics.push_back(metric(name, scalar(entry.second, name), entry.second));
+    }
+  }
+
+  Metric metric(const std::string& name, const std::string& text, const YAML::Node& node) const {
+    if (text.empty()) fail(node, fmt::format("metric '{}' wants a key of result.json", name));
+    Metric metric{name, text, std::nullopt, where(node)};
+    if (text.starts_with('/')) return metric;
+    // Which keys there are, the engine knows (require_known_metrics()).
+    Expression expression(text, metric.where,
+                          {"metric", "a key of result.json",
+                           [](const std::string& key) -> std::optional<std::string> {
+                             if (std::isdigit(static_cast<unsigned char>(key.front())) != 0)
+                               return std::nullopt;
+                             return std::string();
+                           },
+                           [](const std::string&) { return std::vector<std::string>(); }});
+    if (expression.names().empty())
+      fail(node, fmt::format("metric '{}': '{}' has no key of result.json", name, text));
+    expression.number(Trial());  // of which kind it is
+    if (expression.names() != std::vector{text}) metric.expression = std::move(expression);
+    return metric;
+  }
+
+  // Values for a first try of an expression: no two alike, since what is divided by may be a
+  // difference.
+  struct Trial {
+    double next = 1.618;
+    Expression::Value operator()(const std::string&) { return next += 0.377; }
+  };
+
+  void read_limits(const YAML::Node& limits) {
+    if (!limits) return;
+    if (!limits.IsSequence())
+      fail(limits,
+           fmt::format("'limits' wants a list of comparisons of metrics, such as '{} <= 10', "
+                       "got {}",
+                       sweep_.metrics.front().name, kind(limits)));
+    std::vector<std::string> metrics;
+    for (const Metric& metric : sweep_.metrics) metrics.push_back(metric.name);
+    for (const auto& node : limits) {
+      Expression limit(scalar(node, "limits"), where(node),
+                       {"limit", "a metric",
+                        [&](const std::string& name) -> std::optional<std::string> {
+                          const auto found = std::find(metrics.begin(), metrics.end(), name);
+                          return found == metrics.end() ? std::nullopt
+                                                        : std::optional(std::string());
+                        },
+                        [&](const std::string& name) { return near_matches(name, metrics); }});
+      if (!limit.is_comparison() || limit.names().empty())
+        fail(node, fmt::format("limit '{}' is no comparison of a metric by < <= > >=: give several "
+                               "limits one by one",
+                               limit.text()));
+      limit.violation(Trial());
+      sweep_.limits.push_back(std::move(limit));
     }
   }
 

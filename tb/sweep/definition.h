@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tb/results/parameter_set.h"
-#include "tb/sweep/constraint.h"
+#include "tb/sweep/expression.h"
 
 namespace YAML {
 class Node;
@@ -49,8 +49,17 @@ struct Axis {
 };
 inline constexpr const char* kNotGiven = "-";  // the label where it does not
 
+// What is looked at: a key of result.json, dotted or as JSON pointer, or an expression of dotted
+// keys.
 struct Metric {
-  std::string name, key;  // key: dotted, or a JSON pointer, into result.json
+  std::string name, key;
+  std::optional<Expression> expression;  // where it is no single key
+  std::string where;
+
+  // The keys that it reads.
+  std::vector<std::string> keys() const {
+    return expression ? expression->names() : std::vector<std::string>{key};
+  }
 };
 
 struct Objective {
@@ -70,6 +79,7 @@ struct SweepDefinition {
   std::vector<Constraint> constraints;
   bool skip_refused = false;  // points that the engine refuses are left out, not an error
   std::vector<Metric> metrics;
+  std::vector<Expression> limits;  // comparisons of metrics: a point beyond one is on no front
   std::vector<Objective> objectives;
   std::vector<std::size_t> front_axes;  // only points that agree in these are compared
   bool reports = true;

@@ -29,6 +29,9 @@ using spec::ConfigError;
 using spec::FileError;
 
 constexpr double kWorst = 1e30;  // of a point that failed or lacks the metric
+// Of a point beyond the limits, in each objective, and more the further it is: worse than all that
+// are within, so that the search first looks for its way there.
+constexpr double kBeyond = 1e20;
 
 bool is_number(const std::string& text) {
   double number = 0;
@@ -176,6 +179,8 @@ class SweepSearch {
     const std::vector<double> values =
         state == PointState::kDone ? values_of(sweep_, directory) : std::vector<double>();
     Costs costs;
+    const double beyond = values.empty() ? 0 : beyond_limits(sweep_, values);
+    if (beyond > 0) return Costs(goals_.size(), std::min(kBeyond * (1 + beyond), kWorst));
     for (const auto& [metric, sign] : goals_) {
       const double value = values.empty() ? NAN : values[metric];
       costs.push_back(std::isnan(value) ? kWorst : std::clamp(sign * value, -kWorst, kWorst));

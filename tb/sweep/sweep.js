@@ -96,13 +96,15 @@
     select.addEventListener('change', drawScatter);
   }
   const goals = data.objectives.map((o) => o.metric);
+  const limits = data.limits ?? [];
   const metrics = columns.filter((c) => c.metric !== undefined);
   fill(byId('across'), columns, goals[0] ?? metrics[0].name);
   fill(byId('up'), columns, goals[1] ?? (metrics[1] ?? metrics[0]).name);
   fill(byId('colour'), columns.filter((c) => c.axis !== undefined), columns[0].name);
   byId('objectives').textContent = data.objectives.length === 0 ? '' : 'Objectives: ' +
     data.objectives.map((o) => `${o.maximise ? 'most' : 'least'} ${o.metric}`).join(', ') +
-    (data.for_each.length > 0 ? `, a front for each ${data.for_each.join(', ')}` : '');
+    (data.for_each.length > 0 ? `, a front for each ${data.for_each.join(', ')}` : '') +
+    (limits.length > 0 ? `; limits: ${limits.join(', ')}` : '');
   Chart.defaults.color = muted;
   Chart.defaults.borderColor = rule;
   Chart.defaults.animation = false;
@@ -148,7 +150,7 @@
       return {
         label: label === null ? 'all points' : `${colour.name} = ${label}`,
         data: points.map((p) => ({x: across(p), y: up(p), point: p})),
-        backgroundColor: points.map((p) => palette[i] + (p.front || goals.length === 0 ? '' : '70')),
+        backgroundColor: points.map((p) => palette[i] + (p.beyond ? '28' : p.front || goals.length === 0 ? '' : '70')),
         borderColor: ink,
         borderWidth: points.map((p) => p.front ? 1 : 0),
         pointRadius: points.map((p) => p.front ? 6 : 3),
@@ -221,7 +223,7 @@
 
   // ---- filters and table ----
   const filters = new Map();  // axis -> label
-  let onlyFront = false, states = new Set(['done', 'failed', 'missing', 'running']);
+  let onlyFront = false, onlyWithin = false, states = new Set(['done', 'failed', 'missing', 'running']);
   let sortBy = null, descending = false;
   const bar = byId('filters');
   for (const column of columns.filter((c) => c.axis !== undefined && c.labels.length > 1 && c.labels.length <= 100)) {
@@ -249,7 +251,16 @@
     label.append(' front only');
     box.addEventListener('change', () => { onlyFront = box.checked; drawTable(); drawParallel(); });
   }
+  if (limits.length > 0) {
+    const label = element('label', undefined, bar);
+    const box = element('input', undefined, label);
+    box.type = 'checkbox';
+    label.append(' within limits only');
+    label.title = limits.join(', ');
+    box.addEventListener('change', () => { onlyWithin = box.checked; drawTable(); drawParallel(); });
+  }
   const passing = () => data.points.filter((p) => states.has(p.state) && (!onlyFront || p.front) &&
+    (!onlyWithin || (p.state === 'done' && !p.beyond)) &&
     [...filters].every(([axis, label]) => p.at[axis] === label));
 
   function drawTable() {
@@ -276,9 +287,10 @@
     });
     for (const p of points.slice(0, kMostRows)) {
       const row = element('tr', undefined, body,
-                          (p.front ? 'front ' : '') + (p.state === 'failed' ? 'failed ' : '') + (p === chosen ? 'chosen' : ''));
+                          (p.front ? 'front ' : '') + (p.beyond ? 'beyond ' : '') + (p.state === 'failed' ? 'failed ' : '') + (p === chosen ? 'chosen' : ''));
       for (const column of columns) element('td', column.text(p), row, column.metric !== undefined ? 'n' : '');
       const last = element('td', undefined, row);
+      if (p.beyond) row.title = `beyond the limit ${p.beyond}`;
       if (p.state === 'done') element('a', p.name.slice(0, 8), last).href = `${directoryOf(p)}/${filesOf[0]}`;
       else element('span', p.failure ? `${p.state}: ${p.failure}` : p.state, last);
       pressable(row, () => choose(p));

@@ -7,6 +7,7 @@ usage: added_engine_test.py DEBURR SOAK SOURCE"""
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -89,6 +90,30 @@ class Added(unittest.TestCase):
         self.deburr(0, "regress", "tb/testplan/smoke.yaml", "plan", "--seed", "1")
         points = next(self.folder.rglob("points.jsonl"), None) or next(self.folder.rglob("points*"))
         self.assertIn("posteriser-levels", points.read_text(encoding="utf-8"))
+
+    # By its role alone: behind who draws, behind who smooths along edges, and in every list.
+    def test_in_a_composition(self):
+        small = ("--size", "32x24", "--out", "out")
+        told = self.deburr(0, "params", "frame")
+        values = re.search(r"(\S+(?: \| \S+)+)", told[told.index("frame.smoothing"):])[1].split(" | ")
+        pair = next(value for value in values if value.endswith(f"-{NAME}"))
+        first = pair.removesuffix(f"-{NAME}")
+        self.assertEqual([NAME in values, first in values, values[-1]], [True, True, pair])
+        for smoothing in (NAME, pair):
+            self.deburr(0, "run", "frame", *small, "--smoothing", smoothing, "--set", "posteriser.bits=3", "--stalls", "0.1",
+                        says="PASS frame")
+            result = json.loads((self.folder / "out/result.json").read_text())
+            self.assertEqual(result["work"]["posteriser_levels_pixels"], 32 * 24)
+            self.assertGreaterEqual(result["work"]["smoothing_clocks"], 32 * 24)
+            self.assertIn("frame_buffer", result["units"])
+            self.assertEqual("drawing_clocks" in result["work"], smoothing == pair)
+        self.deburr(1, "run", "frame", *small, "--smoothing", NAME, "--fault", "posteriser.flip-bit", says="FAIL mismatch")
+        for smoothing in (NAME, pair):
+            self.deburr(0, "run", "frame", *small, "--smoothing", smoothing, "--set", "run.reset_after=900", says="PASS frame")
+        # Nobody marks for who looks at no marks.
+        self.assertIn(f"{first}.mark: false", self.deburr(0, "run", "frame", "--smoothing", pair, "--show-config"))
+        self.deburr(2, "run", "frame", "--set", "posteriser.bits=3", says=f"frame.smoothing = {values[0]} has no posteriser")
+        self.deburr(0, "run", "frame", "--help", says=f" or {pair}")
 
     def test_parameters_and_pages(self):
         self.deburr(0, "params", NAME, says=["posteriser.bits", "posteriser.link_depth", "must be 1 or an even"])

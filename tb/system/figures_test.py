@@ -84,6 +84,13 @@ class Texture(Figures):
         self.assertEqual(r["throughput"]["value"], work["bilinears"] / r["cycles"])
         self.assertEqual(r["throughput"]["bound"], 1)
         self.assertEqual(work["misses_per_texel"], lines / (4 * work["bilinears"]))
+        self.assertEqual(work["texel_hits_percent"], 100 - 100 * work["misses_per_texel"])
+        looked_up = [work[f"tag_stage_{what}"] for what in ("hits", "merged", "misses")]
+        for what, count in zip(("hits", "merged", "misses"), looked_up):
+            self.assertGreater(count, 0)
+            self.assertEqual(work[f"look_up_{what}_percent"], 100 * (count / sum(looked_up)), what)
+        self.assertEqual(r["memory"]["read_gb_per_s"], 64 * lines * 166.67 / (1000 * r["cycles"]))
+        self.assertEqual(r["memory"]["written_gb_per_s"], 0)
         self.assertEqual(work["texels_fetched_per_fragment"], lines * 16 / 1024)
         self.assertEqual(r["memory"]["bytes_read"], 64 * lines)
         self.assertEqual(lines, work["tag_stage_misses"])

@@ -86,8 +86,8 @@ class Smoothing(unittest.TestCase):
                                f"geometric.preset={edges}")
 
     def test_what_does_not_smooth_takes_no_parameters(self):
-        self.command(2, "--set", "geometric.layout=raster", says="draws no edges")
-        self.command(2, "--set", "geometric_memory.latency=9", says="draws no edges")
+        self.command(2, "--set", "geometric.layout=raster", says="has no geometric engine")
+        self.command(2, "--set", "geometric_memory.latency=9", says="has no geometric engine")
         self.command(2, "--smoothing", "geometric", "--preset", "mlaa", says="has no morphological engine")
         self.command(2, "--smoothing", "geometric", "--set", "frame_memory.latency=9",
                      says="has no morphological engine")

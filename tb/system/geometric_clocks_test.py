@@ -10,6 +10,7 @@ import sys
 import unittest
 
 BENCH = "geometric_rtl_bench"
+BEGIN = 540  # clocks, of a word of touched bits each
 PAGE = pathlib.Path(__file__).resolve().parent.parent.parent / "docs/geometric_hardware.md"
 
 
@@ -18,10 +19,11 @@ def bench(*arguments):
 
 
 def frame(*arguments):
-    """Clocks of the edges and of the resolve, and the counters."""
+    """Clocks of the edges and of the resolve, the counters, and lines of memory of both phases."""
     text = bench("--frames", "1", *arguments)
     edges, resolve = map(int, re.search(r"edges (\d+), resolve (\d+)", text).groups())
-    return edges, resolve, {name: int(value) for name, value in re.findall(r"([A-Z_]+) (\d+)", text)}
+    lines = tuple(map(int, re.search(r"lines of memory a frame: edges (\d+), resolve (\d+)", text).groups()))
+    return edges, resolve, {name: int(value) for name, value in re.findall(r"([A-Z_]+) (\d+)", text)}, lines
 
 
 def said(text):
@@ -37,22 +39,33 @@ class Clocks(unittest.TestCase):
     def assert_said(self, text):
         self.assertIn(text, self.page)
 
-    def test_a_dense_frame(self):
-        edges, resolve, work = frame("deburr", "4", "2", "tiled", "3")
-        self.assertEqual(work["EDGES"], 33000)
-        self.assertEqual(work["KEPT_EDGES"], 6600)
-        self.assert_said(f"{said(work['COLUMNS'])} columns, {said(work['GROUPS'])} groups, {said(work['BLOCKS'])} blocks")
-        self.assert_said(f"takes {said(edges)} clocks for the edges and {said(resolve)} for the resolve, "
-                         f"**{said(edges + resolve)}** in all")
-        self.assertLess(edges + resolve, 36000)
-        one_lane = sum(frame("deburr", "4", "1", "tiled", "3")[:2])
-        rows = sum(frame("deburr", "4", "2", "raster", "3")[:2])
-        self.assert_said(f"{said(one_lane)} with edge_lanes = 1, {said(rows)} in `raster`")
+    def test_dense_frames(self):
+        """Rings side by side and on each other, near a memory and far from one, against what the port takes alone."""
+        for passes, name in (("1", "side by side"), ("3", "three on each other")):
+            for coverage in ("distance", "area"):
+                for latency in ("20", "100"):
+                    edges, resolve, work, lines = frame("deburr", "4", "2", "tiled", passes, latency,
+                                                        f"coverage={coverage}")
+                    self.assertEqual(work["EDGES"], 33000)
+                    self.assertEqual(work["KEPT_EDGES"], 6600)
+                    bound = BEGIN + sum(lines)
+                    self.assert_said(f"| {name} | {coverage} | {latency} | {said(work['BLENDED_PIXELS'])} | "
+                                     f"{said(work['COLUMNS'])} | {said(work['GROUPS'])} | {said(work['BLOCKS'])} | "
+                                     f"{said(edges)} | {said(resolve)} | **{said(edges + resolve)}** | {said(bound)} |")
+                    self.assertGreater(edges + resolve, bound)
+                    if passes == "1":
+                        self.assertGreaterEqual(work["BLENDED_PIXELS"], 22000)
+                        self.assertLess(edges + resolve, 1.05 * bound)
 
-    def test_rings_beside_each_other(self):
-        edges, resolve, work = frame("deburr", "4", "2", "tiled", "1")
-        self.assert_said(f"touch {said(work['BLOCKS'])} blocks with {said(work['COLUMNS'])} columns")
-        self.assert_said(f"{said(edges)} and {said(resolve)} clocks, the port busy in 99 % of them")
+    def test_sizes(self):
+        for parameter in ("fills", "resolve_lines"):
+            clocks = sum(frame("deburr", "4", "2", "tiled", "1", "100", f"coverage=distance {parameter}=64")[:2])
+            self.assert_said(f"{said(clocks)}{' clocks' if parameter == 'fills' else ''} with `{parameter}` = 64")
+
+    def test_fewer_lanes_and_rows(self):
+        one_lane = sum(frame("deburr", "4", "1", "tiled", "3", "20", "coverage=distance")[:2])
+        rows = sum(frame("deburr", "4", "2", "raster", "3", "20", "coverage=distance")[:2])
+        self.assert_said(f"{said(one_lane)} with edge_lanes = 1, {said(rows)} in `raster`")
 
     def test_dividers(self):
         rows = [line.split() for line in bench("--dividers").splitlines()[1:]]

@@ -81,7 +81,11 @@ void run_frames(Coverage& coverage) {
         p.select = select;
         p.crease = crease;
         p.layout = static_cast<Layout>(seed % 2);
-        p.combine = static_cast<spec::geometric::Combine>(seed % 3 == 0);
+        // Each rule off and on, in several company.
+        p.combine = static_cast<spec::geometric::Combine>(seed % 3);
+        p.coverage = static_cast<spec::geometric::CoverageRule>(seed >> 1 & 1);
+        p.cull = static_cast<spec::geometric::Cull>(seed >> 2 & 1);
+        p.crease_depth = seed % 4 == 3 ? 0 : 4;
         p.depth_lines = p.weight_blocks = p.vertex_lines = CacheLines::k16;
         p.frame_copy = seed % 5 == 1;
         // Little of everything, so that every unit waits now and then.

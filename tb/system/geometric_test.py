@@ -90,9 +90,9 @@ f 1 2 3\nf 1 3 4\n"""
         """Two edges a clock wait for nothing but vertices and depth, behind each other: the sum of the units'
         latencies, a clock for each link, and a memory of one clock twice."""
         r = self.square("--set", "geometric.select=all", "--walkers", "1", depths=("--set", "geometric.depth_test=off"))
-        # 3 classifier, 5 vertices, 22 setup, 1 walker, 2 coverage, 6 depth test, 5 combiner; 31 groups behind the
+        # 3 classifier, 5 vertices, 22 setup, 1 walker, 3 coverage, 7 depth test, 5 combiner; 31 groups behind the
         # first one; M + 6 of the vertices.
-        self.assertEqual(r["latency"]["min"], 3 + 5 + 22 + 1 + 2 + 6 + 5 + 31 + 7)
+        self.assertEqual(r["latency"]["min"], 3 + 5 + 22 + 1 + 3 + 7 + 5 + 31 + 7)
 
     def test_traffic_of_rows(self):
         """A row of 64 pixels is four lines; the lines of depth of a vertical line are a row each."""

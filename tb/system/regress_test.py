@@ -91,7 +91,7 @@ class RegressTest(unittest.TestCase):
             return [json.loads(line) for line in file]
 
     def inodes(self):
-        return {path: os.stat(path).st_ino
+        return {path: (os.stat(path).st_ino, os.stat(path).st_mtime_ns)
                 for path in glob.glob(self.path("out/points/*/*/result.json"))}
 
     def check_fault(self, passed):

@@ -102,6 +102,46 @@ class Points(SweepTest):
             dominated = any(o[0] <= mine[0] and o[1] <= mine[1] and o != mine for o in cost)
             self.assertEqual(row["front"], "0" if dominated else "1")
 
+    def test_metrics_of_several_keys_and_limits(self):
+        """Expressions by hand from the results; beyond a limit nothing is on the front, also of a search."""
+        text = SWEEP.split("metrics:")[0] + """
+metrics:
+  hits: work.look_up_hits_percent
+  kib: memory_bits.total.physical / 0x2000
+  clocks_a_fragment: cycles / work.fragments - 0
+  read: memory.read_gb_per_s
+limits: [hits >= LEAST, clocks_a_fragment < 1e6]
+objectives: {minimise: [kib, clocks_a_fragment]}
+"""
+        self.write("limits.yaml", text.replace("LEAST", "-1"))
+        self.run_sweep("limits.yaml", "run")
+        least = sorted(float(row["hits"]) for row in self.rows("limits"))[POINTS // 2]
+        self.assertIn(", 0 beyond the limits", self.run_sweep("limits.yaml", "collect"))
+        self.write("limits.yaml", text.replace("LEAST", repr(least)))
+        rows = self.rows("limits")
+        for row in rows:
+            with open(os.path.join(self.directory, row["directory"], "result.json")) as file:
+                result = json.load(file)
+            work = result["work"]
+            self.assertEqual(float(row["kib"]), result["memory_bits"]["total"]["physical"] / 8192)
+            self.assertEqual(float(row["clocks_a_fragment"]), result["cycles"] / work["fragments"])
+            self.assertEqual(float(row["read"]), result["memory"]["read_gb_per_s"])
+            self.assertEqual(row["beyond"], "" if float(row["hits"]) >= least else f"hits >= {least!r}")
+        within = [row for row in rows if row["beyond"] == ""]
+        self.assertTrue(0 < len(within) < POINTS, within)
+        cost = [(float(row["kib"]), float(row["clocks_a_fragment"])) for row in within]
+        self.assertEqual([row["front"] for row in within],
+                         ["0" if any(o[0] <= c[0] and o[1] <= c[1] and o != c for o in cost) else "1" for c in cost])
+        self.assertNotIn("1", [row["front"] for row in rows if row["beyond"]])
+        self.assertIn(f", {POINTS - len(within)} beyond the limits", self.run_sweep("limits.yaml", "collect"))
+        with open(os.path.join(self.directory, "out/sweeps/limits/index.html")) as file:
+            page = file.read()
+        self.assertIn(f"{POINTS - len(within)} points, the faint ones, are beyond a limit", page)
+        self.assertEqual(len(re.findall(r'<tr class="beyond">', page)), POINTS - len(within))
+        front = {row["point"] for row in rows if row["front"] == "1"}
+        self.search("limits.yaml", "--runs", str(POINTS), "--population", "8")
+        self.assertEqual({row["point"] for row in self.rows("limits", command="search") if row["front"] == "1"}, front)
+
     def test_the_table_without_script(self):
         """Every point with its values, the front first, and links to what is there."""
         self.write("cache.yaml", SWEEP + "reports: false\n")
@@ -283,7 +323,8 @@ objectives: {maximise: [psnr], minimise: [bits]}
         flat, chess = (next(r["directory"] for r in rows if r["scene.texture"] == name)
                        for name in ("flat.pgm", "chess.pgm"))
         loose = ("--cycles-percent", "1000", "--throughput-percent", "99")
-        self.assertIn("worse: quality.psnr_db;", self.run_compare(flat, chess, *loose, code=1) + ";")
+        self.assertIn("worse: quality.psnr_db, quality.flip, quality.ssim;",
+                      self.run_compare(flat, chess, *loose, code=1) + ";")
         # The edges, that it has no more, are missed; the picture is not.
         self.assertIn("worse: quality.psnr_edge_db,", self.run_compare(chess, flat, *loose, code=1))
 

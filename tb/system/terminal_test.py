@@ -75,14 +75,42 @@ class Terminal(unittest.TestCase):
         self.assertTrue(lines[1].startswith(
             f"limited by  {limit['unit']}, {limit['cause']} in "
             f"{100 * limit['cycles'] / result['cycles']:.1f} % of the cycles"), lines[1])
+        work, memory = result["work"], result["memory"]
+        self.assertEqual(lines[2], f"hits        {work['look_up_hits_percent']:.2f} % of look-ups, "
+                         f"{work['look_up_merged_percent']:.2f} % more merged with a fill under way; "
+                         f"{work['texel_hits_percent']:.2f} % of texels")
+        self.assertEqual(lines[3], f"memory      {memory['read_gb_per_s']:.3g} GB/s read, 0 written at 166.67 MHz")
         quality = result["quality"]
         gain = quality["psnr_db"] - quality["psnr_before_db"]
-        self.assertTrue(lines[2].startswith(
-            f"quality     {quality['psnr_db']:.2f} dB ({gain:+.2f}), edges "), lines[2])
-        self.assertTrue(lines[2].endswith("against supersampled-256"), lines[2])
-        self.assertTrue(lines[3].startswith("RESULT: PASS texture: "), lines[3])
-        self.assertEqual(len(lines), 4)
-        self.assertEqual(len(self.run_texture().stdout.splitlines()), 3, "no truth, no quality")
+        self.assertTrue(lines[4].startswith(
+            f"quality     {quality['psnr_db']:.2f} dB ({gain:+.2f}), edges "), lines[4])
+        self.assertTrue(lines[4].endswith("against supersampled-256"), lines[4])
+        self.assertTrue(lines[5].startswith("RESULT: PASS texture: "), lines[5])
+        self.assertEqual(len(lines), 6)
+        self.assertEqual(len(self.run_texture().stdout.splitlines()), 5, "no truth, no quality")
+
+    def test_it_says_what_was_changed(self):
+        frame = os.path.join(os.path.dirname(self.out), "frame.png")
+        self.run_texture()
+        os.rename(os.path.join(self.out, "after.png"), frame)
+        for truth in ((), ("--truth", frame)):
+            done = subprocess.run([DEBURR, "run", "morphological", "--in", frame, "--out", self.out,
+                                   *truth], text=True, capture_output=True, timeout=300)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            lines = done.stdout.splitlines()
+            change = self.result()["change"]
+            self.assertGreater(change["over_2_percent"], 0)
+            right = (f" (of those that were right before {change['right_over_2_percent']:.2f} % and "
+                     f"{change['right_over_16_percent']:.2f} %)" if truth else "")
+            self.assertEqual(lines[-2], f"changed     {change['over_2_percent']:.2f} % of the pixels by "
+                             f"more than 2 codes, {change['over_16_percent']:.2f} % by more than 16"
+                             f"{right}; {change['psnr_db']:.2f} dB to what went in")
+            if truth:  # the frame is its own truth: all of it was right
+                self.assertEqual(change["right_over_2_percent"], change["over_2_percent"])
+                quality = self.result()["quality"]
+                self.assertEqual(quality["flip_before"], 0)
+                self.assertIn(f", FLIP {quality['flip']:.4f} (+{quality['flip']:.4f}), SSIM "
+                              f"{quality['ssim']:.4f} (", lines[-3])
 
     def test_quiet(self):
         done = self.run_texture("--quiet", "--truth")

@@ -130,8 +130,7 @@ class QuadBench {
   rtl::texture::TextureUnit& unit() { return unit_; }
 
  private:
-  static rtl::texture::LatencyFifo::MemoryClocks memory_clocks(
-      const platform::MemoryModelParameters& memory) {
+  static rtl::MemoryClocks memory_clocks(const platform::MemoryModelParameters& memory) {
     return {static_cast<std::int32_t>(std::max(memory.latency_min, memory.latency_max)), 1};
   }
   static platform::MemoryModelParameters sized(platform::MemoryModelParameters memory,

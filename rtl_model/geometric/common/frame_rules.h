@@ -13,9 +13,12 @@ struct FrameRules {
   std::uint32_t width = 0, height = 0;  // pixels
   spec::geometric::Select select{};
   spec::geometric::Crease crease{};
+  spec::geometric::Cull cull{};
   spec::geometric::DepthTest depth_test{};
-  std::uint32_t depth_bias = 1;  // 1..24
+  std::uint32_t depth_bias = 1;    // 1..24
+  std::uint32_t crease_depth = 0;  // 0..24
   spec::geometric::Combine combine{};
+  bool area = false;  // coverage
   bool linear_light = false, mark = false, tiled = false, frame_copy = false;
   std::uint32_t edge_count = 0, vertex_count = 0, face_count = 0;
   std::uint32_t edge_base = 0, vertex_base = 0, face_base = 0, depth_base = 0, colour_base = 0,
@@ -32,9 +35,12 @@ struct FrameRules {
     visit("height", self.height, 14, "U14");
     visit("select", self.select, 1, "U1");
     visit("crease", self.crease, 2, "U2");
+    visit("cull", self.cull, 1, "U1");
     visit("depth_test", self.depth_test, 2, "U2");
     visit("depth_bias", self.depth_bias, 5, "U5");
-    visit("combine", self.combine, 1, "U1");
+    visit("crease_depth", self.crease_depth, 5, "U5");
+    visit("combine", self.combine, 2, "U2");
+    visit("area", self.area);
     visit("linear_light", self.linear_light);
     visit("mark", self.mark);
     visit("tiled", self.tiled);

@@ -37,11 +37,16 @@ FrameRules decode(const ControlRegisters& registers) {
   namespace field = reg::rules;
   f.select = choice<spec::geometric::Select>(field::kSelect, rules);
   f.crease = choice<spec::geometric::Crease>(field::kCrease, rules);
+  f.cull = choice<spec::geometric::Cull>(field::kCull, rules);
   f.depth_test = choice<spec::geometric::DepthTest>(field::kDepthTest, rules);
   f.combine = choice<spec::geometric::Combine>(field::kCombine, rules);
   f.linear_light = field::kLinearLight.of(rules) != 0;
   f.depth_bias =
       std::clamp(field::kDepthBias.of(rules), 1U, std::uint32_t{spec::geometric::kDepthBits});
+  f.crease_depth =
+      std::min(field::kCreaseDepth.of(rules), std::uint32_t{spec::geometric::kDepthBits});
+  f.area = choice<spec::geometric::CoverageRule>(field::kCoverage, rules) ==
+           spec::geometric::CoverageRule::kArea;
   f.mark = field::kMark.of(rules) != 0;
   f.tiled = field::kLayout.of(rules) != 0;
   f.frame_copy = field::kFrameCopy.of(rules) != 0;

@@ -51,11 +51,13 @@ struct EdgeBeat {
 // EdgeClassifier -> VertexFetch.
 struct KeptEdge {
   std::uint32_t v0, v1;  // U24
+  bool crease;           // its class
   bool end;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("v0", self.v0, 24, "U24");
     visit("v1", self.v1, 24, "U24");
+    visit("crease", self.crease);
     visit("end", self.end);
   }
 };
@@ -77,10 +79,12 @@ struct VertexFields {
 // VertexFetch -> LineSetup.
 struct EdgeEnds {
   std::array<VertexFields, 2> vertex;
+  bool crease;  // the class of its edge
   bool end;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("vertex", self.vertex);
+    visit("crease", self.crease);
     visit("end", self.end);
   }
 };
@@ -100,9 +104,11 @@ struct LineToken {
 struct GroupToken {
   bool vertical;
   bool tie_forward;
+  bool crease;                                // the class of its edge
   std::uint16_t column;                       // U13, of lane 0
   std::uint8_t count;                         // U3, 1..lanes
   std::array<std::int32_t, kLanes> position;  // S15.16: row, and where in it
+  std::int32_t slope;                         // S1.24
   std::int64_t depth;                         // S25.12, of lane 0
   std::int64_t step;                          // S25.12 a lane
   bool end;
@@ -110,24 +116,30 @@ struct GroupToken {
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("vertical", self.vertical);
     visit("tie_forward", self.tie_forward);
+    visit("crease", self.crease);
     visit("column", self.column, 13, "U13");
     visit("count", self.count, 3, "U3");
     visit.lanes("position", self.position, 32, "S15.16");
+    visit("slope", self.slope, 26, "S1.24");
     visit("depth", self.depth, 38, "S25.12");
     visit("step", self.step, 38, "S25.12");
     visit("end", self.end);
   }
 };
 
-// CoverageUnit -> DepthTest -> WeightCombiner: candidates in one block of 4 x 4 pixels, a pixel a
-// lane. Behind the test, those that passed.
+// CoverageUnit -> DepthTest -> WeightCombiner: candidates in one block of 4 x 4 pixels, a column a
+// lane. A column's second candidate is the neighbour of its first, which takes from that; it may
+// lie in the next block across the line. Behind the test, those that passed.
 struct CandidateToken {
   std::uint16_t block_x, block_y;  // U11
   bool vertical;                   // neighbours left or right, else up or down
+  bool crease;                     // the class of the line's edge
   std::uint8_t candidates;         // bit k: lane k is one
   std::uint8_t forward;            // bit k: its neighbour is down or right
+  std::uint8_t seconds;            // bit k: lane k has a second one
   Lanes8 place;                    // U4, 4 y + x in the block
   Lanes8 coverage;                 // U0.8, 1..128
+  Lanes8 second;                   // U0.8, 1..128, coverage of the second one
   Lanes32 depth;                   // U24, of the line
   bool end;
   template <class Self, class Visit>
@@ -135,10 +147,13 @@ struct CandidateToken {
     visit("block_x", self.block_x, 11, "U11");
     visit("block_y", self.block_y, 11, "U11");
     visit("vertical", self.vertical);
+    visit("crease", self.crease);
     visit.lane_bits("candidates", self.candidates, kLanes);
     visit.lane_bits("forward", self.forward, kLanes);
+    visit.lane_bits("seconds", self.seconds, kLanes);
     visit.lanes("place", self.place, 4, "U4");
     visit.lanes("coverage", self.coverage, 8, "U0.8");
+    visit.lanes("second", self.second, 8, "U0.8");
     visit.lanes("depth", self.depth, 24, "U24");
     visit("end", self.end);
   }
@@ -149,8 +164,12 @@ struct WeightToken {
   bool vertical;
   std::uint8_t candidates;  // that passed
   std::uint8_t forward;
-  Lanes8 place;     // U4
-  Lanes8 coverage;  // U0.8
+  std::uint8_t seconds;  // of these
+  std::uint8_t nearer;   // bit k: the pixel is nearer than its neighbour
+  std::uint8_t farther;  // bit k: it is farther, so the pixel of the second one is nearer
+  Lanes8 place;          // U4
+  Lanes8 coverage;       // U0.8
+  Lanes8 second;         // U0.8
   bool end;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -159,8 +178,12 @@ struct WeightToken {
     visit("vertical", self.vertical);
     visit.lane_bits("candidates", self.candidates, kLanes);
     visit.lane_bits("forward", self.forward, kLanes);
+    visit.lane_bits("seconds", self.seconds, kLanes);
+    visit.lane_bits("nearer", self.nearer, kLanes);
+    visit.lane_bits("farther", self.farther, kLanes);
     visit.lanes("place", self.place, 4, "U4");
     visit.lanes("coverage", self.coverage, 8, "U0.8");
+    visit.lanes("second", self.second, 8, "U0.8");
     visit("end", self.end);
   }
 };

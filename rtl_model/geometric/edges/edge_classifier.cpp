@@ -10,6 +10,7 @@ namespace deburr::rtl::geometric {
 
 namespace flag = spec::geometric::flag;
 using spec::geometric::Crease;
+using spec::geometric::EdgeClass;
 using spec::geometric::Select;
 
 EdgeClassifier::EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -57,44 +58,55 @@ void EdgeClassifier::choose_bits(Cycle cycle, Beat& beat) {
 }
 
 // Stage 3, of one lane.
-bool EdgeClassifier::keeps(const FrameRules& rules, const EdgeFields& edge, bool valid,
-                           bool facing0, bool facing1) {
-  if (!valid) {
-    ++invalid_edges;
-    return false;
-  }
-  if (edge.flags & flag::kBoundary) {
-    ++boundary_edges;
-    return true;
-  }
-  if (rules.select == Select::kAll) return true;
-  if (facing0 != facing1) {
-    ++silhouette_edges;
-    return true;
-  }
-  if (!facing0) {
-    ++back_edges;
-    return false;
-  }
+EdgeClass EdgeClassifier::class_of(const FrameRules& rules, const EdgeFields& edge, bool valid,
+                                   bool facing0, bool facing1) {
+  if (!valid) return EdgeClass::kInvalid;
+  if (edge.flags & flag::kBoundary) return EdgeClass::kBoundary;
+  if (rules.select == Select::kAll) return EdgeClass::kUnclassified;
+  if (facing0 != facing1) return EdgeClass::kSilhouette;
+  if (!facing0 && rules.cull == spec::geometric::Cull::kBack) return EdgeClass::kBack;
   const bool angle = edge.flags & flag::kAngle, split = edge.flags & flag::kSplitNormals,
              seam = edge.flags & flag::kSeam;
   const bool crease = (rules.crease == Crease::kPaper && angle) ||
                       (rules.crease == Crease::kShading && ((angle && split) || seam));
-  ++(crease ? crease_edges : flat_edges);
-  return crease;
+  return crease ? EdgeClass::kCrease : EdgeClass::kFlat;
+}
+
+// nullptr: it is counted among all edges alone.
+Counter* EdgeClassifier::counter_of(EdgeClass c) {
+  switch (c) {
+    case EdgeClass::kInvalid:
+      return &invalid_edges;
+    case EdgeClass::kBoundary:
+      return &boundary_edges;
+    case EdgeClass::kSilhouette:
+      return &silhouette_edges;
+    case EdgeClass::kBack:
+      return &back_edges;
+    case EdgeClass::kCrease:
+      return &crease_edges;
+    case EdgeClass::kFlat:
+      return &flat_edges;
+    default:
+      return nullptr;
+  }
 }
 
 void EdgeClassifier::classify(Cycle cycle, const Beat& beat) {
   const FrameRules& rules = rules_in.read(cycle);
   edges += beat.edges.count;
   if (std::popcount(beat.valid) != beat.edges.count) invalid_edge_out.raise(cycle);
+  creases_ = 0;
   for (std::size_t lane = 0; lane < beat.edges.count; ++lane) {
-    const bool kept = keeps(rules, beat.edges.edge[lane], beat.valid >> lane & 1,
-                            beat.facing0 >> lane & 1, beat.facing1 >> lane & 1);
+    const EdgeClass c = class_of(rules, beat.edges.edge[lane], beat.valid >> lane & 1,
+                                 beat.facing0 >> lane & 1, beat.facing1 >> lane & 1);
+    if (Counter* const counter = counter_of(c)) ++*counter;
+    const bool kept = c != EdgeClass::kInvalid && c != EdgeClass::kBack && c != EdgeClass::kFlat;
     latency_.judge(kept);
     if (!kept) continue;
     ++kept_edges;
     pending_ |= static_cast<std::uint8_t>(1u << lane);
+    creases_ |= static_cast<std::uint8_t>((c == EdgeClass::kCrease) << lane);
   }
   if (beat.edges.end) pending_ = kEnd;
 }
@@ -103,10 +115,11 @@ void EdgeClassifier::leave(Cycle cycle) {
   KeptEdge& kept = edges_out.emplace(cycle);
   kept.end = pending_ == kEnd;
   if (!kept.end) {
-    const EdgeFields& edge =
-        pipe_.at(3)->edges.edge[static_cast<std::size_t>(std::countr_zero(pending_))];
+    const auto lane = static_cast<std::size_t>(std::countr_zero(pending_));
+    const EdgeFields& edge = pipe_.at(3)->edges.edge[lane];
     kept.v0 = edge.v0;
     kept.v1 = edge.v1;
+    kept.crease = creases_ >> lane & 1;
   }
   pending_ &= static_cast<std::uint8_t>(pending_ - 1);
 }
@@ -135,7 +148,7 @@ Activity EdgeClassifier::tick(Cycle cycle) {
 
 void EdgeClassifier::reset() {
   pipe_.reset();
-  pending_ = 0;
+  pending_ = creases_ = 0;
 }
 
 Datasheet EdgeClassifier::datasheet() {

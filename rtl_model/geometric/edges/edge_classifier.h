@@ -18,6 +18,7 @@
 #include "rtl_model/geometric/common/edge_latency.h"
 #include "rtl_model/geometric/common/frame_rules.h"
 #include "rtl_model/geometric/common/tokens.h"
+#include "spec/geometric/records.h"
 
 namespace deburr::rtl::geometric {
 
@@ -39,10 +40,12 @@ class EdgeClassifier final : public Unit {
   Counter boundary_edges{"boundary_edges", "edges", "edges of a single face"};
   Counter silhouette_edges{"silhouette_edges", "edges",
                            "edges between a face turned to the eye and one turned away"};
-  Counter back_edges{"back_edges", "edges", "edges of two faces turned away"};
-  Counter crease_edges{"crease_edges", "edges", "creases between two faces turned to the eye"};
-  Counter flat_edges{"flat_edges", "edges",
-                     "edges between two faces turned to the eye that are no crease"};
+  Counter back_edges{"back_edges", "edges", "edges of two faces turned away, which cull drops"};
+  Counter crease_edges{"crease_edges", "edges",
+                       "creases between two faces turned to the eye, or not culled"};
+  Counter flat_edges{
+      "flat_edges", "edges",
+      "edges between two faces turned to the eye, or not culled, that are no crease"};
   Counter invalid_edges{"invalid_edges", "edges", "edges with an index out of range"};
   Counter kept_edges{"kept_edges", "edges", "edges whose vertices are fetched"};
 
@@ -58,8 +61,9 @@ class EdgeClassifier final : public Unit {
   void look(Cycle cycle, Beat& beat);
   void choose_bits(Cycle cycle, Beat& beat);
   void classify(Cycle cycle, const Beat& beat);
-  bool keeps(const FrameRules& rules, const EdgeFields& edge, bool valid, bool facing0,
-             bool facing1);
+  static spec::geometric::EdgeClass class_of(const FrameRules& rules, const EdgeFields& edge,
+                                             bool valid, bool facing0, bool facing1);
+  Counter* counter_of(spec::geometric::EdgeClass c);
   void leave(Cycle cycle);
 
   static constexpr std::uint8_t kEnd = 1u << kLanes;  // of pending_
@@ -67,6 +71,7 @@ class EdgeClassifier final : public Unit {
   std::vector<ReadPort<std::uint32_t>> ports_;        // lane, face
   Pipe<Beat, 3> pipe_;
   std::uint8_t pending_ = 0;  // lanes of the beat in stage 3 that have not left
+  std::uint8_t creases_ = 0;  // of its lanes
 };
 
 }  // namespace deburr::rtl::geometric

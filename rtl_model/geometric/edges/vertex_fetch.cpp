@@ -100,6 +100,7 @@ Activity VertexFetch::look_up(Cycle cycle) {
   first_done_ = false;
   looked_ = cycle;
   lookup_.end = edge_.end;
+  lookup_.crease = edge_.crease;
   lookup_.missed = 0;
   if (edge_.end) return kBusy;
   const std::array<std::uint32_t, 2> vertex = {edge_.v0, edge_.v1};
@@ -146,6 +147,7 @@ Activity VertexFetch::deliver(Cycle cycle) {
     if (!fifo_.can_pop(cycle)) return kBusy;
     work_.lookup = fifo_.take(cycle);
     work_.ends.end = work_.lookup.end;
+    work_.ends.crease = work_.lookup.crease;
     work_.from_cache = work_.lookup.end ? 0 : work_.lookup.one_line ? 1 : 3;
     work_.from_cache &= static_cast<std::uint8_t>(~work_.lookup.missed);
     working_ = true;

@@ -47,6 +47,7 @@ class VertexFetch final : public Unit {
     std::array<std::uint8_t, 2> place;   // U2, of the vertex in its line
     std::uint8_t missed;                 // bit k: look-up k
     bool one_line;                       // look-up 1 is look-up 0
+    bool crease;                         // the class of the edge
     bool end;
     template <class Self, class Visit>
     static constexpr void fields(Self& self, Visit&& visit) {
@@ -54,6 +55,7 @@ class VertexFetch final : public Unit {
       visit("place", self.place, 2, "U2");
       visit("missed", self.missed, 2, "bit k: look-up k");
       visit("one_line", self.one_line);
+      visit("crease", self.crease);
       visit("end", self.end);
     }
   };

@@ -188,44 +188,74 @@ void DepthTest::capture_words(Cycle cycle) {
 }
 
 // Stage 6.
-void DepthTest::test(Cycle cycle, Work& work) {
+void DepthTest::compare(Cycle cycle, Work& work) const {
+  work.nearer = work.farther = 0;
+  const bool farther = rules_in.read(cycle).depth_test == spec::geometric::DepthTest::kFarther;
+  for_each_lane(work.lookup.group.candidates, [&](std::size_t lane) {
+    const std::uint32_t own = work.own[lane], other = work.other[lane];
+    work.far[lane] = farther ? std::min(own, other) : own;
+    if (!farther) return;
+    work.nearer |= static_cast<std::uint8_t>((own > other) << lane);
+    work.farther |= static_cast<std::uint8_t>((own < other) << lane);
+  });
+}
+
+void DepthTest::show(const CandidateToken& group, std::size_t lane, bool passes) const {
+  const bool forward = group.forward >> lane & 1;
+  const auto x = static_cast<std::uint16_t>(group.block_x * 4 + (group.place[lane] & 3)),
+             y = static_cast<std::uint16_t>(group.block_y * 4 + (group.place[lane] >> 2));
+  const auto direction = [&](bool to) {
+    return static_cast<spec::geometric::Direction>(2 * group.vertical + to);
+  };
+  observer({x, y, direction(forward), group.coverage[lane], group.depth[lane], passes});
+  if (!(group.seconds >> lane & 1)) return;
+  const int step = forward ? 1 : -1;
+  observer({static_cast<std::uint16_t>(group.vertical ? x + step : x),
+            static_cast<std::uint16_t>(group.vertical ? y : y + step), direction(!forward),
+            group.second[lane], group.depth[lane], passes});
+}
+
+// Stage 7.
+void DepthTest::test(Cycle cycle, const Work& work) {
   const FrameRules& rules = rules_in.read(cycle);
   const CandidateToken& group = work.lookup.group;
+  const bool off = rules.depth_test == spec::geometric::DepthTest::kOff,
+             limited = group.crease && rules.crease_depth != 0;
   std::uint8_t passing = 0;
   for_each_lane(group.candidates, [&](std::size_t lane) {
-    std::uint32_t far = work.own[lane];
-    if (rules.depth_test == spec::geometric::DepthTest::kFarther)
-      far = std::min(far, work.other[lane]);
-    const bool passes = rules.depth_test == spec::geometric::DepthTest::kOff ||
-                        group.depth[lane] >= far - (far >> rules.depth_bias);
+    const std::uint32_t far = work.far[lane], depth = group.depth[lane];
+    const bool before = depth >= far - (far >> rules.depth_bias),
+               near = !limited || far >= depth - (depth >> rules.crease_depth),
+               passes = off || (before && near);
     passing |= static_cast<std::uint8_t>(passes << lane);
-    if (!observer) return;
-    const bool forward = group.forward >> lane & 1;
-    observer({static_cast<std::uint16_t>(group.block_x * 4 + (group.place[lane] & 3)),
-              static_cast<std::uint16_t>(group.block_y * 4 + (group.place[lane] >> 2)),
-              static_cast<spec::geometric::Direction>(2 * group.vertical + forward),
-              group.coverage[lane], group.depth[lane], passes});
+    if (observer) show(group, lane, passes);
   });
   if (!group.end) latency_.test(passing != 0);
   if (passing == 0 && !group.end) return;
-  passed += static_cast<std::uint64_t>(std::popcount(passing));
   WeightToken& out = weights_out.emplace(cycle);
   out.block_x = group.block_x;
   out.block_y = group.block_y;
   out.vertical = group.vertical;
   out.candidates = passing;
   out.forward = group.forward;
+  out.seconds = group.seconds & passing;
+  out.nearer = work.nearer;
+  out.farther = work.farther;
   out.place = group.place;
   out.coverage = group.coverage;
+  out.second = group.second;
   out.end = group.end;
+  passed += static_cast<std::uint64_t>(std::popcount(passing)) +
+            static_cast<std::uint64_t>(std::popcount(out.seconds));
 }
 
-// Stages 6 to 4.
+// Stages 7 to 4.
 Activity DepthTest::deliver(Cycle cycle) {
   if (!working_ && !fifo_.can_pop(cycle) && pipe_.empty()) return kIdle;
   if (pipe_.leaves() && !weights_out.can_push(cycle)) return kStalledDownstream;
   pipe_.move();
-  if (Work* work = pipe_.at(3)) test(cycle, *work);
+  if (const Work* work = pipe_.at(4)) test(cycle, *work);
+  if (Work* work = pipe_.at(3)) compare(cycle, *work);
   if (reading_ != 0) capture_words(cycle);
   if (!working_) {
     if (!fifo_.can_pop(cycle)) return kBusy;
@@ -299,7 +329,7 @@ Datasheet DepthTest::datasheet() {
   return {
       .unit = "DepthTest",
       .does = "Drops the candidates that lie behind what the frame shows.",
-      .latency = {6, "6, and the wait for a line"},
+      .latency = {7, "7, and the wait for a line"},
       .interval = {1,
                    "the look-ups of a group go in pairs; a pair takes a clock, two if both miss; "
                    "at least 1"},
@@ -308,10 +338,14 @@ Datasheet DepthTest::datasheet() {
                  {"3", "two tags, a fill ordered a clock; FIFO", "SRAM read + 23-bit compare"},
                  {"4", "a line installed, address of the words"},
                  {"5", "two lines a clock, choice of 16 twice a lane", "SRAM read, 16 : 1 choice"},
-                 {"6", "test", "24-bit shift, add and compare"}},
+                 {"6", "nearer, the farther one", "24-bit compare + 2 : 1 choice"},
+                 {"7", "test of the line, and of what lies behind a crease",
+                  "24-bit shift, subtract and compare"}},
       .cost =
           "tags and data 2R1W, the lines on their way, the FIFO; 28 compares of lines, two "
-          "13 x 10 multiplies; a lane two 16 : 1 choices of 24 bits and a 24-bit compare."};
+          "13 x 10 multiplies; a lane two 16 : 1 choices of 24 bits, a 24-bit minimum, two 24-bit "
+          "shifts, "
+          "subtracts and compares."};
 }
 
 }  // namespace deburr::rtl::geometric

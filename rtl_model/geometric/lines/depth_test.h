@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Drops the candidates that lie behind what the frame shows: behind the farther of their own pixel
-// and the neighbour that they would take from.
+// and the neighbour that they would take from; and those of a crease with that far behind it.
 //
 // Where: behind the CoverageUnit, with a small cache of depth lines that looks ahead. A group of
-// which no candidate passes leaves nothing. Lines of a group have different indices, so none
-// replaces another. Stalls: `depth` (the line has not come), `fills` (no place for one),
-// `downstream`.
+// which no candidate passes leaves nothing. A second candidate passes with the first of its column,
+// whose depths it shares. Lines of a group have different indices, so none replaces another.
+// Stalls: `depth` (the line has not come), `fills` (no place for one), `downstream`.
 #pragma once
 
 #include <array>
@@ -83,7 +83,9 @@ class DepthTest final : public Unit {
   };
   struct Work {
     Lookup lookup;
-    Lanes32 own, other;  // U24
+    Lanes32 own, other;            // U24
+    Lanes32 far;                   // U24, what the line must not lie behind
+    std::uint8_t nearer, farther;  // bit k: the pixel than its neighbour
   };
 
   bool clear(Cycle cycle);
@@ -96,7 +98,9 @@ class DepthTest final : public Unit {
   void capture(Cycle cycle, Work& work, std::size_t which, const DepthLine& line) const;
   void capture_words(Cycle cycle);
   Activity deliver(Cycle cycle);
-  void test(Cycle cycle, Work& work);
+  void compare(Cycle cycle, Work& work) const;
+  void test(Cycle cycle, const Work& work);
+  void show(const CandidateToken& group, std::size_t lane, bool passes) const;
 
   EdgeLatency& latency_;  // an instrument
   const std::uint32_t lines_, index_bits_;
@@ -118,7 +122,7 @@ class DepthTest final : public Unit {
   bool has_addressed_ = false, is_looking_ = false, first_done_ = false;
   std::size_t pair_ = 0;  // U3, first line of the pair that is looked up
   Cycle looked_ = 0;
-  // Stages 4 to 6.
+  // Stages 4 to 7.
   Work work_{};
   bool working_ = false;
   std::size_t step_ = 0;          // U4, first line of the pair that is installed and read
@@ -126,7 +130,7 @@ class DepthTest final : public Unit {
   std::uint8_t reading_ = 0;      // bit k: a word is on port k
   std::size_t reading_step_ = 0;  // its pair
   bool reading_last_ = false;     // of the group in stage 5, else of that in stage 4
-  Pipe<Work, 3> pipe_;
+  Pipe<Work, 4> pipe_;
 };
 
 }  // namespace deburr::rtl::geometric

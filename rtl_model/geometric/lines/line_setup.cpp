@@ -97,6 +97,7 @@ void LineSetup::find_axis(Cycle cycle, Beat& beat) {
   beat.depth_extent = beat.depth_falls ? beat.depth0 - b->depth : b->depth - beat.depth0;
   beat.offset = static_cast<std::uint32_t>((first << 8) + 128 - beat.major0);
   beat.line.axis = horizontal ? Axis::kHorizontal : Axis::kVertical;
+  beat.line.crease = beat.ends.crease;
   beat.line.tie_forward = horizontal && minor1 > beat.minor0;
   beat.line.first = static_cast<std::uint16_t>(first);
   beat.line.count = static_cast<std::uint16_t>(last - first + 1);

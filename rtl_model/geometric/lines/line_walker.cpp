@@ -40,6 +40,8 @@ Activity LineWalker::tick(Cycle cycle) {
   } while (count < most && position >> (kRowShift + kBlockShift) == block);
   group.vertical = line_.axis == spec::geometric::Axis::kVertical;
   group.tie_forward = line_.tie_forward;
+  group.crease = line_.crease;
+  group.slope = line_.slope;
   group.column = line_.first;
   group.count = static_cast<std::uint8_t>(count);
   group.depth = line_.depth;

@@ -7,10 +7,12 @@ namespace deburr::rtl::geometric {
 
 using spec::geometric::kLineBytes;
 
-FrameCopier::FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock)
+FrameCopier::FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock,
+                         const spec::geometric::Parameters& p)
     : Unit(name, clock),
-      buffer_("copy_buffer", kLines, 8 * kLineBytes, "lines between read and write",
-              MemoryKind::kFlops),
+      buffer_("copy_buffer", p.copy_lines, 8 * kLineBytes, "lines between read and write",
+              MemoryBase::kind_for(std::uint64_t{8} * kLineBytes *
+                                   static_cast<std::uint64_t>(p.copy_lines))),
       stalled_memory_(declare_stall("memory", "the next line has not come")) {}
 
 Activity FrameCopier::tick(Cycle cycle) {
@@ -62,13 +64,16 @@ void FrameCopier::reset() {
 }
 
 Datasheet FrameCopier::datasheet() {
-  return {.unit = "FrameCopier",
-          .does = "Copies the whole frame before it is resolved (`frame_copy`).",
-          .latency = {0, "-"},
-          .interval = {2, "2 clocks of the port a line, while M + 8 <= 32; then (M + 8) / 16"},
-          .stages = {{"1", "a line is read while a place is free, else one is written in its turn",
-                      "26-bit add"}},
-          .cost = "copy_buffer, two 32-bit addresses."};
+  return {
+      .unit = "FrameCopier",
+      .does = "Copies the whole frame before it is resolved (`frame_copy`).",
+      .latency = {0, "-"},
+      .interval =
+          {2,
+           "2 clocks of the port a line, while M + 8 <= 2 copy_lines; then (M + 8) / copy_lines"},
+      .stages = {{"1", "a line is read while a place is free, else one is written in its turn",
+                  "26-bit add"}},
+      .cost = "copy_buffer, two 32-bit addresses."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copies the whole frame before it is resolved, as the original method does (frame_copy).
 //
-// Where: beside the edges' pipe. Sixteen lines are on their way at most, and each is written in its
+// Where: beside the edges' pipe. copy_lines are on their way at most, and each is written in its
 // turn. Stalls: `memory` (the next line has not come), `downstream`.
 #pragma once
 
@@ -15,6 +15,7 @@
 #include "rtl_model/geometric/common/frame_rules.h"
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/tokens.h"
+#include "spec/geometric/parameters.h"
 
 namespace deburr::rtl::geometric {
 
@@ -26,7 +27,8 @@ class FrameCopier final : public Unit {
   WireOut<bool> copied_out{"copied_out"};
   MemoryClient memory;
 
-  FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock);
+  FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock,
+              const spec::geometric::Parameters& parameters);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -35,7 +37,6 @@ class FrameCopier final : public Unit {
   static Datasheet datasheet();
 
  private:
-  static constexpr std::int32_t kLines = 16;
   FillStore<Line> buffer_;
   Activity stalled_memory_;
   std::uint32_t asked_ = 0, written_ = 0, answered_ = 0;  // U23, lines

@@ -99,7 +99,6 @@ Activity Resolver::load(Cycle cycle) {
     to_load_ = token.end ? 0 : token.lines;
     if (!token.end) originals_read_.read(cycle, token.x);
     if (to_load_ == 0) return kBusy;
-    if (!colours_.ready(cycle)) return kBusy;
   }
   if (to_load_ == 0) return kStalledDownstream;
   if (!colours_.ready(cycle)) return stalled_colours_;
@@ -128,6 +127,7 @@ void Resolver::move_on(Cycle cycle) {
   blended_block_ = newest_;
   to_blend_ = token.end ? 0 : token.blended;
   sources_ = window_;
+  loaded_beats_ = std::max(1, std::popcount(token.lines));
   if (token.end) {
     has_left_ = false;
     return;
@@ -177,6 +177,7 @@ void Resolver::take_pixels(Cycle cycle, Beat& beat) {
   }
   beat.last = to_blend_ == 0;
   blending_ = !beat.last;
+  --loaded_beats_;
 }
 
 // Stage 4.
@@ -302,24 +303,23 @@ Activity Resolver::tick(Cycle cycle) {
     ended_ = false;
     return kIdle;
   }
-  bool did = false, blocked = false;
   if (memory.responses_in.can_pop(cycle)) {
     memory.responses_in.pop(cycle);
     --writes_;
-    did = true;
   }
-  if (to_write_ != 0) (write(cycle) ? did : blocked) = true;
-  if (!pipe_.empty() || blending_) (blend(cycle) ? did : blocked) = true;
-  if (loading_ && to_load_ == 0 && !blending_) {
-    move_on(cycle);
-    did = true;
-  }
+  const bool writes = to_write_ != 0, wrote = writes && write(cycle);
+  const bool takes = blending_, blended = (takes || !pipe_.empty()) && blend(cycle);
+  const bool beyond = takes && blended && loaded_beats_ < 0;
+  if (loading_ && to_load_ == 0 && !blending_) move_on(cycle);
   const Activity loaded = load(cycle);
   colours_.read_ahead(cycle);
   if (ended_ && writes_ == 0 && to_write_ == 0 && !resolved_out.driven())
     resolved_out.drive(cycle, true);
-  if (did) return kBusy;
-  return blocked ? kStalledDownstream : loaded;
+  // The stage that sets the pace: loading; blending, where it takes longer than loading did or a
+  // loaded block waits for it; the writes, where the blend waits for them.
+  if (loaded == kBusy || beyond) return kBusy;
+  if (loaded == kStalledDownstream && (blended || wrote)) return kBusy;
+  return loaded == kIdle && writes && !wrote ? kStalledDownstream : loaded;
 }
 
 void Resolver::reset() {
@@ -327,6 +327,7 @@ void Resolver::reset() {
   newest_ = 0;
   loading_ = blending_ = has_left_ = ended_ = false;
   to_load_ = to_blend_ = to_write_ = writes_ = 0;
+  loaded_beats_ = 0;
 }
 
 Datasheet Resolver::datasheet() {

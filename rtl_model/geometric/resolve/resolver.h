@@ -5,7 +5,8 @@
 // A neighbour that was blended before is replaced by what it was: `originals` keeps the last row of
 // each block column, registers the last column of the block to the left. With frame_copy neighbours
 // come from the copy, and nothing is replaced. Results are rounded by magnitude. Stalls: `colours`
-// (the next line has not come), `downstream`. Source: paper 002, eq (8).
+// (the next line has not come), `downstream`. A block counts max(1, lines, beats) clocks as busy,
+// however long its lines are waited for. Source: paper 002, eq (8).
 #pragma once
 
 #include <array>
@@ -116,6 +117,7 @@ class Resolver final : public Unit {
   bool blending_ = false;
   std::uint32_t blended_block_ = 0;  // number
   std::uint32_t to_blend_ = 0;       // bit i: pixel i
+  int loaded_beats_ = 0;             // an instrument: beats left that took no longer than loading
   Window sources_{};
   Pipe<Beat, 5> pipe_;
   std::array<Rgba, 16> results_{};

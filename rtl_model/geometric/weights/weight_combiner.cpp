@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "rtl_model/geometric/common/block_pixels.h"
 #include "spec/geometric/records.h"
 
 namespace deburr::rtl::geometric {
@@ -114,19 +115,53 @@ Activity WeightCombiner::look_up(Cycle cycle) {
       if (const Activity done = look_up_block(cycle); done != kIdle) return done;
     fifo_.push(cycle, lookup_);
     looking_ = false;
+    if (lookup_.more) {
+      lookup_.group = waiting_;
+      lookup_.more = false;
+      address(cycle);
+      return kBusy;
+    }
   }
   if (!weights_in.can_pop(cycle)) return kIdle;
   lookup_.group = weights_in.take(cycle);
+  keep_own_block();
+  address(cycle);
+  return kBusy;
+}
+
+// Second candidates of another block wait; they all lie in the same one.
+void WeightCombiner::keep_own_block() {
+  WeightToken& group = lookup_.group;
+  lookup_.more = false;
+  if (group.end) return;
+  std::uint8_t beyond = 0;
+  for (std::uint32_t left = group.seconds; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    if (across(group.place[lane], group.vertical, group.forward >> lane & 1).beyond)
+      beyond |= static_cast<std::uint8_t>(1u << lane);
+  }
+  if (beyond == 0) return;
+  lookup_.more = true;
+  waiting_ = group;
+  waiting_.candidates = 0;
+  waiting_.seconds = beyond;
+  group.seconds &= static_cast<std::uint8_t>(~beyond);
+  const bool forward = group.forward >> std::countr_zero(beyond) & 1;
+  std::uint16_t& along = group.vertical ? waiting_.block_x : waiting_.block_y;
+  along = static_cast<std::uint16_t>((forward ? along + 1 : along - 1) & 0x7FF);
+}
+
+// Stage 1.
+void WeightCombiner::address(Cycle cycle) {
   lookup_.missed = lookup_.reads = lookup_.replaces = false;
   looking_ = true;
   looked_ = cycle;
-  if (lookup_.group.end) return kBusy;
+  if (lookup_.group.end) return;
   const std::uint32_t x = lookup_.group.block_x, y = lookup_.group.block_y;
   lookup_.index = static_cast<std::uint16_t>(places_.index_of(x, y));
   touched_at_ = y * rules_in.read(cycle).words_across + x / spec::geometric::kBlocksInWord;
   tag_port_.read(cycle, lookup_.index);
   touched_port_.read(cycle, touched_at_);
-  return kBusy;
 }
 
 // Stage 4.
@@ -146,13 +181,27 @@ void WeightCombiner::combine(Cycle cycle, Work& work) {
     }
     if (!l.missed) work.block = there;
   }
-  const bool last = rules_in.read(cycle).combine == spec::geometric::Combine::kLast;
-  for (std::uint32_t left = l.group.candidates; left != 0; left &= left - 1) {
+  using spec::geometric::Combine;
+  const Combine rule = rules_in.read(cycle).combine;
+  const auto set = [&](std::uint8_t place, bool forward, std::uint8_t coverage, bool nearer) {
+    Weights& weights = work.block[place];
+    if (rule == Combine::kLast) weights = {};
+    std::uint8_t& weight = weights[2u * l.group.vertical + forward];
+    const bool smallest = rule == Combine::kOutermost && nearer && weight != 0;
+    weight = smallest ? std::min(weight, coverage) : std::max(weight, coverage);
+  };
+  // All of them are different pixels.
+  const WeightToken& group = l.group;
+  for (std::uint32_t left = group.candidates; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    Weights& weights = work.block[l.group.place[lane]];
-    const std::size_t direction = 2u * l.group.vertical + (l.group.forward >> lane & 1u);
-    if (last) weights = {};
-    weights[direction] = std::max(weights[direction], l.group.coverage[lane]);
+    set(group.place[lane], group.forward >> lane & 1, group.coverage[lane],
+        group.nearer >> lane & 1);
+  }
+  for (std::uint32_t left = group.seconds; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const bool forward = group.forward >> lane & 1;
+    set(across(group.place[lane], group.vertical, forward).place, !forward, group.second[lane],
+        group.farther >> lane & 1);
   }
 }
 
@@ -169,7 +218,7 @@ Activity WeightCombiner::deliver(Cycle cycle) {
       note(latency_.end());
     } else {
       data_write_.write(cycle, work->lookup.index, work->block);
-      note(latency_.write(cycle));
+      if (!work->lookup.more) note(latency_.write(cycle));
     }
   }
   if (Work* work = pipe_.at(2); work && !work->lookup.group.end) combine(cycle, *work);
@@ -243,18 +292,23 @@ Datasheet WeightCombiner::datasheet() {
       .unit = "WeightCombiner",
       .does = "Keeps the weights of each pixel that a line has cut, and which blocks these are.",
       .latency = {5, "5, and the wait for a block"},
+      .interval = {1, "1, a group with second candidates in another block 2"},
       .stages = {{"1", "address of tag and touched word, product of the block's address",
                   "11 x 11 multiply"},
-                 {"2", "tag, touched bit; a read ordered; FIFO", "SRAM read + 23-bit compare"},
+                 {"2", "tag, touched bit, the blocks on their way out; a read ordered; FIFO",
+                  "SRAM read + 23-bit compare"},
                  {"3", "a block installed, address of the word"},
                  {"4",
-                  "the word, or what came for it, and the maxima; a replaced block written back",
-                  "SRAM read + 8-bit compare"},
+                  "the word, or what came for it, and the maxima and minima; a replaced block "
+                  "written back",
+                  "SRAM read + 16 : 1 choice + 8-bit compare"},
                  {"5", "written, past the memory to the group behind"}},
       .cost =
           "tags, touched map and data 1R1W, the blocks on their way, the FIFO; the spill "
-          "list, 22 bits each, compared at once; two 11 x 11 multiplies; a lane a 16 : 1 "
-          "place and an 8-bit compare."};
+          "list, 23 bits each, compared with a tag at once: `fills` compares of 23 bits (108 "
+          "for a memory of 100 clocks) and a choice of its first free place; two 11 x 11 "
+          "multiplies; a lane, of each "
+          "of its two candidates, a 16 : 1 place and an 8-bit compare."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -2,7 +2,8 @@
 // Keeps the four weights of each pixel that a line has cut, block by block, and which blocks these
 // are.
 //
-// Where: end of the edges' pipe; the resolve reads its memories through handles of its ports. A
+// Where: end of the edges' pipe; the resolve reads its memories through handles of its ports. Where
+// second candidates lie in another block than the first ones, the group is looked up once more. A
 // word that is written in stage 5 goes past the memory to the group behind. Stalls: `weights` (the
 // block has not come), `fills` (no place for one), `spill` (the block is still on its way out, or
 // the list of those is full), `downstream`. A write goes before a read of the same clock.
@@ -58,8 +59,10 @@ class WeightCombiner final : public Unit {
   static Datasheet datasheet();
 
  private:
+  // A group of which the candidates of one block are left.
   struct Lookup {
     WeightToken group;
+    bool more;                   // those of the other block come behind
     std::uint16_t index;         // U10
     bool missed, reads;          // reads: what missed comes from memory, else it is zeros
     bool replaces;               // a block is written back
@@ -68,6 +71,7 @@ class WeightCombiner final : public Unit {
     template <class Self, class Visit>
     static constexpr void fields(Self& self, Visit&& visit) {
       visit("group", self.group);
+      visit("more", self.more);
       visit("index", self.index, 10, "U10");
       visit("missed", self.missed);
       visit("reads", self.reads);
@@ -84,6 +88,8 @@ class WeightCombiner final : public Unit {
 
   Activity clear(Cycle cycle);
   Activity look_up(Cycle cycle);
+  void address(Cycle cycle);
+  void keep_own_block();
   Activity look_up_block(Cycle cycle);
   Activity deliver(Cycle cycle);
   void combine(Cycle cycle, Work& work);
@@ -114,6 +120,7 @@ class WeightCombiner final : public Unit {
 
   // Stage 2.
   Lookup lookup_{};
+  WeightToken waiting_{};         // of its group what lies in the other block
   std::uint32_t touched_at_ = 0;  // U16, word of its touched bit
   bool looking_ = false;
   Cycle looked_ = 0;

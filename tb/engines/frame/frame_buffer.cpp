@@ -1,38 +1,39 @@
 // SPDX-License-Identifier: MIT
 #include "tb/engines/frame/frame_buffer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string>
 #include <utility>
 
-#include "spec/morphological/parameters.h"
-#include "tb/scene/depth_codes.h"
+#include "tb/scene/rasteriser.h"
 
 namespace deburr::tb {
 
 FrameBuffer::FrameBuffer(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
-                         const TextureScene& scene, int lanes, Rows rows)
+                         const DrawnScene& scene, const BufferEnds& ends)
     : Unit(name, clock),
-      pixels_out(rows == Rows::kNever
-                     ? nullptr
-                     : std::make_unique<rtl::Out<spec::morphological::PixelBeat>>("pixels_out")),
       scene_(scene),
-      lanes_(lanes),
-      rows_(rows),
-      waiting_(declare_stall("texture", "the next row still lacks fragments")),
+      colours_in_(ends.colours("colours_in")),
+      pixels_out_(ends.rows ? ends.rows("pixels_out") : nullptr),
+      when_released_(pixels_out_ && !ends.mesh.empty()),
+      waiting_(
+          declare_stall(std::string(ends.drawer).c_str(), "the next row still lacks fragments")),
       sky_(FrameAssembler(scene.stream(), scene.scene()).frame()) {
-  if (rows == Rows::kWhenReleased)
-    held_ = declare_stall("geometric", "the geometric engine is at the frame");
-  input_.depth = depth_codes(scene.stream().depth);
+  if (when_released_)
+    held_ = declare_stall(std::string(ends.mesh).c_str(),
+                          fmt::format("the {} engine is at the frame", ends.mesh).c_str());
   reset();
 }
 
 void FrameBuffer::reset() {
   const FragmentStream& stream = scene_.stream();
-  input_.image = sky_;
+  image_ = sky_;
   released_ = false;
   all_missing_ = 0;
   missing_.assign(static_cast<std::size_t>(stream.height), 0);
-  for (const spec::texture::Quad& quad : stream.quads)
+  for (const auto& quad : stream.quads)
     for (int lane = 0; lane < 4; ++lane)
       if (quad.coverage >> lane & 1) {
         ++missing_[static_cast<std::size_t>(stream.pixel(quad.tag, lane).y)];
@@ -43,55 +44,48 @@ void FrameBuffer::reset() {
 }
 
 // Fragments of one pixel come in the order of their triangles; only the nearest one is shown.
-void FrameBuffer::store(rtl::Cycle cycle, const spec::texture::Colour& colour) {
-  const FragmentStream& stream = scene_.stream();
+void FrameBuffer::store(rtl::Cycle cycle, const DrawnColour& drawn) {
   last_colour_ = cycle;
-  bytes_written += spec::morphological::kFramePixelBytes;
-  if (colour.tag >= stream.quads.size() || colour.lane >= 4) return;  // counted by the scoreboard
-  const FragmentStream::Pixel p = stream.pixel(colour.tag, colour.lane);
-  if (p.x >= stream.width || p.y >= stream.height) return;
-  if (stream.visible[colour.tag] >> colour.lane & 1) {
-    input_.image.at(p.x, p.y) = colour.rgba;
-    if (on_pixel) on_pixel(p.x, p.y, colour.rgba);
+  bytes_written += kPixelBytes;
+  if (!drawn.inside) return;  // counted by the scoreboard
+  if (drawn.visible) {
+    image_.at(drawn.x, drawn.y) = drawn.colour;
+    if (on_pixel) on_pixel(drawn.x, drawn.y, drawn.colour);
   }
-  std::uint32_t& missing = missing_[static_cast<std::size_t>(p.y)];
+  std::uint32_t& missing = missing_[static_cast<std::size_t>(drawn.y)];
   if (missing == 0) return;
   --missing;
   --all_missing_;
 }
 
 void FrameBuffer::release(Image frame) {
-  before_ = std::exchange(input_.image, std::move(frame));
+  before_ = std::exchange(image_, std::move(frame));
   released_ = true;
 }
 
 bool FrameBuffer::may_send() const {
-  return rows_ == Rows::kWhenReleased ? released_ : missing_[static_cast<std::size_t>(y_)] == 0;
+  return when_released_ ? released_ : missing_[static_cast<std::size_t>(y_)] == 0;
 }
 
 rtl::Activity FrameBuffer::tick(rtl::Cycle cycle) {
   bool worked = false;
   rtl::Activity activity = rtl::kIdle;
-  if (pixels_out && !done()) {
+  if (pixels_out_ && !done()) {
     if (!may_send()) {
-      activity = rows_ == Rows::kWhenReleased && complete() ? held_ : waiting_;
-    } else if (!pixels_out->can_push(cycle)) {
+      activity = when_released_ && complete() ? held_ : waiting_;
+    } else if (!pixels_out_->can_push(cycle)) {
       activity = rtl::kStalledDownstream;
     } else {
       if (x_ == 0 && y_ == 0) first_beat_ = cycle;
-      const spec::morphological::PixelBeat beat =
-          platform::pixel_beat(input_.view(), x_, y_, lanes_);
-      bytes_read += static_cast<std::uint64_t>(spec::morphological::kFramePixelBytes) * beat.count;
-      pixels_out->push(cycle, beat);
-      x_ += lanes_;
-      if (x_ >= input_.image.width) x_ = 0, ++y_;
+      const int pixels = pixels_out_->push(cycle, image_, x_, y_);
+      bytes_read += static_cast<std::uint64_t>(kPixelBytes) * static_cast<std::uint64_t>(pixels);
+      x_ += pixels;
+      if (x_ >= image_.width) x_ = 0, ++y_;
       worked = true;
     }
   }
-  if (colours_in.can_pop(cycle)) {
-    const spec::texture::Colour colour = colours_in.take(cycle);
-    store(cycle, colour);
-    if (on_colour) on_colour(cycle, colour);
+  if (colours_in_->can_pop(cycle)) {
+    store(cycle, colours_in_->take(cycle));
     worked = true;
   }
   return worked ? rtl::kBusy : activity;

@@ -1,153 +1,154 @@
 // SPDX-License-Identifier: MIT
 #include "tb/engines/frame/frame_composition.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "spec/error.h"
-#include "tb/engines/geometric/edge_table.h"
-#include "tb/engines/morphological/morphological_frames.h"
-#include "tb/scene/depth_codes.h"
 
 namespace deburr::tb {
 namespace {
 
-// As it lies in the frame buffer: nothing is marked before the geometric engine marks it.
-Rgba8 unmarked(Rgba8 colour, Smoothing smoothing) {
-  if (smoothing == Smoothing::kGeometricMorphological)
-    colour[3] = static_cast<std::uint8_t>(colour[3] | 1);
-  return colour;
-}
-
-// The frame that the first engine behind the texture unit should get. Without a golden model only
-// its size counts.
-Image golden_image(const TextureScene& scene, const FrameSetup& setup, bool golden) {
-  if (!golden) return {scene.stream().width, scene.stream().height};
-  Image image = golden_frame(scene, setup.texture.texture, error_range(setup.texture.memory)).image;
-  for (Rgba8& pixel : image.pixels) pixel = unmarked(pixel, setup.smoothing);
-  return image;
-}
-
-std::vector<geometric::Frame> geometric_frames(const TextureScene& scene, const FrameSetup& setup,
-                                               bool golden) {
-  if (!has_geometric(setup.smoothing)) return {};
-  const FragmentStream& stream = scene.stream();
-  geometric::Frame frame;
-  frame.image = golden_image(scene, setup, golden);
-  frame.depth = stream.depth;
-  frame.depths = depth_codes(stream.depth);
-  frame.table = build_edge_table(scene.scene().mesh);
-  frame.screen = project_edges(frame.table, scene.scene().camera, stream.width, stream.height);
-  std::vector<geometric::Frame> frames;
-  frames.push_back(std::move(frame));
-  return frames;
-}
-
-// Behind the geometric engine the image comes when that is done.
-std::vector<MorphologicalInput> morphological_frames(const TextureScene& scene,
-                                                     const FrameSetup& setup, bool golden) {
-  if (!has_morphological(setup.smoothing)) return {};
-  const bool first = !has_geometric(setup.smoothing);
-  return {{golden_image(scene, setup, golden && first), depth_codes(scene.stream().depth)}};
-}
-
-Rows rows_of(Smoothing smoothing) {
-  if (!has_morphological(smoothing)) return Rows::kNever;
-  return has_geometric(smoothing) ? Rows::kWhenReleased : Rows::kAsTheyCome;
+template <class T>
+std::vector<const T*> list_of(const T* one) {
+  return one ? std::vector<const T*>{one} : std::vector<const T*>{};
 }
 
 }  // namespace
 
-FrameComposition::FrameComposition(Simulation& simulation, const TextureScene& scene,
-                                   const FrameSetup& setup)
-    : Environment(simulation, ""),
-      smoothing_(setup.smoothing),
-      geometric_frames_(geometric_frames(scene, setup, golden())),
-      morphological_frames_(morphological_frames(scene, setup, golden())),
-      texture(simulation, scene, setup.texture, "texture"),
-      buffer("frame_buffer", simulation.clock(), scene,
-             platform::lanes_of(setup.morphological.morphological), rows_of(setup.smoothing)),
-      width_(scene.stream().width),
-      height_(scene.stream().height) {
-  if (has_geometric(smoothing_)) {
-    geometric = std::make_unique<GeometricEnvironment>(simulation, geometric_frames_,
-                                                       setup.geometric, "geometric");
-    buffer.on_pixel = [this](int x, int y, const Rgba8& colour) { put(x, y, colour); };
-  }
-  if (has_morphological(smoothing_)) {
-    morphological = std::make_unique<MorphologicalEnvironment>(
-        simulation, morphological_frames_, setup.morphological, "morphological");
-    (*buffer.pixels_out)(morphological->pixels);
-  }
-  buffer.colours_in(texture.colours);
-  buffer.on_colour = [this](rtl::Cycle cycle, const spec::texture::Colour& colour) {
-    texture.judge(cycle, colour);
-  };
+FrameComposition::FrameComposition(Simulation& simulation, const DrawnScene& scene,
+                                   const FrameRoles& roles)
+    : FrameComposition(simulation, scene, roles, list_of(roles.chosen().mesh),
+                       list_of(roles.chosen().rows), roles.chosen().follows()) {}
+
+std::unique_ptr<FrameComposition> FrameComposition::of_all(Simulation& simulation,
+                                                           const DrawnScene& scene,
+                                                           const FrameRoles& roles) {
+  return std::unique_ptr<FrameComposition>(new FrameComposition(
+      simulation, scene, roles, roles.mesh_smoothers(), roles.row_smoothers(), false));
 }
 
-template <class Self, class Visit>
-void FrameComposition::each_part(Self& self, Visit&& visit) {
-  visit(self.texture);
-  if (self.geometric) visit(*self.geometric);
-  if (self.morphological) visit(*self.morphological);
+FrameComposition::FrameComposition(Simulation& simulation, const DrawnScene& scene,
+                                   const FrameRoles& roles,
+                                   const std::vector<const MeshSmoother*>& mesh,
+                                   const std::vector<const RowSmoother*>& rows, bool follows)
+    : Environment(simulation, ""),
+      roles_(roles),
+      follows_(follows),
+      width_(scene.stream().width),
+      height_(scene.stream().height),
+      drawing_stage_(roles.drawer().build(simulation, scene)) {
+  BufferEnds ends;
+  ends.drawer = roles.drawer().name();
+  ends.colours = [this](const char* name) { return drawing_stage_->colours_port(name); };
+  if (!mesh.empty()) {
+    ends.mesh = mesh.front()->name();
+    mesh_title_ = mesh.front()->title();
+  }
+  if (!rows.empty()) {
+    ends.rows = [&](const char* name) { return rows.front()->rows_port(name, scene); };
+    rows_title_ = rows.front()->title();
+  }
+  buffer_ = std::make_unique<FrameBuffer>("frame_buffer", simulation.clock(), scene, ends);
+
+  // What the first engine behind the buffer should get; without a golden model only its size
+  // counts. The second one gets it when the first is done.
+  Image first = golden() ? drawing_stage_->golden_picture() : Image(width_, height_);
+  for (Rgba8& pixel : first.pixels) pixel = unmarked(pixel);
+  for (const MeshSmoother* smoother : mesh)
+    mesh_.push_back(smoother->build(simulation, scene, first));
+  if (!mesh.empty()) {
+    first = Image(width_, height_);
+    buffer_->on_pixel = [this](int x, int y, const Rgba8& colour) {
+      this->mesh()->put(x, y, unmarked(colour));
+    };
+  }
+  for (const RowSmoother* smoother : rows) {
+    RowsPort* port = buffer_->rows();
+    if (!rows_.empty())
+      port = unused_ports_.emplace_back(smoother->rows_port("not_sent", scene)).get();
+    rows_.push_back(smoother->build(simulation, scene, first, *port));
+  }
+}
+
+Rgba8 FrameComposition::unmarked(Rgba8 colour) const {
+  if (follows_) colour[3] = static_cast<std::uint8_t>(colour[3] | 1);
+  return colour;
+}
+
+std::vector<const Environment*> FrameComposition::parts() const {
+  std::vector<const Environment*> all = {&std::as_const(*drawing_stage_).environment()};
+  for (const auto& stage : mesh_) all.push_back(&std::as_const(*stage).environment());
+  for (const auto& stage : rows_) all.push_back(&std::as_const(*stage).environment());
+  return all;
+}
+
+std::vector<Environment*> FrameComposition::parts() {
+  std::vector<Environment*> all = {&drawing_stage_->environment()};
+  for (const auto& stage : mesh_) all.push_back(&stage->environment());
+  for (const auto& stage : rows_) all.push_back(&stage->environment());
+  return all;
+}
+
+const SmoothingStage& FrameComposition::last() const {
+  if (rows()) return *rows();
+  return *mesh();
 }
 
 // ---- running ------------------------------------------------------------------------------------
 
 void FrameComposition::configure() {
-  each_part(*this, [](Environment& part) { part.configure(); });
+  DEBURR_CHECK(mesh_.size() <= 1 && rows_.size() <= 1, "a composition of all engines never runs");
+  for (Environment* part : parts()) part->configure();
 }
 
 bool FrameComposition::begin(std::size_t piece) {
-  if (!texture.begin(piece)) return false;
-  if (!geometric) return morphological->begin(piece);
-  geometric->begin(piece);
+  if (!drawing_stage_->environment().begin(piece)) return false;
+  if (!mesh()) return rows()->environment().begin(piece);
+  mesh()->environment().begin(piece);
   put_sky();
   return true;
 }
 
-void FrameComposition::put(int x, int y, const Rgba8& colour) {
-  geometric->put(x, y, unmarked(colour, smoothing_));
-}
-
 // Nothing else has come yet.
 void FrameComposition::put_sky() {
-  const Image& sky = buffer.frame();
+  const Image& sky = buffer_->frame();
   for (int y = 0; y < height_; ++y)
-    for (int x = 0; x < width_; ++x) put(x, y, sky.at(x, y));
+    for (int x = 0; x < width_; ++x) mesh()->put(x, y, unmarked(sky.at(x, y)));
 }
 
 void FrameComposition::watch() {
-  each_part(*this, [](Environment& part) { part.watch(); });
-  if (geometric) hand_on();
+  drawing_stage_->environment().watch();
+  if (MeshStage* stage = mesh()) stage->environment().watch();
+  if (RowStage* stage = rows()) stage->environment().watch();
+  if (mesh()) hand_on();
 }
 
 void FrameComposition::hand_on() {
   if (!drawing_) {
-    if (!buffer.complete()) return;
+    if (!buffer_->complete()) return;
     drawing_ = true;
     drawn_from_ = simulation().clock().cycle();
-    geometric->draw();
-  } else if (!drawn_ && geometric->done()) {
+    mesh()->draw();
+  } else if (!drawn_ && mesh()->environment().done()) {
     drawn_ = true;
     drawn_until_ = simulation().clock().cycle();
-    if (!morphological) return;
+    if (!rows()) return;
     if (!followed_) {
-      if (golden()) morphological_frames_.front().image = geometric->expected_frame();
-      followed_ = morphological->begin(0);
+      if (golden()) rows()->expect(mesh()->expected_frame());
+      followed_ = rows()->environment().begin(0);
     }
-    buffer.release(geometric->frame());
+    buffer_->release(mesh()->frame());
   }
 }
 
 bool FrameComposition::done() const {
-  return buffer.done() && texture.done() && (!geometric || drawn_) &&
-         (!morphological || morphological->done());
+  return buffer_->done() && std::as_const(*drawing_stage_).environment().done() &&
+         (!mesh() || drawn_) && (!rows() || rows()->environment().done());
 }
 
 void FrameComposition::end() {
-  each_part(*this, [](Environment& part) { part.end(); });
+  for (Environment* part : parts()) part->end();
 }
 
 // The engines begin by themselves, so answers of memory that are on their way go by during reset.
@@ -156,34 +157,32 @@ void FrameComposition::restart() {
   drain_memory();
   simulation().clock().set_reset_n(true);
   configure();
-  texture.restart();
-  if (geometric) {
-    geometric->restart();
+  drawing_stage_->environment().restart();
+  if (mesh()) {
+    mesh()->environment().restart();
     put_sky();
   }
-  if (morphological && (!geometric || followed_)) morphological->restart();
+  if (rows() && (!mesh() || followed_)) rows()->environment().restart();
   drawing_ = drawn_ = false;
 }
 
 void FrameComposition::finish() {
-  each_part(*this, [](Environment& part) { part.finish(); });
+  for (Environment* part : parts()) part->finish();
 }
 
 void FrameComposition::refuse_memory_errors() {
-  each_part(*this, [](Environment& part) { part.refuse_memory_errors(); });
+  for (Environment* part : parts()) part->refuse_memory_errors();
 }
 
 void FrameComposition::refuse_unused_errors() const {
-  each_part(*this, [](const Environment& part) { part.refuse_unused_errors(); });
+  for (const Environment* part : parts()) part->refuse_unused_errors();
 }
 
-Amount FrameComposition::amount() const {
-  return morphological ? morphological->amount() : geometric->amount();
-}
+Amount FrameComposition::amount() const { return last().environment().amount(); }
 
 bool FrameComposition::memory_at_rest() const {
   bool at_rest = true;
-  each_part(*this, [&](const Environment& part) { at_rest = at_rest && part.memory_at_rest(); });
+  for (const Environment* part : parts()) at_rest = at_rest && part->memory_at_rest();
   return at_rest;
 }
 
@@ -191,10 +190,10 @@ bool FrameComposition::memory_at_rest() const {
 
 Environment::Boards FrameComposition::boards(Boards (Environment::*of)() const) const {
   Boards all;
-  each_part(*this, [&](const Environment& part) {
-    const Boards more = (part.*of)();
+  for (const Environment* part : parts()) {
+    const Boards more = (part->*of)();
     all.insert(all.end(), more.begin(), more.end());
-  });
+  }
   return all;
 }
 
@@ -202,21 +201,19 @@ Environment::Boards FrameComposition::outputs() const { return boards(&Environme
 Environment::Boards FrameComposition::traffic() const { return boards(&Environment::traffic); }
 Environment::Boards FrameComposition::counters() const { return boards(&Environment::counters); }
 
-Image FrameComposition::frame() const {
-  return morphological ? morphological->frame() : geometric->frame();
+std::vector<std::string> FrameComposition::notes() const {
+  std::vector<std::string> all;
+  const auto add = [&](const SmoothingStage& stage) {
+    for (std::string& note : stage.notes()) all.push_back(std::move(note));
+  };
+  if (mesh()) add(*mesh());
+  if (rows()) add(*rows());
+  return all;
 }
 
 std::size_t FrameComposition::delivered() const {
-  if (morphological) return morphological->delivered();
+  if (rows()) return rows()->delivered();
   return drawn_ ? static_cast<std::size_t>(pixels()) : 0;
-}
-
-Image FrameComposition::golden_frame() const {
-  if (!morphological) return geometric->expected_frame();
-  Image image(width_, height_);
-  const std::vector<Rgba8>& expected = morphological->golden_model().pixels();
-  if (expected.size() == image.pixels.size()) image.pixels = expected;
-  return image;
 }
 
 std::uint64_t FrameComposition::pixels() const {
@@ -226,7 +223,11 @@ std::uint64_t FrameComposition::pixels() const {
 // ---- results ------------------------------------------------------------------------------------
 
 FrameMeter FrameComposition::meter() const {
-  return FrameMeter({texture, buffer, geometric.get(), morphological.get()});
+  FrameParts in_order{roles_.drawer(), *drawing_stage_, *buffer_,    parts(), mesh(),
+                      rows(),          mesh_title_,     rows_title_, {}};
+  for (const auto& stage : mesh_) in_order.smoothing.push_back(stage.get());
+  for (const auto& stage : rows_) in_order.smoothing.push_back(stage.get());
+  return FrameMeter(in_order);
 }
 
 void FrameComposition::collect_headline(Result& result) const {
@@ -236,15 +237,14 @@ void FrameComposition::collect_headline(Result& result) const {
 
 std::vector<PictureMap> FrameComposition::maps() const {
   std::vector<PictureMap> all;
-  each_part(*this, [&](const Environment& part) {
-    for (PictureMap& map : part.maps()) all.push_back(std::move(map));
-  });
+  for (const Environment* part : parts())
+    for (PictureMap& map : part->maps()) all.push_back(std::move(map));
   return all;
 }
 
 Coverage FrameComposition::coverage() const {
   Coverage all;
-  each_part(*this, [&](const Environment& part) { all.merge(part.coverage()); });
+  for (const Environment* part : parts()) all.merge(part->coverage());
   return all;
 }
 

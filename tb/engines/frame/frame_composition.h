@@ -1,52 +1,42 @@
 // SPDX-License-Identifier: MIT
-// A whole frame: a scene through the texture unit into a frame buffer, and there through one or two
-// engines that smooth it. All with their environments, on one clock.
+// A whole frame: a scene is drawn into a frame buffer, and smoothed there by one engine or two. All
+// with their environments, on one clock; which they are, their roles say (tb/app/composition.h).
 //
-//   TextureEnvironment ─► colours ─► FrameBuffer ─► pixels ─► MorphologicalEnvironment
-//                                     │       ▲ rows
-//                                     ▼       │
-//                                GeometricEnvironment: its memory is the frame buffer then
+//   DrawingStage ─► colours ─► FrameBuffer ─► rows ─► RowStage
+//                               │       ▲ rows
+//                               ▼       │
+//                              MeshStage: its memory is the frame buffer then
 //
-// morphological: the two overlap: the frame buffer hands a row to the morphological engine as soon
-// as every fragment of it and of the rows above has come. geometric: the engine begins in the clock
-// in which the last fragment has come. geometric-morphological: and rows go out when it is done;
-// the frame buffer sets bit 0 of every alpha as it comes, so that only what is blended is marked.
+// Rows alone: the two overlap: the frame buffer hands on a row as soon as every fragment of it and
+// of the rows above has come. Mesh alone: the engine begins in the clock in which the last fragment
+// has come. Both: and rows go out when it is done. Where the second looks at what the first one
+// marks, the frame buffer sets bit 0 of every alpha as it comes, so that only what is blended is
+// marked.
 //
 // Each engine is judged against its golden model, which gets what the golden model before it made.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <cstddef>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "tb/app/composition.h"
 #include "tb/engines/frame/frame_buffer.h"
 #include "tb/engines/frame/frame_meter.h"
-#include "tb/engines/geometric/geometric_environment.h"
-#include "tb/engines/morphological/morphological_environment.h"
-#include "tb/engines/texture/texture_environment.h"
+#include "tb/engines/frame/frame_roles.h"
 #include "tb/env/environment.h"
 
 namespace deburr::tb {
 
-enum class Smoothing : std::uint8_t { kMorphological, kGeometric, kGeometricMorphological };
-inline constexpr std::array<std::string_view, 3> kSmoothingNames = {"morphological", "geometric",
-                                                                    "geometric-morphological"};
-constexpr bool has_geometric(Smoothing s) { return s != Smoothing::kMorphological; }
-constexpr bool has_morphological(Smoothing s) { return s != Smoothing::kGeometric; }
-
-struct FrameSetup {
-  TextureSetup texture;
-  MorphologicalSetup morphological;
-  GeometricSetup geometric;
-  Smoothing smoothing = Smoothing::kMorphological;
-};
-
 class FrameComposition final : public Environment {
  public:
-  // The scene must outlive it. ConfigError for wrong parameters.
-  FrameComposition(Simulation& simulation, const TextureScene& scene, const FrameSetup& setup);
+  // Of what is chosen. Scene and roles must outlive it. ConfigError for wrong parameters.
+  FrameComposition(Simulation& simulation, const DrawnScene& scene, const FrameRoles& roles);
+  // Of every engine that smooths, for what is built of each: it never runs.
+  static std::unique_ptr<FrameComposition> of_all(Simulation& simulation, const DrawnScene& scene,
+                                                  const FrameRoles& roles);
 
   void configure() override;
   bool begin(std::size_t piece) override;
@@ -69,38 +59,47 @@ class FrameComposition final : public Environment {
   void collect_headline(Result& result) const override;
 
   // What was smoothed so far, how many pixels of it were delivered, and what it should be.
-  Image frame() const;
+  Image frame() const { return last().frame(); }
   std::size_t delivered() const;
-  Image golden_frame() const;
-  // The frame with its edges that the geometric engine's golden model gets.
-  const geometric::Frame& edges() const { return geometric_frames_.front(); }
+  Image expected_frame() const { return last().expected_frame(); }
+  // Of its smoothing stages, in the order of the frame's way.
+  std::vector<std::string> notes() const;
+  const FrameBuffer& buffer() const { return *buffer_; }
+  const DrawingStage& drawing() const { return *drawing_stage_; }
+  const MeshStage* mesh() const { return mesh_.empty() ? nullptr : mesh_.front().get(); }
+  const RowStage* rows() const { return rows_.empty() ? nullptr : rows_.front().get(); }
 
  private:
-  Smoothing smoothing_;
-  std::vector<geometric::Frame> geometric_frames_;  // one, or none
-  std::vector<MorphologicalInput> morphological_frames_;
+  FrameComposition(Simulation& simulation, const DrawnScene& scene, const FrameRoles& roles,
+                   const std::vector<const MeshSmoother*>& mesh,
+                   const std::vector<const RowSmoother*>& rows, bool follows);
 
- public:
-  TextureEnvironment texture;
-  FrameBuffer buffer;
-  std::unique_ptr<GeometricEnvironment> geometric;          // if it smooths
-  std::unique_ptr<MorphologicalEnvironment> morphological;  //
-
- private:
   FrameMeter meter() const;
+  const SmoothingStage& last() const;
+  MeshStage* mesh() { return mesh_.empty() ? nullptr : mesh_.front().get(); }
+  RowStage* rows() { return rows_.empty() ? nullptr : rows_.front().get(); }
   // Of all engines that there are, in the order of the frame's way.
-  template <class Self, class Visit>
-  static void each_part(Self& self, Visit&& visit);
+  std::vector<Environment*> parts();
+  std::vector<const Environment*> parts() const;
   Boards boards(Boards (Environment::*of)() const) const;
   // Between clocks: engines that begin when the one before them is done.
   void hand_on();
-  void put(int x, int y, const Rgba8& colour);
+  // As it lies in the frame buffer: nothing is marked before the first engine marks it.
+  Rgba8 unmarked(Rgba8 colour) const;
   void put_sky();
   std::uint64_t pixels() const;
 
+  const FrameRoles& roles_;
+  bool follows_;
+  std::string_view mesh_title_, rows_title_;
   int width_, height_;
-  bool drawing_ = false, drawn_ = false;  // by the geometric engine
-  bool followed_ = false;                 // the morphological engine has begun behind it
+  std::unique_ptr<DrawingStage> drawing_stage_;
+  std::unique_ptr<FrameBuffer> buffer_;
+  std::vector<std::unique_ptr<MeshStage>> mesh_;  // one or none, but to be described
+  std::vector<std::unique_ptr<RowStage>> rows_;   //
+  std::vector<std::unique_ptr<RowsPort>> unused_ports_;
+  bool drawing_ = false, drawn_ = false;  // along the edges of the mesh
+  bool followed_ = false;                 // the second engine has begun behind the first
   rtl::Cycle drawn_from_ = 0, drawn_until_ = 0;
 };
 

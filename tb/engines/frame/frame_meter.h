@@ -5,28 +5,32 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "tb/app/composition.h"
 #include "tb/engines/frame/frame_buffer.h"
-#include "tb/engines/geometric/geometric_environment.h"
-#include "tb/engines/morphological/morphological_environment.h"
-#include "tb/engines/texture/texture_environment.h"
 #include "tb/env/meter.h"
 
 namespace deburr::tb {
 
-// In the order of the frame's way; the engines that do not smooth are null.
+// In the order of the frame's way; who does not smooth is null.
 struct FrameParts {
-  const TextureEnvironment& texture;
+  const PictureDrawer& drawer;
+  const DrawingStage& drawing;
   const FrameBuffer& buffer;
-  const GeometricEnvironment* geometric;
-  const MorphologicalEnvironment* morphological;
+  std::vector<const Environment*> environments;
+  const MeshStage* mesh;
+  const RowStage* rows;
+  std::string_view mesh_title, rows_title;
+  // Those two; of a composition to be described, every one that there is.
+  std::vector<const SmoothingStage*> smoothing;
 };
 
 // How far the composition is.
 struct FrameProgress {
   rtl::Cycle begun = 0;              // when the run began
-  std::uint64_t drawing_clocks = 0;  // of the geometric engine; 0 before it is done
+  std::uint64_t drawing_clocks = 0;  // along edges of the mesh; 0 before that is done
   bool complete = false;             // the run
 };
 
@@ -41,19 +45,21 @@ class FrameMeter : public Meter {
  private:
   // Clocks of each engine at this frame, and what it needs at least.
   struct Clocks {
-    std::uint64_t texturing = 0, drawing = 0, smoothing = 0;
-    std::uint64_t texturing_bound = 0, drawing_bound = 0, smoothing_bound = 0;
-    std::uint64_t together() const { return texturing + drawing + smoothing; }
+    std::uint64_t colours = 0, drawing = 0, smoothing = 0;
+    std::uint64_t colours_bound = 0, drawing_bound = 0, smoothing_bound = 0;
+    std::uint64_t together() const { return colours + drawing + smoothing; }
   };
   Clocks clocks(const Result& result, const FrameProgress& progress) const;
-  // Engines behind each other add up; the texture unit and the morphological engine overlap.
+  // Engines behind each other add up; who draws and who smooths rows overlap.
   std::uint64_t bound(const Clocks& clocks) const;
   std::string meaning_of_bound(const Clocks& clocks) const;
   void collect_clocks(Result& result, const Clocks& clocks) const;
   std::vector<Figure> headline_figures(bool complete) const;
   std::uint64_t pixels() const { return parts_.buffer.frame().pixels.size(); }
+  std::string colours_key() const;
 
   FrameParts parts_;
+  DrawingWords words_;
 };
 
 }  // namespace deburr::tb

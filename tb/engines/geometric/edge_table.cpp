@@ -13,6 +13,7 @@
 
 #include "spec/error.h"
 #include "spec/geometric/parameters.h"
+#include "tb/engines/geometric/crossings.h"
 #include "tb/scene/setup.h"
 
 namespace deburr::tb {
@@ -63,24 +64,27 @@ struct Hash {
   }
 };
 
-// The number of each mesh vertex's place, and the places.
-std::vector<std::uint32_t> weld(const Mesh& mesh, std::vector<V3d>& places) {
-  std::unordered_map<std::array<std::uint64_t, 3>, std::uint32_t, Hash> numbers;
-  numbers.reserve(mesh.vertices.size());
-  std::vector<std::uint32_t> welded;
-  welded.reserve(mesh.vertices.size());
-  for (const Vertex& vertex : mesh.vertices) {
+// Positions that are equal are one place, numbered in the order in which they come.
+class Welder {
+ public:
+  Welder(std::vector<V3d>& places, std::size_t expected) : places_(places) {
+    numbers_.reserve(expected);
+  }
+  std::uint32_t number_of(const V3d& position) {
     std::array<std::uint64_t, 3> key;
     // -0 + 0 is 0.
     for (int i = 0; i < 3; ++i)
-      key[static_cast<std::size_t>(i)] = std::bit_cast<std::uint64_t>(vertex.position[i] + 0.0);
+      key[static_cast<std::size_t>(i)] = std::bit_cast<std::uint64_t>(position[i] + 0.0);
     const auto [where, inserted] =
-        numbers.try_emplace(key, static_cast<std::uint32_t>(places.size()));
-    if (inserted) places.push_back(vertex.position);
-    welded.push_back(where->second);
+        numbers_.try_emplace(key, static_cast<std::uint32_t>(places_.size()));
+    if (inserted) places_.push_back(position);
+    return where->second;
   }
-  return welded;
-}
+
+ private:
+  std::vector<V3d>& places_;
+  std::unordered_map<std::array<std::uint64_t, 3>, std::uint32_t, Hash> numbers_;
+};
 
 // One side of a face, from corner `corner` to the next.
 struct Side {
@@ -177,12 +181,36 @@ bool clip(const ClipBand& band, V3d& p, V3d& q) {
   return true;
 }
 
+// The same two places may come of several faces; they are one record.
+void add_crossings(EdgeTable& table, Welder& welder, std::span<const CrossingFace> faces) {
+  const Crossings crossings = find_crossings(table.vertices, faces);
+  std::vector<Edge> added;
+  for (const Crossing& crossing : crossings.segments) {
+    const std::uint32_t a = welder.number_of(crossing.ends[0]),
+                        b = welder.number_of(crossing.ends[1]);
+    if (a != b)
+      added.push_back({std::min(a, b), std::max(a, b), crossing.f0, crossing.f0, flag::kBoundary});
+  }
+  std::stable_sort(added.begin(), added.end(), [](const Edge& a, const Edge& b) {
+    return std::pair(a.v0, a.v1) < std::pair(b.v0, b.v1);
+  });
+  const auto last = std::unique(added.begin(), added.end(), [](const Edge& a, const Edge& b) {
+    return a.v0 == b.v0 && a.v1 == b.v1;
+  });
+  table.crossings = static_cast<std::uint64_t>(last - added.begin());
+  table.edges.insert(table.edges.end(), added.begin(), last);
+}
+
 }  // namespace
 
-EdgeTable build_edge_table(const Mesh& mesh) {
+EdgeTable build_edge_table(const Mesh& mesh, const EdgeTableOptions& options) {
   check(mesh);
   EdgeTable table;
-  const std::vector<std::uint32_t> welded = weld(mesh, table.vertices);
+  Welder welder(table.vertices, mesh.vertices.size());
+  std::vector<std::uint32_t> welded;
+  welded.reserve(mesh.vertices.size());
+  for (const Vertex& vertex : mesh.vertices) welded.push_back(welder.number_of(vertex.position));
+  std::vector<CrossingFace> faces;
   std::vector<Side> sides;
   sides.reserve(3 * mesh.triangles.size());
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
@@ -196,6 +224,8 @@ EdgeTable build_edge_table(const Mesh& mesh) {
       ++table.faces_without_area;
       continue;
     }
+    faces.push_back({{welded[corners[0]], welded[corners[1]], welded[corners[2]]},
+                     static_cast<std::uint32_t>(f)});
     for (std::uint8_t i = 0; i < 3; ++i) {
       const std::uint32_t from = welded[corners[i]], to = welded[corners[(i + 1u) % 3u]];
       sides.push_back(
@@ -221,6 +251,7 @@ EdgeTable build_edge_table(const Mesh& mesh) {
     }
     table.edges.push_back(edge);
   }
+  if (options.crossings) add_crossings(table, welder, faces);
   if (table.edges.size() > spec::geometric::kMaxEdges)
     refuse(mesh, fmt::format("it has {} edges, the limit is {}; simplify it", table.edges.size(),
                              spec::geometric::kMaxEdges));

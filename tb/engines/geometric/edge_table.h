@@ -27,11 +27,15 @@ struct EdgeTable {
   std::uint64_t boundaries = 0;              // edges of one face ...
   std::uint64_t disagreeing = 0;             // ... of two that pass it in the same direction ...
   std::uint64_t crowded = 0;                 // ... of three and more
+  std::uint64_t crossings = 0;               // segments where faces pass through each other
   std::uint32_t faces() const { return static_cast<std::uint32_t>(normals.size()); }
 };
 // Throws ConfigError that names the mesh: no triangles, an index of a vertex, a material or a
 // texture out of range, more than 2^20 faces or 2^24 edges.
-EdgeTable build_edge_table(const Mesh& mesh);
+struct EdgeTableOptions {
+  bool crossings = false;  // with boundaries where faces pass through each other (crossings.h)
+};
+EdgeTable build_edge_table(const Mesh& mesh, const EdgeTableOptions& options = {});
 
 // What the engine reads of geometry for one frame.
 struct ScreenEdges {

@@ -17,6 +17,8 @@ constexpr std::array kGroups = {
     CoverageGroup{"geometric/class",
                   "Edges by the rules (select, crease) and their class. In tests alone: invalid "
                   "ones, which name what is not there, and all with off, which no run asks for."},
+    CoverageGroup{"geometric/turned-away",
+                  "Edges of two faces turned away by what cull makes of them."},
     CoverageGroup{"geometric/line", "Lines by octant and length."},
     CoverageGroup{"geometric/fate", "Kept edges by what becomes of them."},
     CoverageGroup{"geometric/columns", "Lines by the ends that the frame cuts off."},
@@ -25,6 +27,12 @@ constexpr std::array kGroups = {
     CoverageGroup{"geometric/border", "Candidates whose neighbour is outside of the frame."},
     CoverageGroup{"geometric/depth",
                   "Tests against the farther pixel, by which that is and the outcome."},
+    CoverageGroup{
+        "geometric/crease",
+        "Candidates of creases that the other test passed: near enough, or too far before "
+        "what is compared."},
+    CoverageGroup{"geometric/second",
+                  "Second candidates of a column: in the first one's block, or in another."},
     CoverageGroup{"geometric/weight", "Weights by direction and what became of the one before."},
     CoverageGroup{"geometric/group", "Groups of columns by what ended them."},
     CoverageGroup{"geometric/group-lines",

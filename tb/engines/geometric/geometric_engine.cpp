@@ -22,6 +22,7 @@
 #include "tb/engines/geometric/geometric_environment.h"
 #include "tb/engines/geometric/geometric_frames.h"
 #include "tb/engines/geometric/geometric_pictures.h"
+#include "tb/engines/geometric/geometric_role.h"
 #include "tb/engines/geometric/geometric_rules.h"
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
@@ -35,6 +36,7 @@ class GeometricCommand final : public Engine {
   std::string_view summary() const override {
     return "A lit scene and the edges of its mesh through the geometric engine";
   }
+  std::unique_ptr<CompositionRole> role() const override { return make_geometric_role(); }
 
   double clock_mhz() const override { return 250; }  // what its units are made for
 
@@ -78,12 +80,17 @@ class GeometricCommand final : public Engine {
         "Geometric engine: " + std::filesystem::path(scene_.source).filename().string(),
         summary_line(frame));
     for (const std::string& note : loaded.notes) context.add_note(note);
-    for (const std::string& note : build_notes(parameters_)) context.add_note(note);
+    for (const std::string& note : build_notes(rtl::geometric::sized(
+             parameters_, memory_clocks(GeometricSetup{parameters_, memory_}))))
+      context.add_note(note);
     const std::vector<geometric::Frame> frames(static_cast<std::size_t>(scene_.count), frame);
     Simulation simulation(simulation_options(run, context));
     GeometricEnvironment environment(simulation, frames, {parameters_, memory_});
-    simulate(simulation, environment, context, result,
-             [&] { add_pictures(run, context, loaded, environment, result); });
+    simulate(simulation, environment, context, result, [&] {
+      for (const std::string& note : dropped_notes(environment.engine().work()))
+        context.add_note(note);
+      add_pictures(run, context, loaded, environment, result);
+    });
   }
 
   std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
@@ -190,7 +197,9 @@ class GeometricCommand final : public Engine {
                                  loaded.truth ? &*loaded.truth : nullptr,
                                  "the lit frame as it was rendered", loaded.truth_name});
     add_edge_pictures(context, loaded.frame, parameters_, engine.blocks());
-    if (loaded.truth && engine.done())
+    if (!engine.done()) return;
+    result.change = measure_change(before, after, loaded.truth ? &*loaded.truth : nullptr);
+    if (loaded.truth)
       result.quality =
           judge_quality(loaded.truth_name, before, after, *loaded.truth, &loaded.frame.depth);
   }

@@ -92,7 +92,9 @@ class GeometricEnvironment final : public Environment {
 
  private:
   // Of the model and of its parameters; memory alone is called that.
-  std::string memory_name() const { return name().empty() ? "memory" : "geometric_memory"; }
+  std::string memory_name() const {
+    return name().empty() ? "memory" : std::string(kGeometricMemory);
+  }
   const geometric::Frame& current() const { return frames_[current_]; }
   void observe();
   void load();

@@ -26,6 +26,15 @@ spec::geometric::CacheLines other_size(spec::geometric::CacheLines lines) {
                                   : static_cast<CacheLines>(static_cast<std::uint8_t>(lines) - 1);
 }
 
+// The lowest bit of every word.
+template <class Word>
+void flip_rom(rtl::geometric::GeometricEngine& engine, std::string_view name) {
+  rtl::for_each<rtl::Memory<Word>>(engine, [name](rtl::Memory<Word>& memory) {
+    if (memory.basename() != name) return;
+    for (std::uint64_t word = 0; word < memory.words(); ++word) memory.backdoor(word) ^= 1;
+  });
+}
+
 }  // namespace
 
 // A face of the first edge of two faces, whose class goes by it.
@@ -44,8 +53,9 @@ std::optional<std::uint32_t> GeometricFaults::face_of_a_fault() const {
 std::optional<std::size_t> GeometricFaults::block_that_takes_from_above() const {
   constexpr int kInside = 16;  // blocks in the stages of the resolve
   if (frames_.empty() || setup_.geometric.frame_copy) return std::nullopt;
-  const std::int32_t ahead = kInside + setup_.geometric.resolve_lines / 4 +
-                             std::max(setup_.memory.latency, setup_.memory.latency_max);
+  const rtl::MemoryClocks memory = memory_clocks(setup_);
+  const std::int32_t ahead =
+      kInside + rtl::geometric::sized(setup_.geometric, memory).resolve_lines / 4 + memory.latency;
   const geometric::Frame& frame = frames_.front();
   golden::geometric::GeometricGolden golden(setup_.geometric);
   const std::vector<Rgba8>& after = golden.process(frame.input());
@@ -77,6 +87,8 @@ std::vector<PlantedFault> GeometricFaults::list() const {
   };
   const std::string tested = unless(p.depth_test != spec::geometric::DepthTest::kOff,
                                     "geometric.depth_test = own, farther");
+  const std::string areas =
+      unless(p.coverage == spec::geometric::CoverageRule::kArea, "geometric.coverage = area");
   std::string stale_neighbour;
   if (planted("stale-neighbour"))
     if (const auto block = block_that_takes_from_above())
@@ -86,6 +98,17 @@ std::vector<PlantedFault> GeometricFaults::list() const {
        unless(face_of_a_fault().has_value(), "geometric.select = edges, an edge of two faces")},
       {"wrong-slope", "Flips the lowest bit of every reciprocal in the table.", "",
        unless(p.reciprocal_table > 0, "geometric.reciprocal_table of at least 1")},
+      {"wrong-cull",
+       "Edges between faces turned away are culled where they are to be judged, or judged.", "",
+       unless(p.select == spec::geometric::Select::kEdges, "geometric.select = edges")},
+      {"wrong-class", "A kept edge is taken for a crease, or a crease for another edge.",
+       "flip:geometric.kept:5:crease"},
+      {"wrong-area", "Flips the lowest bit of every area up to half a pixel from the centre.", "",
+       areas},
+      {"wrong-second", "A column of a group of candidates has a second one too few, or too many.",
+       "flip:geometric.candidates:20:seconds.0", areas},
+      {"wrong-nearer", "No pixel is taken for nearer than its neighbour.", "",
+       unless(p.combine == spec::geometric::Combine::kOutermost, "geometric.combine = outermost")},
       {"drop-line", "Drops line 5 on its way to the walkers.",
        "drop:geometric.line_fifo_entries:5"},
       {"duplicate-line", "Walks line 5 twice.", "duplicate:geometric.line_fifo_entries:5"},
@@ -120,15 +143,16 @@ Parameters GeometricFaults::as_built() const {
     for (spec::geometric::CacheLines* const lines :
          {&p.vertex_lines, &p.depth_lines, &p.weight_blocks})
       *lines = other_size(*lines);
+  if (planted("wrong-cull"))
+    p.cull = p.cull == spec::geometric::Cull::kNone ? spec::geometric::Cull::kBack
+                                                    : spec::geometric::Cull::kNone;
+  if (planted("wrong-nearer")) p.combine = spec::geometric::Combine::kMax;
   return p;
 }
 
 void GeometricFaults::plant(rtl::geometric::GeometricEngine& engine) const {
-  if (!planted("wrong-slope")) return;
-  rtl::for_each<rtl::Memory<std::uint32_t>>(engine, [](rtl::Memory<std::uint32_t>& memory) {
-    if (memory.basename() != std::string_view("reciprocal_rom")) return;
-    for (std::uint64_t word = 0; word < memory.words(); ++word) memory.backdoor(word) ^= 1;
-  });
+  if (planted("wrong-slope")) flip_rom<std::uint32_t>(engine, "reciprocal_rom");
+  if (planted("wrong-area")) flip_rom<std::uint8_t>(engine, "near_area_rom");
 }
 
 std::vector<std::uint8_t> GeometricFaults::facing(const geometric::Frame& frame) const {

@@ -39,6 +39,7 @@ std::vector<std::string> notes_of(const EdgeTable& table) {
   note(table.disagreeing,
        "edges belong to two faces that pass them in the same direction: drawn as boundaries");
   note(table.crowded, "edges belong to three faces or more: drawn as boundaries");
+  note(table.crossings, "lines along which faces pass through each other: drawn as boundaries");
   return notes;
 }
 
@@ -71,7 +72,7 @@ LoadedGeometricFrame load_geometric_frame(const GeometricSceneParameters& p, std
   loaded.scene = load_scene(p.source, {.seed = seed, .plain = true});
   if (accept) accept(loaded.scene);
   look(loaded.scene, p);
-  loaded.frame = geometric::make_frame(loaded.scene, p.width, p.height);
+  loaded.frame = geometric::make_frame(loaded.scene, p.width, p.height, {.crossings = p.crossings});
   refuse_empty(loaded.scene, loaded.frame.table);
   if (p.edge_order == EdgeOrder::kShuffled) shuffle_edges(loaded.frame, seed);
   loaded.notes = loaded.scene.mesh.notes;

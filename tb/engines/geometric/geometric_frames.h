@@ -26,6 +26,7 @@ inline constexpr std::array<std::string_view, 2> kEdgeOrderNames = {"table", "sh
 struct GeometricSceneParameters : CameraParameters {
   std::string source = "wheelcover";
   std::int32_t width = 640, height = 480;
+  bool crossings = false;
   EdgeOrder edge_order = EdgeOrder::kTable;
   std::int32_t truth_samples = 16;
   std::int32_t count = 1;
@@ -39,6 +40,8 @@ void describe(GeometricSceneParameters& p, Visitor& v) {
   v.integer("width", p.width, 1, 8192, "pixel", "Width of the frame.");
   v.integer("height", p.height, 1, 8192, "pixel", "Height of the frame.");
   describe(static_cast<CameraParameters&>(p), v);
+  v.boolean("crossings", p.crossings,
+            "Draw the lines, too, along which faces pass through each other.");
   v.choice("edge_order", p.edge_order, kEdgeOrderNames,
            "Order of the edge table: its own, or shuffled by run.seed.");
   v.integer("truth_samples", p.truth_samples, 1, 32, "",

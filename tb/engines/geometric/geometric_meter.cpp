@@ -97,7 +97,8 @@ std::uint64_t GeometricMeter::clocks_bound() const {
   const std::uint64_t edges_phase = std::max(
       {lines_for(work.edges, count_of(p.edge_lanes)), work.kept_edges, read(Region::kVertices),
        p.pipelined ? work.lines : kDividerClocks * divided / static_cast<std::uint64_t>(p.dividers),
-       work.groups, lines_for(e.depth_test.lookups.value(), 2), read(Region::kDepth),
+       work.groups, e.weight_combiner.lookups.value(), lines_for(e.depth_test.lookups.value(), 2),
+       read(Region::kDepth),
        read(Region::kEdges) + read(Region::kVertices) + read(Region::kDepth) +
            read(Region::kWeights) - resolve_weights + written(Region::kWeights) +
            2 * written(Region::kCopy)});

@@ -96,8 +96,8 @@ Image class_picture(const geometric::Frame& frame, const spec::geometric::Parame
       const Rgba8 colour = colour_of(c);
       const int rows = line.axis == spec::geometric::Axis::kHorizontal ? height : width;
       walk(line, rows, [&](int x, int y, int nx, int ny, std::uint32_t depth) {
-        const bool passes = golden::geometric::passes(parameters, depth, input.depth.at(x, y),
-                                                      input.depth.at(nx, ny));
+        const bool passes = golden::geometric::passes(parameters, c == EdgeClass::kCrease, depth,
+                                                      input.depth.at(x, y), input.depth.at(nx, ny));
         if (passes == seen) picture.at(x, y) = seen ? colour : dimmed(colour);
       });
     }

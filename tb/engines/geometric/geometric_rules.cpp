@@ -5,10 +5,13 @@
 
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include "spec/check_build.h"
 #include "spec/error.h"
 #include "spec/geometric/records.h"
+#include "tb/app/input_rules.h"
+#include "tb/results/report.h"
 
 namespace deburr::tb {
 namespace {
@@ -31,15 +34,7 @@ void apply_preset(ParameterSet& set, const spec::geometric::Parameters& values) 
 }
 
 std::string preset_label(const ParameterSet& set, const spec::geometric::Parameters& values) {
-  std::string label = source_of(values);
-  bool first = true;
-  for (const Parameter* p : set.changed()) {
-    if (!p->name.starts_with(kGeometricPrefix)) continue;
-    label += first ? ", changed: " : ", ";
-    label += p->name.substr(kGeometricPrefix.size());
-    first = false;
-  }
-  return label;
+  return with_changes(source_of(values), set, kGeometricPrefix);
 }
 
 void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Parameters& p) {
@@ -48,11 +43,21 @@ void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Paramet
   };
   if (p.select == spec::geometric::Select::kAll) {
     refuse("crease", "geometric.select = all draws every edge, crease or not");
+    refuse("crease_depth", "geometric.select = all has no creases");
+    refuse("cull", "geometric.select = all draws every edge, whichever way its faces are turned");
     refuse("face_limit", "geometric.select = all reads no facing bits");
   }
+  if (p.crease == spec::geometric::Crease::kOff)
+    refuse("crease_depth", "geometric.crease = off has no creases");
   if (p.depth_test == spec::geometric::DepthTest::kOff)
-    for (const char* const name : {"depth_bias", "depth_lines"})
+    for (const char* const name : {"depth_bias", "crease_depth", "depth_lines"})
       refuse(name, "geometric.depth_test = off reads no depth");
+  if (p.combine == spec::geometric::Combine::kOutermost &&
+      p.depth_test != spec::geometric::DepthTest::kFarther)
+    refuse("combine",
+           "without geometric.depth_test = farther no pixel is known to be nearer than its "
+           "neighbour: outermost is max");
+  if (!p.frame_copy) refuse("copy_lines", "geometric.frame_copy = false copies nothing");
   if (p.pipelined) {
     refuse("dividers",
            "geometric.pipelined = true takes a line every clock: one divider is enough");
@@ -84,6 +89,26 @@ std::vector<std::string> build_notes(const spec::geometric::Parameters& p) {
       "geometric.latency_fifo = {} is below geometric.fills = {}: look-ups wait before all lines "
       "that may be on their way are asked for",
       p.latency_fifo, p.fills)};
+}
+
+std::vector<std::string> dropped_notes(const spec::geometric::Work& work) {
+  if (work.edges == 0 || work.lines != 0) return {};
+  std::string why;
+  for (const auto& [count, what] :
+       {std::pair{work.back_edges, "turned away from the eye"},
+        {work.flat_edges, "no crease"},
+        {work.outside_edges, "behind the eye or outside the guard band"},
+        {work.empty_edges, "outside the frame"},
+        {work.degenerate_edges, "without length"},
+        {work.invalid_edges, "with an index out of range"}})
+    if (count != 0) why += fmt::format("{}{} {}", why.empty() ? "" : ", ", grouped(count), what);
+  std::string note =
+      fmt::format("all {} edges were dropped ({}): nothing was smoothed", grouped(work.edges), why);
+  if (work.back_edges != 0)
+    note +=
+        "; geometric.cull = none draws those that are turned away, for an eye inside of a mesh or "
+        "one wound the other way";
+  return {note};
 }
 
 std::vector<Shorthand> edge_shorthands() {

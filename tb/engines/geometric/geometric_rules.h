@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "spec/geometric/packets.h"
 #include "spec/geometric/parameters.h"
 #include "tb/app/engine.h"
 #include "tb/results/parameter_set.h"
@@ -27,6 +28,10 @@ void refuse_too_many_faces(const Scene& scene, const spec::geometric::Parameters
 
 // What the result says of a build that wastes what it has.
 std::vector<std::string> build_notes(const spec::geometric::Parameters& values);
+
+// What the result says of a run that drew no line: why each of its edges was dropped. Empty if it
+// drew one, or had none.
+std::vector<std::string> dropped_notes(const spec::geometric::Work& work);
 
 // Of what draws edges: --preset, --layout, --walkers.
 std::vector<Shorthand> edge_shorthands();

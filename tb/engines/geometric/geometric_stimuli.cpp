@@ -16,20 +16,20 @@ golden::geometric::FrameInput Frame::input(const golden::geometric::Bases& bases
           bases};
 }
 
-Frame make_frame(const Scene& scene, int width, int height) {
+Frame make_frame(const Scene& scene, int width, int height, const EdgeTableOptions& options) {
   Frame frame;
   const GBuffer buffer = render_gbuffer(scene, width, height);
   frame.image = light(scene, buffer);
   frame.depth = buffer.depth;
   frame.depths = depth_codes(buffer.depth);
-  frame.table = build_edge_table(scene.mesh);
+  frame.table = build_edge_table(scene.mesh, options);
   frame.screen = project_edges(frame.table, scene.camera, width, height);
   return frame;
 }
 
 Judge::Judge(const Scene& scene, int width, int height, int samples,
-             const std::function<bool()>& interrupted)
-    : frame(make_frame(scene, width, height)) {
+             const std::function<bool()>& interrupted, const EdgeTableOptions& edges_of)
+    : frame(make_frame(scene, width, height, edges_of)) {
   RenderOptions options;
   options.width = width;
   options.height = height;

@@ -26,7 +26,7 @@ struct Frame {
   ScreenEdges screen;
   golden::geometric::FrameInput input(const golden::geometric::Bases& bases = {}) const;
 };
-Frame make_frame(const Scene& scene, int width, int height);
+Frame make_frame(const Scene& scene, int width, int height, const EdgeTableOptions& options = {});
 
 // A frame beside its truth.
 struct Judge {
@@ -34,7 +34,7 @@ struct Judge {
   Image truth, msaa;
   Mask edges, silhouettes;
   Judge(const Scene& scene, int width, int height, int samples,
-        const std::function<bool()>& interrupted = nullptr);
+        const std::function<bool()>& interrupted = nullptr, const EdgeTableOptions& options = {});
   double edge_rmse(const Image& image) const;  // in codes, over edge pixels
   double silhouette_rmse(const Image& image) const;
   double edge_psnr(const Image& image) const;  // dB

@@ -24,6 +24,7 @@
 #include "tb/engines/morphological/morphological_environment.h"
 #include "tb/engines/morphological/morphological_frames.h"
 #include "tb/engines/morphological/morphological_pictures.h"
+#include "tb/engines/morphological/morphological_role.h"
 #include "tb/engines/morphological/morphological_rules.h"
 #include "tb/results/progress.h"
 #include "tb/scene/image_bytes.h"
@@ -38,6 +39,7 @@ class MorphologicalCommand final : public Engine {
   std::string_view summary() const override {
     return "An image or a scene through the morphological engine, checked pixel by pixel";
   }
+  std::unique_ptr<CompositionRole> role() const override { return make_morphological_role(); }
 
   double clock_mhz() const override { return 148.5; }  // the pixel clock of 1080p60
 
@@ -241,7 +243,9 @@ class MorphologicalCommand final : public Engine {
         {before, after, engine.delivered(), golden ? &expected : nullptr,
          loaded.truth ? &*loaded.truth : nullptr, "the frame as it came", loaded.truth_name},
         engine.taps());
-    if (loaded.truth && engine.delivered() == after.pixels.size())
+    if (engine.delivered() < after.pixels.size()) return;
+    result.change = measure_change(before, after, loaded.truth ? &*loaded.truth : nullptr);
+    if (loaded.truth)
       result.quality = judge_quality(loaded.truth_name, before, after, *loaded.truth,
                                      loaded.depth ? &*loaded.depth : nullptr);
   }

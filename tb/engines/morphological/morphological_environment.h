@@ -95,7 +95,9 @@ class MorphologicalEnvironment final : public Environment {
     return setup_.morphological.storage == spec::morphological::Storage::kMemory;
   }
   // Of the model and of its parameters; memory alone is called that.
-  std::string memory_name() const { return name().empty() ? "memory" : "frame_memory"; }
+  std::string memory_name() const {
+    return name().empty() ? "memory" : std::string(kMorphologicalMemory);
+  }
   std::unique_ptr<platform::MemoryModel> memory_for(
       std::span<const MorphologicalInput> frames) const;
   void start();

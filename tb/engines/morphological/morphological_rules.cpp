@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include "spec/check_build.h"
+#include "tb/app/input_rules.h"
 
 namespace deburr::tb {
 namespace {
@@ -37,15 +38,7 @@ void apply_preset(ParameterSet& set, const spec::morphological::Parameters& valu
 }
 
 std::string preset_label(const ParameterSet& set, const spec::morphological::Parameters& values) {
-  std::string label = source_of(values);
-  bool first = true;
-  for (const Parameter* p : set.changed()) {
-    if (!p->name.starts_with(kMorphologicalPrefix)) continue;
-    label += first ? ", changed: " : ", ";
-    label += p->name.substr(kMorphologicalPrefix.size());
-    first = false;
-  }
-  return label;
+  return with_changes(source_of(values), set, kMorphologicalPrefix);
 }
 
 void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Parameters& p,

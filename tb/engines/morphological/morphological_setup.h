@@ -3,12 +3,16 @@
 
 #include <cstdint>
 #include <memory>
+#include <string_view>
 
 #include "golden/morphological/morphological_golden.h"
 #include "spec/morphological/parameters.h"
 #include "tb/env/memory_parameters.h"
 
 namespace deburr::tb {
+
+// Of a composition, where others have memories too.
+inline constexpr std::string_view kMorphologicalMemory = "frame_memory";
 
 struct MorphologicalSetup {
   spec::morphological::Parameters morphological;

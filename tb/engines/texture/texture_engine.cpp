@@ -23,6 +23,7 @@
 #include "tb/engines/texture/texture_coverage.h"
 #include "tb/engines/texture/texture_draws.h"
 #include "tb/engines/texture/texture_environment.h"
+#include "tb/engines/texture/texture_role.h"
 #include "tb/engines/texture/texture_rules.h"
 #include "tb/engines/texture/texture_sequence.h"
 #include "tb/engines/texture/texture_traces.h"
@@ -45,6 +46,7 @@ class TextureEngine final : public Engine {
   std::string_view summary() const override {
     return "A scene through the texture unit, checked colour by colour and line by line";
   }
+  std::unique_ptr<CompositionRole> role() const override { return make_texture_role(); }
 
   void add_parameters(ParameterSet& set) override {
     set.add("run", ParameterKind::kRun, look_up_trace_);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tb/engines/texture/texture_meter.h"
 
+#include <fmt/format.h>
+
 #include "tb/env/collect.h"
 
 namespace deburr::tb {
@@ -23,6 +25,25 @@ void TextureMeter::collect(Result& result) const {
       "Cost of a fragment in clocks while nothing stalls.");
   add(result, "misses_per_texel", ratio(number(lines), 4 * number(bilinears)), "line/texel",
       "Line fills over texels asked for.");
+  const double texel_hits = 100 - 100 * ratio(number(lines), 4 * number(bilinears));
+  add(result, "texel_hits_percent", texel_hits, "%",
+      "Texels asked for that ordered no line: 100 - 100 x misses_per_texel.");
+  const rtl::texture::TagStage& tags = unit_.cache.tag_stage;
+  const std::uint64_t look_ups = tags.hits.value() + tags.merged.value() + tags.misses.value();
+  const auto of_look_ups = [&](const rtl::Counter& count) {
+    return 100 * ratio(count.value(), look_ups);
+  };
+  add(result, "look_up_hits_percent", of_look_ups(tags.hits), "%",
+      "Look-ups of tags, one a line of a request, that found their line in the data banks.");
+  add(result, "look_up_merged_percent", of_look_ups(tags.merged), "%",
+      "Look-ups that found the fill of their line under way: they order none, and wait for it.");
+  add(result, "look_up_misses_percent", of_look_ups(tags.misses), "%",
+      "Look-ups that ordered a fill.");
+  result.terminal.push_back(
+      {"hits",
+       fmt::format("{:.2f} % of look-ups, {:.2f} % more merged with a fill under way; {:.2f} "
+                   "% of texels",
+                   of_look_ups(tags.hits), of_look_ups(tags.merged), texel_hits)});
   add(result, "texels_fetched_per_fragment",
       ratio(number(lines) * unit_.parameters().cache_line_bytes / texel_bytes, number(fragments)),
       "texel/fragment", "Texels of all lines fetched over fragments.");
@@ -48,6 +69,9 @@ void TextureMeter::collect_headline(Result& result) const {
   result.figures = {{"Fragments", key("fragments")},
                     {"Bilinear requests of a fragment", key("bilinears_per_fragment")},
                     {"Line fills of a texel", key("misses_per_texel")},
+                    {"Texels without a line fill", key("texel_hits_percent")},
+                    {"Look-ups that hit", key("look_up_hits_percent")},
+                    {"Look-ups of a line under way", key("look_up_merged_percent")},
                     {"Texels fetched for a fragment", key("texels_fetched_per_fragment")}};
   result.bottleneck = find_bottleneck(result.units, figure("filter"));
 }

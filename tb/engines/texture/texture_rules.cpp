@@ -31,15 +31,7 @@ void apply_preset(ParameterSet& set, const spec::texture::Parameters& values) {
 }
 
 std::string preset_label(const ParameterSet& set, const spec::texture::Parameters& values) {
-  std::string label = source_of(values);
-  bool first = true;
-  for (const Parameter* p : set.changed()) {
-    if (!p->name.starts_with(kTexturePrefix) || p->name == "texture.preset") continue;
-    label += first ? ", changed: " : ", ";
-    label += p->name.substr(kTexturePrefix.size());
-    first = false;
-  }
-  return label;
+  return with_changes(source_of(values), set, kTexturePrefix);
 }
 
 void add_sampler(ParameterSet& set, SamplerParameters& sampler) {

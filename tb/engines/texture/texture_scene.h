@@ -16,6 +16,7 @@
 #include "spec/texture/parameters.h"
 #include "tb/env/camera_parameters.h"
 #include "tb/env/memory_parameters.h"
+#include "tb/scene/drawn_scene.h"
 #include "tb/scene/image.h"
 #include "tb/scene/motion.h"
 #include "tb/scene/rasteriser.h"
@@ -93,7 +94,7 @@ struct CameraMove {
   int frame = 0;
 };
 
-class TextureScene {
+class TextureScene final : public DrawnScene {
  public:
   // Loads, rasterises and lays out. ConfigError and FileError as of tb/scene.
   TextureScene(const SceneParameters& scene, const SamplerParameters& sampler, std::uint32_t seed,
@@ -104,11 +105,9 @@ class TextureScene {
                                         int width, int height);
 
   // With the wrap modes of the sampler, so that its truth is what the unit is asked for.
-  const Scene& scene() const { return scene_; }
-  const FragmentStream& stream() const { return stream_; }
+  const Scene& scene() const override { return scene_; }
+  const FragmentStream& stream() const override { return stream_; }
   const platform::TextureMemory& memory() const { return memory_; }
-  // Files that it was made of, and those that were looked for in vain.
-  const std::vector<std::filesystem::path>& inputs() const { return scene_.mesh.files; }
 
  private:
   enum class Fragments { kRasterise, kNone };

@@ -34,6 +34,8 @@ struct TextureSetup {
   std::function<void(rtl::Engine&, platform::MemoryModel&)> connect{};
 };
 // What this memory takes at most.
-rtl::texture::LatencyFifo::MemoryClocks memory_clocks(const TextureSetup& setup);
+inline rtl::MemoryClocks memory_clocks(const TextureSetup& setup) {
+  return memory_clocks(setup.memory, setup.texture.cache_line_bytes);
+}
 
 }  // namespace deburr::tb

@@ -30,6 +30,14 @@ VALUES = {
     "DEBURR_TEXTURE_TEXTURE0_MODE_MIN_FILTER_LINEAR_MIPMAP_LINEAR": 5,
     "DEBURR_TEXTURE_TEXTURE0_BASE_12": 0x140, "DEBURR_TEXTURE_STRIDE": 0x80,
     "DEBURR_TEXTURE_COUNT": 16,
+    # What it has beside numbers.
+    "DEBURR_FIELD(DEBURR_GEOMETRIC_SIZE_HEIGHT, 0xFFFF1234u)": 0x3FFF,
+    "DEBURR_FIELD(DEBURR_MORPHOLOGICAL_RULES_LEAVE, 0xFCFFFFFFu)": 4,
+    "DEBURR_IN(DEBURR_GEOMETRIC_SIZE_HEIGHT, 5)": 0x50000,
+    "DEBURR_IN(DEBURR_GEOMETRIC_SIZE_HEIGHT, -1)": 0x3FFF0000,
+    "DEBURR_IN(DEBURR_GEOMETRIC_RULES_CREASE, 1 | 2)": 0xC,
+    "DEBURR_CHOICE(DEBURR_MORPHOLOGICAL_RULES_LEAVE, MASKED)": 0x04000000,
+    "DEBURR_WITH(DEBURR_GEOMETRIC_SIZE_HEIGHT, 0xFFFF1234u, 5)": 0xC0051234,
 }
 
 
@@ -65,10 +73,10 @@ def main():
             print(said)
             wrong += 1
         # A wrong value is seen.
-        name, value = next(iter(VALUES.items()))
-        if not compiles(compiler, header, {name: value ^ 1}):
-            print(f"{compiler}: {name} == {value ^ 1:#x} was not noticed")
-            wrong += 1
+        for name, value in (next(iter(VALUES.items())), list(VALUES.items())[-1]):
+            if not compiles(compiler, header, {name: value ^ 1}):
+                print(f"{compiler}: {name} == {value ^ 1:#x} was not noticed")
+                wrong += 1
     return 1 if wrong else 0
 
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -14,7 +15,9 @@
 #include "spec/error.h"
 #include "tb/base/file.h"
 #include "tb/results/report.h"
+#include "tb/scene/flip.h"
 #include "tb/scene/image_io.h"
+#include "tb/scene/ssim.h"
 
 namespace deburr::tb::pictures_test {
 namespace {
@@ -37,6 +40,46 @@ TEST(Quality, IsOfBothPicturesWhereThereIsSomethingToJudge) {
   const Quality same = judge_quality("x", truth, truth, truth, nullptr);
   EXPECT_EQ(*same.psnr_db, std::numeric_limits<double>::infinity());
   EXPECT_FALSE(same.psnr_edge_db) << "no edge pixels";
+}
+
+TEST(Quality, HasFlipAndSsimOfBothPictures) {
+  const Image truth(16, 16, {100, 100, 100, 255});
+  Image before = truth, after = truth;
+  before.at(3, 8) = {200, 100, 100, 255};
+  after.at(3, 8) = {120, 100, 100, 255};
+  const Quality q = judge_quality("x", before, after, truth, nullptr);
+  EXPECT_EQ(*q.flip, flip(truth, after));
+  EXPECT_EQ(*q.flip_before, flip(truth, before));
+  EXPECT_GT(*q.flip_before, *q.flip);
+  EXPECT_EQ(*q.ssim, ssim(truth, after));
+  EXPECT_EQ(*q.ssim_before, ssim(truth, before));
+  EXPECT_LT(*q.ssim_before, *q.ssim);
+  const Image small(10, 40);
+  EXPECT_FALSE(judge_quality("x", small, small, small, nullptr).ssim) << "no window fits";
+}
+
+TEST(Change, CountsPixelsByCodesAndOfTheRightOnes) {
+  const Image before(10, 2, {100, 100, 100, 255});
+  Image after = before, truth = before;
+  after.at(0, 0)[0] = 102;  // 2: not more than 2
+  after.at(1, 0)[1] = 97;   // 3
+  after.at(2, 0)[2] = 116;  // 16
+  after.at(3, 0)[0] = 117;  // 17, and this one was wrong
+  after.at(4, 0)[3] = 0;    // alpha does not count
+  truth.at(3, 0)[0] = 120;
+  truth.at(5, 0)[0] = 98;  // right within 2 codes, and left
+  Change change = measure_change(before, after, nullptr);
+  EXPECT_DOUBLE_EQ(change.small_percent, 15);
+  EXPECT_DOUBLE_EQ(change.large_percent, 5);
+  EXPECT_FALSE(change.right_small_percent || change.right_large_percent) << "no truth";
+  EXPECT_NEAR(change.psnr_db, 10 * std::log10(65025.0 * 60 / (4 + 9 + 256 + 289)), 1e-9);
+  change = measure_change(before, after, &truth);
+  EXPECT_DOUBLE_EQ(*change.right_small_percent, 100 * 2.0 / 19);
+  EXPECT_DOUBLE_EQ(*change.right_large_percent, 0);
+  const Image wrong(10, 2, {0, 0, 0, 255});
+  EXPECT_FALSE(measure_change(before, after, &wrong).right_small_percent) << "nothing was right";
+  EXPECT_EQ(measure_change(before, before, nullptr).psnr_db,
+            std::numeric_limits<double>::infinity());
 }
 
 class Pictures : public testing::Test {

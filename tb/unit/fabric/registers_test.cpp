@@ -5,6 +5,9 @@
 #include <tlm_utils/simple_initiator_socket.h>
 
 #include <cstring>
+#include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "rtl_model/fabric/register_block.h"
@@ -265,6 +268,95 @@ TEST(RegisterTime, AnswersNonBlockingAccessesToo) {
                                                   tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE,
                                                   tlm::TLM_COMMAND_ERROR_RESPONSE,
                                                   tlm::TLM_ADDRESS_ERROR_RESPONSE));
+}
+
+// An initiator that ends each response late: the next request goes as soon as the last one is
+// ended, and its response has to wait for the end of the one before (response exclusion).
+struct Late : sc_core::sc_module, tlm::tlm_mm_interface {
+  struct Access {
+    tlm::tlm_generic_payload payload;
+    std::uint32_t word;
+  };
+  tlm_utils::simple_initiator_socket<Late> socket{"socket"};
+  std::vector<std::unique_ptr<Access>> accesses;
+  std::vector<std::string> seen;  // phase, access, time in ns
+  std::size_t sent = 0;
+  tlm::tlm_generic_payload* open = nullptr;  // a response that is not ended
+  sc_core::sc_event end;
+  SC_HAS_PROCESS(Late);
+  explicit Late(const sc_core::sc_module_name& name) : sc_module(name) {
+    socket.register_nb_transport_bw(this, &Late::backward);
+    SC_METHOD(end_response);
+    sensitive << end;
+    dont_initialize();
+  }
+  void free(tlm::tlm_generic_payload*) override {}
+  void add(tlm::tlm_command command, std::uint64_t address, std::uint32_t word) {
+    accesses.push_back(std::make_unique<Access>());
+    Access& access = *accesses.back();
+    access.word = word;
+    access.payload.set_mm(this);
+    access.payload.set_command(command);
+    access.payload.set_address(address);
+    access.payload.set_data_ptr(reinterpret_cast<unsigned char*>(&access.word));
+    access.payload.set_data_length(4);
+    access.payload.set_streaming_width(4);
+  }
+  std::string number(const tlm::tlm_generic_payload& payload) const {
+    for (std::size_t i = 0; i < accesses.size(); ++i)
+      if (&accesses[i]->payload == &payload) return std::to_string(i);
+    return "?";
+  }
+  void note(const char* what, const tlm::tlm_generic_payload& payload) {
+    seen.push_back(what + number(payload) + "@" +
+                   std::to_string(sc_core::sc_time_stamp() / sc_core::sc_time(1, sc_core::SC_NS))
+                       .substr(0, 2));
+  }
+  void send() {
+    if (sent == accesses.size()) return;
+    tlm::tlm_generic_payload& payload = accesses[sent++]->payload;
+    payload.acquire();
+    tlm::tlm_phase phase = tlm::BEGIN_REQ;
+    sc_core::sc_time delay(10, sc_core::SC_NS);
+    EXPECT_EQ(socket->nb_transport_fw(payload, phase, delay), tlm::TLM_ACCEPTED);
+  }
+  tlm::tlm_sync_enum backward(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
+                              sc_core::sc_time&) {
+    EXPECT_TRUE(phase == tlm::BEGIN_RESP) << phase;
+    EXPECT_EQ(open, nullptr) << "two responses at once";
+    note("r", payload);
+    open = &payload;
+    end.notify(sc_core::sc_time(25, sc_core::SC_NS));
+    send();
+    return tlm::TLM_ACCEPTED;
+  }
+  void end_response() {
+    tlm::tlm_generic_payload& payload = *std::exchange(open, nullptr);
+    note("e", payload);
+    tlm::tlm_phase phase = tlm::END_RESP;
+    sc_core::sc_time delay;
+    socket->nb_transport_fw(payload, phase, delay);
+    payload.release();
+  }
+};
+
+TEST(RegisterTime, AResponseWaitsForTheEndOfTheOneBefore) {
+  rtl::RegisterBlock block("block", kTable);
+  Late late("late");
+  late.socket.bind(block.bus);
+  sc_core::sc_start(sc_core::SC_ZERO_TIME);
+  late.add(tlm::TLM_WRITE_COMMAND, 0, 11);
+  late.add(tlm::TLM_READ_COMMAND, 0, 0);
+  late.add(tlm::TLM_READ_COMMAND, 0x0C, 0);
+  late.send();
+  sc_core::sc_start(sc_core::sc_time(200, sc_core::SC_NS));
+  EXPECT_THAT(late.seen,
+              testing::ElementsAre("r0@10", "e0@35", "r1@35", "e1@60", "r2@60", "e2@85"));
+  EXPECT_EQ(block.get(kControl), 11U);
+  EXPECT_EQ(late.accesses[1]->word, 11U);
+  EXPECT_EQ(late.accesses[1]->payload.get_response_status(), tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(late.accesses[2]->payload.get_response_status(), tlm::TLM_ADDRESS_ERROR_RESPONSE);
+  for (const auto& access : late.accesses) EXPECT_EQ(access->payload.get_ref_count(), 0);
 }
 
 TEST_F(Registers, NamesAndTexts) {

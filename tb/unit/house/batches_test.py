@@ -18,9 +18,10 @@ LAYERS = ("spec", "golden", "rtl_model", "tb")
 BATCH = re.compile(r"_batch_\d+\.cpp$")
 INCLUDE = re.compile(r'^#include "(.+)"$', re.M)
 MOST = 12
-# Compiled under a condition only: by the presets asan and fuzz, and where EGL's headers are.
+# Compiled under a condition only: by the presets asan, fuzz and hdl, and where EGL's headers are.
 SOMETIMES = {"tb/unit/scene/leaks.cpp", "tb/fuzz/fuzzer.cpp", "tb/fuzz/write_seeds.cpp",
-             "tb/oracle/mesa_device.cpp", "tb/oracle/mesa_test.cpp"}
+             "tb/oracle/mesa_device.cpp", "tb/oracle/mesa_test.cpp", "tb/hdl/print_headers.cpp",
+             "tb/hdl/twin_address_unit_test.cpp", "tb/hdl/twin_filter_pipeline_test.cpp"}
 # One source each, so that the others can be compiled as they are.
 TINY = """cmake_minimum_required(VERSION 3.25)
 project(tiny LANGUAGES CXX)

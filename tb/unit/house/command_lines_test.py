@@ -146,6 +146,17 @@ class CommandLines(unittest.TestCase):
                 calls = [call for call in self.call("scripts/test", *arguments)[2] if "--build" in call]
                 self.assertEqual(calls, [f"cmake --build build/release --target {targets}"])
 
+    def test_labels_of_the_preset_hdl_choose_it_and_others_leave_them_out(self):
+        for arguments, preset, targets in (
+                (["-L", "^hdl$"], "hdl", "deburr_hdl_tests"),
+                (["-L", "^(hdl|formal)$"], "hdl", "deburr_hdl_tests deburr_formal_tests"),
+                (["-L", "^(smoke|hdl)$"], "release", "deburr_smoke_tests"),
+                (["--preset", "hdl", "-L", "^(smoke|formal)$"], "hdl", "deburr_smoke_tests deburr_formal_tests")):
+            with self.subTest(arguments=arguments):
+                calls = self.call("scripts/test", *arguments)[2]
+                self.assertIn(f"cmake --preset {preset} -DDEBURR_WERROR=ON", calls)
+                self.assertIn(f"cmake --build build/{preset} --target {targets}", calls)
+
     def test_a_choice_of_labels_installs_what_they_need(self):
         clang, slurm = ["clang", "libclang-rt-14-dev"], ["slurm-wlm"]
         for arguments, packages in (

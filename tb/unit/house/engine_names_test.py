@@ -17,8 +17,8 @@ import tempfile
 LIST = "tb/engines/engines.txt"
 LEFT_OUT = re.compile(r"docs/|README\.md|CHANGELOG\.md|LICENSES?|tb/mutation/|tb/unit/house/engine_names_test\.py|"
                       r"build/|out/|\.git/|\.ci/")
-# Of the composition, which is an engine of its own: its business are its parts.
-COMPOSITION = re.compile(r"(^|/)frame([_/.]|$)")
+# What runs compositions by name: their testplans, records and system tests. The composition itself names no part.
+COMPOSITION = re.compile(r"tb/engines/frame/[^/]*\.(yaml|json)$|tb/(system|negative)/frame_test\.py$")
 
 # engine -> why files name it -> which.
 NAMED = {
@@ -31,8 +31,13 @@ NAMED = {
         "the C interface is one of all engines: its tests, and what is built from installed files": [
             "examples/installed_test.py", "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
             "tb/unit/golden/c/threads_test.cpp"],
+        "the Python module is one of all engines: its functions, types and tests": [
+            "python/bindings/ideal_python.cpp", "python/deburr/__init__.pyi", "python/deburr/golden.py",
+            "python/deburr/golden.pyi", "tb/system/python_golden_test.py", "tb/system/python_run_test.py",
+            "tb/system/python_stubs_test.py"],
         "tables of pages are measured, its own among them": [
             "scripts/measurement/results.py"],
+        "its part of the command line is promised": ["tb/unit/app/stable.txt"],
     },
     "morphological": {
         "it blends in the same light, by the same tables": [
@@ -41,7 +46,8 @@ NAMED = {
             "tb/unit/golden/geometric/line_test.cpp"],
         "the field's word for such methods, or what they are compared with": [
             "golden/ideal/cmaa2.h", "golden/ideal/coverage.h", "golden/ideal/smaa.h", "tb/oracle/comparison.cpp",
-            "tb/oracle/geometric_quality_test.cpp", "tb/oracle/smaa_test.cpp", "tb/scene/truth.h"],
+            "tb/oracle/geometric_quality_test.cpp", "tb/oracle/harm.cpp", "tb/oracle/smaa_published_test.cpp",
+            "tb/oracle/smaa_test.cpp", "tb/scene/truth.h"],
         "papers whose methods it has": ["tb/papers/papers_000.cpp", "tb/papers/papers_003.cpp"],
         "lines and discs that its shares are measured and learned by": [
             "scripts/train-shares", "tb/stimuli/discs.cpp", "tb/stimuli/discs.h", "tb/stimuli/line_fans.cpp",
@@ -59,19 +65,25 @@ NAMED = {
             "examples/platform/expected.h", "examples/platform/main.cpp", "examples/platform/painter.cpp",
             "examples/platform/painter.h", "examples/systemverilog/edge_detector.sv",
             "examples/systemverilog/testbench.sv"],
+        "the Python module is one of all engines: its functions, types and tests": [
+            "python/bindings/frames.cpp", "python/bindings/frames.h", "python/bindings/ideal_python.cpp",
+            "python/deburr/__init__.pyi", "python/deburr/golden.py", "python/deburr/golden.pyi",
+            "tb/bench/python_frames.cpp", "tb/bench/python_golden.py", "tb/system/python_golden_test.py",
+            "tb/system/python_run_test.py", "tb/system/python_stubs_test.py"],
         "the C interface is one of all engines: its tests": [
             "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp"],
         "the one choice by which an engine has no memory": ["tb/traces/line_trace.cpp"],
         "names of memories are cut in a chart": ["tb/results/report.js"],
         "tables of pages are measured, its own among them": [
             "scripts/measurement/recipes.py", "scripts/measurement/results.py"],
+        "its part of the command line is promised": ["tb/unit/app/stable.txt"],
     },
 }
 
-# Rooms that name no engine: each is told what engines there are.
+# Rooms that name no engine: each is told what engines there are. So is the composition: its parts declare themselves.
 GENERAL = re.compile(r"CMakeLists\.txt|cmake/|golden/CMakeLists\.txt|rtl_model/CMakeLists\.txt|spec/[^/]*$|"
                      r"tb/(CMakeLists\.txt|app/|base/|command/|baselines/check\.py|fuzz/|regress/|results/|soak/|speed$|sweep/|testplan/|"
-                     r"engines/[^/]*$|unit/CMakeLists\.txt|system/smoke\.cmake)|scripts/coverage")
+                     r"engines/[^/]*$|engines/frame/[^/]*\.(h|cpp|txt)$|unit/engines/frame/|unit/CMakeLists\.txt|system/smoke\.cmake)|scripts/coverage")
 
 
 def files(root):
@@ -106,7 +118,7 @@ def general_naming(engine, texts):
                       rf"engine: {engine}\b")
     # Comments of lists and scripts may take an example.
     plain = [(name, text if name.endswith((".h", ".cpp")) else re.sub(r"(?m)^ *#.*", "", text))
-             for name, text in texts if GENERAL.match(name)]
+             for name, text in texts if GENERAL.match(name) and f"engines/{engine}/" not in name]
     return {f"{name}: {code.search(text)[0]}" for name, text in plain if code.search(text)}
 
 
@@ -130,8 +142,9 @@ def planted_faults_are_caught():
     """A small tree: what must be found, and what must not."""
     def tree(folder, **changed):
         texts = {LIST: "# engines\nfoo\nfrobber\n", "spec/frobber/parameters.h": "namespace spec::frobber",
-                 "tb/app/engine.cpp": "for (engine : engines())", "tb/frame_mix.cpp": "frobber",
-                 "tb/papers/one.cpp": "the frobber of 2016", "docs/a.md": "frobber", **changed}
+                 "tb/app/engine.cpp": "for (engine : engines())",
+                 "tb/papers/one.cpp": "the frobber of 2016", "docs/a.md": "frobber",
+                 "tb/engines/frame/smoke.yaml": "frobber", **changed}
         root = pathlib.Path(folder)
         for name, text in texts.items():
             (root / name).parent.mkdir(parents=True, exist_ok=True)
@@ -140,7 +153,9 @@ def planted_faults_are_caught():
     named = {"frobber": {"a paper": ["tb/papers/one.cpp"]}}
     expected = [({}, 0), ({"tb/soak/soak.cpp": 'if (engine == "foo")'}, 1), ({"tb/scene/a.cpp": "of the frobber"}, 1),
                 ({"tb/results/a.cpp": '"frobber."'}, 2), ({"tb/papers/one.cpp": "of 2016"}, 1),
-                ({"tb/sweep/a.h": "a foo is no engine here"}, 0)]
+                ({"tb/sweep/a.h": "a foo is no engine here"}, 0),
+                ({"tb/engines/frame/frame_mix.cpp": "spec::foo::Rules p"}, 1),
+                ({"tb/unit/engines/frame/a.cpp": "of the frobber"}, 1)]
     missed = []
     for changed, count in expected:
         with tempfile.TemporaryDirectory() as folder:

@@ -16,24 +16,26 @@ ALLOWED = {
     "spec": {"spec"},
     "golden": {"spec", "golden"},
     "rtl_model": {"spec", "rtl_model"},
+    "python": {"spec", "golden", "python"},
     "tb": {"spec", "golden", "rtl_model", "tb"},
 }
 # Rooms of tb that only tests look into; what the command is built from does not.
-TESTS_ALONE = {"unit", "system", "oracle", "negative", "bench", "baselines"}
+TESTS_ALONE = {"unit", "system", "oracle", "negative", "bench", "baselines", "hdl"}
 # rtl_model/platform is software's side: it knows engines by their registers in spec, and no engine
 # knows it.
 PLATFORM_MAY_INCLUDE = {"platform", "fabric"}
 # Rooms of tb from below: a room includes itself and what stands before it. Tests and benchmarks stand above all.
 ROOMS = ["base", "scene", "stimuli", "harness", "results", "traces", "env", "training", "app", "engines", "sweep",
          "regress", "command", "papers", "soak"]
-# Engines do not include each other; a composition stands on its parts.
-COMPOSITIONS = {"frame"}
 # Rooms that stand beside the simulation: no header on their way is SystemC's, which takes longer to compile than
 # all of theirs. Nor is json.hpp in a header, where json_fwd.hpp does.
 WITHOUT_SYSTEMC = {"base", "scene", "stimuli", "results", "training", "sweep", "regress", "command", "soak"}
 SYSTEMC = {"systemc", "tlm", "tlm_utils"}
 JSON = "nlohmann/json.hpp"
 SOURCE = {".h", ".cpp", ".cmake", ".py", ".txt"}
+# What hdl/ includes: headers that the build prints (tb/hdl/print_headers.cpp).
+PRINTED = {"tokens.svh", "tables.svh", "descriptor.svh"}
+INCLUDE_OF_HDL = re.compile(r'^\s*`include\s+"([^"]+)"')
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 FLOATING = re.compile(r"\b(float|double)\b")
 THREADS = re.compile(r"\bSC_C?THREAD\b")
@@ -50,8 +52,9 @@ def in_order(where, wanted):
     room, below = where[1], wanted[1]
     if room not in ROOMS or below not in ROOMS:
         return True
+    # Engines do not include each other, nor does a composition.
     if room == below == "engines" and len(where) > 3 and len(wanted) > 3:
-        return where[2] == wanted[2] or where[2] in COMPOSITIONS
+        return where[2] == wanted[2]
     return ROOMS.index(below) <= ROOMS.index(room)
 
 
@@ -102,9 +105,27 @@ def circles(root):
                 yield f"{line}: {folder} includes {wanted}, from where a way leads back"
 
 
+def violations_of_hdl(root):
+    """The units in SystemVerilog see nothing of golden/ and rtl_model/ but the printed headers."""
+    for path in sorted((root / "hdl").rglob("*")):
+        if not path.is_file():
+            continue
+        lines = path.read_text(encoding="utf-8").splitlines()
+        where = path.relative_to(root)
+        if path.suffix == ".svh":
+            yield f"{where}:1: a header beside those that the build prints"
+        if "SPDX-License-Identifier: MIT" not in "\n".join(lines[:3]):
+            yield f"{where}:1: no SPDX licence line"
+        for number, line in enumerate(lines, 1):
+            include = INCLUDE_OF_HDL.match(line)
+            if include and include.group(1) not in PRINTED:
+                yield f"{where}:{number}: hdl includes {include.group(1)}"
+
+
 def violations(root):
     """Yields 'file:line: rule' for every broken rule below root."""
     yield from circles(root)
+    yield from violations_of_hdl(root)
     for layer, allowed in ALLOWED.items():
         for path in sorted((root / layer).rglob("*")):
             if not path.is_file() or path.suffix not in SOURCE:
@@ -177,6 +198,7 @@ def planted_faults_are_caught():
         "rtl_model/fabric/a.cpp": '#include "rtl_model/platform/memory_model.h"',
         "golden/e.cpp": '#include "rtl_model/platform/foo_records.h"',
         "golden/d.cpp": "#include <systemc>",
+        "python/a.cpp": '#include "rtl_model/fabric/link.h"',
         "tb/b.cpp": "#include <systemc.h>",
         "tb/c.cpp": "assert(x > 0);",
         "tb/d.cpp": "#include <random>",
@@ -195,6 +217,8 @@ def planted_faults_are_caught():
         "golden/c/a.h": "#ifdef FAST",
         "golden/c/a.cpp": "#ifdef __cplusplus",
         "golden/d.h": "#ifdef __cplusplus",
+        "hdl/foo/a.sv": '`include "rtl_model/foo/tokens.svh"',
+        "hdl/foo/tokens.svh": "`define A 1",
     }
     missed = []
     for name, line in faults.items():

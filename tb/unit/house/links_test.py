@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Checks that every link of the README and of docs/ leads to a file and to a heading in it, that
-every page of docs/ is linked from somewhere, that no template placeholder was left standing, and
+"""Checks that every link of the pages in the root and in docs/ leads to a file and to a heading in it, that
+every page is linked from somewhere, that no template placeholder was left standing, and
 that paths and C++ names which are set as code there, and paths in scripts/, are those of the
 tree. NAME in a path stands for any."""
 import argparse
@@ -15,11 +15,11 @@ LINK = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)")
 HEADING = re.compile(r"#+\s+(.*)")
 PLACEHOLDER = re.compile(r"@[A-Z_]{3,}@")
 CODE = re.compile(r"`([^`]+)`")
-FOLDERS = ("cmake", "docs", "examples", "golden", "rtl_model", "scripts", "spec", "tb")
+FOLDERS = ("cmake", "docs", "examples", "golden", "python", "rtl_model", "scripts", "spec", "tb")
 PATH = re.compile(rf"(?<![\w./-])((?:{'|'.join(FOLDERS)})/[\w./-]*\w/?|(?:\w+/)+\w+\.(?:h|cpp|py|md))(?![\w/{{])")
 # Qualified names, and single ones that can be no other word: CamelCase, kCamelCase.
 NAME = re.compile(r"(?<![\w:])(?:[A-Za-z_]\w*::)+\w+|\b[A-Z][a-z]+[A-Z]\w*|\bk[A-Z]\w+")
-SOURCES = (".h", ".cpp", ".cmake", ".txt", ".in")
+SOURCES = (".h", ".cpp", ".py", ".cmake", ".txt", ".in")
 
 
 def anchors(page):
@@ -84,7 +84,8 @@ def problems(root):
     """Yields 'file:line: what' for every problem below root."""
     tree = Tree(root)
     yield from script_problems(tree, root)
-    pages = [root / "README.md", *sorted((root / "docs").glob("*.md"))]
+    # The change log may speak of what was.
+    pages = [page for folder in (root, root / "docs") for page in sorted(folder.glob("*.md")) if page.name != "CHANGELOG.md"]
     linked = set()
     for page in pages:
         fenced = False
@@ -106,8 +107,8 @@ def problems(root):
                     yield f"{where}: link to {target}#{anchor}, a heading that does not exist"
             if PLACEHOLDER.search(line):
                 yield f"{where}: a placeholder was left standing"
-    for page in pages[1:]:
-        if page.resolve() not in linked:
+    for page in pages:
+        if page.name != "README.md" and page.resolve() not in linked:
             yield f"{page.relative_to(root)}:1: no page links to it"
 
 

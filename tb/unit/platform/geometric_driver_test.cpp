@@ -191,26 +191,34 @@ TEST(GeometricDriver, WritesRulesAsFieldsOfARegister) {
     b.driver.set_rules(rules);
     return b.registers.values[reg::kRules];
   };
-  Parameters p;  // edges 1, shading 2, farther 2, max 0, linear light, bias 9, tiled
-  EXPECT_EQ(written(p), 0x49A9u);
+  Parameters p;  // edges 1, linear light, shading 2, farther 2, max 0, bias 9, tiled, cull back
+  EXPECT_EQ(written(p), 0x2492Bu);
   p.select = spec::geometric::Select::kAll;
-  EXPECT_EQ(written(p), 0x49A8u);
+  EXPECT_EQ(written(p), 0x2492Au);
   p.crease = spec::geometric::Crease::kPaper;
-  EXPECT_EQ(written(p), 0x49A4u);
+  EXPECT_EQ(written(p), 0x24926u);
   p.depth_test = spec::geometric::DepthTest::kOwn;
-  EXPECT_EQ(written(p), 0x4994u);
+  EXPECT_EQ(written(p), 0x24916u);
   p.combine = spec::geometric::Combine::kLast;
-  EXPECT_EQ(written(p), 0x49D4u);
+  EXPECT_EQ(written(p), 0x24956u);
   p.linear_light = false;
-  EXPECT_EQ(written(p), 0x4954u);
+  EXPECT_EQ(written(p), 0x24954u);
   p.depth_bias = 24;
-  EXPECT_EQ(written(p), 0x5854u);
+  EXPECT_EQ(written(p), 0x25854u);
   p.mark = true;
-  EXPECT_EQ(written(p), 0x7854u);
+  EXPECT_EQ(written(p), 0x27854u);
   p.layout = Layout::kRaster;
-  EXPECT_EQ(written(p), 0x3854u);
+  EXPECT_EQ(written(p), 0x23854u);
   p.frame_copy = true;
-  EXPECT_EQ(written(p), 0xB854u);
+  EXPECT_EQ(written(p), 0x2B854u);
+  p.coverage = spec::geometric::CoverageRule::kArea;
+  EXPECT_EQ(written(p), 0x3B854u);
+  p.cull = spec::geometric::Cull::kNone;
+  EXPECT_EQ(written(p), 0x1B854u);
+  p.crease_depth = 24;
+  EXPECT_EQ(written(p), 0x61B854u);
+  p.combine = spec::geometric::Combine::kOutermost;
+  EXPECT_EQ(written(p), 0x61B894u);
 }
 
 TEST(GeometricDriver, ReadsWhatTheEngineShows) {
@@ -331,7 +339,7 @@ TEST(GeometricDriver, TheCopyNeedsRoomOnlyWhereFramesAreCopied) {
   b.driver.place(GeometricRegions({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0x6000, 0x6000}));
   EXPECT_THAT(rejection(b, b.frame()), HasSubstr("overlaps"));
   b.driver.set_rules(Bed::raster());
-  EXPECT_EQ(b.registers.written.back(), (std::pair{0x10u, 0x09A9u}));
+  EXPECT_EQ(b.registers.written.back(), (std::pair{0x10u, 0x2092Bu}));
   EXPECT_EQ(rejection(b, b.frame()), "");
 }
 

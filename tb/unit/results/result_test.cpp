@@ -15,6 +15,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "spec/error.h"
@@ -24,6 +25,7 @@
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
 #include "tb/results/run_context.h"
+#include "tb/scene/png.h"
 
 namespace deburr::tb::result_test {
 namespace {
@@ -72,8 +74,18 @@ Result sample_result() {
   r.figures = {{"Fragments", "work.fragments", "a remark"},
                {"Whole run", "cycles", "bound", "work.bound", true}};
   r.work.push_back({"bound", 50000u, "clk", "The least."});
-  r.quality = Quality{
-      "supersampled-256", 41.25, std::numeric_limits<double>::infinity(), {}, 35.5, 30.25, {}};
+  r.quality = Quality{"supersampled-256",
+                      41.25,
+                      std::numeric_limits<double>::infinity(),
+                      {},
+                      35.5,
+                      30.25,
+                      {},
+                      0.0125,
+                      0.05,
+                      0.9875,
+                      0.95};
+  r.change = Change{12.5, 3.25, 1.5, 0.5, 38.25};
   r.host_seconds = 0.05;
   return r;
 }
@@ -135,7 +147,7 @@ TEST(ResultJson, HasTheKeysOfSchemaThreeInOrder) {
   EXPECT_THAT(keys, testing::ElementsAre("schema", "unit", "verdict", "checks", "scoreboards",
                                          "cycles", "clock_mhz", "throughput", "latency", "memory",
                                          "units", "bottleneck", "memories", "memory_bits", "work",
-                                         "figures", "quality", "host", "meaning"));
+                                         "figures", "quality", "change", "host", "meaning"));
   EXPECT_EQ(json["schema"], 3);
   EXPECT_EQ(json["checks"]["comparisons"], 1000);
   EXPECT_EQ(json["units"]["address"]["stalls"]["downstream"], 1321);
@@ -167,7 +179,8 @@ constexpr const char* kFullResult = R"json({
       {"from": 128, "count": 40}
     ]
   },
-  "memory": {"bytes_read": 640000, "bytes_written": 64, "lines_filled": 10000},
+  "memory": {"bytes_read": 640000, "bytes_written": 64, "read_gb_per_s": 1.96367519007382,
+             "written_gb_per_s": 0.00019636751900738202, "lines_filled": 10000},
   "units": {
     "address": {"busy": 40000, "idle": 13000, "stalls": {"downstream": 1321}},
     "cache": {"busy": 53000, "idle": 321, "stalls": {"downstream": 0, "wait_fill": 1000}}
@@ -243,7 +256,13 @@ constexpr const char* kFullResult = R"json({
     "identical": {
       "psnr_db": false, "psnr_edge_db": true, "psnr_silhouette_db": false,
       "psnr_before_db": false, "psnr_edge_before_db": false, "psnr_silhouette_before_db": false
-    }
+    },
+    "flip": 0.0125, "flip_before": 0.05, "ssim": 0.9875, "ssim_before": 0.95
+  },
+  "change": {
+    "over_2_percent": 12.5, "over_16_percent": 3.25,
+    "right_over_2_percent": 1.5, "right_over_16_percent": 0.5,
+    "psnr_db": 38.25, "identical": {"psnr_db": false}
   },
   "host": {"seconds": 0.05, "mcycles_per_s": 1.08642, "cpu_seconds": 0.04},
   "coverage": {"bins": {"footprint/rule/half": 3, "footprint/rule/max": 0}}
@@ -316,6 +335,11 @@ TEST_F(Directory, IdenticalPicturesAreNullInTheFileAndInfiniteForItsReaders) {
   EXPECT_TRUE(is_infinite(read["quality"]["psnr_edge_db"]));
   EXPECT_FALSE(is_infinite(read["quality"]["psnr_db"]));
   EXPECT_TRUE(read["quality"]["psnr_silhouette_db"].is_null());
+  EXPECT_EQ(read["change"]["psnr_db"], 38.25);
+  Result unchanged = sample_result();
+  unchanged.change->psnr_db = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(to_json(unchanged)["change"]["psnr_db"].is_null());
+  EXPECT_TRUE(is_infinite(as_read(unchanged)["change"]["psnr_db"]));
   EXPECT_EQ(with_infinity(read), read);
   EXPECT_EQ(with_infinity(Json{{"cycles", 1}}), (Json{{"cycles", 1}}));
   EXPECT_EQ(read.dump(), to_json(sample_result()).dump()) << "and null when it is written again";
@@ -407,6 +431,13 @@ TEST(Compare, EachJudgedValueIsJudgedInItsDirection) {
   EXPECT_FALSE(worse([](Result& r) { r.quality->psnr_db = INFINITY; })) << "identical now";
   EXPECT_TRUE(worse([](Result& r) { r.quality->psnr_edge_db.reset(); })) << "gone";
   EXPECT_TRUE(worse([](Result& r) { r.quality.reset(); })) << "a quality that is gone";
+  EXPECT_TRUE(worse([](Result& r) { r.quality->flip = 0.0131; }));
+  EXPECT_FALSE(worse([](Result& r) { r.quality->flip = 0.0129; })) << "within 0.0005";
+  EXPECT_FALSE(worse([](Result& r) { r.quality->flip = 0.001; })) << "less is better";
+  EXPECT_TRUE(worse([](Result& r) { r.quality->ssim = 0.9869; }));
+  EXPECT_FALSE(worse([](Result& r) { r.quality->ssim = 0.9871; })) << "within 0.0005";
+  EXPECT_FALSE(worse([](Result& r) { r.quality->ssim = 1; }));
+  EXPECT_FALSE(worse([](Result& r) { r.change->small_percent = 50; })) << "it may be meant";
   EXPECT_FALSE(worse([](Result& r) { r.host_seconds = 100; })) << "the host is not judged";
 }
 
@@ -425,8 +456,9 @@ TEST(Compare, OnlyWhatDiffersOrIsWorseIsListed) {
   EXPECT_TRUE(compare(a, a, {}).values.empty());
   Result r = sample_result();
   r.cycles += 1;
-  ASSERT_EQ(compare(a, to_json(r), {}).values.size(), 1u);
-  EXPECT_EQ(compare(a, to_json(r), {}).values[0].key, "cycles");
+  std::vector<std::string> keys;
+  for (const auto& value : compare(a, to_json(r), {}).values) keys.push_back(value.key);
+  EXPECT_THAT(keys, ::testing::ElementsAre("cycles", "memory.read_gb_per_s"));
   r.cycles -= 1;
   r.mismatches = 3;
   const Comparison same = compare(to_json(r), to_json(r), {});
@@ -517,11 +549,18 @@ class Page : public Directory {
 TEST_F(Page, ShowsWhatTheIssueAsksForFirst) {
   const std::string page = page_of(sample_result());
   EXPECT_THAT(page, HasSubstr("bound 50,000, +8.6\u00a0%")) << "the tile, against its formula";
-  EXPECT_THAT(page, HasSubstr("<td>Whole frame</td><td class=\"n\">35.50</td><td class=\"n\">"
-                              "41.25</td><td class=\"n\">+5.75</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>PSNR, whole frame</td><td class=\"n\">35.50</td>"
+                              "<td class=\"n\">41.25</td><td class=\"n\">+5.75</td><td>dB</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>FLIP, less is better</td><td class=\"n\">0.0500</td>"
+                              "<td class=\"n\">0.0125</td><td class=\"n\">-0.0375</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>SSIM</td><td class=\"n\">0.9500</td>"
+                              "<td class=\"n\">0.9875</td><td class=\"n\">+0.0375</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>Changed by more than 2 codes</td><td class=\"n\">12.50</td>"
+                              "<td class=\"n\">1.50</td><td>%</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>PSNR to what went in</td><td class=\"n\">38.25</td>"));
   EXPECT_THAT(page, HasSubstr("<td class=\"n\">identical</td>"));
   EXPECT_THAT(page, HasSubstr("PSNR, edge pixels</")) << "and not the frame's for want of a number";
-  EXPECT_THAT(page, Not(HasSubstr("Silhouette pixels"))) << "there was no depth";
+  EXPECT_THAT(page, Not(HasSubstr("silhouette pixels"))) << "there was no depth";
   EXPECT_THAT(page, HasSubstr("<td>cache_lines</td><td>flops</td><td class=\"n\">80 x 64</td>"
                               "<td>2R1W</td><td class=\"n\">1</td><td>2 copies of 1R1W</td>"
                               "<td class=\"n\">1,280</td><td class=\"n\">5,120</td>"));
@@ -568,17 +607,50 @@ TEST_F(Page, SaysThatAMemoryIsIdealised) {
   EXPECT_THAT(page, HasSubstr("cache_lines (nine ports)"));
 }
 
+// It is made of what was written, not of what is read; readers take other types, and null.
+TEST_F(Page, IsThatOfTheFile) {
+  Result result = full_result();
+  result.work.push_back({"unbounded", std::numeric_limits<double>::infinity(), "", "No end."});
+  result.work.push_back({"undefined", std::numeric_limits<double>::quiet_NaN(), "", "0 / 0."});
+  result.work.push_back({"whole", 7.0, "", "Without a fraction."});
+  result.throughput = std::numeric_limits<double>::quiet_NaN();
+  const std::string page = page_of(result);
+  EXPECT_EQ(page, build_report(path_));
+}
+
+// The golden model's picture is written from the hardware model's if it is the same one.
+TEST_F(Directory, KeepsPicturesApart) {
+  ParameterSet parameters;
+  RunContext context(path_, parameters, "x", 0);
+  context.set_leaves({{"a", "b", "c", "d"}, {}});
+  context.claim();
+  const Image first(4, 2, {1, 2, 3, 255}), taller(2, 4, {1, 2, 3, 255});
+  Image other = first;
+  other.pixels[7][1] = 9;
+  const std::vector<std::pair<std::string, Image>> all = {
+      {"a", first}, {"b", first}, {"c", other}, {"d", taller}};
+  for (const auto& [name, image] : all) context.add_image(name, image, "", "");
+  context.finish(sample_result());
+  for (const auto& [name, image] : all)
+    EXPECT_EQ(read_file(path_ / (name + ".png"), 1 << 20), encode_png(image)) << name;
+}
+
 // A result.json of an earlier version has none of the newer keys.
 TEST_F(Page, CanBeMadeFromAnOlderResult) {
   page_of(sample_result());
   Json json = Json::parse(read_file(path_ / "result.json", 1 << 20));
   for (const char* key : {"bottleneck", "figures"}) json.erase(key);
   json["throughput"].erase("bound_meaning");
-  for (const char* key : {"psnr_before_db", "psnr_edge_before_db"}) json["quality"].erase(key);
+  for (const char* key :
+       {"psnr_before_db", "psnr_edge_before_db", "flip", "flip_before", "ssim", "ssim_before"})
+    json["quality"].erase(key);
+  json.erase("change");
   std::ofstream(path_ / "result.json") << json.dump();
   const std::string page = build_report(path_);
   EXPECT_THAT(page, HasSubstr("<td>cache_lines</td><td>flops</td>"));
   EXPECT_THAT(page, Not(HasSubstr("Key figures")));
+  EXPECT_THAT(page, Not(HasSubstr("FLIP, less is better")));
+  EXPECT_THAT(page, Not(HasSubstr("What was changed")));
 }
 
 TEST_F(Directory, AManifestCannotPullInFilesFromElsewhere) {

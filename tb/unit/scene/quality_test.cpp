@@ -31,6 +31,9 @@ TEST(Quality, PsnrKnownAnswers) {
   EXPECT_EQ(count_different(a, b), 1);
   EXPECT_EQ(count_different(a, b, 30), 0);
   EXPECT_EQ(max_difference(a, b), 30);
+  EXPECT_EQ(count_different(a, b, mask), 1);
+  EXPECT_EQ(count_different(a, b, mask, 30), 0);
+  EXPECT_EQ(count_different(a, b, inverted(mask)), 0) << "it is not selected";
 }
 
 TEST(Quality, EdgesAndSilhouettes) {
@@ -41,6 +44,7 @@ TEST(Quality, EdgesAndSilhouettes) {
   const Mask edges = edge_mask(truth, input);
   EXPECT_EQ(edges.pixels, (std::vector<std::uint8_t>{0, 0, 1, 0, 1}));
   EXPECT_EQ(count(edges), 2);
+  EXPECT_EQ(inverted(edges).pixels, (std::vector<std::uint8_t>{1, 1, 0, 1, 0}));
 
   DepthImage depth(5, 1);
   depth.pixels = {1.0f, 1.0f, 1.04f, 1.06f, 1.0f};  // around pixel 2: 4 % and 1.9 %; around 4: 6 %

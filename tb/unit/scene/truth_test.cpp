@@ -255,5 +255,23 @@ TEST(Data, FramesOfTheTrackLookAlike) {
   EXPECT_GT(psnr(render(track(data), options), theirs), 26.0);  // the lights are not the same
 }
 
+// Edges alone are smoothed: where no edge is, a pixel is that of one sample, textures and all.
+TEST(Covered, IsTheFrameButAtItsEdges) {
+  SceneOptions options;
+  options.texture_size = 256;
+  const Scene scene = make_scene("object", options);
+  const LitFrames lit = render_lit_frames(scene, 160, 120, 8);
+  EXPECT_EQ(render_covered(scene, 160, 120, 1), lit.noaa);
+  const Image covered = render_covered(scene, 160, 120, 8);
+  const Mask edges = edge_mask(covered, lit.noaa);
+  EXPECT_GT(count(edges), 300);
+  EXPECT_LT(count(edges), 160 * 120 / 8);
+  // Supersampling blurs the texture as well.
+  EXPECT_GT(count(edge_mask(lit.truth, lit.noaa)), 2 * count(edges));
+  // Both see the same coverage.
+  EXPECT_GT(psnr(covered, lit.truth, edges), psnr(lit.noaa, lit.truth, edges) + 4.0);
+  EXPECT_THROW(render_covered(scene, 8, 8, 9), spec::ConfigError);
+}
+
 }  // namespace
 }  // namespace deburr::tb::truth_test

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What a whole frame has from the environments that it is composed of.
+// What a whole frame has from the environments that it is composed of, whichever they are.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <variant>
+#include <vector>
 
-#include "golden/morphological/configuration.h"
 #include "spec/error.h"
 #include "tb/base/forked.h"
 #include "tb/engines/frame/frame_composition.h"
@@ -15,17 +17,58 @@
 namespace deburr::tb::composition_test {
 namespace {
 
-constexpr Smoothing kAll[] = {Smoothing::kMorphological, Smoothing::kGeometric,
-                              Smoothing::kGeometricMorphological};
+using Settings = std::vector<std::pair<std::string, std::string>>;
 
-SceneParameters small_object() {
-  SceneParameters scene;
-  scene.source = "object";
-  scene.texture_size = 64;
-  scene.width = 48;
-  scene.height = 32;
-  return scene;
+// The first of each kind of composition.
+enum class Kind { kRows, kMesh, kBoth };
+constexpr Kind kAll[] = {Kind::kRows, Kind::kMesh, Kind::kBoth};
+
+const Smoothing& first_of(const FrameRoles& roles, Kind kind) {
+  for (const Smoothing& s : roles.smoothings())
+    if ((s.mesh != nullptr) == (kind != Kind::kRows) &&
+        (s.rows != nullptr) == (kind != Kind::kMesh))
+      return s;
+  throw spec::ConfigError("no such composition");
 }
+
+// Names of parameters, "rows:storage" being the row smoother's, "mesh_memory:latency" its memory's.
+std::string name_in(const Smoothing& s, const std::string& name) {
+  const std::size_t colon = name.find(':');
+  if (colon == std::string::npos) return name;
+  const std::string of = name.substr(0, colon);
+  const PictureSmoother& smoother =
+      of.starts_with("rows") ? static_cast<const PictureSmoother&>(*s.rows) : *s.mesh;
+  const std::vector<std::string> prefixes = smoother.prefixes();
+  return (of.ends_with("_memory") ? prefixes.back() : prefixes.front()) + name.substr(colon + 1);
+}
+
+struct Given {
+  Kind kind = Kind::kRows;
+  Settings settings{};
+};
+
+// The roles as a run has them: its parameters, set and resolved.
+struct Resolved {
+  explicit Resolved(const Given& given) {
+    set.add("run", ParameterKind::kRun, run);
+    roles.add_parameters(set);
+    const Smoothing& smoothing = first_of(roles, given.kind);
+    set.set("frame.smoothing", smoothing.name, "test");
+    for (const auto& [name, value] :
+         Settings{{"scene.texture_size", "64"}, {"scene.width", "48"}, {"scene.height", "32"}})
+      set.set(name, value, "test");
+    for (const auto& [name, value] : given.settings)
+      set.set(name_in(smoothing, name), value, "test");
+    roles.resolve(set);
+  }
+  std::shared_ptr<const DrawnScene> scene() const {
+    RunContext context("", set, "", 1);
+    return roles.drawer().load(1, context);
+  }
+  RunParameters run;
+  FrameRoles roles;
+  ParameterSet set;
+};
 
 struct Outcome {
   std::uint64_t cycles, comparisons, mismatches, traffic, pixels, colours, blended, left;
@@ -33,11 +76,19 @@ struct Outcome {
   bool memory_errors;
 };
 
-Outcome run(const SimulationOptions& options, const FrameSetup& setup) {
+// A counter of the hardware, whatever engine and unit it is of.
+std::uint64_t counter(const Result& result, std::string_view end) {
+  for (const WorkItem& item : result.work)
+    if (item.name.ends_with(end)) return std::get<std::uint64_t>(item.value);
+  return 0;
+}
+
+Outcome run(const SimulationOptions& options, const Given& given) {
   return forked<Outcome>([&] {
-    const TextureScene scene(small_object(), {}, 1);
+    const Resolved resolved(given);
+    const std::shared_ptr<const DrawnScene> scene = resolved.scene();
     Simulation simulation(options);
-    FrameComposition frame(simulation, scene, setup);
+    FrameComposition frame(simulation, *scene, resolved.roles);
     simulation.elaborate(frame);
     bool memory_errors = false;
     try {
@@ -48,36 +99,18 @@ Outcome run(const SimulationOptions& options, const FrameSetup& setup) {
     frame.check();
     Result result;
     simulation.collect(result);
-    Outcome o{result.cycles,
-              result.comparisons,
-              result.mismatches,
-              result.traffic_comparisons,
-              frame.delivered(),
-              frame.texture.delivered(),
-              0,
-              0,
-              0,
-              0,
-              memory_errors};
-    if (frame.geometric) o.blended = frame.geometric->engine().work().blended_pixels;
-    if (frame.morphological) o.left = frame.morphological->engine().work().left_pixels;
-    for (const WorkItem& item : result.work) {
-      if (item.name == "drawing_clocks") o.drawing = std::get<std::uint64_t>(item.value);
-      if (item.name == "engine_clocks_bound") o.bound = std::get<std::uint64_t>(item.value);
-    }
-    return o;
+    return Outcome{result.cycles,
+                   result.comparisons,
+                   result.mismatches,
+                   result.traffic_comparisons,
+                   frame.delivered(),
+                   frame.drawing().environment().amount().delivered,
+                   counter(result, "_resolver_blended_pixels"),
+                   counter(result, "_left_pixels"),
+                   counter(result, "drawing_clocks"),
+                   counter(result, "engine_clocks_bound"),
+                   memory_errors};
   });
-}
-
-FrameSetup setup_of(Smoothing smoothing) {
-  FrameSetup setup;
-  setup.smoothing = smoothing;
-  if (smoothing == Smoothing::kGeometricMorphological) {
-    setup.geometric.geometric.mark = true;
-    setup.morphological.morphological =
-        golden::morphological::following_geometric(setup.morphological.morphological);
-  }
-  return setup;
 }
 
 TEST(FrameComposition, IsJudgedAtBothEnginesAndTheirRegisters) {
@@ -90,8 +123,8 @@ TEST(FrameComposition, IsJudgedAtBothEnginesAndTheirRegisters) {
 }
 
 // Lines, candidates and blocks besides its pixels, which are those in memory.
-TEST(FrameComposition, TheGeometricEngineTakesTheFrameOverWhenItIsComplete) {
-  const Outcome o = run({}, setup_of(Smoothing::kGeometric));
+TEST(FrameComposition, WhoSmoothsAlongEdgesTakesTheFrameOverWhenItIsComplete) {
+  const Outcome o = run({}, {Kind::kMesh});
   EXPECT_EQ(o.mismatches, 0u);
   EXPECT_EQ(o.pixels, 48u * 32u);
   EXPECT_GT(o.blended, 20u);
@@ -101,42 +134,39 @@ TEST(FrameComposition, TheGeometricEngineTakesTheFrameOverWhenItIsComplete) {
   EXPECT_GE(o.cycles, o.bound);
 }
 
-TEST(FrameComposition, TheMorphologicalEngineFollowsTheGeometricOne) {
-  const Outcome geometric = run({}, setup_of(Smoothing::kGeometric));
-  const Outcome both = run({}, setup_of(Smoothing::kGeometricMorphological));
+TEST(FrameComposition, WhoSmoothsRowsFollowsWhoSmoothsAlongEdges) {
+  const Outcome first = run({}, {Kind::kMesh});
+  const Outcome both = run({}, {Kind::kBoth});
   EXPECT_EQ(both.mismatches, 0u);
   EXPECT_EQ(both.pixels, 48u * 32u);
-  EXPECT_EQ(both.blended, geometric.blended);
+  EXPECT_EQ(both.blended, first.blended);
   EXPECT_GT(both.left, 10u);
-  EXPECT_EQ(both.drawing, geometric.drawing);
+  EXPECT_EQ(both.drawing, first.drawing);
   // One after the other, each whole.
   constexpr std::uint64_t kRows = 32, kWidth = 48, kReach = 32;
-  EXPECT_GT(both.cycles, geometric.cycles + (kRows + kReach + 5) * kWidth);
-  EXPECT_LT(both.cycles, geometric.cycles + (kRows + kReach + 5) * kWidth + 400);
+  EXPECT_GT(both.cycles, first.cycles + (kRows + kReach + 5) * kWidth);
+  EXPECT_LT(both.cycles, first.cycles + (kRows + kReach + 5) * kWidth + 400);
 }
 
 TEST(FrameComposition, NoiseInUnwrittenFieldsChangesNothing) {
   SimulationOptions poisoned;
   poisoned.poison = true;
   poisoned.stall_permille = 100;
-  for (const Smoothing smoothing : kAll)
-    EXPECT_EQ(run(poisoned, setup_of(smoothing)).mismatches, 0u);
+  for (const Kind kind : kAll) EXPECT_EQ(run(poisoned, {kind}).mismatches, 0u);
 }
 
 TEST(FrameComposition, AResetInMidFrameBeginsItAgain) {
-  FrameSetup in_memory;
-  in_memory.morphological.morphological.storage = spec::morphological::Storage::kMemory;
-  for (const FrameSetup& setup : {FrameSetup{}, in_memory, setup_of(Smoothing::kGeometric),
-                                  setup_of(Smoothing::kGeometricMorphological)}) {
-    const Outcome whole = run({}, setup);
+  for (const Given& given : {Given{}, Given{Kind::kRows, {{"rows:storage", "memory"}}},
+                             Given{Kind::kMesh}, Given{Kind::kBoth}}) {
+    const Outcome whole = run({}, given);
     std::set<rtl::Cycle> moments = {100, 1500, 3000};
     // While edges are drawn, and while rows go out.
-    if (setup.smoothing != Smoothing::kMorphological)
+    if (given.kind != Kind::kRows)
       moments.insert({whole.cycles - 60, whole.cycles - whole.drawing / 2});
     for (const rtl::Cycle at : moments) {
       SimulationOptions broken_off;
       broken_off.reset_after = at;
-      const Outcome again = run(broken_off, setup);
+      const Outcome again = run(broken_off, given);
       EXPECT_EQ(again.pixels, whole.pixels) << at;
       EXPECT_EQ(again.cycles, whole.cycles) << at;
       EXPECT_EQ(again.mismatches, 0u) << at;
@@ -144,33 +174,22 @@ TEST(FrameComposition, AResetInMidFrameBeginsItAgain) {
   }
 }
 
-TEST(FrameComposition, ErrorsOfEitherMemoryArePredictedAndReported) {
-  FrameSetup texels;
-  texels.texture.memory.error_address = 0;
-  texels.texture.memory.error_bytes = 1 << 20;
-  EXPECT_TRUE(run({}, texels).memory_errors);
-  FrameSetup pixels;
-  pixels.morphological.morphological.storage = spec::morphological::Storage::kMemory;
-  pixels.morphological.memory.error_address = 0;
-  EXPECT_TRUE(run({}, pixels).memory_errors);
-  // Of everything that the geometric engine reads and writes; what follows gets what is left.
-  for (const Smoothing smoothing : {Smoothing::kGeometric, Smoothing::kGeometricMorphological}) {
-    FrameSetup edges = setup_of(smoothing);
-    edges.geometric.memory.error_address = 0;
-    edges.geometric.memory.error_bytes = 1 << 20;
-    const Outcome o = run({}, edges);
+TEST(FrameComposition, ErrorsOfEveryMemoryArePredictedAndReported) {
+  const std::string all = std::to_string(1 << 20);
+  const Settings texels = {{"memory.error_address", "0"}, {"memory.error_bytes", all}};
+  EXPECT_TRUE(run({}, {Kind::kRows, texels}).memory_errors);
+  const Settings pixels = {{"rows:storage", "memory"}, {"rows_memory:error_address", "0"}};
+  EXPECT_TRUE(run({}, {Kind::kRows, pixels}).memory_errors);
+  // Of everything that is read and written along edges; what follows gets what is left.
+  for (const Kind kind : {Kind::kMesh, Kind::kBoth}) {
+    const Settings edges = {{"mesh_memory:error_address", "0"}, {"mesh_memory:error_bytes", all}};
+    const Outcome o = run({}, {kind, edges});
     EXPECT_TRUE(o.memory_errors);
     EXPECT_EQ(o.mismatches, 0u);
   }
 }
 
-// A figure of one part must not hide that of another.
-class EveryFigure : public testing::TestWithParam<Smoothing> {};
-
-TEST_P(EveryFigure, HasANameOfItsOwn) {
-  const TextureScene scene(small_object(), {}, 1);
-  Simulation simulation({});
-  FrameComposition frame(simulation, scene, setup_of(GetParam()));
+void each_figure_has_a_name_of_its_own(Simulation& simulation, FrameComposition& frame) {
   simulation.elaborate(frame);
   Result result;
   simulation.collect(result);
@@ -186,7 +205,26 @@ TEST_P(EveryFigure, HasANameOfItsOwn) {
   }
 }
 
+// A figure of one part must not hide that of another.
+class EveryFigure : public testing::TestWithParam<Kind> {};
+
+TEST_P(EveryFigure, HasANameOfItsOwn) {
+  const Resolved resolved({GetParam()});
+  const std::shared_ptr<const DrawnScene> scene = resolved.scene();
+  Simulation simulation({});
+  FrameComposition frame(simulation, *scene, resolved.roles);
+  each_figure_has_a_name_of_its_own(simulation, frame);
+}
+
 INSTANTIATE_TEST_SUITE_P(FrameComposition, EveryFigure, testing::ValuesIn(kAll));
+
+TEST(FrameComposition, OfAllEnginesIsDescribedAndNeverRuns) {
+  const Resolved resolved({});
+  const std::shared_ptr<const DrawnScene> scene = resolved.scene();
+  Simulation simulation({});
+  const auto frame = FrameComposition::of_all(simulation, *scene, resolved.roles);
+  each_figure_has_a_name_of_its_own(simulation, *frame);
+}
 
 }  // namespace
 }  // namespace deburr::tb::composition_test

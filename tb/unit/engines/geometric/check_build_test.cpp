@@ -17,7 +17,12 @@ BuildChecks<Parameters, rtl::geometric::GeometricEngine> checks() {
           {
               {{{"reciprocal_table", "4"}}, "reciprocal_table", "use 0, or pipelined = false"},
               {{{"face_limit", "8193"}}, "face_limit", "multiple of 512"},
-              {{{"memory.outstanding", "63"}}, "fills", "fills = 64 with memory.outstanding = 63"},
+              {{{"fills", "7"}}, "fills", "at least 8 lines"},
+              {{{"fills", "64"}, {"memory.outstanding", "63"}},
+               "fills",
+               "fills = 64 with memory.outstanding = 63"},
+              {{{"resolve_lines", "15"}}, "resolve_lines", "at least 16 lines"},
+              {{{"frame_copy", "true"}, {"copy_lines", "1"}}, "copy_lines", "at least 2 lines"},
           }};
 }
 

@@ -19,6 +19,7 @@ using golden::geometric::is_kept;
 using golden::geometric::preset_parameters;
 using golden::geometric::refusal;
 using spec::geometric::Crease;
+using spec::geometric::Cull;
 using spec::geometric::Edge;
 using spec::geometric::EdgeClass;
 using spec::geometric::Parameters;
@@ -36,7 +37,7 @@ EdgeClass from_the_page(const Rules& rules, int flags, bool front0, bool front1)
   if ((flags & 1) != 0) return EdgeClass::kBoundary;
   if (rules.select == Select::kAll) return EdgeClass::kUnclassified;
   if (front0 != front1) return EdgeClass::kSilhouette;
-  if (!front0) return EdgeClass::kBack;
+  if (!front0 && rules.cull == Cull::kBack) return EdgeClass::kBack;
   const bool paper = (flags & 2) != 0;
   const bool shading = (flags & 6) == 6 || (flags & 8) != 0;
   const bool crease = rules.crease == Crease::kPaper     ? paper
@@ -49,25 +50,28 @@ TEST(Classify, AllFlagsFacingsAndRules) {
   int seen = 0;
   for (const Select select : kSelects) {
     for (const Crease crease : kCreases) {
-      Rules rules;
-      rules.select = select;
-      rules.crease = crease;
-      for (int flags = 0; flags < 256; ++flags) {
-        for (int facings = 0; facings < 4; ++facings) {
-          // Faces 3 and 10: bits of different bytes.
-          const std::array<std::uint8_t, 2> bytes = {
-              static_cast<std::uint8_t>((facings & 1) != 0 ? 8 : 0),
-              static_cast<std::uint8_t>((facings & 2) != 0 ? 4 : 0)};
-          const Edge edge{0, 1, 3, 10, static_cast<std::uint8_t>(flags)};
-          EXPECT_EQ(classify(rules, edge, 2, {bytes, 11}),
-                    from_the_page(rules, flags, (facings & 1) != 0, (facings & 2) != 0))
-              << flags << ' ' << facings;
-          ++seen;
+      for (const Cull cull : {Cull::kNone, Cull::kBack}) {
+        Rules rules;
+        rules.select = select;
+        rules.crease = crease;
+        rules.cull = cull;
+        for (int flags = 0; flags < 256; ++flags) {
+          for (int facings = 0; facings < 4; ++facings) {
+            // Faces 3 and 10: bits of different bytes.
+            const std::array<std::uint8_t, 2> bytes = {
+                static_cast<std::uint8_t>((facings & 1) != 0 ? 8 : 0),
+                static_cast<std::uint8_t>((facings & 2) != 0 ? 4 : 0)};
+            const Edge edge{0, 1, 3, 10, static_cast<std::uint8_t>(flags)};
+            EXPECT_EQ(classify(rules, edge, 2, {bytes, 11}),
+                      from_the_page(rules, flags, (facings & 1) != 0, (facings & 2) != 0))
+                << flags << ' ' << facings;
+            ++seen;
+          }
         }
       }
     }
   }
-  EXPECT_EQ(seen, 2 * 3 * 256 * 4);
+  EXPECT_EQ(seen, 2 * 3 * 2 * 256 * 4);
 }
 
 TEST(Classify, IndicesEndWhereTheCountsEnd) {
@@ -129,12 +133,15 @@ void refused(void (*change)(Parameters&), const char* name) {
 TEST(Configuration, RefusesByName) {
   refused([](Parameters& p) { p.depth_bias = 0; }, "depth_bias = 0 is outside 1..24");
   refused([](Parameters& p) { p.depth_bias = 25; }, "depth_bias = 25 is outside 1..24");
+  refused([](Parameters& p) { p.crease_depth = -1; }, "crease_depth = -1 is outside 0..24");
+  refused([](Parameters& p) { p.crease_depth = 25; }, "crease_depth = 25 is outside 0..24");
+  refused([](Parameters& p) { p.combine = static_cast<spec::geometric::Combine>(3); }, "combine");
   refused([](Parameters& p) { p.select = static_cast<Select>(2); }, "select");
   refused([](Parameters& p) { p.reciprocal_table = 10; }, "reciprocal_table");
   refused([](Parameters& p) { p.fills = 129; }, "memory.outstanding");
   refused([](Parameters& p) { p.face_limit = 8193; }, "face_limit");
   refused([](Parameters& p) { p.touched_words = 15; }, "touched_words");
-  refused([](Parameters& p) { p.fills = 7; }, "fills = 7 is outside 8..256");
+  refused([](Parameters& p) { p.fills = 7; }, "fills = 7: must be at least 8 lines");
   Parameters fills;
   fills.fills = fills.memory_outstanding = 64;  // as many as memory answers at once
   EXPECT_NO_THROW(check_build(fills));

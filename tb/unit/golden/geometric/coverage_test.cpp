@@ -41,12 +41,15 @@ Drawing random_drawing(std::uint64_t seed) {
   };
   for (int i = 0; i < 400; ++i) {
     const std::uint32_t reach = std::uint32_t{8} << random.below(12);
-    const spec::geometric::Vertex p{coordinate(70), coordinate(50), random.below(1u << 24),
+    // Some at the depth of what is drawn.
+    const bool level = random.chance(300);
+    const auto depth_of_end = [&] { return level ? 4100000u : random.below(1u << 24); };
+    const spec::geometric::Vertex p{coordinate(70), coordinate(50), depth_of_end(),
                                     !random.chance(10)};
     const auto near = [&](int v) {
       return v + random.between(-static_cast<int>(reach), static_cast<int>(reach));
     };
-    spec::geometric::Vertex q{near(p.x), near(p.y), random.below(1u << 24), true};
+    spec::geometric::Vertex q{near(p.x), near(p.y), depth_of_end(), true};
     if (random.chance(50)) q.y = p.y;
     if (random.chance(50)) q.x = p.x;
     const auto v = static_cast<std::uint32_t>(d.vertices.size());
@@ -77,14 +80,19 @@ TEST(Coverage, EveryBinCanBeReached) {
   GeometricGolden dense(raster);
   dense.process(most_lines().input());
   sum.merge(dense.coverage());
-  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
     for (const Select select : {Select::kAll, Select::kEdges}) {
       for (const Crease crease : {Crease::kOff, Crease::kPaper, Crease::kShading}) {
         Parameters p;
         p.select = select;
         p.crease = crease;
         p.layout = seed % 2 == 0 ? Layout::kRaster : Layout::kTiled;
-        p.combine = seed % 3 == 0 ? Combine::kLast : Combine::kMax;
+        constexpr std::array kCombines = {Combine::kLast, Combine::kMax, Combine::kOutermost};
+        p.combine = kCombines[seed % 3];
+        p.coverage = seed % 4 < 2 ? spec::geometric::CoverageRule::kDistance
+                                  : spec::geometric::CoverageRule::kArea;
+        p.cull = seed % 5 < 2 ? spec::geometric::Cull::kNone : spec::geometric::Cull::kBack;
+        p.crease_depth = seed % 2 == 0 ? 0 : 4;
         p.depth_lines = p.weight_blocks = p.vertex_lines = CacheLines::k16;
         GeometricGolden golden(p);
         golden.process(random_drawing(seed).input());
@@ -123,7 +131,7 @@ TEST(Coverage, BinsCountWhatTheWorkCounts) {
   EXPECT_EQ(hits.at("fate/degenerate"), work.degenerate_edges);
   EXPECT_EQ(sum("fate"), work.outside_edges + work.degenerate_edges + work.empty_edges);
   EXPECT_EQ(sum("group"), work.groups);
-  EXPECT_EQ(sum("depth"), work.candidates);
+  EXPECT_EQ(sum("depth") + sum("second"), work.candidates);
   EXPECT_EQ(sum("weight"), work.passed);
   EXPECT_EQ(sum("resolve"), work.blended_pixels);
   EXPECT_EQ(sum("lines"), work.blocks);
@@ -180,8 +188,11 @@ TEST(Coverage, ListsEveryBinOfEveryGroup) {
                                                        {"rows", 5},
                                                        {"tie", 4},
                                                        {"border", 4},
+                                                       {"turned-away", 3},
                                                        {"depth", 3 * 2 + 1},
-                                                       {"weight", 4 * 4},
+                                                       {"crease", 4 * 2},
+                                                       {"second", 4 * 2},
+                                                       {"weight", 4 * 6},
                                                        {"group", 4},
                                                        {"fetch", 3 * 3 + 1},
                                                        {"resolve", 3},
@@ -301,12 +312,40 @@ TEST(Coverage, DepthIsThatOfTheFartherPixel) {
   EXPECT_EQ(depth(0, 0, true), once("depth/background/passed"));
 }
 
-TEST(Coverage, WeightsAreRaisedKeptOrOverwritten) {
+TEST(Coverage, EdgesTurnedAwayAreDroppedOrJudged) {
+  using spec::geometric::Cull;
+  using spec::geometric::EdgeClass;
+  const auto turned = [](Cull cull, EdgeClass c) {
+    EdgeCoverage coverage;
+    coverage.count_turned_away(cull, c);
+    return hits_of(coverage);
+  };
+  EXPECT_EQ(turned(Cull::kBack, EdgeClass::kBack), once("turned-away/back/back"));
+  EXPECT_EQ(turned(Cull::kNone, EdgeClass::kCrease), once("turned-away/none/crease"));
+  EXPECT_EQ(turned(Cull::kNone, EdgeClass::kFlat), once("turned-away/none/flat"));
+}
+
+TEST(Coverage, SecondPixelsAndCreasesAreOfADirection) {
+  const std::array<std::string, 4> names = {"top", "bottom", "left", "right"};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto direction = static_cast<spec::geometric::Direction>(i);
+    for (const bool yes : {false, true}) {
+      EdgeCoverage second, crease;
+      second.count_second(direction, yes);
+      crease.count_crease(direction, yes);
+      EXPECT_EQ(hits_of(second), once("second/" + names[i] + (yes ? "/other" : "/same")));
+      EXPECT_EQ(hits_of(crease), once("crease/" + names[i] + (yes ? "/near" : "/far")));
+    }
+  }
+}
+
+TEST(Coverage, WeightsAreRaisedKeptOverwrittenOrLowered) {
   using spec::geometric::Direction;
   using spec::geometric::Weights;
-  const auto weight = [](Combine rule, const Weights& before, Direction to, int coverage) {
+  const auto weight = [](Combine rule, const Weights& before, Direction to, int coverage,
+                         bool nearer = false) {
     EdgeCoverage result;
-    result.count_weight(rule, before, to, coverage);
+    result.count_weight(rule, nearer, before, to, coverage);
     return hits_of(result);
   };
   const Weights before = {10, 20, 30, 40};
@@ -322,6 +361,15 @@ TEST(Coverage, WeightsAreRaisedKeptOrOverwritten) {
     one[(i + 1) % 4] = 1;
     EXPECT_EQ(weight(Combine::kLast, one, to, 5), once(name + "/overwritten"));
     EXPECT_TRUE(weight(Combine::kLast, {}, to, 5).empty());
+    // The outermost one is the largest where the pixel is not nearer, or there is none yet.
+    EXPECT_EQ(weight(Combine::kOutermost, before, to, before[i] + 1), once(name + "/raised"));
+    EXPECT_EQ(weight(Combine::kOutermost, before, to, before[i] - 1), once(name + "/kept"));
+    EXPECT_EQ(weight(Combine::kOutermost, {}, to, 1, true), once(name + "/raised"));
+    EXPECT_EQ(weight(Combine::kOutermost, before, to, before[i] + 1, true), once(name + "/held"));
+    EXPECT_EQ(weight(Combine::kOutermost, before, to, before[i] - 1, true),
+              once(name + "/lowered"));
+    EXPECT_EQ(weight(Combine::kOutermost, before, to, before[i], true), once(name + "/equal"));
+    EXPECT_EQ(weight(Combine::kMax, before, to, before[i] - 1, true), once(name + "/kept"));
   }
 }
 

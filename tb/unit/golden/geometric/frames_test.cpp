@@ -47,6 +47,26 @@ Drawing one_line(int x0, int y0, int x1, int y1, int width = 16, int height = 16
   return d;
 }
 
+// `max` of distances, creases of any depth, nothing that is turned away.
+Parameters plain_rules() {
+  Parameters p;
+  p.cull = spec::geometric::Cull::kBack;
+  p.coverage = spec::geometric::CoverageRule::kDistance;
+  p.crease_depth = 0;
+  p.combine = Combine::kMax;
+  return p;
+}
+
+// What costs more than that.
+Parameters all_rules() {
+  Parameters p;
+  p.cull = spec::geometric::Cull::kNone;
+  p.coverage = spec::geometric::CoverageRule::kArea;
+  p.crease_depth = 4;
+  p.combine = Combine::kOutermost;
+  return p;
+}
+
 TEST(Frame, ALineBetweenTwoRowsBlendsByHalfOfWhatItCuts) {
   // 64 / 256 above the border between rows 7 and 8: row 7 is cut a quarter from below.
   const Drawing d = one_line(0, 8 * 256 - 64, 16 * 256, 8 * 256 - 64);
@@ -62,6 +82,166 @@ TEST(Frame, ALineBetweenTwoRowsBlendsByHalfOfWhatItCuts) {
   EXPECT_EQ(golden.work().blended_pixels, 16u);
 }
 
+// A line of slope 1/2 that is 1/8 below the centre of row 4's top half: in every other column it
+// leaves its pixel, by 3/8 from its centre, and cuts a corner of the next.
+TEST(Frame, ASteepLineBlendsTheSecondPixelOfAColumnToo) {
+  const auto at = [](int x, int y) { return static_cast<std::size_t>(16 * y + x); };
+  for (const bool swapped : {false, true}) {
+    const int from = 4 * 256 + 32, to = from + 8 * 256;
+    const Drawing d = swapped ? one_line(from, 0, to, 16 * 256) : one_line(0, from, 16 * 256, to);
+    const auto weight = [&](const GeometricGolden& golden, int column, int row) {
+      const Weights& w = golden.weights()[swapped ? at(row, column) : at(column, row)];
+      return swapped ? Weights{w[2], w[3], w[0], w[1]} : w;  // before, behind
+    };
+    Parameters p = plain_rules();
+    GeometricGolden plain(p);
+    plain.process(d.input());
+    EXPECT_EQ(weight(plain, 1, 4), (Weights{0, 32, 0, 0}));
+    EXPECT_EQ(weight(plain, 1, 5), (Weights{}));
+    p.coverage = spec::geometric::CoverageRule::kArea;
+    GeometricGolden area(p);
+    area.process(d.input());
+    for (const int period : {0, 1, 2, 5}) {  // a row further every two columns
+      const int c = 2 * period, r = 4 + period;
+      EXPECT_EQ(weight(area, c, r), (Weights{96, 0, 0, 0}));  // stays: 1/8 above the centre
+      EXPECT_EQ(weight(area, c + 1, r), (Weights{0, 35, 0, 0}));
+      EXPECT_EQ(weight(area, c + 1, r + 1), (Weights{4, 0, 0, 0}));
+    }
+    EXPECT_EQ(area.work().columns, 16u);
+    EXPECT_EQ(area.work().groups, plain.work().groups);
+    EXPECT_EQ(plain.work().candidates, 16u);
+    EXPECT_EQ(area.work().candidates, 24u);
+    EXPECT_EQ(area.work().passed, 24u);
+    // The second follows the first, and has its depth.
+    const auto& second = area.candidates()[2];
+    EXPECT_EQ(second.x, swapped ? 5 : 1);
+    EXPECT_EQ(second.y, swapped ? 1 : 5);
+    EXPECT_EQ(second.direction,
+              swapped ? spec::geometric::Direction::kLeft : spec::geometric::Direction::kUp);
+    EXPECT_EQ(second.depth, 0xFFFFFFu);
+    EXPECT_EQ(area.traffic().read(Region::kDepth), plain.traffic().read(Region::kDepth));
+  }
+}
+
+// The pixel that a line cuts from outside of the frame has no neighbour to take from.
+TEST(Frame, SecondPixelsAreOfLinesInTheFrame) {
+  Parameters p;
+  p.coverage = spec::geometric::CoverageRule::kArea;
+  GeometricGolden golden(p);
+  for (const int outside : {-300, 300}) {
+    // Slope 1; its centres lie 44 / 256 outside of row 0 or row 15 on the diagonal.
+    const Drawing d = one_line(0, 0, 16 * 256, 16 * 256);
+    Drawing moved = d;
+    for (auto& v : moved.vertices) v.y += outside;
+    golden.process(moved.input());
+    for (const auto& c : golden.candidates()) {
+      EXPECT_LT(c.x, 16);
+      EXPECT_LT(c.y, 16);
+      const auto direction = static_cast<int>(c.direction);
+      const int nx = c.x + (direction == 3) - (direction == 2);
+      const int ny = c.y + (direction == 1) - (direction == 0);
+      EXPECT_TRUE(nx >= 0 && nx < 16 && ny >= 0 && ny < 16) << c.x << ' ' << c.y;
+    }
+    EXPECT_GT(golden.work().candidates, 20u);
+  }
+}
+
+// One test for both pixels of a column: with `own` that of the pixel in which the line's centre is.
+TEST(Frame, SecondCandidatesShareTheTestOfTheFirst) {
+  Drawing d = one_line(0, 4 * 256 + 32, 16 * 256, 12 * 256 + 32);
+  for (auto& v : d.vertices) v.depth = 5000000;
+  tb::Random random(3);
+  for (auto& depth : d.depths) depth = random.chance(500) ? 4000000 : 6000000;
+  for (const auto test : {spec::geometric::DepthTest::kOwn, spec::geometric::DepthTest::kFarther}) {
+    Parameters p;
+    p.coverage = spec::geometric::CoverageRule::kArea;
+    p.depth_test = test;
+    GeometricGolden golden(p);
+    golden.process(d.input());
+    int passed = 0, failed = 0;
+    for (std::size_t i = 0; i + 1 < golden.candidates().size(); ++i) {
+      const auto &first = golden.candidates()[i], &second = golden.candidates()[i + 1];
+      if (second.x != first.x) continue;
+      EXPECT_EQ(second.passed, first.passed);
+      ++(first.passed ? passed : failed);
+    }
+    EXPECT_GT(passed, 0);
+    EXPECT_GT(failed, 0);
+    EXPECT_EQ(passed + failed, 8);
+  }
+}
+
+// Two lines between the same two rows: the nearer pixel gives away no more than its outermost line
+// cuts off, the farther one as much as the outermost one covers.
+TEST(Frame, OutermostIsTheSmallestOfWhatIsNearer) {
+  for (const bool own_nearer : {false, true}) {
+    for (const bool turned : {false, true}) {
+      Drawing d = one_line(0, 8 * 256 - 64, 16 * 256, 8 * 256 - 64);
+      d.vertices.push_back({0, 8 * 256 - 96, 0xFFFFFF, true});
+      d.vertices.push_back({16 * 256, 8 * 256 - 96, 0xFFFFFF, true});
+      d.edges.push_back({2, 3, 0, 0, spec::geometric::flag::kBoundary});
+      if (turned) std::swap(d.edges[0], d.edges[1]);
+      for (std::size_t i = 0; i < d.depths.size(); ++i)
+        d.depths[i] = (i < std::size_t{16} * 8) == own_nearer ? 9000 : 3000;
+      Parameters p;
+      p.combine = Combine::kOutermost;
+      GeometricGolden golden(p);
+      golden.process(d.input());
+      for (std::size_t x = 0; x < 16; ++x) {
+        EXPECT_EQ(golden.weights()[7 * 16 + x],
+                  (Weights{0, static_cast<std::uint8_t>(own_nearer ? 64 : 96), 0, 0}));
+      }
+      for (const auto test : {spec::geometric::DepthTest::kOwn, spec::geometric::DepthTest::kOff}) {
+        p.depth_test = test;
+        GeometricGolden blind(p);
+        blind.process(d.input());
+        EXPECT_EQ(blind.weights()[7 * 16], (Weights{0, 96, 0, 0}));
+      }
+    }
+  }
+}
+
+// A crease on the rim of what stands in front of something far is no edge of the far one.
+TEST(Frame, CreasesAreLimitedInDepthAndOtherEdgesAreNot) {
+  Drawing d = one_line(0, 8 * 256 - 64, 16 * 256, 8 * 256 - 64);
+  for (auto& v : d.vertices) v.depth = 8000000;
+  for (std::size_t i = 0; i < d.depths.size(); ++i)
+    d.depths[i] = i < std::size_t{16} * 8 ? 8000000 : i % 16 < 8 ? 7500000 : 7499999;
+  for (const bool crease : {false, true}) {
+    d.edges[0].flags = crease ? spec::geometric::flag::kSeam : spec::geometric::flag::kBoundary;
+    for (const int limit : {0, 4}) {
+      Parameters p;
+      p.crease_depth = limit;
+      GeometricGolden golden(p);
+      golden.process(d.input());
+      EXPECT_EQ(golden.lines()[0].crease, crease);
+      EXPECT_EQ(golden.work().candidates, 16u);
+      EXPECT_EQ(golden.work().passed, crease && limit == 4 ? 8u : 16u);
+    }
+  }
+}
+
+TEST(Frame, WithoutCullingEdgesThatAreTurnedAwayAreJudged) {
+  Drawing d = one_line(0, 8 * 256 - 64, 16 * 256, 8 * 256 - 64);
+  d.set_facing(0, false);
+  for (const auto& [flags, kept] :
+       {std::pair{std::uint8_t{0}, false}, {spec::geometric::flag::kSeam, true}}) {
+    d.edges[0].flags = flags;
+    Parameters p = plain_rules();
+    GeometricGolden culled(p);
+    culled.process(d.input());
+    EXPECT_EQ(culled.work().back_edges, 1u);
+    EXPECT_EQ(culled.work().kept_edges, 0u);
+    p.cull = spec::geometric::Cull::kNone;
+    GeometricGolden golden(p);
+    golden.process(d.input());
+    EXPECT_EQ(golden.work().back_edges, 0u);
+    EXPECT_EQ(golden.work().crease_edges, kept ? 1u : 0u);
+    EXPECT_EQ(golden.work().flat_edges, kept ? 0u : 1u);
+    EXPECT_EQ(golden.work().passed, kept ? 16u : 0u);
+  }
+}
+
 TEST(Frame, NeighboursOutsideAreNoCandidates) {
   for (const auto& [y, direction] : {std::pair{64, 0}, {16 * 256 - 64, 1}}) {
     GeometricGolden golden(Parameters{});
@@ -71,11 +251,11 @@ TEST(Frame, NeighboursOutsideAreNoCandidates) {
   }
 }
 
-TEST(Frame, WithMaxTheOrderOfEdgesDoesNotMatter) {
+TEST(Frame, OnlyWithLastTheOrderOfEdgesMatters) {
   Drawing d = vector_drawing();
   tb::Random random(8);
-  for (const Combine combine : {Combine::kMax, Combine::kLast}) {
-    Parameters p;
+  for (const Combine combine : {Combine::kMax, Combine::kLast, Combine::kOutermost}) {
+    Parameters p = all_rules();
     p.combine = combine;
     GeometricGolden golden(p);
     golden.process(d.input());
@@ -88,20 +268,20 @@ TEST(Frame, WithMaxTheOrderOfEdgesDoesNotMatter) {
       golden.process(d.input());
       same = same && golden.weights() == weights && golden.pixels() == pixels;
     }
-    EXPECT_EQ(same, combine == Combine::kMax);
+    EXPECT_EQ(same, combine != Combine::kLast);
   }
 }
 
 // What is built changes traffic and groups, and nothing else.
 TEST(Frame, PixelsDoNotDependOnTheBuild) {
   const Drawing d = vector_drawing();
-  GeometricGolden reference(Parameters{});
+  GeometricGolden reference(all_rules());
   reference.process(d.input());
   for (const Layout layout : {Layout::kRaster, Layout::kTiled}) {
     for (const Lanes walkers : {Lanes::kOne, Lanes::kTwo, Lanes::kFour}) {
       for (const CacheLines lines : {CacheLines::k16, CacheLines::k1024}) {
         for (const bool copy : {false, true}) {
-          Parameters p;
+          Parameters p = all_rules();
           p.layout = layout;
           p.walkers = walkers;
           p.depth_lines = p.weight_blocks = p.vertex_lines = lines;
@@ -302,6 +482,75 @@ TEST(Traffic, WeightsComeBackAsOftenAsTheyWent) {
   for (const auto& [address, times] : away) EXPECT_EQ(times, 0) << address;
 }
 
+// A unit that takes a group of columns at a time looks the block of the first candidates up before
+// that of the second ones: the same lines in the same order as column by column.
+TEST(Traffic, GroupsHaveTwoBlocksAtMostTheFirstOnesFirst) {
+  const Drawing d = vector_drawing();
+  Parameters p = all_rules();
+  p.weight_blocks = CacheLines::k16;
+  std::uint64_t pairs = 0;
+  for (const auto test : {spec::geometric::DepthTest::kOwn, spec::geometric::DepthTest::kFarther}) {
+    p.depth_test = test;
+    if (test == spec::geometric::DepthTest::kOwn) p.combine = Combine::kMax;
+    GeometricGolden golden(p);
+    golden.process(d.input(kVectorBases));
+    std::vector<std::uint32_t> expected;
+    golden::geometric::DirectMapped cache;
+    cache.reset(4, 2);
+    std::set<std::uint32_t> touched;
+    const auto look_up = [&](std::uint32_t bx, std::uint32_t by) {
+      std::uint64_t replaced = 0;
+      const std::uint32_t address = kVectorBases.weights + 64 * (by * 16 + bx);
+      if (!cache.look_up(bx, by, replaced) && touched.contains(address))
+        expected.push_back(address);
+      touched.insert(address);
+    };
+    auto candidate = golden.candidates().begin();
+    for (const auto& line : golden.lines()) {
+      const bool horizontal = line.axis == spec::geometric::Axis::kHorizontal;
+      std::int64_t position = line.position;
+      // Columns of a group, and the blocks of what passed in it.
+      int size = 0, group = 0;
+      std::vector<std::pair<std::uint32_t, std::uint32_t>> first, second;
+      const auto close = [&] {
+        const std::set<std::pair<std::uint32_t, std::uint32_t>> own(first.begin(), first.end());
+        std::set<std::pair<std::uint32_t, std::uint32_t>> other(second.begin(), second.end());
+        ASSERT_LE(own.size(), 1u);
+        for (const auto& block : own) other.erase(block);
+        ASSERT_LE(other.size(), 1u);
+        pairs += other.size();
+        for (const auto& [bx, by] : own) look_up(bx, by);
+        for (const auto& [bx, by] : other) look_up(bx, by);
+        first.clear();
+        second.clear();
+        size = 0;
+      };
+      for (int c = line.first; c < line.first + line.count; ++c, position += line.slope) {
+        const int row = static_cast<int>(position >> 24);
+        if (size == 4 || c % 4 == 0 || (row >> 2) != group) close();
+        group = row >> 2;
+        ++size;
+        bool is_second = false;
+        for (; candidate != golden.candidates().end() &&
+               (horizontal ? candidate->x : candidate->y) == c &&
+               std::abs((horizontal ? candidate->y : candidate->x) - row) == (is_second ? 1 : 0);
+             ++candidate) {
+          auto& list = is_second ? second : first;
+          if (candidate->passed) list.emplace_back(candidate->x / 4u, candidate->y / 4u);
+          is_second = true;
+        }
+      }
+      close();
+    }
+    ASSERT_TRUE(candidate == golden.candidates().end());
+    const auto& reads = golden.traffic().read(Region::kWeights);
+    ASSERT_GE(reads.size(), expected.size());
+    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), reads.begin()));
+    EXPECT_GT(expected.size(), 300u);
+  }
+  EXPECT_GT(pairs, 100u);
+}
+
 // Traffic of the resolve from weights alone: what is read and written of colours.
 TEST(Traffic, ColoursFollowFromTheWeights) {
   for (const Layout layout : {Layout::kRaster, Layout::kTiled}) {
@@ -451,10 +700,11 @@ TEST(MemoryErrors, NeedNoDetail) {
   for (const auto& bin : golden.coverage().bins()) EXPECT_EQ(bin.hits, 0u) << bin.name;
 }
 
-// Whenever a block's weights are lost, those of all other blocks stay, and it has no larger ones.
+// Whenever a block's weights are lost, those of all other blocks stay, and with `max` it has no
+// larger ones.
 TEST(MemoryErrors, LoseTheWeightsOfOneBlock) {
   const Drawing d = vector_drawing();
-  Parameters p;
+  Parameters p = plain_rules();
   p.weight_blocks = CacheLines::k16;
   GeometricGolden clean(p);
   clean.process(d.input(kVectorBases));

@@ -226,6 +226,90 @@ TEST(Coverage, OfAllDistances) {
   }
 }
 
+// The area that a line of slope s, |d| above a pixel's centre in the middle of a column, cuts off
+// it, by ever thinner strips of the column.
+double cut_area(double s, double d) {
+  constexpr int kStrips = 2000;
+  double sum = 0;
+  for (int i = 0; i < kStrips; ++i)
+    sum += std::clamp(0.5 - d - s * ((i + 0.5) / kStrips - 0.5), 0.0, 1.0);
+  return sum / kStrips;
+}
+
+TEST(Shares, AreTheDistanceWhereALineStays) {
+  using golden::geometric::shares;
+  using spec::geometric::CoverageRule;
+  for (int slope = -(1 << 24); slope <= 1 << 24; slope += 1 << 20) {
+    for (int distance = -32768; distance < 32768; distance += 7) {
+      const auto plain = shares(CoverageRule::kDistance, distance, slope);
+      ASSERT_EQ(plain.first, golden::geometric::coverage(distance));
+      ASSERT_EQ(plain.second, 0);
+      // By the contract's words: within half of what the slope leaves.
+      if (std::abs(distance) / 65536.0 > (1 - std::abs(slope) / 16777216.0) / 2) continue;
+      const auto area = shares(CoverageRule::kArea, distance, slope);
+      ASSERT_EQ(area.first, plain.first) << distance << ' ' << slope;
+      ASSERT_EQ(area.second, 0);
+    }
+  }
+}
+
+// The limit, one step on either side of it, for slopes whose limit has 16 bits and for one that is
+// cut to them.
+TEST(Shares, LeaveThePixelBeyondTheLimit) {
+  using golden::geometric::shares;
+  using spec::geometric::CoverageRule;
+  for (const int sign : {-1, 1}) {
+    for (const auto& [slope, limit] :
+         {std::pair{1 << 24, 0}, {1 << 23, 16384}, {3 << 22, 8192}, {(1 << 23) + 255, 16384}}) {
+      EXPECT_EQ(shares(CoverageRule::kArea, sign * limit, slope).second, 0) << slope;
+      EXPECT_EQ(shares(CoverageRule::kArea, sign * limit, -slope).second, 0) << slope;
+      const int k = (slope + (1 << 18)) >> 19;
+      const auto& areas = spec::geometric::kCutArea[static_cast<std::size_t>(k - 1)];
+      const auto beyond = shares(CoverageRule::kArea, sign * (limit + 1), -slope);
+      EXPECT_EQ(beyond.first, areas[static_cast<std::size_t>((limit + 1) >> 10)]);
+      EXPECT_EQ(beyond.second, areas[static_cast<std::size_t>((65535 - limit) >> 10)]);
+    }
+  }
+  // A level line never does, nor one below a unit of the limit; a unit more takes the first row.
+  EXPECT_EQ(shares(CoverageRule::kArea, -32768, 0).first, 0);
+  EXPECT_EQ(shares(CoverageRule::kArea, -32768, 255).first, 0);
+  EXPECT_EQ(shares(CoverageRule::kArea, -32768, 256).first, spec::geometric::kCutArea[0][32]);
+}
+
+TEST(Shares, AreTheAreaThatALineCutsOff) {
+  using golden::geometric::shares;
+  using spec::geometric::CoverageRule;
+  double worst = 0;
+  int seconds = 0;
+  for (int slope = 0; slope <= 1 << 24; slope += (1 << 24) / 97) {
+    for (int distance = 0; distance < 32768; distance += 331) {
+      const auto got = shares(CoverageRule::kArea, distance, slope);
+      const double s = slope / 16777216.0, d = distance / 65536.0;
+      worst = std::max(worst, std::abs(got.first - 256 * cut_area(s, d)));
+      worst = std::max(worst, std::abs(got.second - 256 * cut_area(s, 1 - d)));
+      EXPECT_LE(got.second, got.first);
+      seconds += got.second != 0;
+    }
+  }
+  EXPECT_GT(seconds, 1000);
+  EXPECT_LT(worst, 2.5);
+  EXPECT_GT(worst, 1.5);  // the table's steps: the bound is close
+}
+
+TEST(Shares, HaveEveryEntryOfTheTable) {
+  for (int k = 1; k <= spec::geometric::kAreaSlopes; ++k) {
+    for (int i = 0; i < spec::geometric::kAreaDistances; ++i) {
+      const double s = k / 32.0, d = (2 * i + 1) / 128.0;
+      const double h = 0.5 - d + s / 2;
+      const double area = h <= 0 ? 0 : h >= s ? 0.5 - d : h * h / (2 * s);
+      ASSERT_EQ(
+          spec::geometric::kCutArea[static_cast<std::size_t>(k - 1)][static_cast<std::size_t>(i)],
+          static_cast<int>(std::floor(256 * area + 0.5)))
+          << k << ' ' << i;
+    }
+  }
+}
+
 TEST(Direction, OfAllSidesAndTies) {
   using golden::geometric::direction;
   using golden::geometric::is_forward;
@@ -238,6 +322,11 @@ TEST(Direction, OfAllSidesAndTies) {
   EXPECT_EQ(direction(Axis::kHorizontal, false), Direction::kUp);
   EXPECT_EQ(direction(Axis::kVertical, true), Direction::kRight);
   EXPECT_EQ(direction(Axis::kVertical, false), Direction::kLeft);
+  using golden::geometric::opposite;
+  EXPECT_EQ(opposite(Direction::kUp), Direction::kDown);
+  EXPECT_EQ(opposite(Direction::kDown), Direction::kUp);
+  EXPECT_EQ(opposite(Direction::kLeft), Direction::kRight);
+  EXPECT_EQ(opposite(Direction::kRight), Direction::kLeft);
   LineRecord line;
   const auto tie_forward = [&](int dx, int dy) {
     EXPECT_EQ(set_up_line({2000, 2000, 0, true}, {2000 + dx, 2000 + dy, 0, true}, 16, 16, line),
@@ -257,6 +346,7 @@ TEST(Direction, OfAllSidesAndTies) {
 
 TEST(DepthTest, AtEqualityAndOneOnEitherSide) {
   Rules rules;
+  rules.crease_depth = 0;
   tb::Random random(5);
   for (int bias = 1; bias <= 24; ++bias) {
     rules.depth_bias = bias;
@@ -267,28 +357,89 @@ TEST(DepthTest, AtEqualityAndOneOnEitherSide) {
         rules.depth_test = test;
         const std::uint32_t f = test == DepthTest::kOwn ? own : std::min(own, other);
         const std::uint32_t limit = f - static_cast<std::uint32_t>(f / std::exp2(bias));
-        EXPECT_TRUE(passes(rules, limit, own, other)) << bias << ' ' << f;
-        EXPECT_TRUE(passes(rules, limit + 1, own, other));
-        if (limit > 0) {
-          EXPECT_FALSE(passes(rules, limit - 1, own, other)) << bias << ' ' << f;
+        for (const bool crease : {false, true}) {  // whose depth is not limited
+          EXPECT_TRUE(passes(rules, crease, limit, own, other)) << bias << ' ' << f;
+          EXPECT_TRUE(passes(rules, crease, limit + 1, own, other));
+          if (limit > 0) {
+            EXPECT_FALSE(passes(rules, crease, limit - 1, own, other)) << bias << ' ' << f;
+          }
         }
       }
       rules.depth_test = DepthTest::kOff;
-      EXPECT_TRUE(passes(rules, 0, own, other));
+      EXPECT_TRUE(passes(rules, false, 0, own, other));
     }
+  }
+}
+
+// What a crease is compared with may lie behind it by a share of the crease's depth; other lines
+// have no such limit.
+TEST(DepthTest, CreasesHaveALimitOfTheirOwn) {
+  Rules rules;
+  tb::Random random(9);
+  for (int n = 1; n <= 24; ++n) {
+    rules.crease_depth = n;
+    for (int i = 0; i < 200; ++i) {
+      const std::uint32_t d = i == 0 ? 0xFFFFFF : i == 1 ? 1 : 1 + random.below((1u << 24) - 1);
+      const std::uint32_t limit = d - static_cast<std::uint32_t>(d / std::exp2(n));
+      for (const DepthTest test : {DepthTest::kOwn, DepthTest::kFarther}) {
+        rules.depth_test = test;
+        for (const std::uint32_t f : {limit - 1, limit, limit + 1}) {
+          const std::uint32_t other = test == DepthTest::kOwn ? 0 : 0xFFFFFF;
+          if (f > d) continue;  // the line must be seen
+          EXPECT_EQ(passes(rules, true, d, f, other), f >= limit) << n << ' ' << d << ' ' << f;
+          EXPECT_TRUE(passes(rules, false, d, f, other));
+        }
+      }
+      rules.depth_test = DepthTest::kFarther;
+      EXPECT_FALSE(passes(rules, true, d, 0xFFFFFF, limit - 1));  // the neighbour is the farther
+      rules.depth_test = DepthTest::kOff;
+      EXPECT_TRUE(passes(rules, true, d, 0, 0));
+    }
+    rules.depth_test = DepthTest::kFarther;
+    EXPECT_TRUE(passes(rules, true, 0, 0, 0));
+    // The other test holds for creases, too.
+    EXPECT_FALSE(passes(rules, true, 1000, 8000000, 8000000));
+  }
+}
+
+TEST(DepthTest, NearerIsKnownWithTheNeighboursDepthAlone) {
+  using golden::geometric::is_nearer;
+  Rules rules;
+  EXPECT_TRUE(is_nearer(rules, 6, 5));
+  EXPECT_FALSE(is_nearer(rules, 5, 5));
+  EXPECT_FALSE(is_nearer(rules, 5, 6));
+  for (const DepthTest test : {DepthTest::kOff, DepthTest::kOwn}) {
+    rules.depth_test = test;
+    EXPECT_FALSE(is_nearer(rules, 6, 5));
   }
 }
 
 // ---- weights ------------------------------------------------------------------------------------
 
 TEST(Weights, MaxKeepsTheLargerLastTheLast) {
-  Weights w = {10, 20, 30, 40};
-  combine(Combine::kMax, w, Direction::kLeft, 29);
-  EXPECT_EQ(w, (Weights{10, 20, 30, 40}));
-  combine(Combine::kMax, w, Direction::kLeft, 31);
-  EXPECT_EQ(w, (Weights{10, 20, 31, 40}));
-  combine(Combine::kLast, w, Direction::kDown, 5);
-  EXPECT_EQ(w, (Weights{0, 5, 0, 0}));
+  for (const bool nearer : {false, true}) {
+    Weights w = {10, 20, 30, 40};
+    combine(Combine::kMax, nearer, w, Direction::kLeft, 29);
+    EXPECT_EQ(w, (Weights{10, 20, 30, 40}));
+    combine(Combine::kMax, nearer, w, Direction::kLeft, 31);
+    EXPECT_EQ(w, (Weights{10, 20, 31, 40}));
+    combine(Combine::kLast, nearer, w, Direction::kDown, 5);
+    EXPECT_EQ(w, (Weights{0, 5, 0, 0}));
+  }
+}
+
+TEST(Weights, OutermostKeepsTheSmallerOfANearerPixel) {
+  Weights w = {10, 20, 0, 40};
+  combine(Combine::kOutermost, true, w, Direction::kUp, 11);
+  EXPECT_EQ(w, (Weights{10, 20, 0, 40}));
+  combine(Combine::kOutermost, true, w, Direction::kUp, 9);
+  EXPECT_EQ(w, (Weights{9, 20, 0, 40}));
+  combine(Combine::kOutermost, true, w, Direction::kLeft, 7);  // the first one
+  EXPECT_EQ(w, (Weights{9, 20, 7, 40}));
+  combine(Combine::kOutermost, false, w, Direction::kDown, 19);
+  EXPECT_EQ(w, (Weights{9, 20, 7, 40}));
+  combine(Combine::kOutermost, false, w, Direction::kDown, 21);
+  EXPECT_EQ(w, (Weights{9, 21, 7, 40}));
 }
 
 // Every pair of weights of an axis, against the division-free form written out; and which axis.

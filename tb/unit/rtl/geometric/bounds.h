@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "spec/geometric/tables.h"
 #include "tb/unit/rtl/geometric/support.h"
 
 namespace deburr::tb::geometric_rtl {
@@ -39,7 +40,8 @@ class Bounds {
                                     ? w_.lines
                                     : 13 * (w_.lines - b_.engine.line_setup.table_lines.value()) /
                                           static_cast<std::uint64_t>(b_.p.dividers);
-    return std::max({beats_, vertices_, setup, w_.groups, depth_, port});
+    const std::uint64_t weights = b_.engine.weight_combiner.lookups.value();
+    return std::max({beats_, vertices_, setup, w_.groups, weights, depth_, port});
   }
   std::uint64_t resolve() const {
     std::map<std::pair<int, int>, std::uint64_t> in_word;
@@ -76,7 +78,7 @@ class Bounds {
     if (!all && (e.f0 >= faces || (!boundary && e.f1 >= faces))) return false;
     if (boundary || all) return true;
     if (scene.facing[e.f0] != scene.facing[e.f1]) return true;
-    if (!scene.facing[e.f0]) return false;
+    if (!scene.facing[e.f0] && b_.p.cull == spec::geometric::Cull::kBack) return false;
     const bool angle = e.flags & flag::kAngle, split = e.flags & flag::kSplitNormals,
                seam = e.flags & flag::kSeam;
     return b_.p.crease == spec::geometric::Crease::kPaper ? angle
@@ -122,7 +124,7 @@ class Bounds {
         const int row = static_cast<int>(at(k) >> 16),
                   distance = static_cast<int>(at(k) & 65535) - 32768;
         const int other = distance > 0 || (distance == 0 && l.tie_forward) ? row + 1 : row - 1;
-        if (row < 0 || row >= rows || other < 0 || other >= rows || std::abs(distance) > 32640)
+        if (row < 0 || row >= rows || other < 0 || other >= rows || !covers(l, std::abs(distance)))
           continue;
         for (const int m : {row, other}) {
           const int x = vertical ? m : l.first + k, y = vertical ? l.first + k : m;
@@ -139,6 +141,15 @@ class Bounds {
       }
       i += n;
     }
+  }
+  bool covers(const spec::geometric::LineRecord& l, int away) const {
+    const std::int32_t slope = std::abs(l.slope);
+    if (b_.p.coverage == spec::geometric::CoverageRule::kDistance ||
+        2 * away + (slope >> 8) <= 65536)
+      return away <= 32640;
+    const int k = std::max(1, (slope + (1 << 18)) >> 19);
+    return spec::geometric::kCutArea[static_cast<std::size_t>(k - 1)]
+                                    [static_cast<std::size_t>(away / 1024)] != 0;
   }
   std::uint64_t look_up(std::pair<int, int> place) {
     const int bits = spec::geometric::kCacheLineBits[static_cast<std::size_t>(b_.p.depth_lines)];

@@ -48,7 +48,7 @@ EdgeEnds edge(bool horizontal, std::array<int, 3> a, std::array<int, 3> b) {
     return vertex(horizontal ? e[0] : e[1], horizontal ? e[1] : e[0],
                   static_cast<std::uint32_t>(e[2]));
   };
-  return {{make(a), make(b)}, false};
+  return {{make(a), make(b)}, false, false};
 }
 
 TEST(LineSetup, LinesOfThePage) {
@@ -97,6 +97,7 @@ LineRecord by_formula(const EdgeEnds& e, int width, int height, bool& kept) {
                      last = std::min(size - 1, ceil_centre(m1) - 1);
   kept = first <= last && !(n0 < 0 && n1 < 0) && !(n0 >= 256 * rows && n1 >= 256 * rows);
   LineRecord line;
+  line.crease = e.crease;
   if (!kept) return line;
   const std::int64_t length = m1 - m0, dm = std::abs(n1 - n0),
                      dd = std::abs(std::int64_t{b->depth} - std::int64_t{a->depth});
@@ -147,7 +148,7 @@ TEST_P(Reciprocals, RandomLinesByFormula) {
         vertex(std::clamp(a.x + within(span), -(1 << 22), (1 << 22) - 1),
                std::clamp(a.y + within(span), -(1 << 22), (1 << 22) - 1), random.below(1u << 24));
     if (a.x == c.x && a.y == c.y) ++c.x;
-    const EdgeEnds e{{a, c}, false};
+    const EdgeEnds e{{a, c}, random.chance(500), false};
     bool kept = false;
     const LineRecord line = by_formula(e, 1021, 333, kept);
     edges.push_back(e);
@@ -173,15 +174,16 @@ TEST(LineSetup, DropsInTheOrderOfThePage) {
   SetupBench b;
   VertexFields gone = vertex(300, 300, 5);
   gone.usable = false;
-  const auto lines = b.run({{{gone, gone}, false},                                // outside
-                            {{vertex(300, 300, 5), gone}, false},                 // outside
-                            {{vertex(300, 300, 5), vertex(300, 300, 9)}, false},  // degenerate
-                            {{vertex(300, 300, 5), vertex(301, 300, 9)}, false},  // empty
-                            {{vertex(128, -1, 5), vertex(999, -200, 9)}, false},  // before
-                            {{vertex(128, 720 * 256, 5), vertex(999, 190000, 9)}, false},  // behind
-                            {{vertex(128, 720 * 256 - 1, 5), vertex(999, 184400, 9)}, false},
-                            {{vertex(128, -1, 5), vertex(999, 0, 9)}, false},
-                            {{vertex(-300, -300, 5), vertex(128, 200, 9)}, false}});
+  const auto lines =
+      b.run({{{gone, gone}, false, false},                                         // outside
+             {{vertex(300, 300, 5), gone}, false, false},                          // outside
+             {{vertex(300, 300, 5), vertex(300, 300, 9)}, false, false},           // degenerate
+             {{vertex(300, 300, 5), vertex(301, 300, 9)}, false, false},           // empty
+             {{vertex(128, -1, 5), vertex(999, -200, 9)}, false, false},           // before
+             {{vertex(128, 720 * 256, 5), vertex(999, 190000, 9)}, false, false},  // behind
+             {{vertex(128, 720 * 256 - 1, 5), vertex(999, 184400, 9)}, false, false},
+             {{vertex(128, -1, 5), vertex(999, 0, 9)}, false, false},
+             {{vertex(-300, -300, 5), vertex(128, 200, 9)}, false, false}});
   EXPECT_EQ(lines.size(), 3u);
   EXPECT_EQ(b.unit.outside_edges.value(), 2u);
   EXPECT_EQ(b.unit.degenerate_edges.value(), 1u);

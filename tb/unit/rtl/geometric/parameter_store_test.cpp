@@ -13,7 +13,9 @@ namespace {
 using rtl::geometric::decode;
 using rtl::geometric::FrameRules;
 using spec::geometric::Combine;
+using spec::geometric::CoverageRule;
 using spec::geometric::Crease;
+using spec::geometric::Cull;
 using spec::geometric::DepthTest;
 using spec::geometric::Layout;
 using spec::geometric::Refusal;
@@ -27,7 +29,7 @@ TEST(RegisterBits, ThatDoNotExistReadAsZero) {
   EngineBench b;
   std::map<std::uint32_t, std::uint32_t> masks = {{reg::kControl, reg::kControlEnable},
                                                   {reg::kSize, 0x3FFF3FFF},
-                                                  {reg::kRules, 0xFFFD},
+                                                  {reg::kRules, 0x7FFFFF},
                                                   {reg::kEdgeCount, 0xFFFFFFFF},
                                                   {reg::kVertexCount, 0xFFFFFFFF},
                                                   {reg::kFaceCount, 0xFFFFFFFF}};
@@ -61,26 +63,32 @@ std::string text_of(const FrameRules& f) {
   const auto number = [](auto value) { return std::to_string(static_cast<int>(value)) + " "; };
   return number(f.select) + number(f.crease) + number(f.depth_test) + number(f.combine) +
          number(f.linear_light) + number(f.depth_bias) + number(f.mark) + number(f.tiled) +
-         number(f.frame_copy);
+         number(f.frame_copy) + number(f.area) + number(f.cull) + number(f.crease_depth);
 }
 
 // Bit by bit, from the contract's table: select, crease, depth test, combine, linear light, bias,
-// mark, layout, copy.
+// mark, layout, copy, areas, cull, crease depth.
 TEST(FrameRules, EachBitOfRulesIsItsFields) {
   Frame b({});
   const std::vector<std::pair<std::uint32_t, std::string>> rows = {
-      {0, "0 0 0 0 0 1 0 0 0 "},         {1u << 0, "1 0 0 0 0 1 0 0 0 "},
-      {1u << 1, "0 0 0 0 0 1 0 0 0 "},   {1u << 2, "0 1 0 0 0 1 0 0 0 "},
-      {2u << 2, "0 2 0 0 0 1 0 0 0 "},   {3u << 2, "0 0 0 0 0 1 0 0 0 "},  // no such choice
-      {1u << 4, "0 0 1 0 0 1 0 0 0 "},   {2u << 4, "0 0 2 0 0 1 0 0 0 "},
-      {3u << 4, "0 0 0 0 0 1 0 0 0 "},   {1u << 6, "0 0 0 1 0 1 0 0 0 "},
-      {1u << 7, "0 0 0 0 1 1 0 0 0 "},   {1u << 8, "0 0 0 0 0 1 0 0 0 "},
-      {2u << 8, "0 0 0 0 0 2 0 0 0 "},   {4u << 8, "0 0 0 0 0 4 0 0 0 "},
-      {8u << 8, "0 0 0 0 0 8 0 0 0 "},   {16u << 8, "0 0 0 0 0 16 0 0 0 "},
-      {23u << 8, "0 0 0 0 0 23 0 0 0 "}, {24u << 8, "0 0 0 0 0 24 0 0 0 "},
-      {25u << 8, "0 0 0 0 0 24 0 0 0 "}, {31u << 8, "0 0 0 0 0 24 0 0 0 "},
-      {1u << 13, "0 0 0 0 0 1 1 0 0 "},  {1u << 14, "0 0 0 0 0 1 0 1 0 "},
-      {1u << 15, "0 0 0 0 0 1 0 0 1 "},  {0xFFFF0000, "0 0 0 0 0 1 0 0 0 "}};
+      {0, "0 0 0 0 0 1 0 0 0 0 0 0 "},          {1u << 0, "1 0 0 0 0 1 0 0 0 0 0 0 "},
+      {1u << 1, "0 0 0 0 1 1 0 0 0 0 0 0 "},    {1u << 2, "0 1 0 0 0 1 0 0 0 0 0 0 "},
+      {2u << 2, "0 2 0 0 0 1 0 0 0 0 0 0 "},    {3u << 2, "0 0 0 0 0 1 0 0 0 0 0 0 "},  // no such
+      {1u << 4, "0 0 1 0 0 1 0 0 0 0 0 0 "},    {2u << 4, "0 0 2 0 0 1 0 0 0 0 0 0 "},
+      {3u << 4, "0 0 0 0 0 1 0 0 0 0 0 0 "},    {1u << 6, "0 0 0 1 0 1 0 0 0 0 0 0 "},
+      {2u << 6, "0 0 0 2 0 1 0 0 0 0 0 0 "},    {3u << 6, "0 0 0 0 0 1 0 0 0 0 0 0 "},
+      {1u << 8, "0 0 0 0 0 1 0 0 0 0 0 0 "},    {2u << 8, "0 0 0 0 0 2 0 0 0 0 0 0 "},
+      {4u << 8, "0 0 0 0 0 4 0 0 0 0 0 0 "},    {8u << 8, "0 0 0 0 0 8 0 0 0 0 0 0 "},
+      {16u << 8, "0 0 0 0 0 16 0 0 0 0 0 0 "},  {23u << 8, "0 0 0 0 0 23 0 0 0 0 0 0 "},
+      {24u << 8, "0 0 0 0 0 24 0 0 0 0 0 0 "},  {25u << 8, "0 0 0 0 0 24 0 0 0 0 0 0 "},
+      {31u << 8, "0 0 0 0 0 24 0 0 0 0 0 0 "},  {1u << 13, "0 0 0 0 0 1 1 0 0 0 0 0 "},
+      {1u << 14, "0 0 0 0 0 1 0 1 0 0 0 0 "},   {1u << 15, "0 0 0 0 0 1 0 0 1 0 0 0 "},
+      {1u << 16, "0 0 0 0 0 1 0 0 0 1 0 0 "},   {1u << 17, "0 0 0 0 0 1 0 0 0 0 1 0 "},
+      {1u << 18, "0 0 0 0 0 1 0 0 0 0 0 1 "},   {2u << 18, "0 0 0 0 0 1 0 0 0 0 0 2 "},
+      {4u << 18, "0 0 0 0 0 1 0 0 0 0 0 4 "},   {8u << 18, "0 0 0 0 0 1 0 0 0 0 0 8 "},
+      {16u << 18, "0 0 0 0 0 1 0 0 0 0 0 16 "}, {24u << 18, "0 0 0 0 0 1 0 0 0 0 0 24 "},
+      {25u << 18, "0 0 0 0 0 1 0 0 0 0 0 24 "}, {31u << 18, "0 0 0 0 0 1 0 0 0 0 0 24 "},
+      {0xFF800000, "0 0 0 0 0 1 0 0 0 0 0 0 "}};
   for (const auto& [rules, fields] : rows) {
     b.bus.write(reg::kRules, rules);
     EXPECT_EQ(text_of(decode(b.control)), fields) << rules;
@@ -90,8 +98,8 @@ TEST(FrameRules, EachBitOfRulesIsItsFields) {
 // Bits of no field count nowhere, whatever holds the registers.
 TEST(FrameRules, OtherBitsOfRulesAreNotLookedAt) {
   rtl::ControlRegisters raw("raw", spec::geometric::kRegisters, rtl::geometric::control_layout());
-  raw.write(reg::kRules, 0xFFFF0002);
-  EXPECT_EQ(text_of(decode(raw)), "0 0 0 0 0 1 0 0 0 ");
+  raw.write(reg::kRules, 0xFF800000);
+  EXPECT_EQ(text_of(decode(raw)), "0 0 0 0 0 1 0 0 0 0 0 0 ");
   raw.write(reg::kSize, 0xC000C000 | size_of(40, 30));
   EXPECT_EQ(decode(raw).width, 40u);
   EXPECT_EQ(decode(raw).height, 30u);
@@ -110,7 +118,11 @@ TEST(FrameRules, ResetValuesAreTheParameters) {
                          Row{[](Parameters& p) { p.depth_test = DepthTest::kOwn; }, 1u << 4},
                          Row{[](Parameters& p) { p.depth_test = DepthTest::kFarther; }, 2u << 4},
                          Row{[](Parameters& p) { p.combine = static_cast<Combine>(1); }, 1u << 6},
-                         Row{[](Parameters& p) { p.linear_light = true; }, 1u << 7},
+                         Row{[](Parameters& p) { p.combine = static_cast<Combine>(2); }, 2u << 6},
+                         Row{[](Parameters& p) { p.linear_light = true; }, 1u << 1},
+                         Row{[](Parameters& p) { p.coverage = CoverageRule::kArea; }, 1u << 16},
+                         Row{[](Parameters& p) { p.cull = Cull::kBack; }, 1u << 17},
+                         Row{[](Parameters& p) { p.crease_depth = 24; }, 24u << 18},
                          Row{[](Parameters& p) { p.depth_bias = 24; }, 25u << 8},
                          Row{[](Parameters& p) { p.mark = true; }, 1u << 13},
                          Row{[](Parameters& p) { p.layout = static_cast<Layout>(1); }, 1u << 14},
@@ -122,7 +134,10 @@ TEST(FrameRules, ResetValuesAreTheParameters) {
       p.depth_test = static_cast<DepthTest>(0);
       p.combine = static_cast<Combine>(0);
       p.layout = static_cast<Layout>(0);
+      p.coverage = static_cast<CoverageRule>(0);
+      p.cull = static_cast<Cull>(0);
       p.linear_light = p.mark = p.frame_copy = false;
+      p.crease_depth = 0;
       p.depth_bias = 1;
       row.set(p);
       Frame b(p);

@@ -145,7 +145,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Build{'d', "pipelined=false dividers=3 reciprocal_table=8"},
                       Build{'g', "edge_lanes=4 walkers=1 resolve_lanes=4"},
                       Build{'f', "edge_lanes=1 resolve_lanes=1 edge_lines=4 resolve_lines=16"},
-                      Build{'c', "", 480}, Build{'d', "pipelined=false", 480}));
+                      Build{'c', "", 480}, Build{'d', "pipelined=false", 480}, Build{'m'},
+                      Build{'l', "walkers=2"}));
 
 }  // namespace
 }  // namespace deburr::tb::geometric_rtl::reset_test

@@ -3,6 +3,7 @@
 // docs/geometric_hardware.md has them; memory answers 20 clocks after a request.
 #include <map>
 
+#include "rtl_model/geometric/common/sizing.h"
 #include "rtl_model/geometric/edges/edge_reader.h"
 #include "rtl_model/geometric/edges/facing_store.h"
 #include "rtl_model/geometric/resolve/block_fetch.h"
@@ -21,11 +22,12 @@ using spec::geometric::Layout;
 
 // Everything from the WeightCombiner on; the test gives the combiner its groups.
 struct ResolveBench : Frame {
-  explicit ResolveBench(const Parameters& p = {}, int width = 1024, int height = 64)
-      : Frame(p),
-        combiner("combiner", clock, p, edge_latency),
+  explicit ResolveBench(const Parameters& p = {}, int width = 1024, int height = 64,
+                        std::uint32_t latency = 20)
+      : Frame(p, latency),
+        combiner("combiner", clock, sized(p, {}), edge_latency),
         scanner("scanner", clock, p, combiner.touched_port()),
-        fetch("fetch", clock, p, combiner.tag_port(), combiner.data_port()),
+        fetch("fetch", clock, sized(p, {}), combiner.tag_port(), combiner.data_port()),
         resolver("resolver", clock, p, fetch.colours),
         weights("weights"),
         touched("touched"),
@@ -346,6 +348,52 @@ TEST(Resolve, IntervalOfABlock) {
   EXPECT_EQ(of(Layout::kRaster, 0x2222, true), "8");
 }
 
+std::uint64_t stalled_by(const rtl::Unit& unit, std::string_view cause) {
+  for (const auto& stall : unit.stalls())
+    if (stall.name == cause) return stall.cycles;
+  ADD_FAILURE() << unit.name() << " has no stall " << cause;
+  return 0;
+}
+// What a block costs the Resolver: as many clocks are busy near a memory and far from one. The
+// others wait for lines.
+TEST(Resolve, WaitingIsNotBusy) {
+  using spec::geometric::Lanes;
+  struct Blocks {
+    std::uint16_t pixels;
+    Lanes lanes;
+    std::uint64_t each;  // max(lines, beats)
+  };
+  for (const Blocks& block : {Blocks{0x0060, Lanes::kTwo, 1},
+                              {0x000F, Lanes::kFour, 2},
+                              {0x000F, Lanes::kTwo, 2},
+                              {0xFFFF, Lanes::kTwo, 8}})
+    for (const std::uint32_t latency : {5u, 20u, 200u}) {
+      const std::string got = in_child([&] {
+        constexpr int kBlocks = 40;
+        Parameters p;
+        p.resolve_lanes = block.lanes;
+        p.resolve_lines = 16;
+        p.weight_blocks = CacheLines::k1024;
+        ResolveBench b(p, 256, 128, latency);
+        for (int i = 0; i < kBlocks; ++i) b.touch(1 + i % 16 * 2, 1 + i / 16 * 2, block.pixels);
+        b.run();
+        // The end of the frame is loaded, too.
+        const std::uint64_t busy = b.resolver.busy_cycles(), all = kBlocks * block.each + 1;
+        const std::uint64_t waits = stalled_by(b.resolver, "colours");
+        std::string wrong;
+        if (busy > all + all / 10 || busy + all / 10 < all)
+          wrong = "busy " + std::to_string(busy) + " of " + std::to_string(all);
+        // Eight lines in M + 8 clocks, of which a block takes so many.
+        const std::uint64_t lines = b.fetch.lines_read.value();
+        const std::uint64_t least = lines * (latency + 6) / 8;
+        if (latency == 200 && waits + busy + 300 < least)
+          wrong += " waits " + std::to_string(waits) + " of " + std::to_string(least);
+        return wrong;
+      });
+      EXPECT_EQ(got, "") << block.pixels << ", latency " << latency;
+    }
+}
+
 // ---- FacingStore and EdgeReader, in a frame that begins
 
 struct ReaderBench : Frame {
@@ -411,11 +459,13 @@ TEST(EdgeReader, LatencyOfTheDatasheetFromAnAnswer) {
 }
 
 // ---- FrameCopier
-Cycle copy_clocks(std::uint32_t latency, int width, int height) {
+Cycle copy_clocks(std::int32_t copy_lines, std::uint32_t latency, int width, int height) {
   Parameters p;
   p.frame_copy = true;
+  p.copy_lines = copy_lines;
+  const rtl::MemoryClocks memory{static_cast<std::int32_t>(latency), 1};
   Frame b(p, latency);
-  FrameCopier copier("copier", b.clock);
+  FrameCopier copier("copier", b.clock, rtl::geometric::sized(p, memory));
   b.arbiter.connect(Client::kCopy, copier.memory);
   copier.rules_in(b.rules);
   copier.phase_in(b.phase);
@@ -426,18 +476,29 @@ Cycle copy_clocks(std::uint32_t latency, int width, int height) {
   b.clock.run_until([&] { return copied.read(b.clock.cycle()); }, 100'000);
   return b.clock.cycle() - from;
 }
-TEST(FrameCopier, TwoClocksALineUntilSixteenLinesAreTooFew) {
-  const auto a_line = [](std::uint32_t latency) {  // in eighths of a clock
-    return in_child([latency] {
-      const Cycle few = forked<Cycle>([&] { return copy_clocks(latency, 64, 64); }),
-                  many = forked<Cycle>([&] { return copy_clocks(latency, 64, 192); });
-      return std::to_string((8 * (many - few) + 256) / 512);
-    });
-  };
-  EXPECT_EQ(a_line(4), std::to_string(8 * FrameCopier::datasheet().interval.clocks));
-  EXPECT_EQ(a_line(24), "16");
-  EXPECT_EQ(a_line(25), "17");
-  EXPECT_EQ(a_line(40), "24");  // sixteen lines in M + 8 clocks
+// Of the copy once it runs, of 512 lines.
+Cycle copy_clocks_of_512(std::int32_t copy_lines, std::uint32_t latency) {
+  const Cycle few = forked<Cycle>([&] { return copy_clocks(copy_lines, latency, 64, 64); }),
+              many = forked<Cycle>([&] { return copy_clocks(copy_lines, latency, 64, 192); });
+  return many - few;
+}
+TEST(FrameCopier, TwoClocksALineUntilItsLinesAreTooFew) {
+  const Cycle at_best = 512 * FrameCopier::datasheet().interval.clocks;
+  EXPECT_EQ(copy_clocks_of_512(16, 4), at_best);
+  EXPECT_EQ(copy_clocks_of_512(16, 24), at_best);
+  // Sixteen lines in M + 8 clocks.
+  EXPECT_EQ(copy_clocks_of_512(16, 25), 512u * 33 / 16);
+  EXPECT_EQ(copy_clocks_of_512(16, 40), 512u * 48 / 16);
+}
+// The default is the knee: a line fewer costs clocks.
+TEST(FrameCopier, TheDefaultCoversTheLatency) {
+  for (const std::uint32_t latency : {4u, 20u, 60u, 100u}) {
+    const std::int32_t lines =
+        rtl::geometric::sized({}, {static_cast<std::int32_t>(latency), 1}).copy_lines;
+    EXPECT_EQ(lines, (static_cast<std::int32_t>(latency) + 9) / 2);
+    EXPECT_EQ(copy_clocks_of_512(0, latency), 1024u) << latency;
+    EXPECT_GT(copy_clocks_of_512(lines - 1, latency), 1024u) << latency;
+  }
 }
 TEST(FrameCopier, CopiesEveryLineOnceAndThenIsIdle) {
   for (const auto& [layout, width, height, lines] : {std::tuple{Layout::kTiled, 64, 64, 256u},
@@ -452,7 +513,7 @@ TEST(FrameCopier, CopiesEveryLineOnceAndThenIsIdle) {
       p.frame_copy = true;
       p.layout = layout;
       Frame b(p);
-      FrameCopier copier("copier", b.clock);
+      FrameCopier copier("copier", b.clock, rtl::geometric::sized(p, {}));
       b.arbiter.connect(Client::kCopy, copier.memory);
       copier.rules_in(b.rules);
       copier.phase_in(b.phase);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What must not change a bit: stalls on every link, memory that answers late and in any order, the
-// order in which units are evaluated, the size of everything that is built, and with combine = max
-// the order of the edges.
+// order in which units are evaluated, the size of everything that is built, and but for combine =
+// last the order of the edges.
 #include "tb/base/random.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
@@ -54,6 +54,9 @@ INSTANTIATE_TEST_SUITE_P(Any, Stress,
                                            Trouble{'f', 0, 20, 200, 5, true, true},
                                            Trouble{'g', 400, 2, 10, 9, true, true},
                                            Trouble{'h', 100, 1, 150, 11, true, true},
+                                           Trouble{'l', 300, 5, 40, 6, true, true},
+                                           Trouble{'m', 200, 1, 90, 8, true, true},
+                                           Trouble{'n', 150, 20, 60, 2, true, true},
                                            Trouble{'c', 250, 40, 100, 4, true, false}));
 
 // Evaluated in another order, every clock is the same.
@@ -84,7 +87,7 @@ class EveryBuild : public ::testing::TestWithParam<Builds> {};
 
 TEST_P(EveryBuild, GivesTheSamePicture) {
   const Builds& v = GetParam();
-  for (const char name : {'a', 'b'}) {
+  for (const char name : {'a', 'b', 'l'}) {
     const std::string got = in_child([&] {
       Configuration c = configuration(name);
       c.p.edge_lanes = v.edge_lanes;
@@ -123,10 +126,11 @@ INSTANTIATE_TEST_SUITE_P(
                       Builds{Lanes::kOne, Lanes::kFour, Lanes::kTwo, CacheLines::k128,
                              CacheLines::k256, CacheLines::k64, 100, 6, 5, 1, false}));
 
-TEST(EdgeOrder, DoesNotMatterWithMax) {
+class EdgeOrder : public ::testing::TestWithParam<char> {};
+TEST_P(EdgeOrder, DoesNotMatter) {
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {
     const std::string got = in_child([&] {
-      const Configuration c = configuration('c');
+      const Configuration c = configuration(GetParam());
       Scene scene = contract_scene();
       std::uint32_t s = seed;
       for (std::size_t i = scene.edges.size() - 1; i > 0; --i) {
@@ -142,6 +146,8 @@ TEST(EdgeOrder, DoesNotMatterWithMax) {
     EXPECT_EQ(got, "same");
   }
 }
+// max; outermost; all rules.
+INSTANTIATE_TEST_SUITE_P(Page, EdgeOrder, ::testing::Values('c', 'i', 'l', 'm'));
 
 // Of a frame of any size and whatever lines, in place and from a copy, rows or tiles: one picture.
 Scene random_scene(std::uint64_t seed) {
@@ -179,7 +185,10 @@ TEST_P(RandomFrames, InPlaceAndCopiedRowsAndTilesAreTheSame) {
     for (int variant = 0; variant < 6; ++variant) {
       const std::string got = in_child([&] {
         Parameters p;
-        if (GetParam() % 2) p.combine = spec::geometric::Combine::kLast;
+        p.combine = static_cast<spec::geometric::Combine>(GetParam() % 3);
+        p.coverage = static_cast<spec::geometric::CoverageRule>(seed >> 1 & 1);
+        p.cull = static_cast<spec::geometric::Cull>(seed & 1);
+        p.crease_depth = static_cast<std::int32_t>(seed % 4) * 3;
         p.mark = GetParam() % 3 == 0;
         p.layout = static_cast<spec::geometric::Layout>(variant & 1);
         p.frame_copy = (variant & 2) != 0;

@@ -5,6 +5,7 @@
 #include <deque>
 #include <numeric>
 
+#include "rtl_model/geometric/common/sizing.h"
 #include "rtl_model/geometric/edges/edge_classifier.h"
 #include "rtl_model/geometric/edges/vertex_fetch.h"
 #include "rtl_model/geometric/lines/coverage_unit.h"
@@ -98,6 +99,7 @@ TEST(EdgeClassifier, KeptEdgesLeaveOneAClock) {
 TEST(EdgeClassifier, IndicesEndBeforeTheirCounts) {
   Parameters p;
   p.edge_lanes = Lanes::kFour;
+  p.cull = spec::geometric::Cull::kBack;
   ClassifierBench b(p);
   b.bus.write(reg::kFaceCount, 40);
   b.rules.drive(b.clock.cycle() - 1, decode(b.control));
@@ -127,9 +129,50 @@ TEST(EdgeClassifier, IndicesEndBeforeTheirCounts) {
   EXPECT_EQ(b.unit.boundary_edges.value(), 1u);
 }
 
+// What becomes of an edge of two faces, by the classes of the page: "back", "crease", "flat", and
+// whether it leaves the unit and as what.
+TEST(EdgeClassifier, EdgesOfFacesTurnedAwayAreCulledOrJudged) {
+  namespace flag = spec::geometric::flag;
+  using spec::geometric::Crease;
+  using spec::geometric::Cull;
+  for (const Cull cull : {Cull::kNone, Cull::kBack})
+    for (const Crease crease : {Crease::kOff, Crease::kPaper, Crease::kShading})
+      for (const unsigned flags : {0u, 2u, 4u, 6u, 8u, 10u, 14u}) {
+        const std::string got = in_child([&] {
+          Parameters p;
+          p.cull = cull;
+          p.crease = crease;
+          ClassifierBench b(p);
+          b.bus.write(reg::kFaceCount, 4);  // no facing bit is loaded: all of them turned away
+          b.rules.drive(b.clock.cycle() - 1, decode(b.control));
+          EdgeBeat beat{};
+          beat.count = 2;
+          beat.edge[0] = {1, 2, 0, 1, static_cast<std::uint8_t>(flags)};
+          beat.edge[1] = {3, 4, 0, 0, flag::kBoundary};
+          b.ends.source.add(beat);
+          b.clock.run(20);
+          std::string text = std::to_string(b.unit.back_edges.value()) + " " +
+                             std::to_string(b.unit.crease_edges.value()) + " " +
+                             std::to_string(b.unit.flat_edges.value()) + ":";
+          for (const auto& taken : b.ends.sink.taken)
+            text += " " + std::to_string(taken.token.v0) + (taken.token.crease ? "c" : "");
+          return text;
+        });
+        const bool angle = flags & flag::kAngle, split = flags & flag::kSplitNormals,
+                   seam = flags & flag::kSeam;
+        const bool is_crease = crease == Crease::kPaper     ? angle
+                               : crease == Crease::kShading ? (angle && split) || seam
+                                                            : false;
+        const std::string wanted = cull == Cull::kBack ? "1 0 0: 3"
+                                   : is_crease         ? "0 1 0: 1c 3"
+                                                       : "0 0 1: 3";
+        EXPECT_EQ(got, wanted) << flags << ", crease " << static_cast<int>(crease);
+      }
+}
+
 // ---- VertexFetch
 struct VertexBench : Frame {
-  VertexBench() : Frame({}), unit("unit", clock, {}), ends(clock) {
+  VertexBench() : Frame({}), unit("unit", clock, sized({}, {})), ends(clock) {
     arbiter.connect(Client::kVertices, unit.memory);
     unit.rules_in(rules);
     unit.edges_in(ends.in);
@@ -143,24 +186,31 @@ struct VertexBench : Frame {
 };
 TEST(VertexFetch, LatencyOfTheDatasheetOrWaitsForALine) {
   VertexBench b;
-  EXPECT_EQ(b.latency(b.ends, {1, 9, false}), "32");  // the second miss came a clock later
+  EXPECT_EQ(b.latency(b.ends, {1, 9, false, false}), "32");  // the second miss came a clock later
   b.clock.run(10);
-  expect_latency_of(VertexFetch::datasheet(), b.latency(b.ends, {9, 2, false}));
+  expect_latency_of(VertexFetch::datasheet(), b.latency(b.ends, {9, 2, false, false}));
   b.clock.run(10);
-  EXPECT_EQ(b.latency(b.ends, {2, 17, false}), "31");
+  EXPECT_EQ(b.latency(b.ends, {2, 17, false, false}), "31");
   EXPECT_EQ(b.unit.misses.value(), 3u);
   EXPECT_EQ(b.unit.lookups.value(), 6u);
 }
+TEST(VertexFetch, CarriesTheClassOfEachEdge) {
+  VertexBench b;
+  for (std::uint32_t i = 0; i < 40; ++i) b.ends.source.add({i, 40 - i, i % 3 == 0, false});
+  finish(b, b.ends, 40);
+  for (std::size_t i = 0; i < 40; ++i)
+    EXPECT_EQ(b.ends.sink.taken[i].token.crease, i % 3 == 0) << i;
+}
 TEST(VertexFetch, AnEdgeAClockWhereAtMostOneLookUpMisses) {
   VertexBench b;
-  for (std::uint32_t i = 0; i < 60; ++i) b.ends.source.add({4 * i, 4 * i + 4, false});
+  for (std::uint32_t i = 0; i < 60; ++i) b.ends.source.add({4 * i, 4 * i + 4, false, false});
   finish(b, b.ends, 60);
   EXPECT_EQ(spread(b.ends), 59 * VertexFetch::datasheet().interval.clocks);
   EXPECT_EQ(b.unit.misses.value(), 61u);
 }
 TEST(VertexFetch, TwoClocksWhereBothMiss) {
   VertexBench b;
-  for (std::uint32_t i = 0; i < 30; ++i) b.ends.source.add({8 * i, 8 * i + 4, false});
+  for (std::uint32_t i = 0; i < 30; ++i) b.ends.source.add({8 * i, 8 * i + 4, false, false});
   finish(b, b.ends, 30);
   EXPECT_EQ(spread(b.ends), 58u);
 }
@@ -176,9 +226,9 @@ TEST(VertexFetch, CountsLookUpsOfLines) {
       EXPECT_EQ(memory.reads(), 0u) << memory.name();
     }
   });
-  b.ends.source.add({0, 3, false});
-  b.ends.source.add({3, 4, false});
-  b.ends.source.add({5, 5, false});
+  b.ends.source.add({0, 3, false, false});
+  b.ends.source.add({3, 4, false, false});
+  b.ends.source.add({5, 5, false, false});
   finish(b, b.ends, 4);
   EXPECT_EQ(b.unit.lookups.value(), 1u + 2 + 1);
   EXPECT_EQ(b.unit.misses.value(), 2u);
@@ -191,8 +241,8 @@ TEST(VertexFetch, TwoLinesOfOneIndexAreFetchedAnew) {
   bytes[64 * 64] = 99;
   bytes[64 * 64 + 12] = 1;
   b.memory.preload(0, bytes);
-  for (int i = 0; i < 4; ++i) b.ends.source.add({0, 256, false});
-  for (int i = 0; i < 4; ++i) b.ends.source.add({256, 0, false});
+  for (int i = 0; i < 4; ++i) b.ends.source.add({0, 256, false, false});
+  for (int i = 0; i < 4; ++i) b.ends.source.add({256, 0, false, false});
   finish(b, b.ends, 8);
   // Edge 5 finds its v0, which edge 4 fetched last, and so on.
   EXPECT_EQ(b.unit.misses.value(), 2u + 2 + 2 + 2 + 1 + 2 + 2 + 2);
@@ -370,6 +420,21 @@ TEST(LineWalker, CountsTheColumnsOfEachLine) {
   EXPECT_EQ(b.unit.line_columns.sum(), 3u + 6 + 4 + 499 + 500 + 501 + 8192);
   EXPECT_EQ(b.unit.columns.value(), b.unit.line_columns.sum());
 }
+TEST(LineWalker, GivesEachGroupSlopeAndClassOfItsLine) {
+  WalkerBench b(Lanes::kFour);
+  for (int i = 0; i < 12; ++i) {
+    LineToken token = WalkerBench::line(0, 8, (i - 6) << 16);
+    token.line.crease = i % 2 == 1;
+    b.ends.source.add(token);
+  }
+  b.clock.run(100);
+  ASSERT_EQ(b.ends.sink.taken.size(), 24u);
+  for (int i = 0; i < 24; ++i) {
+    const GroupToken& group = b.ends.sink.taken[static_cast<std::size_t>(i)].token;
+    EXPECT_EQ(group.slope, (i / 2 - 6) << 16) << i;
+    EXPECT_EQ(group.crease, i / 2 % 2 == 1) << i;
+  }
+}
 TEST(LineWalker, GroupsEndAtBlocks) {
   WalkerBench b(Lanes::kFour);
   b.ends.source.add(WalkerBench::line(3, 4));              // 1 + 3
@@ -384,7 +449,8 @@ TEST(LineWalker, GroupsEndAtBlocks) {
 
 // ---- CoverageUnit
 struct CoverageBench : Frame {
-  CoverageBench() : Frame({}), unit("unit", clock, edge_latency), ends(clock) {
+  explicit CoverageBench(const Parameters& p = {})
+      : Frame(p), unit("unit", clock, p, edge_latency), ends(clock) {
     unit.rules_in(rules);
     unit.groups_in(ends.in);
     unit.candidates_out(ends.out);
@@ -398,6 +464,11 @@ struct CoverageBench : Frame {
     token.count = 1;
     token.position[0] = row * 65536 + 32768 + distance;
     return token;
+  }
+  static Parameters area() {
+    Parameters p;
+    p.coverage = spec::geometric::CoverageRule::kArea;
+    return p;
   }
   // "direction coverage", or nothing.
   std::string one(const GroupToken& token) {
@@ -445,11 +516,11 @@ TEST(CoverageUnit, AGroupWithoutACandidateGoesOnWhereThereIsNoRoom) {
   b.clock.run(50);
   EXPECT_EQ(b.ends.in.pops(), 32u);
   EXPECT_EQ(b.unit.stalled_cycles(), 0u);
-  // Sent in 50, taken in 51; it would leave in 52, and does in 101, a clock after the first one.
+  // Sent in 50, taken in 51; it would leave in 53, and does in 101, a clock after the first one.
   b.ends.source.add(CoverageBench::group(false, 7, 9));
   b.clock.run(60);
   ASSERT_EQ(b.ends.sink.taken.size(), 3u);
-  EXPECT_EQ(b.unit.stalled_cycles(), 101u - 52);
+  EXPECT_EQ(b.unit.stalled_cycles(), 101u - 53);
   EXPECT_EQ(b.ends.sink.taken[2].cycle, begin + 102);
 }
 TEST(CoverageUnit, EveryDistance) {
@@ -484,10 +555,113 @@ TEST(CoverageUnit, TiesAndBorders) {
   EXPECT_EQ(b.one(CoverageBench::group(true, 62, 900)), "+124");
 }
 
+// The area by the page's formula, of a slope of k / 32 at the middle of its distances, in 1/256.
+int area_of(int k, int i) {
+  const int h = 63 - 2 * i + 2 * k;
+  return h <= 0 ? 0 : h >= 4 * k ? 126 - 4 * i : (h * h + 2 * k) / (4 * k);
+}
+// Every distance, at slopes around each of the table's and where halves are rounded up.
+TEST(CoverageUnit, AreasOfEveryDistanceAndSlope) {
+  std::vector<int> slopes = {0, 1, 255, 256, 511, 512, 1 << 18, (1 << 18) - 1};
+  for (int k = 1; k <= 32; ++k)
+    for (const int beside : {-262'144, -262'145, 0}) slopes.push_back((k << 19) + beside);
+  std::size_t seconds = 0, far_seconds = 0;
+  CoverageBench b(CoverageBench::area());
+  for (const int magnitude : slopes)
+    for (const int slope : {magnitude, -magnitude}) {
+      b.ends.sink.taken.clear();
+      std::vector<int> distances;
+      for (int distance = -32768; distance < 32768; distance += 61) distances.push_back(distance);
+      for (const int distance : {-32767, -1, 0, 1, 128, 129, 16384, 32767})
+        distances.push_back(distance);
+      const int edge = (65536 - (magnitude >> 8)) / 2;  // where the line begins to leave the pixel
+      for (const int distance : {edge, edge + 1, -edge, -edge - 1, edge - 1})
+        if (distance >= -32768 && distance < 32768) distances.push_back(distance);
+      for (const int distance : distances) {
+        GroupToken group = CoverageBench::group(false, 7, distance);
+        group.slope = slope;
+        b.ends.source.add(group);
+      }
+      b.clock.run(distances.size() + 10);
+      std::size_t at = 0;
+      for (const int distance : distances) {
+        const int away = std::abs(distance);
+        int first = (32768 - away + 128) / 256, second = 0;
+        if (2 * away + (magnitude >> 8) > 65536) {
+          const int k = std::max(1, (magnitude + (1 << 18)) >> 19);
+          first = area_of(k, away / 1024);
+          second = area_of(k, (65536 - away) / 1024);
+        }
+        if (first == 0) continue;
+        ASSERT_LT(at, b.ends.sink.taken.size());
+        const CandidateToken& got = b.ends.sink.taken[at++].token;
+        ASSERT_EQ(got.coverage[0], first) << slope << " at " << distance;
+        ASSERT_EQ(got.seconds != 0, second != 0) << slope << " at " << distance;
+        if (second == 0) continue;
+        ++seconds;
+        far_seconds += first == second;
+        ASSERT_EQ(got.second[0], second) << slope << " at " << distance;
+      }
+      ASSERT_EQ(at, b.ends.sink.taken.size());
+    }
+  EXPECT_GT(seconds, 10'000u);
+  EXPECT_GT(far_seconds, 30u);
+}
+// With coverage = distance a line cuts one pixel of a column, and no table is read.
+TEST(CoverageUnit, DistancesReadNoTable) {
+  Parameters p;
+  p.coverage = spec::geometric::CoverageRule::kDistance;
+  CoverageBench b(p);
+  for (int distance = -32768; distance < 32768; distance += 300) {
+    GroupToken group = CoverageBench::group(false, 7, distance);
+    group.slope = 1 << 24;
+    b.ends.source.add(group);
+  }
+  b.clock.run(300);
+  EXPECT_GT(b.ends.sink.taken.size(), 200u);
+  for (const auto& taken : b.ends.sink.taken) EXPECT_EQ(taken.token.seconds, 0u);
+  rtl::for_each<rtl::PortedMemory>(
+      b.unit, [](rtl::PortedMemory& memory) { EXPECT_EQ(memory.reads(), 0u) << memory.name(); });
+}
+// Both pixels lie in the frame where the first is a candidate, and both count.
+TEST(CoverageUnit, SecondCandidatesAtTheBordersAndInTheCount) {
+  CoverageBench b(CoverageBench::area());
+  const auto steep = [](bool vertical, int row, int distance) {
+    GroupToken group = CoverageBench::group(vertical, row, distance);
+    group.slope = 1 << 24;
+    return group;
+  };
+  EXPECT_EQ(b.one(steep(false, 0, -30'000)), "");
+  EXPECT_EQ(b.one(steep(false, 47, 30'000)), "");
+  EXPECT_EQ(b.unit.candidates.value(), 0u);
+  EXPECT_EQ(b.one(steep(false, 0, 30'000)), "+" + std::to_string(area_of(32, 29)));
+  EXPECT_EQ(b.ends.sink.taken[0].token.seconds, 1u);
+  EXPECT_EQ(b.unit.candidates.value(), 2u);
+  EXPECT_EQ(b.one(steep(true, 63, -30'000)), "-" + std::to_string(area_of(32, 29)));
+  EXPECT_EQ(b.unit.candidates.value(), 4u);
+  EXPECT_EQ(b.ends.sink.taken[0].token.second[0], area_of(32, 34));
+}
+// While the link is full the areas stay on the tables' output registers.
+TEST(CoverageUnit, AreasWaitForRoom) {
+  CoverageBench b(CoverageBench::area());
+  b.ends.sink.opens = b.clock.cycle() + 60;
+  std::vector<int> wanted;
+  for (int i = 0; i < 20; ++i) {
+    GroupToken group = CoverageBench::group(false, 7, 10'000 + 1000 * i);
+    group.slope = 1 << 24;
+    b.ends.source.add(group);
+    wanted.push_back(area_of(32, (10'000 + 1000 * i) / 1024));
+  }
+  b.clock.run(120);
+  ASSERT_EQ(b.ends.sink.taken.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    EXPECT_EQ(b.ends.sink.taken[i].token.coverage[0], wanted[i]) << i;
+}
+
 // ---- DepthTest
 struct DepthBench : Frame {
   explicit DepthBench(const Parameters& p = {})
-      : Frame(p), unit("unit", clock, p, edge_latency), ends(clock) {
+      : Frame(p), unit("unit", clock, sized(p, {}), edge_latency), ends(clock) {
     arbiter.connect(Client::kDepth, unit.memory);
     unit.rules_in(rules);
     unit.candidates_in(ends.in);
@@ -525,7 +699,7 @@ struct DepthBench : Frame {
 };
 TEST(DepthTest, LatencyOfTheDatasheetOrWaitsForALine) {
   DepthBench b;
-  EXPECT_EQ(b.latency(b.ends, DepthBench::pixel(3, 4)), "32");
+  EXPECT_EQ(b.latency(b.ends, DepthBench::pixel(3, 4)), "33");
   b.clock.run(10);
   expect_latency_of(rtl::geometric::DepthTest::datasheet(),
                     b.latency(b.ends, DepthBench::pixel(3, 4)));
@@ -630,6 +804,114 @@ TEST(DepthTest, PassesAtEqualityForEachBias) {
   }
 }
 
+// What lies behind a crease by more than its depth's share is none of its business: a depth on
+// either side of the limit, for each limit; that of the pixel or of the neighbour, whichever is
+// farther; and other lines are not limited.
+TEST(DepthTest, ACreaseIsLimitedInDepth) {
+  using spec::geometric::DepthTest;
+  constexpr std::uint32_t kDepth = 11'000'007;
+  for (const DepthTest rule : {DepthTest::kFarther, DepthTest::kOwn, DepthTest::kOff})
+    for (int limit = 0; limit <= 24; ++limit)
+      for (const int beside : {-1, 0, 1}) {
+        const std::string got = in_child([&] {
+          Parameters p;
+          p.depth_test = rule;
+          p.crease_depth = limit;
+          DepthBench b(p);
+          const std::uint32_t least = limit == 0 ? 1000 : kDepth - (kDepth >> limit),
+                              depth = static_cast<std::uint32_t>(static_cast<int>(least) + beside);
+          // Of the block, rows 0, 2 have this depth and 1, 3 are nearer.
+          std::vector<std::uint8_t> line;
+          for (int i = 0; i < 16; ++i)
+            for (int byte = 0; byte < 4; ++byte)
+              line.push_back(
+                  static_cast<std::uint8_t>((i / 4 % 2 ? kDepth + 5 : depth) >> (8 * byte)));
+          b.memory.preload(0, line);
+          std::string text;
+          b.unit.observer = [&](const spec::geometric::Candidate& c) {
+            text += c.passed ? '1' : '0';
+          };
+          for (const bool crease : {true, false})
+            for (const int place : {9, 5}) {  // takes from above: rows 2 and 1
+              CandidateToken token = DepthBench::pixel(0, 0, kDepth);
+              token.vertical = false;
+              token.crease = crease;
+              token.place[0] = static_cast<std::uint8_t>(place);
+              b.ends.source.add(token);
+            }
+          b.clock.run(100);
+          return text;
+        });
+        // The pixel of place 5 is nearer, and has the other above it.
+        const bool limited = limit != 0 && rule != DepthTest::kOff && beside < 0;
+        const char first = limited ? '0' : '1',
+                   second = limited && rule == DepthTest::kFarther ? '0' : '1';
+        EXPECT_EQ(got, std::string(1, first) + second + "11")
+            << "limit " << limit << ", rule " << static_cast<int>(rule) << ", " << beside;
+      }
+}
+
+// Which of both is nearer, for each lane; equal depths are neither. Only `farther` reads both.
+TEST(DepthTest, SaysWhichOfBothIsNearer) {
+  using spec::geometric::DepthTest;
+  for (const DepthTest rule : {DepthTest::kFarther, DepthTest::kOwn, DepthTest::kOff}) {
+    const std::string got = in_child([rule] {
+      Parameters p;
+      p.depth_test = rule;
+      DepthBench b(p);
+      // Columns of 7 over 9, of 9 over 7, of 8 over 8, of 0 over 1.
+      const std::array<std::uint32_t, 8> depths = {7, 9, 8, 0, 9, 7, 8, 1};
+      std::vector<std::uint8_t> line;
+      for (std::size_t i = 0; i < 16; ++i)
+        for (int byte = 0; byte < 4; ++byte)
+          line.push_back(static_cast<std::uint8_t>(depths[i % 8] >> (8 * byte)));
+      b.memory.preload(0, line);
+      CandidateToken token{};
+      token.candidates = 15;
+      token.forward = 15;  // from below
+      token.place = {0, 1, 2, 3};
+      token.depth = {99, 99, 99, 99};
+      b.ends.source.add(token);
+      finish(b, b.ends, 1);
+      const WeightToken& got_token = b.ends.sink.taken[0].token;
+      return std::to_string(got_token.nearer) + " " + std::to_string(got_token.farther);
+    });
+    EXPECT_EQ(got, rule == DepthTest::kFarther ? "2 9" : "0 0") << static_cast<int>(rule);
+  }
+}
+
+// A second candidate passes with the first one and looks nothing up.
+TEST(DepthTest, SecondCandidatesPassWithTheFirst) {
+  DepthBench b;
+  std::vector<spec::geometric::Candidate> shown;
+  b.unit.observer = [&](const spec::geometric::Candidate& c) { shown.push_back(c); };
+  std::vector<std::uint8_t> line;
+  for (int i = 0; i < 16; ++i)
+    for (const int byte : {100, 0, 0, 0}) line.push_back(static_cast<std::uint8_t>(byte));
+  b.memory.preload(0, line);
+  CandidateToken token{};
+  token.candidates = 7;
+  token.forward = 5;
+  token.seconds = 6;
+  token.place = {4, 5, 6, 0};  // row 1
+  token.coverage = {90, 80, 70, 0};
+  token.second = {99, 8, 7, 0};
+  token.depth = {100, 99, 100, 0};  // lane 1 lies behind
+  b.ends.source.add(token);
+  finish(b, b.ends, 1);
+  using spec::geometric::Direction;
+  const std::vector<spec::geometric::Candidate> wanted = {{0, 1, Direction::kDown, 90, 100, true},
+                                                          {1, 1, Direction::kUp, 80, 99, false},
+                                                          {1, 0, Direction::kDown, 8, 99, false},
+                                                          {2, 1, Direction::kDown, 70, 100, true},
+                                                          {2, 2, Direction::kUp, 7, 100, true}};
+  EXPECT_EQ(shown, wanted);
+  EXPECT_EQ(b.unit.passed.value(), 3u);
+  EXPECT_EQ(b.unit.lookups.value(), 1u);
+  EXPECT_EQ(b.ends.sink.taken[0].token.candidates, 5u);
+  EXPECT_EQ(b.ends.sink.taken[0].token.seconds, 4u);
+}
+
 // What it tells the scoreboard of a candidate, of every pixel of a block and every direction.
 TEST(DepthTest, ShowsEachCandidate) {
   DepthBench b;
@@ -659,7 +941,10 @@ TEST(DepthTest, ShowsEachCandidate) {
 // ---- WeightCombiner: nothing comes out of it
 struct CombinerBench : Frame {
   explicit CombinerBench(const Parameters& p = {})
-      : Frame(p), unit("unit", clock, p, edge_latency), in("in"), source("source", clock) {
+      : Frame(p),
+        unit("unit", clock, sized(p, {}), edge_latency),
+        in("in"),
+        source("source", clock) {
     arbiter.connect(Client::kWeights, unit.memory);
     unit.rules_in(rules);
     unit.weights_in(in);
@@ -710,6 +995,120 @@ TEST(WeightCombiner, AGroupAClockWhateverBlock) {
   EXPECT_EQ(b.unit.stalled_cycles(), 0u);
   // The last write is answered a while after it was sent.
   EXPECT_LE(clocks, 601u + 6 + 30);
+}
+// Weights of pixel (x, y), once its block has left the cache.
+spec::geometric::Weights weights_at(CombinerBench& b, int x, int y) {
+  const std::vector<std::uint8_t> bytes = b.memory.dump(
+      static_cast<std::uint64_t>(64 * (y / 4 * 512 + x / 4) + 4 * (y % 4 * 4 + x % 4)), 4);
+  return {bytes[0], bytes[1], bytes[2], bytes[3]};
+}
+// Sends every block of the first rows to memory: others take their places.
+void push_out(CombinerBench& b) {
+  for (int i = 0; i < 128; ++i) b.source.add(CombinerBench::token(256 + i % 16, i / 16 % 4));
+  b.source.add(CombinerBench::end());
+  b.until_drawn();
+}
+// Second candidates in the group's block are drawn with it; those in the next one across the line a
+// clock later, whose index is another.
+TEST(WeightCombiner, SecondCandidatesOfAnotherBlockTakeAClock) {
+  for (const bool vertical : {false, true})
+    for (const bool forward : {false, true}) {
+      const std::string got = in_child([&] {
+        CombinerBench b;
+        WeightToken t{};
+        t.block_x = t.block_y = 1;
+        t.vertical = vertical;
+        t.candidates = 3;
+        t.forward = forward ? 3 : 0;
+        // Lane 0 at the side to which it goes, lane 1 a pixel before it.
+        const int at = forward ? 3 : 0, inside = forward ? 2 : 1;
+        const auto place = [&](int across, int along) {
+          return static_cast<std::uint8_t>(vertical ? 4 * along + across : 4 * across + along);
+        };
+        t.place = {place(at, 0), place(inside, 1)};
+        t.coverage = {50, 60};
+        t.seconds = 2;
+        t.second = {9, 7};
+        const Cycle inside_only = [&] {
+          for (int i = 0; i < 50; ++i) b.source.add(t);
+          const std::uint64_t from = b.in.pops();
+          const Cycle begin = b.clock.cycle();
+          b.clock.run_until([&] { return b.in.pops() == from + 50; }, 1000);
+          return b.clock.cycle() - begin;
+        }();
+        t.seconds = 3;
+        const Cycle both = [&] {
+          for (int i = 0; i < 50; ++i) b.source.add(t);
+          const std::uint64_t from = b.in.pops();
+          const Cycle begin = b.clock.cycle();
+          b.clock.run_until([&] { return b.in.pops() == from + 50; }, 1000);
+          return b.clock.cycle() - begin;
+        }();
+        if (b.unit.misses.value() != 2) return std::string("misses");
+        if (b.unit.lookups.value() < 145) return std::string("look-ups");
+        push_out(b);
+        std::string text;
+        const auto weight = [&](int across, int along) {
+          const spec::geometric::Weights w = vertical ? weights_at(b, 4 + across, 4 + along)
+                                                      : weights_at(b, 4 + along, 4 + across);
+          for (const std::uint8_t v : w) text += std::to_string(v) + " ";
+          text += "| ";
+        };
+        const int step = forward ? 1 : -1;
+        weight(at, 0);
+        weight(at + step, 0);
+        weight(inside, 1);
+        weight(inside + step, 1);
+        return std::to_string((both - inside_only + 25) / 50) + ": " + text;
+      });
+      const auto weights = [&](bool to, int value) {
+        std::array<int, 4> w{};
+        w[2u * vertical + to] = value;
+        std::string text;
+        for (const int v : w) text += std::to_string(v) + " ";
+        return text + "| ";
+      };
+      EXPECT_EQ(got, "1: " + weights(forward, 50) + weights(!forward, 9) + weights(forward, 60) +
+                         weights(!forward, 7))
+          << vertical << forward;
+    }
+}
+// The smallest weight of a pixel that is nearer than its neighbour, and the largest of others, in
+// whichever order they come; the second candidate's pixel is nearer where the first one's is
+// farther; with `max` and `last` neither counts.
+TEST(WeightCombiner, OutermostKeepsTheSmallestOfWhatIsNearer) {
+  using spec::geometric::Combine;
+  for (const Combine rule : {Combine::kMax, Combine::kLast, Combine::kOutermost})
+    for (const unsigned which : {0u, 1u, 2u}) {  // neither, the pixel, the neighbour nearer
+      const std::string got = in_child([&] {
+        Parameters p;
+        p.combine = rule;
+        CombinerBench b(p);
+        for (const int coverage : {40, 90, 20, 60}) {
+          WeightToken t{};
+          t.block_x = t.block_y = 1;
+          t.candidates = t.seconds = t.forward = 2;
+          t.nearer = which == 1 ? 2 : 0;
+          t.farther = which == 2 ? 2 : 0;
+          t.place[1] = 5;
+          t.coverage[1] = static_cast<std::uint8_t>(coverage);
+          t.second[1] = static_cast<std::uint8_t>(coverage / 2);
+          b.source.add(t);
+        }
+        push_out(b);
+        return std::to_string(weights_at(b, 5, 5)[1]) + " " +
+               std::to_string(weights_at(b, 5, 6)[0]);
+      });
+      const bool outermost = rule == Combine::kOutermost;
+      const int first = rule == Combine::kLast    ? 60
+                        : outermost && which == 1 ? 20
+                                                  : 90,
+                second = rule == Combine::kLast    ? 30
+                         : outermost && which == 2 ? 10
+                                                   : 45;
+      EXPECT_EQ(got, std::to_string(first) + " " + std::to_string(second))
+          << static_cast<int>(rule) << " " << which;
+    }
 }
 TEST(WeightCombiner, ABlockThatComesBackWaitsForItsWrite) {
   CombinerBench b;

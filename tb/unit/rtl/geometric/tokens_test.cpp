@@ -17,7 +17,7 @@ TEST(GeometricTokens, FieldsHaveTheBitsOfTheirFormat) {
       tb::expect_widths_of_formats<EdgeFields, EdgeBeat, KeptEdge, VertexFields, EdgeEnds,
                                    LineToken, GroupToken, CandidateToken, WeightToken, TouchedBlock,
                                    BlockToken, FrameRules>();
-  EXPECT_GE(checked, 51);
+  EXPECT_GE(checked, 58);
 }
 
 TEST(GeometricTokens, LinksAreThoseOfThePage) {

@@ -17,6 +17,7 @@
 #include "tb/app/simulate.h"
 #include "tb/base/random.h"
 #include "tb/engines/posteriser/posteriser_environment.h"
+#include "tb/engines/posteriser/posteriser_role.h"
 
 namespace deburr::tb {
 namespace {
@@ -40,6 +41,7 @@ class PosteriserCommand final : public Engine {
   std::string_view summary() const override {
     return "A picture through the posteriser, checked pixel by pixel";
   }
+  std::unique_ptr<CompositionRole> role() const override { return make_posteriser_role(); }
   void add_parameters(ParameterSet& set) override {
     set.add("picture", ParameterKind::kInput, picture_);
     set.add_engine("posteriser", parameters_);

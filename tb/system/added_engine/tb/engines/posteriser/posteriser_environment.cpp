@@ -58,16 +58,19 @@ void PosteriserMeter::collect_headline(Result& result, std::uint64_t delivered,
 }
 
 PosteriserEnvironment::PosteriserEnvironment(Simulation& simulation, const Image& picture,
-                                             const spec::posteriser::Parameters& parameters)
-    : Environment(simulation, ""),
+                                             const spec::posteriser::Parameters& parameters,
+                                             std::string name)
+    : Environment(simulation, std::move(name)),
+      tones_in("tones_in", static_cast<std::uint32_t>(parameters.link_depth)),
       picture_(picture),
       parameters_(parameters),
-      tones_in_("tones_in", static_cast<std::uint32_t>(parameters.link_depth)),
       tones_out_("tones_out", static_cast<std::uint32_t>(parameters.link_depth)),
-      source_("source", simulation.clock()),
+      source_(this->name().empty() ? std::make_unique<Driver<Tone>>("source", simulation.clock())
+                                   : nullptr),
       engine_("posteriser", simulation.clock(), as_built()),
       sink_("sink", simulation.clock()),
       host_("posteriser_host"),
+      meter_(this->name()),
       board_("pixels", describe_tone),
       register_board_(spec::posteriser::kRegisters),
       frame_(picture.width, picture.height) {
@@ -76,13 +79,11 @@ PosteriserEnvironment::PosteriserEnvironment(Simulation& simulation, const Image
          parameters.bits > 1 ? "" : "posteriser.bits of at least 2"}});
   let_blind({&board_, &register_board_.board()});
   let_miscount(register_board_, std::array{reg::kPixels, reg::kChanged});
-  source_.beats_out(tones_in_);
-  engine_.tones_in(tones_in_);
+  if (source_) source_->beats_out(tones_in);
+  engine_.tones_in(tones_in);
   engine_.tones_out(tones_out_);
   sink_.beats_in(tones_out_);
   host_.bus.bind(engine_.registers);
-  for (const Rgba8& p : picture_.pixels) tones_.push_back({{p[0], p[1], p[2]}, false});
-  tones_.back().last = true;
   sink_.keep(false);
   sink_.on_beat = [this](rtl::Cycle cycle, const Tone& tone) {
     if (golden()) board_.got(tone, cycle);
@@ -101,14 +102,17 @@ void PosteriserEnvironment::configure() { driver_.identify(); }
 
 bool PosteriserEnvironment::begin(std::size_t piece) {
   if (piece > 0) return false;
+  tones_.clear();
+  for (const Rgba8& p : picture_.pixels) tones_.push_back({{p[0], p[1], p[2]}, false});
+  tones_.back().last = true;
   expected_ = golden::posteriser::posterised(parameters_, tones_);
   if (golden()) board_.expect(expected_, picture_.width);
-  source_.send(tones_);
+  if (source_) source_->send(tones_);
   return true;
 }
 
 bool PosteriserEnvironment::done() const {
-  return source_.done() && tones_in_.empty() && tones_out_.empty();
+  return (!source_ || source_->done()) && tones_in.empty() && tones_out_.empty();
 }
 
 void PosteriserEnvironment::restart() {
@@ -128,7 +132,7 @@ void PosteriserEnvironment::finish() {
 void PosteriserEnvironment::collect(Result& result) const { meter_.collect(result, engine_); }
 
 void PosteriserEnvironment::show_parts(Observer& observer) const {
-  meter_.show(observer, engine_, tones_in_, tones_out_);
+  meter_.show(observer, engine_, tones_in, tones_out_);
 }
 
 std::vector<PictureMap> PosteriserEnvironment::maps() const {

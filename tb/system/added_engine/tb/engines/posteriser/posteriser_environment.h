@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The posteriser on one picture.
+// The posteriser on one picture, or on that of a composition.
 //
 //   picture -> Driver -> Posteriser -> Sink -> pixels: against the golden picture
 //                            └ registers <- RegisterHost: the counters at the end
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rtl_model/platform/engine_driver.h"
@@ -32,7 +34,7 @@ class PosteriserDriver final : public platform::EngineDriver {
 // What its figures are.
 class PosteriserMeter final : public Meter {
  public:
-  PosteriserMeter() : Meter("") {}
+  explicit PosteriserMeter(std::string name) : Meter(std::move(name)) {}
   void collect(Result& result, const rtl::Engine& engine) const;
   void collect_headline(Result& result, std::uint64_t delivered, int link_depth) const;
   void show(Observer& observer, const rtl::Engine& engine, const rtl::LinkBase& in,
@@ -41,9 +43,10 @@ class PosteriserMeter final : public Meter {
 
 class PosteriserEnvironment final : public Environment {
  public:
-  // The picture must outlive it.
+  // The picture, which must outlive it, is what the golden model gets. With a name it is part of a
+  // composition, which puts the picture into `tones_in`.
   PosteriserEnvironment(Simulation& simulation, const Image& picture,
-                        const spec::posteriser::Parameters& parameters);
+                        const spec::posteriser::Parameters& parameters, std::string name = {});
 
   void configure() override;
   bool begin(std::size_t piece) override;
@@ -69,14 +72,16 @@ class PosteriserEnvironment final : public Environment {
   std::size_t delivered() const { return came_; }
   static Coverage declared_coverage();
 
+  rtl::Link<spec::posteriser::Tone> tones_in;
+
  private:
   spec::posteriser::Parameters as_built() const;
 
   const Image& picture_;
   spec::posteriser::Parameters parameters_;
   std::vector<spec::posteriser::Tone> tones_, expected_;
-  rtl::Link<spec::posteriser::Tone> tones_in_, tones_out_;
-  Driver<spec::posteriser::Tone> source_;
+  rtl::Link<spec::posteriser::Tone> tones_out_;
+  std::unique_ptr<Driver<spec::posteriser::Tone>> source_;  // alone
   rtl::posteriser::Posteriser engine_;
   Sink<spec::posteriser::Tone> sink_;
   platform::RegisterHost host_;

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: MIT
+# The units of hdl/ and the tools that read them (option DEBURR_HDL). Where a tool is absent its tests are
+# skipped and say so.
+find_program(DEBURR_VERILATOR verilator)
+find_program(DEBURR_MAKE make)
+set(DEBURR_HDL_ROOT "${PROJECT_SOURCE_DIR}/hdl")
+file(GLOB_RECURSE DEBURR_HDL_SOURCES CONFIGURE_DEPENDS "${DEBURR_HDL_ROOT}/*.sv" "${DEBURR_HDL_ROOT}/*.vlt")
+
+# deburr_hdl_headers(<variable> <setting>...): the folder of the headers of a configuration, printed by the
+# build (tb/hdl/print_headers.cpp). Never committed: hdl/generated below the build.
+function(deburr_hdl_headers variable)
+  string(JOIN "_" name defaults ${ARGN})
+  string(REGEX REPLACE "[^a-z0-9_]" "_" name "${name}")
+  set(folder "${PROJECT_BINARY_DIR}/hdl/generated/${name}")
+  set(${variable} "${folder}" PARENT_SCOPE)
+  get_property(known GLOBAL PROPERTY DEBURR_HDL_HEADERS)
+  if(NOT folder IN_LIST known)
+    set_property(GLOBAL APPEND PROPERTY DEBURR_HDL_HEADERS "${folder}")
+    add_custom_command(OUTPUT "${folder}/tokens.svh" BYPRODUCTS "${folder}/tables.svh" "${folder}/descriptor.svh"
+                       COMMAND deburr_hdl_headers "${folder}" ${ARGN} DEPENDS deburr_hdl_headers VERBATIM)
+    add_custom_target(deburr_hdl_${name} DEPENDS "${folder}/tokens.svh")
+  endif()
+endfunction()
+
+# deburr_hdl_model(<class> TOP <module> [FOLDER <folder of its own sources>] [SETTINGS <setting>...]
+#                  [FAULT <file> <from> <to>]):
+# a library with the module verilated as C++ class <class>, with these parameters of the texture unit. A
+# FAULT is planted in a copy of one source: the text <from>, which stands there once, becomes <to>.
+function(deburr_hdl_model class)
+  cmake_parse_arguments(ARG "" "TOP;FOLDER" "SETTINGS;FAULT" ${ARGN})
+  deburr_hdl_headers(headers ${ARG_SETTINGS})
+  set(folder "${CMAKE_CURRENT_BINARY_DIR}/${class}")
+  set(paths -y "${DEBURR_HDL_ROOT}/fabric" -y "${DEBURR_HDL_ROOT}/texture")
+  set(depends ${DEBURR_HDL_SOURCES} "${headers}/tokens.svh")
+  if(ARG_FOLDER)
+    list(APPEND paths -y "${ARG_FOLDER}")
+    file(GLOB tops CONFIGURE_DEPENDS "${ARG_FOLDER}/*.sv")
+    list(APPEND depends ${tops})
+  endif()
+  if(ARG_FAULT)
+    list(GET ARG_FAULT 0 file)
+    cmake_path(GET file FILENAME name)
+    set(faulty "${folder}_fault/${name}")
+    add_custom_command(OUTPUT "${faulty}"
+      COMMAND "${PROJECT_SOURCE_DIR}/tb/hdl/plant_fault.py" "${DEBURR_HDL_ROOT}/${file}" "${faulty}" ${ARG_FAULT}
+      DEPENDS "${PROJECT_SOURCE_DIR}/tb/hdl/plant_fault.py" "${DEBURR_HDL_ROOT}/${file}" VERBATIM)
+    set(paths -y "${folder}_fault" ${paths})
+    list(APPEND depends "${faulty}")
+  endif()
+  # One file for the compiler: most of its time goes into headers.
+  set(library "${folder}/${class}__ALL.a")
+  add_custom_command(OUTPUT "${library}" BYPRODUCTS "${folder}/${class}.h"
+    COMMAND "${DEBURR_VERILATOR}" --cc --Mdir "${folder}" --prefix ${class} --top-module ${ARG_TOP}
+            -Wall --x-assign unique --x-initial unique "${DEBURR_HDL_ROOT}/lint.vlt" "-I${headers}" ${paths} ${ARG_TOP}
+    COMMAND "${DEBURR_MAKE}" -s -C "${folder}" -f ${class}.mk ${class}__ALL.a
+            "CXX=${CMAKE_CXX_COMPILER}" "OBJCACHE=${CMAKE_CXX_COMPILER_LAUNCHER}" VM_PARALLEL_BUILDS=0
+            OPT_FAST=-O1 OPT_SLOW=-O1 OPT_GLOBAL=-O1
+    DEPENDS ${depends} VERBATIM COMMENT "Verilating ${class}")
+  add_custom_target(deburr_verilate_${class} DEPENDS "${library}")
+  add_library(deburr_${class} INTERFACE)
+  add_dependencies(deburr_${class} deburr_verilate_${class})
+  target_include_directories(deburr_${class} SYSTEM INTERFACE "${folder}")
+  target_link_libraries(deburr_${class} INTERFACE "${library}" deburr_verilated)
+  list(JOIN ARG_SETTINGS " " settings)
+  set_property(GLOBAL APPEND_STRING PROPERTY DEBURR_HDL_MODELS
+               "inline constexpr const char* k${class} = \"${settings}\";\n")
+  set_property(GLOBAL APPEND PROPERTY DEBURR_HDL_LIBRARIES deburr_${class})
+endfunction()
+
+# What every verilated model needs.
+function(deburr_hdl_runtime)
+  get_filename_component(root "${DEBURR_VERILATOR}" REALPATH)
+  cmake_path(GET root PARENT_PATH root)
+  deburr_find(path DEBURR_VERILATOR_INCLUDE verilator NAMES verilated.h
+              HINTS "${root}/../share/verilator/include")
+  add_library(deburr_verilated STATIC "${DEBURR_VERILATOR_INCLUDE}/verilated.cpp"
+                                      "${DEBURR_VERILATOR_INCLUDE}/verilated_threads.cpp")
+  target_include_directories(deburr_verilated SYSTEM PUBLIC "${DEBURR_VERILATOR_INCLUDE}"
+                                                            "${DEBURR_VERILATOR_INCLUDE}/vltstd")
+  target_compile_features(deburr_verilated PUBLIC cxx_std_20)
+  target_compile_options(deburr_verilated PRIVATE -w)
+  deburr_find_package(Threads g++)
+  target_link_libraries(deburr_verilated PUBLIC Threads::Threads)
+endfunction()
+
+# The settings of all models as a header, and the models as libraries, for what is linked with them.
+function(deburr_hdl_finish target)
+  get_property(models GLOBAL PROPERTY DEBURR_HDL_MODELS)
+  file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/models.h" @ONLY CONTENT
+       "// SPDX-License-Identifier: MIT\n// Written by cmake/Hdl.cmake: the settings of each verilated model.\n\
+#pragma once\n\nnamespace deburr::tb::hdl {\n${models}}  // namespace deburr::tb::hdl\n")
+  get_property(libraries GLOBAL PROPERTY DEBURR_HDL_LIBRARIES)
+  add_library(${target} INTERFACE)
+  target_include_directories(${target} INTERFACE "${CMAKE_CURRENT_BINARY_DIR}")
+  target_link_libraries(${target} INTERFACE ${libraries})
+endfunction()

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What a morphological engine is given by callers of other languages.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "golden/c/parameter_texts.h"
+#include "golden/morphological/planes.h"
+#include "spec/morphological/parameters.h"
+
+namespace deburr::golden::c {
+
+inline ParameterTexts<spec::morphological::Parameters> morphological_texts() {
+  return {"morphological", [](const spec::morphological::Parameters& p) {
+            return spec::morphological::preset_parameters(p.preset, p.quality);
+          }};
+}
+
+// Edges of a frame, a byte a pixel, rows `distance` bytes apart: bit 0 to the left neighbour, bit 1
+// to the upper one. ArgumentError for one that leads out of the frame.
+morphological::EdgePlanes edge_planes(std::span<const std::uint8_t> edges, std::size_t distance,
+                                      int width, int height);
+
+}  // namespace deburr::golden::c

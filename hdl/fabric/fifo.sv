@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// A FIFO of many places (docs/fabric.md, "Memories"): a memory with one read and one write port, read
+// ahead into two output registers, past which a beat goes while they have room. To both sides it is a
+// link: pushed in t, poppable from t + 1; freed in t, refillable from t + 1. PLACES counts all beats
+// that it holds, in the memory and in the registers.
+module fifo #(
+  parameter integer BITS = 8,
+  parameter integer PLACES = 64
+) (
+  input  logic            clk,
+  input  logic            rst_n,
+  input  logic            push,
+  input  logic [BITS-1:0] push_data,
+  output logic            can_push,
+  input  logic            pop,
+  output logic [BITS-1:0] front,
+  output logic            can_pop
+);
+  localparam integer COUNT_BITS = $clog2(PLACES + 1);
+  localparam integer PLACE_BITS = PLACES > 1 ? $clog2(PLACES) : 1;
+  localparam logic [COUNT_BITS-1:0] FULL = PLACES[COUNT_BITS-1:0];
+  localparam integer LAST_INDEX = PLACES - 1;
+  localparam logic [PLACE_BITS-1:0] LAST = LAST_INDEX[PLACE_BITS-1:0];
+
+  // All beats, and those that stand in the memory and are not being read.
+  logic [COUNT_BITS-1:0] count, stored;
+  logic [PLACE_BITS-1:0] write_place, read_place;
+  // Two output registers, the oldest in first; a read of the clock before brings `word`.
+  logic [1:0] ready;  // beats in the registers, 0 to 2
+  logic reading;      // `word` holds a beat that no register has
+  logic [BITS-1:0] first, second, word;
+  logic [BITS-1:0] memory[0:PLACES-1];
+
+  // What is there after this clock's pop, and who fills it.
+  wire [1:0] left = ready + {1'b0, reading} - {1'b0, pop};
+  wire read = stored != {COUNT_BITS{1'b0}} && left < 2'd2;
+  // Nothing waits in the memory and there is room: the beat goes past it.
+  wire past = push && stored == {COUNT_BITS{1'b0}} && left < 2'd2;
+  wire write = push && !past;
+
+  wire [COUNT_BITS-1:0] next_count = count + {{(COUNT_BITS - 1) {1'b0}}, push} -
+                                     {{(COUNT_BITS - 1) {1'b0}}, pop};
+  always_ff @(posedge clk) begin
+    if (write) memory[write_place] <= push_data;
+    if (read) word <= memory[read_place];
+  end
+
+  always_ff @(posedge clk)
+    if (!rst_n) begin
+      count <= {COUNT_BITS{1'b0}};
+      stored <= {COUNT_BITS{1'b0}};
+      write_place <= {PLACE_BITS{1'b0}};
+      read_place <= {PLACE_BITS{1'b0}};
+      ready <= 2'd0;
+      reading <= 1'b0;
+      can_push <= 1'b1;
+      can_pop <= 1'b0;
+    end else begin
+      count <= next_count;
+      can_push <= next_count != FULL;
+      can_pop <= next_count != {COUNT_BITS{1'b0}};
+      stored <= stored + {{(COUNT_BITS - 1) {1'b0}}, write} - {{(COUNT_BITS - 1) {1'b0}}, read};
+      if (write) write_place <= write_place == LAST ? {PLACE_BITS{1'b0}} : write_place + 1'b1;
+      if (read) read_place <= read_place == LAST ? {PLACE_BITS{1'b0}} : read_place + 1'b1;
+      reading <= read;
+      ready <= left + {1'b0, past};
+    end
+
+  // The beat that the consumer sees: of the registers, or, when they are empty, what was read.
+  assign front = ready != 2'd0 ? first : word;
+  always_ff @(posedge clk) begin
+    // Beats in their order: first, second, word (at most two of them), then the one that goes past.
+    if (pop) begin
+      if (ready == 2'd2) first <= second;
+      else if (ready == 2'd1 && reading) first <= word;
+      else if (past) first <= push_data;
+    end else if (ready == 2'd0) begin
+      if (reading) first <= word;
+      else if (past) first <= push_data;
+    end
+    if (pop) begin
+      if (ready + {1'b0, reading} == 2'd2 && past) second <= push_data;
+    end else begin
+      if (ready == 2'd1 && reading) second <= word;
+      else if (left == 2'd1 && past) second <= push_data;
+    end
+  end
+
+`ifdef FORMAL
+  // As of a link: the count, and one beat that the solver picks among all that are pushed.
+  reg f_past = 1'b0;
+  always @(posedge clk) f_past <= 1'b1;
+  always @* if (!f_past) assume (!rst_n);
+  always @* begin
+    assume (!push || can_push);
+    assume (!pop || can_pop);
+  end
+  (* anyseq *) wire f_pick;
+  reg f_held = 1'b0, f_done = 1'b0;
+  reg [BITS-1:0] f_beat;
+  reg [COUNT_BITS-1:0] f_ahead;
+  reg [31:0] f_pushed, f_popped;
+  wire [COUNT_BITS-1:0] behind = count - {{(COUNT_BITS - 1) {1'b0}}, pop};
+  always @(posedge clk)
+    if (!rst_n) begin
+      f_held <= 1'b0;
+      f_done <= 1'b0;
+      f_pushed <= 32'd0;
+      f_popped <= 32'd0;
+    end else begin
+      f_pushed <= f_pushed + {31'd0, push};
+      f_popped <= f_popped + {31'd0, pop};
+      if (push && f_pick && !f_held && !f_done) begin
+        f_held <= 1'b1;
+        f_beat <= push_data;
+        f_ahead <= behind;
+      end else if (f_held && pop) begin
+        if (f_ahead == {COUNT_BITS{1'b0}}) begin
+          f_held <= 1'b0;
+          f_done <= 1'b1;
+        end else f_ahead <= f_ahead - 1'b1;
+      end
+    end
+  // Where the beat stands that has f_ahead before it.
+  wire [COUNT_BITS-1:0] f_out = {{(COUNT_BITS - 2) {1'b0}}, ready} + {{(COUNT_BITS - 1) {1'b0}}, reading};
+  wire [COUNT_BITS:0] f_far = {1'b0, f_ahead} - {1'b0, f_out} + {{(COUNT_BITS + 1 - PLACE_BITS) {1'b0}}, read_place};
+  wire [COUNT_BITS:0] f_wrapped = f_far >= {1'b0, FULL} ? f_far - {1'b0, FULL} : f_far;
+  wire [BITS-1:0] f_stored = memory[f_wrapped[PLACE_BITS-1:0]];
+  wire [BITS-1:0] f_where = f_ahead >= f_out ? f_stored :
+                            f_ahead >= {{(COUNT_BITS - 2) {1'b0}}, ready} ? word :
+                            f_ahead == {COUNT_BITS{1'b0}} ? first : second;
+  wire [COUNT_BITS:0] f_next = {{(COUNT_BITS + 1 - PLACE_BITS) {1'b0}}, read_place} + {1'b0, stored};
+  wire [COUNT_BITS:0] f_write = f_next >= {1'b0, FULL} ? f_next - {1'b0, FULL} : f_next;
+  wire [31:0] f_difference = f_pushed - f_popped;
+  always @* if (f_past && rst_n) begin
+    a_limit: assert (count <= FULL);
+    a_count: assert (f_difference == {{(32 - COUNT_BITS) {1'b0}}, count});
+    a_parts: assert (count == stored + f_out);
+    a_registers: assert (f_out <= 2 && stored <= count);
+    a_waiting: assert (stored == {COUNT_BITS{1'b0}} || f_out != {COUNT_BITS{1'b0}});
+    a_places: assert (read_place <= LAST && write_place <= LAST);
+    a_write: assert (write_place == f_write[PLACE_BITS-1:0]);
+    a_can_push: assert (can_push == (count != FULL));
+    a_can_pop: assert (can_pop == (count != {COUNT_BITS{1'b0}}));
+    a_ahead: assert (!f_held || f_ahead < count);
+    a_beat: assert (!f_held || f_where == f_beat);
+    a_front: assert (!f_held || f_ahead != {COUNT_BITS{1'b0}} || (can_pop && front == f_beat));
+  end
+`endif
+endmodule

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// A ROM with one read port: the word of an address of clock t is on the output register in t + 1 and
+// stays there until the next read.
+module rom #(
+  parameter integer BITS = 8,
+  parameter integer WORDS = 2,
+  parameter integer ADDRESS_BITS = 1,
+  parameter logic [WORDS*BITS-1:0] CONTENTS = 0  // word 0 in the lowest bits
+) (
+  input  logic                    clk,
+  input  logic                    read,
+  input  logic [ADDRESS_BITS-1:0] address,
+  output logic [BITS-1:0]         word
+);
+  always_ff @(posedge clk)
+    if (read) word <= CONTENTS[address*BITS +: BITS];
+endmodule

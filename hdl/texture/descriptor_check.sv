@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Whether the words of a descriptor are valid: size, levels, codes, N_max, bases of the levels that are
+// present (docs/texture_unit.md, "Invalid descriptors").
+`include "descriptor.svh"
+`include "tables.svh"
+module descriptor_check (
+  input  logic [32*`DESCRIPTOR_WORDS-1:0] words,
+  output logic [`DESCRIPTOR_BITS-1:0]     descriptor
+);
+  wire [15:0] width = words[`DESCRIPTOR_SIZE_WIDTH];
+  wire [15:0] height = words[`DESCRIPTOR_SIZE_HEIGHT];
+  wire [3:0] levels = words[`DESCRIPTOR_MODE_LEVELS];
+  wire [15:0] longer = width > height ? width : height;
+
+  // Level k is there if it has a texel of its own: the longer side shifted by k is not 0.
+  wire [15:0] coarsest = longer >> (levels - 4'd1);
+  wire size_ok = width != 16'd0 && height != 16'd0 && longer <= 16'd4096;
+  wire levels_ok = levels != 4'd0 && coarsest != 16'd0;
+  wire codes_ok = words[`DESCRIPTOR_MODE_FORMAT] <= `FORMAT_LAST &&
+                  words[`DESCRIPTOR_MODE_WRAP_S] <= `WRAP_LAST &&
+                  words[`DESCRIPTOR_MODE_WRAP_T] <= `WRAP_LAST &&
+                  words[`DESCRIPTOR_MODE_MIN_FILTER] <= `MIN_FILTER_LAST &&
+                  words[`DESCRIPTOR_MODE_MAX_COUNT_LOG2] <= 3'd4;
+  logic bases_ok;
+  integer k;
+  always_comb begin
+    bases_ok = 1'b1;
+    for (k = 0; k < `DESCRIPTOR_BASES; k = k + 1)
+      if (k < {28'd0, levels} && words[32*(`DESCRIPTOR_BASE_WORD+k) +: 6] != 6'd0) bases_ok = 1'b0;
+  end
+  assign descriptor = {size_ok && levels_ok && codes_ok && bases_ok, words};
+endmodule

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Binary logarithms of the longer side of a footprint and of what tells the minor one, the other side
+// or the area. `mitchell` is wires behind the leading one, latency 1; the other rules take three stages:
+// leading one and shift, table, correction (docs/datasheets.md, "Log2Unit").
+`include "tokens.svh"
+`include "tables.svh"
+module log2_unit #(
+  parameter integer RULE = `CHOSEN_LOG2
+) (
+  input  logic                             clk,
+  input  logic                             rst_n,
+  input  logic                             in_valid,
+  output logic                             in_pop,
+  input  logic [`FOOTPRINT_TOKEN_BITS-1:0] in_data,
+  output logic                             out_push,
+  input  logic                             out_ready,
+  output logic [`LOG2_TOKEN_BITS-1:0]      out_data
+);
+  localparam integer WITH_BITS = `FOOTPRINT_TOKEN_BITS - `FOOTPRINT_TOKEN_MINOR_BITS - `FOOTPRINT_TOKEN_D_MAX_BITS;
+
+  logic signed [17:0] major, minor;
+  log2_value #(.BITS(`FOOTPRINT_TOKEN_D_MAX_BITS)) of_major (
+    .value(in_data[`FOOTPRINT_TOKEN_D_MAX]), .mitchell(major));
+  log2_value #(.BITS(`FOOTPRINT_TOKEN_MINOR_BITS)) of_minor (
+    .value(in_data[`FOOTPRINT_TOKEN_MINOR]), .mitchell(minor));
+  // Ticket, coordinate and axis stand below the sides and go on as they are.
+  wire [WITH_BITS-1:0] with_it = in_data[WITH_BITS-1:0];
+
+  generate
+    if (RULE == `LOG2_MITCHELL) begin : g_mitchell
+      wire unused = &{1'b0, clk, rst_n};
+      assign in_pop = in_valid && out_ready;
+      assign out_push = in_pop;
+      assign out_data = {minor, major, with_it};
+    end else begin : g_table
+      logic move;
+      logic [1:0] valid;
+      pipe #(.STAGES(2)) stages (.clk, .rst_n, .in_valid, .in_pop, .out_ready, .out_push, .move, .valid);
+      wire unused = &{1'b0, valid};
+
+      logic signed [17:0] major_1, minor_1, major_2, minor_2;
+      logic [WITH_BITS-1:0] with_1, with_2;
+      always_ff @(posedge clk)
+        if (move) begin
+          major_1 <= major;
+          minor_1 <= minor;
+          with_1 <= with_it;
+          major_2 <= major_1;
+          minor_2 <= minor_1;
+          with_2 <= with_1;
+        end
+
+      logic signed [17:0] lb_major, lb_minor;
+      if (RULE == `LOG2_EXACT) begin : g_exact
+        log2_exact of_longer (.clk, .move, .y_1(major_1[11:0]), .sum_2(major_2), .lb(lb_major));
+        log2_exact of_other (.clk, .move, .y_1(minor_1[11:0]), .sum_2(minor_2), .lb(lb_minor));
+      end else begin : g_correct
+        logic [9:0] c_major, c_minor, c_major_2, c_minor_2;
+        log2_correction #(.RULE(RULE)) of_longer (.y(major_1[11:0]), .correction(c_major));
+        log2_correction #(.RULE(RULE)) of_other (.y(minor_1[11:0]), .correction(c_minor));
+        always_ff @(posedge clk)
+          if (move) begin
+            c_major_2 <= c_major;
+            c_minor_2 <= c_minor;
+          end
+        assign lb_major = major_2 + $signed({8'd0, c_major_2});
+        assign lb_minor = minor_2 + $signed({8'd0, c_minor_2});
+      end
+      assign out_data = {lb_minor, lb_major, with_2};
+    end
+  endgenerate
+endmodule

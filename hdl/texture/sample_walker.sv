@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Walks N samples along the major axis and emits the bilinear requests of each: a request a clock, stages
+// that move one by one (docs/number_formats.md, "Sample walker"; docs/datasheets.md, "SampleWalker").
+`include "tokens.svh"
+`include "tables.svh"
+module sample_walker #(
+  parameter integer COUNT = `CHOSEN_COUNT,
+  parameter integer KERNEL = `CHOSEN_KERNEL,
+  parameter integer SPREAD = `CHOSEN_SPREAD  // U2.6
+) (
+  input  logic                          clk,
+  input  logic                          rst_n,
+  input  logic                          in_valid,
+  output logic                          in_pop,
+  input  logic [`LEVEL_TOKEN_BITS-1:0]  in_data,
+  output logic                          out_push,
+  input  logic                          out_ready,
+  output logic [`SAMPLE_TOKEN_BITS-1:0] out_data
+);
+  localparam logic [7:0] WIDE = SPREAD[7:0];
+  localparam logic [7:0] NARROW = SPREAD > 64 ? 8'd64 : SPREAD[7:0];
+  localparam integer AXIS_BITS = `LEVEL_TOKEN_AXIS_S_BITS;
+
+  // ---- 1: spread times axis
+  wire signed [33:0] axis_s = {{(35 - AXIS_BITS) {in_data[`LEVEL_TOKEN_AXIS_S_TOP]}},
+                               in_data[`LEVEL_TOKEN_AXIS_S_LOW]};
+  wire signed [33:0] axis_t = {{(35 - AXIS_BITS) {in_data[`LEVEL_TOKEN_AXIS_T_TOP]}},
+                               in_data[`LEVEL_TOKEN_AXIS_T_LOW]};
+  wire ok = in_data[`LEVEL_TOKEN_TICKET_VALID];
+  // The fragment of an invalid descriptor takes a request and a clock.
+  wire [3:0] last_index = ok ? in_data[`LEVEL_TOKEN_LAST_INDEX] : 4'd0;
+  wire [7:0] fraction = ok ? in_data[`LEVEL_TOKEN_FRACTION] : 8'd0;
+  wire [7:0] spread = KERNEL == `KERNEL_TENT && last_index < 4'd3 ? NARROW : WIDE;
+  wire signed [42:0] wide_spread = $signed({35'd0, spread});
+
+  // What goes with a fragment to its requests.
+  localparam integer WITH_BITS = 40 + 64 + 4 + 4 + 8 + 1;
+  wire [WITH_BITS-1:0] with_in = {in_data[`LEVEL_TOKEN_LINEAR], fraction, in_data[`LEVEL_TOKEN_LEVEL],
+                                  last_index, in_data[`LEVEL_TOKEN_T], in_data[`LEVEL_TOKEN_S],
+                                  in_data[`LEVEL_TOKEN_TICKET]};
+  wire unused = &{1'b0, in_data};
+
+  logic full_1;
+  logic leave_1;  // the first register gives its fragment to the next one
+  wire enter_1 = in_valid && (!full_1 || leave_1);
+  assign in_pop = enter_1;
+  logic [WITH_BITS-1:0] with_1;
+  logic signed [42:0] wide_s_1, wide_t_1;
+  always_ff @(posedge clk)
+    if (!rst_n) full_1 <= 1'b0;
+    else full_1 <= enter_1 || (full_1 && !leave_1);
+  always_ff @(posedge clk)
+    if (enter_1) begin
+      with_1 <= with_in;
+      wide_s_1 <= $signed({{9{axis_s[33]}}, axis_s}) * wide_spread;
+      wide_t_1 <= $signed({{9{axis_t[33]}}, axis_t}) * wide_spread;
+    end
+
+  // ---- the walking register: what it takes, and when
+  logic walking;
+  logic walk_takes;  // it has room in this clock
+  logic arrives;     // a fragment for it
+  logic [WITH_BITS-1:0] arriving;
+  logic signed [60:0] step_s, step_t, first_s, first_t;  // 46 fraction bits
+
+  generate
+    if (COUNT == `COUNT_ANY) begin : g_any
+      // 2: times 1 / N from its ROM.
+      logic [`RECIPROCAL_BITS-1:0] reciprocal;
+      rom #(.BITS(`RECIPROCAL_BITS), .WORDS(17), .ADDRESS_BITS(5), .CONTENTS(`RECIPROCAL)) reciprocals (
+        .clk, .read(enter_1), .address({1'b0, last_index} + 5'd1), .word(reciprocal));
+      logic full_2;
+      wire leave_2 = full_2 && walk_takes;
+      assign leave_1 = full_1 && (!full_2 || leave_2);
+      logic [WITH_BITS-1:0] with_2;
+      logic signed [60:0] step_s_2, step_t_2;
+      wire signed [60:0] factor = $signed({{(61 - `RECIPROCAL_BITS) {1'b0}}, reciprocal});
+      always_ff @(posedge clk)
+        if (!rst_n) full_2 <= 1'b0;
+        else full_2 <= leave_1 || (full_2 && !leave_2);
+      always_ff @(posedge clk)
+        if (leave_1) begin
+          with_2 <= with_1;
+          step_s_2 <= $signed({{18{wide_s_1[42]}}, wide_s_1}) * factor;
+          step_t_2 <= $signed({{18{wide_t_1[42]}}, wide_t_1}) * factor;
+        end
+      // 3: offset of the first sample.
+      assign arrives = full_2;
+      assign arriving = with_2;
+      assign step_s = step_s_2;
+      assign step_t = step_t_2;
+      wire signed [60:0] one_less = -$signed({57'd0, with_2[107:104]});  // 1 - N
+      assign first_s = step_s_2 * one_less;
+      assign first_t = step_t_2 * one_less;
+    end else begin : g_power
+      // 2: N is a power of two.
+      assign leave_1 = full_1 && walk_takes;
+      assign arrives = full_1;
+      assign arriving = with_1;
+      wire [3:0] last_1 = with_1[107:104];
+      wire [2:0] lb_n = last_1[3] ? 3'd4 : last_1[2] ? 3'd3 : last_1[1] ? 3'd2 : last_1[0] ? 3'd1 : 3'd0;
+      wire signed [60:0] whole_s = $signed({{2{wide_s_1[42]}}, wide_s_1, 16'd0});
+      wire signed [60:0] whole_t = $signed({{2{wide_t_1[42]}}, wide_t_1, 16'd0});
+      assign step_s = whole_s >>> lb_n;
+      assign step_t = whole_t >>> lb_n;
+      assign first_s = step_s - whole_s;
+      assign first_t = step_t - whole_t;
+    end
+  endgenerate
+
+  // ---- the last stage: a request a clock
+  logic [WITH_BITS-1:0] at;
+  logic signed [60:0] offset_s, offset_t, stride_s, stride_t;
+  logic [3:0] index;
+  logic second;  // of two levels
+  wire [7:0] at_fraction = at[119:112];
+  wire [3:0] at_last = at[107:104];
+  wire last_of_sample = second || at_fraction == 8'd0;
+  wire last_of_fragment = last_of_sample && index == at_last;
+  assign out_push = walking && out_ready;
+  assign walk_takes = !walking || (out_push && last_of_fragment);
+  wire takes = arrives && walk_takes;
+  always_ff @(posedge clk)
+    if (!rst_n) walking <= 1'b0;
+    else walking <= takes || !walk_takes;
+  always_ff @(posedge clk)
+    if (takes) begin
+      at <= arriving;
+      offset_s <= first_s;
+      offset_t <= first_t;
+      stride_s <= step_s <<< 1;
+      stride_t <= step_t <<< 1;
+      index <= 4'd0;
+      second <= 1'b0;
+    end else if (out_push) begin
+      second <= !last_of_sample;
+      if (last_of_sample) begin
+        index <= index + 4'd1;
+        offset_s <= offset_s + stride_s;
+        offset_t <= offset_t + stride_t;
+      end
+    end
+
+  wire signed [60:0] rounded_s = offset_s + 61'sd4194304;  // 2^22: drops 23
+  wire signed [60:0] rounded_t = offset_t + 61'sd4194304;
+  wire unused_low = &{1'b0, rounded_s[22:0], rounded_t[22:0], rounded_s[60:57], rounded_t[60:57]};
+  assign out_data[`SAMPLE_TOKEN_TICKET] = at[39:0];
+  assign out_data[`SAMPLE_TOKEN_S] = {{2{at[71]}}, at[71:40]} + rounded_s[56:23];
+  assign out_data[`SAMPLE_TOKEN_T] = {{2{at[103]}}, at[103:72]} + rounded_t[56:23];
+  assign out_data[`SAMPLE_TOKEN_LEVEL_WEIGHT] =
+      second ? {1'b0, at_fraction} : 9'd256 - {1'b0, at_fraction};
+  assign out_data[`SAMPLE_TOKEN_INDEX] = index;
+  assign out_data[`SAMPLE_TOKEN_LAST_INDEX] = at_last;
+  assign out_data[`SAMPLE_TOKEN_LEVEL] = at[111:108] + {3'd0, second};
+  assign out_data[`SAMPLE_TOKEN_LINEAR] = at[120];
+  assign out_data[`SAMPLE_TOKEN_LAST_OF_SAMPLE] = last_of_sample;
+  assign out_data[`SAMPLE_TOKEN_LAST_OF_FRAGMENT] = last_of_fragment;
+endmodule

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// The module deburr._golden: the golden models behind deburr.golden and deburr.ideal.
+#include "python/bindings/module.h"
+
+#include <pybind11/numpy.h>
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+#include "golden/c/handle.h"
+#include "spec/error.h"
+
+namespace deburr::python {
+
+std::string text_of(const py::handle& value) {
+  if (py::isinstance<py::bool_>(value)) return value.ptr() == Py_True ? "true" : "false";
+  // numpy has a type of its own for each of Python's.
+  if (py::hasattr(value, "item") && !py::isinstance<py::array>(value))
+    return text_of(value.attr("item")());
+  return py::cast<std::string>(py::str(value));
+}
+
+std::string spelled(std::string_view name, std::span<const std::string> names) {
+  for (const std::string& known : names) {
+    std::string flat = known;
+    std::replace(flat.begin(), flat.end(), '.', '_');
+    if (flat == name) return known;
+  }
+  return std::string(name);
+}
+
+void ParameterRows::add(std::string_view name, const py::object& value, const std::string& range,
+                        std::string_view unit, std::string_view meaning) {
+  py::dict row;
+  row["name"] = std::string(name);
+  row["default"] = value;
+  row["range"] = range;
+  row["unit"] = std::string(unit);
+  row["meaning"] = std::string(meaning);
+  rows.append(row);
+}
+
+py::object figures(const py::dict& values) {
+  return py::module_::import("deburr._figures").attr("Figures")(values);
+}
+
+py::object figures(std::span<const golden::c::Counter> counters) {
+  py::dict values;
+  for (const golden::c::Counter& counter : counters) values[py::str(counter.name)] = counter.value;
+  return figures(values);
+}
+
+namespace {
+
+// What was given is a ValueError; what the models themselves have wrong is a RuntimeError.
+void translate(std::exception_ptr exception) {
+  try {
+    if (exception) std::rethrow_exception(exception);
+  } catch (const golden::c::ArgumentError& error) {
+    PyErr_SetString(PyExc_ValueError, error.what());
+  } catch (const spec::ConfigError& error) {
+    PyErr_SetString(PyExc_ValueError, error.what());
+  } catch (const std::length_error&) {
+    PyErr_NoMemory();
+  } catch (const spec::CheckFailed& error) {
+    const std::string text = std::string("a fault of the model, please report it: ") + error.what();
+    PyErr_SetString(PyExc_RuntimeError, text.c_str());
+  }
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_golden, module) {
+  module.doc() = "The golden models behind deburr.golden and deburr.ideal.";
+  module.attr("version") = DEBURR_VERSION;
+  py::register_exception_translator(translate);
+  add_engines(module);
+  add_ideal(module);
+}
+
+}  // namespace deburr::python

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// The morphological engine's part of the module.
+#include <memory>
+#include <utility>
+
+#include "golden/c/frame_handle.h"
+#include "golden/c/morphological_handle.h"
+#include "golden/morphological/morphological_golden.h"
+#include "python/bindings/arrays.h"
+#include "python/bindings/frames.h"
+#include "python/bindings/module.h"
+
+namespace deburr::golden::morphological {
+
+template <class Visit>
+void record_fields(const PredictedRun& run, Visit& visit) {
+  visit("line", run.line);
+  visit("far_left", run.far_left);
+  visit("far_right", run.far_right);
+  visit("probes", run.probes);
+  visit("iterations", run.iterations);
+  visit("left", run.left);
+  visit("right", run.right);
+  visit("left_end", run.left_end);
+  visit("right_end", run.right_end);
+}
+
+}  // namespace deburr::golden::morphological
+
+namespace deburr::spec::morphological {
+
+template <class Visit>
+void record_fields(const FrameAccess& access, Visit& visit) {
+  visit("address", access.address);
+  visit("write", access.write);
+}
+
+}  // namespace deburr::spec::morphological
+
+namespace deburr::python {
+namespace {
+
+using golden::morphological::MorphologicalGolden;
+
+struct MorphologicalFrame {
+  std::unique_ptr<MorphologicalGolden> golden;
+  bool detail = false;
+
+  Shape shape() const { return {golden->height(), golden->width()}; }
+  Shape shape(py::ssize_t channels) const { return {golden->height(), golden->width(), channels}; }
+  void require_detail(const char* what) const {
+    golden::c::require(detail, std::string(what) + " were not kept: give detail=True");
+  }
+};
+
+MorphologicalFrame smooth(const py::object& pixels, const py::object& depth,
+                          const py::object& edges, bool detail, const py::object& lines,
+                          const py::dict& parameters) {
+  auto texts = golden::c::morphological_texts();
+  set_all(texts, parameters);
+  const FramePixels frame = frame_pixels(pixels);
+  const int width = frame.view.width, height = frame.view.height;
+  golden::c::require(edges.is_none() || depth.is_none(),
+                     "edges and depth were given: depth is there to find edges by; give one");
+  const FrameDepth depths = frame_depth(depth, width, height);
+  py::array bits;
+  if (!edges.is_none()) {
+    constexpr const char* kWanted = "uint8 of (height, width)";
+    bits = checked(edges, "edges", py::dtype::of<std::uint8_t>(), 2, kWanted);
+    if (bits.shape(0) != height || bits.shape(1) != width)
+      refuse_array("edges",
+                   "the size of the pixels, (" + std::to_string(height) + ", " +
+                       std::to_string(width) + "),",
+                   edges);
+  }
+  auto errors = error_lines(lines);
+  using Detail = MorphologicalGolden::Detail;
+  MorphologicalFrame result;
+  result.detail = detail;
+  const py::gil_scoped_release others_run;
+  result.golden = std::make_unique<MorphologicalGolden>(
+      texts.values(), detail ? Detail::kEverything : Detail::kPixels);
+  if (errors) result.golden->set_read_errors(std::move(errors));
+  if (edges.is_none()) {
+    result.golden->process(frame.view, depths.view);
+  } else {
+    const std::span<const std::uint8_t> values(static_cast<const std::uint8_t*>(bits.data()),
+                                               static_cast<std::size_t>(bits.size()));
+    result.golden->process(
+        frame.view, golden::c::edge_planes(values, static_cast<std::size_t>(width), width, height));
+  }
+  return result;
+}
+
+py::array edges_of(const MorphologicalFrame& frame) {
+  const MorphologicalGolden& golden = *frame.golden;
+  std::vector<std::uint8_t> edges;
+  edges.reserve(golden.pixels().size());
+  for (int y = 0; y < golden.height(); ++y)
+    for (int x = 0; x < golden.width(); ++x)
+      edges.push_back(static_cast<std::uint8_t>((golden.edges().left.at(x, y) ? 1 : 0) |
+                                                (golden.edges().top.at(x, y) ? 2 : 0)));
+  return owned(std::move(edges), frame.shape());
+}
+
+py::array shares_of(const MorphologicalFrame& frame) {
+  const MorphologicalGolden& golden = *frame.golden;
+  std::vector<std::uint8_t> shares;
+  shares.reserve(4 * golden.pixels().size());
+  for (int y = 0; y < golden.height(); ++y) {
+    for (int x = 0; x < golden.width(); ++x) {
+      const auto top = golden.top_shares(x, y), left = golden.left_shares(x, y);
+      shares.insert(shares.end(), {top.first, top.second, left.first, left.second});
+    }
+  }
+  return owned(std::move(shares), frame.shape(4));
+}
+
+py::dict coverage_of(const MorphologicalGolden& golden) {
+  py::dict bins;
+  add_bins(bins, golden.coverage().bins());
+  add_bins(bins, golden.smaa_coverage().bins());
+  add_bins(bins, golden.leave_coverage().bins());
+  add_bins(bins, golden.learned_coverage().bins());
+  return bins;
+}
+
+}  // namespace
+
+void add_morphological(py::module_& module) {
+  const auto of = [](const py::object& self) -> const MorphologicalFrame& {
+    return py::cast<const MorphologicalFrame&>(self);
+  };
+  py::class_<MorphologicalFrame>(module, "MorphologicalFrame",
+                                 "A frame that the morphological engine's golden model smoothed.")
+      .def_property_readonly(
+          "pixels",
+          [of](const py::object& self) {
+            return view(of(self).golden->pixels(), of(self).shape(), self);
+          },
+          "The smoothed frame, uint8 of (height, width, 4).")
+      .def_property_readonly("edges", edges_of,
+                             "uint8 of (height, width): bit 0 an edge to the left neighbour, bit 1 "
+                             "to the upper one.")
+      .def_property_readonly(
+          "shares", shares_of,
+          "uint8 of (height, width, 4), U0.8: of the upper edge what the upper pixel and what this "
+          "one takes, of the left edge what the left pixel and what this one takes.")
+      .def_property_readonly(
+          "work",
+          [](const MorphologicalFrame& frame) {
+            return figures(golden::c::counters_of(spec::morphological::kWorkCounts,
+                                                  spec::morphological::kRegisters,
+                                                  frame.golden->work()));
+          },
+          "What was done, by the names of the registers.")
+      .def_property_readonly(
+          "taps",
+          [of](const py::object& self) {
+            of(self).require_detail("taps");
+            return view(of(self).golden->taps(), of(self).shape(), self);
+          },
+          "How each pixel was mixed: records of (height, width); with detail.")
+      .def_property_readonly(
+          "decisions",
+          [of](const py::object& self) {
+            of(self).require_detail("decisions");
+            return view(of(self).golden->decisions(), of(self).shape(), self);
+          },
+          "Which rule chose the axis of each pixel, uint8 of (height, width); with detail.")
+      .def_property_readonly(
+          "runs",
+          [of](const py::object& self) {
+            of(self).require_detail("runs");
+            return view(of(self).golden->runs(), self);
+          },
+          "Every run of edges with its line and what the predictor made of it; with detail.")
+      .def_property_readonly(
+          "traffic", [](const MorphologicalFrame& frame) { return owned(frame.golden->traffic()); },
+          "Lines of memory that storage = memory writes and reads, in order.")
+      .def_property_readonly(
+          "memory_errors",
+          [](const MorphologicalFrame& frame) { return frame.golden->memory_errors(); },
+          "Reads that memory answered with an error.")
+      .def_property_readonly(
+          "coverage",
+          [](const MorphologicalFrame& frame) {
+            frame.require_detail("bins of coverage");
+            return coverage_of(*frame.golden);
+          },
+          "Bins of functional coverage and how often each was met; with detail.")
+      .def_property_readonly("detail",
+                             [](const MorphologicalFrame& frame) { return frame.detail; });
+  module.def("morphological", &smooth);
+  module.def("morphological_parameters",
+             [] { return parameter_rows(spec::morphological::Parameters{}); });
+  module.attr("RUN") = dtype_of<golden::morphological::PredictedRun>();
+}
+
+}  // namespace deburr::python

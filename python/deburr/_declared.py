@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: MIT
+"""Signatures and docstrings of functions from the declarations of parameters."""
+import inspect
+import keyword
+import textwrap
+
+
+def argument(name):
+    """A parameter's name as Python writes it: `cache.bytes` is `cache_bytes`, `in` is `in_`."""
+    flat = name.lstrip("-").replace(".", "_").replace("-", "_")
+    return flat + "_" if keyword.iskeyword(flat) else flat
+
+
+def kind_of(row):
+    """The annotation of a parameter, by its default and its range."""
+    if isinstance(row["default"], bool):
+        return bool
+    return type(row["default"])
+
+
+def declare(function, rows):
+    """Gives `function(..., **parameters)` the signature and the docstring of these parameters."""
+    signature = inspect.signature(function)
+    own = [parameter for parameter in signature.parameters.values()
+           if parameter.kind is not inspect.Parameter.VAR_KEYWORD]
+    given = [inspect.Parameter(argument(row["name"]), inspect.Parameter.KEYWORD_ONLY, default=row["default"],
+                               annotation=kind_of(row)) for row in rows]
+    function.__signature__ = signature.replace(parameters=[*own, *given])
+    lines = [inspect.cleandoc(function.__doc__), "", "Parameters, each with its default:", ""]
+    for row in rows:
+        unit = f" {row['unit']}" if row["unit"] else ""
+        lines.append(f"{argument(row['name'])} = {row['default']!r} ({row['range']}{unit})")
+        lines.extend(textwrap.wrap(row["meaning"], 96, initial_indent="    ", subsequent_indent="    ",
+                                   break_on_hyphens=False))
+    function.__doc__ = "\n".join(lines)
+    return function

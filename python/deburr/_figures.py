@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: MIT
+"""Figures by name, as attributes and as items."""
+import collections.abc
+
+
+class Figures(collections.abc.Mapping):
+    """Named values that cannot be changed: `figures.cycles`, `figures["cycles"]`. Groups are Figures too, and a key
+    may name what is inside of them: `figures["units.filter.busy"]`."""
+
+    def __init__(self, values):
+        self.__dict__["_values"] = {name: Figures(value) if isinstance(value, dict) else value
+                                    for name, value in values.items()}
+
+    def __getitem__(self, name):
+        if name in self._values:
+            return self._values[name]
+        # Names may have dots themselves: the first way to read it that is there.
+        parts = str(name).split(".")
+        for count in range(1, len(parts)):
+            inner = self._values.get(".".join(parts[:count]))
+            rest = ".".join(parts[count:])
+            if isinstance(inner, Figures) and rest in inner:
+                return inner[rest]
+        raise KeyError(name)
+
+    def __contains__(self, name):
+        try:
+            self[name]
+        except KeyError:
+            return False
+        return True
+
+    def __getattr__(self, name):
+        try:
+            return self._values[name]
+        except KeyError:
+            raise AttributeError(f"there is no figure '{name}'; there are {', '.join(self._values)}") from None
+
+    def __setattr__(self, name, value):
+        raise AttributeError("figures cannot be changed")
+
+    def __getstate__(self):
+        return self._values
+
+    def __setstate__(self, values):
+        self.__dict__["_values"] = values
+
+    def __iter__(self):
+        return iter(self._values)
+
+    def __len__(self):
+        return len(self._values)
+
+    def __dir__(self):
+        return [*super().__dir__(), *(name for name in self._values if name.isidentifier())]
+
+    def __repr__(self):
+        return "Figures(" + ", ".join(f"{name}={value!r}" for name, value in self._values.items()) + ")"
+
+    def as_dict(self):
+        """Plain dictionaries of the same."""
+        return {name: value.as_dict() if isinstance(value, Figures) else value for name, value in self._values.items()}

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: MIT
+"""One run of a cycle-accurate model, in a process of its own: SystemC elaborates once a process."""
+import json
+import pathlib
+import shutil
+import tempfile
+import weakref
+
+import numpy
+
+from deburr import _pictures
+from deburr._figures import Figures
+from deburr._program import RunError, call, settings
+
+
+class _Scratch:
+    """A folder that goes with the last who needs it."""
+
+    def __init__(self):
+        self.path = pathlib.Path(tempfile.mkdtemp(prefix="deburr_run_"))
+        weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
+
+
+class _Files:
+    """Arrays of the files of a directory that a run left, read when they are asked for: a mapping by name."""
+
+    def __init__(self, directory, pattern, prefix, read):
+        self._files = {file.stem.removeprefix(prefix): file for file in sorted(directory.glob(pattern))
+                       if file.stem.startswith(prefix)}
+        self._read = read
+
+    def keys(self):
+        return self._files.keys()
+
+    def __iter__(self):
+        return iter(self._files)
+
+    def __len__(self):
+        return len(self._files)
+
+    def __contains__(self, name):
+        return name in self._files
+
+    def __getitem__(self, name):
+        if name not in self._files:
+            raise KeyError(f"the run left no '{name}'; there are {', '.join(self._files) or 'none'}")
+        return self._read(self._files[name])
+
+    def __repr__(self):
+        return "{" + ", ".join(self._files) + "}"
+
+
+def _arrays(node):
+    """Windows as arrays: lists of numbers, however deep."""
+    if isinstance(node, dict):
+        return {name: _arrays(value) for name, value in node.items()}
+    if isinstance(node, list) and node and all(isinstance(value, (int, float)) for value in node):
+        return numpy.array(node)
+    return node
+
+
+class Run(Figures):
+    """What a run measured. Its figures are those of result.json, as attributes: `run.cycles`, `run.throughput.value`,
+    `run.units`, `run.work`; `run["units.filter.busy"]` names one by its key.
+
+    pictures and maps are arrays by name, windows an array a series by key, directory is where the files are, which
+    are gone with this object unless run() was told where to leave them."""
+
+    def __init__(self, result, directory, kept):
+        histogram = result.get("latency", {}).get("histogram")
+        if histogram:
+            result["latency"]["histogram"] = numpy.array(
+                [tuple(entry.values()) if isinstance(entry, dict) else tuple(entry) for entry in histogram])
+        for link in result.get("links", {}).values():
+            link["histogram"] = numpy.array(link["histogram"])
+        meaning = result.pop("meaning", {})
+        super().__init__(result)
+        files = [file.name for file in directory.iterdir()]
+        windows = {}
+        if "windows.json" in files:
+            windows = _arrays(json.loads((directory / "windows.json").read_text(encoding="utf-8")))
+        self.__dict__.update(
+            _kept=kept, directory=directory, meaning=meaning, windows=Figures(windows),
+            maps=_Files(directory, "map_*.pfm", "map_", _pictures.read_pfm),
+            pictures=_Files(directory, "*.png", "", _pictures.read_png))
+
+    def __repr__(self):
+        rate = self.throughput
+        return f"<Run {self.unit}: {self.verdict}, {self.cycles} cycles, {rate.value:.3f} {rate.unit}>"
+
+    def explain(self, key):
+        """Unit and meaning of a figure, by its key."""
+        entry = self.meaning.get(key)
+        if entry is None:
+            raise KeyError(f"nothing is said of '{key}'")
+        return f"{entry['meaning']} [{entry['unit']}]" if entry.get("unit") else entry["meaning"]
+
+
+def run(engine, *, out=None, config=None, progress=False, **parameters):
+    """Runs a cycle-accurate model against its golden model: a Run.
+
+    engine is one of engines(). Parameters have the names of `deburr params ENGINE` with '_' for '.'
+    (memory_latency=200), or the short ones of `deburr run ENGINE --help` (scene="tunnel", size=(640, 360), in_=file,
+    windows=2000); names with dots can be given as **{"memory.latency": 200}. Where a picture or depths are wanted, an
+    array may be given. config is a file of parameters, out a directory that the files are left in, progress=True shows
+    what the command says meanwhile.
+
+    What is wrong with an argument is a ValueError with the command's words, a file that cannot be read or written an
+    OSError, a run that fails a RunError. Ctrl-C ends the run."""
+    kept = _Scratch()
+    folder = kept.path
+    (folder / "given").mkdir()
+    words = ["run", str(engine)]
+    words += [f"--set={name}={text}" for name, text in settings(str(engine), parameters, folder / "given")]
+    if config is not None:
+        words.append(f"--config={config}")
+    directory = folder / "out" if out is None else pathlib.Path(out)
+    words.append(f"--out={directory}")
+    answer = call(*words, progress=progress)
+    result = answer.get("result")
+    found = None if result is None else Run(result, pathlib.Path(answer["directory"]).absolute(), kept)
+    if answer["exit_code"] != 0 or found is None:
+        raise RunError("\n".join([answer["outcome"], *answer["messages"]]), answer["exit_code"], found)
+    return found

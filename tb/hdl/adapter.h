@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// A unit of hdl/, verilated, in the place of a SystemC unit: the same links at both ends, the same
+// clock.
+//
+// A clock is two evaluations. Before the edge the unit sees what its links offer: in_valid and
+// in_data of can_pop() and front(), out_ready of can_push(). Its answers in_pop and out_push with
+// out_data become the pop and the push of this clock. Then comes the edge. So links and everything
+// around them stay what they are, and it does not matter which side of a link is ticked first.
+//
+// Include this header before any of SystemC: Verilator's headers come first.
+#pragma once
+
+#include <verilated.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <type_traits>
+
+#include "rtl_model/fabric/link.h"
+#include "rtl_model/fabric/payload.h"
+#include "rtl_model/fabric/unit.h"
+#include "tb/base/random.h"
+
+namespace deburr::tb::hdl {
+
+// The bits of a beat in words of 32, as a port of a verilated model has them.
+inline constexpr std::size_t kMostWords = 16;
+using Words = std::array<std::uint32_t, kMostWords>;
+
+inline void insert(Words& words, std::uint32_t first, std::uint32_t bits, std::uint64_t value) {
+  for (std::uint32_t done = 0; done < bits;) {
+    const std::uint32_t at = first + done, offset = at % 32;
+    words[at / 32] |= static_cast<std::uint32_t>(value >> done) << offset;
+    done += 32 - offset;
+  }
+}
+inline std::uint64_t extract(const Words& words, std::uint32_t first, std::uint32_t bits) {
+  std::uint64_t value = 0;
+  for (std::uint32_t done = 0; done < bits;) {
+    const std::uint32_t at = first + done, offset = at % 32;
+    value |= std::uint64_t{words[at / 32] >> offset} << done;
+    done += 32 - offset;
+  }
+  return bits == 64 ? value : value & ((std::uint64_t{1} << bits) - 1);
+}
+// Word by word: bit by bit packing would cost more than the model's own evaluation.
+inline Words packed(const rtl::Payload& payload, const void* beat) {
+  Words words{};
+  for (const rtl::Field& field : payload.fields())
+    insert(words, field.first_bit, field.bits, field.get(static_cast<const std::byte*>(beat)));
+  return words;
+}
+inline void unpack(const rtl::Payload& payload, const Words& words, void* beat) {
+  for (const rtl::Field& field : payload.fields())
+    field.set(static_cast<std::byte*>(beat), extract(words, field.first_bit, field.bits));
+}
+
+// A port of any width; bits beyond it are dropped.
+template <class Port>
+void to_port(Port& port, const Words& words, std::uint32_t bits) {
+  if constexpr (std::is_integral_v<Port>) {
+    const std::uint64_t value = words[0] | std::uint64_t{words[1]} << 32;
+    port = static_cast<Port>(bits == 64 ? value : value & ((std::uint64_t{1} << bits) - 1));
+  } else {
+    for (std::size_t i = 0; i < (bits + 31) / 32; ++i) port[i] = words[i];
+    if (bits % 32 != 0) port[(bits - 1) / 32] &= (1u << bits % 32) - 1;
+  }
+}
+template <class Port>
+Words from_port(const Port& port, std::uint32_t bits) {
+  Words words{};
+  if constexpr (std::is_integral_v<Port>) {
+    words[0] = static_cast<std::uint32_t>(port);
+    words[1] = static_cast<std::uint32_t>(std::uint64_t{port} >> 32);
+  } else {
+    for (std::size_t i = 0; i < (bits + 31) / 32; ++i) words[i] = port[i];
+  }
+  return words;
+}
+
+template <class Model, class From, class To>
+class VerilatedUnit final : public rtl::Unit {
+ public:
+  rtl::In<From> beats_in{"beats_in"};
+  rtl::Out<To> beats_out{"beats_out"};
+
+  // `from` and `to`: what of the payloads is built, as the links say it.
+  VerilatedUnit(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
+                const rtl::PayloadShape& from = {}, const rtl::PayloadShape& to = {})
+      : Unit(name, clock), from_(rtl::Payload::of<From>(from)), to_(rtl::Payload::of<To>(to)) {
+    // Registers without a reset hold noise at first (--x-initial unique), another one for each
+    // seed.
+    context_->randReset(2);
+    context_->randSeed(7);
+    model_ = std::make_unique<Model>(context_.get(), "model");
+    reset();
+  }
+  ~VerilatedUnit() override { model_->final(); }
+
+  Model& model() { return *model_; }
+  // What the unit says before each edge.
+  std::function<void(Model&)> on_clock;
+
+  rtl::Activity tick(rtl::Cycle cycle) override {
+    const bool valid = beats_in.can_pop(cycle);
+    model_->in_valid = valid;
+    // What an empty link shows means nothing: noise.
+    if (valid) {
+      to_port(model_->in_data, packed(from_, &beats_in.front(cycle)), from_.bits());
+    } else {
+      Words noise;
+      for (std::uint32_t& word : noise) word = noise_.word();
+      to_port(model_->in_data, noise, from_.bits());
+    }
+    const bool ready = beats_out.can_push(cycle);
+    model_->out_ready = ready;
+    model_->clk = 0;
+    model_->eval();
+    if (on_clock) on_clock(*model_);
+    const bool pushes = model_->out_push;
+    if (pushes) {
+      To beat{};
+      unpack(to_, from_port(model_->out_data, to_.bits()), &beat);
+      beats_out.push(cycle, beat);
+    }
+    const bool pops = model_->in_pop;
+    if (pops) beats_in.pop(cycle);
+    model_->clk = 1;
+    model_->eval();
+    return pushes || pops ? rtl::kBusy : ready ? rtl::kIdle : rtl::kStalledDownstream;
+  }
+  // A reset takes a clock of its own.
+  void reset() override {
+    model_->rst_n = 0;
+    edge();
+    model_->rst_n = 1;
+  }
+  // A clock between those of the domain, in which the unit is empty and its links do nothing: for a
+  // write of a register.
+  void edge() {
+    model_->in_valid = 0;
+    model_->out_ready = 0;
+    model_->clk = 0;
+    model_->eval();
+    model_->clk = 1;
+    model_->eval();
+  }
+
+ private:
+  std::unique_ptr<VerilatedContext> context_ = std::make_unique<VerilatedContext>();
+  std::unique_ptr<Model> model_;
+  rtl::Payload from_, to_;
+  Random noise_{1};
+};
+
+// Writes the words of a descriptor into the descriptors of a verilated unit.
+template <class Unit>
+void write_word(Unit& unit, std::uint32_t handle, std::uint32_t word, std::uint32_t value) {
+  auto& model = unit.model();
+  model.write = 1;
+  model.write_handle = static_cast<CData>(handle);
+  model.write_word = static_cast<CData>(word);
+  model.write_data = value;
+  unit.edge();
+  model.write = 0;
+}
+
+}  // namespace deburr::tb::hdl

@@ -1,0 +1,163 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Proves one property of the units in hdl/, and that the proof can fail: with a fault planted in the
+source it must be refuted. Sequential properties are proved by induction over two or three clocks with
+invariants that stand beside the unit (yosys-smtbmc, z3), combinational ones for all inputs by yosys' SAT
+solver.
+
+usage: formal_test.py SOURCE HEADERS PROOF | --list"""
+import dataclasses
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+TOOLS = ("yosys", "yosys-smtbmc", "z3")
+SECONDS = 120  # a proof
+
+
+@dataclasses.dataclass
+class Proof:
+    top: str
+    method: str      # "sat": for all inputs; "induction": all clocks; "bmc": the first STEPS clocks, from any state
+    fault: tuple     # (file, from, to)
+    steps: int = 3
+    parameters: dict = dataclasses.field(default_factory=dict)
+
+
+LINK = ("fabric/link.sv", "behind == HERE) place[i] <= push_data;\n          else if (pop)",
+        "count == HERE) place[i] <= push_data;\n          else if (pop)")
+PROOFS = {
+    # Count, order and data of a beat that is followed; the faults: a push beside a pop goes one place too far.
+    "link_1": Proof("link", "induction", ("fabric/link.sv", "can_push <= next_count != FULL", "can_push <= !push"),
+                    parameters={"PLACES": 1, "BITS": 32}),
+    "link_2": Proof("link", "induction", LINK, parameters={"PLACES": 2, "BITS": 336}),
+    "link_5": Proof("link", "induction", LINK, parameters={"PLACES": 5, "BITS": 32}),
+    "fifo_2": Proof("fifo", "induction",
+                    ("fabric/fifo.sv", "ready == 2'd2) first <= second", "ready == 2'd2) first <= word"),
+                    parameters={"PLACES": 2, "BITS": 32}),
+    "fifo_107": Proof("fifo", "induction", ("fabric/fifo.sv", "read_place == LAST ?", "read_place + 1'b1 == LAST ?"),
+                      parameters={"PLACES": 107, "BITS": 8}),
+    "pipe": Proof("pipe_proof", "induction",
+                  ("fabric/pipe.sv", "move = out_ready || !valid[STAGES-1]", "move = out_ready || !valid[0]")),
+    "log2_value_32": Proof("log2_value_proof", "sat", ("texture/log2_value.sv", "shifted[11:0]", "shifted[12:1]")),
+    "log2_value_47": Proof("log2_value_proof", "sat", ("texture/log2_value.sv", "i < BITS", "i < BITS - 1"),
+                           parameters={"BITS": 47}),
+    # The least fall that holds: a fault that makes it larger is refuted.
+    "log2_falls_segments": Proof("log2_monotone_proof", "sat", ("texture/log2_correction.sv", "10'd356", "10'd355")),
+    "log2_falls_corrected": Proof("log2_monotone_proof", "sat",
+                                  ("texture/log2_correction.sv", "TABLE[y[11:9]*", "TABLE[y[11:10]*"),
+                                  parameters={"RULE": 1, "FALL": 118}),
+    "level_bounds": Proof("level_bounds_proof", "bmc",
+                          ("texture/level_unit.sv", "mixed_end = level_mixed >= ", "mixed_end = level_mixed > "),
+                          steps=4),
+    "tile_index": Proof("tile_index_proof", "sat",
+                        ("texture/tile_index.sv", "longer >> shared", "longer >> 1 >> shared")),
+    "texel_axis": Proof("texel_axis_proof", "sat",
+                        ("texture/texel_axis.sv", "low > last ? last : low", "low > end_of ? last : low")),
+    "root_stage": Proof("root_stage_proof", "sat",
+                        ("texture/root_stage.sv", "bit_2 = with_2 >= try_2", "bit_2 = with_2 > try_2")),
+}
+
+
+def script(proof, sources, headers, out):
+    """What yosys does."""
+    files = " ".join(str(path) for path in sources)
+    lines = [f"read_verilog -sv -formal -DFORMAL -I{headers} {files}"]
+    lines += [f"chparam -set {name} {value} {proof.top}" for name, value in proof.parameters.items()]
+    lines.append(f"hierarchy -check -top {proof.top}")
+    if proof.method == "sat":
+        lines += ["proc", "flatten", "opt -full", "sat -verify -prove-asserts -set-assumes -show-ports"]
+    else:
+        lines += [f"prep -flatten -nordff -top {proof.top}", f"write_smt2 -wires {out}"]
+    return "; ".join(lines)
+
+
+def run(command, log):
+    """Exit code and what was said; None when it takes too long."""
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=SECONDS)
+    except subprocess.TimeoutExpired:
+        return None, f"no answer in {SECONDS} s: {' '.join(map(str, command))[:200]}"
+    log.write_text(done.stdout + done.stderr, encoding="utf-8")
+    return done.returncode, done.stdout + done.stderr
+
+
+def proved(proof, source, headers, fault):
+    """(True, False or None: undecided; what was said)."""
+    with tempfile.TemporaryDirectory(prefix="deburr_formal_") as folder:
+        root = pathlib.Path(folder)
+        shutil.copytree(source / "hdl", root / "hdl")
+        shutil.copytree(source / "tb/hdl/formal", root / "formal")
+        if fault:
+            file, wrong, right = proof.fault
+            text = (root / "hdl" / file).read_text(encoding="utf-8")
+            if text.count(wrong) != 1:
+                return None, f"{file} has {wrong!r} {text.count(wrong)} times, and the fault goes where it stands once"
+            (root / "hdl" / file).write_text(text.replace(wrong, right), encoding="utf-8")
+        sources = needed(root, proof.top)
+        smt, log = root / "model.smt2", root / "log"
+        code, said = run(["yosys", "-p", script(proof, sources, headers, smt)], log)
+        if code is None:
+            return None, said
+        if proof.method == "sat":
+            if "SAT proof finished - no model found: SUCCESS!" in said and code == 0:
+                return True, said
+            return (False if "Called with -verify and proof did fail!" in said else None), said
+        if code != 0:
+            return None, said
+        # A base case beside the step: from a reset on nothing goes wrong in the first clocks.
+        commands = [["yosys-smtbmc", "-s", "z3", "-t", str(proof.steps), smt]]
+        if proof.method == "induction":
+            commands.append(["yosys-smtbmc", "-s", "z3", "-i", "-t", str(proof.steps), smt])
+        for command in commands:
+            code, said = run(command, log)
+            if code is None:
+                return None, said
+            if "Status: FAILED" in said or "Status: failed" in said:
+                return False, said
+            if "Status: PASSED" not in said and "Status: passed" not in said:
+                return None, said
+        return True, said
+
+
+def needed(root, top):
+    """The files of the modules below a top, by what they name: a module is in the file of its name."""
+    by_name = {path.stem: path for folder in ("hdl/fabric", "hdl/texture", "formal")
+               for path in (root / folder).glob("*.sv")}
+    names, found = [top], []
+    while names:
+        name = names.pop()
+        if by_name[name] in found:
+            continue
+        found.append(by_name[name])
+        words = set(by_name[name].read_text(encoding="utf-8").replace("(", " ").replace("#", " ").split())
+        names += sorted(words & by_name.keys())
+    return found
+
+
+def main():
+    if sys.argv[1:] == ["--list"]:
+        print(" ".join(PROOFS))
+        return
+    if len(sys.argv) != 4:
+        sys.exit(__doc__.splitlines()[-1])
+    source, headers, proof = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), PROOFS[sys.argv[3]]
+    missing = [tool for tool in TOOLS if shutil.which(tool) is None]
+    if missing:
+        print(f"skipped '{missing[0]} is not installed: scripts/install hdl'")
+        return
+    for fault, wanted in ((False, True), (True, False)):
+        start = time.monotonic()
+        verdict, said = proved(proof, source, headers, fault)
+        what = "with a planted fault" if fault else "as it is"
+        print(f"{sys.argv[3]} {what}: {dict([(True, 'proved'), (False, 'refuted'), (None, 'undecided')])[verdict]}, "
+              f"{time.monotonic() - start:.1f} s")
+        if verdict is not wanted:
+            sys.exit(said[-4000:])
+
+
+if __name__ == "__main__":
+    main()

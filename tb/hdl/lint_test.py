@@ -1,0 +1,75 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""The modules of hdl/ that no other one builds, and all below them, in each configuration that is printed:
+Verilator reads them (-Wall, with the named waivers of hdl/lint.vlt), Icarus Verilog does, and yosys builds
+them (no latch, no loop, nothing driven twice). A planted fault is refused by each.
+
+usage: lint_test.py SOURCE VERILATOR|ICARUS|YOSYS HEADERS..."""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+FAULTS = {
+    "verilator": ("wire [5:0] n = position - 6'd16;", "wire [5:0] n = position - 7'd16;"),  # a width
+    "icarus": ("assign mitchell = $signed({n, y});", "assign michell = $signed({n, y}};"),  # syntax
+    "yosys": ("position = 6'd0;\n", "\n"),  # a latch
+}
+
+
+def commands(tool, root, headers, module):
+    fabric, texture = root / "fabric", root / "texture"
+    files = sorted([*fabric.glob("*.sv"), *texture.glob("*.sv")])
+    if tool == "verilator":
+        return ["verilator", "--lint-only", "-Wall", root / "lint.vlt", f"-I{headers}", "-y", fabric, "-y", texture,
+                "--top-module", module, next(path for path in files if path.stem == module)]
+    if tool == "icarus":
+        return ["iverilog", "-g2012", "-t", "null", f"-I{headers}", "-Y", ".sv", "-y", fabric, "-y", texture,
+                "-s", module, next(path for path in files if path.stem == module)]
+    names = " ".join(map(str, files))
+    return ["yosys", "-q", "-p", f"read_verilog -sv -I{headers} {names}; hierarchy -check -top {module}; proc; "
+                                 "opt; check -assert; select -assert-none t:$dlatch"]
+
+
+def refused(tool, root, headers, module):
+    """What the tool says against a module, or None."""
+    done = subprocess.run(list(map(str, commands(tool, root, headers, module))), capture_output=True, text=True,
+                          check=False)
+    said = re.sub(r".*sorry: constant selects in always_.*\n", "", done.stdout + done.stderr)
+    return f"{tool}: {module} with {headers.name}: {said}" if done.returncode != 0 else None
+
+
+def main():
+    if len(sys.argv) < 4:
+        sys.exit(__doc__.splitlines()[-1])
+    root, tool = pathlib.Path(sys.argv[1]) / "hdl", sys.argv[2]
+    program = {"icarus": "iverilog"}.get(tool, tool)
+    if shutil.which(program) is None:
+        print(f"skipped '{program} is not installed: scripts/install hdl'")
+        return
+    texts = {path.stem: path.read_text(encoding="utf-8") for path in root.rglob("*.sv")}
+    built = {name for text in texts.values() for name in re.findall(r"^ *(\w+) (?:#\(.*\) )?\w+ \($", text, re.M)}
+    tops = sorted(texts.keys() - built - {name for text in texts.values()
+                                          for name in re.findall(r"^ *(\w+) (?:#\(.*\) )?\w+ \(\.", text, re.M)})
+    problems = [refused(tool, root, pathlib.Path(headers), top) for headers in sys.argv[3:] for top in tops]
+    count = len(problems)
+    with tempfile.TemporaryDirectory(prefix="deburr_lint_") as folder:
+        copy = pathlib.Path(folder) / "hdl"
+        shutil.copytree(root, copy)
+        file = copy / "texture/log2_value.sv"
+        text = file.read_text(encoding="utf-8")
+        good, bad = FAULTS[tool]
+        if text.count(good) != 1:
+            sys.exit(f"log2_value.sv has {good!r} {text.count(good)} times, and the fault goes where it stands once")
+        file.write_text(text.replace(good, bad), encoding="utf-8")
+        if refused(tool, copy, pathlib.Path(sys.argv[3]), "log2_value") is None:
+            problems.append(f"{tool} reads {bad!r} and finds nothing wrong")
+    problems = [problem for problem in problems if problem]
+    print("\n".join(problems) or f"{tool}: {count} times read, from {', '.join(tops)}")
+    sys.exit(1 if problems or not count else 0)
+
+
+if __name__ == "__main__":
+    main()

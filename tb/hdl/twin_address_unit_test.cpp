@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+// The address unit of hdl/texture: what comes out is what the golden model's functions say, and
+// every clock of it is the SystemC unit's, under random stalls at both ends, by every rule.
+#include <VAddressDeburr.h>
+#include <VAddressPaper.h>
+#include <VAddressThirdPlace.h>
+#include <VAddressWrongLane.h>
+#include <gtest/gtest.h>
+#include <models.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "golden/texture/footprint.h"
+#include "golden/texture/level_of_detail.h"
+#include "golden/texture/sampling.h"
+#include "rtl_model/texture/address_unit.h"
+#include "tb/hdl/adapter.h"
+#include "tb/hdl/settings.h"
+#include "tb/hdl/side_by_side.h"
+#include "tb/unit/rtl/texture/equivalence.h"
+
+namespace deburr::tb::twin_address_unit_test {
+namespace {
+
+namespace gold = golden::texture;
+using hdl::StalledSink;
+using hdl::StalledSource;
+using hdl::Stalls;
+using hdl::VerilatedUnit;
+using spec::texture::Quad;
+
+// A request of the fragment of an invalid descriptor carries its ticket and nothing else that
+// counts.
+hw::TexelToken what_counts(const hw::TexelToken& token) {
+  if (token.ticket.valid) return token;
+  hw::TexelToken normal{};
+  normal.ticket = token.ticket;
+  normal.control.last_of_sample = token.control.last_of_sample;
+  normal.control.last_of_fragment = token.control.last_of_fragment;
+  return normal;
+}
+
+// The requests of a quad, by the golden model.
+void append_requests(const spec::texture::Parameters& rules, const Descriptors& descriptors,
+                     const std::array<bool, 16>& valid, const Quad& q,
+                     std::vector<hw::TexelToken>& all) {
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    if ((q.coverage >> lane & 1) == 0) continue;
+    hw::TexelToken request{};
+    request.ticket = {q.tag, static_cast<std::uint8_t>(lane), q.coverage >> (lane + 1) == 0,
+                      q.texture < 16 && valid[q.texture % 16],
+                      static_cast<std::uint8_t>(q.texture % 16)};
+    if (!request.ticket.valid) {
+      request.control.last_of_sample = request.control.last_of_fragment = true;
+      all.push_back(request);
+      continue;
+    }
+    const spec::texture::Descriptor& d = descriptors[q.texture];
+    const std::size_t row = lane & 2, column = lane & 1;
+    const gold::Step d_x = {std::int64_t{q.s[row + 1]} - q.s[row],
+                            std::int64_t{q.t[row + 1]} - q.t[row]};
+    const gold::Step d_y = {std::int64_t{q.s[column + 2]} - q.s[column],
+                            std::int64_t{q.t[column + 2]} - q.t[column]};
+    const auto texels = [&](const gold::Step& step) {
+      return gold::Step{gold::derivative_in_texels(step.s, d.width).texels,
+                        gold::derivative_in_texels(step.t, d.height).texels};
+    };
+    const gold::Footprint footprint =
+        gold::footprint(rules.axes, rules.footprint, texels(d_x), texels(d_y));
+    const gold::AxisLogarithms logs = gold::axis_logarithms(rules.axes, rules.log2, footprint);
+    const gold::LevelOfDetail lod = gold::select_level(rules, d, logs.d_max, logs.d_min);
+    const gold::Step axis = gold::candidate_in_coordinates(rules.axes, footprint.major, d_x, d_y);
+    const std::int32_t spread = gold::spread_of(rules.kernel, lod.samples, rules.spread);
+    const auto place = lod.linear ? gold::linear_position : gold::nearest_position;
+    for (int i = 0; i < lod.samples; ++i)
+      for (int of_two = 0; of_two < lod.requests_per_sample(); ++of_two) {
+        const int level = lod.level + of_two;
+        const std::int64_t s = q.s[lane] + gold::sample_offset(i, lod.samples, spread, axis.s),
+                           t = q.t[lane] + gold::sample_offset(i, lod.samples, spread, axis.t);
+        const gold::TexelPosition x = place(d.wrap_s, s, gold::level_size(d.width, level)),
+                                  y = place(d.wrap_t, t, gold::level_size(d.height, level));
+        const auto address = [&](std::int32_t u, std::int32_t v) {
+          return gold::texel_address(d, level, u, v);
+        };
+        request.address = {address(x.i0, y.i0), address(x.i1, y.i0), address(x.i0, y.i1),
+                           address(x.i1, y.i1)};
+        const bool turned = d.layout == spec::texture::Layout::kLinear;
+        request.turned = {turned && y.i0 % 2 != 0, turned && y.i1 % 2 != 0};
+        request.control = {
+            static_cast<std::uint8_t>(x.fraction),
+            static_cast<std::uint8_t>(y.fraction),
+            static_cast<std::uint16_t>(of_two == 1 ? lod.fraction : 256 - lod.fraction),
+            static_cast<std::uint8_t>(i),
+            static_cast<std::uint8_t>(lod.samples - 1),
+            static_cast<std::uint8_t>(d.format),
+            of_two + 1 == lod.requests_per_sample(),
+            of_two + 1 == lod.requests_per_sample() && i + 1 == lod.samples};
+        all.push_back(request);
+      }
+  }
+}
+
+struct Result {
+  std::uint64_t quads = 0, requests = 0;
+  std::uint64_t golden_differ = 0;                       // requests that are not the golden model's
+  std::uint64_t payloads_differ = 0, clocks_differ = 0;  // from the SystemC unit
+  bool finished = true;
+  std::string first;
+};
+
+// Batches of quads with new descriptors each, of which some are invalid. `permille` of the clocks
+// are stalls, at both ends.
+template <class Model>
+Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t permille,
+               std::uint64_t seed = 1) {
+  const spec::texture::Parameters parameters = hdl::parameters_of(settings);
+  rtl::ClockDomain clock("clock", period());
+  rtl::Link<Quad> quads_of_model("quads_of_model"), quads_of_twin("quads_of_twin");
+  rtl::Link<hw::TexelToken> texels_of_model("texels_of_model"), texels_of_twin("texels_of_twin");
+  Store store(clock);
+  rtl::LatencyProbe probe;
+  std::vector<Quad> quads;
+  const Stalls before{permille, seed}, after{permille, seed + 1000};
+  StalledSource<Quad> source_of_model("source_of_model", clock, before, quads),
+      source_of_twin("source_of_twin", clock, before, quads);
+  hw::AddressUnit model("model", clock, parameters, store.control, store.descriptors, probe);
+  VerilatedUnit<Model, Quad, hw::TexelToken> twin("twin", clock);
+  StalledSink<hw::TexelToken> sink_of_model("sink_of_model", clock, after),
+      sink_of_twin("sink_of_twin", clock, after);
+  hdl::LinkComparison<Quad> before_it("before_it", clock, quads_of_model, quads_of_twin);
+  hdl::LinkComparison<hw::TexelToken> behind_it("behind_it", clock, texels_of_model, texels_of_twin,
+                                                what_counts);
+  std::vector<const rtl::LinkBase*> links;
+  for (const char* name : {"derivatives", "footprints", "logs", "levels", "samples"})
+    rtl::for_each<rtl::LinkBase>(model, [&](rtl::LinkBase& link) {
+      if (std::string(name) == link.basename()) links.push_back(&link);
+    });
+  EXPECT_EQ(links.size(), 5u);
+  hdl::InnerLinks inside("inside", clock, links);
+  twin.on_clock = [&](Model& says) { inside.twin_does(says.link_push, says.link_pop); };
+  source_of_model.beats_out(quads_of_model);
+  model.quads_in(quads_of_model);
+  model.texels_out(texels_of_model);
+  sink_of_model.beats_in(texels_of_model);
+  source_of_twin.beats_out(quads_of_twin);
+  twin.beats_in(quads_of_twin);
+  twin.beats_out(texels_of_twin);
+  sink_of_twin.beats_in(texels_of_twin);
+
+  Result result;
+  std::vector<hw::TexelToken> wanted;
+  const rtl::Payload payload = rtl::Payload::of<hw::TexelToken>();
+  sink_of_model.on_beat = [&](const hw::TexelToken& got) {
+    if (got.control.last_of_fragment) probe.leaves(clock.cycle());
+  };
+  sink_of_twin.on_beat = [&](const hw::TexelToken& got) {
+    const std::uint64_t number = sink_of_twin.received() - 1;
+    if (number >= wanted.size()) {
+      ++result.golden_differ;
+      return;
+    }
+    const hw::TexelToken normal = what_counts(got);
+    const std::string difference =
+        payload.difference(reinterpret_cast<const std::byte*>(&wanted[number]),
+                           reinterpret_cast<const std::byte*>(&normal));
+    if (!difference.empty() && result.golden_differ++ == 0)
+      result.first += "golden/twin request " + std::to_string(number) + ": " + difference + "; ";
+  };
+
+  Random random(seed);
+  while (result.requests < least_requests) {
+    Descriptors descriptors;
+    std::array<bool, 16> valid;
+    for (std::size_t h = 0; h < 16; ++h) {
+      descriptors[h] = random_texture(random, kMemoryBytes);
+      valid[h] = h % 4 != 3;
+      if (!valid[h]) spoil(random, descriptors[h]);
+    }
+    quads.clear();
+    wanted.clear();
+    for (std::uint32_t tag = 0; tag < 4000; ++tag) {
+      const auto texture =
+          static_cast<std::uint8_t>(random.chance(20) ? 16 + random.below(240) : random.below(16));
+      quads.push_back(random_quad(random, tag, texture));
+      append_requests(parameters, descriptors, valid, quads.back(), wanted);
+    }
+    clock.set_reset_n(false);
+    clock.run(2);
+    clock.set_reset_n(true);
+    probe.reset();
+    write(store, descriptors);
+    for (std::uint32_t h = 0; h < 16; ++h)
+      for (const auto& [offset, value] :
+           platform::descriptor_registers(static_cast<int>(h), descriptors[h]))
+        hdl::write_word(
+            twin, h,
+            (offset - spec::texture::reg::kTextureBase) % spec::texture::reg::kTextureStride / 4,
+            value);
+    const bool finished = clock.run_until(
+        [&] {
+          return sink_of_model.received() >= wanted.size() &&
+                 sink_of_twin.received() >= wanted.size();
+        },
+        20 * wanted.size() + 10'000);
+    clock.run(100);  // none too many
+    result.quads += quads.size();
+    result.requests += wanted.size();
+    result.finished &= finished && sink_of_twin.received() == wanted.size();
+    if (!result.finished || behind_it.clocks_that_differ() + inside.clocks_that_differ() != 0)
+      break;
+  }
+  result.clocks_differ =
+      before_it.clocks_that_differ() + behind_it.clocks_that_differ() + inside.clocks_that_differ();
+  result.payloads_differ = behind_it.payloads_that_differ();
+  result.first += before_it.first() + inside.first() + behind_it.first();
+  return result;
+}
+
+template <class Model>
+void expect_equal_unit(const char* settings, std::uint64_t requests) {
+  const Result r = compare<Model>(settings, requests, 300);
+  EXPECT_TRUE(r.finished) << r.first;
+  EXPECT_EQ(r.golden_differ, 0u) << r.first;
+  EXPECT_EQ(r.payloads_differ, 0u) << r.first;
+  EXPECT_EQ(r.clocks_differ, 0u) << r.first;
+  EXPECT_GE(r.requests, requests);
+}
+
+TEST(TwinAddressUnit, Paper) { expect_equal_unit<VAddressPaper>(hdl::kVAddressPaper, 1'000'000); }
+TEST(TwinAddressUnit, Deburr) {
+  expect_equal_unit<VAddressDeburr>(hdl::kVAddressDeburr, 1'000'000);
+}
+
+// Without stalls, and with a sink that hardly takes anything.
+TEST(TwinAddressUnit, FreeAndBlocked) {
+  const Result r = compare<VAddressDeburr>(hdl::kVAddressDeburr, 100'000, 0, 5);
+  EXPECT_TRUE(r.finished && r.golden_differ + r.payloads_differ + r.clocks_differ == 0) << r.first;
+}
+TEST(TwinAddressUnit, HardlyMoves) {
+  const Result r = compare<VAddressDeburr>(hdl::kVAddressDeburr, 50'000, 800, 6);
+  EXPECT_TRUE(r.finished && r.golden_differ + r.payloads_differ + r.clocks_differ == 0) << r.first;
+}
+
+// ---- planted faults in the SystemVerilog, each seen
+
+TEST(TwinAddressUnitFaults, AWrongNeighbourOfALane) {
+  EXPECT_GE(compare<VAddressWrongLane>(hdl::kVAddressWrongLane, 20'000, 300).golden_differ, 1u);
+}
+// Right requests, and a clock that differs only when the units behind stand still.
+TEST(TwinAddressUnitFaults, AThirdPlaceInALink) {
+  const Result stalled = compare<VAddressThirdPlace>(hdl::kVAddressThirdPlace, 20'000, 300);
+  EXPECT_EQ(stalled.golden_differ, 0u) << stalled.first;
+  EXPECT_GE(stalled.clocks_differ, 1u);
+}
+
+}  // namespace
+}  // namespace deburr::tb::twin_address_unit_test

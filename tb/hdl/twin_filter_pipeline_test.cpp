@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// The filter pipeline of hdl/texture: colours are the golden model's, clocks the SystemC unit's,
+// under random stalls at both ends, for all kinds of weights and both outputs.
+#include <VFilterDeburr.h>
+#include <VFilterEncoded.h>
+#include <VFilterWrongRound.h>
+#include <gtest/gtest.h>
+#include <models.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rtl_model/texture/filter_pipeline.h"
+#include "tb/hdl/adapter.h"
+#include "tb/hdl/settings.h"
+#include "tb/hdl/side_by_side.h"
+#include "tb/unit/rtl/texture/filter_work.h"
+
+namespace deburr::tb::twin_filter_pipeline_test {
+namespace {
+
+using spec::texture::Colour;
+
+struct Result {
+  std::uint64_t requests = 0, colours = 0;
+  std::uint64_t golden_differ = 0, payloads_differ = 0, clocks_differ = 0;
+  bool finished = false;
+  std::string first;
+  bool equal() const { return finished && golden_differ + payloads_differ + clocks_differ == 0; }
+};
+
+template <class Model>
+Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed = 1) {
+  const spec::texture::Parameters parameters = hdl::parameters_of(settings);
+  FilterWork work = filter_work(parameters);
+  // Fragments of invalid descriptors among them: their colour is zero.
+  for (hw::TexelQuadToken& token : work.tokens)
+    if (token.ticket.tag % 16 == 9) {
+      token.ticket.valid = false;
+      work.colours[token.ticket.tag].rgba = {};
+    }
+  rtl::ClockDomain clock("clock", period());
+  rtl::Link<hw::TexelQuadToken> texels_of_model("texels_of_model"),
+      texels_of_twin("texels_of_twin");
+  rtl::Link<Colour> colours_of_model("colours_of_model"), colours_of_twin("colours_of_twin");
+  rtl::LatencyProbe probe;
+  const hdl::Stalls before{permille, seed}, after{permille, seed + 1000};
+  hdl::StalledSource<hw::TexelQuadToken> source_of_model("source_of_model", clock, before,
+                                                         work.tokens),
+      source_of_twin("source_of_twin", clock, before, work.tokens);
+  hw::FilterPipeline model("model", clock, parameters, probe);
+  hdl::VerilatedUnit<Model, hw::TexelQuadToken, Colour> twin("twin", clock);
+  hdl::StalledSink<Colour> sink_of_model("sink_of_model", clock, after),
+      sink_of_twin("sink_of_twin", clock, after);
+  hdl::LinkComparison<hw::TexelQuadToken> before_it("before_it", clock, texels_of_model,
+                                                    texels_of_twin);
+  hdl::LinkComparison<Colour> behind_it("behind_it", clock, colours_of_model, colours_of_twin);
+  source_of_model.beats_out(texels_of_model);
+  model.texels_in(texels_of_model);
+  model.colours_out(colours_of_model);
+  sink_of_model.beats_in(colours_of_model);
+  source_of_twin.beats_out(texels_of_twin);
+  twin.beats_in(texels_of_twin);
+  twin.beats_out(colours_of_twin);
+  sink_of_twin.beats_in(colours_of_twin);
+  source_of_model.on_beat = [&](rtl::Cycle cycle, const hw::TexelQuadToken& token) {
+    if (token.control.last_of_fragment) probe.enters(cycle);
+  };
+
+  Result result;
+  sink_of_twin.on_beat = [&](const Colour& got) {
+    const std::uint64_t number = sink_of_twin.received() - 1;
+    if (number >= work.colours.size() || !(got == work.colours[number]))
+      if (result.golden_differ++ == 0)
+        result.first = "golden/twin colour " + std::to_string(number) + "; ";
+  };
+  const std::uint64_t wanted = work.colours.size();
+  result.finished = clock.run_until(
+      [&] { return sink_of_model.received() >= wanted && sink_of_twin.received() >= wanted; },
+      20 * work.tokens.size() + 10'000);
+  clock.run(100);  // none too many
+  result.finished &= sink_of_twin.received() == wanted;
+  result.requests = work.tokens.size();
+  result.colours = wanted;
+  result.clocks_differ = before_it.clocks_that_differ() + behind_it.clocks_that_differ();
+  result.payloads_differ = behind_it.payloads_that_differ();
+  result.first += before_it.first() + behind_it.first();
+  return result;
+}
+
+template <class Model>
+void expect_equal_unit(const char* settings, std::uint32_t permille = 300) {
+  const Result r = compare<Model>(settings, permille);
+  EXPECT_TRUE(r.finished) << r.first;
+  EXPECT_EQ(r.golden_differ, 0u) << r.first;
+  EXPECT_EQ(r.payloads_differ, 0u) << r.first;
+  EXPECT_EQ(r.clocks_differ, 0u) << r.first;
+  EXPECT_GE(r.requests, 200'000u);
+}
+
+TEST(TwinFilterPipeline, Deburr) { expect_equal_unit<VFilterDeburr>(hdl::kVFilterDeburr); }
+TEST(TwinFilterPipeline, Encoded) { expect_equal_unit<VFilterEncoded>(hdl::kVFilterEncoded); }
+TEST(TwinFilterPipeline, Free) { expect_equal_unit<VFilterDeburr>(hdl::kVFilterDeburr, 0); }
+TEST(TwinFilterPipeline, HardlyMoves) {
+  expect_equal_unit<VFilterEncoded>(hdl::kVFilterEncoded, 800);
+}
+
+// ---- planted faults in the SystemVerilog, each seen
+
+TEST(TwinFilterPipelineFaults, ARoundingThatTruncates) {
+  EXPECT_GE(compare<VFilterWrongRound>(hdl::kVFilterWrongRound, 300).golden_differ, 1u);
+}
+}  // namespace
+}  // namespace deburr::tb::twin_filter_pipeline_test

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MIT
+#include "tb/oracle/harm.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "golden/morphological/configuration.h"
+#include "golden/morphological/morphological_golden.h"
+#include "spec/error.h"
+#include "tb/scene/flip.h"
+#include "tb/scene/image_io.h"
+#include "tb/scene/quality.h"
+#include "tb/scene/ssim.h"
+#include "tb/scene/truth.h"
+#include "tb/stimuli/reference_filters.h"
+#include "tb/training/stand_ins.h"
+
+namespace deburr::tb::harm {
+namespace {
+
+namespace fs = std::filesystem;
+namespace m = spec::morphological;
+
+constexpr int kWidth = 480, kHeight = 360;
+
+// ---- filters ------------------------------------------------------------------------------------
+
+struct Filter {
+  std::string name;
+  std::function<Image(const Image&)> apply;
+};
+
+Filter preset(std::string name, m::Preset which, m::Quality quality = m::Quality::kHigh) {
+  return {std::move(name), [which, quality](const Image& image) {
+            using golden::morphological::MorphologicalGolden;
+            MorphologicalGolden golden(golden::morphological::preset_parameters(which, quality),
+                                       MorphologicalGolden::Detail::kPixels);
+            Image out = image;
+            out.pixels = golden.process({image.pixels, image.width, image.height});
+            return out;
+          }};
+}
+
+// All that see one sample a pixel.
+std::vector<Filter> filters() {
+  std::vector<Filter> all = {preset("mlaa", m::Preset::kMlaa),
+                             preset("mlaa-slope", m::Preset::kMlaaSlope)};
+  for (const m::Quality quality :
+       {m::Quality::kLow, m::Quality::kMedium, m::Quality::kHigh, m::Quality::kUltra})
+    all.push_back(
+        preset(fmt::format("smaa {}", m::kQualityNames[static_cast<std::size_t>(quality)]),
+               m::Preset::kSmaa, quality));
+  all.push_back(preset("smaa-dynamic", m::Preset::kSmaaDynamic));
+  for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
+    all.push_back({reference.name, [filter = reference.filter](const Image& image) {
+                     return filter(image, true);
+                   }});
+  all.push_back(preset("`deburr-line`", m::Preset::kDeburrLine));
+  all.push_back(preset("`deburr`", m::Preset::kDeburr));
+  return all;
+}
+
+// ---- measures -----------------------------------------------------------------------------------
+
+struct Figures {
+  double small = 0, large = 0;  // % of the right pixels, changed by more than 2 and 16 codes
+  double psnr = 0, flip = 0, ssim = 0;
+};
+
+// Against the truth, or, without one, against the frame, all of which is right then.
+std::vector<Figures> measure(const Image& frame, const Image& truth,
+                             std::span<const Image> smoothed) {
+  const Mask right = inverted(edge_mask(truth, frame));
+  const auto of_right = static_cast<double>(count(right));
+  std::vector<const Image*> tests;
+  for (const Image& image : smoothed) tests.push_back(&image);
+  const std::vector<double> flips = flip(truth, tests), similar = ssim(truth, tests);
+  std::vector<Figures> all;
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    const auto changed = [&](int codes) {
+      const auto pixels = static_cast<double>(count_different(*tests[i], frame, right, codes));
+      return 100 * pixels / of_right;
+    };
+    all.push_back({changed(2), changed(16), psnr(*tests[i], truth), flips[i], similar[i]});
+  }
+  return all;
+}
+
+std::vector<Image> smoothed_by(std::span<const Filter> filters, const Image& frame) {
+  std::vector<Image> all;
+  for (const Filter& filter : filters) all.push_back(filter.apply(frame));
+  return all;
+}
+
+// ---- tables -------------------------------------------------------------------------------------
+
+std::string percents(const Figures& f) { return fmt::format("{:.1f} / {:.1f}", f.small, f.large); }
+std::string decibels(const Figures& f) {
+  return std::isfinite(f.psnr) ? fmt::format("{:.2f}", f.psnr) : "-";
+}
+std::string both(const Figures& f) { return fmt::format("{:.3f} / {:.3f}", f.flip, f.ssim); }
+
+std::string head(const std::vector<std::string>& titles) {
+  std::string text = "|", line = "|";
+  for (const std::string& title : titles) {
+    text += title.empty() ? " |" : " " + title + " |";
+    line += "---|";
+  }
+  return text + "\n" + line + "\n";
+}
+
+std::string row(const std::vector<std::string>& cells) {
+  std::string text = "|";
+  for (const std::string& cell : cells) text += " " + cell + " |";
+  return text + "\n";
+}
+
+// A frame that is right as it is, and what every filter makes of it.
+struct Judged {
+  std::string name;
+  std::vector<Figures> figures;
+};
+
+Judged judged(std::string name, const Image& frame, std::span<const Filter> filters) {
+  return {std::move(name), measure(frame, frame, smoothed_by(filters, frame))};
+}
+
+std::string table(const std::string& title, std::span<const Filter> filters,
+                  std::span<const Judged> frames, std::string (*cell)(const Figures&)) {
+  std::vector<std::string> titles = {""};
+  for (const Filter& filter : filters) titles.push_back(filter.name);
+  std::string text = title + ":\n\n" + head(titles);
+  for (const Judged& frame : frames) {
+    std::vector<std::string> cells = {frame.name};
+    for (const Figures& figures : frame.figures) cells.push_back(cell(figures));
+    text += row(cells);
+  }
+  return text + "\n";
+}
+
+std::string tables_of_right_frames(std::span<const Filter> filters,
+                                   std::span<const Judged> frames) {
+  return table("Pixels changed by more than 2 / 16 codes, %", filters, frames, percents) +
+         table("PSNR to the input, dB", filters, frames, decibels) +
+         table("FLIP / SSIM to the input", filters, frames, both);
+}
+
+std::string textured_table(std::span<const Filter> filters) {
+  std::vector<std::string> titles = {""};
+  std::vector<std::vector<std::string>> rows(filters.size() + 1);
+  rows[0] = {"none"};
+  for (std::size_t i = 0; i < filters.size(); ++i) rows[i + 1] = {filters[i].name};
+  for (int view = 0; view < 3; ++view) {
+    const Textured textured = textured_frame(view, 2 * kWidth, 2 * kHeight);
+    std::vector<Image> images = smoothed_by(filters, textured.frame);
+    images.insert(images.begin(), textured.frame);
+    const std::vector<Figures> figures = measure(textured.frame, textured.truth, images);
+    const auto right =
+        static_cast<double>(count(inverted(edge_mask(textured.truth, textured.frame))));
+    titles.push_back(fmt::format("view {}, {:.1f} % right: changed, %", view + 1,
+                                 100 * right / static_cast<double>(textured.frame.pixels.size())));
+    titles.insert(titles.end(), {"PSNR, dB", "FLIP / SSIM"});
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i].insert(rows[i].end(), {percents(figures[i]), decibels(figures[i]), both(figures[i])});
+  }
+  std::string text = head(titles);
+  for (const auto& cells : rows) text += row(cells);
+  return text;
+}
+
+// ---- frames with truth --------------------------------------------------------------------------
+
+struct Pair {
+  Image frame, truth;
+};
+
+Pair rendered(const Scene& scene, int width, int height) {
+  LitFrames lit = render_lit_frames(scene, width, height, 8);
+  return {std::move(lit.noaa), std::move(lit.truth)};
+}
+
+// A column: the mean over some frames.
+struct Column {
+  std::string title;
+  std::vector<Pair> pairs;
+};
+
+std::string perceptual_table(std::span<const Filter> filters, std::span<const Column> columns) {
+  std::vector<std::string> titles = {""};
+  std::vector<std::vector<std::string>> rows(filters.size() + 1);
+  rows[0] = {"none"};
+  for (std::size_t i = 0; i < filters.size(); ++i) rows[i + 1] = {filters[i].name};
+  for (const Column& column : columns) {
+    std::vector<Figures> mean(rows.size());
+    for (const Pair& pair : column.pairs) {
+      std::vector<Image> images = smoothed_by(filters, pair.frame);
+      images.insert(images.begin(), pair.frame);
+      const std::vector<Figures> figures = measure(pair.frame, pair.truth, images);
+      const auto frames = static_cast<double>(column.pairs.size());
+      for (std::size_t i = 0; i < mean.size(); ++i) {
+        mean[i].psnr += figures[i].psnr / frames;
+        mean[i].flip += figures[i].flip / frames;
+        mean[i].ssim += figures[i].ssim / frames;
+      }
+    }
+    titles.push_back(column.title);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i].push_back(
+          fmt::format("{:.2f}; {:.4f} / {:.4f}", mean[i].psnr, mean[i].flip, mean[i].ssim));
+  }
+  std::string text = head(titles);
+  for (const auto& cells : rows) text += row(cells);
+  return text + "\n";
+}
+
+std::vector<Pair> stand_ins() {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("deburr_harm_{}", ::getpid());
+  fs::create_directories(folder);
+  std::vector<Pair> all;
+  for (const char* const kind : {"street", "vehicle", "forest"})
+    for (const std::uint64_t seed : {1, 2, 3})
+      all.push_back(rendered(import_scene(write_stand_in(folder, kind, seed)), 512, 512));
+  fs::remove_all(folder);
+  return all;
+}
+
+// ---- data ---------------------------------------------------------------------------------------
+
+constexpr std::array<const char*, 3> kPhotos = {"brick", "gravel", "grass"};
+struct FramePair {
+  const char *title, *frame, *truth;
+};
+constexpr std::array<FramePair, 2> kFrames = {
+    {{"`track` 720p", "frames/track_720p_noaa.png", "frames/track_720p_ssaa256.png"},
+     {"`track` 1080p", "frames/track_1080p_noaa.png", "frames/track_1080p_ssaa64.png"}}};
+// Never learned from, and looked at once (docs/morphological_quality.md, "Frames with truth").
+constexpr std::array<const char*, 17> kHeldOut = {"kenney/city/models/building-small-b.glb",
+                                                  "kenney/city/models/building-small-d.glb",
+                                                  "kenney/city/models/grass-trees.glb",
+                                                  "kenney/city/models/grass.glb",
+                                                  "kenney/city/models/pavement.glb",
+                                                  "kenney/city/models/road-split.glb",
+                                                  "kenney/city/models/road-straight.glb",
+                                                  "kenney/city/models/road-corner.glb",
+                                                  "kenney/city/models/road-intersection.glb",
+                                                  "kenney/racing/models/track-corner.glb",
+                                                  "kenney/racing/models/track-bump.glb",
+                                                  "kenney/racing/models/track-straight.glb",
+                                                  "kenney/racing/models/track-tents.glb",
+                                                  "kenney/racing/models/vehicle-truck-purple.glb",
+                                                  "kenney/racing/models/vehicle-truck-yellow.glb",
+                                                  "kenney/racing/models/vehicle-truck-green.glb",
+                                                  "kenney/racing/models/decoration-empty.glb"};
+
+fs::path photo_file(const fs::path& data, const char* name) {
+  return data / "textures" / (std::string(name) + ".png");
+}
+
+}  // namespace
+
+std::string text_table(Text kind) {
+  const std::vector<Filter> all = filters();
+  const Judged page = judged("text, aliased", text_page(kind, kWidth, kHeight), all);
+  return table("Pixels changed by more than 2 / 16 codes, %", all, {&page, 1}, percents);
+}
+
+std::string formula_tables() {
+  const std::vector<Filter> all = filters();
+  const Image hall = smoothed_hall(kWidth, kHeight), landscape = landscape_photo(kWidth, kHeight);
+  const std::vector<Judged> frames = {
+      judged("like a photograph: landscape", landscape, all),
+      judged("like a photograph: foliage", foliage_photo(kWidth, kHeight), all),
+      judged("smoothed already: the hall", hall, all),
+      judged("text, aliased", text_page(Text::kAliased, kWidth, kHeight), all),
+      judged("text, smoothed", text_page(Text::kSmoothed, kWidth, kHeight), all),
+      judged("text, light on dark", text_page(Text::kLightOnDark, kWidth, kHeight), all),
+      judged("text, bitmap font", text_page(Text::kBitmapFont, kWidth, kHeight), all),
+      judged("pixel art x 1", pixel_art(1, kWidth, kHeight), all),
+      judged("pixel art x 2", pixel_art(2, kWidth, kHeight), all),
+      judged("pixel art x 4", pixel_art(4, kWidth, kHeight), all),
+      judged("smoothed hall, JPEG 90", compressed(hall, 90), all),
+      judged("smoothed hall, JPEG 50", compressed(hall, 50), all),
+      judged("landscape, JPEG 75", compressed(landscape, 75), all)};
+  std::vector<Column> columns;
+  columns.push_back({"five scenes", {}});
+  for (const char* const scene : {"cylinders", "object", "road", "quad", "tunnel"})
+    columns.back().pairs.push_back(rendered(make_scene(scene), 512, 512));
+  columns.push_back({"nine stand-ins", stand_ins()});
+  return "\nTextured frames; the figures of `none` are the frame's own:\n\n" + textured_table(all) +
+         "\nFrames that are right as they are. " + tables_of_right_frames(all, frames) +
+         "Frames with truth, PSNR in dB; FLIP / SSIM, over the whole frame:\n\n" +
+         perceptual_table(all, columns);
+}
+
+std::string missing_data(const fs::path& data) {
+  std::vector<fs::path> files;
+  for (const char* const name : kPhotos) files.push_back(photo_file(data, name));
+  for (const FramePair& pair : kFrames)
+    files.insert(files.end(), {data / pair.frame, data / pair.truth});
+  for (const char* const name : kHeldOut) files.push_back(data / name);
+  for (const fs::path& file : files)
+    if (!fs::exists(file)) return file.string();
+  return "";
+}
+
+std::string data_tables(const fs::path& data) {
+  if (const std::string missing = missing_data(data); !missing.empty())
+    throw spec::FileError(fmt::format(
+        "there is no '{}': set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/",
+        missing));
+  const std::vector<Filter> all = filters();
+  std::vector<Judged> photos;
+  for (const char* const name : kPhotos)
+    photos.push_back(
+        judged(fmt::format("photograph: {}", name), read_image(photo_file(data, name)), all));
+  std::vector<Column> columns;
+  for (const FramePair& pair : kFrames)
+    columns.push_back(
+        {pair.title, {{read_image(data / pair.frame), read_image(data / pair.truth)}}});
+  columns.push_back({"17 held-out meshes", {}});
+  for (const char* const name : kHeldOut)
+    columns.back().pairs.push_back(rendered(import_scene(data / name), 512, 512));
+  return "\nPhotographs. " + tables_of_right_frames(all, photos) +
+         "Frames with truth, PSNR in dB; FLIP / SSIM, over the whole frame:\n\n" +
+         perceptual_table(all, columns);
+}
+
+}  // namespace deburr::tb::harm

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// What smoothing does to what is right, and what FLIP and SSIM say of frames with truth: tables of
+// docs/morphological_quality.md. One part is of frames by formula, which every clone has; the other
+// of frames that others made (DEBURR_DATA).
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "tb/oracle/harm_frames.h"
+
+namespace deburr::tb::harm {
+
+std::string formula_tables();
+// FileError where the folder has not what they need.
+std::string data_tables(const std::filesystem::path& data);
+// What of that is not there; empty: all is.
+std::string missing_data(const std::filesystem::path& data);
+
+// Of the first table of frames that are right the row of a page of aliased text, made of one of
+// this kind: as quick as a test that runs every time should be.
+std::string text_table(Text kind);
+
+}  // namespace deburr::tb::harm

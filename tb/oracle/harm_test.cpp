@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Are the tables of harm in docs/morphological_quality.md what is measured today? And are the
+// frames what the page says of them?
+#include "tb/oracle/harm.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "tb/harness/test_paths.h"
+#include "tb/oracle/harm_frames.h"
+#include "tb/scene/quality.h"
+#include "tb/unit/spec/generated_table.h"
+
+namespace deburr::tb::harm_test {
+namespace {
+
+using harm::Text;
+
+constexpr const char *kPage = "morphological_quality.md",
+                     *kFormula = "MorphologicalHarm.OfFramesByFormula",
+                     *kData = "MorphologicalHarm.OfFramesOfOthers";
+
+TEST(MorphologicalHarm, OfFramesByFormula) {
+  expect_generated(kPage, kFormula, harm::formula_tables());
+}
+
+TEST(MorphologicalHarm, OfFramesOfOthers) {
+  if (const std::string missing = harm::missing_data(data_folder()); !missing.empty())
+    GTEST_SKIP() << "no " << missing
+                 << ": set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/";
+  expect_generated(kPage, kData, harm::data_tables(data_folder()));
+}
+
+// The last line of a table, and the one above which its rows begin.
+std::pair<std::string, std::string> head_and_last_row(const std::string& table) {
+  const std::size_t head = table.find("\n| |"), last = table.rfind("\n| ");
+  return {table.substr(head + 1, table.find('\n', head + 1) - head),
+          table.substr(last + 1, table.find('\n', last + 1) - last)};
+}
+
+// One row of the large table, which takes seconds.
+TEST(MorphologicalHarm, OfAliasedText) {
+  std::ifstream file(source_folder() / "docs" / kPage, std::ios::binary);
+  const std::string part =
+      GeneratedPart({std::istreambuf_iterator<char>(file), {}}, kFormula).part();
+  const auto [head, row] = head_and_last_row(harm::text_table(Text::kAliased));
+  EXPECT_NE(part.find(head), std::string::npos) << head;
+  EXPECT_NE(part.find(row), std::string::npos) << row;
+  // The planted fault: another page gives another row, even under the same name.
+  const auto [other_head, other_row] = head_and_last_row(harm::text_table(Text::kBitmapFont));
+  EXPECT_EQ(other_head, head);
+  EXPECT_EQ(part.find(other_row), std::string::npos) << other_row;
+}
+
+std::set<Rgba8> colours(const Image& image) { return {image.pixels.begin(), image.pixels.end()}; }
+
+TEST(HarmFrames, OfTextHaveTwoColoursUnlessSmoothed) {
+  for (const Text kind : {Text::kAliased, Text::kLightOnDark, Text::kBitmapFont})
+    EXPECT_EQ(colours(text_page(kind, 160, 120)).size(), 2u) << static_cast<int>(kind);
+  const Image smoothed = text_page(Text::kSmoothed, 160, 120);
+  EXPECT_GT(colours(smoothed).size(), 20u);
+  // Ink where at least half of the pixel is ink: the aliased page is the smoothed one by a
+  // threshold.
+  const Image aliased = text_page(Text::kAliased, 160, 120);
+  for (std::size_t i = 0; i < aliased.pixels.size(); ++i)
+    ASSERT_EQ(aliased.pixels[i][0] == 255, smoothed.pixels[i][0] > 138) << i;
+}
+
+TEST(HarmFrames, OfPixelArtHaveSixteenColoursAndBlocks) {
+  const Image art = harm::pixel_art(1, 240, 160), large = harm::pixel_art(4, 240, 160);
+  EXPECT_LE(colours(art).size(), 16u);
+  EXPECT_GT(colours(art).size(), 10u);
+  for (int y = 0; y < large.height; ++y)
+    for (int x = 0; x < large.width; ++x)
+      ASSERT_EQ(large.at(x, y), large.at(x / 4 * 4, y / 4 * 4)) << x << ", " << y;
+}
+
+TEST(HarmFrames, OfTexturesAreRightButAtEdges) {
+  for (int view = 0; view < 3; ++view) {
+    const harm::Textured t = harm::textured_frame(view, 240, 180);
+    const double edges = static_cast<double>(count(edge_mask(t.truth, t.frame))) / (240 * 180);
+    EXPECT_GT(edges, 0.01) << view;
+    EXPECT_LT(edges, 0.2) << view;
+  }
+}
+
+TEST(HarmFrames, ComeBackFromJpegChangedByItsQuality) {
+  const Image photo = harm::landscape_photo(160, 120), good = harm::compressed(photo, 90),
+              poor = harm::compressed(photo, 50);
+  EXPECT_GT(psnr(good, photo), 34);
+  EXPECT_LT(psnr(poor, photo), psnr(good, photo) - 2);
+  EXPECT_GT(psnr(poor, photo), 25);
+}
+
+}  // namespace
+}  // namespace deburr::tb::harm_test

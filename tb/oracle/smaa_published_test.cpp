@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// How far is this SMAA from the published one? From equal edges the weights of golden/morphological
+// against golden/ideal/smaa as it is published: its sampler's border, its area texture's bytes.
+// That the oracle has those bytes is read from the published files, where they are (DEBURR_DATA).
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "golden/ideal/smaa.h"
+#include "golden/morphological/morphological_golden.h"
+#include "tb/harness/test_paths.h"
+#include "tb/scene/truth.h"
+#include "tb/stimuli/frames.h"
+#include "tb/unit/spec/generated_table.h"
+
+namespace deburr::tb::smaa_published_test {
+namespace {
+
+using golden::ideal::SmaaBorder;
+using golden::ideal::SmaaBytes;
+using golden::ideal::SmaaEdges;
+using golden::ideal::SmaaPixelWeights;
+using golden::ideal::SmaaSettings;
+using golden::ideal::SmaaWeights;
+using golden::morphological::EdgeShares;
+using golden::morphological::MorphologicalGolden;
+using spec::morphological::Preset;
+using spec::morphological::Quality;
+
+// ---- the published tables -----------------------------------------------------------------------
+
+// The bytes between the braces of a header.
+std::vector<int> bytes_of(const char* name) {
+  std::ifstream file(data_folder() / "smaa" / name);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::vector<int> bytes;
+  std::size_t at = text.find('{', text.find("[]"));
+  while ((at = text.find("0x", at)) != std::string::npos) {
+    bytes.push_back(std::stoi(text.substr(at, 4), nullptr, 16));
+    at += 4;
+  }
+  return bytes;
+}
+
+class PublishedTables : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(data_folder() / "smaa/AreaTex.h"))
+      GTEST_SKIP() << "no " << data_folder() / "smaa/AreaTex.h"
+                   << ": set DEBURR_DATA to the folder that holds smaa/";
+  }
+};
+
+// Of the row for subsample offset 0.
+TEST_F(PublishedTables, HaveTheAreasOfTheOracle) {
+  const std::vector<int> texture = bytes_of("AreaTex.h");
+  constexpr int kWidth = 160, kHeight = 560;
+  ASSERT_EQ(texture.size(), std::size_t{2} * kWidth * kHeight);
+  const auto expect = [&](int x, int y, const SmaaBytes& entry, const std::string& what) {
+    const auto at = static_cast<std::size_t>(2 * (y * kWidth + x));
+    EXPECT_EQ(texture[at], entry.r) << what;
+    EXPECT_EQ(texture[at + 1], entry.g) << what;
+  };
+  // 4e of an end by its crossings: N weighs 1, S weighs 3.
+  for (int pattern = 0; pattern < 16; ++pattern) {
+    const int start = 3 * (pattern & 1) + (pattern >> 2 & 1),
+              end = 3 * (pattern >> 1 & 1) + (pattern >> 3 & 1);
+    for (int i = 0; i < 16; ++i)
+      for (int j = 0; j < 16; ++j)
+        expect(16 * start + i, 16 * end + j, golden::ideal::smaa_area_bytes(pattern, i * i, j * j),
+               fmt::format("pattern {}, roots {} and {}", pattern, i, j));
+  }
+  for (int e1 = 0; e1 < 4; ++e1)
+    for (int e2 = 0; e2 < 4; ++e2)
+      for (int d1 = 0; d1 < 20; ++d1)
+        for (int d2 = 0; d2 < 20; ++d2)
+          expect(80 + 20 * e1 + d1, 20 * e2 + d2,
+                 golden::ideal::smaa_diagonal_bytes(e1, e2, d1, d2),
+                 fmt::format("diagonal {}, {}, distances {} and {}", e1, e2, d1, d2));
+}
+
+// A fetch weighs its four edges with 1, 3, 7 and 21 of 32; the texture is cropped and upside down.
+TEST_F(PublishedTables, HaveTheSearchesOfTheOracle) {
+  const std::vector<int> texture = bytes_of("SearchTex.h");
+  ASSERT_EQ(texture.size(), std::size_t{64} * 16);
+  constexpr std::array<int, 4> kWeights = {1, 3, 7, 21};
+  for (int bits = 0; bits < 256; ++bits) {
+    std::array<bool, 4> across{}, along{};
+    int r = 0, g = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      across[i] = (bits >> i & 1) != 0;
+      along[i] = (bits >> (4 + i) & 1) != 0;
+      r += across[i] ? kWeights[i] : 0;
+      g += along[i] ? kWeights[i] : 0;
+    }
+    for (const bool right : {false, true}) {
+      const int x = std::min(63, r + (right ? 33 : 0)), y = std::min(15, 32 - g);
+      EXPECT_EQ(texture[static_cast<std::size_t>(64 * y + x)],
+                127 * golden::ideal::smaa_search_length(across, along, right))
+          << bits << (right ? " right" : " left");
+    }
+  }
+}
+
+// ---- weights ------------------------------------------------------------------------------------
+
+SmaaSettings settings(Quality quality) {
+  SmaaSettings all[] = {{0.15, 4, 0, {}, true},
+                        {0.1, 8, 0, {}, true},
+                        {0.1, 16, 8, 0.25, true},
+                        {0.05, 32, 16, 0.25, true}};
+  return all[static_cast<std::size_t>(quality)];
+}
+
+std::vector<Image> frames() {
+  std::vector<Image> all = {stimuli::noise_image(),
+                            stimuli::line_image(),
+                            stimuli::blocks_image(),
+                            stimuli::shades_image(),
+                            stimuli::random_edges(120, 80, 200),
+                            stimuli::diagonals(60, 60, 3),
+                            stimuli::rendered_like(300, 200, 90)};
+  for (const char* const scene : {"cylinders", "object", "road"})
+    all.push_back(render_lit_frames(make_scene(scene), 320, 240, 1).noaa);
+  return all;
+}
+
+// Differences of the weights of all edges, in 1/255.
+struct Differences {
+  int edges = 0, over_1 = 0, over_3 = 0;
+  double largest = 0;
+  void add(const SmaaWeights& published, EdgeShares found) {
+    ++edges;
+    const double off = 255 * std::max(std::abs(published.first - found.first / 256.0),
+                                      std::abs(published.second - found.second / 256.0));
+    over_1 += off > 1 ? 1 : 0;
+    over_3 += off > 3.1 ? 1 : 0;
+    largest = std::max(largest, off);
+  }
+};
+
+Differences differences(Quality quality, const std::vector<Image>& frames, SmaaBorder border,
+                        const SmaaSettings& ideal) {
+  Differences found;
+  for (const Image& image : frames) {
+    MorphologicalGolden golden(golden::morphological::preset_parameters(Preset::kSmaa, quality));
+    golden.process({image.pixels, image.width, image.height});
+    SmaaEdges edges(image.width, image.height, border);
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        edges.set_left(x, y, golden.edges().left.at(x, y));
+        edges.set_top(x, y, golden.edges().top.at(x, y));
+      }
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        if (!edges.top(x, y) && !edges.left(x, y)) continue;
+        const SmaaPixelWeights weights = smaa_weights(edges, ideal, x, y);
+        if (edges.top(x, y)) found.add(weights.top, golden.top_shares(x, y));
+        if (edges.left(x, y)) found.add(weights.left, golden.left_shares(x, y));
+      }
+  }
+  return found;
+}
+
+TEST(PublishedSmaa, HasTheseWeights) {
+  const std::vector<Image> all = frames();
+  MarkdownTable table({"quality", "edges", "border ends: over 1", "over 3.1", "largest",
+                       "as published: over 1", "over 3.1", "largest "});
+  for (const Quality quality : {Quality::kLow, Quality::kMedium, Quality::kHigh, Quality::kUltra}) {
+    const Differences ends = differences(quality, all, SmaaBorder::kEnd, settings(quality)),
+                      clamps = differences(quality, all, SmaaBorder::kClamp, settings(quality));
+    EXPECT_GT(ends.edges, 10000);
+    EXPECT_EQ(ends.over_3, 0) << "without the border only bytes and diagonals differ";
+    EXPECT_GT(clamps.over_3, 0) << "the border is seen";
+    std::vector<std::string> row = {
+        std::string(spec::morphological::kQualityNames[static_cast<std::size_t>(quality)]),
+        fmt::format("{}", ends.edges)};
+    for (const Differences* d : {&ends, &clamps})
+      row.insert(row.end(), {fmt::format("{}", d->over_1), fmt::format("{}", d->over_3),
+                             fmt::format("{:.1f}", d->largest)});
+    table.row(row);
+  }
+  expect_generated("morphological_smaa.md", "PublishedSmaa.HasTheseWeights", table.text());
+}
+
+// The comparison sees searches, diagonals and corners, and areas that are not of bytes.
+TEST(PublishedSmaa, IsNotAnotherSetting) {
+  const std::vector<Image> all = frames();
+  const auto over_1 = [&](void (*change)(SmaaSettings&)) {
+    SmaaSettings ideal = settings(Quality::kHigh);
+    change(ideal);
+    return differences(Quality::kHigh, all, SmaaBorder::kEnd, ideal).over_1;
+  };
+  const int published = over_1([](SmaaSettings&) {});
+  EXPECT_GT(over_1([](SmaaSettings& s) { s.search_steps = 4; }), published + 10);
+  EXPECT_GT(over_1([](SmaaSettings& s) { s.diagonal_steps = 4; }), published + 10);
+  EXPECT_GT(over_1([](SmaaSettings& s) { s.corner_keeps = 1; }), published + 10);
+  EXPECT_LT(over_1([](SmaaSettings& s) { s.bytes = false; }), published);
+}
+
+}  // namespace
+}  // namespace deburr::tb::smaa_published_test

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// A scene and the fragments that it is drawn by, whatever engine colours them.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "tb/scene/rasteriser.h"
+#include "tb/scene/scenes.h"
+
+namespace deburr::tb {
+
+class DrawnScene {
+ public:
+  virtual ~DrawnScene() = default;
+  virtual const Scene& scene() const = 0;
+  virtual const FragmentStream& stream() const = 0;
+  // Files that it was made of, and those that were looked for in vain.
+  const std::vector<std::filesystem::path>& inputs() const { return scene().mesh.files; }
+
+ protected:
+  DrawnScene() = default;
+  DrawnScene(const DrawnScene&) = default;
+  DrawnScene(DrawnScene&&) = default;
+  DrawnScene& operator=(const DrawnScene&) = default;
+  DrawnScene& operator=(DrawnScene&&) = default;
+};
+
+}  // namespace deburr::tb

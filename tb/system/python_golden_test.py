@@ -1,0 +1,624 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Golden models and what is ideal through the Python module: the contract's vectors as its pages have them, the
+picture of examples/c, bad calls, threads, and what a user is told.
+
+usage: python_golden_test.py MODULES DOCS [CLASS]"""
+import ctypes
+import inspect
+import math
+import pathlib
+import re
+import signal
+import sys
+import threading
+import time
+import unittest
+
+MODULES, DOCS = pathlib.Path(sys.argv.pop(1)).resolve(), pathlib.Path(sys.argv.pop(1)).resolve()
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(MODULES))
+
+import numpy  # noqa: E402
+
+import deburr  # noqa: E402
+from deburr import golden, ideal  # noqa: E402
+
+FNV_START, FNV_PRIME = 1469598103934665603, 1099511628211
+
+
+def fnv(data, start=FNV_START):
+    value = start
+    for byte in bytes(data):
+        value = (value ^ byte) * FNV_PRIME & 0xFFFFFFFFFFFFFFFF
+    return value
+
+
+def random_numbers(count, state=1):
+    numbers = numpy.empty(count, dtype=numpy.uint32)
+    for i in range(count):
+        state = (1664525 * state + 1013904223) & 0xFFFFFFFF
+        numbers[i] = state
+    return numbers
+
+
+def opaque(red, green, blue):
+    return numpy.stack([red, green, blue, numpy.full_like(red, 255)], axis=2).astype(numpy.uint8)
+
+
+def vector_image(name):
+    """docs/number_formats_morphological.md, "Test vectors", and docs/morphological_smaa.md, "Frames"."""
+    width, height = {"noise": (97, 61), "line": (200, 150), "blocks": (90, 80), "shades": (90, 80)}[name]
+    y, x = numpy.mgrid[0:height, 0:width]
+    s = random_numbers(width * height).reshape(height, width).astype(numpy.int64)
+    stripe = (x + 3 * y) % 41 < 9
+    if name == "noise":
+        v = 255 * (s >> 31)
+    elif name == "line":
+        disc = (2 * x - 300) ** 2 + (2 * y - 120) ** 2 < 6400
+        v = numpy.where(disc, 90, numpy.where(7 * (2 * x + 1) > 31 * (2 * y - 99), 255, 0))
+    elif name == "blocks":
+        e = x // 23 + 2 * (y // 17) + stripe + numpy.where(s >> 20 & 31, 0, s >> 30)
+        v = numpy.array([0, 60, 130, 255])[e % 4]
+        return opaque(v, 255 - v, 3 * v % 256)
+    else:
+        e = x // 11 + 2 * (y // 9) + stripe
+        v = numpy.array([0, 1, 3, 7, 20, 24, 90, 110])[e % 8] + (s >> 31)
+    return opaque(v, v, v)
+
+
+def table(page, header):
+    """The rows of a page's tables that begin with these cells, as dictionaries."""
+    rows, columns = [], None
+    for line in (DOCS / page).read_text(encoding="utf-8").splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split("|")] if line.startswith("|") else None
+        if cells is None:
+            columns = None
+        elif cells[:len(header)] == header:
+            columns = cells
+        elif columns and not set(line) <= set("|-"):
+            rows.append(dict(zip(columns, cells)))
+    return rows
+
+
+def settings(cell):
+    return dict(word.split("=") for word in cell.strip("`").split())
+
+
+class Vectors(unittest.TestCase):
+    """The tables of the contract: what C++ computes is what comes through Python."""
+
+    def test_morphological(self):
+        rows = [row for page in ("number_formats_morphological.md", "morphological_smaa.md")
+                for row in table(page, ["vector", "image", "preset"])]
+        self.assertGreater(len(rows), 35)
+        columns = {"edges": "edge_pixels", "long": "long_runs", "z": "z_runs", "extended": "extended_runs",
+                   "steps": "steps", "probes": "probes", "taken": "diagonals", "blended": "blended_pixels"}
+        for row in rows:
+            preset = dict(zip(("preset", "quality"), row["preset"].split()))
+            for detail in (False, True):
+                with self.subTest(row["vector"], detail=detail):
+                    frame = golden.morphological(vector_image(row["image"]), detail=detail, **preset,
+                                                 **settings(row["beside it"]))
+                    self.assertEqual(f"{fnv(frame.pixels[:, :, :3].tobytes()):016x}", row["hash"])
+                    for column, name in columns.items():
+                        self.assertEqual(frame.work[name], int(row[column]), name)
+                    self.assertEqual(frame.work.horizontal_runs + frame.work.vertical_runs, int(row["runs"]))
+                    self.assertEqual(numpy.count_nonzero(frame.edges), frame.work.edge_pixels)
+
+    def test_what_is_between(self):
+        """Planes agree with each other, and with what is counted."""
+        frame = golden.morphological(vector_image("blocks"), preset="deburr-line", detail=True)
+        self.assertEqual(frame.pixels.shape, (80, 90, 4))
+        self.assertEqual(frame.taps.shape, (80, 90))
+        self.assertTrue((frame.taps["edges"] == frame.edges).all())
+        mixed = (frame.taps["first"] | frame.taps["second"]) != 0
+        self.assertEqual(numpy.count_nonzero(mixed), frame.work.blended_pixels)
+        self.assertTrue((frame.pixels[~mixed] == vector_image("blocks")[~mixed]).all())
+        self.assertTrue((frame.shares[:, :, :2][(frame.edges & 2) == 0] == 0).all())
+        runs = frame.runs
+        whole = runs["line"]["run"]["part"] == 0
+        self.assertEqual(numpy.count_nonzero(whole) + numpy.count_nonzero(runs["line"]["run"]["part"] == 1),
+                         frame.work.horizontal_runs + frame.work.vertical_runs)
+        self.assertEqual(int(runs["probes"].sum()), frame.work.probes)
+        self.assertEqual(int(runs["line"]["left_steps"].sum() + runs["line"]["right_steps"].sum()), frame.work.steps)
+        self.assertEqual(sum(hits for name, hits in frame.coverage.items() if name.startswith("decision/")), 80 * 90)
+        self.assertTrue((numpy.unique(frame.decisions) < 8).all())
+        # Edges of someone else, the engine's own, give the same frame.
+        again = golden.morphological(vector_image("blocks"), edges=frame.edges, preset="deburr-line")
+        self.assertTrue((again.pixels == frame.pixels).all())
+
+    def test_a_frame_with_gaps_and_without_alpha(self):
+        whole = vector_image("line")
+        wide = numpy.full((150, 210, 4), 77, dtype=numpy.uint8)
+        wide[:, 5:205] = whole
+        expected = golden.morphological(whole, preset="mlaa").pixels
+        for other in (wide[:, 5:205], whole[:, :, :3], numpy.asfortranarray(whole), whole[::-1][::-1]):
+            self.assertTrue((golden.morphological(other, preset="mlaa").pixels == expected).all())
+
+    def test_memory(self):
+        image = vector_image("line")
+        plain = golden.morphological(image, storage="memory")
+        self.assertGreater(plain.traffic.size, 0)
+        self.assertEqual(numpy.count_nonzero(plain.traffic["write"]) * 2, plain.traffic.size)
+        reads = plain.traffic[~plain.traffic["write"]]
+        failing = golden.morphological(image, storage="memory", error_lines=reads["address"][20:40].copy())
+        self.assertGreater(failing.memory_errors, 0)
+        self.assertFalse((failing.pixels == plain.pixels).all())
+        self.assertEqual(golden.morphological(image).traffic.size, 0)
+
+    def test_depth(self):
+        """float32 and codes are one depth, which finds edges."""
+        y, x = numpy.mgrid[0:40, 0:60]
+        depth = numpy.where(2 * x + y > 60, numpy.float32(0.75), numpy.float32(0.125))
+        codes = numpy.floor(depth.astype(numpy.float64) * 0xFFFFFF + 0.5).astype(numpy.uint32)
+        image = numpy.full((40, 60, 4), 90, dtype=numpy.uint8)
+        frames = [golden.morphological(image, one, edges_source="depth") for one in (depth, codes)]
+        self.assertGreater(frames[0].work.edge_pixels, 30)
+        self.assertTrue((frames[0].edges == frames[1].edges).all())
+        self.assertEqual(golden.morphological(image).work.edge_pixels, 0)
+
+    def test_geometric(self):
+        """docs/geometric.md, "Vectors"."""
+        random = iter(random_numbers(2 * 61 * 45 + 600 + 49 + 1500).astype(numpy.int64))
+        r = numpy.array([next(random) for _ in range(61 * 45)]).reshape(45, 61)
+        pixels = opaque(r >> 24, r >> 16 & 255, r >> 8 & 255)
+        depth = numpy.array([0, 3000000, 3005000, 6000000, 6011000, 9000000, 9017000, 16777215], dtype=numpy.uint32)[
+            numpy.array([next(random) >> 29 for _ in range(61 * 45)]).reshape(45, 61)]
+        vertices = numpy.zeros(200, dtype=golden.VERTEX)
+        for i in range(200):
+            x, y, z = (int(next(random)) for _ in range(3))
+            vertices[i] = ((x >> 16) % 20480 - 2304, (y >> 16) % 16384 - 2304, z >> 8, True)
+        for name in ("x", "y"):
+            vertices[name][:10] &= ~127
+        vertices["usable"][7] = False
+        vertices["x"][11] = 1 << 22
+        facing = numpy.array([next(random) >> 31 for _ in range(49)], dtype=bool)
+        edges = numpy.zeros(300, dtype=golden.EDGE)
+        for i in range(300):
+            edges[i] = tuple((int(next(random)) >> 16) % most for most in (201, 200, 50, 50, 16))
+        bases = {"edges": 0x10000, "vertices": 0x20000, "facing": 0x30000, "depth": 0x40000, "colour": 0x50000,
+                 "weights": 0x60000, "copy": 0x70000}
+        hashes = table("geometric.md", ["", "preset", "beside it"])
+        counts = {row[""]: row for row in table("geometric.md", ["", "edges", "boundary"])}
+        self.assertEqual(len(hashes), 14)
+        for row in hashes:
+            preset = row["preset"].strip("`")
+            frame = golden.geometric(pixels, depth, vertices=vertices, edges=edges, facing=facing, bases=bases,
+                                     detail=True, preset=preset, **settings(row["beside it"]))
+            with self.subTest(row[""]):
+                self.assertEqual(f"{fnv(frame.pixels.tobytes()):016x}", row["pixels"])
+                self.assertEqual(f"{fnv(frame.weights.tobytes()):016x}", row["weights"])
+                copied = preset == "gpaa" or preset == "gpaa-optimised"
+                t = frame.traffic
+                order = [t[name]["reads"] for name in ("faces", "edges", "vertices", "depth", "weights")]
+                order += [t["weights"]["writes"], t["copy" if copied else "colour"]["reads"], t["colour"]["writes"]]
+                if copied:
+                    order += [t["colour"]["reads"], t["copy"]["writes"]]
+                value = FNV_START
+                for addresses in order:
+                    value = fnv(addresses.tobytes(), value)
+                self.assertEqual(f"{value:016x}", row["traffic"])
+                wanted = counts[row[""]]
+                for column, name in (("edges", "edges"), ("boundary", "boundary_edges"), ("kept", "kept_edges"),
+                                     ("lines", "lines"), ("columns", "columns"), ("candidates", "candidates"),
+                                     ("passed", "passed"), ("blocks", "blocks"), ("blended", "blended_pixels")):
+                    self.assertEqual(frame.work[name], int(wanted[column]), name)
+                self.assertEqual(frame.lines.size, frame.work.lines)
+                self.assertEqual(frame.candidates.size, frame.work.candidates)
+                self.assertEqual(numpy.count_nonzero(frame.candidates["passed"]), frame.work.passed)
+                self.assertEqual(frame.blocks.size, frame.work.blocks)
+                boundary = golden.EDGE_CLASSES.index("boundary")
+                self.assertEqual(numpy.count_nonzero(frame.classes == boundary), frame.work.boundary_edges)
+                quick = golden.geometric(pixels, depth, vertices=vertices, edges=edges, facing=facing, preset=preset,
+                                         **settings(row["beside it"]))
+                self.assertTrue((quick.pixels == frame.pixels).all())
+
+    def test_results_outlive_their_frame_and_are_read_only(self):
+        pixels = golden.morphological(vector_image("noise"), preset="mlaa").pixels
+        others = [golden.morphological(vector_image("noise"), preset="smaa") for _ in range(4)]
+        self.assertEqual(f"{fnv(pixels[:, :, :3].tobytes()):016x}", "00b097db028f25fd")
+        with self.assertRaises(ValueError):
+            pixels[0, 0] = 0
+        del others
+
+
+SIDE, WIDTH, HEIGHT = 64, 192, 128
+
+
+def checkerboard():
+    y, x = numpy.mgrid[0:SIDE, 0:SIDE]
+    light = ((x // 8) ^ (y // 8)) & 1
+    return opaque(*(numpy.where(light, a, b) for a, b in ((240, 40), (220, 40), (180, 60))))
+
+
+def floor():
+    y, x = numpy.mgrid[0:HEIGHT, 0:WIDTH].astype(numpy.int64)
+    s = ((x - WIDTH // 2) << 24) * 3
+    s = numpy.sign(s) * (abs(s) // (2 * (y + 24)))  # as C divides
+    t = (300 << 24) // (2 * (y + 24))
+    return s.astype(numpy.int32), t.astype(numpy.int32), 8 * y >= 160 + x
+
+
+FIELDS = {"format": "rgba8", "layout": "tiled", "min_filter": "linear_mipmap_linear", "mag_filter": "linear",
+          "max_count_log2": 4, "max_lod": 3072, "wrap_s": "repeat", "wrap_t": "mirrored_repeat"}
+PICTURE = 0xdc150633d8bdb080  # of examples/c/draw.c
+
+
+class Texture(unittest.TestCase):
+    def setUp(self):
+        self.unit = golden.TextureUnit(axes="eight")
+        self.unit.load(golden.mip_levels(checkerboard()), **FIELDS)
+        s, t, covered = floor()
+        self.quads = golden.quads_of(s, t, covered)
+
+    def test_the_picture_of_the_example_in_c(self):
+        colours = self.unit.filter(self.quads)
+        picture = golden.image_of(self.quads, colours, (HEIGHT, WIDTH))
+        picture[~floor()[2]] = (120, 170, 230, 255)
+        smooth = golden.morphological(picture, preset="deburr")
+        self.assertEqual(fnv(smooth.pixels.tobytes(), 14695981039346656037), PICTURE)
+        # The function is a unit of its own.
+        again, unit = golden.texture(self.quads, golden.mip_levels(checkerboard()), fields=FIELDS, axes="eight")
+        self.assertTrue((again == colours).all())
+        self.assertEqual(unit.work.as_dict().keys(), self.unit.work.as_dict().keys())
+        self.assertEqual(unit.work.fragments, numpy.count_nonzero(floor()[2]))
+
+    def test_work_fills_and_what_is_decided(self):
+        colours = self.unit.filter(self.quads)
+        work, fills = self.unit.work, self.unit.fills
+        self.assertEqual(work.fragments, colours.size)
+        self.assertEqual(work.line_fills, fills.size)
+        self.assertGreater(fills.size, 50)
+        self.assertEqual(int((work.by_samples * numpy.arange(17)).sum()), work.samples)
+        self.assertEqual(int(work.by_level.sum()), work.bilinears)
+        decided = self.unit.analyse(self.quads)
+        covered = (self.quads["coverage"][:, None] >> numpy.arange(4) & 1).astype(bool)
+        self.assertEqual(int(decided["lod"]["samples"][covered].sum()), work.samples)
+        self.assertEqual(self.unit.work.fragments, work.fragments, "analyse() changes nothing")
+        # The cache goes on between calls, until it is emptied.
+        self.unit.filter(self.quads)
+        warm = self.unit.fills.size
+        self.unit.invalidate()
+        self.unit.filter(self.quads)
+        self.assertLess(warm, self.unit.fills.size)
+        self.unit.reset()
+        self.assertEqual(self.unit.work.fragments, 0)
+
+    def test_memory_and_parameters(self):
+        before = self.unit.filter(self.quads)
+        first = self.unit.read(0, 256)
+        self.unit.write(0, numpy.zeros(256, dtype=numpy.uint8))
+        self.unit.invalidate()
+        self.assertFalse((self.unit.filter(self.quads) == before).all())
+        self.unit.write(0, first)
+        self.assertTrue((self.unit.filter(self.quads) == before).all())
+        self.unit.set(cache_bytes=1024)
+        self.assertEqual(self.unit.parameters["cache.bytes"], "1024")
+        self.assertTrue((self.unit.filter(self.quads) == before).all())
+        lines = numpy.unique(self.unit.fills)
+        self.unit.set_error_lines(lines[:4].astype(numpy.uint32))
+        self.unit.invalidate()
+        self.unit.filter(self.quads)
+        self.assertGreater(self.unit.work.memory_errors, 0)
+
+    def test_two_textures(self):
+        self.unit.load([numpy.full((4, 4, 1), 200, dtype=numpy.uint8)], texture=3, format="l8", min_filter="nearest")
+        self.assertIsNone(self.unit.describe(3)["fault"])
+        quads = golden.quads_of(numpy.zeros((2, 2)), numpy.zeros((2, 2)), texture=3)
+        self.assertTrue((self.unit.filter(quads)["rgba"] == (200, 200, 200, 255)).all())
+        quads["texture"] = 5
+        self.assertTrue((self.unit.filter(quads)["rgba"] == 0).all())
+        self.assertIsNotNone(self.unit.describe(5)["fault"])
+
+    def test_quads(self):
+        s = numpy.array([[0.5, 200], [-1, math.nan]])
+        quads = golden.quads_of(s, numpy.zeros((2, 2)))
+        self.assertEqual(quads["s"][0].tolist(), [1 << 23, (1 << 31) - 1, -(1 << 24), 0])
+        self.assertEqual((int(quads["clamped"][0]), int(quads["coverage"][0])), (0b1010, 15))
+        quads = golden.quads_of(numpy.zeros((4, 6)), numpy.zeros((4, 6)))
+        self.assertEqual([(int(q["x"]), int(q["y"])) for q in quads], [(0, 0), (2, 0), (4, 0), (0, 2), (2, 2), (4, 2)])
+
+
+class Ideal(unittest.TestCase):
+    def test_filters(self):
+        """A slanted edge, whose truth is known: each filter comes nearer to it; what has no edge stays."""
+        truth = ideal.half_plane(0.25, -1, 10.3, 96, 64)
+        jagged = numpy.where(truth > 0.5, 255, 0)
+        frame = opaque(jagged, jagged, jagged)
+
+        def error(pixels):
+            return float(numpy.mean((pixels[4:-4, 4:-4, 0] / 255.0 - truth[4:-4, 4:-4]) ** 2))
+        worst = error(frame)
+        smaa = golden.morphological(frame, preset="smaa", linear_light=False).pixels
+        for pixels in (ideal.fxaa(frame, linear_light=False), ideal.cmaa2(frame, linear_light=False), smaa):
+            self.assertLess(error(pixels), 0.5 * worst)
+        flat = numpy.full((20, 30, 4), 99, dtype=numpy.uint8)
+        for one in (ideal.fxaa, ideal.cmaa2):
+            self.assertTrue((one(flat) == flat).all())
+        self.assertFalse((ideal.fxaa(frame, steps=12) == ideal.fxaa(frame, steps=39)).all())
+
+    def test_coverage(self):
+        self.assertAlmostEqual(float(ideal.disc(20, 20, 7.5, 40, 40).sum()), math.pi * 7.5 ** 2, places=6)
+        self.assertAlmostEqual(float(ideal.half_plane(1, 0, -3.25, 8, 4).sum()), 4 * (8 - 3.25), places=9)
+
+    def test_smaa(self):
+        truth = ideal.half_plane(0.25, -1, 10.3, 96, 64)
+        luma = numpy.where(truth > 0.5, 1.0, 0.0)
+        edges = ideal.smaa_edges(luma)
+        self.assertTrue((edges == golden.morphological(opaque(*3 * [255 * luma]), preset="smaa").edges).all())
+        weights = ideal.smaa_weights(edges)
+        self.assertEqual(weights.shape, (64, 96, 4))
+        self.assertTrue((weights[(edges & 2) == 0][:, :2] == 0).all())
+        self.assertGreater(numpy.count_nonzero(weights), 100)
+
+    def test_textures(self):
+        """The golden model is near to what it approximates, and an average of one colour is that colour."""
+        s, t, covered = floor()
+        covered &= numpy.arange(HEIGHT)[:, None] >= 96
+        quads = golden.quads_of(s, t, covered)
+        texels = checkerboard()
+        colours, _ = golden.texture(quads, golden.mip_levels(texels), fields=FIELDS, preset="deburr")
+        image = ideal.TextureImage(texels, wrap_t="mirrored_repeat")
+        footprints = ideal.pixel_footprints(quads, SIDE, SIDE)
+        self.assertEqual(footprints.size, colours.size)
+        self.assertGreater(ideal.psnr(ideal.box(image, footprints, n=16), colours["rgba"].copy()), 25)
+        self.assertGreater(ideal.psnr(ideal.ewa(image, footprints), colours["rgba"].copy()), 20)
+        flat = ideal.TextureImage(numpy.full((8, 8, 4), 50, dtype=numpy.uint8))
+        for one in (ideal.box, ideal.ewa):
+            self.assertTrue(numpy.allclose(one(flat, footprints[:50].copy()), 50))
+        self.assertEqual(ideal.psnr(numpy.full((3, 4), 7.0), numpy.full((3, 4), 7, dtype=numpy.uint8)), math.inf)
+
+    def test_lines(self):
+        """A horizontal edge a quarter into its pixels' row: a quarter of the neighbour."""
+        lines = numpy.zeros(1, dtype=ideal.SCREEN_LINE)
+        lines[0] = ((0.0, 4.25, 0.5), (16.0, 4.25, 0.5), False)
+        weights = ideal.line_weights(lines, numpy.full((8, 16), 0.5))
+        self.assertTrue(numpy.allclose(weights[4, 1:-1].max(axis=1), 0.25))
+        light = numpy.zeros((8, 16, 3))
+        light[4:] = 1
+        self.assertTrue(numpy.allclose(ideal.line_blend(light, weights)[4, 1:-1], 0.75))
+
+
+class BadCalls(unittest.TestCase):
+    """Each is an error that says what, and the next call works as if it had not been."""
+
+    def refused(self, words, function, *arguments, error=ValueError, **named):
+        with self.assertRaises(error) as caught:
+            function(*arguments, **named)
+        for word in [words] if isinstance(words, str) else words:
+            self.assertIn(word, str(caught.exception))
+
+    def test_frames(self):
+        image = vector_image("noise")
+        good = golden.morphological(image, preset="mlaa").pixels.copy()
+        refused = self.refused
+        for pixels, given in ((None, "None"), ([[1]], "type list"), (image.astype(float), "float64 of (61, 97, 4)"),
+                              (image[:, :, 0], "uint8 of (61, 97)"), (image[:, :, :2], "uint8 of (61, 97, 2)"),
+                              (image.astype(numpy.int8), "int8"), ("picture.png", "type str")):
+            for function in (golden.morphological, ideal.fxaa, ideal.cmaa2):
+                refused(("pixels: uint8 of (height, width, 4) is wanted", given), function, pixels)
+        for shape in ((0, 4, 4), (4, 0, 4), (8193, 1, 4), (1, 8193, 4)):
+            refused("1..8192 each way", golden.morphological, numpy.zeros(shape, dtype=numpy.uint8))
+        for depth in (numpy.zeros((61, 97)), numpy.zeros((61, 97, 1), numpy.float32), numpy.zeros((97, 61), numpy.float32),
+                      numpy.zeros(61 * 97, numpy.uint32), [0.0]):
+            refused("depth: ", golden.morphological, image, depth)
+        refused("nobody", golden.morphological, image, nobody=1)
+        for name, value, words in (("preset", "mlab", "'preset' = 'mlab' wants one of mlaa, mlaa-slope, smaa"),
+                                   ("steps", 99, "'steps' = '99' is outside 0..16"), ("steps", None, "'steps' = 'None'"),
+                                   ("steps", 1.5, "'steps' = '1.5' wants an integer 0..16"),
+                                   ("trim", "maybe", "'trim' = 'maybe' wants true or false"),
+                                   ("steps", image, "'steps' = '[")):
+            refused(words, golden.morphological, image, **{name: value})
+        refused("unknown parameter 'stepps'; there are", golden.morphological, image, stepps=4)
+        refused("window_rows", golden.morphological, image, window_rows=11)  # what cannot be built
+        edges = numpy.zeros((61, 97), dtype=numpy.uint8)
+        edges[0, 5] = 2
+        refused("edges of (5, 0) are 2", golden.morphological, image, edges=edges)
+        refused("edges: the size of the pixels, (61, 97)", golden.morphological, image, edges=edges[:60])
+        refused("give one", golden.morphological, image, numpy.zeros((61, 97), numpy.float32), edges=0 * edges)
+        frame = golden.morphological(image, preset="mlaa")
+        for plane in ("taps", "decisions", "runs", "coverage"):
+            refused("give detail=True", getattr, frame, plane)
+        refused("error_lines", golden.morphological, image, error_lines=[1, 2])
+        refused("", golden.morphological, error=TypeError)
+        self.assertTrue((golden.morphological(image, preset="mlaa").pixels == good).all())
+
+    def test_meshes(self):
+        image, depth = vector_image("noise"), numpy.zeros((61, 97), numpy.float32)
+        mesh = {"vertices": numpy.zeros(4, golden.VERTEX), "edges": numpy.zeros(3, golden.EDGE),
+                "facing": numpy.zeros(2, bool)}
+        frame = golden.geometric(image, depth, **mesh)
+        self.assertTrue((frame.pixels == image).all())
+        self.refused("the frame has no depth", golden.geometric, image, **mesh)
+        for name, value in (("vertices", numpy.zeros((4, 4), numpy.uint32)), ("edges", None), ("edges", mesh["vertices"]),
+                            ("facing", numpy.zeros(2, numpy.uint8)), ("facing", [True]), ("vertices", numpy.zeros(4))):
+            self.refused(f"{name}: ", golden.geometric, image, depth, **{**mesh, name: value})
+        self.refused("unknown region of memory 'face'", golden.geometric, image, depth, bases={"face": 0}, **mesh)
+        self.refused("is no multiple of 64", golden.geometric, image, depth, bases={"edges": 8}, **mesh)
+        self.refused("bases", golden.geometric, image, depth, bases=7, **mesh)
+        # Indices out of range are what the contract says: dropped.
+        mesh["edges"]["v0"] = 0xFFFFFFFF
+        self.assertEqual(golden.geometric(image, depth, **mesh).work.invalid_edges, 3)
+
+    def test_textures(self):
+        unit = golden.TextureUnit(cache_bytes=2048)
+        unit.load(golden.mip_levels(checkerboard()), **FIELDS)
+        s, t, covered = floor()
+        quads = golden.quads_of(s, t, covered)
+        good = unit.filter(quads)
+        refused = self.refused
+        for given in (None, numpy.zeros(4), quads.reshape(2, -1), [1], quads["s"]):
+            refused("quads: an array of QUAD of (n,) is wanted", unit.filter, given)
+        refused("unknown parameter 'cash_bytes'; there are", unit.set, cash_bytes=4096)
+        refused("'cache.bytes' = '7' is outside 256..65536", unit.set, cache_bytes=7)
+        refused("must be a power of two", unit.set, axes="two", cache_bytes=3000)
+        self.assertEqual(unit.parameters["axes"], "four", "all of them or none")
+        refused("must be a power of two", golden.TextureUnit, cache_bytes=3000)
+        refused("unknown field of a texture 'colour'; there are", unit.set_fields, 0, layout="linear", colour=1)
+        refused("'format' = 'rgb' wants one of rgba8", unit.set_fields, format="rgb")
+        refused("texture 16 is outside 0..15", unit.set_fields, 16, format="rgba8")
+        refused("outside the memory of", unit.read, 1 << 30, 4)
+        refused("resize() makes it larger", unit.write, 1 << 30, numpy.zeros(4, numpy.uint8))
+        refused("bytes: uint8 of (n,)", unit.write, 0, b"1234")
+        refused("levels: ", unit.load, None)
+        refused("levels: ", unit.load, [])
+        for texture in (0, 1):  # one that is there stays as it is
+            refused("level 1: uint8 of (32, 32, 4) is wanted", unit.load, [checkerboard(), checkerboard()], texture)
+        refused("'format' = 'rgb'", unit.load, checkerboard(), wrap_s="clamp_to_edge", format="rgb")
+        refused("sides that are powers of two", golden.mip_levels, vector_image("noise"))
+        refused("both even", golden.quads_of, numpy.zeros((3, 4)), numpy.zeros((3, 4)))
+        refused("covered", golden.quads_of, numpy.zeros((2, 4)), numpy.zeros((2, 4)), numpy.zeros((2, 4)))
+        refused("", unit.read, -1, 4, error=TypeError)
+        unit.invalidate()
+        unit.reset()
+        self.assertTrue((unit.filter(quads) == good).all())
+
+    def test_ideal(self):
+        image = vector_image("noise")
+        self.refused("steps = 13 wants one of 12, 29, 39", ideal.fxaa, image, steps=13)
+        self.refused("threshold = 2.000000 is outside 0..1", ideal.fxaa, image, threshold=2)
+        self.refused("", ideal.fxaa, image, treshold=1, error=TypeError)
+        self.refused("'wrap_s' = 'mirror' wants one of repeat", ideal.TextureImage, image, wrap_s="mirror")
+        self.refused("footprints: an array of FOOTPRINT", ideal.box, ideal.TextureImage(image), numpy.zeros(3))
+        self.refused("edges: ", ideal.smaa_weights, image)
+        self.refused("luma: ", ideal.smaa_edges, image)
+        self.refused("pixels: ", ideal.psnr, numpy.zeros((3, 4)), numpy.zeros((2, 4), numpy.uint8))
+        self.refused("1..8192 each way", ideal.disc, 1, 1, 1, 0, 5)
+
+
+def thread_that_raises(function, results):
+    def work():
+        try:
+            results.append(function())
+        except Exception as error:  # what the test looks for
+            results.append(error)
+    return threading.Thread(target=work)
+
+
+class Threads(unittest.TestCase):
+    def test_the_interpreter_goes_on_while_a_model_runs(self):
+        """While one thread smooths large frames, another one counts; with the lock held it could not."""
+        noise = numpy.random.default_rng(1).integers(0, 256, (1080, 1920, 4), dtype=numpy.uint8)
+        inside, counted, results = threading.Event(), [], []
+
+        def smooth():
+            inside.set()
+            return golden.morphological(noise, preset="deburr", detail=True).work.edge_pixels
+        thread = thread_that_raises(smooth, results)
+        thread.start()
+        inside.wait()
+        while thread.is_alive():
+            counted.append(time.perf_counter())
+            time.sleep(0.001)
+        thread.join()
+        self.assertGreater(results[0], 0)
+        self.assertGreater(len(counted), 20)
+
+    def test_frames_in_threads_are_those_of_one(self):
+        images = [vector_image(name) for name in ("noise", "line", "blocks", "shades")]
+        presets = ["mlaa", "smaa", "deburr-line", "deburr"]
+        expected = [[golden.morphological(image, preset=preset).pixels.tobytes() for preset in presets] for image in images]
+        results = []
+        threads = [thread_that_raises(lambda: [[golden.morphological(image, preset=preset).pixels.tobytes()
+                                                for preset in presets] for image in images], results) for _ in range(6)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(results, 6 * [expected])
+
+    def test_two_threads_on_one_unit(self):
+        """One of them is told; nothing of the other's is lost."""
+        unit = golden.TextureUnit()
+        unit.load(golden.mip_levels(checkerboard()), **FIELDS)
+        s, t, _ = floor()
+        quads = numpy.tile(golden.quads_of(s, t), 40)
+        expected = unit.filter(quads)
+        fragments = unit.work.fragments
+        results, told = [], 0
+        thread = thread_that_raises(lambda: unit.filter(quads), results)
+        thread.start()
+        while thread.is_alive():
+            for call in (lambda: unit.work, lambda: unit.set(preset="paper"), lambda: unit.filter(quads[:1]),
+                         unit.reset, lambda: unit.write(0, numpy.zeros(64, numpy.uint8))):
+                if not thread.is_alive() or results:
+                    break
+                try:
+                    # Between this look and the call the other one may be done: then calls change what they change.
+                    if call() is not None and not results:
+                        continue
+                except RuntimeError as error:
+                    self.assertIn("in use by another thread", str(error))
+                    told += 1
+            else:
+                continue
+            break
+        thread.join()
+        self.assertGreater(told, 0)
+        self.assertTrue((results[0] == expected).all())
+        self.assertGreaterEqual(fragments, 0)
+
+    def test_ctrl_c_ends_a_long_call(self):
+        unit = golden.TextureUnit()
+        unit.load(golden.mip_levels(checkerboard()), **FIELDS)
+        s, t, _ = floor()
+        once = golden.quads_of(s, t)
+        quads = numpy.tile(once, 400)
+        expected = unit.filter(once)
+        main = threading.main_thread().ident
+        # A job in the background is started with Ctrl-C ignored.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+
+        def interrupt():
+            time.sleep(0.2)
+            ctypes.CDLL(None).pthread_kill(ctypes.c_ulong(main), signal.SIGINT)
+        thread = threading.Thread(target=interrupt)
+        thread.start()
+        with self.assertRaises(KeyboardInterrupt):
+            for _ in range(200):
+                unit.filter(quads)
+        thread.join()
+        unit.reset()
+        self.assertTrue((unit.filter(once) == expected).all())
+
+
+class Declarations(unittest.TestCase):
+    """Signatures and docstrings are those of the parameters' declarations."""
+
+    def test_every_parameter_is_in_its_signature(self):
+        page = (DOCS / "parameters.md").read_text(encoding="utf-8")
+        for engine, function in (("texture", golden.texture), ("morphological", golden.morphological),
+                                 ("geometric", golden.geometric), ("texture", golden.TextureUnit.set)):
+            section = page.split("## `deburr run frame`")[0]
+            cells = [re.split(r"(?<!\\) *\| *", line.strip("|").strip()) for line in section.splitlines()
+                     if line.startswith(f"| `{engine}.")]
+            rows = [(row[0].strip("`").removeprefix(engine + "."), row[2].strip("`"), row[5].replace("\\|", "|"))
+                    for row in cells if len(row) == 6 and row[1] in ("rule", "build")]
+            self.assertGreater(len(rows), 10)
+            signature = inspect.signature(function)
+            for name, default, meaning in rows:
+                argument = signature.parameters[name.replace(".", "_")]
+                self.assertEqual(str(argument.default).replace("True", "true").replace("False", "false"), default)
+                self.assertIn(" ".join(meaning.split()), " ".join(function.__doc__.split()))
+            own = [p for p in signature.parameters.values() if p.kind is inspect.Parameter.KEYWORD_ONLY
+                   and p.annotation is not inspect.Parameter.empty]
+            self.assertEqual(len(own), len({name for name, *_ in rows}))
+
+    def test_everything_is_documented(self):
+        for module in (deburr, golden, ideal):
+            for name in module.__all__:
+                if callable(getattr(module, name)):
+                    self.assertTrue(getattr(module, name).__doc__, f"{module.__name__}.{name}")
+        for kind in (golden.MorphologicalFrame, golden.GeometricFrame, golden.TextureUnit):
+            for name in dir(kind):
+                if not name.startswith("_") and name != "detail":
+                    self.assertTrue(getattr(kind, name).__doc__, f"{kind.__name__}.{name}")
+
+    def test_version(self):
+        changes = (DOCS.parent / "CHANGELOG.md").read_text(encoding="utf-8")
+        self.assertIn(f"## {deburr.__version__}\n", changes)
+
+
+if __name__ == "__main__":
+    unittest.main()
