@@ -302,6 +302,7 @@ std::string formula_tables() {
 
 std::string missing_data(const fs::path& data) {
   std::vector<fs::path> files;
+  files.reserve(kPhotos.size() + 2 * kFrames.size() + kHeldOut.size());
   for (const char* const name : kPhotos) files.push_back(photo_file(data, name));
   for (const FramePair& pair : kFrames)
     files.insert(files.end(), {data / pair.frame, data / pair.truth});
@@ -318,10 +319,12 @@ std::string data_tables(const fs::path& data) {
         missing));
   const std::vector<Filter> all = filters();
   std::vector<Judged> photos;
+  photos.reserve(kPhotos.size());
   for (const char* const name : kPhotos)
     photos.push_back(
         judged(fmt::format("photograph: {}", name), read_image(photo_file(data, name)), all));
   std::vector<Column> columns;
+  columns.reserve(kFrames.size() + 1);
   for (const FramePair& pair : kFrames)
     columns.push_back(
         {pair.title, {{read_image(data / pair.frame), read_image(data / pair.truth)}}});

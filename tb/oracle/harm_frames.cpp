@@ -232,9 +232,11 @@ class Coverage {
          y <= std::min(samples_.height - 1, last(s.y0, s.y1)); ++y)
       for (int x = std::max(0, first(s.x0, s.x1));
            x <= std::min(samples_.width - 1, last(s.x0, s.x1)); ++x)
-        for (int k = 0; k < 64; ++k)
-          if (distance(s, x + (k % 8 + 0.5) / 8, y + (k / 8 + 0.5) / 8) <= reach)
+        for (int k = 0; k < 64; ++k) {
+          const int column = k % 8, row = k / 8;
+          if (distance(s, x + (column + 0.5) / 8, y + (row + 0.5) / 8) <= reach)
             samples_.at(x, y) |= std::uint64_t{1} << k;
+        }
   }
   double at(std::size_t i) const { return std::popcount(samples_.pixels[i]) / 64.0; }
 
@@ -407,7 +409,8 @@ Image foliage_photo(int width, int height) {
   const int columns = width / 16 + 1, rows = height / 16 + 1;
   std::vector<std::vector<std::size_t>> cells(static_cast<std::size_t>(columns * rows));
   const auto cell = [&](int column, int row) -> std::vector<std::size_t>& {
-    return cells[static_cast<std::size_t>(row * columns + column)];
+    return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                 static_cast<std::size_t>(column)];
   };
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const Leaf& leaf = leaves[i];
