@@ -216,6 +216,14 @@
     Chart.defaults.borderColor = css('--rule');
     Chart.defaults.font.family = 'system-ui, "DejaVu Sans", sans-serif';
     Chart.defaults.maintainAspectRatio = false;
+    // What all names share, up to a '_'.
+    const withoutBeginning = (names) => {
+      let shared = names[0] ?? '';
+      for (const name of names)
+        while (!name.startsWith(shared)) shared = shared.slice(0, -1);
+      const length = shared.lastIndexOf('_') + 1;
+      return names.map((name) => name.slice(length));
+    };
     const horizontal = (labels, box) => {
       byId(box).style.height = `${Math.max(90, labels.length * 30 + 70)}px`;
       return labels;
@@ -336,8 +344,8 @@
       charts.push(new Chart(byId('memories'), {
         type: 'bar',
         data: {
-          // Whole names are in the table below it.
-          labels: horizontal(memories.map(([name]) => name.replace(/^(texture|morphological)_/, '')),
+          // Whole names are in the table below it: what they all begin with is left out here.
+          labels: horizontal(withoutBeginning(memories.map(([name]) => name)),
                              'memories-box'),
           datasets: [series(wider ? 'at this width' : 'logical', css('--busy'), here),
                      ...(wider ? [series('more, as built', css('--idle'), beyond)] : []),
