@@ -78,6 +78,7 @@ def _end(process):
         except subprocess.TimeoutExpired:
             process.send_signal(signal.SIGINT)
     process.kill()
+    process.wait()  # Popen waits for a quarter of a second after Ctrl-C, and no longer
 
 
 def _words(answer):

@@ -86,12 +86,12 @@ struct Rules {
   Preset preset = Preset::kDeburr;
   Select select = Select::kEdges;
   Crease crease = Crease::kShading;
-  Cull cull = Cull::kBack;
-  CoverageRule coverage = CoverageRule::kDistance;
+  Cull cull = Cull::kNone;
+  CoverageRule coverage = CoverageRule::kArea;
   DepthTest depth_test = DepthTest::kFarther;
   std::int32_t depth_bias = 9;
-  std::int32_t crease_depth = 0;
-  Combine combine = Combine::kMax;
+  std::int32_t crease_depth = 4;
+  Combine combine = Combine::kOutermost;
   bool linear_light = true;
   bool mark = false;
 };
@@ -221,8 +221,8 @@ inline constexpr std::array<PresetRow, 3> kPresets = {{
      Combine::kLast, true},
     {Preset::kGpaaOptimised, Select::kEdges, Crease::kPaper, Cull::kBack, CoverageRule::kDistance,
      0, Combine::kLast, true},
-    {Preset::kDeburr, Select::kEdges, Crease::kShading, Cull::kBack, CoverageRule::kDistance, 0,
-     Combine::kMax, false},
+    {Preset::kDeburr, Select::kEdges, Crease::kShading, Cull::kNone, CoverageRule::kArea, 4,
+     Combine::kOutermost, false},
 }};
 
 // Calls set(name, member, value) for all of it (spec/presets.h).

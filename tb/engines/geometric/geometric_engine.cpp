@@ -48,6 +48,7 @@ class GeometricCommand final : public Engine {
 
   void resolve(ParameterSet& set) override {
     apply_preset(set, parameters_);
+    imply_crossings(set, "scene.crossings", parameters_);
     refuse_unused_rules(set, parameters_);
     refuse_unused_memory(set, "memory", memory_);
     refuse_slow_memory(set, "memory", memory_);

@@ -97,6 +97,7 @@ class GeometricRole final : public MeshSmoother {
     set.imply("geometric.mark", "true", why);
   }
   void resolve(ParameterSet& set) override {
+    imply_crossings(set, "geometric.crossings", parameters_);
     refuse_unused_rules(set, parameters_);
     refuse_unused_memory(set, kGeometricMemory, memory_);
     refuse_slow_memory(set, kGeometricMemory, memory_);

@@ -33,6 +33,12 @@ void apply_preset(ParameterSet& set, const spec::geometric::Parameters& values) 
   });
 }
 
+void imply_crossings(ParameterSet& set, std::string_view name,
+                     const spec::geometric::Parameters& values) {
+  if (values.preset == spec::geometric::Preset::kDeburr)
+    set.imply(std::string(name), "true", source_of(values));
+}
+
 std::string preset_label(const ParameterSet& set, const spec::geometric::Parameters& values) {
   return with_changes(source_of(values), set, kGeometricPrefix);
 }

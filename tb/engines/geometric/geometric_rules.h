@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "spec/geometric/packets.h"
@@ -16,6 +17,11 @@ namespace deburr::tb {
 
 // The rules of `values.preset` for every parameter "geometric.*" that was not given beside it.
 void apply_preset(ParameterSet& set, const spec::geometric::Parameters& values);
+
+// With preset deburr the parameter of this name draws lines along which faces pass through each
+// other, unless it is given.
+void imply_crossings(ParameterSet& set, std::string_view name,
+                     const spec::geometric::Parameters& values);
 
 // "preset gpaa", or "preset gpaa, changed: combine".
 std::string preset_label(const ParameterSet& set, const spec::geometric::Parameters& values);

@@ -225,7 +225,7 @@ class BuildChecks {
     return p;
   }
 
-  // What a resolved configuration has beside what is given.
+  // What a resolved configuration of the engine has beside what is given.
   std::vector<std::pair<std::string, std::string>> implied_by_preset(const Unbuildable& row) const {
     const std::unique_ptr<Engine> made = engine_named(engine_);
     BoundEngine bound(*made);
@@ -233,7 +233,8 @@ class BuildChecks {
     made->resolve(bound.set);
     std::vector<std::pair<std::string, std::string>> implied;
     for (const Parameter& p : bound.set.all())
-      if (!p.implied_by.empty() && !bound.set.given(p.name)) implied.emplace_back(p.name, p.text());
+      if (p.name.starts_with(engine_ + ".") && !p.implied_by.empty() && !bound.set.given(p.name))
+        implied.emplace_back(p.name, p.text());
     return implied;
   }
 

@@ -185,13 +185,24 @@ TEST(GeometricDriver, ProgramsSizesAndBasesThenStarts) {
                           Write{0x38, 0x7000}, Write{0x04, 5}));
 }
 
+// The rules of the preset without those that came later.
+Parameters of_nearest_lines() {
+  Parameters p;
+  p.cull = spec::geometric::Cull::kBack;
+  p.coverage = spec::geometric::CoverageRule::kDistance;
+  p.crease_depth = 0;
+  p.combine = spec::geometric::Combine::kMax;
+  return p;
+}
+
 TEST(GeometricDriver, WritesRulesAsFieldsOfARegister) {
   Bed b;
   const auto written = [&](const Parameters& rules) {
     b.driver.set_rules(rules);
     return b.registers.values[reg::kRules];
   };
-  Parameters p;  // edges 1, linear light, shading 2, farther 2, max 0, bias 9, tiled, cull back
+  // edges 1, linear light, shading 2, farther 2, max 0, bias 9, tiled, cull back
+  Parameters p = of_nearest_lines();
   EXPECT_EQ(written(p), 0x2492Bu);
   p.select = spec::geometric::Select::kAll;
   EXPECT_EQ(written(p), 0x2492Au);
@@ -339,7 +350,7 @@ TEST(GeometricDriver, TheCopyNeedsRoomOnlyWhereFramesAreCopied) {
   b.driver.place(GeometricRegions({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0x6000, 0x6000}));
   EXPECT_THAT(rejection(b, b.frame()), HasSubstr("overlaps"));
   b.driver.set_rules(Bed::raster());
-  EXPECT_EQ(b.registers.written.back(), (std::pair{0x10u, 0x2092Bu}));
+  EXPECT_EQ(b.registers.written.back(), (std::pair{0x10u, 0x1109ABu}));
   EXPECT_EQ(rejection(b, b.frame()), "");
 }
 

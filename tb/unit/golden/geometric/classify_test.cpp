@@ -119,6 +119,18 @@ TEST(Configuration, PresetsAreThePages) {
   EXPECT_EQ(deburr.crease, Crease::kShading);
   EXPECT_EQ(deburr.crease, untouched.crease);
   EXPECT_EQ(deburr.combine, untouched.combine);
+  EXPECT_EQ(deburr.combine, spec::geometric::Combine::kOutermost);
+  EXPECT_EQ(deburr.coverage, spec::geometric::CoverageRule::kArea);
+  EXPECT_EQ(deburr.coverage, untouched.coverage);
+  EXPECT_EQ(deburr.crease_depth, 4);
+  EXPECT_EQ(deburr.crease_depth, untouched.crease_depth);
+  EXPECT_EQ(deburr.cull, Cull::kNone);
+  EXPECT_EQ(deburr.cull, untouched.cull);
+  for (const Parameters& p : {gpaa, optimised}) {
+    EXPECT_EQ(p.coverage, spec::geometric::CoverageRule::kDistance);
+    EXPECT_EQ(p.crease_depth, 0);
+    EXPECT_EQ(p.cull, Cull::kBack);
+  }
   EXPECT_EQ(deburr.frame_copy, untouched.frame_copy);
   for (const Parameters& p : {gpaa, optimised, deburr}) EXPECT_NO_THROW(check_build(p));
 }

@@ -336,7 +336,11 @@ TEST(StickyBits, AreSetInTheClockOfTheirPulse) {
 
 // A count of its own in each register: all differ, so that none can stand for another.
 TEST(CounterRegisters, ShowTheirCounters) {
-  EngineBench b;
+  Parameters p;
+  p.cull = spec::geometric::Cull::kBack;
+  p.crease_depth = 0;
+  p.coverage = spec::geometric::CoverageRule::kDistance;
+  EngineBench b(p);
   Scene scene = contract_scene();
   scene.edges.push_back({1000, 0, 0, 0, 0});  // one more that is invalid
   b.load(scene);
