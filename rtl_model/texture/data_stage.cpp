@@ -199,7 +199,7 @@ Datasheet DataStage::datasheet() {
       .unit = "DataStage",
       .does = "Reads the texels of a request from the banks and writes the fills it ordered.",
       .latency = {2, "2 in the last clock of a request"},
-      .interval = {1, "max(1, lines to write, bank passes) clocks a request"},
+      .interval = {1, "max(1, bank passes) + max(1, lines to write) - 1 clocks a request"},
       .stages = {{"1",
                   "waits for the fills of its own request and takes each as it arrives in order, "
                   "addresses the texels that hit before it writes its fills",

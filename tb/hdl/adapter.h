@@ -30,7 +30,7 @@
 namespace deburr::tb::hdl {
 
 // The bits of a beat in words of 32, as a port of a verilated model has them.
-inline constexpr std::size_t kMostWords = 16;
+inline constexpr std::size_t kMostWords = 20;
 using Words = std::array<std::uint32_t, kMostWords>;
 
 inline void insert(Words& words, std::uint32_t first, std::uint32_t bits, std::uint64_t value) {
@@ -84,6 +84,31 @@ Words from_port(const Port& port, std::uint32_t bits) {
   return words;
 }
 
+// What a link before the unit shows it before the edge. What an empty one shows means nothing:
+// noise.
+template <class T, class Valid, class Port>
+void show(rtl::In<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, Random& noise,
+          Valid& valid, Port& port) {
+  valid = beats.can_pop(cycle);
+  if (valid) {
+    to_port(port, packed(payload, &beats.front(cycle)), payload.bits());
+  } else {
+    Words words;
+    for (std::uint32_t& word : words) word = noise.word();
+    to_port(port, words, payload.bits());
+  }
+}
+// What the unit pushes into a link behind it.
+template <class T, class Port>
+bool push(rtl::Out<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, bool pushes,
+          const Port& port) {
+  if (!pushes) return false;
+  T beat{};
+  unpack(payload, from_port(port, payload.bits()), &beat);
+  beats.push(cycle, beat);
+  return true;
+}
+
 template <class Model, class From, class To>
 class VerilatedUnit final : public rtl::Unit {
  public:
@@ -108,27 +133,13 @@ class VerilatedUnit final : public rtl::Unit {
   std::function<void(Model&)> on_clock;
 
   rtl::Activity tick(rtl::Cycle cycle) override {
-    const bool valid = beats_in.can_pop(cycle);
-    model_->in_valid = valid;
-    // What an empty link shows means nothing: noise.
-    if (valid) {
-      to_port(model_->in_data, packed(from_, &beats_in.front(cycle)), from_.bits());
-    } else {
-      Words noise;
-      for (std::uint32_t& word : noise) word = noise_.word();
-      to_port(model_->in_data, noise, from_.bits());
-    }
+    show(beats_in, from_, cycle, noise_, model_->in_valid, model_->in_data);
     const bool ready = beats_out.can_push(cycle);
     model_->out_ready = ready;
     model_->clk = 0;
     model_->eval();
     if (on_clock) on_clock(*model_);
-    const bool pushes = model_->out_push;
-    if (pushes) {
-      To beat{};
-      unpack(to_, from_port(model_->out_data, to_.bits()), &beat);
-      beats_out.push(cycle, beat);
-    }
+    const bool pushes = push(beats_out, to_, cycle, model_->out_push, model_->out_data);
     const bool pops = model_->in_pop;
     if (pops) beats_in.pop(cycle);
     model_->clk = 1;

@@ -57,6 +57,8 @@ PROOFS = {
                         ("texture/tile_index.sv", "longer >> shared", "longer >> 1 >> shared")),
     "texel_axis": Proof("texel_axis_proof", "sat",
                         ("texture/texel_axis.sv", "low > last ? last : low", "low > end_of ? last : low")),
+    "bank_passes": Proof("bank_passes_proof", "sat",
+                         ("texture/bank_passes.sv", "{1'b0, bank_32 && first_2}", "{1'b0, bank_32}")),
     "root_stage": Proof("root_stage_proof", "sat",
                         ("texture/root_stage.sv", "bit_2 = with_2 >= try_2", "bit_2 = with_2 > try_2")),
 }

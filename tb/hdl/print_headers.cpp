@@ -22,11 +22,14 @@
 #include <utility>
 #include <vector>
 
+#include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/payload.h"
+#include "rtl_model/texture/latency_fifo.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/registers.h"
 #include "spec/texture/tables.h"
+#include "tb/hdl/memory_shape.h"
 #include "tb/hdl/settings.h"
 
 namespace {
@@ -96,7 +99,7 @@ void token(Header& header, const std::string& name, const PayloadShape& shape = 
   ranges(header, name, payload.node());
 }
 
-void print_tokens(const texture::Rules& rules, const std::filesystem::path& folder) {
+void print_tokens(const texture::Parameters& rules, const std::filesystem::path& folder) {
   Header header("tokens");
   token<hw::Ticket>(header, "TICKET");
   token<texture::Quad>(header, "QUAD");
@@ -108,6 +111,12 @@ void print_tokens(const texture::Rules& rules, const std::filesystem::path& fold
   token<hw::TexelToken>(header, "TEXEL_TOKEN");
   token<hw::TexelQuadToken>(header, "TEXEL_QUAD_TOKEN");
   token<texture::Colour>(header, "COLOUR");
+  token<hw::MissToken>(header, "MISS_TOKEN", hw::miss_shape(rules));
+  token<hw::CacheToken>(header, "CACHE_TOKEN", hw::cache_shape(rules));
+  token<deburr::rtl::MemoryRequest>(header, "MEMORY_REQUEST",
+                                    deburr::tb::hdl::memory_request_shape(rules));
+  token<deburr::rtl::MemoryResponse>(header, "MEMORY_RESPONSE",
+                                     deburr::tb::hdl::memory_response_shape(rules));
   header.write(folder / "tokens.svh");
 }
 
@@ -168,6 +177,7 @@ void print_tables(const texture::Parameters& chosen, const std::filesystem::path
   codes(header, "CAP", texture::kCountCapNames);
   codes(header, "KERNEL", texture::kKernelNames);
   codes(header, "SRGB_OUTPUT", texture::kSrgbOutputNames);
+  codes(header, "REPLACEMENT", texture::kReplacementNames);
   codes(header, "FORMAT", texture::kFormatNames);
   codes(header, "WRAP", texture::kWrapNames);
   codes(header, "MIN_FILTER", texture::kMinFilterNames);
@@ -183,6 +193,13 @@ void print_tables(const texture::Parameters& chosen, const std::filesystem::path
   choose("SPREAD", chosen.spread);
   choose("AXIS_CLOCKS", chosen.axis_clocks);
   choose("SRGB_OUTPUT", chosen.srgb_output);
+  choose("CACHE_BYTES", chosen.cache_bytes);
+  choose("CACHE_LINE_BYTES", chosen.cache_line_bytes);
+  choose("CACHE_WAYS", chosen.cache_ways);
+  choose("CACHE_REPLACEMENT", chosen.cache_replacement);
+  choose("CACHE_OUTSTANDING", chosen.cache_outstanding);
+  // As for a memory that nobody tells of.
+  choose("CACHE_FIFO_DEPTH", hw::LatencyFifo::depth(chosen, {}));
   for (std::size_t i = 1; i <= 3; ++i)
     header.define(fmt::format("AXIS_COSINE_{}", i),
                   static_cast<std::uint64_t>(texture::kAxes[i].cosine));

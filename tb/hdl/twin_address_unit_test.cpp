@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: MIT
 // The address unit of hdl/texture: what comes out is what the golden model's functions say, and
 // every clock of it is the SystemC unit's, under random stalls at both ends, by every rule.
+#include <VAddressCapped.h>
+#include <VAddressCeil.h>
 #include <VAddressDeburr.h>
+#include <VAddressEight.h>
+#include <VAddressEightInFour.h>
+#include <VAddressEightInTwo.h>
+#include <VAddressFourInTwo.h>
+#include <VAddressMax.h>
 #include <VAddressPaper.h>
+#include <VAddressQuarter.h>
+#include <VAddressTent.h>
 #include <VAddressThirdPlace.h>
+#include <VAddressUnevenPitch.h>
+#include <VAddressWrongEqual.h>
 #include <VAddressWrongLane.h>
+#include <VAddressWrongMorton.h>
 #include <gtest/gtest.h>
 #include <models.h>
 
@@ -221,7 +233,7 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
 }
 
 template <class Model>
-void expect_equal_unit(const char* settings, std::uint64_t requests) {
+void expect_equal_unit(const char* settings, std::uint64_t requests = 100'000) {
   const Result r = compare<Model>(settings, requests, 300);
   EXPECT_TRUE(r.finished) << r.first;
   EXPECT_EQ(r.golden_differ, 0u) << r.first;
@@ -233,6 +245,19 @@ void expect_equal_unit(const char* settings, std::uint64_t requests) {
 TEST(TwinAddressUnit, Paper) { expect_equal_unit<VAddressPaper>(hdl::kVAddressPaper, 1'000'000); }
 TEST(TwinAddressUnit, Deburr) {
   expect_equal_unit<VAddressDeburr>(hdl::kVAddressDeburr, 1'000'000);
+}
+TEST(TwinAddressUnit, Ceil) { expect_equal_unit<VAddressCeil>(hdl::kVAddressCeil); }
+TEST(TwinAddressUnit, Quarter) { expect_equal_unit<VAddressQuarter>(hdl::kVAddressQuarter); }
+TEST(TwinAddressUnit, Capped) { expect_equal_unit<VAddressCapped>(hdl::kVAddressCapped); }
+TEST(TwinAddressUnit, Max) { expect_equal_unit<VAddressMax>(hdl::kVAddressMax); }
+TEST(TwinAddressUnit, Tent) { expect_equal_unit<VAddressTent>(hdl::kVAddressTent); }
+TEST(TwinAddressUnit, FourInTwo) { expect_equal_unit<VAddressFourInTwo>(hdl::kVAddressFourInTwo); }
+TEST(TwinAddressUnit, Eight) { expect_equal_unit<VAddressEight>(hdl::kVAddressEight); }
+TEST(TwinAddressUnit, EightInTwo) {
+  expect_equal_unit<VAddressEightInTwo>(hdl::kVAddressEightInTwo);
+}
+TEST(TwinAddressUnit, EightInFour) {
+  expect_equal_unit<VAddressEightInFour>(hdl::kVAddressEightInFour);
 }
 
 // Without stalls, and with a sink that hardly takes anything.
@@ -249,6 +274,15 @@ TEST(TwinAddressUnit, HardlyMoves) {
 
 TEST(TwinAddressUnitFaults, AWrongNeighbourOfALane) {
   EXPECT_GE(compare<VAddressWrongLane>(hdl::kVAddressWrongLane, 20'000, 300).golden_differ, 1u);
+}
+TEST(TwinAddressUnitFaults, TheLaterOneOfEqualCandidates) {
+  EXPECT_GE(compare<VAddressWrongEqual>(hdl::kVAddressWrongEqual, 20'000, 300).golden_differ, 1u);
+}
+TEST(TwinAddressUnitFaults, AMortonIndexWithXAndYChanged) {
+  EXPECT_GE(compare<VAddressWrongMorton>(hdl::kVAddressWrongMorton, 20'000, 300).golden_differ, 1u);
+}
+TEST(TwinAddressUnitFaults, APitchThatIsNotRoundedUp) {
+  EXPECT_GE(compare<VAddressUnevenPitch>(hdl::kVAddressUnevenPitch, 20'000, 300).golden_differ, 1u);
 }
 // Right requests, and a clock that differs only when the units behind stand still.
 TEST(TwinAddressUnitFaults, AThirdPlaceInALink) {

@@ -3,6 +3,11 @@
 // under random stalls at both ends, for all kinds of weights and both outputs.
 #include <VFilterDeburr.h>
 #include <VFilterEncoded.h>
+#include <VFilterEncodedPaper.h>
+#include <VFilterPaper.h>
+#include <VFilterTent.h>
+#include <VFilterWrongHold.h>
+#include <VFilterWrongOpen.h>
 #include <VFilterWrongRound.h>
 #include <gtest/gtest.h>
 #include <models.h>
@@ -99,8 +104,13 @@ void expect_equal_unit(const char* settings, std::uint32_t permille = 300) {
   EXPECT_GE(r.requests, 200'000u);
 }
 
+TEST(TwinFilterPipeline, Paper) { expect_equal_unit<VFilterPaper>(hdl::kVFilterPaper); }
 TEST(TwinFilterPipeline, Deburr) { expect_equal_unit<VFilterDeburr>(hdl::kVFilterDeburr); }
+TEST(TwinFilterPipeline, Tent) { expect_equal_unit<VFilterTent>(hdl::kVFilterTent); }
 TEST(TwinFilterPipeline, Encoded) { expect_equal_unit<VFilterEncoded>(hdl::kVFilterEncoded); }
+TEST(TwinFilterPipeline, EncodedPaper) {
+  expect_equal_unit<VFilterEncodedPaper>(hdl::kVFilterEncodedPaper);
+}
 TEST(TwinFilterPipeline, Free) { expect_equal_unit<VFilterDeburr>(hdl::kVFilterDeburr, 0); }
 TEST(TwinFilterPipeline, HardlyMoves) {
   expect_equal_unit<VFilterEncoded>(hdl::kVFilterEncoded, 800);
@@ -108,8 +118,18 @@ TEST(TwinFilterPipeline, HardlyMoves) {
 
 // ---- planted faults in the SystemVerilog, each seen
 
+TEST(TwinFilterPipelineFaults, ASecondLevelThatIsNotAdded) {
+  EXPECT_GE(compare<VFilterWrongOpen>(hdl::kVFilterWrongOpen, 300).golden_differ, 1u);
+}
 TEST(TwinFilterPipelineFaults, ARoundingThatTruncates) {
   EXPECT_GE(compare<VFilterWrongRound>(hdl::kVFilterWrongRound, 300).golden_differ, 1u);
 }
+// Right colours, in clocks of its own: a pipeline that closes no gap at its end.
+TEST(TwinFilterPipelineFaults, AnEndThatWaitsWithoutNeed) {
+  const Result r = compare<VFilterWrongHold>(hdl::kVFilterWrongHold, 300);
+  EXPECT_EQ(r.golden_differ, 0u) << r.first;
+  EXPECT_GE(r.clocks_differ, 1u);
+}
+
 }  // namespace
 }  // namespace deburr::tb::twin_filter_pipeline_test

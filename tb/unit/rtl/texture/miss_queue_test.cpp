@@ -126,6 +126,27 @@ TEST(TextureRtlMissQueue, TakesOneRequestAClock) {
   EXPECT_THAT(of_a_second_token(b.queue, b.misses, two, b.clock), Refuses("lines", kTooMany));
 }
 
+// The clock in which the lines of a second request are taken into a queue of four places, where the
+// link to memory is popped from clock `from` on.
+Cycle second_taken(Cycle from) {
+  QueueBench b;
+  b.misses.push(0, {{1, 2, 3, 4}, 4});
+  while (b.misses.pops() < 2 && b.clock.cycle() < 40) {
+    const Cycle now = b.clock.cycle();
+    if (now == 1) b.misses.push(1, {{5, 6, 7, 8}, 4});
+    if (now >= from && b.requests.can_pop(now)) b.requests.pop(now);
+    b.clock.run(1);
+  }
+  return b.clock.cycle() - 1;
+}
+// Four places, of which the last one is freed in that very clock: the first lines are taken in 1
+// and sent in 2, 3, 4 and 5.
+TEST(TextureRtlMissQueue, TakesLinesIntoAPlaceThatItFreesInThatClock) {
+  EXPECT_EQ(second_taken(0), 5u);
+}
+// Two lines stand in the link; from 10 on one is popped a clock, and the others are sent in 11, 12.
+TEST(TextureRtlMissQueue, TakesThemSoBehindAMemoryThatWaited) { EXPECT_EQ(second_taken(10), 12u); }
+
 // A link to memory that takes a second request in a clock would have the next line read too.
 TEST(TextureRtlMissQueue, SendsOneLineAClock) {
   QueueBench b;

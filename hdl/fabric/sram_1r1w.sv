@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// A memory with one read and one write port (docs/fabric.md, "Memories"): the word of an address of
+// clock t is on the output register in t + 1 and stays there until the next read. What is written in
+// the clock of a read is read as it was before.
+module sram_1r1w #(
+  parameter integer BITS = 8,
+  parameter integer WORDS = 2,
+  parameter integer ADDRESS_BITS = 1
+) (
+  input  logic                    clk,
+  input  logic                    read,
+  input  logic [ADDRESS_BITS-1:0] read_address,
+  output logic [BITS-1:0]         word,
+  input  logic                    write,
+  input  logic [ADDRESS_BITS-1:0] write_address,
+  input  logic [BITS-1:0]         write_data
+);
+  logic [BITS-1:0] memory[0:WORDS-1];
+  always_ff @(posedge clk) begin
+    if (read) word <= memory[read_address];
+    if (write) memory[write_address] <= write_data;
+  end
+endmodule

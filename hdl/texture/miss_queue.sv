@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Sends missed lines to memory, one a clock, in their order (docs/texture_unit.md, "Time of a miss"). Up
+// to four lines of a request come in one clock, when there are places for all of them; a place from which
+// a line is sent in this clock counts.
+`include "tokens.svh"
+`include "tables.svh"
+module miss_queue #(
+  parameter integer LINE_BYTES = `CHOSEN_CACHE_LINE_BYTES,
+  parameter integer PLACES = `CHOSEN_CACHE_OUTSTANDING,
+  parameter integer PLACE_BITS = $clog2(PLACES)
+) (
+  input  logic                            clk,
+  input  logic                            rst_n,
+  input  logic                            in_valid,
+  output logic                            in_pop,
+  input  logic [`MISS_TOKEN_BITS-1:0]     in_data,
+  output logic                            request_push,
+  input  logic                            request_ready,
+  output logic [`MEMORY_REQUEST_BITS-1:0] request_data,
+  output logic                            reserve,
+  input  logic                            can_reserve,
+  input  logic [PLACE_BITS-1:0]           reserved
+);
+  localparam integer LINE_BITS = 32 - $clog2(LINE_BYTES);
+  localparam integer COUNT_BITS = $clog2(PLACES + 1);
+  localparam integer LINES_A_BURST = LINE_BYTES < 64 ? 1 : LINE_BYTES / 64;
+
+  logic [LINE_BITS-1:0] lines[0:PLACES-1];
+  logic [COUNT_BITS-1:0] waiting;
+  logic [PLACE_BITS-1:0] read_place, write_place;
+
+  wire send = waiting != {COUNT_BITS{1'b0}} && request_ready && can_reserve;
+  wire [2:0] count = in_data[`MISS_TOKEN_COUNT];
+  wire [COUNT_BITS:0] left = {1'b0, waiting} - {{COUNT_BITS{1'b0}}, send};
+  wire [COUNT_BITS:0] with_these = left + {{(COUNT_BITS - 2) {1'b0}}, count};
+  localparam logic [COUNT_BITS:0] FULL = PLACES[COUNT_BITS:0];
+  assign in_pop = in_valid && with_these <= FULL;
+
+  // The place i behind another one.
+  function automatic [PLACE_BITS-1:0] behind(input [PLACE_BITS-1:0] place, input [2:0] i);
+    logic [PLACE_BITS:0] sum;
+    begin
+      sum = {1'b0, place} + {{(PLACE_BITS - 2) {1'b0}}, i};
+      if (sum >= PLACES[PLACE_BITS:0]) sum = sum - PLACES[PLACE_BITS:0];
+      behind = sum[PLACE_BITS-1:0];
+    end
+  endfunction
+  wire [4*LINE_BITS-1:0] missed = in_data[`MISS_TOKEN_LINE];
+  always_ff @(posedge clk)
+    if (in_pop) begin
+      lines[write_place] <= missed[0 +: LINE_BITS];
+      if (count > 3'd1) lines[behind(write_place, 3'd1)] <= missed[LINE_BITS +: LINE_BITS];
+      if (count > 3'd2) lines[behind(write_place, 3'd2)] <= missed[2*LINE_BITS +: LINE_BITS];
+      if (count > 3'd3) lines[behind(write_place, 3'd3)] <= missed[3*LINE_BITS +: LINE_BITS];
+    end
+  always_ff @(posedge clk)
+    if (!rst_n) begin
+      waiting <= {COUNT_BITS{1'b0}};
+      read_place <= {PLACE_BITS{1'b0}};
+      write_place <= {PLACE_BITS{1'b0}};
+    end else begin
+      waiting <= in_pop ? with_these[COUNT_BITS-1:0] : left[COUNT_BITS-1:0];
+      if (send) read_place <= behind(read_place, 3'd1);
+      if (in_pop) write_place <= behind(write_place, count);
+    end
+
+  assign reserve = send;
+  assign request_push = send;
+  wire [LINE_BITS-1:0] line = lines[read_place];
+  localparam logic [`MEMORY_REQUEST_LINES_BITS-1:0] BURST = LINES_A_BURST[`MEMORY_REQUEST_LINES_BITS-1:0];
+  always_comb begin
+    // A read: no data and no mask.
+    request_data = {`MEMORY_REQUEST_BITS{1'b0}};
+    request_data[`MEMORY_REQUEST_ADDRESS] = {line, {(32 - LINE_BITS) {1'b0}}};
+    request_data[`MEMORY_REQUEST_TAG] = reserved;
+    request_data[`MEMORY_REQUEST_LINES] = BURST;
+  end
+endmodule

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// One line looked up in its set, and the set afterwards (docs/number_formats.md, "Cache and traffic"): a
+// hit makes the line the most recently used one (`lru` alone), a miss takes an invalid way, the lowest
+// first, or replaces one. A bit for each pair of ways says which of both is older.
+`include "tables.svh"
+module tag_look_up #(
+  parameter integer WAYS = 2,
+  parameter integer TAG_BITS = 19,
+  parameter integer REPLACEMENT = `REPLACEMENT_LRU,
+  parameter integer WAY_BITS = WAYS > 1 ? $clog2(WAYS) : 1,
+  parameter integer ORDER_BITS = WAYS > 1 ? WAYS * (WAYS - 1) / 2 : 1
+) (
+  input  logic [WAYS-1:0]          valid,   // the set, a bit or a tag a way
+  input  logic [WAYS-1:0]          turned,
+  input  logic [WAYS*TAG_BITS-1:0] tags,
+  input  logic [ORDER_BITS-1:0]    order,   // of the ways i < j: i is older
+  input  logic                     enable,
+  input  logic [TAG_BITS-1:0]      tag,
+  input  logic                     turn,    // the line is stored turned if it is filled now
+  input  logic [WAY_BITS-1:0]      random,
+  output logic                     hit,
+  output logic                     miss,
+  output logic                     replaces,  // a miss, and all ways are valid
+  output logic [WAY_BITS-1:0]      way,     // that has the line, or gets it
+  output logic                     is_turned,  // the line that is hit
+  output logic [WAYS-1:0]          valid_next,
+  output logic [WAYS-1:0]          turned_next,
+  output logic [WAYS*TAG_BITS-1:0] tags_next,
+  output logic [ORDER_BITS-1:0]    order_next
+);
+  logic [WAYS-1:0] equal, oldest, chosen;
+  genvar i, j;
+  generate
+    for (i = 0; i < WAYS; i = i + 1) begin : g_way
+      assign equal[i] = valid[i] && tags[i*TAG_BITS +: TAG_BITS] == tag;
+      // Older than each other one.
+      logic [WAYS-1:0] older;
+      for (j = 0; j < WAYS; j = j + 1) begin : g_pair
+        if (i < j) begin : g_older
+          assign older[j] = order[i*WAYS - i*(i+1)/2 + j - i - 1];
+        end else if (i > j) begin : g_younger
+          assign older[j] = !order[j*WAYS - j*(j+1)/2 + i - j - 1];
+        end else begin : g_itself
+          assign older[j] = 1'b1;
+        end
+      end
+      assign oldest[i] = &older;
+      if (REPLACEMENT == `REPLACEMENT_RANDOM && WAYS > 1) begin : g_random
+        localparam logic [WAY_BITS-1:0] HERE = i[WAY_BITS-1:0];
+        assign chosen[i] = random == HERE;
+      end else begin : g_oldest
+        assign chosen[i] = oldest[i];
+      end
+    end
+  endgenerate
+  wire unused = &{1'b0, random, oldest, touch};
+
+  assign hit = enable && |equal;
+  assign miss = enable && !(|equal);
+  assign replaces = miss && &valid;
+  // The lowest invalid way.
+  wire [WAYS-1:0] free = ~valid & (valid + {{(WAYS - 1) {1'b0}}, 1'b1});
+  wire [WAYS-1:0] taken = hit ? equal : &valid ? chosen : free;
+  assign is_turned = |(equal & turned);
+  always_comb begin
+    way = {WAY_BITS{1'b0}};
+    for (integer w = 0; w < WAYS; w = w + 1)
+      if (taken[w]) way = way | w[WAY_BITS-1:0];
+  end
+
+  wire touch = miss || (hit && REPLACEMENT == `REPLACEMENT_LRU);
+  assign valid_next = miss ? valid | taken : valid;
+  generate
+    for (i = 0; i < WAYS; i = i + 1) begin : g_next
+      wire fill = miss && taken[i];
+      assign turned_next[i] = fill ? turn : turned[i];
+      assign tags_next[i*TAG_BITS +: TAG_BITS] = fill ? tag : tags[i*TAG_BITS +: TAG_BITS];
+      for (j = i + 1; j < WAYS; j = j + 1) begin : g_pair
+        localparam integer PAIR = i*WAYS - i*(i+1)/2 + j - i - 1;
+        assign order_next[PAIR] = touch && taken[i] ? 1'b0 : touch && taken[j] ? 1'b1 : order[PAIR];
+      end
+    end
+    if (WAYS == 1) begin : g_no_order
+      assign order_next = order;
+    end
+  endgenerate
+endmodule

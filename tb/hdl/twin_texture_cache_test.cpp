@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: MIT
+// The texture cache of hdl/texture: texels are what stands in memory, and every clock of it is the
+// SystemC cache's, at its ends, at memory and inside, under random stalls, latencies and limits of
+// memory, in several geometries and with each replacement.
+#include <VCacheDefault.h>
+#include <VCacheDirect.h>
+#include <VCacheEveryUse.h>
+#include <VCacheFreedLater.h>
+#include <VCacheLarge.h>
+#include <VCacheLateFill.h>
+#include <VCacheNotAhead.h>
+#include <VCacheNotTurned.h>
+#include <VCacheOldSet.h>
+#include <VCacheRandom.h>
+#include <VCacheSmall.h>
+#include <VCacheWhileHeld.h>
+#include <VCacheWrongTap.h>
+#include <gtest/gtest.h>
+#include <models.h>
+
+#include <array>
+#include <cstdint>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/platform/memory_model.h"
+#include "rtl_model/texture/texture_cache.h"
+#include "tb/hdl/settings.h"
+#include "tb/hdl/side_by_side.h"
+#include "tb/hdl/verilated_cache.h"
+#include "tb/unit/rtl/texture/equivalence.h"
+
+namespace deburr::tb::twin_texture_cache_test {
+namespace {
+
+using hdl::StalledSink;
+using hdl::StalledSource;
+using hdl::Stalls;
+using hw::TexelQuadToken;
+using hw::TexelToken;
+using spec::texture::Format;
+
+constexpr std::uint32_t kBytes = 1 << 18;    // of memory; a line behind them is an error
+constexpr std::uint32_t kBroken = 0x2'0000;  // lines from here on to kBrokenEnd are, too
+constexpr std::uint32_t kBrokenEnd = 0x2'1000;
+
+// Of a texel.
+std::uint32_t bytes_of(const hw::FilterControl& control) {
+  const auto format = static_cast<Format>(control.format);
+  if (format == Format::kL8) return 1;
+  return format == Format::kRgb565 || format == Format::kRgba4444 ? 2 : 4;
+}
+std::uint8_t byte_at(std::uint32_t address) {
+  return static_cast<std::uint8_t>(((address & ~3U) * 2654435761U + 12345) >> (8 * (address & 3)));
+}
+// What stands above a texel's own bytes, and all of the texels of an invalid fragment, mean
+// nothing.
+TexelQuadToken what_counts(const TexelQuadToken& token) {
+  TexelQuadToken normal = token;
+  if (!token.ticket.valid) {
+    normal = {};
+    normal.ticket = token.ticket;
+    normal.control.last_of_sample = token.control.last_of_sample;
+    normal.control.last_of_fragment = token.control.last_of_fragment;
+    return normal;
+  }
+  for (std::uint32_t& texel : normal.texel) texel &= ~0U >> (32 - 8 * bytes_of(token.control));
+  return normal;
+}
+TexelQuadToken wanted_of(const TexelToken& request) {
+  TexelQuadToken token{};
+  token.ticket = request.ticket;
+  token.control = request.control;
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::uint32_t b = 0; b < bytes_of(request.control); ++b) {
+      const std::uint32_t at = request.address[k] + b;
+      const bool error = at >= kBytes || (at >= kBroken && at < kBrokenEnd);
+      token.texel[k] |= error ? 0U : std::uint32_t{byte_at(at)} << (8 * b);
+    }
+  return what_counts(token);
+}
+
+// Requests of which many hit, many miss, many ask a bank for several words: a window of memory that
+// moves, in which footprints of every kind lie.
+class Requests {
+ public:
+  Requests(Random& random, std::uint32_t line_bytes, std::uint32_t cache_bytes)
+      : random_(random), line_(line_bytes), cache_(cache_bytes) {}
+  TexelToken next(std::uint32_t tag) {
+    if (random_.chance(4)) {
+      base_ = random_.below(kBytes + 4 * line_) & ~(line_ - 1);
+      window_ = line_ << random_.below(6);
+      kind_ = random_.below(5);
+      if (random_.chance(150)) base_ = kBroken - line_;
+    }
+    TexelToken request{};
+    request.ticket = {tag, static_cast<std::uint8_t>(random_.below(4)), random_.chance(250),
+                      !random_.chance(30), static_cast<std::uint8_t>(random_.below(16))};
+    request.control = {static_cast<std::uint8_t>(random_.below(256)),
+                       static_cast<std::uint8_t>(random_.below(256)),
+                       static_cast<std::uint16_t>(random_.below(257)),
+                       static_cast<std::uint8_t>(random_.below(16)),
+                       static_cast<std::uint8_t>(random_.below(16)),
+                       static_cast<std::uint8_t>(random_.below(5)),
+                       random_.chance(500),
+                       random_.chance(500)};
+    const std::uint32_t bytes = bytes_of(request.control);
+    const std::uint32_t at = base_ + (random_.below(window_) & ~(bytes - 1));
+    const std::uint32_t pitch = random_.chance(500) ? 64 : 64 << random_.below(5);
+    const auto anywhere = [&] { return base_ + (random_.below(window_) & ~(bytes - 1)); };
+    switch (kind_) {
+      case 0:  // neighbours of a linear texture
+        request.address = {at, at + bytes, at + pitch, at + pitch + bytes};
+        request.turned = {(at / pitch) % 2 != 0, (at / pitch) % 2 == 0};
+        break;
+      case 1:  // of a tiled one
+        request.address = {at, at + bytes, at + 16, at + 16 + bytes};
+        break;
+      case 2:  // one set, several lines: one word of each bank
+        for (std::uint32_t k = 0; k < 4; ++k) request.address[k] = at + random_.below(6) * cache_;
+        request.turned = {random_.chance(300), random_.chance(300)};
+        break;
+      case 3:  // four texels anywhere in the window
+        for (std::uint32_t& address : request.address) address = anywhere();
+        request.turned = {random_.chance(100), random_.chance(100)};
+        break;
+      default:  // a texel alone
+        request.address = {at, at, at, at};
+        request.turned = {random_.chance(100), false};
+        request.turned[1] = request.turned[0];
+    }
+    for (std::uint32_t& address : request.address) address &= ~(bytes - 1);
+    return request;
+  }
+
+ private:
+  Random& random_;
+  std::uint32_t line_, cache_;
+  std::uint32_t base_ = 0, window_ = 1024, kind_ = 0;
+};
+
+// How memory answers.
+struct Answers {
+  std::uint32_t latency = 20, scatter = 0, outstanding = 1024, bytes_per_clock = 0;
+};
+struct Result {
+  std::uint64_t requests = 0, lines = 0, inside = 0, clocks = 0;
+  std::uint64_t memory_differs = 0;                      // texels that are not what memory holds
+  std::uint64_t payloads_differ = 0, clocks_differ = 0;  // from the SystemC cache
+  bool finished = true;
+  std::string first;
+};
+
+template <class Model>
+Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t permille,
+               const Answers& answers = {}, std::uint64_t seed = 1) {
+  spec::texture::Parameters parameters = hdl::parameters_of(settings);
+  parameters.cache_fifo_depth = hw::LatencyFifo::depth(parameters, {});
+  rtl::ClockDomain clock("clock", period());
+  Store store(clock);
+  rtl::Link<TexelToken> texels_of_model("texels_of_model"), texels_of_twin("texels_of_twin");
+  rtl::Link<TexelQuadToken> quads_of_model("quads_of_model"), quads_of_twin("quads_of_twin");
+  rtl::Link<rtl::MemoryRequest> requests_of_twin("requests_of_twin", 2,
+                                                 hdl::memory_request_shape(parameters));
+  rtl::Link<rtl::MemoryResponse> responses_of_twin("responses_of_twin", 2,
+                                                   hdl::memory_response_shape(parameters));
+  std::vector<TexelToken> requests;
+  const Stalls before{permille, seed}, after{permille, seed + 1000};
+  StalledSource<TexelToken> source_of_model("source_of_model", clock, before, requests),
+      source_of_twin("source_of_twin", clock, before, requests);
+  hw::TextureCache model("model", clock, parameters, store.control);
+  hdl::VerilatedCache<Model> twin("twin", clock, parameters);
+  rtl::MemoryPort port_of_twin("port_of_twin", clock, hdl::memory_port_of(parameters));
+  StalledSink<TexelQuadToken> sink_of_model("sink_of_model", clock, after),
+      sink_of_twin("sink_of_twin", clock, after);
+  platform::MemoryModelParameters memory;
+  memory.bytes = kBytes;
+  memory.latency_min = answers.latency;
+  memory.latency_max = answers.latency + answers.scatter;
+  memory.outstanding = answers.outstanding;
+  memory.bytes_per_clock = answers.bytes_per_clock;
+  memory.seed = seed;
+  platform::MemoryModel memory_of_model("memory_of_model", period(), memory),
+      memory_of_twin("memory_of_twin", period(), memory);
+  std::vector<std::uint8_t> image(kBytes);
+  for (std::uint32_t i = 0; i < kBytes; ++i) image[i] = byte_at(i);
+  for (platform::MemoryModel* each : {&memory_of_model, &memory_of_twin}) {
+    each->preload(0, image);
+    each->fail_range(kBroken, kBrokenEnd);
+  }
+  model.memory_port.memory.bind(memory_of_model.ports);
+  port_of_twin.memory.bind(memory_of_twin.ports);
+
+  source_of_model.beats_out(texels_of_model);
+  model.texels_in(texels_of_model);
+  model.texels_out(quads_of_model);
+  sink_of_model.beats_in(quads_of_model);
+  source_of_twin.beats_out(texels_of_twin);
+  twin.texels_in(texels_of_twin);
+  twin.texels_out(quads_of_twin);
+  sink_of_twin.beats_in(quads_of_twin);
+  twin.requests_out(requests_of_twin);
+  port_of_twin.requests_in(requests_of_twin);
+  port_of_twin.responses_out(responses_of_twin);
+  twin.responses_in(responses_of_twin);
+
+  std::vector<const rtl::LinkBase*> links;
+  const rtl::Link<rtl::MemoryRequest>* requests_of_model = nullptr;
+  const rtl::Link<rtl::MemoryResponse>* responses_of_model = nullptr;
+  for (const char* name : {"misses", "requests", "entries_entries"})
+    rtl::for_each<rtl::LinkBase>(model, [&](rtl::LinkBase& link) {
+      if (std::string(name) == link.basename()) links.push_back(&link);
+    });
+  rtl::for_each<rtl::LinkBase>(model, [&](rtl::LinkBase& link) {
+    if (auto* const found = dynamic_cast<rtl::Link<rtl::MemoryRequest>*>(&link))
+      requests_of_model = found;
+    if (auto* const found = dynamic_cast<rtl::Link<rtl::MemoryResponse>*>(&link))
+      responses_of_model = found;
+  });
+  Result result;
+  if (links.size() != 3 || !requests_of_model || !responses_of_model) {
+    ADD_FAILURE() << "the links of the cache are not found";
+    return result;
+  }
+  hdl::InnerLinks inside("inside", clock, links);
+  twin.on_clock = [&](Model& says) { inside.twin_does(says.link_push, says.link_pop); };
+  hdl::LinkComparison<TexelToken> before_it("before_it", clock, texels_of_model, texels_of_twin);
+  hdl::LinkComparison<TexelQuadToken> behind_it("behind_it", clock, quads_of_model, quads_of_twin,
+                                                what_counts);
+  hdl::LinkComparison<rtl::MemoryRequest> asked("asked", clock, *requests_of_model,
+                                                requests_of_twin);
+  hdl::LinkComparison<rtl::MemoryResponse> answered("answered", clock, *responses_of_model,
+                                                    responses_of_twin);
+  const auto differing_clocks = [&] {
+    return before_it.clocks_that_differ() + behind_it.clocks_that_differ() +
+           asked.clocks_that_differ() + answered.clocks_that_differ() + inside.clocks_that_differ();
+  };
+  const rtl::Payload payload = rtl::Payload::of<TexelQuadToken>();
+  sink_of_twin.on_beat = [&](const TexelQuadToken& got) {
+    const std::uint64_t number = sink_of_twin.received() - 1;
+    if (number >= requests.size()) {
+      ++result.memory_differs;
+      return;
+    }
+    const TexelQuadToken wanted = wanted_of(requests[number]), normal = what_counts(got);
+    const std::string difference = payload.difference(reinterpret_cast<const std::byte*>(&wanted),
+                                                      reinterpret_cast<const std::byte*>(&normal));
+    if (!difference.empty() && result.memory_differs++ == 0)
+      result.first += "memory/twin request " + std::to_string(number) + ": " + difference + "; ";
+  };
+
+  Random random(seed);
+  Requests stream(random, static_cast<std::uint32_t>(parameters.cache_line_bytes),
+                  static_cast<std::uint32_t>(parameters.cache_bytes));
+  std::uint32_t tag = 0;
+  std::uint64_t lines = 0;
+  for (int batch = 0; result.requests < least_requests; ++batch) {
+    const std::uint64_t of_batch = 5000;
+    requests.clear();
+    for (std::uint64_t i = 0; i < of_batch; ++i) requests.push_back(stream.next(tag++));
+    // Each second batch begins in a cache that was reset in the middle of its work, with lines on
+    // their way, the others in one that was invalidated.
+    if (batch % 2 == 0) {
+      for (const rtl::Cycle work : {0, 300}) {
+        clock.run(work);
+        clock.set_reset_n(false);
+        clock.run(2);
+        clock.set_reset_n(true);
+      }
+    } else {
+      model.tag_stage.invalidate();
+      twin.invalidate();
+      source_of_model.reset();
+      source_of_twin.reset();
+      sink_of_model.reset();
+      sink_of_twin.reset();
+    }
+    const bool finished = clock.run_until(
+        [&] {
+          return (sink_of_model.received() >= of_batch && sink_of_twin.received() >= of_batch) ||
+                 differing_clocks() != 0;
+        },
+        400 * of_batch);
+    clock.run(100);  // none too many
+    result.finished &= finished && sink_of_twin.received() == of_batch;
+    result.requests += of_batch;
+    lines += requests_of_twin.pushes();
+    if (!result.finished || differing_clocks() != 0) break;
+  }
+  result.lines = lines;
+  result.clocks = clock.cycle();
+  result.clocks_differ = differing_clocks();
+  result.payloads_differ = behind_it.payloads_that_differ() + asked.payloads_that_differ() +
+                           answered.payloads_that_differ();
+  result.first += before_it.first() + " | " + inside.first() + " | " + asked.first() + " | " +
+                  answered.first() + " | " + behind_it.first();
+  return result;
+}
+
+template <class Model>
+void expect_equal_unit(const char* settings, std::uint64_t requests, std::uint32_t permille = 300,
+                       const Answers& answers = {.latency = 20, .scatter = 30},
+                       std::uint64_t seed = 1) {
+  const Result r = compare<Model>(settings, requests, permille, answers, seed);
+  EXPECT_TRUE(r.finished) << r.first;
+  EXPECT_EQ(r.memory_differs, 0u) << r.first;
+  EXPECT_EQ(r.payloads_differ, 0u) << r.first;
+  EXPECT_EQ(r.clocks_differ, 0u) << r.first;
+  EXPECT_GE(r.requests, requests);
+  EXPECT_GE(r.lines, requests / 50);
+  std::cout << r.requests << " requests, " << r.lines << " lines, " << r.clocks << " clocks\n";
+}
+
+// The cache of both presets.
+TEST(TwinTextureCache, Default) {
+  expect_equal_unit<VCacheDefault>(hdl::kVCacheDefault, 1'000'000);
+}
+TEST(TwinTextureCache, Free) {
+  expect_equal_unit<VCacheDefault>(hdl::kVCacheDefault, 100'000, 0, {.latency = 20});
+}
+TEST(TwinTextureCache, HardlyMoves) {
+  expect_equal_unit<VCacheDefault>(hdl::kVCacheDefault, 50'000, 800);
+}
+// Memory that takes three requests at a time, and one that gives a line in four clocks.
+TEST(TwinTextureCache, FewRequestsAtATime) {
+  expect_equal_unit<VCacheDefault>(hdl::kVCacheDefault, 50'000, 300,
+                                   {.latency = 20, .scatter = 60, .outstanding = 3});
+}
+TEST(TwinTextureCache, ALineInFourClocks) {
+  expect_equal_unit<VCacheDefault>(hdl::kVCacheDefault, 50'000, 300,
+                                   {.latency = 20, .bytes_per_clock = 16});
+}
+// Far memory: the LatencyFifo and the places for lines fill up.
+TEST(TwinTextureCache, FarMemory) {
+  expect_equal_unit<VCacheDefault>(hdl::kVCacheDefault, 50'000, 100,
+                                   {.latency = 300, .scatter = 100});
+}
+TEST(TwinTextureCache, Small) { expect_equal_unit<VCacheSmall>(hdl::kVCacheSmall, 100'000); }
+TEST(TwinTextureCache, SmallFree) {
+  expect_equal_unit<VCacheSmall>(hdl::kVCacheSmall, 100'000, 0, {.latency = 1});
+}
+TEST(TwinTextureCache, Direct) { expect_equal_unit<VCacheDirect>(hdl::kVCacheDirect, 100'000); }
+TEST(TwinTextureCache, DirectFree) {
+  expect_equal_unit<VCacheDirect>(hdl::kVCacheDirect, 100'000, 0, {.latency = 1});
+}
+TEST(TwinTextureCache, Random) { expect_equal_unit<VCacheRandom>(hdl::kVCacheRandom, 200'000); }
+TEST(TwinTextureCache, Large) { expect_equal_unit<VCacheLarge>(hdl::kVCacheLarge, 200'000); }
+
+// ---- planted faults in the SystemVerilog, each seen
+
+// Two stages that do not stand still together: the place of a line is free too early.
+TEST(TwinTextureCacheFaults, FillsThatAreTakenWhileTheOutputWaits) {
+  EXPECT_GE(compare<VCacheWhileHeld>(hdl::kVCacheWhileHeld, 20'000, 300).clocks_differ, 1u);
+}
+// Of clocks alone: every texel is right.
+template <class Model>
+void expect_other_clocks(const char* settings, std::uint32_t permille = 300) {
+  const Result r = compare<Model>(settings, 20'000, permille, {.latency = 20, .scatter = 30});
+  EXPECT_EQ(r.memory_differs, 0u) << r.first;
+  EXPECT_GE(r.clocks_differ, 1u);
+}
+TEST(TwinTextureCacheFaults, AFillThatBeginsAfterTheLastPass) {
+  expect_other_clocks<VCacheLateFill>(hdl::kVCacheLateFill);
+}
+TEST(TwinTextureCacheFaults, APlaceOfTheMissQueueThatIsFreedAClockLater) {
+  expect_other_clocks<VCacheFreedLater>(hdl::kVCacheFreedLater);
+}
+TEST(TwinTextureCacheFaults, ALineThatIsNotReadAhead) {
+  expect_other_clocks<VCacheNotAhead>(hdl::kVCacheNotAhead);
+}
+// Of lines: others are replaced.
+template <class Model>
+void expect_other_lines(const char* settings) {
+  const Result r = compare<Model>(settings, 20'000, 300, {.latency = 20, .scatter = 30});
+  EXPECT_GE(r.clocks_differ + r.payloads_differ, 1u);
+}
+TEST(TwinTextureCacheFaults, AHitThatCountsAsUseInFifo) {
+  expect_other_lines<VCacheEveryUse>(hdl::kVCacheEveryUse);
+}
+TEST(TwinTextureCacheFaults, AWrongTapOfTheShiftRegister) {
+  expect_other_lines<VCacheWrongTap>(hdl::kVCacheWrongTap);
+}
+TEST(TwinTextureCacheFaults, ASetThatIsReadAsItWasBefore) {
+  expect_other_lines<VCacheOldSet>(hdl::kVCacheOldSet);
+}
+// Of texels.
+TEST(TwinTextureCacheFaults, ALineThatIsNotStoredTurned) {
+  EXPECT_GE(compare<VCacheNotTurned>(hdl::kVCacheNotTurned, 20'000, 300).memory_differs, 1u);
+}
+}  // namespace
+}  // namespace deburr::tb::twin_texture_cache_test
