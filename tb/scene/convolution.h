@@ -4,7 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 #include "tb/scene/image.h"
@@ -29,19 +31,56 @@ void resize(ImageOf<T>& plane, int width, int height) {
   plane.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
 }
 
-// to[x] = middle x tap 0 + sum of tap k x (right(k)[x] + left(k)[x]), or the difference.
-template <class T, class Left, class Right>
-void convolve(const Kernel<T>& kernel, std::size_t n, const T* middle, Left left, Right right,
-              T* to) {
-  for (std::size_t x = 0; x < n; ++x) to[x] = kernel.odd ? T{} : kernel.taps[0] * middle[x];
-  for (int k = 1; k <= kernel.reach(); ++k) {
-    const T tap = kernel.taps[static_cast<std::size_t>(k)];
-    const T *const a = left(k), *const b = right(k);
-    if (kernel.odd)
-      for (std::size_t x = 0; x < n; ++x) to[x] += tap * (b[x] - a[x]);
-    else
-      for (std::size_t x = 0; x < n; ++x) to[x] += tap * (b[x] + a[x]);
+// Neighbours, as many as a register holds.
+template <class T>
+using Lanes [[gnu::vector_size(16)]] = T;
+
+template <class Some, class T>
+Some load(const T* from) {
+  Some some;
+  std::memcpy(&some, from, sizeof some);
+  return some;
+}
+
+// The sums of neighbours, to[x] = middle[x] x tap 0 + sum of tap k x (middle[x + k step] +
+// middle[x - k step]), or the difference: of kCount registers of them (Some), where they stay.
+template <bool kOdd, std::size_t kCount, class Some, class T>
+void convolve_some(const Kernel<T>& kernel, const T* middle, std::ptrdiff_t step, T* to) {
+  constexpr std::size_t kLanes = sizeof(Some) / sizeof(T);
+  std::array<Some, kCount> sum{};
+  if (!kOdd)
+    for (std::size_t i = 0; i < kCount; ++i)
+      sum[i] = kernel.taps[0] * load<Some>(middle + i * kLanes);
+  const T *left = middle, *right = middle;
+  const T* const end = kernel.taps.data() + kernel.taps.size();
+  for (const T* tap = kernel.taps.data() + 1; tap != end; ++tap) {
+    left -= step;
+    right += step;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const Some a = load<Some>(left + i * kLanes), b = load<Some>(right + i * kLanes);
+      sum[i] += *tap * (kOdd ? b - a : b + a);
+    }
   }
+  std::memcpy(to, &sum, sizeof sum);
+}
+
+template <bool kOdd, class T>
+void convolve_line(const Kernel<T>& kernel, std::size_t n, const T* middle, std::ptrdiff_t step,
+                   T* to) {
+  constexpr std::size_t kCount = 8, kMany = kCount * sizeof(Lanes<T>) / sizeof(T);
+  std::size_t x = 0;
+  for (; x + kMany <= n; x += kMany)
+    convolve_some<kOdd, kCount, Lanes<T>>(kernel, middle + x, step, to + x);
+  for (; x < n; ++x) convolve_some<kOdd, 1, T>(kernel, middle + x, step, to + x);
+}
+
+// n values along a row; the pixels of the kernel lie `step` apart.
+template <class T>
+void convolve(const Kernel<T>& kernel, std::size_t n, const T* middle, std::ptrdiff_t step, T* to) {
+  if (kernel.odd)
+    convolve_line<true>(kernel, n, middle, step, to);
+  else
+    convolve_line<false>(kernel, n, middle, step, to);
 }
 
 // A row goes on beyond its ends as its outermost pixels.
@@ -57,9 +96,7 @@ void convolve_along_rows(const ImageOf<T>& in, const Kernel<T>& kernel, ImageOf<
     std::fill_n(padded.data(), reach, from[0]);
     std::copy_n(from, width, row);
     std::fill_n(row + width, reach, from[width - 1]);
-    convolve(
-        kernel, width, row, [&](int k) { return row - k; }, [&](int k) { return row + k; },
-        &out.at(0, y));
+    convolve(kernel, width, row, 1, &out.at(0, y));
   }
 }
 
@@ -69,10 +106,8 @@ void convolve_along_columns(const ImageOf<T>& in, const Kernel<T>& kernel, int f
                             ImageOf<T>& out) {
   resize(out, in.width, rows);
   for (int y = 0; y < rows; ++y)
-    convolve(
-        kernel, static_cast<std::size_t>(in.width), &in.at(0, from + y),
-        [&](int k) { return &in.at(0, from + y - k); },
-        [&](int k) { return &in.at(0, from + y + k); }, &out.at(0, y));
+    convolve(kernel, static_cast<std::size_t>(in.width), &in.at(0, from + y), in.width,
+             &out.at(0, y));
 }
 
 }  // namespace deburr::tb

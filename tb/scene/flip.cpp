@@ -65,23 +65,24 @@ float cube_root(float value) {
   // A third of the exponent and of the mantissa as a number, with the error of that shared out.
   auto bits = std::bit_cast<std::uint32_t>(value);
   bits = bits / 3 + 709921077u;
-  float root = std::bit_cast<float>(bits);
-  for (int step = 0; step < 3; ++step) root = (2 * root + value / (root * root)) * (1.0f / 3);
-  return root;
+  const auto closer = [value](float root) {
+    return (2 * root + value / (root * root)) * (1.0f / 3);
+  };
+  return closer(closer(closer(std::bit_cast<float>(bits))));
 }
 
-// The curve of L*a*b*.
+// The curve of L*a*b*, without a branch.
 float lab_curve(float value) {
   constexpr float kDelta = 6.0f / 29;
-  const float above = cube_root(std::max(value, kDelta * kDelta * kDelta));
-  return value > kDelta * kDelta * kDelta ? above : value / (3 * kDelta * kDelta) + 4.0f / 29;
+  const float above = cube_root(std::max(value, kDelta * kDelta * kDelta)),
+              below = value / (3 * kDelta * kDelta) + 4.0f / 29;
+  return value > kDelta * kDelta * kDelta ? above : below;
 }
 
-// L*, a*, b* with Hunt's effect, of XYZ over white: colours of dark pixels tell less.
+// L*, a*, b* with Hunt's effect, of XYZ over white on that curve: colours of dark pixels tell less.
 std::array<float, 3> hunt_lab(float x, float y, float z) {
-  const float fx = lab_curve(x), fy = lab_curve(y), fz = lab_curve(z);
-  const float lightness = 116 * fy - 16;
-  return {lightness, 0.01f * lightness * 500 * (fx - fy), 0.01f * lightness * 200 * (fy - fz)};
+  const float lightness = 116 * y - 16;
+  return {lightness, 0.01f * lightness * 500 * (x - y), 0.01f * lightness * 200 * (y - z)};
 }
 
 // ---- the error of colours (section 4.1.3) -------------------------------------------------------
@@ -97,8 +98,9 @@ float hyab(const std::array<float, 3>& a, const std::array<float, 3>& b) {
 float largest_colour_error() {
   const std::array<Triple, 3> xyz = relative_xyz();
   const auto pure = [&](std::size_t channel) {
-    return hunt_lab(static_cast<float>(xyz[0][channel]), static_cast<float>(xyz[1][channel]),
-                    static_cast<float>(xyz[2][channel]));
+    return hunt_lab(lab_curve(static_cast<float>(xyz[0][channel])),
+                    lab_curve(static_cast<float>(xyz[1][channel])),
+                    lab_curve(static_cast<float>(xyz[2][channel])));
   };
   return std::pow(hyab(pure(1), pure(2)), kColourExponent);
 }
@@ -219,6 +221,7 @@ class Eye {
   void look(const Image& image, int from, int rows, Seen& seen) {
     convert(image, from, rows);
     convolve_along_rows(y_, features_.smooth, along_);
+    convolve_along_columns(y_, features_.smooth, reach_, rows, across_);
     see_feature(features_.edge, rows, seen.edge);
     see_feature(features_.point, rows, seen.point);
     see_through(y_, achromatic_, rows, seen.colour[0]);
@@ -247,15 +250,23 @@ class Eye {
   // neighbours keep both. The rows beyond the border are the outermost.
   void convert(const Image& image, int from, int rows) {
     for (Plane* plane : {&y_, &cx_, &cz_}) resize(*plane, image.width, rows + 2 * reach_);
-    std::size_t i = 0;
+    float *const first = y_.pixels.data(), *const second = cx_.pixels.data(),
+                 *const third = cz_.pixels.data();
+    std::size_t n = 0;
     for (int row = from - reach_; row < from + rows + reach_; ++row) {
       const Rgba8* pixel = &image.at(0, std::clamp(row, 0, image.height - 1));
-      for (int x = 0; x < image.width; ++x, ++i, ++pixel) {
-        const float r = linear_[(*pixel)[0]], g = linear_[(*pixel)[1]], b = linear_[(*pixel)[2]];
-        y_.pixels[i] = times(to_xyz_[1], r, g, b);
-        cx_.pixels[i] = times(to_xyz_[0], r, g, b) - y_.pixels[i];
-        cz_.pixels[i] = y_.pixels[i] - times(to_xyz_[2], r, g, b);
+      for (int x = 0; x < image.width; ++x, ++n, ++pixel) {
+        first[n] = linear_[(*pixel)[0]];
+        second[n] = linear_[(*pixel)[1]];
+        third[n] = linear_[(*pixel)[2]];
       }
+    }
+    const Matrix to_xyz = to_xyz_;
+    for (std::size_t i = 0; i < n; ++i) {
+      const float r = first[i], g = second[i], b = third[i], y = times(to_xyz[1], r, g, b);
+      first[i] = y;
+      second[i] = times(to_xyz[0], r, g, b) - y;
+      third[i] = y - times(to_xyz[2], r, g, b);
     }
   }
 
@@ -264,27 +275,39 @@ class Eye {
     convolve_along_rows(columns_, kernel, to);
   }
 
-  // The length of the vector that a kernel gives along both axes, smooth across.
+  // The length of the vector that a kernel gives along both axes, of what is smooth across each.
   void see_feature(const Kernel<float>& kernel, int rows, Plane& length) {
-    convolve_along_columns(along_, kernel, reach_, rows, across_);
-    convolve_along_columns(y_, features_.smooth, reach_, rows, columns_);
-    convolve_along_rows(columns_, kernel, length);
+    convolve_along_columns(along_, kernel, reach_, rows, columns_);
+    convolve_along_rows(across_, kernel, length);
     for (std::size_t i = 0; i < length.pixels.size(); ++i)
       length.pixels[i] =
-          std::sqrt(length.pixels[i] * length.pixels[i] + across_.pixels[i] * across_.pixels[i]);
+          std::sqrt(length.pixels[i] * length.pixels[i] + columns_.pixels[i] * columns_.pixels[i]);
   }
 
   // What was passed becomes L*a*b*. Colours that no screen shows are the nearest of each channel.
+  // Step by step, each for many pixels at a time.
   void colours(std::array<Plane, 3>& planes) const {
-    for (std::size_t i = 0; i < planes[0].pixels.size(); ++i) {
-      const float y = planes[0].pixels[i], x = y + planes[1].pixels[i], z = y - planes[2].pixels[i];
-      std::array<float, 3> shown{};
-      for (std::size_t c = 0; c < 3; ++c)
-        shown[c] = std::clamp(times(to_rgb_[c], x, y, z), 0.0f, 1.0f);
-      const std::array<float, 3> lab = hunt_lab(times(to_xyz_[0], shown[0], shown[1], shown[2]),
-                                                times(to_xyz_[1], shown[0], shown[1], shown[2]),
-                                                times(to_xyz_[2], shown[0], shown[1], shown[2]));
-      for (std::size_t c = 0; c < 3; ++c) planes[c].pixels[i] = lab[c];
+    const std::size_t n = planes[0].pixels.size();
+    float *const first = planes[0].pixels.data(), *const second = planes[1].pixels.data(),
+                 *const third = planes[2].pixels.data();
+    const Matrix to_rgb = to_rgb_, to_xyz = to_xyz_;
+    for (std::size_t i = 0; i < n; ++i) {
+      const float y = first[i], x = y + second[i], z = y - third[i];
+      const auto shown = [&](std::size_t c) {
+        return std::clamp(times(to_rgb[c], x, y, z), 0.0f, 1.0f);
+      };
+      const float r = shown(0), g = shown(1), b = shown(2);
+      first[i] = times(to_xyz[0], r, g, b);
+      second[i] = times(to_xyz[1], r, g, b);
+      third[i] = times(to_xyz[2], r, g, b);
+    }
+    for (Plane& plane : planes)
+      for (float& value : plane.pixels) value = lab_curve(value);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::array<float, 3> lab = hunt_lab(first[i], second[i], third[i]);
+      first[i] = lab[0];
+      second[i] = lab[1];
+      third[i] = lab[2];
     }
   }
 
