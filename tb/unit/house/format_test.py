@@ -16,7 +16,7 @@ GENERATED = {"datasheets.md", "mutation.md", "parameters.md", "registers.md", "s
 
 def wide_lines(root):
     """Yields 'file:line: what' for every line of prose below root that is too wide."""
-    pages = [page for page in [*sorted(root.glob("*.md")), *sorted((root / "docs").glob("*.md"))]
+    pages = [page for page in [*sorted(root.glob("*.md")), *sorted((root / "docs").rglob("*.md"))]
              if page.name not in GENERATED]
     for page in pages:
         in_code = False

@@ -85,7 +85,8 @@ def problems(root):
     tree = Tree(root)
     yield from script_problems(tree, root)
     # The change log may speak of what was.
-    pages = [page for folder in (root, root / "docs") for page in sorted(folder.glob("*.md")) if page.name != "CHANGELOG.md"]
+    pages = [page for page in [*sorted(root.glob("*.md")), *sorted((root / "docs").rglob("*.md"))]
+             if page.name != "CHANGELOG.md"]
     linked = set()
     for page in pages:
         fenced = False
