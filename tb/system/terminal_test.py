@@ -9,6 +9,7 @@ import json
 import os
 import pty
 import re
+import select
 import shutil
 import signal
 import struct
@@ -579,6 +580,46 @@ class CompletionZsh(OneWord, Completion):
                   '}\n'
                   'words=("$@"); CURRENT=$#; prefix=; _deburr; true')
         return self.asked("zsh", "-fc", script, "zsh", "deburr", *words)
+
+
+@unittest.skipUnless(shutil.which("zsh"), "no zsh (Debian package zsh)")
+class TypedZsh(unittest.TestCase):
+    """As somebody types it into zsh, with zsh's own completion: Tab completes what stands there."""
+
+    SET_UP = ("PS1='READY''> '; unsetopt beep; bindkey -e; autoload -Uz compinit; compinit -u -D; "
+              'source <("$DEBURR" completion zsh)\n')
+
+    def until(self, terminal, mark):
+        said = b""
+        while mark not in said:
+            ready = select.select([terminal], [], [], 60)[0]
+            self.assertTrue(ready, said)
+            said += os.read(terminal, 1 << 16)
+        return said.decode()
+
+    def setUp(self):
+        child, self.terminal = pty.fork()
+        if child == 0:
+            os.environ.update(TERM="dumb", COLUMNS="300", DEBURR=DEBURR)
+            os.execvp("zsh", ["zsh", "-f", "-i"])
+        self.addCleanup(os.waitpid, child, 0)
+        self.addCleanup(os.kill, child, signal.SIGKILL)
+        self.addCleanup(os.close, self.terminal)
+        os.write(self.terminal, self.SET_UP.encode())
+        self.until(self.terminal, b"READY> ")
+
+    def typed(self, text):
+        """The line that there is after Tab: what prints it is typed at its begin and at its end."""
+        os.write(self.terminal, text.encode() + b"\t\x01print -r -- 'THERE:''[\x05]'\n")
+        return re.search(r"THERE:\[(.*?)\]\r?\n", self.until(self.terminal, b"]\r\n")).group(1)
+
+    def test_tab(self):
+        for typed, there in (("deburr ru", "deburr run"), ("deburr run tex", "deburr run texture"),
+                             ("deburr run texture --check gol", "deburr run texture --check golden"),
+                             ("deburr run texture --set memory.lat", "deburr run texture --set memory.latency"),
+                             ("deburr run texture --check silv", "deburr run texture --check silv")):
+            with self.subTest(typed=typed):
+                self.assertEqual(self.typed(typed).rstrip(" ="), there)
 
 
 @unittest.skipUnless(shutil.which("fish"), "no fish")
