@@ -144,7 +144,47 @@ FragmentAnalysis TextureGolden::analyse(const spec::texture::Quad& quad, int lan
   return analyse(texture, differences(texture, quad), lane);
 }
 
+struct TextureGolden::NoTap {
+  void lane(int) {}
+  void sample(int, std::int64_t, std::int64_t) {}
+  void request(int, const std::array<std::uint32_t, 4>&) {}
+  void fill(std::uint32_t) {}
+};
+
+struct TextureGolden::RequestTap {
+  int wanted;
+  std::vector<BilinearRequest>& requests;
+  BilinearRequest next{};
+  bool on = false;
+  void lane(int lane) { on = lane == wanted; }
+  void sample(int i, std::int64_t s, std::int64_t t) {
+    next.sample = i;
+    next.s = s;
+    next.t = t;
+  }
+  void request(int level, const std::array<std::uint32_t, 4>& addresses) {
+    next.level = level;
+    next.addresses = addresses;
+    if (on) requests.push_back(next);
+  }
+  void fill(std::uint32_t line) {
+    if (on) requests.back().misses.push_back(line);
+  }
+};
+
 QuadColours TextureGolden::process(const spec::texture::Quad& quad) {
+  NoTap none;
+  return process_seen(quad, none);
+}
+
+QuadColours TextureGolden::process(const spec::texture::Quad& quad, int lane,
+                                   std::vector<BilinearRequest>& requests) {
+  RequestTap tap{lane, requests};
+  return process_seen(quad, tap);
+}
+
+template <class Tap>
+QuadColours TextureGolden::process_seen(const spec::texture::Quad& quad, Tap& tap) {
   QuadColours result;
   const Texture* texture =
       quad.texture < spec::texture::kMaxTextures ? &textures_[quad.texture] : nullptr;
@@ -163,20 +203,23 @@ QuadColours TextureGolden::process(const spec::texture::Quad& quad) {
       ++work_.invalid_fragments;
       continue;
     }
+    tap.lane(lane);
     const FragmentAnalysis fragment = analyse(*texture, shared, lane);
     if (fragment.saturated) ++work_.saturated;
     if (fragment.lod.magnified) ++work_.magnified;
     ++work_.by_samples[static_cast<std::size_t>(fragment.lod.samples)];
     work_.samples += static_cast<std::uint64_t>(fragment.lod.samples);
     const auto i = static_cast<std::size_t>(lane);
-    colour.rgba = filter_fragment(*texture, fragment, quad.s[i], quad.t[i]);
+    colour.rgba = filter_fragment(*texture, fragment, quad.s[i], quad.t[i], tap);
   }
   return result;
 }
 
+template <class Tap>
 std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& texture,
                                                            const FragmentAnalysis& fragment,
-                                                           std::int32_t s, std::int32_t t) {
+                                                           std::int32_t s, std::int32_t t,
+                                                           Tap& tap) {
   const LevelOfDetail& lod = fragment.lod;
   const int n = lod.samples;
   const std::int32_t spread = spread_of(parameters_.kernel, n, parameters_.spread);
@@ -184,13 +227,14 @@ std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& textur
   const std::int64_t distance_t = half_distance(n, spread, fragment.axis.t);
   Channels accumulator;  // U8.20
   for (int i = 0; i < n; ++i) {
-    const std::int64_t sample_s =
-        wrap_coordinate(texture.descriptor.wrap_s, s + offset_at(i, n, distance_s));
-    const std::int64_t sample_t =
-        wrap_coordinate(texture.descriptor.wrap_t, t + offset_at(i, n, distance_t));
-    Channels value = bilinear(texture, lod.level, lod.linear, sample_s, sample_t);
+    const std::int64_t at_s = s + offset_at(i, n, distance_s);
+    const std::int64_t at_t = t + offset_at(i, n, distance_t);
+    const std::int64_t sample_s = wrap_coordinate(texture.descriptor.wrap_s, at_s);
+    const std::int64_t sample_t = wrap_coordinate(texture.descriptor.wrap_t, at_t);
+    tap.sample(i, at_s, at_t);
+    Channels value = bilinear(texture, lod.level, lod.linear, sample_s, sample_t, tap);
     if (lod.fraction != 0) {
-      const Channels next = bilinear(texture, lod.level + 1, lod.linear, sample_s, sample_t);
+      const Channels next = bilinear(texture, lod.level + 1, lod.linear, sample_s, sample_t, tap);
       value.rb = level_lerp(value.rb, next.rb, lod.fraction);
       value.ga = level_lerp(value.ga, next.ga, lod.fraction);
     }
@@ -207,8 +251,9 @@ std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& textur
   return rgba;
 }
 
+template <class Tap>
 Channels TextureGolden::bilinear(const Texture& texture, int level, bool linear, std::int64_t s,
-                                 std::int64_t t) {
+                                 std::int64_t t, Tap& tap) {
   const spec::texture::Descriptor& descriptor = texture.descriptor;
   const LevelTable& table = texture.levels[static_cast<std::size_t>(level)];
   const auto position = [linear](spec::texture::Wrap wrap, std::int64_t p, std::int32_t size) {
@@ -225,7 +270,8 @@ Channels TextureGolden::bilinear(const Texture& texture, int level, bool linear,
   };
   ++work_.bilinears;
   ++work_.by_level[static_cast<std::size_t>(level)];
-  if (predict_) predict(addresses());
+  tap.request(level, addresses());
+  if (predict_) predict(addresses(), tap);
 
   const bool common = table.plain && descriptor.format == spec::texture::Format::kRgba8;
   const std::array<Channels, 4> texel = common ? read_rgba8(memory_.data(), addresses())
@@ -249,11 +295,13 @@ std::array<Channels, 4> TextureGolden::read(const LevelTable& table, spec::textu
   return texels;
 }
 
-void TextureGolden::predict(const std::array<std::uint32_t, 4>& addresses) {
+template <class Tap>
+void TextureGolden::predict(const std::array<std::uint32_t, 4>& addresses, Tap& tap) {
   const std::array<std::uint32_t, 4> lines = {
       cache_.line_of(addresses[0]), cache_.line_of(addresses[1]), cache_.line_of(addresses[2]),
       cache_.line_of(addresses[3])};
-  cache_.request(lines, [this](std::uint32_t line) {
+  cache_.request(lines, [this, &tap](std::uint32_t line) {
+    tap.fill(line);
     ++work_.line_fills;
     if (fails(line)) ++work_.memory_errors;
     if (record_fills_) fills_.push_back(line);

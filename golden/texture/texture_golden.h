@@ -61,6 +61,14 @@ struct QuadColours {
   const spec::texture::Colour* end() const { return colours.data() + count; }
 };
 
+// A request to the cache as one sample of a fragment makes it, for who follows a pixel.
+struct BilinearRequest {
+  int sample = 0, level = 0;
+  std::int64_t s = 0, t = 0;                 // of the sample, not wrapped, S9.24
+  std::array<std::uint32_t, 4> addresses{};  // of texels 00, 10, 01, 11, bytes
+  std::vector<std::uint32_t> misses;         // numbers of the lines that it fills, in order
+};
+
 class TextureGolden {
  public:
   enum class Traffic { kPredict, kIgnore };  // kIgnore: no fills and no memory errors; faster
@@ -81,6 +89,10 @@ class TextureGolden {
   void process(const spec::texture::Quad& quad, Sink&& sink) {
     for (const spec::texture::Colour& colour : process(quad)) sink(colour);
   }
+
+  // The same; appends the requests that `lane` makes to `requests`.
+  QuadColours process(const spec::texture::Quad& quad, int lane,
+                      std::vector<BilinearRequest>& requests);
 
   // What process() decides for one lane, covered or not; changes nothing.
   FragmentAnalysis analyse(const spec::texture::Quad& quad, int lane) const;
@@ -128,14 +140,24 @@ class TextureGolden {
   };
   static Differences differences(const Texture& texture, const spec::texture::Quad& quad);
   FragmentAnalysis analyse(const Texture& texture, const Differences& differences, int lane) const;
+  // A tap sees what is done on the way: lane, sample, request, fill. That of a plain run is empty,
+  // and costs nothing.
+  struct NoTap;
+  struct RequestTap;
+  template <class Tap>
+  QuadColours process_seen(const spec::texture::Quad& quad, Tap& tap);
+  template <class Tap>
   std::array<std::uint8_t, 4> filter_fragment(const Texture& texture,
                                               const FragmentAnalysis& fragment, std::int32_t s,
-                                              std::int32_t t);
+                                              std::int32_t t, Tap& tap);
   // U8.12. s and t are wrapped.
-  Channels bilinear(const Texture& texture, int level, bool linear, std::int64_t s, std::int64_t t);
+  template <class Tap>
+  Channels bilinear(const Texture& texture, int level, bool linear, std::int64_t s, std::int64_t t,
+                    Tap& tap);
   std::array<Channels, 4> read(const LevelTable& table, spec::texture::Format format,
                                const std::array<std::uint32_t, 4>& addresses) const;
-  void predict(const std::array<std::uint32_t, 4>& addresses);
+  template <class Tap>
+  void predict(const std::array<std::uint32_t, 4>& addresses, Tap& tap);
   bool fails(std::uint32_t line) const;
   void find_plain_levels(Texture& texture) const;
 

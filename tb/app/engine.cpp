@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "spec/error.h"
 #include "tb/app/composition.h"
 #include "tb/base/near_matches.h"
@@ -29,6 +31,14 @@ std::vector<std::string> maps_of(const Engine& engine) {
     for (const std::string& map : maps_of(*engine_named(std::string(part))))
       names.push_back(fmt::format("{}_{}", part, map));
   return names;
+}
+
+bool keeps_pixel_history(const Engine& engine) {
+  const std::vector<std::string_view> parts = engine.parts();
+  return !engine.pixel_history().empty() ||
+         std::any_of(parts.begin(), parts.end(), [](std::string_view part) {
+           return keeps_pixel_history(*engine_named(std::string(part)));
+         });
 }
 
 }  // namespace deburr::tb

@@ -47,6 +47,7 @@ struct RunParameters {
   std::int64_t trace_from = 0, trace_to = 2000;
   std::int64_t window_cycles = 0;
   bool maps = false;
+  std::string pixel;
   bool coverage = false;
   bool timeline = false;
   std::int64_t timeline_from = 0, timeline_to = 2000;
@@ -91,6 +92,9 @@ void describe(RunParameters& p, Visitor& v) {
   v.boolean("maps", p.maps,
             "Leave maps over the picture, in false colours and as values: what the hardware did "
             "for each pixel.");
+  v.text("pixel", p.pixel, "X,Y",
+         "Keeps everything that happens to this pixel, golden and hardware side by side: pixel of "
+         "result.json, the report's table; columns from the left, rows from the top. Empty: none.");
   v.boolean("coverage", p.coverage,
             "Functional coverage: leave how often each bin of docs/coverage.md was met, as "
             "coverage.bins of result.json; with the golden model, which knows what was met.");
@@ -188,6 +192,9 @@ class Engine {
   virtual std::vector<std::string_view> pictures() const = 0;
   virtual std::vector<std::string_view> maps() const { return {}; }
 
+  // What its history of one pixel shows (run.pixel), in a few words; empty: it keeps none.
+  virtual std::string_view pixel_history() const { return {}; }
+
   // ---- reference pages
   virtual rtl::RegisterSection registers() const { return {}; }
   virtual CoverageSection coverage() const { return {}; }
@@ -206,5 +213,7 @@ std::vector<std::unique_ptr<Engine>> engines();
 std::unique_ptr<Engine> engine_named(const std::string& name);
 // The engine's own maps and those of its parts, as RunContext calls them.
 std::vector<std::string> maps_of(const Engine& engine);
+// The engine or a part of it keeps the history of a pixel.
+bool keeps_pixel_history(const Engine& engine);
 
 }  // namespace deburr::tb

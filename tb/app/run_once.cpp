@@ -28,6 +28,17 @@ std::string from_repository(const std::string& text) {
   return text;
 }
 
+void refuse_no_history(const Engine& engine) {
+  if (keeps_pixel_history(engine)) return;
+  std::vector<std::string> known;
+  for (const std::unique_ptr<Engine>& other : engines())
+    if (keeps_pixel_history(*other)) known.emplace_back(other->name());
+  throw ConfigError(fmt::format(
+      "run.pixel: the engine {} keeps no history of a pixel: leave out --pixel; those "
+      "that do: {}",
+      engine.name(), known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
+}
+
 }  // namespace
 
 BoundEngine::BoundEngine(Engine& bound) : engine(bound), run(bound.run_parameters()) {
@@ -38,6 +49,10 @@ BoundEngine::BoundEngine(Engine& bound) : engine(bound), run(bound.run_parameter
 void BoundEngine::resolve() {
   engine.resolve(set);
   set.check_build();
+  if (!run.pixel.empty()) {
+    refuse_no_history(engine);
+    pixel_of(run.pixel);
+  }
   if (!run.trace.empty() && run.trace_from >= run.trace_to)
     throw ConfigError(fmt::format(
         "run.trace_from = {} and run.trace_to = {} leave no cycle to trace: --trace-to is the "
@@ -70,7 +85,9 @@ RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
   result.clock_mhz = bound.run.clock_mhz;
   try {
     const std::vector<std::string_view> pictures = bound.engine.pictures();
-    context.set_leaves({{pictures.begin(), pictures.end()}, maps_of(bound.engine)});
+    context.set_leaves({{pictures.begin(), pictures.end()},
+                        maps_of(bound.engine),
+                        keeps_pixel_history(bound.engine)});
     context.claim(if_taken);
     if (claimed && !claimed()) {
       end.begun = false;

@@ -16,6 +16,7 @@ std::vector<Shorthand> common_shorthands() {
       {"--trace-to", "run.trace_to", "Cycle after the last one traced"},
       {"--windows", "run.window_cycles", "Keep what happened in each window of so many cycles"},
       {"--maps", "run.maps", "Leave maps of what was done for each pixel"},
+      {"--pixel", "run.pixel", "Keep everything that happens to this pixel"},
       {"--timeline", "run.timeline", "Write timeline.json for trace viewers such as Perfetto"},
       {"--timeline-from", "run.timeline_from", "First cycle of the timeline"},
       {"--timeline-to", "run.timeline_to", "Cycle after the last one of the timeline"},

@@ -44,6 +44,7 @@ SimulationOptions simulation_options(const RunParameters& run, const RunContext&
     throw spec::ConfigError(
         "run.coverage: what was met is known to the golden model: leave out run.check=none");
   o.coverage = run.coverage;
+  if (!run.pixel.empty()) o.pixel = pixel_of(run.pixel);
   if (run.timeline)
     o.timeline = {static_cast<rtl::Cycle>(run.timeline_from),
                   static_cast<rtl::Cycle>(run.timeline_to)};

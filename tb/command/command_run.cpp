@@ -215,6 +215,8 @@ Outcome run_engine(Engine& engine, const RunOptions& options, CommandLine& line)
                  memory.name, memory.idealised);
   context.finish(result);
   if (!context.quiet()) fmt::print("{}", figures_of(result));
+  if (result.pixel && !context.quiet())
+    fmt::print("{}", text_of(*result.pixel, (context.directory() / "report.html").string()));
   const std::filesystem::path& directory = context.directory();
   const std::string summary = summary_of(result, directory);
   if (end.code != 0)
@@ -236,6 +238,7 @@ std::string value_name(const Shorthand& shorthand, const Parameter& parameter) {
   if (parameter.range.find_first_not_of("0123456789.| ") == std::string::npos) return "NUMBER";
   if (parameter.range == "file") return "FILE";
   if (parameter.range == "glob") return "GLOB";
+  if (parameter.range == "X,Y") return "X,Y";
   return shorthand.option == "--in" ? "FILE" : "NAME";
 }
 

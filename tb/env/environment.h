@@ -87,6 +87,9 @@ class Environment {
   virtual void show_parts(Observer& observer) const = 0;
   // What was done for each pixel, with SimulationOptions::maps; of the last frame.
   virtual std::vector<PictureMap> maps() const = 0;
+  // What happened to SimulationOptions::pixel, of the last frame; nothing: no part of it keeps
+  // that.
+  virtual std::optional<PixelHistory> pixel_history() const { return std::nullopt; }
   // Functional coverage: every bin of its engines, with what was met so far. With
   // SimulationOptions::coverage and a golden model.
   virtual Coverage coverage() const = 0;

@@ -204,6 +204,7 @@ void Simulation::collect(Result& result) const {
     for (WindowRecorder::Occupancy& link : windows_->occupancy())
       result.links.push_back(
           {std::move(link.name), std::move(link.full_name), link.beats, std::move(link.clocks)});
+  if (options_.pixel) result.pixel = environment_->pixel_history();
   if (options_.coverage) result.coverage = environment_->coverage().bins();
   environment_->collect_headline(result);
 }

@@ -49,6 +49,7 @@ struct SimulationOptions {
   bool maps = false;             // pixel by pixel, what was done
   bool coverage = false;         // bins of functional coverage, with their hits
   std::optional<TimelineOptions> timeline;
+  std::optional<PixelAddress> pixel;  // whose history is kept
 };
 
 // One a process: SystemC elaborates once.

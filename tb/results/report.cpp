@@ -120,13 +120,20 @@ class ReportBuilder {
       notes << row({{"note", report_text(note)}});
     page_.set("notes", notes);
     mustache::data mismatches_table{mustache::data::type::list};
-    for (const Json& m : result_.value("first_mismatches", Json::array()))
-      mismatches_table << row({{"check", m.value("check", "")},
-                               {"where", m.value("where", "")},
-                               {"item", m.value("item", "")},
-                               {"field", m.value("field", "")},
-                               {"expected", m.value("expected", "")},
-                               {"got", m.value("got", "")}});
+    fill_pixel();
+    for (const Json& m : result_.value("first_mismatches", Json::array())) {
+      mustache::data line = row({{"check", m.value("check", "")},
+                                 {"where", m.value("where", "")},
+                                 {"item", m.value("item", "")},
+                                 {"field", m.value("field", "")},
+                                 {"expected", m.value("expected", "")},
+                                 {"got", m.value("got", "")}});
+      const std::string pixel = pixel_in(m.value("item", ""));
+      line.set("pixel", pixel);
+      line.set("followed", !pixel.empty() && pixel == followed_);
+      line.set("can_follow", !pixel.empty() && pixel != followed_);
+      mismatches_table << line;
+    }
     page_.set("has_mismatches", mismatches_table.is_non_empty_list());
     page_.set("mismatches", mismatches_table);
     page_.set("command", manifest_.value("command", ""));
@@ -226,6 +233,61 @@ class ReportBuilder {
                                 per_second(report_text(throughput.value("unit", Json("")))))
                   : "");
   }
+
+  // "X,Y" of an item that is called by its pixel, "pixel (X, Y)"; empty: it is not.
+  static std::string pixel_in(const std::string& item) {
+    constexpr std::string_view kBegin = "pixel (";
+    const std::size_t begin = item.find(kBegin), end = item.find(')', begin);
+    if (begin == std::string::npos || end == std::string::npos) return "";
+    std::string pixel = item.substr(begin + kBegin.size(), end - begin - kBegin.size());
+    std::erase(pixel, ' ');
+    return pixel;
+  }
+
+  // The history of a pixel, and the commands that give another one, or the waves around this one.
+  void fill_pixel() {
+    page_.set("has_history", manifest_.value("pixel_history", false));
+    const std::string command = without_options(
+        manifest_.value("command", ""), {"--pixel", "--trace", "--trace-from", "--trace-to"});
+    page_.set("pixel_command", command);
+    const auto found = result_.find("pixel");
+    page_.set("has_pixel", found != result_.end());
+    if (found == result_.end()) return;
+    followed_ = fmt::format("{:.0f},{:.0f}", number(*found, "x"), number(*found, "y"));
+    page_.set("pixel", followed_);
+    page_.set("pixel_note", found->value("note", ""));
+    page_.set("pixel_differences", report_text(found->value("differences", Json())));
+    mustache::data steps{mustache::data::type::list};
+    std::string part;
+    std::optional<std::uint64_t> first, last;
+    for (const Json& step : found->value("steps", Json::array())) {
+      const Json clock = step.value("clock", Json());
+      mustache::data line = row({{"step", step.value("step", "")},
+                                 {"item", step.value("item", "")},
+                                 {"golden", or_dash(step.value("golden", ""))},
+                                 {"hardware", or_dash(step.value("hardware", ""))},
+                                 {"clock", report_text(clock)}});
+      line.set("differs", step.value("differs", false));
+      if (const std::string own = step.value("part", ""); own != part) {
+        part = own;
+        line.set("begins", own);
+      }
+      if (clock.is_number_unsigned()) {
+        const auto cycle = clock.get<std::uint64_t>();
+        first = std::min(first.value_or(cycle), cycle);
+        last = std::max(last.value_or(cycle), cycle);
+      }
+      steps << line;
+    }
+    page_.set("has_pixel_steps", steps.is_non_empty_list());
+    page_.set("pixel_steps", steps);
+    if (first)
+      page_.set("pixel_waves",
+                fmt::format("{} --pixel {} --trace '*' --trace-from {} --trace-to {}", command,
+                            followed_, *first, *last + 2));
+  }
+
+  static std::string or_dash(std::string text) { return text.empty() ? "-" : text; }
 
   static std::string bound_note(const Json& throughput) {
     const std::string meaning = throughput.value("bound_meaning", "");
@@ -342,7 +404,8 @@ class ReportBuilder {
                               ? ""
                               : fmt::format("; {} were asked for, which would be too many windows",
                                             report_text(windows_["asked_cycles"]))));
-    windows_["command"] = without_trace(manifest_.value("command", ""));
+    windows_["command"] =
+        without_options(manifest_.value("command", ""), {"--trace", "--trace-from", "--trace-to"});
     page_.set("windows_command", windows_["command"].get<std::string>());
 
     // A rate is a series over cycles.
@@ -397,15 +460,16 @@ class ReportBuilder {
     page_.set("links", links);
   }
 
-  // The command of a run, so that other waves can be chosen behind it. Not with a regular
-  // expression: it would be a sixth of this library's build.
-  static std::string without_trace(std::string command) {
+  // The command of a run without some of its options, so that others can be given behind it. Not
+  // with a regular expression: it would be a sixth of this library's build.
+  static std::string without_options(std::string command,
+                                     std::initializer_list<std::string_view> options) {
     std::size_t at = 0;
-    while ((at = command.find(" --trace", at)) != std::string::npos) {
+    while ((at = command.find(" --", at)) != std::string::npos) {
       const std::size_t value = command.find_first_of(" =", at + 1);
       const std::string name = command.substr(at + 1, value - at - 1);
       if (value == std::string::npos ||
-          (name != "--trace" && name != "--trace-from" && name != "--trace-to")) {
+          std::find(options.begin(), options.end(), name) == options.end()) {
         ++at;
         continue;
       }
@@ -651,6 +715,7 @@ class ReportBuilder {
   }
 
   Json result_, manifest_, windows_;
+  std::string followed_;  // pixel whose history there is, "X,Y"
   mustache::data page_;
 };
 

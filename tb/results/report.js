@@ -7,6 +7,31 @@
 
   copies(byId('copy'), byId('command'));
 
+  // ---- the history of another pixel ----
+  if (byId('copy-pixel-waves')) copies(byId('copy-pixel-waves'), byId('pixel-waves'));
+  const box = byId('follow');
+  const command = box && byId('pixel-command').textContent.replace(/X,Y$/, '');
+  if (box) copies(byId('copy-pixel'), byId('pixel-command'));
+  function follow(pixel) {
+    byId('pixel-command').textContent = command + pixel;
+    box.hidden = false;
+  }
+  function followAndCopy(pixel) {
+    if (!box) return;
+    follow(pixel);
+    byId('copy-pixel').click();
+  }
+  function followLinked() {
+    const linked = location.hash.match(/^#follow-(\d+,\d+)$/);
+    if (!box || !linked) return;
+    follow(linked[1]);
+    box.scrollIntoView({block: 'center'});
+  }
+  for (const link of document.querySelectorAll('a[href^="#follow-"]'))
+    link.addEventListener('click', () => followAndCopy(link.hash.slice('#follow-'.length)));
+  addEventListener('hashchange', followLinked);
+  followLinked();
+
   // ---- picture viewer: two pictures, one divider, shared zoom ----
   const stills = [...document.querySelectorAll('.strip img')];
   if (stills.length > 0) viewer();
@@ -125,15 +150,21 @@
       const box = canvas.getBoundingClientRect();
       return {x: (event.clientX - box.left) * ratio(), y: (event.clientY - box.top) * ratio()};
     };
+    const pixelAt = (p) => {
+      const {w, h} = size();
+      const x = Math.floor((p.x - state.x) / state.scale), y = Math.floor((p.y - state.y) / state.scale);
+      return x >= 0 && y >= 0 && x < w && y < h ? {x, y} : null;
+    };
     let drag = null;
     canvas.addEventListener('pointerdown', (event) => {
       const p = at(event);
       const near = Math.abs(p.x - canvas.width * state.split) < 10 * ratio();
-      drag = {divider: near, x: p.x, y: p.y};
+      drag = {divider: near, x: p.x, y: p.y, from: p, moved: near};
       canvas.setPointerCapture(event.pointerId);
     });
     canvas.addEventListener('pointermove', (event) => {
       const p = at(event);
+      if (drag && Math.hypot(p.x - drag.from.x, p.y - drag.from.y) > 4 * ratio()) drag.moved = true;
       if (drag && drag.divider) {
         state.split = Math.min(1, Math.max(0, p.x / canvas.width));
         split.value = String(Math.round(state.split * 1000));
@@ -145,13 +176,16 @@
         drag.y = p.y;
         draw();
       }
-      const {w, h} = size();
-      const x = Math.floor((p.x - state.x) / state.scale), y = Math.floor((p.y - state.y) / state.scale);
-      byId('probe').textContent = x >= 0 && y >= 0 && x < w && y < h
-          ? `pixel (${x}, ${y})   left RGBA ${colour(state.left, x, y)}   right RGBA ${colour(state.right, x, y)}`
+      const pixel = pixelAt(p);
+      byId('probe').textContent = pixel
+          ? `pixel (${pixel.x}, ${pixel.y})   left RGBA ${colour(state.left, pixel.x, pixel.y)}   right RGBA ${colour(state.right, pixel.x, pixel.y)}`
           : '';
     });
-    canvas.addEventListener('pointerup', () => { drag = null; });
+    canvas.addEventListener('pointerup', (event) => {
+      const pixel = drag && !drag.moved && pixelAt(at(event));
+      if (pixel) followAndCopy(`${pixel.x},${pixel.y}`);
+      drag = null;
+    });
     canvas.addEventListener('wheel', (event) => {
       event.preventDefault();
       const p = at(event);

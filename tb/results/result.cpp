@@ -60,6 +60,18 @@ Json json_of(const std::vector<MismatchLine>& lines) {
                     {"got", m.got}});
   return json;
 }
+Json json_of(const std::vector<PixelStep>& steps) {
+  Json json = Json::array();
+  for (const PixelStep& s : steps)
+    json.push_back({{"part", s.part},
+                    {"step", s.step},
+                    {"item", s.item},
+                    {"golden", s.golden},
+                    {"hardware", s.hardware},
+                    {"clock", s.clock ? Json(*s.clock) : Json()},
+                    {"differs", s.differs}});
+  return json;
+}
 Json json_of(const std::vector<Figure>& figures) {
   Json json = Json::array();
   for (const Figure& figure : figures) {

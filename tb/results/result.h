@@ -20,6 +20,8 @@
 #include <variant>
 #include <vector>
 
+#include "tb/results/pixel_history.h"
+
 namespace deburr::tb {
 
 inline constexpr int kResultSchema = 3;
@@ -177,6 +179,7 @@ struct Result {
   std::vector<LinkFigures> links;                                // of a run with windows
   std::vector<MapFigures> maps;                                  // of a run with maps
   std::optional<std::map<std::string, std::uint64_t>> coverage;  // hits by bin; run.coverage
+  std::optional<PixelHistory> pixel;                             // of a run with run.pixel
   std::vector<WorkItem> work;
   std::vector<Figure> figures;
   std::vector<TerminalLine> terminal;  // the engine's own; the file has their figures in `work`

@@ -142,6 +142,18 @@ void describe(const MapFigures& m, Visitor& v) {
 }
 
 template <class Visitor>
+void describe(const PixelHistory& p, Visitor& v) {
+  v.value("x", p.pixel.x, "pixel", "Column of the pixel of run.pixel, from the left.");
+  v.value("y", p.pixel.y, "pixel", "Its row, from the top.");
+  v.value("note", p.note, "", "Why its history is empty or not whole; empty: it is whole.");
+  v.value("differences", p.differences(), "", "Steps in which the hardware is not as golden.");
+  v.value("steps", p.steps, "",
+          "What happened to the pixel, in order: part (which of several), step, item, what golden "
+          "and the hardware have (empty: it is not known there), clock (of the simulation, null: "
+          "none), and whether they differ.");
+}
+
+template <class Visitor>
 void describe(const Quality& q, Visitor& v) {
   const std::vector<PsnrFigure> figures = psnr_figures(q);
   v.value("reference", q.reference, "", "What the picture is compared with.");
@@ -275,6 +287,8 @@ void describe(const Result& r, Visitor& v) {
            [&](const LinkFigures& link) { describe(link, v); });
   if (v.has(!r.maps.empty()))
     v.each("maps", r.maps, &MapFigures::name, [&](const MapFigures& m) { describe(m, v); });
+  if (v.has(r.pixel.has_value()))
+    v.group("pixel", [&] { describe(r.pixel.value_or(PixelHistory{}), v); });
   v.each("work", r.work, &WorkItem::name,
          [&](const WorkItem& item) { v.declared_item(item.value, item.unit, item.meaning); });
   if (v.has(!r.notes.empty()))

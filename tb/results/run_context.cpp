@@ -257,6 +257,7 @@ Json RunContext::manifest(const Result& result) const {
   json["inputs"] = listed_->inputs;
   json["host"] = {{"seconds", result.host_seconds}, {"mcycles_per_s", result.mcycles_per_s()}};
   json["images"] = listed_->images;
+  if (leaves_.pixel_history) json["pixel_history"] = true;
   if (!listed_->records.empty()) json["records"] = listed_->records;
   json["parameters"] = Json::array();
   for (const Parameter& p : parameters_.all())

@@ -33,6 +33,7 @@ inline constexpr std::string_view kWindowsFile = "windows.json", kTimelineFile =
 // Names of what a run may leave for people to look at, as its engine declares them.
 struct Leaves {
   std::vector<std::string> pictures, maps;
+  bool pixel_history = false;  // run.pixel gives something
 };
 
 // What a golden result depends on, by name and value; files by their names.

@@ -17,6 +17,9 @@ endforeach()
 add_test(NAME figures COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/figures_test.py" $<TARGET_FILE:deburr>)
 set_tests_properties(figures PROPERTIES LABELS system TIMEOUT 300
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+add_test(NAME pixel_history COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/pixel_history_test.py" $<TARGET_FILE:deburr>)
+set_tests_properties(pixel_history PROPERTIES LABELS system TIMEOUT 300
+                     ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 add_test(NAME coverage COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/coverage_test.py" $<TARGET_FILE:deburr>
                                "${PROJECT_SOURCE_DIR}")
 set_tests_properties(coverage PROPERTIES LABELS system TIMEOUT 300

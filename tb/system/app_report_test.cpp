@@ -160,6 +160,32 @@ TEST_P(Report, ShowsARunOverTimeAndOverThePicture) {
                                             "\"[^>]*style=\"[^\"]*height: 2[0-9]+px"));
 }
 
+// The link of a mismatch's row gives the command that follows its pixel; such a run has the table.
+TEST_P(Report, FollowsAPixel) {
+  const std::string chromium = browser();
+  if (chromium.empty()) GTEST_SKIP() << "no Chromium here (Debian package chromium)";
+  const fs::path run = directory_ / "run";
+  shell(command_path().string() + " run texture --size 64x48 --fault flip-bit --pixel 36,0 --out " +
+            run.string(),
+        "run.log");
+  ASSERT_TRUE(fs::exists(run / "report.html")) << log("run.log");
+  for (const int width : {1200, 390})
+    shell(chromium +
+              " --headless --no-sandbox --disable-gpu --disable-background-networking "
+              "--no-first-run --hide-scrollbars --host-resolver-rules='MAP * ~NOTFOUND' "
+              "--enable-logging=stderr " +
+              GetParam().option + " --user-data-dir=" + (directory_ / "profile").string() +
+              " --window-size=" + std::to_string(width) + ",3000 --dump-dom 'file://" +
+              (run / "report.html").string() + "#follow-7,9'",
+          "dom.log");
+  const std::string dom = log("dom.log");
+  EXPECT_THAT(dom, testing::Not(testing::HasSubstr("CONSOLE")));
+  EXPECT_THAT(dom, testing::HasSubstr("<h2 id=\"pixel\">What happened to pixel 36,0</h2>"));
+  EXPECT_THAT(dom, testing::HasSubstr("id=\"follow\"><pre id=\"pixel-command\">"));  // not hidden
+  EXPECT_THAT(dom, testing::ContainsRegex("--fault flip-bit --out [^ ]*run --pixel 7,9</pre>"));
+  EXPECT_THAT(dom, testing::ContainsRegex("--pixel 36,0 --trace '\\*' --trace-from [0-9]+"));
+}
+
 // The checks above can fail: a page whose script is broken draws no chart.
 TEST_P(Report, ABrokenPageIsNoticed) {
   const std::string chromium = browser();

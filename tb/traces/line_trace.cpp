@@ -67,8 +67,11 @@ void LineTrace::attach_caches() {
     const auto number = static_cast<std::uint8_t>(ports_.size());
     ports_.push_back({cache.tag_stage.name(), line_bytes, true});
     any = true;
-    cache.tag_stage.observer = [this, number, line_bytes](rtl::Cycle cycle, std::uint32_t line,
-                                                          rtl::texture::LookUp outcome) {
+    // Who looks already goes on to do so.
+    cache.tag_stage.observer = [this, number, line_bytes, other = cache.tag_stage.observer](
+                                   rtl::Cycle cycle, std::uint32_t line,
+                                   rtl::texture::LookUp outcome) {
+      if (other) other(cycle, line, outcome);
       constexpr std::array kEvents = {LineEvent::kHit, LineEvent::kMerged, LineEvent::kMiss};
       add({cycle, std::uint64_t{line} * line_bytes, line_bytes,
            kEvents[static_cast<std::size_t>(outcome)], number});

@@ -242,6 +242,16 @@ std::vector<PictureMap> FrameComposition::maps() const {
   return all;
 }
 
+std::optional<PixelHistory> FrameComposition::pixel_history() const {
+  std::optional<PixelHistory> all;
+  for (const Environment* part : parts())
+    if (const std::optional<PixelHistory> one = part->pixel_history()) {
+      if (!all) all = PixelHistory{one->pixel};
+      all->append(*one);
+    }
+  return all;
+}
+
 Coverage FrameComposition::coverage() const {
   Coverage all;
   for (const Environment* part : parts()) all.merge(part->coverage());

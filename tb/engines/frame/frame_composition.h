@@ -55,6 +55,7 @@ class FrameComposition final : public Environment {
   void collect(Result& result) const override { meter().collect(result); }
   void show_parts(Observer& observer) const override { meter().show_parts(observer); }
   std::vector<PictureMap> maps() const override;
+  std::optional<PixelHistory> pixel_history() const override;
   Coverage coverage() const override;
   void collect_headline(Result& result) const override;
 

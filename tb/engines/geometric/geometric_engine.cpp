@@ -118,6 +118,10 @@ class GeometricCommand final : public Engine {
     return {"lines", "passed", "weight", "depth_reads"};
   }
 
+  std::string_view pixel_history() const override {
+    return "lines that pass it, candidates with depth and test, weights, colour";
+  }
+
   rtl::RegisterSection registers() const override { return rtl::geometric::register_section(); }
   CoverageSection coverage() const override {
     CoverageSection section{"Geometric engine", declared_geometric_coverage(),

@@ -74,6 +74,11 @@ GeometricEnvironment::GeometricEnvironment(Simulation& simulation,
   host_.bus.bind(engine_.registers);
   plant_in(memory_, setup.memory);
   if (simulation.options().maps) maps_.emplace();
+  if (const std::optional<PixelAddress>& pixel = simulation.options().pixel) {
+    for (const geometric::Frame& frame : frames)
+      refuse_outside(*pixel, frame.image.width, frame.image.height);
+    history_.emplace(*pixel);
+  }
   observe();
 }
 
@@ -82,15 +87,18 @@ void GeometricEnvironment::observe() {
   engine_.resolver.observer = [this, cycle](const BlockRecord& block) {
     blocks_.push_back(block);
     if (maps_) maps_->see(block);
+    if (history_) history_->see(block, cycle());
     checks_.got(block, cycle());
   };
-  if (maps_ || golden())
+  if (maps_ || history_ || golden())
     engine_.depth_test.observer = [this, cycle](const Candidate& candidate) {
       if (maps_) maps_->see(candidate);
+      if (history_) history_->see(candidate, cycle());
       checks_.got(candidate, cycle());
     };
-  if (golden())
+  if (history_ || golden())
     engine_.line_setup.observer = [this, cycle](const LineRecord& line) {
+      if (history_) history_->see(line, cycle());
       checks_.got(line, cycle());
     };
 }
@@ -109,6 +117,7 @@ bool GeometricEnvironment::begin(std::size_t piece) {
   started_ = false;
   blocks_.clear();
   if (maps_) maps_->begin(current().image.width, current().image.height);
+  if (history_) history_->begin();
   watch();
   memory_.forget_lines();
   load();
@@ -214,6 +223,13 @@ Coverage GeometricEnvironment::coverage() const {
           coverage.hit(bin);
         }
   return coverage;
+}
+
+std::optional<PixelHistory> GeometricEnvironment::pixel_history() const {
+  if (!history_) return std::nullopt;
+  PixelHistory all = history_->history(current(), frame(), golden() ? &golden_model() : nullptr);
+  for (PixelStep& step : all.steps) step.part = name();
+  return all;
 }
 
 std::vector<PictureMap> GeometricEnvironment::maps() const {

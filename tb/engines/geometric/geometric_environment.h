@@ -26,6 +26,7 @@
 #include "spec/geometric/packets.h"
 #include "tb/engines/geometric/geometric_checks.h"
 #include "tb/engines/geometric/geometric_faults.h"
+#include "tb/engines/geometric/geometric_history.h"
 #include "tb/engines/geometric/geometric_maps.h"
 #include "tb/engines/geometric/geometric_meter.h"
 #include "tb/engines/geometric/geometric_setup.h"
@@ -63,6 +64,7 @@ class GeometricEnvironment final : public Environment {
   void collect(Result& result) const override { meter_.collect(result); }
   void show_parts(Observer& observer) const override { meter_.show_parts(observer); }
   std::vector<PictureMap> maps() const override;
+  std::optional<PixelHistory> pixel_history() const override;
   Coverage coverage() const override;
   void collect_headline(Result& result) const override {
     meter_.collect_headline(result, simulation().options().clock_mhz);
@@ -115,6 +117,7 @@ class GeometricEnvironment final : public Environment {
   std::vector<spec::geometric::BlockRecord> blocks_;
   OutputHash hash_;
   std::optional<GeometricMaps> maps_;
+  std::optional<GeometricHistory> history_;
 };
 
 }  // namespace deburr::tb

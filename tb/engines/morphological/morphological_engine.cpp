@@ -125,6 +125,9 @@ class MorphologicalCommand final : public Engine {
     return {"before", "after",  "golden", "difference", "truth",
             "error",  "change", "edges",  "weights"};
   }
+  std::string_view pixel_history() const override {
+    return "edges, runs and lines of its four sides, shares, blend, colour";
+  }
   std::vector<std::string_view> maps() const override { return {"edges", "run_length", "steps"}; }
 
   rtl::RegisterSection registers() const override { return rtl::morphological::register_section(); }

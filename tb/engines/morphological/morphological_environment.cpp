@@ -79,15 +79,23 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
     judge(cycle, beat);
   };
   if (simulation.options().maps) maps_.emplace();
+  if (const std::optional<PixelAddress>& pixel = simulation.options().pixel) {
+    for (const MorphologicalInput& frame : frames)
+      refuse_outside(*pixel, frame.image.width, frame.image.height);
+    history_.emplace(*pixel);
+  }
   const bool records = golden() && setup.records;
-  if (!records && !maps_) return;
-  engine_.observe_runs([this, records](const spec::morphological::RunRecord& run) {
+  if (!records && !maps_ && !history_) return;
+  const auto cycle = [this] { return this->simulation().clock().cycle(); };
+  engine_.observe_runs([this, records, cycle](const spec::morphological::RunRecord& run) {
     if (records) checks_.got(run);
     if (maps_) maps_->see(run);
+    if (history_) history_->see(run, cycle());
   });
-  engine_.observe_lines([this, records](const spec::morphological::LineRecord& line) {
+  engine_.observe_lines([this, records, cycle](const spec::morphological::LineRecord& line) {
     if (records) checks_.got(line);
     if (maps_) maps_->see(line);
+    if (history_) history_->see(line, cycle());
   });
 }
 
@@ -131,6 +139,7 @@ void MorphologicalEnvironment::start() {
   driver_.set_size(image.width, image.height);
   if (source_) source_->start(frames_[current_]);
   if (maps_) maps_->begin(image.width, image.height);
+  if (history_) history_->begin(image.width);
   taken_before_ = pixels.pops();
 }
 
@@ -218,6 +227,7 @@ void MorphologicalEnvironment::judge(rtl::Cycle cycle,
       taps_[position_] = t;
     }
     if (maps_) maps_->see(position_, t);
+    if (history_) history_->see(position_, p, t, cycle);
     ++position_;
     ++progress_.delivered;
   }
@@ -229,6 +239,13 @@ void MorphologicalEnvironment::judge(rtl::Cycle cycle,
 }
 
 // ---- results ------------------------------------------------------------------------------------
+
+std::optional<PixelHistory> MorphologicalEnvironment::pixel_history() const {
+  if (!history_) return std::nullopt;
+  PixelHistory all = history_->history(frames_[current_], golden() ? &golden_model() : nullptr);
+  for (PixelStep& step : all.steps) step.part = name();
+  return all;
+}
 
 std::vector<PictureMap> MorphologicalEnvironment::maps() const {
   return maps_ ? meter_.named(maps_->maps(engine_, frames_.size() == 1))

@@ -29,6 +29,7 @@
 #include "tb/engines/morphological/morphological_checks.h"
 #include "tb/engines/morphological/morphological_coverage.h"
 #include "tb/engines/morphological/morphological_faults.h"
+#include "tb/engines/morphological/morphological_history.h"
 #include "tb/engines/morphological/morphological_maps.h"
 #include "tb/engines/morphological/morphological_meter.h"
 #include "tb/engines/morphological/morphological_setup.h"
@@ -64,6 +65,7 @@ class MorphologicalEnvironment final : public Environment {
     meter_.show_parts(observer, pixels, blended_);
   }
   std::vector<PictureMap> maps() const override;
+  std::optional<PixelHistory> pixel_history() const override;
   Coverage coverage() const override { return morphological_coverage(golden_model()); }
   void collect_headline(Result& result) const override {
     meter_.collect_headline(result, simulation().options().clock_mhz);
@@ -125,6 +127,7 @@ class MorphologicalEnvironment final : public Environment {
   rtl::Cycle first_taken_ = 0;      // when the engine took the first of this frame
   OutputHash hash_;
   std::optional<MorphologicalMaps> maps_;
+  std::optional<MorphologicalHistory> history_;
 };
 
 }  // namespace deburr::tb

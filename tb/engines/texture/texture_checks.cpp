@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "spec/texture/registers.h"
+#include "tb/engines/texture/texture_history.h"
 
 namespace deburr::tb {
 namespace {
@@ -68,12 +69,16 @@ void TextureChecks::expect_line(std::uint32_t line) {
   for (std::uint64_t a = begin; a < begin + line_bytes; a += kMemoryGrain) fills.expect({a});
 }
 
-void TextureChecks::expect(const TracedQuad& quad, std::uint64_t number) {
+void TextureChecks::expect(const TracedQuad& quad, std::uint64_t number, TextureHistory* history) {
   if (!used_) return;
   const auto expect_colour = [&](const Colour& colour) {
     colours.expect(colour);
     show(quad, colour, golden_frame_);
   };
+  if (history) {
+    for (const Colour& colour : history->expect(quad, golden_)) expect_colour(colour);
+    return;
+  }
   if (!setup_.expectation) {
     golden_.process(quad.quad, expect_colour);
     return;

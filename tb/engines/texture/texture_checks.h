@@ -19,6 +19,8 @@
 
 namespace deburr::tb {
 
+class TextureHistory;
+
 class TextureChecks {
  public:
   struct Fill {
@@ -35,8 +37,9 @@ class TextureChecks {
 
   // Before the first quad; `blank` is a picture without any fragment.
   void begin(const Image& blank);
-  // What the golden model makes of the quad that is sent as number `number`.
-  void expect(const TracedQuad& quad, std::uint64_t number);
+  // What the golden model makes of the quad that is sent as number `number`; with `history` it is
+  // one that covers the pixel which that follows.
+  void expect(const TracedQuad& quad, std::uint64_t number, TextureHistory* history = nullptr);
   // True if the colour is as expected, so that its tag and lane are those of a quad.
   bool got(const spec::texture::Colour& colour, rtl::Cycle cycle);
   // What memory has recorded since the last call, which it forgets then if it may.

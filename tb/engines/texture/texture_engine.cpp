@@ -111,7 +111,7 @@ class TextureEngine final : public Engine {
     context.set_title(title(), summary_line(scene, setup));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     Simulation simulation(simulation_options(run, context));
-    if (!foreign()) setup.expectation = expectation(scene, context);
+    if (!foreign() && run.pixel.empty()) setup.expectation = expectation(scene, context);
     std::unique_ptr<FragmentWriter> writer;
     if (trace_out_.fragments != TraceChoice::kNone && !context.judging_only()) {
       writer = std::make_unique<FragmentWriter>(context.fragment_trace_file(),
@@ -156,6 +156,10 @@ class TextureEngine final : public Engine {
   }
   std::vector<std::string_view> maps() const override {
     return {"samples", "level", "misses", "latency"};
+  }
+
+  std::string_view pixel_history() const override {
+    return "footprint, level and samples, texels, lines with hit, merged or miss, colour";
   }
 
   rtl::RegisterSection registers() const override { return rtl::texture::register_section(); }

@@ -61,6 +61,11 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
   if (simulation.options().maps)
     maps_ =
         std::make_unique<TextureMaps>(simulation.clock(), unit_, quads_, colours, scene.stream());
+  if (const std::optional<PixelAddress>& pixel = simulation.options().pixel) {
+    refuse_outside(*pixel, scene.stream().width, scene.stream().height);
+    DEBURR_CHECK(!setup.expectation, "a pixel is followed through a golden model of its own");
+    history_ = std::make_unique<TextureHistory>(simulation.clock(), unit_, quads_, colours, *pixel);
+  }
   plant_in(memory_, setup.memory);
   fetch_again_ = faults_.fetches_again();
   driver_.load(faults_.contents(scene.memory()));
@@ -71,11 +76,12 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
     sent_.add(quad_);
     if (setup_.observer) setup_.observer(quad_);
     if (coverage_) coverage_->see(checks_.golden_model(), quad);
+    if (history_) followed_ = history_->send(quad_);
     return true;
   });
   if (golden())
     quad_driver_.on_send = [this](rtl::Cycle, const spec::texture::Quad&) {
-      checks_.expect(quad_, quad_driver_.sent() - 1);
+      checks_.expect(quad_, quad_driver_.sent() - 1, followed_ ? history_.get() : nullptr);
     };
   clear_outputs();
 }
@@ -102,6 +108,7 @@ void TextureEnvironment::clear_outputs() {
   delivered_ = 0;
   hash_ = {};
   if (maps_) maps_->clear();
+  if (history_) history_->clear();
   if (coverage_) coverage_->clear();
   came_.assign(frame_.pixels.size(), 0);
 }
@@ -178,6 +185,14 @@ void TextureEnvironment::fetch_again() {
 
 std::vector<PictureMap> TextureEnvironment::maps() const {
   return maps_ ? meter_.named(maps_->maps()) : std::vector<PictureMap>();
+}
+
+std::optional<PixelHistory> TextureEnvironment::pixel_history() const {
+  if (!history_) return std::nullopt;
+  PixelHistory all = history_->history();
+  if (!name().empty())
+    for (PixelStep& step : all.steps) step.part = name() + " " + step.part;
+  return all;
 }
 
 Coverage TextureEnvironment::coverage() const {

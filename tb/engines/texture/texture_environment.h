@@ -31,6 +31,7 @@
 #include "tb/engines/texture/texture_checks.h"
 #include "tb/engines/texture/texture_coverage.h"
 #include "tb/engines/texture/texture_faults.h"
+#include "tb/engines/texture/texture_history.h"
 #include "tb/engines/texture/texture_maps.h"
 #include "tb/engines/texture/texture_meter.h"
 #include "tb/engines/texture/texture_scene.h"
@@ -68,6 +69,7 @@ class TextureEnvironment final : public Environment {
     meter_.show_parts(observer, quads_, colours);
   }
   std::vector<PictureMap> maps() const override;
+  std::optional<PixelHistory> pixel_history() const override;
   Coverage coverage() const override;
   void collect_headline(Result& result) const override { meter_.collect_headline(result); }
 
@@ -121,6 +123,8 @@ class TextureEnvironment final : public Environment {
   Image frame_;
   std::vector<std::uint8_t> came_;
   std::unique_ptr<TextureMaps> maps_;
+  std::unique_ptr<TextureHistory> history_;
+  bool followed_ = false;  // the quad that is being sent covers its pixel
   std::optional<TextureCoverage> coverage_;
   std::uint64_t delivered_ = 0;
   OutputHash hash_;

@@ -5,24 +5,12 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "rtl_model/texture/tokens.h"
-#include "spec/error.h"
+#include "tb/engines/texture/texture_links.h"
 
 namespace deburr::tb {
-namespace {
-
-// A link inside of the unit, by its name there.
-template <class T>
-const rtl::Link<T>& link_of(const rtl::texture::TextureUnit& unit, const std::string& name) {
-  const auto* link = dynamic_cast<const rtl::Link<T>*>(
-      sc_core::sc_find_object((std::string(unit.name()) + "." + name).c_str()));
-  DEBURR_CHECK(link != nullptr, "the texture unit has no link " + name);
-  return *link;
-}
-
-}  // namespace
-
 TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& unit,
                          const rtl::Link<spec::texture::Quad>& quads,
                          const rtl::Link<spec::texture::Colour>& colours,

@@ -28,7 +28,7 @@ struct TextureSetup {
   // Sees every quad as it is sent.
   std::function<void(const TracedQuad&)> observer{};
   // What the golden model found already; null: it works beside the hardware. Never with errors of
-  // memory.
+  // memory, nor with a pixel that is followed.
   std::shared_ptr<const TextureExpectation> expectation = nullptr;
   // Connects the engine with its memory; null: directly.
   std::function<void(rtl::Engine&, platform::MemoryModel&)> connect{};

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/geometric/geometric_history.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace deburr::tb {
+namespace {
+
+using spec::geometric::BlockRecord;
+using spec::geometric::Candidate;
+using spec::geometric::LineRecord;
+
+// A line may blend pixels on both sides of what it crosses in a column.
+constexpr double kBeside = 1.5;  // pixels, from the centre
+
+double minor_at(const LineRecord& line, int column) {
+  const auto steps = static_cast<double>(column - line.first);
+  return (static_cast<double>(line.position) + steps * line.slope) / (1 << 24);
+}
+
+std::string text_of(const LineRecord& l) {
+  return fmt::format("{} columns {}..{}, slope {}{}",
+                     l.axis == spec::geometric::Axis::kHorizontal ? "horizontal" : "vertical",
+                     l.first, l.first + l.count - 1, static_cast<double>(l.slope) / (1 << 24),
+                     l.crease ? ", crease" : "");
+}
+std::string text_of(const Candidate& c) {
+  return fmt::format("{} coverage {}, depth {:#x} {}",
+                     spec::geometric::kDirectionNames[static_cast<std::size_t>(c.direction)],
+                     c.coverage, c.depth, c.passed ? "passed" : "failed");
+}
+std::string text_of(const spec::geometric::Weights& w) {
+  return fmt::format("{}, {}, {}, {}", w[0], w[1], w[2], w[3]);
+}
+std::string text_of(const spec::geometric::Rgba8& p) {
+  return fmt::format("{}, {}, {}, {}", p[0], p[1], p[2], p[3]);
+}
+
+}  // namespace
+
+void GeometricHistory::begin() {
+  lines_.clear();
+  candidates_.clear();
+  blocks_.clear();
+}
+
+bool GeometricHistory::passes(const LineRecord& line) const {
+  const bool horizontal = line.axis == spec::geometric::Axis::kHorizontal;
+  const int column = horizontal ? pixel_.x : pixel_.y, row = horizontal ? pixel_.y : pixel_.x;
+  return column >= line.first && column < line.first + line.count &&
+         std::abs(minor_at(line, column) - (row + 0.5)) <= kBeside;
+}
+
+void GeometricHistory::see(const LineRecord& line, rtl::Cycle cycle) {
+  if (passes(line)) lines_.emplace_back(line, cycle);
+}
+void GeometricHistory::see(const Candidate& candidate, rtl::Cycle cycle) {
+  if (is_here(candidate)) candidates_.emplace_back(candidate, cycle);
+}
+void GeometricHistory::see(const BlockRecord& block, rtl::Cycle cycle) {
+  if (is_here(block)) blocks_.emplace_back(block, cycle);
+}
+
+PixelHistory GeometricHistory::history(const geometric::Frame& frame, const Image& after,
+                                       const golden::geometric::GeometricGolden* golden) const {
+  PixelHistory all{pixel_};
+  if (golden && golden->pixels().size() != frame.image.pixels.size()) golden = nullptr;
+  const std::size_t at = frame.image.index(pixel_.x, pixel_.y);
+  const auto input = [&](std::string step, std::string item, const std::string& value) {
+    all.compare({.part = {},
+                 .step = std::move(step),
+                 .item = std::move(item),
+                 .golden = value,
+                 .hardware = value});
+  };
+  input("input", "RGBA", text_of(frame.image.pixels[at]));
+  if (at < frame.depths.size())
+    input("input", "depth", fmt::format("{:#x}", frame.depths[at] & 0xFFFFFF));
+
+  // Golden and hardware have them in one order. They are compared, and not their texts.
+  const auto pair_up = [&](const auto& seen, const auto& expected, const char* step,
+                           const auto& wanted) {
+    auto here = expected;
+    std::erase_if(here, [&](const auto& one) { return !wanted(one); });
+    for (std::size_t i = 0; i < std::max(here.size(), seen.size()); ++i) {
+      PixelStep row{
+          .part = {}, .step = step, .item = std::to_string(i), .golden = {}, .hardware = {}};
+      if (i < here.size()) row.golden = text_of(here[i]);
+      if (i < seen.size()) {
+        row.hardware = text_of(seen[i].first);
+        row.clock = seen[i].second;
+      }
+      row.differs = i < here.size() && i < seen.size() && !(here[i] == seen[i].first);
+      all.steps.push_back(std::move(row));
+    }
+  };
+  static const std::vector<LineRecord> kNoLines;
+  static const std::vector<Candidate> kNoCandidates;
+  pair_up(lines_, golden ? golden->lines() : kNoLines, "line",
+          [this](const LineRecord& line) { return passes(line); });
+  pair_up(candidates_, golden ? golden->candidates() : kNoCandidates, "candidate",
+          [this](const Candidate& candidate) { return is_here(candidate); });
+
+  const BlockRecord* block = blocks_.empty() ? nullptr : &blocks_.front().first;
+  const auto in_block = static_cast<std::size_t>(pixel_.y % 4 * 4 + pixel_.x % 4);
+  const std::optional<std::uint64_t> resolved =
+      block ? std::optional<std::uint64_t>(blocks_.front().second) : std::nullopt;
+  const bool touched =
+      block || (golden && std::any_of(golden->blocks().begin(), golden->blocks().end(),
+                                      [this](const BlockRecord& b) { return is_here(b); }));
+  if (touched)
+    all.compare({.part = {},
+                 .step = "weights",
+                 .item = "up, down, left, right",
+                 .golden = golden ? text_of(golden->weights()[at]) : "",
+                 .hardware = block ? text_of(block->weights[in_block]) : "",
+                 .clock = resolved});
+  else
+    all.note = "no line touches its block of 4 x 4 pixels";
+  all.compare({.part = {},
+               .step = "colour",
+               .item = "RGBA",
+               .golden = golden ? text_of(golden->pixels()[at]) : "",
+               .hardware = text_of(after.pixels[at]),
+               .clock = resolved});
+  return all;
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/morphological/morphological_history.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "spec/morphological/shapes.h"
+
+namespace deburr::tb {
+
+using golden::morphological::MorphologicalGolden;
+using golden::morphological::PredictedRun;
+using spec::morphological::Axis;
+using spec::morphological::BlendTap;
+using spec::morphological::LineRecord;
+using spec::morphological::Rgba8;
+using spec::morphological::RunRecord;
+
+struct MorphologicalHistory::Side {
+  std::string_view name;
+  Axis axis;   // of its runs
+  int beyond;  // lines of runs from the pixel's own row or column on
+};
+
+namespace {
+
+std::string text_of(const Rgba8& p) {
+  return fmt::format("{}, {}, {}, {}", p[0], p[1], p[2], p[3]);
+}
+
+std::string edges_of(const BlendTap& tap) {
+  constexpr std::array<std::string_view, 4> kNames = {"none", "left", "top", "left and top"};
+  return std::string(kNames[tap.edges & 3]);
+}
+std::string shares_of(const BlendTap& tap) {
+  if (tap.first == 0 && tap.second == 0) return "none";
+  return fmt::format("{} {}, {}", tap.horizontal ? "left, right" : "up, down", tap.first,
+                     tap.second);
+}
+std::string text_of(const RunRecord& r) {
+  constexpr std::array<std::string_view, 3> kParts = {"", " (head)", " (tail)"};
+  return fmt::format("{}..{} {}{}", r.start, r.start + r.length - 1,
+                     spec::morphological::kRunShapes[r.shape & 15].name,
+                     kParts[static_cast<std::size_t>(r.part)]);
+}
+std::string text_of(const LineRecord& l) {
+  if (l.learned)
+    return fmt::format("{}..{} learned, crossings {} and {}", l.run.start,
+                       l.run.start + l.run.length - 1, l.start_class, l.end_class);
+  return fmt::format("{}..{} steps {} and {}, slope {}, span {}", l.run.start,
+                     l.run.start + l.run.length - 1, l.left_steps, l.right_steps,
+                     static_cast<double>(l.slope) / (1 << 24), l.span);
+}
+
+// The others have no line.
+bool has_line(const LineRecord& line) {
+  const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[line.run.shape & 15];
+  return line.learned || shape.before != spec::morphological::Side::kNone ||
+         shape.after != spec::morphological::Side::kNone;
+}
+
+const RunRecord& run_of(const RunRecord& run) { return run; }
+const RunRecord& run_of(const LineRecord& line) { return line.run; }
+
+// Those of one side, one a record of its runs, in the order of the runs.
+template <class Record, class Wanted>
+void add_records(std::string step, std::string item,
+                 const std::vector<std::pair<Record, rtl::Cycle>>& seen,
+                 std::vector<Record> expected, const Wanted& wanted, PixelHistory& all) {
+  std::vector<std::pair<Record, rtl::Cycle>> here;
+  for (const auto& one : seen)
+    if (wanted(run_of(one.first))) here.push_back(one);
+  std::erase_if(expected, [&](const Record& one) { return !wanted(run_of(one)); });
+  const auto before = [](const Record& a, const Record& b) {
+    return std::pair(run_of(a).start, run_of(a).part) < std::pair(run_of(b).start, run_of(b).part);
+  };
+  std::stable_sort(here.begin(), here.end(),
+                   [&](const auto& a, const auto& b) { return before(a.first, b.first); });
+  std::stable_sort(expected.begin(), expected.end(), before);
+  for (std::size_t i = 0; i < std::max(here.size(), expected.size()); ++i) {
+    PixelStep row{.part = {}, .step = step, .item = item, .golden = {}, .hardware = {}};
+    if (i < expected.size()) row.golden = text_of(expected[i]);
+    if (i < here.size()) {
+      row.hardware = text_of(here[i].first);
+      row.clock = here[i].second;
+    }
+    // They are compared, and not their texts.
+    row.differs = i < expected.size() && i < here.size() && !(expected[i] == here[i].first);
+    all.steps.push_back(std::move(row));
+  }
+}
+
+}  // namespace
+
+void MorphologicalHistory::begin(int width) {
+  width_ = width;
+  runs_.clear();
+  lines_.clear();
+  delivered_.reset();
+}
+
+namespace {
+
+int line_of(Axis axis, const PixelAddress& pixel) {
+  return axis == Axis::kHorizontal ? pixel.y : pixel.x;
+}
+int position_of(Axis axis, const PixelAddress& pixel) {
+  return axis == Axis::kHorizontal ? pixel.x : pixel.y;
+}
+
+}  // namespace
+
+// The pixel is one of those along the run.
+bool MorphologicalHistory::is_near(const RunRecord& run) const {
+  const int position = position_of(run.axis, pixel_), line = line_of(run.axis, pixel_);
+  return (run.line == line || run.line == line + 1) && position >= run.start &&
+         position < run.start + run.length;
+}
+bool MorphologicalHistory::is_at(const Side& side, const RunRecord& run) const {
+  return run.axis == side.axis && run.line == line_of(run.axis, pixel_) + side.beyond &&
+         is_near(run);
+}
+
+void MorphologicalHistory::see(const RunRecord& run, rtl::Cycle cycle) {
+  if (is_near(run)) runs_.emplace_back(run, cycle);
+}
+void MorphologicalHistory::see(const LineRecord& line, rtl::Cycle cycle) {
+  if (is_near(line.run)) lines_.emplace_back(line, cycle);
+}
+void MorphologicalHistory::see(std::size_t position, const Rgba8& pixel, const BlendTap& tap,
+                               rtl::Cycle cycle) {
+  if (position == static_cast<std::size_t>(pixel_.y) * static_cast<std::size_t>(width_) +
+                      static_cast<std::size_t>(pixel_.x))
+    delivered_ = {pixel, tap, cycle};
+}
+
+void MorphologicalHistory::add_side(const Side& side, const MorphologicalGolden* golden,
+                                    PixelHistory& all) const {
+  std::vector<RunRecord> runs;
+  std::vector<LineRecord> lines;
+  if (golden)
+    for (const PredictedRun& run : golden->runs()) {
+      runs.push_back(run.line.run);
+      if (has_line(run.line)) lines.push_back(run.line);
+    }
+  const auto here = [&](const RunRecord& run) { return is_at(side, run); };
+  const std::string step = fmt::format("{} edge", side.name);
+  add_records(step, "run", runs_, runs, here, all);
+  add_records(step, "line", lines_, lines, here, all);
+}
+
+PixelHistory MorphologicalHistory::history(const MorphologicalInput& frame,
+                                           const MorphologicalGolden* golden) const {
+  PixelHistory all{pixel_};
+  if (golden && golden->pixels().size() != frame.image.pixels.size()) golden = nullptr;
+  const std::size_t at = frame.image.index(pixel_.x, pixel_.y);
+  const auto add = [&](std::string step, std::string item, std::string expected, std::string got,
+                       bool timed) {
+    PixelStep row{.part = {},
+                  .step = std::move(step),
+                  .item = std::move(item),
+                  .golden = std::move(expected),
+                  .hardware = std::move(got)};
+    if (timed && delivered_) row.clock = delivered_->cycle;
+    all.compare(std::move(row));
+  };
+  if (!delivered_) all.note = "the pixel was not delivered";
+  const std::string before = text_of(frame.image.pixels[at]);
+  add("input", "RGBA", before, before, false);
+  if (at < frame.depth.size()) {
+    const std::string depth = fmt::format("{:#x}", frame.depth[at] & 0xFFFFFF);
+    add("input", "depth", depth, depth, false);
+  }
+  const bool taps = golden && at < golden->taps().size();
+  add("edges", "left, top", taps ? edges_of(golden->taps()[at]) : "",
+      delivered_ ? edges_of(delivered_->tap) : "", true);
+  constexpr std::array<Side, 4> kSides = {{{"top", Axis::kHorizontal, 0},
+                                           {"bottom", Axis::kHorizontal, 1},
+                                           {"left", Axis::kVertical, 0},
+                                           {"right", Axis::kVertical, 1}}};
+  for (const Side& side : kSides) add_side(side, golden, all);
+  if (taps && golden->taps()[at].edges != 0) {
+    const auto top = golden->top_shares(pixel_.x, pixel_.y);
+    const auto left = golden->left_shares(pixel_.x, pixel_.y);
+    add("shares", "of its top edge: upper, lower", fmt::format("{}, {}", top.first, top.second), "",
+        false);
+    add("shares", "of its left edge: left, right", fmt::format("{}, {}", left.first, left.second),
+        "", false);
+  }
+  add("blend", "shares of neighbours", taps ? shares_of(golden->taps()[at]) : "",
+      delivered_ ? shares_of(delivered_->tap) : "", true);
+  add("colour", "RGBA", golden ? text_of(golden->pixels()[at]) : "",
+      delivered_ ? text_of(delivered_->pixel) : "", true);
+  return all;
+}
+
+}  // namespace deburr::tb

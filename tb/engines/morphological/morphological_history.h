@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Everything that happens to one pixel in the morphological engine: edges, runs and lines of its
+// four sides, shares, blend; golden beside the hardware (docs/exploration.md, "One pixel").
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "golden/morphological/morphological_golden.h"
+#include "rtl_model/fabric/clocked.h"
+#include "spec/morphological/packets.h"
+#include "tb/engines/morphological/morphological_input.h"
+#include "tb/results/pixel_history.h"
+
+namespace deburr::tb {
+
+class MorphologicalHistory {
+ public:
+  explicit MorphologicalHistory(const PixelAddress& pixel) : pixel_(pixel) {}
+
+  // The next frame, so wide; what was seen of the one before is forgotten.
+  void begin(int width);
+  void see(const spec::morphological::RunRecord& run, rtl::Cycle cycle);
+  void see(const spec::morphological::LineRecord& line, rtl::Cycle cycle);
+  // What was delivered as number `position` of the frame.
+  void see(std::size_t position, const spec::morphological::Rgba8& pixel,
+           const spec::morphological::BlendTap& tap, rtl::Cycle cycle);
+  // `golden`: null without one.
+  PixelHistory history(const MorphologicalInput& frame,
+                       const golden::morphological::MorphologicalGolden* golden) const;
+
+ private:
+  template <class T>
+  using Seen = std::vector<std::pair<T, rtl::Cycle>>;
+  struct Delivered {
+    spec::morphological::Rgba8 pixel;
+    spec::morphological::BlendTap tap;
+    rtl::Cycle cycle;
+  };
+  // Runs along one of the pixel's sides.
+  struct Side;
+  bool is_at(const Side& side, const spec::morphological::RunRecord& run) const;
+  bool is_near(const spec::morphological::RunRecord& run) const;
+  void add_side(const Side& side, const golden::morphological::MorphologicalGolden* golden,
+                PixelHistory& all) const;
+
+  PixelAddress pixel_;
+  int width_ = 0;
+  Seen<spec::morphological::RunRecord> runs_;
+  Seen<spec::morphological::LineRecord> lines_;
+  std::optional<Delivered> delivered_;
+};
+
+}  // namespace deburr::tb

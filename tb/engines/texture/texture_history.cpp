@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/texture/texture_history.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tb/engines/texture/texture_links.h"
+
+namespace deburr::tb {
+namespace {
+
+using golden::texture::BilinearRequest;
+using golden::texture::QuadColours;
+using rtl::texture::LookUp;
+
+// Binary fractions as the numbers that they are, to the last bit.
+std::string fixed(std::int64_t value, int fraction_bits) {
+  return fmt::format("{}", static_cast<double>(value) / static_cast<double>(1LL << fraction_bits));
+}
+std::string pair_of(std::int64_t s, std::int64_t t, int fraction_bits) {
+  return fmt::format("{}, {}", fixed(s, fraction_bits), fixed(t, fraction_bits));
+}
+std::string sizes_of(const golden::texture::Step& step) {
+  return pair_of(step.s < 0 ? -step.s : step.s, step.t < 0 ? -step.t : step.t, 16);
+}
+std::string colour_text(const std::array<std::uint8_t, 4>& rgba) {
+  return fmt::format("{}, {}, {}, {}", rgba[0], rgba[1], rgba[2], rgba[3]);
+}
+std::string words_text(const std::array<std::uint32_t, 4>& w) {
+  return fmt::format("{:#x}, {:#x}, {:#x}, {:#x}", w[0], w[1], w[2], w[3]);
+}
+
+// Distinct lines of a request, in the order of first use.
+std::vector<std::uint32_t> lines_of(const BilinearRequest& request, std::uint32_t line_bytes) {
+  std::vector<std::uint32_t> lines;
+  for (const std::uint32_t address : request.addresses)
+    if (std::find(lines.begin(), lines.end(), address / line_bytes) == lines.end())
+      lines.push_back(address / line_bytes);
+  return lines;
+}
+
+}  // namespace
+
+// ---- watching -----------------------------------------------------------------------------------
+
+TextureHistory::TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUnit& unit,
+                               const rtl::Link<spec::texture::Quad>& quads,
+                               const rtl::Link<spec::texture::Colour>& colours,
+                               const PixelAddress& pixel)
+    : pixel_(pixel),
+      line_bytes_(static_cast<std::uint32_t>(unit.parameters().cache_line_bytes)),
+      two_axes_(unit.parameters().axes == spec::texture::Axes::kTwo) {
+  using namespace rtl::texture;
+  monitors_.push_back(std::make_unique<Monitor<spec::texture::Quad>>(
+      clock, quads, Monitor<spec::texture::Quad>::Callback(),
+      [this](rtl::Cycle cycle, const spec::texture::Quad& quad) {
+        for (Fragment& fragment : fragments_)
+          if (fragment.quad.quad.tag == quad.tag) fragment.taken = cycle;
+      }));
+  see(clock, link_of<DerivativeToken>(unit, "address.derivatives"), &Fragment::derivative);
+  see(clock, link_of<FootprintToken>(unit, "address.footprints"), &Fragment::footprint);
+  see(clock, link_of<Log2Token>(unit, "address.logs"), &Fragment::log2);
+  see(clock, link_of<LevelToken>(unit, "address.levels"), &Fragment::level);
+  see_all(clock, link_of<SampleToken>(unit, "address.samples"), &Fragment::samples);
+  see_all(clock, link_of<TexelToken>(unit, "texels"), &Fragment::texels);
+  // A request leaves the tags in the clock of its look-ups.
+  unit.cache.tag_stage.observer = [this](rtl::Cycle cycle, std::uint32_t line, LookUp outcome) {
+    if (!looked_up_.empty() && looked_up_.front().cycle != cycle) looked_up_.clear();
+    looked_up_.push_back({cycle, line, outcome});
+  };
+  monitors_.push_back(std::make_unique<Monitor<CacheToken>>(
+      clock, link_of<CacheToken>(unit, "cache.requests"),
+      [this](rtl::Cycle cycle, const CacheToken& token) {
+        Fragment* const fragment = find(token.ticket.tag, token.ticket.lane);
+        if (!fragment) return;
+        fragment->look_ups.emplace_back(std::vector<LookedUp>(), cycle);
+        if (!looked_up_.empty() && looked_up_.front().cycle == cycle)
+          fragment->look_ups.back().first = looked_up_;
+      }));
+  see_all(clock, link_of<TexelQuadToken>(unit, "texel_quads"), &Fragment::data);
+  // As they are taken: what happens to a colour while it waits has happened to it.
+  monitors_.push_back(std::make_unique<Monitor<spec::texture::Colour>>(
+      clock, colours, Monitor<spec::texture::Colour>::Callback(),
+      [this](rtl::Cycle cycle, const spec::texture::Colour& colour) {
+        if (Fragment* fragment = find(colour.tag, colour.lane))
+          fragment->delivered.emplace(colour, cycle);
+      }));
+}
+
+template <class T>
+void TextureHistory::see(rtl::ClockDomain& clock, const rtl::Link<T>& link,
+                         Seen<T> Fragment::*where) {
+  monitors_.push_back(
+      std::make_unique<Monitor<T>>(clock, link, [this, where](rtl::Cycle cycle, const T& token) {
+        if (Fragment* fragment = find(token.ticket.tag, token.ticket.lane))
+          (fragment->*where).emplace(token, cycle);
+      }));
+}
+
+template <class T>
+void TextureHistory::see_all(rtl::ClockDomain& clock, const rtl::Link<T>& link,
+                             AllSeen<T> Fragment::*where) {
+  monitors_.push_back(
+      std::make_unique<Monitor<T>>(clock, link, [this, where](rtl::Cycle cycle, const T& token) {
+        if (Fragment* fragment = find(token.ticket.tag, token.ticket.lane))
+          (fragment->*where).emplace_back(token, cycle);
+      }));
+}
+
+void TextureHistory::clear() {
+  fragments_.clear();
+  looked_up_.clear();
+}
+
+int TextureHistory::lane_of(const TracedQuad& quad) const {
+  if (!quad.placed) return -1;
+  for (int lane = 0; lane < 4; ++lane)
+    if ((quad.quad.coverage >> lane & 1) != 0 && quad.x(lane) == pixel_.x &&
+        quad.y(lane) == pixel_.y)
+      return lane;
+  return -1;
+}
+
+TextureHistory::Fragment* TextureHistory::find(std::uint32_t tag, int lane) {
+  for (Fragment& fragment : fragments_)
+    if (fragment.quad.quad.tag == tag && fragment.lane == lane) return &fragment;
+  return nullptr;
+}
+
+bool TextureHistory::send(const TracedQuad& quad) {
+  const int lane = lane_of(quad);
+  if (lane < 0) return false;
+  fragments_.push_back({.quad = quad, .lane = lane});
+  return true;
+}
+
+QuadColours TextureHistory::expect(const TracedQuad& quad, golden::texture::TextureGolden& golden) {
+  Fragment& fragment = fragments_.back();
+  fragment.golden = true;
+  fragment.analysis = golden.analyse(quad.quad, fragment.lane);
+  const QuadColours colours = golden.process(quad.quad, fragment.lane, fragment.requests);
+  for (const spec::texture::Colour& colour : colours)
+    if (colour.lane == fragment.lane) fragment.colour = colour.rgba;
+  return colours;
+}
+
+// ---- telling ------------------------------------------------------------------------------------
+
+class TextureHistory::Writer {
+ public:
+  Writer(PixelHistory& history, const TextureHistory& from, const Fragment& fragment,
+         std::string part)
+      : history_(history), from_(from), f_(fragment), part_(std::move(part)) {}
+
+  void write() {
+    quad();
+    derivative();
+    footprint();
+    level();
+    const std::size_t requests =
+        std::max({f_.requests.size(), f_.samples.size(), f_.texels.size(), f_.look_ups.size()});
+    for (std::size_t i = 0; i < requests; ++i) request(i);
+    add("colour", "RGBA", f_.golden ? colour_text(f_.colour) : "",
+        text(f_.delivered, [](const auto& c) { return colour_text(c.rgba); }), clock(f_.delivered));
+  }
+
+ private:
+  using Clock = std::optional<std::uint64_t>;
+  template <class T>
+  static Clock clock(const Seen<T>& seen) {
+    return seen ? Clock(seen->second) : std::nullopt;
+  }
+  // Text of what was seen, if it was.
+  template <class T, class Text>
+  static std::string text(const Seen<T>& seen, const Text& of) {
+    return seen ? of(seen->first) : std::string();
+  }
+  template <class T>
+  static Seen<T> at(const AllSeen<T>& all, std::size_t i) {
+    return i < all.size() ? Seen<T>(all[i]) : std::nullopt;
+  }
+  // The same of what the golden model decided, of a fragment that it could filter.
+  template <class Text>
+  std::string golden(const Text& of) const {
+    return f_.golden && f_.analysis.valid ? of(f_.analysis) : std::string();
+  }
+  void add(std::string step, std::string item, std::string golden, std::string hardware, Clock at,
+           bool detail = false) {
+    history_.compare({.part = part_,
+                      .step = std::move(step),
+                      .item = std::move(item),
+                      .golden = std::move(golden),
+                      .hardware = std::move(hardware),
+                      .clock = at,
+                      .detail = detail});
+  }
+
+  void quad() {
+    const spec::texture::Quad& q = f_.quad.quad;
+    const std::string sent = fmt::format("{}, {}, {}", q.tag, f_.lane, q.texture);
+    add("quad", "tag, lane, texture", sent, "", f_.taken);
+    if (!f_.quad.shows(f_.lane))
+      add("quad", "seen", "no: another fragment of the pixel is", "", std::nullopt);
+    if (f_.golden && !f_.analysis.valid)
+      add("quad", "descriptor", "invalid: the colour is zero", "", std::nullopt);
+  }
+
+  void derivative() {
+    const auto& d = f_.derivative;
+    const auto lane = static_cast<std::size_t>(f_.lane);
+    add("coordinates", "s, t", pair_of(f_.quad.quad.s[lane], f_.quad.quad.t[lane], 24),
+        text(d, [](const auto& t) { return pair_of(t.s, t.t, 24); }), clock(d));
+    add("derivatives", "along the row, texels",
+        golden([](const auto& a) { return sizes_of(a.p_x); }),
+        text(d, [](const auto& t) { return pair_of(t.size_s_x, t.size_t_x, 16); }), clock(d), true);
+    add("derivatives", "along the column, texels",
+        golden([](const auto& a) { return sizes_of(a.p_y); }),
+        text(d, [](const auto& t) { return pair_of(t.size_s_y, t.size_t_y, 16); }), clock(d), true);
+  }
+
+  void footprint() {
+    const auto& f = f_.footprint;
+    add("footprint", "major axis, texels",
+        golden([](const auto& a) { return fixed(a.footprint.d_max, 16); }),
+        text(f, [](const auto& t) { return fixed(t.d_max, 16); }), clock(f));
+    const bool two = from_.two_axes_;
+    const auto minor = [two](const auto& a) {
+      return static_cast<std::int64_t>(two ? a.footprint.d_min : a.footprint.area);
+    };
+    add("footprint", two ? "minor axis, texels" : "area, texels",
+        golden([&](const auto& a) { return fixed(minor(a), 16); }),
+        text(f, [](const auto& t) { return fixed(static_cast<std::int64_t>(t.minor), 16); }),
+        clock(f));
+    add("footprint", "axis, coordinates",
+        golden([](const auto& a) { return pair_of(a.axis.s, a.axis.t, 24); }),
+        text(f, [](const auto& t) { return pair_of(t.axis_s, t.axis_t, 24); }), clock(f), true);
+    add("footprint", "lb of the major axis",
+        golden([](const auto& a) { return fixed(a.lod.lb_d_max, 12); }),
+        text(f_.log2, [](const auto& t) { return fixed(t.lb_max, 12); }), clock(f_.log2), true);
+  }
+
+  void level() {
+    const auto& l = f_.level;
+    const auto filter = [](bool linear) { return std::string(linear ? "linear" : "nearest"); };
+    add("level", "samples N", golden([](const auto& a) { return std::to_string(a.lod.samples); }),
+        text(l, [](const auto& t) { return std::to_string(t.last_index + 1); }), clock(l));
+    add("level", "level and 256ths of the next",
+        golden([](const auto& a) { return fmt::format("{}, {}", a.lod.level, a.lod.fraction); }),
+        text(l, [](const auto& t) { return fmt::format("{}, {}", t.level, t.fraction); }),
+        clock(l));
+    add("level", "filter", golden([&](const auto& a) { return filter(a.lod.linear); }),
+        text(l, [&](const auto& t) { return filter(t.linear); }), clock(l), true);
+  }
+
+  void request(std::size_t i) {
+    const BilinearRequest* golden = i < f_.requests.size() ? &f_.requests[i] : nullptr;
+    const auto sample = at(f_.samples, i);
+    const auto texels = at(f_.texels, i);
+    const auto data = at(f_.data, i);
+    const std::string step =
+        golden   ? fmt::format("sample {} level {}", golden->sample, golden->level)
+        : sample ? fmt::format("sample {} level {}", sample->first.index, sample->first.level)
+                 : fmt::format("request {}", i);
+    add(step, "s, t", golden ? pair_of(golden->s, golden->t, 24) : "",
+        text(sample, [](const auto& t) { return pair_of(t.s, t.t, 24); }), clock(sample));
+    add(step, "texels at", golden ? words_text(golden->addresses) : "",
+        text(texels, [](const auto& t) { return words_text(t.address); }), clock(texels), true);
+    lines(i, step, golden);
+    if (data)
+      add(step, "texels as stored", "",
+          text(data, [](const auto& t) { return words_text(t.texel); }), clock(data), true);
+  }
+
+  // The golden model knows no time: a line whose fill is under way is a hit to it.
+  void lines(std::size_t i, const std::string& step, const BilinearRequest* golden) {
+    constexpr std::array<const char*, 3> kOutcomes = {"hit", "merged", "miss"};
+    const std::vector<LookedUp> seen =
+        i < f_.look_ups.size() ? f_.look_ups[i].first : std::vector<LookedUp>();
+    const std::vector<std::uint32_t> expected =
+        golden ? lines_of(*golden, from_.line_bytes_) : std::vector<std::uint32_t>();
+    for (std::size_t k = 0; k < std::max(expected.size(), seen.size()); ++k) {
+      PixelStep row{.part = part_, .step = step, .item = "line", .golden = {}, .hardware = {}};
+      bool misses = false;
+      if (k < expected.size()) {
+        misses = std::count(golden->misses.begin(), golden->misses.end(), expected[k]) > 0;
+        row.golden = fmt::format("{:#x} {}", std::uint64_t{expected[k]} * from_.line_bytes_,
+                                 misses ? "miss" : "hit");
+      }
+      if (k < seen.size()) {
+        row.hardware = fmt::format("{:#x} {}", std::uint64_t{seen[k].line} * from_.line_bytes_,
+                                   kOutcomes[static_cast<std::size_t>(seen[k].outcome)]);
+        row.clock = seen[k].cycle;
+      }
+      row.differs = k < expected.size() && k < seen.size() &&
+                    (expected[k] != seen[k].line || misses != (seen[k].outcome == LookUp::kMiss));
+      history_.steps.push_back(std::move(row));
+    }
+  }
+
+  PixelHistory& history_;
+  const TextureHistory& from_;
+  const Fragment& f_;
+  std::string part_;
+};
+
+PixelHistory TextureHistory::history() const {
+  PixelHistory all{pixel_};
+  if (fragments_.empty()) all.note = "no fragment of a texture covers it";
+  for (std::size_t i = 0; i < fragments_.size(); ++i) {
+    if (!fragments_[i].delivered)
+      all.note = fmt::format("fragment {} was not delivered: the tag of its quad is {}", i,
+                             fragments_[i].quad.quad.tag);
+    Writer(all, *this, fragments_[i], fmt::format("fragment {}", i)).write();
+  }
+  return all;
+}
+
+}  // namespace deburr::tb

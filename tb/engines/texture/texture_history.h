@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Everything that happens to one pixel in the texture unit: what the golden model decides beside
+// what is seen on the unit's links and at its tags (docs/exploration.md, "One pixel").
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "golden/texture/texture_golden.h"
+#include "rtl_model/texture/texture_unit.h"
+#include "rtl_model/texture/tokens.h"
+#include "spec/texture/packets.h"
+#include "tb/harness/monitor.h"
+#include "tb/results/pixel_history.h"
+#include "tb/traces/fragment_trace.h"
+
+namespace deburr::tb {
+
+class TextureHistory {
+ public:
+  // `quads` and `colours`: the links in front of the unit and behind it. All must outlive it.
+  TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUnit& unit,
+                 const rtl::Link<spec::texture::Quad>& quads,
+                 const rtl::Link<spec::texture::Colour>& colours, const PixelAddress& pixel);
+  TextureHistory(const TextureHistory&) = delete;
+  TextureHistory& operator=(const TextureHistory&) = delete;
+
+  void clear();
+  // A quad that is sent; true: a lane of it covers the pixel.
+  bool send(const TracedQuad& quad);
+  // What the golden model makes of it. After send() was true, instead of golden.process(quad).
+  golden::texture::QuadColours expect(const TracedQuad& quad,
+                                      golden::texture::TextureGolden& golden);
+  PixelHistory history() const;
+
+ private:
+  // What a link carried, and the clock in which it was put there.
+  template <class T>
+  using Seen = std::optional<std::pair<T, rtl::Cycle>>;
+  template <class T>
+  using AllSeen = std::vector<std::pair<T, rtl::Cycle>>;
+  struct LookedUp {
+    rtl::Cycle cycle;
+    std::uint32_t line;
+    rtl::texture::LookUp outcome;
+  };
+  struct Fragment {
+    TracedQuad quad;
+    int lane = 0;
+    bool golden = false;
+    golden::texture::FragmentAnalysis analysis{};
+    std::vector<golden::texture::BilinearRequest> requests{};
+    std::array<std::uint8_t, 4> colour{};
+
+    std::optional<rtl::Cycle> taken{};
+    Seen<rtl::texture::DerivativeToken> derivative{};
+    Seen<rtl::texture::FootprintToken> footprint{};
+    Seen<rtl::texture::Log2Token> log2{};
+    Seen<rtl::texture::LevelToken> level{};
+    AllSeen<rtl::texture::SampleToken> samples{};
+    AllSeen<rtl::texture::TexelToken> texels{};
+    AllSeen<std::vector<LookedUp>> look_ups{};  // by request
+    AllSeen<rtl::texture::TexelQuadToken> data{};
+    Seen<spec::texture::Colour> delivered{};
+  };
+  class Writer;
+
+  int lane_of(const TracedQuad& quad) const;  // -1: none
+  Fragment* find(std::uint32_t tag, int lane);
+  template <class T>
+  void see(rtl::ClockDomain& clock, const rtl::Link<T>& link, Seen<T> Fragment::*where);
+  template <class T>
+  void see_all(rtl::ClockDomain& clock, const rtl::Link<T>& link, AllSeen<T> Fragment::*where);
+
+  PixelAddress pixel_;
+  std::uint32_t line_bytes_;
+  bool two_axes_;
+  std::vector<Fragment> fragments_;
+  std::vector<LookedUp> looked_up_;  // in the last clock with any
+  std::vector<std::unique_ptr<rtl::Clocked>> monitors_;
+};
+
+}  // namespace deburr::tb

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// A pixel's address is read strictly, and its history says what differs, where all of it is too
+// much as well.
+#include "tb/results/pixel_history.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "spec/error.h"
+#include "tb/results/result.h"
+
+namespace deburr::tb::pixel_history_test {
+namespace {
+
+std::string refusal(const std::string& text) {
+  try {
+    pixel_of(text);
+  } catch (const spec::ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+PixelStep step(std::string item, std::string golden, std::string hardware) {
+  return {.part = "fragment 0",
+          .step = "level",
+          .item = std::move(item),
+          .golden = std::move(golden),
+          .hardware = std::move(hardware),
+          .clock = 12};
+}
+
+TEST(PixelAddress, IsTwoWholeNumbers) {
+  EXPECT_EQ(pixel_of("12,7"), (PixelAddress{12, 7}));
+  EXPECT_EQ(pixel_of("0,0"), (PixelAddress{0, 0}));
+  for (const char* text : {"", "12", "12,", ",7", "12,7,3", "-1,2", "1,-2", "a,b", "1, 2", "1x2",
+                           "99999999999,0", "1.5,2"}) {
+    const std::string said = refusal(text);
+    EXPECT_NE(said.find("run.pixel: expected X,Y"), std::string::npos) << text << ": " << said;
+    EXPECT_NE(said.find(std::string("got '") + text + "'"), std::string::npos) << said;
+  }
+}
+
+TEST(PixelAddress, IsInsideOfThePicture) {
+  EXPECT_NO_THROW(refuse_outside({639, 479}, 640, 480));
+  for (const PixelAddress pixel : {PixelAddress{640, 479}, {639, 480}}) try {
+      refuse_outside(pixel, 640, 480);
+      ADD_FAILURE() << "outside";
+    } catch (const spec::ConfigError& error) {
+      const std::string said = error.what();
+      EXPECT_NE(said.find("640 x 480"), std::string::npos) << said;
+      EXPECT_NE(said.find("0..639"), std::string::npos) << said;
+      EXPECT_NE(said.find("0..479"), std::string::npos) << said;
+    }
+}
+
+TEST(PixelHistory, DiffersWhereBothSidesAreKnown) {
+  PixelHistory history{{3, 4}};
+  history.compare(step("same", "2", "2"));
+  history.compare(step("other", "2", "3"));
+  history.compare(step("golden alone", "2", ""));
+  history.compare(step("hardware alone", "", "3"));
+  EXPECT_EQ(history.differences(), 1U);
+  EXPECT_TRUE(history.steps[1].differs);
+}
+
+TEST(PixelHistory, KeepsThePartsOfSeveral) {
+  PixelHistory all{{3, 4}}, one{{3, 4}, "first note"}, two{{3, 4}, "second note"};
+  one.compare(step("a", "1", "1"));
+  two.compare(step("b", "1", "2"));
+  all.append(one);
+  all.append(two);
+  EXPECT_EQ(all.steps.size(), 2U);
+  EXPECT_EQ(all.note, "first note; second note");
+  EXPECT_EQ(all.differences(), 1U);
+}
+
+TEST(PixelHistory, AsTextLeavesDetailsOutButWhatDiffers) {
+  PixelHistory history{{3, 4}};
+  history.compare(step("shown", "1", "1"));
+  PixelStep detail = step("hidden", "1", "1");
+  detail.detail = true;
+  history.compare(detail);
+  detail.item = "wrong detail";
+  detail.hardware = "2";
+  history.compare(detail);
+  const std::string text = text_of(history, "out/report.html");
+  EXPECT_NE(text.find("(3, 4): 3 steps, 1 of them differ"), std::string::npos) << text;
+  EXPECT_NE(text.find("level shown"), std::string::npos) << text;
+  EXPECT_EQ(text.find("hidden"), std::string::npos) << text;
+  EXPECT_NE(text.find("! level wrong detail"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 more steps: out/report.html#pixel"), std::string::npos) << text;
+}
+
+// The last of many rows is the wrong one.
+TEST(PixelHistory, AsTextIsShortAndHasWhatDiffers) {
+  PixelHistory history{{3, 4}};
+  for (int i = 0; i < 200; ++i) history.compare(step("right", "1", "1"));
+  history.compare(step("wrong", "1", "2"));
+  const std::string text = text_of(history, "report");
+  EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 50);
+  EXPECT_NE(text.find("! level wrong"), std::string::npos) << text;
+  for (int i = 0; i < 200; ++i) history.compare(step("wrong", "1", "2"));
+  EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 50);
+}
+
+TEST(PixelHistory, IsInTheResult) {
+  Result result;
+  EXPECT_FALSE(to_json(result).contains("pixel"));
+  result.pixel = PixelHistory{{3, 4}, "a note"};
+  result.pixel->compare(step("N", "4", "5"));
+  result.pixel->steps.push_back(
+      {.part = {}, .step = "s", .item = "i", .golden = {}, .hardware = {}});
+  const nlohmann::ordered_json json = to_json(result), pixel = json["pixel"];
+  EXPECT_EQ(pixel["x"], 3);
+  EXPECT_EQ(pixel["y"], 4);
+  EXPECT_EQ(pixel["note"], "a note");
+  EXPECT_EQ(pixel["differences"], 1);
+  EXPECT_EQ(pixel["steps"][0], (nlohmann::ordered_json{{"part", "fragment 0"},
+                                                       {"step", "level"},
+                                                       {"item", "N"},
+                                                       {"golden", "4"},
+                                                       {"hardware", "5"},
+                                                       {"clock", 12},
+                                                       {"differs", true}}));
+  EXPECT_TRUE(pixel["steps"][1]["clock"].is_null());
+  EXPECT_TRUE(json["meaning"].contains("pixel.steps"));
+}
+
+}  // namespace
+}  // namespace deburr::tb::pixel_history_test
