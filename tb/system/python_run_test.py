@@ -9,6 +9,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -22,6 +23,7 @@ import warnings
 MODULES = pathlib.Path(sys.argv.pop(1)).resolve()
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(MODULES))
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
 import numpy  # noqa: E402
 
@@ -58,6 +60,10 @@ class Runs(Scratch):
         self.assertEqual(int(windows.cycles.sum()), run.cycles)
         self.assertEqual(int(windows["series.work.derivative_fragments"].sum()), run.work.fragments)
         self.assertEqual(windows["series.units.filter.busy"].shape, (windows.windows,))
+        for page in ("docs/python.md", "examples/python/notebook.ipynb"):
+            named = set(re.findall(r"series\.[a-z_.]+", (SOURCE / page).read_text(encoding="utf-8")))
+            self.assertNotEqual(named, set(), page)
+            self.assertEqual([series for series in named if series not in windows], [], page)
         histogram = run.latency.histogram
         self.assertEqual(int(histogram[:, 1].sum()), run.work.fragments)
         for link in run.links.values():
