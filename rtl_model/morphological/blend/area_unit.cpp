@@ -85,7 +85,7 @@ void AreaUnit::take_diagonals(Cycle cycle, Beat& beat) {
 }
 
 // Stage 9: shares of the row above go to the Blender, those of this row take their place.
-void AreaUnit::send(Cycle cycle, const Beat& beat) {
+[[gnu::always_inline]] inline void AreaUnit::send(Cycle cycle, const Beat& beat) {
   if (!beat.works()) return;
   if (beat.slot.row >= lag_) {
     ShareToken& out = shares_out.emplace(cycle);

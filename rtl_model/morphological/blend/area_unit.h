@@ -108,7 +108,7 @@ class AreaUnit final : public Unit {
     Beat* const beat = pipe_.at(stage);
     return beat ? &beat->shares : nullptr;
   }
-  inline void send(Cycle cycle, const Beat& beat);
+  void send(Cycle cycle, const Beat& beat);
 
   const ParameterStore& store_;
   const std::size_t lanes_;

@@ -94,9 +94,9 @@ class RecordWalk final : public sc_core::sc_module {
     std::memcpy(beat.column_mark.data(), column_.marks_from(column),
                 sizeof beat.column_mark / kShare);
   }
-  // Stage 2: the marks against the raster, and the addresses of the records.
+  // Stage 2: the marks against the raster, and the addresses of the records. As the address.
   template <bool kSmaa, bool kLearned>
-  void match(Cycle cycle, const Slot& slot, Beat& beat);
+  inline void match(Cycle cycle, const Slot& slot, Beat& beat);
   // Stage 3: `visit(number, record, edge)` gets each edge that lies in a record.
   template <class Visit>
   void visit_edges(Cycle cycle, const Beat& beat, Visit&& visit) {
@@ -132,5 +132,40 @@ class RecordWalk final : public sc_core::sc_module {
   AxisRecords::Mark hand_;    // the horizontal record in hand, stage 2
   StoredRecord hand_record_;  // stage 3
 };
+
+template <bool kSmaa, bool kLearned>
+[[gnu::always_inline]] inline void RecordWalk::match(Cycle cycle, const Slot& slot, Beat& beat) {
+  if (slot.beat == 0) hand_.length = 0;
+  records_.pass(cycle, slot);
+  if (!beat.evaluates) return;
+  row_.check_marks(cycle, beat.pair);
+  column_.check_marks(cycle, std::size_t{beat.x} << (kSmaa ? entry_bits_ : 0));
+  if constexpr (kSmaa) return match_smaa(cycle, beat);
+  std::uint8_t hand = 1, any = 0;
+  for (std::size_t i = 0; i < beat.count; ++i) {
+    const std::size_t x = beat.x + i;
+    const AxisRecords::Mark& mark = beat.row_mark[i / 2];
+    if (mark.length != 0 && mark.row == beat.row && mark.start == x) {
+      hand_ = mark;
+      const std::size_t pair = records_.row_place<true>(beat.row, x);
+      row_.read(cycle, pair);
+      hand = static_cast<std::uint8_t>(2 + row_.bank_of(pair));
+    }
+    Edge& along = beat.horizontal[i];
+    along.k = static_cast<std::uint16_t>(x - hand_.start);
+    along.from = along.k < hand_.length ? hand : 0;
+    if (kLearned) along.after = static_cast<std::uint16_t>(hand_.length - 1 - along.k);
+
+    const AxisRecords::Mark& column = beat.column_mark[i];
+    Edge& down = beat.vertical[i];
+    // U13: a line may have been stored before its first row.
+    down.k = static_cast<std::uint16_t>((beat.row - column.start) & 0x1FFF);
+    down.from = down.k < column.length ? static_cast<std::uint8_t>(2 + i) : 0;
+    if (kLearned) down.after = static_cast<std::uint16_t>(column.length - 1 - down.k);
+    if (down.from) column_.read(cycle, x);
+    any |= along.from | down.from;
+  }
+  beat.any = any != 0;
+}
 
 }  // namespace deburr::rtl::morphological

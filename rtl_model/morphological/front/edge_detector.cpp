@@ -86,7 +86,7 @@ inline EdgeDetector::Edges EdgeDetector::plain_steps(std::int32_t first, std::in
   return edges;
 }
 
-inline void EdgeDetector::decide(EdgeToken& out) {
+[[gnu::always_inline]] inline void EdgeDetector::decide(EdgeToken& out) {
   const FrameRules& rules = store_.rules();
   const bool colour = rules.source == spec::morphological::EdgeSource::kColour;
   const bool plain = (rules.source == spec::morphological::EdgeSource::kLuma || colour) &&
