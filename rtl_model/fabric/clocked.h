@@ -2,6 +2,7 @@
 // What a clock domain evaluates once a cycle, and how a unit says what it did in that cycle.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace deburr::rtl {
@@ -13,7 +14,7 @@ inline constexpr Cycle kNever = ~Cycle{0};
 // What a unit did in one cycle: exactly one of idle, busy, or stalled by a named cause. It is the
 // return value of tick(), so that no cycle can be left out or counted twice.
 struct Activity {
-  std::uint8_t code = 0;
+  std::size_t code = 0;  // an index, which nothing has to widen
   friend constexpr bool operator==(Activity, Activity) = default;
 };
 inline constexpr int kActivities = 16;  // codes 0..15: idle, busy, and at most 14 causes of stalls

@@ -23,7 +23,7 @@ Activity Unit::declare_stall(const char* cause, const char* meaning) {
                fmt::format("{}: stall cause {} is declared twice", name(), cause));
   names_.emplace_back(cause);
   meanings_.emplace_back(meaning);
-  return Activity{static_cast<std::uint8_t>(names_.size() - 1)};
+  return Activity{names_.size() - 1};
 }
 
 std::uint64_t Unit::stalled_cycles() const {

@@ -93,12 +93,6 @@ void MemoryModel::clear_statistics() {
   forget_lines();
 }
 
-MemoryModel::Port& MemoryModel::port_at(int port) {
-  const auto index = static_cast<std::size_t>(port);
-  while (ports_.size() <= index) ports_.emplace_back();
-  return ports_[index];
-}
-
 std::uint64_t MemoryModel::transfer_clocks(std::uint64_t bytes) const {
   if (parameters_.bytes_per_clock == 0) return 1;
   return std::max<std::uint64_t>(

@@ -105,6 +105,7 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
     tlm::tlm_generic_payload* held = nullptr;  // BEGIN_REQ seen, END_REQ withheld
   };
   SC_HAS_PROCESS(MemoryModel);
+  void end_of_elaboration() override { ports_.resize(ports.size()); }
 
   tlm::tlm_sync_enum nb_transport_fw(int port, tlm::tlm_generic_payload& payload,
                                      tlm::tlm_phase& phase, sc_core::sc_time& delay);
@@ -123,7 +124,7 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   void respond(int port);
   void send_response(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time delay);
   void finished();
-  Port& port_at(int port);
+  Port& port_at(int port) { return ports_[static_cast<std::size_t>(port)]; }
   // Counts it and sets the response status; false if no data may go.
   void count(const tlm::tlm_generic_payload& payload);
   bool admit(tlm::tlm_generic_payload& payload, std::uint64_t number, bool counted);
@@ -150,9 +151,9 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   std::uint64_t bus_free_ = 0;
   const bool ordered_;               // transactions keep their order
   std::deque<std::uint64_t> ahead_;  // times of responses that were sent ahead, while to come
-  std::deque<Port> ports_;
-  std::deque<int> held_;       // ports in the order in which their requests are withheld
-  std::size_t uncounted_ = 0;  // of these, the first ones
+  std::vector<Port> ports_;          // as many as are bound
+  std::deque<int> held_;             // ports in the order in which their requests are withheld
+  std::size_t uncounted_ = 0;        // of these, the first ones
   std::uint32_t outstanding_ = 0, most_outstanding_ = 0;
   sc_core::sc_event wake_;
 

@@ -172,7 +172,8 @@ void DataStage::write_fill(Cycle cycle, const CacheToken& request) {
   for (std::size_t at = 0; at < line_bytes; at += turn_)
     std::copy_n(line + at, turn_, &bytes_[slot * line_bytes + (at ^ turn)]);
   fills_.release(cycle);
-  uses_line_ = true;
+  line_used_ = cycle;
+  if (!line_used_out.driven()) line_used_out.drive(cycle, true);
   ++lines_written;
   ++fills_done_;
 }

@@ -37,10 +37,9 @@ class DataStage final : public Unit {
   DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
             const spec::texture::Parameters& parameters, const FillBuffer::Reader& fills);
   Activity tick(Cycle cycle) override {
-    uses_line_ = false;
     const Activity activity = work(cycle);
     fills_.read_ahead(cycle);
-    if (uses_line_ != line_used_out.driven()) line_used_out.drive(cycle, uses_line_);
+    if (line_used_out.driven() && line_used_ != cycle) line_used_out.drive(cycle, false);
     return activity;
   }
   void reset() override;
@@ -79,7 +78,7 @@ class DataStage final : public Unit {
   bool started_ = false;
   Schedule schedule_{};
   int passes_done_ = 0, fills_done_ = 0;
-  bool uses_line_ = false;  // in this clock
+  Cycle line_used_ = kNever;  // the last clock in which a line was written
   // One of the words that were asked for last, and when: for the check, no hardware.
   const ReadPort<void>* issued_ = nullptr;
   std::uint64_t issued_word_ = 0;

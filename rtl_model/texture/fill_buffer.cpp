@@ -3,6 +3,14 @@
 
 namespace deburr::rtl::texture {
 
+void FillBuffer::refuse(std::uint32_t entry, std::uint32_t offset, std::size_t bytes) const {
+  DEBURR_CHECK(entry < entries_ && arrived_[entry] == kNever,
+               std::string(memory_.name()) + ": entry " + std::to_string(entry) + " filled twice");
+  DEBURR_CHECK(offset + bytes <= line_bytes_, std::string(memory_.name()) + ": a beat at byte " +
+                                                  std::to_string(offset) + " of a line of " +
+                                                  std::to_string(line_bytes_));
+}
+
 Datasheet FillBuffer::datasheet() {
   return {.unit = "FillBuffer",
           .does = "Lines on their way from memory, filled in any order and used in that of fills.",

@@ -72,12 +72,9 @@ class FillBuffer {
   // A beat of the line; `complete` with its last one.
   void fill(Cycle cycle, std::uint32_t entry, std::uint32_t offset,
             std::span<const std::uint8_t> beat, bool complete) {
-    DEBURR_CHECK(
-        entry < entries_ && arrived_[entry] == kNever,
-        std::string(memory_.name()) + ": entry " + std::to_string(entry) + " filled twice");
-    DEBURR_CHECK(offset + beat.size() <= line_bytes_,
-                 std::string(memory_.name()) + ": a beat at byte " + std::to_string(offset) +
-                     " of a line of " + std::to_string(line_bytes_));
+    if (entry >= entries_ || arrived_[entry] != kNever || offset + beat.size() > line_bytes_)
+        [[unlikely]]
+      refuse(entry, offset, beat.size());
     write_.write(cycle, entry);
     std::copy(beat.begin(), beat.end(), &bytes_[std::size_t{entry} * line_bytes_ + offset]);
     if (!complete) return;
@@ -115,6 +112,10 @@ class FillBuffer {
     ++released_;
     released_at_ = cycle;
   }
+
+  // Throws CheckFailed. Out of line: a check costs its caller a comparison.
+  [[gnu::cold, gnu::noinline]] void refuse(std::uint32_t entry, std::uint32_t offset,
+                                           std::size_t bytes) const;
 
   std::uint32_t oldest() const { return static_cast<std::uint32_t>(released_ % entries_); }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 
 #include "rtl_model/fabric/payload.h"
@@ -158,6 +159,11 @@ struct CandidateToken {
     visit("end", self.end);
   }
 };
+
+// Those of a group, second ones too.
+inline std::uint64_t count_of(std::uint8_t candidates, std::uint8_t seconds) {
+  return static_cast<std::uint64_t>(std::popcount(std::uint32_t{seconds} << 8 | candidates));
+}
 
 struct WeightToken {
   std::uint16_t block_x, block_y;  // U11

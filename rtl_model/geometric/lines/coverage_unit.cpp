@@ -148,8 +148,7 @@ Activity CoverageUnit::tick(Cycle cycle) {
     const CandidateToken& done = beat->out;
     if (!done.end) latency_.cover(done.candidates != 0);
     if (done.candidates || done.end) {
-      candidates += static_cast<std::uint64_t>(std::popcount(done.candidates)) +
-                    static_cast<std::uint64_t>(std::popcount(done.seconds));
+      candidates += count_of(done.candidates, done.seconds);
       candidates_out.push(cycle, done);
     }
   }

@@ -245,8 +245,7 @@ void DepthTest::test(Cycle cycle, const Work& work) {
   out.coverage = group.coverage;
   out.second = group.second;
   out.end = group.end;
-  passed += static_cast<std::uint64_t>(std::popcount(passing)) +
-            static_cast<std::uint64_t>(std::popcount(out.seconds));
+  passed += count_of(passing, out.seconds);
 }
 
 // Stages 7 to 4.
