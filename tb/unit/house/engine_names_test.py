@@ -25,6 +25,8 @@ COMPOSITION = re.compile(r"tb/engines/frame/[^/]*\.(yaml|json)$|tb/(system|negat
 # engine -> why files name it -> which.
 NAMED = {
     "geometric": {
+        "its units and its lines are drawn for its pages": [
+            "scripts/drawing/pipelines.py", "scripts/drawing/walks.py", "scripts/figures", "tb/unit/house/drawings_test.py"],
         "the rule `leave` is about what it has marked": [
             "golden/morphological/configuration.h", "golden/morphological/leave.h",
             "rtl_model/morphological/blend/blender.cpp", "spec/morphological/parameters.h"],
@@ -46,6 +48,9 @@ NAMED = {
         "engines that must show what a pixel went through": ["tb/system/pixel_history_test.py"],
     },
     "morphological": {
+        "its units and the shapes of its runs are drawn for its pages": [
+            "scripts/drawing/facts.py", "scripts/drawing/patterns.py", "scripts/drawing/pipelines.py", "scripts/figures",
+            "tb/unit/house/drawings_test.py"],
         "it blends in the same light, by the same tables": [
             "golden/geometric/geometric_golden.cpp", "golden/geometric/geometric_golden.h",
             "golden/geometric/resolve.cpp", "golden/geometric/resolve.h", "spec/geometric/tables.h",

@@ -4,7 +4,7 @@
 title and a description and takes dark and light from whoever looks, and that each picture is shown in a page, and
 each that is shown has words for those who cannot see it.
 
-usage: figures_test.py SOURCE"""
+usage: drawings_test.py SOURCE"""
 import pathlib
 import re
 import shutil
