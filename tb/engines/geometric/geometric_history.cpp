@@ -33,11 +33,9 @@ std::string text_of(const Candidate& c) {
                      spec::geometric::kDirectionNames[static_cast<std::size_t>(c.direction)],
                      c.coverage, c.depth, c.passed ? "passed" : "failed");
 }
-std::string text_of(const spec::geometric::Weights& w) {
-  return fmt::format("{}, {}, {}, {}", w[0], w[1], w[2], w[3]);
-}
-std::string text_of(const spec::geometric::Rgba8& p) {
-  return fmt::format("{}, {}, {}, {}", p[0], p[1], p[2], p[3]);
+// Four weights, or a colour.
+std::string text_of(const std::array<std::uint8_t, 4>& v) {
+  return fmt::format("{}, {}, {}, {}", v[0], v[1], v[2], v[3]);
 }
 
 }  // namespace
