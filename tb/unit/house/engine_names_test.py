@@ -42,9 +42,6 @@ NAMED = {
         "tables of pages are measured, its own among them": [
             "scripts/measurement/results.py"],
         "its part of the command line is promised": ["tb/unit/app/stable.txt"],
-        "a figure draws what is its own": [
-            "scripts/drawing/pipelines.py", "scripts/drawing/walks.py", "scripts/figures",
-            "tb/unit/house/figures_test.py"],
         "engines that must show what a pixel went through": ["tb/system/pixel_history_test.py"],
     },
     "morphological": {
@@ -87,9 +84,6 @@ NAMED = {
         "tables of pages are measured, its own among them": [
             "scripts/measurement/recipes.py", "scripts/measurement/results.py"],
         "its part of the command line is promised": ["tb/unit/app/stable.txt"],
-        "a figure draws what is its own": [
-            "scripts/drawing/facts.py", "scripts/drawing/patterns.py", "scripts/drawing/pipelines.py",
-            "scripts/figures", "tb/unit/house/figures_test.py"],
         "engines that must show what a pixel went through": ["tb/system/pixel_history_test.py"],
     },
 }
