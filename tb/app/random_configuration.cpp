@@ -22,9 +22,9 @@ namespace {
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 // Of every engine.
-constexpr std::array<std::string_view, 15> kFixed = {
+constexpr std::array<std::string_view, 16> kFixed = {
     // A run that is not compared, that ends by design, or that leaves pictures and waves.
-    "run.check", "run.max_cycles", "run.fault", "run.truth", "run.images", "run.trace",
+    "run.check", "run.max_cycles", "run.fault", "run.truth", "run.images", "run.pixel", "run.trace",
     "run.trace_from", "run.trace_to", "run.timeline_from",
     // Cameras that mostly see nothing.
     "scene.eye", "scene.target",

@@ -136,8 +136,8 @@ void print_descriptor(const std::filesystem::path& folder) {
   header.define("DESCRIPTOR_BASE_WORD", bases);
   header.define("DESCRIPTOR_BASES", std::uint64_t{texture::kMaxLevels});
   header.define("DESCRIPTOR_WORDS", words);
-  header.define("DESCRIPTOR_VALID", words * 32);
-  header.define("DESCRIPTOR_BITS", words * 32 + 1);
+  header.define("DESCRIPTOR_VALID", std::uint64_t{words} * 32);
+  header.define("DESCRIPTOR_BITS", std::uint64_t{words} * 32 + 1);
   header.write(folder / "descriptor.svh");
 }
 

@@ -287,7 +287,7 @@ class ReportBuilder {
                             followed_, *first, *last + 2));
   }
 
-  static std::string or_dash(std::string text) { return text.empty() ? "-" : text; }
+  static std::string or_dash(const std::string& text) { return text.empty() ? "-" : text; }
 
   static std::string bound_note(const Json& throughput) {
     const std::string meaning = throughput.value("bound_meaning", "");

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "tb/scene/image.h"
@@ -42,11 +43,20 @@ Some load(const T* from) {
   return some;
 }
 
+// How many values a register has; one of them may be the register.
+template <class Some, class T>
+constexpr std::size_t lanes_of() {
+  if constexpr (std::is_same_v<Some, T>)
+    return 1;
+  else
+    return sizeof(Some) / sizeof(T);
+}
+
 // The sums of neighbours, to[x] = middle[x] x tap 0 + sum of tap k x (middle[x + k step] +
 // middle[x - k step]), or the difference: of kCount registers of them (Some), where they stay.
 template <bool kOdd, std::size_t kCount, class Some, class T>
 void convolve_some(const Kernel<T>& kernel, const T* middle, std::ptrdiff_t step, T* to) {
-  constexpr std::size_t kLanes = sizeof(Some) / sizeof(T);
+  constexpr std::size_t kLanes = lanes_of<Some, T>();
   std::array<Some, kCount> sum{};
   if (!kOdd)
     for (std::size_t i = 0; i < kCount; ++i)

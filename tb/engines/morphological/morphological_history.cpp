@@ -68,7 +68,7 @@ const RunRecord& run_of(const LineRecord& line) { return line.run; }
 
 // Those of one side, one a record of its runs, in the order of the runs.
 template <class Record, class Wanted>
-void add_records(std::string step, std::string item,
+void add_records(const std::string& step, const std::string& item,
                  const std::vector<std::pair<Record, rtl::Cycle>>& seen,
                  std::vector<Record> expected, const Wanted& wanted, PixelHistory& all) {
   std::vector<std::pair<Record, rtl::Cycle>> here;
