@@ -301,7 +301,15 @@ TEST(ResultJson, MeaningsStandInTheOrderOfTheFile) {
 // The table of keys has what a full result has, and nothing else.
 TEST(Statistics, AreTheKeysOfAFullResult) {
   std::set<std::string_view> met;
-  const Json json = to_json(full_result());
+  Result r = full_result();
+  r.pixel = PixelHistory{{3, 4}, "of one fragment", {}};
+  r.pixel->compare({.part = "fragment 0",
+                    .step = "level",
+                    .item = "samples",
+                    .golden = "4",
+                    .hardware = "2",
+                    .clock = 812});
+  const Json json = to_json(r);
   for (const auto& [path, meaning] : json["meaning"].items()) {
     const Statistic* s = find_statistic(path);
     if (path.starts_with("work.")) {
