@@ -2,8 +2,8 @@
 // How far a run continues as a digital line: tries its step again on the neighbouring rows.
 //
 // Between RunExtractor and LineUnit; docs/morphological_engine.md, "Extension". Paper 000, section
-// 2.2, corrected (docs/morphological_quality.md, "What the paper prints"); the lockstep and the
-// trim are ours. Positions count from the start of the run; integers only.
+// 2.2, corrected (docs/measurements/morphological_quality.md, "What the paper prints"); the
+// lockstep and the trim are ours. Positions count from the start of the run; integers only.
 #pragma once
 
 #include <array>

@@ -11,7 +11,7 @@ from mutation.tree import digest
 
 RECORD = pathlib.Path("tb/mutation/record.json")
 SURVIVORS = pathlib.Path("tb/mutation/survivors.json")
-PAGE = pathlib.Path("docs/mutation.md")
+PAGE = pathlib.Path("docs/measurements/mutation.md")
 VERDICTS = ("killed", "survived", "invalid")
 GOAL = 95
 Z = 1.959964  # of a confidence of 95 %
@@ -19,7 +19,7 @@ HEAD = """# Mutants of both models
 
 What the tests do not see: `scripts/mutate --all` plants the small faults that it knows (an operator, a constant or a
 condition changed, a statement, a call or a reset left out) in `golden/` and `rtl_model/`, one at a time, and runs the
-tests that reach it until one fails ([verification](verification.md#mutants)). `scripts/mutate --report` makes this page
+tests that reach it until one fails ([verification](../explanation/verification.md#mutants)). `scripts/mutate --report` makes this page
 from `tb/mutation/record.json`, the result of the last campaign, and `tb/mutation/survivors.json`, which says of a
 survivor why no test could see it.
 

@@ -285,8 +285,8 @@ std::string coverage_page(const std::vector<std::unique_ptr<Engine>>& engines) {
       "for those of tests alone;\n"
       "{} has those of the engines that it is made of. A merge of runs is a sum. A "
       "bin's name is what the first\n"
-      "column begins and the second ends. How they are met: [verification.md](verification.md), "
-      "\"Functional coverage\".\n{}",
+      "column begins and the second ends. How they are met:\n"
+      "[functional coverage](../explanation/verification.md#functional-coverage).\n{}",
       composed, sections);
 }
 

@@ -587,7 +587,7 @@ class Declarations(unittest.TestCase):
     """Signatures and docstrings are those of the parameters' declarations."""
 
     def test_every_parameter_is_in_its_signature(self):
-        page = (DOCS / "parameters.md").read_text(encoding="utf-8")
+        page = (DOCS / "reference/parameters.md").read_text(encoding="utf-8")
         for engine, function in (("texture", golden.texture), ("morphological", golden.morphological),
                                  ("geometric", golden.geometric), ("texture", golden.TextureUnit.set)):
             section = page.split("## `deburr run frame`")[0]

@@ -65,7 +65,7 @@ def problems(root):
 def faults_that_are_not_found(root):
     """Each changes one thing in a copy: (file, what stands there, what it becomes)."""
     faults = (("docs/texture_unit.md", "| `texels` | TexelAddresser, TagStage |", "| `texels` | TexelAddresser, LatencyFifo |"),
-              ("docs/datasheets.md", "| TagStage | 2 |", "| TagStage | 3 |"),
+              ("docs/reference/datasheets.md", "| TagStage | 2 |", "| TagStage | 3 |"),
               ("spec/morphological/shapes.h", '"Z-first-second", Side::kFirst', '"Z-first-second", Side::kSecond'),
               ("docs/number_formats_morphological.md", "| 1, 1 | (1,0), (1,1) |", "| 1, 1 | (1,1), (1,1) |"),
               ("docs/morphological_smaa.md", "7, 14 read 6;", "7, 14 read 9;"),
