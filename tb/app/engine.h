@@ -109,7 +109,7 @@ void describe(RunParameters& p, Visitor& v) {
   v.choice("line_trace", p.line_trace, kTraceChoiceNames,
            "Leaves lines.trace: every line that is asked of memory (docs/reference/traces.md).");
   v.text("fault", p.fault, "name",
-         "Plants a fault that the checks must catch (docs/explanation/verification.md).");
+         "Plants a fault that the checks must catch (docs/reference/planted_faults.md).");
   v.boolean("truth", p.truth, "Compare the picture with the scene's supersampled truth.");
   v.boolean("images", p.images, "Leave pictures, and show them in the report.");
 }

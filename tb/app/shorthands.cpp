@@ -26,7 +26,7 @@ std::vector<Shorthand> common_shorthands() {
           {"--truth", "run.truth", "Compare with the scene's supersampled truth"},
           {"--no-images", "run.images", "Leave no pictures", "", "false"},
           {"--fault", "run.fault",
-           "Plant a fault that the checks must catch (docs/explanation/verification.md)"}};
+           "Plant a fault that the checks must catch (docs/reference/planted_faults.md)"}};
 }
 
 }  // namespace
