@@ -120,7 +120,7 @@ class Files(Scratch):
                         "share/deburr/systemverilog/deburr_golden_dpi.c", "share/man/man1/deburr.1",
                         "share/bash-completion/completions/deburr", "share/zsh/vendor-completions/_deburr",
                         "share/fish/vendor_completions.d/deburr.fish", "share/deburr/sweeps/texture_cache.yaml",
-                        "share/deburr/tb/testplan/smoke.yaml", "share/deburr/docs/howto/platform.md",
+                        "share/deburr/tb/testplan/smoke.yaml", "share/deburr/docs/howto/use_in_my_platform.md",
                         "share/doc/deburr/copyright", "share/doc/libdeburr-dev/changelog.gz"):
             one_file(pattern)
         headers = {file.relative_to(SOURCE) for layer in OURS for file in (SOURCE / layer).rglob("*.h")}

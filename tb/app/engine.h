@@ -2,7 +2,7 @@
 // An engine declares itself here, once: what it is called, what it is given, what its runs leave,
 // what its reference pages hold, and how random and long runs of it are made. Everything around it
 // reads the declaration and names no engine. To add one: implement this in tb/engines/NAME, and add
-// NAME to tb/engines/engines.txt (docs/reference/command_line.md, "Adding an engine").
+// NAME to tb/engines/engines.txt (docs/howto/add_an_engine.md).
 #pragma once
 
 #include <array>

@@ -58,7 +58,7 @@ def problems(root):
             found.append("docs/reference/stability.md does not say the version that is not taken")
         found += [f"{page.relative_to(root)}: version {said}, expected {version}" for said in SAID.findall(NEXT.sub("", text))
                   if said not in (version, f"{major}.{minor}")]
-    said = [page for page in ("SECURITY.md", "docs/howto/platform.md", "docs/howto/testbench.md",
+    said = [page for page in ("SECURITY.md", "docs/howto/use_in_my_platform.md", "docs/howto/testbench.md",
                               "docs/reference/stability.md") if not SAID.search((root / page).read_text(encoding="utf-8"))]
     return found + [f"{page} says no version" for page in said]
 
@@ -69,7 +69,7 @@ FAULTS = (("CMakeLists.txt", " VERSION 0.", " VERSION 10."), ("CITATION.cff", "v
           ("CITATION.cff", "  - name:", "  - called:"), ("CITATION.cff", "message: If", "message: [If"),
           ("CITATION.cff", "keywords:", "keywords: none\nwords:"), ("CITATION.cff", "type: software", "type: program"),
           ("CHANGELOG.md", "## 0.", "## next, 0."), ("SECURITY.md", "today 0.", "today 10."),
-          ("docs/howto/platform.md", "find_package(deburr 0.", "find_package(deburr 10."),
+          ("docs/howto/use_in_my_platform.md", "find_package(deburr 0.", "find_package(deburr 10."),
           ("docs/howto/testbench.md", "Deburr 0.", "Deburr 10."), ("docs/reference/stability.md", "takes no 0.", "takes no 10."))
 
 
@@ -77,7 +77,7 @@ def faults_that_are_not_found(root):
     for file, piece, other in FAULTS:
         with tempfile.TemporaryDirectory() as folder:
             copy = pathlib.Path(folder)
-            for name in ("CMakeLists.txt", "CITATION.cff", "CHANGELOG.md", "SECURITY.md", "docs/howto/platform.md",
+            for name in ("CMakeLists.txt", "CITATION.cff", "CHANGELOG.md", "SECURITY.md", "docs/howto/use_in_my_platform.md",
                          "docs/howto/testbench.md", "docs/reference/stability.md"):
                 (copy / name).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(root / name, copy / name)
