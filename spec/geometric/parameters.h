@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Parameters, presets and limits of the geometric engine: rules, which change pixels, and build
-// choices, which change clocks, traffic and cost. Meaning: docs/geometric.md; formats and rounding,
-// to the bit: docs/number_formats_geometric.md; clocks: docs/geometric_hardware.md.
+// choices, which change clocks, traffic and cost. Meaning: docs/reference/geometric/index.md;
+// formats and rounding, to the bit: docs/reference/geometric/formats.md; clocks:
+// docs/reference/geometric/hardware.md.
 #pragma once
 
 #include <array>

@@ -56,7 +56,7 @@ def read_binary(file):
 
 
 class Cache:
-    """Set-associative, from docs/number_formats.md alone."""
+    """Set-associative, from docs/reference/texture/formats.md alone."""
 
     def __init__(self, size, line, ways, replacement):
         self.line, self.ways, self.replacement = line, ways, replacement

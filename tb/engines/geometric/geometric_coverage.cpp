@@ -50,8 +50,8 @@ constexpr std::array kGroups = {
     CoverageGroup{"geometric/refusal",
                   "Starts that are rejected, in tests alone: a run is checked before it starts."}};
 
-// Causes that a unit can lose a clock to, as docs/geometric_hardware.md has them. The sequencer
-// never stalls, and the port is the fabric's.
+// Causes that a unit can lose a clock to, as docs/reference/geometric/hardware.md has them. The
+// sequencer never stalls, and the port is the fabric's.
 const std::map<std::string, std::vector<std::string>>& stalls() {
   static const std::map<std::string, std::vector<std::string>> all = {
       {"facing_store", {"downstream", "memory"}},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the morphological engine is given: an image file with depth and truth beside it, or a scene
 // rendered without anti-aliasing, with its depth and its supersampled truth. Files become codes by
-// the rules of docs/number_formats_morphological.md, "Conversion of images".
+// the rules of docs/reference/morphological/formats.md, "Conversion of images".
 #pragma once
 
 #include <array>
