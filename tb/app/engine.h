@@ -105,7 +105,7 @@ void describe(RunParameters& p, Visitor& v) {
   v.integer("timeline_from", p.timeline_from, 0, std::int64_t{1} << 40, "clk",
             "First cycle of the timeline.");
   v.integer("timeline_to", p.timeline_to, 0, std::int64_t{1} << 40, "clk",
-            "Cycle after the last of the timeline, at most 100000 behind the first.");
+            "Cycle after the last of the timeline, at most 100000 after the first.");
   v.choice("line_trace", p.line_trace, kTraceChoiceNames,
            "Leaves lines.trace: every line that is asked of memory (docs/reference/traces.md).");
   v.text("fault", p.fault, "name",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Are the tables of harm in docs/measurements/morphological_quality.md what is measured today? And
+// Are the tables of harm in docs/measurements/morphological_harm.md what is measured today? And
 // are the frames what the page says of them?
 #include "tb/oracle/harm.h"
 
@@ -22,7 +22,7 @@ namespace {
 
 using harm::Text;
 
-constexpr const char *kPage = "measurements/morphological_quality.md",
+constexpr const char *kPage = "measurements/morphological_harm.md",
                      *kFormula = "MorphologicalHarm.OfFramesByFormula",
                      *kData = "MorphologicalHarm.OfFramesOfOthers";
 

@@ -34,7 +34,7 @@ void describe(FrameParameters& p, Visitor& v) {
          "rendered without anti-aliasing.");
   v.text("depth", p.depth, "file",
          "Depth of an image: 24 bits in R, G, B, or one float channel; grows towards the eye.");
-  v.text("truth", p.truth, "file", "Anti-aliased picture that an image is judged by.");
+  v.text("truth", p.truth, "file", "Anti-aliased picture that an image is compared with.");
   v.text("mask", p.mask, "file",
          "Pixels to leave as they are, where red is 128 or more: bit 0 of their alpha becomes 0, "
          "that of "
