@@ -3,8 +3,8 @@
 //
 // Between RunExtractor and LineUnit; docs/reference/morphological/algorithm.md, "Extension". Paper
 // 000, section 2.2, corrected (docs/measurements/morphological_quality.md, "What the paper
-// prints"); the lockstep and the trim are ours. Positions count from the start of the run; integers
-// only.
+// prints, and what is built"); the lockstep and the trim are ours. Positions count from the start
+// of the run; integers only.
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 // Test vectors of the geometric engine's contract: data that golden and hardware are held to, and
 // that the tables of docs/reference/geometric/vectors.md and docs/reference/geometric/formats.md
 // are made from. What the frame holds, and what is hashed: docs/reference/geometric/vectors.md,
-// "Vectors".
+// "Frame".
 #pragma once
 
 #include <array>

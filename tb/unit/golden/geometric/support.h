@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The contract's frame of random edges (docs/reference/geometric/vectors.md, "Vectors"), and hashes
+// The contract's frame of random edges (docs/reference/geometric/vectors.md), and hashes
 // of what came of it.
 #pragma once
 
