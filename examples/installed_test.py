@@ -120,7 +120,7 @@ class Files(Scratch):
                         "share/deburr/systemverilog/deburr_golden_dpi.c", "share/man/man1/deburr.1",
                         "share/bash-completion/completions/deburr", "share/zsh/vendor-completions/_deburr",
                         "share/fish/vendor_completions.d/deburr.fish", "share/deburr/sweeps/texture_cache.yaml",
-                        "share/deburr/tb/testplan/smoke.yaml", "share/deburr/docs/platform.md",
+                        "share/deburr/tb/testplan/smoke.yaml", "share/deburr/docs/howto/use_in_my_platform.md",
                         "share/doc/deburr/copyright", "share/doc/libdeburr-dev/changelog.gz"):
             one_file(pattern)
         headers = {file.relative_to(SOURCE) for layer in OURS for file in (SOURCE / layer).rglob("*.h")}
@@ -508,7 +508,7 @@ class Python(Scratch):
         self.assertEqual(sorted(file.name for file in PYTHON.rglob("*.py*") if file.is_symlink()), [])
 
     def test_the_page_does_what_it_says(self):
-        page = (PREFIX / "share/deburr/docs/python.md").read_text(encoding="utf-8")
+        page = (PREFIX / "share/deburr/docs/reference/python.md").read_text(encoding="utf-8")
         programs = re.findall(r"```python\n(.*?)```", page, re.S)
         self.assertEqual(len(programs), 1)
         # A table that is wider than its page is printed without some columns.

@@ -7,7 +7,7 @@
 
 namespace deburr::spec {
 
-// The exit codes of the `deburr` command (docs/exploration.md).
+// The exit codes of the `deburr` command (docs/reference/command_line.md).
 enum class ExitCode : int {
   kPass = 0,
   kMismatch = 1,

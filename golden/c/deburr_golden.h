@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Deburr's bit-exact golden models for C99, for C++ and, by way of DPI-C, for SystemVerilog. The
- * contract, with the layouts of arrays and tables of names: docs/c_interface.md.
+ * contract, with the layouts of arrays and tables of names: docs/reference/c_interface.md.
  *
  * A handle is one model of one engine. Functions that return an int return one of the DEBURR_
  * constants; whatever is not DEBURR_OK has changed nothing, and deburr_error() says what was wrong,

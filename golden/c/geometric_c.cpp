@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The geometric engine's part of the C interface: vertices, edges and facing bits as they lie in
-// memory (docs/geometric.md, "What is in memory").
+// memory (docs/reference/geometric/memory.md, "What is in memory").
 #include <array>
 #include <vector>
 

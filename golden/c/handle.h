@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is behind a handle of the C interface (docs/c_interface.md), and how a call of it becomes a
-// status: one thread at a time, no exception, a text that says what was wrong.
+// What is behind a handle of the C interface (docs/reference/c_interface.md), and how a call of it
+// becomes a status: one thread at a time, no exception, a text that says what was wrong.
 #pragma once
 
 #include <atomic>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Which edges are worth a line.
 //
-// First step; docs/geometric.md, "Classify". Paper 002, equations (1) to (4): silhouettes are an
-// exclusive or of facings, creases may be asked to break the shading, and what is turned away need
-// not be hidden.
+// First step; docs/reference/geometric/algorithm.md, "Classify". Paper 002, equations (1) to (4):
+// silhouettes are an exclusive or of facings, creases may be asked to break the shading, and what
+// is turned away need not be hidden.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // From four weights a pixel to its colour.
 //
-// Last step; docs/geometric.md, "Weights" and "Resolve". Paper 002, equation (8); the arithmetic is
-// the morphological engine's (golden/morphological/blend.h).
+// Last step; docs/reference/geometric/algorithm.md, "Weights" and "Resolve". Paper 002, equation
+// (8); the arithmetic is the morphological engine's (golden/morphological/blend.h).
 #pragma once
 
 #include "spec/geometric/packets.h"

@@ -24,8 +24,9 @@ Ellipse ellipse(const PixelFootprint& footprint);
 // A point of the texture at level l: bilinear of two levels, linear between them. l <= 0: level 0.
 Colour trilinear(const TextureImage& texture, double s, double t, double l);
 
-// The unit's rules (docs/number_formats.md) with the true ellipse instead of candidate axes, exact
-// logarithms and unrounded weights: N trilinear samples of equal weight along the major axis.
+// The unit's rules (docs/reference/texture/formats.md) with the true ellipse instead of candidate
+// axes, exact logarithms and unrounded weights: N trilinear samples of equal weight along the major
+// axis.
 Colour along_ellipse(const TextureImage& texture, const spec::texture::Parameters& parameters,
                      const spec::texture::Descriptor& descriptor, const PixelFootprint& footprint);
 

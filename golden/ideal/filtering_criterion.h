@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Judges a filtered colour as the Khronos conformance tests do: it is right when SOME sub-texel
 // weights and SOME level of detail inside the tolerated intervals explain all four channels
-// together. Real arithmetic; written from the description in docs/filtering_conformance.md.
+// together. Real arithmetic; written from the description in
+// docs/measurements/filtering_conformance.md.
 //
 // Where it sits: above the golden model. The golden and the hardware model are compared bit for
 // bit; whether the bits are a legal texture filter at all is decided here.

@@ -3,8 +3,8 @@
 // no rounding of positions, weights or colours.
 //
 // Truth for the bit-exact golden's arithmetic (paper 002, equations (6) to (8), with the
-// corrections of docs/geometric.md). What the method itself cannot do it cannot do either; that is
-// measured against supersampling.
+// corrections of docs/reference/geometric/algorithm.md). What the method itself cannot do it cannot
+// do either; that is measured against supersampling.
 #pragma once
 
 #include <array>

@@ -26,9 +26,9 @@ struct Lengths {
   double d_max = 0, d_min = 0;
 };
 
-// The unit's rules (docs/number_formats.md, "Level and count") with exact logarithms. Uses count
-// and count_cap of the parameters, and N_max, bias and limits of the descriptor. A length of zero
-// counts as 2^-16 texel.
+// The unit's rules (docs/reference/texture/formats.md, "Level and count") with exact logarithms.
+// Uses count and count_cap of the parameters, and N_max, bias and limits of the descriptor. A
+// length of zero counts as 2^-16 texel.
 LevelOfDetail level_of_detail(const spec::texture::Parameters& parameters,
                               const spec::texture::Descriptor& descriptor, const Lengths& lengths);
 // The same of a footprint: with `axes = two` of its exact sides, which the paper takes for the

@@ -2,7 +2,7 @@
 // Areas of SMAA's orthogonal patterns in real numbers, with the subsample offsets of its temporal
 // and multisampled modes: any entry of the published table before it is rounded.
 //
-// docs/number_formats_morphological.md, "Area table" and "Subsample rows". Jimenez et al., SMAA,
+// docs/reference/morphological/formats.md, "Area table" and "Subsample rows". Jimenez et al., SMAA,
 // 2012, and the program published with it that makes its table.
 #pragma once
 

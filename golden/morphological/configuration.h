@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which frames the engine accepts: docs/morphological_engine.md, "Configuration errors".
+// Which frames the engine accepts: docs/reference/morphological/index.md, "Configuration errors".
 // Parameters: spec/morphological/check_build.h.
 #pragma once
 

@@ -2,7 +2,7 @@
 // Corner rounding: less share where a crossing edge goes on for a second pixel, since a corner is
 // then sharp because it was drawn so.
 //
-// After area.h or area_table.h; docs/morphological_smaa.md, "Corners". SMAA, section 4.3.
+// After area.h or area_table.h; docs/reference/morphological/smaa.md, "Corners". SMAA, section 4.3.
 #pragma once
 
 #include <cstdint>

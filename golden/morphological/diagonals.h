@@ -2,8 +2,9 @@
 // Diagonal patterns: edges that step by one pixel and one row, and the shares of the line along
 // them.
 //
-// Beside the runs, whose shares they replace; docs/morphological_smaa.md, "Diagonals";
-// docs/number_formats_morphological.md, "Diagonal table". Jimenez et al., SMAA, 2012, section 4.2.
+// Beside the runs, whose shares they replace; docs/reference/morphological/smaa.md, "Diagonals";
+// docs/reference/morphological/formats.md, "Diagonal table". Jimenez et al., SMAA, 2012,
+// section 4.2.
 #pragma once
 
 #include <array>

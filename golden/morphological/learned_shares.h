@@ -2,8 +2,9 @@
 // Shares of edges whose phase no staircase tells: what the ends of a run look like, and three small
 // tables over it.
 //
-// After the predictor, in place of line.h and area.h; docs/morphological_shares.md, "Records" and
-// "Indices". Ours. Every entry that a record can name is listed by reachable_entries().
+// After the predictor, in place of line.h and area.h;
+// docs/reference/morphological/learned_shares.md, "Records" and "Indices". Ours. Every entry that a
+// record can name is listed by reachable_entries().
 #pragma once
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // What the geometric engine's marks do to the shares of a pixel, and which situations of this the
 // frames so far contained.
 //
-// docs/morphological_engine.md, "Pixels that are left". Bins, of pixels that have a share to lose
-// or to take:
+// docs/reference/morphological/algorithm.md, "Pixels that are left". Bins, of pixels that have a
+// share to lose or to take:
 //   left/<marked|half>/own                    marked itself
 //   left/beside/<which>                       the one place of five that is marked, or `several`
 //   border/<border>/<left|blended>            with leave = beside, pixels on the frame's border

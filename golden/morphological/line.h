@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The straight line through a run and its extensions, as the two reciprocals that areas need.
 //
-// Between EndpointPredictor and AreaUnit; docs/number_formats_morphological.md, "Line through a
+// Between EndpointPredictor and AreaUnit; docs/reference/morphological/formats.md, "Line through a
 // run". One rounded division a record. Chord: paper 000; fit: ours.
 #pragma once
 

@@ -2,12 +2,13 @@
 // Bit-exact reference of the whole morphological engine: a frame in, the smoothed frame out, with
 // every intermediate result and the predicted memory traffic.
 //
-// No time, no SystemC, integers only (docs/morphological_engine.md, docs/morphological_smaa.md,
-// docs/number_formats_morphological.md; papers 000, 001 and 003). The blocks are pure functions:
-// luma.h or colour.h, edges.h, runs.h, predictor.h, line.h, area.h or area_table.h or
-// learned_shares.h, corners.h, diagonals.h, blend.h, leave.h, traffic.h; conversion of other images
-// to codes: convert.h. MorphologicalGolden strings them together over a frame. Edges are found for
-// all pixels, row by row; after that only edges and the pixels beside them cost time.
+// No time, no SystemC, integers only (docs/reference/morphological/algorithm.md,
+// docs/reference/morphological/smaa.md, docs/reference/morphological/formats.md; papers 000, 001
+// and 003). The blocks are pure functions: luma.h or colour.h, edges.h, runs.h, predictor.h,
+// line.h, area.h or area_table.h or learned_shares.h, corners.h, diagonals.h, blend.h, leave.h,
+// traffic.h; conversion of other images to codes: convert.h. MorphologicalGolden strings them
+// together over a frame. Edges are found for all pixels, row by row; after that only edges and the
+// pixels beside them cost time.
 #pragma once
 
 #include <cstdint>

@@ -3,8 +3,8 @@
 // and of bits, and the two edge planes seen along either axis.
 //
 // Coordinates: x to the right, y downwards, top row first. A bit plane reads 0 outside the frame,
-// as docs/morphological_engine.md says of edges. Rows of bits are words of 64, so that runs are
-// found a word at a time.
+// as docs/reference/morphological/algorithm.md says of edges. Rows of bits are words of 64, so that
+// runs are found a word at a time.
 #pragma once
 
 #include <cstddef>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // How far a run continues as a digital line: tries its step again on the neighbouring rows.
 //
-// Between RunExtractor and LineUnit; docs/morphological_engine.md, "Extension". Paper 000, section
-// 2.2, corrected (docs/morphological_quality.md, "What the paper prints"); the lockstep and the
-// trim are ours. Positions count from the start of the run; integers only.
+// Between RunExtractor and LineUnit; docs/reference/morphological/algorithm.md, "Extension". Paper
+// 000, section 2.2, corrected (docs/measurements/morphological_quality.md, "What the paper
+// prints, and what is built"); the lockstep and the trim are ours. Positions count from the start
+// of the run; integers only.
 #pragma once
 
 #include <array>

@@ -2,9 +2,10 @@
 // Runs of edges along an axis, maximal or cut at crossing edges, as records with the shape that
 // their ends give them.
 //
-// Third block; docs/morphological_engine.md, "Runs" and "Long runs"; docs/morphological_smaa.md,
-// "Runs that end at crossings". Written for horizontal runs: AxisEdges shows vertical ones the same
-// way. Reshetov's L, U and Z patterns (paper 000, section 2); SMAA's searches.
+// Third block; docs/reference/morphological/algorithm.md, "Runs" and "Long runs";
+// docs/reference/morphological/smaa.md, "Runs that end at crossings". Written for horizontal runs:
+// AxisEdges shows vertical ones the same way. Reshetov's L, U and Z patterns (paper 000, section
+// 2); SMAA's searches.
 #pragma once
 
 #include <bit>

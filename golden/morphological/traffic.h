@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The line accesses of storage = memory: the frame written once, then read once.
 //
-// Beside the arithmetic: pixels do not depend on it. docs/morphological_hardware.md,
+// Beside the arithmetic: pixels do not depend on it. docs/reference/morphological/hardware.md,
 // "Storage = memory".
 #pragma once
 

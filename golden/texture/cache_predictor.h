@@ -2,7 +2,7 @@
 // Predicts which cache lines a sequence of bilinear requests fetches, and in which order.
 //
 // Beside the filter arithmetic of the texture golden: colours do not depend on it, memory traffic
-// does. Holds tags only. docs/number_formats.md, "Cache and traffic".
+// does. Holds tags only. docs/reference/texture/formats.md, "Cache and traffic".
 #pragma once
 
 #include <array>

@@ -2,8 +2,8 @@
 // From bytes of a texel to the colour of a fragment: unpack, bilinear, level lerp, kernel sum.
 //
 // Last part of the texture golden (paper 004, section 2.3 and equation 4). Pure functions of
-// integers, a channel at a time; docs/number_formats.md, table. Inline since they are the inner
-// loop.
+// integers, a channel at a time; docs/reference/texture/formats.md, table. Inline since they are
+// the inner loop.
 #pragma once
 
 #include <array>

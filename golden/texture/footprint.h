@@ -3,9 +3,9 @@
 // sides, binary logarithm.
 //
 // First blocks of the texture golden (paper 004, sections 1.2 and 1.4; more than two axes are the
-// project's own). Pure functions of integers; formats and rounding: docs/number_formats.md, "Axes",
-// "Footprint" and "Logarithm". Error against exact arithmetic:
-// tb/unit/golden/texture/footprint_test.cpp and log2_test.cpp.
+// project's own). Pure functions of integers; formats and rounding:
+// docs/reference/texture/formats.md, "Axes", "Footprint" and "Logarithm". Error against exact
+// arithmetic: tb/unit/golden/texture/footprint_test.cpp and log2_test.cpp.
 #pragma once
 
 #include <algorithm>

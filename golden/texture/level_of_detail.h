@@ -3,7 +3,7 @@
 //
 // Between the logarithms and the sample walker (paper 004, sections 1.1 and 1.3, equations 3 and
 // 12; count = any is the project's own, after Vulkan's rule). Pure function of integers;
-// docs/number_formats.md, "Level and count".
+// docs/reference/texture/formats.md, "Level and count".
 #pragma once
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 // Where the samples of a fragment lie, what they weigh, and which texels each one touches.
 //
 // Between level selection and memory (paper 004, section 1.1 step 3 and section 2.2; equation 4).
-// Pure functions of integers, one for each line of docs/number_formats.md, "Sample walker" and
-// "Addresses". Inline since they are the inner loop.
+// Pure functions of integers, one for each line of docs/reference/texture/formats.md, "Sample
+// walker" and "Addresses". Inline since they are the inner loop.
 #pragma once
 
 #include <algorithm>

@@ -2,9 +2,10 @@
 // Bit-exact reference of the whole texture unit: quads in, colours and predicted memory traffic
 // out.
 //
-// No time, no SystemC, integers only (docs/texture_unit.md, docs/number_formats.md; paper 004). The
-// blocks it is made of are pure functions in footprint.h, level_of_detail.h, sampling.h, filter.h;
-// TextureGolden strings them together over whole quads, with the tables that make it fast.
+// No time, no SystemC, integers only (docs/reference/texture/index.md,
+// docs/reference/texture/formats.md; paper 004). The blocks it is made of are pure functions in
+// footprint.h, level_of_detail.h, sampling.h, filter.h; TextureGolden strings them together over
+// whole quads, with the tables that make it fast.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From quads to bilinear requests: the blocks of the figure in docs/texture_unit.md, one behind the
+// From quads to bilinear requests: the blocks of the figure in docs/reference/texture/index.md, one behind the
 // other, with a link of two places between each.
 `include "tokens.svh"
 `include "tables.svh"

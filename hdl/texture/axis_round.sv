@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One component of an axis: the magnitude of the sum rounded at 7 bits, then its sign, so that mirrored
-// coordinates give mirrored samples (docs/number_formats.md, "Axes").
+// coordinates give mirrored samples (docs/reference/texture/formats.md, "Axes").
 module axis_round (
   input  logic signed [41:0] sum,
   output logic signed [33:0] axis  // S9.24

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The major axis among four or eight directions, and the area of the footprint (`axes = four`, `eight`).
-// `axis_clocks` measures the candidates in groups, one group a clock (docs/datasheets.md, "AxisUnit").
+// `axis_clocks` measures the candidates in groups, one group a clock (docs/reference/datasheets.md, "AxisUnit").
 `include "tokens.svh"
 `include "tables.svh"
 module axis_unit #(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// In which pass over the banks each texel that hits is read (docs/texture_unit.md, "Banks"): a bank gives
-// one word a pass, and texels of the same word share it.
+// In which pass over the banks each texel that hits is read (docs/reference/texture/cache.md, "Banks"): a bank
+// gives one word a pass, and texels of the same word share it.
 module bank_passes #(
   parameter integer WORD_BITS = 12,  // of the number of a word, the bank in its low bits
   parameter integer BANK_BITS = 4

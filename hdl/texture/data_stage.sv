@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Reads the texels of a request from the banks and writes the fills that it ordered (docs/texture_unit.md,
-// "Banks" and "Order of fills"; docs/datasheets.md, "DataStage"). Stage 1 works at the head of the
-// LatencyFifo and pops the request in its last clock; stage 2 has its words. Both stand still while
-// stage 2 cannot leave.
+// Reads the texels of a request from the banks and writes the fills that it ordered
+// (docs/reference/texture/cache.md, "Banks" and "Order of fills"; docs/reference/datasheets.md, "DataStage").
+// Stage 1 works at the head of the LatencyFifo and pops the request in its last clock; stage 2 has its words.
+// Both stand still while stage 2 cannot leave.
 `include "tokens.svh"
 `include "tables.svh"
 module data_stage #(

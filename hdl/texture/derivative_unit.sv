@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Splits a quad into its covered fragments, each with the differences of coordinates along its own row
-// and column, and their magnitudes in texels of level 0 (docs/datasheets.md, "DerivativeUnit").
+// and column, and their magnitudes in texels of level 0 (docs/reference/datasheets.md, "DerivativeUnit").
 `include "tokens.svh"
 `include "descriptor.svh"
 module derivative_unit (

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Whether the words of a descriptor are valid: size, levels, codes, N_max, bases of the levels that are
-// present (docs/texture_unit.md, "Invalid descriptors").
+// present (docs/reference/texture/index.md, "Invalid descriptors").
 `include "descriptor.svh"
 `include "tables.svh"
 module descriptor_check (

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines on their way from memory (docs/datasheets.md, "FillBuffer"): places are reserved one after the
+// Lines on their way from memory (docs/reference/datasheets.md, "FillBuffer"): places are reserved one after the
 // other, filled in any order, and used in the order of their reservation. The oldest line is read ahead:
 // it is on the output register two clocks after the beat that completes it.
 `include "tokens.svh"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One channel of the filter pipeline, stages 2 to 8: unpacked texels in U8.4, both lerps, the level lerp,
-// the accumulator (docs/number_formats.md, docs/datasheets.md "FilterPipeline").
+// the accumulator (docs/reference/texture/formats.md, docs/reference/datasheets.md "FilterPipeline").
 `include "tables.svh"
 module filter_channel #(
   parameter integer COLOUR = 1  // red, green or blue, which sRGB encodes; 0: alpha

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Filters four texels a clock to the colour of a fragment: eight stages, nine with `srgb_output = encoded`
-// (docs/number_formats.md, docs/datasheets.md "FilterPipeline").
+// (docs/reference/texture/formats.md, docs/reference/datasheets.md "FilterPipeline").
 `include "tokens.svh"
 `include "tables.svh"
 module filter_pipeline #(

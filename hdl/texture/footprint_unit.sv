@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lengths of both sides of a footprint and the difference of coordinates along the longer one, for
-// `axes = two`. Two stages, with `exact` 19 (docs/datasheets.md, "FootprintUnit").
+// `axes = two`. Two stages, with `exact` 19 (docs/reference/datasheets.md, "FootprintUnit").
 `include "tokens.svh"
 `include "tables.svh"
 module footprint_unit #(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Number of samples, mip level, level fraction and filter of a fragment, in three stages
-// (docs/number_formats.md, "Level and count"; docs/datasheets.md, "LevelUnit").
+// (docs/reference/texture/formats.md, "Level and count"; docs/reference/datasheets.md, "LevelUnit").
 `include "tokens.svh"
 `include "tables.svh"
 `include "descriptor.svh"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is added to n + y by the rules `corrected` and `segments`: constants and shift-adds of y
-// (docs/number_formats.md, "Logarithm").
+// (docs/reference/texture/formats.md, "Logarithm").
 `include "tables.svh"
 module log2_correction #(
   parameter integer RULE = `CHOSEN_LOG2

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rule `exact`: between two neighbours of a table, in the stages 2 and 3 of a Log2Unit
-// (docs/number_formats.md, "Logarithm").
+// (docs/reference/texture/formats.md, "Logarithm").
 `include "tables.svh"
 module log2_exact (
   input  logic               clk,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Binary logarithms of the longer side of a footprint and of what tells the minor one, the other side
 // or the area. `mitchell` is wires behind the leading one, latency 1; the other rules take three stages:
-// leading one and shift, table, correction (docs/datasheets.md, "Log2Unit").
+// leading one and shift, table, correction (docs/reference/datasheets.md, "Log2Unit").
 `include "tokens.svh"
 `include "tables.svh"
 module log2_unit #(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Leading one of a number with 16 fraction bits, and the 12 bits below it
-// (docs/number_formats.md, "Logarithm"). 0 counts as 1.
+// (docs/reference/texture/formats.md, "Logarithm"). 0 counts as 1.
 module log2_value #(
   parameter integer BITS = 32
 ) (

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Sends missed lines to memory, one a clock, in their order (docs/texture_unit.md, "Time of a miss"). Up
-// to four lines of a request come in one clock, when there are places for all of them; a place from which
-// a line is sent in this clock counts.
+// Sends missed lines to memory, one a clock, in their order (docs/reference/texture/cache.md, "Time of a
+// miss"). Up to four lines of a request come in one clock, when there are places for all of them; a place from
+// which a line is sent in this clock counts.
 `include "tokens.svh"
 `include "tables.svh"
 module miss_queue #(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Walks N samples along the major axis and emits the bilinear requests of each: a request a clock, stages
-// that move one by one (docs/number_formats.md, "Sample walker"; docs/datasheets.md, "SampleWalker").
+// that move one by one (docs/reference/texture/formats.md, "Sample walker"; docs/reference/datasheets.md,
+// "SampleWalker").
 `include "tokens.svh"
 `include "tables.svh"
 module sample_walker #(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One line looked up in its set, and the set afterwards (docs/number_formats.md, "Cache and traffic"): a
-// hit makes the line the most recently used one (`lru` alone), a miss takes an invalid way, the lowest
-// first, or replaces one. A bit for each pair of ways says which of both is older.
+// One line looked up in its set, and the set afterwards (docs/reference/texture/formats.md, "Cache and
+// traffic"): a hit makes the line the most recently used one (`lru` alone), a miss takes an invalid way, the
+// lowest first, or replaces one. A bit for each pair of ways says which of both is older.
 `include "tables.svh"
 module tag_look_up #(
   parameter integer WAYS = 2,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Looks up the lines of a request, allocates those that miss and orders them, in two stages
-// (docs/texture_unit.md, "Tags"; docs/number_formats.md, "Cache and traffic").
+// (docs/reference/texture/cache.md, "Tags"; docs/reference/texture/formats.md, "Cache and traffic").
 `include "tokens.svh"
 `include "tables.svh"
 module tag_stage #(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Byte address of a texel in a level, row after row or in tiles of 64 bytes
-// (docs/number_formats.md, "Addresses").
+// (docs/reference/texture/formats.md, "Addresses").
 module texel_address (
   input  logic [11:0] x, y,
   input  logic [12:0] width, height,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From a sample position to the addresses of its four texels and its fractions, in five stages
-// (docs/number_formats.md, "Addresses"; docs/datasheets.md, "TexelAddresser").
+// (docs/reference/texture/formats.md, "Addresses"; docs/reference/datasheets.md, "TexelAddresser").
 `include "tokens.svh"
 `include "tables.svh"
 `include "descriptor.svh"

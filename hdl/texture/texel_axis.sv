@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One axis of a texel position: the product of a wrapped coordinate and a level's size becomes one or two
-// texels within the level, and a fraction (docs/number_formats.md, "Addresses").
+// texels within the level, and a fraction (docs/reference/texture/formats.md, "Addresses").
 `include "tables.svh"
 module texel_axis (
   input  logic signed [46:0] product,  // 24 fraction bits

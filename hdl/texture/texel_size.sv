@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Magnitude of a derivative in texels: the product of a difference and a size, U20.24, rounded to 16
-// fraction bits and saturated to 2^31 - 1 (docs/number_formats.md).
+// fraction bits and saturated to 2^31 - 1 (docs/reference/texture/formats.md).
 module texel_size (
   input  logic signed [46:0] product,
   output logic [30:0]        size

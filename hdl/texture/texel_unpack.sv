@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The channels of a texel as stored, 8 bits each, red in the lowest ones
-// (docs/number_formats.md: narrow channels repeat their high bits).
+// (docs/reference/texture/formats.md: narrow channels repeat their high bits).
 `include "tables.svh"
 module texel_unpack (
   input  logic [31:0] texel,

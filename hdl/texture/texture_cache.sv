@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From bilinear requests to their texels: TagStage, MissQueue with the FillBuffer, LatencyFifo and
-// DataStage (docs/texture_unit.md). Requests to memory and its responses go through links outside.
+// DataStage (docs/reference/texture/cache.md). Requests to memory and its responses go through links outside.
 `include "tokens.svh"
 `include "tables.svh"
 module texture_cache #(

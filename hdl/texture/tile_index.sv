@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Morton index of a tile in a level: the low bits of both axes interleave, x in the even places, as far
-// as both have tiles; the rest of the longer axis stands above (docs/number_formats.md, "Addresses").
+// as both have tiles; the rest of the longer axis stands above (docs/reference/texture/formats.md,
+// "Addresses").
 module tile_index (
   input  logic [9:0]  x, y,
   input  logic [9:0]  last_x, last_y,  // of the level's tiles

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A coordinate by its wrap mode: U0.24, or S9.24 as it is for clamping (docs/number_formats.md,
+// A coordinate by its wrap mode: U0.24, or S9.24 as it is for clamping (docs/reference/texture/formats.md,
 // "Addresses").
 `include "tables.svh"
 module wrap_coordinate (

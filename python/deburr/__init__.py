@@ -6,7 +6,7 @@ ideal     reference filters and truth in real numbers
 run       one run of a cycle-accurate model, in a process of its own
 sweep     many runs, as a table
 
-docs/python.md has the whole of it.
+docs/reference/python.md has the whole of it.
 """
 from deburr import golden, ideal
 from deburr._golden import version as __version__

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The datasheet of a unit: what it does in which stage, in how many clocks, on which longest path,
-// with which formats, at which cost. docs/datasheets.md is made of them, and timing tests expect
-// what they say of the simulated hardware, so no number of them is taken from the model's code.
+// with which formats, at which cost. docs/reference/datasheets.md is made of them, and timing tests
+// expect what they say of the simulated hardware, so no number of them is taken from the model's
+// code.
 //
 //   Datasheet Halver::datasheet(const Parameters& p) {
 //     return {.unit = "Halver",

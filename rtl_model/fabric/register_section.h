@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What software and tools are told of an engine's registers: a section of docs/registers.md, macros
-// of C, and SystemRDL 2.0, of which other tools make IP-XACT and register models for UVM.
-// Each engine has one (register_section() in rtl_model/NAME/register_section.h).
+// What software and tools are told of an engine's registers: a section of
+// docs/reference/registers.md, macros of C, and SystemRDL 2.0, of which other tools make IP-XACT
+// and register models for UVM. Each engine has one (register_section() in
+// rtl_model/NAME/register_section.h).
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The geometric engine: smooths the jagged edges of a finished frame along the edges of its mesh
-// (docs/geometric.md; phases, latencies, memories: docs/geometric_hardware.md).
+// (docs/reference/geometric/index.md; phases, latencies, memories:
+// docs/reference/geometric/hardware.md).
 //
 //   registers (TLM-2.0 target)                       memory (TLM-2.0 initiator)
 //       |                                                |

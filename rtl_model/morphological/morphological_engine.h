@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The morphological engine: smooths jagged edges of a finished frame
-// (docs/morphological_engine.md; slots, latency, memories: docs/morphological_hardware.md).
+// (docs/reference/morphological/index.md; slots, latency, memories:
+// docs/reference/morphological/hardware.md).
 //
 //                                                                                      pixels_out
 //                                                                                           ^

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What software puts into memory for the geometric engine, as bytes: docs/geometric.md, "What is in
-// memory".
+// What software puts into memory for the geometric engine, as bytes:
+// docs/reference/geometric/memory.md, "What is in memory".
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What software writes for the texture unit: mip chains in any format and layout, as bytes of
-// memory (docs/number_formats.md, "Addresses"), and descriptors, as values of registers.
+// memory (docs/reference/texture/formats.md, "Addresses"), and descriptors, as values of registers.
 #pragma once
 
 #include <array>

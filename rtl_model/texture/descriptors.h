@@ -6,7 +6,8 @@
 // time. What a level is (its size, pitch and tiles) is wires, shifts and small adders behind the
 // choice. The word is there in the clock of the read; a write counts from the next clock edge on.
 // Descriptors are static while the unit is busy: a write then sets a sticky status bit. Formats:
-// docs/texture_unit.md, registers of a descriptor. Source: paper 2.1, the parameter store.
+// docs/reference/texture/index.md, registers of a descriptor. Source: paper 2.1, the parameter
+// store.
 #pragma once
 
 #include <array>

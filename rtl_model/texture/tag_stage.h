@@ -7,8 +7,8 @@
 // Stalls: `miss_queue_full` (the request misses and the MissQueue takes nothing), `fifo_full` (the
 // LatencyFifo takes nothing). `line_used_in` tells hits from lines whose fill is under way, for the
 // counters alone. Tags change when a fill is ordered, data when it is used: see Order
-// of fills in docs/texture_unit.md. Source: Igehy, Eldridge, Proudfoot, "Prefetching in a texture
-// cache architecture", 1998.
+// of fills in docs/reference/texture/cache.md. Source: Igehy, Eldridge, Proudfoot, "Prefetching in
+// a texture cache architecture", 1998.
 #pragma once
 
 #include <array>

@@ -8,7 +8,7 @@
 // a read of the same clock). Then the lines are looked up one after the other: a later look-up sees
 // what an earlier one has allocated, so four choices among the ways stand behind each other.
 // Flip-flops end at 16 kbit, which is kMostLines lines; the chain ends at kMostWays ways. Source:
-// docs/number_formats.md, cache and traffic.
+// docs/reference/texture/formats.md, cache and traffic.
 #pragma once
 
 #include <array>

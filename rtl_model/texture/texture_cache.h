@@ -10,8 +10,8 @@
 //                       MemoryPort (TLM-2.0)
 //
 // Links of two places stand between its blocks; `line_used` is a wire. Fill order, merged misses:
-// docs/texture_unit.md. Source: Igehy, Eldridge, Proudfoot, "Prefetching in a texture cache
-// architecture", 1998.
+// docs/reference/texture/cache.md. Source: Igehy, Eldridge, Proudfoot, "Prefetching in a texture
+// cache architecture", 1998.
 #pragma once
 
 #include <systemc>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The texture unit: filters textures for quads of fragments (docs/texture_unit.md).
+// The texture unit: filters textures for quads of fragments (docs/reference/texture/index.md).
 //
 //     quads_in -> AddressUnit -> TextureCache -> FilterPipeline -> colours_out
 //                      ^              |

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The wires between the blocks of the texture unit: one struct a link, each with the list of its
-// fields, widths and formats (rtl_model/fabric/payload.h; formats as in docs/number_formats.md).
-// Texels stand in the order 00, 10, 01, 11.
+// fields, widths and formats (rtl_model/fabric/payload.h; formats as in
+// docs/reference/texture/formats.md). Texels stand in the order 00, 10, 01, 11.
 #pragma once
 
 #include <algorithm>

@@ -51,7 +51,7 @@ class Facts:
         """Words for the latency of a unit (or of 'A or B'), from its datasheet; none if it has none."""
         cells = []
         for unit in name.split(" or "):
-            cells += re.findall(rf"^\| {unit}(?:, [^|]*)? \| ([^|]*) \|", self.text("docs/datasheets.md"), re.M)
+            cells += re.findall(rf"^\| {unit}(?:, [^|]*)? \| ([^|]*) \|", self.text("docs/reference/datasheets.md"), re.M)
         if not cells:
             return None
         clocks = sorted({int(found[1]) for cell in cells if (found := re.match(r"(\d+)\b", cell))})
@@ -66,7 +66,7 @@ class Facts:
 
     def stages(self, unit):
         """(stage, work) of each stage of a unit's first datasheet."""
-        text = self.find("docs/datasheets.md", rf"^### {unit}\n(.*?)\nCost")[1]
+        text = self.find("docs/reference/datasheets.md", rf"^### {unit}\n(.*?)\nCost")[1]
         return re.findall(r"^\| ([\d, -]+?) \| ([^|]*?) \|", text, re.M)
 
     def shapes(self):

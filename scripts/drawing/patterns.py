@@ -66,7 +66,7 @@ def run_shapes(facts):
 
 
 def smaa_patterns(facts):
-    formats, page = "docs/number_formats_morphological.md", "docs/morphological_smaa.md"
+    formats, page = "docs/reference/morphological/formats.md", "docs/reference/morphological/smaa.md"
     bits = facts.find(formats, r"pattern p = (S_start) \+ 2 (\w+) \+ 4 (\w+) \+ 8 (\w+),").groups()
     tiles = {}
     for patterns, second, first in facts.table(formats, "p", "second", "first"):
@@ -98,7 +98,7 @@ def smaa_patterns(facts):
 
 
 def diagonal_ends(facts):
-    formats, page = "docs/number_formats_morphological.md", "docs/morphological_smaa.md"
+    formats, page = "docs/reference/morphological/formats.md", "docs/reference/morphological/smaa.md"
     pairs = {}
     for row in facts.table(formats, "e1, e2", "P, Q"):
         for codes, lines in zip(row[::2], row[1::2]):

@@ -103,21 +103,21 @@ def ports(picture, facts, plan, page, ends):
 
 
 def texture(facts):
-    page = "docs/texture_unit.md"
+    page = "docs/reference/texture/hardware.md"
     plan = Plan({"DerivativeUnit": (0, 0), "FootprintUnit or AxisUnit": (1, 0), "Log2Unit": (2, 0), "LevelUnit": (3, 0),
                  "SampleWalker": (3, 1), "TexelAddresser": (2, 1), "TagStage": (1, 1), "MissQueue": (0, 1),
                  "LatencyFifo": (1, 2), "DataStage": (2, 2), "FilterPipeline": (3, 2), "MemoryPort": (0, 2)},
                 {"cache.memory_requests": -.2, "cache.memory_responses": .2},
                 {"cache.memory_requests": (-7, 4, "end"), "cache.latency_fifo.entries": (0, -6, "middle")})
     picture = draw(facts, page, plan, (4, 3), "Units of the texture unit and the links between them")
-    ports(picture, facts, plan, page, {
+    ports(picture, facts, plan, "docs/reference/texture/index.md", {
         "quads_in": ([(-.4, .5), (0, .5)], -16, -8, ""),
         "colours_out": ([at(3, 2, 1), at(3, 2, 1.4)], -26, -8, "")})
     return picture
 
 
 def morphological(facts):
-    page = "docs/morphological_hardware.md"
+    page = "docs/reference/morphological/memories.md"
     plan = Plan({"SlotSequencer": (0, 0), "LumaUnit": (1, 0), "EdgeDetector": (2, 0), "RunExtractor": (3, 0),
                  "PixelStore": (0, 1), "MemoryPort": (1, 1), "DiagonalUnit": (2, 1), "EndpointPredictor": (3, 1),
                  "Blender": (0, 2), "AreaUnit": (2, 2), "LineUnit": (3, 2)},
@@ -132,14 +132,14 @@ def morphological(facts):
                 {"diagonal_columns": (0, -5, "middle"), "fetches": (0, -5, "middle"), "area_slots": (-31, 93, ""),
                  "finished": (6, 52, ""), "frames_done": (6, 57, ""), "diagonals.diagonal_shares": (-7, 4, "end")})
     picture = draw(facts, page, plan, (4, 3), "Units of the morphological engine and the links between them")
-    ports(picture, facts, plan, "docs/morphological_engine.md", {
+    ports(picture, facts, plan, "docs/reference/morphological/index.md", {
         "pixels_in": ([(-.4, .3), (0, .3)], -16, -8, ""),
         "pixels_out": ([at(0, 2, .5, 1), at(0, 2, .5, 1.45)], 8, -6, "")})
     return picture
 
 
 def geometric(facts):
-    page = "docs/geometric_hardware.md"
+    page = "docs/reference/geometric/memories.md"
     plan = Plan({"EdgeReader": (0, 0), "EdgeClassifier": (1, 0), "VertexFetch": (2, 0), "LineSetup": (3, 0),
                  "LineWalker": (3, 1), "CoverageUnit": (2, 1), "DepthTest": (1, 1), "WeightCombiner": (0, 1),
                  "BlockScanner": (0, 2), "BlockFetch": (1, 2), "Resolver": (2, 2), "FacingStore": (0, 3),

@@ -9,7 +9,7 @@ from drawing.svg import Picture
 
 
 def texture_cache(facts):
-    links = {name: (start, end, places) for name, start, end, places in facts.links("docs/texture_unit.md")}
+    links = {name: (start, end, places) for name, start, end, places in facts.links("docs/reference/texture/hardware.md")}
     depth = links["cache.latency_fifo.entries"][2]
     picture = Picture(840, 404, "The two halves of the texture cache with a FIFO between them",
                       f"A request goes through the TagStage, waits in the LatencyFifo of {depth} places, and goes through the "
@@ -41,7 +41,7 @@ def texture_cache(facts):
 
     def way(name, points, dx=0., dy=-6., classes="middle"):
         if name not in links:
-            raise Missing(f"docs/texture_unit.md: no link {name}")
+            raise Missing(f"docs/reference/texture/hardware.md: no link {name}")
         picture.path(points, arrow=True)
         (x0, y0), (x1, y1) = points[0], points[1]
         picture.text((x0 + x1) / 2 + dx, (y0 + y1) / 2 + dy, name.split(".")[-1], f"small halo {classes}")
@@ -56,22 +56,22 @@ def texture_cache(facts):
     picture.text(545, 324, links["cache.memory_responses"][0] and "memory_responses", "small halo middle")
     picture.path([(710, 270), (710, 184)], arrow=True)
     picture.lines(700, 222, ["lines, in the order", "in which they were missed"], "small dim end")
-    hit = facts.find("docs/datasheets.md", r"^\| TextureCache \| (\d+) \|")[1]
-    miss = facts.find("docs/texture_unit.md", r"one that misses a line (\d+) more than the\s+latency of memory")[1]
+    hit = facts.find("docs/reference/datasheets.md", r"^\| TextureCache \| (\d+) \|")[1]
+    miss = facts.find("docs/reference/texture/cache.md", r"one that misses a line (\d+) more than the\s+latency of memory")[1]
     picture.text(20, 388, f"A request that hits takes {hit} clocks; one that misses a line {miss} more than the latency of memory.",
                  "small dim")
     return picture
 
 
 def line_walk(facts):
-    vectors = facts.table("docs/number_formats_geometric.md", "M0, m0, d0", "M1, m1, d1")
+    vectors = facts.table("docs/reference/geometric/formats.md", "M0, m0, d0", "M1, m1, d1")
     ends, other, horizontal, columns, position, slope = vectors[0][:6]
     major0, minor0, _ = map(int, ends.split(", "))
     major1, minor1, _ = map(int, other.split(", "))
     first, count = map(int, columns.split(", "))
-    rule = facts.find("docs/number_formats_geometric.md", r"^distance\(dis\) = ([^.]*)\.")[1]
+    rule = facts.find("docs/reference/geometric/formats.md", r"^distance\(dis\) = ([^.]*)\.")[1]
     if horizontal != "yes" or not re.fullmatch(r"[\d\s()+>|dis-]+", rule):
-        raise Missing("docs/number_formats_geometric.md: the first line of the vectors, or distance(dis), is another")
+        raise Missing("docs/reference/geometric/formats.md: the first line of the vectors, or distance(dis), is another")
     left, right, bottom, cell = first - 2, first + count + 2, 7, 54
 
     def at(x, y):
@@ -134,7 +134,7 @@ def number_of(value):
 
 
 def footprint(facts):
-    page = "docs/number_formats.md"
+    page = "docs/reference/texture/formats.md"
     table = facts.table(page, "direction", "0", "1")
     rows = {row[0]: [int(cell) for cell in row[1:]] for row in table}
     if sorted(rows) != ["C", "S"] or len(rows["C"]) != 8:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tables of docs/morphological_quality.md that `deburr papers 003` prints as well."""
+"""Tables of docs/measurements/morphological_peers.md that `deburr papers 003` prints as well."""
 from measurement.sources import recipe, spaced
 
 

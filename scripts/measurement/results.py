@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Tables of docs/results.md that are made of runs, and of papers' figures."""
+"""Tables of docs/measurements/results.md that are made of runs, and of papers' figures."""
 import json
 
 from measurement.sources import recipe, spaced, write_png
 
 SCENES = ("plane", "quad", "tunnel")
-# What an estimate in real arithmetic gave (docs/scenes.md): bilinears, texels, misses.
+# What an estimate in real arithmetic gave: bilinears, texels, misses.
 ESTIMATES = {"plane": ("7.8", "9.0", "1.81"), "quad": ("2.1", "3.7", "2.76"),
              "tunnel": ("5.0", "10.5", "3.28")}
 

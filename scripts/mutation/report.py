@@ -11,20 +11,19 @@ from mutation.tree import digest
 
 RECORD = pathlib.Path("tb/mutation/record.json")
 SURVIVORS = pathlib.Path("tb/mutation/survivors.json")
-PAGE = pathlib.Path("docs/mutation.md")
+PAGE = pathlib.Path("docs/measurements/mutation.md")
 VERDICTS = ("killed", "survived", "invalid")
 GOAL = 95
 Z = 1.959964  # of a confidence of 95 %
 HEAD = """# Mutants of both models
 
-What the tests do not see: `scripts/mutate --all` plants the small faults that it knows (an operator, a constant or a
-condition changed, a statement, a call or a reset left out) in `golden/` and `rtl_model/`, one at a time, and runs the
-tests that reach it until one fails ([verification](verification.md#mutants)). `scripts/mutate --report` makes this page
-from `tb/mutation/record.json`, the result of the last campaign, and `tb/mutation/survivors.json`, which says of a
-survivor why no test could see it.
+Made by `scripts/mutate --report` from `tb/mutation/record.json`, the result of the last campaign, which names each file
+by a hash of what it held, and `tb/mutation/survivors.json`; do not edit. `scripts/mutate --all` plants small faults in
+`golden/` and `rtl_model/`, one at a time, and runs the tests that reach each until one fails
+([kinds and how](../reference/tests.md#mutants), [why](../explanation/verification.md#mutants)).
 
-A rate is of the mutants that were judged. What stands behind it in brackets is where that of all mutants lies, with a
-confidence of 95 % (Wilson's interval), if the judged ones are a random sample of all.
+A rate is of the mutants with a verdict. In brackets is where that of all mutants lies, with a confidence of 95 %
+(Wilson's interval), if those with a verdict are a random sample of all.
 
 """
 
@@ -110,7 +109,7 @@ def run_of(row):
 
 
 def goal_of(rows, drawn):
-    """The folders by what is known of the goal, which is said of all if the judged were `drawn` of all."""
+    """The folders by what is known of the goal, which is said of all if those with a verdict were `drawn` of all."""
     lists = {"reached": [], "open": [], "missed": []}
     for name, row in rows.items():
         counted = row["killed"] + row["survived"]
@@ -118,12 +117,12 @@ def goal_of(rows, drawn):
             continue
         reached = row["killed"] * 100 >= GOAL * counted
         sure = drawn and interval(row["killed"], counted)[0] >= GOAL * 10
-        lists["missed" if not reached else "reached" if sure else "open"].append(
-            f"`{name}` {percent(row['killed'], counted)}, {run_of(row)} of {row['mutants']} judged")
+        lists["missed" if not reached else "reached" if sure else "open"].append(f"`{name}`")
     texts = {"reached": "Of all mutants, with that confidence, it is reached by",
-             "open": "Of those that were judged, which do not say it of all, it is reached by",
+             "open": "Of those with a verdict, which do not say it of all, it is reached by",
              "missed": "It is missed by"}
-    return " ".join(f"{texts[name]}: {'; '.join(found)}." for name, found in lists.items() if found)
+    return " ".join(f"{texts[name]} {'every folder' if len(found) == len(rows) > 1 else ', '.join(found)}."
+                    for name, found in lists.items() if found)
 
 
 def kinds_of(record):
@@ -132,7 +131,7 @@ def kinds_of(record):
     for entry in record.values():
         for kind, counts in entry.get("kinds", {}).items():
             totals[kind] = [a + b for a, b in zip(totals[kind], counts)]
-    lines = ["| kind | mutants | judged | not compiled | killed | killed % of the judged |",
+    lines = ["| kind | mutants | with verdict | not compiled | killed | killed % |",
              "|---|---|---|---|---|---|"]
     for kind, (all_of, killed, survived, invalid) in totals.items():
         if all_of:
@@ -145,8 +144,8 @@ def page_of(root, record):
     explained = explanations(root)
     rows = judged(record, explained)
     total = sum(rows.values(), collections.Counter())
-    lines = ["| folder | files | mutants | judged | not compiled | killed | survived: explained "
-             "| survived: open | killed % of the judged | of those not explained % |",
+    lines = ["| folder | files | mutants | with verdict | not compiled | killed | survived: explained "
+             "| survived: open | killed % | of those not explained % |",
              "|---|---|---|---|---|---|---|---|---|---|"]
     for name, row in [*rows.items(), ("all", total)]:
         lines.append(
@@ -166,21 +165,18 @@ def page_of(root, record):
                     + goal_of(rows, not old)) + "\n\n"
     if old:
         text += wrapped(
-            f"{len(old)} of {len(record)} files were judged before the generator knew the kinds "
+            f"{len(old)} of {len(record)} files got their verdicts before the generator had the kinds "
             + ", ".join(mutants.KINDS[mutants.KINDS.index("shift"):]) + ", and not at random over "
             "all: mutants of these kinds are not among those of the table, and intervals say too "
             "much of folders in which whole files were left out.") + "\n\n"
     text += kinds_of(record)
     nothing = without_verdict(record)
     if nothing:
-        text += wrapped(f"{len(nothing)} files have mutants, of which none was judged: "
-                        + ", ".join(f"`{file}`" for file in nothing) + ".") + "\n\n"
-    text += "## Survivors that are explained\n\n"
-    text += wrapped("Nobody can see these: the program does the same, or what it does otherwise is "
-                    "not part of any contract.") + "\n\n"
-    for (file, was, becomes), reason in sorted(explained.items()):
-        text += f"* `{file}`: `{becomes}` (was `{was}`): {reason}\n"
-    text += "\n## Open survivors\n\n"
+        text += wrapped(f"{len(nothing)} files have mutants and no verdict; `scripts/mutate --check` names "
+                        "them, and those that have changed since.") + "\n\n"
+    text += wrapped(f"`tb/mutation/survivors.json` explains {len(explained)} survivors by file, line and reason: the "
+                    "program does the same, or what it does otherwise is not part of any contract.") + "\n\n"
+    text += "## Open survivors\n\n"
     text += wrapped("Each is a gap in the tests, or waits for its explanation.") + "\n\n"
     for file, entry in sorted(record.items()):
         open_ones = [(was, becomes) for was, becomes in entry["survived"]

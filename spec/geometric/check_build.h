@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the geometric engine can be built with. Why: docs/geometric_hardware.md, "Parameters".
+// What the geometric engine can be built with. Why: docs/reference/geometric/hardware.md,
+// "Parameters".
 #pragma once
 
 #include <array>

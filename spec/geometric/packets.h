@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What golden and hardware compare on the way through the geometric engine. Formats:
-// docs/number_formats_geometric.md.
+// docs/reference/geometric/formats.md.
 #pragma once
 
 #include <array>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Parameters, presets and limits of the geometric engine: rules, which change pixels, and build
-// choices, which change clocks, traffic and cost. Meaning: docs/geometric.md; formats and rounding,
-// to the bit: docs/number_formats_geometric.md; clocks: docs/geometric_hardware.md.
+// choices, which change clocks, traffic and cost. Meaning: docs/reference/geometric/index.md;
+// formats and rounding, to the bit: docs/reference/geometric/formats.md; clocks:
+// docs/reference/geometric/hardware.md.
 #pragma once
 
 #include <array>
@@ -133,7 +134,7 @@ void describe(Rules& p, Visitor& v) {
   v.choice("crease", p.crease, kCreaseNames,
            "What a crease is: nothing, an angle (eq 4 of paper 002), or what changes the shading.");
   v.choice("cull", p.cull, kCullNames,
-           "What becomes of edges between two faces turned away: judged as those of faces turned "
+           "What becomes of edges between two faces turned away: treated as those of faces turned "
            "to the eye, or dropped.");
   v.choice("coverage", p.coverage, kCoverageNames,
            "What a line gives a pixel: its distance along the column, or the area that it cuts "
@@ -165,7 +166,7 @@ void describe(Build& p, Visitor& v) {
   v.integer("touched_words", p.touched_words, 16, 65536, "word",
             "Touched bits of 128 blocks each; a frame needs a word for every 512 x 4 pixels.");
   v.integer("face_limit", p.face_limit, 8192, static_cast<std::int32_t>(kMaxFaces), "face",
-            "Facing bits on the chip; a mesh with more faces is refused.");
+            "Facing bits on the chip; a mesh with more faces is rejected.");
   v.choice("edge_lanes", p.edge_lanes, kLanesNames, "Edges classified a clock.");
   v.integer("edge_lines", p.edge_lines, 4, 256, "line",
             "Lines of the edge table read ahead, four edges each.");

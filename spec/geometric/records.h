@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the geometric engine finds in memory: vertices, edges, facing bits, buffers of pixels and of
-// weights. Little-endian 32-bit words. Meaning and addresses: docs/geometric.md.
+// weights. Little-endian 32-bit words. Meaning and addresses: docs/reference/geometric/memory.md.
 #pragma once
 
 #include <array>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Test vectors of the geometric engine's contract: data that golden and hardware are held to, and
-// that the tables of docs/geometric.md and docs/number_formats_geometric.md are made from. What the
-// frame holds, and what is hashed: docs/geometric.md, "Vectors".
+// that the tables of docs/reference/geometric/vectors.md and docs/reference/geometric/formats.md
+// are made from. What the frame holds, and what is hashed: docs/reference/geometric/vectors.md,
+// "Frame".
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contents of the ROMs of learned shares (docs/morphological_shares.md) as an engine is built with
-// them. Written by scripts/train-shares; do not edit.
+// Contents of the ROMs of learned shares (docs/reference/morphological/learned_shares.md) as an
+// engine is built with them. Written by scripts/train-shares; do not edit.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Packets of the morphological engine: pixels in and out, and what golden and hardware compare on
-// the way. Formats: docs/number_formats_morphological.md.
+// the way. Formats: docs/reference/morphological/formats.md.
 #pragma once
 
 #include <array>
@@ -74,9 +74,9 @@ enum class RunPart : std::uint8_t { kWhole, kHead, kTail };
 // A closed run. Horizontal: `line` is the row of the top edges, positions are columns. Vertical:
 // `line` is the column of the left edges, positions are rows. Corners are `start` and
 // `start + length`; of a head (tail) only the first (second) is a corner of the run.
-// `far` says which crossings go on for a second pixel (docs/morphological_smaa.md, "Corners"): bit
-// 0 on the first side and bit 1 on the second at the start, bits 2 and 3 at the end; 0 without
-// round_corners.
+// `far` says which crossings go on for a second pixel (docs/reference/morphological/smaa.md,
+// "Corners"): bit 0 on the first side and bit 1 on the second at the start, bits 2 and 3 at the
+// end; 0 without round_corners.
 struct RunRecord {
   Axis axis = Axis::kHorizontal;
   RunPart part = RunPart::kWhole;

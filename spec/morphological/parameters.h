@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Parameters and presets of the morphological engine: rules, which change pixels, and build
-// choices, which change clocks and cost. Meaning: docs/morphological_engine.md and
-// docs/morphological_smaa.md; formats and rounding, to the bit:
-// docs/number_formats_morphological.md.
+// choices, which change clocks and cost. Meaning: docs/reference/morphological/index.md and
+// docs/reference/morphological/smaa.md; formats and rounding, to the bit:
+// docs/reference/morphological/formats.md.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ enum class Predictor : std::uint8_t { kNone, kChord, kFit };
 inline constexpr std::array<std::string_view, 3> kPredictorNames = {"none", "chord", "fit"};
 
 // The three tables are layouts of one: they give the same pixels. Learned: the line of a clean Z
-// that was extended or is long, ROMs elsewhere (docs/morphological_shares.md).
+// that was extended or is long, ROMs elsewhere (docs/reference/morphological/learned_shares.md).
 enum class AreaSource : std::uint8_t {
   kAnalytic,
   kTableFull,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sixteen ways in which a run of edges can end. Meaning: docs/morphological_engine.md.
+// The sixteen ways in which a run of edges can end. Meaning:
+// docs/reference/morphological/algorithm.md.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Test vectors of the morphological engine's contract: data that golden and hardware are held to,
-// and that the tables of docs/number_formats_morphological.md and docs/morphological_smaa.md are
-// made from. The images and the hash: docs/number_formats_morphological.md, "Test vectors".
+// and that the tables of docs/reference/morphological/vectors.md are made from. The images and the
+// hash are there, too ("Test vectors").
 #pragma once
 
 #include <array>

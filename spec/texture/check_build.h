@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the texture unit can be built with. Why: docs/texture_unit.md, "Tags" and "Footprint".
+// What the texture unit can be built with. Why: docs/reference/texture/cache.md, "Tags";
+// docs/reference/texture/hardware.md, "Directions".
 #pragma once
 
 #include <array>

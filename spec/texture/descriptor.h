@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Texture and sampler state of the texture unit, as its registers hold it. Meaning:
-// docs/texture_unit.md.
+// docs/reference/texture/index.md.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parameters of the texture unit: rules, which change pixels, and build choices, which change
-// clocks and cost. Meaning: docs/texture_unit.md; formats and rounding: docs/number_formats.md.
+// clocks and cost. Meaning: docs/reference/texture/index.md; formats and rounding:
+// docs/reference/texture/formats.md.
 #pragma once
 
 #include <array>

@@ -62,7 +62,7 @@ inline constexpr std::array<std::uint32_t, 17> kReciprocal = {
     7282, 6554,  5958,  5461,  5041,  4681,  4369,  4096};
 
 // Weights of the N samples by kernel, N and sample, U1.8; they sum to 256.
-// docs/number_formats.md, "Sample walker".
+// docs/reference/texture/formats.md, "Sample walker".
 inline constexpr std::array<std::array<std::array<std::uint16_t, 16>, 17>, 2> kKernelWeights = {
     {{{{},
        {256},

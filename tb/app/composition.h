@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What an engine is in a composition, which draws a scene into a frame buffer and smooths it there.
 // An engine declares its role here, once; the composition is made of the roles and names no
-// engine (docs/exploration.md, "Adding an engine").
+// engine (docs/howto/add_an_engine.md, "In a composition").
 //
 //   PictureDrawer   draws a picture: a colour a fragment, in whatever order
 //   MeshSmoother    smooths along the edges of the mesh: the frame buffer is its memory

@@ -2,7 +2,7 @@
 // An engine declares itself here, once: what it is called, what it is given, what its runs leave,
 // what its reference pages hold, and how random and long runs of it are made. Everything around it
 // reads the declaration and names no engine. To add one: implement this in tb/engines/NAME, and add
-// NAME to tb/engines/engines.txt (docs/exploration.md, "Adding an engine").
+// NAME to tb/engines/engines.txt (docs/howto/add_an_engine.md).
 #pragma once
 
 #include <array>
@@ -95,20 +95,21 @@ void describe(RunParameters& p, Visitor& v) {
   v.text("pixel", p.pixel, "X,Y",
          "Keeps everything that happens to this pixel, golden and hardware side by side: pixel of "
          "result.json, the report's table; columns from the left, rows from the top. Empty: none.");
-  v.boolean("coverage", p.coverage,
-            "Functional coverage: leave how often each bin of docs/coverage.md was met, as "
-            "coverage.bins of result.json; with the golden model, which knows what was met.");
+  v.boolean(
+      "coverage", p.coverage,
+      "Functional coverage: leave how often each bin of docs/reference/coverage.md was met, as "
+      "coverage.bins of result.json; with the golden model, which knows what was met.");
   v.boolean("timeline", p.timeline,
             "Leave timeline.json for trace viewers (Perfetto, chrome://tracing): what each unit "
             "did in each cycle, and transactions of memory.");
   v.integer("timeline_from", p.timeline_from, 0, std::int64_t{1} << 40, "clk",
             "First cycle of the timeline.");
   v.integer("timeline_to", p.timeline_to, 0, std::int64_t{1} << 40, "clk",
-            "Cycle after the last of the timeline, at most 100000 behind the first.");
+            "Cycle after the last of the timeline, at most 100000 after the first.");
   v.choice("line_trace", p.line_trace, kTraceChoiceNames,
-           "Leaves lines.trace: every line that is asked of memory (docs/traces.md).");
+           "Leaves lines.trace: every line that is asked of memory (docs/reference/traces.md).");
   v.text("fault", p.fault, "name",
-         "Plants a fault that the checks must catch (docs/verification.md).");
+         "Plants a fault that the checks must catch (docs/reference/planted_faults.md).");
   v.boolean("truth", p.truth, "Compare the picture with the scene's supersampled truth.");
   v.boolean("images", p.images, "Leave pictures, and show them in the report.");
 }
@@ -120,13 +121,13 @@ struct Shorthand {
   std::string second_parameter{}, given = "true";
 };
 
-// Of docs/datasheets.md: an engine's units.
+// Of docs/reference/datasheets.md: an engine's units.
 struct DatasheetSection {
   std::string module;  // as its page calls it; empty: the engine has no units of its own
   std::vector<rtl::Datasheet> sheets;
 };
 
-// Of docs/coverage.md: every bin of an engine, those too that only directed tests meet.
+// Of docs/reference/coverage.md: every bin of an engine, those too that only directed tests meet.
 struct CoverageSection {
   std::string title;  // of its table; empty: the engine has no bins of its own
   Coverage bins;
@@ -184,8 +185,9 @@ class Engine {
   // its misses. Runs that agree in these, in rules and in inputs are checked with one golden
   // result.
   virtual std::vector<std::string_view> built_for_golden() const { return {}; }
-  // Every counter and stall cause that a run of this engine reports, for docs/statistics.md. It
-  // elaborates the model, so it is called at most once a process, and not in one that runs.
+  // Every counter and stall cause that a run of this engine reports, for
+  // docs/reference/statistics.md. It elaborates the model, so it is called at most once a process,
+  // and not in one that runs.
   virtual void describe_statistics(Result& result) = 0;
 
   // ---- what its runs may leave, by name: NAME.png; map_NAME.png and map_NAME.pfm

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// docs/parameters.md, statistics.md, registers.md, coverage.md and datasheets.md, made from the
-// declarations that the program uses.
+// docs/reference/parameters.md, statistics.md, registers.md, coverage.md and datasheets.md, made
+// from the declarations that the program uses.
 #pragma once
 
 #include <memory>

@@ -4,7 +4,8 @@
 //
 //   fabric_bench                               wall time, Mcycle/s
 //   fabric_bench --cycles <mode> <n>           n cycles of one mode and nothing else, for counting
-//       instructions with callgrind (docs/fabric.md); modes: plain fast slow shuffled
+//       instructions with callgrind (docs/explanation/fabric/index.md); modes: plain fast slow
+//       shuffled
 #include <benchmark/benchmark.h>
 
 #include <array>

@@ -7,7 +7,8 @@
 //   morphological_rtl_bench --frames <image> <preset> <lanes> <n> [memory]   n frames and nothing
 //       else: cycles, stalls, edges, memory bits; for counting instructions with callgrind
 //   morphological_rtl_bench --trade                            bits of the edge memories and clocks
-//       of a frame by predictors and trial_clocks: the table of docs/morphological_hardware.md
+//       of a frame by predictors and trial_clocks: the table of
+//       docs/reference/morphological/throughput.md
 // Images: facets (slanted halves in cells of 32 pixels, some 10 % edge pixels), noise, flat,
 // stripes.
 #include <benchmark/benchmark.h>

@@ -305,7 +305,7 @@ void add_compare(CLI::App& app, CommandLine& line) {
   command
       ->add_option("DIR", options->paths,
                    "Directories of runs (or their result.json), or of sweeps that were collected; "
-                   "the first is what the others are judged by")
+                   "the first is what the others are compared with")
       ->required()
       ->expected(2, -1);
   Tolerances& tolerances = options->tolerances;
@@ -330,7 +330,7 @@ void add_compare(CLI::App& app, CommandLine& line) {
       ->check(tolerance());
   command
       ->add_option("--memory-percent", tolerances.memory_percent,
-                   "Bits of memory may grow by this much; without it they are judged and fail "
+                   "Bits of memory may grow by this much; without it they are compared and fail "
                    "nothing")
       ->check(tolerance());
   command->add_option("--html", options->page, "Write all of it as one self-contained page")

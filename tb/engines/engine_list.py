@@ -24,7 +24,7 @@ def trials(name):
 
 
 def testplan(path):
-    """A testplan without `include`: the features that it includes, then its own (docs/regression.md)."""
+    """A testplan without `include`: the features that it includes, then its own (docs/reference/regression.md)."""
     import yaml
     plan = yaml.safe_load(path.read_text(encoding="utf-8"))
     own, included = plan.get("features", []), []

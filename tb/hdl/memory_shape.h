@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The port between the texture cache and memory, and what of its beats is built
-// (docs/texture_unit.md, "Links"): for the program that prints a configuration and for the tests.
+// (docs/reference/texture/hardware.md, "Links"): for the program that prints a configuration and
+// for the tests.
 #pragma once
 
 #include <algorithm>

@@ -39,7 +39,7 @@ class Fragments(CommandTest):
         sized = TITLE + "size 8 8\n"
         for content, *says in (
                 ("", "trace:1", "the file is empty", "begins with 'deburr-fragments 1'"),
-                ("hello\n", "trace:1", "something else", "docs/traces.md"),
+                ("hello\n", "trace:1", "something else", "docs/reference/traces.md"),
                 ("deburr-fragments\n", "trace:1", "1 fields, expected 2"),
                 ("deburr-fragments 2\n", "trace:1", "version 2", "reads version 1"),
                 (TITLE, "trace:2", "cut short"),

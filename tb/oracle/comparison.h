@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The whole project on the same scenes: every method's quality against supersampling, and what the
-// hardware model of it costs. The table of docs/comparison.md and the picture of the README.
+// hardware model of it costs. The table of docs/measurements/comparison.md and the picture of the
+// README.
 #pragma once
 
 #include <cstdint>

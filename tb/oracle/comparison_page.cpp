@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keeps the generated part of docs/comparison.md and the README's picture current.
+// Keeps the generated part of docs/measurements/comparison.md and the README's picture current.
 //   comparison_page write PAGE           replaces the part between the two marker lines
 //   comparison_page check PAGE [SCENE]   exit code 1 when that part, or of it the section of one
 //                                        scene, is not what would be written

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs a texture filter through Khronos's filtering criterion, and tabulates what each footprint
 // and logarithm rule of the texture unit gets. Used by the tests here, by `deburr papers`, and by
-// the program that writes docs/filtering_conformance.md.
+// the program that writes docs/measurements/filtering_conformance.md.
 #pragma once
 
 #include <array>

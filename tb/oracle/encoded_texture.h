@@ -2,8 +2,8 @@
 // Test textures as the codes that are stored, and the three things that are made of them: bytes in
 // the unit's memory layout, real colours for the criterion, RGBA bytes for other programs.
 //
-// The memory layout is written here a second time, from docs/number_formats.md: a golden that
-// addressed memory differently would read wrong texels.
+// The memory layout is written here a second time, from docs/reference/texture/formats.md: a golden
+// that addressed memory differently would read wrong texels.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 namespace deburr::tb::texture {
 
 // Codes are the texels as one integer: RGBA8 and sRGB8A8 with R in the low byte, 16-bit formats as
-// in docs/number_formats.md, L8 as it is.
+// in docs/reference/texture/formats.md, L8 as it is.
 struct EncodedLevel {
   int width = 0, height = 0;
   std::vector<std::uint32_t> codes;  // row-major

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Does the geometric engine smooth edges as well as the contract asks, does selection pay, and
-// where is the method weak? Against supersampling (docs/geometric_quality.md).
+// where is the method weak? Against supersampling (docs/measurements/geometric_quality.md).
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the rules outermost, area, crease_depth and cull are worth: on scenes that the project
-// knows, and on meshes and cameras that nothing was tuned on (docs/geometric_quality.md).
+// knows, and on meshes and cameras that nothing was tuned on
+// (docs/measurements/geometric_quality.md).
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What smoothing does to what is right, and what FLIP and SSIM say of frames with truth: tables of
-// docs/morphological_quality.md. One part is of frames by formula, which every clone has; the other
-// of frames that others made (DEBURR_DATA).
+// docs/measurements/morphological_harm.md. One part is of frames by formula, which every clone
+// has; the other of frames that others made (DEBURR_DATA).
 #pragma once
 
 #include <filesystem>

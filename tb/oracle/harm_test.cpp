@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Are the tables of harm in docs/morphological_quality.md what is measured today? And are the
-// frames what the page says of them?
+// Are the tables of harm in docs/measurements/morphological_harm.md what is measured today? And
+// are the frames what the page says of them?
 #include "tb/oracle/harm.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace {
 
 using harm::Text;
 
-constexpr const char *kPage = "morphological_quality.md",
+constexpr const char *kPage = "measurements/morphological_harm.md",
                      *kFormula = "MorphologicalHarm.OfFramesByFormula",
                      *kData = "MorphologicalHarm.OfFramesOfOthers";
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Does the engine smooth straight edges as well as the contract asks? Fans of lines, three seeds,
 // against analytic coverage; both distributions of u are printed; and discs
-// (docs/morphological_quality.md).
+// (docs/measurements/morphological_quality.md).
 #include <gmock/gmock.h>
 
 #include <iostream>

@@ -190,7 +190,8 @@ TEST(PublishedSmaa, HasTheseWeights) {
                              fmt::format("{:.1f}", d->largest)});
     table.row(row);
   }
-  expect_generated("morphological_smaa.md", "PublishedSmaa.HasTheseWeights", table.text());
+  expect_generated("reference/morphological/smaa_published.md", "PublishedSmaa.HasTheseWeights",
+                   table.text());
 }
 
 // The comparison sees searches, diagonals and corners, and areas that are not of bytes.

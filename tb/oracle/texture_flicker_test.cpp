@@ -163,7 +163,8 @@ TEST_P(TextureFlickerOnPhotographs, OnRollIsThatOfTheEllipse) {
     EXPECT_LE(roll[kEightCeil].mean, 2.5);
     EXPECT_LE(biased[kFourAny].mean, 2.5);
   } else {
-    EXPECT_GT(roll[kEllipseCeil].mean, 2.5);  // the picture's own, as docs/texture_unit.md says
+    // The picture's own, as docs/reference/texture/choices.md says.
+    EXPECT_GT(roll[kEllipseCeil].mean, 2.5);
   }
 }
 

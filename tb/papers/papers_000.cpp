@@ -522,7 +522,8 @@ PaperTable rules(const PaperOptions& options) {
       "out, trim gives back what the bend has already spoilt. These scenes have strong edges only; "
       "contrast and threshold pay on frames with weak ones. Learned shares saw these scenes when "
       "they "
-      "were trained (docs/morphological_quality.md has frames that they did not see). The verdict: "
+      "were trained (docs/measurements/morphological_quality.md has frames that they did not see). "
+      "The verdict: "
       "what a row brings against "
       "the row above, or against the one that it names, as they are shown here.",
       {"rules", "lines", "discs 8-32", "discs 64-256", "edges", "silhouettes", "verdict"},

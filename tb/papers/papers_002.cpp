@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Paper 002: Fan and others, Geometric information anti-aliasing algorithm with edge optimization,
-// 2016. Its equations are lost in the scan; docs/geometric.md has them as they were reconstructed.
+// 2016. Its equations are lost in the scan; docs/reference/geometric/choices.md has them as they
+// were reconstructed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -294,7 +295,8 @@ PaperTable ties() {
 
 // ---- table 1 ------------------------------------------------------------------------------------
 
-// Clocks of the hardware's edges phase by the bounds of docs/geometric_hardware.md, "Clocks".
+// Clocks of the hardware's edges phase by the bounds of docs/reference/geometric/clocks.md,
+// "Clocks".
 struct EdgeClocks {
   double rebuilt = 0;     // a record a clock read, a kept one a clock written
   double until_line = 0;  // classify, vertices, setup

@@ -400,7 +400,7 @@ class TestplanFile {
     if (std::none_of(bins.begin(), bins.end(),
                      [&](const std::string& bin) { return rtl::glob_match(glob, bin); }))
       yaml_.fail(node, fmt::format("no bin of the feature's engines is called '{}'{} "
-                                   "(docs/coverage.md)",
+                                   "(docs/reference/coverage.md)",
                                    glob, did_you_mean(near_matches(glob, bins))));
     return glob;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a testplan's YAML file says (docs/regression.md): features, the sentences of the pages that
-// each of them is about, what is run for it, and what these runs must have checked and covered.
+// What a testplan's YAML file says (docs/reference/regression.md): features, the sentences of the
+// pages that each of them is about, what is run for it, and what these runs must have checked and
+// covered.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,8 @@ inline constexpr std::size_t kMostCompared = 16;
 // "A", "B", ...
 std::string letter(std::size_t index);
 
-// Of directories, or of result.json in them. The comparison as JSON (docs/exploration.md):
+// Of directories, or of result.json in them. The comparison as JSON
+// (docs/reference/compare.md):
 //   runs: name, path, title, summary, command, verdict, interrupted, images
 //   warnings: what makes it no fair one
 //   parameters: name, kind, unit, meaning, values

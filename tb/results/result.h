@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run measured, and its file result.json (schema 3, docs/exploration.md).
+// What a run measured, and its file result.json (schema 3, docs/reference/run.md).
 //
 // Written by an engine at the end of a run, read by `deburr report` and `deburr compare`. Its keys
 // are described in result_description.h. Unit and meaning of each travel with the file, under

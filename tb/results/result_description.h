@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What result.json holds, described once: every key in the order of the file, with its value, unit
 // and meaning. Consumers are visitors: the writer of the file (result.cpp) and the table of its
-// keys (statistics.cpp), from which docs/statistics.md is made. A visitor has
+// keys (statistics.cpp), from which docs/reference/statistics.md is made. A visitor has
 //
 //   bool has(bool there);           whether to visit what a run has or has not
 //   void value(std::string_view name, const T& value, std::string_view unit,
@@ -313,7 +313,8 @@ void describe(const Result& r, Visitor& v) {
     v.group("coverage", [&] {
       v.value("bins", r.coverage.value_or(std::map<std::string, std::uint64_t>{}), "hit",
               "Functional coverage, in runs with run.coverage: every bin of the run's engines "
-              "(docs/coverage.md) with how often it was met; 0: a hole. A merge of runs is a sum.");
+              "(docs/reference/coverage.md) with how often it was met; 0: a hole. A merge of runs "
+              "is a sum.");
     });
 }
 

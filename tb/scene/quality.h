@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How good is a picture: PSNR over a frame or a mask, edge and silhouette masks (exploration.md,
-// "Quality"). All on stored 8-bit R, G and B; alpha is never compared.
+// How good is a picture: PSNR over a frame or a mask, edge and silhouette masks
+// (docs/reference/scenes.md, "Pictures and quality"). All on stored 8-bit R, G and B; alpha is
+// never compared.
 #pragma once
 
 #include <cstdint>

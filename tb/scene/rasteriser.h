@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Turns a scene into the texture unit's input: 2 x 2 quads of fragments with snapped coordinates.
 //
-// Sits before TextureUnit (docs/scenes.md). Formats: vertices 24.8, edge functions exact 64-bit
-// integers with the top-left rule, coordinates S7.24. Perspective correct: (s, t) at a pixel centre
-// come from the edge functions in double with + - * / only and without contraction, so that the
-// same scene gives the same bits on every machine.
+// Sits before TextureUnit (docs/reference/scenes.md). Formats: vertices 24.8, edge functions exact
+// 64-bit integers with the top-left rule, coordinates S7.24. Perspective correct: (s, t) at a pixel
+// centre come from the edge functions in double with + - * / only and without contraction, so that
+// the same scene gives the same bits on every machine.
 #pragma once
 
 #include <array>

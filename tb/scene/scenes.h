@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is looked at and from where: named scenes made by formula, and imported ones. docs/scenes.md
-// lists cameras, conventions and pictures.
+// What is looked at and from where: named scenes made by formula, and imported ones.
+// docs/reference/scenes.md lists cameras, conventions and pictures.
 #pragma once
 
 #include <Imath/ImathVec.h>

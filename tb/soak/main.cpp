@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `deburr_soak --seconds 3600`: docs/verification.md, "Soak".
+// `deburr_soak --seconds 3600`: docs/explanation/verification.md, "Soak".
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>

@@ -24,7 +24,7 @@ Image draw(int width, int height, Picture&& picture) {
   return image;
 }
 
-// ---- the contract's test images (docs/number_formats_morphological.md, "Test vectors") ----------
+// ---- the contract's test images (docs/reference/morphological/vectors.md, "Test vectors") ------
 
 // Their generator, advanced before it is read.
 class Sequence {

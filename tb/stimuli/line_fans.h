@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // How well a smoothing recovers straight edges: fans of lines against analytic coverage.
 //
-// The table of docs/morphological_quality.md, "Straight lines". Lines of slope 1 / (n + u),
-// n = 1..20, u uniform in an interval, random phase, both signs; white above black, sampled at
-// pixel centres, smoothed, and compared with the exact coverage of every pixel. Figures are RMS
+// The table of docs/measurements/morphological_quality.md, "Straight lines". Lines of slope 1 / (n
+// + u), n = 1..20, u uniform in an interval, random phase, both signs; white above black, sampled
+// at pixel centres, smoothed, and compared with the exact coverage of every pixel. Figures are RMS
 // errors x 1000 of full scale:
 //   by_class    over pixels that the line crosses
 //   undulation  e(x), the sum of the error over column x: what the eye sees along the line

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The hash of the contracts' test vectors (docs/number_formats_morphological.md, "Test vectors").
+// The hash of the contracts' test vectors (docs/reference/morphological/vectors.md, "Test
+// vectors").
 #pragma once
 
 #include "tb/base/fnv.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a sweep's YAML file says (docs/exploration/sweeps.md): which engine, what every point has,
+// What a sweep's YAML file says (docs/reference/sweeps.md): which engine, what every point has,
 // what is varied, how it is sampled, what is left out, and what is looked at afterwards.
 #pragma once
 

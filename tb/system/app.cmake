@@ -39,7 +39,7 @@ endforeach()
 foreach(class Lines Forms Fragments)
   add_test(NAME traces.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/traces_test.py" $<TARGET_FILE:deburr>
-                   "${PROJECT_SOURCE_DIR}/docs/traces.md" ${class})
+                   "${PROJECT_SOURCE_DIR}/docs/reference/traces.md" ${class})
   set_tests_properties(traces.${class} PROPERTIES LABELS system TIMEOUT 600
                        ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 endforeach()

@@ -39,7 +39,7 @@ def covered(*arguments, code=0):
 
 def declared(engine):
     """The names on the page of an engine, but for those that only tests meet."""
-    with open(os.path.join(SOURCE, "docs/coverage.md"), encoding="utf-8") as file:
+    with open(os.path.join(SOURCE, "docs/reference/coverage.md"), encoding="utf-8") as file:
         rows = re.findall(r"^\| `(\w+/[^`]*)` \| ([^|]*) \|", file.read(), re.M)
     return {prefix + name for prefix, names in rows for name in re.findall("`([^`]+)`", names)
             if prefix.startswith(engine + "/") and name != "invalid" and

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""The first sweep of docs/exploration/sweeps.md, exactly as it is printed there: its file, its
+"""The first sweep of docs/reference/sweeps.md, exactly as it is printed there: its file, its
 commands, what they are said to print, the page that they make.
 
 usage: first_sweep_test.py DEBURR ROOT [--write]
@@ -20,7 +20,7 @@ PICTURE = "docs/images/first_sweep.png"
 
 
 def section():
-    with open(os.path.join(ROOT, "docs/exploration/sweeps.md")) as file:
+    with open(os.path.join(ROOT, "docs/reference/sweeps.md")) as file:
         return file.read().split("## A first sweep in five minutes")[1].split("\n## ")[0]
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""The clocks that docs/geometric_hardware.md quotes of a dense frame, against those that the bench counts.
+"""The clocks that docs/reference/geometric/clocks.md quotes of a dense frame, against those that the bench counts.
 
 usage: geometric_clocks_test.py BENCH"""
 import pathlib
@@ -11,7 +11,7 @@ import unittest
 
 BENCH = "geometric_rtl_bench"
 BEGIN = 540  # clocks, of a word of touched bits each
-PAGE = pathlib.Path(__file__).resolve().parent.parent.parent / "docs/geometric_hardware.md"
+PAGE = pathlib.Path(__file__).resolve().parent.parent.parent / "docs/reference/geometric/clocks.md"
 
 
 def bench(*arguments):

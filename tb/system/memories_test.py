@@ -57,7 +57,7 @@ class Memories(unittest.TestCase):
                 self.assertEqual(bits["physical"], sum(m["physical_bits"] for m in of_kind))
 
     def test_the_page_of_the_texture_unit_names_what_there_is(self):
-        with open(os.path.join(DOCS, "texture_unit.md"), encoding="utf-8") as file:
+        with open(os.path.join(DOCS, "reference/texture/hardware.md"), encoding="utf-8") as file:
             table = file.read().split("\n## Memories\n")[1].split("\n## ")[0]
         page = {}
         for line in table.splitlines():

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whole frames through the hardware model of the morphological engine: every pixel, tap, run, line,
 // counter and memory line equal to the golden model, for every preset, and the clocks that
-// docs/morphological_hardware.md promises.
+// docs/reference/morphological/throughput.md promises.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -461,8 +461,8 @@ INSTANTIATE_TEST_SUITE_P(Morphological, Throughput,
 class Clustered : public testing::TestWithParam<spec::morphological::Lanes> {};
 
 // Diagonals of one pixel side by side, at either border and in the middle, as many as the bound of
-// docs/morphological_hardware.md allows: no queue is too short. With a fifth of every row on them
-// the slots wait, and nothing else changes.
+// docs/reference/morphological/throughput.md allows: no queue is too short. With a fifth of every
+// row on them the slots wait, and nothing else changes.
 TEST_P(Clustered, DiagonalsWithinTheBoundAreSustainedAFifthOfARowWaits) {
   MorphologicalRunOptions options;
   options.morphological = preset(Preset::kDeburr, GetParam());
@@ -495,8 +495,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 // ---- what is refused ----------------------------------------------------------------------------
 
-// The sizing rule of docs/morphological_hardware.md: so many lines in flight each way keep up with
-// a memory of 100 clocks, one less does not.
+// The sizing rule of docs/reference/morphological/throughput.md: so many lines in flight each way
+// keep up with a memory of 100 clocks, one less does not.
 struct Sizing {
   spec::morphological::Lanes lanes;
   int lines;

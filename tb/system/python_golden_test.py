@@ -47,7 +47,7 @@ def opaque(red, green, blue):
 
 
 def vector_image(name):
-    """docs/number_formats_morphological.md, "Test vectors", and docs/morphological_smaa.md, "Frames"."""
+    """docs/reference/morphological/vectors.md, "Test vectors" and "Frames"."""
     width, height = {"noise": (97, 61), "line": (200, 150), "blocks": (90, 80), "shades": (90, 80)}[name]
     y, x = numpy.mgrid[0:height, 0:width]
     s = random_numbers(width * height).reshape(height, width).astype(numpy.int64)
@@ -89,8 +89,7 @@ class Vectors(unittest.TestCase):
     """The tables of the contract: what C++ computes is what comes through Python."""
 
     def test_morphological(self):
-        rows = [row for page in ("number_formats_morphological.md", "morphological_smaa.md")
-                for row in table(page, ["vector", "image", "preset"])]
+        rows = table("reference/morphological/vectors.md", ["vector", "image", "preset"])
         self.assertGreater(len(rows), 35)
         columns = {"edges": "edge_pixels", "long": "long_runs", "z": "z_runs", "extended": "extended_runs",
                    "steps": "steps", "probes": "probes", "taken": "diagonals", "blended": "blended_pixels"}
@@ -159,7 +158,7 @@ class Vectors(unittest.TestCase):
         self.assertEqual(golden.morphological(image).work.edge_pixels, 0)
 
     def test_geometric(self):
-        """docs/geometric.md, "Vectors"."""
+        """docs/reference/geometric/vectors.md, "Vectors"."""
         random = iter(random_numbers(2 * 61 * 45 + 600 + 49 + 1500).astype(numpy.int64))
         r = numpy.array([next(random) for _ in range(61 * 45)]).reshape(45, 61)
         pixels = opaque(r >> 24, r >> 16 & 255, r >> 8 & 255)
@@ -179,8 +178,8 @@ class Vectors(unittest.TestCase):
             edges[i] = tuple((int(next(random)) >> 16) % most for most in (201, 200, 50, 50, 16))
         bases = {"edges": 0x10000, "vertices": 0x20000, "facing": 0x30000, "depth": 0x40000, "colour": 0x50000,
                  "weights": 0x60000, "copy": 0x70000}
-        hashes = table("geometric.md", ["", "preset", "beside it"])
-        counts = {row[""]: row for row in table("geometric.md", ["", "edges", "boundary"])}
+        hashes = table("reference/geometric/vectors.md", ["", "preset", "beside it"])
+        counts = {row[""]: row for row in table("reference/geometric/vectors.md", ["", "edges", "boundary"])}
         self.assertEqual(len(hashes), 14)
         for row in hashes:
             preset = row["preset"].strip("`")
@@ -587,7 +586,7 @@ class Declarations(unittest.TestCase):
     """Signatures and docstrings are those of the parameters' declarations."""
 
     def test_every_parameter_is_in_its_signature(self):
-        page = (DOCS / "parameters.md").read_text(encoding="utf-8")
+        page = (DOCS / "reference/parameters.md").read_text(encoding="utf-8")
         for engine, function in (("texture", golden.texture), ("morphological", golden.morphological),
                                  ("geometric", golden.geometric), ("texture", golden.TextureUnit.set)):
             section = page.split("## `deburr run frame`")[0]

@@ -60,7 +60,7 @@ class Runs(Scratch):
         self.assertEqual(int(windows.cycles.sum()), run.cycles)
         self.assertEqual(int(windows["series.work.derivative_fragments"].sum()), run.work.fragments)
         self.assertEqual(windows["series.units.filter.busy"].shape, (windows.windows,))
-        for page in ("docs/python.md", "examples/python/notebook.ipynb"):
+        for page in ("docs/reference/python.md", "examples/python/notebook.ipynb"):
             named = set(re.findall(r"series\.[a-z_.]+", (SOURCE / page).read_text(encoding="utf-8")))
             self.assertNotEqual(named, set(), page)
             self.assertEqual([series for series in named if series not in windows], [], page)

@@ -276,8 +276,7 @@ TEST(Texture, FullHdFrameIsIdenticalToGolden) {
   EXPECT_LT(usage.ru_maxrss, 1L << 20) << "KiB: the frame is to be judged as it comes, not kept";
 }
 
-// ---- what the cache saves, against an independent simulation (docs/texture_unit.md)
-// ----------------
+// ---- what the cache saves, against an independent simulation (docs/reference/texture/choices.md)
 
 struct Traffic {
   const char* source;

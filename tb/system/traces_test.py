@@ -3,7 +3,7 @@
 """Traces join other tools: a cache written anew here gives the misses of the look-ups in a trace,
 and a run of the fragments that another one wrote is that run again.
 
-usage: traces_test.py DEBURR PAGE [CLASS]        PAGE: docs/traces.md
+usage: traces_test.py DEBURR PAGE [CLASS]        PAGE: docs/reference/traces.md
 """
 import collections
 import fractions
@@ -56,7 +56,7 @@ def read_binary(file):
 
 
 class Cache:
-    """Set-associative, from docs/number_formats.md alone."""
+    """Set-associative, from docs/reference/texture/formats.md alone."""
 
     def __init__(self, size, line, ways, replacement):
         self.line, self.ways, self.replacement = line, ways, replacement
@@ -174,7 +174,7 @@ class Lines(TracesTest):
 
 
 class Forms(TracesTest):
-    """The commands of docs/traces.md give what simulators of DRAM read."""
+    """The commands of docs/reference/traces.md give what simulators of DRAM read."""
 
     # As their parsers read a line: DRAMsim3 common.cc, operator>>; DRAMSys StlPlayer.cpp,
     # parseTraceFile; Ramulator 2 loadstore_trace.cpp, init_trace; Ramulator 1 Processor.cpp,

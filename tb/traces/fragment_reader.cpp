@@ -53,7 +53,7 @@ FragmentReader::FragmentReader(const std::filesystem::path& file, std::size_t te
   if (begins != kFragmentTraceTitle)
     fail(
         fmt::format("{}: a trace of fragments begins with '{} {}' as text, or with the bytes '{}' "
-                    "(docs/traces.md)",
+                    "(docs/reference/traces.md)",
                     begins.empty() ? "the file is empty" : "this is something else",
                     kFragmentTraceTitle, kFragmentTraceVersion, kFragmentTraceMagic));
   line_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a trace of fragments holds (docs/traces.md): the texture unit's quads, each with what a
-// picture of it needs.
+// What a trace of fragments holds (docs/reference/traces.md): the texture unit's quads, each with
+// what a picture of it needs.
 #pragma once
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 // and where its four shares come from.
 //
 // From the golden model's own records, so that the features are the engine's
-// (docs/morphological_shares.md, "Indices").
+// (docs/reference/morphological/learned_shares.md, "Indices").
 #pragma once
 
 #include <array>

@@ -189,8 +189,8 @@ std::uint32_t sum_of(const ShareTables& tables) {
 std::string header_of(const ShareTables& tables, const std::string& recipe) {
   return fmt::format(
       R"(// SPDX-License-Identifier: MIT
-// Contents of the ROMs of learned shares (docs/morphological_shares.md) as an engine is built with
-// them. Written by scripts/train-shares; do not edit.
+// Contents of the ROMs of learned shares (docs/reference/morphological/learned_shares.md) as an
+// engine is built with them. Written by scripts/train-shares; do not edit.
 #pragma once
 
 #include <array>

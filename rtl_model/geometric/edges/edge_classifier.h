@@ -2,7 +2,7 @@
 // Decides of each edge whether it can be seen as one, and lets those through.
 //
 // Where: behind the EdgeReader. Stalls: `downstream`. Source: paper 002, eqs (1) to (4), as
-// docs/geometric.md has them.
+// docs/reference/geometric/algorithm.md has them.
 #pragma once
 
 #include <array>

@@ -8,7 +8,7 @@
 // one a read. Layouts: full: 16 tiles of two values, by the pattern; merged: 8 tiles, patterns 0,
 // 5, 10 and 15 are not read, 7 and 14 read 6, 11 and 13 read 9; minimal: two tiles of one value, T,
 // read for both sides, and U. All give the same shares. Every word is computed from the formulas of
-// docs/number_formats_morphological.md when the engine is built.
+// docs/reference/morphological/formats.md when the engine is built.
 // Source: SMAA (Jimenez et al. 2012); paper 003 (merged); minimal is ours.
 #pragma once
 

@@ -3,7 +3,7 @@
 //
 // Where: in the AreaUnit, behind its RecordWalk, with whose stages it moves; the tables are the
 // SharesRom's. An edge of no record (between head and tail of a long run) takes the shares of two
-// ends out of sight. Source: ours (docs/morphological_shares.md).
+// ends out of sight. Source: ours (docs/reference/morphological/learned_shares.md).
 #pragma once
 
 #include <array>

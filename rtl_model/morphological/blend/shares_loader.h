@@ -4,7 +4,7 @@
 // Where: between the registers and the SharesRom; only in an engine that was built with learned
 // shares. Timing: a word written to SHARES_DATA goes to the entry that SHARES_ADDRESS names, which
 // counts on; no word is taken while a frame is inside (as any write). A reset keeps the tables.
-// Source: ours (docs/morphological_shares.md).
+// Source: ours (docs/reference/morphological/learned_shares.md).
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 // The three tables can be loaded through the registers while no frame is inside, when nobody reads:
 // so the ports that read are written. They keep their words in a reset. The sum that the registers
 // show is kept up with each word: the old word is on the output register when the new one comes.
-// Source: ours (docs/morphological_shares.md).
+// Source: ours (docs/reference/morphological/learned_shares.md).
 #pragma once
 
 #include <array>

@@ -4,10 +4,10 @@
 //
 // Where: one in each Predictor. All steps of a safe record are L or the one L', so corner i lies at
 // L i, and one pixel further for each L' before it: only the letters count, L or L'. Corners are
-// consistent (docs/morphological_engine.md) if and only if the letters are those of a digital
-// straight line, and that is known from its slope a / b and from where the corners touch it:
-// Debled-Rennesson and Reveilles, "A linear algorithm for segmentation of digital curves" (1995),
-// for growth at both ends. With i the number of a corner and y the letters L' up to it, the
+// consistent (docs/reference/morphological/algorithm.md) if and only if the letters are those of a
+// digital straight line, and that is known from its slope a / b and from where the corners touch
+// it: Debled-Rennesson and Reveilles, "A linear algorithm for segmentation of digital curves"
+// (1995), for growth at both ends. With i the number of a corner and y the letters L' up to it, the
 // remainder a i - b y lies in a band of b values. A new corner fits if its remainder is in the band
 // (the line stays) or beside it (the line turns about the corner that it touches first). Two new
 // corners that fit alone fit together, unless both turn it and lie on the same side: a bend. The

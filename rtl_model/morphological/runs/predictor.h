@@ -13,15 +13,14 @@
 // the next address follow in the same clock. LineBounds needs four clocks a trial too: with 3, two
 // of its steps share a clock, with 1 all of them. So 3 and below are for slow clocks.
 //
-// Classes (docs/morphological_shares.md) ask for the corner at which the first trial begins and for
-// ten edges behind it, so that trial's reads give them. Any other record with a crossing makes
-// these two reads alone: it leaves in clock T - 1, with the words of both sides chosen (T below 3:
-// when they have come), and their classes are known as its result is sent. So it takes T clocks (T
-// = 2: 4 if the left side reads a clock later; T = 1: 2), and the wait for its phase if the
-// predictor was idle. A long clean Z keeps its line and has none.
-// Any other record leaves in the clock that takes it. One that is extended, takes from its pop to
-// the clock that may take the next one 1 clock, the wait for its phase, T clocks a trial, and 1
-// clock.
+// Classes (docs/reference/morphological/learned_shares.md) ask for the corner at which the first
+// trial begins and for ten edges behind it, so that trial's reads give them. Any other record with
+// a crossing makes these two reads alone: it leaves in clock T - 1, with the words of both sides
+// chosen (T below 3: when they have come), and their classes are known as its result is sent. So it
+// takes T clocks (T = 2: 4 if the left side reads a clock later; T = 1: 2), and the wait for its
+// phase if the predictor was idle. A long clean Z keeps its line and has none. Any other record
+// leaves in the clock that takes it. One that is extended, takes from its pop to the clock that may
+// take the next one 1 clock, the wait for its phase, T clocks a trial, and 1 clock.
 //
 // Trim takes no clock of its own: beside the sums of all its steps a side keeps those without its
 // last step and those of the first half of its steps. The former are what the sums were before; the

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Where the faces of a mesh pass through each other: no edge of it, and an edge in every picture.
 //
-// Before the engine: docs/geometric.md, "The host's side". Double precision, without contraction;
-// once a mesh. A tree of boxes finds pairs of faces that may cross: O(n log n) on meshes whose
-// faces mostly do not.
+// Before the engine: docs/reference/geometric/host.md. Double precision, without
+// contraction; once a mesh. A tree of boxes finds pairs of faces that may cross: O(n log n) on
+// meshes whose faces mostly do not.
 #pragma once
 
 #include <Imath/ImathVec.h>

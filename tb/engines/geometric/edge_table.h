@@ -2,8 +2,8 @@
 // The geometric engine's input from a mesh and a camera: the edge table, once a mesh; facing bits,
 // snapped vertices and clipped edges, once a frame.
 //
-// Before the engine: docs/geometric.md, "The host's side", says each rule. Double precision,
-// without contraction; formats in docs/number_formats_geometric.md.
+// Before the engine: docs/reference/geometric/host.md says each rule. Double
+// precision, without contraction; formats in docs/reference/geometric/formats.md.
 #pragma once
 
 #include <Imath/ImathVec.h>

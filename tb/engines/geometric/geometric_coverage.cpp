@@ -48,10 +48,10 @@ constexpr std::array kGroups = {
                   "Lines that memory answered with an error, by region (memory.error_address). "
                   "Such a run fails, so that only tests ask for all of them."},
     CoverageGroup{"geometric/refusal",
-                  "Starts that are refused, in tests alone: a run is judged before it starts."}};
+                  "Starts that are rejected, in tests alone: a run is checked before it starts."}};
 
-// Causes that a unit can lose a clock to, as docs/geometric_hardware.md has them. The sequencer
-// never stalls, and the port is the fabric's.
+// Causes that a unit can lose a clock to, as docs/reference/geometric/hardware.md has them. The
+// sequencer never stalls, and the port is the fabric's.
 const std::map<std::string, std::vector<std::string>>& stalls() {
   static const std::map<std::string, std::vector<std::string>> all = {
       {"facing_store", {"downstream", "memory"}},

@@ -53,7 +53,7 @@ class GeometricCommand final : public Engine {
     refuse_unused_memory(set, "memory", memory_);
     refuse_slow_memory(set, "memory", memory_);
     if (set.find("run.truth")->text() == "false")
-      set.refuse("scene.truth_samples", "nothing is judged without run.truth (--truth)");
+      set.refuse("scene.truth_samples", "nothing is compared without run.truth (--truth)");
     preset_label_ = preset_label(set, parameters_);
   }
 

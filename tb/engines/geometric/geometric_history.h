@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Everything that happens to one pixel in the geometric engine: lines that pass it, candidates with
-// depth and test, weights, colour; golden beside the hardware (docs/exploration.md, "One pixel").
+// depth and test, weights, colour; golden beside the hardware (docs/reference/run.md, "One pixel").
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Figures of the geometric engine: units and counters, traffic by region, and the clocks below
-// which no frame of this work can be drawn (docs/geometric_hardware.md, "Clocks").
+// which no frame of this work can be drawn (docs/reference/geometric/clocks.md, "Clocks").
 #pragma once
 
 #include <cstdint>

@@ -74,8 +74,8 @@ class MorphologicalCommand final : public Engine {
         {{"--in", "frame.source",
           "Image file of any format that OpenImageIO reads, or a mesh file"},
          {"--scene", "frame.source", "Scene instead of a file: cylinders (default), road, ..."},
-         {"--truth", "frame.truth", "Anti-aliased picture to judge by"},
-         {"--depth", "frame.depth", "Depth of the image: silhouettes are judged too"},
+         {"--truth", "frame.truth", "Anti-aliased picture to compare with"},
+         {"--depth", "frame.depth", "Depth of the image: quality of silhouettes too"},
          {"--mask", "frame.mask", "Picture of what to leave as it is: white is masked"},
          {"--size", "frame.width", "Size of a rendered scene, WxH (640x480)", "frame.height"}},
         smoothing_shorthands());
@@ -207,14 +207,16 @@ class MorphologicalCommand final : public Engine {
     if (is_rendered(frame_) || !is_there(frame_.source)) return;
     for (const char* name : {"frame.width", "frame.height"})
       set.refuse(name, "frame.source is an image file, which has a size of its own");
-    set.refuse("frame.truth_samples", "an image file is judged by the file frame.truth (--truth)");
+    set.refuse("frame.truth_samples",
+               "an image file is compared with the file frame.truth (--truth)");
     if (depth_used && frame_.depth.empty())
       throw spec::ConfigError(fmt::format(
           "morphological.edges.source = {} needs the depth of the image: name it with --depth FILE",
           name_of(parameters_.edge_source, spec::morphological::kEdgeSourceNames)));
     if (!depth_used && frame_.truth.empty())
-      set.refuse("frame.depth",
-                 "edges come from colours, and silhouettes are judged only against a --truth FILE");
+      set.refuse(
+          "frame.depth",
+          "edges come from colours, and silhouettes are measured only against a --truth FILE");
   }
 
   std::string summary_line(const LoadedFrame& loaded) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the morphological engine is given: an image file with depth and truth beside it, or a scene
 // rendered without anti-aliasing, with its depth and its supersampled truth. Files become codes by
-// the rules of docs/number_formats_morphological.md, "Conversion of images".
+// the rules of docs/reference/morphological/formats.md, "Conversion of images".
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ void describe(FrameParameters& p, Visitor& v) {
          "rendered without anti-aliasing.");
   v.text("depth", p.depth, "file",
          "Depth of an image: 24 bits in R, G, B, or one float channel; grows towards the eye.");
-  v.text("truth", p.truth, "file", "Anti-aliased picture that an image is judged by.");
+  v.text("truth", p.truth, "file", "Anti-aliased picture that an image is compared with.");
   v.text("mask", p.mask, "file",
          "Pixels to leave as they are, where red is 128 or more: bit 0 of their alpha becomes 0, "
          "that of "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Everything that happens to one pixel in the morphological engine: edges, runs and lines of its
-// four sides, shares, blend; golden beside the hardware (docs/exploration.md, "One pixel").
+// four sides, shares, blend; golden beside the hardware (docs/reference/run.md, "One pixel").
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Figures of the morphological engine: units and counters, and its clocks against those of the
-// formulas (docs/morphological_hardware.md).
+// formulas (docs/reference/morphological/hardware.md).
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace deburr::tb {
 
-// ---- figures of the engine by formula (docs/morphological_hardware.md) --------------------------
+// ---- figures of the engine by formula (docs/reference/morphological/hardware.md) ----------------
 
 // Unstalled clocks from a beat being popped to the same beat being pushed.
 std::uint64_t latency_by_formula(const spec::morphological::Parameters& parameters, int width);

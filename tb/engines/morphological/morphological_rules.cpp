@@ -89,7 +89,7 @@ std::vector<std::string> build_notes(const spec::morphological::Parameters& valu
   if (values.trial_clocks >= 4) return {};
   return {fmt::format(
       "morphological.trial_clocks = {}: steps of a trial share a clock, so the engine is not made "
-      "for 250 MHz (docs/morphological_hardware.md, Trials)",
+      "for 250 MHz (docs/reference/morphological/throughput.md, Trials)",
       values.trial_clocks)};
 }
 

@@ -75,7 +75,7 @@ class TextureEngine final : public Engine {
          {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},
          {"--layout", "sampler.layout", "tiled (default) or linear"},
          {"--fragments", "scene.fragments",
-          "Fragments of another rasteriser: a trace, text or binary (docs/traces.md)"},
+          "Fragments of another rasteriser: a trace, text or binary (docs/reference/traces.md)"},
          {"--fragment-trace", "run.fragment_trace",
           "Leave the fragments as such a trace: text or binary"}});
   }

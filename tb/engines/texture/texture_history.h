@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Everything that happens to one pixel in the texture unit: what the golden model decides beside
-// what is seen on the unit's links and at its tags (docs/exploration.md, "One pixel").
+// what is seen on the unit's links and at its tags (docs/reference/run.md, "One pixel").
 #pragma once
 
 #include <array>

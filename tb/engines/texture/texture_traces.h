@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parameters of the traces that only a texture unit has (docs/traces.md).
+// Parameters of the traces that only a texture unit has (docs/reference/traces.md).
 #pragma once
 
 #include <string>
@@ -40,7 +40,7 @@ template <class Visitor>
 void describe(FragmentTraceIn& p, Visitor& v) {
   v.text("fragments", p.file, "file",
          "Fragments of another rasteriser instead of the scene's own, which then gives the "
-         "textures alone (docs/traces.md).");
+         "textures alone (docs/reference/traces.md).");
 }
 // ConfigError for what says how a scene is drawn, beside fragments that are drawn already.
 void refuse_unused_scene(const ParameterSet& set);

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""The reference pages of docs are what the program prints today, and docs/exploration.md names every
+"""The reference pages of docs are what the program prints today, and docs/reference/command_line.md names every
 option of a run.
 
 usage: pages_test.py DEBURR SOURCE [--write]     --write brings the pages up to date
@@ -16,8 +16,8 @@ from engine_list import engines  # noqa: E402
 
 
 def options_left_out(deburr, source):
-    """Options of `deburr run` that docs/exploration.md does not name."""
-    with open(f"{source}/docs/exploration.md") as file:
+    """Options of `deburr run` that docs/reference/command_line.md does not name."""
+    with open(f"{source}/docs/reference/command_line.md") as file:
         named = set(re.findall(r"--[a-z][a-z-]+", file.read()))
     options = set()
     for engine in engines():
@@ -40,7 +40,7 @@ def main():
         if not printed.startswith(f"# {page.capitalize()}\n\n") or done.stderr:
             print(f"{page}: something else than the page was printed:\n{printed[:400]}{done.stderr}")
             return 1
-        path = f"{source}/docs/{page}.md"
+        path = next(pathlib.Path(source, "docs").rglob(f"{page}.md"))
         if "--write" in sys.argv:
             with open(path, "w") as file:
                 file.write(printed)
@@ -50,13 +50,13 @@ def main():
         if kept != printed:
             stale += 1
             sys.stdout.writelines(difflib.unified_diff(
-                kept.splitlines(True), printed.splitlines(True), path,
+                kept.splitlines(True), printed.splitlines(True), str(path),
                 "deburr params --markdown " + page))
     if stale:
         print(f"Bring the pages up to date: {sys.argv[0]} {deburr} {source} --write")
     left_out = options_left_out(deburr, source)
     if left_out:
-        print(f"docs/exploration.md does not name {', '.join(left_out)}")
+        print(f"docs/reference/command_line.md does not name {', '.join(left_out)}")
     return 1 if stale or left_out else 0
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What docs/stability.md promises is as stable.txt has it: functions and constants of the C interface, keys of
+"""What docs/reference/stability.md promises is as stable.txt has it: functions and constants of the C interface, keys of
 result.json, commands with their options, exit codes. More may have come; nothing may be gone or changed.
 
 usage: stable_test.py DEBURR SOURCE [--update]     --update: adds what has come, and takes nothing away, but the keys
@@ -12,7 +12,7 @@ import sys
 
 LIST = "tb/unit/app/stable.txt"
 TITLE = """# SPDX-License-Identifier: MIT
-# What docs/stability.md promises; made longer by tb/unit/app/stable_test.py --update, and no line of it changed.
+# What docs/reference/stability.md promises; made longer by tb/unit/app/stable_test.py --update, and no line of it changed.
 """
 COMMENT = re.compile(r"/\*.*?\*/", re.S)
 CONSTANT = re.compile(r"\bDEBURR_\w+ = \d+")

@@ -64,15 +64,15 @@ def problems(root):
 
 def faults_that_are_not_found(root):
     """Each changes one thing in a copy: (file, what stands there, what it becomes)."""
-    faults = (("docs/texture_unit.md", "| `texels` | TexelAddresser, TagStage |", "| `texels` | TexelAddresser, LatencyFifo |"),
-              ("docs/datasheets.md", "| TagStage | 2 |", "| TagStage | 3 |"),
+    faults = (("docs/reference/texture/hardware.md", "| `texels` | TexelAddresser, TagStage |", "| `texels` | TexelAddresser, LatencyFifo |"),
+              ("docs/reference/datasheets.md", "| TagStage | 2 |", "| TagStage | 3 |"),
               ("spec/morphological/shapes.h", '"Z-first-second", Side::kFirst', '"Z-first-second", Side::kSecond'),
-              ("docs/number_formats_morphological.md", "| 1, 1 | (1,0), (1,1) |", "| 1, 1 | (1,1), (1,1) |"),
-              ("docs/morphological_smaa.md", "7, 14 read 6;", "7, 14 read 9;"),
-              ("docs/geometric_hardware.md", "| `kept` | EdgeClassifier, VertexFetch | 2 |", "| `kept` | EdgeClassifier, NewUnit | 2 |"),
+              ("docs/reference/morphological/formats.md", "| 1, 1 | (1,0), (1,1) |", "| 1, 1 | (1,1), (1,1) |"),
+              ("docs/reference/morphological/smaa.md", "7, 14 read 6;", "7, 14 read 9;"),
+              ("docs/reference/geometric/memories.md", "| `kept` | EdgeClassifier, VertexFetch | 2 |", "| `kept` | EdgeClassifier, NewUnit | 2 |"),
               ("docs/images/line_walk.svg", '<title id="title">', '<title id="title">A'),
-              ("docs/morphological_engine.md", "![A table", "![shapes](images/run_shapes.svg) ![A table"),
-              ("docs/geometric.md", "(images/line_walk.svg)", "(images/no_walk.svg)"))
+              ("docs/reference/morphological/algorithm.md", "![A table", "![shapes](../../images/run_shapes.svg) ![A table"),
+              ("docs/reference/geometric/algorithm.md", "images/line_walk.svg)", "images/no_walk.svg)"))
     with tempfile.TemporaryDirectory() as folder:
         copy = pathlib.Path(folder)
         for part in ("docs", "scripts", "spec"):

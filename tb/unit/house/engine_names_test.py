@@ -145,7 +145,7 @@ def complaints(root, named):
         reasons = {name for names in named[engine].values() for name in names}
         found = {name for name in naming(engine, texts) if engine == "frame" or not COMPOSITION.search(name)}
         for name in sorted(found - reasons):
-            yield f"{name} names {engine}: let {engine} declare what it is for (docs/exploration.md, \"Adding an engine\")"
+            yield f"{name} names {engine}: let {engine} declare what it is for (docs/howto/add_an_engine.md)"
         for name in sorted(reasons - found):
             yield f"{name} does not name {engine} any more: take it off the list"
 

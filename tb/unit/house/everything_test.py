@@ -79,7 +79,7 @@ class Everything(unittest.TestCase):
         return done.returncode, done.stdout + done.stderr, calls.read_text(encoding="utf-8").splitlines()
 
     def page(self):
-        return (self.root / "docs/full_run.md").read_text(encoding="utf-8")
+        return (self.root / "docs/measurements/full_run.md").read_text(encoding="utf-8")
 
     def fail(self, name):
         (self.root / "fail").write_text(COMMANDS[list(PARTS).index(name)] + "\n", encoding="utf-8")
@@ -105,7 +105,7 @@ class Everything(unittest.TestCase):
         self.call("slurm")
         first = subprocess.run(["git", "rev-parse", "HEAD"], cwd=self.root, capture_output=True, text=True,
                                check=True).stdout.strip()
-        self.assertFalse((self.root / "docs/full_run.md").exists(), "not every part has run")
+        self.assertFalse((self.root / "docs/measurements/full_run.md").exists(), "not every part has run")
         self.assertEqual(self.call("--page")[0], 0)
         self.commit()
         self.fail("slurm")
@@ -119,7 +119,7 @@ class Everything(unittest.TestCase):
         self.assertEqual(self.call("slurm")[0], 0)
         self.assertEqual(self.call("--page")[0], 2)
         self.assertEqual(self.call()[::2], (0, COMMANDS))
-        self.assertFalse((self.root / "docs/full_run.md").exists())
+        self.assertFalse((self.root / "docs/measurements/full_run.md").exists())
 
     def test_what_is_skipped_as_a_whole_has_not_passed(self):
         stub = self.root / "scripts/test"
@@ -138,7 +138,7 @@ class Everything(unittest.TestCase):
         for planted in (page.replace(row + "\n", ""), page.replace("slurm", "slumr"), page + "more\n",
                         page.replace(row, row.replace("| - ", "", 1)), page.replace("0 of", "1 of")):
             self.assertNotEqual(planted, page)
-            (self.root / "docs/full_run.md").write_text(planted, encoding="utf-8")
+            (self.root / "docs/measurements/full_run.md").write_text(planted, encoding="utf-8")
             self.assertEqual(self.call("--check")[0], 1)
 
     def test_each_part_has_its_turn(self):

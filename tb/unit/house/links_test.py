@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Checks that every link of the pages in the root and in docs/ leads to a file and to a heading in it, that
-every page is linked from somewhere, that no template placeholder was left standing, and
-that paths and C++ names which are set as code there, and paths in scripts/, are those of the
-tree. NAME in a path stands for any."""
+every page is linked from somewhere, that no template placeholder was left standing, that
+paths and C++ names which are set as code there, and paths in scripts/, are those of the
+tree, and that pages which comments of sources name, with a heading in quotes, are there.
+NAME in a path stands for any."""
 import argparse
 import functools
 import pathlib
@@ -20,6 +21,13 @@ PATH = re.compile(rf"(?<![\w./-])((?:{'|'.join(FOLDERS)})/[\w./-]*\w/?|(?:\w+/)+
 # Qualified names, and single ones that can be no other word: CamelCase, kCamelCase.
 NAME = re.compile(r"(?<![\w:])(?:[A-Za-z_]\w*::)+\w+|\b[A-Z][a-z]+[A-Z]\w*|\bk[A-Z]\w+")
 SOURCES = (".h", ".cpp", ".py", ".cmake", ".txt", ".in")
+COMMENT = re.compile(r"(?:^[ \t]*(?://|#)[^\n]*\n)+", re.M)
+# A page, and after it, if it is there, a heading in quotes.
+NAMED = re.compile(r"(docs/[\w/]+\.md)(?:,? \(?\"([^\"]+)\")?")
+
+
+def anchor_of(heading):
+    return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
 
 
 def anchors(page):
@@ -30,7 +38,7 @@ def anchors(page):
         heading = HEADING.match(line)
         if heading and not in_code:
             # Repeated headings get a number there, and are no place to link to.
-            found.add(re.sub(r"[^\w\- ]", "", heading[1].strip().lower()).replace(" ", "-"))
+            found.add(anchor_of(heading[1]))
     return found
 
 
@@ -80,10 +88,28 @@ def script_problems(tree, root):
                     yield f"{script.relative_to(root)}:{number}: {path} does not exist"
 
 
+def comment_problems(root):
+    """Pages and headings that comments of sources name."""
+    known = {page.relative_to(root).as_posix(): anchors(page) for page in (root / "docs").rglob("*.md")}
+    sources = sorted(path for folder in (*FOLDERS, "hdl") for path in (root / folder).rglob("*")
+                     if path.suffix in (*SOURCES, ".sv") and path.is_file())
+    for source in sources:
+        text = source.read_text(encoding="utf-8")
+        for comment in COMMENT.finditer(text):
+            words = re.sub(r"\s*\n[ \t]*(?://|#)?[ \t]*", " ", comment[0])
+            where = f"{source.relative_to(root)}:{text.count(chr(10), 0, comment.start()) + 1}"
+            for page, heading in NAMED.findall(words):
+                if page not in known:
+                    yield f"{where}: {page} does not exist"
+                elif heading and anchor_of(heading) not in known[page]:
+                    yield f"{where}: {page} has no heading '{heading}'"
+
+
 def problems(root):
     """Yields 'file:line: what' for every problem below root."""
     tree = Tree(root)
     yield from script_problems(tree, root)
+    yield from comment_problems(root)
     # The change log may speak of what was.
     pages = [page for page in [*sorted(root.glob("*.md")), *sorted((root / "docs").rglob("*.md"))]
              if page.name != "CHANGELOG.md"]
@@ -114,8 +140,8 @@ def problems(root):
 
 
 def planted_faults_are_caught():
-    """True if a dead link, a dead anchor, an orphan, a placeholder, and paths and names that are
-    not there are each found, and nothing else."""
+    """True if a dead link, a dead anchor, an orphan, a placeholder, paths and names that are not
+    there, and pages and headings that a comment names are each found, and nothing else."""
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         for name in ("docs", "scripts", "spec/engine"):
@@ -132,9 +158,10 @@ def planted_faults_are_caught():
         (root / "docs/orphan.md").write_text("alone\n", encoding="utf-8")
         (root / "scripts/test").write_text("# spec/engine/packets.h spec/none.h\n", encoding="utf-8")
         (root / "spec/engine/packets.h").write_text(
-            "namespace deburr::spec::engine {\nstruct PixelBeat {\n  std::array<int, kLanes> count;\n};\n}\n",
-            encoding="utf-8")
-        return len(list(problems(root))) == 13
+            "// docs/a.md, \"A\n// heading\"; docs/a.md. (docs/gone.md)\n"
+            "namespace deburr::spec::engine {\nstruct PixelBeat {\n  std::array<int, kLanes> count;\n};\n}\n"
+            "// docs/a.md, \"None\"; docs/a.md (\"No\")\nconst auto page = \"docs/away.md\";\n", encoding="utf-8")
+        return len(list(problems(root))) == 16
 
 
 def main():

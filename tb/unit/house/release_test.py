@@ -52,14 +52,14 @@ def problems(root):
     first = re.search(r"^## (.*)$", (root / "CHANGELOG.md").read_text(encoding="utf-8"), re.M)
     if not first or first[1] != version:
         found.append(f"CHANGELOG.md begins with {first and first[1]}, expected {version}")
-    for page in (root / "SECURITY.md", *sorted((root / "docs").glob("*.md"))):
+    for page in (root / "SECURITY.md", *sorted((root / "docs").rglob("*.md"))):
         text = page.read_text(encoding="utf-8")
         if page.name == "stability.md" and NEXT.findall(text) != [f"{major}.{int(minor) + 1}"]:
-            found.append("docs/stability.md does not say the version that is not taken")
+            found.append("docs/reference/stability.md does not say the version that is not taken")
         found += [f"{page.relative_to(root)}: version {said}, expected {version}" for said in SAID.findall(NEXT.sub("", text))
                   if said not in (version, f"{major}.{minor}")]
-    said = [page for page in ("SECURITY.md", "docs/platform.md", "docs/testbench.md", "docs/stability.md")
-            if not SAID.search((root / page).read_text(encoding="utf-8"))]
+    said = [page for page in ("SECURITY.md", "docs/howto/use_in_my_platform.md", "docs/howto/testbench.md",
+                              "docs/reference/stability.md") if not SAID.search((root / page).read_text(encoding="utf-8"))]
     return found + [f"{page} says no version" for page in said]
 
 
@@ -69,17 +69,17 @@ FAULTS = (("CMakeLists.txt", " VERSION 0.", " VERSION 10."), ("CITATION.cff", "v
           ("CITATION.cff", "  - name:", "  - called:"), ("CITATION.cff", "message: If", "message: [If"),
           ("CITATION.cff", "keywords:", "keywords: none\nwords:"), ("CITATION.cff", "type: software", "type: program"),
           ("CHANGELOG.md", "## 0.", "## next, 0."), ("SECURITY.md", "today 0.", "today 10."),
-          ("docs/platform.md", "find_package(deburr 0.", "find_package(deburr 10."),
-          ("docs/testbench.md", "Deburr 0.", "Deburr 10."), ("docs/stability.md", "takes no 0.", "takes no 10."))
+          ("docs/howto/use_in_my_platform.md", "find_package(deburr 0.", "find_package(deburr 10."),
+          ("docs/howto/testbench.md", "Deburr 0.", "Deburr 10."), ("docs/reference/stability.md", "takes no 0.", "takes no 10."))
 
 
 def faults_that_are_not_found(root):
     for file, piece, other in FAULTS:
         with tempfile.TemporaryDirectory() as folder:
             copy = pathlib.Path(folder)
-            (copy / "docs").mkdir()
-            for name in ("CMakeLists.txt", "CITATION.cff", "CHANGELOG.md", "SECURITY.md", "docs/platform.md",
-                         "docs/testbench.md", "docs/stability.md"):
+            for name in ("CMakeLists.txt", "CITATION.cff", "CHANGELOG.md", "SECURITY.md", "docs/howto/use_in_my_platform.md",
+                         "docs/howto/testbench.md", "docs/reference/stability.md"):
+                (copy / name).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(root / name, copy / name)
             text = (copy / file).read_text(encoding="utf-8")
             (copy / file).write_text(text.replace(piece, other, 1), encoding="utf-8")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Records and registers that the driver of the geometric engine writes, against docs/geometric.md
-// by hand, and what it rejects.
+// Records and registers that the driver of the geometric engine writes, against
+// docs/reference/geometric/memory.md by hand, and what it rejects.
 #include "rtl_model/platform/geometric_driver.h"
 
 #include "tb/unit/platform/fakes.h"

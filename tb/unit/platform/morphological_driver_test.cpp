@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Beats, registers and learned shares that the driver of the morphological engine gives to it,
-// against docs/registers.md and docs/morphological_shares.md by hand, and what it rejects.
+// against docs/reference/registers.md and docs/reference/morphological/learned_shares.md by hand,
+// and what it rejects.
 #include "rtl_model/platform/morphological_driver.h"
 
 #include "spec/morphological/registers.h"
@@ -86,7 +87,7 @@ struct Bed {
 };
 using Write = std::pair<std::uint32_t, std::uint32_t>;
 
-// One field after the other, at the bits that docs/registers.md gives.
+// One field after the other, at the bits that docs/reference/registers.md gives.
 TEST(MorphologicalDriver, WritesEachRuleAsAField) {
   Bed b;
   const auto with = [&](auto&& change) {

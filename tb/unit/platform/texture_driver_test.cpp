@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Textures in memory and descriptors in registers, against docs/number_formats.md ("Addresses") and
-// docs/texture_unit.md by hand, and what the driver of the texture unit rejects.
+// Textures in memory and descriptors in registers, against docs/reference/texture/formats.md
+// ("Addresses") and docs/reference/texture/index.md by hand, and what the driver of the texture
+// unit rejects.
 #include "rtl_model/platform/texture_driver.h"
 
 #include "spec/texture/registers.h"

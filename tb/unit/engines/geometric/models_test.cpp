@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Are the models for the geometric engine what docs/scenes.md says, and is their light Phong's?
+// Are the models for the geometric engine what docs/reference/scenes.md says, and is their light
+// Phong's?
 #include "tb/scene/models.h"
 
 #include <gmock/gmock.h>

@@ -11,7 +11,7 @@ import sys
 HEADER = "golden/c/deburr_golden.h"
 PACKAGE = "golden/c/systemverilog/deburr_golden_pkg.sv"
 GLUE = "golden/c/systemverilog/deburr_golden_dpi.c"
-PAGE = "docs/c_interface.md"
+PAGE = "docs/reference/c_interface.md"
 
 CONSTANT = re.compile(r"^\s*(DEBURR_\w+) = (\d+)", re.M)
 # A comment, or a declaration.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The contract's frame of random edges (docs/geometric.md, "Vectors"), and hashes of what came of
-// it.
+// The contract's frame of random edges (docs/reference/geometric/vectors.md), and hashes
+// of what came of it.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Are diagonals found as docs/morphological_smaa.md says? Staircases of every length with every
-// code at their ends, both ways, open or not, at borders; the table against the areas of its lines;
-// and what a pixel that is taken does to the shares of its edges.
+// Are diagonals found as docs/reference/morphological/smaa.md says? Staircases of every length with
+// every code at their ends, both ways, open or not, at borders; the table against the areas of its
+// lines; and what a pixel that is taken does to the shares of its edges.
 #include "golden/morphological/diagonals.h"
 
 #include <gmock/gmock.h>

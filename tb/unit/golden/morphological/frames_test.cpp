@@ -379,8 +379,8 @@ int changes_by_edges(Preset preset, int columns, int rows) {
   return result;
 }
 
-// docs/morphological_engine.md, "Long runs". The reach is an upper bound: of what is drawn here
-// nothing in its last column mattered.
+// docs/reference/morphological/algorithm.md, "Long runs". The reach is an upper bound: of what is
+// drawn here nothing in its last column mattered.
 TEST(Locality, NoEdgeBeyondTheReachMatters) {
   for (const Preset preset : {Preset::kMlaaSlope, Preset::kDeburrLine, Preset::kDeburr}) {
     SCOPED_TRACE(spec::morphological::kPresetNames[static_cast<std::size_t>(preset)]);

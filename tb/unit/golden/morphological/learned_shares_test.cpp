@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Are learned shares and edges of colour what docs/morphological_shares.md says? By its worked
-// frames, by a reference in another language, entry by entry, and where other rules meet them.
+// Are learned shares and edges of colour what docs/reference/morphological/learned_shares.md says?
+// By its worked frames, by a reference in another language, entry by entry, and where other rules
+// meet them.
 #include "golden/morphological/learned_shares.h"
 
 #include <gmock/gmock.h>
@@ -459,7 +460,7 @@ TEST(LearnedShares, TheSumOfTheShippedTablesIsWhatTheRegisterShows) {
   EXPECT_EQ(sum, spec::morphological::kSharesSum);
 }
 
-// Entries that no record can name: docs/morphological_shares.md, "Entries".
+// Entries that no record can name: docs/reference/morphological/learned_shares.md, "Entries".
 TEST(LearnedCoverage, EveryEntryThatCanBeReachedIs) {
   const auto& reachable = reachable_entries();
   const auto count = [](const auto& flags) { return std::count(flags.begin(), flags.end(), true); };

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Third reference of learned shares: docs/morphological_shares.md read word by word, without the
+"""Third reference of learned shares: docs/reference/morphological/learned_shares.md read word by word, without the
 extension of runs (predictor = none), slow and without a thought for speed.
 
     shares_reference.py            the small frames of that page, and the indices of their edges

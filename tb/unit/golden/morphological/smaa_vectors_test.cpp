@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Does the golden give the numbers of docs/morphological_smaa.md, "Vectors"? Shares of every edge
-// of the patterns, the limit of the searches, and the tables; its frames are in vectors_test.cpp.
+// Does the golden give the numbers of docs/reference/morphological/vectors.md? Shares of
+// every edge of the patterns, the limit of the searches, and the tables; its frames are in
+// vectors_test.cpp.
 #include <gmock/gmock.h>
 
 #include <sstream>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Does the golden give the contract's numbers? The frames and runs of
-// spec/morphological/vectors.h, and every entry of the ROMs (docs/number_formats_morphological.md).
+// spec/morphological/vectors.h, and every entry of the ROMs
+// (docs/reference/morphological/formats.md).
 #include "spec/morphological/vectors.h"
 
 #include <fmt/format.h>

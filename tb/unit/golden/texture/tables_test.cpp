@@ -49,7 +49,8 @@ double srgb_code(int i) {
 double count_entry(int n) { return n == 0 ? 0 : 4096 * std::log2(n) + 72; }
 double reciprocal_entry(int n) { return n == 0 ? 0 : 65536.0 / n; }
 
-// The weights of one kernel and N are what docs/number_formats.md, "Sample walker", says.
+// The weights of one kernel and N are what docs/reference/texture/formats.md, "Sample walker",
+// says.
 bool right_weights(std::size_t kernel, int n, const std::array<std::uint16_t, 16>& weights) {
   const auto shape = [&](int i) {
     return kernel == 1 && n >= 4 ? std::min(2 * i + 1, 2 * (n - i) - 1) : 1;
@@ -84,7 +85,7 @@ TEST(TextureTables, AreWhatTheirFormulasGive) {
 }
 
 // How far each choice of cosine and sine is from the angle and the length that it stands for: the
-// table of docs/texture_unit.md.
+// table of docs/reference/texture/choices.md.
 TEST(TextureTables, AxesAreWithinTheirErrors) {
   for (std::size_t i = 0; i < spec::texture::kAxes.size(); ++i) {
     const spec::texture::Axis& axis = spec::texture::kAxes[i];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The geometric engine as a whole: refusals and registers, bad input, empty frames; the clocks of a
-// frame between the bounds of docs/geometric_hardware.md, and near the one that is the largest.
+// frame between the bounds of docs/reference/geometric/clocks.md, and near the one that is the
+// largest.
 #include <map>
 #include <nlohmann/json.hpp>
 

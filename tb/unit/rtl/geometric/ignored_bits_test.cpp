@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What lies in memory beside what docs/geometric.md gives a meaning to: bits of its records that
-// are ignored, records behind the last one, what lies between rows and tiles, room for weights and
-// for the copy before a frame. Whatever is there, a frame is the same, in pixels, accesses and
-// clocks; and each of the other bits counts, or the noise would prove nothing.
+// What lies in memory beside what docs/reference/geometric/memory.md gives a meaning to: bits of
+// its records that are ignored, records behind the last one, what lies between rows and tiles, room
+// for weights and for the copy before a frame. Whatever is there, a frame is the same, in pixels,
+// accesses and clocks; and each of the other bits counts, or the noise would prove nothing.
 #include <bit>
 #include <functional>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The resolve's units, and those that feed the edges' pipe: latency and initiation interval, as
-// docs/geometric_hardware.md has them; memory answers 20 clocks after a request.
+// docs/reference/geometric/hardware.md has them; memory answers 20 clocks after a request.
 #include <map>
 
 #include "rtl_model/geometric/common/sizing.h"
@@ -239,7 +239,7 @@ TEST(Resolve, WeightsOfMemoryComeALatencyLater) {
 
 // R of the colours that a frame begins with; the other channels are 0.
 int red(int x, int y) { return (7 * x + 11 * y) % 256; }
-// Half of the pixel itself and half of its neighbour, as docs/number_formats_morphological.md
+// Half of the pixel itself and half of its neighbour, as docs/reference/morphological/formats.md
 // rounds it.
 int half_of_both(int own, int other) {
   const int v = 128 * (other - own), moved = (std::abs(v) + 128) >> 8;

@@ -65,7 +65,7 @@ struct Scene {
   std::vector<bool> facing;
 };
 
-// Byte offset of a pixel, by the table of docs/geometric.md.
+// Byte offset of a pixel, by the table of docs/reference/geometric/memory.md.
 inline std::uint32_t pixel_offset(bool tiled, int width, int x, int y) {
   if (!tiled) return static_cast<std::uint32_t>(y * ((4 * width + 63) / 64 * 64) + 4 * x);
   const int bx = x / 4, by = y / 4, tiles = (width + 7) / 8;

@@ -21,7 +21,7 @@ TEST(GeometricTokens, FieldsHaveTheBitsOfTheirFormat) {
 }
 
 TEST(GeometricTokens, LinksAreThoseOfThePage) {
-  const tb::EnginePage table("geometric_hardware.md", "link");
+  const tb::EnginePage table("reference/geometric/memories.md", "link");
   ClockDomain clock("clock", tb::geometric_rtl::period());
   spec::geometric::Parameters one;
   one.edge_lanes = one.walkers = spec::geometric::Lanes::kOne;
@@ -32,7 +32,7 @@ TEST(GeometricTokens, LinksAreThoseOfThePage) {
 TEST(GeometricTokens, WiresAreThoseOfThePage) {
   ClockDomain clock("clock", tb::geometric_rtl::period());
   GeometricEngine engine("default", clock, {});
-  tb::EnginePage("geometric_hardware.md", "wire").expect_wires(engine);
+  tb::EnginePage("reference/geometric/memories.md", "wire").expect_wires(engine);
 }
 
 // Everything is built in every geometric engine.
@@ -41,7 +41,7 @@ TEST(GeometricFigures, AreTheModuleTree) {
   const GeometricEngine engine("default", clock, {});
   const std::string header = "rtl_model/geometric/geometric_engine.h";
   for (const tb::Figure& figure :
-       {tb::Figure::of_header(header), tb::Figure::of_page("geometric_hardware.md")}) {
+       {tb::Figure::of_header(header), tb::Figure::of_page("reference/geometric/hardware.md")}) {
     tb::expect_figure(figure, engine, header, "FrameCopier");
     tb::expect_figure(figure, engine, header, "invalid_edge");
     tb::expect_figure(figure, engine, header, "registers");

@@ -433,8 +433,8 @@ Parameters with_table(AreaSource layout, int lanes_code = 0) {
   return p;
 }
 
-// Where the ends of a line lie, by the formulas of docs/number_formats_morphological.md: S13, and a
-// tie goes up, which is a pixel further to the left for the start.
+// Where the ends of a line lie, by the formulas of docs/reference/morphological/formats.md: S13,
+// and a tie goes up, which is a pixel further to the left for the start.
 TEST(TableEnds, AreRoundedToPixelsOf13Bits) {
   constexpr std::int64_t kOne = std::int64_t{1} << 24;
   struct Row {

@@ -49,7 +49,7 @@ class LatencyFormula : public ::testing::TestWithParam<Case> {};
 
 // Every beat, flush included, if rows are long enough for the records: BPR >= T (N + 1) +
 // divider.latency + 12 if none waits for another, else the bound of bounds_test.cpp
-// (docs/morphological_hardware.md).
+// (docs/reference/morphological/hardware.md).
 TEST_P(LatencyFormula, HoldsForEveryBeat) {
   const Case c = GetParam();
   Parameters p = preset(Preset::kDeburrLine, c.reach_rows);

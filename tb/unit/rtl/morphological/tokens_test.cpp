@@ -28,7 +28,7 @@ TEST(Tokens, ColumnsOfDiagonalsHaveABitOfEachRow) {
 
 TEST(Tokens, LinksAreThoseOfThePage) {
   using tb::morphological_rtl::preset;
-  const tb::EnginePage table("morphological_hardware.md", "link");
+  const tb::EnginePage table("reference/morphological/memories.md", "link");
   ClockDomain clock("clock", tb::morphological_rtl::period());
   spec::morphological::Parameters memory = tb::morphological_rtl::in_memory();
   memory.lanes = spec::morphological::Lanes::kFour;
@@ -53,7 +53,7 @@ TEST(Figures, AreTheModuleTree) {
   const std::string header = "rtl_model/morphological/morphological_engine.h";
   for (const MorphologicalEngine* const engine : {&with_learned, &with_diagonals})
     for (const tb::Figure& figure :
-         {tb::Figure::of_header(header), tb::Figure::of_page("morphological_engine.md")})
+         {tb::Figure::of_header(header), tb::Figure::of_page("reference/morphological/index.md")})
       for (const char* const unit : {"DiagonalUnit", "SharesLoader", "EdgeRows", "Blender"})
         tb::expect_figure(figure, *engine, header, unit);
 }

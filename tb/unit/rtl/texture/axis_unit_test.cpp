@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The AxisUnit alone, against a reference written from docs/number_formats.md, and its clocks.
+// The AxisUnit alone, against a reference written from docs/reference/texture/formats.md, and its
+// clocks.
 #include "rtl_model/texture/axis_unit.h"
 
 #include <array>

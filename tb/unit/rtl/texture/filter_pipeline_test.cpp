@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The FilterPipeline alone. Expected colours are worked out by hand from docs/number_formats.md.
+// The FilterPipeline alone. Expected colours are worked out by hand from
+// docs/reference/texture/formats.md.
 #include "rtl_model/texture/filter_pipeline.h"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The FootprintUnit alone. Expected values are worked out by hand from docs/number_formats.md.
+// The FootprintUnit alone. Expected values are worked out by hand from
+// docs/reference/texture/formats.md.
 #include "rtl_model/texture/footprint_unit.h"
 
 #include <cmath>

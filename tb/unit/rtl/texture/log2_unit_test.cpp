@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The Log2Unit alone. Expected values are worked out by hand from docs/number_formats.md.
+// The Log2Unit alone. Expected values are worked out by hand from
+// docs/reference/texture/formats.md.
 #include "rtl_model/texture/log2_unit.h"
 
 #include <cmath>

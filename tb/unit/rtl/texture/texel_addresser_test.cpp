@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The TexelAddresser alone. Expected values are worked out by hand from docs/number_formats.md.
+// The TexelAddresser alone. Expected values are worked out by hand from
+// docs/reference/texture/formats.md.
 #include "rtl_model/texture/texel_addresser.h"
 
 #include "tb/unit/rtl/datasheets.h"

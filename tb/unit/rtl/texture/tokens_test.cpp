@@ -18,7 +18,7 @@ TEST(TextureRtlTokens, FieldsHaveTheBitsOfTheirFormat) {
 }
 
 TEST(TextureRtlTokens, LinksAreThoseOfThePage) {
-  const tb::EnginePage table("texture_unit.md", "link");
+  const tb::EnginePage table("reference/texture/hardware.md", "link");
   ClockDomain clock("clock", tb::texture_rtl::period());
   spec::texture::Parameters paper = tb::paper_rules(), deburr, largest;
   paper.cache_fifo_depth = deburr.cache_fifo_depth = largest.cache_fifo_depth = 107;
@@ -33,7 +33,7 @@ TEST(TextureRtlTokens, LinksAreThoseOfThePage) {
 TEST(TextureRtlTokens, WiresAreThoseOfThePage) {
   ClockDomain clock("clock", tb::texture_rtl::period());
   TextureUnit unit("unit", clock, {});
-  tb::EnginePage("texture_unit.md", "wire").expect_wires(unit);
+  tb::EnginePage("reference/texture/hardware.md", "wire").expect_wires(unit);
 }
 
 TEST(TextureRtlTokens, MemoriesAreThoseOfThePage) {
@@ -42,7 +42,8 @@ TEST(TextureRtlTokens, MemoriesAreThoseOfThePage) {
   p.cache_fifo_depth = 107;
   p.log2 = spec::texture::Log2Rule::kExact;
   p.srgb_output = spec::texture::SrgbOutput::kEncoded;
-  tb::EnginePage("texture_unit.md", "memory").expect_memories(TextureUnit("unit", clock, p));
+  tb::EnginePage("reference/texture/hardware.md", "memory")
+      .expect_memories(TextureUnit("unit", clock, p));
 }
 
 // In both builds: an AxisUnit stands in the place of the FootprintUnit.
@@ -58,8 +59,8 @@ TEST(TextureFigures, AreTheModuleTree) {
     p.axes = axes;
     const TextureUnit unit(name, clock, p);
     tb::expect_figure(tb::Figure::of_header(header), unit, header, "TextureCache");
-    tb::expect_figure(tb::Figure::of_page("texture_unit.md"), unit, header, "FilterPipeline",
-                      {address, cache});
+    tb::expect_figure(tb::Figure::of_page("reference/texture/index.md"), unit, header,
+                      "FilterPipeline", {address, cache});
     tb::expect_figure(tb::Figure::of_header(address), unit.address, address, "AxisUnit");
     tb::expect_figure(tb::Figure::of_header(cache), unit.cache, cache, "MissQueue");
   }

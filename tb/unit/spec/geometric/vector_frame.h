@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The frame of random edges that the vectors of docs/geometric.md are about.
+// The frame of random edges that the vectors of docs/reference/geometric/vectors.md are about.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tables of docs/geometric.md and docs/number_formats_geometric.md are made from
-// spec/geometric/vectors.h.
+// The tables of docs/reference/geometric/vectors.md and docs/reference/geometric/formats.md are
+// made from spec/geometric/vectors.h.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -66,12 +66,13 @@ std::string lines(std::span<const LineVector> vectors) {
 }
 
 TEST(GeometricVectorsPage, HasTheFrames) {
-  expect_generated("geometric.md", "GeometricVectorsPage.HasTheFrames", frames(kFrameVectors));
+  expect_generated("reference/geometric/vectors.md", "GeometricVectorsPage.HasTheFrames",
+                   frames(kFrameVectors));
   expect_table_has_each_value(kFrameVectors, frames);
 }
 
 TEST(GeometricVectorsPage, HasTheLines) {
-  expect_generated("number_formats_geometric.md", "GeometricVectorsPage.HasTheLines",
+  expect_generated("reference/geometric/formats.md", "GeometricVectorsPage.HasTheLines",
                    lines(kLineVectors));
   expect_table_has_each_value(kLineVectors, lines);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tables of docs/number_formats_morphological.md and docs/morphological_smaa.md are made from
+// The tables of docs/reference/morphological/vectors.md, and of runs in formats.md, are made from
 // spec/morphological/vectors.h.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -102,43 +102,42 @@ std::string shares(std::span<const TableVector> vectors) {
   return table.text();
 }
 
-constexpr const char* kFormats = "number_formats_morphological.md";
-constexpr const char* kSmaaPage = "morphological_smaa.md";
+constexpr const char* kPage = "reference/morphological/vectors.md";
 
 TEST(MorphologicalVectorsPage, HasTheFrames) {
-  expect_generated(kFormats, "MorphologicalVectorsPage.HasTheFrames", frames(kFrameVectors));
+  expect_generated(kPage, "MorphologicalVectorsPage.HasTheFrames", frames(kFrameVectors));
   expect_table_has_each_value(kFrameVectors, frames);
 }
 
 TEST(MorphologicalVectorsPage, HasTheFramesOfSmaa) {
-  expect_generated(kSmaaPage, "MorphologicalVectorsPage.HasTheFramesOfSmaa",
-                   frames(kSmaaFrameVectors));
+  expect_generated(kPage, "MorphologicalVectorsPage.HasTheFramesOfSmaa", frames(kSmaaFrameVectors));
 }
 
 TEST(MorphologicalVectorsPage, HasTheRuns) {
-  expect_generated(kFormats, "MorphologicalVectorsPage.HasTheRuns", runs(kRunVectors));
+  expect_generated("reference/morphological/formats.md", "MorphologicalVectorsPage.HasTheRuns",
+                   runs(kRunVectors));
   expect_table_has_each_value(kRunVectors, runs);
 }
 
 TEST(MorphologicalVectorsPage, HasThePatterns) {
-  expect_generated(kSmaaPage, "MorphologicalVectorsPage.HasThePatterns", patterns(kPatternVectors));
+  expect_generated(kPage, "MorphologicalVectorsPage.HasThePatterns", patterns(kPatternVectors));
   expect_table_has_each_value(kPatternVectors, patterns);
 }
 
 TEST(MorphologicalVectorsPage, HasTheLimits) {
-  expect_generated(kSmaaPage, "MorphologicalVectorsPage.HasTheLimits", limits(kLimitVectors));
+  expect_generated(kPage, "MorphologicalVectorsPage.HasTheLimits", limits(kLimitVectors));
   expect_table_has_each_value(kLimitVectors, limits);
 }
 
 TEST(MorphologicalVectorsPage, HasTheTables) {
-  expect_generated(kSmaaPage, "MorphologicalVectorsPage.HasTheTables", hashes(kTableHashes));
+  expect_generated(kPage, "MorphologicalVectorsPage.HasTheTables", hashes(kTableHashes));
   TableHashes changed = kTableHashes;
   changed.mix ^= 1;  // the planted fault
   EXPECT_NE(hashes(changed), hashes(kTableHashes));
 }
 
 TEST(MorphologicalVectorsPage, HasTheSharesOfTheTables) {
-  expect_generated(kSmaaPage, "MorphologicalVectorsPage.HasTheSharesOfTheTables",
+  expect_generated(kPage, "MorphologicalVectorsPage.HasTheSharesOfTheTables",
                    shares(kTableVectors));
   expect_table_has_each_value(kTableVectors, shares);
 }
