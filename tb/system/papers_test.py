@@ -53,8 +53,8 @@ EXPECTED_002 = {
     "Figures 3 to 6": ("better", {
         "cube none": "-", "wheelcover none": "-", "wing none": "-", "canopy none": "-",
         "sphere none": "-", "object none": "-", "terrain none": "-", "cube deburr": "best",
-        "wheelcover deburr": "second", "wing deburr": "best", "canopy deburr": "best",
-        "sphere deburr": "second", "object deburr": "best", "terrain deburr": "second"}),
+        "wheelcover deburr": "best", "wing deburr": "best", "canopy deburr": "best",
+        "sphere deburr": "best", "object deburr": "best", "terrain deburr": "second"}),
     "The order of edges": ("needs max", {}),
 }
 # The same of paper 004, and the figures as the paper prints them.
