@@ -58,19 +58,6 @@ class EdgeWindow final : public EdgeMemory {
   // Bits of those words, and of the column before them, a register in hardware, which is nothing at
   // the frame's border.
   EdgeBits beat(std::int32_t beat, std::int32_t y) const { return bits_[place(beat, y)]; }
-  // visit(k, bits) gets those of rows y + k, k < rows.
-  template <class Visit>
-  void visit_rows(std::int32_t beat, std::int32_t y, std::int32_t rows, Visit&& visit) const {
-    const EdgeBits* at = &bits_[place(beat, y)];
-    const std::size_t step = row_beats_, size = bits_.size();
-    // The first row that is kept at the beginning again.
-    const auto again =
-        static_cast<std::int32_t>(row_mask_ + 1 - (static_cast<std::uint32_t>(y) & row_mask_));
-    for (std::int32_t k = 0; k < rows; ++k, at += step) {
-      if (k == again) at -= size;
-      visit(k, *at);
-    }
-  }
   // The same of all beats of row y, from the first one on.
   const EdgeBits* beats(std::int32_t y) const { return &bits_[place(0, y)]; }
   bool left(std::int32_t x, std::int32_t y) const {

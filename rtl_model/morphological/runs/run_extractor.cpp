@@ -181,13 +181,13 @@ void RunExtractor::send_columns(Cycle cycle) {
   DiagonalColumnsToken& token = columns_out->emplace(cycle);
   token.slot = token_.slot;
   token.left = token.top = {};
-  window_.visit_rows(token_.slot.beat, row - most, 2 * most + 1, [&](int k, EdgeBits bits) {
-    if ((bits.left | bits.top) == 0) return;
+  for (std::int32_t k = 0; k <= 2 * most; ++k) {
+    const EdgeBits bits = window_.beat(token_.slot.beat, row + k - most);
     for (unsigned lanes = bits.left; lanes != 0; lanes &= lanes - 1)
       token.left[static_cast<std::size_t>(std::countr_zero(lanes))] |= std::uint64_t{1} << k;
     for (unsigned lanes = bits.top; lanes != 0; lanes &= lanes - 1)
       token.top[static_cast<std::size_t>(std::countr_zero(lanes))] |= std::uint64_t{1} << k;
-  });
+  }
 }
 
 // Columns first..end - 1 of row y, and the end of the row.
