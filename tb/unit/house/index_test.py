@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Checks the way into the pages: docs/index.md names every page once and is found from the README; each of its
 questions leads to a section that has an answer with a command that the program takes; the glossary's terms are
-explained where it says; new pages keep to its words; no page has more than 300 lines and no cell of a table more than
-200 characters, but what a program makes: whole pages, and blocks between its two marks.
+explained where it says; pages but contracts keep to its words; no page has more than 300 lines and no cell of a table more than
+200 characters, but what a program makes: whole pages, which stand in the table of made pages, and blocks between its
+two marks.
 
 usage: index_test.py SOURCE [DEBURR]"""
 import os
@@ -15,7 +16,8 @@ import sys
 import tempfile
 
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)#\s]*)(?:#([^)\s]*))?\)")
-NEW = ("index.md", "tutorial", "howto", "explanation")
+# Where words are looked for: contracts, in folders of reference, have words of their own.
+WORDED = ("index.md", "tutorial/**/*.md", "howto/**/*.md", "explanation/**/*.md", "reference/*.md", "measurements/*.md")
 QUESTIONS = 10
 LINES, CELL = 300, 200
 # The beginning of a page that a program makes as a whole, and a block of one.
@@ -144,9 +146,11 @@ def glossary_problems(docs):
 def page_problems(docs):
     words = {word: (re.compile(rf"(?<![\w-]){re.escape(word)}(?![\w-])", re.IGNORECASE), but)
              for word, but in not_used(docs).items()}
-    for path in sorted(path for name in NEW for path in [docs / name, *(docs / name).rglob("*.md")] if path.is_file()):
+    for path in sorted(path for name in WORDED for path in docs.glob(name)):
         where = path.relative_to(docs)
         text = path.read_text(encoding="utf-8")
+        if MADE.match(text):
+            continue
         if path.name == "glossary.md":
             text = text.partition("## Words that are not used")[0]
         fenced = False
@@ -178,6 +182,16 @@ def length_problems(docs):
             yield f"{where}: more than {LINES} lines"
 
 
+def made_problems(docs):
+    table = docs / "reference/tests.md"
+    named = {target for line in sections(table).get("made-pages", []) if line.startswith("|")
+             for _, target, _ in links_of(line)} if table.exists() else set()
+    named = {(table.parent / target).resolve() for target in named}
+    for path in sorted(docs.rglob("*.md")):
+        if MADE.match(path.read_text(encoding="utf-8")) and path.resolve() not in named:
+            yield f"{path.relative_to(docs)}: made by a program, and not in the table of made pages"
+
+
 def problems(root, run):
     docs = root / "docs"
     yield from index_problems(root)
@@ -185,6 +199,7 @@ def problems(root, run):
     yield from glossary_problems(docs)
     yield from page_problems(docs)
     yield from length_problems(docs)
+    yield from made_problems(docs)
 
 
 def planted():
@@ -213,7 +228,7 @@ def planted():
     expected = ("README.md: no link", "no link to alone.md", "gone.md does not exist", "3 questions", "'a': no section",
                 "'b': howto/a.md#no-command has no", "'c': deburr run    odd: RESULT: odd", "'c': its sweep: RESULT: odd", "glossary: lost", "glossary: short",
                 "glossary: 2 terms", "not used is not there", "howto/a.md:3: 'judge'", "alone.md:9: a cell of more", "long.md: more than 300 lines",
-                "does not begin with a command")
+                "made.md: made by a program", "does not begin with a command")
     return [text for text in expected if sum(text in problem for problem in found) != 1] + \
            [f"unexpected: {problem}" for problem in found if not any(text in problem for text in expected)]
 
