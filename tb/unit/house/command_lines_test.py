@@ -21,6 +21,7 @@ SOURCE = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else ".").resolve()
 sys.path.insert(0, str(SOURCE / "tb/engines"))
 from engine_list import testplan  # noqa: E402
 
+COMPILER = '#!/bin/sh\necho "${COMPILER_VERSION:-12}"\n'
 SAYS = '#!/bin/sh\necho "$(basename "$0") $*" >>"$CALLS"\n'
 DEBURR = "build/release/deburr"
 # What ninja says of a target: the programs that it builds.
@@ -49,7 +50,8 @@ class CommandLines(unittest.TestCase):
     def setUp(self):
         tools = ("cmake", "ctest", "apt-get", "clang++")
         self.root = tiny_tree(self, {f"bin/{tool}": SAYS for tool in tools} |
-                              {DEBURR: SAYS, "build/release/test_programs.txt": HELD, "bin/ninja": SAYS + PROGRAMS, "bin/dpkg-query": INSTALLED})
+                              {DEBURR: SAYS, "build/release/test_programs.txt": HELD, "bin/ninja": SAYS + PROGRAMS, "bin/dpkg-query": INSTALLED,
+                               "bin/c++": COMPILER})
         for folder in ("scripts", ".ci", "cmake", "tb/engines", "tb/testplan"):
             shutil.copytree(SOURCE / folder, self.root / "tree" / folder)
         shutil.copy(SOURCE / "CMakePresets.json", self.root / "tree")
@@ -210,14 +212,24 @@ class CommandLines(unittest.TestCase):
         """It says how long each step takes, and leaves tests that are configured as they are."""
         (self.root / "tree" / DEBURR).rename(self.root / "deburr")
         calls = self.call("scripts/demo", DEBURR_NO_INSTALL="0")
-        self.assertEqual(calls[2], ["cmake --preset release -DBUILD_TESTING=OFF",
+        self.assertEqual(calls[2], ["cmake --preset release -DDEBURR_WERROR=ON -DBUILD_TESTING=OFF",
                                     "cmake --build build/release --target deburr"])
         for step in ("Configuring: 5 to 15 s", "Building: about ", "Running the texture unit"):
             self.assertIn(step, calls[1])
         build = self.root / "tree/build/release"
         (build / "build.ninja").touch()
         (build / "CMakeCache.txt").write_text("BUILD_TESTING:BOOL=ON\n", encoding="utf-8")
-        self.assertIn("cmake --preset release -DBUILD_TESTING=ON", self.call("scripts/demo")[2])
+        self.assertIn("cmake --preset release -DDEBURR_WERROR=ON -DBUILD_TESTING=ON", self.call("scripts/demo")[2])
+
+    def test_the_tests_compile_nothing_of_the_demo_again(self):
+        """Both give the same options, so that what they have in common is compiled alike."""
+        def options(script, **more):
+            configure, = (call for call in self.call(script, **more)[2] if call.startswith("cmake --preset"))
+            return {word for word in configure.split() if "BUILD_TESTING" not in word}
+        self.assertEqual(options("scripts/demo"), options("scripts/test"))
+        # Warnings of a compiler that nobody has tried end no first build.
+        self.assertEqual(options("scripts/test") - options("scripts/demo", COMPILER_VERSION="14"),
+                         {"-DDEBURR_WERROR=ON"})
 
     def test_the_complete_demo_builds_all_that_the_command_starts_and_loads(self):
         done, said, calls = self.call("scripts/demo", "--complete", "mine")
