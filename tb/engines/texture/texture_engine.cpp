@@ -97,6 +97,7 @@ class TextureEngine final : public Engine {
       fragments_of_file(*scene);
     else
       refuse_nothing_drawn(*scene);
+    refuse_maps_of_nothing(run, *scene);
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
@@ -107,6 +108,7 @@ class TextureEngine final : public Engine {
       setup.foreign = fragments_of_file(scene);
     else
       refuse_nothing_drawn(scene);
+    refuse_maps_of_nothing(run, scene);
     context.add_inputs(with_trace(scene.inputs()));
     context.set_title(title(), summary_line(scene, setup));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
@@ -191,6 +193,14 @@ class TextureEngine final : public Engine {
   std::vector<std::filesystem::path> with_trace(std::vector<std::filesystem::path> files) const {
     if (foreign()) add_once(files, trace_in_.file);
     return files;
+  }
+
+  void refuse_maps_of_nothing(const RunParameters& run, const TextureScene& scene) const {
+    if (run.maps && scene.stream().width == 0)
+      throw spec::ConfigError(fmt::format(
+          "run.maps: the fragments of '{}' have no place in a picture: leave it out, or write "
+          "'size WIDTH HEIGHT' and the place of each quad into the trace (docs/traces.md)",
+          trace_in_.file));
   }
 
   // All of the file has been read and judged behind it.
