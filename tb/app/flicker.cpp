@@ -18,12 +18,11 @@ void add(Result& result, const FlickerMeter& after, const FlickerMeter& before) 
                          "Root mean square of what a pixel changes from frame to frame more or "
                          "less than its truth (without a truth: than what went in), in runs of "
                          "several frames (sequence.frames, lists)."});
-  result.work.push_back({"flicker_worst", after.worst(), "1/255",
-                         "The same of the pair of frames with the most."});
-  result.work.push_back({"flicker_worst_frame", after.worst_frame(), "",
-                         "The second frame of that pair, counted from 0."});
   result.work.push_back(
-      {"flicker_before", before.mean(), "1/255", "As flicker, of what went in."});
+      {"flicker_worst", after.worst(), "1/255", "The same of the pair of frames with the most."});
+  result.work.push_back({"flicker_worst_frame", static_cast<std::uint64_t>(after.worst_frame()), "",
+                         "The second frame of that pair, counted from 0."});
+  result.work.push_back({"flicker_before", before.mean(), "1/255", "As flicker, of what went in."});
 }
 
 }  // namespace

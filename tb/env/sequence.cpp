@@ -87,9 +87,8 @@ std::vector<std::string> listed_files(std::string_view parameter, const std::str
 void FrameLists::add(std::string parameter, std::vector<std::string> entries) {
   if (entries.size() > 1) {
     if (std::find(entries.begin(), entries.end(), "") != entries.end())
-      throw spec::ConfigError(
-          fmt::format("{}: its list has an empty entry: take a '{}' out", parameter,
-                      kListSeparator));
+      throw spec::ConfigError(fmt::format("{}: its list has an empty entry: take a '{}' out",
+                                          parameter, kListSeparator));
     const int count = static_cast<int>(entries.size());
     if (frames_ > 1 && count != frames_)
       throw spec::ConfigError(

@@ -158,8 +158,7 @@ class YamlLoader {
   // As the command line has it.
   std::string joined_list(const YAML::Node& list, const std::string& name) const {
     std::string text;
-    for (const auto& entry : list)
-      text += (text.empty() ? "" : "; ") + yaml_.scalar(entry, name);
+    for (const auto& entry : list) text += (text.empty() ? "" : "; ") + yaml_.scalar(entry, name);
     return text;
   }
 

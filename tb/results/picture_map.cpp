@@ -193,8 +193,8 @@ void read_pfm(const std::string& bytes, PictureMap& map) {
   const std::string head = fmt::format("Pf\n{} {}\n-1.0\n", map.width, map.height);
   const std::size_t size = map.values.size() * sizeof(float);
   if (!bytes.starts_with(head) || bytes.size() != head.size() + size)
-    throw spec::ConfigError(fmt::format("not a portable float map of {} x {} values",
-                                        map.width, map.height));
+    throw spec::ConfigError(
+        fmt::format("not a portable float map of {} x {} values", map.width, map.height));
   const auto row = static_cast<std::size_t>(map.width);
   const char* from = bytes.data() + head.size();
   for (int y = map.height - 1; y >= 0; --y, from += row * sizeof(float))
@@ -217,9 +217,10 @@ MapCodes codes_of(const PictureMap& map) {
   }
   for (std::size_t i = 0; i < map.values.size(); ++i) {
     const double value = static_cast<double>(map.values[i]);
-    const auto code = std::isnan(value) ? 0U
-                                        : 1U + static_cast<std::uint32_t>(std::lround(
-                                                   (value - scale.least) / codes.step));
+    const auto code =
+        std::isnan(value)
+            ? 0U
+            : 1U + static_cast<std::uint32_t>(std::lround((value - scale.least) / codes.step));
     for (std::size_t c = 0; c < 3; ++c)
       codes.picture.pixels[i][c] = static_cast<std::uint8_t>(code >> (16 - 8 * c) & 255);
     codes.picture.pixels[i][3] = 255;

@@ -116,9 +116,7 @@ void FlickerMeter::add(Image picture, Image truth, Mask drawn) {
   ++frames_;
 }
 
-double FlickerMeter::mean() const {
-  return frames_ > 1 ? std::sqrt(sum_ / (frames_ - 1)) : 0;
-}
+double FlickerMeter::mean() const { return frames_ > 1 ? std::sqrt(sum_ / (frames_ - 1)) : 0; }
 
 std::int64_t count(const Mask& mask) {
   return std::count_if(mask.pixels.begin(), mask.pixels.end(),

@@ -42,7 +42,7 @@ class FlickerMeter {
   int width() const { return picture_.width; }  // of the last frame
   int height() const { return picture_.height; }
   double mean() const;  // root mean square over all pairs of frames, in units of 1/255
-  double worst() const { return worst_; }  // of the pair with the most
+  double worst() const { return worst_; }           // of the pair with the most
   int worst_frame() const { return worst_frame_; }  // its second frame
 
  private:

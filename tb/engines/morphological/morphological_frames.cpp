@@ -72,10 +72,9 @@ void apply_mask(const std::string& file, LoadedFrame& frame) {
 
 FrameLists lists_of(const FrameParameters& p) {
   FrameLists lists;
-  for (const auto& [name, text] : {std::pair("frame.source", &p.source),
-                                   std::pair("frame.depth", &p.depth),
-                                   std::pair("frame.truth", &p.truth),
-                                   std::pair("frame.mask", &p.mask)})
+  for (const auto& [name, text] :
+       {std::pair("frame.source", &p.source), std::pair("frame.depth", &p.depth),
+        std::pair("frame.truth", &p.truth), std::pair("frame.mask", &p.mask)})
     lists.add(name, listed_files(name, *text));
   return lists;
 }
@@ -170,9 +169,9 @@ golden::morphological::MorphologicalGolden golden_frame(
   const Image& image = input.image;
   golden::morphological::MorphologicalGolden golden(parameters);
   golden.process({image.pixels, image.width, image.height},
-                 input.depth.empty() ? golden::morphological::DepthView()
-                                     : golden::morphological::DepthView(input.depth, image.width,
-                                                                        image.height));
+                 input.depth.empty()
+                     ? golden::morphological::DepthView()
+                     : golden::morphological::DepthView(input.depth, image.width, image.height));
   return golden;
 }
 

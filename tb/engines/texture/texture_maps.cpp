@@ -13,8 +13,8 @@
 namespace deburr::tb {
 TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& unit,
                          const rtl::Link<spec::texture::Quad>& quads,
-                         const rtl::Link<spec::texture::Colour>& colours,
-                         const SentQuads& sent, int width, int height)
+                         const rtl::Link<spec::texture::Colour>& colours, const SentQuads& sent,
+                         int width, int height)
     : unit_(unit),
       sent_(sent),
       samples_("samples", "Samples", "samples",
@@ -22,8 +22,8 @@ TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& uni
                width, height),
       level_("level", "Mip level", "level",
              "Level of detail that a fragment is filtered at, with its fraction.", width, height),
-      misses_("misses", "Misses", "lines", "Lines of the cache that a fragment ordered.",
-              width, height),
+      misses_("misses", "Misses", "lines", "Lines of the cache that a fragment ordered.", width,
+              height),
       latency_(
           "latency", "Latency", "clk",
           "Clocks from a fragment's quad being taken to its colour; of several in a pixel the sum.",
@@ -76,8 +76,7 @@ void TextureMaps::clear() {
 
 std::vector<PictureMap> TextureMaps::maps() const {
   std::vector<PictureMap> all = {samples_, level_, misses_, latency_};
-  const auto account = [](PictureMap& map, std::string of, std::uint64_t counted,
-                          double unplaced) {
+  const auto account = [](PictureMap& map, std::string of, std::uint64_t counted, double unplaced) {
     map.account = {std::move(of), static_cast<double>(counted), map.sum() + unplaced};
   };
   account(all[0], "work.walker_samples", unit_.address.walker.samples.value(), unplaced_.samples);

@@ -131,11 +131,9 @@ class TextureRole final : public PictureDrawer {
   }
   std::shared_ptr<const DrawnScene> load(std::uint32_t seed,
                                          const RunContext& context) const override {
-    return context.shared<TextureScene>("texture scene", {"scene.", "sampler."},
-                                        [&] {
-                                          return TextureScene(in_frame(scene_, lists_, 0), sampler_,
-                                                              seed);
-                                        });
+    return context.shared<TextureScene>("texture scene", {"scene.", "sampler."}, [&] {
+      return TextureScene(in_frame(scene_, lists_, 0), sampler_, seed);
+    });
   }
   std::shared_ptr<const DrawnScene> smallest() const override {
     return std::make_shared<TextureScene>(tb::smallest(scene_, sampler_));

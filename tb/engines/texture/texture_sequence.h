@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Flicker of many filters at once over the same moving camera: how much more or less a pixel changes
-// from frame to frame than its truth does. What a single picture's PSNR does not show.
+// Flicker of many filters at once over the same moving camera: how much more or less a pixel
+// changes from frame to frame than its truth does. What a single picture's PSNR does not show.
 #pragma once
 
 #include <cstdint>
