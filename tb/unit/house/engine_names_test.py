@@ -17,6 +17,7 @@ import tempfile
 LIST = "tb/engines/engines.txt"
 LEFT_OUT = re.compile(r"docs/|README\.md|CHANGELOG\.md|LICENSES?|tb/mutation/|tb/unit/house/engine_names_test\.py|"
                       r"build/|out/|\.git/|\.ci/")
+PAGE = re.compile(r"(?<!\")docs/reference/\w+/\w+\.md")  # of an engine, where a comment says what the contract is
 # The engine that tests add to those of the list: all of it, and the test that adds it.
 ADDED = ("posteriser", re.compile(r"tb/system/added_engine(/|_test\.py$)"))
 # What runs compositions by name: their testplans, records and system tests. The composition itself names no part.
@@ -101,7 +102,7 @@ def files(root):
         if not path.is_file() or path.is_symlink() or LEFT_OUT.match(name):
             continue
         try:
-            yield name, path.read_text(encoding="utf-8")
+            yield name, PAGE.sub("", path.read_text(encoding="utf-8"))
         except UnicodeDecodeError:
             continue
 
@@ -165,7 +166,7 @@ def planted_faults_are_caught():
     named = {"frobber": {"a paper": ["tb/papers/one.cpp"]}}
     expected = [({}, 0), ({"tb/soak/soak.cpp": 'if (engine == "foo")'}, 1), ({"tb/scene/a.cpp": "of the frobber"}, 1),
                 ({"tb/results/a.cpp": '"frobber."'}, 2), ({"tb/papers/one.cpp": "of 2016"}, 1),
-                ({"tb/sweep/a.h": "a foo is no engine here"}, 0),
+                ({"tb/sweep/a.h": "a foo is no engine here"}, 0), ({"tb/scene/b.h": "// docs/reference/frobber/index.md"}, 0),
                 ({"tb/engines/frame/frame_mix.cpp": "spec::foo::Rules p"}, 1),
                 ({"tb/unit/engines/frame/a.cpp": "of the frobber"}, 1),
                 ({"tb/results/b.cpp": "as Posteriser does"}, 1),
