@@ -98,9 +98,8 @@ class GeometricCommand final : public Engine {
       add_pictures(run, context, loaded, environment, result);
     });
     if (frames_ > 1 && !result.interrupted && !context.judging_only())
-      measure_flicker(frames_, context, result, [&](int frame) {
-        return picture_of(frame, static_cast<std::uint32_t>(run.seed));
-      });
+      measure_flicker(frames_, context, result,
+                      [&](int i) { return picture_of(i, static_cast<std::uint32_t>(run.seed)); });
   }
 
   std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
