@@ -37,7 +37,7 @@ NAMED = {
             "tb/unit/golden/c/threads_test.cpp"],
         "the Python module is one of all engines: its functions, types and tests": [
             "python/bindings/ideal_python.cpp", "python/deburr/__init__.pyi", "python/deburr/golden.pyi",
-            "tb/system/python_golden_test.py", "tb/system/python_run_test.py"],
+            "tb/system/python_golden_test.py"],
         "tables of pages are measured, its own among them": [
             "scripts/measurement/results.py"],
         "its part of the command line is promised": ["tb/unit/app/stable.txt"],
