@@ -37,9 +37,8 @@ NAMED = {
             "examples/installed_test.py", "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
             "tb/unit/golden/c/threads_test.cpp"],
         "the Python module is one of all engines: its functions, types and tests": [
-            "python/bindings/ideal_python.cpp", "python/deburr/__init__.pyi", "python/deburr/golden.py",
-            "python/deburr/golden.pyi", "tb/system/python_golden_test.py", "tb/system/python_run_test.py",
-            "tb/system/python_stubs_test.py"],
+            "python/bindings/ideal_python.cpp", "python/deburr/__init__.pyi", "python/deburr/golden.pyi",
+            "tb/system/python_golden_test.py"],
         "tables of pages are measured, its own among them": [
             "scripts/measurement/results.py"],
         "its part of the command line is promised": ["tb/unit/app/stable.txt"],
@@ -76,7 +75,7 @@ NAMED = {
             "examples/systemverilog/testbench.sv"],
         "the Python module is one of all engines: its functions, types and tests": [
             "python/bindings/frames.cpp", "python/bindings/frames.h", "python/bindings/ideal_python.cpp",
-            "python/deburr/__init__.pyi", "python/deburr/golden.py", "python/deburr/golden.pyi",
+            "python/deburr/__init__.pyi", "python/deburr/golden.pyi",
             "tb/bench/python_frames.cpp", "tb/bench/python_golden.py", "tb/system/python_golden_test.py",
             "tb/system/python_run_test.py", "tb/system/python_stubs_test.py"],
         "the C interface is one of all engines: its tests": [
