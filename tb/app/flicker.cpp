@@ -46,7 +46,7 @@ int frames_of(const ParameterSet& set, const SequenceParameters& sequence,
 
 void measure_flicker(int frames, const RunContext& context, Result& result,
                      const std::function<SequencePicture(int)>& picture) {
-  Progress progress("flicker", static_cast<std::uint64_t>(frames), "frame", context.quiet());
+  Progress progress("flicker", static_cast<std::uint64_t>(frames), "picture", context.quiet());
   FlickerMeter after, before;
   bool truth = true;
   try {
