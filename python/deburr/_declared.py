@@ -33,4 +33,5 @@ def declare(function, rows):
         lines.extend(textwrap.wrap(row["meaning"], 96, initial_indent="    ", subsequent_indent="    ",
                                    break_on_hyphens=False))
     function.__doc__ = "\n".join(lines)
+    function.__declared__ = rows
     return function

@@ -9,35 +9,9 @@ from deburr._figures import Figures
 
 _Array = numpy.typing.NDArray[typing.Any]
 
-QUAD: numpy.dtype[numpy.void]
-COLOUR: numpy.dtype[numpy.void]
-VERTEX: numpy.dtype[numpy.void]
 EDGE: numpy.dtype[numpy.void]
 EDGE_CLASSES: tuple[str, ...]
-
-class MorphologicalFrame:
-    @property
-    def coverage(self) -> dict[str, int]: ...
-    @property
-    def decisions(self) -> _Array: ...
-    @property
-    def detail(self) -> bool: ...
-    @property
-    def edges(self) -> _Array: ...
-    @property
-    def memory_errors(self) -> int: ...
-    @property
-    def pixels(self) -> _Array: ...
-    @property
-    def runs(self) -> _Array: ...
-    @property
-    def shares(self) -> _Array: ...
-    @property
-    def taps(self) -> _Array: ...
-    @property
-    def traffic(self) -> _Array: ...
-    @property
-    def work(self) -> Figures: ...
+VERTEX: numpy.dtype[numpy.void]
 
 class GeometricFrame:
     @property
@@ -60,6 +34,74 @@ class GeometricFrame:
     def traffic(self) -> dict[str, dict[str, _Array]]: ...
     @property
     def weights(self) -> _Array: ...
+    @property
+    def work(self) -> Figures: ...
+
+def geometric(
+    pixels: _Array,
+    depth: _Array | None = ...,
+    *,
+    vertices: _Array,
+    edges: _Array,
+    facing: _Array,
+    bases: dict[str, int] | None = ...,
+    detail: bool = ...,
+    error_lines: _Array | None = ...,
+    preset: typing.Literal['gpaa', 'gpaa-optimised', 'deburr'] = ...,
+    select: typing.Literal['all', 'edges'] = ...,
+    crease: typing.Literal['off', 'paper', 'shading'] = ...,
+    cull: typing.Literal['none', 'back'] = ...,
+    coverage: typing.Literal['distance', 'area'] = ...,
+    depth_test: typing.Literal['off', 'own', 'farther'] = ...,
+    depth_bias: int = ...,
+    crease_depth: int = ...,
+    combine: typing.Literal['max', 'last', 'outermost'] = ...,
+    linear_light: bool = ...,
+    mark: bool = ...,
+    layout: typing.Literal['raster', 'tiled'] = ...,
+    frame_copy: bool = ...,
+    line_pixels: int = ...,
+    touched_words: int = ...,
+    face_limit: int = ...,
+    edge_lanes: int = ...,
+    edge_lines: int = ...,
+    vertex_lines: int = ...,
+    dividers: int = ...,
+    pipelined: bool = ...,
+    reciprocal_table: int = ...,
+    line_fifo: int = ...,
+    walkers: int = ...,
+    depth_lines: int = ...,
+    weight_blocks: int = ...,
+    fills: int = ...,
+    latency_fifo: int = ...,
+    resolve_lanes: int = ...,
+    resolve_lines: int = ...,
+    copy_lines: int = ...,
+    memory_outstanding: int = ...,
+) -> GeometricFrame: ...
+
+class MorphologicalFrame:
+    @property
+    def coverage(self) -> dict[str, int]: ...
+    @property
+    def decisions(self) -> _Array: ...
+    @property
+    def detail(self) -> bool: ...
+    @property
+    def edges(self) -> _Array: ...
+    @property
+    def memory_errors(self) -> int: ...
+    @property
+    def pixels(self) -> _Array: ...
+    @property
+    def runs(self) -> _Array: ...
+    @property
+    def shares(self) -> _Array: ...
+    @property
+    def taps(self) -> _Array: ...
+    @property
+    def traffic(self) -> _Array: ...
     @property
     def work(self) -> Figures: ...
 
@@ -110,72 +152,8 @@ def morphological(
     memory_outstanding: int = ...,
 ) -> MorphologicalFrame: ...
 
-def geometric(
-    pixels: _Array,
-    depth: _Array | None = ...,
-    *,
-    vertices: _Array,
-    edges: _Array,
-    facing: _Array,
-    bases: dict[str, int] | None = ...,
-    detail: bool = ...,
-    error_lines: _Array | None = ...,
-    preset: typing.Literal['gpaa', 'gpaa-optimised', 'deburr'] = ...,
-    select: typing.Literal['all', 'edges'] = ...,
-    crease: typing.Literal['off', 'paper', 'shading'] = ...,
-    cull: typing.Literal['none', 'back'] = ...,
-    coverage: typing.Literal['distance', 'area'] = ...,
-    depth_test: typing.Literal['off', 'own', 'farther'] = ...,
-    depth_bias: int = ...,
-    crease_depth: int = ...,
-    combine: typing.Literal['max', 'last', 'outermost'] = ...,
-    linear_light: bool = ...,
-    mark: bool = ...,
-    layout: typing.Literal['raster', 'tiled'] = ...,
-    frame_copy: bool = ...,
-    line_pixels: int = ...,
-    touched_words: int = ...,
-    face_limit: int = ...,
-    edge_lanes: int = ...,
-    edge_lines: int = ...,
-    vertex_lines: int = ...,
-    dividers: int = ...,
-    pipelined: bool = ...,
-    reciprocal_table: int = ...,
-    line_fifo: int = ...,
-    walkers: int = ...,
-    depth_lines: int = ...,
-    weight_blocks: int = ...,
-    fills: int = ...,
-    latency_fifo: int = ...,
-    resolve_lanes: int = ...,
-    resolve_lines: int = ...,
-    copy_lines: int = ...,
-    memory_outstanding: int = ...,
-) -> GeometricFrame: ...
-
-def texture(
-    quads: _Array,
-    levels: _Array | list[_Array],
-    *,
-    fields: dict[str, typing.Any] | None = ...,
-    preset: typing.Literal['paper', 'deburr'] = ...,
-    axes: typing.Literal['two', 'four', 'eight'] = ...,
-    footprint: typing.Literal['half', 'quarter', 'two_segment', 'exact', 'max'] = ...,
-    log2: typing.Literal['mitchell', 'corrected', 'segments', 'exact'] = ...,
-    count: typing.Literal['floor', 'ceil', 'any'] = ...,
-    count_cap: typing.Literal['none', 'texel'] = ...,
-    kernel: typing.Literal['box', 'tent'] = ...,
-    spread: int = ...,
-    srgb_output: typing.Literal['linear', 'encoded'] = ...,
-    cache_bytes: int = ...,
-    cache_line_bytes: int = ...,
-    cache_ways: int = ...,
-    cache_replacement: typing.Literal['lru', 'fifo', 'random'] = ...,
-    cache_outstanding: int = ...,
-    cache_fifo_depth: int = ...,
-    axis_clocks: int = ...,
-) -> tuple[_Array, TextureUnit]: ...
+COLOUR: numpy.dtype[numpy.void]
+QUAD: numpy.dtype[numpy.void]
 
 class TextureUnit:
     def __init__(
@@ -236,6 +214,28 @@ class TextureUnit:
     def invalidate(self) -> None: ...
     def reset(self) -> None: ...
 
+def image_of(quads: _Array, colours: _Array, shape: tuple[int, int]) -> _Array: ...
 def mip_levels(texels: _Array) -> list[_Array]: ...
 def quads_of(s: _Array, t: _Array, covered: _Array | None = ..., texture: int = ...) -> _Array: ...
-def image_of(quads: _Array, colours: _Array, shape: tuple[int, int]) -> _Array: ...
+def texture(
+    quads: _Array,
+    levels: _Array | list[_Array],
+    *,
+    fields: dict[str, typing.Any] | None = ...,
+    preset: typing.Literal['paper', 'deburr'] = ...,
+    axes: typing.Literal['two', 'four', 'eight'] = ...,
+    footprint: typing.Literal['half', 'quarter', 'two_segment', 'exact', 'max'] = ...,
+    log2: typing.Literal['mitchell', 'corrected', 'segments', 'exact'] = ...,
+    count: typing.Literal['floor', 'ceil', 'any'] = ...,
+    count_cap: typing.Literal['none', 'texel'] = ...,
+    kernel: typing.Literal['box', 'tent'] = ...,
+    spread: int = ...,
+    srgb_output: typing.Literal['linear', 'encoded'] = ...,
+    cache_bytes: int = ...,
+    cache_line_bytes: int = ...,
+    cache_ways: int = ...,
+    cache_replacement: typing.Literal['lru', 'fifo', 'random'] = ...,
+    cache_outstanding: int = ...,
+    cache_fifo_depth: int = ...,
+    axis_clocks: int = ...,
+) -> tuple[_Array, TextureUnit]: ...

@@ -195,6 +195,17 @@ class PictureDrawer : public CompositionRole {
 
   virtual std::unique_ptr<DrawingStage> build(Simulation& simulation,
                                               const DrawnScene& scene) const = 0;
+
+  // Of several frames, whose flicker is measured: how many, the scene of one, and without a
+  // simulation what the golden model draws and the truth of it. An engine without them has one.
+  virtual int frames() const { return 1; }
+  virtual std::shared_ptr<const DrawnScene> scene_of(int /*frame*/, std::uint32_t /*seed*/) const {
+    return nullptr;
+  }
+  virtual Image golden_picture(const DrawnScene& /*scene*/) const { return {}; }
+  virtual Image truth_of(const DrawnScene& /*scene*/, const RenderOptions& /*options*/) const {
+    return {};
+  }
 };
 
 class PictureSmoother : public CompositionRole {
@@ -203,6 +214,9 @@ class PictureSmoother : public CompositionRole {
   virtual std::string label() const = 0;
   // Whether it blends in linear light, in which coverage is averaged then.
   virtual bool linear_light() const = 0;
+  // What the golden model makes of a picture of the scene, without a simulation; empty: it has
+  // none, and no flicker is measured.
+  virtual Image golden_picture(const DrawnScene& /*scene*/, Image /*frame*/) const { return {}; }
 };
 
 // `frame` is what its golden model gets; without one only its size counts. Scene and role outlive

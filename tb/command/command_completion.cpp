@@ -28,7 +28,7 @@ using Words = std::map<std::string, std::string>;
 
 // "a | b | c" -> "a b c"; nothing for any other range.
 std::string choices(const std::string& range) {
-  if (range.find(" | ") == std::string::npos || range == "name | file") return "";
+  if (range.find(" | ") == std::string::npos || range.starts_with("name | file")) return "";
   std::string words;
   for (const char c : range)
     if (c != '|' && !(c == ' ' && (words.empty() || words.back() == ' '))) words += c;

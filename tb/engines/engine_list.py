@@ -13,11 +13,12 @@ def engines():
 
 
 def trials(name):
-    """{engine: its entry `name`}, of those that have one."""
+    """{engine: its entry `name`}, of those that have one. No engine has to have any, nor the file."""
     import yaml  # not of those that want the names alone
     found = {}
     for engine in engines():
-        entries = yaml.safe_load((FOLDER / engine / "trials.yaml").read_text(encoding="utf-8"))
+        file = FOLDER / engine / "trials.yaml"
+        entries = yaml.safe_load(file.read_text(encoding="utf-8")) if file.exists() else {}
         if name in entries:
             found[engine] = entries[name]
     return found

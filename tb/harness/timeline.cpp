@@ -11,6 +11,7 @@ namespace deburr::tb {
 namespace {
 
 constexpr int kProcess = 1;
+constexpr std::uint32_t kSkidDepth = 2;  // of a link that passes a beat a clock and holds no more
 
 std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
 
@@ -25,8 +26,16 @@ void Timeline::see(const std::string& name, const rtl::Unit& unit,
   tracks_.push_back({name, &unit, activities, {}, {}, 0});
 }
 
+void Timeline::see(const std::string& name, const rtl::LinkBase& link) {
+  if (link.depth() <= kSkidDepth) return;
+  levels_.push_back({fmt::format("{}, of {}", name, link.depth()), "fifo", "beats",
+                     [&link] { return static_cast<std::uint32_t>(link.occupancy()); }});
+}
+
 void Timeline::see(const std::string& name, const rtl::MemoryPort& port) {
   ports_.push_back({name, &port, {}, 0});
+  levels_.push_back({fmt::format("{}, in flight", name), "port", "transactions",
+                     [&port] { return static_cast<std::uint32_t>(port.in_flight()); }});
 }
 
 // ---- running ------------------------------------------------------------------------------------
@@ -39,7 +48,16 @@ rtl::Activity Timeline::tick(rtl::Cycle cycle) {
   for (std::size_t i = 0; i < ports_.size(); ++i) look_at(ports_[i], i, cycle);
   if (cycle + 1 >= options_.from)
     for (std::size_t i = 0; i < tracks_.size(); ++i) look_at(tracks_[i], i, cycle);
+  if (cycle >= options_.from)
+    for (std::size_t i = 0; i < levels_.size(); ++i) look_at(levels_[i], i, cycle);
   return rtl::kIdle;
+}
+
+void Timeline::look_at(Level& level, std::size_t number, rtl::Cycle cycle) {
+  const std::uint32_t now = level.now();
+  if (level.last == now) return;
+  level.last = now;
+  samples_.push_back({number, cycle, now});
 }
 
 // The count that went up since the cycle before is what the unit did.
@@ -127,8 +145,10 @@ void Timeline::reset() {
     port.in_flight.clear();
     port.beats_left = 0;
   }
+  for (Level& level : levels_) level.last.reset();
   slices_.clear();
   kept_.clear();
+  samples_.clear();
   transactions_ = 0;
   end_ = 0;
 }
@@ -142,7 +162,7 @@ std::string Timeline::json() const {
     std::string text;
   };
   std::vector<Event> events;
-  events.reserve(slices_.size() + 2 * kept_.size());
+  events.reserve(slices_.size() + 2 * kept_.size() + samples_.size());
   for (const Slice& s : slices_)
     events.push_back({s.from, 1,
                       fmt::format(R"({{"ph":"X","name":{},"cat":{},"pid":{},"tid":{},"ts":{},)"
@@ -166,6 +186,14 @@ std::string Timeline::json() const {
     events.push_back(
         {to, 0,
          event('e', to, fmt::format(R"("answered":{})", t.answered && t.to <= options_.to))});
+  }
+  for (const Sample& s : samples_) {
+    const Level& level = levels_[s.level];
+    events.push_back({s.at, 3,
+                      fmt::format(R"({{"ph":"C","name":{},"cat":{},"pid":{},"tid":0,"ts":{},)"
+                                  R"("args":{{{}:{}}}}})",
+                                  quoted(level.name), quoted(level.category), kProcess, s.at,
+                                  quoted(level.unit), s.value)});
   }
   std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
     return std::pair(a.at, a.order) < std::pair(b.at, b.order);

@@ -42,6 +42,7 @@ std::string join(const std::vector<std::string_view>& names, std::string_view se
 }
 
 constexpr int kMaxNesting = 16;
+constexpr std::string_view kMayBeList = "list";  // how the range of such a parameter ends
 constexpr std::string_view kGiven = "given", kDefault = "default";  // in a manifest's parameters
 
 // An entry of a map; undefined where the map has none.
@@ -143,11 +144,22 @@ class YamlLoader {
         yaml_.fail(entry.first,
                    fmt::format("'{}' is given twice (first at {})", name, first->second));
       if (!set_.find(name)) set_.set(name, "", here);  // throws with near matches
+      if (entry.second.IsSequence() && set_.find(name)->range.ends_with(kMayBeList)) {
+        set_.set(name, joined_list(entry.second, name), here, ParameterSet::Origin::kFile);
+        continue;
+      }
       if (!entry.second.IsScalar())
         yaml_.fail(entry.first, fmt::format("'{}' wants a single value, got {}", name,
                                             YamlFile::kind(entry.second)));
       set_.set(name, entry.second.Scalar(), here, ParameterSet::Origin::kFile);
     }
+  }
+
+  // As the command line has it.
+  std::string joined_list(const YAML::Node& list, const std::string& name) const {
+    std::string text;
+    for (const auto& entry : list) text += (text.empty() ? "" : "; ") + yaml_.scalar(entry, name);
+    return text;
   }
 
   ParameterSet& set_;

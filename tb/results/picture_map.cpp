@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -43,26 +44,7 @@ Rgba8 colour_of(double part) {
   return colour;
 }
 
-struct Scale {
-  double low = 0, high = 0;
-  bool clipped = false;
-};
-
-Scale scale_of(const PictureMap& map) {
-  std::vector<float> there;
-  for (const float value : map.values)
-    if (!std::isnan(value)) there.push_back(value);
-  if (there.empty()) return {};
-  std::sort(there.begin(), there.end());
-  const double most = there.back(),
-               nearly = there[std::min(there.size() - 1, there.size() * 995 / 1000)];
-  Scale scale;
-  // From zero, unless all of it is far from there.
-  scale.low = there.front() < 0 || there.front() > most / 2 ? there.front() : 0;
-  scale.clipped = most > 2 * nearly && nearly > scale.low;
-  scale.high = scale.clipped ? nearly : most;
-  return scale;
-}
+constexpr double kKneePart = 1 - 1.0 / static_cast<double>(kColours.size() - 1);
 
 void paste(Image& on, const Image& what, int left, int top) {
   for (int y = 0; y < what.height; ++y)
@@ -73,6 +55,34 @@ void paste(Image& on, const Image& what, int left, int top) {
 std::string scale_text(double value) { return fmt::format("{:.4g}", value); }
 
 }  // namespace
+
+double MapScale::part(double value) const {
+  const auto share = [](double low, double high, double at) {
+    return high > low ? std::clamp((at - low) / (high - low), 0.0, 1.0) : 0.0;
+  };
+  if (!bent()) return share(least, most, value);
+  return value <= knee ? kKneePart * share(least, knee, value)
+                       : std::lerp(kKneePart, 1.0, share(knee, most, value));
+}
+
+MapScale scale_of(const PictureMap& map) {
+  std::vector<float> there;
+  for (const float value : map.values)
+    if (!std::isnan(value)) there.push_back(value);
+  if (there.empty()) return {};
+  std::sort(there.begin(), there.end());
+  const double least = there.front(), most = there.back(),
+               nearly = there[std::min(there.size() - 1, there.size() * 995 / 1000)];
+  const bool bent = most - least > 2 * (nearly - least) && nearly > least;
+  return {least, bent ? nearly : most, most};
+}
+
+std::vector<Rgba8> map_colours() {
+  std::vector<Rgba8> colours;
+  for (std::size_t i = 0; i < kColours.size(); ++i)
+    colours.push_back(colour_of(static_cast<double>(i) / static_cast<double>(kColours.size() - 1)));
+  return colours;
+}
 
 PictureMap::PictureMap(std::string map_name, std::string map_title, std::string map_unit,
                        std::string map_meaning, int map_width, int map_height)
@@ -141,24 +151,30 @@ void check_map(const PictureMap& map) {
 
 Image picture_of(const PictureMap& map) {
   constexpr int kLeast = 200, kBar = 8, kGap = 4, kText = 9;
-  const Scale scale = scale_of(map);
-  const double span = scale.high > scale.low ? scale.high - scale.low : 1;
+  const MapScale scale = scale_of(map);
   Image picture(std::max(map.width, kLeast), map.height + 3 * kGap + kBar + kText, kPaper);
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x) {
       const double value = static_cast<double>(
           map.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
                      static_cast<std::size_t>(x)]);
-      picture.at(x, y) = std::isnan(value) ? kEmpty : colour_of((value - scale.low) / span);
+      picture.at(x, y) = std::isnan(value) ? kEmpty : colour_of(scale.part(value));
     }
   const int top = map.height + kGap, right = picture.width - kGap;
   for (int x = kGap; x < right; ++x)
     for (int y = top; y < top + kBar; ++y)
       picture.at(x, y) = colour_of(static_cast<double>(x - kGap) / (right - kGap - 1));
-  const Image low = label(scale_text(scale.low), 1),
-              high = label(scale_text(scale.high) + (scale.clipped ? "+" : "") + " " + map.unit, 1);
+  const Image low = label(scale_text(scale.least), 1),
+              high = label(scale_text(scale.most) + " " + map.unit, 1);
   paste(picture, low, kGap, top + kBar + kGap);
   paste(picture, high, right - high.width, top + kBar + kGap);
+  if (scale.bent()) {
+    const int knee = kGap + static_cast<int>(std::lround(kKneePart * (right - kGap - 1)));
+    for (int y = top; y < top + kBar; ++y) picture.at(knee, y) = kInk;
+    const Image text = label(scale_text(scale.knee), 1);
+    paste(picture, text, std::min(knee, right - high.width - kText) - text.width,
+          top + kBar + kGap);
+  }
   return picture;
 }
 
@@ -171,6 +187,45 @@ std::string pfm_of(const PictureMap& map) {
     bytes.append(reinterpret_cast<const char*>(from), row * sizeof(float));
   }
   return bytes;
+}
+
+void read_pfm(const std::string& bytes, PictureMap& map) {
+  const std::string head = fmt::format("Pf\n{} {}\n-1.0\n", map.width, map.height);
+  const std::size_t size = map.values.size() * sizeof(float);
+  if (!bytes.starts_with(head) || bytes.size() != head.size() + size)
+    throw spec::ConfigError(
+        fmt::format("not a portable float map of {} x {} values", map.width, map.height));
+  const auto row = static_cast<std::size_t>(map.width);
+  const char* from = bytes.data() + head.size();
+  for (int y = map.height - 1; y >= 0; --y, from += row * sizeof(float))
+    std::memcpy(map.values.data() + static_cast<std::size_t>(y) * row, from, row * sizeof(float));
+}
+
+MapCodes codes_of(const PictureMap& map) {
+  constexpr double kMost = (1 << 24) - 2;  // steps between the least and the most
+  const MapScale scale = scale_of(map);
+  MapCodes codes{scale.least, (scale.most - scale.least) / kMost, Image(map.width, map.height)};
+  // Whole numbers and 256ths are kept as they are.
+  for (const double step : {1.0, 1.0 / 256}) {
+    const bool fits = std::all_of(map.values.begin(), map.values.end(), [&](float value) {
+      const double steps = (static_cast<double>(value) - scale.least) / step;
+      return std::isnan(value) || (steps <= kMost && steps == std::round(steps));
+    });
+    if (!fits) continue;
+    codes.step = step;
+    break;
+  }
+  for (std::size_t i = 0; i < map.values.size(); ++i) {
+    const double value = static_cast<double>(map.values[i]);
+    const auto code =
+        std::isnan(value)
+            ? 0U
+            : 1U + static_cast<std::uint32_t>(std::lround((value - scale.least) / codes.step));
+    for (std::size_t c = 0; c < 3; ++c)
+      codes.picture.pixels[i][c] = static_cast<std::uint8_t>(code >> (16 - 8 * c) & 255);
+    codes.picture.pixels[i][3] = 255;
+  }
+  return codes;
 }
 
 }  // namespace deburr::tb

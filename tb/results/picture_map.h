@@ -41,11 +41,33 @@ MapFigures figures_of(const PictureMap& map);
 // CheckFailed if the map does not come to what the model counted.
 void check_map(const PictureMap& map);
 
+// Colours of a map, from the least of its values to the most. Where a few values lie far above the
+// rest, the last step of the colours is theirs, from `knee` on: all but 0.5 % of the pixels lie
+// below. Else the knee is the most.
+struct MapScale {
+  double least = 0, knee = 0, most = 0;
+  bool bent() const { return knee < most; }
+  // Where a value lies among the colours, 0 to 1.
+  double part(double value) const;
+};
+MapScale scale_of(const PictureMap& map);
+// From the least to the most, at even distances.
+std::vector<Rgba8> map_colours();
+
 // In false colours (dark blue, green, yellow; grey: nothing there), with the scale below the
-// picture. The scale ends where all but 0.5 % of the pixels end, marked by a +, if the largest
-// value is more than twice that.
+// picture: its least, its knee if it has one, its most.
 Image picture_of(const PictureMap& map);
 // Portable float map: one channel, 32 bits, little-endian, rows from the bottom.
 std::string pfm_of(const PictureMap& map);
+// Values of such a file. ConfigError for what is none.
+void read_pfm(const std::string& bytes, PictureMap& map);
+
+// Values as a picture whose 24 bits are 0 (nothing there) or 1 + (value - least) / step, so that a
+// page can hold them: PNG packs them well.
+struct MapCodes {
+  double least = 0, step = 1;
+  Image picture;
+};
+MapCodes codes_of(const PictureMap& map);
 
 }  // namespace deburr::tb

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -16,7 +17,9 @@
 #include "tb/base/file.h"
 #include "tb/results/embedded.h"
 #include "tb/results/input_files.h"
+#include "tb/results/picture_map.h"
 #include "tb/results/result.h"
+#include "tb/scene/png.h"
 
 namespace deburr::tb {
 namespace {
@@ -96,8 +99,9 @@ class ReportBuilder {
     page_.set("chart_js", std::string(embedded::chart_js()));
     page_.set("copy_js", std::string(embedded::copy_js()));
     page_.set("report_js", std::string(embedded::report_js()));
-    page_.set("data", fmt::format(R"({{"result":{},"windows":{}}})", json_for_script(result_),
-                                  json_for_script(windows_)));
+    page_.set("data", fmt::format(R"({{"result":{},"windows":{},"maps":{},"map_colours":{}}})",
+                                  json_for_script(result_), json_for_script(windows_),
+                                  json_for_script(maps_), json_for_script(Json(map_colours()))));
     mustache::mustache page{std::string(embedded::report_template())};
     if (!page.is_valid()) throw spec::CheckFailed("report.mustache: " + page.error_message());
     return page.render(page_);
@@ -380,9 +384,43 @@ class ReportBuilder {
                    {"pixels", report_text(map["pixels"])},
                    {"file", map.value("values", "")},
                    {"meaning", map.value("meaning", "")}});
+      keep_values(directory, map);
     }
     page_.set("has_maps", maps.is_non_empty_list());
     page_.set("maps", maps);
+  }
+
+  // What the page says of a pixel of a map; nothing where the file of its values is gone.
+  void keep_values(const fs::path& directory, const Json& map) {
+    const std::string picture = map.value("picture", ""), name = map.value("values", "");
+    if (picture.empty() || name.empty() || number(map, "pixels") == 0) return;
+    refuse_path(directory, name);
+    const fs::path file = directory / name;
+    if (!fs::exists(file)) return;
+    const std::string bytes = read_file(file, kMaxImageBytes);
+    int width = 0, height = 0;
+    constexpr int kMostSide = 1 << 16;
+    if (std::sscanf(bytes.c_str(), "Pf %d %d", &width, &height) != 2 || width < 1 || height < 1 ||
+        width > kMostSide || height > kMostSide)
+      throw spec::FileError(fmt::format("'{}' is not a portable float map", file.string()));
+    PictureMap values("", "", "", "", width, height);
+    try {
+      read_pfm(bytes, values);
+    } catch (const spec::ConfigError& error) {
+      throw spec::FileError(fmt::format("'{}': {}", file.string(), error.what()));
+    }
+    const MapScale scale = scale_of(values);
+    const MapCodes codes = codes_of(values);
+    maps_[fs::path(picture).stem().string()] = {{"title", map.value("title", "")},
+                                                {"unit", map.value("unit", "")},
+                                                {"width", width},
+                                                {"height", height},
+                                                {"least", scale.least},
+                                                {"knee", scale.knee},
+                                                {"knee_part", scale.part(scale.knee)},
+                                                {"most", scale.most},
+                                                {"step", codes.step},
+                                                {"source", png_uri(encode_png(codes.picture))}};
   }
 
   // Runs with windows: what the page draws over time, and the table of them.
@@ -714,7 +752,7 @@ class ReportBuilder {
     return value.is_string() ? value.get<std::string>() : value.dump();
   }
 
-  Json result_, manifest_, windows_;
+  Json result_, manifest_, windows_, maps_ = Json::object();
   std::string followed_;  // pixel whose history there is, "X,Y"
   mustache::data page_;
 };
@@ -740,7 +778,10 @@ std::string grouped(std::uint64_t value) {
 }
 
 std::string data_uri(const fs::path& image_file) {
-  const std::string bytes = read_file(image_file, kMaxImageBytes);
+  return png_uri(read_file(image_file, kMaxImageBytes));
+}
+
+std::string png_uri(const std::string& bytes) {
   std::string encoded(4 * ((bytes.size() + 2) / 3) + 1, '\0');
   const int size = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(encoded.data()),
                                    reinterpret_cast<const unsigned char*>(bytes.data()),

@@ -24,6 +24,7 @@ struct PageImage {
   std::string title, caption, role, source;  // source: a data URI
 };
 std::string data_uri(const std::filesystem::path& image_file);
+std::string png_uri(const std::string& png);
 
 // JSON that is safe inside a <script> element: no '<' in it.
 std::string json_for_script(const nlohmann::ordered_json& json);

@@ -51,18 +51,36 @@
       split.value = '0';
     }
     const pixels = stills.map(() => null);
+    // Of a picture that is a map: its scale, and its values once they are decoded.
+    const maps = stills.map((image) => data.maps[image.dataset.role]);
+    maps.filter(Boolean).forEach((map) => {
+      map.image = new Image();
+      map.image.src = map.source;
+    });
+    let pointed = null;  // pixel, by the pointer or by keys
+    let byKeys = false;
 
     for (const side of ['left', 'right']) {
       const select = byId(side);
       stills.forEach((image, i) => select.add(new Option(image.dataset.title, String(i))));
       select.value = String(state[side]);
-      select.addEventListener('change', () => { state[side] = Number(select.value); draw(); });
+      select.addEventListener('change', () => { state[side] = Number(select.value); changed(); });
     }
-    stills.forEach((image, i) => image.addEventListener('click', () => {
-      state.right = i;
-      byId('right').value = String(i);
+    stills.forEach((image, i) => {
+      const show = () => {
+        state.right = i;
+        byId('right').value = String(i);
+        changed();
+      };
+      image.tabIndex = 0;
+      image.addEventListener('click', show);
+      image.addEventListener('keydown', (event) => { if (event.key === 'Enter') show(); });
+    });
+    function changed() {
+      drawScales();
+      tell();
       draw();
-    }));
+    }
     split.addEventListener('input', () => { state.split = split.value / 1000; draw(); });
 
     const size = () => ({w: stills[state.left].naturalWidth, h: stills[state.left].naturalHeight});
@@ -129,22 +147,127 @@
       context.fillRect(middle - ratio(), 0, 2 * ratio(), canvas.height);
       context.fillStyle = 'rgba(0, 0, 0, .5)';
       context.fillRect(middle + ratio(), 0, ratio(), canvas.height);
+      drawPointed();
       tag(stills[state.left].dataset.title, 8 * ratio(), 'left');
       tag(stills[state.right].dataset.title, canvas.width - 8 * ratio(), 'right');
       const percent = state.scale / ratio() * 100;
       byId('zoom').textContent = percent < 1 ? '<1 %' : `${percent.toFixed(0)} %`;
     }
     function colour(index, x, y) {
-      if (!pixels[index]) {
-        const image = stills[index], copy = document.createElement('canvas');
-        copy.width = image.naturalWidth;
-        copy.height = image.naturalHeight;
-        const c = copy.getContext('2d', {willReadFrequently: true});
-        c.drawImage(image, 0, 0);
-        pixels[index] = c;
-      }
+      if (!pixels[index]) pixels[index] = readable(stills[index]);
       return [...pixels[index].getImageData(x, y, 1, 1).data].join(', ');
     }
+    function readable(image) {
+      const copy = document.createElement('canvas');
+      copy.width = image.naturalWidth;
+      copy.height = image.naturalHeight;
+      const c = copy.getContext('2d', {willReadFrequently: true});
+      c.drawImage(image, 0, 0);
+      return c;
+    }
+
+    // ---- maps: value of a pixel, and where it lies on the scale ----
+    const amount = (value) => Number.isInteger(value) ? number.format(value) : String(Number(value.toPrecision(6)));
+    function valueOf(map, pixel) {
+      if (!pixel || pixel.x >= map.width || pixel.y >= map.height || !map.image.naturalWidth) return null;
+      map.values ??= readable(map.image);
+      const [r, g, b] = map.values.getImageData(pixel.x, pixel.y, 1, 1).data;
+      const code = r << 16 | g << 8 | b;
+      return code === 0 ? null : map.least + (code - 1) * map.step;
+    }
+    const share = (low, high, at) => high > low ? (at - low) / (high - low) : 0;
+    const partOf = (map, value) => value <= map.knee
+        ? map.knee_part * share(map.least, map.knee, value)
+        : map.knee_part + (1 - map.knee_part) * share(map.knee, map.most, value);
+    const gradient = `linear-gradient(to right, ${data.map_colours.map((c) => `rgb(${c.slice(0, 3)})`).join(', ')})`;
+    function drawScales() {
+      for (const side of ['left', 'right']) {
+        const box = byId(`scale-${side}`), map = maps[state[side]];
+        if (!box) return;
+        box.hidden = !map;
+        box.replaceChildren();
+        if (!map) continue;
+        const add = (tag, parent, text, className) => {
+          const made = document.createElement(tag);
+          made.textContent = text;
+          if (className) made.className = className;
+          parent.append(made);
+          return made;
+        };
+        add('b', box, `${side === 'left' ? 'Left' : 'Right'}: ${map.title}`);
+        const bar = add('div', box, '', 'bar');
+        bar.style.background = gradient;
+        const value = valueOf(map, pointed);
+        if (value !== null) add('i', bar, '', 'at').style.left = `${100 * partOf(map, value)}%`;
+        const ends = add('div', box, '', 'ends');
+        add('span', ends, `least ${amount(map.least)} ${map.unit}`);
+        if (map.knee < map.most)
+          add('span', ends, `all but 0.5 % up to ${amount(map.knee)}, at ${(100 * map.knee_part).toFixed(1)} % of the scale`);
+        add('span', ends, `most ${amount(map.most)} ${map.unit}`);
+      }
+    }
+    function words(index, pixel) {
+      const map = maps[index], title = stills[index].dataset.title;
+      if (!map)
+        return `${title} RGBA ${colour(index, pixel.x, pixel.y)}`;
+      const value = valueOf(map, pixel);
+      return `${title} ${value === null ? 'has nothing there' : `${amount(value)} ${map.unit}`}`;
+    }
+    function tell() {
+      byId('probe').textContent = pointed
+          ? `pixel (${pointed.x}, ${pointed.y})   left: ${words(state.left, pointed)}   right: ${words(state.right, pointed)}`
+          : '';
+    }
+    function point(pixel) {
+      pointed = pixel;
+      tell();
+      drawScales();
+    }
+    // Of the frame: a picture of a map has its scale below it.
+    const frame = () => stills.reduce((least, image, i) => ({
+      w: Math.min(least.w, maps[i] ? maps[i].width : image.naturalWidth),
+      h: Math.min(least.h, maps[i] ? maps[i].height : image.naturalHeight)
+    }), {w: Infinity, h: Infinity});
+    function drawPointed() {
+      if (!pointed || !byKeys) return;
+      const side = Math.max(state.scale, 7 * ratio());
+      const x = state.x + (pointed.x + 0.5) * state.scale, y = state.y + (pointed.y + 0.5) * state.scale;
+      for (const [width, style] of [[3, '#000'], [1.5, '#fff']]) {
+        context.lineWidth = width * ratio();
+        context.strokeStyle = style;
+        context.strokeRect(x - side / 2, y - side / 2, side, side);
+      }
+    }
+    canvas.addEventListener('keydown', (event) => {
+      const step = event.shiftKey ? 10 : 1;
+      const moves = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step]};
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
+      if (moves[event.key]) {
+        const {w, h} = frame(), [dx, dy] = moves[event.key];
+        const from = pointed ?? {x: Math.floor(w / 2), y: Math.floor(h / 2)};
+        byKeys = true;
+        point({x: Math.min(w - 1, Math.max(0, from.x + dx)), y: Math.min(h - 1, Math.max(0, from.y + dy))});
+        // It stays in sight.
+        const into = (origin, at, length) => {
+          const here = origin + (at + 0.5) * state.scale;
+          return origin + Math.min(0, 0.9 * length - here) + Math.max(0, 0.1 * length - here);
+        };
+        if (state.scale * w > canvas.width) state.x = into(state.x, pointed.x, canvas.width);
+        if (state.scale * h > canvas.height) state.y = into(state.y, pointed.y, canvas.height);
+        draw();
+      } else if (event.key === '+' || event.key === '-') {
+        const at = pointed ? [state.x + (pointed.x + 0.5) * state.scale, state.y + (pointed.y + 0.5) * state.scale]
+                           : [canvas.width / 2, canvas.height / 2];
+        zoomAt(event.key === '+' ? 2 : 0.5, ...at);
+      } else if (event.key === 'Home') {
+        fit();
+      } else if (event.key === 'Enter' && pointed) {
+        followAndCopy(`${pointed.x},${pointed.y}`);
+      } else {
+        return;
+      }
+      event.preventDefault();
+    });
 
     const at = (event) => {
       const box = canvas.getBoundingClientRect();
@@ -153,7 +276,7 @@
     const pixelAt = (p) => {
       const {w, h} = size();
       const x = Math.floor((p.x - state.x) / state.scale), y = Math.floor((p.y - state.y) / state.scale);
-      return x >= 0 && y >= 0 && x < w && y < h ? {x, y} : null;
+      return x >= 0 && y >= 0 && x < Math.min(w, frame().w) && y < Math.min(h, frame().h) ? {x, y} : null;
     };
     let drag = null;
     canvas.addEventListener('pointerdown', (event) => {
@@ -176,10 +299,10 @@
         drag.y = p.y;
         draw();
       }
-      const pixel = pixelAt(p);
-      byId('probe').textContent = pixel
-          ? `pixel (${pixel.x}, ${pixel.y})   left RGBA ${colour(state.left, pixel.x, pixel.y)}   right RGBA ${colour(state.right, pixel.x, pixel.y)}`
-          : '';
+      const drawn = byKeys;
+      byKeys = false;
+      if (drawn) draw();
+      point(pixelAt(p));
     });
     canvas.addEventListener('pointerup', (event) => {
       const pixel = drag && !drag.moved && pixelAt(at(event));
@@ -195,7 +318,8 @@
     byId('zoom-out').addEventListener('click', () => zoomAt(0.5, canvas.width / 2, canvas.height / 2));
     byId('fit').addEventListener('click', fit);
     addEventListener('resize', resize);
-    Promise.all(stills.map((image) => image.decode().catch(() => {}))).then(resize);
+    const images = [...stills, ...maps.filter(Boolean).map((map) => map.image)];
+    Promise.all(images.map((image) => image.decode().catch(() => {}))).then(() => { resize(); drawScales(); });
   }
 
   // ---- charts ----
@@ -237,6 +361,40 @@
     byId('window-command').textContent =
         `${windows.command} --trace '*' --trace-from ${from} --trace-to ${to}`;
     for (const chart of charts) if (chart.options.overTime) chart.draw();
+  }
+
+  // Ticks of an axis whose positions are bins: bin i goes from edges[i] to edges[i + 1] and is drawn
+  // about i. Only at round numbers, as many as there is room for.
+  function roundTicks(edges) {
+    const last = edges.length - 2;
+    const placeOf = (value) => {
+      let i = edges.findIndex((edge) => edge > value) - 1;
+      if (i < 0) i = value < edges[0] ? 0 : last;
+      return i - 0.5 + (value - edges[i]) / (edges[i + 1] - edges[i]);
+    };
+    // A number stands for the bin that begins there where a bin is one number wide.
+    const single = edges.every((edge, i) => i === 0 || edge === edges[i - 1] + 1);
+    return {
+      autoSkip: false,
+      maxRotation: 0,
+      callback: (_, i, ticks) => number.format(ticks[i].round),
+      build(axis) {
+        const from = edges[0], to = single ? edges[last] : edges[last + 1];
+        const width = axis.maxWidth || axis.chart.width;
+        const text = 7 * number.format(to).length + 22;
+        const least = (to - from) * text / Math.max(width - 60, text);
+        const power = 10 ** Math.floor(Math.log10(Math.max(least, 1)));
+        const step = [1, 2, 5, 10].map((k) => k * power).find((k) => k >= least) ?? 10 * power;
+        const ticks = [];
+        for (let value = Math.ceil(from / step) * step; value <= to; value += step) {
+          const at = placeOf(value) + (single ? 0.5 : 0), before = ticks[ticks.length - 1];
+          // Bins of different widths: where they are dense there is room for fewer.
+          if (before && (at - before.value) * width / edges.length < text * 0.8) continue;
+          ticks.push({value: at, round: value});
+        }
+        axis.ticks = ticks;
+      }
+    };
   }
 
   function drawCharts() {
@@ -336,6 +494,8 @@
           ctx.restore();
         }
       };
+      const latencyTicks = roundTicks([...bins.map((bin) => bin.from),
+          Math.max(latency.max + 1, bins[bins.length - 1].from + 1)]);
       charts.push(new Chart(byId('latency'), {
         type: 'bar',
         data: {
@@ -346,7 +506,7 @@
         options: {
           scales: {
             x: {grid: {display: false}, title: {display: true, text: `latency, ${latency.unit}`},
-                ticks: {maxRotation: 0, autoSkipPadding: 14}},
+                ticks: latencyTicks, afterBuildTicks: latencyTicks.build},
             y: {beginAtZero: true, title: {display: true, text: 'transactions'}}
           },
           plugins: {
@@ -415,6 +575,8 @@
         ctx.restore();
       }
     };
+    const lastWindow = labels.length - 1;
+    const cycleTicks = roundTicks([...windows.from, windows.from[lastWindow] + cycles[lastWindow]]);
     const range = (i) => `cycles ${labels[i]} to ${number.format(windows.from[i] + cycles[i])}`;
     const add = (id, type, datasets, y, more = {}) => charts.push(new Chart(byId(id), {
       type,
@@ -428,7 +590,7 @@
         },
         scales: {
           x: {offset: true, grid: {display: false}, stacked: more.stacked, title: {display: true, text: 'cycle'},
-              ticks: {maxRotation: 0, autoSkipPadding: 24}},
+              ticks: cycleTicks, afterBuildTicks: cycleTicks.build},
           y: {beginAtZero: true, stacked: more.stacked, max: more.max, suggestedMax: more.suggestedMax,
               title: {display: true, text: y}},
           ...(more.scales || {})
@@ -486,6 +648,7 @@
       line('most', css('--warn'), watched.most)
     ], 'beats', {suggestedMax: link.depth});
     const clocks = link.histogram.reduce((a, b) => a + b, 0);
+    const beatTicks = roundTicks([...link.histogram.map((_, i) => i), link.histogram.length]);
     charts.push(new Chart(byId('link-histogram'), {
       type: 'bar',
       data: {labels: link.histogram.map((_, i) => i),
@@ -493,7 +656,7 @@
       options: {
         scales: {
           x: {grid: {display: false}, title: {display: true, text: `beats inside, of ${link.depth}`},
-              ticks: {maxRotation: 0, autoSkipPadding: 14}},
+              ticks: beatTicks, afterBuildTicks: beatTicks.build},
           y: {beginAtZero: true, title: {display: true, text: '% of clocks'}}
         },
         plugins: {

@@ -17,6 +17,12 @@ enum class Motion : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 3> kMotionNames = {"zoom", "roll", "pan"};
 
+// Which frame of which motion of the camera.
+struct CameraMove {
+  Motion motion = Motion::kRoll;
+  int frame = 0;
+};
+
 // Turned clockwise about the view direction; 0 gives the camera itself, to the bit.
 Camera rolled(const Camera& camera, double degrees);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 #include "spec/error.h"
 
@@ -93,6 +94,29 @@ double psnr(const Image& a, const Image& b) { return psnr_from_mse(mean_squared_
 double psnr(const Image& a, const Image& b, const Mask& mask) {
   return psnr_from_mse(mean_squared_error(a, b, mask));
 }
+
+Mask FlickerMeter::everywhere(const Image& image) { return Mask(image.width, image.height, 1); }
+
+void FlickerMeter::add(Image picture, Image truth, Mask drawn) {
+  if (frames_ > 0) {
+    require_same_size(drawn, drawn_);
+    Mask both = drawn;
+    for (std::size_t i = 0; i < both.pixels.size(); ++i)
+      both.pixels[i] = drawn.pixels[i] != 0 && drawn_.pixels[i] != 0;
+    const double square = flicker_square(picture_, picture, truth_, truth, both);
+    sum_ += square;
+    if (std::sqrt(square) > worst_) {
+      worst_ = std::sqrt(square);
+      worst_frame_ = frames_;
+    }
+  }
+  picture_ = std::move(picture);
+  truth_ = std::move(truth);
+  drawn_ = std::move(drawn);
+  ++frames_;
+}
+
+double FlickerMeter::mean() const { return frames_ > 1 ? std::sqrt(sum_ / (frames_ - 1)) : 0; }
 
 std::int64_t count(const Mask& mask) {
   return std::count_if(mask.pixels.begin(), mask.pixels.end(),

@@ -33,6 +33,26 @@ double psnr_from_mse(double mse);
 double flicker_square(const Image& before, const Image& after, const Image& truth_before,
                       const Image& truth_after, const Mask& mask);
 
+// The same over frames in a row, one after the other.
+class FlickerMeter {
+ public:
+  static Mask everywhere(const Image& image);
+  // `drawn`: pixels that count where the frame before drew them too. Sizes must agree.
+  void add(Image picture, Image truth, Mask drawn);
+  int frames() const { return frames_; }
+  int width() const { return picture_.width; }  // of the last frame
+  int height() const { return picture_.height; }
+  double mean() const;  // root mean square over all pairs of frames, in units of 1/255
+  double worst() const { return worst_; }           // of the pair with the most
+  int worst_frame() const { return worst_frame_; }  // its second frame
+
+ private:
+  Image picture_, truth_;
+  Mask drawn_;
+  int frames_ = 0, worst_frame_ = 0;
+  double sum_ = 0, worst_ = 0;
+};
+
 std::int64_t count(const Mask& mask);
 // Pixels that differ by more than `tolerance` in R, G or B, and the largest difference.
 std::int64_t count_different(const Image& a, const Image& b, int tolerance = 0);

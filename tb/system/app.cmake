@@ -30,6 +30,18 @@ foreach(class Windows Timeline Maps)
   set_tests_properties(observers.${class} PROPERTIES LABELS system TIMEOUT 600
                        ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 endforeach()
+foreach(class Runs Sweeps Regressions)
+  add_test(NAME report_pages.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/report_pages_test.py" $<TARGET_FILE:deburr> ${class})
+  set_tests_properties(report_pages.${class} PROPERTIES LABELS system TIMEOUT 600
+                       ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+endforeach()
+foreach(class Images Meshes)
+  add_test(NAME sequence.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/sequence_test.py" $<TARGET_FILE:deburr> ${class})
+  set_tests_properties(sequence.${class} PROPERTIES LABELS system TIMEOUT 300
+                       ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+endforeach()
 foreach(class Points Searched Failing Killed)
   add_test(NAME sweep.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/sweep_test.py" $<TARGET_FILE:deburr> ${class})

@@ -42,10 +42,11 @@ class Memories(unittest.TestCase):
                 self.assertNotIn("cannot be built", said)
 
     def test_totals_are_sums(self):
+        with_memories = 0
         for arguments in ((engine,) for engine in engines()):
             _, result = self.result(*arguments)
             memories = result["memories"].values()
-            self.assertTrue(memories)
+            with_memories += 1 if memories else 0
             for m in memories:
                 self.assertEqual(m["logical_bits"], m["words"] * m["word_bits"])
                 self.assertGreaterEqual(m["physical_bits"], m["logical_bits"])
@@ -55,6 +56,7 @@ class Memories(unittest.TestCase):
                 self.assertEqual(bits["memories"], len(of_kind))
                 self.assertEqual(bits["logical"], sum(m["logical_bits"] for m in of_kind))
                 self.assertEqual(bits["physical"], sum(m["physical_bits"] for m in of_kind))
+        self.assertGreater(with_memories, 0)
 
     def test_the_page_of_the_texture_unit_names_what_there_is(self):
         with open(os.path.join(DOCS, "reference/texture/hardware.md"), encoding="utf-8") as file:

@@ -140,14 +140,14 @@ class Windows(unittest.TestCase):
 # ---- the Trace Event format ---------------------------------------------------------------------
 
 KEYS = {"X": {"name", "cat", "ts", "dur"}, "b": {"name", "cat", "id", "ts"}, "e": {"name", "cat", "id", "ts"},
-        "M": {"name", "args"}}
+        "M": {"name", "args"}, "C": {"name", "cat", "ts", "args"}}
 
 
 def problems(trace):
     """What breaks the rules of the format."""
     if not isinstance(trace, dict) or not isinstance(trace.get("traceEvents"), list):
         return ["no list of traceEvents"]
-    found, last, busy, open_events, named, seen = [], 0, {}, {}, set(), set()
+    found, last, busy, open_events, named, seen, counted = [], 0, {}, {}, set(), set(), {}
     for number, event in enumerate(trace["traceEvents"]):
         kind = event.get("ph")
         if kind not in KEYS:
@@ -176,6 +176,13 @@ def problems(trace):
             busy[track] = event["ts"] + event["dur"]
             if track not in named:
                 found.append(f"event {number}: a track without a thread_name")
+        elif kind == "C":
+            values = event["args"].values()
+            if not values or not all(isinstance(v, int) and v >= 0 for v in values):
+                found.append(f"event {number}: counts {list(values)}")
+            elif event["args"] == counted.get(event["name"]):
+                found.append(f"event {number}: {event['name']} has not changed")
+            counted[event["name"]] = event["args"]
         else:
             key = event["cat"], event["id"], event["name"]
             if kind == "b":
@@ -230,6 +237,21 @@ class Timeline(unittest.TestCase):
                     self.assertEqual(flights[port], sum(series["outstanding"][i] for i in inside), port)
                 if windows["series"].get("ports"):
                     self.assertTrue(begun)
+                self.check_levels(events, windows["series"], inside, load(out)["links"])
+
+    def check_levels(self, events, series, inside, links):
+        """A counter of each FIFO and of each port, whose area is what the windows say."""
+        areas, at = {}, {}
+        for event in [e for e in events if e["ph"] == "C"] + [None]:
+            for name, (since, value) in at.items() if event is None else [(event["name"], at.get(event["name"], (0, 0)))]:
+                areas[name] = areas.get(name, 0) + value * ((self.TO if event is None else event["ts"]) - since)
+            if event is not None:
+                at[event["name"]] = event["ts"], next(iter(event["args"].values()))
+        expected = {f"{name}, of {link['depth']}": series["links"][name]["occupancy"]
+                    for name, link in links.items() if link["depth"] > 2}
+        expected.update({f"{name}, in flight": port["outstanding"] for name, port in series.get("ports", {}).items()})
+        self.assertEqual(areas, {name: sum(values[i] for i in inside) for name, values in expected.items()})
+        self.assertTrue(areas)
 
     def test_the_checker_finds_what_is_wrong(self):
         with tempfile.TemporaryDirectory() as out:
@@ -263,6 +285,10 @@ class Timeline(unittest.TestCase):
                             "unknown phase": change("X", "ph", "Q"), "no time": lack("X", "ts"),
                             "no id": lack("b", "id"), "no process": lack("e", "pid"), "backwards": backwards,
                             "begins twice": twice, "unnamed tracks": unnamed,
+                            "a count below nothing": change("C", "args", {"beats": -1}),
+                            "a counter without a name": lack("C", "name"),
+                            "a counter that stays": lambda t: t["traceEvents"].insert(
+                                first(t, "C"), dict(t["traceEvents"][first(t, "C")])),
                             "no events": lambda t: t.pop("traceEvents")}.items():
             with self.subTest(name):
                 bad = copy.deepcopy(good)

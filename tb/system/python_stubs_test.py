@@ -67,67 +67,69 @@ def wrapped(head, arguments, tail):
     return head + "(\n" + "".join(f"    {one},\n" for one in arguments) + f") -> {tail}: ...\n"
 
 
-def of_golden(function, rows, result, **types_of):
-    arguments = []
-    for parameter in inspect.signature(function).parameters.values():
-        if parameter.kind is inspect.Parameter.KEYWORD_ONLY and "*" not in arguments:
-            arguments.append("*")
-        row = next((row for row in rows if argument(row["name"]) == parameter.name
-                    and parameter.annotation is not inspect.Parameter.empty), None)
-        kind = annotation(row) if row else types_of.get(parameter.name, "_Array")
-        given = "" if parameter.default is inspect.Parameter.empty else " = ..."
-        arguments.append(f"{parameter.name}: {kind}{given}" if parameter.name != "self" else "self")
-    return wrapped(f"def {function.__name__}", arguments, result)
+class Part:
+    """An engine's part of deburr.golden: what it offers, and what it says of types that are no arrays."""
+
+    def __init__(self, module):
+        self.module = module
+        self.values = [(name, getattr(module, name)) for name in module.__all__]
+
+    def type_of(self, *names, default="_Array"):
+        """Of `Class.name`, `function` or `function.parameter`."""
+        return self.module.TYPES.get(".".join(names), default)
+
+    def function(self, value, *owner, rows=None, name=None):
+        """With its declared parameters, a line each; without any, on one line."""
+        name, rows = name or value.__name__, rows or getattr(value, "__declared__", None)
+        by_name = {argument(row["name"]): row for row in rows or []}
+        arguments = []
+        for parameter in inspect.signature(value).parameters.values():
+            row = by_name.get(parameter.name) if parameter.annotation is not inspect.Parameter.empty else None
+            keywords = parameter.kind is inspect.Parameter.VAR_KEYWORD
+            if keywords and rows:
+                continue
+            if parameter.kind is inspect.Parameter.KEYWORD_ONLY and "*" not in arguments:
+                arguments.append("*")
+            # A name with a point in front is that of any function's parameter.
+            kind = annotation(row) if row else self.type_of(*owner, name, parameter.name,
+                                                            default=self.type_of("", parameter.name))
+            given = "" if parameter.default is inspect.Parameter.empty else " = ..."
+            arguments.append(parameter.name if parameter.name == "self"
+                             else f"{'**' if keywords else ''}{parameter.name}: {kind}{given}")
+        if rows and not hasattr(value, "__declared__"):
+            arguments += ["*", *(f"{one}: {annotation(row)} = ..." for one, row in by_name.items())]
+        result = self.type_of(*owner, name, default="None")
+        if rows:
+            return wrapped(f"def {name}", arguments, result)
+        return f"def {name}({', '.join(arguments)}) -> {result}: ...\n"
+
+    def kind(self, name, value):
+        """A class: its properties, and its own functions. One that takes parameters takes those that another declares."""
+        rows = next((one.__declared__ for one in vars(value).values() if hasattr(one, "__declared__")), None)
+        text = f"class {name}:\n"
+        of_python = value.__module__ == golden.__name__
+        for member, one in vars(value).items() if of_python else sorted(vars(value).items()):
+            if isinstance(one, property):
+                text += f"    @property\n    def {member}(self) -> {self.type_of(name, member)}: ...\n"
+            elif of_python and isinstance(one, types.FunctionType) and (member == "__init__" or not member.startswith("_")):
+                takes = rows if "parameters" in inspect.signature(one).parameters else None
+                text += textwrap.indent(self.function(one, name, rows=takes, name=member), "    ")
+        return text + "\n"
+
+    def text(self):
+        constants, kinds, functions = "", "", ""
+        for name, value in self.values:
+            if isinstance(value, type):
+                kinds += self.kind(name, value)
+            elif callable(value):
+                functions += self.function(value) + ("\n" if hasattr(value, "__declared__") else "")
+            else:
+                constants += f"{name}: {'tuple[str, ...]' if isinstance(value, tuple) else 'numpy.dtype[numpy.void]'}\n"
+        return f"{constants}\n{kinds}{functions}".strip("\n") + "\n"
 
 
 def golden_stub():
-    from deburr import _golden
-    optional = {"depth": "_Array | None", "error_lines": "_Array | None", "detail": "bool",
-                "bases": "dict[str, int] | None", "fields": "dict[str, typing.Any] | None",
-                "levels": "_Array | list[_Array]"}
-    text = HEAD + "\nQUAD: numpy.dtype[numpy.void]\nCOLOUR: numpy.dtype[numpy.void]\nVERTEX: numpy.dtype[numpy.void]\n"
-    text += "EDGE: numpy.dtype[numpy.void]\nEDGE_CLASSES: tuple[str, ...]\n\n"
-    properties = {"work": "Figures", "traffic": "_Array", "memory_errors": "int", "detail": "bool",
-                  "coverage": "dict[str, int]"}
-    for kind in (golden.MorphologicalFrame, golden.GeometricFrame):
-        own = {**properties, "traffic": "dict[str, dict[str, _Array]]"} if hasattr(kind, "weights") else properties
-        text += f"class {kind.__name__}:\n"
-        for name, value in sorted(vars(kind).items()):
-            if isinstance(value, property):
-                text += f"    @property\n    def {name}(self) -> {own.get(name, '_Array')}: ...\n"
-        text += "\n"
-    text += of_golden(golden.morphological, _golden.morphological_parameters(), "MorphologicalFrame",
-                      **{**optional, "edges": "_Array | None"}) + "\n"
-    text += of_golden(golden.geometric, _golden.geometric_parameters(), "GeometricFrame", **optional) + "\n"
-    text += of_golden(golden.texture, _golden.texture_parameters(), "tuple[_Array, TextureUnit]", **optional) + "\n"
-    text += "class TextureUnit:\n"
-    unit = {"memory": "int", "texture": "int", "address": "int", "size": "int", "lines": "_Array | None",
-            "levels": "_Array | list[_Array]", "fields": "typing.Any"}
-    results = {"parameters": "dict[str, str]", "describe": "dict[str, typing.Any]", "work": "Figures", "read": "_Array",
-               "filter": "_Array", "analyse": "_Array", "fills": "_Array"}
-    made = of_golden(golden.TextureUnit.set, _golden.texture_parameters(), "None")
-    text += textwrap.indent(made.replace("def set", "def __init__").replace("self,\n    *", "self,\n    memory: int = ...,\n    *"),
-                            "    ")
-    text += textwrap.indent(made, "    ")
-    for name, value in vars(golden.TextureUnit).items():
-        if name.startswith("_") or name == "set":
-            continue
-        if isinstance(value, property):
-            text += f"    @property\n    def {name}(self) -> {results[name]}: ...\n"
-            continue
-        words = []
-        for parameter in inspect.signature(value).parameters.values():
-            stars = "**" if parameter.kind is inspect.Parameter.VAR_KEYWORD else ""
-            given = "" if parameter.default is inspect.Parameter.empty else " = ..."
-            words.append("self" if parameter.name == "self"
-                         else f"{stars}{parameter.name}: {unit.get(parameter.name, '_Array')}{given}")
-        text += f"    def {name}({', '.join(words)}) -> {results.get(name, 'None')}: ...\n"
-    text += '''
-def mip_levels(texels: _Array) -> list[_Array]: ...
-def quads_of(s: _Array, t: _Array, covered: _Array | None = ..., texture: int = ...) -> _Array: ...
-def image_of(quads: _Array, colours: _Array, shape: tuple[int, int]) -> _Array: ...
-'''
-    return text
+    return HEAD + "".join("\n" + Part(module).text() for module in golden._PARTS)
 
 
 def ideal_stub():

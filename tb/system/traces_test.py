@@ -269,13 +269,15 @@ class Fragments(TracesTest):
             result = json.load(file)
         del result["host"]
         pictures = []
-        for picture in ("after.png", "golden.png"):
+        maps = [f"map_{name}.pfm" for name in sorted(result["maps"])]
+        self.assertEqual(len(maps), 4)
+        for picture in ("after.png", "golden.png", *maps):
             with open(self.path(f"{name}/{picture}"), "rb") as file:
                 pictures.append(file.read())
         return result, pictures, self.lines(name)
 
     def check_round_trip(self, *arguments, drawn=()):
-        common = ["--line-trace", "text", "--set", "run.line_trace_look_ups=true", *arguments]
+        common = ["--line-trace", "text", "--set", "run.line_trace_look_ups=true", "--maps", *arguments]
         self.run_engine("texture", "first", "--fragment-trace", "text", *common, *drawn)
         wanted = self.outcome("first")
         self.assertEqual(wanted[0]["verdict"], "pass")
@@ -339,6 +341,22 @@ class Fragments(TracesTest):
         self.assertEqual(result["work"]["fragments"], 3)
         self.assertEqual(sorted(os.listdir(self.path("out"))),
                          ["manifest.json", "report.html", "result.json"])
+
+    def test_maps_show_fragments_that_have_a_place(self):
+        """The others count where the unit's counters are compared, and are in no pixel."""
+        with open(self.path("mixed"), "w") as file:
+            file.write("deburr-fragments 1\nsize 8 6\nquad 0 f f 0 2 4 0 0 .01 0 0 .01 .01 .01\n"
+                       "quad 0 f f 0 - - .5 .5 .51 .5 .5 .51 .51 .51\nend 2\n")
+        result = self.run_engine("texture", "out", "--fragments", "mixed", "--maps")
+        self.assertEqual({figures["pixels"] for figures in result["maps"].values()}, {4})
+        self.assertEqual(result["maps"]["samples"]["sum"], 4)
+        self.assertEqual(result["work"]["walker_samples"], 8)
+        with open(self.path("bare"), "w") as file:
+            file.write("deburr-fragments 1\nfragment 0 - - .5 .5 .01 0 0 .01\nend 1\n")
+        done = subprocess.run([DEBURR, "run", "texture", "--fragments", self.path("bare"), "--maps", "--out",
+                               self.path("refused")], text=True, capture_output=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("have no place in a picture", done.stderr)
 
     def test_memory_does_not_grow_with_the_trace(self):
         """Peak memory of a binary trace and of one ten times as long, without a golden model."""

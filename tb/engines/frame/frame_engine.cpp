@@ -8,8 +8,11 @@
 #include <string>
 #include <utility>
 
+#include "spec/error.h"
+#include "tb/app/flicker.h"
 #include "tb/app/pictures.h"
 #include "tb/app/simulate.h"
+#include "tb/base/interrupt.h"
 #include "tb/engines/frame/frame_composition.h"
 #include "tb/engines/frame/frame_roles.h"
 
@@ -39,7 +42,8 @@ class FrameCommand final : public Engine {
     const std::shared_ptr<const DrawnScene> shared = load(run, context);
     const DrawnScene& scene = *shared;
     judge(scene);
-    context.add_inputs(scene.inputs());
+    MeshFiles meshes;
+    context.add_inputs(drawer().frames() > 1 ? input_files(meshes) : scene.inputs());
     context.set_title(
         "Frame: " + std::filesystem::path(drawer().source()).filename().string(),
         fmt::format("{} x {} pixels, {} fragments; {}, frame buffer and {}", scene.stream().width,
@@ -54,6 +58,9 @@ class FrameCommand final : public Engine {
       for (const std::string& note : frame.notes()) context.add_note(note);
       add_pictures(run, context, scene, frame, result);
     });
+    if (drawer().frames() > 1 && !result.interrupted && !context.judging_only())
+      measure_flicker(drawer().frames(), context, result,
+                      [&](int i) { return picture_of(i, static_cast<std::uint32_t>(run.seed)); });
   }
 
   std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
@@ -72,6 +79,7 @@ class FrameCommand final : public Engine {
     const std::unique_ptr<FrameComposition> frame =
         FrameComposition::of_all(simulation, *scene, roles());
     describe(simulation, *frame, result);
+    describe_flicker(result);
   }
 
   std::vector<std::string_view> parts() const override {
@@ -119,6 +127,23 @@ class FrameCommand final : public Engine {
   void judge(const DrawnScene& scene) const {
     drawer().judge(scene);
     for (const PictureSmoother* smoother : roles().chosen_smoothers()) smoother->judge(scene);
+  }
+
+  SequencePicture picture_of(int frame, std::uint32_t seed) const {
+    const std::shared_ptr<const DrawnScene> scene = drawer().scene_of(frame, seed);
+    judge(*scene);
+    const Image before = drawer().golden_picture(*scene);
+    Image after = before;
+    for (const PictureSmoother* smoother : roles().chosen_smoothers()) {
+      after = smoother->golden_picture(*scene, std::move(after));
+      if (after.empty())
+        throw spec::ConfigError(fmt::format(
+            "the {} has no golden picture of a frame alone: no flicker is measured through it",
+            smoother->title()));
+    }
+    RenderOptions options = truth_options();
+    options.interrupted = [] { return interrupted(); };
+    return {before, std::move(after), drawer().truth_of(*scene, options)};
   }
 
   std::string engines_line() const {

@@ -12,6 +12,7 @@
 #include "rtl_model/geometric/datasheets.h"
 #include "rtl_model/geometric/register_section.h"
 #include "spec/geometric/check_build.h"
+#include "tb/app/flicker.h"
 #include "tb/app/input_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
@@ -42,17 +43,20 @@ class GeometricCommand final : public Engine {
 
   void add_parameters(ParameterSet& set) override {
     set.add("scene", ParameterKind::kInput, scene_);
+    set.add("sequence", ParameterKind::kInput, sequence_);
     set.add_engine("geometric", parameters_);
     add_memory(set, "memory", memory_);
   }
 
   void resolve(ParameterSet& set) override {
     apply_preset(set, parameters_);
+    lists_ = lists_of(scene_);
+    frames_ = frames_of(set, sequence_, lists_);
     imply_crossings(set, "scene.crossings", parameters_);
     refuse_unused_rules(set, parameters_);
     refuse_unused_memory(set, "memory", memory_);
     refuse_slow_memory(set, "memory", memory_);
-    if (set.find("run.truth")->text() == "false")
+    if (set.find("run.truth")->text() == "false" && frames_ == 1)
       set.refuse("scene.truth_samples", "nothing is compared without run.truth (--truth)");
     preset_label_ = preset_label(set, parameters_);
   }
@@ -66,7 +70,7 @@ class GeometricCommand final : public Engine {
                     "Scene: cube, wheelcover (default), wing, canopy, sphere, ..."},
                    {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
                    {"--size", "scene.width", "Size of the frame, WxH (640x480)", "scene.height"}},
-                  edge_shorthands());
+                  joined(edge_shorthands(), sequence_shorthands()));
   }
 
   void judge(const RunParameters& run, RunContext& context) override { judge(*load(run, context)); }
@@ -76,7 +80,8 @@ class GeometricCommand final : public Engine {
     const LoadedGeometricFrame& loaded = *shared;
     judge(loaded);
     const geometric::Frame& frame = loaded.frame;
-    context.add_inputs(loaded.inputs);
+    MeshFiles meshes;
+    context.add_inputs(frames_ > 1 ? input_files(meshes) : loaded.inputs);
     context.set_title(
         "Geometric engine: " + std::filesystem::path(scene_.source).filename().string(),
         summary_line(frame));
@@ -92,10 +97,18 @@ class GeometricCommand final : public Engine {
         context.add_note(note);
       add_pictures(run, context, loaded, environment, result);
     });
+    if (frames_ > 1 && !result.interrupted && !context.judging_only())
+      measure_flicker(frames_, context, result,
+                      [&](int i) { return picture_of(i, static_cast<std::uint32_t>(run.seed)); });
   }
 
   std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
-    return frame_files(scene_, meshes);
+    const FrameLists lists = lists_of(scene_);
+    std::vector<std::filesystem::path> files;
+    for (int i = 0; i < lists.frames(); ++i)
+      for (const std::filesystem::path& file : frame_files(in_frame(scene_, lists, i), meshes))
+        add_once(files, file);
+    return files;
   }
 
   void prepare(const RunParameters& run, RunContext& context) override { load(run, context); }
@@ -108,6 +121,7 @@ class GeometricCommand final : public Engine {
     Simulation simulation({});
     GeometricEnvironment environment(simulation, frames, {});
     describe(simulation, environment, result);
+    describe_flicker(result);
   }
 
   std::vector<std::string_view> pictures() const override {
@@ -158,13 +172,23 @@ class GeometricCommand final : public Engine {
     return context.shared<LoadedGeometricFrame>("geometric frame", {"scene.", "run.truth"}, [&] {
       Waiting waiting(truth ? "rendering frame and truth" : "rendering the frame", context.quiet());
       return load_geometric_frame(
-          scene_, static_cast<std::uint32_t>(run.seed), truth,
+          in_frame(scene_, lists_, 0), static_cast<std::uint32_t>(run.seed), truth,
           [&] {
             waiting.update();
             return interrupted();
           },
           [&](const Scene& scene) { judge(scene); });
     });
+  }
+
+  SequencePicture picture_of(int frame, std::uint32_t seed) const {
+    GeometricSceneParameters wanted = in_frame(scene_, lists_, frame);
+    wanted.move = move_of(sequence_, lists_, frame);
+    const LoadedGeometricFrame loaded =
+        load_geometric_frame(wanted, seed, true, [] { return interrupted(); });
+    judge(loaded);
+    return {loaded.frame.image, geometric::smoothed(loaded.frame, parameters_).image,
+            *loaded.truth};
   }
 
   std::string summary_line(const geometric::Frame& frame) const {
@@ -210,6 +234,9 @@ class GeometricCommand final : public Engine {
   }
 
   GeometricSceneParameters scene_;
+  SequenceParameters sequence_;
+  FrameLists lists_;
+  int frames_ = 1;
   spec::geometric::Parameters parameters_;
   MemoryParameters memory_;
   std::string preset_label_;

@@ -8,6 +8,7 @@
 
 #include "spec/error.h"
 #include "tb/base/random.h"
+#include "tb/scene/motion.h"
 
 namespace deburr::tb {
 namespace {
@@ -45,6 +46,20 @@ std::vector<std::string> notes_of(const EdgeTable& table) {
 
 }  // namespace
 
+FrameLists lists_of(const GeometricSceneParameters& scene) {
+  FrameLists lists;
+  lists.add("scene.source", listed_files("scene.source", scene.source));
+  add_camera(lists, scene);
+  return lists;
+}
+
+GeometricSceneParameters in_frame(GeometricSceneParameters scene, const FrameLists& lists,
+                                  int frame) {
+  scene.source = lists.at("scene.source", frame);
+  choose_camera(scene, lists, frame);
+  return scene;
+}
+
 Image geometric_truth(const Scene& scene, int width, int height, int samples,
                       const std::function<bool()>& interrupted) {
   RenderOptions options;
@@ -72,6 +87,7 @@ LoadedGeometricFrame load_geometric_frame(const GeometricSceneParameters& p, std
   loaded.scene = load_scene(p.source, {.seed = seed, .plain = true});
   if (accept) accept(loaded.scene);
   look(loaded.scene, p);
+  loaded.scene.camera = moved(loaded.scene.camera, p.move.motion, p.move.frame);
   loaded.frame = geometric::make_frame(loaded.scene, p.width, p.height, {.crossings = p.crossings});
   refuse_empty(loaded.scene, loaded.frame.table);
   if (p.edge_order == EdgeOrder::kShuffled) shuffle_edges(loaded.frame, seed);

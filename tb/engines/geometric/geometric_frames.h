@@ -14,6 +14,7 @@
 
 #include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/env/camera_parameters.h"
+#include "tb/env/sequence.h"
 #include "tb/scene/image.h"
 #include "tb/scene/scenes.h"
 
@@ -30,13 +31,15 @@ struct GeometricSceneParameters : CameraParameters {
   EdgeOrder edge_order = EdgeOrder::kTable;
   std::int32_t truth_samples = 16;
   std::int32_t count = 1;
+  CameraMove move{};  // of its camera; no parameter
 };
 
 template <class Visitor>
 void describe(GeometricSceneParameters& p, Visitor& v) {
-  v.text("source", p.source, "name | file",
+  v.text("source", p.source, "name | file or list",
          "A scene made by formula (cube, wheelcover, wing, canopy, sphere, terrain, plane, quad, "
-         "tunnel, object, road, cylinders) or a mesh file (.obj, .gltf, .glb).");
+         "tunnel, object, road, cylinders) or a mesh file (.obj, .gltf, .glb); a mesh a frame: a "
+         "list or a pattern.");
   v.integer("width", p.width, 1, 8192, "pixel", "Width of the frame.");
   v.integer("height", p.height, 1, 8192, "pixel", "Height of the frame.");
   describe(static_cast<CameraParameters&>(p), v);
@@ -48,6 +51,11 @@ void describe(GeometricSceneParameters& p, Visitor& v) {
             "N of the N x N samples a pixel of the truth.");
   v.integer("count", p.count, 1, 100, "frame", "How often the frame is smoothed.");
 }
+
+// What parameters say of each frame: meshes and cameras may be lists.
+FrameLists lists_of(const GeometricSceneParameters& scene);
+GeometricSceneParameters in_frame(GeometricSceneParameters scene, const FrameLists& lists,
+                                  int frame);
 
 struct LoadedGeometricFrame {
   Scene scene;

@@ -118,6 +118,12 @@ class GeometricRole final : public MeshSmoother {
   }
   bool linear_light() const override { return parameters_.linear_light; }
 
+  Image golden_picture(const DrawnScene& scene, Image frame) const override {
+    return geometric::smoothed(frames_of(scene, std::move(frame), edges_.crossings).front(),
+                               parameters_)
+        .image;
+  }
+
   std::unique_ptr<MeshStage> build(Simulation& simulation, const DrawnScene& scene,
                                    Image frame) const override {
     return std::make_unique<GeometricStage>(simulation, scene, std::move(frame),

@@ -13,6 +13,7 @@
 #include "rtl_model/morphological/register_section.h"
 #include "spec/error.h"
 #include "spec/morphological/check_build.h"
+#include "tb/app/flicker.h"
 #include "tb/app/input_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
@@ -45,12 +46,19 @@ class MorphologicalCommand final : public Engine {
 
   void add_parameters(ParameterSet& set) override {
     set.add("frame", ParameterKind::kInput, frame_);
+    set.add("sequence", ParameterKind::kInput, sequence_);
     set.add_engine("morphological", parameters_);
     add_memory(set, "memory", memory_);
   }
 
   void resolve(ParameterSet& set) override {
     apply_preset(set, parameters_);
+    lists_ = lists_of(frame_);
+    frames_ = frames_of(set, sequence_, lists_);
+    if (frames_ > 1 && lists_.frames() == 1 && !is_rendered(first()) && is_there(frame_.source))
+      throw spec::ConfigError(
+          "sequence.frames: an image file does not move: list a file a frame, as by "
+          "--in 'frames/*.png'");
     if (!frame_.mask.empty()) {
       set.imply("morphological.leave", "masked", "frame.mask");
       if (parameters_.leave == spec::morphological::Leave::kNone)
@@ -78,7 +86,7 @@ class MorphologicalCommand final : public Engine {
          {"--depth", "frame.depth", "Depth of the image: quality of silhouettes too"},
          {"--mask", "frame.mask", "Picture of what to leave as it is: white is masked"},
          {"--size", "frame.width", "Size of a rendered scene, WxH (640x480)", "frame.height"}},
-        smoothing_shorthands());
+        joined(smoothing_shorthands(), sequence_shorthands()));
   }
 
   void judge(const RunParameters& run, RunContext& context) override {
@@ -89,7 +97,8 @@ class MorphologicalCommand final : public Engine {
     const std::shared_ptr<const LoadedFrame> shared = load(run, context);
     const LoadedFrame& loaded = *shared;
     judge(run, loaded);
-    context.add_inputs(loaded.inputs);
+    MeshFiles meshes;
+    context.add_inputs(frames_ > 1 ? input_files(meshes) : loaded.inputs);
     context.set_title(
         "Morphological engine: " + std::filesystem::path(frame_.source).filename().string(),
         summary_line(loaded));
@@ -104,10 +113,19 @@ class MorphologicalCommand final : public Engine {
                                           .expectation = golden_of(loaded, context)});
     simulate(simulation, environment, context, result,
              [&] { add_pictures(run, context, loaded, environment, result); });
+    if (frames_ > 1 && !result.interrupted && !context.judging_only())
+      measure_flicker(frames_, context, result, [&](int frame) {
+        return picture_of(frame, static_cast<std::uint32_t>(run.seed));
+      });
   }
 
   std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
-    return frame_files(frame_, meshes);
+    const FrameLists lists = lists_of(frame_);
+    std::vector<std::filesystem::path> files;
+    for (int i = 0; i < lists.frames(); ++i)
+      for (const std::filesystem::path& file : frame_files(in_frame(frame_, lists, i), meshes))
+        add_once(files, file);
+    return files;
   }
 
   void prepare(const RunParameters& run, RunContext& context) override {
@@ -119,6 +137,7 @@ class MorphologicalCommand final : public Engine {
     Simulation simulation({});
     MorphologicalEnvironment environment(simulation, frames, {});
     describe(simulation, environment, result);
+    describe_flicker(result);
   }
 
   std::vector<std::string_view> pictures() const override {
@@ -145,7 +164,7 @@ class MorphologicalCommand final : public Engine {
 
  private:
   void judge(const RunParameters& run, const LoadedFrame& loaded) const {
-    if (is_rendered(frame_)) refuse_nothing_drawn(*loaded.depth, frame_.source);
+    if (is_rendered(first())) refuse_nothing_drawn(*loaded.depth, first().source);
     if (run.truth && !loaded.truth)
       throw spec::ConfigError(
           "run.truth: this image comes without a truth; name one with --truth FILE");
@@ -155,7 +174,7 @@ class MorphologicalCommand final : public Engine {
 
   std::shared_ptr<const LoadedFrame> load(const RunParameters& run,
                                           const RunContext& context) const {
-    FrameParameters wanted = frame_;
+    FrameParameters wanted = first();
     if (context.judging_only()) wanted.truth_samples = std::min(1, wanted.truth_samples);
     const auto render = [&](const std::function<LitFrames()>& make) {
       const std::string bytes = context.shared_bytes("lit frames", {"frame."}, [&] {
@@ -188,23 +207,28 @@ class MorphologicalCommand final : public Engine {
   std::shared_ptr<const golden::morphological::MorphologicalGolden> golden_of(
       const LoadedFrame& loaded, const RunContext& context) const {
     using golden::morphological::MorphologicalGolden;
-    return context.shared_golden<MorphologicalGolden>(built_for_golden(), [&] {
-      const Image& image = loaded.input.image;
-      MorphologicalGolden golden(parameters_);
-      golden.process(
-          {image.pixels, image.width, image.height},
-          loaded.input.depth.empty()
-              ? golden::morphological::DepthView()
-              : golden::morphological::DepthView(loaded.input.depth, image.width, image.height));
-      return golden;
-    });
+    return context.shared_golden<MorphologicalGolden>(
+        built_for_golden(), [&] { return golden_frame(loaded.input, parameters_); });
+  }
+
+  FrameParameters first() const { return in_frame(frame_, lists_, 0); }
+
+  SequencePicture picture_of(int frame, std::uint32_t seed) const {
+    FrameParameters wanted = in_frame(frame_, lists_, frame);
+    wanted.move = move_of(sequence_, lists_, frame);
+    const LoadedFrame loaded = load_frame(wanted, seed, [] { return interrupted(); });
+    const Image& image = loaded.input.image;
+    golden::morphological::check_frame(parameters_, image.width, image.height);
+    Image after(image.width, image.height);
+    after.pixels = golden_frame(loaded.input, parameters_).pixels();
+    return {image, std::move(after), loaded.truth ? *loaded.truth : Image()};
   }
 
   void refuse_unused_frame(const ParameterSet& set) const {
     const bool depth_used = parameters_.edge_source == spec::morphological::EdgeSource::kDepth ||
                             parameters_.edge_source == spec::morphological::EdgeSource::kPredicated;
     // load_frame() has its own words for a truth beside a scene, and for a file that is not there.
-    if (is_rendered(frame_) || !is_there(frame_.source)) return;
+    if (is_rendered(first()) || !is_there(first().source)) return;
     for (const char* name : {"frame.width", "frame.height"})
       set.refuse(name, "frame.source is an image file, which has a size of its own");
     set.refuse("frame.truth_samples",
@@ -256,6 +280,9 @@ class MorphologicalCommand final : public Engine {
   }
 
   FrameParameters frame_;
+  SequenceParameters sequence_;
+  FrameLists lists_;
+  int frames_ = 1;
   spec::morphological::Parameters parameters_;
   MemoryParameters memory_;
   std::string preset_label_;

@@ -7,11 +7,13 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "spec/error.h"
 #include "tb/base/file.h"
 #include "tb/scene/depth_codes.h"
 #include "tb/scene/image_io.h"
+#include "tb/scene/motion.h"
 #include "tb/scene/scenes.h"
 #include "tb/scene/truth.h"
 
@@ -33,7 +35,8 @@ void require_size(const char* what, const std::string& file, int width, int heig
 
 LoadedFrame rendered(const FrameParameters& p, std::uint32_t seed,
                      const std::function<bool()>& interrupted, const KeptFrames& kept) {
-  const Scene scene = load_scene(p.source, {.seed = seed});
+  Scene scene = load_scene(p.source, {.seed = seed});
+  scene.camera = moved(scene.camera, p.move.motion, p.move.frame);
   LoadedFrame frame;
   frame.conversions = scene.mesh.notes;
   const auto make = [&] {
@@ -66,6 +69,23 @@ void apply_mask(const std::string& file, LoadedFrame& frame) {
 }
 
 }  // namespace
+
+FrameLists lists_of(const FrameParameters& p) {
+  FrameLists lists;
+  for (const auto& [name, text] :
+       {std::pair("frame.source", &p.source), std::pair("frame.depth", &p.depth),
+        std::pair("frame.truth", &p.truth), std::pair("frame.mask", &p.mask)})
+    lists.add(name, listed_files(name, *text));
+  return lists;
+}
+
+FrameParameters in_frame(FrameParameters p, const FrameLists& lists, int frame) {
+  p.source = lists.at("frame.source", frame);
+  p.depth = lists.at("frame.depth", frame);
+  p.truth = lists.at("frame.truth", frame);
+  p.mask = lists.at("frame.mask", frame);
+  return p;
+}
 
 bool is_rendered(const FrameParameters& parameters) { return is_scene(parameters.source); }
 
@@ -142,6 +162,17 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
   if (frame.depth) frame.input.depth = depth_codes(*frame.depth);
   if (!p.mask.empty()) apply_mask(p.mask, frame);
   return frame;
+}
+
+golden::morphological::MorphologicalGolden golden_frame(
+    const MorphologicalInput& input, const spec::morphological::Parameters& parameters) {
+  const Image& image = input.image;
+  golden::morphological::MorphologicalGolden golden(parameters);
+  golden.process({image.pixels, image.width, image.height},
+                 input.depth.empty()
+                     ? golden::morphological::DepthView()
+                     : golden::morphological::DepthView(input.depth, image.width, image.height));
+  return golden;
 }
 
 std::vector<std::filesystem::path> frame_files(const FrameParameters& p, MeshFiles& meshes) {

@@ -13,7 +13,9 @@
 #include <string_view>
 #include <vector>
 
+#include "golden/morphological/morphological_golden.h"
 #include "tb/engines/morphological/morphological_input.h"
+#include "tb/env/sequence.h"
 #include "tb/scene/image.h"
 #include "tb/scene/truth.h"
 
@@ -25,17 +27,18 @@ struct FrameParameters {
   std::int32_t width = 640, height = 480;
   std::int32_t truth_samples = 8;
   std::int32_t count = 1;
+  CameraMove move{};  // of a scene's camera; no parameter
 };
 
 template <class Visitor>
 void describe(FrameParameters& p, Visitor& v) {
-  v.text("source", p.source, "name | file",
+  v.text("source", p.source, "name | file or list",
          "An image file, or a scene (plane, quad, tunnel, object, road, cylinders, or a mesh file) "
-         "rendered without anti-aliasing.");
-  v.text("depth", p.depth, "file",
+         "rendered without anti-aliasing; one a frame: a list or a pattern, as of all files here.");
+  v.text("depth", p.depth, "file or list",
          "Depth of an image: 24 bits in R, G, B, or one float channel; grows towards the eye.");
-  v.text("truth", p.truth, "file", "Anti-aliased picture that an image is compared with.");
-  v.text("mask", p.mask, "file",
+  v.text("truth", p.truth, "file or list", "Anti-aliased picture that an image is compared with.");
+  v.text("mask", p.mask, "file or list",
          "Pixels to leave as they are, where red is 128 or more: bit 0 of their alpha becomes 0, "
          "that of "
          "all others 1, and the rule leave becomes masked.");
@@ -45,6 +48,10 @@ void describe(FrameParameters& p, Visitor& v) {
             "N of the N x N samples a pixel of a scene's truth; 0: no truth.");
   v.integer("count", p.count, 1, 1000, "frame", "How often the frame is sent.");
 }
+
+// What parameters say of each frame: all files may be lists.
+FrameLists lists_of(const FrameParameters& parameters);
+FrameParameters in_frame(FrameParameters parameters, const FrameLists& lists, int frame);
 
 // Whether the source is a scene or a mesh, and not an image file.
 bool is_rendered(const FrameParameters& parameters);
@@ -69,6 +76,10 @@ LoadedFrame load_frame(const FrameParameters& parameters, std::uint32_t seed,
 // LoadedFrame::inputs, without loading.
 std::vector<std::filesystem::path> frame_files(const FrameParameters& parameters,
                                                MeshFiles& meshes);
+
+// What the golden model makes of a frame.
+golden::morphological::MorphologicalGolden golden_frame(
+    const MorphologicalInput& input, const spec::morphological::Parameters& parameters);
 
 // Whether 24-bit depths, taken apart into R, G and B, change from pixel to pixel as a picture does:
 // two of them alike. Of depth, G and B are the lower digits of R: they fall as it rises.

@@ -9,6 +9,7 @@
 #include "spec/morphological/check_build.h"
 #include "tb/app/input_rules.h"
 #include "tb/engines/morphological/morphological_environment.h"
+#include "tb/engines/morphological/morphological_frames.h"
 #include "tb/engines/morphological/morphological_pictures.h"
 #include "tb/engines/morphological/morphological_rules.h"
 #include "tb/env/collect.h"
@@ -125,6 +126,13 @@ class MorphologicalRole final : public RowSmoother {
     golden::morphological::check_frame(parameters_, scene.stream().width, scene.stream().height);
   }
   bool linear_light() const override { return parameters_.linear_light; }
+
+  Image golden_picture(const DrawnScene& scene, Image frame) const override {
+    const MorphologicalInput input{std::move(frame), depth_codes(scene.stream().depth)};
+    Image after(input.image.width, input.image.height);
+    after.pixels = golden_frame(input, parameters_).pixels();
+    return after;
+  }
 
   std::unique_ptr<RowsPort> rows_port(const char* name, const DrawnScene& scene) const override {
     return std::make_unique<RowsToMorphological>(name, depth_codes(scene.stream().depth),

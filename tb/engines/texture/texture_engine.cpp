@@ -15,6 +15,7 @@
 #include "spec/error.h"
 #include "spec/texture/check_build.h"
 #include "spec/texture/descriptor.h"
+#include "tb/app/flicker.h"
 #include "tb/app/input_rules.h"
 #include "tb/app/pictures.h"
 #include "tb/app/shorthands.h"
@@ -28,7 +29,6 @@
 #include "tb/engines/texture/texture_sequence.h"
 #include "tb/engines/texture/texture_traces.h"
 #include "tb/engines/texture/texture_truth.h"
-#include "tb/results/progress.h"
 #include "tb/results/report.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
@@ -66,11 +66,9 @@ class TextureEngine final : public Engine {
   }
   std::vector<Shorthand> shorthands() const override {
     return joined(
-        scene_shorthands("plane"),
+        joined(scene_shorthands("plane"), sequence_shorthands()),
         {{"--preset", "texture.preset", "paper or deburr (default)"},
          {"--roll", "scene.roll", "Degrees by which the camera is turned"},
-         {"--frames", "sequence.frames", "Measures flicker over so many frames of a moving camera"},
-         {"--motion", "sequence.motion", "zoom, roll (default) or pan"},
          {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
          {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},
          {"--layout", "sampler.layout", "tiled (default) or linear"},
@@ -88,7 +86,10 @@ class TextureEngine final : public Engine {
     refuse_empty_lod_range(sampler_);
     refuse_unused_look_ups(set);
     if (foreign()) refuse_unused_scene(set);
-    if (sequence_.frames == 1) set.refuse("sequence.motion", "sequence.frames = 1 does not move");
+    lists_ = lists_of(scene_);
+    frames_ = frames_of(set, sequence_, lists_);
+    if (foreign() && frames_ > 1)
+      set.refuse(lists_.longest(), "the fragments of scene.fragments are those of one frame");
   }
 
   void judge(const RunParameters& run, RunContext& context) override {
@@ -97,6 +98,7 @@ class TextureEngine final : public Engine {
       fragments_of_file(*scene);
     else
       refuse_nothing_drawn(*scene);
+    refuse_maps_of_nothing(run, *scene);
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
@@ -107,7 +109,9 @@ class TextureEngine final : public Engine {
       setup.foreign = fragments_of_file(scene);
     else
       refuse_nothing_drawn(scene);
-    context.add_inputs(with_trace(scene.inputs()));
+    refuse_maps_of_nothing(run, scene);
+    MeshFiles meshes;
+    context.add_inputs(frames_ > 1 ? input_files(meshes) : with_trace(scene.inputs()));
     context.set_title(title(), summary_line(scene, setup));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     Simulation simulation(simulation_options(run, context));
@@ -124,12 +128,14 @@ class TextureEngine final : public Engine {
       if (writer) writer->finish();
       add_pictures(run, context, scene, environment, result);
     });
-    if (sequence_.frames > 1 && !result.interrupted && !context.judging_only())
-      measure_flicker(run, context, result);
+    if (frames_ > 1 && !result.interrupted && !context.judging_only())
+      measure_flicker(frames_, context, result, [&](int frame) {
+        return picture_of(frame, static_cast<std::uint32_t>(run.seed));
+      });
   }
 
   std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
-    return with_trace(scene_files(scene_, meshes));
+    return with_trace(scene_files(scene_, lists_of(scene_), meshes));
   }
 
   void prepare(const RunParameters& run, RunContext& context) override {
@@ -148,7 +154,7 @@ class TextureEngine final : public Engine {
     Simulation simulation({});
     TextureEnvironment environment(simulation, scene, {});
     describe(simulation, environment, result);
-    add_flicker(result, {});
+    describe_flicker(result);
   }
 
   std::vector<std::string_view> pictures() const override {
@@ -178,10 +184,11 @@ class TextureEngine final : public Engine {
                                            const RunContext& context) const {
     return context.shared<TextureScene>("texture scene", {"scene.", "sampler."}, [&] {
       const auto seed = static_cast<std::uint32_t>(run.seed);
-      if (!foreign()) return TextureScene(scene_, sampler_, seed);
+      const SceneParameters first = in_frame(scene_, lists_, 0);
+      if (!foreign()) return TextureScene(first, sampler_, seed);
       // The picture's size stands at the beginning; the textures are counted when they are there.
       const FragmentReader reader(trace_in_.file, spec::texture::kMaxTextures);
-      return TextureScene::without_fragments(scene_, sampler_, seed, reader.width(),
+      return TextureScene::without_fragments(first, sampler_, seed, reader.width(),
                                              reader.height());
     });
   }
@@ -191,6 +198,14 @@ class TextureEngine final : public Engine {
   std::vector<std::filesystem::path> with_trace(std::vector<std::filesystem::path> files) const {
     if (foreign()) add_once(files, trace_in_.file);
     return files;
+  }
+
+  void refuse_maps_of_nothing(const RunParameters& run, const TextureScene& scene) const {
+    if (run.maps && scene.stream().width == 0)
+      throw spec::ConfigError(fmt::format(
+          "run.maps: the fragments of '{}' have no place in a picture: leave it out, or write "
+          "'size WIDTH HEIGHT' and the place of each quad into the trace (docs/traces.md)",
+          trace_in_.file));
   }
 
   // All of the file has been read and judged behind it.
@@ -318,37 +333,19 @@ class TextureEngine final : public Engine {
     }
   }
 
-  // Of the golden model's frames, which are the hardware's: the first was compared.
-  void measure_flicker(const RunParameters& run, const RunContext& context, Result& result) const {
-    Progress progress("flicker", static_cast<std::uint64_t>(sequence_.frames), "frame",
-                      context.quiet());
-    SequenceOptions options;
-    options.truth_samples = kTruthSamples;
-    options.truth = truth_options();
-    options.truth.interrupted = [] { return interrupted(); };
-    options.shown = [this](const Image& image, const TextureScene& scene) {
-      std::vector<bool> sky(image.pixels.size());
-      for (std::size_t i = 0; i < sky.size(); ++i) sky[i] = scene.stream().depth.pixels[i] == 0;
-      return stored(image, sky);
-    };
-    options.progress = [&](int frame) { progress.update(static_cast<std::uint64_t>(frame)); };
-    try {
-      add_flicker(result, flicker_of(scene_, sampler_, static_cast<std::uint32_t>(run.seed),
-                                     sequence_, {&texture_, 1}, options)
-                              .front());
-      result.figures.push_back({"Flicker over the frames", "work.flicker", "worst pair of frames",
-                                "work.flicker_worst"});
-    } catch (const Interrupted&) {
-      result.interrupted = true;
-    }
-  }
-
-  static void add_flicker(Result& result, const Flicker& flicker) {
-    result.work.push_back({"flicker", flicker.mean, "1/255",
-                           "Root mean square of what a pixel changes from frame to frame more or "
-                           "less than its truth, where sequence.frames is above 1."});
-    result.work.push_back(
-        {"flicker_worst", flicker.worst, "1/255", "The same of the pair of frames with the most."});
+  SequencePicture picture_of(int frame, std::uint32_t seed) const {
+    const TextureScene scene(in_frame(scene_, lists_, frame), sampler_, seed,
+                             move_of(sequence_, lists_, frame));
+    RenderOptions options = truth_options();
+    options.width = scene.stream().width;
+    options.height = scene.stream().height;
+    options.samples = kTruthSamples;
+    options.interrupted = [] { return interrupted(); };
+    const Mask drawn = drawn_pixels(scene);
+    std::vector<bool> sky(drawn.pixels.size());
+    for (std::size_t i = 0; i < sky.size(); ++i) sky[i] = drawn.pixels[i] == 0;
+    return {unfiltered(scene), stored(golden_frame(scene, texture_).image, sky),
+            render(scene.scene(), options), drawn};
   }
 
   LookUpTrace look_up_trace_;
@@ -359,6 +356,8 @@ class TextureEngine final : public Engine {
   SequenceParameters sequence_;
   spec::texture::Parameters texture_;
   MemoryParameters memory_;
+  FrameLists lists_;
+  int frames_ = 1;
   std::string preset_label_;
 };
 

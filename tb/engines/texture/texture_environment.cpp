@@ -59,8 +59,8 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
   }
   if (simulation.options().coverage) coverage_.emplace(setup.texture);
   if (simulation.options().maps)
-    maps_ =
-        std::make_unique<TextureMaps>(simulation.clock(), unit_, quads_, colours, scene.stream());
+    maps_ = std::make_unique<TextureMaps>(simulation.clock(), unit_, quads_, colours, sent_,
+                                          scene.stream().width, scene.stream().height);
   if (const std::optional<PixelAddress>& pixel = simulation.options().pixel) {
     refuse_outside(*pixel, scene.stream().width, scene.stream().height);
     DEBURR_CHECK(!setup.expectation, "a pixel is followed through a golden model of its own");

@@ -2,32 +2,44 @@
 // What the texture unit did for each pixel, seen on its links: samples, level, misses, latency.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
 #include "rtl_model/texture/texture_unit.h"
 #include "spec/texture/packets.h"
+#include "tb/engines/texture/sent_quads.h"
 #include "tb/harness/monitor.h"
 #include "tb/results/picture_map.h"
-#include "tb/scene/rasteriser.h"
 
 namespace deburr::tb {
 
 class TextureMaps {
  public:
-  // `quads` and `colours`: the links in front of the unit and behind it. All must outlive it.
+  // `quads` and `colours`: the links in front of the unit and behind it. `sent` tells where a quad
+  // lies in the picture of `width` x `height` pixels. All must outlive it.
   TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& unit,
               const rtl::Link<spec::texture::Quad>& quads,
-              const rtl::Link<spec::texture::Colour>& colours, const FragmentStream& stream);
+              const rtl::Link<spec::texture::Colour>& colours, const SentQuads& sent, int width,
+              int height);
   void clear();
   // With what the unit counted itself.
   std::vector<PictureMap> maps() const;
 
  private:
+  // More quads than the unit holds at a time.
+  static constexpr std::size_t kKept = 4096;
+  // What belongs to fragments without a place counts all the same.
+  struct Unplaced {
+    double samples = 0, misses = 0, latency = 0;
+  };
+
   const rtl::texture::TextureUnit& unit_;
-  const FragmentStream& stream_;
+  const SentQuads& sent_;
   PictureMap samples_, level_, misses_, latency_;
-  std::vector<rtl::Cycle> taken_;  // by quad
+  Unplaced unplaced_;
+  std::array<rtl::Cycle, kKept> taken_{};  // by the quad's tag, modulo
   std::vector<std::unique_ptr<rtl::Clocked>> monitors_;
 };
 

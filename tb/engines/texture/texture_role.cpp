@@ -5,7 +5,9 @@
 
 #include "spec/error.h"
 #include "spec/texture/check_build.h"
+#include "tb/app/flicker.h"
 #include "tb/app/input_rules.h"
+#include "tb/app/shorthands.h"
 #include "tb/engines/texture/texture_environment.h"
 #include "tb/engines/texture/texture_rules.h"
 #include "tb/engines/texture/texture_traces.h"
@@ -96,6 +98,7 @@ class TextureRole final : public PictureDrawer {
     set.add("run", ParameterKind::kRun, look_up_trace_);
     set.add("scene", ParameterKind::kInput, scene_);
     add_sampler(set, sampler_);
+    set.add("sequence", ParameterKind::kInput, sequence_);
   }
   void add_parameters(ParameterSet& set) override {
     set.add_engine("texture", texture_);
@@ -104,6 +107,8 @@ class TextureRole final : public PictureDrawer {
   std::vector<std::string> prefixes() const override { return {"texture.", "memory."}; }
   void apply_preset(ParameterSet& set) override { tb::apply_preset(set, texture_); }
   void resolve(ParameterSet& set) override {
+    lists_ = lists_of(scene_);
+    frames_ = frames_of(set, sequence_, lists_);
     refuse_unused_look_ups(set);
     refuse_unused_memory(set, "memory", memory_);
     refuse_slow_memory(set, "memory", memory_);
@@ -114,18 +119,21 @@ class TextureRole final : public PictureDrawer {
           "sampler.format: the frame buffer keeps codes, and srgb8_a8 delivers linear light: set "
           "texture.srgb_output = encoded");
   }
-  std::vector<Shorthand> shorthands() const override { return scene_shorthands("object"); }
+  std::vector<Shorthand> shorthands() const override {
+    return joined(scene_shorthands("object"), sequence_shorthands());
+  }
   LongRun long_run() const override { return {{{"scene.width", "321"}, {"scene.height", "243"}}}; }
   void judge(const DrawnScene& scene) const override { refuse_nothing_drawn(textured(scene)); }
 
   const std::string& source() const override { return scene_.source; }
   std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
-    return scene_files(scene_, meshes);
+    return scene_files(scene_, lists_of(scene_), meshes);
   }
   std::shared_ptr<const DrawnScene> load(std::uint32_t seed,
                                          const RunContext& context) const override {
-    return context.shared<TextureScene>("texture scene", {"scene.", "sampler."},
-                                        [&] { return TextureScene(scene_, sampler_, seed); });
+    return context.shared<TextureScene>("texture scene", {"scene.", "sampler."}, [&] {
+      return TextureScene(in_frame(scene_, lists_, 0), sampler_, seed);
+    });
   }
   std::shared_ptr<const DrawnScene> smallest() const override {
     return std::make_shared<TextureScene>(tb::smallest(scene_, sampler_));
@@ -142,6 +150,22 @@ class TextureRole final : public PictureDrawer {
     return judge_by_scene(textured(scene), options, before, after, result, context);
   }
 
+  int frames() const override { return frames_; }
+  std::shared_ptr<const DrawnScene> scene_of(int frame, std::uint32_t seed) const override {
+    return std::make_shared<TextureScene>(in_frame(scene_, lists_, frame), sampler_, seed,
+                                          move_of(sequence_, lists_, frame));
+  }
+  Image golden_picture(const DrawnScene& scene) const override {
+    return golden_frame(textured(scene), texture_).image;
+  }
+  Image truth_of(const DrawnScene& scene, const RenderOptions& options) const override {
+    RenderOptions sampled = options;
+    sampled.width = scene.stream().width;
+    sampled.height = scene.stream().height;
+    sampled.samples = kTruthSamples;
+    return render(scene.scene(), sampled);
+  }
+
   std::unique_ptr<DrawingStage> build(Simulation& simulation,
                                       const DrawnScene& scene) const override {
     return std::make_unique<TextureStage>(simulation, textured(scene),
@@ -152,6 +176,9 @@ class TextureRole final : public PictureDrawer {
   LookUpTrace look_up_trace_;
   SceneParameters scene_;
   SamplerParameters sampler_;
+  SequenceParameters sequence_;
+  FrameLists lists_;
+  int frames_ = 1;
   spec::texture::Parameters texture_;
   MemoryParameters memory_;
 };

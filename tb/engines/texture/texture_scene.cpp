@@ -80,6 +80,28 @@ std::vector<std::filesystem::path> scene_files(const SceneParameters& scene, Mes
   return scene_files(scene.source, options, meshes);
 }
 
+FrameLists lists_of(const SceneParameters& scene) {
+  FrameLists lists;
+  lists.add("scene.source", listed_files("scene.source", scene.source));
+  add_camera(lists, scene);
+  return lists;
+}
+
+SceneParameters in_frame(SceneParameters scene, const FrameLists& lists, int frame) {
+  scene.source = lists.at("scene.source", frame);
+  choose_camera(scene, lists, frame);
+  return scene;
+}
+
+std::vector<std::filesystem::path> scene_files(const SceneParameters& scene,
+                                               const FrameLists& lists, MeshFiles& meshes) {
+  std::vector<std::filesystem::path> files;
+  for (int i = 0; i < lists.frames(); ++i)
+    for (const std::filesystem::path& file : scene_files(in_frame(scene, lists, i), meshes))
+      add_once(files, file);
+  return files;
+}
+
 void TextureScene::lay_out(const SamplerParameters& sampler) {
   const MipSpace space =
       sampler.format == spec::texture::Format::kSrgb8A8 ? MipSpace::kSrgb : MipSpace::kStored;

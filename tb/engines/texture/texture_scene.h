@@ -16,6 +16,7 @@
 #include "spec/texture/parameters.h"
 #include "tb/env/camera_parameters.h"
 #include "tb/env/memory_parameters.h"
+#include "tb/env/sequence.h"
 #include "tb/scene/drawn_scene.h"
 #include "tb/scene/image.h"
 #include "tb/scene/motion.h"
@@ -38,9 +39,9 @@ struct SceneParameters : CameraParameters {
 
 template <class Visitor>
 void describe(SceneParameters& p, Visitor& v) {
-  v.text("source", p.source, "name | file",
+  v.text("source", p.source, "name | file or list",
          "A scene made by formula (plane, quad, tunnel, object, road, cylinders) or a mesh file "
-         "(.obj, .gltf, .glb).");
+         "(.obj, .gltf, .glb); a mesh a frame: a list or a pattern.");
   v.text("texture", p.texture, "name | file",
          "Texture instead of the scene's own: checker, road, brick, stones, zone_plate, gradient, "
          "noise, or an image file.");
@@ -88,12 +89,6 @@ void describe(SamplerParameters& p, Visitor& v) {
   v.integer("max_lod", p.max_lod, 0, 65535, "1/256 level", "Upper limit of the level of detail.");
 }
 
-// Which frame of which motion of the camera.
-struct CameraMove {
-  Motion motion = Motion::kRoll;
-  int frame = 0;
-};
-
 class TextureScene final : public DrawnScene {
  public:
   // Loads, rasterises and lays out. ConfigError and FileError as of tb/scene.
@@ -119,6 +114,13 @@ class TextureScene final : public DrawnScene {
   FragmentStream stream_;
   platform::TextureMemory memory_;
 };
+
+// What parameters say of each frame: meshes and cameras may be lists.
+FrameLists lists_of(const SceneParameters& scene);
+SceneParameters in_frame(SceneParameters scene, const FrameLists& lists, int frame);
+// Of all frames.
+std::vector<std::filesystem::path> scene_files(const SceneParameters& scene,
+                                               const FrameLists& lists, MeshFiles& meshes);
 
 // TextureScene::inputs(), without loading.
 std::vector<std::filesystem::path> scene_files(const SceneParameters& scene, MeshFiles& meshes);

@@ -1,52 +1,35 @@
 // SPDX-License-Identifier: MIT
 #include "tb/engines/texture/texture_sequence.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "tb/scene/quality.h"
 
 namespace deburr::tb {
+
+Mask drawn_pixels(const TextureScene& scene) {
+  const DepthImage& depth = scene.stream().depth;
+  Mask drawn(depth.width, depth.height);
+  for (std::size_t i = 0; i < drawn.pixels.size(); ++i) drawn.pixels[i] = depth.pixels[i] != 0;
+  return drawn;
+}
 
 std::vector<Flicker> flicker_of(const SceneParameters& scene_parameters,
                                 const SamplerParameters& sampler, std::uint32_t seed,
                                 const SequenceParameters& sequence,
                                 std::span<const FrameFilter> filters,
                                 const SequenceOptions& options) {
-  struct Frame {
-    std::vector<Image> pictures;
-    Image truth;
-    DepthImage depth;
-  };
-  std::vector<Flicker> flicker(filters.size());
-  Frame last;
+  std::vector<FlickerMeter> meters(filters.size());
   for (int i = 0; i < sequence.frames; ++i) {
-    if (options.progress) options.progress(i);
     const TextureScene scene(scene_parameters, sampler, seed, {sequence.motion, i});
-    RenderOptions truth = options.truth;
-    truth.width = scene.stream().width;
-    truth.height = scene.stream().height;
-    truth.samples = options.truth_samples;
-    Frame now{{}, render(scene.scene(), truth), scene.stream().depth};
-    for (const FrameFilter& filter : filters) {
-      Image picture = filter(scene);
-      now.pictures.push_back(options.shown ? options.shown(picture, scene) : std::move(picture));
-    }
-    if (i > 0) {
-      Mask both(truth.width, truth.height);
-      for (std::size_t p = 0; p < both.pixels.size(); ++p)
-        both.pixels[p] = now.depth.pixels[p] != 0 && last.depth.pixels[p] != 0;
-      for (std::size_t r = 0; r < filters.size(); ++r) {
-        const double square =
-            flicker_square(last.pictures[r], now.pictures[r], last.truth, now.truth, both);
-        flicker[r].mean += square / (sequence.frames - 1);
-        flicker[r].worst = std::max(flicker[r].worst, std::sqrt(square));
-      }
-    }
-    last = std::move(now);
+    RenderOptions options_of_truth = options.truth;
+    options_of_truth.width = scene.stream().width;
+    options_of_truth.height = scene.stream().height;
+    options_of_truth.samples = options.truth_samples;
+    const Image truth = render(scene.scene(), options_of_truth);
+    for (std::size_t r = 0; r < filters.size(); ++r)
+      meters[r].add(filters[r](scene), truth, drawn_pixels(scene));
   }
-  for (Flicker& each : flicker) each.mean = std::sqrt(each.mean);
+  std::vector<Flicker> flicker;
+  for (const FlickerMeter& meter : meters) flicker.push_back({meter.mean(), meter.worst()});
   return flicker;
 }
 

@@ -19,9 +19,6 @@ void refuse_unused_scene(const ParameterSet& set) {
   if (set.find("run.truth")->text() == "true")
     throw spec::ConfigError(
         "run.truth: nobody knows the scene behind the fragments of a file: leave it out");
-  if (set.find("run.maps")->text() == "true")
-    throw spec::ConfigError(
-        "run.maps: maps follow the fragments of a scene, not those of a file: leave it out");
 }
 
 }  // namespace deburr::tb

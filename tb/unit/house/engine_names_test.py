@@ -37,13 +37,13 @@ NAMED = {
             "examples/installed_test.py", "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
             "tb/unit/golden/c/threads_test.cpp"],
         "the Python module is one of all engines: its functions, types and tests": [
-            "python/bindings/ideal_python.cpp", "python/deburr/__init__.pyi", "python/deburr/golden.py",
-            "python/deburr/golden.pyi", "tb/system/python_golden_test.py", "tb/system/python_run_test.py",
-            "tb/system/python_stubs_test.py"],
+            "python/bindings/ideal_python.cpp", "python/deburr/__init__.pyi", "python/deburr/golden.pyi",
+            "tb/system/python_golden_test.py"],
         "tables of pages are measured, its own among them": [
             "scripts/measurement/results.py"],
         "its part of the command line is promised": ["tb/unit/app/stable.txt"],
-        "engines that must show what a pixel went through": ["tb/system/pixel_history_test.py"],
+        "what every engine must show is asked of each by name: pixels, pages, sequences": [
+            "tb/system/pixel_history_test.py", "tb/system/report_pages_test.py", "tb/system/sequence_test.py"],
     },
     "morphological": {
         "its units and the shapes of its runs are drawn for its pages": [
@@ -76,7 +76,7 @@ NAMED = {
             "examples/systemverilog/testbench.sv"],
         "the Python module is one of all engines: its functions, types and tests": [
             "python/bindings/frames.cpp", "python/bindings/frames.h", "python/bindings/ideal_python.cpp",
-            "python/deburr/__init__.pyi", "python/deburr/golden.py", "python/deburr/golden.pyi",
+            "python/deburr/__init__.pyi", "python/deburr/golden.pyi",
             "tb/bench/python_frames.cpp", "tb/bench/python_golden.py", "tb/system/python_golden_test.py",
             "tb/system/python_run_test.py", "tb/system/python_stubs_test.py"],
         "the C interface is one of all engines: its tests": [
@@ -85,7 +85,8 @@ NAMED = {
         "tables of pages are measured, its own among them": [
             "scripts/measurement/recipes.py", "scripts/measurement/results.py"],
         "its part of the command line is promised": ["tb/unit/app/stable.txt"],
-        "engines that must show what a pixel went through": ["tb/system/pixel_history_test.py"],
+        "what every engine must show is asked of each by name: pixels, pages, sequences": [
+            "tb/system/pixel_history_test.py", "tb/system/report_pages_test.py", "tb/system/sequence_test.py"],
     },
 }
 

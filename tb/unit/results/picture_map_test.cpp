@@ -79,15 +79,69 @@ TEST(PictureMap, IsColouredFromDarkToBright) {
   EXPECT_EQ(picture.at(picture.width - 5, 34), kBright);
 }
 
+// The last step of the colours is theirs, so that the others are told apart.
 TEST(PictureMap, AFewLargeValuesDoNotHideTheRest) {
   PictureMap map("m", "M", "", "", 100, 100);
   for (int i = 0; i < 10'000; ++i) map.set(i % 100, i / 100, i % 10);
   map.set(0, 0, 5000);
+  const MapScale scale = scale_of(map);
+  EXPECT_EQ(scale.least, 0);
+  EXPECT_EQ(scale.knee, 9);
+  EXPECT_EQ(scale.most, 5000);
+  EXPECT_EQ(scale.part(9), 7.0 / 8);
+  EXPECT_EQ(scale.part(5000), 1);
   const Image picture = picture_of(map);
   EXPECT_EQ(picture.at(0, 0), kBright);
-  EXPECT_EQ(picture.at(9, 0), kBright);
+  EXPECT_EQ(picture.at(9, 0), map_colours()[7]);
   EXPECT_EQ(picture.at(0, 1), kDark);
-  EXPECT_EQ(figures_of(map).max, 5000);
+}
+
+TEST(PictureMap, IsScaledFromTheLeast) {
+  PictureMap map("m", "M", "clk", "", 4, 1);
+  for (int x = 0; x < 4; ++x) map.set(x, 0, 6 + x);
+  const MapScale scale = scale_of(map);
+  EXPECT_EQ(scale.least, 6);
+  EXPECT_EQ(scale.most, 9);
+  EXPECT_FALSE(scale.bent());
+  EXPECT_EQ(picture_of(map).at(0, 0), kDark);
+  EXPECT_EQ(picture_of(map).at(3, 0), kBright);
+}
+
+TEST(PictureMap, IsReadAgain) {
+  const PictureMap map = ramp(4, 3);
+  PictureMap again("ramp", "Ramp", "clk", "Rises.", 4, 3);
+  read_pfm(pfm_of(map), again);
+  for (std::size_t i = 0; i < map.values.size(); ++i)
+    EXPECT_TRUE(again.values[i] == map.values[i] ||
+                (std::isnan(again.values[i]) && std::isnan(map.values[i])));
+  EXPECT_THROW(read_pfm(pfm_of(map).substr(1), again), spec::ConfigError);
+  PictureMap other("m", "M", "", "", 3, 4);
+  EXPECT_THROW(read_pfm(pfm_of(map), other), spec::ConfigError);
+}
+
+TEST(PictureMap, IsCodedForAPage) {
+  const auto value = [](const MapCodes& codes, int x) {
+    const Rgba8 p = codes.picture.at(x, 0);
+    const int code = p[0] << 16 | p[1] << 8 | p[2];
+    return code == 0 ? std::nan("") : codes.least + (code - 1) * codes.step;
+  };
+  PictureMap map("m", "M", "", "", 4, 1);
+  map.set(0, 0, -3);
+  map.set(1, 0, 70000);
+  map.set(3, 0, 12);
+  MapCodes codes = codes_of(map);
+  EXPECT_EQ(codes.step, 1);
+  EXPECT_EQ(value(codes, 0), -3);
+  EXPECT_EQ(value(codes, 1), 70000);
+  EXPECT_TRUE(std::isnan(value(codes, 2)));
+  EXPECT_EQ(value(codes, 3), 12);
+  map.set(3, 0, 12 + 3.0 / 256);
+  EXPECT_EQ(value(codes = codes_of(map), 3), 12 + 3.0 / 256);
+  EXPECT_EQ(codes.step, 1.0 / 256);
+  map.set(3, 0, 0.1);  // neither
+  EXPECT_NEAR(value(codes = codes_of(map), 3), 0.1, codes.step);
+  EXPECT_LT(codes.step, 0.005);
+  EXPECT_EQ(value(codes, 0), -3);
 }
 
 TEST(PictureMap, OfOneValueHasColours) {

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+"""The geometric engine's part of deburr.golden."""
+from deburr import _golden
+from deburr._declared import declare
+from deburr._given import rgba
+from deburr._golden import EDGE, EDGE_CLASSES, VERTEX, GeometricFrame
+
+__all__ = ["EDGE", "EDGE_CLASSES", "VERTEX", "GeometricFrame", "geometric"]
+
+# What a type checker is told, beside arrays (tb/system/python_stubs_test.py).
+TYPES = {"geometric": "GeometricFrame", ".depth": "_Array | None", ".detail": "bool", ".error_lines": "_Array | None",
+         ".bases": "dict[str, int] | None", "GeometricFrame.traffic": "dict[str, dict[str, _Array]]",
+         "GeometricFrame.work": "Figures",
+         "GeometricFrame.memory_errors": "int",
+         "GeometricFrame.detail": "bool",
+         "GeometricFrame.coverage": "dict[str, int]"}
+
+
+def geometric(pixels, depth=None, *, vertices, edges, facing, bases=None, detail=False, error_lines=None,
+              **parameters):
+    """Smooths a frame with the geometric engine's golden model: a GeometricFrame.
+
+    vertices, edges and facing say what the frame was drawn from: arrays of VERTEX (x and y in 1/256 pixel, depth U24,
+    usable) and EDGE (vertices v0, v1, faces f0, f1, flags: 1 boundary, 2 angle, 4 split normals, 8 seam), and a bool a
+    face, true where it is turned to the eye. bases are addresses of regions of memory by name (edges, vertices,
+    facing, depth, colour, weights, copy), for its traffic. detail=True keeps classes, lines, candidates, blocks,
+    traffic and coverage as well, and is slower. error_lines are addresses of lines that memory answers with an
+    error."""
+    return _golden.geometric(rgba(pixels), depth, vertices, edges, facing, bases, bool(detail), error_lines,
+                             parameters)
+
+
+declare(geometric, _golden.geometric_parameters())

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: MIT
+"""The texture unit's part of deburr.golden."""
+import numpy
+
+from deburr import _golden
+from deburr._declared import declare
+from deburr._given import described, rgba
+from deburr._golden import COLOUR, QUAD
+
+__all__ = ["COLOUR", "QUAD", "TextureUnit", "image_of", "mip_levels", "quads_of", "texture"]
+
+# What a type checker is told, beside arrays (tb/system/python_stubs_test.py).
+TYPES = {"texture": "tuple[_Array, TextureUnit]", "mip_levels": "list[_Array]", "quads_of": "_Array", "image_of": "_Array",
+         "texture.fields": "dict[str, typing.Any] | None", ".levels": "_Array | list[_Array]", ".covered": "_Array | None",
+         ".texture": "int", ".shape": "tuple[int, int]", ".memory": "int", ".address": "int", ".size": "int",
+         ".lines": "_Array | None", ".fields": "typing.Any", "TextureUnit.parameters": "dict[str, str]",
+         "TextureUnit.work": "Figures", "TextureUnit.describe": "dict[str, typing.Any]", "TextureUnit.read": "_Array",
+         "TextureUnit.filter": "_Array", "TextureUnit.analyse": "_Array"}
+
+_ONE = 1 << 24  # S7.24
+
+
+class TextureUnit:
+    """A texture unit's golden model: a memory, up to 16 textures, a cache that is predicted, and counters.
+
+    memory is its size in bytes; load() makes it larger where that is needed. A unit belongs to one thread at a time: a
+    call from another one meanwhile is a RuntimeError and changes nothing."""
+
+    def __init__(self, memory=0, **parameters):
+        self._unit = _golden.TextureUnit(memory, parameters)
+        self._end = 0
+
+    def set(self, **parameters):
+        """Parameters, from the next quad on; all of them or, if one is refused, none. The cache is empty then, and
+        counters begin again."""
+        self._unit.set(parameters)
+
+    @property
+    def parameters(self):
+        """Every parameter as text."""
+        return self._unit.parameters()
+
+    def load(self, levels, texture=0, **fields):
+        """Puts a texture behind those that are there: its mip levels, the largest first, each uint8 of (height, width,
+        4), or of (height, width, bytes of a texel) in the format that `format` says. Fields are those of the
+        descriptor's registers; width, height, levels and max_lod follow from the arrays unless they are given."""
+        for level in levels if isinstance(levels, (list, tuple)) else [levels]:
+            if not isinstance(level, numpy.ndarray) or level.dtype != numpy.uint8 or level.ndim != 3:
+                raise ValueError("levels: uint8 of (height, width, bytes of a texel) is wanted; "
+                                 + described(level) + " was given")
+        levels = [levels] if isinstance(levels, numpy.ndarray) else list(levels)
+        if not levels:
+            raise ValueError("levels: at least one is wanted")
+        before = self._unit.words(texture)
+        try:
+            end = self._describe(texture, levels, fields)
+        except BaseException:
+            for number, word in enumerate(before):
+                self._unit.set_register(texture, 4 * number, word)
+            raise
+        if end > self._unit.size():
+            self._unit.resize(end)
+        for number, level in enumerate(levels):
+            self._unit.level(texture, number, numpy.ascontiguousarray(level).reshape(-1))
+        self._end = -(-end // 64) * 64
+
+    def _describe(self, texture, levels, fields):
+        """Sets the descriptor of a texture that will lie behind the others; the address behind it."""
+        height, width = levels[0].shape[:2]
+        self._unit.set_fields(texture, {"width": width, "height": height, "levels": len(levels),
+                                        "max_lod": 256 * (len(levels) - 1), **fields})
+        size = self._unit.describe(texture)["texel_bytes"]
+        for number, level in enumerate(levels):
+            wanted = (max(1, height >> number), max(1, width >> number), size)
+            if level.shape != wanted:
+                raise ValueError(f"level {number}: uint8 of {wanted} is wanted; {described(level)} was given")
+        return self._unit.place(texture, self._end)
+
+    def set_fields(self, texture=0, **fields):
+        """Fields of a texture's registers by name: wrap_s="clamp_to_edge", bias=-128. All of them or none."""
+        self._unit.set_fields(texture, fields)
+
+    def describe(self, texture=0):
+        """Size, levels, bases and fault (None: quads may name it) of a texture."""
+        return self._unit.describe(texture)
+
+    def write(self, address, values):
+        """Bytes to memory. A line that the cache holds stays predicted as it is: invalidate() it, as software must."""
+        self._unit.write(address, values)
+
+    def read(self, address, size):
+        """Bytes of memory."""
+        return self._unit.read(address, size)
+
+    def filter(self, quads):
+        """Filters an array of QUAD: an array of COLOUR, one for each covered lane, in order."""
+        return self._unit.filter(quads)
+
+    def analyse(self, quads):
+        """What is decided about each lane of quads before its first texel is read: records of (n, 4)."""
+        return self._unit.analyse(quads)
+
+    @property
+    def fills(self):
+        """Lines of memory that the last filter() fetched, in order: address / cache_line_bytes."""
+        return self._unit.fills()
+
+    @property
+    def work(self):
+        """Counters since the unit was made or reset, with histograms by samples and by level."""
+        return self._unit.work()
+
+    def set_error_lines(self, lines):
+        """Numbers of lines that memory answers with an error, uint32; None: none."""
+        self._unit.fail_lines(lines)
+
+    def invalidate(self):
+        """Empties the cache."""
+        self._unit.invalidate()
+
+    def reset(self):
+        """As a reset of the hardware: counters 0, cache empty. Textures and memory stay."""
+        self._unit.reset()
+
+
+def texture(quads, levels, *, fields=None, **parameters):
+    """Filters an array of QUAD with a texture unit of its own: (colours, unit), the unit for its work and fills.
+
+    levels are the mip levels of texture 0 and fields those of its registers, as TextureUnit.load() takes them."""
+    unit = TextureUnit(**parameters)
+    unit.load(levels, **(fields or {}))
+    return unit.filter(quads), unit
+
+
+def mip_levels(texels):
+    """The mip chain of a picture whose sides are powers of two: means of two by two, rounded."""
+    level = rgba(texels)
+    if not isinstance(level, numpy.ndarray) or level.dtype != numpy.uint8 or level.ndim != 3:
+        raise ValueError(f"texels: uint8 of (height, width, 4) is wanted; {described(texels)} was given")
+    if any(side < 1 or side & (side - 1) for side in level.shape[:2]):
+        raise ValueError(f"texels: sides that are powers of two are wanted; {level.shape[1]} x {level.shape[0]} "
+                         "was given")
+    levels = [level]
+    while max(level.shape[:2]) > 1:
+        wide = level.astype(numpy.uint16)
+        # A side of one texel stays: both of its two are the same one.
+        rows = wide[0::2] + wide[1::2] if wide.shape[0] > 1 else 2 * wide
+        both = rows[:, 0::2] + rows[:, 1::2] if rows.shape[1] > 1 else 2 * rows
+        level = ((both + 2) // 4).astype(numpy.uint8)
+        levels.append(level)
+    return levels
+
+
+def quads_of(s, t, covered=None, texture=0):
+    """Quads of a picture from the texture coordinates of its pixels, float64 or int32 (S7.24) of (height, width), both
+    sides even, in the order of rows. covered is a bool a pixel. Coordinates beyond [-128, 128) are clamped."""
+    s, t = numpy.asarray(s), numpy.asarray(t)
+    if s.ndim != 2 or s.shape != t.shape or s.shape[0] % 2 or s.shape[1] % 2:
+        raise ValueError(f"s and t: two arrays of (height, width), both even, are wanted; {s.shape} and {t.shape} "
+                         "were given")
+    height, width = s.shape
+    covered = numpy.ones(s.shape, bool) if covered is None else numpy.asarray(covered)
+    if covered.shape != s.shape or covered.dtype != bool:
+        raise ValueError(f"covered: bool of {s.shape} is wanted; {described(covered)} was given")
+    clamped = numpy.zeros(s.shape, bool)
+    codes = []
+    for values in (s, t):
+        if values.dtype == numpy.int32:
+            codes.append(values)
+            continue
+        if values.dtype.kind not in "fiu":
+            raise ValueError(f"s and t: float64 or int32 is wanted; {described(values)} was given")
+        with numpy.errstate(invalid="ignore"):
+            scaled = numpy.floor(numpy.nan_to_num(values.astype(numpy.float64), nan=0.0) * _ONE + 0.5)
+            outside = ~(numpy.isfinite(values) & (scaled >= -(1 << 31)) & (scaled < 1 << 31))
+        clamped |= outside
+        codes.append(numpy.clip(scaled, -(1 << 31), (1 << 31) - 1).astype(numpy.int64).astype(numpy.int32))
+
+    def by_lane(plane):
+        lanes = plane.reshape(height // 2, 2, width // 2, 2).transpose(0, 2, 1, 3)
+        return lanes.reshape(-1, 4)
+
+    bits = numpy.array([1, 2, 4, 8])
+    quads = numpy.zeros(height * width // 4, dtype=QUAD)
+    y, x = numpy.divmod(numpy.arange(quads.size), width // 2)
+    quads["tag"] = numpy.arange(quads.size)
+    quads["x"], quads["y"] = 2 * x, 2 * y
+    quads["texture"] = texture
+    quads["coverage"] = (by_lane(covered) * bits).sum(axis=1)
+    quads["clamped"] = (by_lane(clamped) * bits).sum(axis=1)
+    quads["s"], quads["t"] = by_lane(codes[0]), by_lane(codes[1])
+    return quads
+
+
+def image_of(quads, colours, shape):
+    """The picture of (height, width) that colours of such quads make: uint8 of (height, width, 4), 0 where there is
+    none."""
+    picture = numpy.zeros((*shape, 4), dtype=numpy.uint8)
+    of = quads[numpy.searchsorted(quads["tag"], colours["tag"])]
+    picture[of["y"] + colours["lane"] // 2, of["x"] + colours["lane"] % 2] = colours["rgba"]
+    return picture
+
+
+declare(texture, _golden.texture_parameters())
+declare(TextureUnit.set, _golden.texture_parameters())

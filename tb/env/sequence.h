@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Frames in a row: a camera that moves, or files and cameras that parameters list.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tb/env/camera_parameters.h"
+#include "tb/scene/motion.h"
+
+namespace deburr::tb {
+
+struct SequenceParameters {
+  std::int32_t frames = 1;
+  Motion motion = Motion::kRoll;
+};
+
+template <class Visitor>
+void describe(SequenceParameters& p, Visitor& v) {
+  v.integer("frames", p.frames, 1, 1000, "frame",
+            "Frames of a moving camera whose flicker is measured, by the golden model, against "
+            "their truths; the hardware model runs the first. 1: none.");
+  v.choice("motion", p.motion, kMotionNames,
+           "How the camera moves: zoom (1 % a frame), roll (3 degrees), pan (1/400 of the view).");
+}
+
+// What stands between the entries of a list.
+inline constexpr char kListSeparator = ';';
+
+// Entries of a list; a text without a separator is its only one.
+std::vector<std::string> listed(std::string_view text);
+// The same of names of files, where a pattern with *, ? or [ ] stands for the files that it
+// matches, in the order of their names, numbers in them by value. ConfigError for a pattern that
+// matches nothing. What is there under its whole name is neither list nor pattern.
+std::vector<std::string> listed_files(std::string_view parameter, const std::string& text);
+
+// What parameters say of each frame.
+class FrameLists {
+ public:
+  // ConfigError for two lists that are not equally long, and for an empty entry.
+  void add(std::string parameter, std::vector<std::string> entries);
+  // Of a parameter in a frame: its entry, or the only one.
+  const std::string& at(std::string_view parameter, int frame) const;
+  int frames() const { return frames_; }
+  const std::string& longest() const { return longest_; }  // name of a list; empty: there is none
+
+ private:
+  std::map<std::string, std::vector<std::string>, std::less<>> entries_;
+  std::string longest_;
+  int frames_ = 1;
+};
+
+// Eye and target of a camera under "scene.": lists too.
+void add_camera(FrameLists& lists, const CameraParameters& camera);
+void choose_camera(CameraParameters& camera, const FrameLists& lists, int frame);
+
+}  // namespace deburr::tb

@@ -1,0 +1,350 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Pages as a person has them: nothing wider than a phone, a text for each chart, ticks at round numbers, no dead
+link, the keyboard. Each page is opened in headless Chromium, in a frame as wide as a phone, with a probe added to a copy
+of it. Skipped where there is no Chromium.
+
+usage: report_pages_test.py DEBURR [CLASS]
+DEBURR_KEEP_SCREENSHOTS=DIR leaves a picture of each page in DIR, 1280 and 390 pixels wide."""
+import array
+import html
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+DEBURR = "deburr"
+BROWSER = next((b for b in ("chromium", "chromium-browser", "google-chrome") if shutil.which(b)), None)
+FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run",
+         "--hide-scrollbars", "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr"]
+PHONE, DESKTOP = 390, 1280
+
+# Runs in the page, and tells the page around it.
+PROBE = """
+const probe_page = async () => {
+  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+  await wait(400);
+  for (const box of document.querySelectorAll('details')) box.open = true;
+  await wait(100);
+  const root = document.documentElement;
+  const label = (c) => c.getAttribute('aria-label') ?? '';
+  const wide = [...document.querySelectorAll('body *')].filter((e) => e.getClientRects().length > 0 &&
+      e.getBoundingClientRect().right > root.clientWidth + 1 && !e.closest('.scroll, .points-table, .window'))
+      .map((e) => `${e.tagName} ${e.id} ${e.className}`).slice(0, 5);
+  const told = {
+    width: root.clientWidth, needs: root.scrollWidth, wide,
+    canvases: [...document.querySelectorAll('canvas')].map((c) => [c.id, label(c), c.getAttribute('role')]),
+    links: [...document.querySelectorAll('a[href]')].map((a) => a.getAttribute('href')),
+    empty: [...document.querySelectorAll('section, main h2')].filter((e) => e.innerText.trim() === '' &&
+        e.getClientRects().length > 0).map((e) => e.outerHTML.slice(0, 80)),
+    ticks: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).map((chart) =>
+        [chart.canvas.id, Object.entries(chart.scales).filter(([, s]) => s.type !== 'category' || s.ticks.some((t) => 'round' in t))
+            .map(([name, s]) => [name, s.ticks.map((t) => String(t.label))])]),
+  };
+  told.keys = await (window.probe_keys ? window.probe_keys(wait) : null);
+  parent.postMessage(JSON.stringify(told), '*');
+};
+addEventListener('load', probe_page);
+"""
+AROUND = """<!doctype html><meta charset=utf-8><body style="margin:0"><iframe src="%s" style="border:0;width:%dpx;height:3000px"></iframe>
+<pre id=told></pre><script>addEventListener('message', (e) => { document.getElementById('told').textContent = e.data; });</script>"""
+
+
+def is_number(text):
+    return re.fullmatch(r"-?[\d,]*\.?\d+", text.replace("\u2212", "-")) is not None
+
+
+def steps_are_round(labels):
+    """Ticks at even steps, each a multiple of its step, which is 1, 2, 2.5 or 5 times a power of ten."""
+    values = [float(text.replace(",", "").replace("\u2212", "-")) for text in labels if is_number(text)]
+    if len(values) < 2:
+        return True
+    step = min(b - a for a, b in zip(values, values[1:]))
+    mantissa = step
+    while mantissa < 0.999:
+        mantissa *= 10
+    while mantissa >= 9.999:
+        mantissa /= 10
+    return (any(abs(mantissa - m) < 1e-6 for m in (1, 2, 2.5, 5)) and
+            all(abs(v / step - round(v / step)) < 1e-6 for v in values))
+
+
+class PagesTest(unittest.TestCase):
+    def setUp(self):
+        if not BROWSER:
+            self.skipTest("no Chromium here (Debian package chromium)")
+        scratch = tempfile.TemporaryDirectory(prefix="deburr_pages_")
+        self.addCleanup(scratch.cleanup)
+        self.directory = scratch.name
+
+    def path(self, name):
+        return os.path.join(self.directory, name)
+
+    def deburr(self, *arguments, codes=(0,)):
+        done = subprocess.run([DEBURR, *arguments], cwd=self.directory, text=True, capture_output=True, check=False,
+                              timeout=300)
+        self.assertIn(done.returncode, codes, done.stdout + done.stderr)
+        return done.stdout
+
+    def browse(self, url, *more):
+        done = subprocess.run([BROWSER, *FLAGS, f"--user-data-dir={self.path('profile')}", *more, url], text=True,
+                              capture_output=True, check=False, timeout=120)
+        said = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
+        self.assertEqual(said, [])
+        return done.stdout
+
+    def probed(self, page, width=PHONE, keys=""):
+        """What the probe tells of a page below the directory."""
+        folder, name = os.path.split(self.path(page))
+        copy, around = os.path.join(folder, "probed_" + name), os.path.join(folder, "around_" + name)
+        with open(self.path(page), encoding="utf-8") as file:
+            text = file.read()
+        with open(copy, "w", encoding="utf-8") as file:
+            file.write(text.replace("</body>", f"<script>{keys}{PROBE}</script></body>"))
+        with open(around, "w", encoding="utf-8") as file:
+            file.write(AROUND % (os.path.basename(copy), width))
+        try:
+            dom = self.browse(f"file://{around}", "--window-size=1400,3100", "--virtual-time-budget=8000", "--dump-dom")
+        finally:
+            os.remove(copy)
+            os.remove(around)
+        told = re.search(r'<pre id="told">(.*?)</pre>', dom, re.S)
+        self.assertTrue(told and told[1], f"{page} has told nothing")
+        return json.loads(html.unescape(told[1]))
+
+    def screenshots(self, page, title):
+        keep = os.environ.get("DEBURR_KEEP_SCREENSHOTS")
+        if not keep:
+            return
+        folder, name = os.path.split(self.path(page))
+        for width in (DESKTOP, PHONE):
+            around = os.path.join(folder, "around_" + name)
+            with open(around, "w", encoding="utf-8") as file:
+                file.write('<!doctype html><body style="margin:0"><iframe src="%s" style="border:0;width:%dpx;'
+                           'height:7000px"></iframe>' % (name, width))
+            self.browse(f"file://{around}", f"--window-size={width if width > 500 else 500},7000",
+                        f"--screenshot={os.path.join(keep, f'{title}_{width}.png')}")
+            os.remove(around)
+
+    def check(self, page, title, charts, keys=""):
+        """Every demand that holds for all pages; gives what the probe told."""
+        told = self.probed(page, PHONE, keys)
+        self.assertEqual(told["width"], PHONE)
+        self.assertEqual(told["wide"], [], title)
+        self.assertLessEqual(told["needs"], PHONE, title)
+        self.assertGreaterEqual(len(told["canvases"]), charts)
+        for name, label, role in told["canvases"]:
+            self.assertGreater(len(label), 15, f"{title}: the chart {name} has no text")
+            self.assertIn(role, ("img", "application"), name)
+        self.assertEqual(told["empty"], [], title)
+        with open(self.path(page), encoding="utf-8") as file:
+            text = file.read()
+        for link in told["links"]:
+            if link.startswith("#"):
+                self.assertTrue(f'id="{link[1:]}"' in text or re.match("#(window|follow)-[0-9,]+$", link), f"{title}: {link}")
+            else:
+                self.assertTrue(os.path.exists(os.path.join(os.path.dirname(self.path(page)), link)), f"{title}: {link}")
+        for width in (told, self.probed(page, DESKTOP)):
+            ticks = 0
+            for chart, scales in width["ticks"]:
+                for name, labels in scales:
+                    self.assertTrue(steps_are_round(labels), f"{title}: {chart} {name}: {labels}")
+                    ticks += len(labels)
+            if charts > 1:
+                self.assertGreater(ticks, 3)
+        self.screenshots(page, title)
+        return told
+
+
+# Points at a pixel with the keys, zooms, and comes back; the first map of the page is on the right.
+KEYS_OF_A_RUN = """
+window.probe_keys = async (wait) => {
+  const view = document.getElementById('view'), right = document.getElementById('right'), said = [];
+  const press = (key, more = {}) => view.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true, ...more}));
+  const still = document.querySelector('.strip img[data-role^="map_"]');
+  still.dispatchEvent(new KeyboardEvent('keydown', {key: 'Enter'}));
+  said.push(still.dataset.role, right.selectedOptions[0].text, document.getElementById('scale-right').innerText);
+  for (let i = 0; i < 30; ++i) { press('ArrowLeft', {shiftKey: true}); press('ArrowUp', {shiftKey: true}); }
+  said.push(document.getElementById('probe').textContent);
+  for (const key of ['ArrowRight', 'ArrowRight', 'ArrowDown', 'ArrowRight', 'ArrowUp', 'ArrowDown']) press(key);
+  said.push(document.getElementById('probe').textContent);
+  said.push(document.querySelector('#scale-right .at')?.style.left ?? '');
+  const zoom = document.getElementById('zoom'), fitted = zoom.textContent;
+  press('+'); said.push(zoom.textContent !== fitted); press('Home'); said.push(zoom.textContent === fitted);
+  press('Enter');
+  said.push(document.getElementById('pixel-command')?.textContent ?? '');
+  return said;
+};
+"""
+
+
+class Runs(PagesTest):
+    ENGINES = {"texture": ["--scene", "tunnel"], "geometric": ["--scene", "wing"], "morphological": ["--scene", "road"],
+               "frame": ["--scene", "object"]}
+
+    def value(self, name, x, y):
+        with open(self.path(name), "rb") as file:
+            file.readline()
+            width, height = map(int, file.readline().split())
+            file.readline()
+            pixels = array.array("f")
+            pixels.frombytes(file.read())
+        return pixels[(height - 1 - y) * width + x]
+
+    def check_run(self, engine):
+        self.deburr("run", engine, *self.ENGINES[engine], "--size", "96x64", "--truth" if engine != "morphological" else
+                    "--windows=250", "--windows=250", "--maps", "--out", engine)
+        told = self.check(f"{engine}/report.html", engine, 6, KEYS_OF_A_RUN)
+        role, title, scale, corner, at, mark, zoomed, fitted, command = told["keys"]
+        with open(self.path(f"{engine}/result.json"), encoding="utf-8") as file:
+            figures = json.load(file)["maps"][role.removeprefix("map_")]
+        number = lambda v: f"{v:,.0f}" if v == int(v) else f"{v:.6g}"
+        for end in ("min", "max"):
+            self.assertIn(f"{number(figures[end])} {figures['unit']}", scale)
+        self.assertIn(title.removeprefix("Map: "), scale)
+        self.assertIn("pixel (0, 0)", corner)
+        self.assertIn("pixel (3, 1)", at)
+        value = self.value(f"{engine}/{role}.pfm", 3, 1)
+        words = "has nothing there" if value != value else f"{number(value)} {figures['unit']}"
+        self.assertIn(f"right: {title} {words}", at)
+        self.assertEqual(mark == "", value != value)
+        self.assertEqual((zoomed, fitted), (True, True))
+        self.assertTrue(command.endswith("--pixel 3,1"), command)
+
+    def test_texture(self):
+        self.check_run("texture")
+
+    def test_geometric(self):
+        self.check_run("geometric")
+
+    def test_morphological(self):
+        self.check_run("morphological")
+
+    def test_frame(self):
+        self.check_run("frame")
+
+    def test_what_the_checks_look_for(self):
+        """A page that is too wide, has charts without words and links that lead nowhere is noticed."""
+        self.assertTrue(steps_are_round(["0", "50", "100"]) and steps_are_round(["2,500", "5,000", "7,500"]))
+        self.assertFalse(steps_are_round(["4", "3,004", "6,004"]))
+        self.assertFalse(steps_are_round(["0", "3", "6"]))
+        with open(self.path("bad.html"), "w", encoding="utf-8") as file:
+            file.write("<!doctype html><meta name=viewport content=width=device-width><body><canvas id=c></canvas>"
+                       "<div style='width:600px'>wide</div><a href=nowhere.json>x</a></body>")
+        told = self.probed("bad.html")
+        self.assertGreater(told["needs"], PHONE)
+        self.assertTrue(told["wide"])
+        self.assertEqual(told["canvases"], [["c", "", None]])
+        self.assertEqual(told["links"], ["nowhere.json"])
+
+
+SWEEP = """engine: texture
+base:
+  scene: {width: 48, height: 32, texture_size: 64}
+  run.images: false
+axes:
+  scene.source: [tunnel, plane]
+  texture.cache.bytes: [1024, 2048, 4096]
+  texture.cache.ways: [1, 2, 4]
+metrics: {cycles: cycles, bits: memory_bits.total.physical}
+objectives: {minimise: [cycles, bits], for_each: [scene.source]}
+"""
+
+KEYS_OF_A_SWEEP = """
+window.probe_keys = async (wait) => {
+  const enter = (e) => e.dispatchEvent(new KeyboardEvent('keydown', {key: 'Enter', bubbles: true}));
+  const rows = () => [...document.querySelectorAll('#table tbody tr')];
+  const heads = [...document.querySelectorAll('#table th.sort')];
+  const reachable = rows().every((r) => r.tabIndex === 0) && heads.every((h) => h.tabIndex === 0);
+  enter(rows()[2]);
+  const command = document.getElementById('chosen').innerText;
+  enter(heads[heads.length - 2]);
+  const cycles = rows().map((r) => Number(r.children[3].textContent.replaceAll(',', '')));
+  const lines = Chart.getChart('scatter').data.datasets.filter((d) => d.showLine);
+  return {reachable, command, cycles, fronts: document.getElementById('fronts').textContent,
+          lines: lines.map((l) => [l.label, l.data.length, String(l.borderColor) + String(l.borderDash)])};
+};
+"""
+
+
+class Sweeps(PagesTest):
+    def make(self, name, text):
+        with open(self.path(f"{name}.yaml"), "w", encoding="utf-8") as file:
+            file.write(text)
+        for action in ("run", "collect"):
+            self.deburr("sweep", f"{name}.yaml", action)
+        return f"out/sweeps/{name}"
+
+    def pages(self, directory):
+        return [os.path.join(directory, f) for f in os.listdir(self.path(directory)) if f.endswith(".html")]
+
+    def test_sweep(self):
+        directory = self.make("fronts", SWEEP)
+        (page,) = self.pages(directory)
+        told = self.check(page, "sweep", 3, KEYS_OF_A_SWEEP)
+        keys = told["keys"]
+        self.assertTrue(keys["reachable"])
+        self.assertIn("deburr run texture", keys["command"])
+        self.assertEqual(keys["cycles"], sorted(keys["cycles"]))
+        self.assertEqual(len(keys["cycles"]), 18)
+        self.assertEqual({line[0] for line in keys["lines"]},
+                         {f"front of scene.source = {s}" for s in ("tunnel", "plane")})
+        self.assertEqual(len({line[2] for line in keys["lines"]}), 2, "the fronts look alike")
+        for source in ("tunnel", "plane"):
+            self.assertIn(f"scene.source = {source}: ", keys["fronts"])
+        # Without a script there is a table of all points.
+        with open(self.path(page), encoding="utf-8") as file:
+            without = "".join(re.findall(r"<noscript>(.*?)</noscript>", file.read(), re.S))
+        self.assertEqual(without.count("<tr class="), 18)
+
+    def test_comparison_of_sweeps(self):
+        first = self.make("before", SWEEP)
+        second = self.make("after", SWEEP.replace("run.images: false", "run.images: false\n  memory.latency: 30"))
+        self.deburr("compare", first, second, "--html", "page.html", codes=(0, 1))
+        self.check("page.html", "comparison_of_sweeps", 1)
+
+    def test_comparison_of_runs(self):
+        for name, more in (("small", ["--set", "texture.cache.bytes=1024"]), ("large", [])):
+            self.deburr("run", "texture", "--size", "64x48", "--truth", "--out", name, *more)
+        self.deburr("compare", "small", "large", "--html", "page.html", codes=(0, 1))
+        self.check("page.html", "comparison_of_runs", 0)
+
+
+class Regressions(PagesTest):
+    PLAN = """title: Pages
+features:
+  - id: tunnels
+    title: Tunnels
+    traces: [{page: docs/unit.md, says: It gives every pixel once.}]
+    stimuli:
+      - {name: scenes, engine: texture, base: {scene: {source: tunnel, width: 24, height: 16, texture_size: 32}}, seeds: 2}
+    checks: {colours: 100}
+    coverage: [texture/cache/hit, texture/cache/miss]
+  - id: broken
+    title: A planted fault
+    traces: [{page: docs/unit.md, says: It gives every pixel once.}]
+    stimuli:
+      - {name: fault, engine: texture, base: {scene: {width: 24, height: 16, texture_size: 32}, run.fault: flip-bit}}
+    checks: {colours: 1}
+"""
+
+    def test_regression(self):
+        os.makedirs(self.path("docs"))
+        for name, text in (("docs/unit.md", "It gives every pixel once.\n"), ("pages.yaml", self.PLAN)):
+            with open(self.path(name), "w", encoding="utf-8") as file:
+                file.write(text)
+        for action in ("run", "collect"):
+            self.deburr("regress", "pages.yaml", action, "--seed", "7", codes=(0, 1))
+        told = self.check("out/regressions/pages-7/index.html", "regression", 1)
+        self.assertEqual([c[0] for c in told["canvases"]], ["rates"])
+        self.assertTrue([link for link in told["links"] if link.endswith("result.json")])
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
+        DEBURR = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
