@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tb/engines/morphological/morphological_input.h"
+#include "tb/results/given_work.h"
 #include "tb/scene/image.h"
 #include "tb/scene/truth.h"
 
@@ -44,6 +45,9 @@ void describe(FrameParameters& p, Visitor& v) {
   v.integer("truth_samples", p.truth_samples, 0, 32, "",
             "N of the N x N samples a pixel of a scene's truth; 0: no truth.");
   v.integer("count", p.count, 1, 1000, "frame", "How often the frame is sent.");
+  v.is_work("source", GivenWork::kSource);
+  for (const char* const name : {"width", "height", "count", "truth_samples"})
+    v.is_work(name, GivenWork::kSetting);
 }
 
 // Whether the source is a scene or a mesh, and not an image file.
