@@ -28,10 +28,10 @@ struct ResolveBench : Frame {
       : Frame(p, latency),
         combiner("combiner", clock, sized(p, {}), edge_latency),
         scanner("scanner", clock, p, combiner.touched_port()),
-        colours(sized(p, {})),
+        colour_store(sized(p, {})),
         fetch("fetch", clock, sized(p, {}), combiner.tag_port(), combiner.data_port(),
-              colours.filler()),
-        resolver("resolver", clock, p, colours.reader()),
+              colour_store.filler()),
+        resolver("resolver", clock, p, colour_store.reader()),
         weights("weights"),
         touched("touched"),
         blocks("blocks", 16),
@@ -102,7 +102,7 @@ struct ResolveBench : Frame {
   }
   WeightCombiner combiner;
   BlockScanner scanner;
-  ColourStore colours;
+  ColourStore colour_store;
   BlockFetch fetch;
   Resolver resolver;
   rtl::Link<WeightToken> weights;
