@@ -38,7 +38,8 @@ endforeach()
 
 # The C interface is of libdeburr-golden: its header, and what SystemVerilog needs of it. Shared, it has a
 # library of its own too, which exports nothing else and keeps its number as long as no function changes.
-install(FILES "${PROJECT_SOURCE_DIR}/golden/c/deburr_golden.h" DESTINATION "${DEBURR_INCLUDE_FOLDER}"
+get_target_property(header deburr_golden_c DEBURR_HEADER)
+install(FILES "${header}" DESTINATION "${DEBURR_INCLUDE_FOLDER}"
   COMPONENT development)
 set(DEBURR_SYSTEMVERILOG_FOLDER "${CMAKE_INSTALL_DATADIR}/deburr/systemverilog")
 install(FILES "${PROJECT_SOURCE_DIR}/golden/c/systemverilog/deburr_golden_pkg.sv"

@@ -106,6 +106,36 @@ class FrameModel {
   bool everything_ = false;
 };
 
+// What the handle of such an engine is but for what it is given and gives: its parameters, and the
+// model that is made of them. The engine's check_build(parameters) says what cannot be built.
+template <class Golden, class Parameters>
+struct ModelHandle : FrameHandle {
+  explicit ModelHandle(ParameterTexts<Parameters> of_engine) : texts(std::move(of_engine)) {}
+
+  void set(std::string_view name, std::string_view text) override {
+    texts.set(name, text);
+    model.mark_stale();
+  }
+  std::string get(std::string_view name) const override { return texts.get(name); }
+  void check() const override { check_build(texts.values()); }
+  std::span<const std::string> parameter_names() const override { return texts.names(); }
+  void reset() override {
+    model.drop();
+    clear_frame();
+  }
+  FrameSize result_size() const override { return model.size(); }
+  bool has_detail() const override { return model.everything(); }
+  void keep_everything(bool on) override {
+    everything = on;
+    model.mark_stale();
+  }
+
+  ParameterTexts<Parameters> texts;
+  FrameModel<Golden, Parameters> model;
+  bool everything = false;
+  std::vector<Counter> shown;
+};
+
 // The counts of an engine, by the names of the registers that show them (spec/ENGINE/packets.h).
 template <class Counts, class Registers, class Work>
 std::vector<Counter> counters_of(const Counts& counts, const Registers& registers,

@@ -20,34 +20,20 @@ static_assert(spec::geometric::kVertexBytes == 4 * kRecordWords &&
 enum class GeometricPlane : std::size_t { kPixels, kWeights };
 constexpr std::array<Plane, 2> kGeometricPlanes = {{{"pixels", 4, false}, {"weights", 4, false}}};
 
-struct GeometricHandle final : FrameHandle {
+using GeometricModel = ModelHandle<geometric::GeometricGolden, spec::geometric::Parameters>;
+
+struct GeometricHandle final : GeometricModel {
+  GeometricHandle() : GeometricModel(geometric_texts()) {}
   static constexpr const char* kWanted = "geometric";
 
   const char* engine() const override { return "geometric"; }
-  void set(std::string_view name, std::string_view text) override {
-    texts.set(name, text);
-    model.mark_stale();
-  }
-  std::string get(std::string_view name) const override { return texts.get(name); }
-  void check() const override { check_build(texts.values()); }
-  std::span<const std::string> parameter_names() const override { return texts.names(); }
   std::span<const Counter> counters() override {
     shown = counters_of(spec::geometric::kWorkCounts, spec::geometric::kRegisters,
                         model.get() ? model.get()->work() : spec::geometric::Work{});
     return shown;
   }
-  void reset() override {
-    model.drop();
-    clear_frame();
-  }
 
   std::span<const Plane> planes() const override { return kGeometricPlanes; }
-  FrameSize result_size() const override { return model.size(); }
-  bool has_detail() const override { return model.everything(); }
-  void keep_everything(bool on) override {
-    everything = on;
-    model.mark_stale();
-  }
   void process() override {
     require(has_depth || texts.values().depth_test == spec::geometric::DepthTest::kOff,
             "the frame has no depth: give one by deburr_frame_depth, or set depth_test = off");
@@ -69,14 +55,10 @@ struct GeometricHandle final : FrameHandle {
                                                                           : golden.pixels()[i];
   }
 
-  ParameterTexts<spec::geometric::Parameters> texts = geometric_texts();
-  FrameModel<geometric::GeometricGolden, spec::geometric::Parameters> model;
   std::vector<spec::geometric::Vertex> vertices;
   std::vector<spec::geometric::Edge> edges;
   std::vector<std::uint8_t> facing;
   std::uint32_t faces = 0;
-  bool everything = false;
-  std::vector<Counter> shown;
 };
 
 // The records of words that were given; ArgumentError for a part of one, or more than can be

@@ -19,34 +19,21 @@ constexpr std::array<Plane, 5> kMorphologicalPlanes = {{{"pixels", 4, false},
                                                         {"taps", 4, true},
                                                         {"decisions", 1, true}}};
 
-struct MorphologicalHandle final : FrameHandle {
+using MorphologicalModel =
+    ModelHandle<morphological::MorphologicalGolden, spec::morphological::Parameters>;
+
+struct MorphologicalHandle final : MorphologicalModel {
+  MorphologicalHandle() : MorphologicalModel(morphological_texts()) {}
   static constexpr const char* kWanted = "morphological";
 
   const char* engine() const override { return "morphological"; }
-  void set(std::string_view name, std::string_view text) override {
-    texts.set(name, text);
-    model.mark_stale();
-  }
-  std::string get(std::string_view name) const override { return texts.get(name); }
-  void check() const override { check_build(texts.values()); }
-  std::span<const std::string> parameter_names() const override { return texts.names(); }
   std::span<const Counter> counters() override {
     shown = counters_of(spec::morphological::kWorkCounts, spec::morphological::kRegisters,
                         model.get() ? model.get()->work() : spec::morphological::Work{});
     return shown;
   }
-  void reset() override {
-    model.drop();
-    clear_frame();
-  }
 
   std::span<const Plane> planes() const override { return kMorphologicalPlanes; }
-  FrameSize result_size() const override { return model.size(); }
-  bool has_detail() const override { return model.everything(); }
-  void keep_everything(bool on) override {
-    everything = on;
-    model.mark_stale();
-  }
   void begin_frame() override { edges.reset(); }
   void process() override {
     const int w = static_cast<int>(width), h = static_cast<int>(height);
@@ -84,11 +71,7 @@ struct MorphologicalHandle final : FrameHandle {
     return golden.pixels()[i];
   }
 
-  ParameterTexts<spec::morphological::Parameters> texts = morphological_texts();
-  FrameModel<morphological::MorphologicalGolden, spec::morphological::Parameters> model;
   std::optional<morphological::EdgePlanes> edges;
-  bool everything = false;
-  std::vector<Counter> shown;
 };
 
 }  // namespace

@@ -143,7 +143,7 @@ std::size_t PayloadBuilder::count(const std::string& name, std::size_t limit,
   return limit;
 }
 
-// deburr::rtl::texture::LevelToken -> level_token_t
+// deburr::rtl::engine::LevelToken -> level_token_t
 std::string PayloadBuilder::type_name(const std::type_info& type) {
   const std::unique_ptr<char, decltype(&std::free)> full(
       abi::__cxa_demangle(type.name(), nullptr, nullptr, nullptr), &std::free);

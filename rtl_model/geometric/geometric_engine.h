@@ -21,6 +21,8 @@
 //       +------------------------------+ when all is drawn
 //       v
 //   BlockScanner -> BlockFetch -> block FIFO -> Resolver
+//                       |                          ^
+//                       +- lines -> ColourStore ---+
 //
 //   wires: ParameterStore -- rules, FrameSequencer -- phase --> units of the pipe
 //          ParameterStore -- start, refusal --> FrameSequencer
@@ -56,6 +58,7 @@
 #include "rtl_model/geometric/lines/line_walker.h"
 #include "rtl_model/geometric/resolve/block_fetch.h"
 #include "rtl_model/geometric/resolve/block_scanner.h"
+#include "rtl_model/geometric/resolve/colour_store.h"
 #include "rtl_model/geometric/resolve/frame_copier.h"
 #include "rtl_model/geometric/resolve/resolver.h"
 #include "rtl_model/geometric/weights/weight_combiner.h"
@@ -94,6 +97,7 @@ class GeometricEngine final : public Engine {
   WeightCombiner weight_combiner;
   FrameCopier frame_copier;
   BlockScanner block_scanner;
+  ColourStore colour_store;
   BlockFetch block_fetch;
   Resolver resolver;
   MemoryPort memory_port;

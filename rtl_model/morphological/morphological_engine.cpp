@@ -23,8 +23,9 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
       divider_h("divider_h", clock, parameters_, store, spec::morphological::Axis::kHorizontal),
       divider_v("divider_v", clock, parameters_, store, spec::morphological::Axis::kVertical),
       area("area", clock, parameters_, store),
-      shares_loader(area.shares_rom() ? std::make_unique<SharesLoader>(control, *area.shares_rom())
-                                      : nullptr),
+      shares_loader(parameters_.area == spec::morphological::AreaSource::kLearned
+                        ? std::make_unique<SharesLoader>(control, area.shares_port().value())
+                        : nullptr),
       diagonals(parameters_.diagonals
                     ? std::make_unique<DiagonalUnit>("diagonals", clock, parameters_, store)
                     : nullptr),

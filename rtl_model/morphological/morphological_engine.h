@@ -23,6 +23,8 @@
 //      registers (TLM-2.0 target)   |
 //          |          |             v
 //   ParameterStore  SharesLoader  MemoryPort: memory (TLM-2.0 initiator)
+//                       |
+//                       +- words --> tables of the AreaUnit
 //
 // DiagonalUnit, MemoryPort and SharesLoader are there if diagonals, storage = memory and learned
 // shares are built.

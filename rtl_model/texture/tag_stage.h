@@ -13,11 +13,11 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <systemc>
 #include <vector>
 
 #include "rtl_model/fabric/datasheet.h"
+#include "rtl_model/fabric/look_ups.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/texture/tag_store.h"
@@ -26,9 +26,9 @@
 
 namespace deburr::rtl::texture {
 
-enum class LookUp : std::uint8_t { kHit, kMerged, kMiss };
+using rtl::LookUp;
 
-class TagStage final : public Unit {
+class TagStage final : public Unit, public LookUps {
  public:
   In<TexelToken> texels_in{"texels_in"};
   Out<CacheToken> requests_out{"requests_out"};
@@ -40,8 +40,6 @@ class TagStage final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override;
   void invalidate() { tags_.invalidate(); }
-  // Sees the number of every line that is looked up, in order, and what came of it.
-  std::function<void(Cycle, std::uint32_t line, LookUp)> observer;
 
   // lookups = hits + merged + misses
   Counter requests{"requests", "requests", "bilinear requests looked up"};

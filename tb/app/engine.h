@@ -19,6 +19,7 @@
 #include "rtl_model/fabric/register_section.h"
 #include "tb/app/random_draws.h"
 #include "tb/harness/coverage.h"
+#include "tb/results/given_work.h"
 #include "tb/results/parameter_set.h"
 #include "tb/results/result.h"
 #include "tb/results/run_context.h"
@@ -65,6 +66,7 @@ void describe(RunParameters& p, Visitor& v) {
   v.integer("stall_seed", p.stall_seed, 0, 0xFFFFFFFF, "",
             "Seed of what must change no pixel: random stalls, latency, shuffling and poison.");
   v.real("clock_mhz", p.clock_mhz, 1, 10000, "MHz", "Clock that times and rates are quoted for.");
+  v.is_work("clock_mhz", GivenWork::kSetting);
   v.integer("max_cycles", p.max_cycles, 0, std::int64_t{1} << 40, "clk",
             "Ends the run with an error after so many cycles; 0: no limit.");
   v.integer("watchdog_cycles", p.watchdog_cycles, 100, 1 << 30, "clk",

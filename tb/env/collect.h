@@ -17,8 +17,8 @@ namespace deburr::tb {
 std::string sentence(std::string text);
 
 // What a report calls it: a unit by its own name, anything else by its owner's as well, unless that
-// is the engine. "texture.cache.tag_stage" -> "tag_stage", "texture.cache.tag_stage.hits" ->
-// "tag_stage_hits", "morphological.edge_window" -> "edge_window".
+// is the engine. "engine.cache.tag_stage" -> "tag_stage", "engine.cache.tag_stage.hits" ->
+// "tag_stage_hits", "engine.edge_window" -> "edge_window".
 std::string name_within(const sc_core::sc_object& engine, const sc_core::sc_object& object);
 
 UnitCycles unit_cycles(std::string name, const rtl::Unit& unit);

@@ -4,8 +4,8 @@
 // again (frame_composition.h).
 //
 // An environment that stands alone has no name, and its figures and faults are called as they are.
-// In a composition it has one ("texture"), which stands in front of them: work.texture_fragments,
-// --fault texture.flip-bit.
+// In a composition it has one ("painter"), which stands in front of them: work.painter_fragments,
+// --fault painter.flip-bit.
 #pragma once
 
 #include <cstddef>

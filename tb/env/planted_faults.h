@@ -23,7 +23,7 @@ inline constexpr std::uint64_t kFaultyRequest = 20;
 std::vector<PlantedFault> memory_faults(const std::string& needs = {});
 
 // The faults that a run was given, against those that its environments know. An environment that
-// has a name of its own in the simulation ("texture") may be named in front: texture.flip-bit.
+// has a name of its own in the simulation ("painter") may be named in front: painter.flip-bit.
 class FaultPlan {
  public:
   explicit FaultPlan(std::vector<std::string> given) : given_(std::move(given)) {}

@@ -3,10 +3,10 @@
 // progress, limits and time.
 //
 //   Simulation simulation(options);
-//   TextureEnvironment texture(simulation, scene, setup);
-//   simulation.elaborate(texture);        // after everything that it is made of
+//   SomeEnvironment environment(simulation, scene, setup);
+//   simulation.elaborate(environment);    // after everything that it is made of
 //   simulation.run();
-//   texture.check();
+//   environment.check();
 //   simulation.collect(result);
 #pragma once
 

@@ -9,9 +9,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "spec/error.h"
 #include "tb/results/input_files.h"
+#include "tb/results/parameter_set.h"
 #include "tb/results/result.h"
 
 namespace deburr::tb {
@@ -86,6 +88,19 @@ std::optional<double> number_of(const Json* value) {
   return value ? as_number(*value) : std::nullopt;
 }
 std::string shown_or_dash(const Json* value) { return value ? value_text(*value) : "-"; }
+
+// The parameters that one of the manifests says to be such work, each once.
+std::vector<std::string> work_parameters(const Json& a, const Json& b, GivenWork work) {
+  std::vector<std::string> names;
+  for (const Json* manifest : {&a, &b})
+    for (const Json& entry : manifest->value("parameters", Json::array())) {
+      if (entry.value("work", "") != name_of(work, kGivenWorkNames)) continue;
+      std::string name = entry.value("name", "");
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(std::move(name));
+    }
+  return names;
+}
 
 // Of values that both are there.
 Judgement judge_numbers(Judge judge, double a, double b, const Tolerances& t) {
@@ -205,15 +220,11 @@ Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
 }
 
 std::vector<std::string> different_work(const Json& a, const Json& b) {
-  constexpr std::array kScene = {"frame.source", "scene.source", "scene.texture"};
-  constexpr std::array kSize = {"frame.width",         "frame.height", "scene.width",
-                                "scene.height",        "frame.count",  "scene.texture_size",
-                                "frame.truth_samples", "run.clock_mhz"};
   std::vector<std::string> lines;
   const auto inputs = [](const Json& manifest) { return manifest.value("inputs", Json::array()); };
   const std::string different = different_inputs(inputs(a), inputs(b));
   if (!different.empty()) lines.push_back("the inputs differ: " + different);
-  const auto look = [&](const char* key) {
+  const auto look = [&](const std::string& key) {
     const auto value = [&](const Json& manifest) {
       const auto found = manifest.find("configuration");
       return found != manifest.end() && found->is_object() && found->contains(key)
@@ -230,8 +241,8 @@ std::vector<std::string> different_work(const Json& a, const Json& b) {
   };
   // A file may have been moved.
   if (!reads(a) && !reads(b))
-    for (const char* key : kScene) look(key);
-  for (const char* key : kSize) look(key);
+    for (const std::string& name : work_parameters(a, b, GivenWork::kSource)) look(name);
+  for (const std::string& name : work_parameters(a, b, GivenWork::kSetting)) look(name);
   return lines;
 }
 

@@ -62,7 +62,8 @@ std::optional<double> as_number(const nlohmann::ordered_json& value);
 nlohmann::ordered_json value_at(const nlohmann::ordered_json& result, const std::string& key);
 
 // Two manifests: what makes their runs different work, so that a difference of the results says
-// little about the hardware: inputs (by content), scene, size, clock. A line each.
+// little about the hardware: inputs (by content), and what parameters say to be work (scene, size,
+// clock). A line each.
 std::vector<std::string> different_work(const nlohmann::ordered_json& a,
                                         const nlohmann::ordered_json& b);
 

@@ -190,6 +190,15 @@ void ParameterSet::Binder::add(std::string_view name, std::string_view unit, std
   set_.parameters_.push_back(std::move(p));
 }
 
+void ParameterSet::Binder::is_work(std::string_view name, GivenWork work) {
+  const std::string whole =
+      prefix_.empty() ? std::string(name) : fmt::format("{}.{}", prefix_, name);
+  const auto found = std::find_if(set_.parameters_.begin(), set_.parameters_.end(),
+                                  [&](const Parameter& p) { return p.name == whole; });
+  DEBURR_CHECK(found != set_.parameters_.end(), "unknown '" + whole + "' is said to be work");
+  found->work = work;
+}
+
 void ParameterSet::Binder::integer(std::string_view name, std::int64_t& value, std::int64_t min,
                                    std::int64_t max, std::string_view unit,
                                    std::string_view meaning) {

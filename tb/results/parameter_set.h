@@ -23,6 +23,7 @@
 
 #include "spec/check_build.h"
 #include "spec/parameters.h"
+#include "tb/results/given_work.h"
 
 namespace deburr::tb {
 
@@ -56,6 +57,7 @@ struct Parameter {
   std::function<nlohmann::ordered_json()> json;        // the same, typed
   std::function<std::string(std::string_view)> parse;  // "" or why the text is refused
   std::vector<std::string> aliases{};                  // other words for values, as of alias()
+  GivenWork work = GivenWork::kNone;
 };
 
 inline std::string_view kind_name(const Parameter& parameter) {
@@ -139,7 +141,8 @@ class ParameterSet {
   std::string yaml() const;
 
  private:
-  // The visitor of spec/parameters.h, with two kinds more that only the testbench uses.
+  // The visitor of spec/parameters.h, with two kinds more that only the testbench uses, and with
+  // what it says of a parameter that was declared.
   class Binder {
    public:
     Binder(ParameterSet& set, std::string_view prefix, ParameterKind kind)
@@ -153,6 +156,7 @@ class ParameterSet {
     void text(std::string_view name, std::string& value, std::string_view range,
               std::string_view meaning);
     void boolean(std::string_view name, bool& value, std::string_view meaning);
+    void is_work(std::string_view name, GivenWork work);
     template <class Enum, std::size_t N>
     void choice(std::string_view name, Enum& value, const std::array<std::string_view, N>& names,
                 std::string_view meaning) {

@@ -260,7 +260,7 @@ Json RunContext::manifest(const Result& result) const {
   if (leaves_.pixel_history) json["pixel_history"] = true;
   if (!listed_->records.empty()) json["records"] = listed_->records;
   json["parameters"] = Json::array();
-  for (const Parameter& p : parameters_.all())
+  for (const Parameter& p : parameters_.all()) {
     json["parameters"].push_back({{"name", p.name},
                                   {"kind", kind_name(p)},
                                   {"value", p.text()},
@@ -269,6 +269,9 @@ Json RunContext::manifest(const Result& result) const {
                                   {"range", p.range},
                                   {"unit", p.unit},
                                   {"meaning", p.meaning}});
+    if (p.work != GivenWork::kNone)
+      json["parameters"].back()["work"] = std::string(name_of(p.work, kGivenWorkNames));
+  }
   return json;
 }
 

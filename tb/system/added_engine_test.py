@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """A fifth engine (tb/system/added_engine), which the program was built with and nothing else of the repository names:
-it is run, swept, regressed, completed, soaked and held to its baselines like the others.
+it is run, swept, regressed, completed, soaked and held to its baselines like the others. Its edits are counted.
 
 usage: added_engine_test.py DEBURR SOAK SOURCE"""
 import json
@@ -21,6 +21,10 @@ HERE = pathlib.Path(__file__).resolve().parent / "added_engine"
 NAME = [line for line in (HERE / "engines.txt").read_text(encoding="utf-8").splitlines() if line[:1] != "#"][0]
 FOLDER = HERE / "tb/engines" / NAME
 DEBURR = SOAK = SOURCE = ""
+# Of tests of every engine those that are of no other engine by name.
+TESTS = {"observers": ["Windows.test_every_engine_adds_up", "Timeline.test_obeys_the_rules_and_says_what_windows_say"],
+         "memories": ["Memories.test_no_default_and_no_preset_is_idealised", "Memories.test_totals_are_sums"],
+         "pixel_history": ["PixelHistory.test_who_keeps_none_says_so"]}
 
 
 class Added(unittest.TestCase):
@@ -78,6 +82,71 @@ class Added(unittest.TestCase):
             "    checks: {pixels: 100}\n", encoding="utf-8")
         self.deburr(0, "regress", "added.yaml", "run", "--seed", "1", says="24 points, 24 passed")
 
+    # What its folder has would stand in the repository by the same path; CMakeLists.txt stands for that of the root.
+    def test_it_costs_one_line(self):
+        edits = {}
+        for file in HERE.rglob("*"):
+            path = file.relative_to(HERE).as_posix()
+            if file.is_dir() or path in ("CMakeLists.txt", "rtl_model/platform/CMakeLists.txt"):
+                continue
+            if NAME in path:
+                self.assertFalse(os.path.exists(os.path.join(SOURCE, path)), path)
+            else:
+                lines = file.read_text(encoding="utf-8").splitlines()
+                edits[path] = [line for line in lines if line[:1] != "#"]
+        self.assertEqual(edits, {"engines.txt": [NAME]})
+
+    def repository(self, *engines_there):
+        """A tree whose list has these engines and the added one, with the tests of every engine."""
+        root = self.folder / "repository"
+        for file in ("tb/engines/engine_list.py", *(f"tb/system/{name}_test.py" for name in TESTS)):
+            os.makedirs(root / os.path.dirname(file), exist_ok=True)
+            shutil.copy(os.path.join(SOURCE, file), root / file)
+        for engine in engines_there:
+            os.symlink(os.path.join(SOURCE, "tb/engines", engine), root / "tb/engines" / engine)
+        shutil.copytree(FOLDER, root / "tb/engines" / NAME)
+        (root / "tb/engines/engines.txt").write_text("".join(f"{engine}\n" for engine in (*engines_there, NAME)))
+        return root
+
+    # By its trials.yaml, of which it may have any part or none.
+    def test_tests_of_every_engine(self):
+        root = self.repository(engines()[0])
+
+        def run_tests(name, code=0):
+            more = [os.path.join(SOURCE, "docs")] if name == "memories" else []
+            self.call(code, root / f"tb/system/{name}_test.py", DEBURR, *more, *TESTS[name])
+
+        for name in TESTS:
+            run_tests(name)
+        entries = root / "tb/engines" / NAME / "trials.yaml"
+        # They do run it: one that cannot be run fails.
+        entries.write_text(f"watched: {{{NAME}: [--size, 0x0]}}\n")
+        run_tests("observers", code=1)
+        entries.unlink()
+        for name in TESTS:
+            run_tests(name)
+
+    # What the declaration leaves out, and works all the same.
+    def test_what_an_engine_may_leave_out(self):
+        with open(os.path.join(SOURCE, "tb/app/engine.h"), encoding="utf-8") as file:
+            declared = file.read().split("class Engine {")[1].split("\n};")[0]
+        functions = dict(re.findall(r"virtual [^;{]*?\b(\w+)\([^;{]*?(= 0;|\{)", declared.replace("const {", "{")))
+        functions |= {name: "{" for name in re.findall(r"virtual [^;{=]*?\b(\w+)\([^;{=]*?;", declared)}
+        own = (FOLDER / f"{NAME}_engine.cpp").read_text(encoding="utf-8")
+        overridden = {name for name in functions if re.search(rf"\b{name}\([^;{{]*override", own)}
+        self.assertEqual({name for name, body in functions.items() if body == "= 0;"} - overridden, set())
+        self.assertEqual(set(functions) - overridden, {"parts", "clock_mhz", "resolve", "prepare", "built_for_golden",
+                                                       "pixel_history"})
+
+    # Its parameters say what work is; a comparison knows no engine.
+    def test_compare(self):
+        for folder, size in (("a", "31x17"), ("b", "31x18")):
+            self.deburr(0, "run", NAME, "--size", size, "--bits", "2" if folder == "a" else "3", "--out", folder)
+        done = subprocess.run([DEBURR, "compare", "a", "b"], cwd=self.folder, text=True, capture_output=True, check=False)
+        self.assertIn("picture.height differs: A 17, B 18", done.stderr)
+        for name in ("picture.width differs", "posteriser.bits differs"):
+            self.assertNotIn(name, done.stderr)
+
     # With one line of the list, and no line of the plan, the repository's own plan has it.
     def test_regress_of_every_engine(self):
         os.makedirs(self.folder / "tb/engines")
@@ -118,8 +187,10 @@ class Added(unittest.TestCase):
     def test_parameters_and_pages(self):
         self.deburr(0, "params", NAME, says=["posteriser.bits", "posteriser.link_depth", "must be 1 or an even"])
         for page, says in (("parameters", f"## `deburr run {NAME}`"), ("registers", "## Posteriser\n"),
-                           ("coverage", "## Posteriser: 3 bins"), ("statistics", "`work.levels_changed`")):
+                           ("coverage", "## Posteriser: 3 bins"), ("statistics", "`work.levels_changed`"),
+                           ("datasheets", "| LevelUnit | 1 | 1 |")):
             self.deburr(0, "params", "--markdown", page, says=says)
+        self.deburr(0, "params", "--c-header", says="DEBURR_POSTERISER_RULES_BITS_MASK")
 
     def test_completion(self):
         script = self.deburr(0, "completion", "bash")

@@ -7,9 +7,8 @@
 #include <bit>
 #include <iterator>
 
+#include "rtl_model/fabric/look_ups.h"
 #include "rtl_model/fabric/memory_port.h"
-#include "rtl_model/texture/tag_stage.h"
-#include "rtl_model/texture/texture_cache.h"
 #include "spec/error.h"
 
 namespace deburr::tb {
@@ -55,22 +54,20 @@ void LineTrace::attach_ports() {
   });
   if (ports_.empty())
     throw spec::ConfigError(
-        "run.line_trace: this engine asks memory for nothing: choose one that does "
-        "(morphological.storage = memory), or leave it out");
+        "run.line_trace: nothing that is built asks memory for anything: build what does, or leave "
+        "it out");
 }
 
 void LineTrace::attach_caches() {
   bool any = false;
-  rtl::for_each<rtl::texture::TextureCache>([&](rtl::texture::TextureCache& cache) {
-    const std::uint32_t line_bytes =
-        cache.memory_port.parameters().line_bytes * cache.memory_port.parameters().max_burst_lines;
+  rtl::for_each<rtl::LookUps>([&](rtl::LookUps& cache) {
+    const std::uint32_t line_bytes = cache.watched_line_bytes();
     const auto number = static_cast<std::uint8_t>(ports_.size());
-    ports_.push_back({cache.tag_stage.name(), line_bytes, true});
+    ports_.push_back({dynamic_cast<sc_core::sc_object&>(cache).name(), line_bytes, true});
     any = true;
     // Who looks already goes on to do so.
-    cache.tag_stage.observer = [this, number, line_bytes, other = cache.tag_stage.observer](
-                                   rtl::Cycle cycle, std::uint32_t line,
-                                   rtl::texture::LookUp outcome) {
+    cache.observer = [this, number, line_bytes, other = cache.observer](
+                         rtl::Cycle cycle, std::uint32_t line, rtl::LookUp outcome) {
       if (other) other(cycle, line, outcome);
       constexpr std::array kEvents = {LineEvent::kHit, LineEvent::kMerged, LineEvent::kMiss};
       add({cycle, std::uint64_t{line} * line_bytes, line_bytes,
@@ -79,14 +76,14 @@ void LineTrace::attach_caches() {
   });
   if (!any)
     throw spec::ConfigError(
-        "run.line_trace_look_ups: there is no texture unit, whose cache is the one that is "
-        "looked up");
+        "run.line_trace_look_ups: nothing that is built has a cache whose look-ups are shown: "
+        "leave "
+        "it out");
 }
 
 void LineTrace::detach() {
   rtl::for_each<rtl::MemoryPort>([](rtl::MemoryPort& port) { port.observer = nullptr; });
-  rtl::for_each<rtl::texture::TagStage>(
-      [](rtl::texture::TagStage& stage) { stage.observer = nullptr; });
+  rtl::for_each<rtl::LookUps>([](rtl::LookUps& cache) { cache.observer = nullptr; });
 }
 
 void LineTrace::begin() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every line that the memory ports of a simulation ask for and, if wanted, every look-up of its
-// texture caches, written for simulators of memories and caches (docs/reference/traces.md).
+// caches, written for simulators of memories and caches (docs/reference/traces.md).
 //
 //   LineTrace trace(file, options);   // after elaboration
 //   ...                               // clocks

@@ -39,6 +39,22 @@ int deburr_dpi_counter_name(void* golden, uint32_t index, const char** text) {
   return deburr_counter_name((deburr_golden*)golden, index, text_of_thread, sizeof text_of_thread);
 }
 
+int deburr_dpi_frame_pixels(void* golden, const svOpenArrayHandle pixels, uint32_t stride) {
+  return deburr_frame_pixels((deburr_golden*)golden,
+      (const uint8_t*)svGetArrayPtr(pixels), (size_t)svSize(pixels, 1), stride);
+}
+
+int deburr_dpi_frame_depth(void* golden, const svOpenArrayHandle depth, uint32_t stride) {
+  return deburr_frame_depth((deburr_golden*)golden,
+      (const uint32_t*)svGetArrayPtr(depth), (size_t)svSize(depth, 1), stride);
+}
+
+int deburr_dpi_plane(void* golden, const char* plane, const svOpenArrayHandle values,
+      uint32_t stride) {
+  return deburr_plane((deburr_golden*)golden, plane,
+      (uint8_t*)svGetArrayPtr(values), (size_t)svSize(values, 1), stride);
+}
+
 int deburr_dpi_texture_write(void* golden, uint64_t address, const svOpenArrayHandle bytes) {
   return deburr_texture_write((deburr_golden*)golden, address,
       (const uint8_t*)svGetArrayPtr(bytes), (size_t)svSize(bytes, 1));
@@ -58,22 +74,6 @@ int deburr_dpi_texture_level(void* golden, uint32_t texture, uint32_t level,
 int deburr_dpi_texture_fills(void* golden, const svOpenArrayHandle lines, uint32_t* count) {
   return deburr_texture_fills((deburr_golden*)golden,
       (uint32_t*)svGetArrayPtr(lines), (size_t)svSize(lines, 1), count);
-}
-
-int deburr_dpi_frame_pixels(void* golden, const svOpenArrayHandle pixels, uint32_t stride) {
-  return deburr_frame_pixels((deburr_golden*)golden,
-      (const uint8_t*)svGetArrayPtr(pixels), (size_t)svSize(pixels, 1), stride);
-}
-
-int deburr_dpi_frame_depth(void* golden, const svOpenArrayHandle depth, uint32_t stride) {
-  return deburr_frame_depth((deburr_golden*)golden,
-      (const uint32_t*)svGetArrayPtr(depth), (size_t)svSize(depth, 1), stride);
-}
-
-int deburr_dpi_plane(void* golden, const char* plane, const svOpenArrayHandle values,
-      uint32_t stride) {
-  return deburr_plane((deburr_golden*)golden, plane,
-      (uint8_t*)svGetArrayPtr(values), (size_t)svSize(values, 1), stride);
 }
 
 int deburr_dpi_morphological_edges(void* golden, const svOpenArrayHandle edges, uint32_t stride) {

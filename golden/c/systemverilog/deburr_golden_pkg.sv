@@ -45,16 +45,51 @@ package deburr_golden_pkg;
   import "DPI-C" deburr_dpi_parameter_name = function int deburr_parameter_name(
       input chandle golden, input int unsigned index, output string text);
 
-  // Counters by name: of a texture unit since it was made or reset, of the others of the last frame.
+  // Counters by name: of an engine that smooths frames those of the last one, of others since it was
+  // made or reset.
   import "DPI-C" function int deburr_counter(input chandle golden, input string name,
       output longint unsigned value);
   import "DPI-C" function int deburr_counter_count(input chandle golden, output int unsigned count);
   import "DPI-C" deburr_dpi_counter_name = function int deburr_counter_name(input chandle golden,
       input int unsigned index, output string text);
 
-  // As after a reset of the hardware: counters 0, caches empty, no frame. Parameters, textures and
-  // memory stay.
+  // As after a reset of the hardware: counters 0, caches empty, no frame. Parameters, memory and what
+  // was put there stay.
   import "DPI-C" function int deburr_reset(input chandle golden);
+
+  // ---- engines that smooth frames ---------------------------------------------------------------
+
+  // A new frame to be smoothed: black, with neither depth nor edges.
+  import "DPI-C" function int deburr_frame_begin(input chandle golden, input int unsigned width,
+      input int unsigned height);
+
+  // Its pixels, R, G, B, A bytes; rows from above, `stride` in bytes.
+  import "DPI-C" deburr_dpi_frame_pixels = function int deburr_frame_pixels(input chandle golden,
+      input byte unsigned pixels[], input int unsigned stride);
+
+  // Its depths, 24 bits each, larger nearer; `stride` in depths.
+  import "DPI-C" deburr_dpi_frame_depth = function int deburr_frame_depth(input chandle golden,
+      input int unsigned depth[], input int unsigned stride);
+
+  // One pixel and its depth, as a stream brings them; R in bits 7..0, A in bits 31..24.
+  import "DPI-C" function int deburr_frame_put(input chandle golden, input int unsigned x,
+      input int unsigned y, input int unsigned rgba, input int unsigned depth);
+
+  // 1: the planes that only a slower model knows are kept from the next frame on, 0: they are not.
+  import "DPI-C" function int deburr_frame_detail(input chandle golden,
+      input int unsigned everything);
+
+  // Smooths the frame, which stays as it was given.
+  import "DPI-C" function int deburr_frame_process(input chandle golden);
+
+  // What came of the last frame that was smoothed, by the name of a plane: its size and bytes a
+  // pixel, rows from above with `stride` in bytes, or one pixel, its first byte in bits 7..0.
+  import "DPI-C" function int deburr_plane_shape(input chandle golden, input string plane,
+      output int unsigned width, output int unsigned height, output int unsigned pixel_bytes);
+  import "DPI-C" deburr_dpi_plane = function int deburr_plane(input chandle golden,
+      input string plane, inout byte unsigned values[], input int unsigned stride);
+  import "DPI-C" function int deburr_plane_pixel(input chandle golden, input string plane,
+      input int unsigned x, input int unsigned y, output int unsigned value);
 
   // ---- texture unit -----------------------------------------------------------------------------
 
@@ -111,48 +146,20 @@ package deburr_golden_pkg;
   // Empties the cache, as CONTROL does.
   import "DPI-C" function int deburr_texture_invalidate(input chandle golden);
 
-  // ---- engines that smooth frames ---------------------------------------------------------------
+  // ---- morphological engine ---------------------------------------------------------------------
 
   // NULL without memory.
   import "DPI-C" function chandle deburr_morphological_new();
-  import "DPI-C" function chandle deburr_geometric_new();
-
-  // A new frame to be smoothed: black, with neither depth nor edges.
-  import "DPI-C" function int deburr_frame_begin(input chandle golden, input int unsigned width,
-      input int unsigned height);
-
-  // Its pixels, R, G, B, A bytes; rows from above, `stride` in bytes.
-  import "DPI-C" deburr_dpi_frame_pixels = function int deburr_frame_pixels(input chandle golden,
-      input byte unsigned pixels[], input int unsigned stride);
-
-  // Its depths, 24 bits each, larger nearer; `stride` in depths.
-  import "DPI-C" deburr_dpi_frame_depth = function int deburr_frame_depth(input chandle golden,
-      input int unsigned depth[], input int unsigned stride);
-
-  // One pixel and its depth, as a stream brings them; R in bits 7..0, A in bits 31..24.
-  import "DPI-C" function int deburr_frame_put(input chandle golden, input int unsigned x,
-      input int unsigned y, input int unsigned rgba, input int unsigned depth);
-
-  // 1: the planes that only a slower model knows are kept from the next frame on, 0: they are not.
-  import "DPI-C" function int deburr_frame_detail(input chandle golden,
-      input int unsigned everything);
-
-  // Smooths the frame, which stays as it was given.
-  import "DPI-C" function int deburr_frame_process(input chandle golden);
-
-  // What came of the last frame that was smoothed, by the name of a plane: its size and bytes a
-  // pixel, rows from above with `stride` in bytes, or one pixel, its first byte in bits 7..0.
-  import "DPI-C" function int deburr_plane_shape(input chandle golden, input string plane,
-      output int unsigned width, output int unsigned height, output int unsigned pixel_bytes);
-  import "DPI-C" deburr_dpi_plane = function int deburr_plane(input chandle golden,
-      input string plane, inout byte unsigned values[], input int unsigned stride);
-  import "DPI-C" function int deburr_plane_pixel(input chandle golden, input string plane,
-      input int unsigned x, input int unsigned y, output int unsigned value);
 
   // Edges that someone else found, instead of those that the engine would: a byte a pixel, bit 0 to
   // the left neighbour, bit 1 to the upper one. For the frame that was begun.
   import "DPI-C" deburr_dpi_morphological_edges = function int deburr_morphological_edges(
       input chandle golden, input byte unsigned edges[], input int unsigned stride);
+
+  // ---- geometric engine -------------------------------------------------------------------------
+
+  // NULL without memory.
+  import "DPI-C" function chandle deburr_geometric_new();
 
   // What the frame was drawn from, as words of memory: four a vertex, four an edge; a bit a face.
   // They stay until others are given.

@@ -4,9 +4,9 @@
 // Where: in each unit that reads memory. 1R1W, read a clock before the word is there; the oldest
 // line is read ahead as soon as it has come, so that it waits on the output register: what is
 // filled in clock t is there from t + 2 on, then a line a clock. A place that is released in t can
-// be reserved from t + 1 on. One reservation, one line in and one out a clock. Both ends may be
-// different units. Made for 250 MHz; longest path: a choice of 1 in 256 arrived bits, then the read
-// enable. Cost: places x word bits, an arrived bit each.
+// be reserved from t + 1 on. One reservation, one line in and one out a clock. Where the ends are
+// different units each holds its side: a Filler, a Reader. Made for 250 MHz; longest path: a choice
+// of 1 in 256 arrived bits, then the read enable. Cost: places x word bits, an arrived bit each.
 #pragma once
 
 #include <algorithm>
@@ -21,12 +21,43 @@ namespace deburr::rtl::geometric {
 template <class Word>
 class FillStore {
  public:
+  // Handles of a side, as of a memory's port. A copy is one more handle of the same side.
+  class Filler {
+   public:
+    bool can_reserve(Cycle cycle) const { return lines_->can_reserve(cycle); }
+    std::uint32_t reserve() { return lines_->reserve(); }
+    void fill(Cycle cycle, std::uint32_t place, const Word& word) {
+      lines_->fill(cycle, place, word);
+    }
+    void reset() { lines_->reset(); }
+
+   private:
+    friend FillStore;
+    explicit Filler(FillStore& lines) : lines_(&lines) {}
+    FillStore* lines_;
+  };
+  class Reader {
+   public:
+    bool ready(Cycle cycle) const { return lines_->ready(cycle); }
+    const Word& line(Cycle cycle) const { return lines_->line(cycle); }
+    void release(Cycle cycle) { lines_->release(cycle); }
+    void read_ahead(Cycle cycle) { lines_->read_ahead(cycle); }
+
+   private:
+    friend FillStore;
+    explicit Reader(FillStore& lines) : lines_(&lines) {}
+    FillStore* lines_;
+  };
+
   FillStore(const char* name, std::int32_t places, std::uint32_t bits, std::string content,
             MemoryKind kind = MemoryKind::kSram)
       : places_(static_cast<std::uint32_t>(places)),
         memory_(name,
                 {.words = places_, .word_bits = bits, .kind = kind, .content = std::move(content)}),
         arrived_(places_, kNever) {}
+
+  Filler filler() { return Filler(*this); }
+  Reader reader() { return Reader(*this); }
 
   // --- Who asks ---
   bool can_reserve(Cycle cycle) const {

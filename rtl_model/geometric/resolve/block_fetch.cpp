@@ -16,15 +16,14 @@ constexpr std::uint32_t kColourPlace = 1u << (kPlaceBits - 1);
 
 BlockFetch::BlockFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
                        const spec::geometric::Parameters& p, const ReadPort<std::uint32_t>& tags,
-                       const ReadPort<BlockWeights>& weights)
+                       const ReadPort<BlockWeights>& weights, const ColourStore::Filler& colours)
     : Unit(name, clock),
-      colours("resolve_colours", p.resolve_lines / 2, 8 * spec::geometric::kLineBytes,
-              "colours on their way to the resolve"),
       places_(p),
       tag_port_(tags),
       data_port_(weights),
       weights_("resolve_weights", p.resolve_lines / 2, 8 * spec::geometric::kLineBytes,
                "weights on their way to the resolve"),
+      colours_(colours),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.resolve_lines / 2)),
       stalled_weights_(declare_stall("weights", "a block of weights has not come")),
       stalled_colours_(declare_stall("colours", "no place for a line of colours is free")) {}
@@ -117,7 +116,7 @@ Activity BlockFetch::ask(Cycle cycle) {
   if (!is_asking_) return kIdle;
   if (!handed_ && !blocks_out.can_push(cycle)) return kStalledDownstream;
   if (to_ask_ != 0) {
-    if (!colours.can_reserve(cycle)) return stalled_colours_;
+    if (!colours_.can_reserve(cycle)) return stalled_colours_;
     if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
     const FrameRules& rules = rules_in.read(cycle);
     const auto line = static_cast<std::uint32_t>(std::countr_zero(to_ask_));
@@ -126,7 +125,7 @@ Activity BlockFetch::ask(Cycle cycle) {
                         v = (rules.tiled ? asking_.y : asking_.y * 4u) + i - 1;
     memory.read(cycle,
                 (rules.frame_copy ? rules.copy_base : rules.colour_base) + rules.line_offset(u, v),
-                colours.reserve() | kColourPlace);
+                colours_.reserve() | kColourPlace);
     ++lines_read;
     to_ask_ &= to_ask_ - 1;
   }
@@ -177,7 +176,7 @@ Activity BlockFetch::tick(Cycle cycle) {
   if (memory.responses_in.can_pop(cycle)) {
     const MemoryResponse& response = memory.responses_in.take(cycle);
     if (response.tag & kColourPlace) {
-      colours.fill(cycle, response.tag & (kColourPlace - 1), response.data);
+      colours_.fill(cycle, response.tag & (kColourPlace - 1), response.data);
     } else {
       BlockWeights block;
       for (std::size_t i = 0; i < block.size(); ++i)
@@ -192,7 +191,7 @@ Activity BlockFetch::tick(Cycle cycle) {
 }
 
 void BlockFetch::reset() {
-  colours.reset();
+  colours_.reset();
   weights_.reset();
   fifo_.reset();
   looking_ = is_fetched_ = is_asking_ = handed_ = false;

@@ -2,11 +2,12 @@
 // Brings what the resolve of a touched block needs: its weights, from the cache or from memory, and
 // the lines of colours that hold its blended pixels and what these take from.
 //
-// Where: between BlockScanner and Resolver, which takes the lines out of `colours`. Weights and
-// colours have their places apart: weights of blocks to come cannot take those of the lines that
-// the oldest block waits for. Stalls: `weights` (a block has not come), `colours` (no place for a
-// line), `downstream`. Requests of colours go before those of weights. Whatever memory gives as
-// weights, a pixel takes a half at most of each neighbour, and nothing from outside of the frame.
+// Where: between BlockScanner and Resolver, which takes the lines out of the ColourStore. Weights
+// and colours have their places apart: weights of blocks to come cannot take those of the lines
+// that the oldest block waits for. Stalls: `weights` (a block has not come), `colours` (no place
+// for a line), `downstream`. Requests of colours go before those of weights. Whatever memory gives
+// as weights, a pixel takes a half at most of each neighbour, and nothing from outside of the
+// frame.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,7 @@
 #include "rtl_model/geometric/common/frame_rules.h"
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/tokens.h"
+#include "rtl_model/geometric/resolve/colour_store.h"
 #include "rtl_model/geometric/weights/weight_memories.h"
 
 namespace deburr::rtl::geometric {
@@ -30,11 +32,10 @@ class BlockFetch final : public Unit {
   In<TouchedBlock> blocks_in{"blocks_in"};
   Out<BlockToken> blocks_out{"blocks_out"};
   MemoryClient memory;
-  FillStore<Line> colours;
 
   BlockFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
              const spec::geometric::Parameters& parameters, const ReadPort<std::uint32_t>& tags,
-             const ReadPort<BlockWeights>& weights);
+             const ReadPort<BlockWeights>& weights, const ColourStore::Filler& colours);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -67,6 +68,7 @@ class BlockFetch final : public Unit {
   ReadPort<std::uint32_t> tag_port_;
   ReadPort<BlockWeights> data_port_;
   FillStore<BlockWeights> weights_;
+  ColourStore::Filler colours_;
   Fifo<Lookup> fifo_;
   Activity stalled_weights_, stalled_colours_;
 

@@ -25,7 +25,7 @@ spec::geometric::Rgba8 pixel_of(const Line& line, std::size_t pixel) {
 }  // namespace
 
 Resolver::Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
-                   const spec::geometric::Parameters& p, FillStore<Line>& colours)
+                   const spec::geometric::Parameters& p, const ColourStore::Reader& colours)
     : Unit(name, clock),
       colours_(colours),
       lanes_(resolve_lanes_of(p)),

@@ -20,10 +20,10 @@
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/common/fill_store.h"
 #include "rtl_model/geometric/common/frame_rules.h"
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/tokens.h"
+#include "rtl_model/geometric/resolve/colour_store.h"
 
 namespace deburr::rtl::geometric {
 
@@ -37,7 +37,7 @@ class Resolver final : public Unit {
   MemoryClient memory;
 
   Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
-           const spec::geometric::Parameters& parameters, FillStore<Line>& colours);
+           const spec::geometric::Parameters& parameters, const ColourStore::Reader& colours);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -89,7 +89,7 @@ class Resolver final : public Unit {
   bool write(Cycle cycle);
   bool blend(Cycle cycle);
 
-  FillStore<Line>& colours_;  // of the BlockFetch, which fills it
+  ColourStore::Reader colours_;  // which the BlockFetch fills
   const std::uint32_t lanes_;
   Memory<Originals> originals_;
   ReadPort<Originals> originals_read_{originals_, "above"};

@@ -66,7 +66,11 @@ class AreaUnit final : public Unit {
     record_store_.observer = std::move(observer);
   }
 
-  // The tables of learned shares, for the registers; nullptr in an engine without.
+  // By which the registers load the tables of learned shares; none in an engine without.
+  std::optional<SharesRom::LoadPort> shares_port() {
+    return learned_ ? std::optional(learned_->rom.load_port()) : std::nullopt;
+  }
+  // For checks: these tables; nullptr in an engine without.
   SharesRom* shares_rom() { return learned_ ? &learned_->rom : nullptr; }
 
   // Of slots; of lines: the RecordStore's. Its latency is the sum of its parts'.

@@ -23,6 +23,20 @@ namespace deburr::rtl::morphological {
 
 class SharesRom {
  public:
+  // The side of the bus that loads the tables, which knows no clocks: a handle, as of a memory's
+  // port. Entries of A, B, C, one behind the other; beyond them 0, and nothing is kept.
+  class LoadPort {
+   public:
+    std::uint8_t entry(std::size_t index) const { return rom_->entry(index); }
+    void load(std::size_t index, std::uint8_t entry) { rom_->load(index, entry); }
+    std::uint32_t sum() const { return rom_->sum(); }
+
+   private:
+    friend SharesRom;
+    explicit LoadPort(SharesRom& rom) : rom_(&rom) {}
+    SharesRom* rom_;
+  };
+
   // What a record says of its ends.
   struct Record {
     std::uint8_t shape = 0;  // index of kRunShapes
@@ -41,6 +55,8 @@ class SharesRom {
 
   explicit SharesRom(int lanes);
 
+  LoadPort load_port() { return LoadPort(*this); }
+
   // --- The LearnedShares' stages: the first two calls are in stage 1, the others in 2 to 4 ---
   // The pixel `before` pixels behind the record's start, `after` before its end.
   static Query ask(const Record& record, std::int32_t before, std::int32_t after);
@@ -51,8 +67,7 @@ class SharesRom {
   void address_shares(Cycle cycle, std::size_t reader, Query& query);
   Shares shares(Cycle cycle, std::size_t reader, const Query& query);
 
-  // --- Registers: through a bus that knows no clocks ---
-  // Entries of A, B, C, one behind the other; beyond them 0, and nothing is kept.
+  // --- The LoadPort's ---
   std::uint8_t entry(std::size_t index) const;
   void load(std::size_t index, std::uint8_t entry);
   std::uint32_t sum() const { return sum_; }

@@ -15,6 +15,7 @@
 #include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/env/camera_parameters.h"
 #include "tb/env/sequence.h"
+#include "tb/results/given_work.h"
 #include "tb/scene/image.h"
 #include "tb/scene/scenes.h"
 
@@ -50,6 +51,9 @@ void describe(GeometricSceneParameters& p, Visitor& v) {
   v.integer("truth_samples", p.truth_samples, 1, 32, "",
             "N of the N x N samples a pixel of the truth.");
   v.integer("count", p.count, 1, 100, "frame", "How often the frame is smoothed.");
+  v.is_work("source", GivenWork::kSource);
+  for (const char* const name : {"width", "height", "truth_samples", "count"})
+    v.is_work(name, GivenWork::kSetting);
 }
 
 // What parameters say of each frame: meshes and cameras may be lists.

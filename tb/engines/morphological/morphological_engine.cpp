@@ -68,6 +68,9 @@ class MorphologicalCommand final : public Engine {
     refuse_unused_memory(set, "memory", memory_);
     if (parameters_.storage == spec::morphological::Storage::kMemory)
       refuse_slow_memory(set, "memory", memory_);
+    else if (set.find("run.line_trace")->text() != "none")
+      set.refuse("run.line_trace",
+                 "nothing is asked of memory: morphological.storage = memory asks for lines");
     refuse_unused_frame(set);
     preset_label_ = preset_label(set, parameters_);
   }

@@ -16,6 +16,7 @@
 #include "golden/morphological/morphological_golden.h"
 #include "tb/engines/morphological/morphological_input.h"
 #include "tb/env/sequence.h"
+#include "tb/results/given_work.h"
 #include "tb/scene/image.h"
 #include "tb/scene/truth.h"
 
@@ -47,6 +48,9 @@ void describe(FrameParameters& p, Visitor& v) {
   v.integer("truth_samples", p.truth_samples, 0, 32, "",
             "N of the N x N samples a pixel of a scene's truth; 0: no truth.");
   v.integer("count", p.count, 1, 1000, "frame", "How often the frame is sent.");
+  v.is_work("source", GivenWork::kSource);
+  for (const char* const name : {"width", "height", "count", "truth_samples"})
+    v.is_work(name, GivenWork::kSetting);
 }
 
 // What parameters say of each frame: all files may be lists.

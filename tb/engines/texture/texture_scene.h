@@ -17,6 +17,7 @@
 #include "tb/env/camera_parameters.h"
 #include "tb/env/memory_parameters.h"
 #include "tb/env/sequence.h"
+#include "tb/results/given_work.h"
 #include "tb/scene/drawn_scene.h"
 #include "tb/scene/image.h"
 #include "tb/scene/motion.h"
@@ -52,6 +53,9 @@ void describe(SceneParameters& p, Visitor& v) {
   v.choice("traversal", p.traversal, kTraversalNames, "Order of a triangle's quads.");
   v.choice("visibility", p.visibility, kVisibilityNames,
            "visible: one fragment a pixel, as after a depth pre-pass; overdraw: all of them.");
+  for (const char* const name : {"source", "texture"}) v.is_work(name, GivenWork::kSource);
+  for (const char* const name : {"width", "height", "texture_size"})
+    v.is_work(name, GivenWork::kSetting);
   describe(static_cast<CameraParameters&>(p), v);
 }
 

@@ -3,8 +3,9 @@
 """What docs/reference/stability.md promises is as stable.txt has it: functions and constants of the C interface, keys of
 result.json, commands with their options, exit codes. More may have come; nothing may be gone or changed.
 
-usage: stable_test.py DEBURR SOURCE [--update]     --update: adds what has come, and takes nothing away, but the keys
-                                                   of an older schema of result.json"""
+usage: stable_test.py DEBURR HEADER SOURCE [--update]     HEADER: deburr_golden.h as a build makes it
+                                                          --update: adds what has come, and takes nothing away, but
+                                                          the keys of an older schema of result.json"""
 import pathlib
 import re
 import subprocess
@@ -77,16 +78,16 @@ def planted(header, page, manual):
 
 
 def main():
-    if len(sys.argv) not in (3, 4) or sys.argv[3:] not in ([], ["--update"]):
+    if len(sys.argv) not in (4, 5) or sys.argv[4:] not in ([], ["--update"]):
         print(__doc__)
         return 2
-    root = pathlib.Path(sys.argv[2])
+    root = pathlib.Path(sys.argv[3])
     page, manual = (subprocess.run([sys.argv[1], *words], check=True, capture_output=True, text=True).stdout
                     for words in (["params", "--markdown", "statistics"], ["help", "--man"]))
-    texts = ((root / "golden/c/deburr_golden.h").read_text(encoding="utf-8"), page, manual)
+    texts = (pathlib.Path(sys.argv[2]).read_text(encoding="utf-8"), page, manual)
     there = what_there_is(*texts)
     listed = (root / LIST).read_text(encoding="utf-8") if (root / LIST).exists() else ""
-    if sys.argv[3:]:
+    if sys.argv[4:]:
         (root / LIST).write_text(updated(listed, there), encoding="utf-8")
         return 0
     wrong = [f"promised, and not there: {line}" for line in promised(listed) if line not in there]

@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: MIT
 """Counts the edits that an engine costs: no file names it but its own and one line of tb/engines/engines.txt.
 
-An engine's own files have its name in their path. What else names it stands here, with the reason. Texture and frame
-are words of every page too, so of all engines the rooms are looked at that name none: what runs, sweeps, reports and
-builds whatever engines there are. Not looked at: documentation, and the record of mutation tests, whose words are
-those of the code.
+An engine's own files have its name in their path. What else names it, in an identifier too, stands here with the
+reason; what names it because a command makes it of the declarations (MADE) is no edit. Texture and frame are words of
+every page too, so of all engines the rooms are looked at that name none: what runs, sweeps, reports, traces and builds
+whatever engines there are, and gives them to C and Python. Not looked at: documentation, and the record of mutation
+tests, whose words are those of the code.
 
 usage: engine_names_test.py SOURCE"""
 import argparse
@@ -23,25 +24,38 @@ ADDED = ("posteriser", re.compile(r"tb/system/added_engine(/|_test\.py$)"))
 # What runs compositions by name: their testplans, records and system tests. The composition itself names no part.
 COMPOSITION = re.compile(r"tb/engines/frame/[^/]*\.(yaml|json)$|tb/(system|negative)/frame_test\.py$")
 
-# engine -> why files name it -> which.
+# Files that commands make of what engines declare, or of what they do: which command, and how it is told to.
+MADE = {
+    "golden/c/systemverilog/deburr_golden_dpi.c": "tb/unit/golden/c/systemverilog_test.py --write",
+    "golden/c/systemverilog/deburr_golden_pkg.sv": "tb/unit/golden/c/systemverilog_test.py --write",
+    "python/deburr/__init__.pyi": "tb/system/python_stubs_test.py --write",
+    "python/deburr/golden.pyi": "tb/system/python_stubs_test.py --write",
+    "tb/baselines/speed.json": "tb/speed --record",
+    "tb/unit/app/stable.txt": "tb/unit/app/stable_test.py --update",
+}
+
+# engine -> why files name it -> which. A CMake list names what the sources beside it do.
 NAMED = {
     "geometric": {
         "its units and its lines are drawn for its pages": [
             "scripts/drawing/pipelines.py", "scripts/drawing/walks.py", "scripts/figures", "tb/unit/house/drawings_test.py"],
         "the rule `leave` is about what it has marked": [
-            "golden/morphological/configuration.h", "golden/morphological/leave.h",
-            "rtl_model/morphological/blend/blender.cpp", "spec/morphological/parameters.h"],
+            "golden/morphological/configuration.cpp", "golden/morphological/configuration.h",
+            "golden/morphological/leave.h", "rtl_model/morphological/blend/blender.cpp",
+            "spec/morphological/parameters.h", "tb/engines/morphological/morphological_role.cpp",
+            "tb/unit/golden/morphological/frames_test.cpp"],
         "methods are compared there, each by its name": ["tb/oracle/comparison.cpp"],
         "the paper whose method it is": ["tb/papers/papers_002.cpp"],
-        "the C interface is one of all engines: its tests, and what is built from installed files": [
-            "examples/installed_test.py", "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
+        "tests call its functions of the C interface, and what is built from installed files does": [
+            "examples/installed_test.py", "examples/systemverilog/testbench.sv", "tb/fuzz/c_calls.cpp",
+            "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp", "tb/unit/golden/c/support.h",
             "tb/unit/golden/c/threads_test.cpp"],
-        "the Python module is one of all engines: its functions, types and tests": [
-            "python/bindings/ideal_python.cpp", "python/deburr/__init__.pyi", "python/deburr/golden.pyi",
-            "tb/system/python_golden_test.py"],
+        "registers of the C header are held by hand": ["tb/unit/app/c_header_test.py"],
+        "Python has its equations in real numbers, and tests call its functions of the module": [
+            "python/bindings/ideal_python.cpp", "tb/system/python_golden_test.py"],
         "tables of pages are measured, its own among them": [
-            "scripts/measurement/results.py"],
-        "its part of the command line is promised": ["tb/unit/app/stable.txt"],
+            "scripts/measurement/recipes.py", "scripts/measurement/results.py"],
+        "its tests are named to start them": ["scripts/mutate", "tb/unit/house/command_lines_test.py"],
         "what every engine must show is asked of each by name: pixels, pages, sequences": [
             "tb/system/pixel_history_test.py", "tb/system/report_pages_test.py", "tb/system/sequence_test.py"],
     },
@@ -55,8 +69,8 @@ NAMED = {
             "tb/unit/golden/geometric/line_test.cpp"],
         "the field's word for such methods, or what they are compared with": [
             "golden/ideal/cmaa2.h", "golden/ideal/coverage.h", "golden/ideal/smaa.h", "tb/oracle/comparison.cpp",
-            "tb/oracle/geometric_quality_test.cpp", "tb/oracle/harm.cpp", "tb/oracle/smaa_published_test.cpp",
-            "tb/oracle/smaa_test.cpp", "tb/scene/truth.h"],
+            "tb/oracle/geometric_quality_test.cpp", "tb/oracle/harm.cpp", "tb/oracle/harm_test.cpp",
+            "tb/oracle/smaa_published_test.cpp", "tb/oracle/smaa_test.cpp", "tb/scene/truth.h"],
         "papers whose methods it has": ["tb/papers/papers_000.cpp", "tb/papers/papers_003.cpp"],
         "lines and discs that its shares are measured and learned by": [
             "scripts/train-shares", "tb/stimuli/discs.cpp", "tb/stimuli/discs.h", "tb/stimuli/line_fans.cpp",
@@ -68,31 +82,33 @@ NAMED = {
             "tb/negative/app_regress_test.py", "tb/negative/app_sweep_test.py", "tb/negative/app_traces_test.py",
             "tb/system/coverage_test.py", "tb/system/figures_test.py", "tb/system/observers_test.py", "tb/system/shared_golden_test.cpp",
             "tb/system/inputs_test.py", "tb/system/sweep_test.py", "tb/system/terminal_test.py", "tb/unit/env/planted_faults_test.cpp",
-            "tb/unit/house/mutate_test.py", "tb/unit/results/result_test.cpp", "tb/env/collect.h"],
+            "tb/unit/house/mutate_test.py", "tb/unit/results/result_test.cpp"],
         "an example of an engine, in what is built from installed files": [
             "examples/c/draw.c", "examples/installed_test.py", "examples/platform/expected.cpp",
             "examples/platform/expected.h", "examples/platform/main.cpp", "examples/platform/painter.cpp",
-            "examples/platform/painter.h", "examples/systemverilog/edge_detector.sv",
+            "examples/platform/painter.h", "examples/platform/software.cpp", "examples/systemverilog/edge_detector.sv",
             "examples/systemverilog/testbench.sv"],
-        "the Python module is one of all engines: its functions, types and tests": [
+        "frames from Python are views and depths as it has them, and tests call its functions of the module": [
             "python/bindings/frames.cpp", "python/bindings/frames.h", "python/bindings/ideal_python.cpp",
-            "python/deburr/__init__.pyi", "python/deburr/golden.pyi",
             "tb/bench/python_frames.cpp", "tb/bench/python_golden.py", "tb/system/python_golden_test.py",
             "tb/system/python_run_test.py", "tb/system/python_stubs_test.py"],
-        "the C interface is one of all engines: its tests": [
-            "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp"],
-        "the one choice by which an engine has no memory": ["tb/traces/line_trace.cpp"],
+        "tests call its functions of the C interface": [
+            "tb/fuzz/c_calls.cpp", "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
+            "tb/unit/golden/c/support.h", "tb/unit/golden/c/threads_test.cpp"],
+        "registers of the C header are held by hand": ["tb/unit/app/c_header_test.py"],
+        "its tests are named to start them": ["scripts/mutate"],
         "tables of pages are measured, its own among them": [
             "scripts/measurement/recipes.py", "scripts/measurement/results.py"],
-        "its part of the command line is promised": ["tb/unit/app/stable.txt"],
         "what every engine must show is asked of each by name: pixels, pages, sequences": [
             "tb/system/pixel_history_test.py", "tb/system/report_pages_test.py", "tb/system/sequence_test.py"],
     },
 }
 
 # Rooms that name no engine: each is told what engines there are. So is the composition: its parts declare themselves.
-GENERAL = re.compile(r"CMakeLists\.txt|cmake/|golden/CMakeLists\.txt|rtl_model/CMakeLists\.txt|spec/[^/]*$|"
-                     r"tb/(CMakeLists\.txt|app/|base/|command/|baselines/check\.py|fuzz/|regress/|results/|soak/|speed$|sweep/|testplan/|"
+GENERAL = re.compile(r"CMakeLists\.txt|cmake/|golden/CMakeLists\.txt|golden/c/|rtl_model/CMakeLists\.txt|spec/[^/]*$|"
+                     r"rtl_model/(fabric|platform)/|tb/(env|harness)/|tb/traces/(CMakeLists|line_trace|trace_file)|"
+                     r"python/(CMakeLists|bindings/(arrays|module)\.|deburr/)|"
+                     r"tb/(CMakeLists\.txt|app/|base/|command/|baselines/check\.py|fuzz/(?!c_calls\.cpp)|regress/|results/|soak/|speed$|sweep/|testplan/|"
                      r"engines/[^/]*$|engines/frame/[^/]*\.(h|cpp|txt)$|unit/engines/frame/|unit/CMakeLists\.txt|system/smoke\.cmake)|scripts/coverage")
 
 
@@ -114,22 +130,41 @@ def engines(root):
 
 
 def naming(engine, texts):
-    """Files outside of the engine's own that have its name as a word."""
-    word = re.compile(rf"\b{engine}\b", re.IGNORECASE)
-    return {name for name, text in texts if engine not in name and name != LIST and word.search(text)}
+    """Files outside of the engine's own that have its name as a word, or in a name; pages have names of their own."""
+    word = re.compile(rf"(?<![A-Za-z])(?:{engine}|{engine.upper()})(?![A-Za-z])(?!\w*\.md)|"
+                      rf"(?<![A-Z]){engine.capitalize()}(?![a-z])")
+    return {name for name, text in texts if engine not in name and name not in (LIST, *MADE) and word.search(text)}
+
+
+def build_list(name):
+    return name.endswith((".cmake", "CMakeLists.txt"))
 
 
 def general_naming(engine, texts):
     """Files of general rooms that name it as code does: in quotes, as a namespace, as a folder, as a type."""
     camel = engine.capitalize()
-    # `frame.` begins parameters of a picture, of whatever engine.
-    code = re.compile(rf"\"{engine}[\"{'' if engine == 'frame' else '.'}]|\b(spec|golden|rtl|tb)(::|/|_){engine}\b|engines/{engine}\b|"
-                      rf"\bdeburr::{engine}_|\b{camel}(Engine|Environment|Golden|Setup|Unit|Composition)\b|"
+    # `frame.` begins parameters of a picture, of whatever engine; a frame is also the unit after a parameter's range.
+    code = re.compile(rf"(?<!\d, )\"{engine}[\"{'' if engine == 'frame' else '.'}]|\b(spec|golden|rtl|tb)(::|/|_){engine}\b|engines/{engine}\b|"
+                      rf"{'' if engine == 'frame' else f'deburr_{engine}_|'}\bdeburr::{engine}_|\b{camel}(Engine|Environment|Golden|Setup|Unit|Composition)\b|"
+                      rf"\b_golden\.{engine}\b|\bdef {engine}\b|"
                       rf"engine: {engine}\b")
     # Comments of lists and scripts may take an example.
     plain = [(name, text if name.endswith((".h", ".cpp")) else re.sub(r"(?m)^ *#.*", "", text))
-             for name, text in texts if GENERAL.match(name) and f"engines/{engine}/" not in name]
+             for name, text in texts if GENERAL.match(name) and name not in MADE and f"engines/{engine}/" not in name
+             and not re.search(rf"(^|/)(_golden_)?{engine}(_[^/]*|\.[^/]*)$", name)]
     return {f"{name}: {code.search(text)[0]}" for name, text in plain if code.search(text)}
+
+
+def not_made(root, made):
+    """Yields what no command makes."""
+    for name, command in made.items():
+        script = root / command.split()[0]
+        if not script.exists() or name.rpartition("/")[2] not in script.read_text(encoding="utf-8"):
+            yield f"{name} is not made by {command}"
+        elif command.split()[1] not in script.read_text(encoding="utf-8"):
+            yield f"{command.split()[0]} knows no {command.split()[1]}"
+        if not (root / name).exists():
+            yield f"MADE names {name}, which is not there"
 
 
 def complaints(root, named):
@@ -145,9 +180,13 @@ def complaints(root, named):
         if engine not in named:
             continue
         reasons = {name for names in named[engine].values() for name in names}
-        found = {name for name in naming(engine, texts) if engine == "frame" or not COMPOSITION.search(name)}
+        folders = {name.rpartition("/")[0] for name in reasons}
+        found = {name for name in naming(engine, texts) if (engine == "frame" or not COMPOSITION.search(name)) and
+                 not (build_list(name) and name.rpartition("/")[0] in folders and not GENERAL.match(name))}
         for name in sorted(found - reasons):
             yield f"{name} names {engine}: let {engine} declare what it is for (docs/howto/add_an_engine.md)"
+        for name in sorted(reasons & MADE.keys()):
+            yield f"{name} is made: take it off the list"
         for name in sorted(reasons - found):
             yield f"{name} does not name {engine} any more: take it off the list"
 
@@ -166,7 +205,13 @@ def planted_faults_are_caught():
         return root
     named = {"frobber": {"a paper": ["tb/papers/one.cpp"]}}
     expected = [({}, 0), ({"tb/soak/soak.cpp": 'if (engine == "foo")'}, 1), ({"tb/scene/a.cpp": "of the frobber"}, 1),
-                ({"tb/results/a.cpp": '"frobber."'}, 2), ({"tb/papers/one.cpp": "of 2016"}, 1),
+                ({"tb/results/a.cpp": '"frobber."'}, 2), ({"tb/oracle/a.cpp": "deburr_frobber_new()"}, 1),
+                ({"tb/oracle/a.cpp": "class FrobberFrame"}, 1), ({"tb/oracle/a.cpp": "frobbers, frobber_of_mine.md"}, 0),
+                ({"golden/c/deburr_golden.h.in": "int deburr_foo_new(void);"}, 1), ({"golden/c/foo_c.cpp": "deburr_foo_new"}, 0),
+                ({"python/deburr/golden.py": "def foo(pixels):"}, 1), ({"python/deburr/_golden_foo.py": "def foo(pixels):"}, 0),
+                ({"tb/traces/line_trace.cpp": "rtl::foo::Cache"}, 1), ({"tb/papers/one.cmake": "deburr::frobber_engine"}, 0),
+                ({"tb/oracle/one.cmake": "deburr::frobber_engine"}, 1), ({"tb/papers/one.cpp": "of 2016"}, 1),
+                ({"tb/env/a.h": 'v.integer("count", p.count, 1, 100, "foo", "So many.");'}, 0),
                 ({"tb/sweep/a.h": "a foo is no engine here"}, 0), ({"tb/scene/b.h": "// docs/reference/frobber/index.md"}, 0),
                 ({"tb/engines/frame/frame_mix.cpp": "spec::foo::Rules p"}, 1),
                 ({"tb/unit/engines/frame/a.cpp": "of the frobber"}, 1),
@@ -178,6 +223,13 @@ def planted_faults_are_caught():
             found = list(complaints(tree(folder, **changed), named))
         if len(found) != count:
             missed.append(f"{changed}: {found}")
+    made = {"a.txt": "make.py --write"}
+    for texts, count in (({"make.py": "a.txt --write"}, 1), ({"a.txt": ""}, 1), ({"make.py": "a.txt", "a.txt": ""}, 1),
+                         ({"make.py": "a.txt --write", "a.txt": ""}, 0)):
+        with tempfile.TemporaryDirectory() as folder:
+            found = list(not_made(tree(folder, **texts), made))
+        if len(found) != count:
+            missed.append(f"{texts}: {found}")
     return missed
 
 
@@ -188,7 +240,7 @@ def main():
     missed = planted_faults_are_caught()
     for fault in missed:
         print(f"planted fault not caught: {fault}")
-    found = list(complaints(root, NAMED))
+    found = [*complaints(root, NAMED), *not_made(root, MADE)]
     for complaint in found:
         print(complaint)
     sys.exit(1 if found or missed else 0)

@@ -5,8 +5,8 @@ links and wires alone.
 
 No module holds or is given another one of its engine by reference or pointer, no unit has a pointer
 that is set from outside, and none asks by a function what a wire would tell (observers, which return
-nothing, are for checks). What a module does hold by reference is in the list SHARED. Handles of a
-memory's ports are values.
+nothing, are for checks). What a module, or a class that a module is made of, does hold by reference is in
+the list SHARED. Handles of a memory's ports and of the sides of places for lines are values.
 """
 import argparse
 import pathlib
@@ -24,7 +24,7 @@ SHARED = {
     "EdgeWindow": "a memory with a port a user",
     "EdgeRows": "a memory with a port a user",
     "PortSchedule": "which clock of a port is whose",
-    "FillStore": "places for lines on their way: one unit reserves and fills them, another uses them",
+    "EdgeMemory": "a memory behind a handle of its port",
     "EdgeLatency": "an instrument",
     "LatencyProbe": "an instrument",
 }
@@ -32,6 +32,7 @@ SHARED = {
 PARTS = {"RecordWalk": "RecordStore"}
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
 CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\s*(?:final\s*)?:\s*([^{;]*)\{")
+ANY_CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\s*(?:final\s*)?(?::\s*([^{;]*))?\{")
 BASES = re.compile(r"\bpublic\s+(?:[\w:]+::)?(Unit|Engine|sc_module)\b")
 POINTER = re.compile(r"^\s*(?:const\s+)?[\w:]+(?:<[^;]*>)?(?:\s+const)?\s*\*\s*(?:const\s+)?\w+\s*(?:=\s*nullptr|\{\s*\})?\s*;")
 # Without an initialiser: a member, not a local name.
@@ -106,6 +107,20 @@ def violations(root):
                     yield f"{where}:{first + offset}: {name} has a pointer that is set from outside"
                 if public and FUNCTION.search(line):
                     yield f"{where}:{first + offset}: {name} asks by a function: use a wire"
+        text = headers[where]
+        for body in (module[3] for module in list_):
+            text = text.replace(body, "\n" * body.count("\n"))
+        yield from of_parts(where, text, modules[engine])
+
+
+def of_parts(where, text, modules):
+    """What classes of a header that are no modules hold by reference."""
+    for match in ANY_CLASS.finditer(text):
+        first = text.count("\n", 0, match.end()) + 1
+        for offset, line, _ in own_lines(body_of(text, match.end())):
+            reference = REFERENCE.search(line)
+            if reference and reference[1] not in SHARED.keys() | modules:
+                yield f"{where}:{first + offset}: {match[1]} holds {reference[1]}, which SHARED does not name: give it a handle of its side"
 
 
 def not_shared(root):
@@ -137,6 +152,8 @@ def planted_faults_are_caught():
         "what is not shared": "class A final : public Unit {\n  struct Side {\n    const Table<Word>& table;\n  };\n};",
         "a pointer from outside": "class A final : public Unit {\n public:\n  Latency* latency = nullptr;  // or none\n};",
         "a pointer without a value": "class A final : public Unit {\n public:\n  const Probe<int>* probe;\n};",
+        "a part's reference": "class Loader {\n  Rom& rom_;\n};",
+        "a part of a part": "class Loader {\n  struct Side {\n    const Rom<int>& rom;\n  };\n};",
         "a question": "class A final : public Unit {\n public:\n  std::function<bool(Cycle)> done;\n};",
     }
     fine = {
@@ -147,6 +164,8 @@ def planted_faults_are_caught():
         "registers": "class A final : public Unit {\n  const ParameterStore& store_;\n};",
         "an instrument": "class A final : public Unit {\n  EdgeLatency& latency_;\n};",
         "a local name": "class A final : public Unit {\n  void work() {\n    const Table& table = tables_[0];\n  }\n};",
+        "a part's registers": "class Loader {\n  ControlRegisters& registers_;\n};",
+        "a handle": "class Loader {\n  Rom::LoadPort tables_;\n};",
         "a comment": "class A final : public Unit {\n  // Other& is joined by a link.\n  int x_;\n};",
         "its own pointer": "class A final : public Unit {\n public:\n  A();\n\n private:\n  Beat* newest_ = nullptr;\n};",
     }

@@ -41,6 +41,8 @@ void describe(Sample& p, Visitor& v) {
   v.boolean("shuffle", p.shuffle, "Order.");
   v.real("stalls", p.stalls, 0, 0.9, "probability", "Stalls.");
   v.text("source", p.source, "name", "Scene.");
+  v.is_work("source", GivenWork::kSource);
+  v.is_work("cycles", GivenWork::kSetting);
 }
 
 class Parameters : public testing::Test {
@@ -253,6 +255,22 @@ TEST_F(Parameters, EveryDefaultOfTheTextureUnitIsWithinItsRange) {
     EXPECT_FALSE(p.meaning.empty()) << p.name;
     EXPECT_EQ(p.meaning.back(), '.') << p.name;
   }
+}
+
+struct Misnamed : Sample {};
+template <class Visitor>
+void describe(Misnamed& p, Visitor& v) {
+  describe(static_cast<Sample&>(p), v);
+  v.is_work("sauce", GivenWork::kSource);
+}
+
+TEST_F(Parameters, SayWhatWorkIs) {
+  EXPECT_EQ(set_.find("unit.source")->work, GivenWork::kSource);
+  EXPECT_EQ(set_.find("unit.cycles")->work, GivenWork::kSetting);
+  EXPECT_EQ(set_.find("unit.shuffle")->work, GivenWork::kNone);
+  Misnamed wrong;
+  ParameterSet set;
+  EXPECT_THROW(set.add("unit", ParameterKind::kInput, wrong), spec::CheckFailed);
 }
 
 // So that a sweep knows which points share a golden result.

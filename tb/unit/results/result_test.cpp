@@ -480,8 +480,16 @@ TEST(Compare, DifferentWorkIsNamed) {
   const auto manifest = [](const char* hash, int width, double clock, const char* source) {
     return Json{
         {"inputs", *hash ? Json::array({{{"file", "x.png"}, {"sha256", hash}}}) : Json::array()},
+        {"parameters",
+         {{{"name", "picture.width"}, {"work", "setting"}},
+          {{"name", "run.clock_mhz"}, {"work", "setting"}},
+          {{"name", "picture.source"}, {"work", "source"}},
+          {{"name", "picture.notes"}}}},
         {"configuration",
-         {{"frame.width", width}, {"run.clock_mhz", clock}, {"frame.source", source}}}};
+         {{"picture.width", width},
+          {"run.clock_mhz", clock},
+          {"picture.source", source},
+          {"picture.notes", clock}}}};
   };
   const Json a = manifest("11", 640, 148.5, "x.png"), scene = manifest("", 640, 148.5, "road");
   EXPECT_TRUE(different_work(a, a).empty());
@@ -491,6 +499,12 @@ TEST(Compare, DifferentWorkIsNamed) {
   EXPECT_EQ(different_work(a, manifest("11", 640, 166.67, "x.png")).size(), 1u);
   EXPECT_EQ(different_work(a, scene).size(), 1u);
   EXPECT_EQ(different_work(scene, manifest("", 640, 148.5, "object")).size(), 1u);
+  // A parameter that one of them alone has.
+  Json other = a;
+  other["parameters"].push_back({{"name", "picture.count"}, {"work", "setting"}});
+  other["configuration"]["picture.count"] = 2;
+  for (const auto& lines : {different_work(a, other), different_work(other, a)})
+    EXPECT_THAT(lines, ::testing::ElementsAre(::testing::StartsWith("picture.count differs")));
 }
 
 TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {

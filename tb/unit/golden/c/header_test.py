@@ -3,7 +3,7 @@
 """The header of the C interface is one that C99 and C++ take without a warning, alone and twice, and its
 functions have the language C in both.
 
-usage: header_test.py SOURCE CC CXX"""
+usage: header_test.py HEADER CC CXX"""
 import pathlib
 import subprocess
 import sys
@@ -47,8 +47,8 @@ def problems(header, compiler, cxx):
 
 
 def main():
-    root, compiler, cxx = pathlib.Path(sys.argv[1]), sys.argv[2], sys.argv[3]
-    header = (root / "golden/c/deburr_golden.h").read_text(encoding="utf-8")
+    compiler, cxx = sys.argv[2:4]
+    header = pathlib.Path(sys.argv[1]).read_text(encoding="utf-8")
     found = list(problems(header, compiler, cxx))
     for problem in found:
         print(problem)

@@ -3,12 +3,13 @@
 """The package for SystemVerilog, and the C file behind its arrays and texts, are those that the header of the
 C interface makes; and the page of the interface has every function.
 
-usage: systemverilog_test.py SOURCE [--write]     --write: makes them"""
+usage: systemverilog_test.py HEADER SOURCE [--write]     HEADER: layers/golden_c/golden/c/deburr_golden.h of a build
+                                                         --write: makes them"""
 import pathlib
 import re
 import sys
 
-HEADER = "golden/c/deburr_golden.h"
+HEADER = "deburr_golden.h"
 PACKAGE = "golden/c/systemverilog/deburr_golden_pkg.sv"
 GLUE = "golden/c/systemverilog/deburr_golden_dpi.c"
 PAGE = "docs/reference/c_interface.md"
@@ -159,7 +160,7 @@ def problems(header, texts, page):
     """Yields what does not follow from the header."""
     for name, made in ((PACKAGE, package(header)), (GLUE, glue(header))):
         if texts[name] != made:
-            yield f"{name} is not what {HEADER} makes: tb/unit/golden/c/systemverilog_test.py . --write"
+            yield f"{name} is not what {HEADER} makes: tb/unit/golden/c/systemverilog_test.py HEADER . --write"
     for function in functions(header):
         if not re.search(rf"\b{function.name}\b", page):
             yield f"{PAGE} does not name {function.name}"
@@ -191,8 +192,8 @@ def planted_faults_are_caught(header, texts, page):
 
 
 def main():
-    root = pathlib.Path(sys.argv[1])
-    header = (root / HEADER).read_text(encoding="utf-8")
+    root = pathlib.Path(sys.argv[2])
+    header = pathlib.Path(sys.argv[1]).read_text(encoding="utf-8")
     if "--write" in sys.argv:
         (root / PACKAGE).write_text(package(header), encoding="utf-8")
         (root / GLUE).write_text(glue(header), encoding="utf-8")

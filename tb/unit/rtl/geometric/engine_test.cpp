@@ -229,7 +229,7 @@ TEST(Memories, AreThoseOfThePage) {
                                  {"block_scanner.touched_above", 4, 128, 512},
                                  {"resolver.originals", 512, 100, 51'200},
                                  {"block_fetch.resolve_weights", 108, 512, 55'296},
-                                 {"block_fetch.resolve_colours", 108, 512, 55'296},
+                                 {"resolve_colours", 108, 512, 55'296},
                                  {"block_fifo", 54, 586, 31'644},
                                  {"frame_copier.copy_buffer", 54, 512, 27'648},
                                  {"coverage_unit.near_area_rom", 1024, 8, 16'384},

@@ -15,6 +15,7 @@
 #include "rtl_model/geometric/common/parameter_store.h"
 #include "rtl_model/geometric/frame_sequencer.h"
 #include "tb/base/forked.h"
+#include "tb/harness/unit_bench.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/geometric/support.h"
 
@@ -44,61 +45,7 @@ inline std::string text_of(const rtl::Histogram& histogram) {
   return text;
 }
 
-// Pushes its tokens as fast as they are taken.
-template <class T>
-class Source final : public rtl::Unit {
- public:
-  rtl::Out<T> out{"out"};
-  Source(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
-  rtl::Activity tick(Cycle cycle) override {
-    if (next_ == tokens_.size()) return rtl::kIdle;
-    if (!out.can_push(cycle)) return rtl::kStalledDownstream;
-    out.push(cycle, tokens_[next_++]);
-    return rtl::kBusy;
-  }
-  void reset() override {
-    tokens_.clear();
-    next_ = 0;
-  }
-  void add(const T& token) { tokens_.push_back(token); }
-
- private:
-  std::vector<T> tokens_;
-  std::size_t next_ = 0;
-};
-
-// Takes every token at once, from clock `opens` on, and notes when.
-template <class T>
-class Taker final : public rtl::Unit {
- public:
-  struct Taken {
-    Cycle cycle;
-    T token;
-  };
-  rtl::In<T> in{"in"};
-  Taker(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
-  rtl::Activity tick(Cycle cycle) override {
-    if (cycle < opens || !in.can_pop(cycle)) return rtl::kIdle;
-    taken.push_back({cycle, in.take(cycle)});
-    return rtl::kBusy;
-  }
-  void reset() override { taken.clear(); }
-  std::vector<Taken> taken;
-  Cycle opens = 0;
-};
-
-template <class From, class To>
-struct Ends {
-  explicit Ends(ClockDomain& clock)
-      : in("in"), out("out"), source("source", clock), sink("sink", clock) {
-    source.out(in);
-    sink.in(out);
-  }
-  rtl::Link<From> in;
-  rtl::Link<To> out;
-  Source<From> source;
-  Taker<To> sink;
-};
+using unit_bench::Ends, unit_bench::Source;
 
 // All that a unit needs around it.
 struct Frame {

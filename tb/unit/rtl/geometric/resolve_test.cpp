@@ -8,6 +8,7 @@
 #include "rtl_model/geometric/edges/facing_store.h"
 #include "rtl_model/geometric/resolve/block_fetch.h"
 #include "rtl_model/geometric/resolve/block_scanner.h"
+#include "rtl_model/geometric/resolve/colour_store.h"
 #include "rtl_model/geometric/resolve/frame_copier.h"
 #include "rtl_model/geometric/resolve/resolver.h"
 #include "rtl_model/geometric/weights/weight_combiner.h"
@@ -27,8 +28,10 @@ struct ResolveBench : Frame {
       : Frame(p, latency),
         combiner("combiner", clock, sized(p, {}), edge_latency),
         scanner("scanner", clock, p, combiner.touched_port()),
-        fetch("fetch", clock, sized(p, {}), combiner.tag_port(), combiner.data_port()),
-        resolver("resolver", clock, p, fetch.colours),
+        colour_store(sized(p, {})),
+        fetch("fetch", clock, sized(p, {}), combiner.tag_port(), combiner.data_port(),
+              colour_store.filler()),
+        resolver("resolver", clock, p, colour_store.reader()),
         weights("weights"),
         touched("touched"),
         blocks("blocks", 16),
@@ -99,6 +102,7 @@ struct ResolveBench : Frame {
   }
   WeightCombiner combiner;
   BlockScanner scanner;
+  ColourStore colour_store;
   BlockFetch fetch;
   Resolver resolver;
   rtl::Link<WeightToken> weights;
@@ -425,7 +429,7 @@ struct ReaderBench : Frame {
   FacingStore facing;
   EdgeReader reader;
   rtl::Link<EdgeBeat> beats;
-  Taker<EdgeBeat> taker;
+  unit_bench::Sink<EdgeBeat> taker;
   Cycle from;
 };
 TEST(EdgeReader, EdgeLanesAClock) {

@@ -104,6 +104,26 @@ TEST(FillStore, AResetEmptiesEveryPlace) {
   EXPECT_EQ(store.line(9), 12u);
 }
 
+// Two units, each with its side alone, see one store.
+TEST(FillStore, HasASideForEachUnit) {
+  FillStore<std::uint32_t> store("store", 1, 32, "words");
+  FillStore<std::uint32_t>::Filler filler = store.filler();
+  FillStore<std::uint32_t>::Reader reader = store.reader();
+  ASSERT_TRUE(filler.can_reserve(1));
+  filler.fill(2, filler.reserve(), 7);
+  EXPECT_FALSE(filler.can_reserve(3));
+  reader.read_ahead(3);
+  EXPECT_FALSE(reader.ready(3));
+  ASSERT_TRUE(reader.ready(4));
+  EXPECT_EQ(reader.line(4), 7u);
+  reader.release(4);
+  EXPECT_FALSE(filler.can_reserve(4));
+  EXPECT_TRUE(filler.can_reserve(5));
+  EXPECT_EQ(filler.reserve(), 0u);
+  filler.reset();
+  EXPECT_TRUE(store.empty());
+}
+
 // ---- EdgeLatency
 
 struct Latencies {

@@ -509,7 +509,7 @@ TEST(CoverageUnit, AGroupWithoutACandidateTakesAClockAndLeavesNothing) {
 TEST(CoverageUnit, AGroupWithoutACandidateGoesOnWhereThereIsNoRoom) {
   CoverageBench b;
   const Cycle begin = b.clock.cycle();
-  b.ends.sink.opens = begin + 100;
+  b.ends.sink.hold_to = begin + 100;
   // Two fill the link.
   for (int i = 0; i < 2; ++i) b.ends.source.add(CoverageBench::group(false, 7, 9));
   for (int i = 0; i < 30; ++i) b.ends.source.add(CoverageBench::group(false, 7, -32768));
@@ -644,7 +644,7 @@ TEST(CoverageUnit, SecondCandidatesAtTheBordersAndInTheCount) {
 // While the link is full the areas stay on the tables' output registers.
 TEST(CoverageUnit, AreasWaitForRoom) {
   CoverageBench b(CoverageBench::area());
-  b.ends.sink.opens = b.clock.cycle() + 60;
+  b.ends.sink.hold_to = b.clock.cycle() + 60;
   std::vector<int> wanted;
   for (int i = 0; i < 20; ++i) {
     GroupToken group = CoverageBench::group(false, 7, 10'000 + 1000 * i);

@@ -43,6 +43,7 @@ TEST(GeometricFigures, AreTheModuleTree) {
   for (const tb::Figure& figure :
        {tb::Figure::of_header(header), tb::Figure::of_page("reference/geometric/hardware.md")}) {
     tb::expect_figure(figure, engine, header, "FrameCopier");
+    tb::expect_figure(figure, engine, header, "ColourStore");
     tb::expect_figure(figure, engine, header, "invalid_edge");
     tb::expect_figure(figure, engine, header, "registers");
   }

@@ -31,6 +31,7 @@
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
 #include "spec/texture/registers.h"
+#include "tb/harness/unit_bench.h"
 #include "tb/stimuli/texture_quads.h"
 
 namespace deburr::tb::texture_rtl {
@@ -89,75 +90,7 @@ std::string of_one_port_more(sc_core::sc_object& root, const std::string& name) 
   return refusal([&] { Port(*found, "somebody"); });
 }
 
-// Pushes its tokens as fast as they are taken.
-template <class T>
-class Source final : public Unit {
- public:
-  Out<T> out{"out"};
-  Source(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
-  Activity tick(Cycle cycle) override {
-    if (next_ == tokens_.size()) return kIdle;
-    if (!out.can_push(cycle)) return rtl::kStalledDownstream;
-    out.push(cycle, tokens_[next_++]);
-    return kBusy;
-  }
-  void reset() override {
-    tokens_.clear();
-    next_ = 0;
-  }
-  void add(const T& token) { tokens_.push_back(token); }
-  bool done() const { return next_ == tokens_.size(); }
-
- private:
-  std::vector<T> tokens_;
-  std::size_t next_ = 0;
-};
-
-// Takes every token at once, unless told to wait, and notes when it could be taken.
-template <class T>
-class Sink final : public Unit {
- public:
-  struct Taken {
-    Cycle cycle;
-    T token;
-  };
-  In<T> in{"in"};
-  Sink(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
-  Activity tick(Cycle cycle) override {
-    if (!in.can_pop(cycle) || (cycle >= hold_from && cycle < hold_to)) return kIdle;
-    taken.push_back({cycle, in.take(cycle)});
-    return kBusy;
-  }
-  void reset() override { taken.clear(); }
-  std::vector<Taken> taken;
-  Cycle hold_from = 0, hold_to = 0;  // takes nothing in [hold_from, hold_to)
-};
-
-// A unit of the test's own between two links: source -> link -> block -> link -> sink. The block's
-// ports are bound by the test.
-template <class From, class To>
-struct Ends {
-  explicit Ends(ClockDomain& clock, const std::string& name = "")
-      : in((name + "in").c_str()),
-        out((name + "out").c_str()),
-        source((name + "source").c_str(), clock),
-        sink((name + "sink").c_str(), clock) {
-    source.out(in);
-    sink.in(out);
-  }
-  Link<From> in;
-  Link<To> out;
-  Source<From> source;
-  Sink<To> sink;
-};
-
-// When its tokens were taken.
-template <class T>
-std::vector<Cycle> clocks_of(const Sink<T>& sink) {
-  std::vector<Cycle> clocks;
-  for (const auto& taken : sink.taken) clocks.push_back(taken.cycle);
-  return clocks;
-}
+using unit_bench::clocks_of, unit_bench::Ends, unit_bench::Sink, unit_bench::Source;
 
 // The clock in which the consumer of `link` can take its oldest token for the first time; kNever if
 // that does not happen within `limit` clocks. Proves "not ready at n - 1, ready at n".

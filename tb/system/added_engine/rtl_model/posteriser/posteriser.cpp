@@ -9,8 +9,13 @@ namespace {
 
 namespace reg = spec::posteriser::reg;
 
-constexpr ControlLayout kLayout = {reg::kControl, reg::kStatus, 1u << 0, 1u << 1,
-                                   1u << 0,       1u << 1,      true};
+constexpr ControlLayout kLayout = {.control = reg::kControl,
+                                   .status = reg::kStatus,
+                                   .enable = reg::control::kEnable.mask(),
+                                   .clear_counters = reg::control::kClearCounters.mask(),
+                                   .idle = reg::status::kIdle.mask(),
+                                   .written_while_busy = reg::status::kWrittenWhileBusy.mask(),
+                                   .busy_ignores_writes = true};
 
 // 255 level / steps, rounded, halves up.
 std::uint32_t code(std::uint32_t level, std::uint32_t steps) {
@@ -42,6 +47,15 @@ Activity LevelUnit::tick(Cycle cycle) {
   if (!(tone == before)) ++changed;
   tones_out.push(cycle, tone);
   return kBusy;
+}
+
+Datasheet LevelUnit::datasheet() {
+  return {.unit = "LevelUnit",
+          .does = "Gives each colour of a pixel the code of its level.",
+          .latency = {1},
+          .stages = {{"1", "level of three colours, its code", "8 x 8 multiply + divide by 255"}},
+          .formats = "U0.8 codes in and out.",
+          .cost = "three multipliers of 8 x 8, two divisions by a constant."};
 }
 
 Posteriser::Posteriser(const sc_core::sc_module_name& name, ClockDomain& clock,

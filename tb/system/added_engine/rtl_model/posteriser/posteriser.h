@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <systemc>
 
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/engine.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/unit.h"
@@ -30,6 +31,8 @@ class LevelUnit final : public Unit {
 
   Counter pixels{"pixels", "pixels", "pixels delivered"};
   Counter changed{"changed", "pixels", "pixels that the posteriser changed"};
+
+  static Datasheet datasheet();
 
  private:
   const ControlRegisters& control_;

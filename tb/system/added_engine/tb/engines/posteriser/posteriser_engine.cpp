@@ -11,13 +11,15 @@
 #include <string_view>
 #include <vector>
 
+#include "rtl_model/posteriser/posteriser.h"
+#include "rtl_model/posteriser/register_section.h"
 #include "spec/posteriser/check_build.h"
-#include "spec/posteriser/registers.h"
 #include "tb/app/pictures.h"
 #include "tb/app/simulate.h"
 #include "tb/base/random.h"
 #include "tb/engines/posteriser/posteriser_environment.h"
 #include "tb/engines/posteriser/posteriser_role.h"
+#include "tb/results/given_work.h"
 
 namespace deburr::tb {
 namespace {
@@ -30,6 +32,7 @@ template <class Visitor>
 void describe(PictureParameters& p, Visitor& v) {
   v.integer("width", p.width, 1, 4096, "pixel", "Width of the picture.");
   v.integer("height", p.height, 1, 4096, "pixel", "Height of the picture.");
+  for (const char* const name : {"width", "height"}) v.is_work(name, GivenWork::kSetting);
 }
 
 constexpr std::array<CoverageGroup, 1> kGroups = {
@@ -78,10 +81,9 @@ class PosteriserCommand final : public Engine {
     return {"before", "after", "golden", "difference", "change"};
   }
   std::vector<std::string_view> maps() const override { return {"level"}; }
-  rtl::RegisterSection registers() const override {
-    return {"Posteriser",
-            "DEBURR_POSTERISER",
-            {spec::posteriser::kRegisters.begin(), spec::posteriser::kRegisters.end()}};
+  rtl::RegisterSection registers() const override { return rtl::posteriser::register_section(); }
+  DatasheetSection datasheets() const override {
+    return {"Posteriser", {rtl::posteriser::LevelUnit::datasheet()}};
   }
   CoverageSection coverage() const override {
     return {"Posteriser", PosteriserEnvironment::declared_coverage(), kGroups};

@@ -25,16 +25,6 @@ Rgba8 colour_of(const Tone& t) { return {t.colour[0], t.colour[1], t.colour[2], 
 
 }  // namespace
 
-PosteriserDriver::PosteriserDriver(platform::RegisterBus& registers)
-    : EngineDriver(registers, {.engine = "posteriser",
-                               .id = reg::kId,
-                               .id_value = reg::kIdValue,
-                               .control = reg::kControl,
-                               .clear_counters = 1u << 1,
-                               .status = reg::kStatus,
-                               .idle = 1u << 0,
-                               .memory_errors = reg::kStatus}) {}
-
 void PosteriserMeter::collect(Result& result, const rtl::Engine& engine) const {
   add_parts(result, engine, 0);
   add_counters(result, engine);

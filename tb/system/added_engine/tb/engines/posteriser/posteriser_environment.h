@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "rtl_model/platform/engine_driver.h"
+#include "rtl_model/platform/posteriser_driver.h"
 #include "rtl_model/platform/register_host.h"
 #include "rtl_model/posteriser/posteriser.h"
 #include "spec/posteriser/packets.h"
@@ -24,12 +24,6 @@
 #include "tb/scene/image.h"
 
 namespace deburr::tb {
-
-// What software does with it: it has no memory, and rules by its parameters alone.
-class PosteriserDriver final : public platform::EngineDriver {
- public:
-  explicit PosteriserDriver(platform::RegisterBus& registers);
-};
 
 // What its figures are.
 class PosteriserMeter final : public Meter {
@@ -85,7 +79,7 @@ class PosteriserEnvironment final : public Environment {
   rtl::posteriser::Posteriser engine_;
   Sink<spec::posteriser::Tone> sink_;
   platform::RegisterHost host_;
-  PosteriserDriver driver_{host_};
+  platform::PosteriserDriver driver_{host_};
   PosteriserMeter meter_;
   RasterScoreboard<spec::posteriser::Tone> board_;
   RegisterScoreboard register_board_;

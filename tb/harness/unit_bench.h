@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// A queue of tokens at each end of a unit that a test looks at alone: without stalls, so that what
+// its sink notes are the unit's own clocks. (driver.h has ends for whole runs, with random stalls.)
+//
+//   unit_bench::Ends<Token, Result> ends(clock);   // source -> in -> [unit] -> out -> sink
+//   halver.tokens_in(ends.in);
+//   halver.halves_out(ends.out);
+//   ends.source.add(token);
+//   clock.run(10);
+//   clocks_of(ends.sink);                          // those in which its results were taken
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/link.h"
+#include "rtl_model/fabric/unit.h"
+
+namespace deburr::tb::unit_bench {
+
+// Pushes its tokens as fast as they are taken.
+template <class T>
+class Source final : public rtl::Unit {
+ public:
+  rtl::Out<T> out{"out"};
+  Source(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
+  rtl::Activity tick(rtl::Cycle cycle) override {
+    if (next_ == tokens_.size()) return rtl::kIdle;
+    if (!out.can_push(cycle)) return rtl::kStalledDownstream;
+    out.push(cycle, tokens_[next_++]);
+    return rtl::kBusy;
+  }
+  void reset() override {
+    tokens_.clear();
+    next_ = 0;
+  }
+  void add(const T& token) { tokens_.push_back(token); }
+  bool done() const { return next_ == tokens_.size(); }
+
+ private:
+  std::vector<T> tokens_;
+  std::size_t next_ = 0;
+};
+
+// Takes every token at once, unless told to wait, and notes when it could be taken.
+template <class T>
+class Sink final : public rtl::Unit {
+ public:
+  struct Taken {
+    rtl::Cycle cycle;
+    T token;
+  };
+  rtl::In<T> in{"in"};
+  Sink(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
+  rtl::Activity tick(rtl::Cycle cycle) override {
+    if (!in.can_pop(cycle) || (cycle >= hold_from && cycle < hold_to)) return rtl::kIdle;
+    taken.push_back({cycle, in.take(cycle)});
+    return rtl::kBusy;
+  }
+  void reset() override { taken.clear(); }
+  std::vector<Taken> taken;
+  rtl::Cycle hold_from = 0, hold_to = 0;  // takes nothing in [hold_from, hold_to)
+};
+
+template <class T>
+std::vector<rtl::Cycle> clocks_of(const Sink<T>& sink) {
+  std::vector<rtl::Cycle> clocks;
+  for (const auto& taken : sink.taken) clocks.push_back(taken.cycle);
+  return clocks;
+}
+
+// A unit of the test's own between two links. Its ports are bound by the test.
+template <class From, class To>
+struct Ends {
+  explicit Ends(rtl::ClockDomain& clock, const std::string& name = "")
+      : in((name + "in").c_str()),
+        out((name + "out").c_str()),
+        source((name + "source").c_str(), clock),
+        sink((name + "sink").c_str(), clock) {
+    source.out(in);
+    sink.in(out);
+  }
+  rtl::Link<From> in;
+  rtl::Link<To> out;
+  Source<From> source;
+  Sink<To> sink;
+};
+
+}  // namespace deburr::tb::unit_bench
