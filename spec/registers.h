@@ -43,6 +43,23 @@ struct RegisterInfo {
   }
 };
 
+// A register of a table by its name, and a field of a register by its own: what every engine has,
+// wherever it has it. Without one there is none such: nullptr, no bit.
+constexpr const RegisterInfo* register_named(std::span<const RegisterInfo> table,
+                                             std::string_view name) {
+  for (const RegisterInfo& info : table)
+    if (info.name == name) return &info;
+  return nullptr;
+}
+constexpr std::uint32_t bits_named(const RegisterInfo& info, std::string_view field) {
+  for (const Field& each : info.fields)
+    if (each.name == field) return each.mask();
+  return 0;
+}
+
+// Of a register that holds the address of a line of memory.
+inline constexpr Field kLineAddress{"address", 31, 6, "bits 31..6 of a multiple of 64"};
+
 // Whether the fields of every register stand from the lowest on and share no bit.
 constexpr bool fields_are_in_order(std::span<const RegisterInfo> table) {
   for (const RegisterInfo& info : table)

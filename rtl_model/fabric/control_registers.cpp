@@ -4,11 +4,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "spec/error.h"
 
 namespace deburr::rtl {
+
+ControlLayout control_layout(std::span<const spec::RegisterInfo> table, bool busy_ignores_writes) {
+  const auto row = [&](std::string_view name) -> const spec::RegisterInfo& {
+    const spec::RegisterInfo* const found = spec::register_named(table, name);
+    DEBURR_CHECK(found, fmt::format("an engine without a register {}", name));
+    return *found;
+  };
+  const auto bit = [&](const spec::RegisterInfo& of, std::string_view name) {
+    const std::uint32_t bits = spec::bits_named(of, name);
+    DEBURR_CHECK(bits != 0, fmt::format("{} without a field {}", of.name, name));
+    return bits;
+  };
+  const spec::RegisterInfo &control = row("CONTROL"), &status = row("STATUS");
+  return {.control = control.offset,
+          .status = status.offset,
+          .enable = bit(control, "enable"),
+          .clear_counters = bit(control, "clear_counters"),
+          .idle = bit(status, "idle"),
+          .written_while_busy = bit(status, "written_while_busy"),
+          .busy_ignores_writes = busy_ignores_writes};
+}
 
 ControlRegisters::ControlRegisters(const char* name, std::span<const spec::RegisterInfo> table,
                                    const ControlLayout& layout)

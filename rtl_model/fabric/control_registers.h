@@ -30,6 +30,17 @@ struct ControlLayout {
   bool busy_ignores_writes;                // or takes them, and only says so
 };
 
+// As the rows of CONTROL and STATUS have it, by the names of their fields. CheckFailed for a table
+// without one of these.
+ControlLayout control_layout(std::span<const spec::RegisterInfo> table, bool busy_ignores_writes);
+
+// A choice by the code in its field. A code that no choice has counts as code 0.
+template <class Choice>
+Choice choice_of(const spec::Field& field, std::uint32_t word) {
+  const std::uint32_t code = field.of(word);
+  return static_cast<Choice>(code < field.codes.size() ? code : 0);
+}
+
 class ControlRegisters {
  public:
   RegisterBlock registers;

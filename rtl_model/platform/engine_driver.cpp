@@ -6,6 +6,34 @@
 #include "spec/error.h"
 
 namespace deburr::platform {
+namespace {
+
+const spec::RegisterInfo& row(std::string_view engine,
+                              std::span<const spec::RegisterInfo> registers,
+                              std::string_view name) {
+  if (const spec::RegisterInfo* const found = spec::register_named(registers, name)) return *found;
+  throw spec::ConfigError(fmt::format("driver of the {}: there is no register {}", engine, name));
+}
+
+std::uint32_t bits(std::string_view engine, const spec::RegisterInfo& of, std::string_view field) {
+  if (const std::uint32_t found = spec::bits_named(of, field)) return found;
+  throw spec::ConfigError(
+      fmt::format("driver of the {}: {} has no field {}", engine, of.name, field));
+}
+
+}  // namespace
+
+DriverLayout::DriverLayout(std::string_view name, std::span<const spec::RegisterInfo> registers)
+    : engine(name),
+      id(row(name, registers, "ID").offset),
+      id_value(row(name, registers, "ID").reset),
+      control(row(name, registers, "CONTROL").offset),
+      clear_counters(bits(name, row(name, registers, "CONTROL"), "clear_counters")),
+      status(row(name, registers, "STATUS").offset),
+      idle(bits(name, row(name, registers, "STATUS"), "idle")) {
+  if (const spec::RegisterInfo* const errors = spec::register_named(registers, "MEMORY_ERRORS"))
+    memory_errors = errors->offset;
+}
 
 void EngineDriver::identify() {
   if (const std::uint32_t id = registers_.read(layout_.id); id != layout_.id_value)

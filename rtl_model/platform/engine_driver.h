@@ -4,20 +4,27 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "rtl_model/platform/host.h"
+#include "spec/registers.h"
 
 namespace deburr::platform {
 
 // Offsets and bits that every engine has, at places of its own.
 struct DriverLayout {
-  std::string_view engine;  // "texture unit", for errors
+  // As the rows of ID, CONTROL and STATUS have it, and MEMORY_ERRORS where there is one; `engine`:
+  // what errors call it. ConfigError for a table without one of these, or one of their fields.
+  DriverLayout(std::string_view engine, std::span<const spec::RegisterInfo> registers);
+
+  std::string_view engine;
   std::uint32_t id, id_value;
   std::uint32_t control, clear_counters;
   std::uint32_t status, idle;
-  std::uint32_t memory_errors;
+  std::optional<std::uint32_t> memory_errors;
 };
 
 class EngineDriver {
@@ -31,8 +38,11 @@ class EngineDriver {
     registers_.write(layout_.status, bits);
   }
   void clear_counters();
-  // Lines that memory answered with an error since the counters were cleared.
-  std::uint32_t memory_errors() { return registers_.read(layout_.memory_errors); }
+  // Lines that memory answered with an error since the counters were cleared; 0 of an engine that
+  // has no memory.
+  std::uint32_t memory_errors() {
+    return layout_.memory_errors ? registers_.read(*layout_.memory_errors) : 0;
+  }
 
  protected:
   // Both must outlive the driver.

@@ -16,16 +16,6 @@ constexpr std::uint64_t kMemoryLine = spec::geometric::kLineBytes;
 constexpr std::uint64_t kRegionAlignment = 4096;
 constexpr std::uint64_t kAddresses = std::uint64_t{1} << 32;
 
-constexpr DriverLayout kGeometricLayout = {
-    .engine = "geometric engine",
-    .id = spec::geometric::reg::kId,
-    .id_value = spec::geometric::reg::kIdValue,
-    .control = spec::geometric::reg::kControl,
-    .clear_counters = spec::geometric::reg::kControlClearCounters,
-    .status = spec::geometric::reg::kStatus,
-    .idle = spec::geometric::reg::kStatusIdle,
-    .memory_errors = spec::geometric::reg::kMemoryErrors};
-
 constexpr std::size_t index_of(spec::geometric::Region region) {
   return static_cast<std::size_t>(region);
 }
@@ -91,7 +81,9 @@ std::uint64_t GeometricRegions::end_of(std::uint64_t address) const {
 
 GeometricDriver::GeometricDriver(RegisterBus& registers, HostMemory& memory,
                                  const spec::geometric::Parameters& rules)
-    : EngineDriver(registers, kGeometricLayout), memory_(memory), rules_(rules) {}
+    : EngineDriver(registers, {"geometric engine", spec::geometric::kRegisters}),
+      memory_(memory),
+      rules_(rules) {}
 
 void GeometricDriver::set_rules(const spec::geometric::Parameters& rules) {
   require_idle("new rules");

@@ -13,14 +13,7 @@
 namespace deburr::platform {
 
 DriverLayout MorphologicalDriver::layout() {
-  return {.engine = "morphological engine",
-          .id = spec::morphological::reg::kId,
-          .id_value = spec::morphological::reg::kIdValue,
-          .control = spec::morphological::reg::kControl,
-          .clear_counters = spec::morphological::reg::kControlClearCounters,
-          .status = spec::morphological::reg::kStatus,
-          .idle = spec::morphological::reg::kStatusIdle,
-          .memory_errors = spec::morphological::reg::kMemoryErrors};
+  return {"morphological engine", spec::morphological::kRegisters};
 }
 
 void MorphologicalDriver::set_rules(const spec::morphological::Parameters& p) {

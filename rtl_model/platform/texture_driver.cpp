@@ -13,16 +13,7 @@
 
 namespace deburr::platform {
 
-DriverLayout TextureDriver::layout() {
-  return {.engine = "texture unit",
-          .id = spec::texture::reg::kId,
-          .id_value = spec::texture::reg::kIdValue,
-          .control = spec::texture::reg::kControl,
-          .clear_counters = spec::texture::reg::kControlClearCounters,
-          .status = spec::texture::reg::kStatus,
-          .idle = spec::texture::reg::kStatusIdle,
-          .memory_errors = spec::texture::reg::kMemoryErrors};
-}
+DriverLayout TextureDriver::layout() { return {"texture unit", spec::texture::kRegisters}; }
 
 void TextureDriver::load(std::span<const std::uint8_t> bytes) {
   const NamedRegion textures = {"textures", 0, bytes.size()};

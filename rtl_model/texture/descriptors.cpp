@@ -49,15 +49,7 @@ std::span<const spec::RegisterInfo> register_table() {
   return table;
 }
 
-ControlLayout control_layout() {
-  return {.control = reg::kControl,
-          .status = reg::kStatus,
-          .enable = reg::kControlEnable,
-          .clear_counters = reg::kControlClearCounters,
-          .idle = reg::kStatusIdle,
-          .written_while_busy = reg::kStatusWrittenWhileBusy,
-          .busy_ignores_writes = false};
-}
+ControlLayout control_layout() { return rtl::control_layout(spec::texture::kRegisters, false); }
 
 TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
   const auto field = [&](std::uint32_t offset) {

@@ -111,7 +111,7 @@ inline constexpr std::array kFields = {kSelect,    kLinearLight, kCrease, kDepth
                                        kFrameCopy, kCoverage,    kCull,   kCreaseDepth};
 }  // namespace rules
 namespace line_base {
-inline constexpr Field kAddress{"address", 31, 6, "bits 31..6 of a multiple of 64"};
+inline constexpr Field kAddress = kLineAddress;
 inline constexpr std::array kFields = {kAddress};
 }  // namespace line_base
 namespace refusal {

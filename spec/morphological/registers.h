@@ -97,7 +97,7 @@ inline constexpr Field kValue{"value", 15, 0, "U0.16"};
 inline constexpr std::array kFields = {kValue};
 }  // namespace threshold
 namespace line_base {
-inline constexpr Field kAddress{"address", 31, 6, "bits 31..6 of a multiple of 64"};
+inline constexpr Field kAddress = kLineAddress;
 inline constexpr std::array kFields = {kAddress};
 }  // namespace line_base
 namespace smaa {

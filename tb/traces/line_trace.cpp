@@ -76,9 +76,8 @@ void LineTrace::attach_caches() {
   });
   if (!any)
     throw spec::ConfigError(
-        "run.line_trace_look_ups: nothing that is built has a cache whose look-ups are shown: "
-        "leave "
-        "it out");
+        "run.line_trace_look_ups: no cache that is built shows its look-ups: build one that does, "
+        "or leave it out");
 }
 
 void LineTrace::detach() {

@@ -9,24 +9,9 @@ namespace {
 namespace reg = spec::geometric::reg;
 using spec::geometric::Refusal;
 
-// A code that no choice has counts as code 0.
-template <class Choice>
-Choice choice(const spec::Field& field, std::uint32_t word) {
-  const std::uint32_t code = field.of(word);
-  return static_cast<Choice>(code < field.codes.size() ? code : 0);
-}
-
 }  // namespace
 
-ControlLayout control_layout() {
-  return {.control = reg::kControl,
-          .status = reg::kStatus,
-          .enable = reg::kControlEnable,
-          .clear_counters = reg::kControlClearCounters,
-          .idle = reg::kStatusIdle,
-          .written_while_busy = reg::kStatusWrittenWhileBusy,
-          .busy_ignores_writes = true};
-}
+ControlLayout control_layout() { return rtl::control_layout(spec::geometric::kRegisters, true); }
 
 FrameRules decode(const ControlRegisters& registers) {
   const std::uint32_t size = registers.value(reg::kSize), rules = registers.value(reg::kRules);
@@ -35,17 +20,17 @@ FrameRules decode(const ControlRegisters& registers) {
   f.width = width;
   f.height = height;
   namespace field = reg::rules;
-  f.select = choice<spec::geometric::Select>(field::kSelect, rules);
-  f.crease = choice<spec::geometric::Crease>(field::kCrease, rules);
-  f.cull = choice<spec::geometric::Cull>(field::kCull, rules);
-  f.depth_test = choice<spec::geometric::DepthTest>(field::kDepthTest, rules);
-  f.combine = choice<spec::geometric::Combine>(field::kCombine, rules);
+  f.select = choice_of<spec::geometric::Select>(field::kSelect, rules);
+  f.crease = choice_of<spec::geometric::Crease>(field::kCrease, rules);
+  f.cull = choice_of<spec::geometric::Cull>(field::kCull, rules);
+  f.depth_test = choice_of<spec::geometric::DepthTest>(field::kDepthTest, rules);
+  f.combine = choice_of<spec::geometric::Combine>(field::kCombine, rules);
   f.linear_light = field::kLinearLight.of(rules) != 0;
   f.depth_bias =
       std::clamp(field::kDepthBias.of(rules), 1U, std::uint32_t{spec::geometric::kDepthBits});
   f.crease_depth =
       std::min(field::kCreaseDepth.of(rules), std::uint32_t{spec::geometric::kDepthBits});
-  f.area = choice<spec::geometric::CoverageRule>(field::kCoverage, rules) ==
+  f.area = choice_of<spec::geometric::CoverageRule>(field::kCoverage, rules) ==
            spec::geometric::CoverageRule::kArea;
   f.mark = field::kMark.of(rules) != 0;
   f.tiled = field::kLayout.of(rules) != 0;

@@ -19,23 +19,10 @@ bool is_table(const spec::morphological::Parameters& p) {
 }
 int reach_rows_of(const spec::morphological::Parameters& p) { return p.window_rows / 2 - 1; }
 
-// A code that no choice has counts as code 0.
-template <class Choice>
-Choice choice(const spec::Field& field, std::uint32_t word) {
-  const std::uint32_t code = field.of(word);
-  return static_cast<Choice>(code < field.codes.size() ? code : 0);
-}
-
 }  // namespace
 
 ControlLayout control_layout() {
-  return {.control = reg::kControl,
-          .status = reg::kStatus,
-          .enable = reg::kControlEnable,
-          .clear_counters = reg::kControlClearCounters,
-          .idle = reg::kStatusIdle,
-          .written_while_busy = reg::kStatusWrittenWhileBusy,
-          .busy_ignores_writes = true};
+  return rtl::control_layout(spec::morphological::kRegisters, true);
 }
 
 Decoded decode(const ControlRegisters& registers, const spec::morphological::Parameters& p) {
@@ -53,13 +40,13 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
 
   namespace field = reg::rules;
   const auto is_set = [&](const spec::Field& flag) { return flag.of(rules) != 0; };
-  f.source = choice<spec::morphological::EdgeSource>(field::kSource, rules);
+  f.source = choice_of<spec::morphological::EdgeSource>(field::kSource, rules);
   f.dynamic = is_set(field::kThresholdMode) && f.source == spec::morphological::EdgeSource::kLuma;
-  f.dynamic_luma = choice<spec::morphological::DynamicLuma>(field::kDynamicLuma, rules);
-  f.local_contrast = choice<spec::morphological::LocalContrast>(field::kLocalContrast, rules);
+  f.dynamic_luma = choice_of<spec::morphological::DynamicLuma>(field::kDynamicLuma, rules);
+  f.local_contrast = choice_of<spec::morphological::LocalContrast>(field::kLocalContrast, rules);
   if (f.source == spec::morphological::EdgeSource::kDepth)
     f.local_contrast = spec::morphological::LocalContrast::kOff;
-  f.predictor = choice<spec::morphological::Predictor>(field::kPredictor, rules);
+  f.predictor = choice_of<spec::morphological::Predictor>(field::kPredictor, rules);
   f.steps = std::min({static_cast<std::int32_t>(field::kSteps.of(rules)),
                       spec::morphological::kMaxSteps, reach_rows - 1});
   if (f.predictor == spec::morphological::Predictor::kNone) f.steps = 0;
@@ -83,7 +70,7 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
   f.corner_loss =
       std::max(spec::morphological::kMaxCornerRounding - number(reg::smaa::kCornerRounding), 0);
   f.strongest = is_set(field::kStrongest);
-  f.leave = choice<spec::morphological::Leave>(field::kLeave, rules);
+  f.leave = choice_of<spec::morphological::Leave>(field::kLeave, rules);
 
   f.threshold = 255 * registers.value(reg::kThreshold);
   f.threshold_on = 255 * registers.value(reg::kThresholdOn);

@@ -7,12 +7,15 @@
 
 #include <array>
 #include <deque>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/platform/register_host.h"
 #include "spec/check_build.h"
+#include "spec/registers.h"
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb::toy::engine_test {
@@ -309,6 +312,59 @@ TEST(LatencyProbe, OfSingleItemsIsTheirTime) {
     ASSERT_EQ(probe.leaves(c), 5 * gap);
     ASSERT_EQ(probe.leaves(c), gap);
   }
+}
+
+// ---- what the rows of a table say of every engine
+
+constexpr std::array<std::string_view, 3> kThree = {"one", "two", "three"};
+constexpr spec::Field kEnable{"enable", 4, 4, ""}, kClear{"clear_counters", 9, 9, ""},
+    kIdle{"idle", 2, 2, ""}, kBusyWrite{"written_while_busy", 17, 17, ""};
+constexpr std::array kControlFields = {kEnable, kClear}, kStatusFields = {kIdle, kBusyWrite};
+constexpr std::array<spec::RegisterInfo, 3> kRows = {{
+    {0x30, "STATUS", Access::kWriteOneToClear, 1, "State.", kStatusFields},
+    {0x34, "SIZE", Access::kReadWrite, 0, "Size."},
+    {0x38, "CONTROL", Access::kReadWrite, 1, "Switch.", kControlFields},
+}};
+
+TEST(ControlLayout, IsThatOfTheRowsByName) {
+  const rtl::ControlLayout layout = rtl::control_layout(kRows, true);
+  EXPECT_EQ(layout.control, 0x38u);
+  EXPECT_EQ(layout.status, 0x30u);
+  EXPECT_EQ(layout.enable, 1u << 4);
+  EXPECT_EQ(layout.clear_counters, 1u << 9);
+  EXPECT_EQ(layout.idle, 1u << 2);
+  EXPECT_EQ(layout.written_while_busy, 1u << 17);
+  EXPECT_TRUE(layout.busy_ignores_writes);
+  EXPECT_FALSE(rtl::control_layout(kRows, false).busy_ignores_writes);
+}
+
+TEST(ControlLayout, WantsBothRegistersAndTheirFields) {
+  const auto said = [](std::span<const spec::RegisterInfo> table) -> std::string {
+    try {
+      rtl::control_layout(table, true);
+    } catch (const spec::CheckFailed& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::span<const spec::RegisterInfo> all = kRows;
+  EXPECT_EQ(said(all), "");
+  EXPECT_THAT(said(all.first(2)), HasSubstr("without a register CONTROL"));
+  EXPECT_THAT(said(all.last(2)), HasSubstr("without a register STATUS"));
+  std::array<spec::RegisterInfo, 3> fewer = kRows;
+  fewer[0].fields = std::span(kStatusFields).first(1);
+  EXPECT_THAT(said(fewer), HasSubstr("STATUS without a field written_while_busy"));
+  fewer = kRows;
+  fewer[2].fields = std::span(kControlFields).last(1);
+  EXPECT_THAT(said(fewer), HasSubstr("CONTROL without a field enable"));
+}
+
+TEST(Choice, ACodeThatNoneHasCountsAsZero) {
+  constexpr spec::Field field{"which", 5, 4, "", kThree};
+  enum class Which : std::uint8_t { kOne, kTwo, kThree };
+  EXPECT_EQ(rtl::choice_of<Which>(field, 0x2F), Which::kThree);
+  EXPECT_EQ(rtl::choice_of<Which>(field, 0x10), Which::kTwo);
+  EXPECT_EQ(rtl::choice_of<Which>(field, 0x30), Which::kOne);
 }
 
 TEST(LatencyProbe, AgreesWithAQueueOfTimes) {

@@ -9,14 +9,6 @@ namespace {
 
 namespace reg = spec::posteriser::reg;
 
-constexpr ControlLayout kLayout = {.control = reg::kControl,
-                                   .status = reg::kStatus,
-                                   .enable = reg::control::kEnable.mask(),
-                                   .clear_counters = reg::control::kClearCounters.mask(),
-                                   .idle = reg::status::kIdle.mask(),
-                                   .written_while_busy = reg::status::kWrittenWhileBusy.mask(),
-                                   .busy_ignores_writes = true};
-
 // 255 level / steps, rounded, halves up.
 std::uint32_t code(std::uint32_t level, std::uint32_t steps) {
   return (510 * level + steps) / (2 * steps);
@@ -60,7 +52,8 @@ Datasheet LevelUnit::datasheet() {
 
 Posteriser::Posteriser(const sc_core::sc_module_name& name, ClockDomain& clock,
                        const spec::posteriser::Parameters& parameters)
-    : Engine(name, clock, spec::posteriser::kRegisters, kLayout),
+    : Engine(name, clock, spec::posteriser::kRegisters,
+             control_layout(spec::posteriser::kRegisters, true)),
       clock_(clock),
       levels("levels", clock, control) {
   const spec::posteriser::Parameters p = check_build(parameters);

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// What the drivers of all engines do, by the rows of a table: where ID, CONTROL, STATUS and
+// MEMORY_ERRORS are is each engine's own business.
+#include "rtl_model/platform/engine_driver.h"
+
+#include <array>
+
+#include "tb/unit/platform/fakes.h"
+
+namespace deburr::tb::engine_driver_test {
+namespace {
+
+using spec::Access;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Pair;
+
+constexpr spec::Field kClear{"clear_counters", 6, 6, ""}, kIdle{"idle", 3, 3, ""};
+constexpr std::array kControlFields = {kClear}, kStatusFields = {kIdle};
+constexpr std::array<spec::RegisterInfo, 4> kRows = {{
+    {0x10, "MEMORY_ERRORS", Access::kReadOnly, 0, "Errors."},
+    {0x14, "STATUS", Access::kWriteOneToClear, 1, "State.", kStatusFields},
+    {0x18, "CONTROL", Access::kReadWrite, 1, "Switch.", kControlFields},
+    {0x1C, "ID", Access::kReadOnly, 0xDEB0007F, "Which."},
+}};
+using Rows = std::span<const spec::RegisterInfo>;
+
+struct Driver final : platform::EngineDriver {
+  Driver(platform::RegisterBus& registers, Rows rows)
+      : EngineDriver(registers, {"sample engine", rows}) {}
+};
+
+TEST(EngineDriver, GoesByTheRowsOfItsEngine) {
+  FakeRegisters registers;
+  registers.values = {{0x10, 5}, {0x14, 0x80}, {0x18, 1}, {0x1C, 0xDEB0007F}};
+  Driver driver(registers, kRows);
+  driver.identify();
+  EXPECT_FALSE(driver.idle());
+  registers.values[0x14] = 0x88;
+  EXPECT_TRUE(driver.idle());
+  EXPECT_EQ(driver.memory_errors(), 5u);
+  driver.clear_counters();
+  EXPECT_THAT(registers.written, ElementsAre(Pair(0x18, 0x41)));
+  registers.values[0x1C] = 3;
+  EXPECT_THAT(error_of<spec::SimulationError>([&] { driver.identify(); }),
+              HasSubstr("reads 0x3, expected 0xdeb0007f"));
+}
+
+TEST(EngineDriver, HasNoErrorsWithoutMemory) {
+  FakeRegisters registers;
+  registers.values = {{0x10, 5}, {0, 7}};
+  Driver driver(registers, Rows(kRows).last(3));
+  EXPECT_EQ(driver.memory_errors(), 0u);
+}
+
+TEST(EngineDriver, WantsTheRowsThatEveryEngineHas) {
+  const auto said = [](Rows rows) {
+    return error_of<spec::ConfigError>([&] { platform::DriverLayout("sample engine", rows); });
+  };
+  EXPECT_EQ(said(kRows), "");
+  EXPECT_THAT(said(Rows(kRows).first(3)), HasSubstr("sample engine: there is no register ID"));
+  EXPECT_THAT(said(Rows(kRows).last(2)), HasSubstr("there is no register STATUS"));
+  auto fewer = kRows;
+  fewer[1].fields = {};
+  EXPECT_THAT(said(fewer), HasSubstr("STATUS has no field idle"));
+}
+
+}  // namespace
+}  // namespace deburr::tb::engine_driver_test
