@@ -316,7 +316,7 @@ TEST(LatencyProbe, OfSingleItemsIsTheirTime) {
 
 // ---- what the rows of a table say of every engine
 
-constexpr std::array<std::string_view, 3> kThree = {"one", "two", "three"};
+constexpr std::array<std::string_view, 3> kChoices = {"one", "two", "three"};
 constexpr spec::Field kEnable{"enable", 4, 4, ""}, kClear{"clear_counters", 9, 9, ""},
     kIdle{"idle", 2, 2, ""}, kBusyWrite{"written_while_busy", 17, 17, ""};
 constexpr std::array kControlFields = {kEnable, kClear}, kStatusFields = {kIdle, kBusyWrite};
@@ -360,7 +360,7 @@ TEST(ControlLayout, WantsBothRegistersAndTheirFields) {
 }
 
 TEST(Choice, ACodeThatNoneHasCountsAsZero) {
-  constexpr spec::Field field{"which", 5, 4, "", kThree};
+  constexpr spec::Field field{"which", 5, 4, "", kChoices};
   enum class Which : std::uint8_t { kOne, kTwo, kThree };
   EXPECT_EQ(rtl::choice_of<Which>(field, 0x2F), Which::kThree);
   EXPECT_EQ(rtl::choice_of<Which>(field, 0x10), Which::kTwo);
