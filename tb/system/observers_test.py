@@ -55,7 +55,7 @@ class Windows(unittest.TestCase):
     def check(self, windows, result):
         """Every sum over windows is what the result has."""
         series = dict(flat(windows["series"]))
-        self.assertGreater(len(series), 50)
+        self.assertGreater(len(series), 10)  # an engine of one unit has as many
         for key, values in series.items():
             self.assertEqual(len(values), len(windows["cycles"]), key)
             if not key.startswith("ports.") and not key.endswith(".most"):
@@ -250,8 +250,8 @@ class Timeline(unittest.TestCase):
         expected = {f"{name}, of {link['depth']}": series["links"][name]["occupancy"]
                     for name, link in links.items() if link["depth"] > 2}
         expected.update({f"{name}, in flight": port["outstanding"] for name, port in series.get("ports", {}).items()})
+        self.assertTrue(links)
         self.assertEqual(areas, {name: sum(values[i] for i in inside) for name, values in expected.items()})
-        self.assertTrue(areas)
 
     def test_the_checker_finds_what_is_wrong(self):
         with tempfile.TemporaryDirectory() as out:
