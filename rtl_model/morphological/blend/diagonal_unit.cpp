@@ -172,7 +172,8 @@ Activity DiagonalUnit::tick(Cycle cycle) {
     return kStalledDownstream;
   pipe_.move();
   if (const Beat* beat = pipe_.at(5); beat && beat->valid) deliver(cycle, *beat);
-  if (const Beat* beat = pipe_.at(4); beat && beat->valid) address(cycle, *beat);
+  if (const Beat* beat = pipe_.at(4); beat && beat->valid && beat->searched != 0)
+    address(cycle, *beat);
   if (arrives) {
     const DiagonalColumnsToken& token = columns_in.take(cycle);
     if (token.slot.row == store_.reach_rows() + spec::morphological::kRowLag - 2 &&

@@ -183,6 +183,7 @@ void RunExtractor::send_columns(Cycle cycle) {
   token.left = token.top = {};
   for (std::int32_t k = 0; k <= 2 * most; ++k) {
     const EdgeBits bits = window_.beat(token_.slot.beat, row + k - most);
+    if ((bits.left | bits.top) == 0) continue;
     for (unsigned lanes = bits.left; lanes != 0; lanes &= lanes - 1)
       token.left[static_cast<std::size_t>(std::countr_zero(lanes))] |= std::uint64_t{1} << k;
     for (unsigned lanes = bits.top; lanes != 0; lanes &= lanes - 1)
