@@ -116,8 +116,8 @@ class SequenceTest(unittest.TestCase):
         return [read_png(self.path(f"{name}{i}/after.png")) for i in range(count)]
 
     def write_box(self, name, shift):
-        """A slanted box, which casts edges on all sides."""
-        corners = [(x + shift, y + 0.23 * x, z) for z in (-.5, .5) for y in (-.5, .5) for x in (-.5, .5)]
+        """A slanted box, which casts edges on all sides; the camera follows where it is, so it slants more or less."""
+        corners = [(x, y + (0.23 + shift) * x, z) for z in (-.5, .5) for y in (-.5, .5) for x in (-.5, .5)]
         faces = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]
         with open(self.path(name), "w", encoding="utf-8") as file:
             file.writelines(f"v {x} {y} {z}\n" for x, y, z in corners)
