@@ -63,7 +63,8 @@ def is_number(text):
 
 
 def steps_are_round(labels):
-    """Ticks at even steps, each a multiple of its step, which is 1, 2, 2.5 or 5 times a power of ten."""
+    """Ticks at even steps, each a multiple of its step, which is 1, 2, 2.5, 4 or 5 times a power of ten
+    (4: every other tick of 2, on a low chart)."""
     values = [float(text.replace(",", "").replace("\u2212", "-")) for text in labels if is_number(text)]
     if len(values) < 2:
         return True
@@ -73,7 +74,7 @@ def steps_are_round(labels):
         mantissa *= 10
     while mantissa >= 9.999:
         mantissa /= 10
-    return (any(abs(mantissa - m) < 1e-6 for m in (1, 2, 2.5, 5)) and
+    return (any(abs(mantissa - m) < 1e-6 for m in (1, 2, 2.5, 4, 5)) and
             all(abs(v / step - round(v / step)) < 1e-6 for v in values))
 
 
