@@ -147,10 +147,10 @@ def run(
     size: str | tuple[int, int] = ...,
     mode: typing.Literal['nearest', 'linear', 'nearest_mipmap_nearest', 'linear_mipmap_nearest', 'nearest_mipmap_linear', 'linear_mipmap_linear', 'trilinear'] = ...,
     aniso: int = ...,
-    preset: typing.Literal['paper', 'deburr'] = ...,
-    roll: float = ...,
     frames: int = ...,
     motion: typing.Literal['zoom', 'roll', 'pan'] = ...,
+    preset: typing.Literal['paper', 'deburr'] = ...,
+    roll: float = ...,
     wrap: typing.Literal['scene', 'repeat', 'mirrored_repeat', 'clamp_to_edge'] = ...,
     format: typing.Literal['rgba8', 'rgb565', 'rgba4444', 'l8', 'srgb8_a8'] = ...,
     layout: typing.Literal['linear', 'tiled'] = ...,
@@ -198,6 +198,8 @@ def run(
     frame_height: int = ...,
     frame_truth_samples: int = ...,
     frame_count: int = ...,
+    sequence_frames: int = ...,
+    sequence_motion: typing.Literal['zoom', 'roll', 'pan'] = ...,
     morphological_preset: typing.Literal['mlaa', 'mlaa-slope', 'smaa', 'smaa-dynamic', 'deburr-line', 'deburr'] = ...,
     morphological_quality: typing.Literal['low', 'medium', 'high', 'ultra'] = ...,
     morphological_edges_source: typing.Literal['luma', 'depth', 'predicated', 'colour'] = ...,
@@ -272,6 +274,8 @@ def run(
     preset: typing.Literal['mlaa', 'mlaa-slope', 'smaa', 'smaa-dynamic', 'deburr-line', 'deburr'] = ...,
     lanes: int = ...,
     storage: typing.Literal['line_buffers', 'memory'] = ...,
+    frames: int = ...,
+    motion: typing.Literal['zoom', 'roll', 'pan'] = ...,
 ) -> Run: ...
 @typing.overload
 def run(
@@ -317,6 +321,8 @@ def run(
     scene_edge_order: typing.Literal['table', 'shuffled'] = ...,
     scene_truth_samples: int = ...,
     scene_count: int = ...,
+    sequence_frames: int = ...,
+    sequence_motion: typing.Literal['zoom', 'roll', 'pan'] = ...,
     geometric_preset: typing.Literal['gpaa', 'gpaa-optimised', 'deburr'] = ...,
     geometric_select: typing.Literal['all', 'edges'] = ...,
     geometric_crease: typing.Literal['off', 'paper', 'shading'] = ...,
@@ -383,6 +389,8 @@ def run(
     preset: typing.Literal['gpaa', 'gpaa-optimised', 'deburr'] = ...,
     layout: typing.Literal['raster', 'tiled'] = ...,
     walkers: int = ...,
+    frames: int = ...,
+    motion: typing.Literal['zoom', 'roll', 'pan'] = ...,
 ) -> Run: ...
 @typing.overload
 def run(
@@ -439,6 +447,8 @@ def run(
     sampler_lod_bias: int = ...,
     sampler_min_lod: int = ...,
     sampler_max_lod: int = ...,
+    sequence_frames: int = ...,
+    sequence_motion: typing.Literal['zoom', 'roll', 'pan'] = ...,
     frame_smoothing: typing.Literal['morphological', 'geometric', 'geometric-morphological'] = ...,
     texture_preset: typing.Literal['paper', 'deburr'] = ...,
     texture_axes: typing.Literal['two', 'four', 'eight'] = ...,
@@ -578,6 +588,8 @@ def run(
     size: str | tuple[int, int] = ...,
     mode: typing.Literal['nearest', 'linear', 'nearest_mipmap_nearest', 'linear_mipmap_nearest', 'nearest_mipmap_linear', 'linear_mipmap_linear', 'trilinear'] = ...,
     aniso: int = ...,
+    frames: int = ...,
+    motion: typing.Literal['zoom', 'roll', 'pan'] = ...,
     preset: typing.Literal['mlaa', 'mlaa-slope', 'smaa', 'smaa-dynamic', 'deburr-line', 'deburr'] = ...,
     lanes: int = ...,
     storage: typing.Literal['line_buffers', 'memory'] = ...,
@@ -701,10 +713,10 @@ def sweep(
     size: str | tuple[int, int] = ...,
     mode: typing.Literal['nearest', 'linear', 'nearest_mipmap_nearest', 'linear_mipmap_nearest', 'nearest_mipmap_linear', 'linear_mipmap_linear', 'trilinear'] = ...,
     aniso: int = ...,
-    preset: typing.Literal['paper', 'deburr'] = ...,
-    roll: float = ...,
     frames: int = ...,
     motion: typing.Literal['zoom', 'roll', 'pan'] = ...,
+    preset: typing.Literal['paper', 'deburr'] = ...,
+    roll: float = ...,
     wrap: typing.Literal['scene', 'repeat', 'mirrored_repeat', 'clamp_to_edge'] = ...,
     format: typing.Literal['rgba8', 'rgb565', 'rgba4444', 'l8', 'srgb8_a8'] = ...,
     layout: typing.Literal['linear', 'tiled'] = ...,
@@ -760,6 +772,8 @@ def sweep(
     frame_height: int = ...,
     frame_truth_samples: int = ...,
     frame_count: int = ...,
+    sequence_frames: int = ...,
+    sequence_motion: typing.Literal['zoom', 'roll', 'pan'] = ...,
     morphological_preset: typing.Literal['mlaa', 'mlaa-slope', 'smaa', 'smaa-dynamic', 'deburr-line', 'deburr'] = ...,
     morphological_quality: typing.Literal['low', 'medium', 'high', 'ultra'] = ...,
     morphological_edges_source: typing.Literal['luma', 'depth', 'predicated', 'colour'] = ...,
@@ -834,6 +848,8 @@ def sweep(
     preset: typing.Literal['mlaa', 'mlaa-slope', 'smaa', 'smaa-dynamic', 'deburr-line', 'deburr'] = ...,
     lanes: int = ...,
     storage: typing.Literal['line_buffers', 'memory'] = ...,
+    frames: int = ...,
+    motion: typing.Literal['zoom', 'roll', 'pan'] = ...,
 ) -> typing.Any: ...
 @typing.overload
 def sweep(
@@ -887,6 +903,8 @@ def sweep(
     scene_edge_order: typing.Literal['table', 'shuffled'] = ...,
     scene_truth_samples: int = ...,
     scene_count: int = ...,
+    sequence_frames: int = ...,
+    sequence_motion: typing.Literal['zoom', 'roll', 'pan'] = ...,
     geometric_preset: typing.Literal['gpaa', 'gpaa-optimised', 'deburr'] = ...,
     geometric_select: typing.Literal['all', 'edges'] = ...,
     geometric_crease: typing.Literal['off', 'paper', 'shading'] = ...,
@@ -953,6 +971,8 @@ def sweep(
     preset: typing.Literal['gpaa', 'gpaa-optimised', 'deburr'] = ...,
     layout: typing.Literal['raster', 'tiled'] = ...,
     walkers: int = ...,
+    frames: int = ...,
+    motion: typing.Literal['zoom', 'roll', 'pan'] = ...,
 ) -> typing.Any: ...
 @typing.overload
 def sweep(
@@ -1017,6 +1037,8 @@ def sweep(
     sampler_lod_bias: int = ...,
     sampler_min_lod: int = ...,
     sampler_max_lod: int = ...,
+    sequence_frames: int = ...,
+    sequence_motion: typing.Literal['zoom', 'roll', 'pan'] = ...,
     frame_smoothing: typing.Literal['morphological', 'geometric', 'geometric-morphological'] = ...,
     texture_preset: typing.Literal['paper', 'deburr'] = ...,
     texture_axes: typing.Literal['two', 'four', 'eight'] = ...,
@@ -1156,6 +1178,8 @@ def sweep(
     size: str | tuple[int, int] = ...,
     mode: typing.Literal['nearest', 'linear', 'nearest_mipmap_nearest', 'linear_mipmap_nearest', 'nearest_mipmap_linear', 'linear_mipmap_linear', 'trilinear'] = ...,
     aniso: int = ...,
+    frames: int = ...,
+    motion: typing.Literal['zoom', 'roll', 'pan'] = ...,
     preset: typing.Literal['mlaa', 'mlaa-slope', 'smaa', 'smaa-dynamic', 'deburr-line', 'deburr'] = ...,
     lanes: int = ...,
     storage: typing.Literal['line_buffers', 'memory'] = ...,

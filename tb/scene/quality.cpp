@@ -103,11 +103,14 @@ void FlickerMeter::add(Image picture, Image truth, Mask drawn) {
     Mask both = drawn;
     for (std::size_t i = 0; i < both.pixels.size(); ++i)
       both.pixels[i] = drawn.pixels[i] != 0 && drawn_.pixels[i] != 0;
-    const double square = flicker_square(picture_, picture, truth_, truth, both);
-    sum_ += square;
-    if (std::sqrt(square) > worst_) {
-      worst_ = std::sqrt(square);
-      worst_frame_ = frames_;
+    if (count(both) > 0) {
+      const double square = flicker_square(picture_, picture, truth_, truth, both);
+      sum_ += square;
+      ++pairs_;
+      if (std::sqrt(square) > worst_) {
+        worst_ = std::sqrt(square);
+        worst_frame_ = frames_;
+      }
     }
   }
   picture_ = std::move(picture);
@@ -116,7 +119,7 @@ void FlickerMeter::add(Image picture, Image truth, Mask drawn) {
   ++frames_;
 }
 
-double FlickerMeter::mean() const { return frames_ > 1 ? std::sqrt(sum_ / (frames_ - 1)) : 0; }
+double FlickerMeter::mean() const { return pairs_ > 0 ? std::sqrt(sum_ / pairs_) : 0; }
 
 std::int64_t count(const Mask& mask) {
   return std::count_if(mask.pixels.begin(), mask.pixels.end(),

@@ -37,7 +37,8 @@ double flicker_square(const Image& before, const Image& after, const Image& trut
 class FlickerMeter {
  public:
   static Mask everywhere(const Image& image);
-  // `drawn`: pixels that count where the frame before drew them too. Sizes must agree.
+  // `drawn`: pixels that count where the frame before drew them too; a pair of frames without any
+  // does not count. Sizes must agree.
   void add(Image picture, Image truth, Mask drawn);
   int frames() const { return frames_; }
   int width() const { return picture_.width; }  // of the last frame
@@ -49,7 +50,7 @@ class FlickerMeter {
  private:
   Image picture_, truth_;
   Mask drawn_;
-  int frames_ = 0, worst_frame_ = 0;
+  int frames_ = 0, pairs_ = 0, worst_frame_ = 0;
   double sum_ = 0, worst_ = 0;
 };
 

@@ -6,12 +6,16 @@ says is the one that is computed here from the pictures of a run a frame.
 usage: sequence_test.py DEBURR [CLASS]"""
 import json
 import os
+import pathlib
 import struct
 import subprocess
 import sys
 import tempfile
 import unittest
 import zlib
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "engines"))
+from engine_list import trials  # noqa: E402
 
 DEBURR = "deburr"
 
@@ -112,8 +116,8 @@ class SequenceTest(unittest.TestCase):
         return [read_png(self.path(f"{name}{i}/after.png")) for i in range(count)]
 
     def write_box(self, name, shift):
-        """A slanted box, which casts edges on all sides."""
-        corners = [(x + shift, y + 0.23 * x, z) for z in (-.5, .5) for y in (-.5, .5) for x in (-.5, .5)]
+        """A slanted box, which casts edges on all sides; the camera follows where it is, so it slants more or less."""
+        corners = [(x, y + (0.23 + shift) * x, z) for z in (-.5, .5) for y in (-.5, .5) for x in (-.5, .5)]
         faces = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]
         with open(self.path(name), "w", encoding="utf-8") as file:
             file.writelines(f"v {x} {y} {z}\n" for x, y, z in corners)
@@ -122,6 +126,8 @@ class SequenceTest(unittest.TestCase):
 
 
 class Images(SequenceTest):
+    """Of the engine that takes picture files."""
+    (ENGINE,) = trials("sequence_of_images")
     NAMES = ("f1.png", "f2.png", "f10.png")  # as numbers, and not as letters, have it
 
     def setUp(self):
@@ -134,9 +140,9 @@ class Images(SequenceTest):
                                                 for x in range(size)] for y in range(size)])
 
     def test_without_a_truth_against_what_went_in(self):
-        result = self.result("morphological", "all", "--in", "f*.png")
+        result = self.result(self.ENGINE, "all", "--in", "f*.png")
         for i, name in enumerate(self.NAMES):
-            self.result("morphological", f"one{i}", "--in", name)
+            self.result(self.ENGINE, f"one{i}", "--in", name)
         befores = [read_png(self.path(name)) for name in self.NAMES]
         self.check(result, self.pictures("one", 3), befores, befores)
         self.assertEqual(result["work"]["flicker_before"], 0)
@@ -147,9 +153,9 @@ class Images(SequenceTest):
             self.assertEqual([i["file"] for i in json.load(file)["inputs"]], list(self.NAMES))
 
     def test_with_truths(self):
-        result = self.result("morphological", "all", "--in", "f*.png", "--truth", "t_f*.png")
+        result = self.result(self.ENGINE, "all", "--in", "f*.png", "--truth", "t_f*.png")
         for i, name in enumerate(self.NAMES):
-            self.result("morphological", f"one{i}", "--in", name)
+            self.result(self.ENGINE, f"one{i}", "--in", name)
         self.check(result, self.pictures("one", 3), [read_png(self.path(name)) for name in self.NAMES],
                    [read_png(self.path("t_" + name)) for name in self.NAMES])
         with open(self.path("all/report.html"), encoding="utf-8") as file:
@@ -158,10 +164,10 @@ class Images(SequenceTest):
     def test_a_list_in_a_configuration_is_that_of_the_command_line(self):
         with open(self.path("run.yaml"), "w", encoding="utf-8") as file:
             file.write("frame: {source: [f10.png, f1.png], truth: [t_f10.png, t_f1.png]}\n")
-        given = self.result("morphological", "given", "--in", "f10.png; f1.png", "--truth", "t_f10.png;t_f1.png")
-        read = self.result("morphological", "read", "--config", "run.yaml")
+        given = self.result(self.ENGINE, "given", "--in", "f10.png; f1.png", "--truth", "t_f10.png;t_f1.png")
+        read = self.result(self.ENGINE, "read", "--config", "run.yaml")
         self.assertEqual(given["work"], read["work"])
-        again = self.result("morphological", "again", "--config", "given/manifest.json")
+        again = self.result(self.ENGINE, "again", "--config", "given/manifest.json")
         self.assertEqual(given["work"], again["work"])
 
     def test_refuses_what_is_no_sequence(self):
@@ -175,20 +181,21 @@ class Images(SequenceTest):
                 ("does not move", "--in", "f1.png", "--motion", "pan"),
                 ("frame 1 has 16 x 16 pixels", "--in", "f1.png;small.png")):
             with self.subTest(says):
-                self.assertIn(says, self.deburr("morphological", *arguments, "--out", "refused", code=2))
-        self.assertIn("nothere.png", self.deburr("morphological", "--in", "f1.png;nothere.png", "--out", "refused",
+                self.assertIn(says, self.deburr(self.ENGINE, *arguments, "--out", "refused", code=2))
+        self.assertIn("nothere.png", self.deburr(self.ENGINE, "--in", "f1.png;nothere.png", "--out", "refused",
                                                  code=5))
         with open(self.path("run.yaml"), "w", encoding="utf-8") as file:
             file.write("frame: {width: [16, 17]}\n")
-        self.assertIn("wants a single value", self.deburr("morphological", "--config", "run.yaml", code=2))
+        self.assertIn("wants a single value", self.deburr(self.ENGINE, "--config", "run.yaml", code=2))
 
 
 class Meshes(SequenceTest):
     SIZE = ("--size", "40x30")
     EYES = ("0.4,0.5,2.5", "0.5,0.5,2.5")
 
-    def check_engine(self, engine, *arguments, drawn=False):
-        """Two meshes, and two cameras on one mesh; both in the same words for every engine."""
+    def check_engine(self, engine, *arguments, drawn=""):
+        """Two meshes, and two cameras on one mesh; both in the same words for every engine that draws. `drawn`: the map
+        that has a value where something is drawn, if the others do not count."""
         for i in range(2):
             self.write_box(f"m{i}.obj", 0.03 * i)
         settings = [f"scene.eye={eye}" for eye in self.EYES]
@@ -203,7 +210,7 @@ class Meshes(SequenceTest):
                     self.result(engine, f"{kind}{i}", *self.SIZE, *single, *arguments, "--truth",
                                 *(["--maps"] if drawn else []))
                     if drawn:
-                        with open(self.path(f"{kind}{i}/map_samples.pfm"), "rb") as file:
+                        with open(self.path(f"{kind}{i}/map_{drawn}.pfm"), "rb") as file:
                             data = file.read()[len(b"Pf\n40 30\n-1.0\n"):]
                         values = struct.unpack("<1200f", data)
                         masks.append([values[(29 - y) * 40 + x] == values[(29 - y) * 40 + x]
@@ -212,20 +219,16 @@ class Meshes(SequenceTest):
                            *([read_png(self.path(f"{kind}{i}/{name}.png")) for i in range(2)]
                              for name in ("before", "truth")), masks or None)
 
-    def test_texture(self):
-        self.check_engine("texture", drawn=True)
-
-    def test_geometric(self):
-        self.check_engine("geometric")
-
-    def test_frame(self):
-        for smoothing in ("morphological", "geometric-morphological"):
-            with self.subTest(smoothing):
-                self.check_engine("frame", "--smoothing", smoothing)
+    def test_every_engine(self):
+        for engine, given in trials("sequence_of_meshes").items():
+            for arguments in given["runs"]:
+                with self.subTest(engine=engine, arguments=arguments):
+                    self.check_engine(engine, *arguments, drawn=given.get("drawn", ""))
 
     def test_a_moving_camera_moves_in_every_engine(self):
-        for engine, source in (("texture", "tunnel"), ("geometric", "cube"), ("morphological", "cylinders"),
-                               ("frame", "object")):
+        scenes = trials("moving_camera")
+        self.assertEqual(set(scenes), set(trials("sequence_of_meshes")) | set(trials("sequence_of_images")))
+        for engine, source in scenes.items():
             with self.subTest(engine):
                 result = self.result(engine, engine, "--scene", source, *self.SIZE, "--frames", "3", "--motion", "pan")
                 self.assertGreater(result["work"]["flicker"], 0)

@@ -135,6 +135,7 @@ TEST(PictureMap, IsCodedForAPage) {
   EXPECT_EQ(value(codes, 1), 70000);
   EXPECT_TRUE(std::isnan(value(codes, 2)));
   EXPECT_EQ(value(codes, 3), 12);
+  map.set(1, 0, 7000);
   map.set(3, 0, 12 + 3.0 / 256);
   EXPECT_EQ(value(codes = codes_of(map), 3), 12 + 3.0 / 256);
   EXPECT_EQ(codes.step, 1.0 / 256);

@@ -57,6 +57,44 @@ TEST(Quality, EdgesAndSilhouettes) {
   EXPECT_EQ(silhouette_mask(edges, depth).pixels, (std::vector<std::uint8_t>{0, 0, 0, 0, 1}));
 }
 
+// docs/reference/run.md#several-frames, by hand.
+TEST(Flicker, KnownAnswers) {
+  const Mask all(2, 1, 1);
+  FlickerMeter meter;
+  EXPECT_EQ(meter.mean(), 0);
+  const auto frame = [](std::uint8_t left, std::uint8_t right) {
+    Image image(2, 1, {left, left, left, 255});
+    image.at(1, 0) = {right, right, right, 7};  // no alpha counts
+    return image;
+  };
+  meter.add(frame(10, 50), frame(10, 50), all);
+  EXPECT_EQ(meter.mean(), 0);
+  meter.add(frame(16, 50), frame(10, 52), all);  // 6 and -2 more than the truth
+  EXPECT_DOUBLE_EQ(meter.mean(), std::sqrt((36.0 + 4.0) / 2));
+  meter.add(frame(10, 50), frame(10, 50), all);  // the same back: the first of equals is the worst
+  EXPECT_DOUBLE_EQ(meter.worst(), std::sqrt(20.0));
+  EXPECT_EQ(meter.worst_frame(), 1);
+  meter.add(frame(13, 50), frame(10, 50), all);
+  EXPECT_DOUBLE_EQ(meter.mean(), std::sqrt((20.0 + 20.0 + 4.5) / 3));
+  EXPECT_EQ(meter.frames(), 4);
+}
+
+TEST(Flicker, CountsPixelsThatBothFramesDraw) {
+  Mask left(2, 1), both(2, 1, 1), right(2, 1);
+  left.at(0, 0) = right.at(1, 0) = 1;
+  const Image black(2, 1, {0, 0, 0, 255}), grey(2, 1, {8, 8, 8, 255});
+  Image half = black;
+  half.at(0, 0) = {4, 4, 4, 255};
+  FlickerMeter meter;
+  meter.add(black, black, left);
+  meter.add(half, black, both);
+  EXPECT_DOUBLE_EQ(meter.mean(), 4);  // and not of the right pixel, which stays
+  meter.add(black, black, left);
+  meter.add(grey, black, right);  // no pixel in both: it does not count
+  EXPECT_DOUBLE_EQ(meter.mean(), 4);
+  EXPECT_DOUBLE_EQ(meter.worst(), 4);
+}
+
 TEST(Compose, DifferenceCropZoomAndSheet) {
   Image a(4, 2, {10, 20, 30, 255}), b = a;
   b.at(1, 1) = {15, 20, 0, 0};
