@@ -54,7 +54,8 @@ NAMED = {
         "Python has its equations in real numbers, and tests call its functions of the module": [
             "python/bindings/ideal_python.cpp", "tb/system/python_golden_test.py"],
         "tables of pages are measured, its own among them": [
-            "scripts/measurement/recipes.py", "scripts/measurement/results.py"],
+            "scripts/measurement/guides.py", "scripts/measurement/recipes.py",
+            "scripts/measurement/results.py"],
         "its tests are named to start them": ["scripts/mutate", "tb/unit/house/command_lines_test.py"],
         "engines that must show what a pixel went through": ["tb/system/pixel_history_test.py"],
     },
@@ -97,7 +98,8 @@ NAMED = {
         "registers of the C header are held by hand": ["tb/unit/app/c_header_test.py"],
         "its tests are named to start them": ["scripts/mutate"],
         "tables of pages are measured, its own among them": [
-            "scripts/measurement/recipes.py", "scripts/measurement/results.py"],
+            "scripts/measurement/guides.py", "scripts/measurement/recipes.py",
+            "scripts/measurement/results.py"],
         "engines that must show what a pixel went through": ["tb/system/pixel_history_test.py"],
     },
 }
