@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Checks the site that scripts/docs makes: without a warning; every page of docs/ and of the root is in it; every
-link, anchor and picture leads to something in it; nothing is loaded from a network; it can be searched, and knows
-dark, light and narrow screens.
+link, anchor and picture leads to something in it; nothing is loaded from a network, and no plain script imports, which
+a browser rejects as a whole; it can be searched, and knows dark, light and narrow screens.
 
 usage: site_test.py SOURCE"""
 import html.parser
@@ -19,11 +19,11 @@ REMOTE = re.compile(r"(?:https?:)?//")
 
 
 class Page(html.parser.HTMLParser):
-    """What a page has: places to link to, links, and what a browser loads for it."""
+    """What a page has: places to link to, links, what a browser loads for it, and which of it are plain scripts."""
 
     def __init__(self, text):
         super().__init__()
-        self.places, self.links, self.loads, self.phone = set(), [], [], False
+        self.places, self.links, self.loads, self.plain_scripts, self.phone = set(), [], [], [], False
         self.feed(text)
 
     def handle_starttag(self, tag, attrs):
@@ -35,7 +35,9 @@ class Page(html.parser.HTMLParser):
         elif tag == "link" and "href" in values:
             # The others (rel = search, next, index) are opened when somebody asks for them.
             (self.loads if set(values.get("rel", "").split()) & {"stylesheet", "icon", "preload"} else self.links).append(values["href"])
-        elif tag in ("script", "img", "iframe", "source", "object", "embed"):
+        if tag == "script" and "src" in values and values.get("type") != "module":
+            self.plain_scripts.append(values["src"])
+        if tag in ("script", "img", "iframe", "source", "object", "embed"):
             self.loads += [values[key] for key in ("src", "data") if key in values]
 
 
@@ -58,6 +60,11 @@ def problems(site):
                 yield f"{name}: {target} does not exist"
             elif anchor and other in pages and anchor not in pages[other].places:
                 yield f"{name}: {target} has no such anchor"
+    scripts = {file.parent / urllib.parse.unquote(target).partition("?")[0] for file, page in pages.items()
+               for target in page.plain_scripts if not REMOTE.match(target)}
+    for file in sorted({pathlib.Path(os.path.normpath(file)) for file in scripts}):
+        if file.is_file() and re.search(r"^\s*(?:import|export)\b", file.read_text(encoding="utf-8"), re.M):
+            yield f"{file.relative_to(site)}: imports or exports, and is no module"
     for file in sorted(site.rglob("*.css")):
         for target in re.findall(r"(?:url\(|@import\s+)['\"]?([^'\")\s]+)", file.read_text(encoding="utf-8")):
             if target.startswith("/") or REMOTE.match(target):
@@ -110,6 +117,15 @@ def faults_that_are_not_found(root, folder):
                 page.write_text(text.replace("</body>", bad + "</body>"), encoding="utf-8")
                 if not any("example.org" in line or "none.html" in line or "#no" in line for line in problems(out)):
                     yield f"planted fault not found: {bad}"
+            page.write_text(text, encoding="utf-8")
+            script = out / "_static/scripts/furo.js"
+            kept = script.read_text(encoding="utf-8")
+            if "theme-toggle" not in kept or "root.Gumshoe" not in kept:
+                yield "the theme's script lacks the button of dark and light, or the marks of the sections"
+            script.write_text('import Gumshoe from "./gumshoe-patched.js";\n' + kept, encoding="utf-8")
+            if not any("furo.js: imports" in line for line in problems(out)):
+                yield "planted fault not found: a plain script that imports"
+            script.write_text(kept, encoding="utf-8")
             page.unlink()
             if not list(completeness(source, out)):
                 yield "planted fault not found: a page that is not there"
