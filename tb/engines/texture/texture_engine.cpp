@@ -204,7 +204,8 @@ class TextureEngine final : public Engine {
     if (run.maps && scene.stream().width == 0)
       throw spec::ConfigError(fmt::format(
           "run.maps: the fragments of '{}' have no place in a picture: leave it out, or write "
-          "'size WIDTH HEIGHT' and the place of each quad into the trace (docs/reference/traces.md)",
+          "'size WIDTH HEIGHT' and the place of each quad into the trace "
+          "(docs/reference/traces.md)",
           trace_in_.file));
   }
 
