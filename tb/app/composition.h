@@ -216,7 +216,9 @@ class PictureSmoother : public CompositionRole {
   virtual bool linear_light() const = 0;
   // What the golden model makes of a picture of the scene, without a simulation; empty: it has
   // none, and no flicker is measured.
-  virtual Image golden_picture(const DrawnScene& /*scene*/, Image /*frame*/) const { return {}; }
+  virtual Image golden_picture(const DrawnScene& /*scene*/, const Image& /*frame*/) const {
+    return {};
+  }
 };
 
 // `frame` is what its golden model gets; without one only its size counts. Scene and role outlive

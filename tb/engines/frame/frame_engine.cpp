@@ -135,7 +135,7 @@ class FrameCommand final : public Engine {
     const Image before = drawer().golden_picture(*scene);
     Image after = before;
     for (const PictureSmoother* smoother : roles().chosen_smoothers()) {
-      after = smoother->golden_picture(*scene, std::move(after));
+      after = smoother->golden_picture(*scene, after);
       if (after.empty())
         throw spec::ConfigError(fmt::format(
             "the {} has no golden picture of a frame alone: no flicker is measured through it",

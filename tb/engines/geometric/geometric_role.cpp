@@ -118,9 +118,8 @@ class GeometricRole final : public MeshSmoother {
   }
   bool linear_light() const override { return parameters_.linear_light; }
 
-  Image golden_picture(const DrawnScene& scene, Image frame) const override {
-    return geometric::smoothed(frames_of(scene, std::move(frame), edges_.crossings).front(),
-                               parameters_)
+  Image golden_picture(const DrawnScene& scene, const Image& frame) const override {
+    return geometric::smoothed(frames_of(scene, frame, edges_.crossings).front(), parameters_)
         .image;
   }
 

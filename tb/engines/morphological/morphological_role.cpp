@@ -127,8 +127,8 @@ class MorphologicalRole final : public RowSmoother {
   }
   bool linear_light() const override { return parameters_.linear_light; }
 
-  Image golden_picture(const DrawnScene& scene, Image frame) const override {
-    const MorphologicalInput input{std::move(frame), depth_codes(scene.stream().depth)};
+  Image golden_picture(const DrawnScene& scene, const Image& frame) const override {
+    const MorphologicalInput input{frame, depth_codes(scene.stream().depth)};
     Image after(input.image.width, input.image.height);
     after.pixels = golden_frame(input, parameters_).pixels();
     return after;
