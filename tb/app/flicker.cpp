@@ -70,6 +70,11 @@ void measure_flicker(int frames, const RunContext& context, Result& result,
     return;
   }
   add(result, after, before);
+  result.terminal.push_back(
+      {"flicker", fmt::format("{:.2f}/255 over {} frames (worst {:.2f}, at frame {}), {}",
+                              after.mean(), frames, after.worst(), after.worst_frame(),
+                              truth ? fmt::format("against {:.2f} of what went in", before.mean())
+                                    : "beyond what went in")});
   result.figures.push_back({truth ? "Flicker over the frames" : "Flicker beyond what went in",
                             "work.flicker", "worst pair of frames", "work.flicker_worst"});
   if (truth)

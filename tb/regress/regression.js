@@ -20,7 +20,7 @@
     },
     options: {
       indexAxis: 'y', animation: false, maintainAspectRatio: false,
-      scales: {x: {stacked: true, beginAtZero: true}, y: {stacked: true}},
+      scales: {x: {stacked: true, beginAtZero: true, ticks: {precision: 0}}, y: {stacked: true}},
     },
   });
 })();

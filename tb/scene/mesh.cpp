@@ -45,10 +45,15 @@ std::string whole_file(const fs::path& path, const Fail& fail) {
   return bytes;
 }
 
-std::unique_ptr<Importer> importer_of(const fs::path& path, const ImportOptions& options) {
+std::string extension_of(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+std::unique_ptr<Importer> importer_of(const fs::path& path, const ImportOptions& options) {
+  const std::string extension = extension_of(path);
   if (extension == ".obj") return obj_importer(path, options);
   if (extension == ".gltf" || extension == ".glb") return gltf_importer(path, options);
   fail_mesh(path,
@@ -56,6 +61,11 @@ std::unique_ptr<Importer> importer_of(const fs::path& path, const ImportOptions&
 }
 
 }  // namespace
+
+bool is_mesh_file(const fs::path& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".obj" || extension == ".gltf" || extension == ".glb";
+}
 
 Bounds bounds(const Mesh& mesh) {
   if (mesh.vertices.empty()) return {V3d(0, 0, 0), V3d(0, 0, 0)};

@@ -58,6 +58,8 @@ struct Bounds {
   double radius() const { return (high - low).length() * 0.5; }
 };
 Bounds bounds(const Mesh& mesh);
+// By its extension, in small letters or capitals.
+bool is_mesh_file(const std::filesystem::path& path);
 
 // Limits of an import, checked before memory is spent on it.
 inline constexpr std::uint64_t kMaxMeshFileBytes = std::uint64_t{1} << 30;

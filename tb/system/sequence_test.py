@@ -148,6 +148,9 @@ class Images(SequenceTest):
         self.assertEqual(result["work"]["flicker_before"], 0)
         with open(self.path("all/report.html"), encoding="utf-8") as file:
             self.assertIn("Flicker beyond what went in", file.read())
+        said = subprocess.run([DEBURR, "run", self.ENGINE, "--in", "f*.png", "--out", "all"], cwd=self.directory,
+                              text=True, capture_output=True, check=True).stdout
+        self.assertRegex(said, f"flicker +{result['work']['flicker']:.2f}/255 over 3 frames .*, beyond what went in\n")
         # All of them are inputs: a run of other files is another run.
         with open(self.path("all/manifest.json"), encoding="utf-8") as file:
             self.assertEqual([i["file"] for i in json.load(file)["inputs"]], list(self.NAMES))
@@ -224,6 +227,12 @@ class Meshes(SequenceTest):
             for arguments in given["runs"]:
                 with self.subTest(engine=engine, arguments=arguments):
                     self.check_engine(engine, *arguments, drawn=given.get("drawn", ""))
+
+    def test_a_mesh_is_known_by_its_extension_in_capitals_too(self):
+        self.write_box("BOX.OBJ", 0)
+        for engine in trials("moving_camera"):
+            with self.subTest(engine):
+                self.deburr(engine, "--in", "BOX.OBJ", *self.SIZE, "--out", engine)
 
     def test_a_moving_camera_moves_in_every_engine(self):
         scenes = trials("moving_camera")

@@ -8,15 +8,14 @@
 
 #include "spec/error.h"
 #include "tb/base/random.h"
+#include "tb/scene/mesh.h"
 #include "tb/scene/motion.h"
 
 namespace deburr::tb {
 namespace {
 
 void refuse_what_has_no_edges(const std::string& source) {
-  const std::string extension = std::filesystem::path(source).extension().string();
-  if (extension.empty() || extension == ".obj" || extension == ".gltf" || extension == ".glb")
-    return;
+  if (!std::filesystem::path(source).has_extension() || is_mesh_file(source)) return;
   throw spec::ConfigError(
       fmt::format("scene.source = '{}' is no mesh: an image has no edges; give a mesh file (.obj, "
                   ".gltf, .glb) or the name of a scene",

@@ -13,6 +13,7 @@
 #include "tb/base/file.h"
 #include "tb/scene/depth_codes.h"
 #include "tb/scene/image_io.h"
+#include "tb/scene/mesh.h"
 #include "tb/scene/motion.h"
 #include "tb/scene/scenes.h"
 #include "tb/scene/truth.h"
@@ -20,11 +21,7 @@
 namespace deburr::tb {
 namespace {
 
-bool is_scene(const std::string& source) {
-  if (is_scene_name(source)) return true;
-  const std::string extension = std::filesystem::path(source).extension().string();
-  return extension == ".obj" || extension == ".gltf" || extension == ".glb";
-}
+bool is_scene(const std::string& source) { return is_scene_name(source) || is_mesh_file(source); }
 
 void require_size(const char* what, const std::string& file, int width, int height,
                   const Image& image) {
