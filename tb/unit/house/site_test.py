@@ -58,6 +58,9 @@ def problems(site):
                 yield f"{name}: {target} does not exist"
             elif anchor and other in pages and anchor not in pages[other].places:
                 yield f"{name}: {target} has no such anchor"
+    for file in sorted(site.rglob("*.js")):
+        if re.search(r"^(import|export)\b", file.read_text(encoding="utf-8"), re.MULTILINE):
+            yield f"{file.relative_to(site)}: no plain script, which a page from a file does not run"
     for file in sorted(site.rglob("*.css")):
         for target in re.findall(r"(?:url\(|@import\s+)['\"]?([^'\")\s]+)", file.read_text(encoding="utf-8")):
             if target.startswith("/") or REMOTE.match(target):
@@ -110,6 +113,10 @@ def faults_that_are_not_found(root, folder):
                 page.write_text(text.replace("</body>", bad + "</body>"), encoding="utf-8")
                 if not any("example.org" in line or "none.html" in line or "#no" in line for line in problems(out)):
                     yield f"planted fault not found: {bad}"
+            script = out / "_static/scripts/furo.js"
+            script.write_text('import A from "./a.js";\n' + script.read_text(encoding="utf-8"), encoding="utf-8")
+            if not any("furo.js: no plain script" in line for line in problems(out)):
+                yield "planted fault not found: a script that imports another"
             page.unlink()
             if not list(completeness(source, out)):
                 yield "planted fault not found: a page that is not there"
