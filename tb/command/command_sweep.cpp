@@ -108,17 +108,20 @@ Outcome collect_points(const std::string& what, const SweepDefinition& sweep, co
                        const SweepPlace& place) {
   const Collection collection = collect(sweep, place);
   write_collection(sweep, plan, place, collection);
+  // It shows what is there at any time; where every point that ended failed, there is nothing to
+  // show.
+  const bool nothing = collection.done == 0 && collection.failed > 0;
   return with_collection(
-      {0, fmt::format("PASS {}: {} of {} collected, {} failed, {} missing{}{}; {}", what,
-                      grouped(collection.done), points_of(plan.points), grouped(collection.failed),
-                      grouped(collection.missing),
-                      sweep.objectives.empty()
-                          ? ""
-                          : fmt::format(", {} on the front", grouped(collection.front)),
-                      sweep.limits.empty()
-                          ? ""
-                          : fmt::format(", {} beyond the limits", grouped(collection.beyond)),
-                      (place.directory / "index.html").string())},
+      {nothing ? 1 : 0,
+       fmt::format(
+           "{} {}: {} of {} collected, {} failed, {} missing{}{}; {}", nothing ? "FAIL" : "PASS",
+           what, grouped(collection.done), points_of(plan.points), grouped(collection.failed),
+           grouped(collection.missing),
+           sweep.objectives.empty() ? ""
+                                    : fmt::format(", {} on the front", grouped(collection.front)),
+           sweep.limits.empty() ? ""
+                                : fmt::format(", {} beyond the limits", grouped(collection.beyond)),
+           (place.directory / "index.html").string())},
       place);
 }
 

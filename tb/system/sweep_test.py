@@ -71,8 +71,8 @@ class SweepTest(unittest.TestCase):
         self.addCleanup(process.kill)
         return process
 
-    def rows(self, name, command="sweep"):
-        self.run_sweep(f"{name}.yaml", "collect", command=command)
+    def rows(self, name, command="sweep", code=0):
+        self.run_sweep(f"{name}.yaml", "collect", command=command, code=code)
         kind = {"sweep": "sweeps", "search": "searches"}[command]
         with open(os.path.join(self.directory, f"out/{kind}/{name}/collected.csv")) as file:
             return list(csv.DictReader(file))
@@ -365,7 +365,9 @@ objectives: {maximise: [psnr], minimise: [bits]}
                    .replace("width: 48", "width: 24"))
         self.assertIn("0 done (0 in this run), 12 failed",
                       self.run_sweep("fault.yaml", "run", code=1))
-        rows = self.rows("fault")
+        self.assertIn("FAIL sweep fault: 0 of 12 points collected, 12 failed",
+                      self.run_sweep("fault.yaml", "collect", code=1))
+        rows = self.rows("fault", code=1)
         self.assertEqual({row["state"] for row in rows}, {"failed"})
         self.assertIn("mismatch: colours: 1 mismatches", rows[0]["failure"])
         before = {n: e[0] for n, e in self.results().items()}

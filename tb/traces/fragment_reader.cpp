@@ -146,7 +146,7 @@ void FragmentReader::open_text() {
       version != kFragmentTraceVersion)
     fail(fmt::format("version {}, and this program reads version {}: write the trace anew", version,
                      kFragmentTraceVersion));
-  if (!next_line()) fail("the file ends behind its title: it was cut short; make it again");
+  if (!next_line()) fail("the file ends after its title: it was cut short; make it again");
   if (fields_[0] != "size") {
     held_ = true;
     return;
@@ -166,7 +166,7 @@ void FragmentReader::place(Record& record, std::string_view x, std::string_view 
 bool FragmentReader::next_text(Record& record) {
   if (!next_line())
     fail(
-        fmt::format("no line 'end {}' behind the last record: the file was cut short; make it "
+        fmt::format("no line 'end {}' after the last record: the file was cut short; make it "
                     "again, or add that line if this is all of it",
                     quads_));
   constexpr std::uint32_t kMask = 0xF, kMostTexture = 255;

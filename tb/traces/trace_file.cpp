@@ -45,7 +45,7 @@ void TraceOutput::fail(std::string_view action, int reason) {
 }
 
 void TraceOutput::flush() {
-  DEBURR_CHECK(descriptor_ >= 0, "a trace is written behind its end");
+  DEBURR_CHECK(descriptor_ >= 0, "a trace is written after its end");
   for (std::size_t done = 0; done < buffer_.size();) {
     const ssize_t count = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
     if (count < 0 && errno == EINTR) continue;

@@ -29,7 +29,7 @@ std::vector<PlantedFault> MorphologicalFaults::list() const {
       {"drop-pixel", "Drops output beat 100.", "drop:blended:100"},
       {"duplicate-pixel", "Delivers output beat 100 twice.", "duplicate:blended:100"},
       {"drop-input", "Drops input beat 50 on its way into the engine.", "drop:pixels:50"},
-      {"wrong-edge", "Flips the left edge of a pixel in row 1, behind the edge detector.",
+      {"wrong-edge", "Flips the left edge of a pixel in row 1, after the edge detector.",
        fmt::format("flip:morphological.edge_bits:{}:left", 2 * row + row / 2)},
       {"wrong-rule", "The engine tries one step less than was ordered.", "",
        setup_.morphological.steps > 0 ? "" : "morphological.steps of at least 1"},
@@ -65,7 +65,7 @@ std::vector<PlantedFault> MorphologicalFaults::shares_faults() const {
        "flip:morphological.lines_h0:20:line.run.shape.0", needs},
       {"wrong-axis", "The line of a horizontal run that has none counts as the longest one.",
        "flip:morphological.lines_h0:20:line.span.11", needs},
-      {"drop-line", "Drops a record behind the dividers of horizontal runs.",
+      {"drop-line", "Drops a record after the dividers of horizontal runs.",
        "drop:morphological.lines_h0:20", needs}};
 }
 

@@ -17,8 +17,7 @@ void refuse_unused_scene(const ParameterSet& set) {
         "scene.target", "scene.fov", "scene.roll", "sequence.frames", "sequence.motion"})
     set.refuse(name, "the fragments come from the file scene.fragments (--fragments)");
   if (set.find("run.truth")->text() == "true")
-    throw spec::ConfigError(
-        "run.truth: nobody knows the scene behind the fragments of a file: leave it out");
+    throw spec::ConfigError("run.truth: the scene of a file's fragments is unknown: leave it out");
 }
 
 }  // namespace deburr::tb

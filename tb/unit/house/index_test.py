@@ -4,7 +4,7 @@
 questions leads to a section that has an answer with a command that the program takes; the glossary's terms are
 explained where it says; pages but contracts keep to its words; no page has more than 300 lines and no cell of a table more than
 200 characters, but what a program makes: whole pages, which stand in the table of made pages, and blocks between its
-two marks.
+two marks; the page of planted faults has each that an engine of the program knows, and no other.
 
 usage: index_test.py SOURCE [DEBURR]"""
 import os
@@ -83,6 +83,12 @@ def index_problems(root):
     for target in sorted(targets):
         if not (docs / target).exists():
             yield f"docs/index.md: {target} does not exist"
+
+
+def known_faults(engine, run):
+    """As the program lists them where a name is none of them."""
+    said = run(["run", engine, "--fault", "none-of-them"])[1]
+    return re.findall(r"[\w-]+", said.partition(": known are ")[2].partition(",")[0]) if said else None
 
 
 def question_problems(root, run):
@@ -193,6 +199,27 @@ def made_problems(docs):
             yield f"{path.relative_to(docs)}: made by a program, and not in the table of made pages"
 
 
+def fault_problems(docs, faults):
+    """`faults` gives the names of an engine's faults by the engine's, or None without a program."""
+    page = docs / "reference/planted_faults.md"
+    if not page.exists():
+        return
+    text = page.read_text(encoding="utf-8")
+    of_all = set(re.findall(r"^\| .*?`([\w-]+)`", text.partition("## Checks")[2].partition("\n## ")[0], re.M))
+    for part in re.split(r"^## ", text, flags=re.M)[1:]:
+        engine = re.match(r"\w+?(?=Engine\n| unit\n)", part)
+        if not engine:
+            continue
+        rows = [row.split("|")[1] for row in part.splitlines() if row.startswith("| `")]
+        listed = {name for row in rows for name in re.findall(r"`([\w-]+)`", row)}
+        known = faults(engine[0].lower())
+        if known is None:
+            return
+        known = {name for name in known if not re.match("(blind|miscount)-", name)} - of_all
+        for name in sorted(known ^ listed):
+            yield f"planted_faults.md: {engine[0]}: {name} is " + ("no fault" if name in listed else "not there")
+
+
 def problems(root, run):
     docs = root / "docs"
     yield from index_problems(root)
@@ -201,6 +228,7 @@ def problems(root, run):
     yield from page_problems(docs)
     yield from length_problems(docs)
     yield from made_problems(docs)
+    yield from fault_problems(docs, lambda engine: known_faults(engine, run))
 
 
 def planted():
@@ -225,11 +253,22 @@ def planted():
         (root / "docs/explanation/glossary.md").write_text(
             "# Words\n\n| term | means | defined in |\n|---|---|---|\n| lost | Gone. | [a](../howto/a.md#none) |\n| short | Gone |\n\n"
             "## Words that are not used\n\n| not | but |\n|---|---|\n| judge, refuse | check |\n", encoding="utf-8")
-        found = list(problems(root, lambda words, sweep="": (2, "RESULT: odd") if "odd" in [*words, sweep.strip()[6:9]] else (0, "")))
+        (root / "docs/reference").mkdir()
+        (root / "docs/reference/planted_faults.md").write_text(
+            "# Faults\n\n## Checks\n\n| `lose-window`, always | |\n\n## OddEngine\n\n| `there`, `gone` | |\n\n### More\n\n"
+            "| `more` | `code` |\n", encoding="utf-8")
+
+        def run(words, sweep=""):
+            if "--fault" in words:
+                return 2, "no fault 'x': known are lose-window there more missed blind-all miscount-all, and of links\nRESULT"
+            return (2, "RESULT: odd") if "odd" in [*words, sweep.strip()[6:9]] else (0, "")
+
+        found = list(problems(root, run))
     expected = ("README.md: no link", "no link to alone.md", "gone.md does not exist", "3 questions", "'a': no section",
                 "'b': howto/a.md#no-command has no", "'c': deburr run    odd: RESULT: odd", "'c': its sweep: RESULT: odd", "glossary: lost", "glossary: short",
                 "glossary: 2 terms", "not used is not there", "howto/a.md:3: 'judge'", "alone.md:9: a cell of more", "long.md: more than 300 lines",
-                "made.md: made by a program", "does not begin with a command")
+                "made.md: made by a program", "does not begin with a command", "no link to reference/planted_faults.md",
+                "Odd: gone is no fault", "Odd: missed is not there")
     return [text for text in expected if sum(text in problem for problem in found) != 1] + \
            [f"unexpected: {problem}" for problem in found if not any(text in problem for text in expected)]
 
