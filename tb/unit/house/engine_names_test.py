@@ -40,7 +40,7 @@ NAMED = {
             "python/bindings/ideal_python.cpp", "python/deburr/__init__.pyi", "python/deburr/golden.pyi",
             "tb/system/python_golden_test.py"],
         "tables of pages are measured, its own among them": [
-            "scripts/measurement/results.py"],
+            "scripts/measurement/guides.py", "scripts/measurement/results.py"],
         "its part of the command line is promised": ["tb/unit/app/stable.txt"],
         "what every engine must show is asked of each by name: pixels, pages, sequences": [
             "tb/system/pixel_history_test.py", "tb/system/report_pages_test.py", "tb/system/sequence_test.py"],
@@ -66,7 +66,7 @@ NAMED = {
         "an example of an engine, in tests of what every engine has": [
             "tb/negative/app_bad_input_test.py", "tb/negative/app_faults_test.py", "tb/negative/app_images_test.py",
             "tb/negative/app_regress_test.py", "tb/negative/app_sweep_test.py", "tb/negative/app_traces_test.py",
-            "tb/system/coverage_test.py", "tb/system/figures_test.py", "tb/system/observers_test.py", "tb/system/shared_golden_test.cpp",
+            "tb/system/coverage_test.py", "tb/system/figures_test.py", "tb/system/observers_test.py", "tb/system/printed_test.py", "tb/system/shared_golden_test.cpp",
             "tb/system/inputs_test.py", "tb/system/sweep_test.py", "tb/system/terminal_test.py", "tb/unit/env/planted_faults_test.cpp",
             "tb/unit/house/mutate_test.py", "tb/unit/results/result_test.cpp", "tb/env/collect.h"],
         "an example of an engine, in what is built from installed files": [
@@ -83,7 +83,7 @@ NAMED = {
             "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp"],
         "the one choice by which an engine has no memory": ["tb/traces/line_trace.cpp"],
         "tables of pages are measured, its own among them": [
-            "scripts/measurement/recipes.py", "scripts/measurement/results.py"],
+            "scripts/measurement/guides.py", "scripts/measurement/recipes.py", "scripts/measurement/results.py"],
         "its part of the command line is promised": ["tb/unit/app/stable.txt"],
         "what every engine must show is asked of each by name: pixels, pages, sequences": [
             "tb/system/pixel_history_test.py", "tb/system/report_pages_test.py", "tb/system/sequence_test.py"],
