@@ -18,9 +18,9 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
 from measurement.sources import write_png  # noqa: E402
 
-PAGES = {"tutorial/first_run": 3, "howto/which_engine": 2, "howto/smooth_my_frames": 2, "howto/explore_a_design": 2}
+PAGES = {"tutorial/first_run": 3, "howto/which_engine": 2, "howto/smooth_my_frames": 2, "howto/explore_a_design": 3}
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.S | re.M)
-FILE = re.compile(r"`(\w+\.(?:yaml|obj))`[^`]*(?:`[^`]*`[^`]*)*:\s*\Z")
+FILE = re.compile(r"`(\w+\.(?:yaml|obj))`")
 
 
 def parts_of(text):
