@@ -59,6 +59,9 @@ add_test(NAME first_sweep COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/first_sweep_test.
                                   "${PROJECT_SOURCE_DIR}")
 set_tests_properties(first_sweep PROPERTIES LABELS system TIMEOUT 600
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+add_test(NAME printed COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/printed_test.py" $<TARGET_FILE:deburr>
+                              "${PROJECT_SOURCE_DIR}")
+set_tests_properties(printed PROPERTIES LABELS system TIMEOUT 600)
 add_test(NAME testplans COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/testplans_test.py" $<TARGET_FILE:deburr>
                                 "${PROJECT_SOURCE_DIR}")
 set_tests_properties(testplans PROPERTIES LABELS system TIMEOUT 300
