@@ -440,7 +440,7 @@ class Searched(SweepTest):
         self.write("wide.yaml", SEARCH.replace("axes:", "  run.max_cycles: 700\naxes:"))
         text = self.search("wide.yaml", "--runs", "16", code=1)
         self.assertIn("0 missing", text)
-        states = [row["state"] for row in self.rows("wide", "search")]
+        states = [row["state"] for row in self.rows("wide", "search", code=1)]
         self.assertEqual(len(states), 16)
         self.assertIn("failed", states)
 
