@@ -57,7 +57,6 @@ NAMED = {
             "scripts/measurement/guides.py", "scripts/measurement/recipes.py",
             "scripts/measurement/results.py"],
         "its tests are named to start them": ["scripts/mutate", "tb/unit/house/command_lines_test.py"],
-        "engines that must show what a pixel went through": ["tb/system/pixel_history_test.py"],
     },
     "morphological": {
         "its units and the shapes of its runs are drawn for its pages": [
@@ -100,7 +99,6 @@ NAMED = {
         "tables of pages are measured, its own among them": [
             "scripts/measurement/guides.py", "scripts/measurement/recipes.py",
             "scripts/measurement/results.py"],
-        "engines that must show what a pixel went through": ["tb/system/pixel_history_test.py"],
     },
 }
 
