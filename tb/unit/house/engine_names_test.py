@@ -56,7 +56,6 @@ NAMED = {
         "tables of pages are measured, its own among them": [
             "scripts/measurement/guides.py", "scripts/measurement/recipes.py",
             "scripts/measurement/results.py"],
-        "its tests are named to start them": ["scripts/mutate", "tb/unit/house/command_lines_test.py"],
     },
     "morphological": {
         "its units and the shapes of its runs are drawn for its pages": [
@@ -95,7 +94,6 @@ NAMED = {
             "tb/fuzz/c_calls.cpp", "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
             "tb/unit/golden/c/threads_test.cpp"],
         "registers of the C header are held by hand": ["tb/unit/app/c_header_test.py"],
-        "its tests are named to start them": ["scripts/mutate"],
         "tables of pages are measured, its own among them": [
             "scripts/measurement/guides.py", "scripts/measurement/recipes.py",
             "scripts/measurement/results.py"],
