@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "golden/c/deburr_golden.h"
+#include "golden/c/every_engine.h"
 
 namespace deburr::tb {
 namespace {
@@ -156,9 +157,7 @@ using OwnedHandle = std::unique_ptr<deburr_golden, Close>;
 class Calls {
  public:
   explicit Calls(std::string_view bytes) : input_(bytes) {
-    handles_.emplace_back(deburr_texture_new());
-    handles_.emplace_back(deburr_morphological_new());
-    handles_.emplace_back(deburr_geometric_new());
+    for (const golden::c::MakeHandle make : golden::c::kMakeHandle) handles_.emplace_back(make());
   }
   void run() {
     const auto& calls = all();
@@ -169,7 +168,7 @@ class Calls {
   using Call = std::function<void(Calls&)>;
   static const std::vector<Call>& all();
 
-  // One of the three, or none; the numbers behind it are any.
+  // One of all, or none; the numbers behind it are any.
   deburr_golden* handle() {
     const std::uint32_t which = input_.byte() % 16;
     return which == 15 ? nullptr : handles_[which % handles_.size()].get();
@@ -392,7 +391,14 @@ class Seed {
   std::string text_;
 };
 
-constexpr int kTexture = 0, kSmoother = 1, kDrawn = 2;  // places of handles
+// The place of a handle.
+constexpr int place(golden::c::MakeHandle make) {
+  const auto& all = golden::c::kMakeHandle;
+  return static_cast<int>(std::find(all.begin(), all.end(), make) - all.begin());
+}
+constexpr int kTexture = place(deburr_texture_new);
+constexpr int kSmoother = place(deburr_morphological_new);
+constexpr int kDrawn = place(deburr_geometric_new);
 
 }  // namespace
 

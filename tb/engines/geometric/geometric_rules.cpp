@@ -11,6 +11,7 @@
 #include "spec/error.h"
 #include "spec/geometric/records.h"
 #include "tb/app/input_rules.h"
+#include "tb/app/preset_help.h"
 #include "tb/results/report.h"
 
 namespace deburr::tb {
@@ -119,7 +120,8 @@ std::vector<std::string> dropped_notes(const spec::geometric::Work& work) {
 
 std::vector<Shorthand> edge_shorthands() {
   return {
-      {"--preset", "geometric.preset", "gpaa, gpaa-optimised or deburr (default)"},
+      {"--preset", "geometric.preset",
+       preset_help(spec::geometric::kPresetNames, spec::geometric::Rules().preset)},
       {"--layout", "geometric.layout",
        "Order of pixels in colour and depth buffer: tiled (default) or raster"},
       {"--walkers", "geometric.walkers", "Pixels of a line walked a clock: 1, 2 or 4 (default)"}};

@@ -7,6 +7,7 @@
 
 #include "spec/check_build.h"
 #include "tb/app/input_rules.h"
+#include "tb/app/preset_help.h"
 
 namespace deburr::tb {
 namespace {
@@ -95,7 +96,7 @@ std::vector<std::string> build_notes(const spec::morphological::Parameters& valu
 
 std::vector<Shorthand> smoothing_shorthands() {
   return {{"--preset", "morphological.preset",
-           "mlaa, mlaa-slope, smaa, smaa-dynamic, deburr-line or deburr (default)"},
+           preset_help(spec::morphological::kPresetNames, spec::morphological::Rules().preset)},
           {"--lanes", "morphological.lanes",
            "Pixels a clock of the morphological engine: 1 (default), 2 or 4"},
           {"--storage", "morphological.storage",

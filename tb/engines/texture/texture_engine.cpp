@@ -18,6 +18,7 @@
 #include "tb/app/flicker.h"
 #include "tb/app/input_rules.h"
 #include "tb/app/pictures.h"
+#include "tb/app/preset_help.h"
 #include "tb/app/shorthands.h"
 #include "tb/app/simulate.h"
 #include "tb/base/interrupt.h"
@@ -67,7 +68,8 @@ class TextureEngine final : public Engine {
   std::vector<Shorthand> shorthands() const override {
     return joined(
         joined(scene_shorthands("plane"), sequence_shorthands()),
-        {{"--preset", "texture.preset", "paper or deburr (default)"},
+        {{"--preset", "texture.preset",
+          preset_help(spec::texture::kPresetNames, spec::texture::Rules().preset)},
          {"--roll", "scene.roll", "Degrees by which the camera is turned"},
          {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
          {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},

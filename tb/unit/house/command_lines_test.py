@@ -37,7 +37,7 @@ esac
 HELD = """golden_test tb/unit/golden/golden_test.cpp tb/unit/golden/golden_tests
 rtl_a_test tb/unit/rtl/a_test.cpp tb/unit/rtl/rtl_tests
 rtl_b_test tb/unit/rtl/b_test.cpp tb/unit/rtl/rtl_tests
-geometric_test tb/system/geometric_test.cpp tb/system/system_tests
+embosser_test tb/system/embosser_test.cpp tb/system/system_tests
 """
 # Every package but two is there.
 INSTALLED = '''#!/bin/sh

@@ -48,7 +48,7 @@ NAMED = {
         "the paper whose method it is": ["tb/papers/papers_002.cpp"],
         "tests call its functions of the C interface, and what is built from installed files does": [
             "examples/installed_test.py", "examples/systemverilog/testbench.sv", "tb/fuzz/c_calls.cpp",
-            "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp", "tb/unit/golden/c/support.h",
+            "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
             "tb/unit/golden/c/threads_test.cpp"],
         "registers of the C header are held by hand": ["tb/unit/app/c_header_test.py"],
         "Python has its equations in real numbers, and tests call its functions of the module": [
@@ -56,8 +56,6 @@ NAMED = {
         "tables of pages are measured, its own among them": [
             "scripts/measurement/guides.py", "scripts/measurement/recipes.py",
             "scripts/measurement/results.py"],
-        "its tests are named to start them": ["scripts/mutate", "tb/unit/house/command_lines_test.py"],
-        "engines that must show what a pixel went through": ["tb/system/pixel_history_test.py"],
     },
     "morphological": {
         "its units and the shapes of its runs are drawn for its pages": [
@@ -94,13 +92,11 @@ NAMED = {
             "tb/system/python_run_test.py", "tb/system/python_stubs_test.py"],
         "tests call its functions of the C interface": [
             "tb/fuzz/c_calls.cpp", "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
-            "tb/unit/golden/c/support.h", "tb/unit/golden/c/threads_test.cpp"],
+            "tb/unit/golden/c/threads_test.cpp"],
         "registers of the C header are held by hand": ["tb/unit/app/c_header_test.py"],
-        "its tests are named to start them": ["scripts/mutate"],
         "tables of pages are measured, its own among them": [
             "scripts/measurement/guides.py", "scripts/measurement/recipes.py",
             "scripts/measurement/results.py"],
-        "engines that must show what a pixel went through": ["tb/system/pixel_history_test.py"],
     },
 }
 

@@ -338,7 +338,7 @@ TEST(Geometric, TheLowestBitOfADepthCounts) {
 // ---- both ---------------------------------------------------------------------------------------
 
 TEST(BadCalls, GiveAnErrorAndChangeNothing) {
-  for (const tb::c::New make : {deburr_morphological_new, deburr_geometric_new}) {
+  for (const golden::c::MakeHandle make : {deburr_morphological_new, deburr_geometric_new}) {
     const Handle handle(make());
     deburr_golden* const golden = handle.get();
     std::vector<std::uint8_t> bytes(64, 1);
@@ -431,7 +431,7 @@ TEST(BadCalls, GiveAnErrorAndChangeNothing) {
 }
 
 TEST(Frames, MayBeAsLargeAsTheEngineTakesThem) {
-  for (const tb::c::New make : {deburr_morphological_new, deburr_geometric_new}) {
+  for (const golden::c::MakeHandle make : {deburr_morphological_new, deburr_geometric_new}) {
     const Handle handle(make());
     DEBURR_EXPECT_TAKEN(handle, deburr_frame_begin(handle.get(), 8192, 1));
     DEBURR_EXPECT_TAKEN(handle, deburr_frame_begin(handle.get(), 1, 8192));

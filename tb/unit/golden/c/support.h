@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "golden/c/deburr_golden.h"
+#include "golden/c/every_engine.h"
 
 namespace deburr::tb::c {
 
@@ -22,14 +23,6 @@ inline std::string error_of(deburr_golden* golden, int status) {
   std::string text(4096, '\0');
   deburr_error(golden, status, text.data(), text.size());
   return text.c_str();
-}
-
-// Every engine's handle, in order.
-using New = deburr_golden* (*)();
-inline const std::vector<New>& engines() {
-  static const std::vector<New> all = {deburr_texture_new, deburr_morphological_new,
-                                       deburr_geometric_new};
-  return all;
 }
 
 inline std::string value_of(deburr_golden* golden, const std::string& name) {
