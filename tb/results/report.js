@@ -639,7 +639,7 @@
             .map(([what, bytes, k]) => line(`${name}: ${what}, byte/clk`,
                 colours[(3 * i + 1 + k) % colours.length], over(bytes, cycles), {yAxisID: 'bytes'}))
       ]), 'transactions', {scales: {bytes: {beginAtZero: true, position: 'right', grid: {display: false},
-                                            title: {display: true, text: `byte/clk; 100 are ${(data.result.clock_mhz / 10).toFixed(1)} GB/s`}}}});
+                                            title: {display: true, text: ['byte/clk', `100 are ${(data.result.clock_mhz / 10).toFixed(1)} GB/s`]}}}});
 
     if (links.length === 0) return;
     const name = byId('link').value, link = data.result.links[name], watched = windows.series.links[name];
