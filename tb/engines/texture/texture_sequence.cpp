@@ -29,6 +29,7 @@ std::vector<Flicker> flicker_of(const SceneParameters& scene_parameters,
       meters[r].add(filters[r](scene), truth, drawn_pixels(scene));
   }
   std::vector<Flicker> flicker;
+  flicker.reserve(meters.size());
   for (const FlickerMeter& meter : meters) flicker.push_back({meter.mean(), meter.worst()});
   return flicker;
 }
