@@ -162,9 +162,9 @@ def page_of(root, record):
         "need a build each, as what the compiler works out does.") + "\n\n"
     if old:
         text += wrapped(
-            f"{len(old)} of {len(record)} files got their verdicts before there were the kinds "
-            + ", ".join(mutants.KINDS[mutants.KINDS.index("shift"):]) + ", and not at random: the table has no "
-            "mutants of these, and intervals say too much where whole files were left out.") + "\n\n"
+            f"The record of {len(old)} of {len(record)} files is older than the kinds "
+            + ", ".join(mutants.KINDS[mutants.KINDS.index("shift"):]) + ", and its mutants were not drawn at random: "
+            "the table has none of these kinds, and intervals say too much where whole files were left out.") + "\n\n"
     text += kinds_of(record)
     nothing = without_verdict(record)
     if nothing:
