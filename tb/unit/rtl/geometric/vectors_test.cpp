@@ -62,26 +62,30 @@ TEST(FrameVectors, EachValueIsCompared) {
   expect_each_value_is_compared(v.result, result_of(v));
 }
 
-// Codes of RULES that no choice has, on frames where the choice that they count as is seen.
-TEST(FrameVectors, CodesThatNoChoiceHasCountAsThePageSays) {
-  namespace rules = reg::rules;
-  struct Row {
-    char name;
-    spec::Field field;
-    std::uint32_t code;
-  };
-  for (const Row& row : {Row{'p', rules::kDepthBias, 25}, Row{'p', rules::kDepthBias, 31},
-                         Row{'p', rules::kCreaseDepth, 31}, Row{'q', rules::kDepthBias, 0},
-                         Row{'s', rules::kCrease, 3}, Row{'h', rules::kDepthTest, 3},
-                         Row{'p', rules::kCombine, 3}}) {
-    const FrameVector v = geometric::frame_vector(row.name);
-    const std::uint32_t word = spec::geometric::rules_word(configuration(row.name).p);
-    EXPECT_EQ(
-        differences(v.result, result_of(v, (word & ~row.field.mask()) | row.field.in(row.code))),
-        "")
-        << row.name << ": " << row.field.name << " = " << row.code;
-  }
+// Codes of RULES that no choice has, on frames where what they count as is seen.
+struct Code {
+  char name;
+  spec::Field field;
+  std::uint32_t code;
+};
+void PrintTo(const Code& c, std::ostream* out) {
+  *out << c.name << ", " << c.field.name << " = " << c.code;
 }
+class Codes : public ::testing::TestWithParam<Code> {};
+
+TEST_P(Codes, ThatNoChoiceHasCountAsThePageSays) {
+  const auto& [name, field, code] = GetParam();
+  const FrameVector v = geometric::frame_vector(name);
+  const std::uint32_t rules = spec::geometric::rules_word(configuration(name).p);
+  EXPECT_EQ(differences(v.result, result_of(v, (rules & ~field.mask()) | field.in(code))), "");
+}
+INSTANTIATE_TEST_SUITE_P(Page, Codes,
+                         ::testing::Values(Code{'p', reg::rules::kDepthBias, 31},
+                                           Code{'p', reg::rules::kCreaseDepth, 31},
+                                           Code{'q', reg::rules::kDepthBias, 0},
+                                           Code{'s', reg::rules::kCrease, 3},
+                                           Code{'h', reg::rules::kDepthTest, 3},
+                                           Code{'l', reg::rules::kCombine, 3}));
 
 }  // namespace
 }  // namespace deburr::tb::geometric_rtl::vectors_test
