@@ -45,7 +45,7 @@ void require(tlm_utils::simple_initiator_socket<RegisterHost>& bus, Access& acce
              const char* host) {
   send(bus, access);
   if (access.payload.is_response_error())
-    throw spec::SimulationError(fmt::format("{}: {} of register {:#x} was refused: {}", host,
+    throw spec::SimulationError(fmt::format("{}: {} of register {:#x} was rejected: {}", host,
                                             access.payload.is_write() ? "write" : "read",
                                             access.payload.get_address(),
                                             access.payload.get_response_string()));

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which mutants a source text has, and the text that holds them all behind switches."""
+"""Which mutants a source text has, and the text that holds them all after switches."""
 import bisect
 import collections
 import re
