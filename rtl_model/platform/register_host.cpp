@@ -40,7 +40,7 @@ tlm::tlm_response_status send(tlm_utils::simple_initiator_socket<RegisterHost>& 
   return access.payload.get_response_status();
 }
 
-// The same, and SimulationError where it was refused.
+// The same, and SimulationError where it was rejected.
 void require(tlm_utils::simple_initiator_socket<RegisterHost>& bus, Access& access,
              const char* host) {
   send(bus, access);
