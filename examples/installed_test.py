@@ -464,7 +464,7 @@ class SystemVerilog(Scratch):
             said = alone(program, f"+bug={bug}", "+quads=20000", code=-signal.SIGABRT)
             self.assertRegex(said, rf"FAIL {words} \d+, .* expected ", bug)
             self.assertNotRegex(said, r"(?m)^PASS$")
-        said = alone(program, "+refused", "+quads=10", "+frames=1")
+        said = alone(program, "+rejected", "+quads=10", "+frames=1")
         for words in ("status 1: deburr_set: 'depth_bias' = '99' is outside 1..24",
                       "status 1: deburr_frame_pixels: pixels_size is 8; 4 rows need 64",
                       "status 1: the handle is NULL", "parameters of the engine geometric: preset = deburr"):

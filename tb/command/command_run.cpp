@@ -302,13 +302,13 @@ void add_run(CLI::App& app, CommandLine& line) {
                      fmt::format("Directory of the results (out/{})", engine->name()))
         ->type_name("DIR");
     command->add_flag("--wait", options->wait,
-                      "Wait for another run that has the directory, instead of refusing");
+                      "Wait for another run that has the directory, instead of an error");
     command->add_flag("--quiet", options->quiet,
                       "Print nothing but errors and the line RESULT: ...");
     command->add_flag("--json", line.json,
                       "Print one JSON object: exit code, outcome, directory, result");
     command->add_flag("--show-config", options->resolve_only,
-                      "Judge the configuration as a run would, print it and stop");
+                      "Check the configuration as a run would, print it and stop");
     // To know which shorthands are switches, the parameters are asked.
     const BoundEngine probe(*engine);
     for (const Shorthand& shorthand : shorthands_of(*engine)) {

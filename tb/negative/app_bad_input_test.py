@@ -389,7 +389,7 @@ class Configuration(CommandTest):
         self.expect(0, "run", "texture", "--size", "2x2", "--set", "memory.latency=20000", "--set",
                     "run.watchdog_cycles=40000", "--out", self.path("out"))
 
-    def test_show_config_judges_as_a_run_does(self):
+    def test_show_config_checks_as_a_run_does(self):
         """What a run would refuse is refused; what it would do is not done."""
         for engine, *arguments in (
                 ("texture", "--fault", "gremlin"), ("texture", "--trace", "nothing*"),

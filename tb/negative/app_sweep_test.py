@@ -99,13 +99,13 @@ class Definitions(Sweeps):
         self.refuse("engine: texture\naxes: {run.seed: {from: 0, to: 4294967295}}\n",
                     "has 4294967296 values")
 
-    def test_points_that_the_engine_refuses(self):
+    def test_points_that_the_engine_rejects(self):
         text = ("engine: morphological\nbase: {frame: {width: 16, height: 16, truth_samples: 1}}\n"
                 "axes: {morphological.predictor: [none, fit], morphological.steps: [4, 8]}\n")
-        self.refuse(text, "the engine refuses the point morphological.predictor = none",
+        self.refuse(text, "the engine rejects the point morphological.predictor = none",
                     "has no effect", "refused: skip")
         self.write("s.yaml", text + "refused: skip\n")
-        self.expect(0, "sweep", "s.yaml", "plan", says=("2 that the engine refuses", "2 points"))
+        self.expect(0, "sweep", "s.yaml", "plan", says=("2 that the engine rejects", "2 points"))
 
     def test_axes_under_a_condition(self):
         def axis(text):
@@ -119,7 +119,7 @@ class Definitions(Sweeps):
         self.refuse(axis("{values: [4], where: true}"), "unknown 'where' (known: values, when)")
         self.refuse(axis("{values: [], when: true}"), "axis 'morphological.steps' is empty")
         self.refuse(axis("{when: true}"), "a range wants 'from' and 'to'")
-        self.refuse(axis("{values: [4], when: true}"), "the engine refuses the point")
+        self.refuse(axis("{values: [4], when: true}"), "the engine rejects the point")
 
     def test_files(self):
         self.expect(5, "sweep", "nothing.yaml", "plan", says="cannot open 'nothing.yaml'")

@@ -345,7 +345,7 @@ class GltfImporter final : public Importer {
       case TINYGLTF_COMPONENT_TYPE_FLOAT:
         return load<float>(from, false);
       default:
-        fail(fmt::format("it has numbers of type {}, which glTF does not know", type));
+        fail(fmt::format("it has numbers of type {}, which glTF does not have", type));
     }
   }
 

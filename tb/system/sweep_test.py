@@ -602,7 +602,7 @@ class Killed(SweepTest):
             self.assertNotIn("interrupted", content)
         self.check_resumed(kept)
 
-    def test_a_second_run_is_refused(self):
+    def test_a_second_run_is_rejected(self):
         process = self.start_sweep("slow.yaml", "-j1")
         self.victims(process, "point")
         self.assertIn("is being run by another process", self.run_sweep("slow.yaml", "run", code=5))

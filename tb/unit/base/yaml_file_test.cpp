@@ -68,7 +68,7 @@ TEST_F(YamlFileTest, TakesAliasesOfAliases) {
   EXPECT_EQ(read("a: &a {b: 1}\nc: *a\nd: [*a, *a]\n").root()["d"][1]["b"].Scalar(), "1");
 }
 
-TEST_F(YamlFileTest, RefusesAliasesThatStandForMoreThanAnyoneCanWalk) {
+TEST_F(YamlFileTest, RejectsAliasesThatStandForMoreThanAnyoneCanWalk) {
   EXPECT_THAT(refusal(lists_of_lists(8)),
               HasSubstr(".yaml:7:45: aliases stand for more than 1000000 values up to here"));
   EXPECT_THAT(refusal(lists_of_lists(100)), HasSubstr("aliases stand for more than"));
@@ -81,14 +81,14 @@ TEST_F(YamlFileTest, RefusesAliasesThatStandForMoreThanAnyoneCanWalk) {
   EXPECT_THAT(refusal(maps), HasSubstr("aliases stand for more than"));
 }
 
-TEST_F(YamlFileTest, RefusesAListThatIsAPartOfItself) {
+TEST_F(YamlFileTest, RejectsAListThatIsAPartOfItself) {
   EXPECT_THAT(refusal("a: 1\nb: &b [2, *b]\n"),
               EndsWith(".yaml:2:11: an alias of what it is a part of"));
   EXPECT_THAT(refusal("a: &a {b: {c: *a}}\n"), HasSubstr("an alias of what it is a part of"));
 }
 
 // Where the library gives up there is a line, too, and no crash.
-TEST_F(YamlFileTest, RefusesWhatIsNestedTooDeeply) {
+TEST_F(YamlFileTest, RejectsWhatIsNestedTooDeeply) {
   EXPECT_THAT(refusal(std::string(100'000, '[')), HasSubstr(".yaml:1:"));
   std::string text;
   for (int level = 0; level < 5'000; ++level) text += std::string(level, ' ') + "a:\n";

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Checks the site that scripts/docs makes: without a warning; every page of docs/ and of the root is in it; every
 link, anchor and picture leads to something in it; nothing is loaded from a network, and no plain script imports, which
-a browser rejects as a whole; it can be searched, and knows dark, light and narrow screens.
+a browser rejects as a whole; it can be searched, and has dark, light and narrow screens.
 
 usage: site_test.py SOURCE"""
 import html.parser

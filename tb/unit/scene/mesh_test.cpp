@@ -228,7 +228,7 @@ TEST(MeshFiles, OfAnObj) {
                           "wood grain.png", "wood grain.png"));
 }
 
-TEST(MeshFiles, OfAnObjThatIsRefused) {
+TEST(MeshFiles, OfAnObjThatIsRejected) {
   const TemporaryFolder folder;
   const auto names = [&](const std::string& name) {
     std::vector<std::string> found;
