@@ -36,6 +36,10 @@ class Reader {
     known.insert(known.end(), {"title", "metrics", "limits", "objectives", "reports", "chunk"});
     yaml_.require_keys(root, known);
     read_engine(root);
+    if (sweep_.name == "." || sweep_.name == "..")
+      throw ConfigError(fmt::format(
+          "'{}': a sweep is called by its file, and '{}' is no name of a folder: rename the file",
+          sweep_.file.string(), sweep_.name));
     if (!root["axes"] && !root["points"])
       fail(root, "nothing is varied: give 'axes', or list 'points'");
     if (root["title"]) sweep_.title = scalar(root["title"], "title");
@@ -441,7 +445,7 @@ class Reader {
         fail(node, fmt::format("limit '{}' is no comparison of a metric by < <= > >=: give several "
                                "limits one by one",
                                limit.text()));
-      limit.violation(Trial());
+      limit.truth(Trial());  // of which kind it is, and that it does not always divide by zero
       sweep_.limits.push_back(std::move(limit));
     }
   }
