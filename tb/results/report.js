@@ -167,7 +167,8 @@
     }
 
     // ---- maps: value of a pixel, and where it lies on the scale ----
-    const amount = (value) => Number.isInteger(value) ? number.format(value) : String(Number(value.toPrecision(6)));
+    const digits = new Intl.NumberFormat('en-US', {maximumSignificantDigits: 6});
+    const amount = (value) => Number.isInteger(value) ? number.format(value) : digits.format(value);
     function valueOf(map, pixel) {
       if (!pixel || pixel.x >= map.width || pixel.y >= map.height || !map.image.naturalWidth) return null;
       map.values ??= readable(map.image);
@@ -421,6 +422,20 @@
       return labels;
     };
 
+    // Names as labels of bars: in a narrow chart on several lines, broken after a '_'.
+    const names = {
+      autoSkip: false,
+      callback(value) {
+        const name = this.getLabelForValue(value), lines = [''];
+        if (this.chart.width > 520) return name;
+        for (const part of name.split(/(?<=_)/)) {
+          if (lines[lines.length - 1] !== '' && (lines[lines.length - 1] + part).length > 16) lines.push('');
+          lines[lines.length - 1] += part;
+        }
+        return lines;
+      }
+    };
+
     // Cycles of each unit, by cause.
     const units = Object.entries(data.result.units);
     if (units.length > 0) {
@@ -446,7 +461,7 @@
           indexAxis: 'y',
           scales: {
             x: {stacked: true, beginAtZero: true, max: 100, title: {display: true, text: '% of cycles'}},
-            y: {stacked: true, grid: {display: false}, ticks: {autoSkip: false}}
+            y: {stacked: true, grid: {display: false}, ticks: names}
           },
           plugins: {
             legend: {position: 'bottom', labels: {boxWidth: 12}},
@@ -550,7 +565,7 @@
           scales: {
             x: {stacked: true, beginAtZero: true, title: {display: true, text: 'bits'},
                 ticks: {maxRotation: 0, autoSkipPadding: 12}},
-            y: {stacked: true, grid: {display: false}, ticks: {autoSkip: false}}
+            y: {stacked: true, grid: {display: false}, ticks: names}
           },
           plugins: {legend: {display: wider || copies, position: 'bottom', labels: {boxWidth: 12}}}
         }
