@@ -417,23 +417,24 @@
       const length = shared.lastIndexOf('_') + 1;
       return names.map((name) => name.slice(length));
     };
+    // Names as labels of bars: in a narrow chart on several lines, broken after a '_'.
+    const linesOf = (name, width) => {
+      const lines = [''];
+      if (width > 400) return [name];
+      for (const part of name.split(/(?<=_)/)) {
+        if (lines[lines.length - 1] !== '' && (lines[lines.length - 1] + part).length > 18) lines.push('');
+        lines[lines.length - 1] += part;
+      }
+      return lines;
+    };
     const horizontal = (labels, box) => {
-      byId(box).style.height = `${Math.max(90, labels.length * 30 + 70)}px`;
+      const most = Math.max(1, ...labels.map((name) => linesOf(name, byId(box).clientWidth).length));
+      byId(box).style.height = `${Math.max(90, labels.length * Math.max(30, 15 * most + 4) + 70)}px`;
       return labels;
     };
-
-    // Names as labels of bars: in a narrow chart on several lines, broken after a '_'.
     const names = {
       autoSkip: false,
-      callback(value) {
-        const name = this.getLabelForValue(value), lines = [''];
-        if (this.chart.width > 520) return name;
-        for (const part of name.split(/(?<=_)/)) {
-          if (lines[lines.length - 1] !== '' && (lines[lines.length - 1] + part).length > 16) lines.push('');
-          lines[lines.length - 1] += part;
-        }
-        return lines;
-      }
+      callback(value) { return linesOf(this.getLabelForValue(value), this.chart.width); }
     };
 
     // Cycles of each unit, by cause.

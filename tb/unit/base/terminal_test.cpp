@@ -7,7 +7,7 @@ namespace deburr::tb::terminal_test {
 namespace {
 
 TEST(Wrapped, BreaksAtBlanksAndBeginsWhatFollowsAtTheIndent) {
-  EXPECT_EQ(wrapped("rate        one two three\n", 20, 12),
+  EXPECT_EQ(wrapped("rate        one two three\n", 24, 12),
             "rate        one two\n            three\n");
   EXPECT_EQ(wrapped("rate        one two\n", 19, 12), "rate        one two\n") << "it fits";
   EXPECT_EQ(wrapped("a b\nc d", 1, 0), "a\nb\nc\nd");
