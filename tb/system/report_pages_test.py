@@ -48,6 +48,7 @@ const probe_page = async () => {
     // Steps of a pixel may be as long as they like.
     cut: [...document.querySelectorAll('.scroll:not(.tall)')].filter((e) => e.scrollWidth > e.clientWidth + 1)
         .map((e) => e.innerText.slice(0, 40)),
+    colours: typeof Chart === 'undefined' ? [] : [Chart.defaults.color, getComputedStyle(root).getPropertyValue('--muted').trim()],
     stills: [...document.querySelectorAll('.strip img')].map((e) => {
       const box = e.parentElement.getBoundingClientRect(), own = e.getBoundingClientRect();
       return [e.dataset.role, Math.min(box.width, own.width), Math.min(box.height, own.height),
@@ -157,6 +158,7 @@ class PagesTest(unittest.TestCase):
             self.assertGreater(len(label), 15, f"{title}: the chart {name} has no text")
             self.assertIn(role, ("img", "application"), name)
         self.assertEqual(told["empty"], [], title)
+        self.assertLessEqual(len(set(told["colours"])), 1, f"{title}: words of charts in another colour than the page's")
         with open(self.path(page), encoding="utf-8") as file:
             text = file.read()
         for link in told["links"]:
