@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string_view>
 
 #include "spec/error.h"
@@ -162,7 +163,7 @@ class Reader {
       if (list.IsMap())
         read_range(axis, list);
       else if (list.IsSequence())
-        for (const auto& value : list) add_choice(axis, scalar(value, name), value);
+        read_values(axis, list);
       else
         fail(key, fmt::format("axis '{}' wants a list of values or {{from: .., to: ..}}, got {}",
                               name, kind(list)));
@@ -186,12 +187,15 @@ class Reader {
     }
   }
 
-  void add_choice(Axis& axis, const std::string& value, const YAML::Node& node) const {
-    try_value(axis.name, value, node);
-    for (const Choice& other : axis.choices)
-      if (other.label == value)
+  void read_values(Axis& axis, const YAML::Node& list) const {
+    std::set<std::string> before;
+    for (const auto& node : list) {
+      const std::string value = scalar(node, axis.name);
+      try_value(axis.name, value, node);
+      if (!before.insert(value).second)
         fail(node, fmt::format("axis '{}' has the value '{}' twice", axis.name, value));
-    axis.choices.push_back({value, {value}});
+      axis.choices.push_back({value, {value}});
+    }
   }
 
   void read_named(Axis& axis, const YAML::Node& values) const {
