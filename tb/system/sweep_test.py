@@ -396,9 +396,9 @@ objectives: {minimise: [inverse, cycles]}
                 page = file.read()
             self.assertIn("<li>inverse in 1 of 4 points: division by zero</li>", page)
             self.assertEqual(page.count('<td class="n" title="division by zero">none</td>'), 1)
-        self.write("cache.yaml", SWEEP)
+        self.write("cache.yaml", SWEEP.replace("metrics: {", "limits: [cycles / wrong >= 0]\nmetrics: {wrong: checks.mismatches, "))
         self.run_sweep("cache.yaml", "run")
-        self.rows("cache")
+        self.assertIn(f", {POINTS} beyond the limits", self.run_sweep("cache.yaml", "collect"), "it divides by zero")
         with open(os.path.join(self.directory, "out/sweeps/cache/index.html")) as file:
             self.assertNotIn("Metrics without a value", file.read(), "every point has every one")
 
