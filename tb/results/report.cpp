@@ -15,6 +15,7 @@
 #include "spec/error.h"
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
+#include "tb/results/amount.h"
 #include "tb/results/embedded.h"
 #include "tb/results/input_files.h"
 #include "tb/results/picture_map.h"
@@ -34,8 +35,7 @@ constexpr std::size_t kMaxManifestBytes = 64u << 20, kMaxWindowsBytes = 64u << 2
 // Numbers as a reader wants them: counts grouped, rates with four significant digits.
 std::string report_text(const Json& value) {
   if (value.is_number_unsigned()) return grouped(value.get<std::uint64_t>());
-  if (value.is_number_integer()) return fmt::format("{}", value.get<std::int64_t>());
-  if (value.is_number()) return fmt::format("{:.4g}", value.get<double>());
+  if (value.is_number()) return amount(value.get<double>());
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
   if (value.is_null()) return "-";
@@ -46,13 +46,6 @@ mustache::data row(std::initializer_list<std::pair<const char*, std::string>> ce
   mustache::data data;
   for (const auto& [name, value] : cells) data.set(name, value);
   return data;
-}
-
-// A count as such, anything else with four digits.
-std::string amount(double value) {
-  return value == std::floor(value) && value >= 0 && value < 1e15
-             ? grouped(static_cast<std::uint64_t>(value))
-             : fmt::format("{:.4g}", value);
 }
 
 double number(const Json& json, const char* key) {
@@ -73,6 +66,19 @@ std::string gain_of(const Json& before, const Json& after, int digits = 2) {
 
 std::string fraction(const Json& value) {
   return value.is_number() ? fmt::format("{:.4f}", value.get<double>()) : "-";
+}
+
+// Columns and rows; nothing: it is no PNG.
+std::pair<std::uint64_t, std::uint64_t> png_size(const std::string& bytes) {
+  constexpr std::size_t kWidth = 16, kHeight = 20;  // in the first chunk, IHDR
+  if (!bytes.starts_with("\x89PNG") || bytes.size() < kHeight + 4) return {0, 0};
+  const auto number = [&](std::size_t at) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+    return value;
+  };
+  return {number(kWidth), number(kHeight)};
 }
 
 Json read_manifest(const fs::path& directory) {
@@ -96,7 +102,7 @@ class ReportBuilder {
 
   std::string render() {
     page_.set("style", std::string(embedded::style_css()));
-    page_.set("chart_js", std::string(embedded::chart_js()));
+    page_.set("chart_js", embedded::charts());
     page_.set("copy_js", std::string(embedded::copy_js()));
     page_.set("report_js", std::string(embedded::report_js()));
     page_.set("data", fmt::format(R"({{"result":{},"windows":{},"maps":{},"map_colours":{}}})",
@@ -191,8 +197,9 @@ class ReportBuilder {
     if (!own_cycles) tile("Cycles", report_text(result_["cycles"]), "clk", time(cycles));
     tile("Throughput", fmt::format("{:.3f}", value), "",
          report_text(throughput.value("unit", Json(""))) +
-             (bound > 0 ? fmt::format(", {:.1f} % of the bound {:.4g}", 100 * value / bound, bound)
-                        : ""));
+             (bound > 0
+                  ? fmt::format(", {:.1f} % of the bound {}", 100 * value / bound, amount(bound))
+                  : ""));
     if (!own_latency)
       tile("Latency p50", report_text(latency.value("p50", Json())), "clk",
            fmt::format("p99 {}, max {}", report_text(latency.value("p99", Json())),
@@ -358,19 +365,7 @@ class ReportBuilder {
   }
 
   void fill_images(const fs::path& directory) {
-    mustache::data images{mustache::data::type::list};
-    bool any = false;
-    for (const Json& image : manifest_.value("images", Json::array())) {
-      const fs::path file = image.value("file", "");
-      refuse_path(directory, file);
-      images << row({{"title", image.value("title", file.string())},
-                     {"caption", image.value("caption", "")},
-                     {"role", image.value("role", "")},
-                     {"source", data_uri(directory / file)}});
-      any = true;
-    }
-    page_.set("has_images", any);
-    page_.set("images", images);
+    fill_stills(directory);
     mustache::data maps{mustache::data::type::list};
     const Json of_maps = result_.value("maps", Json::object());
     for (const auto& [name, map] : of_maps.items()) {
@@ -388,6 +383,41 @@ class ReportBuilder {
     }
     page_.set("has_maps", maps.is_non_empty_list());
     page_.set("maps", maps);
+  }
+
+  // Of a frame of a few rows or columns they would vanish: they are drawn out, and of a picture
+  // that is larger than the frame, with the scale of a map, the frame's part is shown.
+  void fill_stills(const fs::path& directory) {
+    constexpr std::uint64_t kNarrow = 8;
+    const Json list = manifest_.value("images", Json::array());
+    std::vector<std::string> pngs;
+    std::uint64_t width = UINT64_MAX, height = UINT64_MAX;
+    for (const Json& image : list) {
+      const fs::path file = image.value("file", "");
+      refuse_path(directory, file);
+      pngs.push_back(read_file(directory / file, kMaxImageBytes));
+      const auto [across, down] = png_size(pngs.back());
+      width = std::min(width, across);
+      height = std::min(height, down);
+    }
+    const char* const shape = width / kNarrow > height   ? "flat"
+                              : height / kNarrow > width ? "tall"
+                                                         : "";
+    mustache::data images{mustache::data::type::list};
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const auto [across, down] = png_size(pngs[i]);
+      mustache::data still = row({{"title", list[i].value("title", list[i].value("file", ""))},
+                                  {"caption", list[i].value("caption", "")},
+                                  {"role", list[i].value("role", "")},
+                                  {"shape", shape},
+                                  {"source", png_uri(pngs[i])}});
+      still.set("narrow", *shape != 0);
+      still.set("across", fmt::format("{:.2f}", 100.0 * double(across) / double(width)));
+      still.set("down", fmt::format("{:.2f}", 100.0 * double(down) / double(height)));
+      images << still;
+    }
+    page_.set("has_images", images.is_non_empty_list());
+    page_.set("images", images);
   }
 
   // What the page says of a pixel of a map; nothing where the file of its values is gone.
@@ -535,8 +565,10 @@ class ReportBuilder {
 
   void fill_tables() {
     mustache::data figures{mustache::data::type::list};
+    bool any_against = false;
     for (const Json& figure : result_.value("figures", Json::array())) {
       const std::string key = figure.value("key", "");
+      any_against = any_against || !against(figure).empty();
       figures << row({{"label", figure.value("label", "")},
                       {"value", figure_text(value_at(key))},
                       {"unit", described(key, "unit")},
@@ -544,6 +576,7 @@ class ReportBuilder {
                       {"meaning", described(key, "meaning")}});
     }
     page_.set("has_figures", figures.is_non_empty_list());
+    page_.set("has_against", any_against);
     page_.set("figures", figures);
 
     mustache::data memory{mustache::data::type::list};

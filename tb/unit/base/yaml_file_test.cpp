@@ -62,6 +62,23 @@ TEST_F(YamlFileTest, TakesHexadecimalNumbers) {
   EXPECT_EQ(number(6), 1.5);
 }
 
+TEST_F(YamlFileTest, TakesUtf8AndNamesTheLineOfWhatIsNot) {
+  EXPECT_EQ(read("a: 1\nb: Gr\xc3\xbc\xc3\x9f\x65 \xf0\x9f\x98\x80\n").root()["a"].Scalar(), "1");
+  EXPECT_EQ(read(std::string("\xff\xfe"
+                             "a\0:\0 \0"
+                             "1\0\n\0",
+                             12))
+                .root()["a"]
+                .Scalar(),
+            "1")
+      << "UTF-16, as its mark says";
+  for (const std::string bad : {"Gr\xfc\xdf\x65", "\xc0\x80", "\xe0\x80\x80", "\xed\xa0\x80",
+                                "\xf5\x80\x80\x80", "\xf4\x90\x80\x80", "\x80", "\xc3"})
+    EXPECT_THAT(refusal("a: 1\nb: \"" + bad + "\"\n"),
+                EndsWith(":2: it is not UTF-8: save the file as that"))
+        << bad;
+}
+
 TEST_F(YamlFileTest, TakesAliasesOfAliases) {
   const YamlFile file = read(lists_of_lists(5));
   EXPECT_EQ(file.root()["a5"][9][8][7][6][5].Scalar(), "x");
