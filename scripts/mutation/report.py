@@ -17,13 +17,8 @@ GOAL = 95
 Z = 1.959964  # of a confidence of 95 %
 HEAD = """# Mutants of both models
 
-Made by `scripts/mutate --report` from `tb/mutation/record.json`, the result of the last campaign, which names each file
-by a hash of what it held, and `tb/mutation/survivors.json`; do not edit. `scripts/mutate --all` plants small faults in
-`golden/` and `rtl_model/`, one at a time, and runs the tests that reach each until one fails
-([kinds and how](../reference/tests.md#mutants), [why](../explanation/verification.md#mutants)).
-
-A rate is of the mutants with a verdict. In brackets is where that of all mutants lies, with a confidence of 95 %
-(Wilson's interval), if those with a verdict are a random sample of all.
+Made by `scripts/mutate --report` from `tb/mutation/record.json`, the last campaign, and `tb/mutation/survivors.json`;
+do not edit. What a mutant is: [how](../reference/tests.md#mutants), [why](../explanation/verification.md#mutants).
 
 """
 
@@ -153,31 +148,31 @@ def page_of(root, record):
             f"| {row['killed']} | {row['explained']} | {row['survived']} "
             f"| {percent(row['killed'], run_of(row))} "
             f"| {percent(row['killed'], row['killed'] + row['survived'])} |")
-    tried = run_of(total) + total["invalid"]
-    text = HEAD + "\n".join(lines) + "\n\n"
-    text += wrapped(
-        f"Of {total['mutants']} mutants {tried} were tried, {total['alone']} of them compiled alone; "
-        f"{total['mutants'] - tried} were not, since they were not drawn, since the campaign was "
-        "ended before them, or since they wait to be compiled alone: what the compiler works out "
-        "costs a build each. `not compiled` are no programs, and count nowhere.") + "\n\n"
     old = [file for file, entry in record.items() if "kinds" not in entry]
-    text += wrapped(f"The goal is {GOAL} % of those that are not explained. "
-                    + goal_of(rows, not old)) + "\n\n"
+    tried = run_of(total) + total["invalid"]
+    text = HEAD + wrapped(
+        f"Of {total['mutants']} mutants {run_of(total)} have a verdict: {total['killed']} killed, "
+        f"{total['explained']} survived and explained, {total['survived']} survived and open. The goal is {GOAL} % of those that are not explained. " + goal_of(rows, not old)) + "\n\n"
+    text += wrapped("In brackets: the rate of all mutants, with a confidence of 95 % (Wilson's interval), if those with a "
+                    "verdict are a random sample.") + "\n\n"
+    text += "\n".join(lines) + "\n\n"
+    text += wrapped(
+        f"{total['invalid']} mutants did not compile and count nowhere; {total['alone']} were compiled alone. "
+        f"{total['mutants'] - tried} were not tried: they were not drawn, the campaign ended before them, or they "
+        "need a build each, as what the compiler works out does.") + "\n\n"
     if old:
         text += wrapped(
-            f"{len(old)} of {len(record)} files got their verdicts before the generator had the kinds "
-            + ", ".join(mutants.KINDS[mutants.KINDS.index("shift"):]) + ", and not at random over "
-            "all: mutants of these kinds are not among those of the table, and intervals say too "
-            "much of folders in which whole files were left out.") + "\n\n"
+            f"The record of {len(old)} of {len(record)} files is older than the kinds "
+            + ", ".join(mutants.KINDS[mutants.KINDS.index("shift"):]) + ", and its mutants were not drawn at random: "
+            "the table has none of these kinds, and intervals say too much where whole files were left out.") + "\n\n"
     text += kinds_of(record)
     nothing = without_verdict(record)
     if nothing:
-        text += wrapped(f"{len(nothing)} files have mutants and no verdict; `scripts/mutate --check` names "
-                        "them, and those that have changed since.") + "\n\n"
-    text += wrapped(f"`tb/mutation/survivors.json` explains {len(explained)} survivors by file, line and reason: the "
-                    "program does the same, or what it does otherwise is not part of any contract.") + "\n\n"
+        text += wrapped(f"{len(nothing)} files have mutants and no verdict (`scripts/mutate --check` names them).") + "\n\n"
+    text += wrapped(f"`tb/mutation/survivors.json` has {len(explained)} explanations, by file, line and reason: the program "
+                    "does the same, or the difference is in no contract.") + "\n\n"
     text += "## Open survivors\n\n"
-    text += wrapped("Each is a gap in the tests, or waits for its explanation.") + "\n\n"
+    text += wrapped("Gaps in the tests, or not explained yet.") + "\n\n"
     for file, entry in sorted(record.items()):
         open_ones = [(was, becomes) for was, becomes in entry["survived"]
                      if (file, was, becomes) not in explained]

@@ -195,6 +195,9 @@ class CommandLines(unittest.TestCase):
             self.assertEqual(self.call("scripts/nightly", "--few", "--seed", seed)[0], 0)
             text = (self.root / "tree/build/nightly/nightly.yaml").read_text(encoding="utf-8")
             for feature in yaml.safe_load(text)["features"]:
+                # What one value of an axis compares may be less than the plan demands of all of them.
+                self.assertEqual(set(feature["checks"].values()), {100})
+                self.assertNotIn("coverage", feature)
                 for stimulus in feature["stimuli"]:
                     values = list(stimulus.get("axes", {}).values())
                     self.assertEqual([len(v) for v in values[:2]], [1] * len(values[:2]))
