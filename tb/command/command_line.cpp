@@ -37,6 +37,24 @@ namespace {
 
 using spec::ExitCode;
 
+// CLI11 lists the options that one excludes by their addresses, which differ from run to run.
+class OrderedFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = CLI::Formatter::make_option_opts(option);
+    constexpr std::string_view kExcludes = " Excludes:";
+    const std::size_t at = text.rfind(kExcludes);
+    if (at == std::string::npos) return text;
+    std::vector<std::string> names;
+    for (const CLI::Option* excluded : option->get_excludes())
+      names.push_back(excluded->get_name());
+    std::sort(names.begin(), names.end());
+    text.erase(at + kExcludes.size());
+    for (const std::string& name : names) text += " " + name;
+    return text;
+  }
+};
+
 std::string quoted_command(int argc, char** argv) {
   std::string command;
   for (int i = 0; i < argc; ++i) command += (i > 0 ? " " : "") + shell_quoted(argv[i]);
@@ -158,6 +176,7 @@ bool asks_for_json(int argc, char** argv) {
 int run(int argc, char** argv, void (*add)(CLI::App&, CommandLine&)) {
   CLI::App app{"Cycle-accurate models of anti-aliasing hardware, checked against golden models.",
                "deburr"};
+  app.formatter(std::make_shared<OrderedFormatter>());  // commands have it from here
   app.set_version_flag("--version", [] {
     const auto& build = build_info();
     return fmt::format("deburr {} ({}), {}, SystemC {}", build.version, build.commit,

@@ -48,6 +48,12 @@ mustache::data row(std::initializer_list<std::pair<const char*, std::string>> ce
   return data;
 }
 
+// A count, 0 for anything else.
+std::uint64_t count_of(const Json& json, const char* key) {
+  const Json value = json.value(key, Json());
+  return value.is_number_unsigned() ? value.get<std::uint64_t>() : 0;
+}
+
 double number(const Json& json, const char* key) {
   const Json value = json.value(key, Json(0.0));
   return value.is_number() ? value.get<double>() : 0.0;
@@ -164,10 +170,10 @@ class ReportBuilder {
                     {"state", state}});
     };
     const bool interrupted = result_.value("interrupted", false);
-    const std::uint64_t mismatches = checks.value("mismatches", std::uint64_t{0}) +
-                                     checks.value("traffic_mismatches", std::uint64_t{0});
-    const std::uint64_t compared = checks.value("comparisons", std::uint64_t{0}) +
-                                   checks.value("traffic_comparisons", std::uint64_t{0});
+    const std::uint64_t mismatches =
+        count_of(checks, "mismatches") + count_of(checks, "traffic_mismatches");
+    const std::uint64_t compared =
+        count_of(checks, "comparisons") + count_of(checks, "traffic_comparisons");
     page_.set("incomplete", interrupted);
     if (compared == 0)
       tile("Mismatches", "-", "", "not checked against the golden model");
@@ -313,8 +319,9 @@ class ReportBuilder {
     const std::string name = found->value("unit", ""), cause = found->value("cause", "");
     if (!result_["units"].contains(name)) return;
     const Json& unit = result_["units"][name];
+    const Json stalls = unit.value("stalls", Json::object());
     double all = number(unit, "busy") + number(unit, "idle");
-    for (const auto& [key, count] : unit["stalls"].items()) all += count.template get<double>();
+    for (const auto& [key, count] : stalls.items()) all += count.template get<double>();
     meter(
         fmt::format("Limited by {}: {}{}", name, cause == "busy" ? "" : "stalled, ", spaced(cause)),
         number(*found, "cycles"), all, "clk", found->value("meaning", ""));
@@ -376,7 +383,7 @@ class ReportBuilder {
                    {"max", text("max")},
                    {"unit", map.value("unit", "")},
                    {"sum", text("sum")},
-                   {"pixels", report_text(map["pixels"])},
+                   {"pixels", report_text(map.value("pixels", Json()))},
                    {"file", map.value("values", "")},
                    {"meaning", map.value("meaning", "")}});
       keep_values(directory, map);
@@ -461,10 +468,20 @@ class ReportBuilder {
     refuse_path(directory, name);
     const fs::path file = directory / name;
     windows_ = Json::parse(read_file(file, kMaxWindowsBytes), nullptr, false);
-    if (!windows_.is_object() || !windows_.contains("series"))
-      throw spec::FileError(fmt::format("'{}' is not a valid file of windows", file.string()));
+    const auto demand = [&](bool valid) {
+      if (!valid)
+        throw spec::FileError(fmt::format("'{}' is not a valid file of windows", file.string()));
+    };
+    demand(windows_.is_object() && windows_.contains("series"));
     Json& series = windows_["series"];
-    const std::vector<std::uint64_t> from = windows_["from"], cycles = windows_["cycles"];
+    const std::size_t count = windows_["from"].size();
+    const auto column = [&](const Json& values) {
+      demand(values.is_array() && values.size() == count);
+      for (const Json& value : values) demand(value.is_number_unsigned());
+      return values.get<std::vector<std::uint64_t>>();
+    };
+    const std::vector<std::uint64_t> from = column(windows_["from"]),
+                                     cycles = column(windows_["cycles"]);
     page_.set("windows_note",
               fmt::format("{} windows of {} cycles{}.", grouped(from.size()),
                           report_text(windows_["window_cycles"]),
@@ -485,12 +502,12 @@ class ReportBuilder {
       const std::string counter = key.substr(key.find('.') + 1);
       if (!series["work"].contains(counter)) continue;
       kept[counter] = series["work"][counter];
-      columns.push_back(kept[counter]);
+      columns.push_back(column(kept[counter]));
       rates << row({{"label", rate.value("label", "")}, {"unit", rate.value("unit", "")}});
     }
     const Json of_ports = series.value("ports", Json::object());
     for (const auto& [port, values] : of_ports.items()) {
-      columns.push_back(values["outstanding"]);
+      columns.push_back(column(values.value("outstanding", Json())));
       ports << port;
       for (const char* bytes : {"_bytes_read", "_bytes_written"})
         if (series["work"].contains(port + bytes))
@@ -507,9 +524,9 @@ class ReportBuilder {
                                  {"from", grouped(from[i])},
                                  {"to", grouped(from[i] + cycles[i])}});
       mustache::data values{mustache::data::type::list};
-      for (const std::vector<std::uint64_t>& column : columns)
+      for (const std::vector<std::uint64_t>& counts : columns)
         values << fmt::format("{:.3f}",
-                              static_cast<double>(column.at(i)) / static_cast<double>(cycles[i]));
+                              static_cast<double>(counts.at(i)) / static_cast<double>(cycles[i]));
       line.set("values", values);
       rows << line;
     }
@@ -520,10 +537,10 @@ class ReportBuilder {
     for (const auto& [link, figures] : of_links.items())
       links << row({{"name", link},
                     {"full", figures.value("link", "")},
-                    {"depth", report_text(figures["depth"])},
-                    {"beats", report_text(figures["beats"])},
+                    {"depth", report_text(figures.value("depth", Json()))},
+                    {"beats", report_text(figures.value("beats", Json()))},
                     {"mean", fmt::format("{:.2f}", number(figures, "mean"))},
-                    {"most", report_text(figures["most"])},
+                    {"most", report_text(figures.value("most", Json()))},
                     {"full_percent", fmt::format("{:.1f}", number(figures, "full_percent"))}});
     page_.set("links", links);
   }
@@ -631,7 +648,8 @@ class ReportBuilder {
     page_.set("latency_single", report_text(latency.value("max", Json())));
     mustache::data histogram{mustache::data::type::list};
     for (const Json& bin : latency.value("histogram", Json::array()))
-      histogram << row({{"from", report_text(bin["from"])}, {"count", report_text(bin["count"])}});
+      histogram << row({{"from", report_text(bin.value("from", Json()))},
+                        {"count", report_text(bin.value("count", Json()))}});
     page_.set("histogram", histogram);
 
     fill_memories();
@@ -708,14 +726,15 @@ class ReportBuilder {
 
     mustache::data parameters{mustache::data::type::list};
     for (const Json& p : manifest_.value("parameters", Json::array())) {
+      const std::string value = report_text(p.value("value", Json()));
       mustache::data line = row({{"name", p.value("name", "")},
                                  {"kind", p.value("kind", "")},
-                                 {"value", report_text(p["value"])},
+                                 {"value", value},
                                  {"default", p.value("default", "")},
                                  {"range", p.value("range", "")},
                                  {"unit", p.value("unit", "")},
                                  {"meaning", p.value("meaning", "")}});
-      line.set("changed", report_text(p["value"]) != p.value("default", ""));
+      line.set("changed", value != p.value("default", ""));
       parameters << line;
     }
     page_.set("parameters", parameters);
@@ -725,7 +744,7 @@ class ReportBuilder {
     const Json& memories = result_["memories"];
     const Json& bits = result_["memory_bits"];
     const auto total = [&](const char* key) {
-      return bits.value("total", Json::object()).value(key, std::uint64_t{0});
+      return count_of(bits.value("total", Json::object()), key);
     };
     const std::uint64_t logical = total("logical"), at_width = total("logical_at_frame_width");
     mustache::data rows{mustache::data::type::list};

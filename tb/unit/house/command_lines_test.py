@@ -182,8 +182,8 @@ class CommandLines(unittest.TestCase):
                 (["-L", "fuzz"], clang),
                 (["-L", "slurm"], slurm),
                 (["-L", "smoke", "--tidy"], ["clang-tidy"]),
-                (["-R", "slurm"], ["clang-format", "clang-tidy"]),
-                ([], ["clang-format", "clang-tidy"])):
+                (["-R", "slurm"], ["clang-format", "clang-tidy", *clang]),
+                ([], ["clang-format", "clang-tidy", *clang])):
             with self.subTest(arguments=arguments):
                 calls = self.call("scripts/test", *arguments, DEBURR_NO_INSTALL="0")[2]
                 installed = [call.split("--no-install-recommends ")[1].split() for call in calls
