@@ -21,19 +21,21 @@ set(link "${PROJECT_BINARY_DIR}/installed/deburr")
 file(CREATE_LINK "${path}" "${link}" SYMBOLIC)
 install(FILES "${link}" DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)
 
-# deburr_printed(<file> <folder> <word>...): what the program prints of itself.
+# deburr_printed(<file> <folder> <word>...): what the program prints of itself; without a folder it is not installed.
 set(printed "")
 function(deburr_printed file folder)
   set(output "${PROJECT_BINARY_DIR}/installed/${file}")
   add_custom_command(OUTPUT "${output}" COMMAND deburr ${ARGN} > "${output}" DEPENDS deburr VERBATIM)
-  install(FILES "${output}" DESTINATION "${folder}" COMPONENT program)
+  if(folder)
+    install(FILES "${output}" DESTINATION "${folder}" COMPONENT program)
+  endif()
   set(printed ${printed} "${output}" PARENT_SCOPE)
 endfunction()
 file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/installed/bash")
 deburr_printed(bash/deburr "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" completion bash)
 deburr_printed(_deburr "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions" completion zsh)
 deburr_printed(deburr.fish "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d" completion fish)
-deburr_printed(deburr.1 "${CMAKE_INSTALL_MANDIR}/man1" help --man)
+deburr_printed(deburr.1 "" help --man)  # which Package.cmake compresses
 add_custom_target(deburr_printed ALL DEPENDS ${printed})
 add_dependencies(deburr_installed deburr_printed)
 

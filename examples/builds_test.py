@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What stands around the installed files: SystemC by a CMake package of its own, and Debian packages of this build.
+"""Other builds than the one that installed_test.py installs: the libraries by the other compiler and as shared ones,
+SystemC by a CMake package of its own, Debian packages. Builds stay in BUILD/examples, so that the next time compiles
+what has changed.
 
 usage: builds_test.py CMAKE BUILD SOURCE CXX [unittest options]"""
 import os
@@ -11,7 +13,73 @@ import sys
 import unittest
 
 sys.dont_write_bytecode = True
-from installed_test import BUILD, CMAKE, CXX, GOLDEN_MAIN, Scratch, call, one_file, pkg_config  # noqa: E402
+from installed_test import (BUILD, CMAKE, CXX, DECLARED, EMPTY, EXAMPLES, GOLDEN_MAIN, INCLUDE, MODELS_MAIN, PREFIX,  # noqa: E402
+                            PYTHON, SOURCE, Scratch, call, exported, one_file, pkg_config)
+
+OTHER = "g++" if "clang" in CXX else "clang++"
+
+
+def built(name, *options):
+    """The preset `libraries` with these options, installed: the prefix."""
+    build, prefix = BUILD / "examples" / name, BUILD / "examples" / f"{name}-prefix"
+    env = dict(os.environ)
+    call(CMAKE, "--preset", "libraries", "-B", build, "-DDEBURR_WERROR=ON", *options, cwd=SOURCE, env=env)
+    call(CMAKE, "--build", build, "--parallel", os.cpu_count(), env=env, timeout=1500)
+    shutil.rmtree(prefix, ignore_errors=True)
+    call(CMAKE, "--install", build, "--prefix", prefix, env=env)
+    return prefix
+
+
+@unittest.skipUnless(shutil.which(OTHER), f"{OTHER} is not installed: scripts/install examples")
+class Compiler(Scratch):
+    """A release build by the compiler that this tree is not built with."""
+
+    def test_the_platform_draws_the_same_picture(self):
+        prefix = built("other-compiler", f"-DCMAKE_CXX_COMPILER={OTHER}")
+        shutil.copytree(EXAMPLES / "platform", self.folder, dirs_exist_ok=True)
+        said = []
+        for compiler, where, options in ((CXX, PREFIX, ["-DCMAKE_BUILD_TYPE=Debug"]), (OTHER, prefix, [])):
+            build = self.folder / pathlib.Path(compiler).name
+            call(CMAKE, "-S", self.folder, "-B", build, f"-DCMAKE_PREFIX_PATH={where}", f"-DCMAKE_CXX_COMPILER={compiler}",
+                 *options)
+            call(CMAKE, "--build", build, "--parallel", os.cpu_count())
+            said.append(call(build / "platform"))
+        self.assertIn("PASS picture", said[0])
+        self.assertEqual(*said)
+
+
+class Shared(Scratch):
+    """Shared libraries, compiled without much of an optimiser."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.prefix = built("shared", "-DBUILD_SHARED_LIBS=ON", "-DCMAKE_BUILD_TYPE=Debug", f"-DCMAKE_CXX_COMPILER={CXX}")
+        cls.libraries = next(cls.prefix.glob("lib*/**/libdeburr-golden.so")).parent
+        cls.env = EMPTY | {"PKG_CONFIG_PATH": str(cls.libraries / "pkgconfig"), "LD_LIBRARY_PATH": str(cls.libraries)}
+
+    def flags(self, name):
+        return call("pkg-config", "--cflags", "--libs", name, env=self.env).split()
+
+    def test_programs_link_them(self):
+        self.project("deburr REQUIRED", "deburr::golden deburr::models", MODELS_MAIN)
+        call(CMAKE, "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}",
+             f"-DCMAKE_CXX_COMPILER={CXX}")
+        call(CMAKE, "--build", self.folder / "build")
+        call(self.folder / "build/user")
+        number = pkg_config("--modversion", "deburr-golden")[0].rsplit(".", 1)[0]
+        for name, main in (("golden", GOLDEN_MAIN), ("models", MODELS_MAIN)):
+            call(CXX, self.write(f"{name}.cpp", main), "-o", self.folder / name, *self.flags(f"deburr-{name}"))
+            call(self.folder / name, env=self.env)
+            self.assertIn(f"[libdeburr-{name}.so.{number}]", call("readelf", "-d", self.folder / name))
+
+    def test_the_c_interface_exports_nothing_else(self):
+        library = self.libraries / "libdeburr-golden-c.so"
+        declared = set(DECLARED.findall((INCLUDE / "deburr_golden.h").read_text(encoding="utf-8")))
+        self.assertGreater(len(declared), 30)
+        self.assertEqual(exported("nm", "-D", "--defined-only", library), declared)
+        self.assertIn("[libdeburr-golden-c.so.0]", call("readelf", "-d", library))
+        call("cc", "-std=c99", EXAMPLES / "c/draw.c", "-o", self.folder / "draw", *self.flags("deburr-golden-c"))
+        self.assertIn("PASS picture", call(self.folder / "draw", "picture.ppm", cwd=self.folder, env=self.env))
 
 
 PACKAGE = """set(SystemC_CXX_STANDARD 17)
@@ -66,6 +134,31 @@ class SystemC(Scratch):
         self.write(f"{folder}/SystemCLanguageConfigVersion.cmake", VERSION.format(version=version))
         return [f"-DSystemCLanguage_DIR={self.folder / folder}", DEBIAN.replace("ON", "OFF")]
 
+    def test_its_baseline_is_probed_and_a_program_links(self):
+        # In the build that has probed Debian's, too.
+        for fresh in (False, True):
+            if fresh:
+                shutil.rmtree(self.folder / "build")
+            said = self.configure(*self.package(self.library))
+            self.assertIn("SystemC 3.0.1, ", said)
+            self.assertIn("standard of the project: 23", said)
+            self.assertLessEqual(said.count("SC_CPLUSPLUS="), 1)
+            call(CMAKE, "--build", self.folder / "build")
+            call(self.folder / "build/user")
+        back = self.configure(DEBIAN)
+        self.assertNotIn("SystemC 3.0.1", back)
+        call(CMAKE, "--build", self.folder / "build")
+        call(self.folder / "build/user")
+
+    def test_the_libraries_are_configured_with_it_and_say_so(self):
+        build = self.folder / "libraries"
+        call(CMAKE, "--preset", "libraries", "-B", build, *self.package(self.library), cwd=SOURCE)
+        self.assertIn('set(_deburr_systemc "3.0.1")', (build / "installed/cmake/deburr-config.cmake").read_text(encoding="utf-8"))
+        # There need be no systemc.pc.
+        models = (build / "installed/deburr-models.pc").read_text(encoding="utf-8")
+        self.assertRegex(models, rf"(?m)^Libs: .* {re.escape(self.library)} ")
+        self.assertNotRegex(models, r"(?m)^Requires: .*systemc")
+
     def test_what_cannot_be_used_is_said(self):
         stub = self.folder / "libsystemc.a"
         call("ar", "rcs", stub)
@@ -85,9 +178,21 @@ class SystemC(Scratch):
                 said = self.configure(*options, code=code)
                 self.assertIn("standard of the project: 23" if code == 0 else words, said)
 
+    def test_another_one_than_the_libraries_were_built_with(self):
+        self.project("deburr REQUIRED COMPONENTS models")
+        said = self.configure(*self.package(self.library, "3.9.9"), code=1)
+        self.assertRegex(said, r"built with SystemC \S+, and SystemC 3\.9\.9 was found: install that version, or build Deburr")
+
+    def test_without_any_the_libraries_say_what_to_install(self):
+        said = " ".join(call(CMAKE, "--preset", "libraries", "-B", self.folder / "libraries", DEBIAN, "-DSystemC_LIBRARY=",
+                             "-DSystemC_INCLUDE_DIR=", cwd=SOURCE, code=1).split())
+        for words in ("`scripts/install libraries` installs Debian's package libsystemc-dev", "SYSTEMC_HOME",
+                      "a CMake package of SystemC 3.0"):
+            self.assertIn(words, said)
+
 
 class Debian(Scratch):
-    """`cpack -G DEB`, of this build."""
+    """`cpack -G DEB`, of this build, which has the Python module or has not."""
 
     @classmethod
     def setUpClass(cls):
@@ -99,21 +204,48 @@ class Debian(Scratch):
              cwd=BUILD, env=dict(os.environ))
         cls.packages = {re.match(r"[a-z0-9-]+", file.name)[0]: file for file in folder.glob("*.deb")}
 
-    def test_they_stand_alone(self):
-        self.assertLessEqual({"deburr", "libdeburr-dev"}, set(self.packages))
+    def extract(self, depends):
+        """The packages in a root of their own, each of our version and with what it depends on."""
         version = pkg_config("--modversion", "deburr-golden")[0]
-        for name, depends in (("deburr", ("libsystemc", "libc6")), ("libdeburr-dev", ("libsystemc-dev", "libfmt-dev"))):
+        for name, others in depends.items():
             fields = call("dpkg-deb", "--field", self.packages[name])
-            self.assertRegex(fields, rf"(?m)^Version: {re.escape(version)}$")
-            for package in depends:
-                self.assertRegex(fields, rf"(?m)^Depends: .*\b{package}")
+            self.assertRegex(fields, rf"(?m)^Version: {re.escape(version)}-1$")
+            for package in others:
+                self.assertRegex(fields, rf"(?m)^Depends: (.*, )?{re.escape(package)}( |,|$)")
             call("dpkg-deb", "--extract", self.packages[name], self.folder / "root")
+        return version
+
+    def test_there_is_one_for_each_that_was_built(self):
+        self.assertEqual(set(self.packages), {"deburr", "libdeburr-dev"} | ({"python3-deburr"} if PYTHON.exists() else set()))
+
+    def test_they_stand_alone(self):
+        version = self.extract({"deburr": ("libsystemc", "libc6"), "libdeburr-dev": ("libsystemc-dev", "libfmt-dev")})
         self.assertIn(version, call(self.folder / "root/usr/bin/deburr", "--version"))
         self.project("deburr REQUIRED", "deburr::golden", GOLDEN_MAIN)
         call(CMAKE, "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={self.folder / 'root/usr'}",
              f"-DCMAKE_CXX_COMPILER={CXX}")
         call(CMAKE, "--build", self.folder / "build")
         call(self.folder / "build/user")
+
+    @unittest.skipUnless(PYTHON.exists(), "the Python module was not built: scripts/install python")
+    def test_the_python_module_finds_the_command_of_its_package(self):
+        version = pkg_config("--modversion", "deburr-golden")[0]
+        self.extract({"deburr": (), "python3-deburr": (f"deburr (= {version}-1)", "python3-numpy")})
+        root = self.folder / "root/usr"
+        said = call("/usr/bin/python3", "-c", """import deburr, numpy
+smooth = deburr.ideal.fxaa(numpy.zeros((8, 8, 4), dtype=numpy.uint8))
+run = deburr.run(deburr.engines()[0], scene="plane", size=(32, 32))
+print(deburr.__file__, deburr.__version__, smooth.shape, run.cycles > 1024, deburr._program.program())
+""", cwd=self.folder, env=EMPTY | {"PYTHONPATH": str(root / "lib/python3/dist-packages"), "PYTHONDONTWRITEBYTECODE": "1"})
+        self.assertEqual(said.split(), [f"{root}/lib/python3/dist-packages/deburr/__init__.py", version, "(8,", "8,", "4)", "True",
+                                        f"{root}/libexec/deburr/deburr"])
+
+    @unittest.skipUnless(shutil.which("lintian"), "lintian is not installed: scripts/install examples")
+    def test_lintian_accepts_them(self):
+        # The preset `package` has the libraries where Debian has them, since its prefix is /usr.
+        said = call("lintian", "--tag-display-limit", "0", "--fail-on", "error", "--suppress-tags",
+                    "pkg-config-unavailable-for-cross-compilation", *self.packages.values(), env=dict(os.environ))
+        self.assertNotRegex(said, r"(?m)^[EW]: ")
 
 
 if __name__ == "__main__":

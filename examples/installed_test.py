@@ -6,6 +6,7 @@ nothing else of the repository. Install puts it all into BUILD/examples/prefix, 
 usage: installed_test.py CMAKE BUILD SOURCE CXX [unittest options]"""
 import concurrent.futures
 import functools
+import gzip
 import json
 import os
 import pathlib
@@ -21,6 +22,7 @@ CMAKE, BUILD, SOURCE, CXX = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1)), path
 PREFIX = BUILD / "examples/prefix"
 INCLUDE = PREFIX / "include/deburr"
 EXAMPLES = PREFIX / "share/deburr/examples"
+PYTHON = PREFIX / "lib/python3/dist-packages"
 # What a user's shell has at least; nothing of ours.
 EMPTY = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "LC_ALL": "C.UTF-8"}
 
@@ -76,11 +78,41 @@ def pkg_config(*arguments, code=0):
     return call("pkg-config", *arguments, code=code, env=EMPTY | {"PKG_CONFIG_PATH": str(folder)}).split()
 
 
+def blocks_of(page):
+    """What stands in the blocks without a language of an installed page, one text each."""
+    text = (PREFIX / f"share/deburr/docs/{page}.md").read_text(encoding="utf-8")
+    return [block for language, block in re.findall(r"^```(\w*)\n(.*?)^```", text, re.M | re.S) if not language]
+
+
+def not_printed(block, said):
+    """The lines of a page that a program has not printed; ... stands for anything."""
+    lines = [" ".join(line.split()) for line in said.splitlines()]
+    wanted = [" ".join(line.split()) for line in block.splitlines()]
+    return [line for line in wanted
+            if not any(re.fullmatch(".*".join(map(re.escape, line.split("..."))), one) for one in lines)]
+
+
 class Scratch(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="deburr_installed_")
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
+
+    def as_on_the_page(self, commands, code=0):
+        """What a reader of a page sees who has installed into ~/deburr and has nothing else of us."""
+        home = self.folder / "home"
+        home.mkdir(exist_ok=True)
+        if not (home / "deburr").exists():
+            (home / "deburr").symlink_to(PREFIX)
+        return alone("bash", "-c", commands, cwd=self.folder, code=code, timeout=1500, env=EMPTY | {
+            "HOME": str(home), "CXX": CXX, "CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count()), "CCACHE_DISABLE": "1"})
+
+    def after_installing(self, page):
+        """What is printed by the first block of a page that begins with how to install, and the page's next block."""
+        first, shown = blocks_of(page)[:2]
+        installs, commands = first.split("\n", 1)
+        self.assertRegex(installs, r"^cmake --preset libraries && .* --prefix ~/deburr$")
+        return self.as_on_the_page(commands), shown
 
     def write(self, name, text):
         file = self.folder / name
@@ -117,7 +149,7 @@ class Files(Scratch):
                         "lib*/**/libdeburr-golden.*[ao]", "lib*/**/libdeburr-models.*[ao]",
                         "include/deburr/deburr_registers.h", "include/deburr/deburr_golden.h",
                         "share/deburr/systemverilog/deburr_golden_pkg.sv",
-                        "share/deburr/systemverilog/deburr_golden_dpi.c", "share/man/man1/deburr.1",
+                        "share/deburr/systemverilog/deburr_golden_dpi.c", "share/man/man1/deburr.1.gz",
                         "share/bash-completion/completions/deburr", "share/zsh/vendor-completions/_deburr",
                         "share/fish/vendor_completions.d/deburr.fish", "share/deburr/sweeps/texture_cache.yaml",
                         "share/deburr/tb/testplan/smoke.yaml", "share/deburr/docs/howto/use_in_my_platform.md",
@@ -127,7 +159,8 @@ class Files(Scratch):
         # Of the C interface there is its header alone.
         headers = {file for file in headers if file.parts[:2] != ("golden", "c")}
         installed = {file.relative_to(INCLUDE) for file in INCLUDE.rglob("*.h")}
-        examples = {file.relative_to(SOURCE / "examples") for folder in ("c", "platform", "systemverilog")
+        folders = ("c", "platform", "systemverilog", *(["python"] if PYTHON.exists() else []))
+        examples = {file.relative_to(SOURCE / "examples") for folder in folders
                     for file in (SOURCE / "examples" / folder).rglob("*")}
         self.assertGreater(len(examples), 20)
         self.assertLessEqual(examples, {file.relative_to(EXAMPLES) for file in EXAMPLES.rglob("*")})
@@ -308,14 +341,14 @@ class Program(Scratch):
         self.assertIn("sweeps/none.yaml", self.deburr("sweep", "sweeps/none.yaml", "plan", code=5))
 
     def test_the_manual_and_the_completion_are_the_programs(self):
-        manual = (PREFIX / "share/man/man1/deburr.1").read_text(encoding="utf-8")
+        manual = gzip.decompress((PREFIX / "share/man/man1/deburr.1.gz").read_bytes()).decode()
         self.assertEqual(manual, self.deburr("help", "--man"))
         commands = re.findall(r"^  ([a-z]+) ", self.deburr("--help").split("Subcommands:")[1].split("\n\n")[0], re.M)
         self.assertGreaterEqual(len(commands), 9)
         for command in commands:
             self.assertIn(f".SS deburr {command}\n", manual)
         if shutil.which("man"):
-            self.assertIn("deburr regress", call("man", "-l", PREFIX / "share/man/man1/deburr.1"))
+            self.assertIn("deburr regress", call("man", "-l", PREFIX / "share/man/man1/deburr.1.gz"))
         for shell, file in (("bash", "bash-completion/completions/deburr"), ("zsh", "zsh/vendor-completions/_deburr"),
                             ("fish", "fish/vendor_completions.d/deburr.fish")):
             self.assertEqual((PREFIX / "share" / file).read_text(encoding="utf-8"), self.deburr("completion", shell))
@@ -323,10 +356,8 @@ class Program(Scratch):
 
 
 class Platform(Scratch):
-    def test_the_example_draws_its_picture_and_finds_violations(self):
-        shutil.copytree(EXAMPLES / "platform", self.folder, dirs_exist_ok=True)
-        self.configure()
-        alone(CMAKE, "--build", self.folder / "build", "--parallel", os.cpu_count())
+    def test_the_page_builds_the_example_which_draws_its_picture_and_finds_violations(self):
+        self.assertRegex(self.after_installing("howto/use_in_my_platform")[0], r"(?m)^PASS picture ")
         program = self.folder / "build/platform"
         said = alone(program, "--out", "picture.ppm", cwd=self.folder)
         self.assertIn("PASS picture", said)
@@ -396,19 +427,6 @@ class C(Scratch):
         found = exported("nm", "--defined-only", one_file("lib*/**/libdeburr-golden.*[ao]"))
         self.assertEqual({name for name in found if name.startswith("deburr_")}, declared)
 
-    def test_the_shared_library_offers_nothing_else(self):
-        build = self.folder / "shared"
-        call(CMAKE, "--preset", "libraries", "-B", build, "-DBUILD_SHARED_LIBS=ON",
-             "-DCMAKE_BUILD_TYPE=Debug", cwd=SOURCE, env=dict(os.environ))
-        call(CMAKE, "--build", build, "--target", "deburr_c_library", "--parallel", os.cpu_count(),
-             env=dict(os.environ))
-        library = build / "libdeburr-golden-c.so"
-        declared = set(DECLARED.findall((INCLUDE / "deburr_golden.h").read_text(encoding="utf-8")))
-        self.assertEqual(exported("nm", "-D", "--defined-only", library), declared)
-        self.assertIn("[libdeburr-golden-c.so.0]", call("readelf", "-d", library))
-        call("cc", "-std=c99", f"-I{INCLUDE}", self.folder / "draw.c", "-o", self.folder / "draw", library)
-        self.drawn(self.folder / "draw", env=EMPTY | {"LD_LIBRARY_PATH": str(build)})
-
 
 # The quads of examples/systemverilog/testbench.sv, given to the C++ model.
 QUADS_MAIN = """#include <cstdio>
@@ -450,21 +468,24 @@ int main() {
 class SystemVerilog(Scratch):
     """The example in SystemVerilog, under Verilator."""
 
-    def test_the_testbench_agrees_and_finds_planted_faults(self):
-        shutil.copytree(EXAMPLES / "systemverilog", self.folder, dirs_exist_ok=True)
-        said = alone("make", f"PREFIX={PREFIX}", cwd=self.folder, env=EMPTY | {"CCACHE_DISABLE": "1"})
+    def test_the_page_builds_the_testbench_which_agrees_and_finds_planted_faults(self):
+        said, shown = self.after_installing("howto/testbench")
+        self.assertEqual(not_printed(shown, said), [])
         self.assertRegex(said, r"(?m)^PASS$")
+        planted, shown = blocks_of("howto/testbench")[2].split("\n", 1)
+        self.assertRegex(planted, r"^make .* RUN=\+bug=\d$")
+        self.assertEqual(not_printed(shown, self.as_on_the_page(planted, code=2)), [])
         self.assertRegex(said, r"edge detector: 20 frames, \d{4,} pixels with edges, 0 differ")
         # 10^6 calls: what C++ computes of the same quads.
         alone(CXX, "-O2", self.write("quads.cpp", QUADS_MAIN), "-o", self.folder / "quads",
              *pkg_config("--cflags", "--libs", "deburr-golden"))
         self.assertIn("sampler: 1000000 quads, 4000000 colours, 0 differ, checksum " + call(self.folder / "quads"), said)
-        program = self.folder / "build/testbench"
+        program = self.folder / "systemverilog/build/testbench"
         for bug, words in ((1, "quad"), (2, "quad"), (3, "quad"), (4, "frame"), (5, "frame"), (6, "frame")):
             said = alone(program, f"+bug={bug}", "+quads=20000", code=-signal.SIGABRT)
             self.assertRegex(said, rf"FAIL {words} \d+, .* expected ", bug)
             self.assertNotRegex(said, r"(?m)^PASS$")
-        said = alone(program, "+refused", "+quads=10", "+frames=1")
+        said = alone(program, "+rejected", "+quads=10", "+frames=1")
         for words in ("status 1: deburr_set: 'depth_bias' = '99' is outside 1..24",
                       "status 1: deburr_frame_pixels: pixels_size is 8; 4 rows need 64",
                       "status 1: the handle is NULL", "parameters of the engine geometric: preset = deburr"):
@@ -483,7 +504,6 @@ class SystemVerilog(Scratch):
         self.assertIn(f"no deburr-golden-c below {self.folder}", alone("make", f"PREFIX={self.folder}", cwd=self.folder, code=2))
 
 
-PYTHON = PREFIX / "lib/python3/dist-packages"
 NOTEBOOK = """import sys, nbclient, nbformat
 notebook = nbformat.read("notebook.ipynb", as_version=4)
 nbclient.NotebookClient(notebook, timeout=600, kernel_name="python3").execute()
@@ -497,7 +517,7 @@ class Python(Scratch):
 
     def python(self, program, code=0):
         home = {"HOME": str(self.folder / "home"), "PYTHONPATH": str(PYTHON), "PYTHONDONTWRITEBYTECODE": "1"}
-        return call("/usr/bin/python3", "-c", program, code=code, cwd=self.folder, env=EMPTY | home)
+        return alone("/usr/bin/python3", "-c", program, code=code, cwd=self.folder, env=EMPTY | home)
 
     def test_it_is_the_installed_one_and_finds_its_command(self):
         said = self.python("import deburr, deburr._program as p; print(deburr.__file__, deburr._golden.__file__, p.program(), "
@@ -506,6 +526,12 @@ class Python(Scratch):
         self.assertEqual(said[3:], pkg_config("--modversion", "deburr-golden"))
         self.assertTrue((PYTHON / "deburr/py.typed").exists())
         self.assertEqual(sorted(file.name for file in PYTHON.rglob("*.py*") if file.is_symlink()), [])
+
+    def test_the_page_says_where_it_is_installed(self):
+        calls = [line for block in blocks_of("reference/python") for line in block.splitlines()
+                 if line.startswith("PYTHONPATH=~/deburr") and " -c " in line]
+        self.assertEqual([self.as_on_the_page(line).split() for line in calls],
+                         [pkg_config("--modversion", "deburr-golden")])
 
     def test_the_page_does_what_it_says(self):
         page = (PREFIX / "share/deburr/docs/reference/python.md").read_text(encoding="utf-8")
@@ -567,7 +593,8 @@ print(f"{value:016x}")
             self.python("import nbclient, ipykernel, pandas, matplotlib")
         except AssertionError:
             self.skipTest("a notebook's packages are not installed: scripts/install python")
-        shutil.copy(SOURCE / "examples/python/notebook.ipynb", self.folder)
+        copies, executes = next(block for block in blocks_of("reference/python") if "notebook.ipynb" in block).splitlines()
+        self.as_on_the_page(copies)
         self.python(NOTEBOOK)
         cells = json.loads((self.folder / "executed.ipynb").read_text(encoding="utf-8"))["cells"]
         outputs = [output for cell in cells for output in cell.get("outputs", [])]
@@ -586,11 +613,11 @@ print(f"{value:016x}")
         for less in ("1", "2", "4"):
             half = self.hits(*frame, "--set", f"texture.cache.bytes={512 * kib}", "--set", f"texture.cache.ways={less}")
             self.assertLess(half, 0.97)
-        # A wrong name in it ends it, with the command's words.
+        # A wrong name in it ends it, with the command's words; as the page starts it.
         notebook = (self.folder / "notebook.ipynb").read_text(encoding="utf-8")
         self.assertIn("memory_latency=LATENCY", notebook)
         self.write("notebook.ipynb", notebook.replace("memory_latency=LATENCY", "memory_latncy=LATENCY"))
-        self.assertIn("unknown parameter 'memory_latncy'", self.python(NOTEBOOK, code=1))
+        self.assertIn("unknown parameter 'memory_latncy'", self.as_on_the_page(executes, code=1))
 
 
 class Libraries(Scratch):

@@ -4,7 +4,7 @@
 //   +quads=N   quads that the sampler is given; each is a call of the golden model (1000000)
 //   +frames=N  frames that the edge detector is given (20)
 //   +bug=N     plants a fault: 1 to 3 in the sampler, 4 to 6 in the edge detector (0: none)
-//   +refused   shows what the golden model says to a call that is wrong
+//   +rejected  shows what the golden model says to a call that is wrong
 //
 // Prints what was compared and PASS, or the first difference and FAIL, which ends it with an error.
 module testbench;
@@ -33,7 +33,7 @@ module testbench;
     string text;
     if (status != DEBURR_OK) begin
       void'(deburr_error(golden, status, text));
-      $fatal(1, "the golden model refused: %s", text);
+      $fatal(1, "the golden model rejected: %s", text);
     end
   endtask
 
@@ -199,7 +199,7 @@ module testbench;
 
   // ---- a call that is wrong ---------------------------------------------------------------------
 
-  task automatic show_refusals();
+  task automatic show_rejections();
     chandle golden = deburr_geometric_new();
     string text, name;
     int status;
@@ -228,7 +228,7 @@ module testbench;
     void'($value$plusargs("quads=%d", quads));
     void'($value$plusargs("frames=%d", frames));
     $display("golden models of Deburr %s", deburr_version());
-    if ($test$plusargs("refused") != 0) show_refusals();
+    if ($test$plusargs("rejected") != 0) show_rejections();
     @(negedge clock);
     test_sampler();
     test_detector();

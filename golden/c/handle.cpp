@@ -87,7 +87,7 @@ int status_of_exception(deburr_golden& golden, const char* function) noexcept {
     } catch (const std::exception& error) {
       return keep(DEBURR_INTERNAL, error.what());
     } catch (...) {
-      return keep(DEBURR_INTERNAL, "an exception that nobody knows");
+      return keep(DEBURR_INTERNAL, "an unknown exception");
     }
   } catch (...) {  // no memory for the text either
     golden.error.clear();

@@ -134,7 +134,7 @@ std::uint64_t place(TextureHandle& h, std::uint32_t texture, std::uint64_t addre
     words[reg::kLevelBase / 4 + level] = static_cast<std::uint32_t>(next);
     next += texture::level_bytes(d, static_cast<int>(level));
     require(address < kMostMemory && next <= kMostMemory,
-            "the texture would end behind address 2^32");
+            "the texture would end past address 2^32");
   }
   h.put_words(texture, words);
   return next;

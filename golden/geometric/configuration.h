@@ -18,7 +18,7 @@ struct FrameCounts {
   std::uint64_t edge_count = 0, vertex_count = 0, face_count = 0;  // records, facing bits
 };
 
-// Why the engine refuses to start: the first reason that holds. Never kDisabled, which is not a
+// Why the engine rejects a start: the first reason that holds. Never kDisabled, which is not a
 // matter of sizes.
 spec::geometric::Refusal refusal(const spec::geometric::Parameters& parameters,
                                  const FrameCounts& counts);

@@ -22,11 +22,11 @@ constexpr std::array<std::string_view, 8> kOctants = {"right-down", "right-up", 
                                                       "left-up",    "down-right", "down-left",
                                                       "up-right",   "up-left"};
 constexpr std::array<std::string_view, 3> kLengths = {"below-pixel", "below-four", "longer"};
-constexpr std::array<std::string_view, 6> kFates = {
-    "line", "outside", "degenerate", "empty-columns", "empty-before", "empty-behind"};
+constexpr std::array<std::string_view, 6> kFates = {"line",          "outside",      "degenerate",
+                                                    "empty-columns", "empty-before", "empty-after"};
 constexpr std::array<std::string_view, 4> kCuts = {"none", "start", "end", "both"};
-constexpr std::array<std::string_view, 5> kRows = {"inside", "enters-before", "enters-behind",
-                                                   "leaves-before", "leaves-behind"};
+constexpr std::array<std::string_view, 5> kRows = {"inside", "enters-before", "enters-after",
+                                                   "leaves-before", "leaves-after"};
 constexpr std::array<std::string_view, 4> kTies = {"horizontal-rising", "horizontal-level",
                                                    "horizontal-falling", "vertical"};
 constexpr std::array<std::string_view, 4> kBorders = {"top", "bottom", "left", "right"};

@@ -50,7 +50,7 @@ class GeometricGolden {
                            Detail detail = Detail::kEverything);
 
   // The output frame, row by row without gaps; valid until the next call. Throws ConfigError for
-  // what the engine refuses to start, CheckFailed for views that are smaller than they say.
+  // what the engine rejects at a start, CheckFailed for views that are smaller than they say.
   const std::vector<spec::geometric::Rgba8>& process(const FrameInput& input);
 
   // ---- of the last frame; index y * width + x -----------------------------------------------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Khronos's filtering criterion: real arithmetic, no dependence on the golden model it judges.
+# Khronos's filtering criterion: real arithmetic, no dependence on the golden model it checks.
 deburr_library(filtering_criterion LAYER golden
   SOURCES "${CMAKE_CURRENT_LIST_DIR}/filtering_criterion.cpp"
   LINK deburr::spec)

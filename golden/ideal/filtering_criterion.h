@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Judges a filtered colour as the Khronos conformance tests do: it is right when SOME sub-texel
+// Checks a filtered colour as the Khronos conformance tests do: it is right when SOME sub-texel
 // weights and SOME level of detail inside the tolerated intervals explain all four channels
 // together. Real arithmetic; written from the description in
 // docs/measurements/filtering_conformance.md.
@@ -110,7 +110,7 @@ Rgba exact_colour(const Texture& texture, const Sampler& sampler, const Fragment
 enum class Verdict { kHigh, kLow, kFail };
 std::string_view verdict_name(Verdict verdict);
 
-// Judges many fragments of one texture and sampler.
+// Checks many fragments of one texture and sampler.
 class Judge {
  public:
   // Keeps references: texture and sampler must outlive it.
@@ -124,13 +124,13 @@ class Judge {
   // Largest distance to the nearest legal colour at high precision, in 8-bit steps; at least 1/2
   // where any fragment was added, since finer differences are rounding.
   double deviation() const { return high_worst_; }
-  // The same at low precision, over the fragments that high precision refused; 0 when there are
+  // The same at low precision, over the fragments that high precision rejected; 0 when there are
   // none.
   double low_deviation() const { return low_worst_; }
   const Fragment& worst() const { return worst_; }
   const Rgba& worst_colour() const { return worst_colour_; }
   std::int64_t fragments() const { return fragments_; }
-  std::int64_t refused() const { return refused_; }  // fragments that high precision refused
+  std::int64_t refused() const { return refused_; }  // fragments that high precision rejected
   std::int64_t undecided() const { return high_.undecided() + low_.undecided(); }
 
  private:

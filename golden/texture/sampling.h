@@ -130,7 +130,7 @@ LevelAddresses level_addresses(const spec::texture::Descriptor& descriptor, int 
 // Bytes from base[level] to the end of the level, padding of rows and of tile grids included.
 std::uint64_t level_bytes(const spec::texture::Descriptor& descriptor, int level);
 
-// Why the unit refuses the descriptor, or nullptr when it is valid.
+// Why the unit rejects the descriptor, or nullptr when it is valid.
 const char* descriptor_fault(const spec::texture::Descriptor& descriptor);
 inline bool valid(const spec::texture::Descriptor& descriptor) {
   return descriptor_fault(descriptor) == nullptr;

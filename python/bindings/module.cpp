@@ -72,7 +72,7 @@ void translate(std::exception_ptr exception) {
 }  // namespace
 
 PYBIND11_MODULE(_golden, module) {
-  module.doc() = "The golden models behind deburr.golden and deburr.ideal.";
+  module.doc() = "The golden models of deburr.golden and deburr.ideal.";
   module.attr("version") = DEBURR_VERSION;
   py::register_exception_translator(translate);
   add_engines(module);

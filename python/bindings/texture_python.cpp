@@ -84,7 +84,7 @@ class TextureUnit {
     return work(handle_);
   }
 
-  // All or, if one of them is refused, none.
+  // All or, if one of them is rejected, none.
   void set(const py::dict& parameters) {
     turn([&](c::TextureHandle& h) {
       auto texts = h.texts;

@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: MIT
 """Figures by name, as attributes and as items."""
 import collections.abc
+import typing
 
 
-class Figures(collections.abc.Mapping):
+class Figures(collections.abc.Mapping[str, typing.Any]):
     """Named values that cannot be changed: `figures.cycles`, `figures["cycles"]`. Groups are Figures too, and a key
     may name what is inside of them: `figures["units.filter.busy"]`."""
 
-    def __init__(self, values):
+    def __init__(self, values: collections.abc.Mapping[str, typing.Any]) -> None:
         self.__dict__["_values"] = {name: Figures(value) if isinstance(value, dict) else value
                                     for name, value in values.items()}
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> typing.Any:
         if name in self._values:
             return self._values[name]
         # Names may have dots themselves: the first way to read it that is there.
@@ -23,40 +24,41 @@ class Figures(collections.abc.Mapping):
                 return inner[rest]
         raise KeyError(name)
 
-    def __contains__(self, name):
+    def __contains__(self, name: object) -> bool:
         try:
-            self[name]
+            self[str(name)]
         except KeyError:
             return False
         return True
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> typing.Any:
         try:
             return self._values[name]
         except KeyError:
             raise AttributeError(f"there is no figure '{name}'; there are {', '.join(self._values)}") from None
 
-    def __setattr__(self, name, value):
+    def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError("figures cannot be changed")
 
-    def __getstate__(self):
-        return self._values
+    def __getstate__(self) -> dict[str, typing.Any]:
+        values: dict[str, typing.Any] = self._values
+        return values
 
-    def __setstate__(self, values):
+    def __setstate__(self, values: dict[str, typing.Any]) -> None:
         self.__dict__["_values"] = values
 
-    def __iter__(self):
+    def __iter__(self) -> collections.abc.Iterator[str]:
         return iter(self._values)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._values)
 
-    def __dir__(self):
+    def __dir__(self) -> list[str]:
         return [*super().__dir__(), *(name for name in self._values if name.isidentifier())]
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return "Figures(" + ", ".join(f"{name}={value!r}" for name, value in self._values.items()) + ")"
 
-    def as_dict(self):
+    def as_dict(self) -> dict[str, typing.Any]:
         """Plain dictionaries of the same."""
         return {name: value.as_dict() if isinstance(value, Figures) else value for name, value in self._values.items()}

@@ -4,7 +4,7 @@ import numpy
 
 
 def rgba(pixels):
-    """With alpha; whatever is no picture is left to the model to refuse."""
+    """With alpha; whatever is no picture is left to the model to reject."""
     if isinstance(pixels, numpy.ndarray) and pixels.ndim == 3 and pixels.shape[2] == 3 and pixels.dtype == numpy.uint8:
         opaque = numpy.full((*pixels.shape[:2], 1), 255, dtype=numpy.uint8)
         return numpy.concatenate([pixels, opaque], axis=2)

@@ -31,7 +31,7 @@ class TextureUnit:
         self._end = 0
 
     def set(self, **parameters):
-        """Parameters, from the next quad on; all of them or, if one is refused, none. The cache is empty then, and
+        """Parameters, from the next quad on; all of them or, if one is rejected, none. The cache is empty then, and
         counters begin again."""
         self._unit.set(parameters)
 
@@ -41,7 +41,7 @@ class TextureUnit:
         return self._unit.parameters()
 
     def load(self, levels, texture=0, **fields):
-        """Puts a texture behind those that are there: its mip levels, the largest first, each uint8 of (height, width,
+        """Puts a texture after those that are there: its mip levels, the largest first, each uint8 of (height, width,
         4), or of (height, width, bytes of a texel) in the format that `format` says. Fields are those of the
         descriptor's registers; width, height, levels and max_lod follow from the arrays unless they are given."""
         for level in levels if isinstance(levels, (list, tuple)) else [levels]:
@@ -65,7 +65,7 @@ class TextureUnit:
         self._end = -(-end // 64) * 64
 
     def _describe(self, texture, levels, fields):
-        """Sets the descriptor of a texture that will lie behind the others; the address behind it."""
+        """Sets the descriptor of a texture that will lie after the others; the address after it."""
         height, width = levels[0].shape[:2]
         self._unit.set_fields(texture, {"width": width, "height": height, "levels": len(levels),
                                         "max_lod": 256 * (len(levels) - 1), **fields})

@@ -139,8 +139,8 @@ def text_of(value, folder):
 
 
 def settings(engine, given, folder):
-    """[(parameter, value as text)] of what was given by Python's names; what nobody knows stays as it is, for the
-    command to refuse."""
+    """[(parameter, value as text)] of what was given by Python's names; what is no parameter stays as it is, for the
+    command to reject."""
     names = known(engine)
     found = []
     for name, value in given.items():

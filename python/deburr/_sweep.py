@@ -88,7 +88,7 @@ def sweep(what, axes=None, *, metrics=None, minimise=None, maximise=None, for_ea
     ({"from": 32, "to": 256, "times": 2}). Parameters beside them are those of every point. metrics are keys of
     result.json, a list, or names and keys; without any: cycles and rate. minimise and maximise name metrics, and the
     table says which points are on the front of them; points are compared that agree in the axes of for_each.
-    constraints, sample and refused are those of a file. out keeps the points, and what is there is not run again; jobs
+    constraints, sample and `refused` are those of a file. out keeps the points, and what is there is not run again; jobs
     is how many run at a time.
 
     The table is a pandas DataFrame where pandas is installed, else a list of dictionaries. Points that failed are rows

@@ -4,7 +4,7 @@
 //
 // Where: beside the pipe, owned by the engine. Timing: a write counts from the next clock edge on.
 // CONTROL: enable; clear the counters (command); further commands, which wait for nobody: while the
-// engine is busy they are refused. STATUS: idle, and sticky bits that a one clears; one of them
+// engine is busy they are rejected. STATUS: idle, and sticky bits that a one clears; one of them
 // says that a register was written while the engine was busy. Such a write is taken or ignored, as
 // the layout says. The interrupt is high while one of the sticky bits is set. Bits that no field
 // has read as 0. What the values mean is the engine's business: it decodes them in on_change().
@@ -68,7 +68,7 @@ class ControlRegisters {
   void on_change(std::function<void(std::uint32_t offset)> changed) {
     changed_ = std::move(changed);
   }
-  // After a write to a register that was taken; after a debug write, which nothing refuses, too.
+  // After a write to a register that was taken; after a debug write, which nothing rejects, too.
   void on_taken(std::uint32_t offset, std::function<void(std::uint32_t)> action);
   // What a read of a register gives instead of its value.
   void on_read(std::uint32_t offset, std::function<std::uint32_t()> value) {

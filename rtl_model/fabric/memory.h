@@ -14,7 +14,7 @@
 // ROM that can be loaded is SRAM with as many RW), flip-flops up to kMostFlopBits with any ports.
 // More read ports are copies, `banks` divide the words, and more than kFewBanks of them have
 // kLeastBankWords at least: smaller ones are registers under another name. What cannot be had so is
-// refused, unless the shape says that it is idealised and why.
+// rejected, unless the shape says that it is idealised and why.
 //
 //   Memory<Entry> table_{"table", {.words = 512, .word_bits = 37, .content = "edges of two rows"}};
 //   ReadPort<Entry> lookup_{table_, "lookup"};

@@ -415,7 +415,7 @@ Datasheet MemoryPort::datasheet() {
                      {"2",
                       "a response that arrives before edge d > c is pushed in d, and can be popped "
                       "in d + 1",
-                      "choice of 1 in 256 tags, nothing behind it"}},
+                      "choice of 1 in 256 tags, nothing after it"}},
           .cost =
               "response_buffer, a place for every line that may come back, written as it comes "
               "and read into the link's slot; with bursts of writes gather_buffer, the lines of "

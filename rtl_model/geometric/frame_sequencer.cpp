@@ -61,7 +61,7 @@ Datasheet FrameSequencer::datasheet() {
           .latency = {0, "-"},
           .interval = {1, "-"},
           .stages = {{"1",
-                      "judges START in the clock after the write: products of SIZE are shifts and "
+                      "checks START in the clock after the write: products of SIZE are shifts and "
                       "one 11 x 11 multiply over two clocks (ParameterStore)",
                       "11 x 11 multiply"}},
           .cost = "a state of two bits, a 32-bit counter."};

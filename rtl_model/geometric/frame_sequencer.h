@@ -2,7 +2,7 @@
 // Takes a frame through its phases: begin, edges, resolve.
 //
 // Where: above the pipe. In the clock after START is written it has the ParameterStore latch the
-// rules, which tells whether the frame is refused. A phase begins in the clock after all units are
+// rules, which tells whether the frame is rejected. A phase begins in the clock after all units are
 // done with the one before: their wires are registers of these units, and so is the phase. Never
 // stalls.
 #pragma once

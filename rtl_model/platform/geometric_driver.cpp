@@ -176,7 +176,7 @@ void GeometricDriver::require_accepted() {
   if (why == spec::geometric::Refusal::kNone) return;
   const auto code = static_cast<std::size_t>(why);
   throw spec::SimulationError(fmt::format(
-      "the geometric engine refused to start: {}",
+      "the geometric engine rejected the start: {}",
       code < spec::geometric::kRefusalNames.size() ? spec::geometric::kRefusalNames[code] : "?"));
 }
 

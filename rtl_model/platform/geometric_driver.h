@@ -120,7 +120,7 @@ class GeometricDriver final : public EngineDriver {
   spec::geometric::Refusal refusal() {
     return static_cast<spec::geometric::Refusal>(registers_.read(spec::geometric::reg::kRefusal));
   }
-  // SimulationError, with the reason, if it was refused.
+  // SimulationError, with the reason, if it was rejected.
   void require_accepted();
 
   // Since the counters were cleared.

@@ -72,7 +72,7 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   // Addresses in the order of requests; of a burst, one for each 64 bytes.
   const std::vector<std::uint64_t>& lines_read() const { return lines_read_; }
   const std::vector<std::uint64_t>& lines_written() const { return lines_written_; }
-  // Addresses that have been judged.
+  // Addresses that have been checked.
   void forget_lines();
   // Nothing that was asked is still to be answered or written; what is lost never is.
   bool at_rest() const;

@@ -25,7 +25,7 @@ std::string region_complaint(std::span<const NamedRegion> regions, std::uint64_t
     if (region.bytes == 0) continue;
     if (region.base > memory_bytes || region.bytes > memory_bytes - region.base)
       return fmt::format(
-          "{} ends behind the memory of {} bytes: make it larger, or the input smaller",
+          "{} ends past the memory of {} bytes: make it larger, or the input smaller",
           describe(region), memory_bytes);
     used.push_back(region);
   }

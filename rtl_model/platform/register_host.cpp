@@ -40,12 +40,12 @@ tlm::tlm_response_status send(tlm_utils::simple_initiator_socket<RegisterHost>& 
   return access.payload.get_response_status();
 }
 
-// The same, and SimulationError where it was refused.
+// The same, and SimulationError where it was rejected.
 void require(tlm_utils::simple_initiator_socket<RegisterHost>& bus, Access& access,
              const char* host) {
   send(bus, access);
   if (access.payload.is_response_error())
-    throw spec::SimulationError(fmt::format("{}: {} of register {:#x} was refused: {}", host,
+    throw spec::SimulationError(fmt::format("{}: {} of register {:#x} was rejected: {}", host,
                                             access.payload.is_write() ? "write" : "read",
                                             access.payload.get_address(),
                                             access.payload.get_response_string()));

@@ -46,7 +46,7 @@ Datasheet AddressUnit::datasheet(const spec::texture::Parameters& p) {
   Datasheet sheet = {
       .unit = "AddressUnit",
       .does =
-          "From quads to bilinear requests: the blocks above, one behind the "
+          "From quads to bilinear requests: the blocks above, one after the "
           "other.",
       .interval = {1, "N x (1 or 2) clocks a fragment, or `axis_clocks` if that is more"}};
   for (const Datasheet& block :

@@ -78,7 +78,7 @@ Datasheet FootprintUnit::datasheet(const spec::texture::Parameters& p) {
                      "24 x 24 has)"},
                     {"2", "sums", "62-bit addition"},
                     {"3-18", "two root bits each, of both sides; beside 3: which sum is larger",
-                     "two 34-bit subtractors one behind the other"},
+                     "two 34-bit subtractors one after the other"},
                     {"19", "d_max, d_min, major axis"}};
     sheet.formats = "U15.16 in; squares and sum exact, U31.32; root U16.16, truncated.";
     sheet.cost =

@@ -109,7 +109,7 @@ Datasheet MissQueue::datasheet() {
           .latency = {0, "-"},
           .interval = {1, "one line a clock each way"},
           .stages = {{"-", "a line to send; an entry is held from issue until the line is used",
-                      "choice of 1 in 256 lines (64 by default), nothing behind it"}},
+                      "choice of 1 in 256 lines (64 by default), nothing after it"}},
           .cost = "flip-flops of outstanding x line number, 1R4W; the FillBuffer."};
 }
 

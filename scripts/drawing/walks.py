@@ -57,7 +57,7 @@ def texture_cache(facts):
     picture.path([(710, 270), (710, 184)], arrow=True)
     picture.lines(700, 222, ["lines, in the order", "in which they were missed"], "small dim end")
     hit = facts.find("docs/reference/datasheets.md", r"^\| TextureCache \| (\d+) \|")[1]
-    miss = facts.find("docs/reference/texture/cache.md", r"one that misses a line (\d+) more than the\s+latency of memory")[1]
+    miss = facts.find("docs/reference/texture/cache.md", r"One that misses a line takes (\d+) clocks")[1]
     picture.text(20, 388, f"A request that hits takes {hit} clocks; one that misses a line {miss} more than the latency of memory.",
                  "small dim")
     return picture

@@ -170,5 +170,5 @@ def submit(profile, work, command):
     except (OSError, subprocess.TimeoutExpired) as error:
         raise Problem(f"sbatch: {error}") from error
     if done.returncode:
-        raise Problem(f"sbatch refuses: {done.stderr.strip()}")
+        raise Problem(f"sbatch rejects: {done.stderr.strip()}")
     return done.stdout.strip().partition(";")[0]

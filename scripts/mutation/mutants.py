@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which mutants a source text has, and the text that holds them all behind switches."""
+"""Which mutants a source text has, and the text that holds each of them under a switch."""
 import bisect
 import collections
 import re

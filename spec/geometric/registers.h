@@ -11,7 +11,7 @@
 
 namespace deburr::spec::geometric {
 
-// Why the last start was refused: the first that holds. Nothing is read or written then.
+// Why the last start was rejected: the first that holds. Nothing is read or written then.
 enum class Refusal : std::uint8_t {
   kNone,
   kDisabled,      // enable is 0 in the same write

@@ -215,7 +215,7 @@ void describe(Rules& p, Visitor& v) {
       "003 merges it, or as small as it gets; the tables give the same pixels. learned: the line "
       "of a clean Z that was extended or is long, learned ROMs elsewhere.");
   v.integer("search_steps", p.search_steps, 1, kMaxSearchSteps, "step",
-            "N: a table sees 2 N - 1 pixels to the left (up) and 2 N to the right (down).");
+            "N: a table covers 2 N - 1 pixels to the left (up) and 2 N to the right (down).");
   v.boolean("diagonals", p.diagonals, "Diagonal patterns of SMAA, before the others.");
   v.integer("diagonal_steps", p.diagonal_steps, 1, kMaxDiagonalSteps, "step",
             "M: pixels that a diagonal is followed each way.");

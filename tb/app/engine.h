@@ -100,7 +100,7 @@ void describe(RunParameters& p, Visitor& v) {
   v.boolean(
       "coverage", p.coverage,
       "Functional coverage: leave how often each bin of docs/reference/coverage.md was met, as "
-      "coverage.bins of result.json; with the golden model, which knows what was met.");
+      "coverage.bins of result.json; with the golden model, which counts them.");
   v.boolean("timeline", p.timeline,
             "Leave timeline.json for trace viewers (Perfetto, chrome://tracing): what each unit "
             "did in each cycle, and transactions of memory.");

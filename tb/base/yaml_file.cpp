@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "spec/error.h"
@@ -96,12 +97,42 @@ bool has_several_documents(const std::string& text, Surveyor& surveyor) {
   return parser.HandleNextDocument(surveyor) && parser.HandleNextDocument(surveyor);
 }
 
+// The line in which bytes stand that are not UTF-8; 0: there are none. yaml-cpp takes them, and
+// whoever writes JSON of them fails. A mark at the begin says that it is UTF-16 or 32, which it
+// reads.
+std::size_t line_that_is_not_utf8(std::string_view text) {
+  using namespace std::string_view_literals;
+  for (const std::string_view mark : {"\xff\xfe"sv, "\xfe\xff"sv, "\0\0\xfe\xff"sv})
+    if (text.starts_with(mark)) return 0;
+  std::size_t line = 1;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = [&](std::size_t k) {
+      return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0U;
+    };
+    const unsigned first = byte(0);
+    const std::size_t more = first < 0x80 ? 0 : first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;
+    bool good = first < 0x80 || (first >= 0xC2 && first < 0xF5);
+    for (std::size_t k = 1; k <= more; ++k) good = good && (byte(k) & 0xC0U) == 0x80;
+    // Longer than needed, half of a pair, beyond the last one.
+    if ((first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F) ||
+        (first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) > 0x8F))
+      good = false;
+    if (!good) return line;
+    line += first == '\n' ? 1 : 0;
+    i += more + 1;
+  }
+  return 0;
+}
+
 }  // namespace
 
 YamlFile::YamlFile(const std::filesystem::path& file, std::size_t most)
     : YamlFile(file, read_file(file, most)) {}
 
 YamlFile::YamlFile(std::filesystem::path file, const std::string& text) : path_(std::move(file)) {
+  if (const std::size_t line = line_that_is_not_utf8(text); line > 0)
+    throw ConfigError(
+        fmt::format("{}:{}: it is not UTF-8: save the file as that", path_.string(), line));
   try {
     Surveyor surveyor(path_);
     if (has_several_documents(text, surveyor))

@@ -17,6 +17,7 @@
 #include "tb/app/run_once.h"
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
+#include "tb/base/terminal.h"
 #include "tb/command/commands.h"
 #include "tb/results/compare_runs.h"
 #include "tb/results/compare_sweeps.h"
@@ -49,12 +50,22 @@ struct CompareOptions {
 
 std::string text(const Json& value) { return value.get<std::string>(); }
 
-// Columns as wide as what is in them: names to the left, all else to the right.
+// Columns as wide as what is in them: names to the left, all else to the right. Where a terminal is
+// narrower, every row takes lines of its own.
 void print(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()));
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  const std::size_t columns = output_columns();
+  std::size_t all = 0;
+  for (const std::size_t width : widths) all += width + (all > 0 ? 2 : 0);
+  if (columns > 0 && all > columns) {
+    print_wrapped(rows[0][0].empty() ? "" : rows[0][0] + ":\n");
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      fmt::print("{}", row_in_lines(rows[i], rows[0], columns));
+    return;
   }
   for (const auto& row : rows) {
     std::string line;
@@ -133,8 +144,9 @@ void print_runs(const Json& comparison, bool all) {
   }
   if (!shown.empty()) print(rows);
   if (!all && !others.empty())
-    fmt::print("{} more value{} differ{}: --all shows counters and the rest\n", others.size(),
-               others.size() == 1 ? "" : "s", others.size() == 1 ? "s" : "");
+    print_wrapped(fmt::format("{} more value{} differ{}: --all shows counters and the rest\n",
+                              others.size(), others.size() == 1 ? "" : "s",
+                              others.size() == 1 ? "s" : ""));
 }
 
 void print_worst_points(const Json& comparison) {
@@ -150,19 +162,19 @@ void print_worst_points(const Json& comparison) {
     for (std::size_t i = 0; i < comparison.at("axes").size(); ++i)
       place += fmt::format("{}{} = {}", i > 0 ? ", " : "", text(comparison["axes"][i]),
                            value_text(point["at"][i]));
-    fmt::print("WORSE at {}\n", place);
+    print_wrapped(fmt::format("WORSE at {}\n", place));
   }
 }
 
 void print_sweeps(const Json& comparison) {
   const Json& sweeps = comparison.at("sweeps");
   print_parameters(comparison, sweeps);
-  fmt::print("{} points in all of them, {} not done in all\n", comparison.at("points").size(),
-             comparison.at("only").size());
+  print_wrapped(fmt::format("{} points in all of them, {} not done in all\n",
+                            comparison.at("points").size(), comparison.at("only").size()));
   for (const Json& sweep : sweeps)
     if (sweep.contains("joint_front"))
-      fmt::print("{}: {} of its points are on the front of all together\n", text(sweep.at("name")),
-                 sweep["joint_front"].dump());
+      print_wrapped(fmt::format("{}: {} of its points are on the front of all together\n",
+                                text(sweep.at("name")), sweep["joint_front"].dump()));
   std::vector<std::vector<std::string>> rows = {
       {"", "better", "equal", "worse", "mean change", "least", "most"}};
   for (std::size_t i = 1; i < sweeps.size(); ++i)

@@ -80,7 +80,10 @@ void add_help(CLI::App& app, CommandLine& line) {
       ->excludes(command->get_option("COMMAND"));
   command->callback([&app, words, man, &line] {
     line.action = [&app, words, man] {
-      fmt::print("{}", *man ? man_page(app) : help_page(app, *words));
+      if (*man)
+        fmt::print("{}", man_page(app));
+      else
+        print_help(help_page(app, *words));
       return Outcome{};
     };
   });

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tb/command/command_line.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -12,9 +14,11 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "spec/error.h"
@@ -23,6 +27,7 @@
 #include "tb/base/interrupt.h"
 #include "tb/base/near_matches.h"
 #include "tb/base/shell.h"
+#include "tb/base/terminal.h"
 #include "tb/results/build_info.h"
 #include "tb/results/parameter_set.h"
 #include "tb/results/result.h"
@@ -31,6 +36,24 @@ namespace deburr::tb {
 namespace {
 
 using spec::ExitCode;
+
+// CLI11 lists the options that one excludes by their addresses, which differ from run to run.
+class OrderedFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = CLI::Formatter::make_option_opts(option);
+    constexpr std::string_view kExcludes = " Excludes:";
+    const std::size_t at = text.rfind(kExcludes);
+    if (at == std::string::npos) return text;
+    std::vector<std::string> names;
+    for (const CLI::Option* excluded : option->get_excludes())
+      names.push_back(excluded->get_name());
+    std::sort(names.begin(), names.end());
+    text.erase(at + kExcludes.size());
+    for (const std::string& name : names) text += " " + name;
+    return text;
+  }
+};
 
 std::string quoted_command(int argc, char** argv) {
   std::string command;
@@ -43,21 +66,46 @@ int finish(const Outcome& outcome, const CommandLine& line) {
   const std::string repro =
       outcome.repro.empty() ? line.text : shell_quoted(line.words[0]) + " " + outcome.repro;
   if (line.json) {
-    nlohmann::ordered_json object = {
-        {"exit_code", outcome.code}, {"outcome", outcome.text}, {"command", line.text}};
+    using Json = nlohmann::ordered_json;
+    Json object = {{"exit_code", outcome.code}, {"outcome", outcome.text}, {"command", line.text}};
     if (outcome.code != 0) object["repro"] = repro;
     if (!outcome.directory.empty()) {
       object["directory"] = outcome.directory.string();
-      object["result"] = nlohmann::ordered_json::parse(
-          read_file(outcome.directory / outcome.result, kMaxResultBytes));
+      object["result"] =
+          Json::parse(read_file(outcome.directory / outcome.result, kMaxResultBytes));
     }
-    if (!outcome.details.empty()) object.update(nlohmann::ordered_json::parse(outcome.details));
-    fmt::print("{}\n", object.dump(2));
+    if (!outcome.details.empty()) object.update(Json::parse(outcome.details));
+    fmt::print("{}\n", object.dump(2, ' ', false, Json::error_handler_t::replace));
     return outcome.code;
   }
   if (outcome.code != 0) fmt::print("REPRO: {}\n", repro);
   fmt::print("RESULT: {}\n", outcome.text);
   return outcome.code;
+}
+
+// A standard stream that is closed would be given to the first file that is opened, and that file
+// what is printed. /dev/null takes its place: output to it fails, errors vanish.
+void fill_closed_streams() {
+  for (const auto& [stream, mode] :
+       {std::pair(STDIN_FILENO, O_RDONLY), {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}})
+    if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", mode);  // which takes the lowest number
+}
+
+bool is_utf8(const std::string& text) {
+  try {
+    return !nlohmann::json(text).dump().empty();
+  } catch (const nlohmann::json::exception&) {
+    return false;
+  }
+}
+
+// Results and pages hold the command, and they are UTF-8.
+void require_utf8(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i)
+    if (!is_utf8(argv[i]))
+      throw spec::ConfigError(fmt::format(
+          "word {} of the command line is not UTF-8, as results and pages are: rename the file",
+          i));
 }
 
 // What was printed must have arrived: a full disk behind standard output is a failure too.
@@ -120,9 +168,15 @@ std::string explain(const CLI::App& app, int argc, char** argv, const std::strin
   return see(complaint);
 }
 
+bool asks_for_json(int argc, char** argv) {
+  return std::any_of(argv, argv + argc,
+                     [](const char* word) { return std::string_view(word) == "--json"; });
+}
+
 int run(int argc, char** argv, void (*add)(CLI::App&, CommandLine&)) {
   CLI::App app{"Cycle-accurate models of anti-aliasing hardware, checked against golden models.",
                "deburr"};
+  app.formatter(std::make_shared<OrderedFormatter>());  // commands have it from here
   app.set_version_flag("--version", [] {
     const auto& build = build_info();
     return fmt::format("deburr {} ({}), {}, SystemC {}", build.version, build.commit,
@@ -142,17 +196,21 @@ int run(int argc, char** argv, void (*add)(CLI::App&, CommandLine&)) {
   const auto ended = [&](const Outcome& outcome) { return finish(outcome, line); };
   add(app, line);
   try {
+    require_utf8(argc, argv);
     app.parse(argc, argv);
     const Outcome outcome = line.action();
     return outcome.text.empty() ? outcome.code : ended(outcome);
   } catch (const CLI::Success& done) {  // --help, --version
-    return app.exit(done);
+    std::ostringstream said;
+    const int code = app.exit(done, said);
+    print_help(said.str());
+    return code;
   } catch (const CLI::ParseError& error) {
-    line.json = std::any_of(argv, argv + argc,
-                            [](const char* word) { return std::string_view(word) == "--json"; });
+    line.json = asks_for_json(argc, argv);
     return ended(failure(static_cast<int>(ExitCode::kUsage), "usage",
                          explain(app, argc, argv, error.what())));
   } catch (const spec::Error& error) {
+    line.json = line.json || asks_for_json(argc, argv);
     constexpr const char* kKinds[] = {"",           "mismatch", "configuration",
                                       "simulation", "deadlock", "file"};
     return ended(failure(static_cast<int>(error.code()), kKinds[static_cast<int>(error.code())],
@@ -191,11 +249,23 @@ const CLI::App& command_named(const CLI::App& app, const std::string& path,
                                   did_you_mean(near_matches(name, known)), quoted_names(commands)));
 }
 
+void print_help(const std::string& text) {
+  constexpr std::size_t kDescriptions = 30;  // where CLI11 begins them
+  const std::size_t columns = output_columns();
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    // A command stays whole, so that it can be copied.
+    if (!line.starts_with("  deburr ")) line = wrapped(line, columns, kDescriptions);
+    std::fputs((line + "\n").c_str(), stdout);  // whether it arrived is looked at in the end
+  }
+}
+
 void show_examples(CLI::App& command, const std::vector<std::string>& lines) {
   command.footer(fmt::format("Examples:\n  {}", fmt::join(lines, "\n  ")));
 }
 
 int run_command_line(int argc, char** argv, void (*add)(CLI::App& app, CommandLine& line)) {
+  fill_closed_streams();
   let_full_files_fail();
   return flushed(run(argc, argv, add));
 }

@@ -37,6 +37,8 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app);
 const CLI::App& command_named(const CLI::App& app, const std::string& path,
                               const std::string& name);
 // What --help ends with: command lines that do something useful.
+// On standard output, as wide as its terminal.
+void print_help(const std::string& text);
 void show_examples(CLI::App& command, const std::vector<std::string>& lines);
 
 // `add` adds the commands that the program has. Each leaves an action behind when it is the one

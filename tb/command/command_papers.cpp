@@ -19,7 +19,7 @@ void add_papers(CLI::App& app, CommandLine& line, PapersAction action) {
       ->check(CLI::Range(64, 4096));
   command->add_flag("--quick", options->quick, "Leave out what takes more than a few seconds");
   command->add_flag("--wait", options->wait,
-                    "Wait for another run that has the directory, instead of refusing");
+                    "Wait for another run that has the directory, instead of an error");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors and the line RESULT: ...");
   command->add_flag("--json", line.json,
                     "Print one JSON object: exit code, outcome, directory, result");

@@ -14,6 +14,7 @@
 #include "tb/app/reference_pages.h"
 #include "tb/app/shorthands.h"
 #include "tb/base/near_matches.h"
+#include "tb/base/terminal.h"
 #include "tb/command/commands.h"
 #include "tb/results/parameter_set.h"
 
@@ -21,6 +22,8 @@ namespace deburr::tb {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kLeastMeaning = 24;  // columns, below which it gets lines of its own
 
 struct ParamsCommand {
   std::string unit, markdown;
@@ -128,12 +131,23 @@ Outcome print_params(const ParamsCommand& command, bool json) {
     range = std::max(range, std::min<std::size_t>(p.range.size(), 40));
     unit = std::max(unit, p.unit.size());
   }
+  const std::size_t columns = output_columns(), meaning = name + kind + value + range + unit + 10;
+  const bool fits = columns == 0 || meaning + kLeastMeaning <= columns;
   for (const Parameter& p : shown)
-    fmt::print("{:{}}  {:{}}  {:{}}  {:{}}  {:{}}  {}\n", p.name, name, kind_name(p), kind,
-               p.default_value, value, p.range, range, p.unit, unit, p.meaning);
-  if (!limits.empty()) fmt::print("\nWhat hardware can be built with, beyond these ranges:\n");
+    if (fits)
+      print_wrapped(
+          fmt::format("{:{}}  {:{}}  {:{}}  {:{}}  {:{}}  {}\n", p.name, name, kind_name(p), kind,
+                      p.default_value, value, p.range, range, p.unit, unit, p.meaning),
+          meaning);
+    else
+      fmt::print("{}", row_in_lines({p.name, std::string(kind_name(p)), p.default_value, p.range,
+                                     p.unit, p.meaning},
+                                    {}, columns));
+  if (!limits.empty())
+    print_wrapped("\nWhat hardware can be built with, beyond these ranges:\n", 0);
   for (const BuildLimit& limit : limits)
-    fmt::print("{:{}}  {}\n", limit.parameters.front(), name, limit.must);
+    print_wrapped(fmt::format("{:{}}  {}\n", limit.parameters.front(), name, limit.must),
+                  fits ? name + 2 : 4);
   return {};
 }
 

@@ -21,6 +21,7 @@
 #include "tb/base/headline.h"
 #include "tb/base/interrupt.h"
 #include "tb/base/shell.h"
+#include "tb/base/terminal.h"
 #include "tb/command/commands.h"
 #include "tb/results/report.h"
 
@@ -214,9 +215,9 @@ Outcome run_engine(Engine& engine, const RunOptions& options, CommandLine& line)
       fmt::print(stderr, "deburr: warning: this hardware cannot be built: memory {}: {}\n",
                  memory.name, memory.idealised);
   context.finish(result);
-  if (!context.quiet()) fmt::print("{}", figures_of(result));
+  if (!context.quiet()) print_wrapped(figures_of(result));
   if (result.pixel && !context.quiet())
-    fmt::print("{}", text_of(*result.pixel, (context.directory() / "report.html").string()));
+    print_wrapped(text_of(*result.pixel, (context.directory() / "report.html").string()), 4);
   const std::filesystem::path& directory = context.directory();
   const std::string summary = summary_of(result, directory);
   if (end.code != 0)
@@ -302,13 +303,13 @@ void add_run(CLI::App& app, CommandLine& line) {
                      fmt::format("Directory of the results (out/{})", engine->name()))
         ->type_name("DIR");
     command->add_flag("--wait", options->wait,
-                      "Wait for another run that has the directory, instead of refusing");
+                      "Wait for another run that has the directory, instead of an error");
     command->add_flag("--quiet", options->quiet,
                       "Print nothing but errors and the line RESULT: ...");
     command->add_flag("--json", line.json,
                       "Print one JSON object: exit code, outcome, directory, result");
     command->add_flag("--show-config", options->resolve_only,
-                      "Judge the configuration as a run would, print it and stop");
+                      "Check the configuration as a run would, print it and stop");
     // To know which shorthands are switches, the parameters are asked.
     const BoundEngine probe(*engine);
     for (const Shorthand& shorthand : shorthands_of(*engine)) {

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,6 +73,16 @@ int run_generation(const SweepOptions& options, const SweepPlace& place, Plan pl
   return run_here(plan, place, points, settings);
 }
 
+Collection collect_and_say(const SweepOptions& options, const SweepDefinition& sweep,
+                           const Plan& plan, const SweepPlace& place) {
+  Collection collection = collect(sweep, place);
+  write_collection(sweep, plan, place, collection);
+  for (const auto& [none, points] : collection.no_values)
+    say(options, fmt::format("no value    {} in {} of {}: {}", collection.metrics[none.metric].name,
+                             grouped(points), points_of(collection.done), none.reason));
+  return collection;
+}
+
 Outcome run_search(const SweepOptions& options, const SweepDefinition& sweep,
                    const SweepPlace& place) {
   catch_interrupts();
@@ -81,10 +92,10 @@ Outcome run_search(const SweepOptions& options, const SweepDefinition& sweep,
   refuse_while_submitted(place);
   SearchSettings search = options.search;
   if (search.population == 0) search.population = population_for(search.runs);
-  Progress progress("search", search.runs, "point", options.quiet);
+  std::optional<Progress> progress(std::in_place, "search", search.runs, "point", options.quiet);
   std::uint64_t known = 0, before = 0;
   RunSettings settings = run_settings(options);
-  settings.watch = [&](std::uint64_t ended) { progress.update(known + ended); };
+  settings.watch = [&](std::uint64_t ended) { progress->update(known + ended); };
   const SearchEnd end = run_search(
       sweep, place, search,
       [&](const Plan& plan, const std::vector<PlannedPoint>& generation) {
@@ -95,19 +106,18 @@ Outcome run_search(const SweepOptions& options, const SweepDefinition& sweep,
                    ? 0
                    : run_generation(options, place, plan, pending.points, settings);
       },
-      [&](std::uint64_t points) { progress.update(points); });
+      [&](std::uint64_t points) { progress->update(points); });
+  progress.reset();  // its row ends before anything else is said
   say_left_out(options, end.plan);
-  if (!end.interrupted && !end.missing)
-    write_collection(sweep, end.plan, place, collect(sweep, place));
+  if (!end.interrupted && !end.missing) collect_and_say(options, sweep, end.plan, place);
   Outcome outcome =
       ended(options, "search " + sweep.name, place, before, end.interrupted ? kInterruptedExit : 0);
   return end.interrupted || end.missing ? outcome : with_collection(std::move(outcome), place);
 }
 
-Outcome collect_points(const std::string& what, const SweepDefinition& sweep, const Plan& plan,
-                       const SweepPlace& place) {
-  const Collection collection = collect(sweep, place);
-  write_collection(sweep, plan, place, collection);
+Outcome collect_points(const SweepOptions& options, const std::string& what,
+                       const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place) {
+  const Collection collection = collect_and_say(options, sweep, plan, place);
   // It shows what is there at any time; where every point that ended failed, there is nothing to
   // show.
   const bool nothing = collection.done == 0 && collection.failed > 0;
@@ -134,7 +144,7 @@ Outcome sweep(const SweepOptions& options) {
     return planned_outcome(what, planned(options, definition, place), place);
   if (options.action == "run") return run_sweep(options, definition, place);
   if (options.action == "status") return show_status(options, what, place);
-  return collect_points(what, definition, make_plan(definition, place), place);
+  return collect_points(options, what, definition, make_plan(definition, place), place);
 }
 
 Outcome search(const SweepOptions& options) {
@@ -151,7 +161,7 @@ Outcome search(const SweepOptions& options) {
     throw spec::ConfigError(
         fmt::format("'{}' is of another state of '{}', of its inputs or of the model: search again",
                     place.directory.string(), options.file));
-  return collect_points(what, definition, plan, place);
+  return collect_points(options, what, definition, plan, place);
 }
 
 }  // namespace

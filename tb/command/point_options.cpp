@@ -15,6 +15,7 @@
 
 #include "spec/error.h"
 #include "tb/base/interrupt.h"
+#include "tb/base/terminal.h"
 #include "tb/results/report.h"
 #include "tb/sweep/slurm.h"
 #include "tb/sweep/status.h"
@@ -103,7 +104,11 @@ std::string points_of(std::uint64_t number) {
 }
 
 void say(const PointOptions& options, const std::string& text) {
-  if (!options.quiet) fmt::print(options.json ? stderr : stdout, "{}\n", text);
+  if (options.quiet) return;
+  if (options.json)
+    fmt::print(stderr, "{}\n", text);
+  else
+    print_wrapped(text + "\n");
 }
 
 void say_left_out(const PointOptions& options, const Plan& plan) {
@@ -244,7 +249,7 @@ Outcome show_status(const PointOptions& options, const std::string& what, const 
     details["time_left"] = status.time_left;
   }
   for (const FailedPoint& point : status.failures) text += in_words(point) + "\n";
-  if (!options.json) fmt::print("{}", text);
+  if (!options.json) print_wrapped(text);
   Outcome outcome{
       0, fmt::format("PASS {}: {} of {} done", what, grouped(status.done), points_of(plan.points))};
   outcome.details = text_of(details);

@@ -17,6 +17,7 @@
 #include "spec/error.h"
 #include "tb/fuzz/c_calls.h"
 #include "tb/fuzz/engine_parameters.h"
+#include "tb/fuzz/run_files.h"
 #include "tb/results/parameter_set.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/mesh.h"
@@ -207,13 +208,14 @@ std::vector<std::string> configurations_seeds() {
   return {few, set.yaml()};
 }
 
-constexpr std::array<FuzzTarget, 7> kTargets{
+constexpr std::array<FuzzTarget, 8> kTargets{
     {{"pictures", pictures, pictures_seeds},
      {"depths", depths, depths_seeds},
      {"obj", obj, obj_seeds},
      {"gltf", gltf, gltf_seeds},
      {"traces", traces, traces_seeds},
      {"configurations", configurations, configurations_seeds},
+     {"run_files", run_files, run_files_seeds},
      {"c_calls", c_calls, c_calls_seeds}}};
 
 }  // namespace

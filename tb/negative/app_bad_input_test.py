@@ -389,7 +389,7 @@ class Configuration(CommandTest):
         self.expect(0, "run", "texture", "--size", "2x2", "--set", "memory.latency=20000", "--set",
                     "run.watchdog_cycles=40000", "--out", self.path("out"))
 
-    def test_show_config_judges_as_a_run_does(self):
+    def test_show_config_checks_as_a_run_does(self):
         """What a run would refuse is refused; what it would do is not done."""
         for engine, *arguments in (
                 ("texture", "--fault", "gremlin"), ("texture", "--trace", "nothing*"),
@@ -557,6 +557,30 @@ class StandardOutput(CommandTest):
                 done = subprocess.run([DEBURR, *arguments], stdout=full, stderr=subprocess.PIPE,
                                       text=True, check=False)
             self.assertEqual(done.returncode, 5, f"{arguments}: {done.stderr}")
+
+    def test_closed(self):
+        """No file of the results takes the place of a stream that is closed."""
+        command = f"'{DEBURR}' run texture --size 16x16 --out '{self.path('out')}'"
+        for closed, code in ((">&-", 5), ("2>&-", 0), ("<&-", 0), ("<&- >&- 2>&-", 5)):
+            done = subprocess.run(["bash", "-c", f"{command} {closed}"], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, code, f"{closed}: {done.stderr}")
+            self.assertEqual(self.result()["verdict"], "pass")
+            with open(self.path("out/manifest.json")) as file:
+                json.load(file)
+            for name in os.listdir(self.path("out")):
+                with open(self.path("out/" + name), "rb") as file:
+                    self.assertNotIn(b"RESULT: ", file.read(), f"{closed}: {name}")
+            shutil.rmtree(self.path("out"))
+
+    def test_words_that_are_not_utf8(self):
+        for more in ([], ["--json"]):
+            done = subprocess.run([DEBURR, "run", "texture", "--size", "16x16", "--out", b"q\xff", *more],
+                                  cwd=self.directory, capture_output=True, check=False)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(b"word 6 of the command line is not UTF-8", done.stderr)
+            if more:
+                self.assertEqual(json.loads(done.stdout)["exit_code"], 2)
+        self.assertEqual(os.listdir(self.directory), [])
 
 
 class Interruption(CommandTest):

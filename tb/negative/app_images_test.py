@@ -70,7 +70,7 @@ class Images(CommandTest):
                     says=("deburr_papers", "No such file", "scripts/demo --complete"))
         self.assertFalse(os.path.exists(self.path("papers")))
 
-    def test_another_library_of_that_name_is_refused(self):
+    def test_another_library_of_that_name_is_rejected(self):
         program = self.alone()
         self.write(f"bin/{MODULE}", "this is no library")
         picture = self.write("in.png", png(32, 24))

@@ -130,10 +130,10 @@ class Testplans(CommandTest):
             with open(self.path("out/regressions/t-1/" + name)) as file:
                 self.assertIn(why, html.unescape(file.read()))
 
-    def test_what_the_engine_refuses(self):
+    def test_what_the_engine_rejects(self):
         text = HEAD.replace("engine: texture, base: {scene: {width: 8, height: 8}}",
                             "engine: morphological, base: {morphological.preset: mlaa, morphological.quality: low}")
-        self.refuse(text, "the engine refuses the point")
+        self.refuse(text, "the engine rejects the point")
 
     def test_what_nobody_checks(self):
         for run in ("run: {check: none, coverage: false}", "run.check: none"):

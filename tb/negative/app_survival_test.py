@@ -149,7 +149,7 @@ class SideBySide(Survival):
     def test_eight(self):
         self.refused(8)
 
-    def test_the_second_is_refused(self):
+    def test_the_second_is_rejected(self):
         first = self.long_run()
         with open(self.path(f"out/{DRAFT}/claim.json")) as file:
             holder = json.load(file)

@@ -74,6 +74,32 @@ class Definitions(Sweeps):
         self.refuse(BASE + AXES + "constraints: [texture.cache.ways > 2, memory.latency < 10]\n",
                     "no point is left of 4: 'texture.cache.ways > 2' excludes 4")
 
+    def test_expressions_that_are_too_long_or_too_deep(self):
+        """They would take minutes or all of the stack."""
+        for text, says in (("(" * 20000 + "cycles" + ")" * 20000, "a metric of 40006 characters: 4000 are the most"),
+                           ("+".join(["cycles"] * 20000), "a metric of 139999 characters"),
+                           ("(" * 101 + "cycles" + ")" * 101, "more than 100 brackets and signs inside each other"),
+                           ("- " * 101 + "cycles", "more than 100 brackets and signs")):
+            self.refuse(BASE + AXES + f"metrics: {{a: '{text}'}}\n", says)
+        self.refuse(BASE + AXES + f"constraints: ['{'not ' * 101}memory.latency > 60']\n", "more than 100 brackets and signs")
+        self.write("s.yaml", BASE + AXES + f"metrics: {{a: '{'(' * 100 + 'cycles' + ')' * 100}', "
+                   f"b: '{'+'.join(['cycles'] * 570)}', c: '{'- ' * 100}cycles'}}\n")
+        self.expect(0, "sweep", "s.yaml", "plan")
+
+    def test_what_is_not_utf8(self):
+        """It cannot be written into results; a list of many values is looked through at once."""
+        self.refuse((BASE + AXES + "title: Gr\xfc\xdfe\n").encode("latin-1"), "s.yaml:4: it is not UTF-8")
+        values = ", ".join(str(i) for i in range(1, 60001))
+        self.refuse(BASE + f"axes: {{run.seed: [{values}], texture.cache.ways: [1, 2], memory.banks: [1, 2, 4, 8, 16, 32, 64, "
+                    "128, 256]}\n", "the axes make 60000 x 2 x 9 points = 1,080,000, at most 1,000,000 can be planned",
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (6, 6)))
+
+    def test_a_file_whose_name_names_no_folder(self):
+        for name in ("..yaml", "...yaml"):
+            self.write(name, BASE + AXES)
+            self.expect(2, "sweep", name, "plan", says=(f"'{name}': a sweep is called by its file",))
+            self.assertFalse(os.path.exists(self.path("out")))
+
     def test_a_constraint_is_not_only_syntax(self):
         """Precedence, words and logic, by how many of 4 points are left."""
         for text, left in (("texture.cache.ways * 2 + 1 == 5", 2),
@@ -99,13 +125,13 @@ class Definitions(Sweeps):
         self.refuse("engine: texture\naxes: {run.seed: {from: 0, to: 4294967295}}\n",
                     "has 4294967296 values")
 
-    def test_points_that_the_engine_refuses(self):
+    def test_points_that_the_engine_rejects(self):
         text = ("engine: morphological\nbase: {frame: {width: 16, height: 16, truth_samples: 1}}\n"
                 "axes: {morphological.predictor: [none, fit], morphological.steps: [4, 8]}\n")
-        self.refuse(text, "the engine refuses the point morphological.predictor = none",
+        self.refuse(text, "the engine rejects the point morphological.predictor = none",
                     "has no effect", "refused: skip")
         self.write("s.yaml", text + "refused: skip\n")
-        self.expect(0, "sweep", "s.yaml", "plan", says=("2 that the engine refuses", "2 points"))
+        self.expect(0, "sweep", "s.yaml", "plan", says=("2 that the engine rejects", "2 points"))
 
     def test_axes_under_a_condition(self):
         def axis(text):
@@ -119,7 +145,7 @@ class Definitions(Sweeps):
         self.refuse(axis("{values: [4], where: true}"), "unknown 'where' (known: values, when)")
         self.refuse(axis("{values: [], when: true}"), "axis 'morphological.steps' is empty")
         self.refuse(axis("{when: true}"), "a range wants 'from' and 'to'")
-        self.refuse(axis("{values: [4], when: true}"), "the engine refuses the point")
+        self.refuse(axis("{values: [4], when: true}"), "the engine rejects the point")
 
     def test_files(self):
         self.expect(5, "sweep", "nothing.yaml", "plan", says="cannot open 'nothing.yaml'")

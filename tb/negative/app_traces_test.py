@@ -65,9 +65,9 @@ class Fragments(CommandTest):
                 (TITLE + "size 7 7\n" + QUAD.replace("0 0 0 0", "0 6 6 0", 1), "trace:3", "lane 1", "outside"),
                 (TITLE + QUAD.replace("f f", "1f f").replace("0 0 0 0", "0 - - 0", 1), "trace:2", "coverage = '1f'", "0 to f"),
                 (TITLE + FRAGMENT, "trace:3", "no line 'end 1'", "cut short"),
-                (TITLE + FRAGMENT + "end 2\n", "trace:3", "'end 2' behind 1 records"),
+                (TITLE + FRAGMENT + "end 2\n", "trace:3", "'end 2' after 1 records"),
                 (TITLE + FRAGMENT + "end 1", "trace:3", "in the middle of a line", "cut short"),
-                (TITLE + FRAGMENT + "end 1\n" + FRAGMENT, "trace:4", "more behind the line 'end'"),
+                (TITLE + FRAGMENT + "end 1\n" + FRAGMENT, "trace:4", "more after the line 'end'"),
                 (TITLE + "x" * 2000 + "\n", "trace:2", "more than 1000 characters")):
             with self.subTest(content=content[:120]):
                 self.refused(content, *says)

@@ -96,7 +96,7 @@ class Configuration(Base):
                      scene=("--scene", "cube", "--size", "48x65"))
         self.refused(["16128 faces", "8192", "face_limit"], "geometric.face_limit=8192", scene=("--scene", "sphere"))
 
-    def test_too_many_faces_are_refused_before_anything_is_rendered(self):
+    def test_too_many_faces_are_rejected_before_anything_is_rendered(self):
         """The truth of this frame takes many minutes; refused in seconds of a processor."""
         for engine, smoothing in (("geometric", ()), ("frame", ("--smoothing", "geometric"))):
             size = "4096x4096" if engine == "geometric" else "64x64"
@@ -145,7 +145,7 @@ class Configuration(Base):
             self.run_engine(0, *self.SMALL, "--preset", preset, says="PASS")
             self.assertEqual(self.result()["work"]["line_setup_lines"], lines, preset)
 
-    def test_show_config_judges_as_a_run_does(self):
+    def test_show_config_checks_as_a_run_does(self):
         for arguments in (("--set", "scene.eye=0,0,3", "--set", "scene.target=0,0,9"), ("--fault", "gremlin"),
                           ("--set", "geometric.touched_words=16", "--set", "geometric.line_pixels=64", "--size",
                            "65x65")):

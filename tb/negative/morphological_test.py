@@ -142,7 +142,7 @@ class Frames(Base):
             done = self.run_engine(0, "--in", frame, *DEPTH_EDGES, "--depth", self.write("d.png", rgb_png(48, pixels)))
             self.assertEqual("looks like a picture" in done.stderr, noted)
 
-    def test_depth_that_is_no_number_is_refused(self):
+    def test_depth_that_is_no_number_is_rejected(self):
         """It is at no distance: silhouettes and edges would be found around it."""
         depths = [0.25] * 256
         depths[16 * 3 + 5] = depths[16 * 3 + 6] = float("nan")
@@ -250,7 +250,7 @@ class Configuration(Base):
         self.assertIn("morphological.steps: 8", done.stdout)
         self.assertIn('morphological.predictor: "chord"', done.stdout)
 
-    def test_what_has_no_effect_is_refused(self):
+    def test_what_has_no_effect_is_rejected(self):
         image = ("--in", self.write("a.png", noisy_png(16, 16)))
         morphological = [
             (image, "--size", "10x10", "size of its own"),
@@ -421,12 +421,12 @@ class Faults(Base):
         self.fault("flip:colours:50:56", 1, "mismatch", *self.UNCHECKED, engine="frame")
         self.fault("flip:blended:50:4", 1, "mismatch", *self.UNCHECKED, engine="frame")
 
-    def test_the_checkers_look_away_by_default(self):
+    def test_the_checkers_are_off_by_default(self):
         self.fault("morphological.flip-bit", 1, "mismatch", *self.SMALL, engine="frame")
         self.fault("flip-bit", 1, "mismatch", *self.SMALL)
 
-    def test_every_bit_of_the_output_of_a_frame_is_judged_or_refused(self):
-        """Its flags too; what is no bit of the beat is refused."""
+    def test_every_bit_of_the_output_of_a_frame_is_checked_or_rejected(self):
+        """Its flags too; what is no bit of the beat is rejected."""
         # Of one lane: 32 of the pixel, 19 of how it was blended, 3 of the count, 2 flags.
         for bit in (0, 31, 32, 33, 48, 50, 51, 53, 54, 55):
             self.fault(f"flip:blended:100:{bit}", 1, "mismatch", *self.UNCHECKED, engine="frame")

@@ -53,7 +53,7 @@ GLuint compile(GLenum kind, const char* source) {
   if (ok == 0) {
     std::array<char, 1024> log{};
     glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw spec::SimulationError(std::string("Mesa refused a shader: ") + log.data());
+    throw spec::SimulationError(std::string("Mesa rejected a shader: ") + log.data());
   }
   return shader;
 }

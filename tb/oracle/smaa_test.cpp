@@ -165,7 +165,7 @@ TEST(Smaa, HasItsEdgesOnColoursButWhereRoundingDecides) {
 
 // A step of exactly T is an edge in both: one of 255 blue codes has 0.0722 of full scale, which is
 // 4732 / 65536 in the weights of luma and in T alike.
-TEST(Smaa, SeesAStepOfExactlyTheThreshold) {
+TEST(Smaa, TakesAStepOfExactlyTheThreshold) {
   const auto edges = [](int step, int threshold, double ideal) {
     const Image image = tb::stimuli::draw(2, 1, [&](int x, int) {
       return tb::Rgba8{0, 0, static_cast<std::uint8_t>(x * step), 255};

@@ -9,6 +9,8 @@
     copies(command.querySelector('button'), command.querySelector('pre'));
 
   document.getElementById('rates-frame').style.height = `${60 + 22 * features.length}px`;
+  Chart.defaults.color = colour('--muted');
+  Chart.defaults.borderColor = colour('--rule');
   const bars = (key, label, fill) =>
     ({label, data: features.map((feature) => feature[key]), backgroundColor: fill});
   new Chart(document.getElementById('rates'), {
@@ -16,7 +18,7 @@
     data: {
       labels: features.map((feature) => feature.id),
       datasets: [bars('passed', 'passed', colour('--good')), bars('failed', 'failed', colour('--bad')),
-                 bars('missing', 'missing', colour('--track'))],
+                 bars('missing', 'missing', colour('--idle'))],
     },
     options: {
       indexAxis: 'y', animation: false, maintainAspectRatio: false,

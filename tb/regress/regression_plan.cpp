@@ -59,7 +59,7 @@ class RegressionPlanner {
   }
 
  private:
-  // A configuration is named by its axes; what the engine refuses is left out for every seed.
+  // A configuration is named by its axes; what the engine rejects is left out for every seed.
   void expand(const Feature& feature, const Stimulus& stimulus) {
     const SweepDefinition& configurations = stimulus.configurations;
     const Plan samples = plan_without_points(configurations);
@@ -136,9 +136,9 @@ class RegressionPlanner {
     } catch (const ConfigError& error) {
       if (!stimulus.configurations.skip_refused)
         throw ConfigError(fmt::format(
-            "{}: the engine refuses the point {}: {}; leave such points out with 'refused: skip'",
+            "{}: the engine rejects the point {}: {}; leave such points out with 'refused: skip'",
             testplan_.file.string(), name, headline(error.what())));
-      ++left_out_[fmt::format("{}/{}: the engine refuses", origin.feature, origin.stimulus)];
+      ++left_out_[fmt::format("{}/{}: the engine rejects", origin.feature, origin.stimulus)];
     }
   }
 

@@ -309,7 +309,7 @@ mustache::data card_of(const Json& bucket) {
 std::string page_of(const Json& json) {
   mustache::data page;
   page.set("style", std::string(embedded::style_css()));
-  page.set("chart_js", std::string(embedded::chart_js()));
+  page.set("chart_js", embedded::charts());
   page.set("copy_js", std::string(embedded::copy_js()));
   page.set("regression_js", std::string(embedded::regression_js()));
   for (const char* key : {"title", "version", "commit"})

@@ -40,7 +40,7 @@ struct CoverageResult {
   std::uint64_t bins = 0;
   std::vector<std::string> holes;
   std::string unknown{};  // none of its runs has such a bin
-  bool met() const { return bins > 0 && holes.empty(); }
+  bool met() const { return required.every ? bins > 0 && holes.empty() : holes.size() < bins; }
 };
 
 struct FeatureResult {

@@ -467,6 +467,7 @@ Testplan part_of(Testplan testplan, std::uint64_t divisor) {
   for (Feature& feature : testplan.features) {
     for (Stimulus& stimulus : feature.stimuli) stimulus.seeds = share_of(stimulus.seeds, divisor);
     for (RequiredCheck& check : feature.checks) check.minimum = share_of(check.minimum, divisor);
+    for (RequiredBins& bins : feature.coverage) bins.every = false;
   }
   return testplan;
 }

@@ -36,6 +36,7 @@ struct RequiredCheck {
 
 struct RequiredBins {
   std::string glob, where;
+  bool every = true;  // else one of them: which ones few seeds meet is chance
 };
 
 struct Feature {
@@ -64,8 +65,8 @@ struct Testplan {
 // looked for in the folder of the testplan and in those around it.
 Testplan read_testplan(const std::filesystem::path& file);
 
-// Of each configuration one of so many seeds, at least one, and as much less of what must be
-// compared: runs that the whole plan has too. Its name says so.
+// Of each configuration one of so many seeds, at least one, as much less of what must be compared,
+// and of each glob one bin: runs that the whole plan has too. Its name says so.
 Testplan part_of(Testplan testplan, std::uint64_t divisor);
 
 }  // namespace deburr::tb

@@ -90,8 +90,9 @@
       badge.style.background = palette[names.indexOf(badge.textContent) % palette.length];
     const metrics = data.metrics;
     const finite = (v) => Number.isFinite(v);
+    const fiveDigits = new Intl.NumberFormat('en-US', {maximumSignificantDigits: 5});
     const shown = (v) => v === null || v === undefined ? '-' : v === Infinity ? 'identical'
-      : Number.isInteger(v) ? v.toLocaleString('en-US') : v.toPrecision(5).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '');
+      : Number.isInteger(v) || Math.abs(v) >= 1e4 ? Math.round(v).toLocaleString('en-US') : fiveDigits.format(v);
     const titled = (m) => m.unit ? `${m.name} [${m.unit}]` : m.name;
     const decibels = (m) => m.unit === 'dB';
     const every = [...data.points, ...data.only];

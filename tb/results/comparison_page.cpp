@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/results/amount.h"
 #include "tb/results/build_info.h"
 #include "tb/results/compare.h"
 #include "tb/results/embedded.h"
@@ -30,7 +31,7 @@ std::string figure_text(const Json& value) {
   if (value.is_number_unsigned()) return grouped(value.get<std::uint64_t>());
   if (value.is_number_integer() && value.get<std::int64_t>() >= 0)
     return grouped(value.get<std::uint64_t>());
-  if (value.is_number_float()) return fmt::format("{:.5g}", value.get<double>());
+  if (value.is_number_float() && !is_infinite(value)) return amount(value.get<double>(), 5);
   return value_text(value);
 }
 
@@ -57,7 +58,7 @@ class ComparisonPage {
     fill_warnings();
     runs ? fill_runs() : fill_sweeps();
     page_.set("style", std::string(embedded::style_css()));
-    page_.set("chart_js", std::string(runs ? "" : embedded::chart_js()));
+    page_.set("chart_js", runs ? std::string() : embedded::charts());
     page_.set("comparison_js", std::string(embedded::comparison_js()));
     page_.set("data", json_for_script(runs ? Json{{"kind", "runs"}} : comparison_));
     page_.set("version", build_info().version);

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "spec/error.h"
+#include "tb/results/amount.h"
 #include "tb/scene/label.h"
 
 namespace deburr::tb {
@@ -52,7 +53,7 @@ void paste(Image& on, const Image& what, int left, int top) {
       if (left + x >= 0 && left + x < on.width) on.at(left + x, top + y) = what.at(x, y);
 }
 
-std::string scale_text(double value) { return fmt::format("{:.4g}", value); }
+std::string scale_text(double value) { return amount(value); }
 
 }  // namespace
 

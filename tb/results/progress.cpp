@@ -2,17 +2,14 @@
 #include "tb/results/progress.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <utility>
 
+#include "tb/base/terminal.h"
 #include "tb/results/report.h"
 
 namespace deburr::tb {
@@ -20,7 +17,7 @@ namespace {
 
 constexpr auto kTerminalPeriod = std::chrono::milliseconds(100);
 constexpr auto kPlainPeriod = std::chrono::seconds(5);
-constexpr std::size_t kLeastBar = 8, kMostBar = 24, kUsualColumns = 80;
+constexpr std::size_t kLeastBar = 8, kMostBar = 24;
 
 std::string rate_text(double rate, std::string_view unit) {
   if (rate >= 1e6) return fmt::format("{:.2f} M{}/s", rate / 1e6, unit);
@@ -37,9 +34,6 @@ std::string time_text(double seconds) {
 
 // A character is one column: labels are names.
 bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
-std::size_t columns_of(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
-}
 std::string cut(std::string_view text, std::size_t columns) {
   std::size_t end = 0;
   for (std::size_t shown = 0; end < text.size(); ++end)
@@ -80,15 +74,6 @@ void tell(const std::string& text) {
 std::size_t room() { return std::max<std::size_t>(terminal_columns(STDERR_FILENO), 2) - 1; }
 
 }  // namespace
-
-std::size_t terminal_columns(int descriptor) {
-  winsize size{};
-  if (::ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
-  std::size_t columns = 0;
-  if (const char* const said = std::getenv("COLUMNS"))
-    std::from_chars(said, said + std::strlen(said), columns);
-  return columns > 0 ? columns : kUsualColumns;
-}
 
 std::string out_of_cycles(std::uint64_t cycles, std::uint64_t done, std::uint64_t total,
                           std::string_view unit) {

@@ -69,9 +69,6 @@ class Waiting {
   Clock::time_point start_, last_;
 };
 
-// Columns of the terminal behind a descriptor now; if it does not say, $COLUMNS, or 80.
-std::size_t terminal_columns(int descriptor);
-
 // What the error says when --max-cycles is reached: how far the run came and what to raise.
 std::string out_of_cycles(std::uint64_t cycles, std::uint64_t done, std::uint64_t total,
                           std::string_view unit);

@@ -15,6 +15,7 @@
 #include "spec/error.h"
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
+#include "tb/results/amount.h"
 #include "tb/results/embedded.h"
 #include "tb/results/input_files.h"
 #include "tb/results/picture_map.h"
@@ -34,8 +35,7 @@ constexpr std::size_t kMaxManifestBytes = 64u << 20, kMaxWindowsBytes = 64u << 2
 // Numbers as a reader wants them: counts grouped, rates with four significant digits.
 std::string report_text(const Json& value) {
   if (value.is_number_unsigned()) return grouped(value.get<std::uint64_t>());
-  if (value.is_number_integer()) return fmt::format("{}", value.get<std::int64_t>());
-  if (value.is_number()) return fmt::format("{:.4g}", value.get<double>());
+  if (value.is_number()) return amount(value.get<double>());
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
   if (value.is_null()) return "-";
@@ -48,11 +48,10 @@ mustache::data row(std::initializer_list<std::pair<const char*, std::string>> ce
   return data;
 }
 
-// A count as such, anything else with four digits.
-std::string amount(double value) {
-  return value == std::floor(value) && value >= 0 && value < 1e15
-             ? grouped(static_cast<std::uint64_t>(value))
-             : fmt::format("{:.4g}", value);
+// A count, 0 for anything else.
+std::uint64_t count_of(const Json& json, const char* key) {
+  const Json value = json.value(key, Json());
+  return value.is_number_unsigned() ? value.get<std::uint64_t>() : 0;
 }
 
 double number(const Json& json, const char* key) {
@@ -73,6 +72,19 @@ std::string gain_of(const Json& before, const Json& after, int digits = 2) {
 
 std::string fraction(const Json& value) {
   return value.is_number() ? fmt::format("{:.4f}", value.get<double>()) : "-";
+}
+
+// Columns and rows; nothing: it is no PNG.
+std::pair<std::uint64_t, std::uint64_t> png_size(const std::string& bytes) {
+  constexpr std::size_t kWidth = 16, kHeight = 20;  // in the first chunk, IHDR
+  if (!bytes.starts_with("\x89PNG") || bytes.size() < kHeight + 4) return {0, 0};
+  const auto number = [&](std::size_t at) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+    return value;
+  };
+  return {number(kWidth), number(kHeight)};
 }
 
 Json read_manifest(const fs::path& directory) {
@@ -96,7 +108,7 @@ class ReportBuilder {
 
   std::string render() {
     page_.set("style", std::string(embedded::style_css()));
-    page_.set("chart_js", std::string(embedded::chart_js()));
+    page_.set("chart_js", embedded::charts());
     page_.set("copy_js", std::string(embedded::copy_js()));
     page_.set("report_js", std::string(embedded::report_js()));
     page_.set("data", fmt::format(R"({{"result":{},"windows":{},"maps":{},"map_colours":{}}})",
@@ -158,10 +170,10 @@ class ReportBuilder {
                     {"state", state}});
     };
     const bool interrupted = result_.value("interrupted", false);
-    const std::uint64_t mismatches = checks.value("mismatches", std::uint64_t{0}) +
-                                     checks.value("traffic_mismatches", std::uint64_t{0});
-    const std::uint64_t compared = checks.value("comparisons", std::uint64_t{0}) +
-                                   checks.value("traffic_comparisons", std::uint64_t{0});
+    const std::uint64_t mismatches =
+        count_of(checks, "mismatches") + count_of(checks, "traffic_mismatches");
+    const std::uint64_t compared =
+        count_of(checks, "comparisons") + count_of(checks, "traffic_comparisons");
     page_.set("incomplete", interrupted);
     if (compared == 0)
       tile("Mismatches", "-", "", "not checked against the golden model");
@@ -191,8 +203,9 @@ class ReportBuilder {
     if (!own_cycles) tile("Cycles", report_text(result_["cycles"]), "clk", time(cycles));
     tile("Throughput", fmt::format("{:.3f}", value), "",
          report_text(throughput.value("unit", Json(""))) +
-             (bound > 0 ? fmt::format(", {:.1f} % of the bound {:.4g}", 100 * value / bound, bound)
-                        : ""));
+             (bound > 0
+                  ? fmt::format(", {:.1f} % of the bound {}", 100 * value / bound, amount(bound))
+                  : ""));
     if (!own_latency)
       tile("Latency p50", report_text(latency.value("p50", Json())), "clk",
            fmt::format("p99 {}, max {}", report_text(latency.value("p99", Json())),
@@ -306,8 +319,9 @@ class ReportBuilder {
     const std::string name = found->value("unit", ""), cause = found->value("cause", "");
     if (!result_["units"].contains(name)) return;
     const Json& unit = result_["units"][name];
+    const Json stalls = unit.value("stalls", Json::object());
     double all = number(unit, "busy") + number(unit, "idle");
-    for (const auto& [key, count] : unit["stalls"].items()) all += count.template get<double>();
+    for (const auto& [key, count] : stalls.items()) all += count.template get<double>();
     meter(
         fmt::format("Limited by {}: {}{}", name, cause == "busy" ? "" : "stalled, ", spaced(cause)),
         number(*found, "cycles"), all, "clk", found->value("meaning", ""));
@@ -358,19 +372,7 @@ class ReportBuilder {
   }
 
   void fill_images(const fs::path& directory) {
-    mustache::data images{mustache::data::type::list};
-    bool any = false;
-    for (const Json& image : manifest_.value("images", Json::array())) {
-      const fs::path file = image.value("file", "");
-      refuse_path(directory, file);
-      images << row({{"title", image.value("title", file.string())},
-                     {"caption", image.value("caption", "")},
-                     {"role", image.value("role", "")},
-                     {"source", data_uri(directory / file)}});
-      any = true;
-    }
-    page_.set("has_images", any);
-    page_.set("images", images);
+    fill_stills(directory);
     mustache::data maps{mustache::data::type::list};
     const Json of_maps = result_.value("maps", Json::object());
     for (const auto& [name, map] : of_maps.items()) {
@@ -381,13 +383,48 @@ class ReportBuilder {
                    {"max", text("max")},
                    {"unit", map.value("unit", "")},
                    {"sum", text("sum")},
-                   {"pixels", report_text(map["pixels"])},
+                   {"pixels", report_text(map.value("pixels", Json()))},
                    {"file", map.value("values", "")},
                    {"meaning", map.value("meaning", "")}});
       keep_values(directory, map);
     }
     page_.set("has_maps", maps.is_non_empty_list());
     page_.set("maps", maps);
+  }
+
+  // Of a frame of a few rows or columns they would vanish: they are drawn out, and of a picture
+  // that is larger than the frame, with the scale of a map, the frame's part is shown.
+  void fill_stills(const fs::path& directory) {
+    constexpr std::uint64_t kNarrow = 8;
+    const Json list = manifest_.value("images", Json::array());
+    std::vector<std::string> pngs;
+    std::uint64_t width = UINT64_MAX, height = UINT64_MAX;
+    for (const Json& image : list) {
+      const fs::path file = image.value("file", "");
+      refuse_path(directory, file);
+      pngs.push_back(read_file(directory / file, kMaxImageBytes));
+      const auto [across, down] = png_size(pngs.back());
+      width = std::min(width, across);
+      height = std::min(height, down);
+    }
+    const char* const shape = width / kNarrow > height   ? "flat"
+                              : height / kNarrow > width ? "tall"
+                                                         : "";
+    mustache::data images{mustache::data::type::list};
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const auto [across, down] = png_size(pngs[i]);
+      mustache::data still = row({{"title", list[i].value("title", list[i].value("file", ""))},
+                                  {"caption", list[i].value("caption", "")},
+                                  {"role", list[i].value("role", "")},
+                                  {"shape", shape},
+                                  {"source", png_uri(pngs[i])}});
+      still.set("narrow", *shape != 0);
+      still.set("across", fmt::format("{:.2f}", 100.0 * double(across) / double(width)));
+      still.set("down", fmt::format("{:.2f}", 100.0 * double(down) / double(height)));
+      images << still;
+    }
+    page_.set("has_images", images.is_non_empty_list());
+    page_.set("images", images);
   }
 
   // What the page says of a pixel of a map; nothing where the file of its values is gone.
@@ -431,10 +468,20 @@ class ReportBuilder {
     refuse_path(directory, name);
     const fs::path file = directory / name;
     windows_ = Json::parse(read_file(file, kMaxWindowsBytes), nullptr, false);
-    if (!windows_.is_object() || !windows_.contains("series"))
-      throw spec::FileError(fmt::format("'{}' is not a valid file of windows", file.string()));
+    const auto demand = [&](bool valid) {
+      if (!valid)
+        throw spec::FileError(fmt::format("'{}' is not a valid file of windows", file.string()));
+    };
+    demand(windows_.is_object() && windows_.contains("series"));
     Json& series = windows_["series"];
-    const std::vector<std::uint64_t> from = windows_["from"], cycles = windows_["cycles"];
+    const std::size_t count = windows_["from"].size();
+    const auto column = [&](const Json& values) {
+      demand(values.is_array() && values.size() == count);
+      for (const Json& value : values) demand(value.is_number_unsigned());
+      return values.get<std::vector<std::uint64_t>>();
+    };
+    const std::vector<std::uint64_t> from = column(windows_["from"]),
+                                     cycles = column(windows_["cycles"]);
     page_.set("windows_note",
               fmt::format("{} windows of {} cycles{}.", grouped(from.size()),
                           report_text(windows_["window_cycles"]),
@@ -455,12 +502,12 @@ class ReportBuilder {
       const std::string counter = key.substr(key.find('.') + 1);
       if (!series["work"].contains(counter)) continue;
       kept[counter] = series["work"][counter];
-      columns.push_back(kept[counter]);
+      columns.push_back(column(kept[counter]));
       rates << row({{"label", rate.value("label", "")}, {"unit", rate.value("unit", "")}});
     }
     const Json of_ports = series.value("ports", Json::object());
     for (const auto& [port, values] : of_ports.items()) {
-      columns.push_back(values["outstanding"]);
+      columns.push_back(column(values.value("outstanding", Json())));
       ports << port;
       for (const char* bytes : {"_bytes_read", "_bytes_written"})
         if (series["work"].contains(port + bytes))
@@ -477,9 +524,9 @@ class ReportBuilder {
                                  {"from", grouped(from[i])},
                                  {"to", grouped(from[i] + cycles[i])}});
       mustache::data values{mustache::data::type::list};
-      for (const std::vector<std::uint64_t>& column : columns)
+      for (const std::vector<std::uint64_t>& counts : columns)
         values << fmt::format("{:.3f}",
-                              static_cast<double>(column.at(i)) / static_cast<double>(cycles[i]));
+                              static_cast<double>(counts.at(i)) / static_cast<double>(cycles[i]));
       line.set("values", values);
       rows << line;
     }
@@ -490,10 +537,10 @@ class ReportBuilder {
     for (const auto& [link, figures] : of_links.items())
       links << row({{"name", link},
                     {"full", figures.value("link", "")},
-                    {"depth", report_text(figures["depth"])},
-                    {"beats", report_text(figures["beats"])},
+                    {"depth", report_text(figures.value("depth", Json()))},
+                    {"beats", report_text(figures.value("beats", Json()))},
                     {"mean", fmt::format("{:.2f}", number(figures, "mean"))},
-                    {"most", report_text(figures["most"])},
+                    {"most", report_text(figures.value("most", Json()))},
                     {"full_percent", fmt::format("{:.1f}", number(figures, "full_percent"))}});
     page_.set("links", links);
   }
@@ -535,8 +582,10 @@ class ReportBuilder {
 
   void fill_tables() {
     mustache::data figures{mustache::data::type::list};
+    bool any_against = false;
     for (const Json& figure : result_.value("figures", Json::array())) {
       const std::string key = figure.value("key", "");
+      any_against = any_against || !against(figure).empty();
       figures << row({{"label", figure.value("label", "")},
                       {"value", figure_text(value_at(key))},
                       {"unit", described(key, "unit")},
@@ -544,6 +593,7 @@ class ReportBuilder {
                       {"meaning", described(key, "meaning")}});
     }
     page_.set("has_figures", figures.is_non_empty_list());
+    page_.set("has_against", any_against);
     page_.set("figures", figures);
 
     mustache::data memory{mustache::data::type::list};
@@ -598,7 +648,8 @@ class ReportBuilder {
     page_.set("latency_single", report_text(latency.value("max", Json())));
     mustache::data histogram{mustache::data::type::list};
     for (const Json& bin : latency.value("histogram", Json::array()))
-      histogram << row({{"from", report_text(bin["from"])}, {"count", report_text(bin["count"])}});
+      histogram << row({{"from", report_text(bin.value("from", Json()))},
+                        {"count", report_text(bin.value("count", Json()))}});
     page_.set("histogram", histogram);
 
     fill_memories();
@@ -675,14 +726,15 @@ class ReportBuilder {
 
     mustache::data parameters{mustache::data::type::list};
     for (const Json& p : manifest_.value("parameters", Json::array())) {
+      const std::string value = report_text(p.value("value", Json()));
       mustache::data line = row({{"name", p.value("name", "")},
                                  {"kind", p.value("kind", "")},
-                                 {"value", report_text(p["value"])},
+                                 {"value", value},
                                  {"default", p.value("default", "")},
                                  {"range", p.value("range", "")},
                                  {"unit", p.value("unit", "")},
                                  {"meaning", p.value("meaning", "")}});
-      line.set("changed", report_text(p["value"]) != p.value("default", ""));
+      line.set("changed", value != p.value("default", ""));
       parameters << line;
     }
     page_.set("parameters", parameters);
@@ -692,7 +744,7 @@ class ReportBuilder {
     const Json& memories = result_["memories"];
     const Json& bits = result_["memory_bits"];
     const auto total = [&](const char* key) {
-      return bits.value("total", Json::object()).value(key, std::uint64_t{0});
+      return count_of(bits.value("total", Json::object()), key);
     };
     const std::uint64_t logical = total("logical"), at_width = total("logical_at_frame_width");
     mustache::data rows{mustache::data::type::list};

@@ -167,7 +167,8 @@
     }
 
     // ---- maps: value of a pixel, and where it lies on the scale ----
-    const amount = (value) => Number.isInteger(value) ? number.format(value) : String(Number(value.toPrecision(6)));
+    const digits = new Intl.NumberFormat('en-US', {maximumSignificantDigits: 6});
+    const amount = (value) => Number.isInteger(value) ? number.format(value) : digits.format(value);
     function valueOf(map, pixel) {
       if (!pixel || pixel.x >= map.width || pixel.y >= map.height || !map.image.naturalWidth) return null;
       map.values ??= readable(map.image);
@@ -416,9 +417,24 @@
       const length = shared.lastIndexOf('_') + 1;
       return names.map((name) => name.slice(length));
     };
+    // Names as labels of bars: in a narrow chart on several lines, broken after a '_'.
+    const linesOf = (name, width) => {
+      const lines = [''];
+      if (width > 400) return [name];
+      for (const part of name.split(/(?<=_)/)) {
+        if (lines[lines.length - 1] !== '' && (lines[lines.length - 1] + part).length > 18) lines.push('');
+        lines[lines.length - 1] += part;
+      }
+      return lines;
+    };
     const horizontal = (labels, box) => {
-      byId(box).style.height = `${Math.max(90, labels.length * 30 + 70)}px`;
+      const most = Math.max(1, ...labels.map((name) => linesOf(name, byId(box).clientWidth).length));
+      byId(box).style.height = `${Math.max(90, labels.length * Math.max(30, 15 * most + 4) + 70)}px`;
       return labels;
+    };
+    const names = {
+      autoSkip: false,
+      callback(value) { return linesOf(this.getLabelForValue(value), this.chart.width); }
     };
 
     // Cycles of each unit, by cause.
@@ -446,7 +462,7 @@
           indexAxis: 'y',
           scales: {
             x: {stacked: true, beginAtZero: true, max: 100, title: {display: true, text: '% of cycles'}},
-            y: {stacked: true, grid: {display: false}, ticks: {autoSkip: false}}
+            y: {stacked: true, grid: {display: false}, ticks: names}
           },
           plugins: {
             legend: {position: 'bottom', labels: {boxWidth: 12}},
@@ -550,7 +566,7 @@
           scales: {
             x: {stacked: true, beginAtZero: true, title: {display: true, text: 'bits'},
                 ticks: {maxRotation: 0, autoSkipPadding: 12}},
-            y: {stacked: true, grid: {display: false}, ticks: {autoSkip: false}}
+            y: {stacked: true, grid: {display: false}, ticks: names}
           },
           plugins: {legend: {display: wider || copies, position: 'bottom', labels: {boxWidth: 12}}}
         }

@@ -270,7 +270,7 @@ void check_depths(const std::string& name, const Header& header, const std::vect
   if (outside.number > 0 && report != nullptr)
     report->conversions.push_back(
         in_words(outside, header, depths.size(), 1, "lie outside [0, 1]") +
-        ": edges from depth see them clamped, and so steps among them are lost");
+        ": edges from depth use them clamped, so steps among them are lost");
 }
 
 DecoderPointer open_checked(const fs::path& path) {

@@ -134,6 +134,9 @@ class GltfImporter final : public Importer {
       fail(fmt::format("{}; the file is truncated or damaged, export it again",
                        errors.empty() ? "no glTF could be read" : errors));
     }
+    if (!model_.asset.version.starts_with("2."))
+      fail(fmt::format("it is glTF {}, and glTF 2 is read; export it as that",
+                       model_.asset.version.empty() ? "of no version" : model_.asset.version));
   }
 
   // What tinygltf asks of files, which no exception may leave. It looks in the mesh's folder first,
@@ -345,7 +348,7 @@ class GltfImporter final : public Importer {
       case TINYGLTF_COMPONENT_TYPE_FLOAT:
         return load<float>(from, false);
       default:
-        fail(fmt::format("it has numbers of type {}, which glTF does not know", type));
+        fail(fmt::format("it has numbers of type {}, which glTF does not have", type));
     }
   }
 

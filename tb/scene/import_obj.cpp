@@ -88,9 +88,11 @@ class ObjChecker {
       if (word[0] == '+') word.remove_prefix(1);
       double value = 0.0;
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-      if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value) ||
-          std::abs(value) > 1e30)
+      if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
         fail(fmt::format("'{}' in a {} is not a finite number", word, what));
+      if (std::abs(value) > 1e30)
+        fail(fmt::format("'{}' in a {} is beyond 1e30, the largest number that is taken", word,
+                         what));
     }
     if (found < needed) fail(fmt::format("a {} has {} numbers instead of {}", what, found, needed));
     ++count_[kind];
@@ -145,10 +147,42 @@ class ObjChecker {
   std::string material_lines_;
 };
 
-std::string one_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+std::string one_line(const std::string& text) {
+  std::string line;
+  std::istringstream lines(text);
+  for (std::string each; std::getline(lines, each);)
+    if (!each.empty()) line += (line.empty() ? "" : "; ") + each;
+  return line;
+}
+
+// A line of numbers that ends with a backslash goes on in the next one, which tinyobjloader does
+// not know. Empty lines behind it keep the numbers of those that follow.
+std::string with_whole_lines(const std::string& text) {
+  if (text.find("\\\n") == std::string::npos && text.find("\\\r\n") == std::string::npos)
+    return text;
+  std::string whole, owed;
+  bool numbers = false;  // it is such a line
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string_view line = std::string_view(text).substr(at, end - at);
+    at = end + 1;
+    if (owed.empty()) {
+      std::string_view rest = line;
+      const std::string_view keyword = next_word(rest);
+      numbers = keyword == "v" || keyword == "vt" || keyword == "vn" || keyword == "f";
+    }
+    std::string_view bare = line;
+    if (bare.ends_with('\r')) bare.remove_suffix(1);
+    if (numbers && bare.ends_with('\\') && end < text.size()) {
+      whole += bare.substr(0, bare.size() - 1);
+      owed += '\n';
+      continue;
+    }
+    whole += line;
+    if (end < text.size()) whole += '\n';
+    whole += std::exchange(owed, "");
+  }
+  return whole;
 }
 
 // tinyobjloader's numbers are flat arrays; -1 is "not given".
@@ -200,7 +234,7 @@ class ObjImporter final : public Importer {
   // The lines that name materials, by themselves, make tinyobjloader ask for the same files in the
   // same order as all of them do.
   void open() override {
-    text_ = read_mesh();
+    text_ = with_whole_lines(read_mesh());
     checked_.emplace(path(), text_);
     materials_ = load(checked_->material_lines(), [this](const std::string& name) {
                    return material_texts_[name] = read_material_file(name);

@@ -9,7 +9,7 @@
 namespace deburr::tb {
 
 // One line in letters of 5 x 9 dots and a dot between, each dot scale x scale pixels. Throws
-// ConfigError for a character that has no letter: letters of names and units, digits, . - + and
+// ConfigError for a character that has no letter: letters of names and units, digits, . , - + and
 // blanks are there.
 Image label(std::string_view text, int scale, const Rgba8& ink = {0, 0, 0, 255},
             const Rgba8& paper = {255, 255, 255, 255});

@@ -319,7 +319,7 @@ class Soak {
     if (grown_ > 0) grown += fmt::format("; memory grew in {} of {} long runs", grown_, judged_);
     const bool good = t.mismatches + t.failures == 0 && grown.empty() && t.comparisons > 0;
     fmt::print(
-        "RESULT: {} soak: {} runs in {:.0f} s, {} of them long, {} of these long enough to judge "
+        "RESULT: {} soak: {} runs in {:.0f} s, {} of them long, {} of these long enough to check "
         "their memory; {} comparisons, {} mismatches, {} failures, memory {}{}\n",
         !good           ? "FAIL"
         : interrupted() ? "INTERRUPTED"
@@ -327,7 +327,7 @@ class Soak {
         t.runs, seconds_since(start_), long_runs_, judged_, t.comparisons, t.mismatches, t.failures,
         !grown.empty()     ? "not flat"
         : is_judged(heap_) ? "flat"
-                           : "not judged",
+                           : "not checked",
         grown);
     return !good ? 1 : interrupted() ? kInterruptedExit : 0;
   }

@@ -56,13 +56,6 @@ const nlohmann::json* value_of(const nlohmann::json& result, const std::string& 
   }
 }
 
-double number_of(const nlohmann::json* value) {
-  if (!value) return kNone;
-  if (value->is_number()) return value->get<double>();
-  if (value->is_boolean()) return value->get<bool>() ? 1 : 0;
-  return kNone;
-}
-
 // The first of its keys that the result lacks; empty: it has them all.
 std::string missing_key(const nlohmann::json& result, const Metric& metric) {
   for (std::string& key : metric.keys())
@@ -70,15 +63,36 @@ std::string missing_key(const nlohmann::json& result, const Metric& metric) {
   return "";
 }
 
-// NaN where a key is missing or is no number, and where it divides by zero.
-double value_in(const nlohmann::json& result, const Metric& metric) {
-  if (!metric.expression) return number_of(value_of(result, metric.key));
-  try {
-    return metric.expression->number(
-        [&](const std::string& key) { return number_of(value_of(result, key)); });
-  } catch (const spec::ConfigError&) {
-    return kNone;
+struct Measured {
+  double value = kNone;
+  std::string reason;  // why it has none
+};
+
+Measured measured(const nlohmann::json& result, const Metric& metric) {
+  std::map<std::string, double> numbers;
+  for (const std::string& key : metric.keys()) {
+    const nlohmann::json* const value = value_of(result, key);
+    if (!value) return {kNone, fmt::format("no key '{}' in the result", key)};
+    if (value->is_null()) return {kNone, key + " is null"};
+    if (!value->is_number() && !value->is_boolean()) return {kNone, key + " is no number"};
+    numbers[key] = value->is_boolean() ? (value->get<bool>() ? 1 : 0) : value->get<double>();
   }
+  const bool infinite = std::any_of(numbers.begin(), numbers.end(),
+                                    [](const auto& number) { return std::isinf(number.second); });
+  double value = 0;
+  if (metric.expression) {
+    try {
+      value = metric.expression->number([&](const std::string& key) { return numbers.at(key); });
+    } catch (const DivisionByZero&) {
+      return {kNone, "division by zero"};
+    }
+  } else {
+    value = numbers.at(metric.key);
+  }
+  if (std::isfinite(value)) return {value, ""};
+  if (!infinite) return {kNone, "too large for a number"};
+  if (std::isnan(value)) return {kNone, "not defined for the infinite PSNR of identical pictures"};
+  return value > 0 ? Measured{value, ""} : Measured{kNone, "minus infinity"};
 }
 
 Expression::Lookup lookup_in(const SweepDefinition& sweep, const std::vector<double>& values) {
@@ -128,7 +142,7 @@ class Collector {
  private:
   void add(const PlannedPoint& planned) {
     const fs::path directory = point_directory(place_.points(), planned.name);
-    CollectedPoint point{planned.name, planned.sample, state_of(directory), "", {}, false, ""};
+    CollectedPoint point{planned.name, planned.sample, state_of(directory), "", {}, {}, false, ""};
     point.values.assign(sweep_.metrics.size(), kNone);
     switch (point.state) {
       case PointState::kDone:
@@ -156,7 +170,12 @@ class Collector {
       return;
     }
     for (std::size_t i = 0; i < sweep_.metrics.size(); ++i) {
-      point.values[i] = value_in(result, sweep_.metrics[i]);
+      Measured metric = measured(result, sweep_.metrics[i]);
+      point.values[i] = metric.value;
+      if (!metric.reason.empty()) {
+        point.no_values.push_back({i, std::move(metric.reason)});
+        ++all_.no_values[point.no_values.back()];
+      }
       if (!found_[i] && missing_key(result, sweep_.metrics[i]).empty()) learn(result, i);
     }
     for (const Expression& limit : sweep_.limits)
@@ -383,6 +402,10 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
                                {"metric", sweep.metrics[effect.metric].name},
                                {"means", means}});
   }
+  json["no_value"] = Json::array();
+  for (const auto& [none, points] : all.no_values)
+    json["no_value"].push_back(
+        {{"metric", all.metrics[none.metric].name}, {"reason", none.reason}, {"points", points}});
   json["points"] = Json::array();
   for (const CollectedPoint& point : all.points) {
     Json values = Json::array();
@@ -393,6 +416,8 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
                   {"values", values}};
     for (std::size_t i = 0; i < point.values.size(); ++i)
       if (std::isinf(point.values[i])) entry["identical"].push_back(all.metrics[i].name);
+    for (const NoValue& none : point.no_values)
+      entry["no_value"][all.metrics[none.metric].name] = none.reason;
     if (point.front) entry["front"] = true;
     if (!point.beyond.empty()) entry["beyond"] = point.beyond;
     if (!point.failure.empty()) entry["failure"] = point.failure;
@@ -411,10 +436,11 @@ constexpr std::size_t kMostRows = 200;
 void set_table(const Json& json, mustache::data& page) {
   mustache::data columns{mustache::data::type::list}, rows{mustache::data::type::list};
   const auto add_to = [](mustache::data& list, const char* key, const std::string& text,
-                         bool metric) {
+                         bool metric, const std::string& reason = "") {
     mustache::data entry;
     entry.set(key, text);
     entry.set("metric", metric);
+    if (!reason.empty()) entry.set("reason", reason);
     list << entry;
   };
   for (const Json& axis : json.at("axes"))
@@ -435,10 +461,16 @@ void set_table(const Json& json, mustache::data& page) {
     mustache::data row, cells{mustache::data::type::list};
     for (const Json& value : point->at("at")) add_to(cells, "text", cell_text(value), false);
     const Json identical = point->value("identical", Json::array());
+    const Json none = point->value("no_value", Json::object());
     for (std::size_t i = 0; i < json.at("metrics").size(); ++i) {
-      const Json& name = json.at("metrics")[i].at("name");
-      const bool same = std::find(identical.begin(), identical.end(), name) != identical.end();
-      add_to(cells, "text", same ? "identical" : cell_text(point->at("values")[i]), true);
+      const auto metric = json.at("metrics")[i].at("name").get<std::string>();
+      const bool same = std::find(identical.begin(), identical.end(), metric) != identical.end();
+      const std::string reason = none.value(metric, "");
+      add_to(cells, "text",
+             same              ? "identical"
+             : !reason.empty() ? "none"
+                               : cell_text(point->at("values")[i]),
+             true, reason);
     }
     const auto name = point->at("name").get<std::string>();
     const auto state = point->at("state").get<std::string>();
@@ -465,7 +497,7 @@ void set_table(const Json& json, mustache::data& page) {
 std::string page_of(const Json& json) {
   mustache::data page;
   page.set("style", std::string(embedded::style_css()));
-  page.set("chart_js", std::string(embedded::chart_js()));
+  page.set("chart_js", embedded::charts());
   page.set("sweep_js", std::string(embedded::sweep_js()));
   page.set("title", json.at("title").get<std::string>());
   page.set("engine", json.at("engine").get<std::string>());
@@ -493,6 +525,16 @@ std::string page_of(const Json& json) {
     notes << entry;
   }
   page.set("left_out", notes);
+  mustache::data none{mustache::data::type::list};
+  for (const Json& entry : json.at("no_value")) {
+    mustache::data line;
+    line.set("text", fmt::format("{} in {} of {} points: {}", entry.at("metric").get<std::string>(),
+                                 grouped(entry.at("points").get<std::uint64_t>()), count("done"),
+                                 entry.at("reason").get<std::string>()));
+    none << line;
+  }
+  page.set("has_no_value", none.is_non_empty_list());
+  page.set("no_value", none);
   set_table(json, page);
   mustache::mustache text{std::string(embedded::sweep_template())};
   DEBURR_CHECK(text.is_valid(), "sweep.mustache: " + text.error_message());
@@ -509,7 +551,7 @@ std::vector<double> values_of(const SweepDefinition& sweep, const fs::path& dire
   const nlohmann::json result = result_in(directory);
   std::vector<double> values;
   if (result.value("verdict", "") == "fail") return values;
-  for (const Metric& metric : sweep.metrics) values.push_back(value_in(result, metric));
+  for (const Metric& metric : sweep.metrics) values.push_back(measured(result, metric).value);
   return values;
 }
 

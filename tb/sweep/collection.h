@@ -4,9 +4,11 @@
 // axis does to each metric on average. Written as CSV, as JSON and as one self-contained page.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,12 +18,20 @@
 
 namespace deburr::tb {
 
+// A metric without a value, and why: "division by zero".
+struct NoValue {
+  std::size_t metric = 0;
+  std::string reason;
+  auto operator<=>(const NoValue&) const = default;
+};
+
 struct CollectedPoint {
   std::string name;
   Sample sample;
   PointState state = PointState::kMissing;
-  std::string failure;         // "deadlock: nothing has moved ..."
-  std::vector<double> values;  // one a metric; NaN: it has none, infinity: identical pictures
+  std::string failure;             // "deadlock: nothing has moved ..."
+  std::vector<double> values;      // one a metric; NaN: it has none, infinity: identical pictures
+  std::vector<NoValue> no_values;  // of a point that is done: why
   bool front = false;
   std::string beyond;  // the first limit that its values miss
 };
@@ -41,7 +51,8 @@ struct Collection {
   std::vector<CollectedPoint> points;
   std::vector<MainEffect> effects;
   std::uint64_t done = 0, failed = 0, missing = 0, front = 0;
-  std::uint64_t beyond = 0;  // done, and beyond a limit
+  std::uint64_t beyond = 0;                    // done, and beyond a limit
+  std::map<NoValue, std::uint64_t> no_values;  // in how many of the points that are done
 };
 
 // FileError when a result cannot be read; ConfigError for a metric that no result has.

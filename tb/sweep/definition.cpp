@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string_view>
 
 #include "spec/error.h"
@@ -36,6 +37,10 @@ class Reader {
     known.insert(known.end(), {"title", "metrics", "limits", "objectives", "reports", "chunk"});
     yaml_.require_keys(root, known);
     read_engine(root);
+    if (sweep_.name == "." || sweep_.name == "..")
+      throw ConfigError(fmt::format(
+          "'{}': a sweep is called by its file, and '{}' is no name of a folder: rename the file",
+          sweep_.file.string(), sweep_.name));
     if (!root["axes"] && !root["points"])
       fail(root, "nothing is varied: give 'axes', or list 'points'");
     if (root["title"]) sweep_.title = scalar(root["title"], "title");
@@ -158,7 +163,7 @@ class Reader {
       if (list.IsMap())
         read_range(axis, list);
       else if (list.IsSequence())
-        for (const auto& value : list) add_choice(axis, scalar(value, name), value);
+        read_values(axis, list);
       else
         fail(key, fmt::format("axis '{}' wants a list of values or {{from: .., to: ..}}, got {}",
                               name, kind(list)));
@@ -182,12 +187,15 @@ class Reader {
     }
   }
 
-  void add_choice(Axis& axis, const std::string& value, const YAML::Node& node) const {
-    try_value(axis.name, value, node);
-    for (const Choice& other : axis.choices)
-      if (other.label == value)
+  void read_values(Axis& axis, const YAML::Node& list) const {
+    std::set<std::string> before;
+    for (const auto& node : list) {
+      const std::string value = scalar(node, axis.name);
+      try_value(axis.name, value, node);
+      if (!before.insert(value).second)
         fail(node, fmt::format("axis '{}' has the value '{}' twice", axis.name, value));
-    axis.choices.push_back({value, {value}});
+      axis.choices.push_back({value, {value}});
+    }
   }
 
   void read_named(Axis& axis, const YAML::Node& values) const {
@@ -441,7 +449,7 @@ class Reader {
         fail(node, fmt::format("limit '{}' is no comparison of a metric by < <= > >=: give several "
                                "limits one by one",
                                limit.text()));
-      limit.violation(Trial());
+      limit.truth(Trial());  // of which kind it is, and that it does not always divide by zero
       sweep_.limits.push_back(std::move(limit));
     }
   }

@@ -44,12 +44,20 @@ struct Operand {
   std::string word{};           // it is no name and no number
 };
 
+// Of what people write; what programs write is a list of conditions.
+constexpr std::size_t kMostCharacters = 4000;
+constexpr int kMostInside = 100;
+
 bool is_order(std::string_view op) { return op == "<" || op == "<=" || op == ">" || op == ">="; }
 
 }  // namespace
 
+std::string Expression::Origin::message(const std::string& what) const {
+  return fmt::format("{}: {} '{}': {}", where, kind, text, what);
+}
+
 void Expression::Origin::fail(const std::string& what) const {
-  throw spec::ConfigError(fmt::format("{}: {} '{}': {}", where, kind, text, what));
+  throw spec::ConfigError(message(what));
 }
 
 template <class T>
@@ -64,6 +72,10 @@ class Expression::Parser {
       : origin_(std::move(origin)), text_(origin_->text), known_(names) {}
 
   void parse(Expression& made) {
+    if (text_.size() > kMostCharacters)
+      throw spec::ConfigError(fmt::format("{}: a {} of {} characters: {} are the most",
+                                          origin_->where, origin_->kind, text_.size(),
+                                          kMostCharacters));
     next();
     const Operand all = disjunction();
     if (!token_.empty()) fail(fmt::format("'{}' was not expected", token_));
@@ -149,8 +161,21 @@ class Expression::Parser {
     return left;
   }
 
+  // What an expression has inside of another one: it takes room on the stack.
+  struct Inside {
+    explicit Inside(Parser& parser) : depth(parser.depth_) {
+      if (++depth > kMostInside)
+        parser.fail(fmt::format("more than {} brackets and signs inside each other", kMostInside));
+    }
+    ~Inside() { --depth; }
+    Inside(const Inside&) = delete;
+    Inside& operator=(const Inside&) = delete;
+    int& depth;
+  };
+
   Operand negation() {
     if (!take("not")) return comparison();
+    const Inside inside(*this);
     Operand right = {[a = truth(negation())](const Lookup& l) -> Value { return !a(l); }};
     is_comparison_ = false;
     return right;
@@ -226,7 +251,7 @@ class Expression::Parser {
           [origin = origin_, a = number(left), b = number(unary()), op](const Lookup& l) -> Value {
             const double x = a(l), y = b(l);
             if (op == '*') return x * y;
-            if (y == 0) origin->fail("division by zero");
+            if (y == 0) throw DivisionByZero(origin->message("division by zero"));
             return op == '/' ? x / y : std::fmod(x, y);
           }};
     }
@@ -235,12 +260,14 @@ class Expression::Parser {
 
   Operand unary() {
     if (!take("-")) return value();
+    const Inside inside(*this);
     return {[a = number(unary())](const Lookup& l) -> Value { return -a(l); }};
   }
 
   Operand value() {
     if (token_.empty()) fail("it ends too early");
     if (take("(")) {
+      const Inside here(*this);
       Operand inner = disjunction();
       if (!take(")")) fail("a ')' is missing");
       return inner;
@@ -262,6 +289,7 @@ class Expression::Parser {
   const std::string& text_;
   const ExpressionNames& known_;
   std::size_t at_ = 0;
+  int depth_ = 0;
   std::string token_;
   std::vector<std::string> names_;
   bool is_comparison_ = false;  // of what was parsed last
@@ -284,7 +312,13 @@ bool Expression::truth(const Lookup& lookup) const {
   origin_->fail(fmt::format("it is {}, not true or false", kind_of(value)));
 }
 
-double Expression::violation(const Lookup& lookup) const { return violation_(lookup); }
+double Expression::violation(const Lookup& lookup) const {
+  try {
+    return violation_(lookup);
+  } catch (const DivisionByZero&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
 
 namespace {
 

@@ -22,9 +22,15 @@
 #include <variant>
 #include <vector>
 
+#include "spec/error.h"
 #include "tb/results/parameter_set.h"
 
 namespace deburr::tb {
+
+class DivisionByZero : public spec::ConfigError {
+ public:
+  using ConfigError::ConfigError;
+};
 
 // What an expression may name, and what its errors call things.
 struct ExpressionNames {
@@ -44,11 +50,11 @@ class Expression {
   // ConfigError that begins with `where` for what is no expression over the names.
   Expression(std::string text, std::string where, const ExpressionNames& names);
 
-  // ConfigError for a division by zero, and where it is of another kind.
+  // DivisionByZero; ConfigError where it is of another kind.
   double number(const Lookup& lookup) const;
   bool truth(const Lookup& lookup) const;
   // How far a comparison by < <= > >= is from what it demands, over the absolute value of its right
-  // side; 0: it holds. Infinite where a side is no number.
+  // side; 0: it holds. Infinite where a side has no value.
   double violation(const Lookup& lookup) const;
   // ... which this is.
   bool is_comparison() const { return violation_ != nullptr; }
@@ -62,6 +68,7 @@ class Expression {
   // For errors, which terms too may end with.
   struct Origin {
     std::string text, where, kind;
+    std::string message(const std::string& what) const;
     [[noreturn]] void fail(const std::string& what) const;
     template <class T>
     T as(const Value& value, std::string_view wanted) const;

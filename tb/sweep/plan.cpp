@@ -226,8 +226,8 @@ std::optional<PlannedPoint> PointJudge::judge(const Sample& all) {
   if (refusal) {
     if (!sweep_.skip_refused)
       throw ConfigError(fmt::format(
-          "{}: the engine refuses the point {}: {}; leave such points out with a constraint, or "
-          "all that are refused with 'refused: skip'",
+          "{}: the engine rejects the point {}: {}; leave such points out with a constraint, or "
+          "all that are rejected with 'refused: skip'",
           plan_.file, in_words(plan_, sample), headline(*refusal)));
     if (refused_++ == 0) first_refusal_ = in_words(plan_, sample) + ": " + headline(*refusal);
     return std::nullopt;
@@ -243,7 +243,7 @@ void PointJudge::tell(Plan& plan) const {
       plan.left_out.push_back(fmt::format("{} by the constraint '{}'", grouped(excluded_[i]),
                                           sweep_.constraints[i].text()));
   if (refused_ > 0)
-    plan.left_out.push_back(fmt::format("{} that the engine refuses, the first: {}",
+    plan.left_out.push_back(fmt::format("{} that the engine rejects, the first: {}",
                                         grouped(refused_), first_refusal_));
 }
 
@@ -254,7 +254,7 @@ std::string PointJudge::reasons() const {
       why += fmt::format("{}'{}' excludes {}", why.empty() ? "" : ", of the rest ",
                          sweep_.constraints[i].text(), grouped(excluded_[i]));
   if (refused_ > 0)
-    why += fmt::format("{}the engine refuses {}, the first {}", why.empty() ? "" : "; ",
+    why += fmt::format("{}the engine rejects {}, the first {}", why.empty() ? "" : "; ",
                        grouped(refused_), first_refusal_);
   return why;
 }

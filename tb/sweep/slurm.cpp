@@ -215,7 +215,7 @@ SlurmJob submit(const Plan& plan, const SweepPlace& place, const std::vector<Pla
   const Answer answer = ask({"sbatch", "--parsable", file.string()}, profile.conf);
   if (answer.late) throw FileError("sbatch did not answer; the controller may be busy: try again");
   if (answer.code != 0)
-    throw ConfigError(fmt::format("sbatch refuses '{}': {}", file.string(), headline(answer.text)));
+    throw ConfigError(fmt::format("sbatch rejects '{}': {}", file.string(), headline(answer.text)));
   SlurmJob job{answer.text.substr(0, answer.text.find(';')), profile.conf, tasks};
   write_file_atomically(
       job_file(place),

@@ -20,13 +20,16 @@
     ...data.metrics.map((metric, i) => ({
       name: metric.name, metric: i, numeric: true, unit: metric.unit, meaning: metric.meaning,
       value: (p) => valueOf(p, i) ?? NaN,
-      text: (p) => shown(valueOf(p, i)),
+      text: (p) => noValue(p, i) ? 'none' : shown(valueOf(p, i)),
+      reason: (p) => noValue(p, i) ?? '',
     })),
   ];
   // JSON has no infinity: that a picture is identical stands beside its values.
   function valueOf(p, i) {
     return p.identical?.includes(data.metrics[i].name) ? Infinity : p.values[i];
   }
+  // Why a point that is done has no value of a metric.
+  const noValue = (p, i) => p.no_value?.[data.metrics[i].name];
   const columnOf = (name) => columns.find((c) => c.name === name);
   function shown(value) {
     if (value === null || value === undefined) return '';
@@ -75,7 +78,8 @@
     box.className = '';
     element('p', data.axes.map((a, i) => `${a.name} = ${p.at[i]}`).join(', '), box);
     element('p', p.state === 'done'
-      ? data.metrics.map((m, i) => `${m.name} ${shown(valueOf(p, i))} ${m.unit}`.trim()).join(', ')
+      ? data.metrics.map((m, i) => noValue(p, i) ? `${m.name} none (${noValue(p, i)})`
+                                                 : `${m.name} ${shown(valueOf(p, i))} ${m.unit}`.trim()).join(', ')
       : `${p.state}${p.failure ? ': ' + p.failure : ''}`, box);
     const pre = element('pre', commandOf(p), box, 'code');
     pre.style.whiteSpace = 'pre-wrap';
@@ -156,6 +160,9 @@
         pointRadius: points.map((p) => p.front ? 6 : 3),
       };
     });
+    const missing = done.filter((p) => Number.isNaN(x.value(p)) || Number.isNaN(y.value(p))).length;
+    byId('not-drawn').textContent = missing === 0 ? '' :
+      `Not drawn: ${missing} of ${done.length} points, which have no value here.`;
     const lines = linesOfFronts(x, y, across, up, colour, groups);
     sets.push(...lines);
     scatter?.destroy();
@@ -198,6 +205,9 @@
     // One scale, so that axes can be compared.
     const all = effects.flatMap((e) => e.means.map((m) => m[1]));
     const low = Math.min(...all), high = Math.max(...all), margin = (high - low) * 0.08 || 1;
+    if (effects.length === 0)
+      element('p', 'None: there are no two values of an axis with points that have a value of this metric.',
+              byId('effects'), 'muted');
     for (const effect of effects) {
       const box = element('div', undefined, byId('effects'));
       const means = effect.means.map((m) => m[1]);
@@ -288,7 +298,10 @@
     for (const p of points.slice(0, kMostRows)) {
       const row = element('tr', undefined, body,
                           (p.front ? 'front ' : '') + (p.beyond ? 'beyond ' : '') + (p.state === 'failed' ? 'failed ' : '') + (p === chosen ? 'chosen' : ''));
-      for (const column of columns) element('td', column.text(p), row, column.metric !== undefined ? 'n' : '');
+      for (const column of columns) {
+        const cell = element('td', column.text(p), row, column.metric !== undefined ? 'n' : '');
+        if (column.reason?.(p)) cell.title = column.reason(p);
+      }
       const last = element('td', undefined, row);
       if (p.beyond) row.title = `beyond the limit ${p.beyond}`;
       if (p.state === 'done') element('a', p.name.slice(0, 8), last).href = `${directoryOf(p)}/${filesOf[0]}`;
@@ -302,15 +315,16 @@
   // ---- parallel coordinates ----
   function drawParallel() {
     const canvas = byId('parallel'), ratio = window.devicePixelRatio || 1;
+    // What never changes says nothing.
+    const used = columns.filter((c) => c.axis !== undefined ? c.labels.length > 1
+                                                            : new Set(done.map(c.value)).size > 1);
+    canvas.style.minWidth = `${80 * used.length}px`;  // room for what stands at each of them
     const width = canvas.clientWidth, height = canvas.clientHeight;
     canvas.width = width * ratio;
     canvas.height = height * ratio;
     const context = canvas.getContext('2d');
     context.scale(ratio, ratio);
     context.clearRect(0, 0, width, height);
-    // What never changes says nothing.
-    const used = columns.filter((c) => c.axis !== undefined ? c.labels.length > 1
-                                                            : new Set(done.map(c.value)).size > 1);
     const top = 40, bottom = height - 26, left = 50, right = width - 50;
     const at = (i) => used.length > 1 ? left + (right - left) * i / (used.length - 1) : (left + right) / 2;
     const ranges = used.map((c) => {
@@ -319,7 +333,7 @@
         const v = c.value(p);
         if (Number.isFinite(v)) { low = Math.min(low, v); high = Math.max(high, v); }
       }
-      return [low, high > low ? high : low + 1];
+      return high >= low ? [low, high > low ? high : low + 1] : [0, 1];
     });
     const level = (i, p) => {
       const v = used[i].value(p), [low, high] = ranges[i];

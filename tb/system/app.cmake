@@ -3,12 +3,11 @@ add_dependencies(deburr_system_tests deburr_complete)
 add_dependencies(deburr_slurm_tests deburr_complete)
 deburr_test(app_report_test PROGRAM system_app_tests LABELS system SOURCE app_report_test.cpp
             LINK deburr::results TIMEOUT 300)
-add_dependencies(system_app_tests deburr)
 add_test(NAME memories COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/memories_test.py" $<TARGET_FILE:deburr>
                                "${PROJECT_SOURCE_DIR}/docs")
 set_tests_properties(memories PROPERTIES LABELS system TIMEOUT 300
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
-foreach(class Terminal LastLine Help Documents Bar Completion CompletionZsh TypedZsh CompletionFish)
+foreach(class Terminal LastLine Help Documents Bar Lines Completion CompletionZsh TypedZsh CompletionFish)
   add_test(NAME terminal.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/terminal_test.py" $<TARGET_FILE:deburr> ${class})
   set_tests_properties(terminal.${class} PROPERTIES LABELS system TIMEOUT 600

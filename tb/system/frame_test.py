@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""A whole frame with each choice of what smooths it: judged by golden models, quality and figures that belong together;
+"""A whole frame with each choice of what smooths it: checked by golden models, quality and figures that belong together;
 its coverage and maps are those of its engines.
 
 usage: frame_test.py DEBURR SOURCE
@@ -51,7 +51,7 @@ class Smoothing(unittest.TestCase):
             self.assertGreater(quality["geometric"][measure], quality["morphological"][measure] + 1)
             self.assertGreater(quality["geometric-morphological"][measure], quality["geometric"][measure])
 
-    def test_engines_behind_each_other_add_up(self):
+    def test_engines_one_after_the_other_add_up(self):
         geometric = self.run_frame("--smoothing", "geometric")["work"]
         result = self.run_frame("--smoothing", "geometric-morphological")
         work = result["work"]

@@ -49,7 +49,7 @@ std::string name_of(const testing::TestParamInfo<Tuple>& info) {
 using Variant = std::tuple<Preset, Layout, Lanes, Lanes>;
 class EveryVariant : public testing::TestWithParam<Variant> {};
 
-TEST_P(EveryVariant, FramesBehindEachOtherAreIdenticalToGolden) {
+TEST_P(EveryVariant, FramesInARowAreIdenticalToGolden) {
   const auto [which, layout, walkers, edge_lanes] = GetParam();
   GeometricRunOptions options;
   options.geometric = preset(which);

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """What a run reads is what its keys and its manifest say: a file that another file names counts as
-much as one that a parameter names. Behind a texture, a material file or a buffer that was replaced,
-sweeps, searches and regressions repeat their points, and judge by the truth of the new one; a
+much as one that a parameter names. After a texture, a material file or a buffer that was replaced,
+sweeps, searches and regressions repeat their points, and compare with the truth of the new one; a
 tracer holds the files that the command opens against those that it lists.
 
 usage: inputs_test.py DEBURR [CLASS]
@@ -330,7 +330,7 @@ class Replaced(InputsTest):
         self.write("out/texture/after.png", png(90))
         self.deburr("run", "texture", "--in", "meshes/m.obj", "--size", "16x16", code=2)
 
-    def test_pipes_and_folders_are_refused_at_once(self):
+    def test_pipes_and_folders_are_rejected_at_once(self):
         """A pipe would be waited for, and read once."""
         self.write_obj()
         os.remove(self.path("meshes/m.mtl"))

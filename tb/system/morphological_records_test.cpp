@@ -54,19 +54,19 @@ TEST(Records, WithoutAFaultPass) {
 }
 
 // Steps that were kept move no share: pixels stay perfect.
-TEST(Records, OnlyTheLineScoreboardSeesTheStepsOfALine) {
+TEST(Records, OnlyTheLineScoreboardFindsTheStepsOfALine) {
   const Judged j = judged("flip:morphological.lines_h0:5:line.left_steps.0");
   EXPECT_THAT(j.checks, ElementsAre("lines"));
   EXPECT_EQ(j.mismatches, 1u);
   EXPECT_THAT(j.complaint, HasSubstr("lines: 1 mismatches"));
 }
-TEST(Records, OnlyTheLineScoreboardSeesTheStepsOfALineUpright) {
+TEST(Records, OnlyTheLineScoreboardFindsTheStepsOfALineUpright) {
   const Judged j = judged("flip:morphological.lines_v0:5:line.right_steps.1");
   EXPECT_THAT(j.checks, ElementsAre("lines"));
   EXPECT_EQ(j.mismatches, 1u);
 }
 
-TEST(Records, TheRunScoreboardSeesAWrongEdge) {
+TEST(Records, TheRunScoreboardFindsAWrongEdge) {
   EXPECT_THAT(judged("wrong-edge").checks, Contains("runs"));
 }
 

@@ -295,7 +295,7 @@ class Timeline(unittest.TestCase):
                 fault(bad)
                 self.assertTrue(problems(bad))
 
-    def test_refuses_windows_that_hold_nothing_or_too_much(self):
+    def test_rejects_windows_that_hold_nothing_or_too_much(self):
         with tempfile.TemporaryDirectory() as out:
             for arguments, says in ((("--timeline", "--timeline-from", "9", "--timeline-to", "9"), "leave no cycle"),
                                     (("--timeline", "--timeline-to", "100001"), "at most 100000"),

@@ -165,7 +165,7 @@ class Papers(unittest.TestCase):
                 self.assertEqual(row["why"], "-")
                 self.assertNotEqual(row["ours"], "-")
 
-    def test_fans_judge_every_row_but_none_and_those_of_the_contract(self):
+    def test_fans_check_every_row_but_none_and_those_of_the_contract(self):
         tables = [t for t in self.papers["000"]["tables"] if t["title"].startswith("RMSE")]
         self.assertEqual(len(tables), 2)
         for table in tables:

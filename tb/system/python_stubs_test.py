@@ -247,6 +247,9 @@ def mypy_finds(text):
                               env={"PATH": "/usr/bin:/bin", "MYPYPATH": str(MODULES), "HOME": folder})
     if done.returncode not in (0, 1):
         sys.exit(done.stdout + done.stderr)
+    ours = [line for line in done.stdout.splitlines() if ": error" in line and not line.startswith("program.py:")]
+    if ours:
+        sys.exit("mypy complains of the module itself:\n" + "\n".join(ours))
     return done.stdout, {int(line) for line in re.findall(r"^program\.py:(\d+): error", done.stdout, re.M)}
 
 

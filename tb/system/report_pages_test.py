@@ -45,6 +45,17 @@ const probe_page = async () => {
     links: [...document.querySelectorAll('a[href]')].map((a) => a.getAttribute('href')),
     empty: [...document.querySelectorAll('section, main h2')].filter((e) => e.innerText.trim() === '' &&
         e.getClientRects().length > 0).map((e) => e.outerHTML.slice(0, 80)),
+    // Steps of a pixel may be as long as they like.
+    cut: [...document.querySelectorAll('.scroll:not(.tall)')].filter((e) => e.scrollWidth > e.clientWidth + 1)
+        .map((e) => e.innerText.slice(0, 40)),
+    colours: typeof Chart === 'undefined' ? [] : [Chart.defaults.color, getComputedStyle(root).getPropertyValue('--muted').trim()],
+    stills: [...document.querySelectorAll('.strip img')].map((e) => {
+      const box = e.parentElement.getBoundingClientRect(), own = e.getBoundingClientRect();
+      return [e.dataset.role, Math.min(box.width, own.width), Math.min(box.height, own.height),
+              own.width / e.naturalWidth, own.height / e.naturalHeight];
+    }),
+    charts: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).map((chart) =>
+        [chart.canvas.id, chart.chartArea.height, chart.legend?.options.display ? chart.legend.lineWidths.length : 0]),
     ticks: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).map((chart) =>
         [chart.canvas.id, Object.entries(chart.scales).filter(([, s]) => s.type !== 'category' || s.ticks.some((t) => 'round' in t))
             .map(([name, s]) => [name, s.ticks.map((t) => String(t.label))])]),
@@ -82,6 +93,7 @@ class PagesTest(unittest.TestCase):
     def setUp(self):
         if not BROWSER:
             self.skipTest("no Chromium here (Debian package chromium)")
+        self.rows = set()  # of the legends of a phone
         scratch = tempfile.TemporaryDirectory(prefix="deburr_pages_")
         self.addCleanup(scratch.cleanup)
         self.directory = scratch.name
@@ -146,6 +158,7 @@ class PagesTest(unittest.TestCase):
             self.assertGreater(len(label), 15, f"{title}: the chart {name} has no text")
             self.assertIn(role, ("img", "application"), name)
         self.assertEqual(told["empty"], [], title)
+        self.assertLessEqual(len(set(told["colours"])), 1, f"{title}: words of charts in another colour than the page's")
         with open(self.path(page), encoding="utf-8") as file:
             text = file.read()
         for link in told["links"]:
@@ -153,7 +166,15 @@ class PagesTest(unittest.TestCase):
                 self.assertTrue(f'id="{link[1:]}"' in text or re.match("#(window|follow)-[0-9,]+$", link), f"{title}: {link}")
             else:
                 self.assertTrue(os.path.exists(os.path.join(os.path.dirname(self.path(page)), link)), f"{title}: {link}")
-        for width in (told, self.probed(page, DESKTOP)):
+        desktop = self.probed(page, DESKTOP)
+        # What a chart draws keeps its height, however many rows its legend has.
+        for (name, low, rows), (_, high, _) in zip(told["charts"], desktop["charts"]):
+            self.assertGreater(low, 0.75 * high, f"{title}: {name} with {rows} rows of a legend")
+            self.rows.add(rows)
+        self.assertEqual(desktop["cut"], [], f"{title}: tables that a screen cuts")
+        with open(self.path(page), encoding="utf-8") as file:
+            self.assertEqual(re.findall(r"<td[^>]*>-?[\d.]+e\+\d+<", file.read()), [], "numbers of another form")
+        for width in (told, desktop):
             ticks = 0
             for chart, scales in width["ticks"]:
                 for name, labels in scales:
@@ -203,7 +224,7 @@ class Runs(PagesTest):
         role, title, scale, corner, at, mark, zoomed, fitted, command = told["keys"]
         with open(self.path(f"{engine}/result.json"), encoding="utf-8") as file:
             figures = json.load(file)["maps"][role.removeprefix("map_")]
-        number = lambda v: f"{v:,.0f}" if v == int(v) else f"{v:.6g}"
+        number = lambda v: f"{v:,.0f}" if v == int(v) else f"{float(f'{v:.6g}'):,}"
         for end in ("min", "max"):
             self.assertIn(f"{number(figures[end])} {figures['unit']}", scale)
         self.assertIn(title.removeprefix("Map: "), scale)
@@ -220,6 +241,32 @@ class Runs(PagesTest):
         for engine, arguments in trials("report_page").items():
             with self.subTest(engine):
                 self.check_run(engine, arguments)
+        self.assertGreater(max(self.rows), 3, "no legend of several rows: the heights say nothing")
+
+    def test_frames_of_a_few_rows_or_columns(self):
+        """Their stills can be seen: of a map the map, not the paper of its scale."""
+        for name, size in (("flat", "2000x4"), ("tall", "4x600")):
+            self.deburr("run", "texture", "--scene", "plane", "--size", size, "--maps", "--out", name)
+            told = self.probed(f"{name}/report.html", DESKTOP)
+            self.assertGreater(len(told["stills"]), 5)
+            _, _, _, across, down = next(still for still in told["stills"] if still[0] == "after")
+            for role, width, height, *scale in told["stills"]:
+                self.assertGreaterEqual(min(width, height), 23, f"{name}: {role}")
+                self.assertAlmostEqual(scale[0], across, delta=0.02 * across, msg=f"{name}: {role}")
+                self.assertAlmostEqual(scale[1], down, delta=0.02 * down, msg=f"{name}: {role}")
+            self.screenshots(f"{name}/report.html", name)
+
+    def test_a_column_that_nothing_stands_in(self):
+        """What figures are compared with: not where no figure is."""
+        columns = set()
+        for engine in trials("report_page"):
+            self.deburr("run", engine, "--size", "32x32", "--no-images", "--out", engine)
+            with open(self.path(f"{engine}/result.json"), encoding="utf-8") as file:
+                column = any("against" in figure for figure in json.load(file)["figures"])
+            with open(self.path(f"{engine}/report.html"), encoding="utf-8") as file:
+                self.assertEqual(file.read().count("<th>Against</th>"), int(column), engine)
+            columns.add(column)
+        self.assertEqual(columns, {False, True})
 
     def test_what_the_checks_look_for(self):
         """A page that is too wide, has charts without words and links that lead nowhere is noticed."""

@@ -173,7 +173,7 @@ class Images(SequenceTest):
         again = self.result(self.ENGINE, "again", "--config", "given/manifest.json")
         self.assertEqual(given["work"], again["work"])
 
-    def test_refuses_what_is_no_sequence(self):
+    def test_rejects_what_is_no_sequence(self):
         write_png(self.path("small.png"), [[0] * 16] * 16)
         for says, *arguments in (
                 ("no file matches 'g*.png'", "--in", "g*.png"),

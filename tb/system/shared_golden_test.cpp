@@ -116,7 +116,7 @@ TEST(SharedGolden, OfTheTextureUnitDependsOnItsKeyAlone) {
 }
 
 // The check above fails where the engine forgets the size of the cache.
-TEST(SharedGolden, OfTheTextureUnitKnowsItsCache) {
+TEST(SharedGolden, OfTheTextureUnitGoesByItsCache) {
   const TextureScene scene(picture("tunnel", 24), {}, 1);
   spec::texture::Parameters small, plain;
   small.cache_bytes = 512;

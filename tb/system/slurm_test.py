@@ -331,7 +331,7 @@ class Slurm(OnCluster, unittest.TestCase):
         self.profile(tasks=2, partition="nowhere")
         done = run("--slurm", "profile.yaml")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("sbatch refuses", done.stderr)
+        self.assertIn("sbatch rejects", done.stderr)
 
     def test_wrong_profile(self):
         def refused(*says, code=2, **settings):
@@ -344,7 +344,7 @@ class Slurm(OnCluster, unittest.TestCase):
         refused("profile.yaml:4: 'cpus' = 'many' wants a number", cpus="many")
         refused("profile.yaml:5: 'tasks' = '0' is outside 1..1000", tasks=0)
         refused("profile.yaml:6: 'setup' wants a list of lines, got a single value", setup="make")
-        refused("sbatch refuses", "nowhere", partition="nowhere")
+        refused("sbatch rejects", "nowhere", partition="nowhere")
         begin = time.monotonic()
         refused("there is no Slurm configuration '/nonexistent/slurm.conf'", code=5,
                 conf="/nonexistent/slurm.conf")

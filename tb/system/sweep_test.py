@@ -341,6 +341,67 @@ objectives: {maximise: [psnr], minimise: [bits]}
         self.assertRegex(front, r"`flat.pgm` .* identical ")
         self.assertNotIn("chess", front)
 
+    def test_it_says_where_a_metric_has_no_value_and_why(self):
+        self.identical_pictures()
+        self.write("none.yaml", """
+engine: texture
+base:
+  scene: {source: plane, width: 32, height: 32}
+  run.images: false
+axes:
+  scene.texture: [chess.pgm, flat.pgm]
+  run.truth: [true, false]
+metrics:
+  inverse: 1 / quality.flip
+  edges: quality.psnr_edge_db
+  gain: quality.psnr_db - quality.psnr_before_db
+  less: -quality.psnr_db
+  huge: 1e308 * cycles
+  name: throughput.unit
+  cycles: cycles
+limits: [cycles / inverse >= 0]
+objectives: {minimise: [inverse, cycles]}
+""")
+        flat = {"inverse": "division by zero", "edges": "quality.psnr_edge_db is null",
+                "gain": "not defined for the infinite PSNR of identical pictures", "less": "minus infinity"}
+        always = {"huge": "too large for a number", "name": "throughput.unit is no number"}
+        no_truth = {name: f"no key '{key}' in the result" for name, key in
+                    (("inverse", "quality.flip"), ("edges", "quality.psnr_edge_db"), ("gain", "quality.psnr_db"),
+                     ("less", "quality.psnr_db"))}
+        counts = {(name, reason): points for reasons, points in ((flat, 1), (always, 4), (no_truth, 2))
+                  for name, reason in reasons.items()}
+        self.run_sweep("none.yaml", "run")
+        for command in ("sweep", "search"):
+            arguments = ("none.yaml", "collect") if command == "sweep" else ("none.yaml", "--runs", "8")
+            done = subprocess.run([DEBURR, command, *arguments], cwd=self.directory, text=True, capture_output=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            said = dict(re.findall(r"(?m)^no value    (.* points: .*)()$", done.stdout))
+            self.assertEqual(set(said), {f"{name} in {points} of 4 points: {reason}"
+                                         for (name, reason), points in counts.items()})
+            answer = json.loads(subprocess.run([DEBURR, command, *arguments, "--json"], cwd=self.directory, text=True,
+                                               capture_output=True).stdout)["result"]
+            self.assertEqual({(e["metric"], e["reason"]): e["points"] for e in answer["no_value"]}, counts)
+            names = [metric["name"] for metric in answer["metrics"]]
+            for point in answer["points"]:
+                texture, truth = point["at"]
+                self.assertEqual(point["no_value"], always | (no_truth if truth == "false" else
+                                                              flat if texture == "flat.pgm" else {}))
+                self.assertEqual({name for name, value in zip(names, point["values"]) if value is None},
+                                 set(point["no_value"]))
+                # A limit that cannot be computed is not met.
+                self.assertEqual("beyond" in point, "inverse" in point["no_value"])
+                self.assertEqual(point.get("front", False), "inverse" not in point["no_value"])
+            place = {"sweep": "sweeps", "search": "searches"}[command]
+            with open(os.path.join(self.directory, f"out/{place}/none/index.html")) as file:
+                page = file.read()
+            self.assertIn("<li>inverse in 1 of 4 points: division by zero</li>", page)
+            self.assertEqual(page.count('<td class="n" title="division by zero">none</td>'), 1)
+        self.write("cache.yaml", SWEEP.replace("metrics: {", "limits: [cycles / wrong >= 0]\nmetrics: {wrong: checks.mismatches, "))
+        self.run_sweep("cache.yaml", "run")
+        self.assertIn(f", {POINTS} beyond the limits", self.run_sweep("cache.yaml", "collect"), "it divides by zero")
+        with open(os.path.join(self.directory, "out/sweeps/cache/index.html")) as file:
+            self.assertNotIn("Metrics without a value", file.read(), "every point has every one")
+
     def run_compare(self, *arguments, code=0):
         return self.run_sweep(*arguments, code=code, command="compare")
 
@@ -602,7 +663,7 @@ class Killed(SweepTest):
             self.assertNotIn("interrupted", content)
         self.check_resumed(kept)
 
-    def test_a_second_run_is_refused(self):
+    def test_a_second_run_is_rejected(self):
         process = self.start_sweep("slow.yaml", "-j1")
         self.victims(process, "point")
         self.assertIn("is being run by another process", self.run_sweep("slow.yaml", "run", code=5))

@@ -454,6 +454,31 @@ class Bar(Many):
         self.assertEqual(screen.wraps, 0, screen.rows)
         self.assertIn("rendering the truth", screen.rows)
 
+    def test_what_is_said_after_a_search_begins_a_row(self):
+        mine, its = pty.openpty()
+        self.resize(its, 120)
+        process = subprocess.Popen([DEBURR, "search", "cache.yaml", "run", "-j1", "--runs", "8"], cwd=self.directory,
+                                   stdin=its, stdout=its, stderr=its)
+        os.close(its)
+        text = ""
+        while True:
+            try:
+                data = os.read(mine, 65536)
+            except OSError:
+                break
+            if not data:
+                break
+            text += data.decode()
+        os.close(mine)
+        self.assertEqual(process.wait(timeout=300), 0, text)
+        screen = Screen(120)
+        screen.show(text.replace("\r\n", "\n"))
+        rows = [row for row in screen.rows if row]
+        self.assertRegex(rows[0], r"^\[#{8,24}\] search  100 %  \S+ k?point/s$")
+        self.assertTrue(rows[1].startswith("left out    all but 8 of 12 combinations"), rows)
+        self.assertTrue(rows[-1].startswith("RESULT: PASS search cache: "), rows)
+        self.assertEqual([row for row in rows[1:] if "point/s" in row], [], "the bar came again")
+
     def widths(self, parts):
         return [len(line.rstrip("\r\n")) for line in re.split(r"\r(?!\n)", "".join(parts).replace("\033[K", ""))]
 
@@ -469,6 +494,81 @@ class Bar(Many):
                                              variables=variables))
             self.assertLessEqual(max(widths), most, variables)
             self.assertGreater(max(widths), 25, variables)
+
+
+class Lines(Many):
+    """What is said in columns fits a terminal; through a pipe it is the same words, unbroken."""
+
+    def on(self, columns, *arguments, codes=(0,)):
+        """Standard output on a terminal of so many columns; 0: through a pipe."""
+        command = [DEBURR, *arguments]
+        if not columns:
+            done = subprocess.run(command, cwd=self.directory, text=True, stdout=subprocess.PIPE,
+                                  stderr=subprocess.DEVNULL, timeout=300)
+            self.assertIn(done.returncode, codes, arguments)
+            return done.stdout
+        mine, its = pty.openpty()
+        fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+        process = subprocess.Popen(command, cwd=self.directory, stdin=subprocess.DEVNULL, stdout=its,
+                                   stderr=subprocess.DEVNULL)
+        os.close(its)
+        parts = []
+        while True:
+            try:
+                data = os.read(mine, 65536)
+            except OSError:  # the other end is closed
+                break
+            if not data:
+                break
+            parts.append(data)
+        os.close(mine)
+        self.assertIn(process.wait(timeout=300), codes, arguments)
+        return b"".join(parts).decode().replace("\r\n", "\n")
+
+    def check(self, *arguments, codes=(0,), table=False):
+        """`table`: a row may become several, with names of columns in each."""
+        plain = self.on(0, *arguments, codes=codes)
+        for columns in (40, 80, 120):
+            text = self.on(columns, *arguments, codes=codes)
+            for line in text.splitlines():
+                # Scripts read the last two, and an example is there to be copied; a word stays whole.
+                if len(line) < columns or line.startswith(("RESULT: ", "REPRO: ", "  deburr ")):
+                    continue
+                self.assertEqual(len(line.split()), 1, f"{arguments} at {columns}: {line}")
+            if table:
+                self.assertLessEqual(set(plain.split()) - set(text.replace(":\n", "\n").split()), {"step"}, arguments)
+            else:
+                self.assertEqual(text.split(), plain.split(), arguments)
+
+    def test_help_and_parameters(self):
+        for arguments in (("--help",), ("help", "run", engines()[0]), ("run", engines()[0], "--help"), ("regress", "--help"),
+                          ("params",), ("params", "memory")):
+            self.check(*arguments)
+
+    def test_runs(self):
+        small = ("--size", "32x32", "--truth", "--no-images")
+        for engine in engines():
+            self.check("run", engine, *(small if engine == "texture" else small[:2] + small[3:]), "--out", engine)
+        self.check("run", "texture", *small, "--out", "a", "--pixel", "9,9", table=True)
+        self.check("run", "texture", "--size", "32x32", "--fault", "flip-bit", "--out", "c", codes=(1,))
+        self.on(0, "run", "texture", *small, "--out", "b", "--set", "texture.cache.bytes=1024")
+        for more in ((), ("--all",)):
+            self.check("compare", "a", "b", *more, codes=(0, 1), table=True)
+
+    def test_points(self):
+        text = SWEEP.replace("metrics: {", "metrics: {one: cycles / checks.mismatches, ")
+        for name, fault in (("cache", "false"), ("faulty", "false, fault: flip-bit")):
+            with open(os.path.join(self.directory, f"{name}.yaml"), "w") as file:
+                file.write(text.replace("run.images: false", f"run: {{images: {fault}}}") +
+                           "constraints: ['texture.cache.bytes < 4096']\n")
+            for action in ("plan", "run", "status", "collect"):
+                if action == "run":  # what was done in this run is another number the second time
+                    self.on(0, "sweep", f"{name}.yaml", "run", codes=(0, 1))
+                self.check("sweep", f"{name}.yaml", action, codes=(0, 1))
+        self.check("compare", "out/sweeps/cache", "out/sweeps/cache", table=True)
+        self.on(0, "regress", "small.yaml", "run", "--seed", "3")
+        for action in ("plan", "status", "collect"):
+            self.check("regress", "small.yaml", action, "--seed", "3")
 
 
 class Completion(unittest.TestCase):

@@ -115,7 +115,7 @@ class FrameReset : public testing::TestWithParam<std::tuple<const char*, int>> {
 // However far the frame had come, afterwards the same frame is as if nothing had been: colours,
 // fills, status registers; and every counter and the number of clocks too, once what memory still
 // answers to the frame that was broken off is over.
-TEST_P(FrameReset, LeavesNothingBehind) {
+TEST_P(FrameReset, LeavesNothing) {
   const auto [source, stall_permille] = GetParam();
   const TextureScene scene(picture(source, 64), {}, 1);
   const QuadInput input = {scene.memory().descriptors(), scene.memory().bytes(),

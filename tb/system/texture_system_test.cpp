@@ -273,7 +273,7 @@ TEST(Texture, FullHdFrameIsIdenticalToGolden) {
   expect_identical(simulate(scene, sampler, {}));
   rusage usage{};
   ASSERT_EQ(getrusage(RUSAGE_SELF, &usage), 0);
-  EXPECT_LT(usage.ru_maxrss, 1L << 20) << "KiB: the frame is to be judged as it comes, not kept";
+  EXPECT_LT(usage.ru_maxrss, 1L << 20) << "KiB: the frame is to be checked as it comes, not kept";
 }
 
 // ---- what the cache saves, against an independent simulation (docs/reference/texture/choices.md)

@@ -257,7 +257,7 @@ class Forms(TracesTest):
                 shown[file] = converted.read().strip()
         self.assertEqual([line for _, line in rows], list(shown.values()))
 
-    def test_the_grammars_refuse_what_the_page_said_before(self):
+    def test_the_grammars_reject_what_the_page_said_before(self):
         self.assertFalse(re.fullmatch(self.GRAMMARS["ramulator2.trace"], "R 0x0003f340"))
         self.assertFalse(re.fullmatch(self.GRAMMARS["ramulator1.trace"], "R 0x0003f340"))
         self.assertFalse(re.fullmatch(self.GRAMMARS["dramsys.stl"], "0x0003f340 READ 28"))

@@ -207,9 +207,9 @@ void FragmentReader::end_text() {
   if (const std::uint32_t count =
           integer(fields_[1], "records", std::numeric_limits<std::uint32_t>::max());
       count != quads_)
-    fail(fmt::format("'end {}' behind {} records: some were lost or added; make the file again",
+    fail(fmt::format("'end {}' after {} records: some were lost or added; make the file again",
                      count, quads_));
-  if (next_line()) fail("more behind the line 'end'");
+  if (next_line()) fail("more after the line 'end'");
 }
 
 // ---- binary -------------------------------------------------------------------------------------

@@ -87,7 +87,7 @@ void report(const std::string& title, const std::vector<const TruthFrame*>& fram
   std::vector<Figures> sums;
   std::vector<int> silhouettes;
   const Parameters deburr = preset_parameters(Preset::kDeburr);
-  int behind = 0;
+  int worse = 0;
   for (const TruthFrame* frame : frames) {
     const Judge judge(*frame);
     std::vector<Figures> row = {judge.of(frame->frame)};
@@ -108,8 +108,8 @@ void report(const std::string& title, const std::vector<const TruthFrame*>& fram
       best = best && !(row[i].edges > row.back().edges) &&
              !(row[i].silhouettes > row.back().silhouettes);
     }
-    if (!best) ++behind;
-    if (!brief || !best) std::cout << text << (best ? "" : " behind") << '\n' << std::flush;
+    if (!best) ++worse;
+    if (!brief || !best) std::cout << text << (best ? "" : " worse") << '\n' << std::flush;
   }
   std::string text = "| mean |";
   for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -117,7 +117,7 @@ void report(const std::string& title, const std::vector<const TruthFrame*>& fram
     sums[i].silhouettes /= silhouettes[i];
     text += fmt::format(" {} |", shown(sums[i]));
   }
-  std::cout << text << "\n\nbehind another method on " << behind << " of " << frames.size()
+  std::cout << text << "\n\nworse than another method on " << worse << " of " << frames.size()
             << " frames\n";
 }
 
@@ -240,11 +240,11 @@ int run(int argc, char** argv) {
   std::string write;
   int folds = 4;
   bool quiet = false, brief = false;
-  CLI::App app("Trains the ROMs of learned shares and judges them");
+  CLI::App app("Trains the ROMs of learned shares and tests them");
   app.add_option("--data", options.data, "folder of meshes, kenney and frames");
   app.add_option("--cache", options.cache, "folder where rendered frames are kept");
   app.add_option("--write", write, "header to write");
-  app.add_option("--folds", folds, "trainings that judge the training frames themselves");
+  app.add_option("--folds", folds, "trainings that test the training frames themselves");
   app.add_option("--batches", recipe.batches, "");
   app.add_option("--rate", recipe.rate, "");
   app.add_option("--decay", recipe.decay, "");
@@ -253,7 +253,7 @@ int run(int argc, char** argv) {
   app.add_option("--overlays", options.overlays, "training frames that come once more with text");
   app.add_option("--views", options.views, "of each mesh to be trained on");
   app.add_option("--axis", recipe.axis_slope, "");
-  app.add_flag("--brief", brief, "of the training frames, only means and where deburr is behind");
+  app.add_flag("--brief", brief, "of the training frames, only means and where deburr is worse");
   app.add_flag("--quiet", quiet, "no progress");
   CLI11_PARSE(app, argc, argv);
   if (!quiet) options.progress = [](const std::string& name) { std::cerr << "\r\x1b[K" << name; };

@@ -116,7 +116,7 @@ package deburr_golden_pkg;
   import "DPI-C" function int deburr_texture_check(input chandle golden,
       input int unsigned texture);
 
-  // Sets the bases of all its levels, one behind the other from `address` on, and says what is behind
+  // Sets the bases of all its levels, one after the other from `address` on, and says what is after
   // them.
   import "DPI-C" function int deburr_texture_place(input chandle golden, input int unsigned texture,
       input longint unsigned address, output longint unsigned behind);

@@ -5,11 +5,11 @@
 // Where: beside the pipe, in front of the registers. A write counts from the next clock edge on:
 // START is on `start` in the clock after its write. In that clock the FrameSequencer answers with
 // `latch`, and gets `refusal`: the registers as they are then become the rules, which units read
-// from the next clock on, or the frame is refused, which has an effect on REFUSAL and STATUS alone.
-// A write while a frame is under way is ignored (CONTROL and STATUS excepted) and sets a sticky
-// bit. Codes of RULES that no choice has count as code 0. A pulse of a sticky bit sets it in its
-// clock. Nothing in here is ticked. Cost: the registers, and 60 bits of sizes. Made for 250 MHz;
-// longest path: 11 x 11 multiply (words of the TouchedMap).
+// from the next clock on, or the frame is rejected, which has an effect on REFUSAL and STATUS
+// alone. A write while a frame is under way is ignored (CONTROL and STATUS excepted) and sets a
+// sticky bit. Codes of RULES that no choice has count as code 0. A pulse of a sticky bit sets it in
+// its clock. Nothing in here is ticked. Cost: the registers, and 60 bits of sizes. Made for 250
+// MHz; longest path: 11 x 11 multiply (words of the TouchedMap).
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ class ParameterStore final : public sc_core::sc_module {
   ParameterStore(const sc_core::sc_module_name& name, ClockDomain& clock,
                  ControlRegisters& registers, const spec::geometric::Parameters& parameters);
 
-  // START is written and not yet judged. Between edges.
+  // START is written and not yet checked. Between edges.
   bool starting() const { return starting_; }
 
  private:

@@ -208,7 +208,7 @@ Datasheet VertexFetch::datasheet() {
                      {"2", "two tags, a fill ordered a clock; FIFO", "SRAM read + 23-bit compare"},
                      {"3", "a line installed, address of the words"},
                      {"4", "words of the cache, choice of a vertex", "SRAM read, 4 : 1 choice"},
-                     {"5", "leave (usable is judged as a line comes)"}},
+                     {"5", "leave (usable is decided as a line comes)"}},
           .cost = "tags and data 2R1W, the lines on their way, the FIFO; two 22-bit compares."};
 }
 

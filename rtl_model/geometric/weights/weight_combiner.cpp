@@ -302,7 +302,7 @@ Datasheet WeightCombiner::datasheet() {
                   "the word, or what came for it, and the maxima and minima; a replaced block "
                   "written back",
                   "SRAM read + 16 : 1 choice + 8-bit compare"},
-                 {"5", "written, past the memory to the group behind"}},
+                 {"5", "written, past the memory to the group after it"}},
       .cost =
           "tags, touched map and data 1R1W, the blocks on their way, the FIFO; the spill "
           "list, 23 bits each, compared with a tag at once: `fills` compares of 23 bits (108 "

@@ -293,7 +293,7 @@ Datasheet Blender::datasheet() {
                      {"6", "codes", "ROM read"}},
           .formats = "shares U0.8, linear light U0.12.",
           .cost =
-              "a lane: nine reads of linear_rom, 256 x 12 bits (three a channel, behind the "
+              "a lane: nine reads of linear_rom, 256 x 12 bits (three a channel, after the "
               "choice of the axis), three of encode_rom, 4096 x 8 bits (two reads a copy), two "
               "multipliers 8 x 13 a channel, one of mix_rom, 511 x 17 bits, two multipliers 8 x "
               "8 and two 17 x 16, nine comparators, five bits of marks, two shifts."};

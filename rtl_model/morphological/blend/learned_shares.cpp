@@ -36,7 +36,7 @@ Datasheet LearnedShares::datasheet() {
       .latency = {4},
       .stages = {{"1",
                   "pixels to both ends, class of each distance; for each of both sides codes and "
-                  "classes of the ends as it sees them, the nearer end; addresses of `shares_a`, "
+                  "classes of the ends from there, the nearer end; addresses of `shares_a`, "
                   "`_b`, `_c`",
                   "12-bit subtract and compare, choice of two"},
                  {"2", "words of the three; A + B", "SRAM read + 9-bit add"},

@@ -291,7 +291,7 @@ Datasheet PixelStore::datasheet() {
           .latency = {2},
           .stages = {{"1", "address",
                       "storage = memory: choice of 1 in 256 lines under way (memory.outstanding), "
-                      "nothing behind it"},
+                      "nothing after it"},
                      {"2", "words", "SRAM read + 4 : 1 choice"}},
           .cost =
               "pixel_lines0 to 3, together R + 7 rows (storage = memory: 4), rounded up to a "

@@ -73,7 +73,7 @@ Datasheet TableShares::datasheet() {
       .does = "Shares of an edge by SMAA's table, by its distances to both ends of its line.",
       .latency = {5},
       .stages = {{"1", "k - a, b - 1 - k; limits, cut shape, addresses of `sqrt_rom`",
-                  "two 13-bit subtracts, one behind the other, + choice"},
+                  "two 13-bit subtracts, one after the other, + choice"},
                  {"2", "roots, addresses of `area_rom`", "ROM read + 5-bit add"},
                  {"3", "entries, differences of neighbours in l", "ROM read + 9-bit subtract"},
                  {"4", "first interpolation", "9 x 8 multiply + 17-bit add"},

@@ -244,7 +244,7 @@ struct RunToken {
     visit("run", self.run);
     visit("slot", self.slot, 15, "U15");
     visit("entry", self.entry, 1, "U1");
-    visit("beyond", self.beyond, 2, "edges go on: before the start, behind the end");
+    visit("beyond", self.beyond, 2, "edges go on: before the start, after the end");
   }
 };
 

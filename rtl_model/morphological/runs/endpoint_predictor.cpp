@@ -145,7 +145,7 @@ Datasheet EndpointPredictor::trial_datasheet(const spec::morphological::Paramete
            {"3", "the same for the left side, if it reads a clock later",
             "32 : 1 choice, 4-bit comparison"},
            {"4 = 0'",
-            "bounds: steps taken or refused; beside it the next address, which knows the hits. "
+            "bounds: steps taken or rejected; beside it the next address, from the hits alone. "
             "A read for a side that the bounds end is dropped",
             "7-bit add, two comparisons, choice"},
            {"5", "sums of the new corners", "13 x 5 multiply, 24-bit add"},

@@ -67,8 +67,8 @@ std::string FrameMeter::meaning_of_bound(const Clocks& c) const {
         words_.doing, grouped(c.colours_bound), grouped(c.drawing_bound),
         parts_.rows ? fmt::format(", smoothing {}", grouped(c.smoothing_bound)) : "");
   return fmt::format(
-      "Pixels of the frame over the clocks of the slower engine alone ({0}), the other one hidden "
-      "behind it: {1} takes {2} clocks at least, smoothing {3}.",
+      "Pixels of the frame over the clocks of the slower engine alone ({0}), the other one at the "
+      "same time: {1} takes {2} clocks at least, smoothing {3}.",
       c.smoothing_bound >= c.colours_bound ? "smoothing" : words_.doing, words_.doing,
       grouped(c.colours_bound), grouped(c.smoothing_bound));
 }

@@ -25,7 +25,7 @@ namespace {
 constexpr Rgba8 kGrey = {128, 128, 128, 255}, kBlack = {0, 0, 0, 255},
                 kWhite = {255, 255, 255, 255};
 
-TEST(Quality, IsOfBothPicturesWhereThereIsSomethingToJudge) {
+TEST(Quality, IsOfBothPicturesWhereThereIsSomethingToCompare) {
   Image truth(8, 8, {100, 100, 100, 255}), before = truth, after = truth;
   before.at(3, 3) = {110, 100, 100, 255};
   after.at(3, 3) = {101, 100, 100, 255};

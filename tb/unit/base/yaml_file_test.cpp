@@ -62,13 +62,30 @@ TEST_F(YamlFileTest, TakesHexadecimalNumbers) {
   EXPECT_EQ(number(6), 1.5);
 }
 
+TEST_F(YamlFileTest, TakesUtf8AndNamesTheLineOfWhatIsNot) {
+  EXPECT_EQ(read("a: 1\nb: Gr\xc3\xbc\xc3\x9f\x65 \xf0\x9f\x98\x80\n").root()["a"].Scalar(), "1");
+  EXPECT_EQ(read(std::string("\xff\xfe"
+                             "a\0:\0 \0"
+                             "1\0\n\0",
+                             12))
+                .root()["a"]
+                .Scalar(),
+            "1")
+      << "UTF-16, as its mark says";
+  for (const std::string bad : {"Gr\xfc\xdf\x65", "\xc0\x80", "\xe0\x80\x80", "\xed\xa0\x80",
+                                "\xf5\x80\x80\x80", "\xf4\x90\x80\x80", "\x80", "\xc3"})
+    EXPECT_THAT(refusal("a: 1\nb: \"" + bad + "\"\n"),
+                EndsWith(":2: it is not UTF-8: save the file as that"))
+        << bad;
+}
+
 TEST_F(YamlFileTest, TakesAliasesOfAliases) {
   const YamlFile file = read(lists_of_lists(5));
   EXPECT_EQ(file.root()["a5"][9][8][7][6][5].Scalar(), "x");
   EXPECT_EQ(read("a: &a {b: 1}\nc: *a\nd: [*a, *a]\n").root()["d"][1]["b"].Scalar(), "1");
 }
 
-TEST_F(YamlFileTest, RefusesAliasesThatStandForMoreThanAnyoneCanWalk) {
+TEST_F(YamlFileTest, RejectsAliasesThatStandForMoreThanAnyoneCanWalk) {
   EXPECT_THAT(refusal(lists_of_lists(8)),
               HasSubstr(".yaml:7:45: aliases stand for more than 1000000 values up to here"));
   EXPECT_THAT(refusal(lists_of_lists(100)), HasSubstr("aliases stand for more than"));
@@ -81,14 +98,14 @@ TEST_F(YamlFileTest, RefusesAliasesThatStandForMoreThanAnyoneCanWalk) {
   EXPECT_THAT(refusal(maps), HasSubstr("aliases stand for more than"));
 }
 
-TEST_F(YamlFileTest, RefusesAListThatIsAPartOfItself) {
+TEST_F(YamlFileTest, RejectsAListThatIsAPartOfItself) {
   EXPECT_THAT(refusal("a: 1\nb: &b [2, *b]\n"),
               EndsWith(".yaml:2:11: an alias of what it is a part of"));
   EXPECT_THAT(refusal("a: &a {b: {c: *a}}\n"), HasSubstr("an alias of what it is a part of"));
 }
 
 // Where the library gives up there is a line, too, and no crash.
-TEST_F(YamlFileTest, RefusesWhatIsNestedTooDeeply) {
+TEST_F(YamlFileTest, RejectsWhatIsNestedTooDeeply) {
   EXPECT_THAT(refusal(std::string(100'000, '[')), HasSubstr(".yaml:1:"));
   std::string text;
   for (int level = 0; level < 5'000; ++level) text += std::string(level, ' ') + "a:\n";

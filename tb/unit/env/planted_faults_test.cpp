@@ -32,7 +32,7 @@ std::string complaint(const FaultPlan& plan) {
   return "";
 }
 
-TEST(FaultPlan, OfAnEngineAloneKnowsPlainNames) {
+TEST(FaultPlan, OfAnEngineAloneTakesPlainNames) {
   FaultPlan plan({"flip-bit", "wrong-rule", "drop:colours:7"});
   plan.know("", faults("colours"));
   EXPECT_THAT(plan.link_faults(), ElementsAre("flip:colours:100:4", "drop:colours:7"));
@@ -46,7 +46,7 @@ TEST(FaultPlan, WithoutFaultsPlantsNone) {
   EXPECT_THAT(plan.link_faults(), IsEmpty());
 }
 
-TEST(FaultPlan, NamesWhatItKnows) {
+TEST(FaultPlan, NamesWhatThereIs) {
   FaultPlan plan({"gremlin"});
   plan.know("texture", faults("colours"));
   EXPECT_THAT(complaint(plan), HasSubstr("no fault 'gremlin': known are texture.flip-bit"));

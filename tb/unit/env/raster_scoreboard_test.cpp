@@ -42,7 +42,7 @@ TEST_F(Raster, PassesWhatIsRight) {
   EXPECT_EQ(board_.comparisons(), 12U);
 }
 
-TEST_F(Raster, SeesEachWrongPixel) {
+TEST_F(Raster, FindsEachWrongPixel) {
   for (std::size_t i = 0; i < frame_.size(); ++i) {
     RasterScoreboard<int> board("frame", [](const int& v) { return std::to_string(v); });
     board.expect(frame_, 3);
@@ -54,14 +54,14 @@ TEST_F(Raster, SeesEachWrongPixel) {
   }
 }
 
-TEST_F(Raster, SeesThatTheLastPixelNeverCame) {
+TEST_F(Raster, FindsThatTheLastPixelNeverCame) {
   begin();
   come({1, 2, 3, 4, 5});
   EXPECT_EQ(board_.leftovers(), 1U);
   EXPECT_THAT(complaint(), HasSubstr("1 expected but never came, the first: pixel (2, 1): 6"));
 }
 
-TEST_F(Raster, SeesAPixelTooMany) {
+TEST_F(Raster, FindsAPixelTooMany) {
   begin();
   come(frame_);
   come({6});

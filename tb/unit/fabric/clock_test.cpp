@@ -187,7 +187,7 @@ struct Observer : sc_core::sc_module {
   }
 };
 
-TEST(ClockDomain, ObserverOnItsEdgeSeesEveryCycle) {
+TEST(ClockDomain, ObserverOnItsEdgeGetsEveryCycle) {
   expect_same([](bool fast) {
     Pipeline p(300);
     Observer observer("observer", p, sc_core::SC_ZERO_TIME);

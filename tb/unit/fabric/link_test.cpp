@@ -257,7 +257,7 @@ TEST(Ports, BindInAnyOrderThroughTheHierarchy) {
   EXPECT_EQ(link.producer(), "innermost");
 }
 
-TEST(Ports, TwoProducersOrTwoBindingsAreRefused) {
+TEST(Ports, TwoProducersOrTwoBindingsAreRejected) {
   Link<int> link("link"), other("other");
   Out<int> a("a"), b("b");
   a(link);
@@ -302,7 +302,7 @@ TEST(Ports, UnboundPortIsFoundAtElaboration) {
   }
 }
 
-TEST(Ports, LinkBetweenTwoClocksIsRefused) {
+TEST(Ports, LinkBetweenTwoClocksIsRejected) {
   rtl::ClockDomain fast("fast", sc_core::sc_time(1, sc_core::SC_NS));
   rtl::ClockDomain slow("slow", sc_core::sc_time(2, sc_core::SC_NS));
   Driver<int> driver("driver", fast);

@@ -826,7 +826,7 @@ TEST(MemoryCost, IsThatOfRealMemories) {
   }
 }
 
-TEST(MemoryCost, WhatNobodySellsIsRefusedWithAWayOut) {
+TEST(MemoryCost, WhatNobodySellsIsRejectedWithAWayOut) {
   const auto refused = [](const MemoryShape& shape) {
     return text_of<spec::ConfigError>([&] { MemoryBase("memory", shape); });
   };

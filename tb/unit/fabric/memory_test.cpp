@@ -224,7 +224,7 @@ TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
 
 // Who does not wait for the answer to a write reads what was there before; who waits reads what was
 // written. A memory that takes requests one by one hides that.
-TEST(MemoryModel, AReadBehindAWriteIsARace) {
+TEST(MemoryModel, AReadAfterAWriteIsARace) {
   for (const bool late : {true, false}) {
     const std::string text = in_child([&] {
       platform::MemoryModelParameters parameters = with_latency(10);

@@ -260,7 +260,7 @@ void stream(Rogue& link, Cycle cycle) {
 TEST(LinkChecker, IsSilentWhileBeatsComeAndGoInTheSameClock) {
   EXPECT_EQ(rogue(&stream), "19 beats");
 }
-TEST(LinkChecker, SeesABeatThatChangesWhereBeatsComeAndGoInTheSameClock) {
+TEST(LinkChecker, FindsABeatThatChangesWhereBeatsComeAndGoInTheSameClock) {
   EXPECT_THAT(
       rogue([](Rogue& link, Cycle cycle) {
         if (cycle == 9) link.beat(link.pops())[0] ^= std::byte{4};
@@ -268,7 +268,7 @@ TEST(LinkChecker, SeesABeatThatChangesWhereBeatsComeAndGoInTheSameClock) {
       }),
       AllOf(HasSubstr("rogue: cycle 9: beat 8 changed while it waited"), HasSubstr("number=8/12")));
 }
-TEST(LinkChecker, SeesAPopInTheClockOfThePush) {
+TEST(LinkChecker, FindsAPopInTheClockOfThePush) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
                 if (cycle != 5) return;
                 link.push(cycle, {});
@@ -276,25 +276,25 @@ TEST(LinkChecker, SeesAPopInTheClockOfThePush) {
               }),
               HasSubstr("rogue: cycle 5: a pop of a beat that was pushed in the same cycle"));
 }
-TEST(LinkChecker, SeesAPushIntoAFullLink) {
+TEST(LinkChecker, FindsAPushIntoAFullLink) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) { link.push(cycle, {}); }),
               HasSubstr("rogue: cycle 2: a push into a link that was full"));
 }
 // As if its beat had come, or gone, in a clock that is over.
-TEST(LinkChecker, SeesABeatThatAppearsWhileALinkRests) {
+TEST(LinkChecker, FindsABeatThatAppearsWhileALinkRests) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
                 if (cycle == 5) link.push(4, {});
               }),
               HasSubstr("rogue: cycle 5: 1 beats have gone in, 0 were pushed"));
 }
-TEST(LinkChecker, SeesABeatThatVanishesWhileALinkRests) {
+TEST(LinkChecker, FindsABeatThatVanishesWhileALinkRests) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
                 if (cycle == 3) link.push(3, {});
                 if (cycle == 5) link.pop(4);
               }),
               HasSubstr("rogue: cycle 5: 1 beats have gone out, 0 were popped"));
 }
-TEST(LinkChecker, SeesTwoPopsInAClock) {
+TEST(LinkChecker, FindsTwoPopsInAClock) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
                 if (cycle < 2) link.push(cycle, {});
                 if (cycle != 4) return;

@@ -68,7 +68,7 @@ TEST(WindowRecorder, AddsUpToWhatTheUnitsCount) {
   EXPECT_EQ(sum(all.at("links.link.beats")), w.p.links[1]->pushes());
 }
 
-TEST(WindowRecorder, KnowsHowFullALinkWas) {
+TEST(WindowRecorder, RecordsHowFullALinkWas) {
   Watched w;
   WindowRecorder recorder(w.p.clock, {300, 1024, {}});
   w.show(recorder);

@@ -147,7 +147,7 @@ class Lingerer final : public rtl::Unit {
   const Token* popped_ = nullptr;
 };
 
-TEST(Poison, ALookAfterThePopSeesNoise) {
+TEST(Poison, ALookAfterThePopGivesNoise) {
   for (const bool poison : {false, true}) {
     const std::string looks = in_child([&] {
       rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
@@ -260,7 +260,7 @@ std::string held_in_a_run(std::uint32_t stall_permille) {
 TEST(Bench, StallsBothSidesOfEveryLink) { EXPECT_EQ(held_in_a_run(300), "true true"); }
 TEST(Bench, WithoutStallsHoldsNobody) { EXPECT_EQ(held_in_a_run(0), "false false"); }
 
-TEST(Monitor, SeesEveryBeatAtBothEnds) {
+TEST(Monitor, ObservesEveryBeatAtBothEnds) {
   Pipeline p(200);
   std::vector<Cycle> pushed, popped;
   std::vector<std::uint32_t> numbers;

@@ -130,7 +130,7 @@ TEST(ProtocolTarget, IgnoresTheEndsThatItDoesNotAccept) {
             "open");
 }
 
-TEST(ProtocolTarget, SeesEachViolation) {
+TEST(ProtocolTarget, FindsEachViolation) {
   const auto expect = [](const Script& script, const std::string& what,
                          const ProtocolTargetParameters& parameters = {}) {
     EXPECT_THAT(seen(script, parameters), testing::HasSubstr(what));

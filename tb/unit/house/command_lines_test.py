@@ -23,6 +23,17 @@ from engine_list import testplan  # noqa: E402
 
 COMPILER = '#!/bin/sh\necho "${COMPILER_VERSION:-12}"\n'
 SAYS = '#!/bin/sh\necho "$(basename "$0") $*" >>"$CALLS"\n'
+# A few of its options; what it does not know it passes over.
+CTEST = SAYS.replace("\n", """
+case "$*" in --help)
+  echo '  -N,--show-only[=format]      = Disable actual execution of tests.
+  -V,--verbose                 = Enable verbose output from tests.
+  -j <jobs>, --parallel <jobs> = Run the tests in parallel.
+  --timeout <seconds>          = Set the default test timeout.
+  --rerun-failed               = Run only the tests that failed --before.
+  --repeat until-fail:<n>      = Allow each test to run several times.'; exit ;;
+esac
+""", 1)
 DEBURR = "build/release/deburr"
 # What ninja says of a target: the programs that it builds.
 PROGRAMS = """case "$*" in *"-t query"*)
@@ -48,9 +59,9 @@ echo "install ok installed"
 
 class CommandLines(unittest.TestCase):
     def setUp(self):
-        tools = ("cmake", "ctest", "apt-get", "clang++")
+        tools = ("cmake", "apt-get", "clang++")
         self.root = tiny_tree(self, {f"bin/{tool}": SAYS for tool in tools} |
-                              {DEBURR: SAYS, "build/release/test_programs.txt": HELD, "bin/ninja": SAYS + PROGRAMS, "bin/dpkg-query": INSTALLED,
+                              {"bin/ctest": CTEST, DEBURR: SAYS, "build/release/test_programs.txt": HELD, "bin/ninja": SAYS + PROGRAMS, "bin/dpkg-query": INSTALLED,
                                "bin/c++": COMPILER})
         for folder in ("scripts", ".ci", "cmake", "tb/engines", "tb/testplan"):
             shutil.copytree(SOURCE / folder, self.root / "tree" / folder)
@@ -77,6 +88,9 @@ class CommandLines(unittest.TestCase):
                 ("scripts/test", ["-L"], 2, "-L needs a regular expression"),
                 ("scripts/test", ["unit"], 2, 'what is "unit"'),
                 ("scripts/test", ["-L", "unit", "more"], 2, 'what is "more"'),
+                ("scripts/test", ["--before"], 2, "ctest has no option --before"),
+                ("scripts/test", ["-L", "unit", "--repeats", "until-fail:2"], 2, "ctest has no option --repeats"),
+                ("scripts/test", ["-L", "unit", "-k4"], 2, "ctest has no option -k4"),
                 ("scripts/test", ["-L", "units"], 2, "no label matches units: smoke unit"),
                 ("scripts/test", ["-L", "unit", "-LE", "("], 2, "no label matches (: smoke unit"),
                 ("scripts/test", ["--preset", "base"], 2, "CMakePresets.json has no preset base"),
@@ -121,7 +135,7 @@ class CommandLines(unittest.TestCase):
     def test_options_of_ctest_pass_and_the_record_of_another_run_does_not(self):
         old = self.root / "tree/build/release/tests.xml"
         old.write_text("<testsuite/>", encoding="utf-8")
-        for arguments in (["-L", "unit"], ["-L", "unit", "--timeout", "9", "-V"]):
+        for arguments in (["-L", "unit"], ["-L", "unit", "--timeout", "9", "-V"], ["-L", "unit", "-j4", "--show-only=json-v1"]):
             done, said, calls = self.call("scripts/test", *arguments)
             self.assertEqual((done, said), (0, ""))
             self.assertEqual([c.split()[0] for c in calls], ["cmake", "cmake", "ctest"])
@@ -168,8 +182,8 @@ class CommandLines(unittest.TestCase):
                 (["-L", "fuzz"], clang),
                 (["-L", "slurm"], slurm),
                 (["-L", "smoke", "--tidy"], ["clang-tidy"]),
-                (["-R", "slurm"], ["clang-format", "clang-tidy"]),
-                ([], ["clang-format", "clang-tidy"])):
+                (["-R", "slurm"], ["clang-format", "clang-tidy", *clang]),
+                ([], ["clang-format", "clang-tidy", *clang])):
             with self.subTest(arguments=arguments):
                 calls = self.call("scripts/test", *arguments, DEBURR_NO_INSTALL="0")[2]
                 installed = [call.split("--no-install-recommends ")[1].split() for call in calls

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """cmake/discover_tests.py on a program that lists what it is told: names and labels of the entries, and
-what it refuses. usage: discover_tests_test.py SOURCE [unittest options]"""
+what it rejects. usage: discover_tests_test.py SOURCE [unittest options]"""
 import json
 import pathlib
 import subprocess

@@ -158,7 +158,7 @@ def not_made(root, made):
         if not script.exists() or name.rpartition("/")[2] not in script.read_text(encoding="utf-8"):
             yield f"{name} is not made by {command}"
         elif command.split()[1] not in script.read_text(encoding="utf-8"):
-            yield f"{command.split()[0]} knows no {command.split()[1]}"
+            yield f"{command.split()[0]} has no {command.split()[1]}"
         if not (root / name).exists():
             yield f"MADE names {name}, which is not there"
 

@@ -122,6 +122,16 @@ class Everything(unittest.TestCase):
         self.assertEqual(self.page().count(first[:12]), 1)
         self.assertIn(f"`{first[:12]}`", self.call("--list")[1])
 
+    def test_a_part_of_another_command_has_not_run(self):
+        self.call("slurm", "tidy")
+        self.assertEqual(self.call("--page")[0], 0)
+        page = self.root / "docs/measurements/full_run.md"
+        page.write_text(self.page().replace("-L '^slurm$'", "-L slurm"), encoding="utf-8")
+        self.commit()
+        self.assertEqual(self.call("--page")[0], 0)
+        self.assertRegex(self.page(), r"(?m)^\| `slurm` \| `scripts/test -L '\^slurm\$'` \| - .*\| never \|$")
+        self.assertRegex(self.page(), r"(?m)^\| `tidy` .* passed ")
+
     def test_a_tree_with_changes_leaves_no_record(self):
         (self.root / "docs/index.md").write_text("changed", encoding="utf-8")
         self.assertEqual(self.call("slurm")[0], 0)

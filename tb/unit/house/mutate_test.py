@@ -65,7 +65,7 @@ class Mutate(unittest.TestCase):
         for name, text in FILES.items():
             self.assertEqual((self.root / name).read_text(encoding="utf-8"), text)
 
-    def test_a_script_judges_what_it_runs(self):
+    def test_a_script_checks_what_it_runs(self):
         done = self.mutate("tb/results/tiny.cpp", "--count", "0")
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         *verdicts, _ = done.stdout.splitlines()
@@ -76,7 +76,7 @@ class Mutate(unittest.TestCase):
         self.assertEqual(len(survivors), 1, done.stdout)
         self.assertRegex(survivors[0], "survived .* return argc < 2 [?] 0 : 2; }")
 
-    def test_tests_that_fail_by_themselves_judge_nothing(self):
+    def test_tests_that_fail_by_themselves_check_nothing(self):
         (self.root / "tiny_test.cpp").write_text("int main() { return 1; }\n", encoding="utf-8")
         done = self.mutate("rtl_model/tiny/tiny.h", "--tests", "tiny_test")
         self.assertEqual(done.returncode, 2)

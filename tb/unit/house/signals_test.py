@@ -19,12 +19,12 @@ NO_ENGINES = {"fabric", "platform"}
 # What stands between units, or is no hardware, with the reason.
 SHARED = {
     "ClockDomain": "the clock",
-    "ControlRegisters": "the registers behind the bus",
+    "ControlRegisters": "the registers on the bus",
     "ParameterStore": "the registers, decoded, where they are no module",
     "EdgeWindow": "a memory with a port a user",
     "EdgeRows": "a memory with a port a user",
     "PortSchedule": "which clock of a port is whose",
-    "EdgeMemory": "a memory behind a handle of its port",
+    "EdgeMemory": "a memory and a handle of its port",
     "EdgeLatency": "an instrument",
     "LatencyProbe": "an instrument",
 }

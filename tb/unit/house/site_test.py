@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Checks the site that scripts/docs makes: without a warning; every page of docs/ and of the root is in it; every
 link, anchor and picture leads to something in it; nothing is loaded from a network, and no plain script imports, which
-a browser rejects as a whole; it can be searched, and knows dark, light and narrow screens.
+a browser rejects as a whole; it can be searched, and has dark, light and narrow screens.
 
 usage: site_test.py SOURCE"""
 import html.parser
@@ -85,6 +85,12 @@ def completeness(root, site):
         yield "a page of the site has no colours for dark"
 
 
+def beside(site):
+    """Sections and pages at the side of the index, in order."""
+    tree = (site / "index.html").read_text(encoding="utf-8").partition('class="sidebar-tree"')[2].partition("</aside>")[0]
+    return [section or page for section, page in re.findall(r'caption-text">([^<]*)<|href="([^"#]+)"', tree)]
+
+
 def make(root, out, source):
     return subprocess.run([root / "scripts/docs", "--out", out, "--root", source], capture_output=True, text=True, check=False,
                           env={**os.environ, "DEBURR_NO_INSTALL": "1"})
@@ -104,11 +110,15 @@ def faults_that_are_not_found(root, folder):
         (source / "README.md").write_text("# Read me\n\n[A](docs/a.md) [S](scripts/site)\n", encoding="utf-8")
         (source / "docs/a.md").write_text(f"# A\n\n{fault}\n", encoding="utf-8")
         (source / "docs/b.md").write_text("# B\n\n## A heading\n\nanisotropy\n", encoding="utf-8")
+        (source / "docs/index.md").write_text("# I\n\n## Questions\n\n1. [q](b.md#a-heading)\n\n## How-to\n\n* [over two\n  lines](b.md)\n",
+                                              encoding="utf-8")
         done = make(root, out, source)
         if (done.returncode == 0) != makes:
             yield f"planted fault: scripts/docs ends with {done.returncode} for {fault}\n{done.stdout}{done.stderr}"
         elif i == 0 and (found := [*problems(out), *completeness(source, out)]):
             yield f"a page without a fault has: {found}"
+        elif i == 0 and (side := beside(out)) != ["How-to", "b.html", "Reference", "a.html", "Project", "project/README.html"]:
+            yield f"at the side stands: {side}"
         elif i == 0:
             page = out / "a.html"
             text = page.read_text(encoding="utf-8")

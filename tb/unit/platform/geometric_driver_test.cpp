@@ -276,15 +276,15 @@ TEST(GeometricDriver, NothingIsWrittenToABusyEngine) {
   EXPECT_TRUE(b.registers.written.empty());
 }
 
-TEST(GeometricDriver, ARefusedStartSaysWhy) {
+TEST(GeometricDriver, ARejectedStartSaysWhy) {
   Bed b;
   EXPECT_NO_THROW(b.driver.require_accepted());
   b.registers.values[reg::kRefusal] = 4;
   EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.require_accepted(); }),
-            "the geometric engine refused to start: touched_words");
+            "the geometric engine rejected the start: touched_words");
   b.registers.values[reg::kRefusal] = 15;
   EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.require_accepted(); }),
-            "the geometric engine refused to start: ?");
+            "the geometric engine rejected the start: ?");
 }
 
 std::string rejection(Bed& b, const GeometricFrame& frame) {
@@ -336,11 +336,11 @@ TEST(GeometricDriver, RegionsThatOverlapOrDoNotFitAreRejected) {
             "driver of the geometric engine: region colour begins at 0x6020, which is no multiple "
             "of 64");
   EXPECT_EQ(at({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0xFFF40, 0x7000}),
-            "driver of the geometric engine: region colour (0xfff40 to 0x10003f) ends behind the "
+            "driver of the geometric engine: region colour (0xfff40 to 0x10003f) ends past the "
             "memory of 1048576 bytes: make it larger, or the input smaller");
   EXPECT_EQ(at({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0xFFF00, 0x7000}), "");
   EXPECT_THAT(at({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0x200000, 0x7000}),
-              HasSubstr("ends behind the memory"));
+              HasSubstr("ends past the memory"));
 }
 
 TEST(GeometricDriver, TheCopyNeedsRoomOnlyWhereFramesAreCopied) {

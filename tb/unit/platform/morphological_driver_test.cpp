@@ -231,7 +231,7 @@ TEST(MorphologicalDriver, AFrameThatDoesNotFitIntoMemoryIsRejected) {
   };
   EXPECT_EQ(size(16, 1024), "");
   EXPECT_EQ(size(16, 1025),
-            "driver of the morphological engine: region pixels (0x0 to 0x1003f) ends behind the "
+            "driver of the morphological engine: region pixels (0x0 to 0x1003f) ends past the "
             "memory of 65536 bytes: make it larger, or the input smaller");
   b.driver.place(64);
   EXPECT_THAT(size(16, 1024), HasSubstr("region pixels (0x40 to 0x1003f)"));

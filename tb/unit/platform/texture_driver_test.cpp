@@ -56,7 +56,7 @@ TEST(TexelLayout, TilesLieInMortonOrder) {
   EXPECT_EQ(TexelLayout(Layout::kTiled, Format::kRgba8, 17, 9).bytes(), 64u * 8 * 4);
 }
 
-TEST(TextureMemory, LaysLevelsBehindEachOther) {
+TEST(TextureMemory, LaysLevelsOneAfterTheOther) {
   const std::vector<Texel> large(16, Texel{1, 2, 3, 4}), small(4, Texel{5, 6, 7, 8});
   const platform::TextureLevel levels[] = {{4, 4, large}, {2, 2, small}};
   platform::TextureMemory textures;
@@ -177,7 +177,7 @@ TEST(TextureDriver, WhatTheUnitDoesNotTakeIsRejected) {
               HasSubstr("texture 0: region level 0 (0x0 to 0x1ff) overlaps region level 1 (0x1c0 "
                         "to 0x23f)"));
   EXPECT_THAT(with([](Descriptor& d) { d.base[0] = 3648; }),
-              HasSubstr("region level 0 (0xe40 to 0x103f) ends behind the memory of 4096 bytes"));
+              HasSubstr("region level 0 (0xe40 to 0x103f) ends past the memory of 4096 bytes"));
   EXPECT_EQ(with([](Descriptor& d) { d.base[0] = 3584; }), "");
   EXPECT_EQ(with([](Descriptor& d) { d.base[2] = 7; }), "") << "there is no such level";
 }
@@ -185,7 +185,7 @@ TEST(TextureDriver, WhatTheUnitDoesNotTakeIsRejected) {
 TEST(TextureDriver, ATextureLargerThanTheMemoryIsRejected) {
   Bed b;
   EXPECT_THAT(error_of<spec::ConfigError>([&] { b.driver.load(std::vector<std::uint8_t>(4097)); }),
-              HasSubstr("region textures (0x0 to 0x1000) ends behind the memory of 4096 bytes"));
+              HasSubstr("region textures (0x0 to 0x1000) ends past the memory of 4096 bytes"));
   EXPECT_NO_THROW(b.driver.load(std::vector<std::uint8_t>(4096)));
 }
 

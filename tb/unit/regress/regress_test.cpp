@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tb/regress/failure_message.h"
 #include "tb/regress/junit.h"
@@ -96,6 +98,22 @@ TEST(FeatureResult, HoldsOnlyIfEveryRunPassed) {
   result.missing = 0;
   result.failed = 1;
   EXPECT_FALSE(result.holds());
+}
+
+TEST(CoverageResult, OfAPartOfAPlanNeedsOneBinOfTheGlob) {
+  Testplan plan;
+  plan.features.resize(1);
+  plan.features[0].coverage = {{"texture/cache/*", "plan.yaml:3"}};
+  const RequiredBins whole = part_of(plan, 1).features[0].coverage[0];
+  const RequiredBins part = part_of(plan, 2).features[0].coverage[0];
+  const auto met = [](const RequiredBins& required, std::vector<std::string> holes) {
+    return CoverageResult{required, 2, std::move(holes)}.met();
+  };
+  EXPECT_TRUE(met(whole, {}));
+  EXPECT_FALSE(met(whole, {"texture/cache/hit"}));
+  EXPECT_TRUE(met(part, {"texture/cache/hit"}));
+  EXPECT_FALSE(met(part, {"texture/cache/hit", "texture/cache/miss"}));
+  EXPECT_FALSE((CoverageResult{part, 0, {}}.met())) << "a glob that names no bin";
 }
 
 TEST(Junit, CountsAndEscapes) {

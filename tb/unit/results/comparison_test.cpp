@@ -57,7 +57,7 @@ TEST(Judge, ByTheValuesOwnDirectionAndTolerance) {
   EXPECT_EQ(of("work.fragments", 1, 2), Judgement::kNone);
   EXPECT_EQ(of("work.fragments", 1, 2, true), Judgement::kBetter);
   EXPECT_EQ(of("work.fragments", 1, 2, false), Judgement::kWorse);
-  EXPECT_EQ(of("cycles", 100, 200, true), Judgement::kWorse) << "a key knows better";
+  EXPECT_EQ(of("cycles", 100, 200, true), Judgement::kWorse) << "the key decides";
   EXPECT_EQ(of("cycles", std::nullopt, 200), Judgement::kNone);
   EXPECT_EQ(of("cycles", 100, std::nullopt), Judgement::kWorse);
   EXPECT_FALSE(counts("memory_bits.total.physical", t));
@@ -126,7 +126,7 @@ class Runs : public Directory {
   }
 };
 
-TEST_F(Runs, ListWhatDiffersJudgedByTheFirst) {
+TEST_F(Runs, ListWhatDiffersComparedWithTheFirst) {
   leave("a", 1000, "2");
   leave("b", 900, "4", 1024);
   leave("c", 1100, "2");
@@ -205,7 +205,7 @@ TEST_F(Runs, ThePageIsSelfContainedAndEscapes) {
     EXPECT_THAT(page, Not(HasSubstr(reference)));
 }
 
-TEST_F(Runs, ThatAreNotWholeAreRefused) {
+TEST_F(Runs, ThatAreNotWholeAreRejected) {
   Json manifest = leave("a", 1000, "2");
   const auto refused = [&](const char* name, const char* says) {
     try {
@@ -383,7 +383,7 @@ TEST_F(Sweeps, APointThatFailedIsWorse) {
   EXPECT_FALSE(compared({"b", "a"})["worse"]);
 }
 
-TEST_F(Sweeps, ThatAreNotWholeOrDoNotFitAreRefused) {
+TEST_F(Sweeps, ThatAreNotWholeOrDoNotFitAreRejected) {
   const Json good =
       sweep(Json::array(), Json::array({axis("bytes")}), Json::array({point({"1"}, {1, 1.0, 1})}));
   leave("a", good);

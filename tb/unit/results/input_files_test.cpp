@@ -83,7 +83,7 @@ TEST_F(InputFilesOfARun, AreLookedIntoOnce) {
   EXPECT_EQ(files.all().size(), 2u);
 }
 
-TEST_F(InputFilesOfARun, ThatHaveChangedAreRefused) {
+TEST_F(InputFilesOfARun, ThatHaveChangedAreRejected) {
   InputFiles files;
   const std::vector<fs::path> some = {write("a", "one"), path_ / "none"};
   files.contents(some);

@@ -116,7 +116,7 @@ TEST_F(Parameters, WrongValuesNameTheOriginTheValueAndTheRange) {
     EXPECT_THAT(text, HasSubstr(c.name));
     EXPECT_THAT(text, HasSubstr(c.expected));
   }
-  EXPECT_EQ(values_.ways, 2) << "a refused value must not be kept";
+  EXPECT_EQ(values_.ways, 2) << "a rejected value must not be kept";
 }
 
 TEST_F(Parameters, IntegersMayBeHexadecimal) {
@@ -222,7 +222,7 @@ TEST_F(Parameters, APresetFillsInWhatIsNotGiven) {
   EXPECT_THAT(set_.yaml(), HasSubstr("\n# unit.colour: \"red\"  # By preset small. Colour."));
 }
 
-TEST_F(Parameters, WhatHasNoEffectIsRefusedWhereItWasGiven) {
+TEST_F(Parameters, WhatHasNoEffectIsRejectedWhereItWasGiven) {
   const auto complaint = [&] {
     try {
       set_.refuse_all("unit.cache", "there is no cache");

@@ -24,7 +24,7 @@ PictureMap ramp(int width, int height) {
   return map;
 }
 
-TEST(PictureMap, KnowsRangeAndSumOfWhatIsThere) {
+TEST(PictureMap, HasRangeAndSumOfWhatIsThere) {
   const MapFigures f = figures_of(ramp(4, 3));
   EXPECT_EQ(f.pixels, 11U);
   EXPECT_EQ(f.min, 0);

@@ -392,7 +392,7 @@ TEST(ResultJson, EveryKeyHasUnitAndMeaning) {
   expect_described(json, "", json["meaning"]);
 }
 
-TEST_F(Directory, AnIncompleteOrForeignResultIsRefused) {
+TEST_F(Directory, AnIncompleteOrForeignResultIsRejected) {
   EXPECT_THROW(read_result(path_), spec::FileError);
   const auto refuse = [&](const std::string& text) {
     std::ofstream(path_ / "result.json") << text;
@@ -416,7 +416,7 @@ TEST(Compare, TheSameIsNotWorse) {
   EXPECT_FALSE(compare(a, a, {}).worse);
 }
 
-TEST(Compare, EachJudgedValueIsJudgedInItsDirection) {
+TEST(Compare, EachValueIsComparedInItsDirection) {
   const Json a = as_read(sample_result());
   const auto worse = [&](auto change) {
     Result r = sample_result();
@@ -446,7 +446,7 @@ TEST(Compare, EachJudgedValueIsJudgedInItsDirection) {
   EXPECT_FALSE(worse([](Result& r) { r.quality->ssim = 0.9871; })) << "within 0.0005";
   EXPECT_FALSE(worse([](Result& r) { r.quality->ssim = 1; }));
   EXPECT_FALSE(worse([](Result& r) { r.change->small_percent = 50; })) << "it may be meant";
-  EXPECT_FALSE(worse([](Result& r) { r.host_seconds = 100; })) << "the host is not judged";
+  EXPECT_FALSE(worse([](Result& r) { r.host_seconds = 100; })) << "the host is not compared";
 }
 
 TEST(Compare, AResultWithoutItsMismatchesIsWorse) {
@@ -796,11 +796,11 @@ TEST(Bottleneck, IsTheDeepestCauseOfTheLoss) {
         unit("divider_h", 700, {{"interval", 195}})},
        "divider_h",
        "interval"},
-      {"only the two axes lie side by side: behind one of them",
+      {"only the two axes lie side by side: past one of them",
        {unit("store_h", 610, {{"memory", 390}}), unit("area", 700, {{"memory", 300}})},
        "area",
        "memory"},
-      {"and one of them behind",
+      {"and one of them past it",
        {unit("luma", 610, {{"memory", 390}}), unit("store_v", 700, {{"memory", 300}})},
        "store_v",
        "memory"},

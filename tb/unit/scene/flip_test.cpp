@@ -76,7 +76,7 @@ TEST(Flip, IsThatOfThePublishedProgram) {
 
 // ---- what follows from the definition -----------------------------------------------------------
 
-TEST(Flip, IsSymmetricAndKnowsNoDirection) {
+TEST(Flip, IsSymmetricAndHasNoDirection) {
   const Image a = stimuli::blocks_image(), b = stimuli::shades_image();
   const double ab = flip(a, b);
   EXPECT_NEAR(flip(b, a), ab, 1e-6);
@@ -132,7 +132,7 @@ TEST(Flip, GoesWithTheDistance) {
   EXPECT_NEAR(flip(a, b, 134), flip(a, b), 1e-4);
 }
 
-TEST(Flip, RefusesOtherSizes) { EXPECT_THROW(flip(Image(8, 8), Image(8, 9)), spec::ConfigError); }
+TEST(Flip, RejectsOtherSizes) { EXPECT_THROW(flip(Image(8, 8), Image(8, 9)), spec::ConfigError); }
 
 }  // namespace
 }  // namespace deburr::tb::flip_test

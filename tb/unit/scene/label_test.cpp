@@ -40,7 +40,7 @@ TEST(Label, PutsLettersSideBySideAtAnyScale) {
   }
 }
 
-TEST(Label, RefusesWhatItHasNoLetterFor) {
+TEST(Label, RejectsWhatItHasNoLetterFor) {
   EXPECT_THROW(label("50 %", 1), spec::ConfigError);
   EXPECT_EQ(label("", 2).height, 18);
 }

@@ -113,6 +113,23 @@ TEST(Obj, NegativeIndicesCountBackwards) {
   EXPECT_EQ(corner(mesh, 0, 2).position, V3d(0, 1, 0));
 }
 
+TEST(Obj, ALineThatEndsWithABackslashGoesOn) {
+  const TemporaryFolder folder;
+  for (const std::string end : {"\n", "\r\n"}) {
+    const std::string three = "v 0 0 \\" + end + "0" + end + "v 1 0 0" + end + "v 0 1 0" + end;
+    const Mesh mesh =
+        import_mesh(folder.write("c.obj", three + "f 1 \\" + end + "2 \\" + end + "3" + end));
+    ASSERT_EQ(mesh.triangles.size(), 1u);
+    EXPECT_EQ(corner(mesh, 0, 2).position, V3d(0, 1, 0));
+    EXPECT_THAT(import_error(folder.write("d.obj", three + "f 1 2 4" + end)),
+                AllOf(HasSubstr("line 5"), HasSubstr("vertex 4, but there are 3")));
+    // The name of a folder in a comment goes nowhere.
+    EXPECT_EQ(import_mesh(folder.write("e.obj", "# C:\\meshes\\" + end + three + "f 1 2 3" + end))
+                  .triangles.size(),
+              1u);
+  }
+}
+
 TEST(Obj, BrokenFilesAreNamedWithTheirLine) {
   const TemporaryFolder folder;
   auto error = [&](const std::string& text) { return import_error(folder.write("bad.obj", text)); };
@@ -124,6 +141,8 @@ TEST(Obj, BrokenFilesAreNamedWithTheirLine) {
   EXPECT_THAT(error("v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"),
               AllOf(HasSubstr("line 2"), HasSubstr("'nan'")));
   EXPECT_THAT(error("v 0 0 inf\n" + three + "f 1 2 3\n"), HasSubstr("not a finite number"));
+  EXPECT_THAT(error("v 0 0 1e38\n" + three + "f 1 2 3\n"),
+              HasSubstr("'1e38' in a vertex is beyond 1e30"));
   EXPECT_THAT(error("v 0 0 1e999\n" + three + "f 1 2 3\n"), HasSubstr("line 1"));
   EXPECT_THAT(error("v 0 0 12x\n" + three + "f 1 2 3\n"), HasSubstr("'12x'"));
   EXPECT_THAT(error(three + "f 1 2 4\n"),
@@ -228,7 +247,7 @@ TEST(MeshFiles, OfAnObj) {
                           "wood grain.png", "wood grain.png"));
 }
 
-TEST(MeshFiles, OfAnObjThatIsRefused) {
+TEST(MeshFiles, OfAnObjThatIsRejected) {
   const TemporaryFolder folder;
   const auto names = [&](const std::string& name) {
     std::vector<std::string> found;
@@ -446,6 +465,8 @@ TEST(Gltf, BrokenFilesAreNamed) {
   EXPECT_THAT(import_error(folder.write("e.glb", "")), HasSubstr("empty"));
   EXPECT_NE(import_error(folder.write("j.gltf", "{ \"asset\": ")), "");
   EXPECT_NE(import_error(folder.write("k.gltf", "[]")), "");
+  EXPECT_THAT(import_error(folder.write("o.gltf", R"({"asset":{"version":"1.0"}})")),
+              HasSubstr("it is glTF 1.0, and glTF 2 is read"));
   EXPECT_THAT(import_error(folder.write("l.gltf", good.json("none.bin"))), HasSubstr("none.bin"));
 
   GltfFile file;

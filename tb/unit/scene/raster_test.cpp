@@ -421,9 +421,9 @@ Scene one_triangle(const V3d& a, const V3d& b, const V3d& c) {
 
 TEST(Clipping, VerticesBehindTheEyeAndFarOutside) {
   expect_coverage_of_rays(one_triangle({-2, 0, -3}, {2, 0, -3}, {0, 0, 5}), 64,
-                          "one vertex behind");
+                          "one vertex behind the eye");
   expect_coverage_of_rays(one_triangle({-3, 0, 4}, {3, 0, 4}, {0, 0, -9}), 64,
-                          "two vertices behind");
+                          "two vertices behind the eye");
   expect_coverage_of_rays(one_triangle({-2, 0, -3}, {2, 0, -3}, {0, 0, 0}), 64,
                           "a vertex under the eye");
   expect_coverage_of_rays(one_triangle({-1e7, 0, -3}, {1e7, 0, -2}, {1e5, 0, -1e6}), 64,

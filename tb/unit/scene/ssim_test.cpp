@@ -86,7 +86,7 @@ TEST(Ssim, OfOnePixelIsTheWindowsWeight) {
   EXPECT_NEAR(ssim(reference, test), 1, 1e-12);
 }
 
-TEST(Ssim, IsSymmetricAndKnowsNoDirection) {
+TEST(Ssim, IsSymmetricAndHasNoDirection) {
   const Image a = stimuli::blocks_image(), b = stimuli::shades_image();
   EXPECT_NEAR(ssim(a, b), ssim(b, a), 1e-12);
   EXPECT_NEAR(ssim(stimuli::mirrored_x(a), stimuli::mirrored_x(b)), ssim(a, b), 1e-12);

@@ -205,7 +205,7 @@ TEST(Truth, PicturesAreRecorded) {
   }
 }
 
-TEST(Truth, RefusesImpossibleRequests) {
+TEST(Truth, RejectsImpossibleRequests) {
   const Scene scene = make_scene("quad", {.texture_size = 16});
   EXPECT_THROW(render(scene, texture_options(16, 0)), spec::ConfigError);
   EXPECT_THROW(render(scene, texture_options(16, 33)), spec::ConfigError);

@@ -200,7 +200,7 @@ TEST_P(Ways, BearCostsThatAreAllTheSame) {
   EXPECT_EQ(asked, 50u);
 }
 
-TEST(Surrogate, KnowsWhatItWasToldAndOrdersTheRest) {
+TEST(Surrogate, KeepsWhatItWasToldAndOrdersTheRest) {
   const std::vector<SearchAxis> axes = {{5, true}, {5, true}, {5, true}, {4, false}};
   std::vector<Individual> known;
   std::set<Genes> told;

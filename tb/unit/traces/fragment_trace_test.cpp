@@ -96,7 +96,7 @@ TEST_P(FragmentTrace, WithoutASizeIsReadBackToo) {
 }
 
 // Any byte changed, or any number of bytes cut off: it is read or refused with a FileError.
-TEST_P(FragmentTrace, SpoiledIsReadOrRefused) {
+TEST_P(FragmentTrace, SpoiledIsReadOrRejected) {
   write_random(2, 8);
   const std::string good = bytes();
   Random random(3);

@@ -141,7 +141,7 @@ TEST_F(Lines, OfLookUpsHaveTheClockOfTheLookUp) {
             "102 hit 0x000000c0 64 1\n# end 4\n");
 }
 
-TEST_F(Lines, OfNobodyAreRefused) {
+TEST_F(Lines, OfNobodyAreRejected) {
   EXPECT_THROW(LineTrace(file_, {}), spec::ConfigError);
   EXPECT_FALSE(fs::exists(file_));
   Bench bench(bursts());

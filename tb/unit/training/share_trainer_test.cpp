@@ -93,7 +93,7 @@ TEST(ShareTrainer, AnotherRecipeHasAnotherHash) {
   EXPECT_EQ(hash_of(""), 0xCBF29CE484222325u);
 }
 
-TEST(ShareTrainer, RefusesNothing) {
+TEST(ShareTrainer, RejectsNoSamples) {
   EXPECT_THROW(train({}, small_recipe()), spec::CheckFailed);
   EXPECT_THROW(train({{}}, small_recipe()), spec::CheckFailed);
 }

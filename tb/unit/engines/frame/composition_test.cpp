@@ -113,7 +113,7 @@ Outcome run(const SimulationOptions& options, const Given& given) {
   });
 }
 
-TEST(FrameComposition, IsJudgedAtBothEnginesAndTheirRegisters) {
+TEST(FrameComposition, IsCheckedAtBothEnginesAndTheirRegisters) {
   const Outcome o = run({}, {});
   constexpr std::uint64_t kRegisters = 7 + 15;
   EXPECT_EQ(o.pixels, 48u * 32u);

@@ -126,7 +126,7 @@ std::vector<std::string> names(const FrameRoles& roles) {
   return all;
 }
 
-TEST(FrameRoles, EachSmoothsAloneAndRowsBehindEdges) {
+TEST(FrameRoles, EachSmoothsAloneAndRowsAfterEdges) {
   EXPECT_THAT(names(FrameRoles(roles())),
               ElementsAre("calm", "marker", "blind", "plain", "marker-calm", "marker-blind",
                           "plain-calm", "plain-blind"));

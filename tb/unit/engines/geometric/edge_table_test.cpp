@@ -178,7 +178,7 @@ TEST(EdgeTable, FacesThatAreNoneKeepTheirNumbers) {
   EXPECT_EQ(screen.clipped, 0u);
 }
 
-TEST(EdgeTable, RefusesByName) {
+TEST(EdgeTable, RejectsByName) {
   const auto refused = [](const Mesh& mesh, const char* why) {
     EXPECT_THAT([&] { build_edge_table(mesh); },
                 testing::ThrowsMessage<spec::ConfigError>(testing::HasSubstr(why)));

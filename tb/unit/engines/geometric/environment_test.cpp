@@ -122,7 +122,7 @@ TEST(GeometricEnvironment, AResetInAnyPhaseBeginsTheFrameAgain) {
   }
 }
 
-TEST(GeometricEnvironment, FramesBehindEachOtherBeginAsTheyWereRendered) {
+TEST(GeometricEnvironment, FramesInARowBeginAsTheyWereRendered) {
   const Outcome one = run({}, small_setup()), three = run({}, small_setup(), 3);
   EXPECT_EQ(three.frames, 3u);
   EXPECT_EQ(three.cycles, 3 * one.cycles);
@@ -179,7 +179,7 @@ TEST(GeometricEnvironment, RegionsFollowEachOtherAtPages) {
   }
 }
 
-TEST(GeometricEnvironment, WhatTheEngineDoesNotTakeIsRefused) {
+TEST(GeometricEnvironment, WhatTheEngineDoesNotTakeIsRejected) {
   const std::vector<geometric::Frame> frames = {small_frame()};
   GeometricSetup setup;
   setup.geometric.line_pixels = 64;

@@ -77,7 +77,7 @@ TEST(TextureMemory, EveryTexelIsWhereItsFormatAndLayoutSay) {
   }
 }
 
-TEST(TextureMemory, RefusesWhatTheUnitCannotHold) {
+TEST(TextureMemory, RejectsWhatTheUnitCannotHold) {
   platform::TextureMemory memory;
   const auto add = [&](const std::vector<Image>& levels) {
     return memory.add(levels_of(levels), {});
@@ -188,7 +188,7 @@ TEST(TextureScene, SameSeedSameTextures) {
   EXPECT_NE(bytes(1), bytes(2));
 }
 
-TEST(TextureScene, RefusesImpossibleCameras) {
+TEST(TextureScene, RejectsImpossibleCameras) {
   for (const auto& [eye, target] : {std::pair{"1,2", ""},
                                     {"1,2,3,4", ""},
                                     {"a,b,c", ""},

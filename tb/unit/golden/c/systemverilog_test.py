@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""The package for SystemVerilog, and the C file behind its arrays and texts, are those that the header of the
+"""The package for SystemVerilog, and the C file of its arrays and texts, are those that the header of the
 C interface makes; and the page of the interface has every function.
 
 usage: systemverilog_test.py HEADER SOURCE [--write]     HEADER: layers/golden_c/golden/c/deburr_golden.h of a build

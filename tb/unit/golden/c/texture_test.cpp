@@ -393,9 +393,9 @@ TEST(BadTextureCalls, GiveAnErrorAndChangeNothing) {
                         deburr_texture_check(golden, 16));
   DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "address 4 is no multiple of 64",
                         deburr_texture_place(golden, 0, 4, &behind));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "would end behind address 2^32",
+  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "would end past address 2^32",
                         deburr_texture_place(golden, 0, 1ull << 32, &behind));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "would end behind address 2^32",
+  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "would end past address 2^32",
                         deburr_texture_place(golden, 0, ~0ull & ~63ull, &behind));
   DEBURR_EXPECT_REFUSED(golden, DEBURR_CONFIGURATION, "texture 1: width or height is zero",
                         deburr_texture_place(golden, 1, 0, &behind));

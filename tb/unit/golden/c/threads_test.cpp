@@ -99,7 +99,7 @@ TEST(Threads, OfWhichOneIsInACallAreToldBusy) {
 }
 
 // Two that fight for one handle: each call is taken whole, or refused as busy.
-TEST(Threads, ThatShareAHandleAreRefusedAndNeverRace) {
+TEST(Threads, ThatShareAHandleAreRejectedAndNeverRace) {
   const Handle handle(deburr_morphological_new());
   deburr_golden* const golden = handle.get();
   EXPECT_EQ(deburr_frame_begin(golden, 64, 64), DEBURR_OK);

@@ -142,7 +142,7 @@ void refused(void (*change)(Parameters&), const char* name) {
               testing::ThrowsMessage<spec::ConfigError>(testing::HasSubstr(name)));
 }
 
-TEST(Configuration, RefusesByName) {
+TEST(Configuration, RejectsByName) {
   refused([](Parameters& p) { p.depth_bias = 0; }, "depth_bias = 0 is outside 1..24");
   refused([](Parameters& p) { p.depth_bias = 25; }, "depth_bias = 25 is outside 1..24");
   refused([](Parameters& p) { p.crease_depth = -1; }, "crease_depth = -1 is outside 0..24");

@@ -273,9 +273,9 @@ TEST(Coverage, RowsAreEnteredAndLeftAtTheFramesBorders) {
     EXPECT_EQ(rows(kEnd - 1, 0, swapped), once("rows/inside"));
     EXPECT_EQ(rows(-1, 0, swapped), once("rows/enters-before"));
     EXPECT_EQ(rows(0, -1, swapped), once("rows/leaves-before"));
-    EXPECT_EQ(rows(kEnd, 0, swapped), once("rows/enters-behind"));
-    EXPECT_EQ(rows(0, kEnd, swapped), once("rows/leaves-behind"));
-    EXPECT_EQ(rows(-1, kEnd, swapped), once("rows/enters-before", "rows/leaves-behind"));
+    EXPECT_EQ(rows(kEnd, 0, swapped), once("rows/enters-after"));
+    EXPECT_EQ(rows(0, kEnd, swapped), once("rows/leaves-after"));
+    EXPECT_EQ(rows(-1, kEnd, swapped), once("rows/enters-before", "rows/leaves-after"));
   }
 }
 
@@ -312,7 +312,7 @@ TEST(Coverage, DepthIsThatOfTheFartherPixel) {
   EXPECT_EQ(depth(0, 0, true), once("depth/background/passed"));
 }
 
-TEST(Coverage, EdgesTurnedAwayAreDroppedOrJudged) {
+TEST(Coverage, EdgesTurnedAwayAreDroppedOrClassified) {
   using spec::geometric::Cull;
   using spec::geometric::EdgeClass;
   const auto turned = [](Cull cull, EdgeClass c) {
@@ -411,7 +411,7 @@ TEST(Coverage, EnumerationsHaveABinEach) {
   EXPECT_EQ(fate(LineFate::kDegenerate), once("fate/degenerate"));
   EXPECT_EQ(fate(LineFate::kEmptyColumns), once("fate/empty-columns"));
   EXPECT_EQ(fate(LineFate::kEmptyBefore), once("fate/empty-before"));
-  EXPECT_EQ(fate(LineFate::kEmptyBehind), once("fate/empty-behind"));
+  EXPECT_EQ(fate(LineFate::kEmptyBehind), once("fate/empty-after"));
   const auto group = [&](GroupEnd end) {
     return after([&](EdgeCoverage& c) { c.count_group(end); });
   };

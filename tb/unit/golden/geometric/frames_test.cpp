@@ -221,7 +221,7 @@ TEST(Frame, CreasesAreLimitedInDepthAndOtherEdgesAreNot) {
   }
 }
 
-TEST(Frame, WithoutCullingEdgesThatAreTurnedAwayAreJudged) {
+TEST(Frame, WithoutCullingEdgesThatAreTurnedAwayAreClassified) {
   Drawing d = one_line(0, 8 * 256 - 64, 16 * 256, 8 * 256 - 64);
   d.set_facing(0, false);
   for (const auto& [flags, kept] :
@@ -378,7 +378,7 @@ TEST(Frame, WithoutEdgesNothingChanges) {
   EXPECT_EQ(golden.traffic().read(Region::kColour).size(), 8u * 6u * 4u);
 }
 
-TEST(Frame, RefusesViewsThatAreTooSmall) {
+TEST(Frame, RejectsViewsThatAreTooSmall) {
   const Drawing d = vector_drawing();
   GeometricGolden golden(Parameters{});
   auto input = d.input();

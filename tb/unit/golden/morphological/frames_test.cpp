@@ -499,7 +499,7 @@ TEST(FrameMemory, LinesThatCannotBeReadAreZeros) {
   }
 }
 
-TEST(FrameMemory, NoLineIsReadBehindTheLastRow) {
+TEST(FrameMemory, NoLineIsReadAfterTheLastRow) {
   const Frame frame(40, 8, [](int x, int y) { return grey(10 * x / 4 + 20 * y); });
   auto p = preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.storage = spec::morphological::Storage::kMemory;

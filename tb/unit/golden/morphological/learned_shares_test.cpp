@@ -423,7 +423,7 @@ TEST(LearnedShares, MirroredFramesGiveMirroredOutput) {
 
 // ---- refusals, tables, coverage -----------------------------------------------------------------
 
-TEST(LearnedShares, RefusesWhatDoesNotGoTogether) {
+TEST(LearnedShares, RejectsWhatDoesNotGoTogether) {
   const auto refused = [](auto&& change) {
     Parameters p = deburr();
     change(p);

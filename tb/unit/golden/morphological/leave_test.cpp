@@ -154,7 +154,7 @@ TEST(Leave, LooksAtFivePlaces) {
 
 // The last pixel of a row and the first of the next are no neighbours, nor are the first and the
 // last row.
-TEST(Leave, KnowsTheBorders) {
+TEST(Leave, HasRulesAtTheBorders) {
   Parameters p = preset_parameters(Preset::kMlaa);
   p.leave = Leave::kBeside;
   constexpr int kLast = 29;

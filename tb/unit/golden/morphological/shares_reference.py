@@ -126,7 +126,7 @@ def indices(edges, reach):
         codes = edges.code(start, line), edges.code(end, line)
         left = max(0, reach - length)
         if LONG_Z <= length <= reach and codes in ((1, 2), (2, 1)):
-            raise ValueError("a long Z keeps its line, of which this reference knows nothing")
+            raise ValueError("a long Z keeps its line, which this reference does not have")
         subs = (crossing_class(edges, line, start, codes[0], 1, left),
                 crossing_class(edges, line, end, codes[1], -1, left))
         for x in range(start, end):

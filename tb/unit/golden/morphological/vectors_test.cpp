@@ -70,7 +70,7 @@ TEST(TestVectors, EachValueIsCompared) {
   tb::expect_each_value_is_compared(v.result, result_of(v, MorphologicalGolden::Detail::kPixels));
 }
 
-TEST(TestVectorHash, SeesOneCodeOfOnePixel) {
+TEST(TestVectorHash, ChangesWithOneCodeOfOnePixel) {
   Frame frame = tb::morphological::line_image();
   const std::uint64_t before = hash(frame);
   frame.at(199, 149)[2] ^= 1;  // the planted fault

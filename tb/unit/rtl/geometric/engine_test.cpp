@@ -56,8 +56,8 @@ struct RefusedStart {
   std::uint32_t offset, value;
   Refusal why;
 };
-class Refused : public ::testing::TestWithParam<RefusedStart> {};
-TEST_P(Refused, ReadsAndWritesNothing) {
+class Rejected : public ::testing::TestWithParam<RefusedStart> {};
+TEST_P(Rejected, ReadsAndWritesNothing) {
   Parameters p;
   p.line_pixels = 512;
   p.touched_words = 100;
@@ -74,7 +74,7 @@ TEST_P(Refused, ReadsAndWritesNothing) {
 }
 constexpr std::uint32_t size_of(std::uint32_t w, std::uint32_t h) { return w | h << 16; }
 INSTANTIATE_TEST_SUITE_P(
-    Starts, Refused,
+    Starts, Rejected,
     ::testing::Values(RefusedStart{reg::kSize, size_of(0, 45), Refusal::kSize},
                       RefusedStart{reg::kSize, size_of(61, 0), Refusal::kSize},
                       RefusedStart{reg::kSize, size_of(8193, 9), Refusal::kSize},
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
                       RefusedStart{reg::kVertexCount, (1u << 24) + 1, Refusal::kVertexCount},
                       RefusedStart{reg::kFaceCount, 32769, Refusal::kFaceCount}));
 
-TEST(Registers, StartWithoutEnableIsRefused) {
+TEST(Registers, StartWithoutEnableIsRejected) {
   EngineBench b;
   b.load(contract_scene());
   b.bus.write(reg::kControl, reg::kControlStart);
@@ -156,7 +156,7 @@ TEST(Registers, CountersAddUpUntilCleared) {
   EXPECT_EQ(b.bus.read(reg::kEdges), 0u);
   EXPECT_EQ(b.bus.read(reg::kFrameCycles), 0u);
 }
-TEST(Parameters, ThatCannotBeBuiltAreRefused) {
+TEST(Parameters, ThatCannotBeBuiltAreRejected) {
   const auto refusal = [](const auto& change) {
     return in_child([&] {
       Parameters p;
@@ -691,7 +691,7 @@ TEST(ClocksOf, Dividers) {
     EXPECT_EQ(got, std::to_string(130 * dividers));
   }
 }
-TEST(ClocksOf, FramesBehindEachOtherAreTheSame) {
+TEST(ClocksOf, FramesInARowAreTheSame) {
   EngineBench b;
   b.load(contract_scene());
   std::vector<std::uint32_t> clocks;

@@ -48,7 +48,7 @@ std::string after_noise(std::uint64_t seed) {
   return "";
 }
 
-TEST(RegisterNoise, LeavesNothingBehindAReset) { EXPECT_EQ(first_complaint(60, after_noise), ""); }
+TEST(RegisterNoise, LeavesNothingAfterAReset) { EXPECT_EQ(first_complaint(60, after_noise), ""); }
 
 }  // namespace
 }  // namespace deburr::tb::geometric_rtl::register_noise_test

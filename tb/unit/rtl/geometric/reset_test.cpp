@@ -73,10 +73,10 @@ TEST_P(EveryClock, AnyClockOfAFrameMayBeTheLast) {
 }
 
 // A start that is refused, before it is judged and after that.
-TEST_P(EveryClock, ARefusedStartIsForgotten) {
+TEST_P(EveryClock, ARejectedStartIsForgotten) {
   const Trail fresh = run(whole);
   for (const Cycle at : {0, 1, 2, 9}) {
-    SCOPED_TRACE("reset " + std::to_string(at) + " clocks behind a start");
+    SCOPED_TRACE("reset " + std::to_string(at) + " clocks after a start");
     b.reset();
     b.load(broken);
     b.bus.write(reg::kSize, 0);
@@ -129,7 +129,7 @@ TEST_P(EveryClock, ABlockOfTheFrameBeforeIsNoNeighbour) {
   }
 }
 
-TEST_P(EveryClock, AFrameBehindAnotherIsWhatItIsByItself) {
+TEST_P(EveryClock, AFrameAfterAnotherIsWhatItIsByItself) {
   const Trail fresh = run(whole);
   b.reset();
   const Trail first = run(broken);

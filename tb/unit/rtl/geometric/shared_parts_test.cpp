@@ -255,7 +255,7 @@ TEST(EdgeLatency, AResetForgetsWhatIsOnTheWay) {
     EXPECT_THAT(l.all(), ElementsAre(5)) << stage;
   }
 }
-TEST(EdgeLatency, AFrameBehindAnotherBeginsAnew) {
+TEST(EdgeLatency, AFrameAfterAnotherBeginsAnew) {
   Latencies l;
   l.line(1);
   l.group(true);

@@ -131,7 +131,7 @@ TEST(EdgeClassifier, IndicesEndBeforeTheirCounts) {
 
 // What becomes of an edge of two faces, by the classes of the page: "back", "crease", "flat", and
 // whether it leaves the unit and as what.
-TEST(EdgeClassifier, EdgesOfFacesTurnedAwayAreCulledOrJudged) {
+TEST(EdgeClassifier, EdgesOfFacesTurnedAwayAreCulledOrClassified) {
   namespace flag = spec::geometric::flag;
   using spec::geometric::Crease;
   using spec::geometric::Cull;

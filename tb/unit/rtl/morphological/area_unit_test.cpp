@@ -194,7 +194,7 @@ TEST_P(AreaLanes, SharesLieWhereTheRecordLies) {
 // A line is stored, and its record finished, in the clock after its pop, and it is popped when its
 // slot has passed two stages; one a bank, of both axes at once; counted by the parity of the slot
 // row.
-TEST_P(AreaLanes, ARecordIsFinishedAClockAfterItsPopBehindItsSlot) {
+TEST_P(AreaLanes, ARecordIsFinishedAClockAfterItsPopPastItsSlot) {
   Area bench(small(GetParam()), 11, 7);
   bench.send_slots(0);
   const std::uint32_t even = bench.slots_before(6) + 1, odd = bench.slots_before(7);

@@ -257,7 +257,7 @@ TEST(EdgeMemory, AWordIsThereAClockAfterItsReadAndNotBefore) {
 
 // The window has the last window_rows + 1 rows of a column, of which one is a row ahead where the
 // beats of a row have been; any other row is a mistake of who asks.
-TEST(EdgeMemory, TheWindowKnowsWhichRowsItHolds) {
+TEST(EdgeMemory, TheWindowTracksWhichRowsItHolds) {
   constexpr int kRows = 2 * 8 + 3;
   Shown shown(built(false, 8, 60), 150, 70, 30, 500);
   EdgeWindow& window = shown.memories.window;

@@ -177,7 +177,7 @@ SumsToken bend(bool safe) {
   bench.clock.run(80);
   return bench.ends.sink.beats().at(0);
 }
-TEST(EndpointPredictorBlock, SafeRefusesACornerThatFitsNoLine) {
+TEST(EndpointPredictorBlock, SafeRejectsACornerThatFitsNoLine) {
   const SumsToken sums = bend(true);
   EXPECT_EQ(sums.left, 1);
   EXPECT_EQ(sums.right, 2);
@@ -201,7 +201,7 @@ TEST(EndpointPredictorBlock, ARecordHoldsAPredictorForItsIterations) {
   expect_clocks(EndpointPredictor::datasheet(), bench.ends.sink.cycles(), 1);
 }
 
-TEST(EndpointPredictorBlock, TrialsOfOneRecordBehindTheOther) {
+TEST(EndpointPredictorBlock, TrialsOfOneRecordAfterTheOther) {
   // A long stair of steps of two pixels: N = 8 to both sides.
   Prediction bench(preset(spec::morphological::Preset::kDeburrLine), Axis::kHorizontal, 90, 60,
                    stair(10, std::vector<int>(30, 2), 10));
@@ -295,15 +295,15 @@ const std::vector<Stair>& stairs_to_trim() {
       // L' is what it was before the step: the left side ends in the step that finds it.
       {"L' of this step", true, 8, 8, {{8, 8}, 2, kAtTheWindow}, {{8, 8, 7}, 3, kAtTheWindow}},
       // A hit that fits no line with the others (3).
-      {"refused 1", true, 8, 4, {{4}, 1, kLost}, {{3, 3}, 1, kContradicted}},
-      {"refused 2", true, 8, 4, {{}, 0, kLost}, {{4, 3, 3}, 2, kContradicted}},
-      {"refused 3, the other goes on",
+      {"rejected 1", true, 8, 4, {{4}, 1, kLost}, {{3, 3}, 1, kContradicted}},
+      {"rejected 2", true, 8, 4, {{}, 0, kLost}, {{4, 3, 3}, 2, kContradicted}},
+      {"rejected 3, the other goes on",
        true,
        8,
        4,
        {times(5, 4), 5, kLost},
        {{4, 4, 3, 3}, 3, kContradicted}},
-      {"refused 8", true, 16, 3, {{3}, 1, kLost}, {then(times(7, 3), {2, 2}), 8, kContradicted}},
+      {"rejected 8", true, 16, 3, {{3}, 1, kLost}, {then(times(7, 3), {2, 2}), 8, kContradicted}},
       // One step longer, the other shorter (2).
       {"a curve 0", true, 8, 3, {{2}, 0, kContradicted}, {{4}, 0, kContradicted}},
       {"a curve 1", true, 8, 3, {{3, 2}, 1, kContradicted}, {{3, 4}, 1, kContradicted}},

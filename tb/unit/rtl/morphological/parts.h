@@ -114,7 +114,7 @@ inline std::string of_a_stage_less(rtl::Unit& unit, const ClockDomain& clock) {
 inline std::uint64_t stalls(const rtl::Unit& unit, std::string_view cause) {
   for (const rtl::Unit::StallCause& stall : unit.stalls())
     if (stall.name == cause) return stall.cycles;
-  ADD_FAILURE() << unit.name() << " knows no cause " << cause;
+  ADD_FAILURE() << unit.name() << " has no cause " << cause;
   return 0;
 }
 

@@ -62,7 +62,7 @@ std::string after_noise(std::uint64_t seed) {
   return run().pixel == fresh.pixel ? "" : "other pixels";
 }
 
-TEST(RegisterNoise, LeavesNothingBehindAReset) { EXPECT_EQ(first_complaint(60, after_noise), ""); }
+TEST(RegisterNoise, LeavesNothingAfterAReset) { EXPECT_EQ(first_complaint(60, after_noise), ""); }
 
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl::register_noise_test

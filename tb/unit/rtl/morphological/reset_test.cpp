@@ -194,12 +194,12 @@ TEST_P(EveryClock, OfAFrameMayBeTheLast) {
 }
 
 // A frame without a size, or one that is too wide: nothing is taken, and a reset forgets it.
-TEST_P(EveryClock, OfARefusedFrameMayBeTheLast) {
+TEST_P(EveryClock, OfARejectedFrameMayBeTheLast) {
   reset_to(whole, 1);
   const Trail fresh = finish();
   for (const std::uint32_t size : {0u, 33u | 12u << 16})
     for (const Cycle at : {1, 2, 3, 20}) {
-      SCOPED_TRACE("reset " + std::to_string(at) + " clocks behind a frame of " +
+      SCOPED_TRACE("reset " + std::to_string(at) + " clocks after a frame of " +
                    std::to_string(size & 0x3FFF) + " pixels");
       reset_to(broken, 1);
       bench.bus.write(reg::kSize, size);
@@ -221,7 +221,7 @@ TEST_P(EveryClock, OfARefusedFrameMayBeTheLast) {
 
 // Frames of different sizes, one behind the other: each is what it is by itself. The engine is
 // disabled while a frame is inside, so that the next one waits for its size.
-TEST_P(EveryClock, AFrameBehindAnotherIsWhatItIsByItself) {
+TEST_P(EveryClock, AFrameAfterAnotherIsWhatItIsByItself) {
   reset_to(broken, 1);
   const Trail first = finish();
   reset_to(whole, 1);
@@ -327,14 +327,14 @@ class ResetAt : public ::testing::TestWithParam<int> {
                                               wanted_ = beats_of(line(), 1);
 };
 
-TEST_P(ResetAt, AnyClockOfSmaaLeavesNothingBehind) {
+TEST_P(ResetAt, AnyClockOfSmaaLeavesNothing) {
   EngineBench bench(smaa());
   interrupt(bench);
   EXPECT_EQ(next_frame(bench), vector_hash("smaa_line_high"));
   EXPECT_EQ(bench.engine.work().diagonal_pixels, 44u);
 }
 
-TEST_P(ResetAt, AnyClockLeavesNothingBehind) {
+TEST_P(ResetAt, AnyClockLeavesNothing) {
   Parameters p = preset(Preset::kMlaaSlope);
   p.storage = GetParam() % 2 ? spec::morphological::Storage::kMemory
                              : spec::morphological::Storage::kLineBuffers;

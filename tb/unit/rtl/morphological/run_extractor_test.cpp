@@ -209,10 +209,10 @@ TEST_P(RunExtraction, KeepsRecordsWithoutASideForLearnedShares) {
 TEST_P(RunExtraction, KeepsThemAtCrossings) {
   extract(GetParam(), spec::morphological::Ends::kCrossings, false, true);
 }
-TEST_P(RunExtraction, SeesSharpCorners) {
+TEST_P(RunExtraction, FindsSharpCorners) {
   extract(GetParam(), spec::morphological::Ends::kGaps, true);
 }
-TEST_P(RunExtraction, SeesSharpCornersAtCrossings) {
+TEST_P(RunExtraction, FindsSharpCornersAtCrossings) {
   extract(GetParam(), spec::morphological::Ends::kCrossings, true);
 }
 

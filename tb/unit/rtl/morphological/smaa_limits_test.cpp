@@ -115,7 +115,7 @@ TEST_P(SmaaLimits, AreThoseOfGoldenInEveryShape) {
 
 // The Z of the contract's vectors, long enough that no pixel sees both ends: the last pixel that
 // sees an end has a share, and the next one has none.
-TEST_P(SmaaLimits, TheLastPixelThatSeesAnEndHasAShareAndTheNextHasNone) {
+TEST_P(SmaaLimits, TheLastPixelThatReachesAnEndHasAShareAndTheNextHasNone) {
   const Parameters p = parameters();
   const int n = p.search_steps;
   EngineBench bench(p);

@@ -263,7 +263,7 @@ TEST(TextureRtlDataStage, TwoWordsOfABankTakeTwoPasses) {
 }
 
 // A line that has come waits for its own request, while those before it take their passes.
-TEST(TextureRtlDataStage, AFillWaitsForItsRequestBehindBankConflicts) {
+TEST(TextureRtlDataStage, AFillWaitsForItsRequestAfterBankConflicts) {
   CacheBench b(small_cache(), 5);
   std::vector<TexelToken> asked = {in_line(0), in_line(1)};
   for (std::uint32_t line = 2; line < 6; ++line) {

@@ -48,7 +48,7 @@ TEST(TextureRtlFillBuffer, OneBeatAClock) {
 }
 
 // A beat that names a half of a line which has none, as a broken response may, is refused.
-TEST(TextureRtlFillBuffer, ABeatBehindTheLine) {
+TEST(TextureRtlFillBuffer, ABeatPastTheLine) {
   FillBuffer buffer("buffer", 4, 64);
   buffer.reserve(1);
   EXPECT_THROW(buffer.fill(10, 0, 64, kBeat, true), spec::CheckFailed);

@@ -80,7 +80,7 @@ TEST(TextureRtlLevel, PaperRule) {
           {"just below the coarsest", 5 * 4096 - 16, 5 * 4096, kTri, 4, 0, 0, kTop, 1, 4, 255,
            true},
           {"the coarsest", 5 * 4096, 5 * 4096, kTri, 4, 0, 0, kTop, 1, 5, 0, true},
-          {"half a level behind it", 5 * 4096 + 2048, 6 * 4096, kTri, 4, 0, 0, kTop, 1, 5, 0, true},
+          {"half a level after it", 5 * 4096 + 2048, 6 * 4096, kTri, 4, 0, 0, kTop, 1, 5, 0, true},
           {"beyond the coarsest", 7 * 4096 + 9, 7 * 4096, kTri, 4, 0, 0, kTop, 1, 5, 0, true},
           {"L not below 0", 4096, 8192, kTri, 4, 0, 0, kTop, 1, 1, 0, true},
           {"within a texel, biased to a level", -8, -8, kTri, 4, 256, 0, kTop, 1, 1, 0, true},

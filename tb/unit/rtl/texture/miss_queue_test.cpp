@@ -145,7 +145,7 @@ TEST(TextureRtlMissQueue, TakesLinesIntoAPlaceThatItFreesInThatClock) {
   EXPECT_EQ(second_taken(0), 5u);
 }
 // Two lines stand in the link; from 10 on one is popped a clock, and the others are sent in 11, 12.
-TEST(TextureRtlMissQueue, TakesThemSoBehindAMemoryThatWaited) { EXPECT_EQ(second_taken(10), 12u); }
+TEST(TextureRtlMissQueue, TakesThemSoAfterAMemoryThatWaited) { EXPECT_EQ(second_taken(10), 12u); }
 
 // A link to memory that takes a second request in a clock would have the next line read too.
 TEST(TextureRtlMissQueue, SendsOneLineAClock) {

@@ -54,7 +54,7 @@ std::string after_noise(std::uint64_t seed) {
   return again == fresh ? "" : "expected\n" + fresh + "got\n" + again;
 }
 
-TEST(RegisterNoise, LeavesNothingBehindAReset) { EXPECT_EQ(first_complaint(40, after_noise), ""); }
+TEST(RegisterNoise, LeavesNothingAfterAReset) { EXPECT_EQ(first_complaint(40, after_noise), ""); }
 
 }  // namespace
 }  // namespace deburr::tb::texture_rtl::register_noise_test

@@ -583,7 +583,7 @@ TEST(TextureRtlUnit, SizesTheLatencyFifo) {
   EXPECT_EQ(depth(as_ordered), 33u);
 }
 
-TEST(TextureRtlUnit, RefusesImpossibleParameters) {
+TEST(TextureRtlUnit, RejectsImpossibleParameters) {
   ClockDomain clock("clock", period());
   const auto error = [&](const char* name, auto change) -> std::string {
     spec::texture::Parameters p;

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// Numbers as every page and picture shows them.
+#pragma once
+
+#include <string>
+
+namespace deburr::tb {
+
+// A whole number grouped, anything else with so many digits: 17634.5 -> "17,635", 0.12345 ->
+// "0.1235"; sweep.js and comparison.js have the same form.
+std::string amount(double value, int digits = 4);
+
+}  // namespace deburr::tb

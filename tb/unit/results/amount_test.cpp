@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "tb/results/amount.h"
+
+#include <gtest/gtest.h>
+
+namespace deburr::tb::amount_test {
+namespace {
+
+TEST(Amount, OneFormForEveryNumber) {
+  EXPECT_EQ(amount(0), "0");
+  EXPECT_EQ(amount(86285), "86,285");
+  EXPECT_EQ(amount(17634.5), "17,635") << "and not 1.763e+04";
+  EXPECT_EQ(amount(1234567.25), "1,234,567");
+  EXPECT_EQ(amount(-17634.25), "-17,634");
+  EXPECT_EQ(amount(-3), "-3");
+  EXPECT_EQ(amount(3.14159), "3.142");
+  EXPECT_EQ(amount(0.0123456), "0.01235");
+  EXPECT_EQ(amount(999.96), "1,000");
+  EXPECT_EQ(amount(12345.67, 5), "12,346");
+  EXPECT_EQ(amount(1234.567, 5), "1,234.6");
+  EXPECT_EQ(amount(-9999.96, 5), "-10,000");
+  EXPECT_EQ(amount(2e18), "2e+18");
+}
+
+}  // namespace
+}  // namespace deburr::tb::amount_test
