@@ -416,16 +416,18 @@ void GeometricGolden::resolve_block(int bx, int by) {
       // A neighbour without a weight may lie outside the frame; the pixel itself stands in for it.
       const Rgba8& first = tap.first != 0 ? input_.image.at(x - dx, y - dy) : pixel;
       const Rgba8& second = tap.second != 0 ? input_.image.at(x + dx, y + dy) : pixel;
-      pixels_[i] = resolve(parameters_, tap, pixel, first, second);
+      const Rgba8 blended = resolve(parameters_, tap, pixel, first, second);
+      const LineOfPixels line = layout_.line_of(x, y);
+      if (!bad(input_.bases.colour + layout_.offset_of(line))) pixels_[i] = blended;
       if (!follow_) continue;
-      read.add(layout_.line_of(x, y));
-      written.add(layout_.line_of(x, y));
+      read.add(line);
+      written.add(line);
       if (tap.first != 0) read.add(layout_.line_of(x - dx, y - dy));
       if (tap.second != 0) read.add(layout_.line_of(x + dx, y + dy));
       if (!everything_) continue;
       const std::size_t k = 4 * static_cast<std::size_t>(y & 3) + static_cast<std::size_t>(x & 3);
       record.weights[k] = weights;
-      record.pixels[k] = pixels_[i];
+      record.pixels[k] = blended;
       record.blended = static_cast<std::uint16_t>(record.blended | 1u << k);
       coverage_.count_tap(weights);
       if (tap.first != 0 && is_blended(weights_at(x - dx, y - dy))) {

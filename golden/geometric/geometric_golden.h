@@ -72,7 +72,7 @@ class GeometricGolden {
   void clear_coverage() { coverage_ = {}; }
 
   // Line addresses whose reads and writes memory answers with an error: reads give zeros, writes
-  // are taken for done.
+  // are taken for done and store nothing.
   using LinePredicate = std::function<bool(std::uint32_t address)>;
   void set_memory_errors(LinePredicate error) { error_ = std::move(error); }
   std::uint64_t memory_errors() const { return memory_errors_; }  // of the last frame

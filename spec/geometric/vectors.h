@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Test vectors of the geometric engine's contract: data that golden and hardware are held to, and
 // that the tables of docs/reference/geometric/vectors.md and docs/reference/geometric/formats.md
-// are made from. What the frame holds, and what is hashed: docs/reference/geometric/vectors.md,
-// "Frame".
+// are made from. What the frames hold, and what is hashed: docs/reference/geometric/vectors.md.
 #pragma once
 
 #include <array>
@@ -67,13 +66,16 @@ struct FrameResult {
   }
 };
 
-// The contract's frame of random edges.
+// The contract's frames: of random edges, and of special cases.
+enum class DrawnFrame : std::uint8_t { kRandom, kSpecial };
+
 struct FrameVector {
   char name;
   Preset preset;
   // Beside the preset, by the names and values of describe(): "walkers=1 mark=true".
   std::string_view settings;
   FrameResult result;
+  DrawnFrame frame = DrawnFrame::kRandom;
 };
 
 inline constexpr std::array<FrameVector, 14> kFrameVectors = {{
@@ -163,6 +165,44 @@ inline constexpr std::array<FrameVector, 14> kFrameVectors = {{
       {50, 729, 499, 499, 564, 188}}},
 }};
 
+inline constexpr std::array<FrameVector, 5> kSpecialFrameVectors = {{
+    {'o',
+     Preset::kDeburr,
+     "",
+     {{0x2495477cdae39ac0, 0xa90bab035ef40c41, 0x4e75161c123618bc},
+      {400, 188, 101, 0, 71, 40, 0, 360, 0, 2, 29, 329, 9397, 3238, 11314, 7042, 190, 2349},
+      {50, 1004, 584, 584, 624, 190}},
+     DrawnFrame::kSpecial},
+    {'p',
+     Preset::kDeburr,
+     "layout=raster combine=max crease_depth=24 depth_bias=24",
+     {{0x3f443a1d1bc5c5b9, 0x19b3de1900247c4e, 0xcc33a4233c4d3735},
+      {400, 188, 101, 0, 71, 40, 0, 360, 0, 2, 29, 329, 9397, 3238, 11314, 6863, 190, 2326},
+      {50, 1433, 569, 569, 1001, 681}},
+     DrawnFrame::kSpecial},
+    {'q',
+     Preset::kGpaaOptimised,
+     "crease=shading crease_depth=2 depth_bias=1",
+     {{0xc3c9a5c2f838df62, 0x1bdab728dbe111fe, 0x41a5fe49bcd98c26},
+      {400, 188, 101, 34, 49, 28, 0, 338, 0, 2, 28, 308, 8953, 3073, 8013, 6715, 190, 2372},
+      {50, 964, 603, 603, 574, 190}},
+     DrawnFrame::kSpecial},
+    {'r',
+     Preset::kGpaa,
+     "coverage=area depth_test=own combine=max",
+     {{0xa33109c3983d3a9a, 0x42c17af4f1c640c2, 0x9b178edac3fcf009},
+      {400, 188, 0, 0, 0, 0, 0, 400, 0, 2, 33, 365, 10329, 3571, 12464, 6730, 188, 2172},
+      {50, 919, 633, 633, 625, 188}},
+     DrawnFrame::kSpecial},
+    {'s',
+     Preset::kDeburr,
+     "crease=off linear_light=false mark=true",
+     {{0xe892a8a7865272d2, 0xb41509b418bd4bea, 0x7d94d4ca836e4b9f},
+      {400, 188, 101, 0, 0, 111, 0, 289, 0, 2, 23, 264, 7778, 2670, 9358, 6875, 190, 2333},
+      {50, 876, 565, 565, 618, 190}},
+     DrawnFrame::kSpecial},
+}};
+
 // ---- lines --------------------------------------------------------------------------------------
 
 inline constexpr int kLineVectorWidth = 1280, kLineVectorHeight = 720;
@@ -192,7 +232,7 @@ struct LineVector {
   LineResult result;
 };
 
-inline constexpr std::array<LineVector, 7> kLineVectors = {{
+inline constexpr std::array<LineVector, 10> kLineVectors = {{
     {{2624, 128, 1000000},
      {5184, 1408, 2000000},
      Axis::kHorizontal,
@@ -218,6 +258,15 @@ inline constexpr std::array<LineVector, 7> kLineVectors = {{
      {180000, 300, 16000000},
      Axis::kVertical,
      {16, 687, 19660928, 0, 83426703, 95325058}},
+    {{-3158410, 17080, 7740877},
+     {2054935, 63508, 10530565},
+     Axis::kHorizontal,
+     {0, 1280, 2962793762, 149411, 38629486108, 561098}},
+    {{128, 1000, 77777}, {129, 1000, 99999}, Axis::kHorizontal, {0, 1, 65536128, 0, 318574592, 0}},
+    {{1000, 5000, 16000000},
+     {1255, 4900, 100},
+     Axis::kVertical,
+     {4, 1, 323773669, -6579300, 26471650404, 0}},
 }};
 
 }  // namespace deburr::spec::geometric

@@ -157,8 +157,9 @@ class Vectors(unittest.TestCase):
         self.assertTrue((frames[0].edges == frames[1].edges).all())
         self.assertEqual(golden.morphological(image).work.edge_pixels, 0)
 
-    def test_geometric(self):
-        """docs/reference/geometric/vectors.md, "Vectors"."""
+    @staticmethod
+    def random_edges():
+        """docs/reference/geometric/vectors.md, "Random edges"."""
         random = iter(random_numbers(2 * 61 * 45 + 600 + 49 + 1500).astype(numpy.int64))
         r = numpy.array([next(random) for _ in range(61 * 45)]).reshape(45, 61)
         pixels = opaque(r >> 24, r >> 16 & 255, r >> 8 & 255)
@@ -176,15 +177,64 @@ class Vectors(unittest.TestCase):
         edges = numpy.zeros(300, dtype=golden.EDGE)
         for i in range(300):
             edges[i] = tuple((int(next(random)) >> 16) % most for most in (201, 200, 50, 50, 16))
+        return pixels, depth, {"vertices": vertices, "edges": edges, "facing": facing}
+
+    @staticmethod
+    def special_cases():
+        """The same page, "Special cases"; of the bits that are ignored those that an array can have are 1."""
+        random = (int(r) for r in random_numbers(2 * 61 * 45 + 600 + 50 + 2000))
+        r = numpy.array([next(random) for _ in range(61 * 45)]).reshape(45, 61)
+        pixels = numpy.stack([r >> 24, r >> 16 & 255, r >> 8 & 255, r & 255], axis=2).astype(numpy.uint8)
+        depths = (0, 4000000, 8000000, 8015655, 12000000, 12800000, 16000000, 16777215)
+        depth = numpy.array([depths[next(random) >> 29] | 0xFF000000 for _ in range(61 * 45)],
+                            dtype=numpy.uint32).reshape(45, 61)
+        vertices = numpy.zeros(200, dtype=golden.VERTEX)
+        for i in range(100):
+            a, b = ([64 * ((next(random) >> 16) % 264) - 512, 64 * ((next(random) >> 16) % 200) - 512,
+                     depths[next(random) >> 29]] for _ in range(2))
+            if i % 2 == 0:
+                b[2] = a[2]
+            beside, height = None, b[1] - a[1]
+            if 30 <= i < 40:
+                a[1] = b[1] = 256 * 45 * (i % 2)
+            elif 40 <= i < 50:
+                a[0] = b[0] = 256 * 61 * (i % 2)
+            elif 50 <= i < 65:
+                a[1] = b[1] = 256 * (a[1] >> 8) + 128
+            elif 65 <= i < 80:
+                beside = (height, height)
+            elif 80 <= i < 90:
+                beside = (2 * height, height)
+            elif 90 <= i < 95:
+                a[i % 2], b[i % 2] = -1 << 22, (1 << 22) - 1
+            elif i >= 95:
+                a[0], a[1] = a[0] & ~127, a[1] & ~127
+                beside = (1 << 21, (1 << 20) + 1)
+            if beside:
+                along, across = beside if i % 4 < 2 else reversed(beside)
+                b[0], b[1] = a[0] + along, a[1] + across
+            for k, (x, y, z) in enumerate((a, b)):
+                vertices[2 * i + k] = (x, y, z | 0xFF000000, True)
+        facing = numpy.array([next(random) >> 31 for _ in range(50)], dtype=bool)
+        edges = numpy.zeros(400, dtype=golden.EDGE)
+        for i in range(400):
+            v0, v1, f0, f1, flags = ((next(random) >> 16) % most for most in (200, 200, 50, 50, 16))
+            if i < 100:
+                v0, v1 = 2 * i + v0 % 2, 2 * i + 1 - v0 % 2
+            edges[i] = (v0, v1, f0, 0xFFFFFF if flags & 1 else f1, flags | 0xF0)
+        return pixels, depth, {"vertices": vertices, "edges": edges, "facing": facing}
+
+    def test_geometric(self):
         bases = {"edges": 0x10000, "vertices": 0x20000, "facing": 0x30000, "depth": 0x40000, "colour": 0x50000,
                  "weights": 0x60000, "copy": 0x70000}
         hashes = table("reference/geometric/vectors.md", ["", "preset", "beside it"])
         counts = {row[""]: row for row in table("reference/geometric/vectors.md", ["", "edges", "boundary"])}
-        self.assertEqual(len(hashes), 14)
-        for row in hashes:
+        self.assertEqual(len(hashes), 14 + 5)
+        frames = [self.random_edges()] * 14 + [self.special_cases()] * 5
+        for row, (pixels, depth, drawn) in zip(hashes, frames):
             preset = row["preset"].strip("`")
-            frame = golden.geometric(pixels, depth, vertices=vertices, edges=edges, facing=facing, bases=bases,
-                                     detail=True, preset=preset, **settings(row["beside it"]))
+            frame = golden.geometric(pixels, depth, **drawn, bases=bases, detail=True, preset=preset,
+                                     **settings(row["beside it"]))
             with self.subTest(row[""]):
                 self.assertEqual(f"{fnv(frame.pixels.tobytes()):016x}", row["pixels"])
                 self.assertEqual(f"{fnv(frame.weights.tobytes()):016x}", row["weights"])
@@ -209,8 +259,7 @@ class Vectors(unittest.TestCase):
                 self.assertEqual(frame.blocks.size, frame.work.blocks)
                 boundary = golden.EDGE_CLASSES.index("boundary")
                 self.assertEqual(numpy.count_nonzero(frame.classes == boundary), frame.work.boundary_edges)
-                quick = golden.geometric(pixels, depth, vertices=vertices, edges=edges, facing=facing, preset=preset,
-                                         **settings(row["beside it"]))
+                quick = golden.geometric(pixels, depth, **drawn, preset=preset, **settings(row["beside it"]))
                 self.assertTrue((quick.pixels == frame.pixels).all())
 
     def test_results_outlive_their_frame_and_are_read_only(self):

@@ -191,6 +191,25 @@ TEST(Configuration, FramesEndWhereTheBuildEnds) {
   EXPECT_EQ(why({-1, 1, 0, 0, 0}), Refusal::kSize);
 }
 
+// Of several reasons the first counts: each is the reason once those before it are mended.
+TEST(Configuration, RefusesForTheFirstReason) {
+  Parameters p;  // 2048 pixels, 1088 words, 32768 faces
+  FrameCounts f = {8193, 8192, (1u << 24) + 1, (1u << 24) + 1, 32769};
+  EXPECT_EQ(refusal(p, f), Refusal::kSize);
+  f.width = 2049;
+  EXPECT_EQ(refusal(p, f), Refusal::kWidth);
+  f.width = 2048;
+  EXPECT_EQ(refusal(p, f), Refusal::kTouchedWords);
+  f.height = 1;
+  EXPECT_EQ(refusal(p, f), Refusal::kEdgeCount);
+  f.edge_count = 1u << 24;
+  EXPECT_EQ(refusal(p, f), Refusal::kVertexCount);
+  f.vertex_count = 1u << 24;
+  EXPECT_EQ(refusal(p, f), Refusal::kFaceCount);
+  f.face_count = 32768;
+  EXPECT_EQ(refusal(p, f), Refusal::kNone);
+}
+
 // What is wrong and what would be possible, in words.
 TEST(Configuration, SaysWhatWouldFit) {
   const auto text = [](const FrameCounts& counts) -> std::string {

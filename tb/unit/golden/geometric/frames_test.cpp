@@ -630,19 +630,41 @@ TEST(MemoryErrors, ReadAsZeros) {
   with_error(kVectorBases.depth + 256 + 64, expect_same_as(changed));
   GeometricGolden clean(p);
   clean.process(d.input(kVectorBases));
-  // Pixels of a line of colours are black where they are blended, untouched where not.
+  // Pixels of a line of colours are zeros to the resolve, and it writes none of them.
+  const auto in_block = [](std::size_t i) { return i / 4 * 61 + 8 + i % 4; };  // (2, 0)
+  const auto blended_in_block = [](const GeometricGolden& golden) {
+    const auto found = std::find_if(golden.blocks().begin(), golden.blocks().end(),
+                                    [](const auto& b) { return b.x == 2 && b.y == 0; });
+    EXPECT_NE(found, golden.blocks().end());
+    EXPECT_NE(found->blended, 0);
+    return *found;
+  };
   with_error(kVectorBases.colour + 256, [&](const GeometricGolden& golden) {
     EXPECT_EQ(golden.weights(), clean.weights());
     EXPECT_NE(golden.pixels(), clean.pixels());
+    const auto block = blended_in_block(golden);
     for (std::size_t i = 0; i < 16; ++i) {
-      const std::size_t k = i / 4 * 61 + 8 + i % 4;
-      if (golden.weights()[k] == Weights{}) {
-        EXPECT_EQ(golden.pixels()[k], d.colours[k]);
-      } else {
-        EXPECT_EQ(golden.pixels()[k][3], 0);
+      EXPECT_EQ(golden.pixels()[in_block(i)], d.colours[in_block(i)]);
+      if (block.blended >> i & 1) {
+        EXPECT_EQ(block.pixels[i][3], 0);
       }
     }
   });
+  // Of a line of the copy they are zeros, too, and the frame's own line is written.
+  p.frame_copy = true;
+  with_error(kVectorBases.copy + 256, [&](const GeometricGolden& golden) {
+    EXPECT_EQ(golden.weights(), clean.weights());
+    const auto block = blended_in_block(golden);
+    for (std::size_t i = 0; i < 16; ++i) {
+      if (block.blended >> i & 1) {
+        EXPECT_EQ(golden.pixels()[in_block(i)][3], 0);
+        EXPECT_EQ(golden.pixels()[in_block(i)], block.pixels[i]);
+      } else {
+        EXPECT_EQ(golden.pixels()[in_block(i)], d.colours[in_block(i)]);
+      }
+    }
+  });
+  p.frame_copy = false;
   // A block whose weights are lost is touched and has no blended pixel.
   const std::uint32_t lost = clean.traffic().read(Region::kWeights).back();
   with_error(lost, [&](const GeometricGolden& golden) {

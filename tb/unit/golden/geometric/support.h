@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The contract's frame of random edges (docs/reference/geometric/vectors.md), and hashes
+// The contract's frames (docs/reference/geometric/vectors.md), and hashes
 // of what came of it.
 #pragma once
 
@@ -54,8 +54,9 @@ inline constexpr golden::geometric::Bases kVectorBases{
     .weights = vector_base(spec::geometric::Region::kWeights),
     .copy = vector_base(spec::geometric::Region::kCopy)};
 
-inline Drawing vector_drawing() {
-  VectorFrame frame = vector_frame();
+inline Drawing vector_drawing(
+    spec::geometric::DrawnFrame which = spec::geometric::DrawnFrame::kRandom) {
+  VectorFrame frame = vector_frame(which);
   Drawing d(frame.width, frame.height);
   d.colours = std::move(frame.colours);
   d.depths = std::move(frame.depths);

@@ -256,6 +256,36 @@ TEST(Refusals, BeginBeyondTheLimit) {
   p.line_pixels = 8192;
   EXPECT_EQ(with([](FrameRules& f) { f.width = 8192; }), Refusal::kNone);
 }
+// Of several reasons the first counts: each is the reason once those before it are mended.
+TEST(Refusals, GiveTheFirstReason) {
+  Parameters p;
+  p.line_pixels = 1000;
+  p.touched_words = 40;
+  p.face_limit = 8192;
+  FrameRules f;
+  f.width = 8193;
+  f.height = 8192;
+  f.touched_words = 41;
+  f.edge_count = f.vertex_count = (1u << 24) + 1;
+  f.face_count = 8193;
+  f.select = Select::kEdges;
+  EXPECT_EQ(refusal(f, false, p), Refusal::kDisabled);
+  const auto why = [&] { return refusal(f, true, p); };
+  EXPECT_EQ(why(), Refusal::kSize);
+  f.width = 1001;
+  EXPECT_EQ(why(), Refusal::kWidth);
+  f.width = 1000;
+  EXPECT_EQ(why(), Refusal::kTouchedWords);
+  f.touched_words = 40;
+  EXPECT_EQ(why(), Refusal::kEdgeCount);
+  f.edge_count = 1u << 24;
+  EXPECT_EQ(why(), Refusal::kVertexCount);
+  f.vertex_count = 1u << 24;
+  EXPECT_EQ(why(), Refusal::kFaceCount);
+  f.face_count = 8192;
+  EXPECT_EQ(why(), Refusal::kNone);
+}
+
 // What was refused leaves the rules of the frame before; a START is taken in the clock after its
 // write, with the registers as they are then, and units read the rules a clock later.
 TEST(Refusals, LeaveTheRulesAsTheyWere) {
@@ -292,6 +322,13 @@ TEST(Refusals, LeaveTheRulesAsTheyWere) {
   EXPECT_EQ(width(), 50u);
   EXPECT_EQ(b.rules.changes(), 2u);
   EXPECT_EQ(b.latch.high_clocks(b.clock.cycle()), 4u);
+  b.clock.run(10);
+  ASSERT_TRUE(b.sequencer.idle());
+  EXPECT_EQ(start(60, 0), Refusal::kDisabled);
+  b.clock.set_reset_n(false);
+  b.clock.run(1);
+  b.clock.set_reset_n(true);
+  EXPECT_EQ(static_cast<Refusal>(b.bus.read(reg::kRefusal)), Refusal::kNone);
 }
 
 // Each sticky bit is set in the clock of its event, which a write of one clears, and is set again

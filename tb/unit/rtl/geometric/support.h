@@ -73,9 +73,10 @@ inline std::uint32_t pixel_offset(bool tiled, int width, int x, int y) {
                                     4 * (4 * (y % 4) + x % 4));
 }
 
-// The scene of the contract's vectors.
-inline Scene contract_scene() {
-  geometric::VectorFrame frame = geometric::vector_frame();
+// A scene of the contract's vectors.
+inline Scene contract_scene(
+    spec::geometric::DrawnFrame which = spec::geometric::DrawnFrame::kRandom) {
+  geometric::VectorFrame frame = geometric::vector_frame(which);
   return {frame.width,
           frame.height,
           std::move(frame.colours),
@@ -263,7 +264,7 @@ struct Configuration {
   std::uint64_t pixels, weights, traffic;
 };
 inline Configuration configuration(char name) {
-  const spec::geometric::FrameVector& v = geometric::frame_vector(name);
+  const spec::geometric::FrameVector v = geometric::frame_vector(name);
   Parameters p = preset_parameters(v.preset);
   apply_settings(p, v.settings);
   return {name, p, v.result.hashes.pixels, v.result.hashes.weights, v.result.hashes.traffic};

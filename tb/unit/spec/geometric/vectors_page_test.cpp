@@ -19,6 +19,7 @@ using spec::geometric::FrameResult;
 using spec::geometric::FrameVector;
 using spec::geometric::kFrameVectors;
 using spec::geometric::kLineVectors;
+using spec::geometric::kSpecialFrameVectors;
 using spec::geometric::LineVector;
 
 constexpr std::size_t kHashes = 3;  // values of a result, before its counts
@@ -69,6 +70,12 @@ TEST(GeometricVectorsPage, HasTheFrames) {
   expect_generated("reference/geometric/vectors.md", "GeometricVectorsPage.HasTheFrames",
                    frames(kFrameVectors));
   expect_table_has_each_value(kFrameVectors, frames);
+}
+
+TEST(GeometricVectorsPage, HasTheSpecialCases) {
+  expect_generated("reference/geometric/vectors.md", "GeometricVectorsPage.HasTheSpecialCases",
+                   frames(kSpecialFrameVectors));
+  expect_table_has_each_value(kSpecialFrameVectors, frames);
 }
 
 TEST(GeometricVectorsPage, HasTheLines) {
