@@ -192,7 +192,7 @@ TEST(Configuration, FramesEndWhereTheBuildEnds) {
 }
 
 // Of several reasons the first counts: each is the reason once those before it are mended.
-TEST(Configuration, RefusesForTheFirstReason) {
+TEST(Configuration, RejectsForTheFirstReason) {
   Parameters p;  // 2048 pixels, 1088 words, 32768 faces
   FrameCounts f = {8193, 8192, (1u << 24) + 1, (1u << 24) + 1, 32769};
   EXPECT_EQ(refusal(p, f), Refusal::kSize);
