@@ -93,6 +93,18 @@ class PixelHistory(unittest.TestCase):
             self.assertIn('<tr class="differs">', self.page)
             self.assertIn('<a href="#pixel">below</a>', self.page)
 
+    # What one side lacks is marked as well.
+    def test_what_is_lost_or_added_differs(self):
+        for engine, run, _, entry in self.followed():
+            for fault in entry["lost_or_added"]:
+                with self.subTest(fault=fault):
+                    broken = [*run, "--fault", fault, "--set", "run.check_links=false"]
+                    self.run_engine(engine, *broken, code=1)
+                    pixel = re.search(r'href="#follow-(\d+,\d+)"', self.page).group(1)
+                    history = self.run_engine(engine, *broken, "--pixel", pixel, code=1)["pixel"]
+                    alone = [step for step in history["steps"] if step["differs"] and not (step["golden"] and step["hardware"])]
+                    self.assertTrue(alone, history)
+
     def test_a_pixel_outside(self):
         for engine, run, _, _ in self.followed():
             for given, says in (("100000,3", ["run.pixel = 100000,3 is outside of the picture of", "a column of 0.."]),
