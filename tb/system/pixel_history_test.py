@@ -16,6 +16,9 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 from engine_list import engines, trials  # noqa: E402
 
 
+CUT_SHORT = 3  # exit code of --max-cycles
+
+
 class PixelHistory(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory(prefix="deburr_pixel_")
@@ -148,6 +151,16 @@ class PixelHistory(unittest.TestCase):
         for step in lines:
             address, outcome = step["hardware"].split()
             self.assertIn((str(step["clock"]), outcome, f"{int(address, 16):#010x}"), trace)
+
+    # Why a history is not whole, or has no weights.
+    def test_notes_of_the_geometric_engine(self):
+        run = ["geometric", "--size", "96x64", "--no-images"]
+        history = self.run_engine(*run, "--pixel", "52,40")["pixel"]
+        self.assertTrue([step for step in history["steps"] if step["step"] == "candidate"])
+        self.assertEqual(history["note"], "no candidate in its block of 4 x 4 pixels passes the depth test")
+        history = self.run_engine(*run, "--pixel", "50,42", "--max-cycles", "300", code=CUT_SHORT)["pixel"]
+        self.assertEqual(history["note"], "the run was cut short before its block of 4 x 4 pixels was resolved")
+        self.assertEqual(history["differences"], 0)
 
     # All of a pixel's fragments, the hidden ones too; none where there is none.
     def test_fragments(self):

@@ -130,7 +130,14 @@ PixelHistory GeometricHistory::history(const geometric::Frame& frame, const Imag
         return row;
       },
       came);
-  if (!touched && blocks_.empty()) all.note = "no line touches its block of 4 x 4 pixels";
+  if (!ended && !blocks_.empty())
+    all.note = "the run was cut short after its block of 4 x 4 pixels was resolved";
+  else if (!ended && (touched || !golden))
+    all.note = "the run was cut short before its block of 4 x 4 pixels was resolved";
+  else if (!ended)
+    all.note = "the run was cut short";
+  else if (!touched && blocks_.empty())
+    all.note = "no candidate in its block of 4 x 4 pixels passes the depth test";
   // Memory may still hold what was there before.
   const bool written = ended || after.pixels[at] != frame.image.pixels[at];
   all.compare({.part = {},
