@@ -162,6 +162,12 @@ class PixelHistory(unittest.TestCase):
         self.assertEqual(history["note"], "the run was cut short before its block of 4 x 4 pixels was resolved")
         self.assertEqual(history["differences"], 0)
 
+    def test_notes_of_the_morphological_engine(self):
+        history = self.run_engine("morphological", "--size", "96x64", "--no-images", "--pixel", "19,31", "--max-cycles",
+                                  "500", code=CUT_SHORT)["pixel"]
+        self.assertEqual((history["note"], history["differences"]),
+                         ("the run was cut short before the pixel was delivered", 0))
+
     # All of a pixel's fragments, the hidden ones too; none where there is none.
     def test_fragments(self):
         run = ["--scene", "object", "--size", "64x64", "--no-images", "--set", "scene.visibility=overdraw"]

@@ -187,7 +187,9 @@ PixelHistory MorphologicalHistory::history(const MorphologicalInput& frame, bool
   };
   // What a pixel is made of comes before it.
   const PixelSides came{golden != nullptr, ended || !delivered_.empty()};
-  if (delivered_.empty()) all.note = "the pixel was not delivered";
+  if (delivered_.empty())
+    all.note = ended ? "the pixel was not delivered"
+                     : "the run was cut short before the pixel was delivered";
   const std::string before = text_of(frame.image.pixels[at]);
   add("input", "RGBA", before, before);
   if (at < frame.depth.size()) {
