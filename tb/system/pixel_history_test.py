@@ -168,6 +168,14 @@ class PixelHistory(unittest.TestCase):
         self.assertEqual((history["note"], history["differences"]),
                          ("the run was cut short before the pixel was delivered", 0))
 
+    def test_notes_of_the_texture_unit(self):
+        run = ["texture", "--size", "64x48", "--no-images", "--max-cycles", "500", "--pixel"]
+        history = self.run_engine(*run, "7,7", code=CUT_SHORT)["pixel"]
+        self.assertEqual((history["note"], history["steps"]),
+                         ("the run was cut short before all quads were sent, 0 of this pixel so far", []))
+        history = self.run_engine(*run, "0,0", code=CUT_SHORT)["pixel"]
+        self.assertRegex(history["note"], "^the run was cut short before all quads were sent, 1 of this pixel so far")
+
     # All of a pixel's fragments, the hidden ones too; none where there is none.
     def test_fragments(self):
         run = ["--scene", "object", "--size", "64x64", "--no-images", "--set", "scene.visibility=overdraw"]

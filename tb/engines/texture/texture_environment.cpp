@@ -190,7 +190,7 @@ std::vector<PictureMap> TextureEnvironment::maps() const {
 
 std::optional<PixelHistory> TextureEnvironment::pixel_history() const {
   if (!history_) return std::nullopt;
-  PixelHistory all = history_->history(ended_);
+  PixelHistory all = history_->history(ended_, quad_driver_.done());
   if (!name().empty())
     for (PixelStep& step : all.steps) step.part = name() + " " + step.part;
   return all;

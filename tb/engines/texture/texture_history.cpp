@@ -335,13 +335,18 @@ class TextureHistory::Writer {
   bool ended_;
 };
 
-PixelHistory TextureHistory::history(bool ended) const {
+PixelHistory TextureHistory::history(bool ended, bool all_sent) const {
   PixelHistory all{pixel_};
-  if (fragments_.empty()) all.note = "no fragment of a texture covers it";
+  if (!all_sent)
+    all.note =
+        fmt::format("the run was cut short before all quads were sent, {} of this pixel so far",
+                    fragments_.size());
+  else if (fragments_.empty())
+    all.note = "no fragment of a texture covers it";
   for (std::size_t i = 0; i < fragments_.size(); ++i) {
     if (fragments_[i].delivered.empty())
-      all.note = fmt::format("fragment {} was not delivered: the tag of its quad is {}", i,
-                             fragments_[i].quad.quad.tag);
+      all.note += fmt::format("{}fragment {} was not delivered: the tag of its quad is {}",
+                              all.note.empty() ? "" : "; ", i, fragments_[i].quad.quad.tag);
     Writer(all, *this, fragments_[i], fmt::format("fragment {}", i), ended).write();
   }
   return all;

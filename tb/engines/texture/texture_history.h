@@ -35,8 +35,9 @@ class TextureHistory {
   // What the golden model makes of it. After send() was true, instead of golden.process(quad).
   golden::texture::QuadColours expect(const TracedQuad& quad,
                                       golden::texture::TextureGolden& golden);
-  // `ended`: all of the frame was done, so what was not seen does not come.
-  PixelHistory history(bool ended) const;
+  // `ended`: all of the frame was done, so what was not seen does not come. `all_sent`: every quad
+  // was.
+  PixelHistory history(bool ended, bool all_sent) const;
 
  private:
   // What a link carried, and the clock in which it was put there.
