@@ -52,6 +52,44 @@ void PixelHistory::compare(PixelStep step) {
   steps.push_back(std::move(step));
 }
 
+void PixelHistory::compare(PixelStep step, const PixelSides& came) {
+  step.differs = step.golden.empty()     ? came.golden && !step.hardware.empty()
+                 : step.hardware.empty() ? came.hardware
+                                         : step.golden != step.hardware;
+  steps.push_back(std::move(step));
+}
+
+void PixelHistory::compare_records(std::size_t golden, std::size_t hardware,
+                                   const std::function<bool(std::size_t, std::size_t)>& same,
+                                   const std::function<PixelStep(Record, Record)>& row,
+                                   const PixelSides& came) {
+  std::size_t g = 0, h = 0;
+  while (g < golden || h < hardware) {
+    Record mine = g < golden ? Record(g) : std::nullopt;
+    Record its = h < hardware ? Record(h) : std::nullopt;
+    bool differs = mine ? its || came.hardware : came.golden;
+    if (mine && its) {
+      differs = !same(g, h);
+      // The nearest one that goes with the other side's next shows which side lacks one.
+      std::size_t lost = 0, added = 0;
+      while (g + lost < golden && !same(g + lost, h)) ++lost;
+      while (h + added < hardware && !same(g, h + added)) ++added;
+      const bool may_lose = g + lost < golden, may_add = h + added < hardware;
+      if (differs && may_lose && (!may_add || lost <= added))
+        its.reset();
+      else if (differs && may_add) {
+        mine.reset();
+        differs = came.golden;
+      }
+    }
+    if (mine) ++g;
+    if (its) ++h;
+    PixelStep step = row(mine, its);
+    step.differs = differs;
+    steps.push_back(std::move(step));
+  }
+}
+
 void PixelHistory::append(const PixelHistory& other) {
   steps.insert(steps.end(), other.steps.begin(), other.steps.end());
   if (!other.note.empty()) note += (note.empty() ? "" : "; ") + other.note;

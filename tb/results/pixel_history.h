@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,10 +24,15 @@ void refuse_outside(const PixelAddress& pixel, int width, int height);
 struct PixelStep {
   std::string part;              // "fragment 0": which of several that the pixel has
   std::string step, item;        // "level", "samples"
-  std::string golden, hardware;  // empty: it is not known there
+  std::string golden, hardware;  // empty: not known there, or not there
   std::optional<std::uint64_t> clock{};
   bool differs = false;
   bool detail = false;  // the terminal leaves it out
+};
+
+// Which sides came so far: what such a side does not have then, it lacks.
+struct PixelSides {
+  bool golden = false, hardware = false;
 };
 
 struct PixelHistory {
@@ -34,8 +40,16 @@ struct PixelHistory {
   std::string note{};  // why it is empty or not whole
   std::vector<PixelStep> steps{};
 
-  // A step that both sides know: it differs where their texts do.
+  // A value, which may be kept on one side alone: it differs where both texts are there and differ.
   void compare(PixelStep step);
+  // An event: it differs too where one side has it and the other came so far and does not.
+  void compare(PixelStep step, const PixelSides& came);
+  // Records, so many on each side, in an order that both have. One that a side lacks spoils no
+  // other. `same` compares two of them, and not their texts; `row` writes a step of one or both.
+  using Record = std::optional<std::size_t>;
+  void compare_records(std::size_t golden, std::size_t hardware,
+                       const std::function<bool(std::size_t, std::size_t)>& same,
+                       const std::function<PixelStep(Record, Record)>& row, const PixelSides& came);
   // The steps of another part of the engine, and its note.
   void append(const PixelHistory& other);
   std::size_t differences() const;

@@ -16,6 +16,9 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 from engine_list import engines, trials  # noqa: E402
 
 
+CUT_SHORT = 3  # exit code of --max-cycles
+
+
 class PixelHistory(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory(prefix="deburr_pixel_")
@@ -93,6 +96,18 @@ class PixelHistory(unittest.TestCase):
             self.assertIn('<tr class="differs">', self.page)
             self.assertIn('<a href="#pixel">below</a>', self.page)
 
+    # What one side lacks is marked as well.
+    def test_what_is_lost_or_added_differs(self):
+        for engine, run, _, entry in self.followed():
+            for fault in entry["lost_or_added"]:
+                with self.subTest(fault=fault):
+                    broken = [*run, "--fault", fault, "--set", "run.check_links=false"]
+                    self.run_engine(engine, *broken, code=1)
+                    pixel = re.search(r'href="#follow-(\d+,\d+)"', self.page).group(1)
+                    history = self.run_engine(engine, *broken, "--pixel", pixel, code=1)["pixel"]
+                    alone = [step for step in history["steps"] if step["differs"] and not (step["golden"] and step["hardware"])]
+                    self.assertTrue(alone, history)
+
     def test_a_pixel_outside(self):
         for engine, run, _, _ in self.followed():
             for given, says in (("100000,3", ["run.pixel = 100000,3 is outside of the picture of", "a column of 0.."]),
@@ -136,6 +151,30 @@ class PixelHistory(unittest.TestCase):
         for step in lines:
             address, outcome = step["hardware"].split()
             self.assertIn((str(step["clock"]), outcome, f"{int(address, 16):#010x}"), trace)
+
+    # Why a history is not whole, or has no weights.
+    def test_notes_of_the_geometric_engine(self):
+        run = ["geometric", "--size", "96x64", "--no-images"]
+        history = self.run_engine(*run, "--pixel", "52,40")["pixel"]
+        self.assertTrue([step for step in history["steps"] if step["step"] == "candidate"])
+        self.assertEqual(history["note"], "no candidate in its block of 4 x 4 pixels passes the depth test")
+        history = self.run_engine(*run, "--pixel", "50,42", "--max-cycles", "300", code=CUT_SHORT)["pixel"]
+        self.assertEqual(history["note"], "the run was cut short before its block of 4 x 4 pixels was resolved")
+        self.assertEqual(history["differences"], 0)
+
+    def test_notes_of_the_morphological_engine(self):
+        history = self.run_engine("morphological", "--size", "96x64", "--no-images", "--pixel", "19,31", "--max-cycles",
+                                  "500", code=CUT_SHORT)["pixel"]
+        self.assertEqual((history["note"], history["differences"]),
+                         ("the run was cut short before the pixel was delivered", 0))
+
+    def test_notes_of_the_texture_unit(self):
+        run = ["texture", "--size", "64x48", "--no-images", "--max-cycles", "500", "--pixel"]
+        history = self.run_engine(*run, "7,7", code=CUT_SHORT)["pixel"]
+        self.assertEqual((history["note"], history["steps"]),
+                         ("the run was cut short before all quads were sent, 0 of this pixel so far", []))
+        history = self.run_engine(*run, "0,0", code=CUT_SHORT)["pixel"]
+        self.assertRegex(history["note"], "^the run was cut short before all quads were sent, 1 of this pixel so far")
 
     # All of a pixel's fragments, the hidden ones too; none where there is none.
     def test_fragments(self):

@@ -113,6 +113,7 @@ void GeometricEnvironment::configure() {
 bool GeometricEnvironment::begin(std::size_t piece) {
   if (piece >= frames_.size()) return false;
   current_ = piece;
+  ended_ = false;
   meter_.begin(piece);
   started_ = false;
   blocks_.clear();
@@ -170,6 +171,7 @@ void GeometricEnvironment::end() {
     hash_.add(pixel[0] | std::uint64_t{pixel[1]} << 8 | std::uint64_t{pixel[2]} << 16 |
               std::uint64_t{pixel[3]} << 24);
   checks_.end(after, simulation().clock().cycle());
+  ended_ = true;
   meter_.end();
 }
 
@@ -227,7 +229,8 @@ Coverage GeometricEnvironment::coverage() const {
 
 std::optional<PixelHistory> GeometricEnvironment::pixel_history() const {
   if (!history_) return std::nullopt;
-  PixelHistory all = history_->history(current(), frame(), golden() ? &golden_model() : nullptr);
+  PixelHistory all =
+      history_->history(current(), frame(), ended_, golden() ? &golden_model() : nullptr);
   for (PixelStep& step : all.steps) step.part = name();
   return all;
 }

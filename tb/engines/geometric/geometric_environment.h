@@ -118,6 +118,7 @@ class GeometricEnvironment final : public Environment {
   OutputHash hash_;
   std::optional<GeometricMaps> maps_;
   std::optional<GeometricHistory> history_;
+  bool ended_ = false;  // the current frame
 };
 
 }  // namespace deburr::tb

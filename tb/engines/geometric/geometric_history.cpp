@@ -66,6 +66,7 @@ void GeometricHistory::see(const BlockRecord& block, rtl::Cycle cycle) {
 }
 
 PixelHistory GeometricHistory::history(const geometric::Frame& frame, const Image& after,
+                                       bool ended,
                                        const golden::geometric::GeometricGolden* golden) const {
   PixelHistory all{pixel_};
   if (golden && golden->pixels().size() != frame.image.pixels.size()) golden = nullptr;
@@ -81,22 +82,26 @@ PixelHistory GeometricHistory::history(const geometric::Frame& frame, const Imag
   if (at < frame.depths.size())
     input("input", "depth", fmt::format("{:#x}", frame.depths[at] & 0xFFFFFF));
 
-  // Golden and hardware have them in one order. They are compared, and not their texts.
+  const PixelSides came{golden != nullptr, ended};
+  // Golden and hardware have them in one order.
   const auto pair_up = [&](const auto& seen, const auto& expected, const char* step,
                            const auto& wanted) {
     auto here = expected;
     std::erase_if(here, [&](const auto& one) { return !wanted(one); });
-    for (std::size_t i = 0; i < std::max(here.size(), seen.size()); ++i) {
-      PixelStep row{
-          .part = {}, .step = step, .item = std::to_string(i), .golden = {}, .hardware = {}};
-      if (i < here.size()) row.golden = text_of(here[i]);
-      if (i < seen.size()) {
-        row.hardware = text_of(seen[i].first);
-        row.clock = seen[i].second;
-      }
-      row.differs = i < here.size() && i < seen.size() && !(here[i] == seen[i].first);
-      all.steps.push_back(std::move(row));
-    }
+    int number = 0;
+    all.compare_records(
+        here.size(), seen.size(),
+        [&](std::size_t g, std::size_t h) { return here[g] == seen[h].first; },
+        [&](PixelHistory::Record g, PixelHistory::Record h) {
+          PixelStep row{.part = {},
+                        .step = step,
+                        .item = std::to_string(number++),
+                        .golden = g ? text_of(here[*g]) : "",
+                        .hardware = h ? text_of(seen[*h].first) : ""};
+          if (h) row.clock = seen[*h].second;
+          return row;
+        },
+        came);
   };
   static const std::vector<LineRecord> kNoLines;
   static const std::vector<Candidate> kNoCandidates;
@@ -105,27 +110,41 @@ PixelHistory GeometricHistory::history(const geometric::Frame& frame, const Imag
   pair_up(candidates_, golden ? golden->candidates() : kNoCandidates, "candidate",
           [this](const Candidate& candidate) { return is_here(candidate); });
 
-  const BlockRecord* block = blocks_.empty() ? nullptr : &blocks_.front().first;
   const auto in_block = static_cast<std::size_t>(pixel_.y % 4 * 4 + pixel_.x % 4);
-  const std::optional<std::uint64_t> resolved =
-      block ? std::optional<std::uint64_t>(blocks_.front().second) : std::nullopt;
-  const bool touched =
-      block || (golden && std::any_of(golden->blocks().begin(), golden->blocks().end(),
-                                      [this](const BlockRecord& b) { return is_here(b); }));
-  if (touched)
-    all.compare({.part = {},
-                 .step = "weights",
-                 .item = "up, down, left, right",
-                 .golden = golden ? text_of(golden->weights()[at]) : "",
-                 .hardware = block ? text_of(block->weights[in_block]) : "",
-                 .clock = resolved});
-  else
-    all.note = "no line touches its block of 4 x 4 pixels";
+  std::optional<std::uint64_t> resolved;
+  if (!blocks_.empty()) resolved = blocks_.back().second;
+  const bool touched = golden && std::any_of(golden->blocks().begin(), golden->blocks().end(),
+                                             [this](const BlockRecord& b) { return is_here(b); });
+  all.compare_records(
+      touched ? 1 : 0, blocks_.size(),
+      [&](std::size_t, std::size_t h) {
+        return golden->weights()[at] == blocks_[h].first.weights[in_block];
+      },
+      [&](PixelHistory::Record g, PixelHistory::Record h) {
+        PixelStep row{.part = {},
+                      .step = "weights",
+                      .item = "up, down, left, right",
+                      .golden = g ? text_of(golden->weights()[at]) : "",
+                      .hardware = h ? text_of(blocks_[*h].first.weights[in_block]) : ""};
+        if (h) row.clock = blocks_[*h].second;
+        return row;
+      },
+      came);
+  if (!ended && !blocks_.empty())
+    all.note = "the run was cut short after its block of 4 x 4 pixels was resolved";
+  else if (!ended && (touched || !golden))
+    all.note = "the run was cut short before its block of 4 x 4 pixels was resolved";
+  else if (!ended)
+    all.note = "the run was cut short";
+  else if (!touched && blocks_.empty())
+    all.note = "no candidate in its block of 4 x 4 pixels passes the depth test";
+  // Memory may still hold what was there before.
+  const bool written = ended || after.pixels[at] != frame.image.pixels[at];
   all.compare({.part = {},
                .step = "colour",
                .item = "RGBA",
                .golden = golden ? text_of(golden->pixels()[at]) : "",
-               .hardware = text_of(after.pixels[at]),
+               .hardware = written ? text_of(after.pixels[at]) : "",
                .clock = resolved});
   return all;
 }

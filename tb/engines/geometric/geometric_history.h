@@ -24,8 +24,9 @@ class GeometricHistory {
   void see(const spec::geometric::LineRecord& line, rtl::Cycle cycle);
   void see(const spec::geometric::Candidate& candidate, rtl::Cycle cycle);
   void see(const spec::geometric::BlockRecord& block, rtl::Cycle cycle);
-  // `golden`: null without one. `after`: the frame as it is in memory.
-  PixelHistory history(const geometric::Frame& frame, const Image& after,
+  // `golden`: null without one. `after`: the frame as it is in memory. `ended`: all of the frame
+  // was done, so what was not seen does not come.
+  PixelHistory history(const geometric::Frame& frame, const Image& after, bool ended,
                        const golden::geometric::GeometricGolden* golden) const;
 
  private:
@@ -43,7 +44,7 @@ class GeometricHistory {
   PixelAddress pixel_;
   Seen<spec::geometric::LineRecord> lines_;
   Seen<spec::geometric::Candidate> candidates_;
-  Seen<spec::geometric::BlockRecord> blocks_;  // one at most
+  Seen<spec::geometric::BlockRecord> blocks_;  // one, of an engine that is right
 };
 
 }  // namespace deburr::tb

@@ -141,6 +141,7 @@ void MorphologicalEnvironment::start() {
   if (maps_) maps_->begin(image.width, image.height);
   if (history_) history_->begin(image.width);
   taken_before_ = pixels.pops();
+  ended_ = false;
 }
 
 void MorphologicalEnvironment::watch() {
@@ -169,6 +170,7 @@ bool MorphologicalEnvironment::done() const {
 void MorphologicalEnvironment::end() {
   watch();
   checks_.end(simulation().clock().cycle(), current_);
+  ended_ = true;
 }
 
 void MorphologicalEnvironment::finish() {
@@ -242,7 +244,8 @@ void MorphologicalEnvironment::judge(rtl::Cycle cycle,
 
 std::optional<PixelHistory> MorphologicalEnvironment::pixel_history() const {
   if (!history_) return std::nullopt;
-  PixelHistory all = history_->history(frames_[current_], golden() ? &golden_model() : nullptr);
+  PixelHistory all =
+      history_->history(frames_[current_], ended_, golden() ? &golden_model() : nullptr);
   for (PixelStep& step : all.steps) step.part = name();
   return all;
 }

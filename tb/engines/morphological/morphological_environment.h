@@ -128,6 +128,7 @@ class MorphologicalEnvironment final : public Environment {
   OutputHash hash_;
   std::optional<MorphologicalMaps> maps_;
   std::optional<MorphologicalHistory> history_;
+  bool ended_ = false;  // the current frame
 };
 
 }  // namespace deburr::tb

@@ -70,7 +70,8 @@ const RunRecord& run_of(const LineRecord& line) { return line.run; }
 template <class Record, class Wanted>
 void add_records(const std::string& step, const std::string& item,
                  const std::vector<std::pair<Record, rtl::Cycle>>& seen,
-                 std::vector<Record> expected, const Wanted& wanted, PixelHistory& all) {
+                 std::vector<Record> expected, const Wanted& wanted, const PixelSides& came,
+                 PixelHistory& all) {
   std::vector<std::pair<Record, rtl::Cycle>> here;
   for (const auto& one : seen)
     if (wanted(run_of(one.first))) here.push_back(one);
@@ -81,17 +82,19 @@ void add_records(const std::string& step, const std::string& item,
   std::stable_sort(here.begin(), here.end(),
                    [&](const auto& a, const auto& b) { return before(a.first, b.first); });
   std::stable_sort(expected.begin(), expected.end(), before);
-  for (std::size_t i = 0; i < std::max(here.size(), expected.size()); ++i) {
-    PixelStep row{.part = {}, .step = step, .item = item, .golden = {}, .hardware = {}};
-    if (i < expected.size()) row.golden = text_of(expected[i]);
-    if (i < here.size()) {
-      row.hardware = text_of(here[i].first);
-      row.clock = here[i].second;
-    }
-    // They are compared, and not their texts.
-    row.differs = i < expected.size() && i < here.size() && !(expected[i] == here[i].first);
-    all.steps.push_back(std::move(row));
-  }
+  all.compare_records(
+      expected.size(), here.size(),
+      [&](std::size_t g, std::size_t h) { return expected[g] == here[h].first; },
+      [&](PixelHistory::Record g, PixelHistory::Record h) {
+        PixelStep row{.part = {},
+                      .step = step,
+                      .item = item,
+                      .golden = g ? text_of(expected[*g]) : "",
+                      .hardware = h ? text_of(here[*h].first) : ""};
+        if (h) row.clock = here[*h].second;
+        return row;
+      },
+      came);
 }
 
 }  // namespace
@@ -100,7 +103,7 @@ void MorphologicalHistory::begin(int width) {
   width_ = width;
   runs_.clear();
   lines_.clear();
-  delivered_.reset();
+  delivered_.clear();
 }
 
 namespace {
@@ -135,11 +138,11 @@ void MorphologicalHistory::see(std::size_t position, const Rgba8& pixel, const B
                                rtl::Cycle cycle) {
   if (position == static_cast<std::size_t>(pixel_.y) * static_cast<std::size_t>(width_) +
                       static_cast<std::size_t>(pixel_.x))
-    delivered_ = {pixel, tap, cycle};
+    delivered_.push_back({pixel, tap, cycle});
 }
 
 void MorphologicalHistory::add_side(const Side& side, const MorphologicalGolden* golden,
-                                    PixelHistory& all) const {
+                                    const PixelSides& came, PixelHistory& all) const {
   std::vector<RunRecord> runs;
   std::vector<LineRecord> lines;
   if (golden)
@@ -149,52 +152,73 @@ void MorphologicalHistory::add_side(const Side& side, const MorphologicalGolden*
     }
   const auto here = [&](const RunRecord& run) { return is_at(side, run); };
   const std::string step = fmt::format("{} edge", side.name);
-  add_records(step, "run", runs_, runs, here, all);
-  add_records(step, "line", lines_, lines, here, all);
+  add_records(step, "run", runs_, runs, here, came, all);
+  add_records(step, "line", lines_, lines, here, came, all);
 }
 
-PixelHistory MorphologicalHistory::history(const MorphologicalInput& frame,
+PixelHistory MorphologicalHistory::history(const MorphologicalInput& frame, bool ended,
                                            const MorphologicalGolden* golden) const {
   PixelHistory all{pixel_};
   if (golden && golden->pixels().size() != frame.image.pixels.size()) golden = nullptr;
   const std::size_t at = frame.image.index(pixel_.x, pixel_.y);
-  const auto add = [&](std::string step, std::string item, std::string expected, std::string got,
-                       bool timed) {
-    PixelStep row{.part = {},
-                  .step = std::move(step),
-                  .item = std::move(item),
-                  .golden = std::move(expected),
-                  .hardware = std::move(got)};
-    if (timed && delivered_) row.clock = delivered_->cycle;
-    all.compare(std::move(row));
+  const auto add = [&](std::string step, std::string item, std::string expected, std::string got) {
+    all.compare({.part = {},
+                 .step = std::move(step),
+                 .item = std::move(item),
+                 .golden = std::move(expected),
+                 .hardware = std::move(got)});
   };
-  if (!delivered_) all.note = "the pixel was not delivered";
+  // A part of what is delivered, once.
+  const auto add_delivered = [&](std::string step, std::string item, bool known,
+                                 const auto& expected, const auto& got) {
+    all.compare_records(
+        known ? 1 : 0, delivered_.size(),
+        [&](std::size_t, std::size_t h) { return expected() == got(delivered_[h]); },
+        [&](PixelHistory::Record g, PixelHistory::Record h) {
+          PixelStep row{.part = {},
+                        .step = step,
+                        .item = item,
+                        .golden = g ? expected() : "",
+                        .hardware = h ? got(delivered_[*h]) : ""};
+          if (h) row.clock = delivered_[*h].cycle;
+          return row;
+        },
+        {known, ended});
+  };
+  // What a pixel is made of comes before it.
+  const PixelSides came{golden != nullptr, ended || !delivered_.empty()};
+  if (delivered_.empty())
+    all.note = ended ? "the pixel was not delivered"
+                     : "the run was cut short before the pixel was delivered";
   const std::string before = text_of(frame.image.pixels[at]);
-  add("input", "RGBA", before, before, false);
+  add("input", "RGBA", before, before);
   if (at < frame.depth.size()) {
     const std::string depth = fmt::format("{:#x}", frame.depth[at] & 0xFFFFFF);
-    add("input", "depth", depth, depth, false);
+    add("input", "depth", depth, depth);
   }
   const bool taps = golden && at < golden->taps().size();
-  add("edges", "left, top", taps ? edges_of(golden->taps()[at]) : "",
-      delivered_ ? edges_of(delivered_->tap) : "", true);
+  add_delivered(
+      "edges", "left, top", taps, [&] { return edges_of(golden->taps()[at]); },
+      [](const Delivered& one) { return edges_of(one.tap); });
   constexpr std::array<Side, 4> kSides = {{{"top", Axis::kHorizontal, 0},
                                            {"bottom", Axis::kHorizontal, 1},
                                            {"left", Axis::kVertical, 0},
                                            {"right", Axis::kVertical, 1}}};
-  for (const Side& side : kSides) add_side(side, golden, all);
+  for (const Side& side : kSides) add_side(side, golden, came, all);
   if (taps && golden->taps()[at].edges != 0) {
     const auto top = golden->top_shares(pixel_.x, pixel_.y);
     const auto left = golden->left_shares(pixel_.x, pixel_.y);
-    add("shares", "of its top edge: upper, lower", fmt::format("{}, {}", top.first, top.second), "",
-        false);
+    add("shares", "of its top edge: upper, lower", fmt::format("{}, {}", top.first, top.second),
+        "");
     add("shares", "of its left edge: left, right", fmt::format("{}, {}", left.first, left.second),
-        "", false);
+        "");
   }
-  add("blend", "shares of neighbours", taps ? shares_of(golden->taps()[at]) : "",
-      delivered_ ? shares_of(delivered_->tap) : "", true);
-  add("colour", "RGBA", golden ? text_of(golden->pixels()[at]) : "",
-      delivered_ ? text_of(delivered_->pixel) : "", true);
+  add_delivered(
+      "blend", "shares of neighbours", taps, [&] { return shares_of(golden->taps()[at]); },
+      [](const Delivered& one) { return shares_of(one.tap); });
+  add_delivered(
+      "colour", "RGBA", golden != nullptr, [&] { return text_of(golden->pixels()[at]); },
+      [](const Delivered& one) { return text_of(one.pixel); });
   return all;
 }
 

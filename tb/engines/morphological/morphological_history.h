@@ -26,8 +26,9 @@ class MorphologicalHistory {
   // What was delivered as number `position` of the frame.
   void see(std::size_t position, const spec::morphological::Rgba8& pixel,
            const spec::morphological::BlendTap& tap, rtl::Cycle cycle);
-  // `golden`: null without one.
-  PixelHistory history(const MorphologicalInput& frame,
+  // `golden`: null without one. `ended`: all of the frame was done, so what was not seen does not
+  // come.
+  PixelHistory history(const MorphologicalInput& frame, bool ended,
                        const golden::morphological::MorphologicalGolden* golden) const;
 
  private:
@@ -43,13 +44,13 @@ class MorphologicalHistory {
   bool is_at(const Side& side, const spec::morphological::RunRecord& run) const;
   bool is_near(const spec::morphological::RunRecord& run) const;
   void add_side(const Side& side, const golden::morphological::MorphologicalGolden* golden,
-                PixelHistory& all) const;
+                const PixelSides& came, PixelHistory& all) const;
 
   PixelAddress pixel_;
   int width_ = 0;
   Seen<spec::morphological::RunRecord> runs_;
   Seen<spec::morphological::LineRecord> lines_;
-  std::optional<Delivered> delivered_;
+  std::vector<Delivered> delivered_;  // one, of an engine that is right
 };
 
 }  // namespace deburr::tb

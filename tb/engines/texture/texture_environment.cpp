@@ -106,6 +106,7 @@ void TextureEnvironment::clear_outputs() {
   sent_ = {};
   checks_.begin(frame_);
   delivered_ = 0;
+  ended_ = false;
   hash_ = {};
   if (maps_) maps_->clear();
   if (history_) history_->clear();
@@ -189,7 +190,7 @@ std::vector<PictureMap> TextureEnvironment::maps() const {
 
 std::optional<PixelHistory> TextureEnvironment::pixel_history() const {
   if (!history_) return std::nullopt;
-  PixelHistory all = history_->history();
+  PixelHistory all = history_->history(ended_, quad_driver_.done());
   if (!name().empty())
     for (PixelStep& step : all.steps) step.part = name() + " " + step.part;
   return all;

@@ -54,7 +54,10 @@ class TextureEnvironment final : public Environment {
   bool begin(std::size_t piece) override { return piece == 0; }
   void watch() override;
   bool done() const override;
-  void end() override { watch(); }
+  void end() override {
+    watch();
+    ended_ = true;
+  }
   void restart() override;
   void finish() override;
   void refuse_memory_errors() override;
@@ -124,6 +127,7 @@ class TextureEnvironment final : public Environment {
   std::vector<std::uint8_t> came_;
   std::unique_ptr<TextureMaps> maps_;
   std::unique_ptr<TextureHistory> history_;
+  bool ended_ = false;     // the frame
   bool followed_ = false;  // the quad that is being sent covers its pixel
   std::optional<TextureCoverage> coverage_;
   std::uint64_t delivered_ = 0;

@@ -85,7 +85,7 @@ TextureHistory::TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUni
       clock, colours, Monitor<spec::texture::Colour>::Callback(),
       [this](rtl::Cycle cycle, const spec::texture::Colour& colour) {
         if (Fragment* fragment = find(colour.tag, colour.lane))
-          fragment->delivered.emplace(colour, cycle);
+          fragment->delivered.emplace_back(colour, cycle);
       }));
 }
 
@@ -151,8 +151,8 @@ QuadColours TextureHistory::expect(const TracedQuad& quad, golden::texture::Text
 class TextureHistory::Writer {
  public:
   Writer(PixelHistory& history, const TextureHistory& from, const Fragment& fragment,
-         std::string part)
-      : history_(history), from_(from), f_(fragment), part_(std::move(part)) {}
+         std::string part, bool ended)
+      : history_(history), from_(from), f_(fragment), part_(std::move(part)), ended_(ended) {}
 
   void write() {
     quad();
@@ -162,8 +162,7 @@ class TextureHistory::Writer {
     const std::size_t requests =
         std::max({f_.requests.size(), f_.samples.size(), f_.texels.size(), f_.look_ups.size()});
     for (std::size_t i = 0; i < requests; ++i) request(i);
-    add("colour", "RGBA", f_.golden ? colour_text(f_.colour) : "",
-        text(f_.delivered, [](const auto& c) { return colour_text(c.rgba); }), clock(f_.delivered));
+    colour();
   }
 
  private:
@@ -186,25 +185,41 @@ class TextureHistory::Writer {
   std::string golden(const Text& of) const {
     return f_.golden && f_.analysis.valid ? of(f_.analysis) : std::string();
   }
+  // A fragment's steps come before its colour. Without a descriptor there are none.
+  PixelSides came() const {
+    if (!f_.golden || !f_.analysis.valid) return {};
+    return {true, ended_ || !f_.delivered.empty()};
+  }
+  PixelStep row(std::string step, std::string item, std::string golden, std::string hardware,
+                Clock at, bool detail = false) const {
+    return {.part = part_,
+            .step = std::move(step),
+            .item = std::move(item),
+            .golden = std::move(golden),
+            .hardware = std::move(hardware),
+            .clock = at,
+            .detail = detail};
+  }
+  // Of one side by nature.
+  void tell(std::string step, std::string item, std::string golden, std::string hardware,
+            Clock at = std::nullopt, bool detail = false) {
+    history_.compare(
+        row(std::move(step), std::move(item), std::move(golden), std::move(hardware), at, detail));
+  }
   void add(std::string step, std::string item, std::string golden, std::string hardware, Clock at,
            bool detail = false) {
-    history_.compare({.part = part_,
-                      .step = std::move(step),
-                      .item = std::move(item),
-                      .golden = std::move(golden),
-                      .hardware = std::move(hardware),
-                      .clock = at,
-                      .detail = detail});
+    history_.compare(
+        row(std::move(step), std::move(item), std::move(golden), std::move(hardware), at, detail),
+        came());
   }
 
   void quad() {
     const spec::texture::Quad& q = f_.quad.quad;
     const std::string sent = fmt::format("{}, {}, {}", q.tag, f_.lane, q.texture);
-    add("quad", "tag, lane, texture", sent, "", f_.taken);
-    if (!f_.quad.shows(f_.lane))
-      add("quad", "seen", "no: another fragment of the pixel is", "", std::nullopt);
+    tell("quad", "tag, lane, texture", sent, "", f_.taken);
+    if (!f_.quad.shows(f_.lane)) tell("quad", "seen", "no: another fragment of the pixel is", "");
     if (f_.golden && !f_.analysis.valid)
-      add("quad", "descriptor", "invalid: the colour is zero", "", std::nullopt);
+      tell("quad", "descriptor", "invalid: the colour is zero", "");
   }
 
   void derivative() {
@@ -269,8 +284,8 @@ class TextureHistory::Writer {
         text(texels, [](const auto& t) { return words_text(t.address); }), clock(texels), true);
     lines(i, step, golden);
     if (data)
-      add(step, "texels as stored", "",
-          text(data, [](const auto& t) { return words_text(t.texel); }), clock(data), true);
+      tell(step, "texels as stored", "",
+           text(data, [](const auto& t) { return words_text(t.texel); }), clock(data), true);
   }
 
   // The golden model knows no time: a line whose fill is under way is a hit to it.
@@ -280,39 +295,59 @@ class TextureHistory::Writer {
         i < f_.look_ups.size() ? f_.look_ups[i].first : std::vector<LookedUp>();
     const std::vector<std::uint32_t> expected =
         golden ? lines_of(*golden, from_.line_bytes_) : std::vector<std::uint32_t>();
-    for (std::size_t k = 0; k < std::max(expected.size(), seen.size()); ++k) {
-      PixelStep row{.part = part_, .step = step, .item = "line", .golden = {}, .hardware = {}};
-      bool misses = false;
-      if (k < expected.size()) {
-        misses = std::count(golden->misses.begin(), golden->misses.end(), expected[k]) > 0;
-        row.golden = fmt::format("{:#x} {}", std::uint64_t{expected[k]} * from_.line_bytes_,
-                                 misses ? "miss" : "hit");
-      }
-      if (k < seen.size()) {
-        row.hardware = fmt::format("{:#x} {}", std::uint64_t{seen[k].line} * from_.line_bytes_,
-                                   kOutcomes[static_cast<std::size_t>(seen[k].outcome)]);
-        row.clock = seen[k].cycle;
-      }
-      row.differs = k < expected.size() && k < seen.size() &&
-                    (expected[k] != seen[k].line || misses != (seen[k].outcome == LookUp::kMiss));
-      history_.steps.push_back(std::move(row));
-    }
+    const auto misses = [&](std::size_t g) {
+      return std::count(golden->misses.begin(), golden->misses.end(), expected[g]) > 0;
+    };
+    const auto line_text = [this](std::uint32_t line, const char* outcome) {
+      return fmt::format("{:#x} {}", std::uint64_t{line} * from_.line_bytes_, outcome);
+    };
+    history_.compare_records(
+        expected.size(), seen.size(),
+        [&](std::size_t g, std::size_t h) {
+          return expected[g] == seen[h].line && misses(g) == (seen[h].outcome == LookUp::kMiss);
+        },
+        [&](PixelHistory::Record g, PixelHistory::Record h) {
+          return row(
+              step, "line", g ? line_text(expected[*g], misses(*g) ? "miss" : "hit") : "",
+              h ? line_text(seen[*h].line, kOutcomes[static_cast<std::size_t>(seen[*h].outcome)])
+                : "",
+              h ? Clock(seen[*h].cycle) : std::nullopt);
+        },
+        came());
+  }
+
+  void colour() {
+    history_.compare_records(
+        f_.golden ? 1 : 0, f_.delivered.size(),
+        [&](std::size_t, std::size_t h) { return f_.colour == f_.delivered[h].first.rgba; },
+        [&](PixelHistory::Record g, PixelHistory::Record h) {
+          const Seen<spec::texture::Colour> one = h ? at(f_.delivered, *h) : std::nullopt;
+          return row("colour", "RGBA", g ? colour_text(f_.colour) : "",
+                     text(one, [](const auto& c) { return colour_text(c.rgba); }), clock(one));
+        },
+        {f_.golden, ended_});
   }
 
   PixelHistory& history_;
   const TextureHistory& from_;
   const Fragment& f_;
   std::string part_;
+  bool ended_;
 };
 
-PixelHistory TextureHistory::history() const {
+PixelHistory TextureHistory::history(bool ended, bool all_sent) const {
   PixelHistory all{pixel_};
-  if (fragments_.empty()) all.note = "no fragment of a texture covers it";
+  if (!all_sent)
+    all.note =
+        fmt::format("the run was cut short before all quads were sent, {} of this pixel so far",
+                    fragments_.size());
+  else if (fragments_.empty())
+    all.note = "no fragment of a texture covers it";
   for (std::size_t i = 0; i < fragments_.size(); ++i) {
-    if (!fragments_[i].delivered)
-      all.note = fmt::format("fragment {} was not delivered: the tag of its quad is {}", i,
-                             fragments_[i].quad.quad.tag);
-    Writer(all, *this, fragments_[i], fmt::format("fragment {}", i)).write();
+    if (fragments_[i].delivered.empty())
+      all.note += fmt::format("{}fragment {} was not delivered: the tag of its quad is {}",
+                              all.note.empty() ? "" : "; ", i, fragments_[i].quad.quad.tag);
+    Writer(all, *this, fragments_[i], fmt::format("fragment {}", i), ended).write();
   }
   return all;
 }

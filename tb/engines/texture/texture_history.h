@@ -35,7 +35,9 @@ class TextureHistory {
   // What the golden model makes of it. After send() was true, instead of golden.process(quad).
   golden::texture::QuadColours expect(const TracedQuad& quad,
                                       golden::texture::TextureGolden& golden);
-  PixelHistory history() const;
+  // `ended`: all of the frame was done, so what was not seen does not come. `all_sent`: every quad
+  // was.
+  PixelHistory history(bool ended, bool all_sent) const;
 
  private:
   // What a link carried, and the clock in which it was put there.
@@ -65,7 +67,7 @@ class TextureHistory {
     AllSeen<rtl::texture::TexelToken> texels{};
     AllSeen<std::vector<LookedUp>> look_ups{};  // by request
     AllSeen<rtl::texture::TexelQuadToken> data{};
-    Seen<spec::texture::Colour> delivered{};
+    AllSeen<spec::texture::Colour> delivered{};  // one, of a unit that is right
   };
   class Writer;
 

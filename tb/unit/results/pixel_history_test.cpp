@@ -58,7 +58,7 @@ TEST(PixelAddress, IsInsideOfThePicture) {
     }
 }
 
-TEST(PixelHistory, DiffersWhereBothSidesAreKnown) {
+TEST(PixelHistory, AValueDiffersWhereBothSidesKnowIt) {
   PixelHistory history{{3, 4}};
   history.compare(step("same", "2", "2"));
   history.compare(step("other", "2", "3"));
@@ -66,6 +66,50 @@ TEST(PixelHistory, DiffersWhereBothSidesAreKnown) {
   history.compare(step("hardware alone", "", "3"));
   EXPECT_EQ(history.differences(), 1U);
   EXPECT_TRUE(history.steps[1].differs);
+}
+
+// An event that one side lacks; what the other had not come to yet is not lacking.
+TEST(PixelHistory, AnEventDiffersWhereOneSideLacksIt) {
+  PixelHistory history{{3, 4}};
+  history.compare(step("same", "2", "2"), {true, true});
+  history.compare(step("other", "2", "3"), {true, true});
+  history.compare(step("lost", "2", ""), {true, true});
+  history.compare(step("added", "", "3"), {true, false});
+  history.compare(step("cut short", "2", ""), {true, false});
+  history.compare(step("no golden model", "", "3"), {false, true});
+  std::string differ;
+  for (const PixelStep& one : history.steps) differ += one.differs ? '!' : '.';
+  EXPECT_EQ(differ, ".!!!..");
+}
+
+// A word a step, golden's letter first: "A-" is a record that the hardware lacks, "AB!" differs.
+std::string paired(const std::string& golden, const std::string& hardware, PixelSides came) {
+  PixelHistory history{{3, 4}};
+  history.compare_records(
+      golden.size(), hardware.size(),
+      [&](std::size_t g, std::size_t h) { return golden[g] == hardware[h]; },
+      [&](PixelHistory::Record g, PixelHistory::Record h) {
+        return step("letter", g ? std::string(1, golden[*g]) : "",
+                    h ? std::string(1, hardware[*h]) : "");
+      },
+      came);
+  std::string text;
+  for (const PixelStep& one : history.steps)
+    text += (one.golden.empty() ? "-" : one.golden) + (one.hardware.empty() ? "-" : one.hardware) +
+            (one.differs ? "! " : " ");
+  return text;
+}
+
+TEST(PixelHistory, ALostRecordSpoilsNoOther) {
+  const PixelSides both{true, true}, cut{true, false}, alone{false, true};
+  EXPECT_EQ(paired("ABC", "ABC", both), "AA BB CC ");
+  EXPECT_EQ(paired("ABC", "AXC", both), "AA BX! CC ");
+  EXPECT_EQ(paired("ABC", "BC", both), "A-! BB CC ");
+  EXPECT_EQ(paired("ABC", "AC", cut), "AA B-! CC ");
+  EXPECT_EQ(paired("ABC", "AABC", both), "AA -A! BB CC ");
+  EXPECT_EQ(paired("ABC", "A", both), "AA B-! C-! ");
+  EXPECT_EQ(paired("ABC", "A", cut), "AA B- C- ");
+  EXPECT_EQ(paired("", "A", alone), "-A ");
 }
 
 TEST(PixelHistory, KeepsThePartsOfSeveral) {
