@@ -8,7 +8,9 @@ usage: report_pages_test.py DEBURR [CLASS]
 DEBURR_KEEP_SCREENSHOTS=DIR leaves a picture of each page in DIR, 1280 and 390 pixels wide."""
 import array
 import html
+import itertools
 import json
+import math
 import os
 import pathlib
 import re
@@ -54,6 +56,8 @@ const probe_page = async () => {
       return [e.dataset.role, Math.min(box.width, own.width), Math.min(box.height, own.height),
               own.width / e.naturalWidth, own.height / e.naturalHeight];
     }),
+    causes: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).flatMap((chart) =>
+        chart.data.datasets.filter((d) => /^(stalled|busy|idle)/.test(d.label)).map((d) => [d.label, d.backgroundColor])),
     charts: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).map((chart) =>
         [chart.canvas.id, chart.chartArea.height, chart.legend?.options.display ? chart.legend.lineWidths.length : 0]),
     ticks: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).map((chart) =>
@@ -87,6 +91,11 @@ def steps_are_round(labels):
         mantissa /= 10
     return (any(abs(mantissa - m) < 1e-6 for m in (1, 2, 2.5, 4, 5)) and
             all(abs(v / step - round(v / step)) < 1e-6 for v in values))
+
+
+def apart(one, other):
+    """How far two colours #rrggbb are from each other, 0 to 442."""
+    return math.dist(*(bytes.fromhex(colour[1:]) for colour in (one, other)))
 
 
 class PagesTest(unittest.TestCase):
@@ -242,6 +251,20 @@ class Runs(PagesTest):
             with self.subTest(engine):
                 self.check_run(engine, arguments)
         self.assertGreater(max(self.rows), 3, "no legend of several rows: the heights say nothing")
+
+    def test_each_cause_has_a_colour_of_its_own(self):
+        """More causes than colours chosen by hand: the same one in every chart, and none near another."""
+        self.deburr("run", "frame", "--scene", "object", "--size", "64x64", "--smoothing", "geometric-morphological",
+                    "--storage", "memory", "--stalls", "0.1", "--set", "memory.latency=300", "--windows", "1000",
+                    "--no-images", "--out", "causes")
+        drawn = self.probed("causes/report.html", DESKTOP)["causes"]
+        colours = dict(drawn)
+        self.assertGreater(len(drawn), len(colours), "one chart alone draws causes")
+        self.assertGreater(len(colours), 12)
+        for label, colour in drawn:
+            self.assertEqual(colour, colours[label], f"{label} in two colours")
+        for (one, a), (other, b) in itertools.combinations(colours.items(), 2):
+            self.assertGreater(apart(a, b), 20, f"{one} and {other}")
 
     def test_frames_of_a_few_rows_or_columns(self):
         """Their stills can be seen: of a map the map, not the paper of its scale."""
