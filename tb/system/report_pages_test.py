@@ -27,7 +27,8 @@ DEBURR = "deburr"
 BROWSER = next((b for b in ("chromium", "chromium-browser", "google-chrome") if shutil.which(b)), None)
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run",
          "--hide-scrollbars", "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr"]
-PHONE, DESKTOP = 390, 1280
+PHONE, DESKTOP = 390, 1280  # wide
+SCREEN = 844  # the height of a phone
 
 # Runs in the page, and tells the page around it.
 PROBE = """
@@ -44,6 +45,9 @@ const probe_page = async () => {
   const told = {
     width: root.clientWidth, needs: root.scrollWidth, wide,
     canvases: [...document.querySelectorAll('canvas')].map((c) => [c.id, label(c), c.getAttribute('role')]),
+    height: document.body.scrollHeight,
+    contents: [...document.querySelectorAll('nav.contents a')].map((a) => a.getAttribute('href').slice(1)),
+    heads: [...document.querySelectorAll('main h2')].filter((e) => e.getClientRects().length > 0).map((e) => e.id),
     links: [...document.querySelectorAll('a[href]')].map((a) => a.getAttribute('href')),
     empty: [...document.querySelectorAll('section, main h2')].filter((e) => e.innerText.trim() === '' &&
         e.getClientRects().length > 0).map((e) => e.outerHTML.slice(0, 80)),
@@ -336,6 +340,12 @@ window.probe_keys = async (wait) => {
 
 
 class Sweeps(PagesTest):
+    def check(self, page, title, charts, keys=""):
+        told = super().check(page, title, charts, keys)
+        if told["height"] > 3 * SCREEN:
+            self.assertEqual(set(told["heads"]) - set(told["contents"]), set(), f"{title}: what the contents lack")
+        return told
+
     def make(self, name, text):
         with open(self.path(f"{name}.yaml"), "w", encoding="utf-8") as file:
             file.write(text)
