@@ -20,8 +20,11 @@ void add(Result& result, const FlickerMeter& after, const FlickerMeter& before) 
                          "several frames (sequence.frames, lists)."});
   result.work.push_back(
       {"flicker_worst", after.worst(), "1/255", "The same of the pair of frames with the most."});
-  result.work.push_back({"flicker_worst_frame", static_cast<std::uint64_t>(after.worst_frame()), "",
-                         "The second frame of that pair, counted from 0."});
+  const bool flickers = after.worst() > 0;
+  result.work.push_back(
+      {"flicker_worst_frame",
+       flickers ? WorkValue(static_cast<std::uint64_t>(after.worst_frame())) : WorkValue(), "",
+       "The second frame of that pair, counted from 0; null where nothing flickers."});
   result.work.push_back({"flicker_before", before.mean(), "1/255", "As flicker, of what went in."});
 }
 
@@ -71,8 +74,10 @@ void measure_flicker(int frames, const RunContext& context, Result& result,
   }
   add(result, after, before);
   result.terminal.push_back(
-      {"flicker", fmt::format("{:.2f}/255 over {} frames (worst {:.2f}, at frame {}), {}",
-                              after.mean(), frames, after.worst(), after.worst_frame(),
+      {"flicker", fmt::format("{:.2f}/255 over {} frames{}, {}", after.mean(), frames,
+                              after.worst() > 0 ? fmt::format(" (worst {:.2f}, at frame {})",
+                                                              after.worst(), after.worst_frame())
+                                                : "",
                               truth ? fmt::format("against {:.2f} of what went in", before.mean())
                                     : "beyond what went in")});
   result.figures.push_back({truth ? "Flicker over the frames" : "Flicker beyond what went in",

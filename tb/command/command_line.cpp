@@ -168,6 +168,36 @@ std::string explain(const CLI::App& app, int argc, char** argv, const std::strin
   return see(complaint);
 }
 
+// CLI11 takes any word after an option for its value: `--out --quiet` would make a directory of
+// that name. The option that misses its value so, and what came instead; empty: there is none.
+std::string missing_value(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* command = &app;
+  const auto option_of = [&](const std::string& word) {
+    return word.starts_with("--") && word.size() > 2
+               ? command->get_option_no_throw(word.substr(0, word.find('=')))
+               : nullptr;
+  };
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--") break;
+    if (const CLI::Option* option = option_of(word)) {
+      if (word.find('=') != std::string::npos || option->get_items_expected_min() == 0) continue;
+      if (++i < argc && option_of(argv[i]))
+        return fmt::format(
+            "{} needs a value, and '{}' is an option: a name that begins so is "
+            "written {}={}",
+            word, argv[i], word, argv[i]);
+    } else {
+      for (const CLI::App* inner : commands_of(*command))
+        if (inner->get_name() == word) {
+          command = inner;
+          break;
+        }
+    }
+  }
+  return "";
+}
+
 bool asks_for_json(int argc, char** argv) {
   return std::any_of(argv, argv + argc,
                      [](const char* word) { return std::string_view(word) == "--json"; });
@@ -197,6 +227,10 @@ int run(int argc, char** argv, void (*add)(CLI::App&, CommandLine&)) {
   add(app, line);
   try {
     require_utf8(argc, argv);
+    if (const std::string missing = missing_value(app, argc, argv); !missing.empty()) {
+      line.json = asks_for_json(argc, argv);
+      return ended(failure(static_cast<int>(ExitCode::kUsage), "usage", missing));
+    }
     app.parse(argc, argv);
     const Outcome outcome = line.action();
     return outcome.text.empty() ? outcome.code : ended(outcome);

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -16,6 +18,7 @@
 #include "tb/base/ready_file.h"
 #include "tb/command/commands.h"
 #include "tb/command/point_options.h"
+#include "tb/results/amount.h"
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
 #include "tb/sweep/collection.h"
@@ -73,6 +76,33 @@ int run_generation(const SweepOptions& options, const SweepPlace& place, Plan pl
   return run_here(plan, place, points, settings);
 }
 
+// Few enough to be read here; the page and the tables have them all.
+constexpr std::uint64_t kFewOnTheFront = 3;
+
+void say_front(const SweepOptions& options, const SweepDefinition& sweep,
+               const Collection& collection) {
+  if (collection.front > kFewOnTheFront) return;
+  for (const CollectedPoint& point : collection.points) {
+    if (!point.front) continue;
+    std::vector<std::string> place, figures;
+    for (std::size_t i = 0; i < sweep.axes.size(); ++i)
+      if (point.sample[i] != kNotGiven)
+        place.push_back(fmt::format("{} = {}", sweep.axes[i].name, point.sample[i]));
+    for (std::size_t i = 0; i < point.values.size(); ++i) {
+      const MetricInfo& metric = collection.metrics[i];
+      const double value = point.values[i];
+      figures.push_back(fmt::format("{} = {}", metric.name,
+                                    std::isnan(value)   ? "none"
+                                    : std::isinf(value) ? "infinite"
+                                    : metric.unit.empty()
+                                        ? amount(value)
+                                        : fmt::format("{} {}", amount(value), metric.unit)));
+    }
+    say(options,
+        fmt::format("front       {}: {}", fmt::join(place, ", "), fmt::join(figures, ", ")));
+  }
+}
+
 Collection collect_and_say(const SweepOptions& options, const SweepDefinition& sweep,
                            const Plan& plan, const SweepPlace& place) {
   Collection collection = collect(sweep, place);
@@ -80,6 +110,7 @@ Collection collect_and_say(const SweepOptions& options, const SweepDefinition& s
   for (const auto& [none, points] : collection.no_values)
     say(options, fmt::format("no value    {} in {} of {}: {}", collection.metrics[none.metric].name,
                              grouped(points), points_of(collection.done), none.reason));
+  if (!sweep.objectives.empty()) say_front(options, sweep, collection);
   return collection;
 }
 

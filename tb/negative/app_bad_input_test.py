@@ -332,9 +332,22 @@ class Configuration(CommandTest):
         self.expect(2, "rum", "texture", says="did you mean 'run'?")
         self.expect(2, "run", "morphological", "--presett", "mlaa",
                     says=["'--presett': did you mean '--preset'?", "deburr run morphological --help"])
-        self.expect(2, "run", "morphological", "--out", "--size", "--presett=mlaa",
+        self.expect(2, "run", "morphological", "--out", "./--size", "--presett=mlaa",
                     says="did you mean '--preset'?")
         self.expect(2, "compare", "a", "b", "--psnr", "1", says="'--psnr-db'")
+
+    def test_an_option_is_no_value(self):
+        """Of another option, unless it is written as one."""
+        self.write("one.yaml", "engine: texture\naxes: {memory.latency: [50]}\n")
+        for command in (("run", "texture", "--size", "8x8"), ("sweep", "one.yaml", "plan"), ("papers",)):
+            for word in ("--quiet", "--out=x"):
+                self.expect(2, *command, "--out", word, says=["usage: --out needs a value", f"--out={word}"])
+        self.expect(2, "run", "texture", "--set", "--size", "8x8", says="--set needs a value")
+        self.assertEqual([name for name in os.listdir(self.directory) if name.startswith("--")], [])
+        for name in ("--out=--quiet", "--out=./--wait"):
+            self.expect(0, "run", "texture", "--size", "8x8", name)
+            self.assertTrue(os.path.exists(self.path(f"{name.removeprefix('--out=')}/result.json")))
+        self.expect(0, "run", "texture", "--size", "8x8", "--out", "--other")  # the name of no option
 
     def test_faults_are_in_the_help(self):
         for engine in engines():

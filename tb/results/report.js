@@ -326,10 +326,23 @@
   // ---- charts ----
   const stallColours = ['#d08a2c', '#b9503f', '#7c62a8', '#8b9138', '#b0608c', '#5c7fb5', '#9a7654',
                         '#4f8f6b', '#c9ab3a', '#72777e'];
-  // One a cause, wherever on the page it is drawn.
+  // One a cause, wherever on the page it is drawn. Beyond those ten each is the farthest from all
+  // before it and from both tones of --busy, at lightnesses that can be seen on light and on dark.
   const stallCauses = [...new Set(Object.values(data.result.units).flatMap((unit) =>
       Object.keys(unit.stalls).filter((cause) => unit.stalls[cause] > 0)))];
-  const colourOfCause = (cause) => stallColours[stallCauses.indexOf(cause) % stallColours.length];
+  const hex = (hue, lightness) => '#' + [0, 8, 4].map((offset) => {
+    const turn = (offset + hue / 30) % 12;
+    const part = lightness - 0.65 * Math.min(lightness, 1 - lightness) * Math.max(-1, Math.min(turn - 3, 9 - turn, 1));
+    return Math.round(255 * part).toString(16).padStart(2, '0');
+  }).join('');
+  const distance = (a, b) => Math.hypot(...[1, 3, 5].map((i) => parseInt(a.slice(i, i + 2), 16) - parseInt(b.slice(i, i + 2), 16)));
+  const causeColours = stallColours.slice(0, stallCauses.length);
+  const others = [0.42, 0.54, 0.66].flatMap((lightness) => Array.from({length: 36}, (_, i) => hex(10 * i, lightness)));
+  while (causeColours.length < stallCauses.length) {
+    const nearest = (colour) => Math.min(...['#2b7a8f', '#4fa3b8', ...causeColours].map((taken) => distance(colour, taken)));
+    causeColours.push(others.reduce((best, colour) => nearest(colour) > nearest(best) ? colour : best));
+  }
+  const colourOfCause = (cause) => causeColours[stallCauses.indexOf(cause)];
   let charts = [];
 
   // ---- windows ----

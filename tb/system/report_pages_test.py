@@ -8,7 +8,9 @@ usage: report_pages_test.py DEBURR [CLASS]
 DEBURR_KEEP_SCREENSHOTS=DIR leaves a picture of each page in DIR, 1280 and 390 pixels wide."""
 import array
 import html
+import itertools
 import json
+import math
 import os
 import pathlib
 import re
@@ -25,7 +27,8 @@ DEBURR = "deburr"
 BROWSER = next((b for b in ("chromium", "chromium-browser", "google-chrome") if shutil.which(b)), None)
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run",
          "--hide-scrollbars", "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr"]
-PHONE, DESKTOP = 390, 1280
+PHONE, DESKTOP = 390, 1280  # wide
+SCREEN = 844  # the height of a phone
 
 # Runs in the page, and tells the page around it.
 PROBE = """
@@ -42,6 +45,9 @@ const probe_page = async () => {
   const told = {
     width: root.clientWidth, needs: root.scrollWidth, wide,
     canvases: [...document.querySelectorAll('canvas')].map((c) => [c.id, label(c), c.getAttribute('role')]),
+    height: document.body.scrollHeight,
+    contents: [...document.querySelectorAll('nav.contents a')].map((a) => a.getAttribute('href').slice(1)),
+    heads: [...document.querySelectorAll('main h2')].filter((e) => e.getClientRects().length > 0).map((e) => e.id),
     links: [...document.querySelectorAll('a[href]')].map((a) => a.getAttribute('href')),
     empty: [...document.querySelectorAll('section, main h2')].filter((e) => e.innerText.trim() === '' &&
         e.getClientRects().length > 0).map((e) => e.outerHTML.slice(0, 80)),
@@ -54,6 +60,8 @@ const probe_page = async () => {
       return [e.dataset.role, Math.min(box.width, own.width), Math.min(box.height, own.height),
               own.width / e.naturalWidth, own.height / e.naturalHeight];
     }),
+    causes: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).flatMap((chart) =>
+        chart.data.datasets.filter((d) => /^(stalled|busy|idle)/.test(d.label)).map((d) => [d.label, d.backgroundColor])),
     charts: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).map((chart) =>
         [chart.canvas.id, chart.chartArea.height, chart.legend?.options.display ? chart.legend.lineWidths.length : 0]),
     ticks: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).map((chart) =>
@@ -87,6 +95,11 @@ def steps_are_round(labels):
         mantissa /= 10
     return (any(abs(mantissa - m) < 1e-6 for m in (1, 2, 2.5, 4, 5)) and
             all(abs(v / step - round(v / step)) < 1e-6 for v in values))
+
+
+def apart(one, other):
+    """How far two colours #rrggbb are from each other, 0 to 442."""
+    return math.dist(*(bytes.fromhex(colour[1:]) for colour in (one, other)))
 
 
 class PagesTest(unittest.TestCase):
@@ -243,6 +256,20 @@ class Runs(PagesTest):
                 self.check_run(engine, arguments)
         self.assertGreater(max(self.rows), 3, "no legend of several rows: the heights say nothing")
 
+    def test_each_cause_has_a_colour_of_its_own(self):
+        """More causes than colours chosen by hand: the same one in every chart, and none near another."""
+        self.deburr("run", "frame", "--scene", "object", "--size", "64x64", "--smoothing", "geometric-morphological",
+                    "--storage", "memory", "--stalls", "0.1", "--set", "memory.latency=300", "--windows", "1000",
+                    "--no-images", "--out", "causes")
+        drawn = self.probed("causes/report.html", DESKTOP)["causes"]
+        colours = dict(drawn)
+        self.assertGreater(len(drawn), len(colours), "one chart alone draws causes")
+        self.assertGreater(len(colours), 12)
+        for label, colour in drawn:
+            self.assertEqual(colour, colours[label], f"{label} in two colours")
+        for (one, a), (other, b) in itertools.combinations(colours.items(), 2):
+            self.assertGreater(apart(a, b), 20, f"{one} and {other}")
+
     def test_frames_of_a_few_rows_or_columns(self):
         """Their stills can be seen: of a map the map, not the paper of its scale."""
         for name, size in (("flat", "2000x4"), ("tall", "4x600")):
@@ -313,6 +340,12 @@ window.probe_keys = async (wait) => {
 
 
 class Sweeps(PagesTest):
+    def check(self, page, title, charts, keys=""):
+        told = super().check(page, title, charts, keys)
+        if told["height"] > 3 * SCREEN:
+            self.assertEqual(set(told["heads"]) - set(told["contents"]), set(), f"{title}: what the contents lack")
+        return told
+
     def make(self, name, text):
         with open(self.path(f"{name}.yaml"), "w", encoding="utf-8") as file:
             file.write(text)

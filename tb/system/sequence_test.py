@@ -155,6 +155,13 @@ class Images(SequenceTest):
         with open(self.path("all/manifest.json"), encoding="utf-8") as file:
             self.assertEqual([i["file"] for i in json.load(file)["inputs"]], list(self.NAMES))
 
+    def test_nothing_flickers(self):
+        work = self.result(self.ENGINE, "still", "--in", "f1.png;f1.png;f1.png")["work"]
+        self.assertEqual((work["flicker"], work["flicker_worst"], work["flicker_worst_frame"]), (0, 0, None))
+        said = subprocess.run([DEBURR, "run", self.ENGINE, "--in", "f1.png;f1.png", "--out", "still"],
+                              cwd=self.directory, text=True, capture_output=True, check=True).stdout
+        self.assertRegex(said, r"flicker +0\.00/255 over 2 frames, beyond what went in\n")
+
     def test_with_truths(self):
         result = self.result(self.ENGINE, "all", "--in", "f*.png", "--truth", "t_f*.png")
         for i, name in enumerate(self.NAMES):

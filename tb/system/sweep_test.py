@@ -55,11 +55,14 @@ class SweepTest(unittest.TestCase):
         with open(os.path.join(self.directory, name), "w") as file:
             file.write(text)
 
-    def run_sweep(self, name, *arguments, code=0, command="sweep"):
+    def said(self, name, *arguments, code=0, command="sweep"):
         done = subprocess.run([DEBURR, command, name, *arguments], cwd=self.directory, text=True,
                               capture_output=True, timeout=300)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done.stdout.strip().splitlines()[-1]
+        return done.stdout.strip().splitlines()
+
+    def run_sweep(self, name, *arguments, **how):
+        return self.said(name, *arguments, **how)[-1]
 
     def search(self, name, *arguments, code=0):
         return self.run_sweep(name, *arguments, code=code, command="search")
@@ -141,6 +144,28 @@ objectives: {minimise: [kib, clocks_a_fragment]}
         front = {row["point"] for row in rows if row["front"] == "1"}
         self.search("limits.yaml", "--runs", str(POINTS), "--population", "8")
         self.assertEqual({row["point"] for row in self.rows("limits", command="search") if row["front"] == "1"}, front)
+
+    def test_a_front_of_a_few_points_is_printed(self):
+        """Each with its axes and metrics; more are left to the page. Of a search too."""
+        text = SWEEP.replace("metrics: {", "metrics: {none: cycles / (work.fragments - work.fragments), ")
+        self.write("front.yaml", text)
+        self.run_sweep("front.yaml", "run")
+        sizes = set()
+        for objectives in ("minimise: [bits]", "minimise: [cycles]", "minimise: [cycles, bits], maximise: [lines]",
+                           "minimise: [bits], maximise: [cycles]"):
+            self.write("front.yaml", text.replace("minimise: [cycles, bits]", objectives))
+            front = [row for row in self.rows("front") if row["front"] == "1"]
+            sizes.add(len(front))
+            axes = ("texture.cache.bytes", "texture.cache.ways", "memory.latency")
+            metrics = (("cycles", " clk"), ("bits", " bit"), ("lines", " line"))
+            lines = ["front       " + ", ".join(f"{axis} = {row[axis]}" for axis in axes) + ": none = none, " +
+                     ", ".join(f"{name} = {int(row[name]):,}{unit}" for name, unit in metrics) for row in front]
+            said = [line for line in self.said("front.yaml", "collect") if line.startswith("front ")]
+            self.assertEqual(said, lines if len(front) <= 3 else [], objectives)
+            self.assertEqual(len(self.said("front.yaml", "collect", "--quiet")), 1)
+        self.assertTrue(sizes & {1, 2, 3} and max(sizes) > 3, sizes)
+        said = self.said("front.yaml", "--runs", str(POINTS), "--population", "8", command="search")
+        self.assertCountEqual([line for line in said if line.startswith("front ")], lines)
 
     def test_the_table_without_script(self):
         """Every point with its values, the front first, and links to what is there."""
