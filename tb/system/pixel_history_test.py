@@ -96,17 +96,21 @@ class PixelHistory(unittest.TestCase):
             self.assertIn('<tr class="differs">', self.page)
             self.assertIn('<a href="#pixel">below</a>', self.page)
 
-    # What one side lacks is marked as well.
+    # What one side lacks is marked as well. Records after one that was added are compared with their neighbours, so
+    # the first mismatch names both pixels: the one that was expected, and the one that came.
     def test_what_is_lost_or_added_differs(self):
         for engine, run, _, entry in self.followed():
             for fault in entry["lost_or_added"]:
                 with self.subTest(fault=fault):
                     broken = [*run, "--fault", fault, "--set", "run.check_links=false"]
-                    self.run_engine(engine, *broken, code=1)
-                    pixel = re.search(r'href="#follow-(\d+,\d+)"', self.page).group(1)
-                    history = self.run_engine(engine, *broken, "--pixel", pixel, code=1)["pixel"]
-                    alone = [step for step in history["steps"] if step["differs"] and not (step["golden"] and step["hardware"])]
-                    self.assertTrue(alone, history)
+                    result = self.run_engine(engine, *broken, code=1)
+                    came = re.search(r"\bx=(\d+) y=(\d+)", result["first_mismatches"][0]["got"])
+                    pixels = [re.search(r'href="#follow-(\d+,\d+)"', self.page).group(1)]
+                    pixels += [",".join(came.groups())] if came else []
+                    steps = [step for pixel in pixels
+                             for step in self.run_engine(engine, *broken, "--pixel", pixel, code=1)["pixel"]["steps"]]
+                    self.assertTrue([step for step in steps
+                                     if step["differs"] and not (step["golden"] and step["hardware"])], steps)
 
     def test_a_pixel_outside(self):
         for engine, run, _, _ in self.followed():
@@ -153,28 +157,15 @@ class PixelHistory(unittest.TestCase):
             self.assertIn((str(step["clock"]), outcome, f"{int(address, 16):#010x}"), trace)
 
     # Why a history is not whole, or has no weights.
-    def test_notes_of_the_geometric_engine(self):
-        run = ["geometric", "--size", "96x64", "--no-images"]
-        history = self.run_engine(*run, "--pixel", "52,40")["pixel"]
-        self.assertTrue([step for step in history["steps"] if step["step"] == "candidate"])
-        self.assertEqual(history["note"], "no candidate in its block of 4 x 4 pixels passes the depth test")
-        history = self.run_engine(*run, "--pixel", "50,42", "--max-cycles", "300", code=CUT_SHORT)["pixel"]
-        self.assertEqual(history["note"], "the run was cut short before its block of 4 x 4 pixels was resolved")
-        self.assertEqual(history["differences"], 0)
-
-    def test_notes_of_the_morphological_engine(self):
-        history = self.run_engine("morphological", "--size", "96x64", "--no-images", "--pixel", "19,31", "--max-cycles",
-                                  "500", code=CUT_SHORT)["pixel"]
-        self.assertEqual((history["note"], history["differences"]),
-                         ("the run was cut short before the pixel was delivered", 0))
-
-    def test_notes_of_the_texture_unit(self):
-        run = ["texture", "--size", "64x48", "--no-images", "--max-cycles", "500", "--pixel"]
-        history = self.run_engine(*run, "7,7", code=CUT_SHORT)["pixel"]
-        self.assertEqual((history["note"], history["steps"]),
-                         ("the run was cut short before all quads were sent, 0 of this pixel so far", []))
-        history = self.run_engine(*run, "0,0", code=CUT_SHORT)["pixel"]
-        self.assertRegex(history["note"], "^the run was cut short before all quads were sent, 1 of this pixel so far")
+    def test_notes(self):
+        for engine, run, _, entry in self.followed():
+            for note in entry["notes"]:
+                with self.subTest(engine=engine, note=note["says"]):
+                    cut = ["--max-cycles", str(note["clocks"])] if "clocks" in note else []
+                    history = self.run_engine(engine, *run, "--pixel", ",".join(map(str, note["pixel"])), *cut,
+                                              code=CUT_SHORT if cut else 0)["pixel"]
+                    self.assertTrue(history["note"].startswith(note["says"]), history["note"])
+                    self.assertEqual(history["differences"], 0)
 
     # All of a pixel's fragments, the hidden ones too; none where there is none.
     def test_fragments(self):
