@@ -120,10 +120,10 @@ class Scratch(unittest.TestCase):
         file.write_text(text, encoding="utf-8")
         return file
 
-    def project(self, find, link="", main="int main() {}"):
+    def project(self, find, link="", main="int main() {}", version="3.25"):
         """A project of a user's."""
         self.write("main.cpp", main)
-        self.write("CMakeLists.txt", "cmake_minimum_required(VERSION 3.25)\nproject(user LANGUAGES CXX)\n"
+        self.write("CMakeLists.txt", f"cmake_minimum_required(VERSION {version})\nproject(user LANGUAGES CXX)\n"
                    f"find_package({find})\nadd_executable(user main.cpp)\ntarget_link_libraries(user PRIVATE {link})\n")
 
     def configure(self, *options, code=0):
@@ -285,10 +285,12 @@ class Packages(Scratch):
         call(self.folder / "build/user")
 
     def test_models(self):
-        self.project("deburr REQUIRED COMPONENTS models", "deburr::models", MODELS_MAIN)
-        self.configure()
-        alone(CMAKE, "--build", self.folder / "build")
-        call(self.folder / "build/user")
+        for version in ("3.25", "3.5"):  # whose policies are those of find_package's caller
+            shutil.rmtree(self.folder / "build", ignore_errors=True)
+            self.project("deburr REQUIRED COMPONENTS models", "deburr::models", MODELS_MAIN, version)
+            self.configure()
+            alone(CMAKE, "--build", self.folder / "build")
+            call(self.folder / "build/user")
 
     def test_pkg_config(self):
         for name, main in (("golden", GOLDEN_MAIN), ("models", MODELS_MAIN)):
