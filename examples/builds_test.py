@@ -14,7 +14,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 from installed_test import (BUILD, CMAKE, CXX, DECLARED, EMPTY, EXAMPLES, GOLDEN_MAIN, INCLUDE, MODELS_MAIN, PREFIX,  # noqa: E402
-                            PYTHON, SOURCE, Scratch, call, exported, one_file, pkg_config)
+                            PYTHON, SOURCE, Scratch, call, exported, main, one_file, pkg_config)
 
 OTHER = "g++" if "clang" in CXX else "clang++"
 
@@ -249,4 +249,4 @@ print(deburr.__file__, deburr.__version__, smooth.shape, run.cycles > 1024, debu
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()
