@@ -56,6 +56,10 @@ if(_systemc_libraries AND SystemC_VERSION AND SystemC_VERSION VERSION_LESS _syst
   set(_systemc_libraries "")
   set(SystemC_NOT_FOUND_MESSAGE "SystemC ${SystemC_VERSION} at ${_systemc_place} is too old. ${_systemc_help}")
 endif()
+if(_systemc_libraries AND NOT CMAKE_CXX_COMPILER_LOADED)
+  set(_systemc_libraries "")
+  set(SystemC_NOT_FOUND_MESSAGE "SystemC needs the language C++, which this project has not: project(... LANGUAGES CXX).")
+endif()
 
 # A function, so that nothing of it stays in the project that asks.
 function(_systemc_probe)

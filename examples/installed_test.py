@@ -313,6 +313,14 @@ class Packages(Scratch):
             said = self.configure(*options, code=1)
             for word in words:
                 self.assertIn(word, said, find)
+        # A project in C has the golden models alone.
+        shutil.rmtree(self.folder / "build")
+        self.write("main.c", "int main(void) { return 0; }")
+        self.write("CMakeLists.txt", "cmake_minimum_required(VERSION 3.25)\nproject(user LANGUAGES C)\n"
+                   "find_package(deburr REQUIRED)\nadd_executable(user main.c)\n")
+        said = self.configure(code=1)
+        self.assertIn("COMPONENTS golden", said)
+        self.assertIn("needs the language C++, which this project has not", said)
 
     def test_what_is_optional_may_be_absent(self):
         self.project("deburr REQUIRED COMPONENTS golden OPTIONAL_COMPONENTS models", "deburr::golden", GOLDEN_MAIN)
