@@ -14,7 +14,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 from installed_test import (BUILD, CMAKE, CXX, DECLARED, EMPTY, EXAMPLES, GOLDEN_MAIN, INCLUDE, MODELS_MAIN, PREFIX,  # noqa: E402
-                            PYTHON, SOURCE, Scratch, call, exported, main, one_file, pkg_config)
+                            PYTHON, SOURCE, Scratch, block_of, call, exported, main, one_file, pkg_config)
 
 OTHER = "g++" if "clang" in CXX else "clang++"
 
@@ -80,6 +80,19 @@ class Shared(Scratch):
         self.assertIn("[libdeburr-golden-c.so.0]", call("readelf", "-d", library))
         call("cc", "-std=c99", EXAMPLES / "c/draw.c", "-o", self.folder / "draw", *self.flags("deburr-golden-c"))
         self.assertIn("PASS picture", call(self.folder / "draw", "picture.ppm", cwd=self.folder, env=self.env))
+
+    @unittest.skipUnless(shutil.which("verilator"), "verilator is not installed: scripts/install examples")
+    def test_the_page_makes_an_object_that_simulators_load(self):
+        installs, commands = block_of("howto/testbench", "-shared").split("\n", 1)
+        self.assertRegex(installs, r"^cmake --preset libraries -DBUILD_SHARED_LIBS=ON && .* --prefix ~/deburr$")
+        header = next(pathlib.Path(call("verilator", "--getenv", "VERILATOR_ROOT").strip()).rglob("svdpi.h"))
+        self.write("home/of_this_test", "")
+        (self.folder / "home/deburr").symlink_to(self.prefix)
+        (self.folder / "simulator").mkdir()
+        (self.folder / "simulator/include").symlink_to(header.parent)
+        said = self.as_on_the_page(f"SIMULATOR=simulator\n{commands}\nldd deburr_golden_dpi.so")
+        self.assertIn(f"libdeburr-golden-c.so.0 => {self.folder}/home/deburr/lib/", said)
+        self.assertNotIn("not found", said)
 
 
 PACKAGE = """set(SystemC_CXX_STANDARD 17)

@@ -84,6 +84,14 @@ def blocks_of(page):
     return [block for language, block in re.findall(r"^```(\w*)\n(.*?)^```", text, re.M | re.S) if not language]
 
 
+def block_of(page, word):
+    """The only one of them with this word."""
+    found = [block for block in blocks_of(page) if word in block]
+    if len(found) != 1:
+        raise AssertionError(f"{page}: {len(found)} blocks with {word}")
+    return found[0]
+
+
 def not_printed(block, said):
     """The lines of a page that a program has not printed; ... stands for anything."""
     lines = [" ".join(line.split()) for line in said.splitlines()]
@@ -293,10 +301,12 @@ class Packages(Scratch):
             call(self.folder / "build/user")
 
     def test_pkg_config(self):
-        for name, main in (("golden", GOLDEN_MAIN), ("models", MODELS_MAIN)):
-            file = self.write(f"{name}.cpp", main)
-            call(CXX, file, "-o", self.folder / name, *pkg_config("--cflags", "--libs", f"deburr-{name}"))
-            call(self.folder / name)
+        file = self.write("golden.cpp", GOLDEN_MAIN)
+        call(CXX, file, "-o", self.folder / "golden", *pkg_config("--cflags", "--libs", "deburr-golden"))
+        call(self.folder / "golden")
+        self.write("main.cpp", MODELS_MAIN)
+        self.as_on_the_page(block_of("howto/use_in_my_platform", "pkg-config"))
+        call(self.folder / "a.out")
         self.assertEqual(pkg_config("--modversion", "deburr-golden"), pkg_config("--modversion", "deburr-models"))
 
     def test_what_is_missing_is_said(self):
@@ -413,11 +423,10 @@ class C(Scratch):
         self.assertIn("PASS picture", alone(program, "picture.ppm", cwd=self.folder, **how))
         self.assertTrue((self.folder / "picture.ppm").read_bytes().startswith(b"P6"))
 
-    def test_with_cmake_and_no_other_language(self):
-        alone(CMAKE, "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={PREFIX}")
-        alone(CMAKE, "--build", self.folder / "build")
+    def test_the_page_builds_it_with_no_other_language(self):
+        self.assertIn("PASS picture", self.as_on_the_page(block_of("reference/c_interface", "examples/c")))
+        self.assertTrue((self.folder / "picture.ppm").read_bytes().startswith(b"P6"))
         self.assertNotIn("CMAKE_CXX_COMPILER", (self.folder / "build/CMakeCache.txt").read_text(encoding="utf-8"))
-        self.drawn(self.folder / "build/draw")
 
     def test_with_one_line_and_what_it_must_find(self):
         flags = pkg_config("--cflags", "--libs", "deburr-golden-c")
@@ -603,7 +612,7 @@ print(f"{value:016x}")
             self.python("import nbclient, ipykernel, pandas, matplotlib")
         except AssertionError:
             self.skipTest("a notebook's packages are not installed: scripts/install python")
-        copies, executes = next(block for block in blocks_of("reference/python") if "notebook.ipynb" in block).splitlines()
+        copies, executes = block_of("reference/python", "notebook.ipynb").splitlines()
         self.as_on_the_page(copies)
         self.python(NOTEBOOK)
         cells = json.loads((self.folder / "executed.ipynb").read_text(encoding="utf-8"))["cells"]
