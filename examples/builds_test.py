@@ -14,7 +14,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 from installed_test import (BUILD, CMAKE, CXX, DECLARED, EMPTY, EXAMPLES, GOLDEN_MAIN, INCLUDE, MODELS_MAIN, PREFIX,  # noqa: E402
-                            PYTHON, SOURCE, Scratch, block_of, call, exported, main, one_file, pkg_config)
+                            PYTHON_BUILT, SOURCE, Scratch, block_of, call, exported, main, one_file, pkg_config)
 
 OTHER = "g++" if "clang" in CXX else "clang++"
 
@@ -229,7 +229,7 @@ class Debian(Scratch):
         return version
 
     def test_there_is_one_for_each_that_was_built(self):
-        self.assertEqual(set(self.packages), {"deburr", "libdeburr-dev"} | ({"python3-deburr"} if PYTHON.exists() else set()))
+        self.assertEqual(set(self.packages), {"deburr", "libdeburr-dev"} | ({"python3-deburr"} if PYTHON_BUILT else set()))
 
     def test_they_stand_alone(self):
         version = self.extract({"deburr": ("libsystemc", "libc6"), "libdeburr-dev": ("libsystemc-dev", "libfmt-dev")})
@@ -240,7 +240,7 @@ class Debian(Scratch):
         call(CMAKE, "--build", self.folder / "build")
         call(self.folder / "build/user")
 
-    @unittest.skipUnless(PYTHON.exists(), "the Python module was not built: scripts/install python")
+    @unittest.skipUnless(PYTHON_BUILT, "the Python module was not built: scripts/install python")
     def test_the_python_module_finds_the_command_of_its_package(self):
         version = pkg_config("--modversion", "deburr-golden")[0]
         self.extract({"deburr": (), "python3-deburr": (f"deburr (= {version}-1)", "python3-numpy")})
