@@ -205,7 +205,8 @@ class SystemC(Scratch):
 
 
 class Debian(Scratch):
-    """`cpack -G DEB`, of this build, which has the Python module or has not."""
+    """`cpack -G DEB`, of this build, which has the Python module or has not. The preset `package`, which compiles all of
+    it once more, is only configured."""
 
     @classmethod
     def setUpClass(cls):
@@ -230,6 +231,24 @@ class Debian(Scratch):
 
     def test_there_is_one_for_each_that_was_built(self):
         self.assertEqual(set(self.packages), {"deburr", "libdeburr-dev"} | ({"python3-deburr"} if PYTHON_BUILT else set()))
+
+    def test_the_preset_of_the_page_makes_the_same(self):
+        line = block_of("howto/use_in_my_platform", "cpack").splitlines()[0]
+        self.assertEqual(line, "cmake --preset package && cmake --build --preset package && cpack --preset package")
+        build, env = self.folder / "build", dict(os.environ)
+        for tool in ([CMAKE, "--build"], [pathlib.Path(CMAKE).with_name("cpack")]):
+            self.assertRegex(call(*tool, "--list-presets", cwd=SOURCE, env=env), r'(?m)^ *"package"')
+        call(CMAKE, "--preset", "package", "-B", build, cwd=SOURCE, env=env)
+        cache = (build / "CMakeCache.txt").read_text(encoding="utf-8")
+        self.assertRegex(cache, r"(?m)^CMAKE_INSTALL_PREFIX:\w+=/usr$")
+        self.assertRegex(cache, r"(?m)^CMAKE_INSTALL_LIBDIR:\w+=lib/\w+-linux-gnu")
+        self.assertIn(f"-ffile-prefix-map={SOURCE}/=./", cache)
+        layers = re.findall(r"-ffile-prefix-map=\S*/build/package/layers/(\w+)/= ?", cache)
+        self.assertLessEqual(set(layers), {folder.name for folder in (build / "layers").iterdir()})
+        packing = (build / "CPackConfig.cmake").read_text(encoding="utf-8")
+        components = {"program", "development"} | ({"python"} if PYTHON_BUILT else set())
+        self.assertEqual(set(re.search(r'CPACK_COMPONENTS_ALL "(.*)"', packing)[1].split(";")), components)
+        self.assertIn(f'CPACK_PACKAGE_DIRECTORY "{build}/packages"', packing)
 
     def test_they_stand_alone(self):
         version = self.extract({"deburr": ("libsystemc", "libc6"), "libdeburr-dev": ("libsystemc-dev", "libfmt-dev")})
