@@ -190,6 +190,7 @@ class SystemC(Scratch):
                 self.asks(how)
                 said = self.configure(*options, code=code)
                 self.assertIn("standard of the project: 23" if code == 0 else words, said)
+                self.assertNotRegex(said, r"SystemC [\d.]*, ")  # what is said when it was found
 
     def test_another_one_than_the_libraries_were_built_with(self):
         self.project("deburr REQUIRED COMPONENTS models")
