@@ -36,6 +36,10 @@ class Compiler(Scratch):
 
     def test_the_platform_draws_the_same_picture(self):
         prefix = built("other-compiler", f"-DCMAKE_CXX_COMPILER={OTHER}")
+        for library in prefix.glob("lib*/**/libdeburr-*.a"):
+            made_by = call("readelf", "-p", ".comment", library)
+            self.assertEqual("clang version" in made_by, "clang" in OTHER, library)
+            self.assertEqual("GCC: " in made_by, "clang" not in OTHER, library)
         shutil.copytree(EXAMPLES / "platform", self.folder, dirs_exist_ok=True)
         said = []
         for compiler, where, options in ((CXX, PREFIX, ["-DCMAKE_BUILD_TYPE=Debug"]), (OTHER, prefix, [])):
