@@ -10,6 +10,11 @@
 #
 # It is installed with Deburr's CMake package, whose user needs the same SC_CPLUSPLUS. Why nothing was found
 # is in SystemC_NOT_FOUND_MESSAGE.
+
+# The policies of who asks are in force here: below 3.8 the probe would be compiled for another standard than the
+# program. find_package gives them back.
+cmake_policy(VERSION 3.16...3.25)
+
 unset(SystemC_NOT_FOUND_MESSAGE)
 set(_systemc_oldest 2.3.3)
 set(_systemc_help "Install Debian's package libsystemc-dev, or set SYSTEMC_HOME to an installation of SystemC ${_systemc_oldest} or later, or add the place of a CMake package of SystemC 3.0 to CMAKE_PREFIX_PATH.")
@@ -50,6 +55,10 @@ endif()
 if(_systemc_libraries AND SystemC_VERSION AND SystemC_VERSION VERSION_LESS _systemc_oldest)
   set(_systemc_libraries "")
   set(SystemC_NOT_FOUND_MESSAGE "SystemC ${SystemC_VERSION} at ${_systemc_place} is too old. ${_systemc_help}")
+endif()
+if(_systemc_libraries AND NOT CMAKE_CXX_COMPILER_LOADED)
+  set(_systemc_libraries "")
+  set(SystemC_NOT_FOUND_MESSAGE "SystemC needs the language C++, which this project has not: project(... LANGUAGES CXX).")
 endif()
 
 # A function, so that nothing of it stays in the project that asks.

@@ -14,7 +14,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 from installed_test import (BUILD, CMAKE, CXX, DECLARED, EMPTY, EXAMPLES, GOLDEN_MAIN, INCLUDE, MODELS_MAIN, PREFIX,  # noqa: E402
-                            PYTHON, SOURCE, Scratch, call, exported, one_file, pkg_config)
+                            PYTHON_BUILT, SOURCE, Scratch, block_of, call, exported, main, one_file, pkg_config)
 
 OTHER = "g++" if "clang" in CXX else "clang++"
 
@@ -36,6 +36,10 @@ class Compiler(Scratch):
 
     def test_the_platform_draws_the_same_picture(self):
         prefix = built("other-compiler", f"-DCMAKE_CXX_COMPILER={OTHER}")
+        for library in prefix.glob("lib*/**/libdeburr-*.a"):
+            made_by = call("readelf", "-p", ".comment", library)
+            self.assertEqual("clang version" in made_by, "clang" in OTHER, library)
+            self.assertEqual("GCC: " in made_by, "clang" not in OTHER, library)
         shutil.copytree(EXAMPLES / "platform", self.folder, dirs_exist_ok=True)
         said = []
         for compiler, where, options in ((CXX, PREFIX, ["-DCMAKE_BUILD_TYPE=Debug"]), (OTHER, prefix, [])):
@@ -80,6 +84,19 @@ class Shared(Scratch):
         self.assertIn("[libdeburr-golden-c.so.0]", call("readelf", "-d", library))
         call("cc", "-std=c99", EXAMPLES / "c/draw.c", "-o", self.folder / "draw", *self.flags("deburr-golden-c"))
         self.assertIn("PASS picture", call(self.folder / "draw", "picture.ppm", cwd=self.folder, env=self.env))
+
+    @unittest.skipUnless(shutil.which("verilator"), "verilator is not installed: scripts/install examples")
+    def test_the_page_makes_an_object_that_simulators_load(self):
+        installs, commands = block_of("howto/testbench", "-shared").split("\n", 1)
+        self.assertRegex(installs, r"^cmake --preset libraries -DBUILD_SHARED_LIBS=ON && .* --prefix ~/deburr$")
+        header = next(pathlib.Path(call("verilator", "--getenv", "VERILATOR_ROOT").strip()).rglob("svdpi.h"))
+        self.write("home/of_this_test", "")
+        (self.folder / "home/deburr").symlink_to(self.prefix)
+        (self.folder / "simulator").mkdir()
+        (self.folder / "simulator/include").symlink_to(header.parent)
+        said = self.as_on_the_page(f"SIMULATOR=simulator\n{commands}\nldd deburr_golden_dpi.so")
+        self.assertIn(f"libdeburr-golden-c.so.0 => {self.folder}/home/deburr/lib/", said)
+        self.assertNotIn("not found", said)
 
 
 PACKAGE = """set(SystemC_CXX_STANDARD 17)
@@ -177,6 +194,7 @@ class SystemC(Scratch):
                 self.asks(how)
                 said = self.configure(*options, code=code)
                 self.assertIn("standard of the project: 23" if code == 0 else words, said)
+                self.assertNotRegex(said, r"SystemC [\d.]*, ")  # what is said when it was found
 
     def test_another_one_than_the_libraries_were_built_with(self):
         self.project("deburr REQUIRED COMPONENTS models")
@@ -192,7 +210,8 @@ class SystemC(Scratch):
 
 
 class Debian(Scratch):
-    """`cpack -G DEB`, of this build, which has the Python module or has not."""
+    """`cpack -G DEB`, of this build, which has the Python module or has not. The preset `package`, which compiles all of
+    it once more, is only configured."""
 
     @classmethod
     def setUpClass(cls):
@@ -216,7 +235,25 @@ class Debian(Scratch):
         return version
 
     def test_there_is_one_for_each_that_was_built(self):
-        self.assertEqual(set(self.packages), {"deburr", "libdeburr-dev"} | ({"python3-deburr"} if PYTHON.exists() else set()))
+        self.assertEqual(set(self.packages), {"deburr", "libdeburr-dev"} | ({"python3-deburr"} if PYTHON_BUILT else set()))
+
+    def test_the_preset_of_the_page_makes_the_same(self):
+        line = block_of("howto/use_in_my_platform", "cpack").splitlines()[0]
+        self.assertEqual(line, "cmake --preset package && cmake --build --preset package && cpack --preset package")
+        build, env = self.folder / "build", dict(os.environ)
+        for tool in ([CMAKE, "--build"], [pathlib.Path(CMAKE).with_name("cpack")]):
+            self.assertRegex(call(*tool, "--list-presets", cwd=SOURCE, env=env), r'(?m)^ *"package"')
+        call(CMAKE, "--preset", "package", "-B", build, cwd=SOURCE, env=env)
+        cache = (build / "CMakeCache.txt").read_text(encoding="utf-8")
+        self.assertRegex(cache, r"(?m)^CMAKE_INSTALL_PREFIX:\w+=/usr$")
+        self.assertRegex(cache, r"(?m)^CMAKE_INSTALL_LIBDIR:\w+=lib/\w+-linux-gnu")
+        self.assertIn(f"-ffile-prefix-map={SOURCE}/=./", cache)
+        layers = re.findall(r"-ffile-prefix-map=\S*/build/package/layers/(\w+)/= ?", cache)
+        self.assertLessEqual(set(layers), {folder.name for folder in (build / "layers").iterdir()})
+        packing = (build / "CPackConfig.cmake").read_text(encoding="utf-8")
+        components = {"program", "development"} | ({"python"} if PYTHON_BUILT else set())
+        self.assertEqual(set(re.search(r'CPACK_COMPONENTS_ALL "(.*)"', packing)[1].split(";")), components)
+        self.assertIn(f'CPACK_PACKAGE_DIRECTORY "{build}/packages"', packing)
 
     def test_they_stand_alone(self):
         version = self.extract({"deburr": ("libsystemc", "libc6"), "libdeburr-dev": ("libsystemc-dev", "libfmt-dev")})
@@ -227,7 +264,7 @@ class Debian(Scratch):
         call(CMAKE, "--build", self.folder / "build")
         call(self.folder / "build/user")
 
-    @unittest.skipUnless(PYTHON.exists(), "the Python module was not built: scripts/install python")
+    @unittest.skipUnless(PYTHON_BUILT, "the Python module was not built: scripts/install python")
     def test_the_python_module_finds_the_command_of_its_package(self):
         version = pkg_config("--modversion", "deburr-golden")[0]
         self.extract({"deburr": (), "python3-deburr": (f"deburr (= {version}-1)", "python3-numpy")})
@@ -249,4 +286,4 @@ print(deburr.__file__, deburr.__version__, smooth.shape, run.cycles > 1024, debu
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

@@ -583,7 +583,6 @@ class Threads(unittest.TestCase):
         s, t, _ = floor()
         quads = numpy.tile(golden.quads_of(s, t), 40)
         expected = unit.filter(quads)
-        fragments = unit.work.fragments
         results, told = [], 0
         thread = thread_that_raises(lambda: unit.filter(quads), results)
         thread.start()
@@ -605,7 +604,6 @@ class Threads(unittest.TestCase):
         thread.join()
         self.assertGreater(told, 0)
         self.assertTrue((results[0] == expected).all())
-        self.assertGreaterEqual(fragments, 0)
 
     def test_ctrl_c_ends_a_long_call(self):
         unit = golden.TextureUnit()

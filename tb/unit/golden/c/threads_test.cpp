@@ -56,7 +56,8 @@ TEST(Threads, WithHandlesOfTheirOwnDoNotDisturbEachOther) {
   EXPECT_NE(results[0], results[2]);
 }
 
-// While a thread is in a call, every function of another one says so, and changes nothing.
+// While a thread is in a call, those of another one say so, and change nothing: of those that every
+// engine has, of frames and of the texture unit some. All go through the same golden::c::call.
 TEST(Threads, OfWhichOneIsInACallAreToldBusy) {
   const Handle handle(deburr_geometric_new());
   deburr_golden* const golden = handle.get();
