@@ -4,12 +4,12 @@
 // axis does to each metric on average. Written as CSV, as JSON and as one self-contained page.
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -22,7 +22,9 @@ namespace deburr::tb {
 struct NoValue {
   std::size_t metric = 0;
   std::string reason;
-  auto operator<=>(const NoValue&) const = default;
+  bool operator<(const NoValue& other) const {
+    return std::tie(metric, reason) < std::tie(other.metric, other.reason);
+  }
 };
 
 struct CollectedPoint {

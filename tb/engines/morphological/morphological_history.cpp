@@ -169,7 +169,7 @@ PixelHistory MorphologicalHistory::history(const MorphologicalInput& frame, bool
                  .hardware = std::move(got)});
   };
   // A part of what is delivered, once.
-  const auto add_delivered = [&](std::string step, std::string item, bool known,
+  const auto add_delivered = [&](const std::string& step, const std::string& item, bool known,
                                  const auto& expected, const auto& got) {
     all.compare_records(
         known ? 1 : 0, delivered_.size(),
