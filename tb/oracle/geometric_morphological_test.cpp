@@ -186,15 +186,15 @@ Table measure(const tb::Scene& scene, const std::string& name, int width, int he
 
 // What is asked of every scene and camera. Where lines that are not seen lie within a pixel of
 // those that are (terrain), the geometric engine's own weights are wrong.
-void judge_ways(const Table& t, bool lines_are_apart) {
+void judge_ways(const Table& t, bool lines_are_apart, double half_may_lose) {
   const auto gain = [&](const char* way, const char* than) {
     return Figures{better_by(t.at(way).edges, t.at(than).edges),
                    better_by(t.at(way).silhouettes, t.at(than).silhouettes)};
   };
   // `half` may take from exact areas (silhouettes of cylinders, 0.4 dB), `beside` never does.
   const Figures joined = gain("depth, half", "geometric");
-  EXPECT_GT(joined.edges, -0.4);
-  EXPECT_GT(joined.silhouettes, -0.4);
+  EXPECT_GT(joined.edges, -half_may_lose);
+  EXPECT_GT(joined.silhouettes, -half_may_lose);
   const Figures beside = gain("depth, beside", "geometric");
   EXPECT_GT(beside.edges, -0.02);
   EXPECT_GT(beside.silhouettes, -0.02);
@@ -227,7 +227,7 @@ TEST_P(Joined, IsBestAsBuilt) {
     SCOPED_TRACE(degrees);
     judge_ways(measure(turned(name, degrees), fmt::format("{} {}", name, degrees), kWidth, kHeight,
                        degrees == 0 ? 16 : 8),
-               name != "terrain");
+               name != "terrain", name == "cylinders" ? 0.4 : 0.25);
   }
 }
 
@@ -245,7 +245,7 @@ TEST(Joined, TracksToo) {
     tb::SceneOptions options;
     options.camera = each;
     const tb::Scene scene = tb::load_scene((data / "meshes" / "scene_track.obj").string(), options);
-    judge_ways(measure(scene, fmt::format("track {}", camera++), 1280, 720, 8), true);
+    judge_ways(measure(scene, fmt::format("track {}", camera++), 1280, 720, 8), true, 0.25);
   }
 }
 
