@@ -25,6 +25,9 @@ sys.path.insert(0, str(SOURCE / "tb/engines"))
 from engine_list import engines  # noqa: E402
 PARTS = importlib.machinery.SourceFileLoader("everything", str(SCRIPT)).load_module().PARTS
 
+# Ctrl-C must reach what is started here, also where this is run in the background of a shell.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
 # Writes down how it was called, and a record of ctest with a test that passes, one that is skipped and,
 # where `fail` has this command, one that fails.
 STUB = """#!/bin/sh
@@ -83,6 +86,12 @@ class Everything(unittest.TestCase):
 
     def fail(self, name):
         (self.root / "fail").write_text(COMMANDS[list(PARTS).index(name)] + "\n", encoding="utf-8")
+
+    def test_a_record_of_another_part_is_not_counted(self):
+        self.call("slurm")
+        (self.root / "scripts/test").write_text("#!/bin/sh\n", encoding="utf-8")
+        self.commit()
+        self.assertRegex(self.call("slurm")[1], r"(?m)^slurm +passed +- +- +- ")
 
     def test_goes_on_after_a_failure_and_repeats_only_what_has_not_passed(self):
         self.fail("slurm")
