@@ -38,7 +38,7 @@ std::int64_t decided(const texture::FragmentAnalysis& of, const char* what) {
     if (std::strcmp(one.name, what) == 0) return one.value;
     known.emplace_back(one.name);
   }
-  refuse_name("decision", what, known);
+  reject_name("decision", what, known);
 }
 
 }  // namespace
@@ -100,10 +100,10 @@ int deburr_texture_check(deburr_golden* golden, uint32_t texture) {
 }
 
 int deburr_texture_place(deburr_golden* golden, uint32_t texture, uint64_t address,
-                         uint64_t* behind) {
+                         uint64_t* next) {
   return call_of<TextureHandle>(golden, __func__, [&](TextureHandle& h) {
-    require_pointer(behind, "behind");
-    *behind = deburr::golden::c::place(h, texture, address);
+    require_pointer(next, "next");
+    *next = deburr::golden::c::place(h, texture, address);
   });
 }
 
