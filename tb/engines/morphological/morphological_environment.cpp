@@ -76,7 +76,7 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
   }
   sink_.keep(false);
   sink_.on_beat = [this](rtl::Cycle cycle, const spec::morphological::BlendedBeat& beat) {
-    check(cycle, beat);
+    check_output(cycle, beat);
   };
   if (simulation.options().maps) maps_.emplace();
   if (const std::optional<PixelAddress>& pixel = simulation.options().pixel) {
@@ -209,8 +209,8 @@ Environment::Boards MorphologicalEnvironment::traffic() const {
   return in_memory() ? Boards{&checks_.traffic} : Boards{};
 }
 
-void MorphologicalEnvironment::check(rtl::Cycle cycle,
-                                     const spec::morphological::BlendedBeat& beat) {
+void MorphologicalEnvironment::check_output(rtl::Cycle cycle,
+                                            const spec::morphological::BlendedBeat& beat) {
   const auto width = static_cast<std::size_t>(frame_.width);
   const std::size_t x = position_ % width;
   const std::size_t left = position_ < frame_.pixels.size() ? width - x : 0;

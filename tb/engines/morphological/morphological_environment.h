@@ -104,7 +104,7 @@ class MorphologicalEnvironment final : public Environment {
   std::unique_ptr<platform::MemoryModel> memory_for(
       std::span<const MorphologicalInput> frames) const;
   void start();
-  void check(rtl::Cycle cycle, const spec::morphological::BlendedBeat& beat);
+  void check_output(rtl::Cycle cycle, const spec::morphological::BlendedBeat& beat);
 
   std::span<const MorphologicalInput> frames_;
   MorphologicalSetup setup_;

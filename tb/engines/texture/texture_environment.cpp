@@ -54,7 +54,7 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
     sink_->beats_in(colours);
     sink_->keep(false);
     sink_->on_beat = [this](rtl::Cycle cycle, const spec::texture::Colour& colour) {
-      check(cycle, colour);
+      check_output(cycle, colour);
     };
   }
   if (simulation.options().coverage) coverage_.emplace(setup.texture);
@@ -157,7 +157,7 @@ Amount TextureEnvironment::amount() const {
 // ---- checking
 // ------------------------------------------------------------------------------------
 
-void TextureEnvironment::check(rtl::Cycle cycle, const spec::texture::Colour& colour) {
+void TextureEnvironment::check_output(rtl::Cycle cycle, const spec::texture::Colour& colour) {
   ++delivered_;
   hash_.add(colour.tag);
   hash_.add(static_cast<std::uint64_t>(colour.lane) << 1 | (colour.last ? 1 : 0));

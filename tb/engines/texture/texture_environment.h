@@ -46,7 +46,7 @@ namespace deburr::tb {
 class TextureEnvironment final : public Environment {
  public:
   // The scene must outlive it. With a name it is part of a composition, which takes the colours
-  // from `colours` and shows them to check(). ConfigError for wrong parameters.
+  // from `colours` and shows them to check_output(). ConfigError for wrong parameters.
   TextureEnvironment(Simulation& simulation, const TextureScene& scene, const TextureSetup& setup,
                      std::string name = {});
 
@@ -77,7 +77,7 @@ class TextureEnvironment final : public Environment {
   void collect_headline(Result& result) const override { meter_.collect_headline(result); }
 
   rtl::Link<spec::texture::Colour> colours{"colours"};
-  void check(rtl::Cycle cycle, const spec::texture::Colour& colour);
+  void check_output(rtl::Cycle cycle, const spec::texture::Colour& colour);
   bool sent() const { return quad_driver_.done(); }  // every quad
 
   const Image& frame() const { return frame_; }
