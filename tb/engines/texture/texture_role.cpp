@@ -31,7 +31,7 @@ class ColoursOfTexture final : public ColoursPort {
   bool can_pop(rtl::Cycle cycle) const override { return in_.can_pop(cycle); }
   DrawnColour take(rtl::Cycle cycle) override {
     const Colour colour = in_.take(cycle);
-    environment_.check(cycle, colour);
+    environment_.check_output(cycle, colour);
     DrawnColour drawn;
     if (colour.tag >= stream_.quads.size() || colour.lane >= 4) return drawn;
     const FragmentStream::Pixel p = stream_.pixel(colour.tag, colour.lane);
