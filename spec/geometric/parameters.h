@@ -18,8 +18,8 @@ enum class Preset : std::uint8_t { kGpaa, kGpaaOptimised, kDeburr };
 inline constexpr std::array<std::string_view, 3> kPresetNames = {"gpaa", "gpaa-optimised",
                                                                  "deburr"};
 
-enum class Select : std::uint8_t { kAll, kEdges };
-inline constexpr std::array<std::string_view, 2> kSelectNames = {"all", "edges"};
+enum class Select : std::uint8_t { kAll, kEdges, kMesh };
+inline constexpr std::array<std::string_view, 3> kSelectNames = {"all", "edges", "mesh"};
 
 enum class Crease : std::uint8_t { kOff, kPaper, kShading };
 inline constexpr std::array<std::string_view, 3> kCreaseNames = {"off", "paper", "shading"};
@@ -38,6 +38,9 @@ inline constexpr std::array<std::string_view, 3> kCombineNames = {"max", "last",
 
 enum class Layout : std::uint8_t { kRaster, kTiled };
 inline constexpr std::array<std::string_view, 2> kLayoutNames = {"raster", "tiled"};
+
+enum class RecordsLayout : std::uint8_t { kJoined, kSplit };
+inline constexpr std::array<std::string_view, 2> kRecordsNames = {"joined", "split"};
 
 // Edges, walkers or pixels a clock.
 enum class Lanes : std::uint8_t { kOne, kTwo, kFour };
@@ -81,6 +84,9 @@ inline constexpr int kMinFills = 8, kMaxFills = 256;  // a group may order eight
 // Places, where they are not sized from the latency of memory.
 inline constexpr std::int32_t kMinResolveLines = 16, kMaxResolveLines = 512;
 inline constexpr std::int32_t kMinCopyLines = 2, kMaxCopyLines = 256;
+// Lines that are kept on the chip, where any are: docs/reference/geometric/traffic.md.
+inline constexpr std::int32_t kMaxColourLines = 256, kMaxWriteBuffer = 128;
+inline constexpr std::int32_t kMinCoarseLines = 4, kMaxCoarseLines = 64;
 
 // Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
 struct Rules {
@@ -120,6 +126,10 @@ struct Build {
   Lanes resolve_lanes = Lanes::kTwo;
   std::int32_t resolve_lines = 0;  // 0: as fills
   std::int32_t copy_lines = 0;     // 0: as fills
+  RecordsLayout records = RecordsLayout::kJoined;
+  std::int32_t colour_lines = 0;
+  std::int32_t write_buffer = 0;
+  std::int32_t coarse_lines = 0;
   std::int32_t memory_outstanding = 128;
 };
 
@@ -130,7 +140,8 @@ void describe(Rules& p, Visitor& v) {
   v.choice("preset", p.preset, kPresetNames,
            "Named set of what follows; parameters given beside it override it.");
   v.choice("select", p.select, kSelectNames,
-           "Which edges are drawn: all of them, or boundaries, silhouettes and visible creases.");
+           "Which edges are drawn: all of them; boundaries, silhouettes and creases; or boundaries "
+           "and creases alone, from wherever the mesh is seen.");
   v.choice("crease", p.crease, kCreaseNames,
            "What a crease is: nothing, an angle (eq 4 of paper 002), or what changes the shading.");
   v.choice("cull", p.cull, kCullNames,
@@ -196,6 +207,17 @@ void describe(Build& p, Visitor& v) {
   v.integer("copy_lines", p.copy_lines, 0, kMaxCopyLines, "line",
             "Lines between read and write while the frame is copied, 2 or more; 0 sizes it from "
             "the latency of memory.");
+  v.choice(
+      "records", p.records, kRecordsNames,
+      "Edge table: vertices and faces of an edge in one record, or in two arrays, of which the "
+      "vertices are read for kept edges alone.");
+  v.integer("colour_lines", p.colour_lines, 0, kMaxColourLines, "line",
+            "Lines of colours that the resolve keeps and need not read again; 0: none.");
+  v.integer("write_buffer", p.write_buffer, 0, kMaxWriteBuffer, "block",
+            "Replaced blocks of weights that stay on the chip before they are written; 0: none.");
+  v.integer("coarse_lines", p.coarse_lines, 0, kMaxCoarseLines, "line",
+            "Lines of coarse depth on the chip, 4 or more, which drop hidden candidates before "
+            "they read depth; 0: no such test.");
   v.integer("memory.outstanding", p.memory_outstanding, kMinFills, 1024, "transaction",
             "Transactions in flight.");
 }

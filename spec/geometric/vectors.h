@@ -16,8 +16,8 @@ namespace deburr::spec::geometric {
 // ---- frames -------------------------------------------------------------------------------------
 
 // Where the regions lie, in the order of Region.
-inline constexpr std::array<std::uint32_t, 7> kVectorBases = {0x30000, 0x10000, 0x20000, 0x40000,
-                                                              0x60000, 0x50000, 0x70000};
+inline constexpr std::array<std::uint32_t, 9> kVectorBases = {
+    0x30000, 0x10000, 0x20000, 0x40000, 0x60000, 0x50000, 0x70000, 0x80000, 0x90000};
 
 struct FrameHashes {
   std::uint64_t pixels = 0, weights = 0, traffic = 0;
