@@ -19,7 +19,7 @@ std::size_t plane_named(const FrameHandle& handle, const char* name) {
   if (found == planes.end()) {
     std::vector<std::string> known;
     for (const Plane& plane : planes) known.emplace_back(plane.name);
-    refuse_name("plane", name, known);
+    reject_name("plane", name, known);
   }
   require(handle.result_size().width != 0,
           "no frame has been smoothed: call deburr_frame_process before");

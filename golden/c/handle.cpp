@@ -40,7 +40,7 @@ void require_below(std::uint64_t value, std::uint64_t limit, std::string_view wh
                       std::to_string(limit - 1));
 }
 
-void refuse_kind(const char* given, const char* wanted) {
+void reject_kind(const char* given, const char* wanted) {
   throw ArgumentError(std::string("a handle of the engine ") + given +
                       " was given; it takes one of " + wanted);
 }

@@ -92,7 +92,7 @@ class Turn {
 // The status of the exception in hand, whose text is kept behind the function's name.
 int status_of_exception(deburr_golden& golden, const char* function) noexcept;
 
-[[noreturn]] void refuse_kind(const char* given, const char* wanted);
+[[noreturn]] void reject_kind(const char* given, const char* wanted);
 
 // Runs `work` for a function of the interface.
 template <class Work>
@@ -113,7 +113,7 @@ template <class Kind, class Work>
 int call_of(deburr_golden* golden, const char* function, Work&& work) noexcept {
   return call(golden, function, [&](deburr_golden& any) {
     auto* const own = dynamic_cast<Kind*>(&any);
-    if (!own) refuse_kind(any.engine(), Kind::kWanted);
+    if (!own) reject_kind(any.engine(), Kind::kWanted);
     work(*own);
   });
 }

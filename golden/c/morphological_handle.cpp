@@ -6,7 +6,7 @@
 namespace deburr::golden::c {
 namespace {
 
-[[noreturn]] void refuse_edges(int x, int y, unsigned bits, unsigned possible) {
+[[noreturn]] void reject_edges(int x, int y, unsigned bits, unsigned possible) {
   throw ArgumentError("edges of (" + std::to_string(x) + ", " + std::to_string(y) + ") are " +
                       std::to_string(bits) + "; of bit 0, left, and bit 1, above, " +
                       std::to_string(possible) + " has those with a neighbour in the frame");
@@ -24,7 +24,7 @@ morphological::EdgePlanes edge_planes(std::span<const std::uint8_t> edges, std::
       const unsigned bits =
           edges[static_cast<std::size_t>(y) * distance + static_cast<std::size_t>(x)];
       const unsigned possible = (x == 0 ? 0 : 1) | (y == 0 ? 0 : 2);
-      if ((bits & ~possible) != 0) refuse_edges(x, y, bits, possible);
+      if ((bits & ~possible) != 0) reject_edges(x, y, bits, possible);
       if ((bits & 1) != 0) planes.left.set(x, y);
       if ((bits & 2) != 0) planes.top.set(x, y);
     }

@@ -31,12 +31,12 @@ std::optional<std::int64_t> integer_of(std::string_view text) {
   return value;
 }
 
-void refuse_value(std::string_view name, std::string_view text, std::string_view why) {
+void reject_value(std::string_view name, std::string_view text, std::string_view why) {
   throw ArgumentError("'" + std::string(name) + "' = '" + std::string(text) + "' " +
                       std::string(why));
 }
 
-void refuse_name(std::string_view what, std::string_view name, std::span<const std::string> known) {
+void reject_name(std::string_view what, std::string_view name, std::span<const std::string> known) {
   throw ArgumentError("unknown " + std::string(what) + " '" + std::string(name) + "'; there are " +
                       joined(known));
 }
@@ -45,22 +45,22 @@ std::int64_t number_in_range(std::string_view name, std::string_view text, std::
                              std::int64_t max) {
   const std::string range = std::to_string(min) + ".." + std::to_string(max);
   const std::optional<std::int64_t> value = integer_of(text);
-  if (!value) refuse_value(name, text, "wants an integer " + range);
-  if (*value < min || *value > max) refuse_value(name, text, "is outside " + range);
+  if (!value) reject_value(name, text, "wants an integer " + range);
+  if (*value < min || *value > max) reject_value(name, text, "is outside " + range);
   return *value;
 }
 
 std::size_t code_of(std::string_view name, std::string_view text,
                     std::span<const std::string_view> names) {
   const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end()) refuse_value(name, text, "wants one of " + joined(names));
+  if (found == names.end()) reject_value(name, text, "wants one of " + joined(names));
   return static_cast<std::size_t>(found - names.begin());
 }
 
 bool switch_of(std::string_view name, std::string_view text) {
   if (text == "true" || text == "on" || text == "yes") return true;
   if (text == "false" || text == "off" || text == "no") return false;
-  refuse_value(name, text, "wants true or false");
+  reject_value(name, text, "wants true or false");
 }
 
 }  // namespace deburr::golden::c

@@ -23,8 +23,8 @@ namespace deburr::golden::c {
 std::optional<std::int64_t> integer_of(std::string_view text);
 
 // ArgumentErrors, in the command's words.
-[[noreturn]] void refuse_value(std::string_view name, std::string_view text, std::string_view why);
-[[noreturn]] void refuse_name(std::string_view what, std::string_view name,
+[[noreturn]] void reject_value(std::string_view name, std::string_view text, std::string_view why);
+[[noreturn]] void reject_name(std::string_view what, std::string_view name,
                               std::span<const std::string> known);
 std::int64_t number_in_range(std::string_view name, std::string_view text, std::int64_t min,
                              std::int64_t max);
@@ -114,7 +114,7 @@ class ParameterTexts {
       rest.remove_prefix(engine_.size() + 1);
     for (const std::string& known : names_)
       if (known == rest) return known;
-    refuse_name("parameter", name, names_);
+    reject_name("parameter", name, names_);
   }
 
   std::string_view engine_;

@@ -38,7 +38,7 @@ std::int64_t decided(const texture::FragmentAnalysis& of, const char* what) {
     if (std::strcmp(one.name, what) == 0) return one.value;
     known.emplace_back(one.name);
   }
-  refuse_name("decision", what, known);
+  reject_name("decision", what, known);
 }
 
 }  // namespace

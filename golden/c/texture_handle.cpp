@@ -42,7 +42,7 @@ void set_field(DescriptorWords& words, std::string_view name, std::string_view t
     }
   }
   known.push_back(level_name(0) + " to " + level_name(spec::texture::kMaxLevels - 1));
-  refuse_name("field of a texture", name, known);
+  reject_name("field of a texture", name, known);
 }
 
 // The texels of a level, row by row, to where its layout has them.

@@ -29,6 +29,7 @@ void check_frame(const spec::geometric::Parameters& p, const FrameCounts& counts
   switch (refusal(p, counts)) {
     case Refusal::kNone:
     case Refusal::kDisabled:
+    case Refusal::kBoundaryCount:  // a register alone has it
       return;
     case Refusal::kSize:
       throw spec::ConfigError(frame + "; 1..8192 each way are possible");

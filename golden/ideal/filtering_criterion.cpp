@@ -415,12 +415,12 @@ std::string_view verdict_name(Verdict verdict) {
   return "FAIL";
 }
 
-Judge::Judge(const Texture& texture, const Sampler& sampler)
+Checker::Checker(const Texture& texture, const Sampler& sampler)
     : high_(texture, sampler, kPrecisionHigh),
       low_(texture, sampler, kPrecisionLow),
       tolerance_(colour_tolerance(sampler)) {}
 
-void Judge::add(const Fragment& fragment, const Rgba& colour) {
+void Checker::add(const Fragment& fragment, const Rgba& colour) {
   ++fragments_;
   if (fragments_ == 1) high_worst_ = 0.5;
   const bool within_worst = high_.reachable(fragment, colour, high_worst_);
@@ -431,15 +431,15 @@ void Judge::add(const Fragment& fragment, const Rgba& colour) {
   }
   if (within_worst && high_worst_ <= tolerance_) return;
   if (high_.reachable(fragment, colour, tolerance_)) return;
-  ++refused_;
-  if (!low_.reachable(fragment, colour, tolerance_)) ++low_refused_;
+  ++rejected_;
+  if (!low_.reachable(fragment, colour, tolerance_)) ++low_rejected_;
   if (!low_.reachable(fragment, colour, low_worst_))
     low_worst_ = low_.deviation(fragment, colour, low_worst_);
 }
 
-Verdict Judge::verdict() const {
-  if (refused_ == 0) return Verdict::kHigh;
-  return low_refused_ == 0 ? Verdict::kLow : Verdict::kFail;
+Verdict Checker::verdict() const {
+  if (rejected_ == 0) return Verdict::kHigh;
+  return low_rejected_ == 0 ? Verdict::kLow : Verdict::kFail;
 }
 
 }  // namespace deburr::golden::ideal

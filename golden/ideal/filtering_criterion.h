@@ -111,10 +111,10 @@ enum class Verdict { kHigh, kLow, kFail };
 std::string_view verdict_name(Verdict verdict);
 
 // Checks many fragments of one texture and sampler.
-class Judge {
+class Checker {
  public:
   // Keeps references: texture and sampler must outlive it.
-  Judge(const Texture& texture, const Sampler& sampler);
+  Checker(const Texture& texture, const Sampler& sampler);
 
   void add(const Fragment& fragment, const Rgba& colour);
 
@@ -130,14 +130,14 @@ class Judge {
   const Fragment& worst() const { return worst_; }
   const Rgba& worst_colour() const { return worst_colour_; }
   std::int64_t fragments() const { return fragments_; }
-  std::int64_t refused() const { return refused_; }  // fragments that high precision rejected
+  std::int64_t rejected() const { return rejected_; }  // fragments that high precision rejected
   std::int64_t undecided() const { return high_.undecided() + low_.undecided(); }
 
  private:
   Criterion high_, low_;
   double tolerance_;
   double high_worst_ = 0.0, low_worst_ = 0.0;
-  std::int64_t fragments_ = 0, refused_ = 0, low_refused_ = 0;
+  std::int64_t fragments_ = 0, rejected_ = 0, low_rejected_ = 0;
   Fragment worst_{};
   Rgba worst_colour_{};
 };

@@ -109,7 +109,7 @@ py::array owned(std::vector<T>&& values) {
 std::string described(const py::handle& given);
 
 // ArgumentError: "pixels: uint8 of (height, width, 4) is wanted; None was given".
-[[noreturn]] void refuse_array(std::string_view name, std::string_view wanted,
+[[noreturn]] void reject_array(std::string_view name, std::string_view wanted,
                                const py::handle& given);
 // An array of this dtype and number of dimensions, in C's order.
 py::array checked(const py::handle& given, std::string_view name, const py::dtype& dtype,

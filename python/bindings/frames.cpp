@@ -15,11 +15,11 @@ constexpr const char* kDepthWanted = "float32 or uint32 of (height, width)";
 }  // namespace
 
 FramePixels frame_pixels(const py::handle& given) {
-  if (!py::isinstance<py::array>(given)) refuse_array("pixels", kPixelsWanted, given);
+  if (!py::isinstance<py::array>(given)) reject_array("pixels", kPixelsWanted, given);
   auto array = py::reinterpret_borrow<py::array>(given);
   if (array.ndim() != 3 || array.shape(2) != 4 ||
       !array.dtype().equal(py::dtype::of<std::uint8_t>()))
-    refuse_array("pixels", kPixelsWanted, given);
+    reject_array("pixels", kPixelsWanted, given);
   const py::ssize_t height = array.shape(0), width = array.shape(1);
   golden::c::require(width >= 1 && height >= 1 && width <= kMaxSide && height <= kMaxSide,
                      "a frame of " + std::to_string(width) + " x " + std::to_string(height) +
@@ -39,14 +39,14 @@ FramePixels frame_pixels(const py::handle& given) {
 FrameDepth frame_depth(const py::handle& given, int width, int height) {
   FrameDepth depth;
   if (given.is_none()) return depth;
-  if (!py::isinstance<py::array>(given)) refuse_array("depth", kDepthWanted, given);
+  if (!py::isinstance<py::array>(given)) reject_array("depth", kDepthWanted, given);
   const auto any = py::reinterpret_borrow<py::array>(given);
   const bool is_float = any.dtype().equal(py::dtype::of<float>());
   const py::array array =
       checked(given, "depth", is_float ? py::dtype::of<float>() : py::dtype::of<std::uint32_t>(), 2,
               kDepthWanted);
   if (array.shape(0) != height || array.shape(1) != width)
-    refuse_array(
+    reject_array(
         "depth",
         "the size of the pixels, (" + std::to_string(height) + ", " + std::to_string(width) + "),",
         given);

@@ -106,7 +106,7 @@ golden::geometric::Bases bases_of(const py::object& given) {
       known.emplace_back(region.name);
       if (wanted == region.name) base = region.base;
     }
-    if (!base) golden::c::refuse_name("region of memory", wanted, known);
+    if (!base) golden::c::reject_name("region of memory", wanted, known);
     *base = static_cast<std::uint32_t>(
         golden::c::number_in_range(wanted, text_of(value), 0, 0xFFFFFFFF));
     golden::c::require(*base % spec::geometric::kLineBytes == 0,

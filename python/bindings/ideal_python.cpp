@@ -257,9 +257,9 @@ double psnr(const py::object& reference, const py::object& pixels) {
       checked(reference, "reference", py::dtype::of<double>(), 2, "float64 of (n, 4), 0..255,");
   const py::array bytes =
       checked(pixels, "pixels", py::dtype::of<std::uint8_t>(), 2, "uint8 of (n, 4)");
-  if (colours.shape(1) != 4) refuse_array("reference", "float64 of (n, 4), 0..255,", reference);
+  if (colours.shape(1) != 4) reject_array("reference", "float64 of (n, 4), 0..255,", reference);
   if (bytes.shape(1) != 4 || bytes.shape(0) != colours.shape(0))
-    refuse_array("pixels", "uint8 of as many colours as the reference has,", pixels);
+    reject_array("pixels", "uint8 of as many colours as the reference has,", pixels);
   return ideal::psnr(
       {static_cast<const ideal::Colour*>(colours.data()),
        static_cast<std::size_t>(colours.shape(0))},
@@ -290,9 +290,9 @@ py::array geometric_blend(const py::object& light, const py::object& weights) {
       checked(light, "light", py::dtype::of<double>(), 3, "float64 of (height, width, 3)");
   const py::array sides =
       checked(weights, "weights", py::dtype::of<double>(), 3, "float64 of (height, width, 4)");
-  if (frame.shape(2) != 3) refuse_array("light", "float64 of (height, width, 3)", light);
+  if (frame.shape(2) != 3) reject_array("light", "float64 of (height, width, 3)", light);
   if (sides.shape(2) != 4 || sides.shape(0) != frame.shape(0) || sides.shape(1) != frame.shape(1))
-    refuse_array("weights", "float64 of the light's size and 4", weights);
+    reject_array("weights", "float64 of the light's size and 4", weights);
   const int height = static_cast<int>(frame.shape(0)), width = static_cast<int>(frame.shape(1));
   const auto count = static_cast<std::size_t>(height) * static_cast<std::size_t>(width);
   std::vector<ideal::Light> result;

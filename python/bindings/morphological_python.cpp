@@ -68,7 +68,7 @@ MorphologicalFrame smooth(const py::object& pixels, const py::object& depth,
     constexpr const char* kWanted = "uint8 of (height, width)";
     bits = checked(edges, "edges", py::dtype::of<std::uint8_t>(), 2, kWanted);
     if (bits.shape(0) != height || bits.shape(1) != width)
-      refuse_array("edges",
+      reject_array("edges",
                    "the size of the pixels, (" + std::to_string(height) + ", " +
                        std::to_string(width) + "),",
                    edges);

@@ -92,19 +92,19 @@ void RegisterBlock::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_t
     wait(std::exchange(delay, sc_core::SC_ZERO_TIME));
   const int found = find(payload.get_address());
   const bool write = payload.is_write();
-  const auto refuse = [&](tlm::tlm_response_status status) { payload.set_response_status(status); };
+  const auto reject = [&](tlm::tlm_response_status status) { payload.set_response_status(status); };
   if (!write && !payload.is_read()) {
     // TLM_IGNORE_COMMAND: the base protocol allows a target to do nothing and say OK.
-    return refuse(tlm::TLM_OK_RESPONSE);
+    return reject(tlm::TLM_OK_RESPONSE);
   }
-  if (found < 0) return refuse(tlm::TLM_ADDRESS_ERROR_RESPONSE);
-  if (payload.get_byte_enable_ptr()) return refuse(tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
+  if (found < 0) return reject(tlm::TLM_ADDRESS_ERROR_RESPONSE);
+  if (payload.get_byte_enable_ptr()) return reject(tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
   if (payload.get_data_length() != 4 || payload.get_streaming_width() < 4)
-    return refuse(tlm::TLM_BURST_ERROR_RESPONSE);
+    return reject(tlm::TLM_BURST_ERROR_RESPONSE);
   const auto index = static_cast<std::size_t>(found);
   const spec::Access access = table_[index].access;
   if (access == (write ? spec::Access::kReadOnly : spec::Access::kCommand))
-    return refuse(tlm::TLM_COMMAND_ERROR_RESPONSE);
+    return reject(tlm::TLM_COMMAND_ERROR_RESPONSE);
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
   if (!write) return store(payload.get_data_ptr(), read(index));
   const std::uint32_t value = load(payload.get_data_ptr());

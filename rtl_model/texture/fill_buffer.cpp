@@ -3,7 +3,7 @@
 
 namespace deburr::rtl::texture {
 
-void FillBuffer::refuse(std::uint32_t entry, std::uint32_t offset, std::size_t bytes) const {
+void FillBuffer::reject(std::uint32_t entry, std::uint32_t offset, std::size_t bytes) const {
   DEBURR_CHECK(entry < entries_ && arrived_[entry] == kNever,
                std::string(memory_.name()) + ": entry " + std::to_string(entry) + " filled twice");
   DEBURR_CHECK(offset + bytes <= line_bytes_, std::string(memory_.name()) + ": a beat at byte " +

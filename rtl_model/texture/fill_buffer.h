@@ -74,7 +74,7 @@ class FillBuffer {
             std::span<const std::uint8_t> beat, bool complete) {
     if (entry >= entries_ || arrived_[entry] != kNever || offset + beat.size() > line_bytes_)
         [[unlikely]]
-      refuse(entry, offset, beat.size());
+      reject(entry, offset, beat.size());
     write_.write(cycle, entry);
     std::copy(beat.begin(), beat.end(), &bytes_[std::size_t{entry} * line_bytes_ + offset]);
     if (!complete) return;
@@ -114,7 +114,7 @@ class FillBuffer {
   }
 
   // Throws CheckFailed. Out of line: a check costs its caller a comparison.
-  [[gnu::cold, gnu::noinline]] void refuse(std::uint32_t entry, std::uint32_t offset,
+  [[gnu::cold, gnu::noinline]] void reject(std::uint32_t entry, std::uint32_t offset,
                                            std::size_t bytes) const;
 
   std::uint32_t oldest() const { return static_cast<std::uint32_t>(released_ % entries_); }

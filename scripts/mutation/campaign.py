@@ -63,8 +63,8 @@ class Campaign:
     """Results are lines of JSON in `work`/results, a file for each who writes: what is there is not
     done again, and a file that has changed begins anew."""
 
-    def __init__(self, tree, judge, count, each, seed, say):
-        self.tree, self.judge, self.say = tree, judge, say
+    def __init__(self, tree, check, count, each, seed, say):
+        self.tree, self.check, self.say = tree, check, say
         self.chosen = drawn(tree.mutants, count, each, seed)
         self.lock = threading.Lock()
 
@@ -73,7 +73,7 @@ class Campaign:
         return (str(file), digest(self.tree.sources[file]), mutant.begin, mutant.kind, mutant.text)
 
     def run(self, jobs, alone, again, explained=(), name="local", part=0, parts=1):
-        """Judges what is not judged yet, or if `again` survived and is not `explained`: behind
+        """Checks what is not checked yet, or if `again` survived and is not `explained`: behind
         switches first, then, if `alone`, one by one what must be compiled. `part` of `parts` of
         them all."""
         done = {key_of(entry) for entry in read_results(self.tree.work)
@@ -88,8 +88,8 @@ class Campaign:
             # The last line may be half of one, of a writer that was killed.
             if out.tell():
                 out.write("\n")
-            def judged(number, item):
-                verdict = self.judge.by_switch(*item)
+            def checked(number, item):
+                verdict = self.check.by_switch(*item)
                 if verdict is None:
                     later.append(item)
                 else:
@@ -98,12 +98,12 @@ class Campaign:
                     self.say(f"{number} of {len(wanted)} mutants")
 
             with threads(jobs) as pool:
-                for future in [pool.submit(judged, *pair) for pair in enumerate(wanted)]:
+                for future in [pool.submit(checked, *pair) for pair in enumerate(wanted)]:
                     future.result()
             # A header costs a build of nearly everything.
             later.sort(key=lambda item: (item[0].suffix == ".h", wanted.index(item)))
             for number, item in enumerate(later if alone else ()):
-                self.put(out, item, self.judge.alone(*item), "alone")
+                self.put(out, item, self.check.alone(*item), "alone")
                 self.say(f"{number + 1} of {len(later)} mutants compiled alone")
 
     def put(self, out, item, verdict, way):
@@ -145,7 +145,7 @@ def read_profile(path):
 
 
 def submit(profile, work, command):
-    """A job array, each task of which judges its share; the number of the job."""
+    """A job array, each task of which checks its share; the number of the job."""
     cpus, tasks = int(profile.get("cpus", 1)), int(profile.get("tasks", 16))
     folder = work / "slurm"
     folder.mkdir(exist_ok=True)

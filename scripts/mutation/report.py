@@ -69,7 +69,7 @@ def folder_of(file):
     return str(pathlib.PurePath(file).parent)
 
 
-def judged(record, explained):
+def checked(record, explained):
     """A row a folder: counts, and of the survivors those that are explained."""
     rows = collections.defaultdict(collections.Counter)
     for file, entry in record.items():
@@ -147,7 +147,7 @@ def kinds_of(record):
 
 def page_of(root, record, commit):
     explained = explanations(root)
-    rows = judged(record, explained)
+    rows = checked(record, explained)
     total = sum(rows.values(), collections.Counter())
     lines = ["| folder | files | mutants | with verdict | not compiled | killed | survived: explained "
              "| survived: open | killed % | of those not explained % |",
@@ -194,7 +194,7 @@ def page_of(root, record, commit):
 
 
 def without_verdict(record):
-    """Files of the record that have mutants, and none that was judged."""
+    """Files of the record that have mutants, and none that was checked."""
     return sorted(file for file, entry in record.items()
                   if entry["mutants"] and not entry["killed"] + entry["invalid"] + len(entry["survived"]))
 

@@ -85,7 +85,7 @@ def flat(code, begin, end):
     return "".join(text), places + [end]
 
 
-def judged(code, begin, end, frame):
+def checked(code, begin, end, frame):
     """The statements that a text is, which a semicolon ends: none, one, or the targets of one."""
     of_if = frame.of_if or frame.after_if
     while match := LABEL.match(code, begin, end) or ATTRIBUTE.match(code, begin, end):
@@ -126,7 +126,7 @@ def scan(code):
             frames.append(Frame(kind, at + 1, reset, of_if=of_if))
         elif match[0] == ";":
             if frame.kind == "code":
-                statements += judged(code, frame.start, at, frame)
+                statements += checked(code, frame.start, at, frame)
             elif frame.kind == "class":
                 if DEFAULT.match(code, frame.start, at):
                     defaults.append((frame.start, at))

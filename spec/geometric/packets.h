@@ -88,9 +88,19 @@ struct MemoryAccess {
   bool write = false;
   friend bool operator==(const MemoryAccess&, const MemoryAccess&) = default;
 };
-enum class Region : std::uint8_t { kFaces, kEdges, kVertices, kDepth, kWeights, kColour, kCopy };
-inline constexpr std::array<std::string_view, 7> kRegionNames = {
-    "faces", "edges", "vertices", "depth", "weights", "colour", "copy"};
+enum class Region : std::uint8_t {
+  kFaces,
+  kEdges,
+  kVertices,
+  kDepth,
+  kWeights,
+  kColour,
+  kCopy,
+  kPairs,
+  kCoarse
+};
+inline constexpr std::array<std::string_view, 9> kRegionNames = {
+    "faces", "edges", "vertices", "depth", "weights", "colour", "copy", "pairs", "coarse"};
 
 // Work of one frame: golden and hardware count the same.
 struct Work {

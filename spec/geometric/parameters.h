@@ -18,8 +18,8 @@ enum class Preset : std::uint8_t { kGpaa, kGpaaOptimised, kDeburr };
 inline constexpr std::array<std::string_view, 3> kPresetNames = {"gpaa", "gpaa-optimised",
                                                                  "deburr"};
 
-enum class Select : std::uint8_t { kAll, kEdges };
-inline constexpr std::array<std::string_view, 2> kSelectNames = {"all", "edges"};
+enum class Select : std::uint8_t { kAll, kEdges, kMesh };
+inline constexpr std::array<std::string_view, 3> kSelectNames = {"all", "edges", "mesh"};
 
 enum class Crease : std::uint8_t { kOff, kPaper, kShading };
 inline constexpr std::array<std::string_view, 3> kCreaseNames = {"off", "paper", "shading"};
@@ -39,6 +39,9 @@ inline constexpr std::array<std::string_view, 3> kCombineNames = {"max", "last",
 enum class Layout : std::uint8_t { kRaster, kTiled };
 inline constexpr std::array<std::string_view, 2> kLayoutNames = {"raster", "tiled"};
 
+enum class RecordsLayout : std::uint8_t { kJoined, kSplit };
+inline constexpr std::array<std::string_view, 2> kRecordsNames = {"joined", "split"};
+
 // Edges, walkers or pixels a clock.
 enum class Lanes : std::uint8_t { kOne, kTwo, kFour };
 inline constexpr std::array<std::string_view, 3> kLanesNames = {"1", "2", "4"};
@@ -51,6 +54,12 @@ inline constexpr std::array<std::string_view, 7> kCacheLinesNames = {"16",  "32"
                                                                      "256", "512", "1024"};
 inline constexpr std::array<std::uint16_t, 7> kCacheLineCount = {16, 32, 64, 128, 256, 512, 1024};
 inline constexpr std::array<std::uint8_t, 7> kCacheLineBits = {4, 5, 6, 7, 8, 9, 10};
+
+// Lines of coarse depth on the chip; none: no coarse test.
+enum class CoarseLines : std::uint8_t { kNone, k4, k8, k16, k32, k64 };
+inline constexpr std::array<std::string_view, 6> kCoarseLinesNames = {"none", "4",  "8",
+                                                                      "16",   "32", "64"};
+inline constexpr std::array<std::uint8_t, 6> kCoarseLineCount = {0, 4, 8, 16, 32, 64};
 
 // ---- limits
 inline constexpr int kMaxFrameSize = 8192;  // pixels, each way
@@ -81,6 +90,8 @@ inline constexpr int kMinFills = 8, kMaxFills = 256;  // a group may order eight
 // Places, where they are not sized from the latency of memory.
 inline constexpr std::int32_t kMinResolveLines = 16, kMaxResolveLines = 512;
 inline constexpr std::int32_t kMinCopyLines = 2, kMaxCopyLines = 256;
+// Lines that are kept on the chip, where any are: docs/reference/geometric/traffic.md.
+inline constexpr std::int32_t kMaxColourLines = 256, kMaxWriteBuffer = 128;
 
 // Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
 struct Rules {
@@ -120,6 +131,10 @@ struct Build {
   Lanes resolve_lanes = Lanes::kTwo;
   std::int32_t resolve_lines = 0;  // 0: as fills
   std::int32_t copy_lines = 0;     // 0: as fills
+  RecordsLayout records = RecordsLayout::kJoined;
+  std::int32_t colour_lines = 0;
+  std::int32_t write_buffer = 0;
+  CoarseLines coarse_lines = CoarseLines::kNone;
   std::int32_t memory_outstanding = 128;
 };
 
@@ -130,7 +145,8 @@ void describe(Rules& p, Visitor& v) {
   v.choice("preset", p.preset, kPresetNames,
            "Named set of what follows; parameters given beside it override it.");
   v.choice("select", p.select, kSelectNames,
-           "Which edges are drawn: all of them, or boundaries, silhouettes and visible creases.");
+           "Which edges are drawn: all of them; boundaries, silhouettes and creases; or boundaries "
+           "and creases alone, from wherever the mesh is seen.");
   v.choice("crease", p.crease, kCreaseNames,
            "What a crease is: nothing, an angle (eq 4 of paper 002), or what changes the shading.");
   v.choice("cull", p.cull, kCullNames,
@@ -196,6 +212,17 @@ void describe(Build& p, Visitor& v) {
   v.integer("copy_lines", p.copy_lines, 0, kMaxCopyLines, "line",
             "Lines between read and write while the frame is copied, 2 or more; 0 sizes it from "
             "the latency of memory.");
+  v.choice(
+      "records", p.records, kRecordsNames,
+      "Edge table: vertices and faces of an edge in one record, or in two arrays, of which the "
+      "vertices are read for kept edges alone.");
+  v.integer("colour_lines", p.colour_lines, 0, kMaxColourLines, "line",
+            "Lines of colours that the resolve keeps and need not read again; 0: none.");
+  v.integer("write_buffer", p.write_buffer, 0, kMaxWriteBuffer, "block",
+            "Replaced blocks of weights that stay on the chip before they are written; 0: none.");
+  v.choice("coarse_lines", p.coarse_lines, kCoarseLinesNames,
+           "Lines of coarse depth on the chip, 32 tiles of 8 x 8 pixels each, which drop hidden "
+           "candidates before they read depth.");
   v.integer("memory.outstanding", p.memory_outstanding, kMinFills, 1024, "transaction",
             "Transactions in flight.");
 }

@@ -39,6 +39,23 @@ struct Edge {
   friend bool operator==(const Edge&, const Edge&) = default;
 };
 
+// ---- the same in two arrays (records = split): 6 bytes each, ten a line, whose last four bytes
+// are ignored. Bit i of a record is bit i of its bytes, the lowest first.
+inline constexpr int kSplitBytes = 6;
+inline constexpr int kSplitInLine = 10;
+// Faces and flags, of all edges.
+inline constexpr int kSplitFaceBits = 21;  // f0 from bit 0 on, then f1
+inline constexpr std::uint32_t kSplitFaceMask = (1u << kSplitFaceBits) - 1;
+inline constexpr int kSplitFlagShift = 2 * kSplitFaceBits;  // bits 45..42
+// Vertices, of boundaries and of other edges apart: v0 from bit 0 on, then v1.
+inline constexpr int kSplitVertexBits = 24;
+
+// ---- coarse depth: a lower bound of the depths of a tile of 8 x 8 pixels, 16 bits each
+inline constexpr int kCoarseBytes = 2;
+inline constexpr int kCoarseShift = 8;   // of a depth
+inline constexpr int kCoarseAcross = 8;  // tiles of a line
+inline constexpr int kCoarseDown = 4;
+
 // ---- facing bits: face f is bit f & 7 of byte f >> 3; 1: turned to the eye
 inline constexpr int kFacesInLine = 512;
 

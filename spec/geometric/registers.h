@@ -20,11 +20,12 @@ enum class Refusal : std::uint8_t {
   kTouchedWords,  // the frame needs more than touched_words
   kEdgeCount,     // over 2^24
   kVertexCount,   // over 2^24
-  kFaceCount      // over face_limit, with select = edges
+  kFaceCount,     // over face_limit, with select = edges
+  kBoundaryCount  // over EDGE_COUNT, with records = split
 };
-inline constexpr std::array<std::string_view, 8> kRefusalNames = {
-    "none",          "disabled",   "size",         "width",
-    "touched_words", "edge_count", "vertex_count", "face_count"};
+inline constexpr std::array<std::string_view, 9> kRefusalNames = {
+    "none",       "disabled",     "size",       "width",         "touched_words",
+    "edge_count", "vertex_count", "face_count", "boundary_count"};
 
 namespace reg {
 inline constexpr std::uint32_t kId = 0x00;
@@ -65,7 +66,11 @@ inline constexpr std::uint32_t kMemoryErrors = 0x88;
 inline constexpr std::uint32_t kFrameCycles = 0x8C;
 inline constexpr std::uint32_t kEdgeCycles = 0x90;
 inline constexpr std::uint32_t kResolveCycles = 0x94;
-inline constexpr std::uint32_t kIdValue = 0xDEB00003;
+inline constexpr std::uint32_t kBoundaryCount = 0x98;
+inline constexpr std::uint32_t kPairBase = 0x9C;
+inline constexpr std::uint32_t kOtherPairBase = 0xA0;
+inline constexpr std::uint32_t kCoarseBase = 0xA4;
+inline constexpr std::uint32_t kIdValue = 0xDEB00004;
 
 // Fields, from the lowest bit on. Codes are those of the enumerations of spec/geometric/.
 namespace control {
@@ -93,8 +98,7 @@ inline constexpr Field kHeight{"height", 29, 16, "pixels, 1..8192"};
 inline constexpr std::array kFields = {kWidth, kHeight};
 }  // namespace size
 namespace rules {
-inline constexpr Field kSelect{"select", 0, 0, {}, kSelectNames};
-inline constexpr Field kLinearLight{"linear_light", 1, 1, "1: blend in linear light"};
+inline constexpr Field kSelect{"select", 1, 0, {}, kSelectNames};
 inline constexpr Field kCrease{"crease", 3, 2, {}, kCreaseNames};
 inline constexpr Field kDepthTest{"depth_test", 5, 4, {}, kDepthTestNames};
 inline constexpr Field kCombine{"combine", 7, 6, {}, kCombineNames};
@@ -106,9 +110,10 @@ inline constexpr Field kCoverage{"coverage", 16, 16, {}, kCoverageNames};
 inline constexpr Field kCull{"cull", 17, 17, {}, kCullNames};
 inline constexpr Field kCreaseDepth{"crease_depth", 22, 18,
                                     "1..24; 0: creases of any depth, more counts as 24"};
-inline constexpr std::array kFields = {kSelect,    kLinearLight, kCrease, kDepthTest,
-                                       kCombine,   kDepthBias,   kMark,   kLayout,
-                                       kFrameCopy, kCoverage,    kCull,   kCreaseDepth};
+inline constexpr Field kLinearLight{"linear_light", 23, 23, "1: blend in linear light"};
+inline constexpr std::array kFields = {kSelect,    kCrease, kDepthTest,   kCombine,
+                                       kDepthBias, kMark,   kLayout,      kFrameCopy,
+                                       kCoverage,  kCull,   kCreaseDepth, kLinearLight};
 }  // namespace rules
 namespace line_base {
 inline constexpr Field kAddress = kLineAddress;
@@ -132,7 +137,7 @@ inline constexpr std::uint32_t kStatusInvalidEdge = status::kInvalidEdge.mask();
 
 // Reset values marked 0 with the access kReadWrite of RULES are loaded from the parameters at
 // construction; bases read 0 in their low six bits.
-inline constexpr std::array<RegisterInfo, 38> kRegisters = {{
+inline constexpr std::array<RegisterInfo, 42> kRegisters = {{
     {reg::kId, "ID", Access::kReadOnly, reg::kIdValue,
      "Identifies the unit and the version of its register map."},
     {reg::kControl, "CONTROL", Access::kReadWrite, 1, "Switch and commands.",
@@ -196,6 +201,14 @@ inline constexpr std::array<RegisterInfo, 38> kRegisters = {{
     {reg::kEdgeCycles, "EDGE_CYCLES", Access::kReadOnly, 0,
      "Of these until every edge was drawn and every weight written back."},
     {reg::kResolveCycles, "RESOLVE_CYCLES", Access::kReadOnly, 0, "Of these the rest."},
+    {reg::kBoundaryCount, "BOUNDARY_COUNT", Access::kReadWrite, 0,
+     "Boundaries of the edge table, 0..EDGE_COUNT (records = split)."},
+    {reg::kPairBase, "PAIR_BASE", Access::kReadWrite, 0,
+     "Byte address of the vertices of boundaries (records = split).", reg::line_base::kFields},
+    {reg::kOtherPairBase, "OTHER_PAIR_BASE", Access::kReadWrite, 0,
+     "Byte address of the vertices of all other edges (records = split).", reg::line_base::kFields},
+    {reg::kCoarseBase, "COARSE_BASE", Access::kReadWrite, 0,
+     "Byte address of the coarse depth (coarse_lines).", reg::line_base::kFields},
 }};
 static_assert(fields_are_in_order(kRegisters));
 

@@ -146,7 +146,7 @@ class CompositionRole {
   // Beginnings of their names.
   virtual std::vector<std::string> prefixes() const = 0;
   virtual void apply_preset(ParameterSet& set) = 0;
-  // After every preset: refuses what was given and has no effect, or cannot be.
+  // After every preset: rejects what was given and has no effect, or cannot be.
   virtual void resolve(ParameterSet& set) = 0;
   virtual std::vector<std::string> notes() const { return {}; }
   virtual std::vector<Shorthand> shorthands() const { return {}; }
@@ -154,7 +154,7 @@ class CompositionRole {
   virtual std::vector<std::string_view> pictures() const { return {}; }
   virtual LongRun long_run() const { return {}; }
   // ConfigError for a scene that the engine does not take.
-  virtual void judge(const DrawnScene& scene) const = 0;
+  virtual void check(const DrawnScene& scene) const = 0;
 
  protected:
   CompositionRole() = default;
@@ -185,13 +185,13 @@ class PictureDrawer : public CompositionRole {
   // To elaborate with.
   virtual std::shared_ptr<const DrawnScene> smallest() const = 0;
 
-  // The supersampled truth: made for all runs of a scene; judged by, as of judge_by_scene().
+  // The supersampled truth: made for all runs of a scene; checked by, as of compare_with_scene().
   virtual std::string truth_caption() const = 0;
   virtual void prepare_truth(const DrawnScene& scene, const RenderOptions& options,
                              const RunContext& context) const = 0;
-  virtual Image judge_by_truth(const DrawnScene& scene, const RenderOptions& options,
-                               const Image& before, const Image& after, Result& result,
-                               const RunContext& context) const = 0;
+  virtual Image compare_with_truth(const DrawnScene& scene, const RenderOptions& options,
+                                   const Image& before, const Image& after, Result& result,
+                                   const RunContext& context) const = 0;
 
   virtual std::unique_ptr<DrawingStage> build(Simulation& simulation,
                                               const DrawnScene& scene) const = 0;

@@ -169,11 +169,11 @@ class Engine {
   // mesh.obj or frame.png.
   virtual std::vector<std::string_view> examples() const = 0;
   // After everything that was given has been set: fills in what follows from it (presets), and
-  // refuses what was given and has no effect.
+  // rejects what was given and has no effect.
   virtual void resolve(ParameterSet&) {}
-  // What run() would refuse of its input, a scene that draws nothing or a frame too wide for what
+  // What run() would reject of its input, a scene that draws nothing or a frame too wide for what
   // is built, without a simulation. After resolve().
-  virtual void judge(const RunParameters& run, RunContext& context) = 0;
+  virtual void check(const RunParameters& run, RunContext& context) = 0;
   // Simulates and fills the context's images. Errors of the run are exceptions (spec/error.h);
   // what was measured until then is in `result`.
   virtual void run(const RunParameters& run, RunContext& context, Result& result) = 0;

@@ -40,10 +40,10 @@ int frames_of(const ParameterSet& set, const SequenceParameters& sequence,
               const FrameLists& lists) {
   if (lists.frames() > 1) {
     const std::string why = fmt::format("{} lists {} frames", lists.longest(), lists.frames());
-    for (const char* name : {"sequence.frames", "sequence.motion"}) set.refuse(name, why);
+    for (const char* name : {"sequence.frames", "sequence.motion"}) set.reject(name, why);
     return lists.frames();
   }
-  if (sequence.frames == 1) set.refuse("sequence.motion", "sequence.frames = 1 does not move");
+  if (sequence.frames == 1) set.reject("sequence.motion", "sequence.frames = 1 does not move");
   return sequence.frames;
 }
 

@@ -22,7 +22,7 @@ bool shows_something(const DepthImage& depth) {
 
 }  // namespace
 
-void refuse_empty_picture(const Scene& scene, int width, int height) {
+void reject_empty_picture(const Scene& scene, int width, int height) {
   const Mesh& mesh = scene.mesh;
   const Bounds box = bounds(mesh);
   throw spec::ConfigError(fmt::format(
@@ -32,11 +32,11 @@ void refuse_empty_picture(const Scene& scene, int width, int height) {
       box.high.z, width, height, kLook));
 }
 
-void refuse_nothing_drawn(const Scene& scene, const DepthImage& depth) {
-  if (!shows_something(depth)) refuse_empty_picture(scene, depth.width, depth.height);
+void reject_nothing_drawn(const Scene& scene, const DepthImage& depth) {
+  if (!shows_something(depth)) reject_empty_picture(scene, depth.width, depth.height);
 }
 
-void refuse_nothing_drawn(const DepthImage& depth, std::string_view source) {
+void reject_nothing_drawn(const DepthImage& depth, std::string_view source) {
   if (shows_something(depth)) return;
   throw spec::ConfigError(
       fmt::format("the scene '{}' draws nothing: none of its triangles covers the centre of one of "
@@ -44,7 +44,7 @@ void refuse_nothing_drawn(const DepthImage& depth, std::string_view source) {
                   source, depth.width, depth.height));
 }
 
-void refuse_slow_memory(const ParameterSet& set, std::string_view prefix,
+void reject_slow_memory(const ParameterSet& set, std::string_view prefix,
                         const MemoryParameters& memory) {
   const std::string patience = set.find("run.watchdog_cycles")->text();
   std::int64_t clocks = 0;
@@ -61,16 +61,16 @@ void refuse_slow_memory(const ParameterSet& set, std::string_view prefix,
         clocks, 2 * (slowest + memory.bank_busy)));
 }
 
-void refuse_unused_memory(const ParameterSet& set, std::string_view prefix,
+void reject_unused_memory(const ParameterSet& set, std::string_view prefix,
                           const MemoryParameters& memory) {
-  const auto refuse = [&](std::string_view name, std::string_view why) {
-    set.refuse(fmt::format("{}.{}", prefix, name), why);
+  const auto reject = [&](std::string_view name, std::string_view why) {
+    set.reject(fmt::format("{}.{}", prefix, name), why);
   };
   if (memory.latency_max > 0 && memory.latency_max <= memory.latency)
-    refuse("latency_max", fmt::format("it is not above {}.latency = {}", prefix, memory.latency));
-  if (memory.banks == 1) refuse("interleave_bytes", fmt::format("{}.banks = 1", prefix));
+    reject("latency_max", fmt::format("it is not above {}.latency = {}", prefix, memory.latency));
+  if (memory.banks == 1) reject("interleave_bytes", fmt::format("{}.banks = 1", prefix));
   if (memory.error_address < 0)
-    refuse("error_bytes", fmt::format("{}.error_address names no address", prefix));
+    reject("error_bytes", fmt::format("{}.error_address names no address", prefix));
 }
 
 std::string with_changes(std::string label, const ParameterSet& set, std::string_view prefix) {

@@ -26,8 +26,8 @@ std::optional<double> value_of(double measure) {
 
 }  // namespace
 
-Quality judge_quality(std::string reference, const Image& before, const Image& after,
-                      const Image& truth, const DepthImage* depth) {
+Quality measure_quality(std::string reference, const Image& before, const Image& after,
+                        const Image& truth, const DepthImage* depth) {
   const Mask edges = edge_mask(truth, before);
   Quality quality;
   quality.reference = std::move(reference);

@@ -17,8 +17,8 @@ inline constexpr int kDifferenceGain = 4;
 
 // `after` and what went in, `before`, against the truth: PSNR over the frame, over edge pixels and,
 // with a depth, over silhouettes; FLIP and SSIM over the frame.
-Quality judge_quality(std::string reference, const Image& before, const Image& after,
-                      const Image& truth, const DepthImage* depth);
+Quality measure_quality(std::string reference, const Image& before, const Image& after,
+                        const Image& truth, const DepthImage* depth);
 
 // What became of `before`; where there is a truth, of its right pixels too.
 Change measure_change(const Image& before, const Image& after, const Image* truth);

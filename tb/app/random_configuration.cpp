@@ -173,7 +173,7 @@ bool is_quick(const ParameterSet& set) {
   return true;
 }
 
-// The engine with these settings; null where it, or what is said above, refuses one.
+// The engine with these settings; null where it, or what is said above, rejects one.
 class DrawnConfiguration {
  public:
   DrawnConfiguration(const std::string& engine, const RandomDraws& draws, const Settings& settings)
@@ -197,8 +197,8 @@ class DrawnConfiguration {
     try {
       RunContext context("", bound_.set, "", static_cast<std::uint64_t>(bound_.run.seed));
       context.set_quiet(true);
-      context.set_judging_only();
-      engine_->judge(bound_.run, context);
+      context.set_checking_only();
+      engine_->check(bound_.run, context);
     } catch (const spec::ConfigError&) {
       return false;
     }
@@ -218,14 +218,14 @@ Settings accepted(const std::string& engine, const RandomDraws& draws, const Set
   Settings settings = given;
   constexpr int kPasses = 2;
   for (int pass = 0; pass < kPasses; ++pass) {
-    Settings refused;
+    Settings rejected;
     for (auto& setting : wanted) {
       settings.push_back(std::move(setting));
       if (DrawnConfiguration(engine, draws, settings).is_resolved()) continue;
-      refused.push_back(std::move(settings.back()));
+      rejected.push_back(std::move(settings.back()));
       settings.pop_back();
     }
-    wanted = std::move(refused);
+    wanted = std::move(rejected);
   }
   return settings;
 }

@@ -22,7 +22,7 @@ using Draw = std::string (*)(Random&);
 
 // Beside what holds for run.*, scene.* and every memory. By names of parameters.
 struct RandomDraws {
-  // What a range alone would make slow, refused or the same as ever.
+  // What a range alone would make slow, rejected or the same as ever.
   std::map<std::string_view, Draw> draws{};
   // What stays as it is: files, what costs time and shows nothing of the hardware.
   std::vector<std::string_view> fixed{};

@@ -28,7 +28,7 @@ std::string from_repository(const std::string& text) {
   return text;
 }
 
-void refuse_no_history(const Engine& engine) {
+void reject_no_history(const Engine& engine) {
   if (keeps_pixel_history(engine)) return;
   std::vector<std::string> known;
   for (const std::unique_ptr<Engine>& other : engines())
@@ -50,7 +50,7 @@ void BoundEngine::resolve() {
   engine.resolve(set);
   set.check_build();
   if (!run.pixel.empty()) {
-    refuse_no_history(engine);
+    reject_no_history(engine);
     pixel_of(run.pixel);
   }
   if (!run.trace.empty() && run.trace_from >= run.trace_to)
@@ -71,10 +71,10 @@ void BoundEngine::resolve() {
         kMostTimelineCycles));
   if (!run.timeline)
     for (const char* name : {"run.timeline_from", "run.timeline_to"})
-      set.refuse(name, "there is no timeline without run.timeline (--timeline)");
+      set.reject(name, "there is no timeline without run.timeline (--timeline)");
   if (run.trace.empty())
     for (const char* name : {"run.trace_from", "run.trace_to"})
-      set.refuse(name, "nothing is traced without run.trace (--trace)");
+      set.reject(name, "nothing is traced without run.trace (--trace)");
 }
 
 RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,

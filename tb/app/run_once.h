@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One run of an engine: its parameters bound and judged, and the run from its claim on a directory
+// One run of an engine: its parameters bound and checked, and the run from its claim on a directory
 // to a verdict. `deburr run` does it once a process, a sweep's worker once a child.
 #pragma once
 
@@ -37,7 +37,7 @@ struct RunEnd {
   Result result{};
 };
 
-// Claims the context's directory, runs and judges; the caller finishes the context with the result.
+// Claims the context's directory, runs and checks; the caller finishes the context with the result.
 // ConfigError and FileError where nothing could be run; every other failure is in the result, and
 // on the error stream. `claimed` is called when the directory is this run's; false from it: there
 // is nothing to do.

@@ -53,7 +53,7 @@ SimulationOptions simulation_options(const RunParameters& run, const RunContext&
 
 namespace {
 
-void refuse_empty_trace(Simulation& simulation) {
+void reject_empty_trace(Simulation& simulation) {
   const SimulationOptions& o = simulation.options();
   const rtl::Cycle end = simulation.clock().cycle();
   if (o.timeline && o.timeline->from >= end)
@@ -127,7 +127,7 @@ void simulate(Simulation& simulation, Environment& environment, RunContext& cont
               const std::function<void()>& add_pictures) {
   simulation.elaborate(environment);
   const std::unique_ptr<LineTrace> lines = line_trace(simulation, context, result);
-  if (context.judging_only()) return;
+  if (context.checking_only()) return;
   if (interrupted()) throw Interrupted();  // while the input was made: there is nothing to keep
   note_copies(context);
   try {
@@ -156,8 +156,8 @@ void simulate(Simulation& simulation, Environment& environment, RunContext& cont
   leave_maps(simulation, environment, context, result);
   if (!simulation.complete()) return;
   environment.check();
-  environment.refuse_unused_errors();
-  refuse_empty_trace(simulation);
+  environment.reject_unused_errors();
+  reject_empty_trace(simulation);
 }
 
 void describe(Simulation& simulation, Environment& environment, Result& result) {

@@ -18,7 +18,7 @@ SimulationOptions simulation_options(const RunParameters& run, const RunContext&
 
 // Runs the environment between context.claim() and context.finish(). `add_pictures` is called with
 // what has come until then, also when the run is broken off; Ctrl-C ends it at the next chance.
-// Where the context only judges, it returns before the first clock.
+// Where the context only checks, it returns before the first clock.
 void simulate(Simulation& simulation, Environment& environment, RunContext& context, Result& result,
               const std::function<void()>& add_pictures);
 

@@ -34,7 +34,7 @@ class Surveyor final : public YAML::EventHandler {
                 const std::string&) override {
     leaf(anchor);
   }
-  // yaml-cpp refuses aliases of what no anchor has named before.
+  // yaml-cpp rejects aliases of what no anchor has named before.
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto named = nodes_behind_.find(anchor);
     if (named == nodes_behind_.end()) fail(mark, "an alias of what it is a part of");

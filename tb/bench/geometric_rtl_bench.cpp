@@ -42,10 +42,10 @@ using spec::geometric::Parameters;
 
 constexpr int kWidth = 1280, kHeight = 720;
 constexpr std::uint32_t kEdges = 33'000, kKept = kEdges / 5, kFaces = 22'000;
-// In the order of the regions: faces, edges, vertices, depth, weights, colour, copy.
-constexpr std::array<std::uint32_t, 7> kBases = {0x180000, 0,        0x100000, 0x200000,
-                                                 0xA00000, 0x600000, 0xE00000};
-constexpr std::uint32_t kBytes = 0x1200000;
+// In the order of the regions: faces, edges, vertices, depth, weights, colour, copy, pairs, coarse.
+constexpr std::array<std::uint32_t, 9> kBases = {0x180000, 0,        0x100000,  0x200000, 0xA00000,
+                                                 0x600000, 0xE00000, 0x1200000, 0x1300000};
+constexpr std::uint32_t kBytes = 0x1310000;
 
 using spec::geometric::Edge;
 using spec::geometric::Rgba8;

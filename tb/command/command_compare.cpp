@@ -127,7 +127,7 @@ void print_runs(const Json& comparison, bool all) {
   std::vector<std::vector<std::string>> rows = {{""}};
   for (const Json& run : comparison.at("runs")) {
     rows[0].push_back(text(run.at("name")));
-    if (rows[0].size() > 2) rows[0].insert(rows[0].end(), {"", ""});  // change and judgement
+    if (rows[0].size() > 2) rows[0].insert(rows[0].end(), {"", ""});  // change and verdict
   }
   auto [shown, others] = by_weight(comparison);
   if (all) shown.insert(shown.end(), others.begin(), others.end());
@@ -137,9 +137,9 @@ void print_runs(const Json& comparison, bool all) {
     for (const Json& cell : value->at("cells")) {
       row.push_back(text(cell.at("text")));
       if (!cell.contains("judgement")) continue;
-      const std::string judgement = text(cell.at("judgement"));
+      const std::string verdict = text(cell.at("judgement"));
       row.push_back(text(cell.at("change")));
-      row.push_back(cell.at("worse").get<bool>() ? "WORSE" : judgement == "equal" ? "" : judgement);
+      row.push_back(cell.at("worse").get<bool>() ? "WORSE" : verdict == "equal" ? "" : verdict);
     }
   }
   if (!shown.empty()) print(rows);

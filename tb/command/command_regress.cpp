@@ -42,7 +42,7 @@ struct RegressOptions : PointOptions {
   std::uint64_t divide = 1;
   bool failed = false;
 
-  void refuse_half_a_rerun() const {
+  void reject_half_a_rerun() const {
     if (failed == (action == "rerun")) return;
     throw spec::ConfigError(failed ? "--failed goes with 'rerun': rerun --failed"
                                    : "rerun: of what? 'rerun --failed' runs again what has failed");
@@ -79,7 +79,7 @@ class Regression {
     const SweepLock lock(place_.directory);
     return options_.action == "run"     ? run()
            : options_.action == "rerun" ? rerun()
-                                        : judge(collect());
+                                        : check(collect());
   }
 
  private:
@@ -91,7 +91,7 @@ class Regression {
   }
 
   Outcome run() {
-    refuse_while_submitted(place_);
+    reject_while_submitted(place_);
     const Pending pending = find_pending(place_, options_.retry);
     if (!pending.points.empty()) {
       if (!options_.slurm.empty())
@@ -99,12 +99,12 @@ class Regression {
       const int code = run_here(plan_, place_, pending.points, settings("regression"));
       if (code == kInterruptedExit) return ended(options_, what_, place_, pending.done, code);
     }
-    return judge(collect());
+    return check(collect());
   }
 
   // What failed, by the names of the runs: behind a change of the model they are other points.
   Outcome rerun() {
-    refuse_while_submitted(place_);
+    reject_while_submitted(place_);
     std::vector<PlannedPoint> points;
     for_each_point(points_file(place_.directory), [&](const PlannedPoint& point) {
       if (failed_.erase(origin_of(point).name()) > 0) points.push_back(point);
@@ -117,11 +117,11 @@ class Regression {
         return run_on_slurm(options_, what_, plan_, place_, pending.points);
       run_here(plan_, place_, pending.points, settings("rerun"));
     }
-    return judge_again(points);
+    return check_again(points);
   }
 
   // All of the report where every run has a result, and else only what was run again.
-  Outcome judge_again(const std::vector<PlannedPoint>& points) const {
+  Outcome check_again(const std::vector<PlannedPoint>& points) const {
     std::vector<const PlannedPoint*> failed;
     std::uint64_t passed = 0;
     for (const PlannedPoint& point : points) {
@@ -135,7 +135,7 @@ class Regression {
     if (!interrupted()) {
       if (const Status status = look(place_, plan_); status.missing + status.running == 0) {
         say(options_, "rerun       " + figures);
-        return judge(collect());
+        return check(collect());
       }
     }
     const std::string text = fmt::format(
@@ -195,7 +195,7 @@ class Regression {
     return result;
   }
 
-  Outcome judge(const RegressionResult& result) const {
+  Outcome check(const RegressionResult& result) const {
     return with_collection(outcome_of(result), place_);
   }
 
@@ -291,7 +291,7 @@ void add_regress(CLI::App& app, CommandLine& line) {
   command->callback([options, action, &line] {
     if (action->count() == 0) options->take_lone_action();
     line.action = [options, &line] {
-      options->refuse_half_a_rerun();
+      options->reject_half_a_rerun();
       Regression regression(*options);
       if (!options->seed)
         line.text += fmt::format(" --seed {}", regression.base_seed());  // the same tomorrow

@@ -54,7 +54,7 @@ std::vector<Assignment> expand(const Shorthand& shorthand, const std::string& va
   return {{shorthand.parameter, value, shorthand.option}};
 }
 
-void refuse_empty_names(const RunOptions& options) {
+void reject_empty_names(const RunOptions& options) {
   for (const auto& [name, value] : {std::pair("--config", options.config), {"--out", options.out}})
     if (value && value->empty())
       throw ConfigError(
@@ -179,7 +179,7 @@ std::string figures_of(const Result& r) {
 }
 
 Outcome run_engine(Engine& engine, const RunOptions& options, CommandLine& line) {
-  refuse_empty_names(options);
+  reject_empty_names(options);
   const std::string configuration = configuration_of(options);
   if (options.config == kStandardInput)
     line.text = fmt::format("{} | {}", printed(configuration), line.text);
@@ -190,7 +190,7 @@ Outcome run_engine(Engine& engine, const RunOptions& options, CommandLine& line)
                      line.text, static_cast<std::uint64_t>(bound.run.seed));
   context.set_quiet(options.quiet || line.json);
   if (options.resolve_only) {
-    context.set_judging_only();
+    context.set_checking_only();
     Result result;
     engine.run(bound.run, context, result);
     fmt::print("{}", bound.set.yaml());
@@ -198,7 +198,7 @@ Outcome run_engine(Engine& engine, const RunOptions& options, CommandLine& line)
   }
   catch_interrupts();
   const RunEnd end =
-      run_once(bound, context, options.wait ? IfTaken::kWait : IfTaken::kRefuse, [&] {
+      run_once(bound, context, options.wait ? IfTaken::kWait : IfTaken::kReject, [&] {
         if (options.config) context.add_configuration(*options.config, configuration);
         return true;
       });

@@ -54,7 +54,7 @@ Outcome run_sweep(const SweepOptions& options, const SweepDefinition& sweep,
   catch_interrupts();
   const Plan plan = planned(options, sweep, place);
   const SweepLock lock(place.directory);
-  refuse_while_submitted(place);
+  reject_while_submitted(place);
   const Pending pending = find_pending(place, options.retry);
   const std::string what = "sweep " + sweep.name;
   int code = 0;
@@ -120,7 +120,7 @@ Outcome run_search(const SweepOptions& options, const SweepDefinition& sweep,
   require_known_metrics(sweep);
   fs::create_directories(place.directory);
   const SweepLock lock(place.directory);
-  refuse_while_submitted(place);
+  reject_while_submitted(place);
   SearchSettings search = options.search;
   if (search.population == 0) search.population = population_for(search.runs);
   std::optional<Progress> progress(std::in_place, "search", search.runs, "point", options.quiet);

@@ -55,7 +55,7 @@ void Environment::let_miscount(RegisterScoreboard& board, std::span<const std::u
   know(std::move(faults));
 }
 
-void Environment::refuse_untouched(const platform::MemoryModel& memory,
+void Environment::reject_untouched(const platform::MemoryModel& memory,
                                    const MemoryParameters& parameters) {
   const auto range = error_range(parameters);
   if (range && memory.errors() == 0)
@@ -78,7 +78,7 @@ std::string_view RegisterScoreboard::name_of(std::uint32_t offset) const {
   return "?";
 }
 
-void RegisterScoreboard::judge(platform::RegisterBus& registers,
+void RegisterScoreboard::check(platform::RegisterBus& registers,
                                std::span<const std::pair<std::uint32_t, std::uint64_t>> expected) {
   board_.require(expected.size());
   for (const auto& [offset, value] : expected) {

@@ -52,7 +52,7 @@ class Environment {
   // Begins a piece of work (a frame of several) that is done before the next begins; false: there
   // are no more.
   virtual bool begin(std::size_t piece) = 0;
-  // Between clocks: judges what has been recorded meanwhile.
+  // Between clocks: checks what has been recorded meanwhile.
   virtual void watch() {}
   // Everything of this piece was sent and nothing is inside any more.
   virtual bool done() const = 0;
@@ -60,18 +60,18 @@ class Environment {
   virtual void end() = 0;
   // After a reset within a piece, and configure(): what came of it counts no more, it begins again.
   virtual void restart() = 0;
-  // All pieces are done: counters are judged.
+  // All pieces are done: counters are checked.
   virtual void finish() = 0;
   // SimulationError if memory answered with errors. After finish(), so that what they did to the
-  // outputs has been judged.
-  virtual void refuse_memory_errors() = 0;
+  // outputs has been checked.
+  virtual void reject_memory_errors() = 0;
   // ConfigError if a range of memory was to answer with errors and nobody asked for it.
-  virtual void refuse_unused_errors() const = 0;
+  virtual void reject_unused_errors() const = 0;
   virtual Amount amount() const = 0;
   // Memory has answered, and written, everything that it was asked.
   virtual bool memory_at_rest() const = 0;
 
-  // ---- judging
+  // ---- checking
   using Boards = std::vector<const ScoreboardBase*>;
   virtual Boards outputs() const = 0;   // pixels, colours
   virtual Boards traffic() const = 0;   // accesses of memory
@@ -115,9 +115,9 @@ class Environment {
   void plant_in(platform::MemoryModel& memory, const MemoryParameters& parameters) const;
   // `blind-NAME` for each scoreboard of this run: it compares nothing, which is no pass.
   void let_blind(std::initializer_list<ScoreboardBase*> boards);
-  // `miscount-NAME` for each register that is judged: the engine counted one too many or too few.
+  // `miscount-NAME` for each register that is checked: the engine counted one too many or too few.
   void let_miscount(RegisterScoreboard& board, std::span<const std::uint32_t> offsets);
-  static void refuse_untouched(const platform::MemoryModel& memory,
+  static void reject_untouched(const platform::MemoryModel& memory,
                                const MemoryParameters& parameters);
 
   const std::string& name() const { return name_; }
@@ -131,7 +131,7 @@ class Environment {
 class RegisterScoreboard {
  public:
   explicit RegisterScoreboard(std::span<const spec::RegisterInfo> table);
-  void judge(platform::RegisterBus& registers,
+  void check(platform::RegisterBus& registers,
              std::span<const std::pair<std::uint32_t, std::uint64_t>> expected);
   // A fault: the register of this offset reads wrong by its lowest bit.
   void misread(std::uint32_t offset) { misread_ = offset; }

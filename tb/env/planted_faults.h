@@ -30,7 +30,7 @@ class FaultPlan {
 
   void know(std::string_view environment, std::vector<PlantedFault> faults);
   // Before all environments are known too, since hardware is built with it: a name that turns out
-  // to mean two faults is refused by link_faults().
+  // to mean two faults is rejected by link_faults().
   bool planted(std::string_view environment, std::string_view name) const;
   // All that environments know, in their order.
   std::vector<std::string> known_names() const;

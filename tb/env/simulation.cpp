@@ -125,7 +125,7 @@ void Simulation::run_pieces(const GoOn& go_on) {
     if (!run_piece(piece, go_on)) return;
   environment_->finish();
   complete_ = true;
-  environment_->refuse_memory_errors();
+  environment_->reject_memory_errors();
 }
 
 bool Simulation::asks_to_stop(const GoOn& go_on) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every fuzz target on its seeds, on seeds that are spoilt in a few thousand ways, and on every
-// input that a fuzzer ever found, tb/fuzz/found/TARGET-NAME: taken or refused by name. It needs no
+// input that a fuzzer ever found, tb/fuzz/found/TARGET-NAME: taken or rejected by name. It needs no
 // clang.
 #include <gtest/gtest.h>
 
@@ -88,7 +88,7 @@ std::vector<std::string> names() {
 INSTANTIATE_TEST_SUITE_P(Fuzz, Replay, testing::ValuesIn(names()),
                          [](const auto& p) { return p.param; });
 
-// Seeds that are refused at once would lead nowhere.
+// Seeds that are rejected at once would lead nowhere.
 TEST(FuzzTargets, HaveSeeds) {
   for (const FuzzTarget& target : fuzz_targets()) EXPECT_FALSE(target.seeds().empty());
   EXPECT_THROW(fuzz_target("nothing"), std::invalid_argument);

@@ -50,9 +50,9 @@ class InputFile {
   fs::path file_;
 };
 
-// Refused by a named error is as good as taken.
+// Rejected by a named error is as good as taken.
 template <class Read>
-void taken_or_refused(Read&& read) {
+void taken_or_rejected(Read&& read) {
   try {
     read();
   } catch (const spec::Error&) {
@@ -64,7 +64,7 @@ void require(bool condition, const char* what) {
 }
 
 void pictures(std::string_view bytes) {
-  taken_or_refused([&] {
+  taken_or_rejected([&] {
     const Image image = read_image_memory("input", bytes);
     require(image.width > 0 && image.height > 0 &&
                 image.pixels.size() ==
@@ -75,7 +75,7 @@ void pictures(std::string_view bytes) {
 
 void depths(std::string_view bytes) {
   const InputFile file(bytes, ".png");
-  taken_or_refused([&] {
+  taken_or_rejected([&] {
     const DepthImage image = read_depth(file.path());
     require(image.pixels.size() ==
                 static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
@@ -85,7 +85,7 @@ void depths(std::string_view bytes) {
 
 void mesh(std::string_view bytes, std::string_view extension) {
   const InputFile file(bytes, extension);
-  taken_or_refused([&] {
+  taken_or_rejected([&] {
     const Mesh read = import_mesh(file.path());
     for (const Triangle& triangle : read.triangles)
       for (const std::uint32_t corner : triangle.vertex)
@@ -98,7 +98,7 @@ void gltf(std::string_view bytes) { mesh(bytes, bytes.starts_with("glTF") ? ".gl
 void traces(std::string_view bytes) {
   const InputFile file(bytes, ".trace");
   constexpr std::size_t kTextures = 2;
-  taken_or_refused([&] {
+  taken_or_rejected([&] {
     FragmentReader reader(file.path(), kTextures);
     TracedQuad quad;
     while (reader.next(quad)) require(quad.quad.texture < kTextures, "a texture that is not there");
@@ -110,7 +110,7 @@ void configurations(std::string_view bytes) {
   EngineParameters engines;
   ParameterSet set;
   engines.add_to(set);
-  taken_or_refused([&] {
+  taken_or_rejected([&] {
     set.load(file.path());
     // What was taken is written as what is taken again.
     const std::string resolved = set.resolved().dump(), yaml = set.yaml();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is fuzzed: everything that reads bytes which somebody else wrote, and the C interface, whose
-// calls somebody else makes. An input is taken, or refused by a named error (spec/error.h); any
+// calls somebody else makes. An input is taken, or rejected by a named error (spec/error.h); any
 // other exception, a crash, a leak or a hang is a bug. The same functions run under libFuzzer
 // (fuzzer.cpp) and on what it once found (replay_test.cpp).
 #pragma once

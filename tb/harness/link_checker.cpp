@@ -50,7 +50,7 @@ void LinkChecker::adopt(Watched& watched) {
   watched.head = static_cast<std::uint32_t>(watched.pops % watched.depth);
 }
 
-void LinkChecker::refuse_counts(const Watched& w, rtl::Cycle cycle) {
+void LinkChecker::reject_counts(const Watched& w, rtl::Cycle cycle) {
   const rtl::LinkBase& link = *w.link;
   const std::uint64_t pushed = link.last_push() == cycle, popped = link.last_pop() == cycle;
   if (link.pushes() != w.pushes + pushed)
@@ -65,14 +65,14 @@ void LinkChecker::refuse_counts(const Watched& w, rtl::Cycle cycle) {
   fail(link, cycle, "a pop of a beat that was pushed in the same cycle");
 }
 
-void LinkChecker::refuse_change(const Watched& w, rtl::Cycle cycle) {
+void LinkChecker::reject_change(const Watched& w, rtl::Cycle cycle) {
   const std::string fields = w.link->payload().difference(w.copy(w.head), w.slot(w.head));
   if (!fields.empty())
     fail(*w.link, cycle,
          fmt::format("beat {} changed while it waited (was/is): {}", w.pops, fields));
 }
 
-void LinkChecker::refuse_width(const Watched& w, rtl::Cycle cycle) {
+void LinkChecker::reject_width(const Watched& w, rtl::Cycle cycle) {
   if (const rtl::Field* wide = w.link->payload().misfit(w.slot(w.tail)))
     fail(*w.link, cycle,
          fmt::format("beat {}: the value of {} needs more than its {} bits", w.pushes, wide->name,
@@ -85,18 +85,18 @@ inline void LinkChecker::follow(Watched& w, rtl::Cycle cycle) {
   const std::uint64_t before = w.pushes - w.pops;
   if (link.pushes() != w.pushes + pushed || link.pops() != w.pops + popped ||
       before + pushed > w.depth || before < popped) [[unlikely]]
-    refuse_counts(w, cycle);
+    reject_counts(w, cycle);
   if (popped) {
     // All bytes first: the list of fields is needed for the text only.
     if (std::memcmp(w.slot(w.head), w.copy(w.head), w.payload_bytes) != 0) [[unlikely]]
-      refuse_change(w, cycle);
+      reject_change(w, cycle);
     ++w.compared;
     w.head = w.after(w.head);
     ++w.pops;
   }
   if (pushed) {
     std::memcpy(w.copy(w.tail), w.slot(w.tail), w.payload_bytes);
-    if (widths_) refuse_width(w, cycle);
+    if (widths_) reject_width(w, cycle);
     w.tail = w.after(w.tail);
     ++w.pushes;
   }

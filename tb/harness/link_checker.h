@@ -55,9 +55,9 @@ class LinkChecker final : public rtl::Clocked {
   void follow(Watched& watched, rtl::Cycle cycle);
   // What follow() does not look at closer unless it must, out of its way. The first throws always,
   // the others if a field is concerned, and not only bits that belong to none.
-  [[noreturn, gnu::cold]] static void refuse_counts(const Watched& watched, rtl::Cycle cycle);
-  [[gnu::noinline]] static void refuse_change(const Watched& watched, rtl::Cycle cycle);
-  [[gnu::noinline]] static void refuse_width(const Watched& watched, rtl::Cycle cycle);
+  [[noreturn, gnu::cold]] static void reject_counts(const Watched& watched, rtl::Cycle cycle);
+  [[gnu::noinline]] static void reject_change(const Watched& watched, rtl::Cycle cycle);
+  [[gnu::noinline]] static void reject_width(const Watched& watched, rtl::Cycle cycle);
   std::vector<Watched> watched_;
   bool widths_;
 };

@@ -3,7 +3,7 @@
 // the field's width, from the clock after its beat was popped until it is refilled. A producer that
 // leaves a field out, or a consumer that looks at a beat once more after its pop, then reads noise
 // that changes with every beat and field instead of a plausible old value. A link whose payload
-// does not list its fields is refused.
+// does not list its fields is rejected.
 #pragma once
 
 #include <cstdint>

@@ -35,7 +35,7 @@ class RegisterNoise {
     if (random_.chance(150)) {
       try {
         host.read(at);
-      } catch (const spec::SimulationError&) {  // no such register: refused, as it should be
+      } catch (const spec::SimulationError&) {  // no such register: rejected, as it should be
       }
       return;
     }

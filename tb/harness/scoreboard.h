@@ -91,10 +91,10 @@ class Scoreboard final : public ScoreboardBase {
   }
   // `where`: the place in the run, or its clock.
   void got(const T& value, const std::string& where = {}) {
-    if (!came(value)) judge(value, where);
+    if (!came(value)) compare(value, where);
   }
   void got(const T& value, rtl::Cycle cycle) {
-    if (!came(value)) judge(value, fmt::format("cycle {}", cycle));
+    if (!came(value)) compare(value, fmt::format("cycle {}", cycle));
   }
   std::uint64_t leftovers() const override { return waiting_; }
   // After a reset: what was expected will not come; comparisons so far count.
@@ -129,7 +129,7 @@ class Scoreboard final : public ScoreboardBase {
     return true;
   }
   // It is not.
-  [[gnu::noinline]] void judge(const T& value, const std::string& where) {
+  [[gnu::noinline]] void compare(const T& value, const std::string& where) {
     Queue& queue = queue_of(value);
     auto& waiting = queue.waiting;
     // Out of step: it may have come before, or be one of those that are missing, or come early.

@@ -33,7 +33,7 @@ def commands(tool, root, headers, module):
                                  "opt; check -assert; select -assert-none t:$dlatch"]
 
 
-def refused(tool, root, headers, module):
+def rejected(tool, root, headers, module):
     """What the tool says against a module, or None."""
     done = subprocess.run(list(map(str, commands(tool, root, headers, module))), capture_output=True, text=True,
                           check=False)
@@ -53,7 +53,7 @@ def main():
     built = {name for text in texts.values() for name in re.findall(r"^ *(\w+) (?:#\(.*\) )?\w+ \($", text, re.M)}
     tops = sorted(texts.keys() - built - {name for text in texts.values()
                                           for name in re.findall(r"^ *(\w+) (?:#\(.*\) )?\w+ \(\.", text, re.M)})
-    problems = [refused(tool, root, pathlib.Path(headers), top) for headers in sys.argv[3:] for top in tops]
+    problems = [rejected(tool, root, pathlib.Path(headers), top) for headers in sys.argv[3:] for top in tops]
     count = len(problems)
     with tempfile.TemporaryDirectory(prefix="deburr_lint_") as folder:
         copy = pathlib.Path(folder) / "hdl"
@@ -64,7 +64,7 @@ def main():
         if text.count(good) != 1:
             sys.exit(f"log2_value.sv has {good!r} {text.count(good)} times, and the fault goes where it stands once")
         file.write_text(text.replace(good, bad), encoding="utf-8")
-        if refused(tool, copy, pathlib.Path(sys.argv[3]), "log2_value") is None:
+        if rejected(tool, copy, pathlib.Path(sys.argv[3]), "log2_value") is None:
             problems.append(f"{tool} reads {bad!r} and finds nothing wrong")
     problems = [problem for problem in problems if problem]
     print("\n".join(problems) or f"{tool}: {count} times read, from {', '.join(tops)}")

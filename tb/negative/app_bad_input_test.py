@@ -403,7 +403,7 @@ class Configuration(CommandTest):
                     "run.watchdog_cycles=40000", "--out", self.path("out"))
 
     def test_show_config_checks_as_a_run_does(self):
-        """What a run would refuse is refused; what it would do is not done."""
+        """What a run would reject is rejected; what it would do is not done."""
         for engine, *arguments in (
                 ("texture", "--fault", "gremlin"), ("texture", "--trace", "nothing*"),
                 ("texture", "--set", "texture.cache.bytes=10000"),

@@ -161,7 +161,7 @@ class Faults(CommandTest):
 
 
 class Registers(CommandTest):
-    """Each status register that is judged can fail the run by itself."""
+    """Each status register that is checked can fail the run by itself."""
 
     TEXTURE = ["fragments", "bilinears", "line-fills", "clamped", "saturated", "memory-errors", "invalid-fragments"]
     MORPHOLOGICAL = ["pixels", "edge-pixels", "horizontal-runs", "vertical-runs", "long-runs", "z-runs",

@@ -47,7 +47,7 @@ class Testplans(CommandTest):
         os.makedirs(self.path("docs"))
         self.write("docs/unit.md", UNIT)
 
-    def refuse(self, text, *says, action="plan", code=2):
+    def reject(self, text, *says, action="plan", code=2):
         self.write("t.yaml", text)
         done = self.expect(code, "regress", "t.yaml", action, "--seed", "1", says=says)
         if action == "plan":
@@ -59,44 +59,44 @@ class Testplans(CommandTest):
                     says="PASS regression t --seed 1: 1 point over 1 input, 0 of them done")
 
     def test_unknown_names(self):
-        self.refuse(HEAD.replace("checks:", "check:"),
+        self.reject(HEAD.replace("checks:", "check:"),
                     "t.yaml:8: unknown key 'check': did you mean 'checks'?")
-        self.refuse(HEAD.replace("engine: texture", "engine: textur"),
+        self.reject(HEAD.replace("engine: texture", "engine: textur"),
                     "t.yaml:7: no engine 'textur': did you mean 'texture'?")
-        self.refuse(HEAD.replace("{width: 8", "{widht: 8"),
+        self.reject(HEAD.replace("{width: 8", "{widht: 8"),
                     "t.yaml:7: unknown parameter 'scene.widht'", "did you mean 'scene.width'")
-        self.refuse(HEAD.replace("{name: base,", "{name: base, sedes: 3,"),
+        self.reject(HEAD.replace("{name: base,", "{name: base, sedes: 3,"),
                     "t.yaml:7: unknown key 'sedes': did you mean 'seeds'?")
-        self.refuse(HEAD.replace("says:", "say:"), "t.yaml:5: unknown key 'say': did you mean 'says'?")
+        self.reject(HEAD.replace("says:", "say:"), "t.yaml:5: unknown key 'say': did you mean 'says'?")
 
     def test_what_is_missing_or_twice(self):
-        self.refuse("title: Small\n", "t.yaml:1: 'features' is missing")
-        self.refuse(HEAD + "    coverage: []\n", "t.yaml:9: 'coverage' wants a list, got an empty list")
-        self.refuse("features: []\n", "t.yaml:1: 'features' wants a list, got an empty list")
-        self.refuse(HEAD.replace("    checks: {colours: 1}\n", ""), "t.yaml:3: 'checks' is missing, and so is 'coverage'")
-        self.refuse(HEAD.replace("{colours: 1}", "{}"),
+        self.reject("title: Small\n", "t.yaml:1: 'features' is missing")
+        self.reject(HEAD + "    coverage: []\n", "t.yaml:9: 'coverage' wants a list, got an empty list")
+        self.reject("features: []\n", "t.yaml:1: 'features' wants a list, got an empty list")
+        self.reject(HEAD.replace("    checks: {colours: 1}\n", ""), "t.yaml:3: 'checks' is missing, and so is 'coverage'")
+        self.reject(HEAD.replace("{colours: 1}", "{}"),
                     "t.yaml:8: 'checks' wants a map of scoreboards to numbers, got an empty map")
-        self.refuse(HEAD + HEAD[HEAD.index("  - id"):], "t.yaml:9: there are two features 'filtering'")
-        self.refuse(HEAD.replace("    checks", "      - {name: base, engine: texture}\n    checks"),
+        self.reject(HEAD + HEAD[HEAD.index("  - id"):], "t.yaml:9: there are two features 'filtering'")
+        self.reject(HEAD.replace("    checks", "      - {name: base, engine: texture}\n    checks"),
                     "t.yaml:8: there are two stimuli 'base'")
-        self.refuse(HEAD.replace("colours: 1", "colours: 0"), "t.yaml:8: 'colours' = '0' is outside 1..")
-        self.refuse(HEAD.replace("id: filtering", "id: Filter it"), "t.yaml:3: 'id' = 'Filter it' wants")
+        self.reject(HEAD.replace("colours: 1", "colours: 0"), "t.yaml:8: 'colours' = '0' is outside 1..")
+        self.reject(HEAD.replace("id: filtering", "id: Filter it"), "t.yaml:3: 'id' = 'Filter it' wants")
 
     def says(self, text):
         return HEAD.replace("says: It filters.", f"says: '{text}'")
 
     def test_a_page_that_has_changed(self):
-        self.refuse(self.says("It filtered."), "t.yaml:5: 'docs/unit.md' does not say 'It filtered.'")
-        self.refuse(HEAD.replace("docs/unit.md", "docs/units.md"), "t.yaml:5: there is no page 'docs/units.md'")
+        self.reject(self.says("It filtered."), "t.yaml:5: 'docs/unit.md' does not say 'It filtered.'")
+        self.reject(HEAD.replace("docs/unit.md", "docs/units.md"), "t.yaml:5: there is no page 'docs/units.md'")
         self.write("docs/unit.md", "# Unit\n\nIt copies.\n")
-        self.refuse(HEAD, "t.yaml:5: 'docs/unit.md' does not say 'It filters.'")
+        self.reject(HEAD, "t.yaml:5: 'docs/unit.md' does not say 'It filters.'")
 
     def test_whole_sentences(self):
         for text in ("I", "It", "filters.", "It filters. It", "It stalls", "here.)", "done?*", "So it has", "two",
                      "sides", "And more", "have cells.", "Rows have cells. And more", "a", "What follows: it"):
-            self.refuse(self.says(text), f"t.yaml:5: '{text}' is no whole sentence of 'docs/unit.md'")
+            self.reject(self.says(text), f"t.yaml:5: '{text}' is no whole sentence of 'docs/unit.md'")
         for text in ("Unit", "# Unit", "code."):
-            self.refuse(self.says(text), "t.yaml:5: 'docs/unit.md' does not say")
+            self.reject(self.says(text), "t.yaml:5: 'docs/unit.md' does not say")
         for text in ("It filters.", "It stalls (a clock, e.g. here.)", "It filters. It stalls (a clock, e.g. here.)",
                      "Is it *done?*", "two sides", "Rows have cells.", "| a | Rows have cells. And more |",
                      "What follows:"):
@@ -107,15 +107,15 @@ class Testplans(CommandTest):
         self.write("other.md", UNIT)
         for page in ("/etc/passwd", "etc/passwd", "other.md", "docs/../other.md", "docs/unit.txt", "docs",
                      self.path("docs/unit.md")):
-            self.refuse(HEAD.replace("docs/unit.md", page),
+            self.reject(HEAD.replace("docs/unit.md", page),
                         f"t.yaml:5: 'page' = '{page}' wants a page of the documentation")
 
     def test_globs(self):
-        self.refuse(HEAD + "    coverage: ['texture/[ab]']\n", "t.yaml:9: 'texture/[ab]' is no glob")
-        self.refuse(HEAD + "    coverage: ['texture/cash/hit']\n",
+        self.reject(HEAD + "    coverage: ['texture/[ab]']\n", "t.yaml:9: 'texture/[ab]' is no glob")
+        self.reject(HEAD + "    coverage: ['texture/cash/hit']\n",
                     "t.yaml:9: no bin of the feature's engines is called 'texture/cash/hit'",
                     "did you mean 'texture/cache/hit'")
-        self.refuse(HEAD + "    coverage: ['morphological/*']\n",
+        self.reject(HEAD + "    coverage: ['morphological/*']\n",
                     "t.yaml:9: no bin of the feature's engines is called 'morphological/*'")
 
     def test_a_scoreboard_that_no_run_has_is_a_check_that_failed(self):
@@ -133,11 +133,11 @@ class Testplans(CommandTest):
     def test_what_the_engine_rejects(self):
         text = HEAD.replace("engine: texture, base: {scene: {width: 8, height: 8}}",
                             "engine: morphological, base: {morphological.preset: mlaa, morphological.quality: low}")
-        self.refuse(text, "the engine rejects the point")
+        self.reject(text, "the engine rejects the point")
 
     def test_what_nobody_checks(self):
         for run in ("run: {check: none, coverage: false}", "run.check: none"):
-            self.refuse(HEAD.replace("height: 8}}", "height: 8}, " + run + "}"),
+            self.reject(HEAD.replace("height: 8}}", "height: 8}, " + run + "}"),
                         "has run.check = none: what nobody checks would pass")
 
     def test_an_action_alone_is_about_the_default_testplan(self):

@@ -108,18 +108,18 @@ class CommandTest(unittest.TestCase):
         return done
 
     def expect_as_shown(self, engine, *arguments):
-        """What a run refuses, --show-config refuses in the same words."""
+        """What a run rejects, --show-config rejects in the same words."""
         command = ("run", engine, "--size", "32x32", "--out", self.path("out"), *arguments)
         told = [self.expect(2, *command, *more).stdout.splitlines()[-1] for more in ((), ("--show-config",))]
         self.assertEqual(told[0], told[1])
 
-    def judged(self, engine):
+    def checked(self, engine):
         done = self.expect(2, "run", engine, "--fault", "gremlin")
         line = next(line for line in done.stderr.splitlines() if "no fault 'gremlin'" in line)
         return [word.strip(",") for word in line.split() if "miscount-" in word]
 
     def miscount(self, engine, expected):
-        faults = self.judged(engine)
+        faults = self.checked(engine)
         self.assertEqual([fault.split("miscount-")[1] for fault in faults], expected)
         for fault in faults:
             name = fault.split("miscount-")[1].upper().replace("-", "_")

@@ -125,7 +125,7 @@ class SideBySide(Survival):
         ended = [(process, *process.communicate(timeout=300)) for process in processes]
         return [(process.returncode, process.pid, out, err) for process, out, err in ended]
 
-    def refused(self, number):
+    def rejected(self, number):
         ended = self.race(number)
         passed = [pid for code, pid, _, _ in ended if code == 0]
         self.assertGreater(len(passed), 0)
@@ -141,13 +141,13 @@ class SideBySide(Survival):
         return len(ended) - len(passed)
 
     def test_two(self):
-        self.refused(2)
+        self.rejected(2)
 
     def test_four(self):
-        self.refused(4)
+        self.rejected(4)
 
     def test_eight(self):
-        self.refused(8)
+        self.rejected(8)
 
     def test_the_second_is_rejected(self):
         first = self.long_run()

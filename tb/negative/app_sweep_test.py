@@ -13,7 +13,7 @@ BASE = "engine: texture\nbase: {scene: {width: 16, height: 16}, run.images: fals
 
 
 class Sweeps(CommandTest):
-    def refuse(self, text, *says, action="plan", code=2, **options):
+    def reject(self, text, *says, action="plan", code=2, **options):
         self.write("s.yaml", text)
         done = self.expect(code, "sweep", "s.yaml", action, says=says, **options)
         self.assertFalse(os.path.exists(self.path("out/sweeps/s/plan.json")), done.stdout)
@@ -21,46 +21,46 @@ class Sweeps(CommandTest):
 
 class Definitions(Sweeps):
     def test_unknown_names(self):
-        self.refuse(BASE + "axes: {texture.cache.weighs: [1]}\n",
+        self.reject(BASE + "axes: {texture.cache.weighs: [1]}\n",
                     "s.yaml:3: unknown parameter 'texture.cache.weighs'", "did you mean 'texture.cache.ways'")
-        self.refuse(BASE.replace("height", "hight") + AXES,
+        self.reject(BASE.replace("height", "hight") + AXES,
                     "s.yaml:2: unknown parameter 'scene.hight'", "did you mean 'scene.height'")
-        self.refuse(BASE.replace("texture\n", "textur\n", 1) + AXES,
+        self.reject(BASE.replace("texture\n", "textur\n", 1) + AXES,
                     "s.yaml:1: no engine 'textur': did you mean 'texture'?")
-        self.refuse(BASE + AXES + "constrains: []\n", "unknown key 'constrains'", "'constraints'?")
-        self.refuse(BASE + AXES + "objectives: {minimise: [cicles]}\n",
+        self.reject(BASE + AXES + "constrains: []\n", "unknown key 'constrains'", "'constraints'?")
+        self.reject(BASE + AXES + "objectives: {minimise: [cicles]}\n",
                     "s.yaml:4: no metric 'cicles': did you mean 'cycles'?")
-        self.refuse(BASE + AXES + "objectives: {for_each: [memory.latencies]}\n",
+        self.reject(BASE + AXES + "objectives: {for_each: [memory.latencies]}\n",
                     "no axis 'memory.latencies': did you mean 'memory.latency'?")
 
     def test_values_that_are_none(self):
-        self.refuse(BASE + "axes: {texture.cache.ways: [1, 17]}\n",
+        self.reject(BASE + "axes: {texture.cache.ways: [1, 17]}\n",
                     "'texture.cache.ways' = '17' is outside 1..8")
-        self.refuse(BASE + "axes: {texture.footprint: [half, hafl]}\n",
+        self.reject(BASE + "axes: {texture.footprint: [half, hafl]}\n",
                     "s.yaml:3: 'texture.footprint' = 'hafl' wants one of", "'half'?")
-        self.refuse(BASE + "axes: {texture.cache.ways: [1, 2, 1]}\n", "has the value '1' twice")
+        self.reject(BASE + "axes: {texture.cache.ways: [1, 2, 1]}\n", "has the value '1' twice")
 
     def test_empty_axes(self):
-        self.refuse(BASE + "axes: {texture.cache.ways: []}\n",
+        self.reject(BASE + "axes: {texture.cache.ways: []}\n",
                     "s.yaml:3: axis 'texture.cache.ways' is empty")
-        self.refuse(BASE + "axes: {memory.latency: {from: 60, to: 50}}\n",
+        self.reject(BASE + "axes: {memory.latency: {from: 60, to: 50}}\n",
                     "axis 'memory.latency' is empty: from 60 to 50")
-        self.refuse(BASE + "axes: {memory.latency: {from: 1, to: 9, step: 0}}\n", "never gets from")
-        self.refuse(BASE + "axes: {}\n", "'axes' wants a map of parameters to values, got an empty map")
-        self.refuse(BASE + "points: []\n", "'points' wants a list of maps, got an empty list")
-        self.refuse(BASE, "nothing is varied")
-        self.refuse(BASE + "axes: {run.stalls: {from: 0, to: 0.5}}\n", "has no end of values")
+        self.reject(BASE + "axes: {memory.latency: {from: 1, to: 9, step: 0}}\n", "never gets from")
+        self.reject(BASE + "axes: {}\n", "'axes' wants a map of parameters to values, got an empty map")
+        self.reject(BASE + "points: []\n", "'points' wants a list of maps, got an empty list")
+        self.reject(BASE, "nothing is varied")
+        self.reject(BASE + "axes: {run.stalls: {from: 0, to: 0.5}}\n", "has no end of values")
 
     def test_twice(self):
-        self.refuse(BASE + "axes: {scene.width: [8, 16]}\n",
+        self.reject(BASE + "axes: {scene.width: [8, 16]}\n",
                     "'scene.width' is varied, and fixed at s.yaml:2")
-        self.refuse(BASE + AXES + "points: [{texture.cache.bytes: 4096}]\n", "exclude each other")
-        self.refuse(BASE + "points: [{memory.latency: 50}, {texture.cache.ways: 1}]\n",
+        self.reject(BASE + AXES + "points: [{texture.cache.bytes: 4096}]\n", "exclude each other")
+        self.reject(BASE + "points: [{memory.latency: 50}, {texture.cache.ways: 1}]\n",
                     "the first point does not give 'texture.cache.ways'")
 
     def test_constraints(self):
         def constraint(text, *says):
-            self.refuse(BASE + AXES + f"constraints: ['{text}']\n", f"constraint '{text}'", *says)
+            self.reject(BASE + AXES + f"constraints: ['{text}']\n", f"constraint '{text}'", *says)
 
         constraint("texture.cache.bites > 1", "'texture.cache.bites' is neither a parameter nor",
                    "did you mean 'texture.cache.bytes'")
@@ -71,7 +71,7 @@ class Definitions(Sweeps):
         constraint("(texture.cache.ways > 1", "a ')' is missing")
         constraint("texture.cache.ways >", "it ends too early")
         constraint("texture.cache.ways / 0 > 1", "division by zero")
-        self.refuse(BASE + AXES + "constraints: [texture.cache.ways > 2, memory.latency < 10]\n",
+        self.reject(BASE + AXES + "constraints: [texture.cache.ways > 2, memory.latency < 10]\n",
                     "no point is left of 4: 'texture.cache.ways > 2' excludes 4")
 
     def test_expressions_that_are_too_long_or_too_deep(self):
@@ -80,17 +80,17 @@ class Definitions(Sweeps):
                            ("+".join(["cycles"] * 20000), "a metric of 139999 characters"),
                            ("(" * 101 + "cycles" + ")" * 101, "more than 100 brackets and signs inside each other"),
                            ("- " * 101 + "cycles", "more than 100 brackets and signs")):
-            self.refuse(BASE + AXES + f"metrics: {{a: '{text}'}}\n", says)
-        self.refuse(BASE + AXES + f"constraints: ['{'not ' * 101}memory.latency > 60']\n", "more than 100 brackets and signs")
+            self.reject(BASE + AXES + f"metrics: {{a: '{text}'}}\n", says)
+        self.reject(BASE + AXES + f"constraints: ['{'not ' * 101}memory.latency > 60']\n", "more than 100 brackets and signs")
         self.write("s.yaml", BASE + AXES + f"metrics: {{a: '{'(' * 100 + 'cycles' + ')' * 100}', "
                    f"b: '{'+'.join(['cycles'] * 570)}', c: '{'- ' * 100}cycles'}}\n")
         self.expect(0, "sweep", "s.yaml", "plan")
 
     def test_what_is_not_utf8(self):
         """It cannot be written into results; a list of many values is looked through at once."""
-        self.refuse((BASE + AXES + "title: Gr\xfc\xdfe\n").encode("latin-1"), "s.yaml:4: it is not UTF-8")
+        self.reject((BASE + AXES + "title: Gr\xfc\xdfe\n").encode("latin-1"), "s.yaml:4: it is not UTF-8")
         values = ", ".join(str(i) for i in range(1, 60001))
-        self.refuse(BASE + f"axes: {{run.seed: [{values}], texture.cache.ways: [1, 2], memory.banks: [1, 2, 4, 8, 16, 32, 64, "
+        self.reject(BASE + f"axes: {{run.seed: [{values}], texture.cache.ways: [1, 2], memory.banks: [1, 2, 4, 8, 16, 32, 64, "
                     "128, 256]}\n", "the axes make 60000 x 2 x 9 points = 1,080,000, at most 1,000,000 can be planned",
                     preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (6, 6)))
 
@@ -118,17 +118,17 @@ class Definitions(Sweeps):
 
     def test_too_many(self):
         steps = "{from: 1, to: 1000}"
-        self.refuse("engine: texture\naxes:\n"
+        self.reject("engine: texture\naxes:\n"
                     f"  memory.latency: {steps}\n  run.seed: {steps}\n  run.stall_seed: {steps}\n",
                     "1000 x 1000 x 1000 points = 1,000,000,000", "at most 1,000,000 can be planned",
                     "sample: {random: 1000}")
-        self.refuse("engine: texture\naxes: {run.seed: {from: 0, to: 4294967295}}\n",
+        self.reject("engine: texture\naxes: {run.seed: {from: 0, to: 4294967295}}\n",
                     "has 4294967296 values")
 
     def test_points_that_the_engine_rejects(self):
         text = ("engine: morphological\nbase: {frame: {width: 16, height: 16, truth_samples: 1}}\n"
                 "axes: {morphological.predictor: [none, fit], morphological.steps: [4, 8]}\n")
-        self.refuse(text, "the engine rejects the point morphological.predictor = none",
+        self.reject(text, "the engine rejects the point morphological.predictor = none",
                     "has no effect", "refused: skip")
         self.write("s.yaml", text + "refused: skip\n")
         self.expect(0, "sweep", "s.yaml", "plan", says=("2 that the engine rejects", "2 points"))
@@ -139,18 +139,18 @@ class Definitions(Sweeps):
                     "axes:\n  morphological.predictor: [none, fit]\n"
                     f"  morphological.steps: {text}\n")
 
-        self.refuse(axis("{values: [4], when: morphological.predicter != none}"),
+        self.reject(axis("{values: [4], when: morphological.predicter != none}"),
                     "s.yaml:5: constraint 'morphological.predicter != none'", "did you mean 'morphological.predictor'")
-        self.refuse(axis("{values: [4], when: morphological.steps}"), "not true or false")
-        self.refuse(axis("{values: [4], where: true}"), "unknown 'where' (known: values, when)")
-        self.refuse(axis("{values: [], when: true}"), "axis 'morphological.steps' is empty")
-        self.refuse(axis("{when: true}"), "a range wants 'from' and 'to'")
-        self.refuse(axis("{values: [4], when: true}"), "the engine rejects the point")
+        self.reject(axis("{values: [4], when: morphological.steps}"), "not true or false")
+        self.reject(axis("{values: [4], where: true}"), "unknown 'where' (known: values, when)")
+        self.reject(axis("{values: [], when: true}"), "axis 'morphological.steps' is empty")
+        self.reject(axis("{when: true}"), "a range wants 'from' and 'to'")
+        self.reject(axis("{values: [4], when: true}"), "the engine rejects the point")
 
     def test_files(self):
         self.expect(5, "sweep", "nothing.yaml", "plan", says="cannot open 'nothing.yaml'")
-        self.refuse("engine: [\n", "s.yaml:", "not valid YAML")
-        self.refuse("- engine\n", "expected a map, got a list")
+        self.reject("engine: [\n", "s.yaml:", "not valid YAML")
+        self.reject("- engine\n", "expected a map, got a list")
         self.write("s.yaml", BASE + AXES)
         self.expect(5, "sweep", "s.yaml", "status", says="there is no plan in 'out/sweeps/s'")
         self.expect(2, "sweep", "s.yaml", "polish", says="polish")
@@ -159,25 +159,25 @@ class Definitions(Sweeps):
 class Searches(Sweeps):
     GOALS = "objectives: {minimise: [cycles, memory_bits]}\n"
 
-    def refuse_search(self, text, *says, options=()):
+    def reject_search(self, text, *says, options=()):
         self.write("s.yaml", text)
         self.expect(2, "search", "s.yaml", *options, says=says)
         self.assertFalse(os.path.exists(self.path("out/points")))
 
     def test_what_cannot_be_searched(self):
-        self.refuse_search(BASE + AXES, "a search wants two objectives at least (0 given)")
-        self.refuse_search(BASE + AXES + "objectives: {minimise: [cycles]}\n", "(1 given)")
-        self.refuse_search(BASE + AXES + self.GOALS + "sample: {random: 3}\n", "leave out 'sample'")
-        self.refuse_search(BASE + "points: [{memory.latency: 50}]\n" + self.GOALS,
+        self.reject_search(BASE + AXES, "a search wants two objectives at least (0 given)")
+        self.reject_search(BASE + AXES + "objectives: {minimise: [cycles]}\n", "(1 given)")
+        self.reject_search(BASE + AXES + self.GOALS + "sample: {random: 3}\n", "leave out 'sample'")
+        self.reject_search(BASE + "points: [{memory.latency: 50}]\n" + self.GOALS,
                            "a search chooses among 'axes'")
-        self.refuse_search(BASE + AXES + self.GOALS + "constraints: [memory.latency > 60]\n",
+        self.reject_search(BASE + AXES + self.GOALS + "constraints: [memory.latency > 60]\n",
                            "no point was found", "'memory.latency > 60' excludes")
-        self.refuse_search(BASE + AXES + self.GOALS.replace(
+        self.reject_search(BASE + AXES + self.GOALS.replace(
             "]}", "], for_each: [memory.latency, texture.cache.ways]}"), "nothing is left to search")
 
     def test_budgets(self):
         text = BASE + AXES + self.GOALS.replace("]}", "], for_each: [memory.latency]}")
-        self.refuse_search(text, "--runs 12 leave 6 for each of 2 fronts", "population of 8",
+        self.reject_search(text, "--runs 12 leave 6 for each of 2 fronts", "population of 8",
                            options=("--runs", "12", "--population", "8"))
         self.write("s.yaml", text)
         for option, value in (("--runs", "7"), ("--runs", "many"), ("--population", "10"),
@@ -223,7 +223,7 @@ class Surroundings(Sweeps):
 
     def test_expressions(self):
         def metric(text, *says):
-            self.refuse(BASE + AXES + f"metrics: {{it: '{text}'}}\n", "s.yaml:4: ", *says)
+            self.reject(BASE + AXES + f"metrics: {{it: '{text}'}}\n", "s.yaml:4: ", *says)
 
         metric("1 + 2", "metric 'it': '1 + 2' has no key of result.json")
         metric("cycles +", "metric 'cycles +': it ends too early")
@@ -233,14 +233,14 @@ class Surroundings(Sweeps):
 
     def test_limits(self):
         def limit(text, *says):
-            self.refuse(BASE + AXES + f"metrics: {{clocks: cycles}}\nlimits: ['{text}']\n", "s.yaml:5: ", *says)
+            self.reject(BASE + AXES + f"metrics: {{clocks: cycles}}\nlimits: ['{text}']\n", "s.yaml:5: ", *says)
 
         limit("clock < 10", "limit 'clock < 10': 'clock' is neither a metric nor a number: did you mean 'clocks'")
         limit("clocks", "limit 'clocks' is no comparison of a metric by < <= > >=")
         limit("clocks == 10", "is no comparison of a metric")
         limit("clocks > 1 and clocks < 3", "give several limits one by one")
         limit("1 < 2", "is no comparison of a metric")
-        self.refuse(BASE + AXES + "limits: cycles\n", "'limits' wants a list of comparisons of metrics, such as 'cycles <= 10'")
+        self.reject(BASE + AXES + "limits: cycles\n", "'limits' wants a list of comparisons of metrics, such as 'cycles <= 10'")
 
     def test_an_input_that_cannot_be_read(self):
         """It fails its own points, and only them; once it can be read they are done."""
@@ -283,7 +283,7 @@ class Surroundings(Sweeps):
         self.assertFalse(os.path.exists(self.path("out/sweeps/s/index.html")))
 
     def test_full_disk_while_planning(self):
-        self.refuse(BASE + "axes: {memory.latency: {from: 1, to: 1000}}\n", "points.jsonl",
+        self.reject(BASE + "axes: {memory.latency: {from: 1, to: 1000}}\n", "points.jsonl",
                     code=5, **self.limited(20_000))
 
 

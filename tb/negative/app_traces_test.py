@@ -25,9 +25,9 @@ def record(x=NONE, y=NONE, kind=0, texture=0, coverage=15, visible=15, clamped=0
 
 
 class Fragments(CommandTest):
-    def refused(self, content, *says, code=5):
+    def rejected(self, content, *says, code=5):
         self.write("trace", content)
-        for more in ((), ("--show-config",)):  # judged before anything is simulated
+        for more in ((), ("--show-config",)):  # checked before anything is simulated
             done = self.run_command("run", "texture", "--fragments", "trace", "--out", "out", *more)
             context = f"{content[:200]}\n{done.stdout}\n{done.stderr}"
             self.assertEqual(done.returncode, code, context)
@@ -70,7 +70,7 @@ class Fragments(CommandTest):
                 (TITLE + FRAGMENT + "end 1\n" + FRAGMENT, "trace:4", "more after the line 'end'"),
                 (TITLE + "x" * 2000 + "\n", "trace:2", "more than 1000 characters")):
             with self.subTest(content=content[:120]):
-                self.refused(content, *says)
+                self.rejected(content, *says)
 
     def test_binary_with_its_record(self):
         good = record()
@@ -95,11 +95,11 @@ class Fragments(CommandTest):
                 (header(width=8, height=8) + record(x=0, y=NONE), "outside of the picture"),
                 (header(magic=b"DEBURRFX") + good, "something else")):
             with self.subTest(says=says):
-                self.refused(content, *says)
+                self.rejected(content, *says)
 
     def test_nothing_to_filter(self):
-        self.refused(TITLE + "end 0\n", "covers no fragment", code=2)
-        self.refused(TITLE + QUAD.replace("f f", "0 f").replace("0 0 0 0", "0 - - 0", 1) + "end 1\n",
+        self.rejected(TITLE + "end 0\n", "covers no fragment", code=2)
+        self.rejected(TITLE + QUAD.replace("f f", "0 f").replace("0 0 0 0", "0 - - 0", 1) + "end 1\n",
                      "covers no fragment in 1 quads", code=2)
 
     def test_files_that_are_none(self):

@@ -82,22 +82,22 @@ class Meshes(Base):
 
 
 class Configuration(Base):
-    """What is refused since it cannot be built, or has no effect."""
+    """What is rejected since it cannot be built, or has no effect."""
     SMALL = ("--scene", "cube", "--size", "48x32")
 
-    def refused(self, says, *given, scene=SMALL):
+    def rejected(self, says, *given, scene=SMALL):
         self.run_engine(2, *scene, *(word for each in given for word in ("--set", each)), says=says)
         self.assertFalse(os.path.exists(self.path("out")))
 
     def test_frames_and_meshes_that_the_build_does_not_hold(self):
-        self.refused(["65 x 32", "64 pixels", "line_pixels"], "geometric.line_pixels=64",
+        self.rejected(["65 x 32", "64 pixels", "line_pixels"], "geometric.line_pixels=64",
                      scene=("--scene", "cube", "--size", "65x32"))
-        self.refused(["touched words", "the build has 16"], "geometric.touched_words=16",
+        self.rejected(["touched words", "the build has 16"], "geometric.touched_words=16",
                      scene=("--scene", "cube", "--size", "48x65"))
-        self.refused(["16128 faces", "8192", "face_limit"], "geometric.face_limit=8192", scene=("--scene", "sphere"))
+        self.rejected(["16128 faces", "8192", "face_limit"], "geometric.face_limit=8192", scene=("--scene", "sphere"))
 
     def test_too_many_faces_are_rejected_before_anything_is_rendered(self):
-        """The truth of this frame takes many minutes; refused in seconds of a processor."""
+        """The truth of this frame takes many minutes; rejected in seconds of a processor."""
         for engine, smoothing in (("geometric", ()), ("frame", ("--smoothing", "geometric"))):
             size = "4096x4096" if engine == "geometric" else "64x64"
             command = ("run", engine, *smoothing, "--scene", "sphere", "--size", size, "--truth", "--out", self.path("out"))
@@ -111,31 +111,31 @@ class Configuration(Base):
         self.run_engine(0, "--scene", "sphere", "--size", "64x48", "--set", "geometric.face_limit=16384")
 
     def test_what_has_no_effect(self):
-        self.refused(["reciprocal_table", "no effect", "pipelined = false"], "geometric.reciprocal_table=4")
-        self.refused(["dividers", "no effect"], "geometric.dividers=2")
-        self.refused(["crease", "no effect", "select = all"], "geometric.select=all", "geometric.crease=paper")
+        self.rejected(["reciprocal_table", "no effect", "pipelined = false"], "geometric.reciprocal_table=4")
+        self.rejected(["dividers", "no effect"], "geometric.dividers=2")
+        self.rejected(["crease", "no effect", "select = all"], "geometric.select=all", "geometric.crease=paper")
         self.run_engine(2, *self.SMALL, "--preset", "gpaa", "--set", "geometric.crease=shading", says="select = all")
-        self.refused(["face_limit", "no effect"], "geometric.select=all", "geometric.face_limit=8192")
-        self.refused(["cull", "no effect", "select = all"], "geometric.select=all", "geometric.cull=none")
-        self.refused(["crease_depth", "no effect"], "geometric.select=all", "geometric.crease_depth=4")
-        self.refused(["crease_depth", "no effect", "crease = off"], "geometric.crease=off", "geometric.crease_depth=4")
-        self.refused(["crease_depth", "no effect"], "geometric.depth_test=off", "geometric.crease_depth=4")
+        self.rejected(["face_limit", "no effect"], "geometric.select=all", "geometric.face_limit=8192")
+        self.rejected(["cull", "no effect", "select = all"], "geometric.select=all", "geometric.cull=none")
+        self.rejected(["crease_depth", "no effect"], "geometric.select=all", "geometric.crease_depth=4")
+        self.rejected(["crease_depth", "no effect", "crease = off"], "geometric.crease=off", "geometric.crease_depth=4")
+        self.rejected(["crease_depth", "no effect"], "geometric.depth_test=off", "geometric.crease_depth=4")
         for test in ("own", "off"):
-            self.refused(["combine", "no effect", "outermost is max"], "geometric.combine=outermost",
+            self.rejected(["combine", "no effect", "outermost is max"], "geometric.combine=outermost",
                          f"geometric.depth_test={test}")
-        self.refused(["depth_bias", "no effect"], "geometric.depth_test=off", "geometric.depth_bias=4")
-        self.refused(["depth_lines", "no effect"], "geometric.depth_test=off", "geometric.depth_lines=64")
-        self.refused(["scene.truth_samples", "no effect", "--truth"], "scene.truth_samples=4")
-        self.refused(["memory.error_bytes", "no effect"], "memory.error_bytes=64")
-        self.refused(["memory.interleave_bytes", "no effect"], "memory.interleave_bytes=256")
+        self.rejected(["depth_bias", "no effect"], "geometric.depth_test=off", "geometric.depth_bias=4")
+        self.rejected(["depth_lines", "no effect"], "geometric.depth_test=off", "geometric.depth_lines=64")
+        self.rejected(["scene.truth_samples", "no effect", "--truth"], "scene.truth_samples=4")
+        self.rejected(["memory.error_bytes", "no effect"], "memory.error_bytes=64")
+        self.rejected(["memory.interleave_bytes", "no effect"], "memory.interleave_bytes=256")
 
     def test_what_cannot_be_built(self):
-        self.refused(["face_limit = 8193", "512"], "geometric.face_limit=8193")
-        self.refused(["fills = 64", "memory.outstanding"], "geometric.fills=64", "geometric.memory.outstanding=32")
-        self.refused(["geometric.walkers", "one of 1, 2, 4"], "geometric.walkers=3")
-        self.refused(["1..24"], "geometric.depth_bias=25")
-        self.refused(["0..24"], "geometric.crease_depth=25")
-        self.refused(["memory.latency = 20000", "run.watchdog_cycles"], "memory.latency=20000")
+        self.rejected(["face_limit = 8193", "512"], "geometric.face_limit=8193")
+        self.rejected(["fills = 64", "memory.outstanding"], "geometric.fills=64", "geometric.memory.outstanding=32")
+        self.rejected(["geometric.walkers", "one of 1, 2, 4"], "geometric.walkers=3")
+        self.rejected(["1..24"], "geometric.depth_bias=25")
+        self.rejected(["0..24"], "geometric.crease_depth=25")
+        self.rejected(["memory.latency = 20000", "run.watchdog_cycles"], "memory.latency=20000")
 
     def test_notes_of_a_build(self):
         self.run_engine(0, *self.SMALL, "--set", "geometric.latency_fifo=32", says="latency_fifo = 32 is below")
@@ -304,8 +304,8 @@ class Faults(Base):
 
 
 class Registers(Base):
-    """Each status register that is judged can fail the run by itself."""
-    JUDGED = ["id", "control", "status", "size", "rules", "edge-count", "vertex-count", "face-count", "edge-base",
+    """Each status register that is checked can fail the run by itself."""
+    CHECKED = ["id", "control", "status", "size", "rules", "edge-count", "vertex-count", "face-count", "edge-base",
                  "vertex-base", "face-base", "depth-base", "colour-base", "weight-base", "copy-base", "refusal", "edges",
                  "boundary-edges", "silhouette-edges", "back-edges", "crease-edges", "flat-edges", "invalid-edges",
                  "kept-edges", "outside-edges", "degenerate-edges", "empty-edges", "lines", "columns", "groups",
@@ -313,7 +313,7 @@ class Registers(Base):
                  "resolve-cycles"]
 
     def test_each(self):
-        self.miscount("geometric", self.JUDGED)
+        self.miscount("geometric", self.CHECKED)
 
 
 class Blind(Base):

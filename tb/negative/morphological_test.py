@@ -227,7 +227,7 @@ class Configuration(Base):
         self.assertFalse(os.path.exists(self.path("out")))
 
     def test_mixes_of_smaa(self):
-        """What the contract refuses, and next to it what is legal."""
+        """What the contract rejects, and next to it what is legal."""
         smaa = ("--preset", "smaa")
 
         def rows(steps, window):

@@ -26,8 +26,8 @@
 namespace deburr::tb {
 namespace {
 
+using geometric::Checker;
 using geometric::Frame;
-using geometric::Judge;
 using MorphologicalRules = spec::morphological::Parameters;
 using GeometricRules = spec::geometric::Parameters;
 
@@ -193,20 +193,23 @@ std::span<const std::string_view> comparison_scenes() {
 }
 
 std::vector<ComparisonRow> compare_methods(const std::string& scene) {
-  const Judge judge(make_scene(scene), kWidth, kHeight, kSamples);
+  const Checker checker(make_scene(scene), kWidth, kHeight, kSamples);
   std::vector<ComparisonRow> rows;
   const auto add = [&](const std::string& name, const Image& image) -> ComparisonRow& {
-    rows.push_back(
-        {name, psnr(image, judge.truth), judge.edge_psnr(image), judge.silhouette_psnr(image), {}});
+    rows.push_back({name,
+                    psnr(image, checker.truth),
+                    checker.edge_psnr(image),
+                    checker.silhouette_psnr(image),
+                    {}});
     return rows.back();
   };
-  add("none", judge.frame.image);
-  add("MSAA 4x", judge.msaa);
+  add("none", checker.frame.image);
+  add("MSAA 4x", checker.msaa);
   for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
-    add(reference.name, reference.filter(judge.frame.image, true));
+    add(reference.name, reference.filter(checker.frame.image, true));
   for (const Method& method : engines())
-    add(method.name, picture_of(method, judge.frame)).cost = cost_of(method, judge.frame);
-  add("supersampled, 256 samples", judge.truth);
+    add(method.name, picture_of(method, checker.frame)).cost = cost_of(method, checker.frame);
+  add("supersampled, 256 samples", checker.truth);
   return rows;
 }
 
@@ -291,19 +294,19 @@ Image captioned(const Image& picture, std::span<const std::string> lines) {
 Image comparison_sheet() {
   std::vector<Image> cells;
   for (const Place& place : kPlaces) {
-    const Judge judge(make_scene(place.scene), kWidth, kHeight, kSamples);
+    const Checker checker(make_scene(place.scene), kWidth, kHeight, kSamples);
     const auto add = [&](const std::string& name, const Image& image) {
-      const double edges = judge.edge_psnr(image);
+      const double edges = checker.edge_psnr(image);
       const std::string lines[] = {
           name, std::isfinite(edges) ? fmt::format("{:.1f} dB", edges) : "256 samples"};
       cells.push_back(captioned(zoom(crop(image, place.x, place.y, kCrop, kCrop), kZoom), lines));
     };
-    add("none", judge.frame.image);
-    add("MSAA 4x", judge.msaa);
+    add("none", checker.frame.image);
+    add("MSAA 4x", checker.msaa);
     for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
-      add(reference.name, reference.filter(judge.frame.image, true));
-    for (const Method& method : engines()) add(method.label, picture_of(method, judge.frame));
-    add("truth", judge.truth);
+      add(reference.name, reference.filter(checker.frame.image, true));
+    for (const Method& method : engines()) add(method.label, picture_of(method, checker.frame));
+    add("truth", checker.truth);
     // The next place begins a row.
     while (cells.size() % kColumns != 0)
       cells.emplace_back(cells.front().width, cells.front().height, Rgba8{255, 255, 255, 255});

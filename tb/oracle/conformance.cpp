@@ -29,7 +29,7 @@ void merge(CaseResult& into, const CaseResult& other) {
   into.deviation = std::max(into.deviation, other.deviation);
   into.low_deviation = std::max(into.low_deviation, other.low_deviation);
   into.fragments += other.fragments;
-  into.refused += other.refused;
+  into.rejected += other.rejected;
   into.undecided += other.undecided;
 }
 
@@ -41,7 +41,7 @@ struct Sweep {
   int quads = 256;
 };
 
-CaseResult judge_all(const FilterFactory& filter, const Sweep& sweep) {
+CaseResult check_all(const FilterFactory& filter, const Sweep& sweep) {
   CaseResult sum;
   sum.verdict = Verdict::kHigh;
   std::uint32_t seed = 1;
@@ -52,7 +52,7 @@ CaseResult judge_all(const FilterFactory& filter, const Sweep& sweep) {
           FilteringCase c{pattern, size, {}, sweep.quads, seed++};
           c.descriptor.min_filter = min_filter;
           c.descriptor.lod_bias = bias;
-          merge(sum, judge(c, filter));
+          merge(sum, check(c, filter));
         }
   return sum;
 }
@@ -133,29 +133,29 @@ FilterFactory golden_filter(const spec::texture::Parameters& parameters) {
   };
 }
 
-CaseResult judge(const FilteringCase& c, const FilterFactory& filter) {
+CaseResult check(const FilteringCase& c, const FilterFactory& filter) {
   const EncodedTexture texture =
       make_texture(c.pattern, c.descriptor.format, c.size.width, c.size.height, c.seed);
   const golden::ideal::Texture ideal = ideal_texture(texture);
   const golden::ideal::Sampler sampler = sampler_of(c.descriptor);
-  golden::ideal::Judge judge(ideal, sampler);
+  golden::ideal::Checker checker(ideal, sampler);
   const QuadFilter sample = filter(texture, c.descriptor);
   for (const spec::texture::Quad& quad :
        filtering_quads(c.size, c.quads, c.seed, sampler.lod_bias)) {
     const auto colours = sample(quad);
     for (int lane = 0; lane < 4; ++lane)
-      judge.add(fragment_of(quad, lane), real(colours[static_cast<std::size_t>(lane)]));
+      checker.add(fragment_of(quad, lane), real(colours[static_cast<std::size_t>(lane)]));
   }
   CaseResult result;
-  result.verdict = judge.verdict();
-  result.deviation = judge.deviation();
-  result.low_deviation = judge.low_deviation();
-  result.fragments = judge.fragments();
-  result.refused = judge.refused();
-  result.undecided = judge.undecided();
+  result.verdict = checker.verdict();
+  result.deviation = checker.deviation();
+  result.low_deviation = checker.low_deviation();
+  result.fragments = checker.fragments();
+  result.rejected = checker.rejected();
+  result.undecided = checker.undecided();
   if (result.deviation <= 0.5) return result;
-  const golden::ideal::Fragment& f = judge.worst();
-  const golden::ideal::Rgba& colour = judge.worst_colour();
+  const golden::ideal::Fragment& f = checker.worst();
+  const golden::ideal::Rgba& colour = checker.worst_colour();
   const golden::ideal::Rgba exact = golden::ideal::exact_colour(ideal, sampler, f);
   result.worst = fmt::format(
       "{}: s {:.9f} t {:.9f} dx ({:.9f}, {:.9f}) dy ({:.9f}, {:.9f}) got ({}, {}, {}, {}), "
@@ -178,19 +178,19 @@ std::vector<ConformanceRow> conformance_table() {
       row.log2 = parameters.log2;
       measure_lod(parameters, row);
       const FilterFactory filter = golden_filter(parameters);
-      row.mipmap_nearest = judge_all(
+      row.mipmap_nearest = check_all(
           filter, {.filters = {MinFilter::kNearestMipmapNearest, MinFilter::kLinearMipmapNearest}});
-      row.mipmap_linear = judge_all(
+      row.mipmap_linear = check_all(
           filter, {.filters = {MinFilter::kNearestMipmapLinear, MinFilter::kLinearMipmapLinear}});
       std::vector<std::int16_t> biases;
       for (int step = -64; step < 64; ++step) biases.push_back(static_cast<std::int16_t>(2 * step));
-      row.biased = judge_all(
+      row.biased = check_all(
           filter, {.sizes = {{31, 55}},
                    .filters = {MinFilter::kLinearMipmapNearest, MinFilter::kLinearMipmapLinear},
                    .patterns = {Pattern::kLevels},
                    .biases = biases,
                    .quads = 256});
-      row.pyramid = judge_all(
+      row.pyramid = check_all(
           filter, {.filters = {MinFilter::kLinearMipmapLinear}, .patterns = {Pattern::kPyramid}});
       row.verdict = std::max({row.mipmap_nearest.verdict, row.mipmap_linear.verdict,
                               row.biased.verdict, row.pyramid.verdict});

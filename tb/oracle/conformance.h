@@ -41,12 +41,13 @@ FilterFactory golden_filter(const spec::texture::Parameters& parameters);
 
 struct CaseResult {
   golden::ideal::Verdict verdict = golden::ideal::Verdict::kFail;
-  double deviation = 0.0;      // largest, 8-bit steps, at high precision
-  double low_deviation = 0.0;  // the same at low precision, of the fragments high precision refused
-  std::int64_t fragments = 0, refused = 0, undecided = 0;
+  double deviation = 0.0;  // largest, 8-bit steps, at high precision
+  double low_deviation =
+      0.0;  // the same at low precision, of the fragments high precision rejected
+  std::int64_t fragments = 0, rejected = 0, undecided = 0;
   std::string worst;  // the fragment and colour with the largest deviation; empty up to 1/2
 };
-CaseResult judge(const FilteringCase& filtering_case, const FilterFactory& filter);
+CaseResult check(const FilteringCase& filtering_case, const FilterFactory& filter);
 
 // What one footprint rule with one logarithm rule gets.
 struct ConformanceRow {

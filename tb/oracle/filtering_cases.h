@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The fragments that filters are judged on: quads that each have their own affine map from pixels
+// The fragments that filters are checked on: quads that each have their own affine map from pixels
 // to the texture, with footprints of every size, shape and direction.
 #pragma once
 

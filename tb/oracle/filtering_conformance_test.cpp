@@ -44,7 +44,7 @@ TEST_P(EveryFormat, IsHighInEveryModeWrapLayoutAndSize) {
             // The layouts share the work of the nine pairs of wraps.
             c.descriptor.wrap_t = static_cast<spec::texture::Wrap>(
                 (wrap + (layout == spec::texture::Layout::kLinear ? 0 : seed)) % 3);
-            const CaseResult r = judge(c, filter);
+            const CaseResult r = check(c, filter);
             ASSERT_EQ(r.verdict, Verdict::kHigh) << r.worst;
             ASSERT_EQ(r.undecided, 0) << case_name(c);
             fragments += r.fragments;
@@ -72,7 +72,7 @@ TEST(DefaultRules, AreHighInEveryModeAndSize) {
         for (std::uint8_t mode = 0; mode < 6; ++mode) {
           FilteringCase c{pattern, size, {}, 48, ++seed};
           c.descriptor.min_filter = static_cast<spec::texture::MinFilter>(mode);
-          const CaseResult r = judge(c, filter);
+          const CaseResult r = check(c, filter);
           ASSERT_EQ(r.verdict, Verdict::kHigh) << r.worst;
           ASSERT_EQ(r.undecided, 0) << case_name(c);
         }
@@ -105,7 +105,7 @@ TEST(Golden, IsHighWithBiasAndClamps) {
     if (seed % 3 == 0) c.descriptor.min_lod = static_cast<std::uint16_t>(random.word() % 768);
     if (seed % 5 == 0)
       c.descriptor.max_lod = static_cast<std::uint16_t>(c.descriptor.min_lod + random.word() % 768);
-    const CaseResult r = judge(c, filter);
+    const CaseResult r = check(c, filter);
     ASSERT_EQ(r.verdict, Verdict::kHigh) << r.worst;
     ASSERT_EQ(r.undecided, 0);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Is the judge itself right? Against values worked out by hand and against brute force.
+// Is the checker itself right? Against values worked out by hand and against brute force.
 #include "golden/ideal/filtering_criterion.h"
 
 #include <gmock/gmock.h>
@@ -261,21 +261,21 @@ TEST(Criterion, MeasuresTheDistanceToTheNearestLegalColour) {
   EXPECT_LT(largest_gap, 12.0);
 }
 
-// A judge counts; one bad colour among many is enough.
-TEST(Judge, OneWrongColourIsEnough) {
+// A checker counts; one bad colour among many is enough.
+TEST(Checker, OneWrongColourIsEnough) {
   const Texture texture = ramp();
   const Sampler s = sampler(spec::texture::MinFilter::kLinear, spec::texture::MagFilter::kLinear);
-  golden::ideal::Judge judge(texture, s);
-  for (int i = 0; i < 100; ++i) judge.add(along_u(1.0 / 4, 0.5), grey(50));
-  EXPECT_EQ(judge.verdict(), golden::ideal::Verdict::kHigh);
-  judge.add(along_u(1.0 / 4, 0.5), grey(60));
-  EXPECT_EQ(judge.verdict(), golden::ideal::Verdict::kLow);
-  EXPECT_NEAR(judge.deviation(), 10 - 100.0 / 128, 0.02);
-  EXPECT_NEAR(judge.low_deviation(), 10 - 100.0 / 16, 0.02);
-  judge.add(along_u(1.0 / 4, 0.5), grey(70));
-  EXPECT_EQ(judge.verdict(), golden::ideal::Verdict::kFail);
-  EXPECT_EQ(judge.refused(), 2);
-  EXPECT_EQ(judge.fragments(), 102);
+  golden::ideal::Checker checker(texture, s);
+  for (int i = 0; i < 100; ++i) checker.add(along_u(1.0 / 4, 0.5), grey(50));
+  EXPECT_EQ(checker.verdict(), golden::ideal::Verdict::kHigh);
+  checker.add(along_u(1.0 / 4, 0.5), grey(60));
+  EXPECT_EQ(checker.verdict(), golden::ideal::Verdict::kLow);
+  EXPECT_NEAR(checker.deviation(), 10 - 100.0 / 128, 0.02);
+  EXPECT_NEAR(checker.low_deviation(), 10 - 100.0 / 16, 0.02);
+  checker.add(along_u(1.0 / 4, 0.5), grey(70));
+  EXPECT_EQ(checker.verdict(), golden::ideal::Verdict::kFail);
+  EXPECT_EQ(checker.rejected(), 2);
+  EXPECT_EQ(checker.fragments(), 102);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ struct Outcome {
 };
 
 // All modes, wraps and formats on two sizes.
-Outcome judge_everywhere(const FilterFactory& filter) {
+Outcome check_everywhere(const FilterFactory& filter) {
   Outcome outcome;
   std::uint32_t seed = 1;
   for (const Size& size : {Size{32, 64}, Size{31, 55}})
@@ -44,7 +44,7 @@ Outcome judge_everywhere(const FilterFactory& filter) {
           c.descriptor.min_filter = static_cast<spec::texture::MinFilter>(mode / 2);
           c.descriptor.mag_filter = static_cast<spec::texture::MagFilter>(mode % 2);
           c.descriptor.wrap_s = c.descriptor.wrap_t = static_cast<spec::texture::Wrap>(wrap);
-          const CaseResult r = judge(c, filter);
+          const CaseResult r = check(c, filter);
           outcome.verdict = std::max(outcome.verdict, r.verdict);
           outcome.deviation = std::max(outcome.deviation, r.deviation);
           outcome.not_high += r.verdict != Verdict::kHigh;
@@ -64,7 +64,7 @@ struct Expectation {
 class PlantedFault : public testing::TestWithParam<Expectation> {};
 
 TEST_P(PlantedFault, GetsItsVerdict) {
-  const Outcome outcome = judge_everywhere(plain_filter(GetParam().fault));
+  const Outcome outcome = check_everywhere(plain_filter(GetParam().fault));
   std::printf("%d of %d cases are not high, largest deviation %.1f, verdict %s\n", outcome.not_high,
               outcome.cases, outcome.deviation, std::string(verdict_name(outcome.verdict)).c_str());
   EXPECT_EQ(outcome.verdict, GetParam().verdict);
@@ -155,7 +155,7 @@ TEST(GoldenWithFault, OneSwappedMipBaseFails) {
       return colours;
     };
   };
-  EXPECT_EQ(judge({}, faulty).verdict, Verdict::kFail);
+  EXPECT_EQ(check({}, faulty).verdict, Verdict::kFail);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ using golden::morphological::MorphologicalGolden;
 using spec::morphological::Leave;
 using spec::morphological::Parameters;
 using tb::Image;
-using tb::geometric::Judge;
+using tb::geometric::Checker;
 
 constexpr int kWidth = 640, kHeight = 480;
 
@@ -131,11 +131,11 @@ using Table = std::map<std::string, Figures>;
 double better_by(double a, double than) { return 20 * std::log10(than / a); }  // dB
 
 Table measure(const tb::Scene& scene, const std::string& name, int width, int height, int samples) {
-  const Judge judge(scene, width, height, samples);
-  const Image& frame = judge.frame.image;
+  const Checker checker(scene, width, height, samples);
+  const Image& frame = checker.frame.image;
   Table table;
   const auto add = [&](const char* way, const Image& image) {
-    table[way] = {judge.edge_rmse(image), judge.silhouette_rmse(image)};
+    table[way] = {checker.edge_rmse(image), checker.silhouette_rmse(image)};
     fmt::print("| {} | {} | {:.2f} / {:.2f} |\n", name, way, table[way].edges,
                table[way].silhouettes);
   };
@@ -143,7 +143,7 @@ Table measure(const tb::Scene& scene, const std::string& name, int width, int he
     MorphologicalGolden golden(p, MorphologicalGolden::Detail::kPixels);
     Image result = image;
     result.pixels = golden.process({image.pixels, image.width, image.height},
-                                   {judge.frame.depths, image.width, image.height});
+                                   {checker.frame.depths, image.width, image.height});
     return result;
   };
   const auto with_edges = [&](const EdgePlanes& edges) {
@@ -158,11 +158,11 @@ Table measure(const tb::Scene& scene, const std::string& name, int width, int he
   geometric_rules.mark = true;
   GeometricGolden golden(geometric_rules, GeometricGolden::Detail::kPixels);
   Image geometric = frame;
-  geometric.pixels = golden.process(judge.frame.input());
+  geometric.pixels = golden.process(checker.frame.input());
   const std::vector<NearestEdges> channels = channels_of(golden);
 
   add("none", frame);
-  add("msaa4", judge.msaa);
+  add("msaa4", checker.msaa);
   add("morphological", smoothed(frame, rules()));
   add("geometric", geometric);
   add("twice", smoothed(geometric, rules()));
@@ -186,7 +186,7 @@ Table measure(const tb::Scene& scene, const std::string& name, int width, int he
 
 // What is asked of every scene and camera. Where lines that are not seen lie within a pixel of
 // those that are (terrain), the geometric engine's own weights are wrong.
-void judge_ways(const Table& t, bool lines_are_apart, double half_may_lose) {
+void check_ways(const Table& t, bool lines_are_apart, double half_may_lose) {
   const auto gain = [&](const char* way, const char* than) {
     return Figures{better_by(t.at(way).edges, t.at(than).edges),
                    better_by(t.at(way).silhouettes, t.at(than).silhouettes)};
@@ -225,7 +225,7 @@ TEST_P(Joined, IsBestAsBuilt) {
   const std::string name = GetParam();
   for (const int degrees : {0, 25, -50, 77}) {
     SCOPED_TRACE(degrees);
-    judge_ways(measure(turned(name, degrees), fmt::format("{} {}", name, degrees), kWidth, kHeight,
+    check_ways(measure(turned(name, degrees), fmt::format("{} {}", name, degrees), kWidth, kHeight,
                        degrees == 0 ? 16 : 8),
                name != "terrain", name == "cylinders" ? 0.4 : 0.25);
   }
@@ -245,7 +245,7 @@ TEST(Joined, TracksToo) {
     tb::SceneOptions options;
     options.camera = each;
     const tb::Scene scene = tb::load_scene((data / "meshes" / "scene_track.obj").string(), options);
-    judge_ways(measure(scene, fmt::format("track {}", camera++), 1280, 720, 8), true, 0.25);
+    check_ways(measure(scene, fmt::format("track {}", camera++), 1280, 720, 8), true, 0.25);
   }
 }
 
@@ -259,29 +259,29 @@ TEST(Outermost, MendsHiddenLines) {
   p.crease_depth = 0;
   for (const char* name : {"wheelcover", "canopy", "cylinders", "object", "terrain"}) {
     for (const int degrees : {0, 25, -50, 77}) {
-      const Judge judge(turned(name, degrees), kWidth, kHeight, 8);
+      const Checker checker(turned(name, degrees), kWidth, kHeight, 8);
       const auto followed = [&](const Image& image) {
         MorphologicalGolden golden(golden::morphological::following_geometric(rules()),
                                    MorphologicalGolden::Detail::kPixels);
         Image result = image;
-        result.pixels =
-            golden.process({image.pixels, kWidth, kHeight}, {judge.frame.depths, kWidth, kHeight});
+        result.pixels = golden.process({image.pixels, kWidth, kHeight},
+                                       {checker.frame.depths, kWidth, kHeight});
         return result;
       };
       const auto combined = [&](spec::geometric::Combine combine) {
         p.combine = combine;
-        return tb::geometric::smoothed(judge.frame, p).image;
+        return tb::geometric::smoothed(checker.frame, p).image;
       };
       const Image largest = combined(spec::geometric::Combine::kMax);
       const Image outermost = combined(spec::geometric::Combine::kOutermost);
       std::string row = fmt::format("| {} {} |", name, degrees);
       for (const Image& image :
-           {judge.msaa, largest, outermost, followed(largest), followed(outermost)})
-        row +=
-            fmt::format(" {:.2f} / {:.2f} |", judge.edge_rmse(image), judge.silhouette_rmse(image));
+           {checker.msaa, largest, outermost, followed(largest), followed(outermost)})
+        row += fmt::format(" {:.2f} / {:.2f} |", checker.edge_rmse(image),
+                           checker.silhouette_rmse(image));
       fmt::print("{}\n", row);
       const double gain =
-          better_by(judge.silhouette_rmse(outermost), judge.silhouette_rmse(largest));
+          better_by(checker.silhouette_rmse(outermost), checker.silhouette_rmse(largest));
       EXPECT_GT(gain, std::string(name) == "terrain" ? 1 : -0.1) << name << ' ' << degrees;
     }
   }

@@ -24,7 +24,7 @@ using spec::geometric::Preset;
 using spec::geometric::Work;
 using spec::morphological::Leave;
 using tb::Image;
-using tb::geometric::Judge;
+using tb::geometric::Checker;
 using tb::geometric::smoothed;
 using tb::geometric::Smoothed;
 
@@ -56,28 +56,28 @@ struct Table {
 };
 
 Table measure(const tb::Scene& scene, int width, int height, int samples) {
-  const Judge judge(scene, width, height, samples);
+  const Checker checker(scene, width, height, samples);
   Table table;
-  table.edge_pixels = tb::count(judge.edges);
-  table.table_edges = judge.frame.table.edges.size();
+  table.edge_pixels = tb::count(checker.edges);
+  table.table_edges = checker.frame.table.edges.size();
   const auto add = [&](const std::string& name, const Image& image) {
-    const Row row{judge.edge_rmse(image), judge.silhouette_rmse(image), judge.edge_psnr(image),
-                  judge.silhouette_psnr(image)};
+    const Row row{checker.edge_rmse(image), checker.silhouette_rmse(image),
+                  checker.edge_psnr(image), checker.silhouette_psnr(image)};
     table.rows[name] = row;
     fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", scene.name, name, row.edges,
                row.silhouettes, row.edge_psnr, row.silhouette_psnr);
   };
-  add("none", judge.frame.image);
-  add("msaa4", judge.msaa);
-  add("morphological", morphological_after(judge.frame.image, Leave::kNone));
+  add("none", checker.frame.image);
+  add("msaa4", checker.msaa);
+  add("morphological", morphological_after(checker.frame.image, Leave::kNone));
   for (const Preset preset : {Preset::kGpaa, Preset::kGpaaOptimised, Preset::kDeburr}) {
-    const Smoothed result = smoothed(judge.frame, preset_parameters(preset));
+    const Smoothed result = smoothed(checker.frame, preset_parameters(preset));
     add(std::string(spec::geometric::kPresetNames[static_cast<std::size_t>(preset)]), result.image);
     table.work[preset] = result.work;
   }
   Parameters marked = preset_parameters(Preset::kDeburr);
   marked.mark = true;
-  const Smoothed both = smoothed(judge.frame, marked);
+  const Smoothed both = smoothed(checker.frame, marked);
   add("both", morphological_after(both.image, Leave::kMarked));
   add("both, beside", morphological_after(both.image, Leave::kBeside));
   fmt::print("| {} | edges {} -> {} -> {} | columns {}, {}, {} | blended {} of {} edge pixels |\n",
@@ -176,19 +176,19 @@ TEST(Rules, EachPays) {
       {"sphere", "select all", [](Parameters& p) { p.select = spec::geometric::Select::kAll; },
        1.5},
   };
-  std::map<std::string, Judge> judges;
+  std::map<std::string, Checker> checks;
   for (const Case& c : cases) {
     const auto found =
-        judges.try_emplace(c.scene, tb::make_scene(c.scene), kWidth, kHeight, 8).first;
-    const Judge& judge = found->second;
+        checks.try_emplace(c.scene, tb::make_scene(c.scene), kWidth, kHeight, 8).first;
+    const Checker& checker = found->second;
     Parameters p = preset_parameters(Preset::kDeburr);
     // Outermost lines and limited creases hide what another rule leaves out.
     p.combine = spec::geometric::Combine::kMax;
     p.coverage = spec::geometric::CoverageRule::kDistance;
     p.crease_depth = 0;
-    const double with = judge.edge_rmse(smoothed(judge.frame, p).image);
+    const double with = checker.edge_rmse(smoothed(checker.frame, p).image);
     c.change(p);
-    const double without = judge.edge_rmse(smoothed(judge.frame, p).image);
+    const double without = checker.edge_rmse(smoothed(checker.frame, p).image);
     fmt::print("| {} | {} | {:.2f} | {:.2f} |\n", c.scene, c.name, with, without);
     EXPECT_GT(without, c.at_least * with) << c.scene << ' ' << c.name;
   }
@@ -216,12 +216,12 @@ tb::Scene bars(double width) {
 TEST(WeakSpot, TwoEdgesWithinAPixel) {
   std::map<double, double> left;  // of the aliased error
   for (const double width : {0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 6.0}) {
-    const Judge judge(bars(width), 256, 256, 16);
-    const double none = judge.edge_rmse(judge.frame.image);
+    const Checker checker(bars(width), 256, 256, 16);
+    const double none = checker.edge_rmse(checker.frame.image);
     const double ours =
-        judge.edge_rmse(smoothed(judge.frame, preset_parameters(Preset::kDeburr)).image);
+        checker.edge_rmse(smoothed(checker.frame, preset_parameters(Preset::kDeburr)).image);
     left[width] = ours / none;
-    fmt::print("| {} | {:.1f} | {:.1f} | {:.1f} |\n", width, none, judge.edge_rmse(judge.msaa),
+    fmt::print("| {} | {:.1f} | {:.1f} | {:.1f} |\n", width, none, checker.edge_rmse(checker.msaa),
                ours);
   }
   for (const double wide : {1.0, 1.5, 2.0, 3.0, 6.0}) EXPECT_LT(left.at(wide), 0.05);

@@ -25,7 +25,7 @@ using spec::geometric::Cull;
 using spec::geometric::Parameters;
 using spec::geometric::Preset;
 using tb::Image;
-using tb::geometric::Judge;
+using tb::geometric::Checker;
 
 constexpr int kWidth = 640, kHeight = 480;
 
@@ -87,19 +87,19 @@ std::uint64_t lines_of_memory(const golden::geometric::Traffic& traffic) {
 
 Measured measure(const tb::Scene& scene, const std::string& name, int width = kWidth,
                  int height = kHeight) {
-  const Judge judge(scene, width, height, 8);
+  const Checker checker(scene, width, height, 8);
   const auto figures = [&](const Image& image) {
-    return Figures{judge.edge_psnr(image), judge.silhouette_psnr(image)};
+    return Figures{checker.edge_psnr(image), checker.silhouette_psnr(image)};
   };
-  Measured m{name, figures(judge.frame.image), figures(judge.msaa), {}, {}, {}};
+  Measured m{name, figures(checker.frame.image), figures(checker.msaa), {}, {}, {}};
   std::string row = fmt::format("| {} | {:.2f} / {:.2f} | {:.2f} / {:.2f} |", name, m.none.edges,
                                 m.none.silhouettes, m.msaa.edges, m.msaa.silhouettes);
   for (const Way& way : kWays) {
     Parameters p = plain();
     way.change(p);
     GeometricGolden golden(p);
-    Image image = judge.frame.image;
-    image.pixels = golden.process(judge.frame.input());
+    Image image = checker.frame.image;
+    image.pixels = golden.process(checker.frame.input());
     m.ways.push_back(figures(image));
     m.lines.push_back(lines_of_memory(golden.traffic()));
     m.columns.push_back(golden.work().columns);
@@ -213,20 +213,22 @@ TEST(Crossings, AreWorthMoreThanAllRules) {
   for (const char* kind : {"crossing", "floor"}) {
     for (const std::uint64_t seed : {1u, 2u, 11u, 12u}) {
       const tb::Scene scene = tb::make_solids(kind, seed);
-      const Judge judge(scene, kWidth, kHeight, 8, nullptr, {.crossings = true});
-      tb::geometric::Frame without = judge.frame;
+      const Checker checker(scene, kWidth, kHeight, 8, nullptr, {.crossings = true});
+      tb::geometric::Frame without = checker.frame;
       without.table = tb::build_edge_table(scene.mesh);
       without.screen = tb::project_edges(without.table, scene.camera, kWidth, kHeight);
       Parameters p = plain();
       kWays[kBothSides].change(p);
       const Image before = tb::geometric::smoothed(without, p).image,
-                  after = tb::geometric::smoothed(judge.frame, p).image;
-      const double gain = judge.edge_psnr(after) - judge.edge_psnr(before);
+                  after = tb::geometric::smoothed(checker.frame, p).image;
+      const double gain = checker.edge_psnr(after) - checker.edge_psnr(before);
       fmt::print("| {} {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} lines\n", kind,
-                 seed, judge.edge_psnr(judge.frame.image), judge.edge_psnr(judge.msaa),
-                 judge.edge_psnr(before), judge.edge_psnr(after), judge.silhouette_psnr(before),
-                 judge.silhouette_psnr(after), judge.frame.table.crossings);
-      EXPECT_GE(judge.silhouette_psnr(after), judge.silhouette_psnr(before) - 0.3) << kind << seed;
+                 seed, checker.edge_psnr(checker.frame.image), checker.edge_psnr(checker.msaa),
+                 checker.edge_psnr(before), checker.edge_psnr(after),
+                 checker.silhouette_psnr(before), checker.silhouette_psnr(after),
+                 checker.frame.table.crossings);
+      EXPECT_GE(checker.silhouette_psnr(after), checker.silhouette_psnr(before) - 0.3)
+          << kind << seed;
       mean += gain;
       worst = std::min(worst, gain);
       ++views;

@@ -124,21 +124,21 @@ std::string row(const std::vector<std::string>& cells) {
 }
 
 // A frame that is right as it is, and what every filter makes of it.
-struct Judged {
+struct Checked {
   std::string name;
   std::vector<Figures> figures;
 };
 
-Judged judged(std::string name, const Image& frame, std::span<const Filter> filters) {
+Checked checked(std::string name, const Image& frame, std::span<const Filter> filters) {
   return {std::move(name), measure(frame, frame, smoothed_by(filters, frame))};
 }
 
 std::string table(const std::string& title, std::span<const Filter> filters,
-                  std::span<const Judged> frames, std::string (*cell)(const Figures&)) {
+                  std::span<const Checked> frames, std::string (*cell)(const Figures&)) {
   std::vector<std::string> titles = {""};
   for (const Filter& filter : filters) titles.push_back(filter.name);
   std::string text = title + ":\n\n" + head(titles);
-  for (const Judged& frame : frames) {
+  for (const Checked& frame : frames) {
     std::vector<std::string> cells = {frame.name};
     for (const Figures& figures : frame.figures) cells.push_back(cell(figures));
     text += row(cells);
@@ -147,7 +147,7 @@ std::string table(const std::string& title, std::span<const Filter> filters,
 }
 
 std::string tables_of_right_frames(std::span<const Filter> filters,
-                                   std::span<const Judged> frames) {
+                                   std::span<const Checked> frames) {
   return table("Pixels changed by more than 2 / 16 codes, %", filters, frames, percents) +
          table("PSNR to the input, dB", filters, frames, decibels) +
          table("FLIP / SSIM to the input", filters, frames, both);
@@ -269,27 +269,27 @@ fs::path photo_file(const fs::path& data, const char* name) {
 
 std::string text_table(Text kind) {
   const std::vector<Filter> all = filters();
-  const Judged page = judged("text, aliased", text_page(kind, kWidth, kHeight), all);
+  const Checked page = checked("text, aliased", text_page(kind, kWidth, kHeight), all);
   return table("Pixels changed by more than 2 / 16 codes, %", all, {&page, 1}, percents);
 }
 
 std::string formula_tables() {
   const std::vector<Filter> all = filters();
   const Image hall = smoothed_hall(kWidth, kHeight), landscape = landscape_photo(kWidth, kHeight);
-  const std::vector<Judged> frames = {
-      judged("like a photograph: landscape", landscape, all),
-      judged("like a photograph: foliage", foliage_photo(kWidth, kHeight), all),
-      judged("smoothed already: the hall", hall, all),
-      judged("text, aliased", text_page(Text::kAliased, kWidth, kHeight), all),
-      judged("text, smoothed", text_page(Text::kSmoothed, kWidth, kHeight), all),
-      judged("text, light on dark", text_page(Text::kLightOnDark, kWidth, kHeight), all),
-      judged("text, bitmap font", text_page(Text::kBitmapFont, kWidth, kHeight), all),
-      judged("pixel art x 1", pixel_art(1, kWidth, kHeight), all),
-      judged("pixel art x 2", pixel_art(2, kWidth, kHeight), all),
-      judged("pixel art x 4", pixel_art(4, kWidth, kHeight), all),
-      judged("smoothed hall, JPEG 90", compressed(hall, 90), all),
-      judged("smoothed hall, JPEG 50", compressed(hall, 50), all),
-      judged("landscape, JPEG 75", compressed(landscape, 75), all)};
+  const std::vector<Checked> frames = {
+      checked("like a photograph: landscape", landscape, all),
+      checked("like a photograph: foliage", foliage_photo(kWidth, kHeight), all),
+      checked("smoothed already: the hall", hall, all),
+      checked("text, aliased", text_page(Text::kAliased, kWidth, kHeight), all),
+      checked("text, smoothed", text_page(Text::kSmoothed, kWidth, kHeight), all),
+      checked("text, light on dark", text_page(Text::kLightOnDark, kWidth, kHeight), all),
+      checked("text, bitmap font", text_page(Text::kBitmapFont, kWidth, kHeight), all),
+      checked("pixel art x 1", pixel_art(1, kWidth, kHeight), all),
+      checked("pixel art x 2", pixel_art(2, kWidth, kHeight), all),
+      checked("pixel art x 4", pixel_art(4, kWidth, kHeight), all),
+      checked("smoothed hall, JPEG 90", compressed(hall, 90), all),
+      checked("smoothed hall, JPEG 50", compressed(hall, 50), all),
+      checked("landscape, JPEG 75", compressed(landscape, 75), all)};
   std::vector<Column> columns;
   columns.push_back({"five scenes", {}});
   for (const char* const scene : {"cylinders", "object", "road", "quad", "tunnel"})
@@ -319,11 +319,11 @@ std::string data_tables(const fs::path& data) {
         "there is no '{}': set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/",
         missing));
   const std::vector<Filter> all = filters();
-  std::vector<Judged> photos;
+  std::vector<Checked> photos;
   photos.reserve(kPhotos.size());
   for (const char* const name : kPhotos)
     photos.push_back(
-        judged(fmt::format("photograph: {}", name), read_image(photo_file(data, name)), all));
+        checked(fmt::format("photograph: {}", name), read_image(photo_file(data, name)), all));
   std::vector<Column> columns;
   columns.reserve(kFrames.size() + 1);
   for (const FramePair& pair : kFrames)

@@ -193,7 +193,7 @@ TEST_F(Mesa, MipModesAgree) {
   }
 }
 
-// An independent program under the criterion: a judge that refused what Mesa draws would be
+// An independent program under the criterion: a checker that rejected what Mesa draws would be
 // suspect.
 TEST_P(MesaDriver, PassesTheFilteringCriterion) {
   ASSERT_NO_FATAL_FAILURE(open(GetParam()));
@@ -202,29 +202,29 @@ TEST_P(MesaDriver, PassesTheFilteringCriterion) {
     const auto filter = static_cast<MinFilter>(mode);
     Verdict verdict = Verdict::kHigh;
     double deviation = 0.0;
-    std::int64_t refused = 0;
+    std::int64_t rejected = 0;
     std::int64_t fragments = 0;
     draw_all(filter, Pattern::kComposite, true,
              [&](const CoordinateImage& image, const EncodedTexture& texture, const Size&,
                  const spec::texture::Descriptor& state, const Pixels& mesa) {
                const golden::ideal::Texture ideal = ideal_texture(texture);
                const golden::ideal::Sampler sampler = sampler_of(state);
-               golden::ideal::Judge judge(ideal, sampler);
+               golden::ideal::Checker checker(ideal, sampler);
                for (std::size_t i = 0; i < mesa.size(); ++i) {
                  const auto& c = mesa[i];
-                 judge.add(fragment_at(image, i),
-                           {static_cast<double>(c[0]), static_cast<double>(c[1]),
-                            static_cast<double>(c[2]), static_cast<double>(c[3])});
+                 checker.add(fragment_at(image, i),
+                             {static_cast<double>(c[0]), static_cast<double>(c[1]),
+                              static_cast<double>(c[2]), static_cast<double>(c[3])});
                }
-               verdict = std::max(verdict, judge.verdict());
-               deviation = std::max(deviation, judge.deviation());
-               refused += judge.refused();
-               fragments += judge.fragments();
+               verdict = std::max(verdict, checker.verdict());
+               deviation = std::max(deviation, checker.deviation());
+               rejected += checker.rejected();
+               fragments += checker.fragments();
              });
     std::printf("%s: %s, largest deviation %.2f, %lld of %lld fragments are not high\n",
                 std::string(spec::texture::kMinFilterNames[mode]).c_str(),
                 std::string(verdict_name(verdict)).c_str(), deviation,
-                static_cast<long long>(refused), static_cast<long long>(fragments));
+                static_cast<long long>(rejected), static_cast<long long>(fragments));
     EXPECT_NE(verdict, Verdict::kFail);
     if (filter <= MinFilter::kLinearMipmapNearest) {
       EXPECT_EQ(verdict, Verdict::kHigh);

@@ -47,31 +47,31 @@ struct Figures {
   double edges = 0, silhouettes = 0;  // PSNR, dB
 };
 
-class Judge {
+class Checker {
  public:
-  Judge(std::string name, const Image& frame, const Image& truth,
-        const std::optional<DepthImage>& depth)
+  Checker(std::string name, const Image& frame, const Image& truth,
+          const std::optional<DepthImage>& depth)
       : name_(std::move(name)), frame_(frame), truth_(truth), edges_(edge_mask(truth, frame)) {
     if (depth) silhouettes_ = silhouette_mask(edges_, *depth);
   }
-  Figures judge(const std::string& method, const Image& image) const {
+  Figures check(const std::string& method, const Image& image) const {
     const Figures f{psnr(image, truth_, edges_),
                     silhouettes_ ? psnr(image, truth_, *silhouettes_) : std::nan("")};
     std::cout << fmt::format("{:<12} {:<17} edges {:.2f} dB, silhouettes {:.2f} dB\n", name_,
                              method, f.edges, f.silhouettes);
     return f;
   }
-  Figures judge(Preset preset) const {
-    return judge(std::string(spec::morphological::kPresetNames[static_cast<std::size_t>(preset)]),
+  Figures check(Preset preset) const {
+    return check(std::string(spec::morphological::kPresetNames[static_cast<std::size_t>(preset)]),
                  preset_parameters(preset));
   }
-  Figures judge(const std::string& method, const spec::morphological::Parameters& rules) const {
-    return judge(method, smoothed(frame_, rules));
+  Figures check(const std::string& method, const spec::morphological::Parameters& rules) const {
+    return check(method, smoothed(frame_, rules));
   }
   const std::string& name() const { return name_; }
   const Image& frame() const { return frame_; }
-  Figures judge(const stimuli::ReferenceFilter& reference) const {
-    return judge(reference.name, reference.filter(frame_, true));
+  Figures check(const stimuli::ReferenceFilter& reference) const {
+    return check(reference.name, reference.filter(frame_, true));
   }
 
  private:
@@ -132,7 +132,7 @@ struct Behind {
 };
 constexpr std::array<Behind, 1> kBehind = {{{"vehicle 2", "smaa medium", 0, 0.3}}};
 
-// Deburr is ahead of a method, or that it is not was said. NaN: not judged.
+// Deburr is ahead of a method, or that it is not was said. NaN: not checked.
 void expect_ahead(const std::string& frame, const std::string& method, const Figures& deburr,
                   const Figures& other) {
   Behind said{frame, method, 0, 0};
@@ -150,20 +150,20 @@ void expect_ahead(const std::string& frame, const std::string& method, const Fig
 }
 
 // Above no filter and above every other preset; above mlaa by more than `margin` dB.
-void expect_deburr_best(const Judge& judge, double margin) {
-  const Figures deburr = judge.judge(Preset::kDeburr), mlaa = judge.judge(Preset::kMlaa);
+void expect_deburr_best(const Checker& checker, double margin) {
+  const Figures deburr = checker.check(Preset::kDeburr), mlaa = checker.check(Preset::kMlaa);
   EXPECT_GT(deburr.edges, mlaa.edges + margin);
   const auto ahead = [&](const std::string& method, const Figures& other) {
-    expect_ahead(judge.name(), method, deburr, other);
+    expect_ahead(checker.name(), method, deburr, other);
   };
-  ahead("none", judge.judge("none", judge.frame()));
+  ahead("none", checker.check("none", checker.frame()));
   ahead("mlaa", mlaa);
-  ahead("mlaa-slope", judge.judge(Preset::kMlaaSlope));
-  ahead("deburr-line", judge.judge(Preset::kDeburrLine));
-  for (const auto& [name, rules] : smaa_rules()) ahead(name, judge.judge(name, rules));
+  ahead("mlaa-slope", checker.check(Preset::kMlaaSlope));
+  ahead("deburr-line", checker.check(Preset::kDeburrLine));
+  for (const auto& [name, rules] : smaa_rules()) ahead(name, checker.check(name, rules));
   for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
-    ahead(reference.name, judge.judge(reference));
-  for (const auto& [name, rules] : mixed_rules()) judge.judge(name, rules);
+    ahead(reference.name, checker.check(reference));
+  for (const auto& [name, rules] : mixed_rules()) checker.check(name, rules);
 }
 
 std::filesystem::path data(const char* name) { return data_folder() / name; }
@@ -205,8 +205,8 @@ TEST(MorphologicalFrames, DeburrIsBestOnTrackFromOtherSides) {
     options.camera->target = view.target;
     options.camera->fov_y = view.fov;
     const LitFrames lit = render_lit_frames(import_scene(mesh, options), 960, 540, 8);
-    const Judge judge("track", lit.noaa, lit.truth, lit.depth);
-    expect_deburr_best(judge, 0.2);
+    const Checker checker("track", lit.noaa, lit.truth, lit.depth);
+    expect_deburr_best(checker, 0.2);
   }
 }
 
@@ -226,16 +226,16 @@ class RenderedFrames : public testing::TestWithParam<Rendered> {
       GTEST_SKIP() << "no " << data(r.source) << ": set DEBURR_DATA to the folder that holds it";
     const Scene scene = file ? import_scene(data(r.source)) : make_scene(r.source);
     lit_ = render_lit_frames(scene, r.width, r.height, 8);
-    judge_.emplace(std::filesystem::path(r.source).stem().string(), lit_.noaa, lit_.truth,
+    check_.emplace(std::filesystem::path(r.source).stem().string(), lit_.noaa, lit_.truth,
                    lit_.depth);
-    judge_->judge("MSAA 4x", render_msaa4(scene, r.width, r.height));
+    check_->check("MSAA 4x", render_msaa4(scene, r.width, r.height));
   }
   LitFrames lit_;
-  std::optional<Judge> judge_;
+  std::optional<Checker> check_;
 };
 
 class DeburrIsBest : public RenderedFrames {};
-TEST_P(DeburrIsBest, OnEdgesAndSilhouettes) { expect_deburr_best(*judge_, GetParam().margin); }
+TEST_P(DeburrIsBest, OnEdgesAndSilhouettes) { expect_deburr_best(*check_, GetParam().margin); }
 
 std::string name_of(const testing::TestParamInfo<Rendered>& info) {
   std::string name = std::filesystem::path(info.param.source).stem().string();
@@ -313,9 +313,9 @@ TEST_P(StandIns, DeburrIsBestToo) {
   const Scene scene = import_scene(write_stand_in(folder, GetParam().kind, GetParam().seed));
   std::filesystem::remove_all(folder);
   const LitFrames lit = render_lit_frames(scene, 512, 512, 8);
-  const Judge judge(fmt::format("{} {}", GetParam().kind, GetParam().seed), lit.noaa, lit.truth,
-                    lit.depth);
-  expect_deburr_best(judge, 0.2);
+  const Checker checker(fmt::format("{} {}", GetParam().kind, GetParam().seed), lit.noaa, lit.truth,
+                        lit.depth);
+  expect_deburr_best(checker, 0.2);
 }
 INSTANTIATE_TEST_SUITE_P(
     Frames, StandIns,
@@ -338,26 +338,26 @@ TEST(MorphologicalFrames, LearnedSharesKeepTheirFiguresOutOfSample) {
                  << ": set DEBURR_DATA to the folder that holds frames/";
   const Image small = read_image(data("frames/track_720p_noaa.png")),
               small_truth = read_image(data("frames/track_720p_ssaa256.png"));
-  const Judge track("track 720p", small, small_truth,
-                    read_depth(data("frames/track_720p_depth24.png")));
-  const Figures figures = track.judge(Preset::kDeburr);
+  const Checker track("track 720p", small, small_truth,
+                      read_depth(data("frames/track_720p_depth24.png")));
+  const Figures figures = track.check(Preset::kDeburr);
   EXPECT_GT(figures.edges, 30.55);
   EXPECT_GT(figures.silhouettes, 27.95);
   const Image large = read_image(data("frames/track_1080p_noaa.png")),
               large_truth = read_image(data("frames/track_1080p_ssaa64.png"));
-  EXPECT_GT(Judge("track 1080p", large, large_truth, std::nullopt).judge(Preset::kDeburr).edges,
+  EXPECT_GT(Checker("track 1080p", large, large_truth, std::nullopt).check(Preset::kDeburr).edges,
             31.5);
 }
 
 // The check can fail: without the line fit and its edges there is nothing to be better by.
 TEST(MorphologicalFrames, AWorseFilterIsCaught) {
   const LitFrames lit = render_lit_frames(make_scene("cylinders"), 320, 240, 8);
-  const Judge judge("cylinders", lit.noaa, lit.truth, lit.depth);
+  const Checker checker("cylinders", lit.noaa, lit.truth, lit.depth);
   spec::morphological::Parameters worse = preset_parameters(Preset::kDeburrLine);
   worse.predictor = spec::morphological::Predictor::kNone;  // the planted fault
   worse.threshold = preset_parameters(Preset::kMlaa).threshold;
-  EXPECT_LT(judge.judge("worse", smoothed(lit.noaa, worse)).edges,
-            judge.judge(Preset::kMlaa).edges + 0.5);
+  EXPECT_LT(checker.check("worse", smoothed(lit.noaa, worse)).edges,
+            checker.check(Preset::kMlaa).edges + 0.5);
 }
 
 }  // namespace

@@ -195,7 +195,7 @@ FilterFigures with_wrong_sine(const TurnedPhoto& view, const PhotoTexture& photo
     for (const double channel : sum)
       rgba.push_back(static_cast<std::uint8_t>(std::lround(channel)));
   }
-  return view.judge(rgba);
+  return view.check(rgba);
 }
 
 TEST(TextureDirectionFault, AWrongSineAndMissingSpreadAreSeen) {

@@ -79,7 +79,7 @@ FilterFigures TurnedPhoto::golden(const spec::texture::Parameters& parameters, i
   for (const spec::texture::Quad& quad : quads_)
     for (const spec::texture::Colour& colour : golden.process(quad))
       rgba.insert(rgba.end(), colour.rgba.begin(), colour.rgba.end());
-  FilterFigures figures = judge(rgba);
+  FilterFigures figures = check(rgba);
   const auto fragments = static_cast<double>(golden.work().fragments);
   figures.samples = static_cast<double>(golden.work().samples) / fragments;
   figures.bilinears = static_cast<double>(golden.work().bilinears) / fragments;
@@ -93,10 +93,10 @@ FilterFigures TurnedPhoto::ellipse(const spec::texture::Parameters& parameters,
            photo_.ideal(), parameters, photo_.descriptor(lb_n_max), footprints_))
     for (const double channel : colour)
       rgba.push_back(static_cast<std::uint8_t>(std::lround(channel)));
-  return judge(rgba);
+  return check(rgba);
 }
 
-FilterFigures TurnedPhoto::judge(std::span<const std::uint8_t> rgba) const {
+FilterFigures TurnedPhoto::check(std::span<const std::uint8_t> rgba) const {
   FilterFigures figures;
   figures.psnr = golden::ideal::psnr(truth_, rgba);
   double kept = 0, there = 0;

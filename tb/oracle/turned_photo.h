@@ -56,7 +56,7 @@ class TurnedPhoto {
   FilterFigures golden(const spec::texture::Parameters& parameters, int lb_n_max = 4) const;
   FilterFigures ellipse(const spec::texture::Parameters& parameters, int lb_n_max = 4) const;
   // Of colours one a pixel in the order of the quads.
-  FilterFigures judge(std::span<const std::uint8_t> rgba) const;
+  FilterFigures check(std::span<const std::uint8_t> rgba) const;
   const std::vector<spec::texture::Quad>& quads() const { return quads_; }
   const std::vector<golden::ideal::Colour>& truth() const { return truth_; }
 

@@ -44,7 +44,7 @@ Outcome reproduce(const PapersOptions& command, const CommandLine& line) {
   int code = 0;
   try {
     directory.claim(line.text, {"papers.json", "index.html"},
-                    command.wait ? IfTaken::kWait : IfTaken::kRefuse);
+                    command.wait ? IfTaken::kWait : IfTaken::kReject);
     for (const PaperEntry& entry : papers()) {
       if (!command.only.empty() &&
           std::find(command.only.begin(), command.only.end(), entry.id) == command.only.end())

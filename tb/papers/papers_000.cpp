@@ -373,7 +373,7 @@ PaperTable quality(const PaperOptions& options, double low, double high) {
     const bool chord = rows[r].name.starts_with("chord") && rows[r].parameters.steps > 0;
     const bool ours = rows[r].name.starts_with("fit") || rows[r].name.starts_with("deburr");
     // Two steps a side are not what the contract's row has.
-    const bool judged = ours && rows[r].parameters.steps >= 4;
+    const bool checked = ours && rows[r].parameters.steps >= 4;
     const std::vector<std::string> above = exceeded(morphological::asked_of_ours(), figures);
     std::vector<std::string> cells = cells_of(rows[r].name, figures, 1);
     cells.push_back(!chord && !ours
@@ -381,8 +381,8 @@ PaperTable quality(const PaperOptions& options, double low, double high) {
                         : fmt::format("{}, {}",
                                       figures.undulation < mlaa.undulation ? "smoother" : "rougher",
                                       figures.jump < mlaa.jump ? "steadier" : "less steady"));
-    cells.push_back(judged ? contract_text(above) : "-");
-    if (judged)
+    cells.push_back(checked ? contract_text(above) : "-");
+    if (checked)
       cells.push_back(claim(std::ssize(above), "right", "worse"));
     else if (chord || ours)
       cells.push_back(below(figures.undulation, mlaa.undulation));

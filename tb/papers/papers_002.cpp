@@ -32,8 +32,8 @@
 namespace deburr::tb::paper_002 {
 namespace {
 
+using geometric::Checker;
 using geometric::Frame;
-using geometric::Judge;
 using geometric::make_frame;
 using geometric::smoothed;
 using golden::geometric::GeometricGolden;
@@ -142,12 +142,12 @@ PaperTable equation_4(const PaperOptions& options) {
       {}};
   Waiting waiting("paper 002: creases", options.quiet);
   for (const char* scene : {"cube", "wheelcover", "object"}) {
-    const Judge judge(make_scene(scene), options.size, options.size, options.quick ? 4 : 8,
-                      options.watching(waiting));
+    const Checker checker(make_scene(scene), options.size, options.size, options.quick ? 4 : 8,
+                          options.watching(waiting));
     const auto error = [&](spec::geometric::Crease crease) {
       Parameters p = preset_parameters(Preset::kDeburr);
       p.crease = crease;
-      return judge.edge_rmse(smoothed(judge.frame, p).image);
+      return checker.edge_rmse(smoothed(checker.frame, p).image);
     };
     const double none = error(spec::geometric::Crease::kOff),
                  paper = error(spec::geometric::Crease::kPaper),
@@ -398,16 +398,17 @@ Compared pictures(const PaperOptions& options) {
   scenes.emplace_back("object", "");
   scenes.emplace_back("terrain", "");
   for (const auto& [name, title] : scenes) {
-    const Judge judge(make_scene(name), options.size, options.size, options.quick ? 4 : 8,
-                      options.watching(waiting));
+    const Checker checker(make_scene(name), options.size, options.size, options.quick ? 4 : 8,
+                          options.watching(waiting));
     struct Method {
       std::string name;
       Image image;
       std::string kept;
     };
-    std::vector<Method> methods = {{"none", judge.frame.image, "-"}, {"MSAA 4x", judge.msaa, "-"}};
+    std::vector<Method> methods = {{"none", checker.frame.image, "-"},
+                                   {"MSAA 4x", checker.msaa, "-"}};
     for (const Preset preset : {Preset::kGpaa, Preset::kGpaaOptimised, Preset::kDeburr}) {
-      auto result = smoothed(judge.frame, preset_parameters(preset));
+      auto result = smoothed(checker.frame, preset_parameters(preset));
       methods.push_back(
           {std::string(spec::geometric::kPresetNames[static_cast<std::size_t>(preset)]),
            std::move(result.image), number(result.work.kept_edges)});
@@ -415,7 +416,7 @@ Compared pictures(const PaperOptions& options) {
     std::vector<Scores> scores;
     scores.reserve(methods.size());
     for (const Method& method : methods)
-      scores.push_back({judge.edge_psnr(method.image), judge.silhouette_psnr(method.image)});
+      scores.push_back({checker.edge_psnr(method.image), checker.silhouette_psnr(method.image)});
     const auto word = [&](std::size_t i) -> std::string {
       if (i == 0) return "-";
       if (i + 1 == methods.size()) return place(scores, i);
@@ -432,7 +433,7 @@ Compared pictures(const PaperOptions& options) {
       std::replace(file.begin(), file.end(), ' ', '_');
       figure.images.push_back({file, method.name, "", method.image, false});
     }
-    figure.images.push_back({name + "_truth", "truth", "supersampled", judge.truth, false});
+    figure.images.push_back({name + "_truth", "truth", "supersampled", checker.truth, false});
     compared.figures.push_back(std::move(figure));
     waiting.update();
   }

@@ -71,7 +71,7 @@ PaperTable sizes() {
       {"item", "paper", "ours", "verdict"},
       {}};
   const auto add = [&](std::string item, const std::string& paper, double ours, int digits = 0) {
-    table.rows.push_back(judged_row(std::move(item), paper, ours, digits, "wrong"));
+    table.rows.push_back(checked_row(std::move(item), paper, ours, digits, "wrong"));
   };
   add("SMAA, printed, KB", "1138", kFull.printed_kilobytes());
   add("merged, printed, KB", "547", kMerged.printed_kilobytes());
@@ -332,7 +332,7 @@ PaperTable matrix_of_frames(const PaperOptions& options) {
         render_lit_frames(scene, options.size, options.size, options.quick ? 4 : 8);
     const Mask edges = edge_mask(lit.truth, lit.noaa);
     const Mask silhouettes = silhouette_mask(edges, lit.depth);
-    const auto judge = [&](Sum& sum, const Image& image) {
+    const auto check = [&](Sum& sum, const Image& image) {
       const double on_edges = psnr(image, lit.truth, edges),
                    on_silhouettes = psnr(image, lit.truth, silhouettes);
       sum.edges += on_edges;
@@ -340,11 +340,11 @@ PaperTable matrix_of_frames(const PaperOptions& options) {
       sum.cells.push_back(decimals(on_edges, 2));
     };
     for (std::size_t i = 0; i < all.size(); ++i) {
-      judge(sums[i], smoothed(lit.noaa, all[i]));
+      check(sums[i], smoothed(lit.noaa, all[i]));
       if (all[i].by_engine())
         sums[i].density += edge_pixels_percent(lit.noaa, edges_of(lit.noaa, all[i].parameters));
     }
-    judge(sums.back(), render_msaa4(scene, options.size, options.size));
+    check(sums.back(), render_msaa4(scene, options.size, options.size));
     progress.update(s + 1);
   }
   for (const char* name : {"edges", "silhouettes", "edge pixels, %", "verdict"})

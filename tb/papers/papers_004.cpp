@@ -62,9 +62,10 @@ PaperTable coefficients() {
     return e * e;
   });
   const double best = ideal::best_alpha();
-  table.rows = {judged_row("c2", "1/3", c2, 6, "wrong"), judged_row("c1", "0.219", c1, 6, "wrong"),
-                judged_row("c0", "0.0377", c0, 6, "wrong"),
-                judged_row("α of the least error", "0.3284", best, 6, "wrong")};
+  table.rows = {checked_row("c2", "1/3", c2, 6, "wrong"),
+                checked_row("c1", "0.219", c1, 6, "wrong"),
+                checked_row("c0", "0.0377", c0, 6, "wrong"),
+                checked_row("α of the least error", "0.3284", best, 6, "wrong")};
   return table;
 }
 
@@ -121,13 +122,13 @@ PaperTable logarithm() {
   const ideal::LogarithmError error = ideal::logarithm_error();
   PaperTable table{"Equation 13: lb x ≈ n + y", "", {"item", "paper", "ours", "verdict"}, {}};
   const auto row = [&](const char* item, double value, int digits) {
-    table.rows.push_back(judged_row(item, "3.12", value, digits, "irreproducible"));
+    table.rows.push_back(checked_row(item, "3.12", value, digits, "irreproducible"));
   };
   row("mean square × 100", 100 * error.mean_square, 3);
   row("RMS × 100", 100 * error.root_mean_square, 2);
   row("mean × 100", 100 * error.mean, 2);
   row("largest × 100", 100 * error.largest, 2);
-  table.rows.push_back(judged_row("y of the largest", kNotPrinted, error.at, 4, "wrong"));
+  table.rows.push_back(checked_row("y of the largest", kNotPrinted, error.at, 4, "wrong"));
   // (1 + 2 s1)(1 + k/2) over the domain; lb(1 + u) ≈ u needs u < 1.
   const double argument = (1 + 2 * 0.5) * (1 + 0.5 * 1.0);
   table.rows.push_back({"equation 17: lb(1 + u) ≈ u, largest argument 1 + u", "below 2",
@@ -166,12 +167,12 @@ PaperTable equation_23() {
     return static_cast<double>(flips) / (kSteps * kSteps);
   };
   table.rows = {
-      judged_row("the double integral", "0.0704", area, 6, "wrong"),
-      judged_row("its closed form asinh 1 − 2 ln 1.5", kNotPrinted, closed, 6, "wrong"),
-      judged_row("as a probability", "0.07", probability, 4, "unnormalised"),
-      judged_row("measured on the unit's integers, s1 uniform", "0.07", measured(false), 4,
-                 "unnormalised"),
-      judged_row("the same, lengths log-uniform", kNotPrinted, measured(true), 4, "wrong")};
+      checked_row("the double integral", "0.0704", area, 6, "wrong"),
+      checked_row("its closed form asinh 1 − 2 ln 1.5", kNotPrinted, closed, 6, "wrong"),
+      checked_row("as a probability", "0.07", probability, 4, "unnormalised"),
+      checked_row("measured on the unit's integers, s1 uniform", "0.07", measured(false), 4,
+                  "unnormalised"),
+      checked_row("the same, lengths log-uniform", kNotPrinted, measured(true), 4, "wrong")};
   return table;
 }
 
@@ -191,9 +192,9 @@ PaperTable figure_1() {
                    "The figure shows the ratio 3; the rule of section 1.3 is N = 2^⌊L⌋.",
                    {"item", "paper", "ours", "verdict"},
                    {}};
-  table.rows = {judged_row("N", "3", lod.samples, 0, "inconsistent"),
-                judged_row("L", kNotPrinted, lod.anisotropy / kLog2One, 3, "wrong"),
-                judged_row("l", kNotPrinted, lod.l / kLog2One, 3, "wrong")};
+  table.rows = {checked_row("N", "3", lod.samples, 0, "inconsistent"),
+                checked_row("L", kNotPrinted, lod.anisotropy / kLog2One, 3, "wrong"),
+                checked_row("l", kNotPrinted, lod.l / kLog2One, 3, "wrong")};
   return table;
 }
 

@@ -52,8 +52,8 @@ std::string verdict(std::string_view printed, std::optional<double> ours, const 
   return std::fabs(*ours - paper.value) < kExact ? "right" : otherwise;
 }
 
-std::vector<std::string> judged_row(std::string item, const std::string& printed, double ours,
-                                    int decimals, const char* otherwise) {
+std::vector<std::string> checked_row(std::string item, const std::string& printed, double ours,
+                                     int decimals, const char* otherwise) {
   return {std::move(item), printed, fmt::format("{:.{}f}", ours, decimals),
           verdict(printed, ours, otherwise)};
 }

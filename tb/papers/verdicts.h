@@ -24,9 +24,9 @@ inline constexpr const char* kNotPrinted = "-";
 // exactly. "added" where nothing is printed, "not reproduced" where we have none of our own.
 std::string verdict(std::string_view printed, std::optional<double> ours, const char* otherwise);
 
-// item, paper, ours, verdict: the figure shown is the one that is judged.
-std::vector<std::string> judged_row(std::string item, const std::string& printed, double ours,
-                                    int decimals, const char* otherwise);
+// item, paper, ours, verdict: the figure shown is the one that is checked.
+std::vector<std::string> checked_row(std::string item, const std::string& printed, double ours,
+                                     int decimals, const char* otherwise);
 
 // ---- a claim ------------------------------------------------------------------------------------
 

@@ -16,7 +16,7 @@ std::string without_particulars(const std::string& message);
 
 // In which cycle a failed run went wrong, as far as its result.json tells: of a deadlock the last
 // one in which anything moved, else that of the first mismatch, else one that the reason names;
-// where none is told, as of a counter that is judged at the end, the last cycle of the run.
+// where none is told, as of a counter that is checked at the end, the last cycle of the run.
 std::uint64_t failing_cycle(const nlohmann::json& result);
 
 struct WaveWindow {

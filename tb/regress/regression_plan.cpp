@@ -63,11 +63,11 @@ class RegressionPlanner {
   void expand(const Feature& feature, const Stimulus& stimulus) {
     const SweepDefinition& configurations = stimulus.configurations;
     const Plan samples = plan_without_points(configurations);
-    PointJudge judge(configurations, samples);
+    PointChecker check(configurations, samples);
     std::set<std::string> known;
     const auto take = [&](const Sample& sample) {
       // Behind its own conditions, so that axes without an effect are not given.
-      const std::optional<PlannedPoint> point = judge.judge(sample);
+      const std::optional<PlannedPoint> point = check.check(sample);
       if (!point || !known.insert(point->name).second) return false;
       expand(feature, stimulus, in_words(samples, point->sample),
              samples.settings_of(point->sample));
@@ -77,9 +77,9 @@ class RegressionPlanner {
       expand(feature, stimulus, "random", configurations.base);
     else
       for_each_sample(configurations, take);
-    Plan judged;
-    judge.tell(judged);
-    for (const std::string& what : judged.left_out)
+    Plan checked;
+    check.tell(checked);
+    for (const std::string& what : checked.left_out)
       plan_.left_out.push_back(fmt::format("{}/{}: {}", feature.id, stimulus.name, what));
   }
 
@@ -134,7 +134,7 @@ class RegressionPlanner {
       planned.settings = std::move(settings);
       points_.push_back(std::move(planned));
     } catch (const ConfigError& error) {
-      if (!stimulus.configurations.skip_refused)
+      if (!stimulus.configurations.skip_rejected)
         throw ConfigError(fmt::format(
             "{}: the engine rejects the point {}: {}; leave such points out with 'refused: skip'",
             testplan_.file.string(), name, headline(error.what())));

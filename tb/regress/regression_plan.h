@@ -40,7 +40,7 @@ struct PointOrigin {
 PointOrigin origin_of(const PlannedPoint& point);
 
 // Expands the testplan into the place, unless the plan there was made from the same. ConfigError
-// for a stimulus without points, and for points that the engine refuses.
+// for a stimulus without points, and for points that the engine rejects.
 Plan make_regression_plan(const Testplan& testplan, std::uint64_t base_seed,
                           const SweepPlace& place);
 

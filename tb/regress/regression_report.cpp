@@ -88,7 +88,7 @@ Json to_json(const FailureBucket& bucket, const RegressionResult& result, const 
         {"reason", example.failure.reason},
         {"directory", seen_from(place, point_directory(place.points(), example.point.name))},
         {"command", command_of(example.point)}}}};
-  // A run that was refused or killed has left none.
+  // A run that was rejected or killed has left none.
   const fs::path result_file = point_directory(place.points(), example.point.name) / "result.json";
   if (std::error_code error; fs::exists(result_file, error))
     json["example"]["result"] = seen_from(place, result_file);

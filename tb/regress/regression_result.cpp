@@ -56,7 +56,7 @@ class RunCollector {
       seen_.emplace_back();
     }
     for_each_point(points_file(place_.directory), [&](const PlannedPoint& point) { add(point); });
-    for (std::size_t i = 0; i < all_.features.size(); ++i) judge(all_.features[i], seen_[i]);
+    for (std::size_t i = 0; i < all_.features.size(); ++i) check(all_.features[i], seen_[i]);
     fill_buckets();
     return std::move(all_);
   }
@@ -105,7 +105,7 @@ class RunCollector {
     for (const auto& [bin, hits] : bins) all_.coverage[bin.substr(0, bin.find('/'))][bin] += hits;
   }
 
-  static void judge(FeatureResult& feature, const Seen& seen) {
+  static void check(FeatureResult& feature, const Seen& seen) {
     for (const RequiredCheck& check : feature.feature->checks) {
       const auto found = seen.comparisons.find(check.scoreboard);
       CheckResult result{check, found == seen.comparisons.end() ? 0 : found->second};
@@ -191,7 +191,7 @@ std::vector<PlannedPoint> runs_with_waves(const RegressionResult& result, const 
   for (const FailureBucket& bucket : result.buckets) {
     const PlannedPoint& failed = result.runs[bucket.runs.front()].point;
     const SortedJson found = result_in(point_directory(place.points(), failed.name));
-    if (!found.is_object()) continue;  // it was refused or killed: there is nothing to watch
+    if (!found.is_object()) continue;  // it was rejected or killed: there is nothing to watch
     const WaveWindow window = wave_window(failing_cycle(found));
     std::vector<Setting> settings = failed.settings;
     std::erase_if(settings, [](const Setting& s) { return s.name.starts_with("run.trace"); });

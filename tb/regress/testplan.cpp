@@ -171,7 +171,7 @@ class Pages {
   std::vector<fs::path> found_;
 };
 
-// A coverage glob, which is judged when every file has named the engines of its feature.
+// A coverage glob, which is checked when every file has named the engines of its feature.
 struct PendingGlob {
   std::string feature;
   YAML::Node node;

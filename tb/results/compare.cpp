@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-enum class Judge {
+enum class Better {
   kNone,
   kLessIsBetter,
   kMoreIsBetter,
@@ -34,31 +34,31 @@ enum class Judge {
 
 struct Rule {
   std::string_view key;
-  Judge judge;
+  Better better;
 };
 constexpr Rule kRules[] = {
-    {"checks.mismatches", Judge::kMustBeZero},
-    {"checks.traffic_mismatches", Judge::kMustBeZero},
-    {"cycles", Judge::kLessIsBetter},
-    {"throughput.value", Judge::kMoreIsBetter},
-    {"latency.p50", Judge::kLessIsBetter},
-    {"latency.p95", Judge::kLessIsBetter},
-    {"latency.p99", Judge::kLessIsBetter},
-    {"memory.bytes_read", Judge::kLessIsBetter},
-    {"memory.bytes_written", Judge::kLessIsBetter},
-    {"quality.psnr_db", Judge::kDecibel},
-    {"quality.psnr_edge_db", Judge::kDecibel},
-    {"quality.psnr_silhouette_db", Judge::kDecibel},
-    {"quality.flip", Judge::kFlip},
-    {"quality.ssim", Judge::kSsim},
+    {"checks.mismatches", Better::kMustBeZero},
+    {"checks.traffic_mismatches", Better::kMustBeZero},
+    {"cycles", Better::kLessIsBetter},
+    {"throughput.value", Better::kMoreIsBetter},
+    {"latency.p50", Better::kLessIsBetter},
+    {"latency.p95", Better::kLessIsBetter},
+    {"latency.p99", Better::kLessIsBetter},
+    {"memory.bytes_read", Better::kLessIsBetter},
+    {"memory.bytes_written", Better::kLessIsBetter},
+    {"quality.psnr_db", Better::kDecibel},
+    {"quality.psnr_edge_db", Better::kDecibel},
+    {"quality.psnr_silhouette_db", Better::kDecibel},
+    {"quality.flip", Better::kFlip},
+    {"quality.ssim", Better::kSsim},
 };
 
-Judge judge_of(const std::string& key) {
+Better better_of(const std::string& key) {
   for (const Rule& rule : kRules)
-    if (rule.key == key) return rule.judge;
+    if (rule.key == key) return rule.better;
   if (key.starts_with("memory_bits.") && (key.ends_with(".logical") || key.ends_with(".physical")))
-    return Judge::kBits;
-  return Judge::kNone;
+    return Better::kBits;
+  return Better::kNone;
 }
 
 using KeyValues = std::vector<std::pair<std::string, Json>>;
@@ -103,33 +103,33 @@ std::vector<std::string> work_parameters(const Json& a, const Json& b, GivenWork
 }
 
 // Of values that both are there.
-Judgement judge_numbers(Judge judge, double a, double b, const Tolerances& t) {
+Trend compare_numbers(Better better, double a, double b, const Tolerances& t) {
   const auto less = [&](double percent) {
-    if (b > a * (1 + percent / 100)) return Judgement::kWorse;
-    return b < a * (1 - percent / 100) ? Judgement::kBetter : Judgement::kEqual;
+    if (b > a * (1 + percent / 100)) return Trend::kWorse;
+    return b < a * (1 - percent / 100) ? Trend::kBetter : Trend::kEqual;
   };
   const auto more = [&](double by) {
-    if (b < a - by) return Judgement::kWorse;
-    return b > a + by ? Judgement::kBetter : Judgement::kEqual;
+    if (b < a - by) return Trend::kWorse;
+    return b > a + by ? Trend::kBetter : Trend::kEqual;
   };
-  if (a == b) return Judgement::kEqual;
-  switch (judge) {
-    case Judge::kLessIsBetter:
+  if (a == b) return Trend::kEqual;
+  switch (better) {
+    case Better::kLessIsBetter:
       return less(t.cycles_percent);
-    case Judge::kBits:
+    case Better::kBits:
       return less(t.memory_percent.value_or(0));
-    case Judge::kMoreIsBetter:
-      if (b < a * (1 - t.throughput_percent / 100)) return Judgement::kWorse;
-      return b > a * (1 + t.throughput_percent / 100) ? Judgement::kBetter : Judgement::kEqual;
-    case Judge::kDecibel:
+    case Better::kMoreIsBetter:
+      if (b < a * (1 - t.throughput_percent / 100)) return Trend::kWorse;
+      return b > a * (1 + t.throughput_percent / 100) ? Trend::kBetter : Trend::kEqual;
+    case Better::kDecibel:
       return more(t.psnr_db);
-    case Judge::kSsim:
+    case Better::kSsim:
       return more(t.ssim);
-    case Judge::kFlip:
-      if (b > a + t.flip) return Judgement::kWorse;
-      return b < a - t.flip ? Judgement::kBetter : Judgement::kEqual;
+    case Better::kFlip:
+      if (b > a + t.flip) return Trend::kWorse;
+      return b < a - t.flip ? Trend::kBetter : Trend::kEqual;
     default:
-      return Judgement::kNone;
+      return Trend::kNone;
   }
 }
 
@@ -157,25 +157,25 @@ Json value_at(const Json& result, const std::string& key) {
   return nullptr;
 }
 
-Judgement judge(const std::string& key, std::optional<double> a, std::optional<double> b,
-                const Tolerances& tolerances, std::optional<bool> maximise) {
-  Judge rule = judge_of(key);
-  if (rule == Judge::kMustBeZero) {
-    if (b.value_or(1) != 0) return Judgement::kWorse;
-    return a.value_or(0) != 0 ? Judgement::kBetter : Judgement::kEqual;
+Trend check(const std::string& key, std::optional<double> a, std::optional<double> b,
+            const Tolerances& tolerances, std::optional<bool> maximise) {
+  Better rule = better_of(key);
+  if (rule == Better::kMustBeZero) {
+    if (b.value_or(1) != 0) return Trend::kWorse;
+    return a.value_or(0) != 0 ? Trend::kBetter : Trend::kEqual;
   }
-  if (rule == Judge::kBits) a = a.value_or(0), b = b.value_or(0);  // none of a kind
-  if (rule == Judge::kNone && maximise)
-    rule = *maximise ? Judge::kMoreIsBetter : Judge::kLessIsBetter;
-  if (rule == Judge::kNone || !a) return Judgement::kNone;  // nothing to compare with
-  return b ? judge_numbers(rule, *a, *b, tolerances) : Judgement::kWorse;
+  if (rule == Better::kBits) a = a.value_or(0), b = b.value_or(0);  // none of a kind
+  if (rule == Better::kNone && maximise)
+    rule = *maximise ? Better::kMoreIsBetter : Better::kLessIsBetter;
+  if (rule == Better::kNone || !a) return Trend::kNone;  // nothing to compare with
+  return b ? compare_numbers(rule, *a, *b, tolerances) : Trend::kWorse;
 }
 
 bool counts(const std::string& key, const Tolerances& tolerances) {
-  return judge_of(key) != Judge::kBits || tolerances.memory_percent;
+  return better_of(key) != Better::kBits || tolerances.memory_percent;
 }
 
-bool in_decibels(const std::string& key) { return judge_of(key) == Judge::kDecibel; }
+bool in_decibels(const std::string& key) { return better_of(key) == Better::kDecibel; }
 
 std::string change_of(const std::string& key, std::optional<double> a, std::optional<double> b) {
   if (!a || !b || *a == *b || std::isinf(*a) || std::isinf(*b)) return "";
@@ -204,14 +204,14 @@ Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
                         shown_or_dash(left),
                         shown_or_dash(right),
                         change_of(key, x, y),
-                        judge(key, x, y, tolerances),
+                        check(key, x, y, tolerances),
                         false};
-    value.worse = value.judgement == Judgement::kWorse && counts(key, tolerances);
+    value.worse = value.verdict == Trend::kWorse && counts(key, tolerances);
     if (key == "verdict") value.worse = left && *left == "pass" && (!right || *right != "pass");
     if (key == "verdict" && right && *right == "fail") value.worse = true;
     // What B counts is not what could be built.
     if (key.starts_with("idealised.")) value.worse = right != nullptr && left == nullptr;
-    if (value.worse) value.judgement = Judgement::kWorse;
+    if (value.worse) value.verdict = Trend::kWorse;
     if (left && right && *left == *right && !value.worse) continue;
     comparison.worse = comparison.worse || value.worse;
     comparison.values.push_back(std::move(value));

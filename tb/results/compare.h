@@ -18,20 +18,20 @@ struct Tolerances {
   double psnr_db = 0.05;          // quality may fall by this much
   double flip = 0.0005;           // FLIP may grow by this much
   double ssim = 0.0005;           // SSIM may fall by this much
-  // Bits of memory may grow by this much; without it they are judged, but fail nothing: what a
+  // Bits of memory may grow by this much; without it they are checked, but fail nothing: what a
   // choice costs is not a fault of it.
   std::optional<double> memory_percent{};
 };
 
 // By the value's own direction: fewer cycles, more decibels. kEqual within the tolerance too,
 // kNone: nobody can say.
-enum class Judgement : std::uint8_t { kNone, kEqual, kBetter, kWorse };
-inline constexpr std::array<std::string_view, 4> kJudgementNames = {"", "equal", "better", "worse"};
+enum class Trend : std::uint8_t { kNone, kEqual, kBetter, kWorse };
+inline constexpr std::array<std::string_view, 4> kTrendNames = {"", "equal", "better", "worse"};
 
 struct ComparedValue {
   std::string key;
   std::string a, b, change;  // change in percent or dB, "" where neither says something
-  Judgement judgement = Judgement::kNone;
+  Trend verdict = Trend::kNone;
   bool worse = false;  // and it counts
 };
 
@@ -40,15 +40,15 @@ struct Comparison {
   bool worse = false;
 };
 
-// `b` judged against `a`, both as read_result() gives them. A mismatch, a lost verdict, or a judged
-// value that only `a` has is worse. ConfigError for results of different engines.
+// `b` checked against `a`, both as read_result() gives them. A mismatch, a lost verdict, or a
+// checked value that only `a` has is worse. ConfigError for results of different engines.
 Comparison compare(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b,
                    const Tolerances& tolerances);
 
 // One number against another, by the key of a result; nothing: it has no direction, unless
 // `maximise` says one. Empty optionals: there is no value.
-Judgement judge(const std::string& key, std::optional<double> a, std::optional<double> b,
-                const Tolerances& tolerances, std::optional<bool> maximise = std::nullopt);
+Trend check(const std::string& key, std::optional<double> a, std::optional<double> b,
+            const Tolerances& tolerances, std::optional<bool> maximise = std::nullopt);
 // Whether a worse value of this key fails a comparison.
 bool counts(const std::string& key, const Tolerances& tolerances);
 // Changes of it are differences, not percents.

@@ -26,7 +26,7 @@ struct Run {
 };
 
 // Why there is no result, as far as the directory tells.
-[[noreturn]] void refuse_unfinished(const fs::path& folder) {
+[[noreturn]] void reject_unfinished(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / ".deburr_run" / "claim.json", error))
     throw spec::FileError(
@@ -53,7 +53,7 @@ Run read_run(const fs::path& path, std::size_t index) {
   if (!fs::exists(path, error))
     throw spec::FileError(fmt::format("'{}' is not there", path.string()));
   const bool folder = fs::is_directory(path, error);
-  if (folder && !fs::exists(path / "result.json", error)) refuse_unfinished(path);
+  if (folder && !fs::exists(path / "result.json", error)) reject_unfinished(path);
   Run run{letter(index), path, folder ? path : path.parent_path(), read_result(path), nullptr};
   const fs::path manifest = run.folder / "manifest.json";
   if (!fs::is_regular_file(manifest, error)) return run;
@@ -64,7 +64,7 @@ Run read_run(const fs::path& path, std::size_t index) {
   return run;
 }
 
-void refuse_different_engines(const std::vector<Run>& runs) {
+void reject_different_engines(const std::vector<Run>& runs) {
   for (const Run& run : runs)
     if (run.result.at("unit") != runs[0].result.at("unit"))
       throw spec::ConfigError(fmt::format(
@@ -178,10 +178,9 @@ class Rows {
       if (is_infinite(value)) cell["identical"] = true;
       if (i > 0) {
         const ComparedValue* found = find(comparisons_[i - 1], key);
-        const Judgement equal = judge(key, as_number(base), as_number(value), tolerances);
+        const Trend equal = check(key, as_number(base), as_number(value), tolerances);
         cell["change"] = found ? found->change : "";
-        cell["judgement"] =
-            kJudgementNames[static_cast<std::size_t>(found ? found->judgement : equal)];
+        cell["judgement"] = kTrendNames[static_cast<std::size_t>(found ? found->verdict : equal)];
         cell["worse"] = found && found->worse;
       }
       json["cells"].push_back(cell);
@@ -253,7 +252,7 @@ Json compare_runs(const std::vector<fs::path>& paths, const Tolerances& toleranc
   std::vector<Run> runs;
   runs.reserve(paths.size());
   for (const fs::path& path : paths) runs.push_back(read_run(path, runs.size()));
-  refuse_different_engines(runs);
+  reject_different_engines(runs);
   const Rows rows(runs, tolerances);
   Json json = {{"kind", "runs"}, {"engine", runs[0].result.at("unit")}};
   json["worse"] = rows.worse();

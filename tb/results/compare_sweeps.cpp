@@ -105,7 +105,7 @@ class SweepComparison {
   SweepComparison(std::vector<Sweep> sweeps, const Tolerances& tolerances,
                   const UnsaidValue& unsaid)
       : sweeps_(std::move(sweeps)), tolerances_(tolerances), unsaid_(unsaid) {
-    refuse_different_engines();
+    reject_different_engines();
     find_axes();
     find_metrics();
     for (Sweep& sweep : sweeps_) place_points(sweep);
@@ -122,7 +122,7 @@ class SweepComparison {
   }
 
  private:
-  void refuse_different_engines() const {
+  void reject_different_engines() const {
     for (std::size_t i = 1; i < sweeps_.size(); ++i)
       if (sweeps_[i].json["engine"] != sweeps_[0].json["engine"])
         throw spec::ConfigError(fmt::format(
@@ -235,10 +235,9 @@ class SweepComparison {
     json["axes"] = axes_;
     json["metrics"] = json["objectives"] = Json::array();
     for (const MetricInfo& metric : metrics_) {
-      const Judgement more = judge(dotted(metric.key), 1, 2, tolerances_, metric.maximise);
+      const Trend more = check(dotted(metric.key), 1, 2, tolerances_, metric.maximise);
       Json direction;
-      if (more != Judgement::kNone && more != Judgement::kEqual)
-        direction = more == Judgement::kBetter;
+      if (more != Trend::kNone && more != Trend::kEqual) direction = more == Trend::kBetter;
       json["metrics"].push_back({{"name", metric.name},
                                  {"key", metric.key},
                                  {"unit", metric.unit},
@@ -331,7 +330,7 @@ class SweepComparison {
         entry["front"].push_back(point && point->front);
       }
       if (done) {
-        judge_point(row, entry);
+        check_point(row, entry);
         json["points"].push_back(std::move(entry));
         continue;
       }
@@ -351,20 +350,20 @@ class SweepComparison {
     count_joint_front(joint, json);
   }
 
-  void judge_point(const std::vector<const Point*>& row, Json& entry) {
+  void check_point(const std::vector<const Point*>& row, Json& entry) {
     bool worse = false;
     entry["judgements"] = Json::array();
     for (std::size_t i = 1; i < row.size(); ++i) {
-      Json judged = Json::array();
+      Json checked = Json::array();
       for (std::size_t m = 0; m < metrics_.size(); ++m) {
         const std::string key = dotted(metrics_[m].key);
         const auto a = row[0]->values[m], b = row[i]->values[m];
-        const Judgement judgement = judge(key, a, b, tolerances_, metrics_[m].maximise);
-        judged.push_back(kJudgementNames[static_cast<std::size_t>(judgement)]);
-        worse = worse || (judgement == Judgement::kWorse && counts(key, tolerances_));
-        sums_[i][m].add(judgement, a, b, in_decibels(key));
+        const Trend verdict = check(key, a, b, tolerances_, metrics_[m].maximise);
+        checked.push_back(kTrendNames[static_cast<std::size_t>(verdict)]);
+        worse = worse || (verdict == Trend::kWorse && counts(key, tolerances_));
+        sums_[i][m].add(verdict, a, b, in_decibels(key));
       }
-      entry["judgements"].push_back(judged);
+      entry["judgements"].push_back(checked);
     }
     entry["worse"] = worse;
     worse_ = worse_ || worse;
@@ -420,10 +419,10 @@ class SweepComparison {
     std::uint64_t better = 0, equal = 0, worse = 0, changes = 0;
     double sum = 0, least = INFINITY, most = -INFINITY;
 
-    void add(Judgement judgement, std::optional<double> a, std::optional<double> b, bool decibels) {
-      better += judgement == Judgement::kBetter;
-      worse += judgement == Judgement::kWorse;
-      equal += judgement == Judgement::kEqual;
+    void add(Trend verdict, std::optional<double> a, std::optional<double> b, bool decibels) {
+      better += verdict == Trend::kBetter;
+      worse += verdict == Trend::kWorse;
+      equal += verdict == Trend::kEqual;
       if (!a || !b || !std::isfinite(*a) || !std::isfinite(*b) || (!decibels && *a == 0)) return;
       const double change = decibels ? *b - *a : 100 * (*b - *a) / std::fabs(*a);
       ++changes;

@@ -134,11 +134,11 @@ class ComparisonPage {
     for (std::size_t i = 1; i < runs.size(); ++i) {
       std::string better, worse;
       for (const Json& figure : comparison_.at("figures")) {
-        const Json& judged = figure.at("cells").at(i);
-        const std::string state = judged.value("judgement", "");
+        const Json& checked = figure.at("cells").at(i);
+        const std::string state = checked.value("judgement", "");
         std::string& list = state == "better" ? better : worse;
         if (state != "better" && state != "worse") continue;
-        const std::string change = judged.value("change", "");
+        const std::string change = checked.value("change", "");
         list += (list.empty() ? "" : ", ") + figure.at("label").get<std::string>() +
                 (change.empty() ? "" : " " + change);
       }
@@ -166,11 +166,11 @@ class ComparisonPage {
           most = std::max(most, std::fabs(*value));
       mustache::data cells{mustache::data::type::list};
       for (const Json& entry : figure.at("cells")) {
-        const std::string judgement = entry.value("judgement", "");
+        const std::string verdict = entry.value("judgement", "");
         const bool worse = entry.value("worse", false);
         mustache::data data = cell(entry.value("identical", false) ? entry.value("text", "")
                                                                    : figure_text(entry.at("value")),
-                                   entry.value("change", ""), worse ? "worse fails" : judgement);
+                                   entry.value("change", ""), worse ? "worse fails" : verdict);
         const auto value = as_number(entry.at("value"));
         // A share of decibels says nothing.
         data.set("has_bar",
@@ -262,9 +262,9 @@ class ComparisonPage {
         row.set("metric", text_of(metrics[m].at("name")));
         row.set("unit", text_of(metrics[m].at("unit")));
         row.set("meaning", text_of(metrics[m].at("meaning")));
-        const bool judged = !metrics[m].at("maximise").is_null();
+        const bool checked = !metrics[m].at("maximise").is_null();
         for (const char* key : {"better", "equal", "worse"})
-          row.set(key, judged ? figure_text(sum.at(key)) : "-");
+          row.set(key, checked ? figure_text(sum.at(key)) : "-");
         row.set("state", sum.at("worse") != 0 ? "worse" : "");
         for (const char* key : {"mean", "least", "most"})
           row.set(key, sum.contains(key) ? fmt::format("{:+.2f} {}", sum[key].get<double>(),

@@ -108,7 +108,7 @@ std::vector<std::string> InputFiles::contents(const std::vector<fs::path>& files
   return contents;
 }
 
-void InputFiles::refuse_changed(const std::vector<fs::path>& files) {
+void InputFiles::reject_changed(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) {
     const auto known = known_.find(file);
     if (known == known_.end()) continue;

@@ -39,7 +39,7 @@ class InputFiles {
   // Of several, for a key.
   std::vector<std::string> contents(const std::vector<std::filesystem::path>& files);
   // FileError if one of them, asked for before, is not as it was then.
-  void refuse_changed(const std::vector<std::filesystem::path>& files);
+  void reject_changed(const std::vector<std::filesystem::path>& files);
   // All that were asked for, and what they hold.
   std::map<std::string, std::string> all() const;
   MeshFiles& meshes() { return meshes_; }

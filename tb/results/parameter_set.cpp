@@ -348,7 +348,7 @@ std::vector<const Parameter*> ParameterSet::changed() const {
   return changed;
 }
 
-void ParameterSet::refuse(std::string_view name, std::string_view why) const {
+void ParameterSet::reject(std::string_view name, std::string_view why) const {
   const auto given = given_.find(name);
   if (given == given_.end()) return;
   const Parameter& p = *find(name);
@@ -358,9 +358,9 @@ void ParameterSet::refuse(std::string_view name, std::string_view why) const {
       fmt::format("{}: '{}' = '{}' has no effect: {}", given->second.where, name, p.text(), why));
 }
 
-void ParameterSet::refuse_all(std::string_view prefix, std::string_view why) const {
+void ParameterSet::reject_all(std::string_view prefix, std::string_view why) const {
   for (const Parameter& p : parameters_)
-    if (p.name.starts_with(prefix)) refuse(p.name, why);
+    if (p.name.starts_with(prefix)) reject(p.name, why);
 }
 
 void ParameterSet::check_build() const {

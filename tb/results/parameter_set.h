@@ -55,7 +55,7 @@ struct Parameter {
   std::string implied, implied_by;
   std::function<std::string()> text;                   // the value now
   std::function<nlohmann::ordered_json()> json;        // the same, typed
-  std::function<std::string(std::string_view)> parse;  // "" or why the text is refused
+  std::function<std::string(std::string_view)> parse;  // "" or why the text is rejected
   std::vector<std::string> aliases{};                  // other words for values, as of alias()
   GivenWork work = GivenWork::kNone;
 };
@@ -124,9 +124,9 @@ class ParameterSet {
   std::string_view origin(const Parameter& parameter) const;
   // ConfigError if it was given although it has no effect. A file, which may be a whole resolved
   // configuration, may hold its default.
-  void refuse(std::string_view name, std::string_view why) const;
+  void reject(std::string_view name, std::string_view why) const;
   // The same for every parameter whose name begins so.
-  void refuse_all(std::string_view prefix, std::string_view why) const;
+  void reject_all(std::string_view prefix, std::string_view why) const;
   // ConfigError if hardware of one of the engines cannot be built, for the first reason.
   void check_build() const;
   const std::vector<BuildLimit>& build_limits() const { return build_limits_; }

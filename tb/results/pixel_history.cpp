@@ -39,7 +39,7 @@ PixelAddress pixel_of(const std::string& text) {
   return {*x, *y};
 }
 
-void refuse_outside(const PixelAddress& pixel, int width, int height) {
+void reject_outside(const PixelAddress& pixel, int width, int height) {
   if (pixel.x < width && pixel.y < height) return;
   throw spec::ConfigError(
       fmt::format("run.pixel = {},{} is outside of the picture of {} x {} pixels: give a column of "

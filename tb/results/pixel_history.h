@@ -19,7 +19,7 @@ struct PixelAddress {
 // "X,Y"; ConfigError for anything else.
 PixelAddress pixel_of(const std::string& text);
 // ConfigError for a pixel outside of a picture of this size.
-void refuse_outside(const PixelAddress& pixel, int width, int height);
+void reject_outside(const PixelAddress& pixel, int width, int height);
 
 struct PixelStep {
   std::string part;              // "fragment 0": which of several that the pixel has

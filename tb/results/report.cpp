@@ -401,7 +401,7 @@ class ReportBuilder {
     std::uint64_t width = UINT64_MAX, height = UINT64_MAX;
     for (const Json& image : list) {
       const fs::path file = image.value("file", "");
-      refuse_path(directory, file);
+      reject_path(directory, file);
       pngs.push_back(read_file(directory / file, kMaxImageBytes));
       const auto [across, down] = png_size(pngs.back());
       width = std::min(width, across);
@@ -431,7 +431,7 @@ class ReportBuilder {
   void keep_values(const fs::path& directory, const Json& map) {
     const std::string picture = map.value("picture", ""), name = map.value("values", "");
     if (picture.empty() || name.empty() || number(map, "pixels") == 0) return;
-    refuse_path(directory, name);
+    reject_path(directory, name);
     const fs::path file = directory / name;
     if (!fs::exists(file)) return;
     const std::string bytes = read_file(file, kMaxImageBytes);
@@ -465,7 +465,7 @@ class ReportBuilder {
     const std::string name = manifest_.value("records", Json::object()).value("windows", "");
     page_.set("has_windows", !name.empty());
     if (name.empty()) return;
-    refuse_path(directory, name);
+    reject_path(directory, name);
     const fs::path file = directory / name;
     windows_ = Json::parse(read_file(file, kMaxWindowsBytes), nullptr, false);
     const auto demand = [&](bool valid) {
@@ -567,7 +567,7 @@ class ReportBuilder {
   }
 
   // Only names inside the directory: a manifest from elsewhere must not pull other files in.
-  static void refuse_path(const fs::path& directory, const fs::path& file) {
+  static void reject_path(const fs::path& directory, const fs::path& file) {
     if (file.empty() || file.has_parent_path())
       throw spec::FileError(fmt::format("'{}': '{}' is not a file name",
                                         (directory / "manifest.json").string(), file.string()));

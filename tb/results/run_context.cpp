@@ -86,7 +86,7 @@ RunContext::RunContext(fs::path directory, const ParameterSet& parameters, std::
 RunContext::~RunContext() = default;
 
 fs::path RunContext::draft_file(const char* name) const {
-  return judging_only_ ? "/dev/null" : directory_.draft() / name;
+  return checking_only_ ? "/dev/null" : directory_.draft() / name;
 }
 
 void RunContext::claim(IfTaken if_taken) {
@@ -132,7 +132,7 @@ std::string RunContext::shared_bytes(std::string_view what,
   if (!shared_) return make();
   return shared_->bytes(key_of(what, prefixes), [&] {
     std::string made = make();
-    shared_->files().refuse_changed(shared_files_);
+    shared_->files().reject_changed(shared_files_);
     return made;
   });
 }
@@ -144,7 +144,7 @@ void RunContext::add_inputs(const std::vector<fs::path>& files) {
                  fmt::format("'{}' was read, and is in no key", file.string()));
     list(file, shared_ ? shared_->files().content(file) : content_of(file), "");
   }
-  if (shared_) shared_->files().refuse_changed(files);
+  if (shared_) shared_->files().reject_changed(files);
 }
 
 // As it was read: a pipe gives it once.
@@ -153,7 +153,7 @@ void RunContext::add_configuration(const fs::path& file, const std::string& text
 }
 
 Json& RunContext::list(const fs::path& file, std::string_view content, std::string_view role) {
-  directory_.refuse_to_replace(file);
+  directory_.reject_to_replace(file);
   Json entry = input_entry(file, content, role);
   std::error_code error;
   if (entry.contains("sha256")) entry["bytes"] = fs::file_size(file, error);

@@ -2,7 +2,7 @@
 // What surrounds one run of an engine: its parameters, inputs, output directory and manifest.
 //
 //   RunContext context(...);        // touches nothing
-//   context.claim();                // may refuse; then waves may be written to trace_file()
+//   context.claim();                // may reject; then waves may be written to trace_file()
 //   context.add_inputs(files);      // every file that was read
 //   context.add_image(...);
 //   context.finish(result);         // without it, an earlier run's results stay as they were
@@ -49,9 +49,9 @@ class RunContext {
   // Nothing on the error stream but errors.
   void set_quiet(bool quiet) { quiet_ = quiet; }
   bool quiet() const { return quiet_; }
-  // A run that ends where it would begin: everything that was given has been judged.
-  void set_judging_only() { judging_only_ = true; }
-  bool judging_only() const { return judging_only_; }
+  // A run that ends where it would begin: everything that was given has been checked.
+  void set_checking_only() { checking_only_ = true; }
+  bool checking_only() const { return checking_only_; }
   // Without: no report.html, which `deburr report` makes of what is left.
   void set_report(bool wanted) { report_ = wanted; }
   // Runs that are given the same one make what they have in common once. `files` are all that this
@@ -83,10 +83,10 @@ class RunContext {
   // What had to be decided about an input (a mesh without normals): on the error stream, in result
   // and report.
   void add_note(const std::string& note);
-  // Before claim(), which refuses to replace what somebody else left under one of these names.
+  // Before claim(), which rejects to replace what somebody else left under one of these names.
   void set_leaves(Leaves leaves) { leaves_ = std::move(leaves); }
   // The directory is this run's from here on (RunDirectory::claim).
-  void claim(IfTaken if_taken = IfTaken::kRefuse);
+  void claim(IfTaken if_taken = IfTaken::kReject);
   // Lists files that the result depends on, those too that were looked for in vain. ConfigError if
   // the results would replace one.
   void add_inputs(const std::vector<std::filesystem::path>& files);
@@ -126,7 +126,7 @@ class RunContext {
   const ParameterSet& parameters_;
   std::string command_, title_, summary_, started_;
   std::uint64_t seed_;
-  bool quiet_ = false, judging_only_ = false, report_ = true;
+  bool quiet_ = false, checking_only_ = false, report_ = true;
   std::shared_ptr<SharedInputs> shared_;
   Leaves leaves_;
   std::vector<std::filesystem::path> shared_files_;

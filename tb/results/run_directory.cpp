@@ -80,7 +80,7 @@ std::string holder(const fs::path& claim) {
                   action, path.string(), reason));
 }
 
-[[noreturn]] void refuse_foreign(const fs::path& file) {
+[[noreturn]] void reject_foreign(const fs::path& file) {
   throw spec::ConfigError(
       fmt::format("'{}' exists, and no manifest.json beside it names it as an earlier run's: move "
                   "it away, or choose another directory with --out",
@@ -124,7 +124,7 @@ void RunDirectory::claim(const std::string& command, std::vector<std::string> na
   names_.emplace_back(kManifest);
   for (const std::string& name : names_)
     if (fs::exists(fs::symlink_status(path_ / name)) && !ours.contains(name))
-      refuse_foreign(path_ / name);
+      reject_foreign(path_ / name);
 }
 
 void RunDirectory::lock(IfTaken if_taken) {
@@ -135,7 +135,7 @@ void RunDirectory::lock(IfTaken if_taken) {
   bool told = false;
   while (!try_lock()) {
     const std::string other = holder(draft() / kClaim);
-    if (if_taken == IfTaken::kRefuse && (!other.empty() || steady_clock::now() > patience))
+    if (if_taken == IfTaken::kReject && (!other.empty() || steady_clock::now() > patience))
       throw spec::FileError(fmt::format(
           "'{}' is taken by another run{}: wait until it is over (--wait does), or choose another "
           "directory with --out",
@@ -209,7 +209,7 @@ std::set<std::string> RunDirectory::earlier() const {
   return names;
 }
 
-void RunDirectory::refuse_to_replace(const fs::path& file) const {
+void RunDirectory::reject_to_replace(const fs::path& file) const {
   // An earlier run's files go as well, those that this run does not make anew.
   std::set<std::string> going = earlier();
   going.insert(names_.begin(), names_.end());
@@ -236,7 +236,7 @@ void RunDirectory::publish(Json manifest, std::string_view head) {
   const std::set<std::string> ours = earlier();
   for (const std::string& name : files)
     if (fs::exists(fs::symlink_status(path_ / name)) && !ours.contains(name))
-      refuse_foreign(path_ / name);
+      reject_foreign(path_ / name);
   manifest["files"] = files;
   write_file_atomically(draft() / kManifest, manifest.dump(2) + "\n");
   move_in();

@@ -24,7 +24,7 @@
 namespace deburr::tb {
 
 // What a run does that finds its directory taken.
-enum class IfTaken { kRefuse, kWait };
+enum class IfTaken { kReject, kWait };
 
 class RunDirectory {
  public:
@@ -36,11 +36,11 @@ class RunDirectory {
 
   // Makes the directory, takes it and proves it writable; `names` are the files that may be left
   // there besides manifest.json, `command` is what others are told. FileError when another run has
-  // it (IfTaken::kRefuse) or nothing can be written; ConfigError where one of the names is a file
+  // it (IfTaken::kReject) or nothing can be written; ConfigError where one of the names is a file
   // that no earlier run left; Interrupted by Ctrl-C while it waits.
   void claim(const std::string& command, std::vector<std::string> names, IfTaken if_taken);
   // ConfigError if `file`, which is read, would be replaced or removed. After claim().
-  void refuse_to_replace(const std::filesystem::path& file) const;
+  void reject_to_replace(const std::filesystem::path& file) const;
   // Everything in draft() takes the place of the earlier results; `manifest` lists it. `head` is
   // the file without which nothing is a result. FileError leaves the earlier results whole.
   void publish(nlohmann::ordered_json manifest, std::string_view head);

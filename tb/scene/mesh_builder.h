@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What OBJ and glTF import have in common: collects triangles, fills in what the file does not say,
-// shares equal vertices, refuses what cannot be drawn. Internal to tb/scene.
+// shares equal vertices, rejects what cannot be drawn. Internal to tb/scene.
 #pragma once
 
 #include <cstddef>

@@ -13,7 +13,7 @@
 
 namespace deburr::tb {
 
-void refuse_sizes(int width, int height, int other_width, int other_height) {
+void reject_sizes(int width, int height, int other_width, int other_height) {
   throw spec::ConfigError(
       fmt::format("pictures of different size cannot be compared: {} x {} and {} x {}", width,
                   height, other_width, other_height));

@@ -10,13 +10,13 @@
 
 namespace deburr::tb {
 
-[[noreturn]] void refuse_sizes(int width, int height, int other_width, int other_height);
+[[noreturn]] void reject_sizes(int width, int height, int other_width, int other_height);
 
 // ConfigError where sizes differ.
 template <class A, class B>
 void require_same_size(const ImageOf<A>& a, const ImageOf<B>& b) {
   if (a.width != b.width || a.height != b.height)
-    refuse_sizes(a.width, a.height, b.width, b.height);
+    reject_sizes(a.width, a.height, b.width, b.height);
 }
 
 // Mean squared error over R, G and B, in units of 1/255. Sizes must agree (ConfigError).

@@ -241,7 +241,7 @@ void make_terrain(Scene& scene, const SceneOptions& options) {
 
 void finish(Scene& scene, const SceneOptions& options) {
   if (options.camera) scene.camera = *options.camera;
-  View(scene.camera, 1, 1, 1);  // refuses an impossible camera here, with its reason
+  View(scene.camera, 1, 1, 1);  // rejects an impossible camera here, with its reason
 }
 
 }  // namespace

@@ -23,9 +23,9 @@ namespace deburr::tb {
 #define DEBURR_HAS_ADDRESS_SANITIZER
 #endif
 #ifdef DEBURR_HAS_ADDRESS_SANITIZER
-inline constexpr bool kJudgeMemory = false;
+inline constexpr bool kCheckMemory = false;
 #else
-inline constexpr bool kJudgeMemory = true;
+inline constexpr bool kCheckMemory = true;
 #endif
 
 // Of the process: resident memory in bytes; 0 where it is gone.

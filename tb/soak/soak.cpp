@@ -239,14 +239,14 @@ class Soak {
     if (ended.said.code != 0) complain(engine, settings, ended.said.reason);
     if (!is_long) return;
     const std::string grown =
-        is_judged(ended.resident) ? growth(ended.resident, kResidentAllowance) : "";
+        is_checked(ended.resident) ? growth(ended.resident, kResidentAllowance) : "";
     std::string tenth;
     for (const std::uint64_t bytes : tenths(ended.resident))
       tenth += fmt::format(" {}", megabytes(bytes));
     fmt::print("long run  {}, seed {}: {} frames, {} clocks, MB in each tenth{}{}\n", engine, seed,
                ended.said.frames, ended.said.cycles, tenth, grown.empty() ? "" : " GREW");
     ++long_runs_;
-    if (is_judged(ended.resident)) ++judged_;
+    if (is_checked(ended.resident)) ++checked_;
     if (grown.empty()) return;
     ++grown_;
     complain(engine, settings, "memory grew " + grown);
@@ -310,13 +310,13 @@ class Soak {
                  t.cycles, t.comparisons, t.mismatches, t.failures);
     const Totals t = all();
     std::string grown;
-    if (is_judged(heap_)) {
+    if (is_checked(heap_)) {
       if (const std::string heap = growth(heap_, kHeapAllowance); !heap.empty())
         grown += "; this process's heap grew " + heap;
       if (const std::string pages = growth(resident_, kResidentAllowance); !pages.empty())
         grown += "; this process's resident memory grew " + pages;
     }
-    if (grown_ > 0) grown += fmt::format("; memory grew in {} of {} long runs", grown_, judged_);
+    if (grown_ > 0) grown += fmt::format("; memory grew in {} of {} long runs", grown_, checked_);
     const bool good = t.mismatches + t.failures == 0 && grown.empty() && t.comparisons > 0;
     fmt::print(
         "RESULT: {} soak: {} runs in {:.0f} s, {} of them long, {} of these long enough to check "
@@ -324,16 +324,17 @@ class Soak {
         !good           ? "FAIL"
         : interrupted() ? "INTERRUPTED"
                         : "PASS",
-        t.runs, seconds_since(start_), long_runs_, judged_, t.comparisons, t.mismatches, t.failures,
-        !grown.empty()     ? "not flat"
-        : is_judged(heap_) ? "flat"
-                           : "not checked",
+        t.runs, seconds_since(start_), long_runs_, checked_, t.comparisons, t.mismatches,
+        t.failures,
+        !grown.empty()      ? "not flat"
+        : is_checked(heap_) ? "flat"
+                            : "not checked",
         grown);
     return !good ? 1 : interrupted() ? kInterruptedExit : 0;
   }
 
-  static bool is_judged(const std::vector<std::uint64_t>& samples) {
-    return kJudgeMemory && samples.size() >= kLeastSamples;
+  static bool is_checked(const std::vector<std::uint64_t>& samples) {
+    return kCheckMemory && samples.size() >= kLeastSamples;
   }
 
   static constexpr std::size_t kSamples = 101;
@@ -344,7 +345,7 @@ class Soak {
   double next_ = 0.1, next_sample_ = 0;
   std::map<std::string, Totals> totals_;
   std::vector<std::uint64_t> heap_, resident_;
-  std::uint64_t long_runs_ = 0, judged_ = 0, grown_ = 0;
+  std::uint64_t long_runs_ = 0, checked_ = 0, grown_ = 0;
 };
 
 }  // namespace

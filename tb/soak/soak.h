@@ -3,7 +3,7 @@
 // for as long as there is time.
 //
 // SystemC elaborates once a process, so every run is a child, which this process forks when it has
-// drawn the configuration. Memory is judged twice: this process's, which draws thousands of scenes
+// drawn the configuration. Memory is checked twice: this process's, which draws thousands of scenes
 // and configurations, and that of long runs, children that simulate hundreds of frames.
 #pragma once
 

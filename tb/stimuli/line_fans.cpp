@@ -20,7 +20,7 @@ using golden::ideal::HalfPlane;
 
 constexpr int kSlopes = 20;
 constexpr int kMarginSteps = 17;  // N = 16 and the run itself
-constexpr int kJudgedColumns = 120;
+constexpr int kCheckedColumns = 120;
 constexpr int kMarginRows = 3;
 
 struct Sum {
@@ -53,7 +53,7 @@ bool in_class(std::size_t slope_class, int n) {
 void measure_line(const Smoothing& smoothing, int n, double slope, double phase, bool transpose,
                   Sums& sums) {
   const int margin = kMarginSteps * (n + 1) + 1;
-  const int width = kJudgedColumns + 2 * margin;
+  const int width = kCheckedColumns + 2 * margin;
   const int height = static_cast<int>(width * std::abs(slope)) + 2 * kMarginRows + 2;
   const double start = slope > 0 ? kMarginRows : height - kMarginRows;
   const HalfPlane above{slope, -1, start + (slope > 0 ? phase : -phase)};

@@ -8,7 +8,7 @@
 //   by_class    over pixels that the line crosses
 //   undulation  e(x), the sum of the error over column x: what the eye sees along the line
 //   jump        e(x + 1) - e(x)
-// Only columns far enough from the frame's sides for every extension are judged.
+// Only columns far enough from the frame's sides for every extension are checked.
 //
 // The interval of u matters: lines near 1 / n give equal steps only, whose phase no pixel tells.
 #pragma once

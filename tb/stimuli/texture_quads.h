@@ -108,7 +108,7 @@ inline spec::texture::Descriptor random_texture(Random& random, std::uint32_t me
   return d;
 }
 
-// Makes a descriptor one that the unit must refuse, by a code that the registers can hold.
+// Makes a descriptor one that the unit must reject, by a code that the registers can hold.
 inline void spoil(Random& random, spec::texture::Descriptor& d) {
   switch (random.below(10)) {
     case 0:

@@ -133,7 +133,7 @@ class Collector {
       all_.metrics.push_back({metric.name, metric.key, "", ""});
     found_.assign(sweep_.metrics.size(), false);
     for_each_point(points_file(place_.directory), [&](const PlannedPoint& point) { add(point); });
-    refuse_unknown_metrics();
+    reject_unknown_metrics();
     find_front();
     find_effects();
     return std::move(all_);
@@ -204,7 +204,7 @@ class Collector {
     all_.metrics[metric].meaning = entry.value("meaning", "");
   }
 
-  void refuse_unknown_metrics() const {
+  void reject_unknown_metrics() const {
     if (all_.done == 0) return;
     for (std::size_t i = 0; i < found_.size(); ++i)
       if (!found_[i] && !first_result_.is_null()) {

@@ -91,11 +91,11 @@ class Reader {
       const std::string text = scalar(node, "refused");
       if (text != "error" && text != "skip")
         fail(node, fmt::format("'refused' = '{}' wants error or skip", text));
-      sweep_.skip_refused = text == "skip";
+      sweep_.skip_rejected = text == "skip";
     }
   }
 
-  // Throws where the parameter is unknown or refuses the value.
+  // Throws where the parameter is unknown or rejects the value.
   void try_value(const std::string& name, const std::string& value, const YAML::Node& node) const {
     BoundEngine scratch(*engine_);
     scratch.set.set(name, value, where(node));

@@ -77,7 +77,7 @@ struct SweepDefinition {
   SweepSampling sampling = SweepSampling::kCartesian;
   std::uint64_t samples = 0, sample_seed = 1;  // of kRandom and kLatin
   std::vector<Constraint> constraints;
-  bool skip_refused = false;  // points that the engine refuses are left out, not an error
+  bool skip_rejected = false;  // points that the engine rejects are left out, not an error
   std::vector<Metric> metrics;
   std::vector<Expression> limits;  // comparisons of metrics: a point beyond one is on no front
   std::vector<Objective> objectives;
@@ -91,7 +91,7 @@ struct SweepDefinition {
 SweepDefinition read_sweep(const std::filesystem::path& file);
 
 // The part of it that says what is run: its keys, and how another file with such parts reads one.
-// Without axes and points it is one point, its base. The caller judges the keys of the part.
+// Without axes and points it is one point, its base. The caller checks the keys of the part.
 const std::vector<std::string>& stimulus_keys();
 SweepDefinition read_stimuli(const YamlFile& file, const YAML::Node& part);
 

@@ -30,13 +30,13 @@ class Evolution {
 
   virtual ~Evolution() = default;
   // As many children as there are parents: tournaments by rank and crowding, crossover, mutation.
-  // `sizes` has the number of choices of each axis. Empty where pagmo refuses; then error() says
+  // `sizes` has the number of choices of each axis. Empty where pagmo rejects; then error() says
   // why.
   virtual std::vector<Genes> children(const std::vector<Individual>& parents,
                                       const std::vector<std::uint32_t>& sizes,
                                       std::uint32_t seed) = 0;
   // The indices of the best so many, all of them where there are no more: by rank, of the last rank
-  // by crowding. Empty where pagmo refuses.
+  // by crowding. Empty where pagmo rejects.
   virtual std::vector<std::size_t> best(const std::vector<Costs>& all, std::size_t number) = 0;
   virtual std::string error() const = 0;
 };

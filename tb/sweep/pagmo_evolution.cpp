@@ -28,7 +28,7 @@ struct Axes {
   }
   std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
     pagmo::vector_double most;
-    // It refuses bounds that leave one value.
+    // It rejects bounds that leave one value.
     for (const std::uint32_t size : sizes) most.push_back(std::max(size, 2u) - 1.0);
     return {pagmo::vector_double(sizes.size(), 0.0), most};
   }

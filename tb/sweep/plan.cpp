@@ -107,11 +107,11 @@ Json to_json(const Plan& plan) {
   return json;
 }
 
-// Expands and judges every sample.
+// Expands and checks every sample.
 class Planner {
  public:
   Planner(const SweepDefinition& sweep, Plan& plan, LineFile& lines)
-      : sweep_(sweep), plan_(plan), lines_(lines), judge_(sweep, plan) {}
+      : sweep_(sweep), plan_(plan), lines_(lines), check_(sweep, plan) {}
 
   void run() {
     Progress progress("planning", sample_bound(sweep_), "point");
@@ -121,8 +121,8 @@ class Planner {
     });
     if (plan_.points == 0)
       throw ConfigError(fmt::format("{}: no point is left of {}: {}", plan_.file, grouped(seen_),
-                                    judge_.reasons()));
-    judge_.tell(plan_);
+                                    check_.reasons()));
+    check_.tell(plan_);
     if (twice_ > 0)
       plan_.left_out.push_back(fmt::format("{} that are the same as another one", grouped(twice_)));
     if (sweep_.sampling == SweepSampling::kRandom && plan_.points < sweep_.samples)
@@ -133,7 +133,7 @@ class Planner {
 
  private:
   bool take(const Sample& sample) {
-    const std::optional<PlannedPoint> point = judge_.judge(sample);
+    const std::optional<PlannedPoint> point = check_.check(sample);
     if (!point) return false;
     if (!names_.insert(point->name).second) {
       if (point->sample == sample) ++twice_;  // else it is told by an axis that is not given
@@ -147,7 +147,7 @@ class Planner {
   const SweepDefinition& sweep_;
   Plan& plan_;
   LineFile& lines_;
-  PointJudge judge_;
+  PointChecker check_;
   std::uint64_t seen_ = 0, twice_ = 0;
   std::unordered_set<std::string> names_;
 };
@@ -189,11 +189,11 @@ void PointNamer::tell(Plan& plan) const {
   plan.files = files_.all();
 }
 
-PointJudge::PointJudge(const SweepDefinition& sweep, const Plan& plan)
+PointChecker::PointChecker(const SweepDefinition& sweep, const Plan& plan)
     : sweep_(sweep), plan_(plan), excluded_(sweep.constraints.size(), 0) {}
 
 // Axes that have no effect on this point are not given.
-Sample PointJudge::without_idle_axes(const Sample& sample) const {
+Sample PointChecker::without_idle_axes(const Sample& sample) const {
   Sample bare = sample, given = sample;
   for (std::size_t i = 0; i < sample.size(); ++i)
     if (sweep_.axes[i].when) bare[i] = kNotGiven;
@@ -208,14 +208,14 @@ Sample PointJudge::without_idle_axes(const Sample& sample) const {
   return given;
 }
 
-std::optional<PlannedPoint> PointJudge::judge(const Sample& all) {
+std::optional<PlannedPoint> PointChecker::check(const Sample& all) {
   const Sample sample = without_idle_axes(all);
   PointEngine point(plan_.engine, plan_.settings_of(sample));
-  std::optional<std::string> refusal;
+  std::optional<std::string> rejection;
   try {
     point.bound.resolve();
   } catch (const ConfigError& error) {
-    refusal = error.what();
+    rejection = error.what();
   }
   // What a constraint leaves out need not make sense.
   for (std::size_t i = 0; i < sweep_.constraints.size(); ++i)
@@ -223,39 +223,39 @@ std::optional<PlannedPoint> PointJudge::judge(const Sample& all) {
       ++excluded_[i];
       return std::nullopt;
     }
-  if (refusal) {
-    if (!sweep_.skip_refused)
+  if (rejection) {
+    if (!sweep_.skip_rejected)
       throw ConfigError(fmt::format(
           "{}: the engine rejects the point {}: {}; leave such points out with a constraint, or "
           "all that are rejected with 'refused: skip'",
-          plan_.file, in_words(plan_, sample), headline(*refusal)));
-    if (refused_++ == 0) first_refusal_ = in_words(plan_, sample) + ": " + headline(*refusal);
+          plan_.file, in_words(plan_, sample), headline(*rejection)));
+    if (rejected_++ == 0) first_rejection_ = in_words(plan_, sample) + ": " + headline(*rejection);
     return std::nullopt;
   }
   return namer_.name(point.bound, sample);
 }
 
-void PointJudge::tell(Plan& plan) const {
+void PointChecker::tell(Plan& plan) const {
   namer_.tell(plan);
   plan.left_out.clear();
   for (std::size_t i = 0; i < excluded_.size(); ++i)
     if (excluded_[i] > 0)
       plan.left_out.push_back(fmt::format("{} by the constraint '{}'", grouped(excluded_[i]),
                                           sweep_.constraints[i].text()));
-  if (refused_ > 0)
+  if (rejected_ > 0)
     plan.left_out.push_back(fmt::format("{} that the engine rejects, the first: {}",
-                                        grouped(refused_), first_refusal_));
+                                        grouped(rejected_), first_rejection_));
 }
 
-std::string PointJudge::reasons() const {
+std::string PointChecker::reasons() const {
   std::string why;
   for (std::size_t i = 0; i < excluded_.size(); ++i)
     if (excluded_[i] > 0)
       why += fmt::format("{}'{}' excludes {}", why.empty() ? "" : ", of the rest ",
                          sweep_.constraints[i].text(), grouped(excluded_[i]));
-  if (refused_ > 0)
+  if (rejected_ > 0)
     why += fmt::format("{}the engine rejects {}, the first {}", why.empty() ? "" : "; ",
-                       grouped(refused_), first_refusal_);
+                       grouped(rejected_), first_rejection_);
   return why;
 }
 

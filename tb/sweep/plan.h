@@ -78,7 +78,7 @@ struct Plan {
 };
 
 // Expands the definition into the place, unless the plan there was made from the same. ConfigError
-// for too many points, for none, and for points that the engine refuses.
+// for too many points, for none, and for points that the engine rejects.
 Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place);
 // A plan of the definition without its points.
 Plan plan_without_points(const SweepDefinition& sweep);
@@ -112,13 +112,13 @@ class PointNamer {
 };
 
 // Tells which samples are points, names these, and counts the others.
-class PointJudge {
+class PointChecker {
  public:
   // Both must outlive it.
-  PointJudge(const SweepDefinition& sweep, const Plan& plan);
-  // None for what a constraint or the engine leaves out. ConfigError for what the engine refuses
+  PointChecker(const SweepDefinition& sweep, const Plan& plan);
+  // None for what a constraint or the engine leaves out. ConfigError for what the engine rejects
   // where the sweep does not say `refused: skip`.
-  std::optional<PlannedPoint> judge(const Sample& sample);
+  std::optional<PlannedPoint> check(const Sample& sample);
   // For the plan: files that the points so far read, how many inputs, what was left out.
   void tell(Plan& plan) const;
   // Why no sample was a point.
@@ -130,9 +130,9 @@ class PointJudge {
   const SweepDefinition& sweep_;
   const Plan& plan_;
   PointNamer namer_;
-  std::uint64_t refused_ = 0;
+  std::uint64_t rejected_ = 0;
   std::vector<std::uint64_t> excluded_;  // by each constraint
-  std::string first_refusal_;
+  std::string first_rejection_;
 };
 
 std::filesystem::path points_file(const std::filesystem::path& directory);

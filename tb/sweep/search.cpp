@@ -39,7 +39,7 @@ bool is_number(const std::string& text) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-void refuse_what_cannot_be_searched(const SweepDefinition& sweep) {
+void reject_what_cannot_be_searched(const SweepDefinition& sweep) {
   const std::string file = sweep.file.string();
   if (sweep.sampling == SweepSampling::kListed)
     throw ConfigError(file + ": a search chooses among 'axes'; 'points' are all taken");
@@ -64,7 +64,7 @@ class SweepSearch {
         run_generation_(run_generation),
         watch_(watch),
         plan_(plan_without_points(sweep)),
-        judge_(sweep, plan_) {
+        check_(sweep, plan_) {
     for (std::size_t axis = 0; axis < sweep.axes.size(); ++axis)
       if (std::find(sweep.front_axes.begin(), sweep.front_axes.end(), axis) ==
           sweep.front_axes.end())
@@ -101,7 +101,7 @@ class SweepSearch {
     }
     if (points_.empty() && !end.interrupted)
       throw ConfigError(
-          fmt::format("{}: no point was found: {}", sweep_.file.string(), judge_.reasons()));
+          fmt::format("{}: no point was found: {}", sweep_.file.string(), check_.reasons()));
     end.plan = plan_;
     return end;
   }
@@ -133,7 +133,7 @@ class SweepSearch {
     }
     space.name = [&](const Genes& genes) -> std::optional<std::string> {
       const auto [known, is_new] = named_.try_emplace(sample_of(front, genes));
-      if (is_new) known->second = judge_.judge(sample_of(front, genes));
+      if (is_new) known->second = check_.check(sample_of(front, genes));
       if (!known->second) return std::nullopt;
       return known->second->name;
     };
@@ -162,7 +162,7 @@ class SweepSearch {
     if (interrupted() || run_generation_(plan_, generation) == kInterruptedExit)
       throw Interrupted();
     watch_(points_.size());
-    if (first) collect(sweep_, place_);  // refuses metrics that no result has
+    if (first) collect(sweep_, place_);  // rejects metrics that no result has
     std::vector<Costs> costs;
     costs.reserve(generation.size());
     for (const PlannedPoint& point : generation) costs.push_back(costs_of(point));
@@ -189,7 +189,7 @@ class SweepSearch {
   }
 
   void write() {
-    judge_.tell(plan_);
+    check_.tell(plan_);
     plan_.points = points_.size();
     const std::uint64_t all = sample_bound(sweep_);
     plan_.left_out.push_back(
@@ -213,7 +213,7 @@ class SweepSearch {
   const RunGeneration& run_generation_;
   const WatchSearch& watch_;
   Plan plan_;
-  PointJudge judge_;
+  PointChecker check_;
   std::vector<std::size_t> searched_;  // axes
   std::vector<std::pair<std::size_t, double>>
       goals_;  // metric, and the sign that makes less better
@@ -230,7 +230,7 @@ SweepPlace search_place_of(const fs::path& out, const std::string& name) {
 SearchEnd run_search(const SweepDefinition& sweep, const SweepPlace& place,
                      const SearchSettings& settings, const RunGeneration& run_generation,
                      const WatchSearch& watch) {
-  refuse_what_cannot_be_searched(sweep);
+  reject_what_cannot_be_searched(sweep);
   return SweepSearch(sweep, place, settings, run_generation, watch).run();
 }
 

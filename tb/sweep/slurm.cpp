@@ -250,7 +250,7 @@ SlurmStatus ask_slurm(const SlurmJob& job) {
   return status;
 }
 
-void refuse_while_submitted(const SweepPlace& place) {
+void reject_while_submitted(const SweepPlace& place) {
   const auto job = submitted_job(place);
   if (!job) return;
   const SlurmStatus slurm = ask_slurm(*job);

@@ -40,7 +40,7 @@ void forget_job(const SweepPlace& place);
 
 // Writes task_NNNN.ninja and submit.sh under slurm/ and submits them. FileError when there is no
 // Slurm, its configuration is not there or its controller does not answer; ConfigError for what
-// sbatch refuses.
+// sbatch rejects.
 SlurmJob submit(const Plan& plan, const SweepPlace& place, const std::vector<PlannedPoint>& points,
                 const SlurmProfile& profile, const RunSettings& settings);
 
@@ -52,7 +52,7 @@ struct SlurmStatus {
 SlurmStatus ask_slurm(const SlurmJob& job);
 // What is queued would be run twice: FileError while the job that was submitted last has tasks; one
 // that is over is forgotten.
-void refuse_while_submitted(const SweepPlace& place);
+void reject_while_submitted(const SweepPlace& place);
 // Returns when none of its tasks is queued or running any more, or kInterruptedExit.
 int wait_for(const SlurmJob& job);
 

@@ -86,7 +86,7 @@ class Worker {
       context.share(shared_, point.bound.engine.input_files(shared_->files().meshes()));
       failure = prepare(point.bound, context);
       if (!failure)
-        failure = judge(in_child([&] { return simulate(point.bound, context); }), directory);
+        failure = check(in_child([&] { return simulate(point.bound, context); }), directory);
     } catch (const Interrupted&) {
       return;
     } catch (const spec::ConfigError& error) {
@@ -177,7 +177,7 @@ class Worker {
     return failure;
   }
 
-  static std::optional<Failure> judge(const Ended& ended, const fs::path& directory) {
+  static std::optional<Failure> check(const Ended& ended, const fs::path& directory) {
     if (WIFSIGNALED(ended.status))
       return Failure{"killed",
                      fmt::format("killed by signal {} ({})", WTERMSIG(ended.status),

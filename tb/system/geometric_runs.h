@@ -110,7 +110,7 @@ inline GeometricOutcome outcome_of(Simulation& simulation, GeometricEnvironment&
           result.traffic_mismatches};
 }
 
-// Simulates and judges: throws what Simulation::run() throws, and a Mismatch.
+// Simulates and checks: throws what Simulation::run() throws, and a Mismatch.
 inline GeometricOutcome simulate(const std::vector<Frame>& frames,
                                  const GeometricRunOptions& options) {
   Simulation simulation(options);

@@ -302,7 +302,7 @@ TEST_P(BrokenMemory, ErrorResponsesReadAsZeroAndAreReported) {
                                                                : true;
   if (!used) {
     EXPECT_NO_THROW(simulation.run());
-    EXPECT_THROW(environment.refuse_unused_errors(), spec::ConfigError);
+    EXPECT_THROW(environment.reject_unused_errors(), spec::ConfigError);
     return;
   }
   EXPECT_THROW(simulation.run(), spec::SimulationError);

@@ -17,13 +17,13 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-struct Judged {
+struct Checked {
   std::set<std::string> checks;  // with a mismatch
   std::uint64_t mismatches;
   std::string complaint;  // of the first scoreboard that failed
 };
 
-Judged judged(const std::string& fault) {
+Checked checked(const std::string& fault) {
   MorphologicalRunOptions options;
   options.morphological = preset(Preset::kDeburr);
   options.morphological.line_pixels = 256;
@@ -37,7 +37,7 @@ Judged judged(const std::string& fault) {
   simulation.run();
   Result result;
   simulation.collect(result);
-  Judged j{{}, result.mismatches + result.traffic_mismatches, ""};
+  Checked j{{}, result.mismatches + result.traffic_mismatches, ""};
   for (const auto& mismatch : result.first_mismatches) j.checks.insert(mismatch.check);
   try {
     environment.check();
@@ -48,35 +48,35 @@ Judged judged(const std::string& fault) {
 }
 
 TEST(Records, WithoutAFaultPass) {
-  const Judged j = judged("");
+  const Checked j = checked("");
   EXPECT_EQ(j.complaint, "");
   EXPECT_EQ(j.mismatches, 0u);
 }
 
 // Steps that were kept move no share: pixels stay perfect.
 TEST(Records, OnlyTheLineScoreboardFindsTheStepsOfALine) {
-  const Judged j = judged("flip:morphological.lines_h0:5:line.left_steps.0");
+  const Checked j = checked("flip:morphological.lines_h0:5:line.left_steps.0");
   EXPECT_THAT(j.checks, ElementsAre("lines"));
   EXPECT_EQ(j.mismatches, 1u);
   EXPECT_THAT(j.complaint, HasSubstr("lines: 1 mismatches"));
 }
 TEST(Records, OnlyTheLineScoreboardFindsTheStepsOfALineUpright) {
-  const Judged j = judged("flip:morphological.lines_v0:5:line.right_steps.1");
+  const Checked j = checked("flip:morphological.lines_v0:5:line.right_steps.1");
   EXPECT_THAT(j.checks, ElementsAre("lines"));
   EXPECT_EQ(j.mismatches, 1u);
 }
 
 TEST(Records, TheRunScoreboardFindsAWrongEdge) {
-  EXPECT_THAT(judged("wrong-edge").checks, Contains("runs"));
+  EXPECT_THAT(checked("wrong-edge").checks, Contains("runs"));
 }
 
 TEST(Records, RunsThatAreNotComparedAreNoPass) {
-  const Judged j = judged("blind-runs");
+  const Checked j = checked("blind-runs");
   EXPECT_EQ(j.mismatches, 0u);
   EXPECT_THAT(j.complaint, HasSubstr("runs: 0 mismatches in 0 comparisons, only 0 comparisons"));
 }
 TEST(Records, LinesThatAreNotComparedAreNoPass) {
-  const Judged j = judged("blind-lines");
+  const Checked j = checked("blind-lines");
   EXPECT_EQ(j.mismatches, 0u);
   EXPECT_THAT(j.complaint, HasSubstr("lines: 0 mismatches in 0 comparisons, only 0 comparisons"));
 }

@@ -151,7 +151,7 @@ struct MorphologicalRunOptions : SimulationOptions, MorphologicalSetup {
   MorphologicalRunOptions() { clock_mhz = 148.5; }
 };
 
-// Simulates and judges: throws what Simulation::run() throws, and a Mismatch.
+// Simulates and checks: throws what Simulation::run() throws, and a Mismatch.
 inline MorphologicalOutcome simulate(const std::vector<MorphologicalInput>& frames,
                                      const MorphologicalRunOptions& options) {
   Simulation simulation(options);

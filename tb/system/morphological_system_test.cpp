@@ -493,7 +493,8 @@ INSTANTIATE_TEST_SUITE_P(
                          spec::morphological::kLanesNames[static_cast<std::size_t>(lanes.param)]);
     });
 
-// ---- what is refused ----------------------------------------------------------------------------
+// ---- what is rejected
+// ----------------------------------------------------------------------------
 
 // The sizing rule of docs/reference/morphological/throughput.md: so many lines in flight each way
 // keep up with a memory of 100 clocks, one less does not.

@@ -431,7 +431,7 @@ class Ideal(unittest.TestCase):
 class BadCalls(unittest.TestCase):
     """Each is an error that says what, and the next call works as if it had not been."""
 
-    def refused(self, words, function, *arguments, error=ValueError, **named):
+    def rejected(self, words, function, *arguments, error=ValueError, **named):
         with self.assertRaises(error) as caught:
             function(*arguments, **named)
         for word in [words] if isinstance(words, str) else words:
@@ -440,36 +440,36 @@ class BadCalls(unittest.TestCase):
     def test_frames(self):
         image = vector_image("noise")
         good = golden.morphological(image, preset="mlaa").pixels.copy()
-        refused = self.refused
+        rejected = self.rejected
         for pixels, given in ((None, "None"), ([[1]], "type list"), (image.astype(float), "float64 of (61, 97, 4)"),
                               (image[:, :, 0], "uint8 of (61, 97)"), (image[:, :, :2], "uint8 of (61, 97, 2)"),
                               (image.astype(numpy.int8), "int8"), ("picture.png", "type str")):
             for function in (golden.morphological, ideal.fxaa, ideal.cmaa2):
-                refused(("pixels: uint8 of (height, width, 4) is wanted", given), function, pixels)
+                rejected(("pixels: uint8 of (height, width, 4) is wanted", given), function, pixels)
         for shape in ((0, 4, 4), (4, 0, 4), (8193, 1, 4), (1, 8193, 4)):
-            refused("1..8192 each way", golden.morphological, numpy.zeros(shape, dtype=numpy.uint8))
+            rejected("1..8192 each way", golden.morphological, numpy.zeros(shape, dtype=numpy.uint8))
         for depth in (numpy.zeros((61, 97)), numpy.zeros((61, 97, 1), numpy.float32), numpy.zeros((97, 61), numpy.float32),
                       numpy.zeros(61 * 97, numpy.uint32), [0.0]):
-            refused("depth: ", golden.morphological, image, depth)
-        refused("nobody", golden.morphological, image, nobody=1)
+            rejected("depth: ", golden.morphological, image, depth)
+        rejected("nobody", golden.morphological, image, nobody=1)
         for name, value, words in (("preset", "mlab", "'preset' = 'mlab' wants one of mlaa, mlaa-slope, smaa"),
                                    ("steps", 99, "'steps' = '99' is outside 0..16"), ("steps", None, "'steps' = 'None'"),
                                    ("steps", 1.5, "'steps' = '1.5' wants an integer 0..16"),
                                    ("trim", "maybe", "'trim' = 'maybe' wants true or false"),
                                    ("steps", image, "'steps' = '[")):
-            refused(words, golden.morphological, image, **{name: value})
-        refused("unknown parameter 'stepps'; there are", golden.morphological, image, stepps=4)
-        refused("window_rows", golden.morphological, image, window_rows=11)  # what cannot be built
+            rejected(words, golden.morphological, image, **{name: value})
+        rejected("unknown parameter 'stepps'; there are", golden.morphological, image, stepps=4)
+        rejected("window_rows", golden.morphological, image, window_rows=11)  # what cannot be built
         edges = numpy.zeros((61, 97), dtype=numpy.uint8)
         edges[0, 5] = 2
-        refused("edges of (5, 0) are 2", golden.morphological, image, edges=edges)
-        refused("edges: the size of the pixels, (61, 97)", golden.morphological, image, edges=edges[:60])
-        refused("give one", golden.morphological, image, numpy.zeros((61, 97), numpy.float32), edges=0 * edges)
+        rejected("edges of (5, 0) are 2", golden.morphological, image, edges=edges)
+        rejected("edges: the size of the pixels, (61, 97)", golden.morphological, image, edges=edges[:60])
+        rejected("give one", golden.morphological, image, numpy.zeros((61, 97), numpy.float32), edges=0 * edges)
         frame = golden.morphological(image, preset="mlaa")
         for plane in ("taps", "decisions", "runs", "coverage"):
-            refused("give detail=True", getattr, frame, plane)
-        refused("error_lines", golden.morphological, image, error_lines=[1, 2])
-        refused("", golden.morphological, error=TypeError)
+            rejected("give detail=True", getattr, frame, plane)
+        rejected("error_lines", golden.morphological, image, error_lines=[1, 2])
+        rejected("", golden.morphological, error=TypeError)
         self.assertTrue((golden.morphological(image, preset="mlaa").pixels == good).all())
 
     def test_meshes(self):
@@ -478,13 +478,13 @@ class BadCalls(unittest.TestCase):
                 "facing": numpy.zeros(2, bool)}
         frame = golden.geometric(image, depth, **mesh)
         self.assertTrue((frame.pixels == image).all())
-        self.refused("the frame has no depth", golden.geometric, image, **mesh)
+        self.rejected("the frame has no depth", golden.geometric, image, **mesh)
         for name, value in (("vertices", numpy.zeros((4, 4), numpy.uint32)), ("edges", None), ("edges", mesh["vertices"]),
                             ("facing", numpy.zeros(2, numpy.uint8)), ("facing", [True]), ("vertices", numpy.zeros(4))):
-            self.refused(f"{name}: ", golden.geometric, image, depth, **{**mesh, name: value})
-        self.refused("unknown region of memory 'face'", golden.geometric, image, depth, bases={"face": 0}, **mesh)
-        self.refused("is no multiple of 64", golden.geometric, image, depth, bases={"edges": 8}, **mesh)
-        self.refused("bases", golden.geometric, image, depth, bases=7, **mesh)
+            self.rejected(f"{name}: ", golden.geometric, image, depth, **{**mesh, name: value})
+        self.rejected("unknown region of memory 'face'", golden.geometric, image, depth, bases={"face": 0}, **mesh)
+        self.rejected("is no multiple of 64", golden.geometric, image, depth, bases={"edges": 8}, **mesh)
+        self.rejected("bases", golden.geometric, image, depth, bases=7, **mesh)
         # Indices out of range are what the contract says: dropped.
         mesh["edges"]["v0"] = 0xFFFFFFFF
         self.assertEqual(golden.geometric(image, depth, **mesh).work.invalid_edges, 3)
@@ -495,44 +495,44 @@ class BadCalls(unittest.TestCase):
         s, t, covered = floor()
         quads = golden.quads_of(s, t, covered)
         good = unit.filter(quads)
-        refused = self.refused
+        rejected = self.rejected
         for given in (None, numpy.zeros(4), quads.reshape(2, -1), [1], quads["s"]):
-            refused("quads: an array of QUAD of (n,) is wanted", unit.filter, given)
-        refused("unknown parameter 'cash_bytes'; there are", unit.set, cash_bytes=4096)
-        refused("'cache.bytes' = '7' is outside 256..65536", unit.set, cache_bytes=7)
-        refused("must be a power of two", unit.set, axes="two", cache_bytes=3000)
+            rejected("quads: an array of QUAD of (n,) is wanted", unit.filter, given)
+        rejected("unknown parameter 'cash_bytes'; there are", unit.set, cash_bytes=4096)
+        rejected("'cache.bytes' = '7' is outside 256..65536", unit.set, cache_bytes=7)
+        rejected("must be a power of two", unit.set, axes="two", cache_bytes=3000)
         self.assertEqual(unit.parameters["axes"], "four", "all of them or none")
-        refused("must be a power of two", golden.TextureUnit, cache_bytes=3000)
-        refused("unknown field of a texture 'colour'; there are", unit.set_fields, 0, layout="linear", colour=1)
-        refused("'format' = 'rgb' wants one of rgba8", unit.set_fields, format="rgb")
-        refused("texture 16 is outside 0..15", unit.set_fields, 16, format="rgba8")
-        refused("outside the memory of", unit.read, 1 << 30, 4)
-        refused("resize() makes it larger", unit.write, 1 << 30, numpy.zeros(4, numpy.uint8))
-        refused("bytes: uint8 of (n,)", unit.write, 0, b"1234")
-        refused("levels: ", unit.load, None)
-        refused("levels: ", unit.load, [])
+        rejected("must be a power of two", golden.TextureUnit, cache_bytes=3000)
+        rejected("unknown field of a texture 'colour'; there are", unit.set_fields, 0, layout="linear", colour=1)
+        rejected("'format' = 'rgb' wants one of rgba8", unit.set_fields, format="rgb")
+        rejected("texture 16 is outside 0..15", unit.set_fields, 16, format="rgba8")
+        rejected("outside the memory of", unit.read, 1 << 30, 4)
+        rejected("resize() makes it larger", unit.write, 1 << 30, numpy.zeros(4, numpy.uint8))
+        rejected("bytes: uint8 of (n,)", unit.write, 0, b"1234")
+        rejected("levels: ", unit.load, None)
+        rejected("levels: ", unit.load, [])
         for texture in (0, 1):  # one that is there stays as it is
-            refused("level 1: uint8 of (32, 32, 4) is wanted", unit.load, [checkerboard(), checkerboard()], texture)
-        refused("'format' = 'rgb'", unit.load, checkerboard(), wrap_s="clamp_to_edge", format="rgb")
-        refused("sides that are powers of two", golden.mip_levels, vector_image("noise"))
-        refused("both even", golden.quads_of, numpy.zeros((3, 4)), numpy.zeros((3, 4)))
-        refused("covered", golden.quads_of, numpy.zeros((2, 4)), numpy.zeros((2, 4)), numpy.zeros((2, 4)))
-        refused("", unit.read, -1, 4, error=TypeError)
+            rejected("level 1: uint8 of (32, 32, 4) is wanted", unit.load, [checkerboard(), checkerboard()], texture)
+        rejected("'format' = 'rgb'", unit.load, checkerboard(), wrap_s="clamp_to_edge", format="rgb")
+        rejected("sides that are powers of two", golden.mip_levels, vector_image("noise"))
+        rejected("both even", golden.quads_of, numpy.zeros((3, 4)), numpy.zeros((3, 4)))
+        rejected("covered", golden.quads_of, numpy.zeros((2, 4)), numpy.zeros((2, 4)), numpy.zeros((2, 4)))
+        rejected("", unit.read, -1, 4, error=TypeError)
         unit.invalidate()
         unit.reset()
         self.assertTrue((unit.filter(quads) == good).all())
 
     def test_ideal(self):
         image = vector_image("noise")
-        self.refused("steps = 13 wants one of 12, 29, 39", ideal.fxaa, image, steps=13)
-        self.refused("threshold = 2.000000 is outside 0..1", ideal.fxaa, image, threshold=2)
-        self.refused("", ideal.fxaa, image, treshold=1, error=TypeError)
-        self.refused("'wrap_s' = 'mirror' wants one of repeat", ideal.TextureImage, image, wrap_s="mirror")
-        self.refused("footprints: an array of FOOTPRINT", ideal.box, ideal.TextureImage(image), numpy.zeros(3))
-        self.refused("edges: ", ideal.smaa_weights, image)
-        self.refused("luma: ", ideal.smaa_edges, image)
-        self.refused("pixels: ", ideal.psnr, numpy.zeros((3, 4)), numpy.zeros((2, 4), numpy.uint8))
-        self.refused("1..8192 each way", ideal.disc, 1, 1, 1, 0, 5)
+        self.rejected("steps = 13 wants one of 12, 29, 39", ideal.fxaa, image, steps=13)
+        self.rejected("threshold = 2.000000 is outside 0..1", ideal.fxaa, image, threshold=2)
+        self.rejected("", ideal.fxaa, image, treshold=1, error=TypeError)
+        self.rejected("'wrap_s' = 'mirror' wants one of repeat", ideal.TextureImage, image, wrap_s="mirror")
+        self.rejected("footprints: an array of FOOTPRINT", ideal.box, ideal.TextureImage(image), numpy.zeros(3))
+        self.rejected("edges: ", ideal.smaa_weights, image)
+        self.rejected("luma: ", ideal.smaa_edges, image)
+        self.rejected("pixels: ", ideal.psnr, numpy.zeros((3, 4)), numpy.zeros((2, 4), numpy.uint8))
+        self.rejected("1..8192 each way", ideal.disc, 1, 1, 1, 0, 5)
 
 
 def thread_that_raises(function, results):

@@ -138,7 +138,7 @@ class Runs(Scratch):
 
 
 class Errors(Scratch):
-    def refused(self, words, error, *arguments, **named):
+    def rejected(self, words, error, *arguments, **named):
         with self.assertRaises(error) as caught:
             deburr.run(*arguments, **named)
         self.assertIn(words, str(caught.exception))
@@ -154,24 +154,24 @@ class Errors(Scratch):
                 ({"scene": "tunel"}, "tunel"), ({"size": 5}, "expected WIDTHxHEIGHT, got '5'"),
                 ({"size": (5, 5, 5)}, "expected WIDTHxHEIGHT"), ({"scene": numpy.zeros((4, 4))}, "a picture is wanted")):
             with self.subTest(given):
-                self.refused(words, ValueError, "texture", **given)
-        self.refused("no 'deburr run textur': did you mean", ValueError, "textur")
-        self.refused("None", ValueError, None)
-        self.refused("nothing.obj", OSError, "texture", in_="nothing.obj")
+                self.rejected(words, ValueError, "texture", **given)
+        self.rejected("no 'deburr run textur': did you mean", ValueError, "textur")
+        self.rejected("None", ValueError, None)
+        self.rejected("nothing.obj", OSError, "texture", in_="nothing.obj")
         (self.folder / "file").write_text("", encoding="utf-8")
-        self.refused("file", OSError, "texture", out="file", **TINY)
+        self.rejected("file", OSError, "texture", out="file", **TINY)
         # The same words as the command's own.
         said = subprocess.run([_program.program(), "run", "texture", "--set=texture.cache.bites=5"], text=True,
                               capture_output=True, check=False).stderr
-        error = self.refused("", ValueError, "texture", **{"texture.cache.bites": 5})
+        error = self.rejected("", ValueError, "texture", **{"texture.cache.bites": 5})
         self.assertIn(str(error), said)
 
     def test_failures_have_their_results(self):
-        error = self.refused("FAIL mismatch", deburr.RunError, "texture", **TINY, fault="flip-bit")
+        error = self.rejected("FAIL mismatch", deburr.RunError, "texture", **TINY, fault="flip-bit")
         self.assertEqual(error.code, 1)
         self.assertGreater(error.result.checks.mismatches, 0)
         self.assertEqual(error.result.verdict, "fail")
-        error = self.refused("FAIL simulation", deburr.RunError, "texture", **TINY, max_cycles=100)
+        error = self.rejected("FAIL simulation", deburr.RunError, "texture", **TINY, max_cycles=100)
         self.assertEqual((error.code, error.result.cycles > 0), (3, True))
 
     def test_a_command_that_is_not_there(self):
@@ -181,7 +181,7 @@ class Errors(Scratch):
         path = os.environ["PATH"]
         self.addCleanup(os.environ.__setitem__, "PATH", path)
         os.environ["PATH"] = str(self.folder)
-        self.refused("install it", FileNotFoundError, "texture")
+        self.rejected("install it", FileNotFoundError, "texture")
 
     def test_pictures(self):
         for shape in ((5, 7), (5, 7, 3), (5, 7, 4)):

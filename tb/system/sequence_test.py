@@ -191,8 +191,8 @@ class Images(SequenceTest):
                 ("does not move", "--in", "f1.png", "--motion", "pan"),
                 ("frame 1 has 16 x 16 pixels", "--in", "f1.png;small.png")):
             with self.subTest(says):
-                self.assertIn(says, self.deburr(self.ENGINE, *arguments, "--out", "refused", code=2))
-        self.assertIn("nothere.png", self.deburr(self.ENGINE, "--in", "f1.png;nothere.png", "--out", "refused",
+                self.assertIn(says, self.deburr(self.ENGINE, *arguments, "--out", "rejected", code=2))
+        self.assertIn("nothere.png", self.deburr(self.ENGINE, "--in", "f1.png;nothere.png", "--out", "rejected",
                                                  code=5))
         with open(self.path("run.yaml"), "w", encoding="utf-8") as file:
             file.write("frame: {width: [16, 17]}\n")
@@ -257,7 +257,7 @@ class Meshes(SequenceTest):
         self.write_box("m1.obj", 1)
         self.result("texture", "first", "--in", "m0.obj", *self.SIZE, "--fragment-trace", "text")
         self.assertIn("those of one frame", self.deburr("texture", "--in", "m?.obj", "--fragments",
-                                                        "first/fragments.trace", "--out", "refused", code=2))
+                                                        "first/fragments.trace", "--out", "rejected", code=2))
 
 
 if __name__ == "__main__":

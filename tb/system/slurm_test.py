@@ -301,7 +301,7 @@ class Slurm(OnCluster, unittest.TestCase):
         self.assertEqual(*asked)
 
     def test_mutants(self):
-        """Both nodes judge mutants of a tree of one file; nothing of it is judged again here."""
+        """Both nodes check mutants of a tree of one file; nothing of it is checked again here."""
         for name, text in TINY.items():
             os.makedirs(os.path.dirname(os.path.join(self.directory, "tree", name)), exist_ok=True)
             self.write(f"tree/{name}", text)
@@ -334,19 +334,19 @@ class Slurm(OnCluster, unittest.TestCase):
         self.assertIn("sbatch rejects", done.stderr)
 
     def test_wrong_profile(self):
-        def refused(*says, code=2, **settings):
+        def rejected(*says, code=2, **settings):
             self.profile(**settings)
             text = self.sweep("run", "--slurm", "profile.yaml", code=code)
             for word in says:
                 self.assertIn(word, text)
 
-        refused("profile.yaml:6: unknown key 'partitions': did you mean 'partition'?", partitions="test")
-        refused("profile.yaml:4: 'cpus' = 'many' wants a number", cpus="many")
-        refused("profile.yaml:5: 'tasks' = '0' is outside 1..1000", tasks=0)
-        refused("profile.yaml:6: 'setup' wants a list of lines, got a single value", setup="make")
-        refused("sbatch rejects", "nowhere", partition="nowhere")
+        rejected("profile.yaml:6: unknown key 'partitions': did you mean 'partition'?", partitions="test")
+        rejected("profile.yaml:4: 'cpus' = 'many' wants a number", cpus="many")
+        rejected("profile.yaml:5: 'tasks' = '0' is outside 1..1000", tasks=0)
+        rejected("profile.yaml:6: 'setup' wants a list of lines, got a single value", setup="make")
+        rejected("sbatch rejects", "nowhere", partition="nowhere")
         begin = time.monotonic()
-        refused("there is no Slurm configuration '/nonexistent/slurm.conf'", code=5,
+        rejected("there is no Slurm configuration '/nonexistent/slurm.conf'", code=5,
                 conf="/nonexistent/slurm.conf")
         self.assertLess(time.monotonic() - begin, 10, "clients hang for a minute")
 

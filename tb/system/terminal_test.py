@@ -129,11 +129,11 @@ class Terminal(unittest.TestCase):
         self.assertEqual(answer["result"], self.result())
         failed = json.loads(self.run_texture("--json", "--fault", "flip-bit", code=1).stdout)
         self.assertEqual(failed["result"]["verdict"], "fail")
-        refused = json.loads(self.run_texture("--json", "--set", "memory.latency=0",
+        rejected = json.loads(self.run_texture("--json", "--set", "memory.latency=0",
                                               code=2).stdout)
-        self.assertEqual(refused["exit_code"], 2)
-        self.assertIn("--set memory.latency=0", refused["command"])
-        self.assertNotIn("result", refused, "that of the run before is not its own")
+        self.assertEqual(rejected["exit_code"], 2)
+        self.assertIn("--set memory.latency=0", rejected["command"])
+        self.assertNotIn("result", rejected, "that of the run before is not its own")
         typed_wrong = json.loads(self.run_texture("--json", "--colour", "red", code=2).stdout)
         self.assertIn("--colour", typed_wrong["outcome"])
 

@@ -230,7 +230,7 @@ TEST_P(TextureLimits, AreIdenticalToGoldenAndAllMet) {
         QuadBench bench(input, p);
         bench.reset();
         const QuadOutcome outcome = bench.run();
-        const std::string differences = bench.judge(input, outcome);
+        const std::string differences = bench.check(input, outcome);
         if (!differences.empty()) std::fputs(differences.c_str(), stderr);
         return differences.empty();
       });

@@ -80,7 +80,7 @@ class QuadBench {
   void repeat() { driver_.send(input_.quads); }
   // The first `cycles` clocks of a run.
   void run_for(rtl::Cycle cycles) { clock_.run(cycles); }
-  // From now on judges by other parameters than were built.
+  // From now on checks by other parameters than were built.
   void order(const spec::texture::Parameters& parameters) { parameters_ = parameters; }
   std::uint64_t received() const { return sink_.received(); }
   // To the end. DeadlockError, or what broke on a link.
@@ -96,9 +96,9 @@ class QuadBench {
     return outcome;
   }
 
-  // Judges the run that has just ended by a golden model that is given `reference`; returns one
+  // Checks the run that has just ended by a golden model that is given `reference`; returns one
   // line for each kind of difference, empty: all equal. Also tells what work it was.
-  std::string judge(const QuadInput& reference, const QuadOutcome& outcome,
+  std::string check(const QuadInput& reference, const QuadOutcome& outcome,
                     golden::texture::TextureWork* work = nullptr) {
     golden::texture::TextureGolden golden(parameters_, reference.memory);
     for (std::size_t h = 0; h < reference.textures.size(); ++h)
@@ -122,7 +122,7 @@ class QuadBench {
       differences += std::to_string(outcome.colours.size()) + " colours, expected " +
                      std::to_string(next) + "\n";
     if (fills != outcome.fills) differences += "line fills\n";
-    differences += judge_registers(golden.work());
+    differences += check_registers(golden.work());
     if (work) *work = golden.work();
     return differences;
   }
@@ -139,7 +139,7 @@ class QuadBench {
     return memory;
   }
 
-  std::string judge_registers(const golden::texture::TextureWork& work) {
+  std::string check_registers(const golden::texture::TextureWork& work) {
     namespace reg = spec::texture::reg;
     const std::uint64_t status = reg::kStatusIdle |
                                  (work.memory_errors ? reg::kStatusMemoryError : 0u) |

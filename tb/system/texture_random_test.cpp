@@ -82,7 +82,7 @@ TEST_P(RandomQuads, AreIdenticalToGolden) {
   bench.reset();
   const QuadOutcome outcome = bench.run();
   golden::texture::TextureWork work;
-  EXPECT_EQ(bench.judge(input, outcome, &work), "");
+  EXPECT_EQ(bench.check(input, outcome, &work), "");
   // The seed met what it is for.
   EXPECT_GT(work.fragments, kQuads);
   EXPECT_GT(work.invalid_fragments, 0u);
@@ -122,9 +122,9 @@ TEST_P(RandomQuadsNoticeBuild, WhatIsNotAsOrdered) {
   QuadBench bench(input, built);
   bench.reset();
   const QuadOutcome outcome = bench.run();
-  EXPECT_EQ(bench.judge(input, outcome), "");
+  EXPECT_EQ(bench.check(input, outcome), "");
   bench.order({});
-  EXPECT_NE(bench.judge(input, outcome), "");
+  EXPECT_NE(bench.check(input, outcome), "");
 }
 INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNoticeBuild, testing::Range(0, 5), [](const auto& p) {
   return std::string(kWrongBuilds[static_cast<std::size_t>(p.param)].name);
@@ -155,7 +155,7 @@ TEST_P(RandomQuadsNoticeTable, AWrongWord) {
   rtl::for_each<rtl::Memory<std::uint32_t>>(bench.unit(), spoil_words);
   ASSERT_EQ(changed, 1);
   bench.reset();
-  EXPECT_NE(bench.judge(input, bench.run()), "");
+  EXPECT_NE(bench.check(input, bench.run()), "");
 }
 INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNoticeTable,
                          testing::Values(WrongWord{"weights", 16 * 2 + 1},
@@ -181,7 +181,7 @@ TEST_P(RandomQuadsNoticeWeights, OfOneCount) {
   });
   ASSERT_EQ(changed, 1);
   bench.reset();
-  EXPECT_NE(bench.judge(input, bench.run()), "");
+  EXPECT_NE(bench.check(input, bench.run()), "");
 }
 INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNoticeWeights, testing::Range(1, 17));
 
@@ -224,7 +224,7 @@ TEST_P(RandomQuadsNotice, WhatIsWrong) {
       reference.quads[700].coverage ^= 1;
       break;
   }
-  EXPECT_EQ(bench.judge(reference, outcome).empty(), wrong == Wrong::kNothing);
+  EXPECT_EQ(bench.check(reference, outcome).empty(), wrong == Wrong::kNothing);
 }
 
 INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNotice, testing::Range(0, 7), [](const auto& p) {

@@ -37,7 +37,7 @@ inline TextureRunOptions paper_options() {
   return options;
 }
 
-// Simulates and judges: throws what Simulation::run() throws, and a Mismatch.
+// Simulates and checks: throws what Simulation::run() throws, and a Mismatch.
 inline TextureOutcome simulate(const SceneParameters& scene, const SamplerParameters& sampler,
                                const TextureRunOptions& options) {
   constexpr std::uint32_t kTextureSeed =

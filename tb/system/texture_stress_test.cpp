@@ -131,7 +131,7 @@ TEST_P(FrameReset, LeavesNothing) {
   QuadBench bench(input, parameters, memory, options);
   bench.reset();
   const QuadOutcome fresh = bench.run();
-  EXPECT_EQ(bench.judge(input, fresh), "");
+  EXPECT_EQ(bench.check(input, fresh), "");
   ASSERT_GT(fresh.colours.size(), 1000u);
 
   constexpr rtl::Cycle kShort = 4, kDrained = 400;
@@ -143,7 +143,7 @@ TEST_P(FrameReset, LeavesNothing) {
       bench.reset(reset);
       EXPECT_EQ(bench.received(), 0u);
       const QuadOutcome again = bench.run();
-      EXPECT_EQ(bench.judge(input, again), "") << "after " << broken_off;
+      EXPECT_EQ(bench.check(input, again), "") << "after " << broken_off;
       EXPECT_EQ(again.colours, fresh.colours) << "after " << broken_off;
       EXPECT_EQ(again.fills, fresh.fills) << "after " << broken_off;
       if (reset == kDrained) {
@@ -170,10 +170,10 @@ TEST(FrameReset, IsMissedWhenThereIsNone) {
   QuadBench bench(input, spec::texture::preset_parameters(spec::texture::Preset::kPaper));
   bench.reset();
   const QuadOutcome fresh = bench.run();
-  EXPECT_EQ(bench.judge(input, fresh), "");
+  EXPECT_EQ(bench.check(input, fresh), "");
   bench.repeat();
   QuadOutcome again = bench.run();
-  EXPECT_NE(bench.judge(input, again), "");
+  EXPECT_NE(bench.check(input, again), "");
   ASSERT_EQ(again.colours.size(), 2 * fresh.colours.size());
   again.fills.erase(again.fills.begin(),
                     again.fills.begin() + static_cast<std::ptrdiff_t>(fresh.fills.size()));

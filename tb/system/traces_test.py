@@ -354,7 +354,7 @@ class Fragments(TracesTest):
         with open(self.path("bare"), "w") as file:
             file.write("deburr-fragments 1\nfragment 0 - - .5 .5 .01 0 0 .01\nend 1\n")
         done = subprocess.run([DEBURR, "run", "texture", "--fragments", self.path("bare"), "--maps", "--out",
-                               self.path("refused")], text=True, capture_output=True, check=False)
+                               self.path("rejected")], text=True, capture_output=True, check=False)
         self.assertEqual(done.returncode, 2)
         self.assertIn("have no place in a picture", done.stderr)
 

@@ -216,32 +216,32 @@ void FragmentReader::end_text() {
 
 void FragmentReader::open_binary() {
   format_ = TraceFormat::kBinary;
-  const auto refuse = [this](const std::string& what) {
+  const auto reject = [this](const std::string& what) {
     throw spec::FileError(fmt::format("'{}': {}", file_.string(), what));
   };
   std::array<char, kFragmentHeaderBytes> bytes{};
   if (read(bytes.data(), bytes.size()) != bytes.size())
-    refuse(
+    reject(
         fmt::format("the file ends within its header of {} bytes: it was cut short; make it "
                     "again",
                     kFragmentHeaderBytes));
   const std::string_view header(bytes.data(), bytes.size());
   const auto field = [&](std::size_t at) { return get_little_endian<std::uint32_t>(header, at); };
   if (field(8) != kFragmentTraceVersion)
-    refuse(fmt::format("version {}, and this program reads version {}: write the trace anew",
+    reject(fmt::format("version {}, and this program reads version {}: write the trace anew",
                        field(8), kFragmentTraceVersion));
   if (field(12) != kFragmentHeaderBytes || field(16) != kFragmentRecordBytes)
-    refuse(fmt::format("a header of {} bytes and records of {}, expected {} and {}", field(12),
+    reject(fmt::format("a header of {} bytes and records of {}, expected {} and {}", field(12),
                        field(16), kFragmentHeaderBytes, kFragmentRecordBytes));
   if (field(20) != 0 || field(24) != 0) set_size(field(20), field(24));
   expected_ = get_little_endian<std::uint64_t>(header, 32);
   if (expected_ > kMostQuads)
-    refuse(fmt::format("{} records, and {} is the most: cut it into several runs", expected_,
+    reject(fmt::format("{} records, and {} is the most: cut it into several runs", expected_,
                        kMostQuads));
   const std::uint64_t size = std::filesystem::file_size(file_);
   const std::uint64_t whole = kFragmentHeaderBytes + expected_ * kFragmentRecordBytes;
   if (size != whole)
-    refuse(fmt::format("{} bytes, and a header with {} records says {}: the file {}; make it again",
+    reject(fmt::format("{} bytes, and a header with {} records says {}: the file {}; make it again",
                        size, expected_, whole, size < whole ? "was cut short" : "is too long"));
 }
 
@@ -267,7 +267,8 @@ bool FragmentReader::next_binary(Record& record) {
   return true;
 }
 
-// ---- judging ------------------------------------------------------------------------------------
+// ---- checking
+// ------------------------------------------------------------------------------------
 
 bool FragmentReader::next(TracedQuad& quad) {
   if (ended_) return false;
@@ -279,12 +280,12 @@ bool FragmentReader::next(TracedQuad& quad) {
   if (quads_ == kMostQuads)
     fail(fmt::format("more than {} records: cut the trace into several runs", kMostQuads));
   quad = {};
-  judge(record, quad);
+  check(record, quad);
   quad.quad.tag = static_cast<std::uint32_t>(quads_++);
   return true;
 }
 
-void FragmentReader::judge(const Record& record, TracedQuad& quad) const {
+void FragmentReader::check(const Record& record, TracedQuad& quad) const {
   if (record.texture >= textures_)
     fail(
         fmt::format("texture {}, and the unit is given {}: 0 to {}; name a scene that has as many "
@@ -302,7 +303,7 @@ void FragmentReader::judge(const Record& record, TracedQuad& quad) const {
                        record.y, width_, height_));
     quad.placed = true;
   }
-  record.kind == FragmentRecord::kQuad ? judge_quad(record, quad) : judge_fragment(record, quad);
+  record.kind == FragmentRecord::kQuad ? check_quad(record, quad) : check_fragment(record, quad);
 }
 
 std::int32_t FragmentReader::coordinate(double value, std::string_view name) const {
@@ -316,7 +317,7 @@ std::int32_t FragmentReader::coordinate(double value, std::string_view name) con
   return snapped;
 }
 
-void FragmentReader::judge_quad(const Record& record, TracedQuad& quad) const {
+void FragmentReader::check_quad(const Record& record, TracedQuad& quad) const {
   for (const auto& [name, mask] :
        {std::pair("coverage", record.coverage), std::pair("visible", record.visible),
         std::pair("clamped", record.clamped)})
@@ -348,7 +349,7 @@ void FragmentReader::judge_quad(const Record& record, TracedQuad& quad) const {
 }
 
 // The quad around it: its neighbours are where the derivatives say.
-void FragmentReader::judge_fragment(const Record& record, TracedQuad& quad) const {
+void FragmentReader::check_fragment(const Record& record, TracedQuad& quad) const {
   const auto& [s, t, dsdx, dtdx, dsdy, dtdy, unused1, unused2] = record.values;
   coordinate(s, "s");
   coordinate(t, "t");

@@ -33,7 +33,7 @@ class FragmentReader {
   std::uint64_t quads() const { return quads_; }  // read so far
 
  private:
-  // A record of either format, before it is judged.
+  // A record of either format, before it is checked.
   struct Record {
     FragmentRecord kind = FragmentRecord::kQuad;
     std::uint32_t texture = 0, coverage = 0xF, visible = 0xF, clamped = 0;
@@ -60,9 +60,9 @@ class FragmentReader {
   bool next_text(Record& record);
   bool next_binary(Record& record);
   void end_text();
-  void judge(const Record& record, TracedQuad& quad) const;
-  void judge_quad(const Record& record, TracedQuad& quad) const;
-  void judge_fragment(const Record& record, TracedQuad& quad) const;
+  void check(const Record& record, TracedQuad& quad) const;
+  void check_quad(const Record& record, TracedQuad& quad) const;
+  void check_fragment(const Record& record, TracedQuad& quad) const;
   std::int32_t coordinate(double value, std::string_view name) const;
 
   std::filesystem::path file_;
@@ -78,7 +78,7 @@ class FragmentReader {
   bool held_ = false;  // the line is still to be read
 };
 
-// What a run must know before it begins: all of the file is read, and everything in it judged.
+// What a run must know before it begins: all of the file is read, and everything in it checked.
 struct FragmentSummary {
   int width = 0, height = 0;
   std::uint64_t quads = 0, fragments = 0;

@@ -74,7 +74,7 @@ class TraceOutput {
 
   std::filesystem::path file_;
   int descriptor_ = -1;
-  bool removable_ = false;  // a regular file: not /dev/null, where a run that only judges writes
+  bool removable_ = false;  // a regular file: not /dev/null, where a run that only checks writes
   std::uint64_t size_ = 0;
   std::string buffer_;
 };

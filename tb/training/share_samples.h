@@ -19,7 +19,7 @@ namespace deburr::tb::training {
 // A frame without anti-aliasing, and what it should have been.
 struct TruthFrame {
   std::string name;   // unique
-  std::string group;  // frames of one mesh or scene are trained on or judged, never both
+  std::string group;  // frames of one mesh or scene are trained on or checked, never both
   Image frame, truth;
   DepthImage depth;  // empty: no silhouettes
 };

@@ -50,11 +50,11 @@ Image smoothed(const Image& frame, const Parameters& parameters, const ShareTabl
   return out;
 }
 
-struct Judge {
+struct Checker {
   const TruthFrame& frame;
   Mask edges;
   std::optional<Mask> silhouettes;
-  explicit Judge(const TruthFrame& f) : frame(f), edges(edge_mask(f.truth, f.frame)) {
+  explicit Checker(const TruthFrame& f) : frame(f), edges(edge_mask(f.truth, f.frame)) {
     if (!f.depth.empty()) silhouettes = silhouette_mask(edges, f.depth);
   }
   Figures of(const Image& image) const {
@@ -89,11 +89,11 @@ void report(const std::string& title, const std::vector<const TruthFrame*>& fram
   const Parameters deburr = preset_parameters(Preset::kDeburr);
   int worse = 0;
   for (const TruthFrame* frame : frames) {
-    const Judge judge(*frame);
-    std::vector<Figures> row = {judge.of(frame->frame)};
+    const Checker checker(*frame);
+    std::vector<Figures> row = {checker.of(frame->frame)};
     for (const Preset preset : kOthers)
-      row.push_back(judge.of(smoothed(frame->frame, preset_parameters(preset), nullptr)));
-    row.push_back(judge.of(smoothed(frame->frame, deburr, &tables_of(*frame))));
+      row.push_back(checker.of(smoothed(frame->frame, preset_parameters(preset), nullptr)));
+    row.push_back(checker.of(smoothed(frame->frame, deburr, &tables_of(*frame))));
     sums.resize(row.size(), {0, 0});
     silhouettes.resize(row.size());
     std::string text = "| " + frame->name + " |";
@@ -150,7 +150,7 @@ void report_text(const std::vector<const TruthFrame*>& frames, const ShareTables
     std::cout << "| " << text.frame.name << " |";
     const auto show = [&](const Image& image) {
       std::cout << fmt::format(" {:.1f}; {:.2f} |", changed_beside_text(text, image),
-                               Judge(text.frame).of(image).edges);
+                               Checker(text.frame).of(image).edges);
     };
     for (const Preset preset : kOthers)
       show(smoothed(text.frame.frame, preset_parameters(preset), nullptr));
@@ -295,7 +295,7 @@ int run(int argc, char** argv) {
         "Held out", others, [&](const TruthFrame&) -> const ShareTables& { return tables; }, false);
   }
   if (folds < 2) return 0;
-  // Every group is judged by tables that were trained on the groups of the other folds.
+  // Every group is checked by tables that were trained on the groups of the other folds.
   const auto fold_of = [&](const TruthFrame& frame) {
     return static_cast<int>(std::find(groups.begin(), groups.end(), frame.group) - groups.begin()) %
            folds;

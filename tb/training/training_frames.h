@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The frames that learned shares are trained and judged on: scenes and shapes of the project's own,
-// and the meshes of a data folder if there is one.
+// The frames that learned shares are trained and checked on: scenes and shapes of the project's
+// own, and the meshes of a data folder if there is one.
 //
 // `track` and seventeen of the meshes are never trained on
 // (docs/measurements/morphological_quality.md, "Learned shares").

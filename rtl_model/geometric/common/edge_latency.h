@@ -19,7 +19,7 @@ class EdgeLatency {
  public:
   void leave(Cycle cycle, std::uint32_t edges) { edges_.insert(edges_.end(), edges, cycle); }
   // Of an edge: whether it is kept.
-  void judge(bool kept) {
+  void decided(bool kept) {
     const auto edge = take(edges_);
     if (edge && kept) kept_.push_back(*edge);
   }

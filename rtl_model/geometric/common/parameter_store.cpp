@@ -84,10 +84,10 @@ ParameterStore::ParameterStore(const sc_core::sc_module_name& name, ClockDomain&
       parameters_(p) {
   registers.set_reset(reg::kRules, spec::geometric::rules_word(p));
   registers.on_command(reg::kControlStart, [this] { start(); });
-  registers.on_read(reg::kRefusal, [this] { return static_cast<std::uint32_t>(refused_); });
+  registers.on_read(reg::kRefusal, [this] { return static_cast<std::uint32_t>(refusal_); });
   clock.on_reset([this] {
     starting_ = start_enabled_ = false;
-    refused_ = Refusal::kNone;
+    refusal_ = Refusal::kNone;
   });
 }
 
@@ -102,9 +102,9 @@ void ParameterStore::latch(Cycle cycle) {
   starting_ = false;
   registers_.mask_values();
   const FrameRules rules = decode(registers_);
-  refused_ = refusal(rules, start_enabled_, parameters_);
-  refusal_out.drive(cycle, refused_);
-  if (refused_ == Refusal::kNone)
+  refusal_ = refusal(rules, start_enabled_, parameters_);
+  refusal_out.drive(cycle, refusal_);
+  if (refusal_ == Refusal::kNone)
     rules_out.drive(cycle, rules);
   else
     registers_.set_sticky(reg::kStatusRefused);

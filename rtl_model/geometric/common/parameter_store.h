@@ -58,7 +58,7 @@ class ParameterStore final : public sc_core::sc_module {
   ControlRegisters& registers_;
   const spec::geometric::Parameters parameters_;
   bool starting_ = false, start_enabled_ = false;  // the latter as START was written
-  spec::geometric::Refusal refused_{};
+  spec::geometric::Refusal refusal_{};
 };
 
 }  // namespace deburr::rtl::geometric

@@ -102,7 +102,7 @@ void EdgeClassifier::classify(Cycle cycle, const Beat& beat) {
                                  beat.facing0 >> lane & 1, beat.facing1 >> lane & 1);
     if (Counter* const counter = counter_of(c)) ++*counter;
     const bool kept = c != EdgeClass::kInvalid && c != EdgeClass::kBack && c != EdgeClass::kFlat;
-    latency_.judge(kept);
+    latency_.decided(kept);
     if (!kept) continue;
     ++kept_edges;
     pending_ |= static_cast<std::uint8_t>(1u << lane);

@@ -5,7 +5,7 @@
 // Where: predictor_units of these a lane in an EndpointPredictor, whose datasheet has the clocks of
 // a trial. Holds a record at a time. A trial every trial_clocks clocks T, from the clock on that
 // the schedule of the ports gives it. In clock T = 0' of a trial its bounds are decided beside the
-// next one's address, which knows the hits but not the refusal: a read too many is dropped.
+// next one's address, which knows the hits but not the rejection: a read too many is dropped.
 //
 // With T = 4 (the default) each stage has its clock. 5 and more leave clocks to slower memories or
 // longer paths. 3: the left side's words are chosen and compared in the clock in which they come,

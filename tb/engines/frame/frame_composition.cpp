@@ -170,12 +170,12 @@ void FrameComposition::finish() {
   for (Environment* part : parts()) part->finish();
 }
 
-void FrameComposition::refuse_memory_errors() {
-  for (Environment* part : parts()) part->refuse_memory_errors();
+void FrameComposition::reject_memory_errors() {
+  for (Environment* part : parts()) part->reject_memory_errors();
 }
 
-void FrameComposition::refuse_unused_errors() const {
-  for (const Environment* part : parts()) part->refuse_unused_errors();
+void FrameComposition::reject_unused_errors() const {
+  for (const Environment* part : parts()) part->reject_unused_errors();
 }
 
 Amount FrameComposition::amount() const { return last().environment().amount(); }
@@ -186,7 +186,8 @@ bool FrameComposition::memory_at_rest() const {
   return at_rest;
 }
 
-// ---- judging ------------------------------------------------------------------------------------
+// ---- checking
+// ------------------------------------------------------------------------------------
 
 Environment::Boards FrameComposition::boards(Boards (Environment::*of)() const) const {
   Boards all;

@@ -13,7 +13,7 @@
 // marks, the frame buffer sets bit 0 of every alpha as it comes, so that only what is blended is
 // marked.
 //
-// Each engine is judged against its golden model, which gets what the golden model before it made.
+// Each engine is checked against its golden model, which gets what the golden model before it made.
 #pragma once
 
 #include <cstddef>
@@ -45,8 +45,8 @@ class FrameComposition final : public Environment {
   void end() override;
   void restart() override;
   void finish() override;
-  void refuse_memory_errors() override;
-  void refuse_unused_errors() const override;
+  void reject_memory_errors() override;
+  void reject_unused_errors() const override;
   Amount amount() const override;
   bool memory_at_rest() const override;
   Boards outputs() const override;

@@ -36,12 +36,12 @@ class FrameCommand final : public Engine {
   }
   std::vector<Shorthand> shorthands() const override { return roles().shorthands(); }
 
-  void judge(const RunParameters& run, RunContext& context) override { judge(*load(run, context)); }
+  void check(const RunParameters& run, RunContext& context) override { check(*load(run, context)); }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     const std::shared_ptr<const DrawnScene> shared = load(run, context);
     const DrawnScene& scene = *shared;
-    judge(scene);
+    check(scene);
     MeshFiles meshes;
     context.add_inputs(drawer().frames() > 1 ? input_files(meshes) : scene.inputs());
     context.set_title(
@@ -58,7 +58,7 @@ class FrameCommand final : public Engine {
       for (const std::string& note : frame.notes()) context.add_note(note);
       add_pictures(run, context, scene, frame, result);
     });
-    if (drawer().frames() > 1 && !result.interrupted && !context.judging_only())
+    if (drawer().frames() > 1 && !result.interrupted && !context.checking_only())
       measure_flicker(drawer().frames(), context, result,
                       [&](int i) { return picture_of(i, static_cast<std::uint32_t>(run.seed)); });
   }
@@ -124,14 +124,14 @@ class FrameCommand final : public Engine {
     return drawer().load(static_cast<std::uint32_t>(run.seed), context);
   }
 
-  void judge(const DrawnScene& scene) const {
-    drawer().judge(scene);
-    for (const PictureSmoother* smoother : roles().chosen_smoothers()) smoother->judge(scene);
+  void check(const DrawnScene& scene) const {
+    drawer().check(scene);
+    for (const PictureSmoother* smoother : roles().chosen_smoothers()) smoother->check(scene);
   }
 
   SequencePicture picture_of(int frame, std::uint32_t seed) const {
     const std::shared_ptr<const DrawnScene> scene = drawer().scene_of(frame, seed);
-    judge(*scene);
+    check(*scene);
     const Image before = drawer().golden_picture(*scene);
     Image after = before;
     for (const PictureSmoother* smoother : roles().chosen_smoothers()) {
@@ -173,7 +173,7 @@ class FrameCommand final : public Engine {
     const bool golden = run.check == CheckMode::kGolden;
     if (golden) expected = frame.expected_frame();
     if (run.truth && whole)
-      truth = drawer().judge_by_truth(scene, truth_options(), before, after, result, context);
+      truth = drawer().compare_with_truth(scene, truth_options(), before, after, result, context);
     if (whole) result.change = measure_change(before, after, truth.empty() ? nullptr : &truth);
     const SmoothedFrame smoothed{before,
                                  after,

@@ -144,7 +144,7 @@ void FrameRoles::resolve(ParameterSet& set) {
     if (std::find(chosen.begin(), chosen.end(), &smoother) != chosen.end())
       return smoother.resolve(set);
     for (const std::string& prefix : smoother.prefixes())
-      set.refuse_all(prefix, fmt::format("{} has no {}", why, smoother.title()));
+      set.reject_all(prefix, fmt::format("{} has no {}", why, smoother.title()));
   };
   for (const auto& mesh : mesh_) resolve_one(*mesh);
   for (const auto& rows : rows_) resolve_one(*rows);

@@ -42,7 +42,7 @@ class FrameRoles {
   std::vector<const RowSmoother*> row_smoothers() const;
 
   void add_parameters(ParameterSet& set);
-  // Presets, what the chosen engines do for each other, and what is refused.
+  // Presets, what the chosen engines do for each other, and what is rejected.
   void resolve(ParameterSet& set);
   std::vector<Shorthand> shorthands() const;
 

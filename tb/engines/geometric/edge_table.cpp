@@ -30,27 +30,27 @@ constexpr double kSeamStep = 0x1p-20;         // repeats
 constexpr double kGuardBandPixels = 16383.0;  // a pixel less than the engine's
 constexpr double kDepthScale = 0xFFFFFF;
 
-[[noreturn]] void refuse(const Mesh& mesh, const std::string& what) {
+[[noreturn]] void reject(const Mesh& mesh, const std::string& what) {
   throw spec::ConfigError(fmt::format("the mesh '{}' has no edge table: {}", mesh.name, what));
 }
 
 void check(const Mesh& mesh) {
-  if (mesh.triangles.empty()) refuse(mesh, "it has no triangles");
+  if (mesh.triangles.empty()) reject(mesh, "it has no triangles");
   if (mesh.triangles.size() > spec::geometric::kMaxFaces)
-    refuse(mesh, fmt::format("it has {} faces, the limit is {}; simplify it", mesh.triangles.size(),
+    reject(mesh, fmt::format("it has {} faces, the limit is {}; simplify it", mesh.triangles.size(),
                              spec::geometric::kMaxFaces));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& triangle = mesh.triangles[t];
     for (const std::uint32_t v : triangle.vertex)
       if (v >= mesh.vertices.size())
-        refuse(mesh, fmt::format("triangle {} uses vertex {}, there are {}; repair the indices", t,
+        reject(mesh, fmt::format("triangle {} uses vertex {}, there are {}; repair the indices", t,
                                  v, mesh.vertices.size()));
     if (triangle.material >= mesh.materials.size())
-      refuse(mesh, fmt::format("triangle {} uses material {}, there are {}", t, triangle.material,
+      reject(mesh, fmt::format("triangle {} uses material {}, there are {}", t, triangle.material,
                                mesh.materials.size()));
     const int texture = mesh.materials[triangle.material].texture;
     if (texture >= 0 && static_cast<std::size_t>(texture) >= mesh.textures.size())
-      refuse(mesh, fmt::format("material {} uses texture {}, there are {}", triangle.material,
+      reject(mesh, fmt::format("material {} uses texture {}, there are {}", triangle.material,
                                texture, mesh.textures.size()));
   }
 }
@@ -253,7 +253,7 @@ EdgeTable build_edge_table(const Mesh& mesh, const EdgeTableOptions& options) {
   }
   if (options.crossings) add_crossings(table, welder, faces);
   if (table.edges.size() > spec::geometric::kMaxEdges)
-    refuse(mesh, fmt::format("it has {} edges, the limit is {}; simplify it", table.edges.size(),
+    reject(mesh, fmt::format("it has {} edges, the limit is {}; simplify it", table.edges.size(),
                              spec::geometric::kMaxEdges));
   std::sort(table.edges.begin(), table.edges.end(), [](const Edge& a, const Edge& b) {
     return std::array{a.f0, a.v0, a.v1} < std::array{b.f0, b.v0, b.v1};

@@ -73,7 +73,7 @@ golden::geometric::Bases GeometricChecks::bases() const {
 void GeometricChecks::begin(const geometric::Frame& frame) {
   frame_ = &frame;
   layout_ = {setup_.geometric.layout, frame.image.width, frame.image.height};
-  reads_judged_ = writes_judged_ = 0;
+  reads_checked_ = writes_checked_ = 0;
   if (!used_) return;
   golden_.process(frame.input(bases()));
   for (const LineRecord& line : golden_.lines()) lines.expect(line);
@@ -88,7 +88,7 @@ void GeometricChecks::begin(const geometric::Frame& frame) {
 }
 
 void GeometricChecks::restart() {
-  reads_judged_ = writes_judged_ = 0;
+  reads_checked_ = writes_checked_ = 0;
   lines.restart();
   candidates.restart();
   blocks.restart();
@@ -105,14 +105,15 @@ void GeometricChecks::got(const BlockRecord& block, rtl::Cycle cycle) {
   if (used_) blocks.got(block, cycle);
 }
 
-void GeometricChecks::judge_traffic(const platform::MemoryModel& memory, rtl::Cycle cycle) {
+void GeometricChecks::check_traffic(const platform::MemoryModel& memory, rtl::Cycle cycle) {
   if (!used_) return;
-  const auto judge = [&](const std::vector<std::uint64_t>& moved, std::size_t& judged, bool write) {
-    for (; judged < moved.size(); ++judged)
-      traffic.got({static_cast<std::uint32_t>(moved[judged]), write}, cycle);
+  const auto check = [&](const std::vector<std::uint64_t>& moved, std::size_t& checked,
+                         bool write) {
+    for (; checked < moved.size(); ++checked)
+      traffic.got({static_cast<std::uint32_t>(moved[checked]), write}, cycle);
   };
-  judge(memory.lines_read(), reads_judged_, false);
-  judge(memory.lines_written(), writes_judged_, true);
+  check(memory.lines_read(), reads_checked_, false);
+  check(memory.lines_written(), writes_checked_, true);
 }
 
 std::uint32_t GeometricChecks::line_offset(int x, int y) const {
@@ -146,7 +147,7 @@ void GeometricChecks::finish(const rtl::geometric::GeometricEngine& engine,
   blocks.require(work.blocks);
   traffic.require(std::max<std::uint64_t>(1, memory.reads() + memory.writes()));
   pixels.require(area);
-  registers.judge(bus, expected_registers(engine));
+  registers.check(bus, expected_registers(engine));
 }
 
 std::vector<std::pair<std::uint32_t, std::uint64_t>> GeometricChecks::expected_registers(
@@ -177,7 +178,7 @@ std::vector<std::pair<std::uint32_t, std::uint64_t>> GeometricChecks::expected_r
   for (const WorkCount& each : spec::geometric::kWorkCounts)
     expected.emplace_back(each.offset, work_.*each.count);
   expected.emplace_back(reg::kMemoryErrors, errors_);
-  // Clocks are the model's own; that the registers show them is judged, and that they add up.
+  // Clocks are the model's own; that the registers show them is checked, and that they add up.
   const rtl::geometric::FrameSequencer& sequencer = engine.frame_sequencer;
   const std::uint64_t edge_clocks = sequencer.edge_cycles.value(),
                       resolve_clocks = sequencer.resolve_cycles.value();

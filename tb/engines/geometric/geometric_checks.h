@@ -39,10 +39,10 @@ class GeometricChecks {
   void got(const spec::geometric::Candidate& candidate, rtl::Cycle cycle);
   void got(const spec::geometric::BlockRecord& block, rtl::Cycle cycle);
   // What memory has recorded since the last call, or since the frame began.
-  void judge_traffic(const platform::MemoryModel& memory, rtl::Cycle cycle);
+  void check_traffic(const platform::MemoryModel& memory, rtl::Cycle cycle);
   // The frame is done; this is what is in memory.
   void end(const Image& after, rtl::Cycle cycle);
-  // All frames are done: so many comparisons there must be, and the registers are judged.
+  // All frames are done: so many comparisons there must be, and the registers are checked.
   void finish(const rtl::geometric::GeometricEngine& engine, const platform::MemoryModel& memory,
               std::uint64_t pixels, platform::RegisterBus& registers);
 
@@ -73,7 +73,7 @@ class GeometricChecks {
   const geometric::Frame* frame_ = nullptr;
   golden::geometric::FrameLayout layout_;  // of it
   Image expected_;
-  std::size_t reads_judged_ = 0, writes_judged_ = 0;
+  std::size_t reads_checked_ = 0, writes_checked_ = 0;
 };
 
 }  // namespace deburr::tb

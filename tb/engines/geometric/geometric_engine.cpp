@@ -53,11 +53,11 @@ class GeometricCommand final : public Engine {
     lists_ = lists_of(scene_);
     frames_ = frames_of(set, sequence_, lists_);
     imply_crossings(set, "scene.crossings", parameters_);
-    refuse_unused_rules(set, parameters_);
-    refuse_unused_memory(set, "memory", memory_);
-    refuse_slow_memory(set, "memory", memory_);
+    reject_unused_rules(set, parameters_);
+    reject_unused_memory(set, "memory", memory_);
+    reject_slow_memory(set, "memory", memory_);
     if (set.find("run.truth")->text() == "false" && frames_ == 1)
-      set.refuse("scene.truth_samples", "nothing is compared without run.truth (--truth)");
+      set.reject("scene.truth_samples", "nothing is compared without run.truth (--truth)");
     preset_label_ = preset_label(set, parameters_);
   }
 
@@ -73,12 +73,12 @@ class GeometricCommand final : public Engine {
                   joined(edge_shorthands(), sequence_shorthands()));
   }
 
-  void judge(const RunParameters& run, RunContext& context) override { judge(*load(run, context)); }
+  void check(const RunParameters& run, RunContext& context) override { check(*load(run, context)); }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     const std::shared_ptr<const LoadedGeometricFrame> shared = load(run, context);
     const LoadedGeometricFrame& loaded = *shared;
-    judge(loaded);
+    check(loaded);
     const geometric::Frame& frame = loaded.frame;
     MeshFiles meshes;
     context.add_inputs(frames_ > 1 ? input_files(meshes) : loaded.inputs);
@@ -97,7 +97,7 @@ class GeometricCommand final : public Engine {
         context.add_note(note);
       add_pictures(run, context, loaded, environment, result);
     });
-    if (frames_ > 1 && !result.interrupted && !context.judging_only())
+    if (frames_ > 1 && !result.interrupted && !context.checking_only())
       measure_flicker(frames_, context, result,
                       [&](int i) { return picture_of(i, static_cast<std::uint32_t>(run.seed)); });
   }
@@ -152,14 +152,14 @@ class GeometricCommand final : public Engine {
 
  private:
   // What is known before anything is rendered.
-  void judge(const Scene& scene) const {
-    refuse_too_many_faces(scene, parameters_);
+  void check(const Scene& scene) const {
+    reject_too_many_faces(scene, parameters_);
     golden::geometric::check_frame(parameters_, {scene_.width, scene_.height, 0, 0, 0});
   }
 
-  void judge(const LoadedGeometricFrame& loaded) const {
-    judge(loaded.scene);
-    refuse_nothing_drawn(loaded.scene, loaded.frame.depth);
+  void check(const LoadedGeometricFrame& loaded) const {
+    check(loaded.scene);
+    reject_nothing_drawn(loaded.scene, loaded.frame.depth);
     const geometric::Frame& frame = loaded.frame;
     golden::geometric::check_frame(
         parameters_, {frame.image.width, frame.image.height, frame.screen.edges.size(),
@@ -168,7 +168,7 @@ class GeometricCommand final : public Engine {
 
   std::shared_ptr<const LoadedGeometricFrame> load(const RunParameters& run,
                                                    const RunContext& context) const {
-    const bool truth = run.truth && !context.judging_only();
+    const bool truth = run.truth && !context.checking_only();
     return context.shared<LoadedGeometricFrame>("geometric frame", {"scene.", "run.truth"}, [&] {
       Waiting waiting(truth ? "rendering frame and truth" : "rendering the frame", context.quiet());
       return load_geometric_frame(
@@ -177,7 +177,7 @@ class GeometricCommand final : public Engine {
             waiting.update();
             return interrupted();
           },
-          [&](const Scene& scene) { judge(scene); });
+          [&](const Scene& scene) { check(scene); });
     });
   }
 
@@ -186,7 +186,7 @@ class GeometricCommand final : public Engine {
     wanted.move = move_of(sequence_, lists_, frame);
     const LoadedGeometricFrame loaded =
         load_geometric_frame(wanted, seed, true, [] { return interrupted(); });
-    judge(loaded);
+    check(loaded);
     return {loaded.frame.image, geometric::smoothed(loaded.frame, parameters_).image,
             *loaded.truth};
   }
@@ -230,7 +230,7 @@ class GeometricCommand final : public Engine {
     result.change = measure_change(before, after, loaded.truth ? &*loaded.truth : nullptr);
     if (loaded.truth)
       result.quality =
-          judge_quality(loaded.truth_name, before, after, *loaded.truth, &loaded.frame.depth);
+          measure_quality(loaded.truth_name, before, after, *loaded.truth, &loaded.frame.depth);
   }
 
   GeometricSceneParameters scene_;

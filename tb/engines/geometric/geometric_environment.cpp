@@ -66,17 +66,17 @@ GeometricEnvironment::GeometricEnvironment(Simulation& simulation,
   driver_.place(regions_);
   let_blind({&checks_.lines, &checks_.candidates, &checks_.blocks, &checks_.pixels,
              &checks_.traffic, &checks_.registers.board()});
-  std::array<std::uint32_t, spec::geometric::kRegisters.size()> judged{};
+  std::array<std::uint32_t, spec::geometric::kRegisters.size()> checked{};
   std::transform(spec::geometric::kRegisters.begin(), spec::geometric::kRegisters.end(),
-                 judged.begin(), [](const spec::RegisterInfo& info) { return info.offset; });
-  let_miscount(checks_.registers, judged);
+                 checked.begin(), [](const spec::RegisterInfo& info) { return info.offset; });
+  let_miscount(checks_.registers, checked);
   engine_.memory()->bind(memory_.ports);
   host_.bus.bind(engine_.registers);
   plant_in(memory_, setup.memory);
   if (simulation.options().maps) maps_.emplace();
   if (const std::optional<PixelAddress>& pixel = simulation.options().pixel) {
     for (const geometric::Frame& frame : frames)
-      refuse_outside(*pixel, frame.image.width, frame.image.height);
+      reject_outside(*pixel, frame.image.width, frame.image.height);
     history_.emplace(*pixel);
   }
   observe();
@@ -162,7 +162,7 @@ void GeometricEnvironment::restart() {
   begin(current_);
 }
 
-void GeometricEnvironment::watch() { checks_.judge_traffic(memory_, simulation().clock().cycle()); }
+void GeometricEnvironment::watch() { checks_.check_traffic(memory_, simulation().clock().cycle()); }
 
 void GeometricEnvironment::end() {
   watch();
@@ -181,7 +181,7 @@ void GeometricEnvironment::finish() {
   checks_.finish(engine_, memory_, pixels, host_);
 }
 
-void GeometricEnvironment::refuse_memory_errors() {
+void GeometricEnvironment::reject_memory_errors() {
   if (const std::uint32_t errors = driver_.memory_errors(); errors != 0)
     throw spec::SimulationError(
         fmt::format("memory answered {} lines with an error, which read as zero: look at "
@@ -189,8 +189,8 @@ void GeometricEnvironment::refuse_memory_errors() {
                     errors, memory_name()));
 }
 
-void GeometricEnvironment::refuse_unused_errors() const {
-  refuse_untouched(memory_, setup_.memory);
+void GeometricEnvironment::reject_unused_errors() const {
+  reject_untouched(memory_, setup_.memory);
 }
 
 Amount GeometricEnvironment::amount() const {
@@ -199,7 +199,8 @@ Amount GeometricEnvironment::amount() const {
   return {meter_.edges_done(), engine_.edge_classifier.edges.value(), all, "edge"};
 }
 
-// ---- judging ------------------------------------------------------------------------------------
+// ---- checking
+// ------------------------------------------------------------------------------------
 
 Environment::Boards GeometricEnvironment::outputs() const {
   return {&checks_.lines, &checks_.candidates, &checks_.blocks, &checks_.pixels};

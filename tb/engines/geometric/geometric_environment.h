@@ -6,7 +6,7 @@
 //              depth, colours; weights, copy                                    all of them at the
 //              end
 //
-// The golden model works on a frame before it begins. What the engine's observers see is judged as
+// The golden model works on a frame before it begins. What the engine's observers see is checked as
 // it comes, so are the lines of memory that it reads and writes, each region's in order; when the
 // frame is done, every pixel in memory.
 #pragma once
@@ -54,8 +54,8 @@ class GeometricEnvironment final : public Environment {
   void end() override;
   void restart() override;
   void finish() override;
-  void refuse_memory_errors() override;
-  void refuse_unused_errors() const override;
+  void reject_memory_errors() override;
+  void reject_unused_errors() const override;
   Amount amount() const override;
   bool memory_at_rest() const override { return memory_.at_rest(); }
   Boards outputs() const override;

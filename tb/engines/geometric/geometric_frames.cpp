@@ -14,7 +14,7 @@
 namespace deburr::tb {
 namespace {
 
-void refuse_what_has_no_edges(const std::string& source) {
+void reject_what_has_no_edges(const std::string& source) {
   if (!std::filesystem::path(source).has_extension() || is_mesh_file(source)) return;
   throw spec::ConfigError(
       fmt::format("scene.source = '{}' is no mesh: an image has no edges; give a mesh file (.obj, "
@@ -22,7 +22,7 @@ void refuse_what_has_no_edges(const std::string& source) {
                   source));
 }
 
-void refuse_empty(const Scene& scene, const EdgeTable& table) {
+void reject_empty(const Scene& scene, const EdgeTable& table) {
   if (!table.edges.empty()) return;
   throw spec::ConfigError(
       fmt::format("the mesh '{}' has no edges: none of its {} faces has an area; export a mesh "
@@ -81,14 +81,14 @@ void shuffle_edges(geometric::Frame& frame, std::uint64_t seed) {
 LoadedGeometricFrame load_geometric_frame(const GeometricSceneParameters& p, std::uint32_t seed,
                                           bool truth, const std::function<bool()>& interrupted,
                                           const std::function<void(const Scene&)>& accept) {
-  if (!is_scene_name(p.source)) refuse_what_has_no_edges(p.source);
+  if (!is_scene_name(p.source)) reject_what_has_no_edges(p.source);
   LoadedGeometricFrame loaded;
   loaded.scene = load_scene(p.source, {.seed = seed, .plain = true});
   if (accept) accept(loaded.scene);
   look(loaded.scene, p);
   loaded.scene.camera = moved(loaded.scene.camera, p.move.motion, p.move.frame);
   loaded.frame = geometric::make_frame(loaded.scene, p.width, p.height, {.crossings = p.crossings});
-  refuse_empty(loaded.scene, loaded.frame.table);
+  reject_empty(loaded.scene, loaded.frame.table);
   if (p.edge_order == EdgeOrder::kShuffled) shuffle_edges(loaded.frame, seed);
   loaded.notes = loaded.scene.mesh.notes;
   for (std::string& note : notes_of(loaded.frame.table)) loaded.notes.push_back(std::move(note));

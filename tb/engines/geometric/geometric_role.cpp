@@ -98,9 +98,9 @@ class GeometricRole final : public MeshSmoother {
   }
   void resolve(ParameterSet& set) override {
     imply_crossings(set, "geometric.crossings", parameters_);
-    refuse_unused_rules(set, parameters_);
-    refuse_unused_memory(set, kGeometricMemory, memory_);
-    refuse_slow_memory(set, kGeometricMemory, memory_);
+    reject_unused_rules(set, parameters_);
+    reject_unused_memory(set, kGeometricMemory, memory_);
+    reject_slow_memory(set, kGeometricMemory, memory_);
     label_ = preset_label(set, parameters_);
   }
   std::string label() const override { return label_; }
@@ -113,8 +113,8 @@ class GeometricRole final : public MeshSmoother {
   }
   // What is built for small pictures.
   LongRun long_run() const override { return {{}, {".touched_words"}}; }
-  void judge(const DrawnScene& scene) const override {
-    refuse_too_many_faces(scene.scene(), parameters_);
+  void check(const DrawnScene& scene) const override {
+    reject_too_many_faces(scene.scene(), parameters_);
   }
   bool linear_light() const override { return parameters_.linear_light; }
 

@@ -44,37 +44,37 @@ std::string preset_label(const ParameterSet& set, const spec::geometric::Paramet
   return with_changes(source_of(values), set, kGeometricPrefix);
 }
 
-void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Parameters& p) {
-  const auto refuse = [&](std::string_view name, std::string_view why) {
-    set.refuse(fmt::format("{}{}", kGeometricPrefix, name), why);
+void reject_unused_rules(const ParameterSet& set, const spec::geometric::Parameters& p) {
+  const auto reject = [&](std::string_view name, std::string_view why) {
+    set.reject(fmt::format("{}{}", kGeometricPrefix, name), why);
   };
   if (p.select == spec::geometric::Select::kAll) {
-    refuse("crease", "geometric.select = all draws every edge, crease or not");
-    refuse("crease_depth", "geometric.select = all has no creases");
-    refuse("cull", "geometric.select = all draws every edge, whichever way its faces are turned");
-    refuse("face_limit", "geometric.select = all reads no facing bits");
+    reject("crease", "geometric.select = all draws every edge, crease or not");
+    reject("crease_depth", "geometric.select = all has no creases");
+    reject("cull", "geometric.select = all draws every edge, whichever way its faces are turned");
+    reject("face_limit", "geometric.select = all reads no facing bits");
   }
   if (p.crease == spec::geometric::Crease::kOff)
-    refuse("crease_depth", "geometric.crease = off has no creases");
+    reject("crease_depth", "geometric.crease = off has no creases");
   if (p.depth_test == spec::geometric::DepthTest::kOff)
     for (const char* const name : {"depth_bias", "crease_depth", "depth_lines"})
-      refuse(name, "geometric.depth_test = off reads no depth");
+      reject(name, "geometric.depth_test = off reads no depth");
   if (p.combine == spec::geometric::Combine::kOutermost &&
       p.depth_test != spec::geometric::DepthTest::kFarther)
-    refuse("combine",
+    reject("combine",
            "without geometric.depth_test = farther no pixel is known to be nearer than its "
            "neighbour: outermost is max");
-  if (!p.frame_copy) refuse("copy_lines", "geometric.frame_copy = false copies nothing");
+  if (!p.frame_copy) reject("copy_lines", "geometric.frame_copy = false copies nothing");
   if (p.pipelined) {
-    refuse("dividers",
+    reject("dividers",
            "geometric.pipelined = true takes a line every clock: one divider is enough");
     // A table with entries cannot be built (spec/geometric/check_build.h).
     if (p.reciprocal_table == 0)
-      refuse("reciprocal_table", "geometric.pipelined = true takes a line every clock without one");
+      reject("reciprocal_table", "geometric.pipelined = true takes a line every clock without one");
   }
 }
 
-void refuse_too_many_faces(const Scene& scene, const spec::geometric::Parameters& p) {
+void reject_too_many_faces(const Scene& scene, const spec::geometric::Parameters& p) {
   constexpr std::uint64_t kStep = spec::geometric::kFacesInLine;
   const std::uint64_t faces = scene.mesh.triangles.size();
   const std::string mesh = fmt::format("the mesh '{}' has {} faces", scene.name, faces);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The geometric engine's rules as a user gives them: a preset, rules beside it that change it, and
-// parameters that have no effect under the others, which are refused.
+// parameters that have no effect under the others, which are rejected.
 #pragma once
 
 #include <string>
@@ -27,10 +27,10 @@ void imply_crossings(ParameterSet& set, std::string_view name,
 std::string preset_label(const ParameterSet& set, const spec::geometric::Parameters& values);
 
 // ConfigError for a parameter that was given and has no effect. After apply_preset().
-void refuse_unused_rules(const ParameterSet& set, const spec::geometric::Parameters& values);
+void reject_unused_rules(const ParameterSet& set, const spec::geometric::Parameters& values);
 
 // ConfigError for a mesh with more faces than the hardware has facing bits, or than any has.
-void refuse_too_many_faces(const Scene& scene, const spec::geometric::Parameters& values);
+void reject_too_many_faces(const Scene& scene, const spec::geometric::Parameters& values);
 
 // What the result says of a build that wastes what it has.
 std::vector<std::string> build_notes(const spec::geometric::Parameters& values);

@@ -27,8 +27,8 @@ Frame make_frame(const Scene& scene, int width, int height, const EdgeTableOptio
   return frame;
 }
 
-Judge::Judge(const Scene& scene, int width, int height, int samples,
-             const std::function<bool()>& interrupted, const EdgeTableOptions& edges_of)
+Checker::Checker(const Scene& scene, int width, int height, int samples,
+                 const std::function<bool()>& interrupted, const EdgeTableOptions& edges_of)
     : frame(make_frame(scene, width, height, edges_of)) {
   RenderOptions options;
   options.width = width;
@@ -43,14 +43,16 @@ Judge::Judge(const Scene& scene, int width, int height, int samples,
   silhouettes = silhouette_mask(edges, frame.depth);
 }
 
-double Judge::edge_rmse(const Image& image) const {
+double Checker::edge_rmse(const Image& image) const {
   return std::sqrt(mean_squared_error(image, truth, edges));
 }
-double Judge::silhouette_rmse(const Image& image) const {
+double Checker::silhouette_rmse(const Image& image) const {
   return std::sqrt(mean_squared_error(image, truth, silhouettes));
 }
-double Judge::edge_psnr(const Image& image) const { return psnr(image, truth, edges); }
-double Judge::silhouette_psnr(const Image& image) const { return psnr(image, truth, silhouettes); }
+double Checker::edge_psnr(const Image& image) const { return psnr(image, truth, edges); }
+double Checker::silhouette_psnr(const Image& image) const {
+  return psnr(image, truth, silhouettes);
+}
 
 Smoothed smoothed(const Frame& frame, const spec::geometric::Parameters& parameters) {
   golden::geometric::GeometricGolden golden(parameters,

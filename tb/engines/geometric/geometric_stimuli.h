@@ -29,12 +29,12 @@ struct Frame {
 Frame make_frame(const Scene& scene, int width, int height, const EdgeTableOptions& options = {});
 
 // A frame beside its truth.
-struct Judge {
+struct Checker {
   Frame frame;
   Image truth, msaa;
   Mask edges, silhouettes;
-  Judge(const Scene& scene, int width, int height, int samples,
-        const std::function<bool()>& interrupted = nullptr, const EdgeTableOptions& options = {});
+  Checker(const Scene& scene, int width, int height, int samples,
+          const std::function<bool()>& interrupted = nullptr, const EdgeTableOptions& options = {});
   double edge_rmse(const Image& image) const;  // in codes, over edge pixels
   double silhouette_rmse(const Image& image) const;
   double edge_psnr(const Image& image) const;  // dB

@@ -125,14 +125,14 @@ void MorphologicalChecks::go_on_at(std::size_t position) {
   taps.go_on_at(position);
 }
 
-void MorphologicalChecks::judge_traffic(platform::MemoryModel& memory, rtl::Cycle cycle) {
+void MorphologicalChecks::check_traffic(platform::MemoryModel& memory, rtl::Cycle cycle) {
   if (used_) {
-    const auto judge = [&](const std::vector<std::uint64_t>& moved, bool write) {
+    const auto check = [&](const std::vector<std::uint64_t>& moved, bool write) {
       for (const std::uint64_t line : moved)
         traffic.got({static_cast<std::uint32_t>(line), write}, cycle);
     };
-    judge(memory.lines_written(), true);
-    judge(memory.lines_read(), false);
+    check(memory.lines_written(), true);
+    check(memory.lines_read(), false);
   }
   memory.forget_lines();
 }
@@ -198,7 +198,7 @@ void MorphologicalChecks::finish(std::span<const MorphologicalInput> frames,
   expected.emplace_back(reg::kFrameCycles, frame_clocks);
   // What cannot be read could not be written before.
   expected.emplace_back(reg::kMemoryErrors, 2 * unreadable_lines_);
-  registers.judge(bus, expected);
+  registers.check(bus, expected);
 }
 
 }  // namespace deburr::tb

@@ -42,11 +42,11 @@ class MorphologicalChecks {
   }
   // The order is broken; from here on it is that of this pixel.
   void go_on_at(std::size_t position);
-  // With records alone: judged at the frame's end.
+  // With records alone: checked at the frame's end.
   void got(const spec::morphological::RunRecord& run) { runs_.push_back(run); }
   void got(const spec::morphological::LineRecord& line) { lines_.push_back(line); }
   // What memory has recorded, and forgets then.
-  void judge_traffic(platform::MemoryModel& memory, rtl::Cycle cycle);
+  void check_traffic(platform::MemoryModel& memory, rtl::Cycle cycle);
   // The frame of this number is done.
   void end(rtl::Cycle cycle, std::size_t frame);
   // All of them are: how much must have been compared, and the counters.

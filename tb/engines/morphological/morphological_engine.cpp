@@ -62,16 +62,16 @@ class MorphologicalCommand final : public Engine {
     if (!frame_.mask.empty()) {
       set.imply("morphological.leave", "masked", "frame.mask");
       if (parameters_.leave == spec::morphological::Leave::kNone)
-        set.refuse("frame.mask", "morphological.leave = none looks at no mask");
+        set.reject("frame.mask", "morphological.leave = none looks at no mask");
     }
-    refuse_unused_rules(set, parameters_, "memory");
-    refuse_unused_memory(set, "memory", memory_);
+    reject_unused_rules(set, parameters_, "memory");
+    reject_unused_memory(set, "memory", memory_);
     if (parameters_.storage == spec::morphological::Storage::kMemory)
-      refuse_slow_memory(set, "memory", memory_);
+      reject_slow_memory(set, "memory", memory_);
     else if (set.find("run.line_trace")->text() != "none")
-      set.refuse("run.line_trace",
+      set.reject("run.line_trace",
                  "nothing is asked of memory: morphological.storage = memory asks for lines");
-    refuse_unused_frame(set);
+    reject_unused_frame(set);
     preset_label_ = preset_label(set, parameters_);
   }
 
@@ -92,14 +92,14 @@ class MorphologicalCommand final : public Engine {
         joined(smoothing_shorthands(), sequence_shorthands()));
   }
 
-  void judge(const RunParameters& run, RunContext& context) override {
-    judge(run, *load(run, context));
+  void check(const RunParameters& run, RunContext& context) override {
+    check(run, *load(run, context));
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
     const std::shared_ptr<const LoadedFrame> shared = load(run, context);
     const LoadedFrame& loaded = *shared;
-    judge(run, loaded);
+    check(run, loaded);
     MeshFiles meshes;
     context.add_inputs(frames_ > 1 ? input_files(meshes) : loaded.inputs);
     context.set_title(
@@ -116,7 +116,7 @@ class MorphologicalCommand final : public Engine {
                                           .expectation = golden_of(loaded, context)});
     simulate(simulation, environment, context, result,
              [&] { add_pictures(run, context, loaded, environment, result); });
-    if (frames_ > 1 && !result.interrupted && !context.judging_only())
+    if (frames_ > 1 && !result.interrupted && !context.checking_only())
       measure_flicker(frames_, context, result, [&](int frame) {
         return picture_of(frame, static_cast<std::uint32_t>(run.seed));
       });
@@ -166,8 +166,8 @@ class MorphologicalCommand final : public Engine {
   LongRun long_run() const override { return {{{"frame.count", "300"}}}; }
 
  private:
-  void judge(const RunParameters& run, const LoadedFrame& loaded) const {
-    if (is_rendered(first())) refuse_nothing_drawn(*loaded.depth, first().source);
+  void check(const RunParameters& run, const LoadedFrame& loaded) const {
+    if (is_rendered(first())) reject_nothing_drawn(*loaded.depth, first().source);
     if (run.truth && !loaded.truth)
       throw spec::ConfigError(
           "run.truth: this image comes without a truth; name one with --truth FILE");
@@ -178,7 +178,7 @@ class MorphologicalCommand final : public Engine {
   std::shared_ptr<const LoadedFrame> load(const RunParameters& run,
                                           const RunContext& context) const {
     FrameParameters wanted = first();
-    if (context.judging_only()) wanted.truth_samples = std::min(1, wanted.truth_samples);
+    if (context.checking_only()) wanted.truth_samples = std::min(1, wanted.truth_samples);
     const auto render = [&](const std::function<LitFrames()>& make) {
       const std::string bytes = context.shared_bytes("lit frames", {"frame."}, [&] {
         const LitFrames frames = make();
@@ -227,21 +227,21 @@ class MorphologicalCommand final : public Engine {
     return {image, std::move(after), loaded.truth ? *loaded.truth : Image()};
   }
 
-  void refuse_unused_frame(const ParameterSet& set) const {
+  void reject_unused_frame(const ParameterSet& set) const {
     const bool depth_used = parameters_.edge_source == spec::morphological::EdgeSource::kDepth ||
                             parameters_.edge_source == spec::morphological::EdgeSource::kPredicated;
     // load_frame() has its own words for a truth beside a scene, and for a file that is not there.
     if (is_rendered(first()) || !is_there(first().source)) return;
     for (const char* name : {"frame.width", "frame.height"})
-      set.refuse(name, "frame.source is an image file, which has a size of its own");
-    set.refuse("frame.truth_samples",
+      set.reject(name, "frame.source is an image file, which has a size of its own");
+    set.reject("frame.truth_samples",
                "an image file is compared with the file frame.truth (--truth)");
     if (depth_used && frame_.depth.empty())
       throw spec::ConfigError(fmt::format(
           "morphological.edges.source = {} needs the depth of the image: name it with --depth FILE",
           name_of(parameters_.edge_source, spec::morphological::kEdgeSourceNames)));
     if (!depth_used && frame_.truth.empty())
-      set.refuse(
+      set.reject(
           "frame.depth",
           "edges come from colours, and silhouettes are measured only against a --truth FILE");
   }
@@ -278,8 +278,8 @@ class MorphologicalCommand final : public Engine {
     if (engine.delivered() < after.pixels.size()) return;
     result.change = measure_change(before, after, loaded.truth ? &*loaded.truth : nullptr);
     if (loaded.truth)
-      result.quality = judge_quality(loaded.truth_name, before, after, *loaded.truth,
-                                     loaded.depth ? &*loaded.depth : nullptr);
+      result.quality = measure_quality(loaded.truth_name, before, after, *loaded.truth,
+                                       loaded.depth ? &*loaded.depth : nullptr);
   }
 
   FrameParameters frame_;

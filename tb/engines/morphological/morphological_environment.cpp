@@ -58,11 +58,11 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
   progress_.source = source_.get();
   progress_.memory = memory_.get();
   let_blind({&checks_.pixels, &checks_.taps, &checks_.registers.board()});
-  std::vector<std::uint32_t> judged;
+  std::vector<std::uint32_t> checked;
   for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
-    judged.push_back(each.offset);
-  judged.insert(judged.end(), {reg::kFrameCycles, reg::kMemoryErrors});
-  let_miscount(checks_.registers, judged);
+    checked.push_back(each.offset);
+  checked.insert(checked.end(), {reg::kFrameCycles, reg::kMemoryErrors});
+  let_miscount(checks_.registers, checked);
   if (setup.records) let_blind({&checks_.runs, &checks_.lines});
   if (in_memory()) let_blind({&checks_.traffic});
   if (source_) source_->pixels_out(pixels);
@@ -76,12 +76,12 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
   }
   sink_.keep(false);
   sink_.on_beat = [this](rtl::Cycle cycle, const spec::morphological::BlendedBeat& beat) {
-    judge(cycle, beat);
+    check_output(cycle, beat);
   };
   if (simulation.options().maps) maps_.emplace();
   if (const std::optional<PixelAddress>& pixel = simulation.options().pixel) {
     for (const MorphologicalInput& frame : frames)
-      refuse_outside(*pixel, frame.image.width, frame.image.height);
+      reject_outside(*pixel, frame.image.width, frame.image.height);
     history_.emplace(*pixel);
   }
   const bool records = golden() && setup.records;
@@ -146,7 +146,7 @@ void MorphologicalEnvironment::start() {
 
 void MorphologicalEnvironment::watch() {
   if (pixels.pops() == taken_before_ + 1) first_taken_ = pixels.last_pop();
-  if (memory_) checks_.judge_traffic(*memory_, simulation().clock().cycle());
+  if (memory_) checks_.check_traffic(*memory_, simulation().clock().cycle());
 }
 
 void MorphologicalEnvironment::restart() {
@@ -177,7 +177,7 @@ void MorphologicalEnvironment::finish() {
   checks_.finish(frames_, engine_.work(), blended_.last_push() + 1 - first_taken_, host_);
 }
 
-void MorphologicalEnvironment::refuse_memory_errors() {
+void MorphologicalEnvironment::reject_memory_errors() {
   if (const std::uint32_t errors = driver_.memory_errors(); errors != 0)
     throw spec::SimulationError(
         fmt::format("memory answered {} lines with an error, which read as zero: look at "
@@ -185,8 +185,8 @@ void MorphologicalEnvironment::refuse_memory_errors() {
                     errors, memory_name()));
 }
 
-void MorphologicalEnvironment::refuse_unused_errors() const {
-  if (memory_) refuse_untouched(*memory_, setup_.memory);
+void MorphologicalEnvironment::reject_unused_errors() const {
+  if (memory_) reject_untouched(*memory_, setup_.memory);
 }
 
 Amount MorphologicalEnvironment::amount() const {
@@ -196,7 +196,8 @@ Amount MorphologicalEnvironment::amount() const {
           engine_.sequencer.beats.value() * static_cast<std::uint64_t>(lanes()), all, "pixel"};
 }
 
-// ---- judging ------------------------------------------------------------------------------------
+// ---- checking
+// ------------------------------------------------------------------------------------
 
 Environment::Boards MorphologicalEnvironment::outputs() const {
   Boards boards = {&checks_.pixels, &checks_.taps};
@@ -208,8 +209,8 @@ Environment::Boards MorphologicalEnvironment::traffic() const {
   return in_memory() ? Boards{&checks_.traffic} : Boards{};
 }
 
-void MorphologicalEnvironment::judge(rtl::Cycle cycle,
-                                     const spec::morphological::BlendedBeat& beat) {
+void MorphologicalEnvironment::check_output(rtl::Cycle cycle,
+                                            const spec::morphological::BlendedBeat& beat) {
   const auto width = static_cast<std::size_t>(frame_.width);
   const std::size_t x = position_ % width;
   const std::size_t left = position_ < frame_.pixels.size() ? width - x : 0;

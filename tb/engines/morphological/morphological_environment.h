@@ -6,8 +6,9 @@
 //                                end
 //                            MemoryModel (storage = memory) ─► lines written, lines read
 //
-// The golden model works on a frame before it is sent. Every pixel that leaves the engine is judged
-// as it comes, with its tap (axis, shares, edge bits); runs and lines inside too, if asked for.
+// The golden model works on a frame before it is sent. Every pixel that leaves the engine is
+// checked as it comes, with its tap (axis, shares, edge bits); runs and lines inside too, if asked
+// for.
 #pragma once
 
 #include <cstdint>
@@ -53,8 +54,8 @@ class MorphologicalEnvironment final : public Environment {
   void end() override;
   void restart() override;
   void finish() override;
-  void refuse_memory_errors() override;
-  void refuse_unused_errors() const override;
+  void reject_memory_errors() override;
+  void reject_unused_errors() const override;
   Amount amount() const override;
   bool memory_at_rest() const override { return !memory_ || memory_->at_rest(); }
   Boards outputs() const override;
@@ -103,7 +104,7 @@ class MorphologicalEnvironment final : public Environment {
   std::unique_ptr<platform::MemoryModel> memory_for(
       std::span<const MorphologicalInput> frames) const;
   void start();
-  void judge(rtl::Cycle cycle, const spec::morphological::BlendedBeat& beat);
+  void check_output(rtl::Cycle cycle, const spec::morphological::BlendedBeat& beat);
 
   std::span<const MorphologicalInput> frames_;
   MorphologicalSetup setup_;

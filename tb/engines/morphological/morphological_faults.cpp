@@ -120,7 +120,7 @@ std::vector<PlantedFault> MorphologicalFaults::smaa_faults() const {
 
 spec::morphological::Parameters MorphologicalFaults::as_built() const {
   spec::morphological::Parameters p = setup_.morphological;
-  // A fault that would change nothing is refused by what it needs.
+  // A fault that would change nothing is rejected by what it needs.
   if (planted("wrong-rule")) p.steps = std::max(0, p.steps - 1);
   if (planted("wrong-threshold")) {
     if (p.threshold_mode == spec::morphological::ThresholdMode::kDynamic)

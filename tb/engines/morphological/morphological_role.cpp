@@ -110,10 +110,10 @@ class MorphologicalRole final : public RowSmoother {
       set.imply("morphological." + name, spec::value_text(rules, name), why);
   }
   void resolve(ParameterSet& set) override {
-    refuse_unused_rules(set, parameters_, kMorphologicalMemory);
-    refuse_unused_memory(set, kMorphologicalMemory, memory_);
+    reject_unused_rules(set, parameters_, kMorphologicalMemory);
+    reject_unused_memory(set, kMorphologicalMemory, memory_);
     if (parameters_.storage == spec::morphological::Storage::kMemory)
-      refuse_slow_memory(set, kMorphologicalMemory, memory_);
+      reject_slow_memory(set, kMorphologicalMemory, memory_);
     label_ = preset_label(set, parameters_);
   }
   std::string label() const override { return label_; }
@@ -122,7 +122,7 @@ class MorphologicalRole final : public RowSmoother {
   std::vector<std::string_view> pictures() const override { return {"edges", "weights"}; }
   // What is built for small pictures.
   LongRun long_run() const override { return {{}, {".line_pixels"}}; }
-  void judge(const DrawnScene& scene) const override {
+  void check(const DrawnScene& scene) const override {
     golden::morphological::check_frame(parameters_, scene.stream().width, scene.stream().height);
   }
   bool linear_light() const override { return parameters_.linear_light; }

@@ -42,47 +42,47 @@ std::string preset_label(const ParameterSet& set, const spec::morphological::Par
   return with_changes(source_of(values), set, kMorphologicalPrefix);
 }
 
-void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Parameters& p,
+void reject_unused_rules(const ParameterSet& set, const spec::morphological::Parameters& p,
                          std::string_view memory) {
-  const auto refuse = [&](std::string_view why, std::initializer_list<std::string_view> names) {
+  const auto reject = [&](std::string_view why, std::initializer_list<std::string_view> names) {
     for (const std::string_view name : names)
-      set.refuse(fmt::format("{}{}", kMorphologicalPrefix, name), why);
+      set.reject(fmt::format("{}{}", kMorphologicalPrefix, name), why);
   };
   const bool depth = p.edge_source == spec::morphological::EdgeSource::kDepth;
   const bool predicated = p.edge_source == spec::morphological::EdgeSource::kPredicated;
   if (depth)
-    refuse("morphological.edges.source = depth compares depths, by edges.depth_threshold",
+    reject("morphological.edges.source = depth compares depths, by edges.depth_threshold",
            {"edges.threshold_mode", "edges.local_contrast"});
   if (depth || predicated)
-    refuse("morphological.edges.source is neither luma nor colour and has thresholds of its own",
+    reject("morphological.edges.source is neither luma nor colour and has thresholds of its own",
            {"edges.threshold"});
   if (depth || p.threshold_mode == spec::morphological::ThresholdMode::kFixed)
-    refuse("it belongs to morphological.edges.threshold_mode = dynamic",
+    reject("it belongs to morphological.edges.threshold_mode = dynamic",
            {"edges.alpha", "edges.floor", "edges.dynamic_luma"});
   else
-    refuse("morphological.edges.threshold_mode = dynamic computes the threshold",
+    reject("morphological.edges.threshold_mode = dynamic computes the threshold",
            {"edges.threshold"});
   if (!depth && !predicated)
-    refuse("it belongs to morphological.edges.source = depth or predicated",
+    reject("it belongs to morphological.edges.source = depth or predicated",
            {"edges.depth_threshold"});
   if (!predicated)
-    refuse("it belongs to morphological.edges.source = predicated",
+    reject("it belongs to morphological.edges.source = predicated",
            {"edges.threshold_on_depth_edge", "edges.threshold_off_depth_edge"});
   if (p.predictor == spec::morphological::Predictor::kNone)
-    refuse("morphological.predictor = none extends no run",
+    reject("morphological.predictor = none extends no run",
            {"steps", "contiguous", "safe", "trim"});
   if (!has_qualities(p.preset))
-    refuse("it belongs to morphological.preset = smaa or smaa-dynamic", {"quality"});
+    reject("it belongs to morphological.preset = smaa or smaa-dynamic", {"quality"});
   if (p.area == spec::morphological::AreaSource::kAnalytic ||
       p.area == spec::morphological::AreaSource::kLearned)
-    refuse("morphological.area = analytic and learned search nothing", {"search_steps"});
-  if (!p.diagonals) refuse("it belongs to morphological.diagonals = true", {"diagonal_steps"});
+    reject("morphological.area = analytic and learned search nothing", {"search_steps"});
+  if (!p.diagonals) reject("it belongs to morphological.diagonals = true", {"diagonal_steps"});
   if (!p.round_corners)
-    refuse("it belongs to morphological.round_corners = true", {"corner_rounding"});
+    reject("it belongs to morphological.round_corners = true", {"corner_rounding"});
   if (p.storage == spec::morphological::Storage::kLineBuffers) {
     constexpr std::string_view kWhy = "morphological.storage = line_buffers uses no memory";
-    refuse(kWhy, {"memory.outstanding"});
-    set.refuse_all(fmt::format("{}.", memory), kWhy);
+    reject(kWhy, {"memory.outstanding"});
+    set.reject_all(fmt::format("{}.", memory), kWhy);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The morphological engine's rules as a user gives them: a preset, rules beside it that change it,
-// and parameters that have no effect under the others, which are refused.
+// and parameters that have no effect under the others, which are rejected.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ std::string preset_label(const ParameterSet& set, const spec::morphological::Par
 
 // ConfigError for a rule or a parameter of the memory ("<memory>.*") that was given and has no
 // effect. After apply_preset().
-void refuse_unused_rules(const ParameterSet& set, const spec::morphological::Parameters& values,
+void reject_unused_rules(const ParameterSet& set, const spec::morphological::Parameters& values,
                          std::string_view memory);
 
 // What the result says of a build that no clock of 250 MHz holds, although it can be simulated.

@@ -54,7 +54,7 @@ void TextureChecks::listen() {
 
 void TextureChecks::begin(const Image& blank) {
   golden_frame_ = blank;
-  fills_judged_ = 0;
+  fills_checked_ = 0;
 }
 
 void TextureChecks::restart() {
@@ -98,14 +98,14 @@ bool TextureChecks::got(const Colour& colour, rtl::Cycle cycle) {
   return colours.mismatches() == before;
 }
 
-void TextureChecks::judge_traffic(platform::MemoryModel& memory, rtl::Cycle cycle, bool forget) {
+void TextureChecks::check_traffic(platform::MemoryModel& memory, rtl::Cycle cycle, bool forget) {
   if (memory.lines_read().empty()) return;  // as in most clocks
   if (used_)
-    for (; fills_judged_ < memory.lines_read().size(); ++fills_judged_)
-      fills.got({memory.lines_read()[fills_judged_]}, cycle);
+    for (; fills_checked_ < memory.lines_read().size(); ++fills_checked_)
+      fills.got({memory.lines_read()[fills_checked_]}, cycle);
   if (!forget) return;
   memory.forget_lines();
-  fills_judged_ = 0;
+  fills_checked_ = 0;
 }
 
 void TextureChecks::finish(std::uint64_t fragments, const platform::MemoryModel& memory,
@@ -123,7 +123,7 @@ void TextureChecks::finish(std::uint64_t fragments, const platform::MemoryModel&
       {reg::kSaturated, expected_work.saturated},
       {reg::kMemoryErrors, expected_work.memory_errors},
       {reg::kInvalidFragments, expected_work.invalid_fragments}};
-  registers.judge(bus, expected);
+  registers.check(bus, expected);
 }
 
 std::string TextureChecks::place(const Colour& c) const {

@@ -43,7 +43,7 @@ class TextureChecks {
   // True if the colour is as expected, so that its tag and lane are those of a quad.
   bool got(const spec::texture::Colour& colour, rtl::Cycle cycle);
   // What memory has recorded since the last call, which it forgets then if it may.
-  void judge_traffic(platform::MemoryModel& memory, rtl::Cycle cycle, bool forget);
+  void check_traffic(platform::MemoryModel& memory, rtl::Cycle cycle, bool forget);
   // All begins again (after a reset): begin() comes next.
   void restart();
   // All quads are done: how much must have been compared, and the counters.
@@ -74,7 +74,7 @@ class TextureChecks {
   golden::texture::TextureGolden golden_;
   Image golden_frame_;
   // Of the lines that memory still knows.
-  std::size_t fills_judged_ = 0;
+  std::size_t fills_checked_ = 0;
 };
 
 }  // namespace deburr::tb

@@ -83,24 +83,24 @@ class TextureEngine final : public Engine {
   void resolve(ParameterSet& set) override {
     apply_preset(set, texture_);
     preset_label_ = preset_label(set, texture_);
-    refuse_unused_memory(set, "memory", memory_);
-    refuse_slow_memory(set, "memory", memory_);
-    refuse_empty_lod_range(sampler_);
-    refuse_unused_look_ups(set);
-    if (foreign()) refuse_unused_scene(set);
+    reject_unused_memory(set, "memory", memory_);
+    reject_slow_memory(set, "memory", memory_);
+    reject_empty_lod_range(sampler_);
+    reject_unused_look_ups(set);
+    if (foreign()) reject_unused_scene(set);
     lists_ = lists_of(scene_);
     frames_ = frames_of(set, sequence_, lists_);
     if (foreign() && frames_ > 1)
-      set.refuse(lists_.longest(), "the fragments of scene.fragments are those of one frame");
+      set.reject(lists_.longest(), "the fragments of scene.fragments are those of one frame");
   }
 
-  void judge(const RunParameters& run, RunContext& context) override {
+  void check(const RunParameters& run, RunContext& context) override {
     const std::shared_ptr<const TextureScene> scene = load(run, context);
     if (foreign())
       fragments_of_file(*scene);
     else
-      refuse_nothing_drawn(*scene);
-    refuse_maps_of_nothing(run, *scene);
+      reject_nothing_drawn(*scene);
+    reject_maps_of_nothing(run, *scene);
   }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {
@@ -110,8 +110,8 @@ class TextureEngine final : public Engine {
     if (foreign())
       setup.foreign = fragments_of_file(scene);
     else
-      refuse_nothing_drawn(scene);
-    refuse_maps_of_nothing(run, scene);
+      reject_nothing_drawn(scene);
+    reject_maps_of_nothing(run, scene);
     MeshFiles meshes;
     context.add_inputs(frames_ > 1 ? input_files(meshes) : with_trace(scene.inputs()));
     context.set_title(title(), summary_line(scene, setup));
@@ -119,7 +119,7 @@ class TextureEngine final : public Engine {
     Simulation simulation(simulation_options(run, context));
     if (!foreign() && run.pixel.empty()) setup.expectation = expectation(scene, context);
     std::unique_ptr<FragmentWriter> writer;
-    if (trace_out_.fragments != TraceChoice::kNone && !context.judging_only()) {
+    if (trace_out_.fragments != TraceChoice::kNone && !context.checking_only()) {
       writer = std::make_unique<FragmentWriter>(context.fragment_trace_file(),
                                                 format_of(trace_out_.fragments),
                                                 scene.stream().width, scene.stream().height);
@@ -130,7 +130,7 @@ class TextureEngine final : public Engine {
       if (writer) writer->finish();
       add_pictures(run, context, scene, environment, result);
     });
-    if (frames_ > 1 && !result.interrupted && !context.judging_only())
+    if (frames_ > 1 && !result.interrupted && !context.checking_only())
       measure_flicker(frames_, context, result, [&](int frame) {
         return picture_of(frame, static_cast<std::uint32_t>(run.seed));
       });
@@ -202,7 +202,7 @@ class TextureEngine final : public Engine {
     return files;
   }
 
-  void refuse_maps_of_nothing(const RunParameters& run, const TextureScene& scene) const {
+  void reject_maps_of_nothing(const RunParameters& run, const TextureScene& scene) const {
     if (run.maps && scene.stream().width == 0)
       throw spec::ConfigError(fmt::format(
           "run.maps: the fragments of '{}' have no place in a picture: leave it out, or write "
@@ -211,7 +211,7 @@ class TextureEngine final : public Engine {
           trace_in_.file));
   }
 
-  // All of the file has been read and judged behind it.
+  // All of the file has been read and checked behind it.
   ForeignFragments fragments_of_file(const TextureScene& scene) const {
     const std::size_t textures = scene.memory().descriptors().size();
     const FragmentSummary summary = examine_fragments(trace_in_.file, textures);
@@ -328,7 +328,8 @@ class TextureEngine final : public Engine {
                             (over || lost == 0 ? "" : "; black where nothing was delivered"));
     }
     if (run.truth && !result.interrupted) {
-      const Image truth = judge_by_scene(scene, truth_options(), before, after, result, context);
+      const Image truth =
+          compare_with_scene(scene, truth_options(), before, after, result, context);
       if (truth.empty()) return;
       context.add_image("truth", truth, "Truth", truth_caption());
       context.add_image("error", difference(after, truth, kDifferenceGain), "Error",

@@ -54,7 +54,7 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
     sink_->beats_in(colours);
     sink_->keep(false);
     sink_->on_beat = [this](rtl::Cycle cycle, const spec::texture::Colour& colour) {
-      judge(cycle, colour);
+      check_output(cycle, colour);
     };
   }
   if (simulation.options().coverage) coverage_.emplace(setup.texture);
@@ -62,7 +62,7 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
     maps_ = std::make_unique<TextureMaps>(simulation.clock(), unit_, quads_, colours, sent_,
                                           scene.stream().width, scene.stream().height);
   if (const std::optional<PixelAddress>& pixel = simulation.options().pixel) {
-    refuse_outside(*pixel, scene.stream().width, scene.stream().height);
+    reject_outside(*pixel, scene.stream().width, scene.stream().height);
     DEBURR_CHECK(!setup.expectation, "a pixel is followed through a golden model of its own");
     history_ = std::make_unique<TextureHistory>(simulation.clock(), unit_, quads_, colours, *pixel);
   }
@@ -125,7 +125,7 @@ void TextureEnvironment::configure() {
 
 void TextureEnvironment::watch() {
   if (fetch_again_ && memory_.lines_read().size() > kFaultyRequest) fetch_again();
-  checks_.judge_traffic(memory_, simulation().clock().cycle(), !fetch_again_);
+  checks_.check_traffic(memory_, simulation().clock().cycle(), !fetch_again_);
 }
 
 bool TextureEnvironment::done() const {
@@ -140,7 +140,7 @@ void TextureEnvironment::restart() {
 
 void TextureEnvironment::finish() { checks_.finish(fragments(), memory_, host_); }
 
-void TextureEnvironment::refuse_memory_errors() {
+void TextureEnvironment::reject_memory_errors() {
   if (const std::uint32_t errors = driver_.memory_errors(); errors != 0)
     throw spec::SimulationError(
         fmt::format("memory answered {} line fills with an error, which read as zero: look at "
@@ -148,15 +148,16 @@ void TextureEnvironment::refuse_memory_errors() {
                     errors));
 }
 
-void TextureEnvironment::refuse_unused_errors() const { refuse_untouched(memory_, setup_.memory); }
+void TextureEnvironment::reject_unused_errors() const { reject_untouched(memory_, setup_.memory); }
 
 Amount TextureEnvironment::amount() const {
   return {delivered_, unit_.address.derivative.fragments.value(), fragments(), "fragment"};
 }
 
-// ---- judging ------------------------------------------------------------------------------------
+// ---- checking
+// ------------------------------------------------------------------------------------
 
-void TextureEnvironment::judge(rtl::Cycle cycle, const spec::texture::Colour& colour) {
+void TextureEnvironment::check_output(rtl::Cycle cycle, const spec::texture::Colour& colour) {
   ++delivered_;
   hash_.add(colour.tag);
   hash_.add(static_cast<std::uint64_t>(colour.lane) << 1 | (colour.last ? 1 : 0));

@@ -7,7 +7,7 @@
 //                   golden model (expected colours, expected fills)
 //
 // The golden model gets each quad when the driver sends it, so the comparison needs no more memory
-// than what is in flight, and every output is judged as it comes.
+// than what is in flight, and every output is checked as it comes.
 #pragma once
 
 #include <tlm_utils/simple_initiator_socket.h>
@@ -46,7 +46,7 @@ namespace deburr::tb {
 class TextureEnvironment final : public Environment {
  public:
   // The scene must outlive it. With a name it is part of a composition, which takes the colours
-  // from `colours` and shows them to judge(). ConfigError for wrong parameters.
+  // from `colours` and shows them to check_output(). ConfigError for wrong parameters.
   TextureEnvironment(Simulation& simulation, const TextureScene& scene, const TextureSetup& setup,
                      std::string name = {});
 
@@ -60,8 +60,8 @@ class TextureEnvironment final : public Environment {
   }
   void restart() override;
   void finish() override;
-  void refuse_memory_errors() override;
-  void refuse_unused_errors() const override;
+  void reject_memory_errors() override;
+  void reject_unused_errors() const override;
   Amount amount() const override;
   bool memory_at_rest() const override { return memory_.at_rest(); }
   Boards outputs() const override { return {&checks_.colours}; }
@@ -77,7 +77,7 @@ class TextureEnvironment final : public Environment {
   void collect_headline(Result& result) const override { meter_.collect_headline(result); }
 
   rtl::Link<spec::texture::Colour> colours{"colours"};
-  void judge(rtl::Cycle cycle, const spec::texture::Colour& colour);
+  void check_output(rtl::Cycle cycle, const spec::texture::Colour& colour);
   bool sent() const { return quad_driver_.done(); }  // every quad
 
   const Image& frame() const { return frame_; }

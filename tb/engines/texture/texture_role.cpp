@@ -31,7 +31,7 @@ class ColoursOfTexture final : public ColoursPort {
   bool can_pop(rtl::Cycle cycle) const override { return in_.can_pop(cycle); }
   DrawnColour take(rtl::Cycle cycle) override {
     const Colour colour = in_.take(cycle);
-    environment_.judge(cycle, colour);
+    environment_.check_output(cycle, colour);
     DrawnColour drawn;
     if (colour.tag >= stream_.quads.size() || colour.lane >= 4) return drawn;
     const FragmentStream::Pixel p = stream_.pixel(colour.tag, colour.lane);
@@ -109,10 +109,10 @@ class TextureRole final : public PictureDrawer {
   void resolve(ParameterSet& set) override {
     lists_ = lists_of(scene_);
     frames_ = frames_of(set, sequence_, lists_);
-    refuse_unused_look_ups(set);
-    refuse_unused_memory(set, "memory", memory_);
-    refuse_slow_memory(set, "memory", memory_);
-    refuse_empty_lod_range(sampler_);
+    reject_unused_look_ups(set);
+    reject_unused_memory(set, "memory", memory_);
+    reject_slow_memory(set, "memory", memory_);
+    reject_empty_lod_range(sampler_);
     if (sampler_.format == spec::texture::Format::kSrgb8A8 &&
         texture_.srgb_output == spec::texture::SrgbOutput::kLinear)
       throw spec::ConfigError(
@@ -123,7 +123,7 @@ class TextureRole final : public PictureDrawer {
     return joined(scene_shorthands("object"), sequence_shorthands());
   }
   LongRun long_run() const override { return {{{"scene.width", "321"}, {"scene.height", "243"}}}; }
-  void judge(const DrawnScene& scene) const override { refuse_nothing_drawn(textured(scene)); }
+  void check(const DrawnScene& scene) const override { reject_nothing_drawn(textured(scene)); }
 
   const std::string& source() const override { return scene_.source; }
   std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
@@ -144,10 +144,10 @@ class TextureRole final : public PictureDrawer {
                      const RunContext& context) const override {
     scene_truth(textured(scene), options, context);
   }
-  Image judge_by_truth(const DrawnScene& scene, const RenderOptions& options, const Image& before,
-                       const Image& after, Result& result,
-                       const RunContext& context) const override {
-    return judge_by_scene(textured(scene), options, before, after, result, context);
+  Image compare_with_truth(const DrawnScene& scene, const RenderOptions& options,
+                           const Image& before, const Image& after, Result& result,
+                           const RunContext& context) const override {
+    return compare_with_scene(textured(scene), options, before, after, result, context);
   }
 
   int frames() const override { return frames_; }

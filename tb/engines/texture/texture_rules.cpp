@@ -41,12 +41,12 @@ void add_sampler(ParameterSet& set, SamplerParameters& sampler) {
   set.alias("sampler.mode", "trilinear", spec::texture::kMinFilterNames[kTrilinear]);
 }
 
-void refuse_nothing_drawn(const TextureScene& scene) {
+void reject_nothing_drawn(const TextureScene& scene) {
   if (scene.stream().counts.fragments > 0) return;
-  refuse_empty_picture(scene.scene(), scene.stream().width, scene.stream().height);
+  reject_empty_picture(scene.scene(), scene.stream().width, scene.stream().height);
 }
 
-void refuse_empty_lod_range(const SamplerParameters& sampler) {
+void reject_empty_lod_range(const SamplerParameters& sampler) {
   if (sampler.min_lod > sampler.max_lod)
     throw spec::ConfigError(fmt::format(
         "sampler.min_lod = {} is above sampler.max_lod = {}: no level of detail lies between them",

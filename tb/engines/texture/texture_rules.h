@@ -24,8 +24,8 @@ std::string preset_label(const ParameterSet& set, const spec::texture::Parameter
 void add_sampler(ParameterSet& set, SamplerParameters& sampler);
 
 // ConfigError for a scene that draws nothing, and for levels of which none lies in the range.
-void refuse_nothing_drawn(const TextureScene& scene);
-void refuse_empty_lod_range(const SamplerParameters& sampler);
+void reject_nothing_drawn(const TextureScene& scene);
+void reject_empty_lod_range(const SamplerParameters& sampler);
 
 // Of what is given a scene to texture: --scene, --in, --texture, --size, --mode, --aniso.
 std::vector<Shorthand> scene_shorthands(const std::string& default_scene);

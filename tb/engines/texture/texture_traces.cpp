@@ -5,17 +5,17 @@
 
 namespace deburr::tb {
 
-void refuse_unused_look_ups(const ParameterSet& set) {
+void reject_unused_look_ups(const ParameterSet& set) {
   if (set.find("run.line_trace")->text() == "none")
-    set.refuse("run.line_trace_look_ups",
+    set.reject("run.line_trace_look_ups",
                "there is no trace without run.line_trace (--line-trace text)");
 }
 
-void refuse_unused_scene(const ParameterSet& set) {
+void reject_unused_scene(const ParameterSet& set) {
   for (const char* name :
        {"scene.width", "scene.height", "scene.traversal", "scene.visibility", "scene.eye",
         "scene.target", "scene.fov", "scene.roll", "sequence.frames", "sequence.motion"})
-    set.refuse(name, "the fragments come from the file scene.fragments (--fragments)");
+    set.reject(name, "the fragments come from the file scene.fragments (--fragments)");
   if (set.find("run.truth")->text() == "true")
     throw spec::ConfigError("run.truth: the scene of a file's fragments is unknown: leave it out");
 }

@@ -20,7 +20,7 @@ void describe(LookUpTrace& p, Visitor& v) {
             "lines.trace has every look-up of the texture cache too, and what came of it.");
 }
 // ConfigError for look-ups without a trace that they could be in.
-void refuse_unused_look_ups(const ParameterSet& set);
+void reject_unused_look_ups(const ParameterSet& set);
 
 struct FragmentTraceOut {
   TraceChoice fragments = TraceChoice::kNone;
@@ -43,6 +43,6 @@ void describe(FragmentTraceIn& p, Visitor& v) {
          "textures alone (docs/reference/traces.md).");
 }
 // ConfigError for what says how a scene is drawn, beside fragments that are drawn already.
-void refuse_unused_scene(const ParameterSet& set);
+void reject_unused_scene(const ParameterSet& set);
 
 }  // namespace deburr::tb

@@ -43,12 +43,12 @@ std::shared_ptr<const Image> scene_truth(const TextureScene& scene, RenderOption
   });
 }
 
-Image judge_by_scene(const TextureScene& scene, RenderOptions options, const Image& before,
-                     const Image& after, Result& result, const RunContext& context) {
+Image compare_with_scene(const TextureScene& scene, RenderOptions options, const Image& before,
+                         const Image& after, Result& result, const RunContext& context) {
   try {
     Image truth = *scene_truth(scene, std::move(options), context);
-    result.quality = judge_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples),
-                                   before, after, truth, &scene.stream().depth);
+    result.quality = measure_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples),
+                                     before, after, truth, &scene.stream().depth);
     return truth;
   } catch (const Interrupted&) {
     result.interrupted = true;

@@ -20,7 +20,7 @@ std::string truth_caption();
 // Shared by runs of the same scene (RunContext::shared). Throws Interrupted.
 std::shared_ptr<const Image> scene_truth(const TextureScene& scene, RenderOptions options,
                                          const RunContext& context);
-Image judge_by_scene(const TextureScene& scene, RenderOptions options, const Image& before,
-                     const Image& after, Result& result, const RunContext& context);
+Image compare_with_scene(const TextureScene& scene, RenderOptions options, const Image& before,
+                         const Image& after, Result& result, const RunContext& context);
 
 }  // namespace deburr::tb

@@ -29,15 +29,15 @@ TEST(Quality, IsOfBothPicturesWhereThereIsSomethingToCompare) {
   Image truth(8, 8, {100, 100, 100, 255}), before = truth, after = truth;
   before.at(3, 3) = {110, 100, 100, 255};
   after.at(3, 3) = {101, 100, 100, 255};
-  const Quality q = judge_quality("x", before, after, truth, nullptr);
+  const Quality q = measure_quality("x", before, after, truth, nullptr);
   // One channel of one edge pixel: mse 100 / 3 and 1 / 3.
   EXPECT_NEAR(*q.psnr_edge_before_db, 32.90, 0.01);
   EXPECT_NEAR(*q.psnr_edge_db, 52.90, 0.01);
   EXPECT_NEAR(*q.psnr_db - *q.psnr_before_db, 20.0, 0.01);
   EXPECT_FALSE(q.psnr_silhouette_db || q.psnr_silhouette_before_db) << "no depth";
   const DepthImage flat(8, 8, 1.0f);
-  EXPECT_FALSE(judge_quality("x", before, after, truth, &flat).psnr_silhouette_db);
-  const Quality same = judge_quality("x", truth, truth, truth, nullptr);
+  EXPECT_FALSE(measure_quality("x", before, after, truth, &flat).psnr_silhouette_db);
+  const Quality same = measure_quality("x", truth, truth, truth, nullptr);
   EXPECT_EQ(*same.psnr_db, std::numeric_limits<double>::infinity());
   EXPECT_FALSE(same.psnr_edge_db) << "no edge pixels";
 }
@@ -47,7 +47,7 @@ TEST(Quality, HasFlipAndSsimOfBothPictures) {
   Image before = truth, after = truth;
   before.at(3, 8) = {200, 100, 100, 255};
   after.at(3, 8) = {120, 100, 100, 255};
-  const Quality q = judge_quality("x", before, after, truth, nullptr);
+  const Quality q = measure_quality("x", before, after, truth, nullptr);
   EXPECT_EQ(*q.flip, flip(truth, after));
   EXPECT_EQ(*q.flip_before, flip(truth, before));
   EXPECT_GT(*q.flip_before, *q.flip);
@@ -55,7 +55,7 @@ TEST(Quality, HasFlipAndSsimOfBothPictures) {
   EXPECT_EQ(*q.ssim_before, ssim(truth, before));
   EXPECT_LT(*q.ssim_before, *q.ssim);
   const Image small(10, 40);
-  EXPECT_FALSE(judge_quality("x", small, small, small, nullptr).ssim) << "no window fits";
+  EXPECT_FALSE(measure_quality("x", small, small, small, nullptr).ssim) << "no window fits";
 }
 
 TEST(Change, CountsPixelsByCodesAndOfTheRightOnes) {

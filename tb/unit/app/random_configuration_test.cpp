@@ -64,7 +64,7 @@ TEST_P(RandomConfiguration, IsTheSameForTheSameSeed) {
 TEST_P(RandomConfiguration, CanBeBuilt) {
   const std::string engine = GetParam();
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
-    const std::string refused = forked_text([&]() -> std::string {
+    const std::string rejected = forked_text([&]() -> std::string {
       const std::unique_ptr<Engine> made = engine_named(engine);
       BoundEngine bound(*made);
       for (const auto& [name, value] : random_configuration(engine, seed))
@@ -72,12 +72,12 @@ TEST_P(RandomConfiguration, CanBeBuilt) {
       bound.resolve();
       RunContext context("", bound.set, "", seed);
       context.set_quiet(true);
-      context.set_judging_only();
+      context.set_checking_only();
       Result result;
       made->run(bound.run, context, result);
       return "";
     });
-    EXPECT_EQ(refused, "") << engine << ", seed " << seed;
+    EXPECT_EQ(rejected, "") << engine << ", seed " << seed;
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Text that a user gives, spoilt: configuration files, definitions of sweeps, planted faults. It is
-// taken, or refused by a named error; what is taken runs to a named end. In the worst case a fault
+// taken, or rejected by a named error; what is taken runs to a named end. In the worst case a fault
 // that is planted breaks the run, never the program.
 //
 // No libFuzzer here: all of the command stands behind these texts, and SystemC elaborates once a
@@ -197,7 +197,7 @@ std::string run_with(const std::string& engine, const std::string& fault, const 
   return "";
 }
 
-// As the refusal of an unknown one lists them.
+// As the rejection of an unknown one lists them.
 std::vector<std::string> links_of(const std::string& engine, const fs::path& directory) {
   std::istringstream lines(forked_text([&] {
     std::string said;

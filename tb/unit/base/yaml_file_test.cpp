@@ -26,7 +26,7 @@ class YamlFileTest : public testing::Test {
     std::ofstream(path_) << text;
     return YamlFile(path_);
   }
-  std::string refusal(const std::string& text) {
+  std::string rejection(const std::string& text) {
     try {
       read(text);
     } catch (const spec::ConfigError& error) {
@@ -74,7 +74,7 @@ TEST_F(YamlFileTest, TakesUtf8AndNamesTheLineOfWhatIsNot) {
       << "UTF-16, as its mark says";
   for (const std::string bad : {"Gr\xfc\xdf\x65", "\xc0\x80", "\xe0\x80\x80", "\xed\xa0\x80",
                                 "\xf5\x80\x80\x80", "\xf4\x90\x80\x80", "\x80", "\xc3"})
-    EXPECT_THAT(refusal("a: 1\nb: \"" + bad + "\"\n"),
+    EXPECT_THAT(rejection("a: 1\nb: \"" + bad + "\"\n"),
                 EndsWith(":2: it is not UTF-8: save the file as that"))
         << bad;
 }
@@ -86,30 +86,30 @@ TEST_F(YamlFileTest, TakesAliasesOfAliases) {
 }
 
 TEST_F(YamlFileTest, RejectsAliasesThatStandForMoreThanAnyoneCanWalk) {
-  EXPECT_THAT(refusal(lists_of_lists(8)),
+  EXPECT_THAT(rejection(lists_of_lists(8)),
               HasSubstr(".yaml:7:45: aliases stand for more than 1000000 values up to here"));
-  EXPECT_THAT(refusal(lists_of_lists(100)), HasSubstr("aliases stand for more than"));
+  EXPECT_THAT(rejection(lists_of_lists(100)), HasSubstr("aliases stand for more than"));
   // Maps count as lists do, keys as values.
   std::string maps = "m0: &m0 {x: y}\n";
   for (int level = 1; level <= 30; ++level) {
     const std::string before = std::to_string(level - 1), name = std::to_string(level);
     maps += "m" + name + ": &m" + name + " {a: *m" + before + ", b: *m" + before + "}\n";
   }
-  EXPECT_THAT(refusal(maps), HasSubstr("aliases stand for more than"));
+  EXPECT_THAT(rejection(maps), HasSubstr("aliases stand for more than"));
 }
 
 TEST_F(YamlFileTest, RejectsAListThatIsAPartOfItself) {
-  EXPECT_THAT(refusal("a: 1\nb: &b [2, *b]\n"),
+  EXPECT_THAT(rejection("a: 1\nb: &b [2, *b]\n"),
               EndsWith(".yaml:2:11: an alias of what it is a part of"));
-  EXPECT_THAT(refusal("a: &a {b: {c: *a}}\n"), HasSubstr("an alias of what it is a part of"));
+  EXPECT_THAT(rejection("a: &a {b: {c: *a}}\n"), HasSubstr("an alias of what it is a part of"));
 }
 
 // Where the library gives up there is a line, too, and no crash.
 TEST_F(YamlFileTest, RejectsWhatIsNestedTooDeeply) {
-  EXPECT_THAT(refusal(std::string(100'000, '[')), HasSubstr(".yaml:1:"));
+  EXPECT_THAT(rejection(std::string(100'000, '[')), HasSubstr(".yaml:1:"));
   std::string text;
   for (int level = 0; level < 5'000; ++level) text += std::string(level, ' ') + "a:\n";
-  EXPECT_THAT(refusal(text), HasSubstr("not valid YAML"));
+  EXPECT_THAT(rejection(text), HasSubstr("not valid YAML"));
 }
 
 }  // namespace

@@ -276,20 +276,20 @@ class BuildChecks {
         std::filesystem::path(testing::TempDir()) / ("deburr_check_build_" + engine_);
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
-    for (const char* const refused : {"error", "skip"}) {
+    for (const char* const rejected : {"error", "skip"}) {
       const std::filesystem::path file = folder / "sweep.yaml";
       std::ofstream out(file);
       out << "engine: " << engine_ << "\nbase:\n";
       for (const auto& [name, value] : row.settings)
         out << "  " << engine_ << "." << name << ": " << value << "\n";
-      out << "axes: {run.seed: [1, 2], run.stall_seed: [1, 2, 3]}\nrefused: " << refused
+      out << "axes: {run.seed: [1, 2], run.stall_seed: [1, 2, 3]}\nrefused: " << rejected
           << "\nmetrics: {clocks: cycles, bytes: memory.bytes_read}\n"
           << "objectives: {minimise: [clocks, bytes]}\n";
       out.close();
       const SweepDefinition sweep = read_sweep(file);
       EXPECT_THAT(text_of_error([&] { make_plan(sweep, place_of(folder, "plan")); }),
                   testing::HasSubstr(headline(text)))
-          << refused;
+          << rejected;
       EXPECT_THAT(text_of_error([&] {
                     run_search(
                         sweep, search_place_of(folder, "search"), {.runs = 6, .population = 4},
@@ -297,7 +297,7 @@ class BuildChecks {
                         [](std::uint64_t) {});
                   }),
                   testing::HasSubstr(headline(text)))
-          << refused;
+          << rejected;
     }
     std::filesystem::remove_all(folder);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lists and patterns of files and cameras, and what is refused of them.
+// Lists and patterns of files and cameras, and what is rejected of them.
 #include "tb/env/sequence.h"
 
 #include <gmock/gmock.h>

@@ -117,7 +117,7 @@ struct Bed {
   }
 };
 
-std::string refusal(const Parameters& p) {
+std::string rejection(const Parameters& p) {
   try {
     spec::check_ranges("toy", p);
   } catch (const spec::ConfigError& error) {
@@ -127,12 +127,12 @@ std::string refusal(const Parameters& p) {
 }
 
 TEST(Engine, RangesAreCheckedFromTheirDeclaration) {
-  EXPECT_EQ(refusal({}), "taken");
-  EXPECT_EQ(refusal({.steps = 1}), "taken");
-  EXPECT_EQ(refusal({.steps = 8}), "taken");
-  EXPECT_EQ(refusal({.steps = 9}), "toy.steps = 9 is outside 1..8 step");
-  EXPECT_EQ(refusal({.steps = 0}), "toy.steps = 0 is outside 1..8 step");
-  EXPECT_EQ(refusal({.rule = static_cast<Rule>(2)}), "toy.rule = 2 is none of plain, fancy");
+  EXPECT_EQ(rejection({}), "taken");
+  EXPECT_EQ(rejection({.steps = 1}), "taken");
+  EXPECT_EQ(rejection({.steps = 8}), "taken");
+  EXPECT_EQ(rejection({.steps = 9}), "toy.steps = 9 is outside 1..8 step");
+  EXPECT_EQ(rejection({.steps = 0}), "toy.steps = 0 is outside 1..8 step");
+  EXPECT_EQ(rejection({.rule = static_cast<Rule>(2)}), "toy.rule = 2 is none of plain, fancy");
 }
 
 TEST(Engine, ListsWhatIsBelowIt) {

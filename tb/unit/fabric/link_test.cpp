@@ -276,7 +276,7 @@ TEST(Ports, TwoProducersOrTwoBindingsAreRejected) {
 
 TEST(Ports, ASecondOwnerIsNamedAsWhatItIs) {
   Link<int> link("link");
-  const auto refused = [&](auto& first, auto& second) -> std::string {
+  const auto rejected = [&](auto& first, auto& second) -> std::string {
     first(link);
     try {
       second(link);
@@ -287,8 +287,8 @@ TEST(Ports, ASecondOwnerIsNamedAsWhatItIs) {
   };
   Out<int> a("a"), b("b");
   In<int> c("c"), d("d");
-  EXPECT_THAT(refused(a, b), testing::HasSubstr("link has two producers: a and b"));
-  EXPECT_THAT(refused(c, d), testing::HasSubstr("link has two consumers: c and d"));
+  EXPECT_THAT(rejected(a, b), testing::HasSubstr("link has two producers: a and b"));
+  EXPECT_THAT(rejected(c, d), testing::HasSubstr("link has two consumers: c and d"));
 }
 
 TEST(Ports, UnboundPortIsFoundAtElaboration) {

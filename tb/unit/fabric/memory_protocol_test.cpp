@@ -169,7 +169,7 @@ struct BrokenTarget : sc_core::sc_module {
   }
 };
 
-std::string refusal_of(BrokenTarget::Fault fault, ResponseEnd end) {
+std::string rejection_of(BrokenTarget::Fault fault, ResponseEnd end) {
   return in_child([&] {
     Side side;
     BrokenTarget target("target", fault);
@@ -184,15 +184,15 @@ std::string refusal_of(BrokenTarget::Fault fault, ResponseEnd end) {
 TEST(MemoryPort, SaysWhatATargetDoesWrong) {
   using Fault = BrokenTarget::Fault;
   for (const ResponseEnd end : kEnds) {
-    EXPECT_THAT(refusal_of(Fault::kSecondAnswer, end),
+    EXPECT_THAT(rejection_of(Fault::kSecondAnswer, end),
                 testing::HasSubstr("port: the memory answered the read of 0x0 twice"));
-    EXPECT_THAT(refusal_of(Fault::kBackwardRequest, end),
+    EXPECT_THAT(rejection_of(Fault::kBackwardRequest, end),
                 testing::HasSubstr("port: the memory sent phase BEGIN_REQ backwards"));
   }
   // Only where the first one is still open.
-  EXPECT_THAT(refusal_of(Fault::kSecondResponse, ResponseEnd::kCall),
+  EXPECT_THAT(rejection_of(Fault::kSecondResponse, ResponseEnd::kCall),
               testing::HasSubstr("port: the memory began the response for 0x"));
-  EXPECT_EQ(refusal_of(Fault::kSecondResponse, ResponseEnd::kUpdated), "taken");
+  EXPECT_EQ(rejection_of(Fault::kSecondResponse, ResponseEnd::kUpdated), "taken");
 }
 
 // A target that knows only b_transport, behind the adapter of simple_target_socket.
@@ -231,7 +231,7 @@ TEST(MemoryPort, WorksWithABlockingTarget) {
 
 // What interconnects and memories may do to a payload, or forget to do.
 struct OddTarget : sc_core::sc_module {
-  enum class What { kMovesAddress, kLeavesIncomplete, kRefusesEnables };
+  enum class What { kMovesAddress, kLeavesIncomplete, kRejectsEnables };
   tlm_utils::simple_target_socket<OddTarget> socket{"socket"};
   What what;
   OddTarget(const sc_core::sc_module_name& name, What does) : sc_module(name), what(does) {
@@ -242,7 +242,7 @@ struct OddTarget : sc_core::sc_module {
     for (unsigned i = 0; i < payload.get_data_length() && payload.is_read(); ++i)
       payload.get_data_ptr()[i] = pattern(address + i);
     if (what == What::kMovesAddress) payload.set_address(address % (2 * rtl::kLineBytes));
-    if (what == What::kRefusesEnables && payload.get_byte_enable_ptr())
+    if (what == What::kRejectsEnables && payload.get_byte_enable_ptr())
       return payload.set_response_status(tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
     if (what != What::kLeavesIncomplete) payload.set_response_status(tlm::TLM_OK_RESPONSE);
   }
@@ -285,7 +285,7 @@ TEST(MemoryPort, ATargetThatSetsNoStatusFailed) {
 }
 
 TEST(MemoryPort, ATargetWithoutByteEnablesFailsPartsOfLinesAlone) {
-  EXPECT_EQ(answers_of(OddTarget::What::kRefusesEnables),
+  EXPECT_EQ(answers_of(OddTarget::What::kRejectsEnables),
             "0.0@5 0.0@8 0.1@9 0.0@11- 2.0@12- errors 1");
 }
 

@@ -34,7 +34,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 template <class F>
-std::string refusal(F&& action) {
+std::string rejection(F&& action) {
   return text_of<spec::CheckFailed>(action);
 }
 
@@ -58,12 +58,12 @@ class MemoryLatency : public testing::TestWithParam<std::uint32_t> {};
 TEST_P(MemoryLatency, WordIsThereInTheClockThatItIsDueAndNotBefore) {
   const std::uint32_t latency = GetParam();
   Ported p(latency);
-  EXPECT_THAT(refusal([&] { p.read.word(9); }), HasSubstr("none has been asked for"));
+  EXPECT_THAT(rejection([&] { p.read.word(9); }), HasSubstr("none has been asked for"));
   p.read.read(10, 3);
   for (Cycle c = 10; c < 10 + latency; ++c) {
     EXPECT_FALSE(p.read.arrives(c));
     EXPECT_THAT(
-        refusal([&] { p.read.word(c); }),
+        rejection([&] { p.read.word(c); }),
         AllOf(HasSubstr("memory: cycle " + std::to_string(c)), HasSubstr("read port reader"),
               HasSubstr("address 3 is used, expected from cycle " + std::to_string(10 + latency))));
   }
@@ -81,7 +81,7 @@ TEST_P(MemoryLatency, WordStaysUntilTheNextOneComes) {
   EXPECT_EQ(p.read.word(19 + latency), 103);
   EXPECT_EQ(p.read.at(19 + latency, 3), 103);
   EXPECT_EQ(p.read.word(20 + latency), 104);
-  EXPECT_THAT(refusal([&] { p.read.at(20 + latency, 3); }),
+  EXPECT_THAT(rejection([&] { p.read.at(20 + latency, 3); }),
               HasSubstr("output register is that of address 4"));
 }
 
@@ -92,7 +92,7 @@ TEST_P(MemoryLatency, AStaleWordUsedAClockEarlyIsCaught) {
   p.read.read(10, 3);
   p.read.read(20, 4);
   const Cycle early = 20 + latency - 1;
-  EXPECT_THAT(refusal([&] { p.read.at(early, 4); }),
+  EXPECT_THAT(rejection([&] { p.read.at(early, 4); }),
               AllOf(HasSubstr("cycle " + std::to_string(early)),
                     HasSubstr("comes in cycle " + std::to_string(20 + latency)),
                     HasSubstr("that of address 3")));
@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Clocks, MemoryLatency, testing::Values(1, 2, 3, 7));
 TEST(Memory, AReadIssuedTooLateIsCaught) {
   Ported p(2);
   p.read.read(9, 7);  // needed in 10
-  EXPECT_THAT(refusal([&] { p.read.at(10, 7); }), HasSubstr("expected from cycle 11 on"));
+  EXPECT_THAT(rejection([&] { p.read.at(10, 7); }), HasSubstr("expected from cycle 11 on"));
 }
 
 TEST(Memory, FlipFlopsAnswerInTheirClockWithWhatWasThereBefore) {
@@ -147,7 +147,7 @@ TEST(Memory, RuleOfReadDuringWriteHoldsInAnyOrder) {
     EXPECT_EQ(both(new_word, 10, 1), 1);
     EXPECT_EQ(both(new_word, 11, 2), 2);
     Ported forbidden(2, ReadDuringWrite::kForbidden);
-    EXPECT_THAT(refusal([&] { both(forbidden, 10, 1); }),
+    EXPECT_THAT(rejection([&] { both(forbidden, 10, 1); }),
                 AllOf(HasSubstr("memory"), HasSubstr("cycle 10"), HasSubstr("address 5"),
                       HasSubstr("forbidden")));
     forbidden.read.read(12, 5);
@@ -181,8 +181,8 @@ TEST(Memory, RuleOfReadDuringWriteHoldsForEachWordOfAnAccess) {
       both(13, 4, 2);
       EXPECT_EQ(seen(15, 4), (std::array{104, 105, 106}));
       if (rule == ReadDuringWrite::kForbidden) {
-        EXPECT_THAT(refusal([&] { both(16, 4, 6); }), HasSubstr("forbidden"));
-        EXPECT_THAT(refusal([&] { both(17, 6, 5); }), HasSubstr("forbidden"));
+        EXPECT_THAT(rejection([&] { both(16, 4, 6); }), HasSubstr("forbidden"));
+        EXPECT_THAT(rejection([&] { both(17, 6, 5); }), HasSubstr("forbidden"));
         continue;
       }
       const bool fresh = rule == ReadDuringWrite::kNewWord;
@@ -359,7 +359,7 @@ TEST(Memory, AWordThatIsReadAgainIsToldByItsAccess) {
   p.write.write(11, 3, 7);
   p.read.read(12, 3);
   EXPECT_EQ(p.read.at(13, 3), 103);  // a clock early: by its address it may be the one
-  EXPECT_THAT(refusal([&] { p.read.at(13, 3, 12); }),
+  EXPECT_THAT(rejection([&] { p.read.at(13, 3, 12); }),
               AllOf(HasSubstr("cycle 13: read port reader: the word of address 3"),
                     HasSubstr("as it was read in cycle 12"), HasSubstr("is that of cycle 10")));
   EXPECT_EQ(p.read.at(13, 3, 10), 103);
@@ -383,37 +383,37 @@ TEST(Memory, AWriteAfterTheReadDoesNotReachIt) {
 TEST(Memory, OneAccessTooManyIsCaught) {
   Ported p(1);
   p.read.read(4, 1);
-  EXPECT_THAT(refusal([&] { p.read.read(4, 2); }),
+  EXPECT_THAT(rejection([&] { p.read.read(4, 2); }),
               AllOf(HasSubstr("memory: cycle 4: read port reader"), HasSubstr("address 2"),
                     HasSubstr("one access too many"), HasSubstr("1R1W")));
   p.write.write(4, 1, 0);
-  EXPECT_THAT(refusal([&] { p.write.write(4, 2, 0); }), HasSubstr("write port writer"));
+  EXPECT_THAT(rejection([&] { p.write.write(4, 2, 0); }), HasSubstr("write port writer"));
   EXPECT_NO_THROW(p.read.read(5, 2));
 }
 
 TEST(Memory, AddressesThatAreNotThere) {
   Ported p(1);
-  EXPECT_THAT(refusal([&] { p.read.read(0, 16); }), HasSubstr("16 words"));
-  EXPECT_THAT(refusal([&] { p.write.write(0, ~std::uint64_t{0}, 1); }), HasSubstr("16 words"));
-  EXPECT_THAT(refusal([&] { p.read.read(1, 3, 2); }), HasSubstr("at most 1"));
-  EXPECT_THAT(refusal([&] { p.read.read(2, 3, 0); }), HasSubstr("0 words from address 3"));
-  EXPECT_THAT(refusal([&] { p.write.write(2, 3, std::span<const int>{}); }),
+  EXPECT_THAT(rejection([&] { p.read.read(0, 16); }), HasSubstr("16 words"));
+  EXPECT_THAT(rejection([&] { p.write.write(0, ~std::uint64_t{0}, 1); }), HasSubstr("16 words"));
+  EXPECT_THAT(rejection([&] { p.read.read(1, 3, 2); }), HasSubstr("at most 1"));
+  EXPECT_THAT(rejection([&] { p.read.read(2, 3, 0); }), HasSubstr("0 words from address 3"));
+  EXPECT_THAT(rejection([&] { p.write.write(2, 3, std::span<const int>{}); }),
               HasSubstr("0 words from address 3"));
 }
 
 TEST(Memory, PortsAreWhatTheShapeSays) {
   Memory<int> memory("memory", {.words = 16, .word_bits = 8, .read_ports = 2});
   ReadPort<int> first(memory, "first");
-  EXPECT_THAT(refusal([&] { memory.check_ports(); }), HasSubstr("2R1W is used by nobody"));
+  EXPECT_THAT(rejection([&] { memory.check_ports(); }), HasSubstr("2R1W is used by nobody"));
   ReadPort<int> second(memory, "second");
-  EXPECT_THAT(refusal([&] { ReadPort<int> third(memory, "third"); }),
+  EXPECT_THAT(rejection([&] { ReadPort<int> third(memory, "third"); }),
               AllOf(HasSubstr("third"), HasSubstr("2R1W")));
   WritePort<int> write(memory, "write");
   EXPECT_NO_THROW(memory.check_ports());
   first.read(3, 1);
   EXPECT_NO_THROW(second.read(3, 2));
   ReadPort<int> shares = second;  // a second user of the same port
-  EXPECT_THAT(refusal([&] { shares.read(3, 3); }), HasSubstr("one access too many"));
+  EXPECT_THAT(rejection([&] { shares.read(3, 3); }), HasSubstr("one access too many"));
   shares.read(4, 3);
   EXPECT_NO_THROW(second.at(5, 3));
 }
@@ -423,7 +423,7 @@ TEST(Memory, SharedPortReadsOrWrites) {
       "memory", {.words = 8, .word_bits = 8, .read_ports = 0, .write_ports = 0, .shared_ports = 1});
   SharedPort<int> port(memory, "port");
   port.write(0, 3, 33);
-  EXPECT_THAT(refusal([&] { port.read(0, 3); }), HasSubstr("shared port port"));
+  EXPECT_THAT(rejection([&] { port.read(0, 3); }), HasSubstr("shared port port"));
   port.read(1, 3);
   EXPECT_THROW(port.write(1, 3, 34), spec::CheckFailed);
   port.write(2, 3, 34);
@@ -450,7 +450,7 @@ TEST(Memory, OneAccessGivesNeighboursInDifferentBanks) {
   EXPECT_EQ(read.at(2, 5), 50);
   EXPECT_EQ(read.at(2, 7), 70);
   EXPECT_EQ(memory.ports(), "1R1W of 3 words");
-  EXPECT_THAT(refusal([&] { read.at(2, 8); }), HasSubstr("address 8"));
+  EXPECT_THAT(rejection([&] { read.at(2, 8); }), HasSubstr("address 8"));
   EXPECT_THROW(read.read(3, 8, 3), spec::CheckFailed);
   EXPECT_THROW(read.read(4, 0, 4), spec::CheckFailed);
 }
@@ -471,7 +471,7 @@ TEST(Memory, SeparateBanksAreChecked) {
   below.read(0, 23);
   write.write(0, 5, 1);
   above.read(1, 10);
-  EXPECT_THAT(refusal([&] { centre.read(1, 19); }),
+  EXPECT_THAT(rejection([&] { centre.read(1, 19); }),
               AllOf(HasSubstr("read port centre"), HasSubstr("bank 1")));
   EXPECT_NO_THROW(below.read(1, 20));
 }
@@ -546,7 +546,7 @@ TEST(Memory, SeparateBanksForbidAsOthersDo) {
   ReadPort<int> read(memory, "read");
   WritePort<int> write(memory, "write");
   write.write(1, 5, 1);
-  EXPECT_THAT(refusal([&] { read.read(1, 5); }), HasSubstr("forbidden"));
+  EXPECT_THAT(rejection([&] { read.read(1, 5); }), HasSubstr("forbidden"));
   write.write(2, 5, 1);
   EXPECT_NO_THROW(read.read(2, 9));
 }
@@ -578,7 +578,7 @@ TEST(Memory, SeveralWritersDoNotMeet) {
   EXPECT_EQ(read.now(0, 2), 0);
   EXPECT_EQ(read.now(1, 2), 22);
   a.write(2, 1, 12);
-  EXPECT_THAT(refusal([&] { b.write(2, 1, 13); }), HasSubstr("write port b"));
+  EXPECT_THAT(rejection([&] { b.write(2, 1, 13); }), HasSubstr("write port b"));
 }
 
 TEST(Memory, PartOfAWordNeedsAWriteMask) {
@@ -593,7 +593,7 @@ TEST(Memory, PartOfAWordNeedsAWriteMask) {
   EXPECT_EQ(read.at(3, 1), (std::array{10, 21}));
   EXPECT_THAT(memory.built_as(), HasSubstr("write mask of 8 bits"));
   Ported p(1);
-  EXPECT_THAT(refusal([&] { p.write.change(0, 1, [](int& word) { word = 1; }); }),
+  EXPECT_THAT(rejection([&] { p.write.change(0, 1, [](int& word) { word = 1; }); }),
               HasSubstr("mask_bits"));
 }
 
@@ -608,7 +608,7 @@ TEST(Memory, WithoutWordsTheChecksStay) {
   EXPECT_THROW(read.check(2, 6), spec::CheckFailed);
   EXPECT_NO_THROW(read.check(3, 6));
   EXPECT_THROW(read.read(1, 6), spec::CheckFailed);
-  EXPECT_THAT(refusal([&] { write.write(3, 8); }), HasSubstr("1 words from address 8 on"));
+  EXPECT_THAT(rejection([&] { write.write(3, 8); }), HasSubstr("1 words from address 8 on"));
   EXPECT_NO_THROW(write.write(4, 7));
 }
 
@@ -668,15 +668,15 @@ TEST(Memory, RomHasItsContent) {
                                   .write_ports = kind == MemoryKind::kRom ? 0U : 1U},
                                  kTable);
   };
-  EXPECT_THAT(refusal([&] { build(4, 5, MemoryKind::kRom); }), HasSubstr("5 words of content"));
-  EXPECT_THAT(refusal([&] { build(6, 5, MemoryKind::kRom); }), HasSubstr("all of their words"));
-  EXPECT_THAT(refusal([&] { build(5, 4, MemoryKind::kRom); }),
+  EXPECT_THAT(rejection([&] { build(4, 5, MemoryKind::kRom); }), HasSubstr("5 words of content"));
+  EXPECT_THAT(rejection([&] { build(6, 5, MemoryKind::kRom); }), HasSubstr("all of their words"));
+  EXPECT_THAT(rejection([&] { build(5, 4, MemoryKind::kRom); }),
               HasSubstr("0x10 at address 3 has more than 4 bits"));
-  EXPECT_THAT(refusal([&] { build(5, 5, MemoryKind::kSram); }), HasSubstr("sram has none"));
-  EXPECT_THAT(refusal([&] { build(4, 5, MemoryKind::kFlops); }), HasSubstr("5 words of content"));
+  EXPECT_THAT(rejection([&] { build(5, 5, MemoryKind::kSram); }), HasSubstr("sram has none"));
+  EXPECT_THAT(rejection([&] { build(4, 5, MemoryKind::kFlops); }), HasSubstr("5 words of content"));
   EXPECT_NO_THROW(build(5, 5, MemoryKind::kFlops));
   EXPECT_NO_THROW(build(6, 5, MemoryKind::kFlops));
-  EXPECT_THAT(refusal([&] {
+  EXPECT_THAT(rejection([&] {
                 Memory<int>(
                     "bare",
                     {.words = 4, .word_bits = 5, .kind = MemoryKind::kRom, .write_ports = 0});
@@ -749,7 +749,7 @@ TEST(Memory, TheDomainAsksForAPortThatNobodyUses) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Memory<int> memory("memory", {.words = 16, .word_bits = 8});
   const ReadPort<int> read(memory, "read");
-  EXPECT_THAT(refusal([&] { clock.run(1); }), HasSubstr("memory: one of its ports 1R1W"));
+  EXPECT_THAT(rejection([&] { clock.run(1); }), HasSubstr("memory: one of its ports 1R1W"));
 }
 
 // ---- what it costs ------------------------------------------------------------------------------
@@ -827,33 +827,33 @@ TEST(MemoryCost, IsThatOfRealMemories) {
 }
 
 TEST(MemoryCost, WhatNobodySellsIsRejectedWithAWayOut) {
-  const auto refused = [](const MemoryShape& shape) {
+  const auto rejected = [](const MemoryShape& shape) {
     return text_of<spec::ConfigError>([&] { MemoryBase("memory", shape); });
   };
-  EXPECT_THAT(refused({.words = 513, .word_bits = 32, .kind = MemoryKind::kFlops, .latency = 0}),
+  EXPECT_THAT(rejected({.words = 513, .word_bits = 32, .kind = MemoryKind::kFlops, .latency = 0}),
               AllOf(HasSubstr("memory: 16416 bits as flops 1R1W"), HasSubstr("16384"),
                     HasSubstr("use sram")));
-  EXPECT_THAT(refused({.words = 8, .word_bits = 8, .kind = MemoryKind::kFlops, .latency = 2}),
+  EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .kind = MemoryKind::kFlops, .latency = 2}),
               HasSubstr("latency 0 or 1"));
-  EXPECT_THAT(refused({.words = 8, .word_bits = 8, .latency = 0}), HasSubstr("latency 1 or more"));
-  EXPECT_THAT(refused({.words = 8, .word_bits = 8, .write_ports = 2}),
+  EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .latency = 0}), HasSubstr("latency 1 or more"));
+  EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .write_ports = 2}),
               AllOf(HasSubstr("sram 1R2W"), HasSubstr("separate banks")));
   EXPECT_THAT(
-      refused({.words = 8, .word_bits = 8, .read_ports = 1, .write_ports = 0, .shared_ports = 2}),
+      rejected({.words = 8, .word_bits = 8, .read_ports = 1, .write_ports = 0, .shared_ports = 2}),
       HasSubstr("no more writes"));
   EXPECT_THAT(
-      refused({.words = 8, .word_bits = 8, .read_ports = 1, .write_ports = 1, .shared_ports = 1}),
+      rejected({.words = 8, .word_bits = 8, .read_ports = 1, .write_ports = 1, .shared_ports = 1}),
       HasSubstr("no port left to read"));
   EXPECT_THAT(
-      refused({.words = 8, .word_bits = 8, .read_ports = 0, .write_ports = 1, .shared_ports = 2}),
+      rejected({.words = 8, .word_bits = 8, .read_ports = 0, .write_ports = 1, .shared_ports = 2}),
       HasSubstr("no more writes"));
-  EXPECT_THAT(refused({.words = 8, .word_bits = 8, .write_ports = 0}), HasSubstr("use rom"));
-  EXPECT_THAT(refused({.words = 8, .word_bits = 8, .read_ports = 0}), HasSubstr("nobody reads"));
-  EXPECT_THAT(refused({.words = 8, .word_bits = 8, .kind = MemoryKind::kRom}),
+  EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .write_ports = 0}), HasSubstr("use rom"));
+  EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .read_ports = 0}), HasSubstr("nobody reads"));
+  EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .kind = MemoryKind::kRom}),
               HasSubstr("not written"));
-  EXPECT_THAT(refused({.words = 8, .word_bits = 8, .span = 2}), HasSubstr("interleaved banks"));
+  EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .span = 2}), HasSubstr("interleaved banks"));
   EXPECT_THAT(
-      refused({.words = 8, .word_bits = 8, .banks = 2, .order = BankOrder::kBlocks, .span = 2}),
+      rejected({.words = 8, .word_bits = 8, .banks = 2, .order = BankOrder::kBlocks, .span = 2}),
       HasSubstr("interleaved banks"));
   // Registers under another name; the bits of a row of 24 576 that are used at once.
   for (const MemoryKind kind : {MemoryKind::kSram, MemoryKind::kRom}) {
@@ -866,23 +866,23 @@ TEST(MemoryCost, WhatNobodySellsIsRejectedWithAWayOut) {
                          .banks = banks,
                          .span = banks};
     };
-    EXPECT_THAT(refused(banked(24'576, 24'576)),
+    EXPECT_THAT(rejected(banked(24'576, 24'576)),
                 AllOf(HasSubstr("24576 banks of fewer than 16 words"), HasSubstr("use flops")));
-    EXPECT_THAT(refused(banked(65 * 16 - 1, 65)), HasSubstr("use flops"));
+    EXPECT_THAT(rejected(banked(65 * 16 - 1, 65)), HasSubstr("use flops"));
     EXPECT_NO_THROW(MemoryBase("memory", banked(65 * 16, 65)));
     EXPECT_NO_THROW(MemoryBase("memory", banked(64, 64)));
   }
   EXPECT_THAT(
-      refused({.words = 64, .word_bits = 8, .read_ports = 3, .banks = 2, .separate_banks = true}),
+      rejected({.words = 64, .word_bits = 8, .read_ports = 3, .banks = 2, .separate_banks = true}),
       AllOf(HasSubstr("3 accesses of a kind"), HasSubstr("2 separate banks")));
-  EXPECT_THAT(refused({.words = 64,
-                       .word_bits = 8,
-                       .kind = MemoryKind::kFlops,
-                       .write_ports = 5,
-                       .banks = 4,
-                       .separate_banks = true}),
+  EXPECT_THAT(rejected({.words = 64,
+                        .word_bits = 8,
+                        .kind = MemoryKind::kFlops,
+                        .write_ports = 5,
+                        .banks = 4,
+                        .separate_banks = true}),
               HasSubstr("use 5 banks"));
-  EXPECT_THAT(refusal([] {
+  EXPECT_THAT(rejection([] {
                 MemoryBase("memory", {.words = 8,
                                       .word_bits = 8,
                                       .kind = MemoryKind::kFlops,
@@ -890,8 +890,9 @@ TEST(MemoryCost, WhatNobodySellsIsRejectedWithAWayOut) {
                                       .read_during_write = ReadDuringWrite::kNewWord});
               }),
               HasSubstr("cannot be read in it without latency"));
-  EXPECT_THAT(refusal([] { MemoryBase("memory", {.words = 8, .word_bits = 16, .mask_bits = 5}); }),
-              HasSubstr("a write mask of 5 bits does not divide words of 16"));
+  EXPECT_THAT(
+      rejection([] { MemoryBase("memory", {.words = 8, .word_bits = 16, .mask_bits = 5}); }),
+      HasSubstr("a write mask of 5 bits does not divide words of 16"));
 }
 
 // Each by itself, the others being as they must.

@@ -369,11 +369,11 @@ TEST(MemoryPort, BurstOfNoLinesOrTooManyIsABug) {
                 try {
                   s.clock.run(10);
                 } catch (const spec::CheckFailed&) {
-                  return std::string("refused");
+                  return std::string("rejected");
                 }
                 return std::string("taken");
               }),
-              "refused")
+              "rejected")
         << lines;
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A small pipeline with random stalls, a way to run several simulations in one test, and what is
-// said of a refusal.
+// said of a rejection.
 #pragma once
 
 #include <fmt/format.h>

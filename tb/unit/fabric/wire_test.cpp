@@ -67,17 +67,17 @@ TEST(Wire, AResetShowsTheValueOfItsDeclarationAtOnce) {
 // it.
 TEST(Wire, WithoutAResetValueItIsUndrivenUntilItIsDriven) {
   Wire<int> wire("wire", kNoReset);
-  const auto refused = [&](Cycle cycle) {
+  const auto rejected = [&](Cycle cycle) {
     return text_of<spec::CheckFailed>([&] { wire.read(cycle); });
   };
-  EXPECT_THAT(refused(0), HasSubstr("wire: cycle 0: read before it was driven"));
+  EXPECT_THAT(rejected(0), HasSubstr("wire: cycle 0: read before it was driven"));
   wire.drive(9, 1);
-  EXPECT_THAT(refused(9), HasSubstr("cycle 9"));
+  EXPECT_THAT(rejected(9), HasSubstr("cycle 9"));
   EXPECT_EQ(wire.read(10), 1);
   wire.drive(10, 2);
   EXPECT_EQ(wire.read(10), 1);
   wire.reset();
-  EXPECT_THAT(refused(11), HasSubstr("cycle 11: read before it was driven"));
+  EXPECT_THAT(rejected(11), HasSubstr("cycle 11: read before it was driven"));
   EXPECT_EQ(wire.seen(11), nullptr);
 }
 
@@ -85,18 +85,18 @@ TEST(Wire, WithoutAResetValueItIsUndrivenUntilItIsDriven) {
 
 TEST(Wire, CombinationalIsThereInItsClockAndInNoOther) {
   CombinationalWire<int> wire("wire");
-  const auto refused = [&](Cycle cycle) {
+  const auto rejected = [&](Cycle cycle) {
     return text_of<spec::CheckFailed>([&] { wire.read(cycle); });
   };
-  EXPECT_THAT(refused(4), HasSubstr("cycle 4: read before it was driven in this clock"));
+  EXPECT_THAT(rejected(4), HasSubstr("cycle 4: read before it was driven in this clock"));
   wire.drive(4, 8);
   EXPECT_EQ(wire.read(4), 8);
-  EXPECT_THAT(refused(5), HasSubstr("(combinational wire;"));
+  EXPECT_THAT(rejected(5), HasSubstr("(combinational wire;"));
   wire.drive(5, 8);
   EXPECT_EQ(wire.read(5), 8);
   EXPECT_THROW(wire.drive(5, 8), spec::CheckFailed);
   wire.reset();
-  EXPECT_THAT(refused(5), HasSubstr("cycle 5"));
+  EXPECT_THAT(rejected(5), HasSubstr("cycle 5"));
 }
 
 // ---- A pulse

@@ -209,7 +209,7 @@ TEST(Negative, AValueWiderThanItsFieldIsSeenByTheLinkChecker) {
       HasSubstr("link: cycle 2: beat 2: the value of value needs more than its 4 bits"));
 }
 
-// A link whose ends do as they like: the link itself would refuse all of this.
+// A link whose ends do as they like: the link itself would reject all of this.
 class Rogue final : public rtl::LinkBase, public rtl::Clocked {
  public:
   using Acts = std::function<void(Rogue&, Cycle)>;

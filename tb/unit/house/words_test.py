@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """What the program says keeps to the words of the glossary, as the pages do (index_test.py): sentences in the literals
 of the sources (messages, help, meanings of parameters, datasheets), messages and help of the scripts and of the Python
-module, and the names of the tests. Names of keys and values, set in quotes or alone in a literal, are as they are.
+module, and the names of the tests; and names in the code. Names of keys and values, set in quotes or alone in a literal, are as they are.
 
 usage: words_test.py SOURCE"""
 import ast
@@ -24,6 +24,10 @@ QUOTED = re.compile(r"`[^`]*`|(?<!\w)'[^']*'")
 TEST = re.compile(r"\bTEST(?:_F|_P)?\(\w+,\s*(\w+)\)")
 # The key of a sweep's file, and a wire of the twins.
 KEY = re.compile(r"\brefused: |\bbehind == ")
+# Names in the code: of keys and registers, and of what is behind in a queue.
+NAME = re.compile(r"[A-Za-z_]\w*")
+KEY_NAMES = {"refused", "kRefused", "kStatusRefused"}
+NOT_OF_NAMES = {"behind", "lookup"}
 # In depth a surface is behind another one, or behind the eye.
 DEPTH = re.compile(r"\b(?:lies?|wholly) behind\b|\bbehind the eye\b", re.I)
 
@@ -46,10 +50,24 @@ def literals(text):
         yield text.count("\n", 0, begin) + 1, joined
 
 
+def parts(name):
+    """The words of a name."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ", name.replace("_", " ")).split()
+
+
+def names_with(text, words):
+    """Line and name of what has one of the words in it, in the code of C++."""
+    code = TOKEN.sub(lambda found: "\n" * found[0].count("\n"), text)
+    for number, line in enumerate(code.split("\n"), 1):
+        for name in NAME.findall(line):
+            if name not in KEY_NAMES and words & {part.lower() for part in parts(name)}:
+                yield number, name
+
+
 def of_cpp(text):
     yield from literals(text)
     for found in TEST.finditer(text):
-        yield text.count("\n", 0, found.start()) + 1, re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", " ", found[1])
+        yield text.count("\n", 0, found.start()) + 1, " ".join(parts(found[1]))
 
 
 def of_python(text, module):
@@ -88,6 +106,11 @@ def problems(root):
         for found in pattern.findall(plain):
             yield f"{where}: '{found}' is not used: {words[found.lower()]}"
 
+    in_names = words.keys() - NOT_OF_NAMES
+    for path in sorted(path for folder in CODE for ending in ("cpp", "h") for path in (root / folder).rglob(f"*.{ending}")):
+        for line, name in names_with(path.read_text(encoding="utf-8"), in_names):
+            yield f"{path.relative_to(root).as_posix()}:{line}: the name {name} has a word that is not used"
+
 
 def faults_that_are_not_found():
     with tempfile.TemporaryDirectory() as folder:
@@ -101,6 +124,7 @@ def faults_that_are_not_found():
                 ("tb/a.cpp", "say(\"leave out what is rejected with 'refused: skip'\");", 0),
                 ("tb/a.cpp", 'say("the line behind it"); say("what lies behind the eye");', 1),
                 ("tb/a.cpp", "TEST(Frame, LeavesNothingBehind) {\n  f('\"');\n}\nTEST_P(Frame, IsJudged) {}", 1),
+                ("tb/a.h", "// It may judge.\nvoid judge_all(int refused, Refused behind);\nint kRefused = 1;", 2),
                 ("scripts/a", '#!/usr/bin/python3\n"""We judge."""\ndef f():\n    """Judge it."""\n    print("it was refused")\n', 2),
                 ("python/a.py", 'def f():\n    """Judge it."""\n', 1), ("tb/a.py", "def test_it_is_refused(self):\n    pass\n", 1)):
             path = root / name

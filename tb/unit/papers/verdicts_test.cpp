@@ -57,11 +57,11 @@ TEST(Verdict, SaysWhatOneOfTheTwoLacks) {
 }
 
 TEST(Verdict, OfARowIsThatOfWhatItShows) {
-  EXPECT_THAT(judged_row("c1", "0.219", 0.218951, 6, "wrong"),
+  EXPECT_THAT(checked_row("c1", "0.219", 0.218951, 6, "wrong"),
               ElementsAre("c1", "0.219", "0.218951", "right"));
-  EXPECT_THAT(judged_row("c1", "0.229", 0.218951, 4, "wrong"),
+  EXPECT_THAT(checked_row("c1", "0.229", 0.218951, 4, "wrong"),
               ElementsAre("c1", "0.229", "0.2190", "wrong"));
-  EXPECT_THAT(judged_row("L", "-", 1.625, 3, "wrong"), ElementsAre("L", "-", "1.625", "added"));
+  EXPECT_THAT(checked_row("L", "-", 1.625, 3, "wrong"), ElementsAre("L", "-", "1.625", "added"));
 }
 
 TEST(Verdict, OfAClaimFallsWithTheFirstCaseAgainstIt) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Several runs or sweeps side by side: what is listed, what is matched, and how it is judged.
+// Several runs or sweeps side by side: what is listed, what is matched, and how it is checked.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -29,37 +29,37 @@ using testing::Not;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-TEST(Judge, ByTheValuesOwnDirectionAndTolerance) {
+TEST(Check, ByTheValuesOwnDirectionAndTolerance) {
   const Tolerances t;
   const auto of = [&](const char* key, std::optional<double> a, std::optional<double> b,
                       std::optional<bool> maximise = std::nullopt) {
-    return judge(key, a, b, t, maximise);
+    return check(key, a, b, t, maximise);
   };
-  EXPECT_EQ(of("cycles", 100, 102), Judgement::kEqual) << "2 %";
-  EXPECT_EQ(of("cycles", 100, 102.1), Judgement::kWorse);
-  EXPECT_EQ(of("cycles", 100, 98), Judgement::kEqual);
-  EXPECT_EQ(of("cycles", 100, 97.9), Judgement::kBetter);
-  EXPECT_EQ(of("throughput.value", 1, 0.9), Judgement::kWorse);
-  EXPECT_EQ(of("throughput.value", 1, 1.1), Judgement::kBetter);
-  EXPECT_EQ(of("quality.psnr_db", 40, 39.9), Judgement::kWorse);
-  EXPECT_EQ(of("quality.psnr_db", 40, 40.04), Judgement::kEqual);
-  EXPECT_EQ(of("quality.psnr_db", 40, kInfinity), Judgement::kBetter);
-  EXPECT_EQ(of("quality.psnr_db", kInfinity, kInfinity), Judgement::kEqual);
-  EXPECT_EQ(of("checks.mismatches", 0, 1), Judgement::kWorse);
-  EXPECT_EQ(of("checks.mismatches", 1, 1), Judgement::kWorse) << "wrong on both sides";
-  EXPECT_EQ(of("checks.mismatches", 1, 0), Judgement::kBetter);
-  EXPECT_EQ(of("checks.mismatches", 0, std::nullopt), Judgement::kWorse) << "nobody looked";
-  EXPECT_EQ(of("checks.mismatches", std::nullopt, 0), Judgement::kEqual);
-  EXPECT_EQ(of("memory_bits.total.physical", 100, 101), Judgement::kWorse) << "no tolerance";
-  EXPECT_EQ(of("memory_bits.rom.physical", std::nullopt, 8), Judgement::kWorse);
-  EXPECT_EQ(of("memory_bits.rom.physical", 8, std::nullopt), Judgement::kBetter);
-  EXPECT_EQ(of("memory_bits.total.memories", 1, 2), Judgement::kNone);
-  EXPECT_EQ(of("work.fragments", 1, 2), Judgement::kNone);
-  EXPECT_EQ(of("work.fragments", 1, 2, true), Judgement::kBetter);
-  EXPECT_EQ(of("work.fragments", 1, 2, false), Judgement::kWorse);
-  EXPECT_EQ(of("cycles", 100, 200, true), Judgement::kWorse) << "the key decides";
-  EXPECT_EQ(of("cycles", std::nullopt, 200), Judgement::kNone);
-  EXPECT_EQ(of("cycles", 100, std::nullopt), Judgement::kWorse);
+  EXPECT_EQ(of("cycles", 100, 102), Trend::kEqual) << "2 %";
+  EXPECT_EQ(of("cycles", 100, 102.1), Trend::kWorse);
+  EXPECT_EQ(of("cycles", 100, 98), Trend::kEqual);
+  EXPECT_EQ(of("cycles", 100, 97.9), Trend::kBetter);
+  EXPECT_EQ(of("throughput.value", 1, 0.9), Trend::kWorse);
+  EXPECT_EQ(of("throughput.value", 1, 1.1), Trend::kBetter);
+  EXPECT_EQ(of("quality.psnr_db", 40, 39.9), Trend::kWorse);
+  EXPECT_EQ(of("quality.psnr_db", 40, 40.04), Trend::kEqual);
+  EXPECT_EQ(of("quality.psnr_db", 40, kInfinity), Trend::kBetter);
+  EXPECT_EQ(of("quality.psnr_db", kInfinity, kInfinity), Trend::kEqual);
+  EXPECT_EQ(of("checks.mismatches", 0, 1), Trend::kWorse);
+  EXPECT_EQ(of("checks.mismatches", 1, 1), Trend::kWorse) << "wrong on both sides";
+  EXPECT_EQ(of("checks.mismatches", 1, 0), Trend::kBetter);
+  EXPECT_EQ(of("checks.mismatches", 0, std::nullopt), Trend::kWorse) << "nobody looked";
+  EXPECT_EQ(of("checks.mismatches", std::nullopt, 0), Trend::kEqual);
+  EXPECT_EQ(of("memory_bits.total.physical", 100, 101), Trend::kWorse) << "no tolerance";
+  EXPECT_EQ(of("memory_bits.rom.physical", std::nullopt, 8), Trend::kWorse);
+  EXPECT_EQ(of("memory_bits.rom.physical", 8, std::nullopt), Trend::kBetter);
+  EXPECT_EQ(of("memory_bits.total.memories", 1, 2), Trend::kNone);
+  EXPECT_EQ(of("work.fragments", 1, 2), Trend::kNone);
+  EXPECT_EQ(of("work.fragments", 1, 2, true), Trend::kBetter);
+  EXPECT_EQ(of("work.fragments", 1, 2, false), Trend::kWorse);
+  EXPECT_EQ(of("cycles", 100, 200, true), Trend::kWorse) << "the key decides";
+  EXPECT_EQ(of("cycles", std::nullopt, 200), Trend::kNone);
+  EXPECT_EQ(of("cycles", 100, std::nullopt), Trend::kWorse);
   EXPECT_FALSE(counts("memory_bits.total.physical", t));
   EXPECT_TRUE(counts("memory_bits.total.physical", {.memory_percent = 5}));
   EXPECT_TRUE(counts("cycles", t));
@@ -207,7 +207,7 @@ TEST_F(Runs, ThePageIsSelfContainedAndEscapes) {
 
 TEST_F(Runs, ThatAreNotWholeAreRejected) {
   Json manifest = leave("a", 1000, "2");
-  const auto refused = [&](const char* name, const char* says) {
+  const auto rejected = [&](const char* name, const char* says) {
     try {
       compare_runs(paths({"a", name}), {});
       ADD_FAILURE() << name;
@@ -216,20 +216,20 @@ TEST_F(Runs, ThatAreNotWholeAreRejected) {
       EXPECT_THAT(error.what(), HasSubstr(name));
     }
   };
-  refused("none", "is not there");
+  rejected("none", "is not there");
   put("empty/x", "");
-  refused("empty", "name the directory of a run");
+  rejected("empty", "name the directory of a run");
   put("running/.deburr_run/claim.json", "{}");
-  refused("running", "is not over, or was killed");
+  rejected("running", "is not over, or was killed");
   put("point/failure.json", "{}");
-  refused("point", "point that failed");
+  rejected("point", "point that failed");
   put("planned/plan.json", "{}");
-  refused("planned", "collect");
+  rejected("planned", "collect");
   put("torn/result.json", "{");
-  refused("torn", "not valid JSON");
+  rejected("torn", "not valid JSON");
   leave("b", 1000, "2");
   put("b/manifest.json", "[");
-  refused("b", "damaged");
+  rejected("b", "damaged");
   manifest["images"][0]["file"] = "../a/after.png";
   put("a/manifest.json", manifest.dump());
   leave("b", 1000, "2");

@@ -87,17 +87,17 @@ TEST_F(InputFilesOfARun, ThatHaveChangedAreRejected) {
   InputFiles files;
   const std::vector<fs::path> some = {write("a", "one"), path_ / "none"};
   files.contents(some);
-  EXPECT_NO_THROW(files.refuse_changed(some));
+  EXPECT_NO_THROW(files.reject_changed(some));
   let_time_pass();
   write("a", "one");
-  EXPECT_NO_THROW(files.refuse_changed(some)) << "it was only touched";
+  EXPECT_NO_THROW(files.reject_changed(some)) << "it was only touched";
   let_time_pass();
   write("a", "two");
-  EXPECT_THROW(files.refuse_changed(some), spec::FileError);
+  EXPECT_THROW(files.reject_changed(some), spec::FileError);
   write("a", "one");
   write("none", "it has come");
-  EXPECT_THROW(files.refuse_changed(some), spec::FileError);
-  EXPECT_NO_THROW(files.refuse_changed({path_ / "that nobody has asked for"}));
+  EXPECT_THROW(files.reject_changed(some), spec::FileError);
+  EXPECT_NO_THROW(files.reject_changed({path_ / "that nobody has asked for"}));
 }
 
 TEST_F(InputFilesOfARun, AreInTheKeysOfWhatIsShared) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parameters by name: every way to set one, and every way in which it must be refused.
+// Parameters by name: every way to set one, and every way in which it must be rejected.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -71,7 +71,7 @@ class Parameters : public testing::Test {
     ADD_FAILURE() << "no ConfigError";
     return "";
   }
-  std::string refused(const std::string& yaml) {
+  std::string rejected(const std::string& yaml) {
     const std::string path = file(yaml);
     const std::string text = complaint([&] { set_.load(path); });
     EXPECT_THAT(text, StartsWith(path + ":"));
@@ -169,19 +169,19 @@ TEST_F(Parameters, YamlTakesNestedMapsAndDottedNames) {
 }
 
 TEST_F(Parameters, YamlErrorsNameFileAndLine) {
-  EXPECT_THAT(refused("unit:\n  colour: red\n  cache:\n    wais: 1\n"),
+  EXPECT_THAT(rejected("unit:\n  colour: red\n  cache:\n    wais: 1\n"),
               testing::AllOf(StartsWith(":4"), HasSubstr("unit.cache.ways")));
-  EXPECT_THAT(refused("unit.shuffle: true\nunit:\n  shuffle: false\n"),
+  EXPECT_THAT(rejected("unit.shuffle: true\nunit:\n  shuffle: false\n"),
               testing::AllOf(StartsWith(":3"), HasSubstr("given twice"), HasSubstr(":1")));
-  EXPECT_THAT(refused("unit:\n  stalls: 0.1\n  stalls: 0.2\n"), HasSubstr("given twice"));
-  EXPECT_THAT(refused("unit:\n  cache.ways: 99\n"),
+  EXPECT_THAT(rejected("unit:\n  stalls: 0.1\n  stalls: 0.2\n"), HasSubstr("given twice"));
+  EXPECT_THAT(rejected("unit:\n  cache.ways: 99\n"),
               testing::AllOf(StartsWith(":2"), HasSubstr("outside")));
-  EXPECT_THAT(refused("unit:\n  cache.ways: [1, 2]\n"), HasSubstr("a list"));
-  EXPECT_THAT(refused("unit:\n  cache.ways:\n"), HasSubstr("nothing"));
-  EXPECT_THAT(refused("- a\n- b\n"), HasSubstr("expected a map"));
-  EXPECT_THAT(refused("[\n"), HasSubstr("not valid YAML"));
-  EXPECT_THAT(refused("unit: {shuffle: true\n"), HasSubstr("not valid YAML"));
-  EXPECT_THAT(refused("[1, 2]: 3\n"), HasSubstr("a key must be a name"));
+  EXPECT_THAT(rejected("unit:\n  cache.ways: [1, 2]\n"), HasSubstr("a list"));
+  EXPECT_THAT(rejected("unit:\n  cache.ways:\n"), HasSubstr("nothing"));
+  EXPECT_THAT(rejected("- a\n- b\n"), HasSubstr("expected a map"));
+  EXPECT_THAT(rejected("[\n"), HasSubstr("not valid YAML"));
+  EXPECT_THAT(rejected("unit: {shuffle: true\n"), HasSubstr("not valid YAML"));
+  EXPECT_THAT(rejected("[1, 2]: 3\n"), HasSubstr("a key must be a name"));
 }
 
 // yaml-cpp finds one empty document after another before the comma.
@@ -225,7 +225,7 @@ TEST_F(Parameters, APresetFillsInWhatIsNotGiven) {
 TEST_F(Parameters, WhatHasNoEffectIsRejectedWhereItWasGiven) {
   const auto complaint = [&] {
     try {
-      set_.refuse_all("unit.cache", "there is no cache");
+      set_.reject_all("unit.cache", "there is no cache");
     } catch (const spec::ConfigError& error) {
       return std::string(error.what());
     }

@@ -16,7 +16,7 @@
 namespace deburr::tb::pixel_history_test {
 namespace {
 
-std::string refusal(const std::string& text) {
+std::string rejection(const std::string& text) {
   try {
     pixel_of(text);
   } catch (const spec::ConfigError& error) {
@@ -39,16 +39,16 @@ TEST(PixelAddress, IsTwoWholeNumbers) {
   EXPECT_EQ(pixel_of("0,0"), (PixelAddress{0, 0}));
   for (const char* text : {"", "12", "12,", ",7", "12,7,3", "-1,2", "1,-2", "a,b", "1, 2", "1x2",
                            "99999999999,0", "1.5,2"}) {
-    const std::string said = refusal(text);
+    const std::string said = rejection(text);
     EXPECT_NE(said.find("run.pixel: expected X,Y"), std::string::npos) << text << ": " << said;
     EXPECT_NE(said.find(std::string("got '") + text + "'"), std::string::npos) << said;
   }
 }
 
 TEST(PixelAddress, IsInsideOfThePicture) {
-  EXPECT_NO_THROW(refuse_outside({639, 479}, 640, 480));
+  EXPECT_NO_THROW(reject_outside({639, 479}, 640, 480));
   for (const PixelAddress pixel : {PixelAddress{640, 479}, {639, 480}}) try {
-      refuse_outside(pixel, 640, 480);
+      reject_outside(pixel, 640, 480);
       ADD_FAILURE() << "outside";
     } catch (const spec::ConfigError& error) {
       const std::string said = error.what();

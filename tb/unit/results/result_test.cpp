@@ -394,18 +394,18 @@ TEST(ResultJson, EveryKeyHasUnitAndMeaning) {
 
 TEST_F(Directory, AnIncompleteOrForeignResultIsRejected) {
   EXPECT_THROW(read_result(path_), spec::FileError);
-  const auto refuse = [&](const std::string& text) {
+  const auto reject = [&](const std::string& text) {
     std::ofstream(path_ / "result.json") << text;
     EXPECT_THROW(read_result(path_), spec::FileError) << text;
   };
-  refuse("");
-  refuse("{");
-  refuse("[1]");
-  refuse(R"({"schema": 3})");
-  refuse(R"({"schema": 1, "unit": "texture"})");
+  reject("");
+  reject("{");
+  reject("[1]");
+  reject(R"({"schema": 3})");
+  reject(R"({"schema": 1, "unit": "texture"})");
   Json old = to_json(sample_result());
   old["schema"] = 2;
-  refuse(old.dump());
+  reject(old.dump());
   std::ofstream(path_ / "result.json") << to_json(sample_result()).dump();
   EXPECT_EQ(read_result(path_)["cycles"], 54321);
   EXPECT_EQ(read_result(path_ / "result.json")["cycles"], 54321);

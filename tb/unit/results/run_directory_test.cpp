@@ -50,7 +50,7 @@ class Life : public testing::Test {
             entry.is_directory() ? "a folder" : read_file(entry.path(), 1 << 16);
     return found;
   }
-  void claim(RunDirectory& directory, IfTaken if_taken = IfTaken::kRefuse) const {
+  void claim(RunDirectory& directory, IfTaken if_taken = IfTaken::kReject) const {
     directory.claim("deburr run", kNames, if_taken);
   }
   static void draft(const RunDirectory& directory, const Contents& files) {
@@ -234,18 +234,18 @@ TEST_F(Life, ARunDoesNotReplaceWhatItReads) {
   RunDirectory directory(path_);
   claim(directory);
   for (const char* name : {"before.png", "link.png", "manifest.json"})
-    EXPECT_THAT(text_of<spec::ConfigError>([&] { directory.refuse_to_replace(path_ / name); }),
+    EXPECT_THAT(text_of<spec::ConfigError>([&] { directory.reject_to_replace(path_ / name); }),
                 HasSubstr(name));
-  directory.refuse_to_replace(path_ / "mine.png");
+  directory.reject_to_replace(path_ / "mine.png");
 }
 
 // An earlier run's file that this run has none of would be removed.
 TEST_F(Life, ARunDoesNotRemoveWhatItReads) {
   leave(old_);
   RunDirectory directory(path_);
-  directory.claim("deburr run", {"after.png", kHead}, IfTaken::kRefuse);
+  directory.claim("deburr run", {"after.png", kHead}, IfTaken::kReject);
   EXPECT_THAT(
-      text_of<spec::ConfigError>([&] { directory.refuse_to_replace(path_ / "golden.png"); }),
+      text_of<spec::ConfigError>([&] { directory.reject_to_replace(path_ / "golden.png"); }),
       HasSubstr("golden.png"));
 }
 

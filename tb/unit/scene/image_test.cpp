@@ -203,7 +203,7 @@ TEST(ImageIo, BadFilesAreNamed) {
   for (std::size_t i = corrupt.size() / 2; i < corrupt.size() / 2 + 40; ++i)
     corrupt[i] = static_cast<char>(corrupt[i] ^ 0x5A);
   EXPECT_THAT(error_of(folder.write("corrupt.png", corrupt)), HasSubstr("truncated or corrupt"));
-  // Refused by the header: nothing of the size it promises is allocated.
+  // Rejected by the header: nothing of the size it promises is allocated.
   EXPECT_THAT(error_of(folder.write("huge.png", png_of_size(good, 100000, 100000))),
               HasSubstr("the limit is 8192"));
   EXPECT_THAT(error_of(folder.write("wide.png", png_of_size(good, 8193, 1))),

@@ -190,7 +190,7 @@ TEST(Obj, DamagedBytesNeverCrash) {
   const std::string good =
       std::string(kSquare) + "vn 0 0 1\nf 1//1 2//1 3//1\nf -4/1/1 -3/2/1 -2/3/1\n";
   Random random(7);
-  int refused = 0;
+  int rejected = 0;
   for (int i = 0; i < 600; ++i) {
     std::string bytes = good;
     for (int k = 0; k < 2; ++k)
@@ -198,10 +198,10 @@ TEST(Obj, DamagedBytesNeverCrash) {
     try {
       import_mesh(folder.write("fuzz.obj", bytes));
     } catch (const spec::FileError&) {
-      ++refused;
+      ++rejected;
     }
   }
-  EXPECT_GT(refused, 200);
+  EXPECT_GT(rejected, 200);
 }
 
 // ---- files --------------------------------------------------------------------------------------
@@ -521,7 +521,7 @@ TEST(Gltf, DamagedBytesNeverCrash) {
   write_image(folder / "wood.png", noise(4, 4));
   const std::string good = GltfFile().glb();
   Random random(5);
-  int refused = 0;
+  int rejected = 0;
   for (int i = 0; i < 400; ++i) {
     std::string bytes = good;
     for (int k = 0; k < 3; ++k)
@@ -529,10 +529,10 @@ TEST(Gltf, DamagedBytesNeverCrash) {
     try {
       import_mesh(folder.write("fuzz.glb", bytes));
     } catch (const spec::FileError&) {
-      ++refused;
+      ++rejected;
     }
   }
-  EXPECT_GT(refused, 200);
+  EXPECT_GT(rejected, 200);
 }
 
 TEST(Data, EveryMeshOfTheDataFolderLoads) {

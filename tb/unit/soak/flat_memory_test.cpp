@@ -66,7 +66,7 @@ TEST(FlatMemory, AProcessIsMeasured) {
 }
 
 TEST(FlatMemory, WhatIsNotGivenBackIsOnTheHeap) {
-  if (!kJudgeMemory) GTEST_SKIP() << "AddressSanitizer has a heap of its own";
+  if (!kCheckMemory) GTEST_SKIP() << "AddressSanitizer has a heap of its own";
   constexpr std::size_t kBytes = 50'000;
   const std::uint64_t before = heap_bytes();
   auto bytes = std::make_unique<std::byte[]>(kBytes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Traces of fragments: what is written is read back to the bit, single fragments become the quads
-// that their derivatives say, and files that were spoiled anywhere are refused or read, never more.
+// that their derivatives say, and files that were spoiled anywhere are rejected or read, never
+// more.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -95,12 +96,12 @@ TEST_P(FragmentTrace, WithoutASizeIsReadBackToo) {
   EXPECT_EQ(FragmentReader(file_, 1).width(), 0);
 }
 
-// Any byte changed, or any number of bytes cut off: it is read or refused with a FileError.
+// Any byte changed, or any number of bytes cut off: it is read or rejected with a FileError.
 TEST_P(FragmentTrace, SpoiledIsReadOrRejected) {
   write_random(2, 8);
   const std::string good = bytes();
   Random random(3);
-  int refused = 0;
+  int rejected = 0;
   for (std::size_t i = 0; i < 3000; ++i) {
     std::string bad = good;
     if (i < good.size())
@@ -114,11 +115,11 @@ TEST_P(FragmentTrace, SpoiledIsReadOrRejected) {
       read();
       EXPECT_GE(i, good.size()) << "cut off at " << i;
     } catch (const spec::FileError& error) {
-      ++refused;
+      ++rejected;
       EXPECT_THAT(error.what(), HasSubstr(file_.string()));
     }
   }
-  EXPECT_GT(refused, 1000);
+  EXPECT_GT(rejected, 1000);
 }
 
 TEST_P(FragmentTrace, EndsAtTheLastQuad) {

@@ -153,7 +153,7 @@ TEST_F(Lines, OfNobodyAreRejected) {
   EXPECT_FALSE(fs::exists(file_));
 }
 
-// What is no file stays: a run that only judges writes to the null device.
+// What is no file stays: a run that only checks writes to the null device.
 TEST(TraceOutput, RemovesOnlyFiles) {
   const fs::path pipe = fs::temp_directory_path() / ("deburr_pipe_" + std::to_string(::getpid()));
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

@@ -42,7 +42,7 @@ class Plain : public Role {
   std::vector<Shorthand> shorthands() const override {
     return {{"--told", name_ + ".told", "Of " + name_}};
   }
-  void judge(const DrawnScene&) const override {}
+  void check(const DrawnScene&) const override {}
 
  protected:
   void tell(ParameterSet& set, std::string_view what, std::string_view why) {
@@ -69,8 +69,8 @@ class Drawer final : public Plain<PictureDrawer> {
   std::shared_ptr<const DrawnScene> smallest() const override { return nullptr; }
   std::string truth_caption() const override { return ""; }
   void prepare_truth(const DrawnScene&, const RenderOptions&, const RunContext&) const override {}
-  Image judge_by_truth(const DrawnScene&, const RenderOptions&, const Image&, const Image&, Result&,
-                       const RunContext&) const override {
+  Image compare_with_truth(const DrawnScene&, const RenderOptions&, const Image&, const Image&,
+                           Result&, const RunContext&) const override {
     return {};
   }
   std::unique_ptr<DrawingStage> build(Simulation&, const DrawnScene&) const override {

@@ -179,26 +179,26 @@ TEST(EdgeTable, FacesThatAreNoneKeepTheirNumbers) {
 }
 
 TEST(EdgeTable, RejectsByName) {
-  const auto refused = [](const Mesh& mesh, const char* why) {
+  const auto rejected = [](const Mesh& mesh, const char* why) {
     EXPECT_THAT([&] { build_edge_table(mesh); },
                 testing::ThrowsMessage<spec::ConfigError>(testing::HasSubstr(why)));
   };
   const Mesh cube = flat_mesh(cube_points(), cube_faces());
   Mesh mesh = cube;
   mesh.triangles.clear();
-  refused(mesh, "no triangles");
+  rejected(mesh, "no triangles");
   mesh = cube;
   mesh.triangles[3].vertex[1] = 36;
-  refused(mesh, "triangle 3 uses vertex 36, there are 36");
+  rejected(mesh, "triangle 3 uses vertex 36, there are 36");
   mesh = cube;
   mesh.triangles[5].material = 1;
-  refused(mesh, "triangle 5 uses material 1");
+  rejected(mesh, "triangle 5 uses material 1");
   mesh = cube;
   mesh.materials[0].texture = 0;
-  refused(mesh, "texture 0, there are 0");
+  rejected(mesh, "texture 0, there are 0");
   mesh = cube;
   mesh.triangles.assign((1u << 20) + 1, cube.triangles[0]);
-  refused(mesh, "1048577 faces");
+  rejected(mesh, "1048577 faces");
 }
 
 // A box of quadrilaterals without normals or coordinates, as a file. (Of a cube the projection has

@@ -223,8 +223,8 @@ class Painted final : public Environment {
     part.restart();
   }
   void finish() override { part.finish(); }
-  void refuse_memory_errors() override { part.refuse_memory_errors(); }
-  void refuse_unused_errors() const override { part.refuse_unused_errors(); }
+  void reject_memory_errors() override { part.reject_memory_errors(); }
+  void reject_unused_errors() const override { part.reject_unused_errors(); }
   Amount amount() const override { return part.amount(); }
   bool memory_at_rest() const override { return part.memory_at_rest(); }
   Boards outputs() const override { return part.outputs(); }

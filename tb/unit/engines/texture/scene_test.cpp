@@ -151,7 +151,7 @@ TEST(TextureScene, GivesTheSamplerItsState) {
   EXPECT_TRUE(scene.inputs().empty()) << "made by formula";
 }
 
-// Fragments, hardware and truth must go by the same wrap mode, or a picture is judged by the truth
+// Fragments, hardware and truth must go by the same wrap mode, or a picture is checked by the truth
 // of another one.
 TEST(TextureScene, AChosenWrapModeIsThatOfFragmentsAndTruth) {
   SceneParameters p = small("plane");

@@ -65,7 +65,7 @@ TEST(Parameters, AreTakenAsTheCommandTakesThem) {
     const Handle names(make());
     const std::string prefix = std::string(deburr_engine(names.get())) + ".";
     std::vector<std::string> expected;
-    std::size_t taken = 0, refused = 0;
+    std::size_t taken = 0, rejected = 0;
     for (const tb::Parameter& parameter : set.all()) {
       if (!parameter.name.starts_with(prefix)) continue;
       expected.push_back(parameter.name.substr(prefix.size()));
@@ -85,7 +85,7 @@ TEST(Parameters, AreTakenAsTheCommandTakesThem) {
           EXPECT_EQ(status, DEBURR_OK) << shown << ": " << error_of(handle.get(), status);
           EXPECT_EQ(value_of(handle.get(), parameter.name), parameter.text()) << shown;
         } else {
-          ++refused;
+          ++rejected;
           EXPECT_EQ(status, DEBURR_ARGUMENT) << shown << ": " << complaint;
           EXPECT_EQ(value_of(handle.get(), parameter.name), parameter.default_value) << shown;
         }
@@ -95,7 +95,7 @@ TEST(Parameters, AreTakenAsTheCommandTakesThem) {
     EXPECT_EQ(names_of(names.get()), expected);
     // Two values of each at least, and none of three texts that are no value.
     EXPECT_GE(taken, 2 * expected.size()) << prefix;
-    EXPECT_GE(refused, 3 * expected.size()) << prefix;
+    EXPECT_GE(rejected, 3 * expected.size()) << prefix;
   }
 }
 
@@ -145,13 +145,13 @@ TEST(Parameters, CheckSaysWhatCannotBeBuiltInTheWordsOfTheCommand) {
   const Handle handle(deburr_texture_new());
   DEBURR_EXPECT_TAKEN(handle, deburr_check(handle.get()));
   DEBURR_EXPECT_TAKEN(handle, deburr_set(handle.get(), "cache.ways", "3"));
-  DEBURR_EXPECT_REFUSED(handle, DEBURR_CONFIGURATION,
-                        "deburr_check: texture.cache.ways = 3: must be a power of two",
-                        deburr_check(handle.get()));
+  DEBURR_EXPECT_REJECTED(handle, DEBURR_CONFIGURATION,
+                         "deburr_check: texture.cache.ways = 3: must be a power of two",
+                         deburr_check(handle.get()));
   const std::int32_t s[4] = {};
   std::uint8_t rgba[16];
-  DEBURR_EXPECT_REFUSED(handle, DEBURR_CONFIGURATION, "must be a power of two",
-                        deburr_texture_quad(handle.get(), 0, 15, 0, s, s, rgba));
+  DEBURR_EXPECT_REJECTED(handle, DEBURR_CONFIGURATION, "must be a power of two",
+                         deburr_texture_quad(handle.get(), 0, 15, 0, s, s, rgba));
   DEBURR_EXPECT_TAKEN(handle, deburr_set(handle.get(), "cache.ways", "4"));
   DEBURR_EXPECT_TAKEN(handle, deburr_texture_quad(handle.get(), 0, 15, 0, s, s, rgba));
 }
@@ -159,11 +159,11 @@ TEST(Parameters, CheckSaysWhatCannotBeBuiltInTheWordsOfTheCommand) {
 TEST(Parameters, AreCheckedOfEveryEngine) {
   const Handle smoother(deburr_morphological_new()), drawn(deburr_geometric_new());
   DEBURR_EXPECT_TAKEN(smoother, deburr_set(smoother.get(), "window_rows", "11"));
-  DEBURR_EXPECT_REFUSED(smoother, DEBURR_CONFIGURATION, "must be an even number of rows",
-                        deburr_check(smoother.get()));
+  DEBURR_EXPECT_REJECTED(smoother, DEBURR_CONFIGURATION, "must be an even number of rows",
+                         deburr_check(smoother.get()));
   DEBURR_EXPECT_TAKEN(drawn, deburr_set(drawn.get(), "face_limit", "8193"));
-  DEBURR_EXPECT_REFUSED(drawn, DEBURR_CONFIGURATION, "must be a multiple of 512",
-                        deburr_check(drawn.get()));
+  DEBURR_EXPECT_REJECTED(drawn, DEBURR_CONFIGURATION, "must be a multiple of 512",
+                         deburr_check(drawn.get()));
 }
 
 TEST(Calls, NullHandlesAreErrors) {
@@ -222,24 +222,24 @@ TEST(Calls, NullTextsAndNumbersAreErrors) {
     const Handle handle(make());
     char text[256];
     std::uint64_t value = 0;
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "deburr_set: name is NULL",
-                          deburr_set(handle.get(), nullptr, "1"));
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "text is NULL",
-                          deburr_set(handle.get(), "preset", nullptr));
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "name is NULL",
-                          deburr_get(handle.get(), nullptr, text, sizeof text));
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "text is NULL",
-                          deburr_get(handle.get(), "preset", nullptr, 10));
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "count is NULL",
-                          deburr_parameter_count(handle.get(), nullptr));
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "text is NULL",
-                          deburr_parameter_name(handle.get(), 0, nullptr, 10));
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "count is NULL",
-                          deburr_counter_count(handle.get(), nullptr));
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "name is NULL",
-                          deburr_counter(handle.get(), nullptr, &value));
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "value is NULL",
-                          deburr_counter(handle.get(), "pixels", nullptr));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "deburr_set: name is NULL",
+                           deburr_set(handle.get(), nullptr, "1"));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "text is NULL",
+                           deburr_set(handle.get(), "preset", nullptr));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "name is NULL",
+                           deburr_get(handle.get(), nullptr, text, sizeof text));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "text is NULL",
+                           deburr_get(handle.get(), "preset", nullptr, 10));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "count is NULL",
+                           deburr_parameter_count(handle.get(), nullptr));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "text is NULL",
+                           deburr_parameter_name(handle.get(), 0, nullptr, 10));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "count is NULL",
+                           deburr_counter_count(handle.get(), nullptr));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "name is NULL",
+                           deburr_counter(handle.get(), nullptr, &value));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "value is NULL",
+                           deburr_counter(handle.get(), "pixels", nullptr));
   }
 }
 
@@ -247,11 +247,11 @@ TEST(Calls, TextsThatDoNotFitSayHowLongTheyAre) {
   const Handle handle(deburr_texture_new());
   char text[8] = "before";
   // "deburr" and its zero.
-  DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "the text needs 7 bytes; text_size is 6",
-                        deburr_get(handle.get(), "preset", text, 6));
+  DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "the text needs 7 bytes; text_size is 6",
+                         deburr_get(handle.get(), "preset", text, 6));
   EXPECT_STREQ(text, "before");
-  DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "the text needs 7 bytes; text_size is 0",
-                        deburr_get(handle.get(), "preset", text, 0));
+  DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "the text needs 7 bytes; text_size is 0",
+                         deburr_get(handle.get(), "preset", text, 0));
   DEBURR_EXPECT_TAKEN(handle, deburr_get(handle.get(), "preset", text, 7));
   EXPECT_STREQ(text, "deburr");
 }
@@ -261,17 +261,17 @@ TEST(Calls, UnknownNamesGetTheListOfThoseThatThereAre) {
     const Handle handle(make());
     const std::string engine = deburr_engine(handle.get());
     std::uint64_t value = 0;
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT,
-                          "deburr_set: unknown parameter 'presets'; there are preset, ",
-                          deburr_set(handle.get(), "presets", "deburr"));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT,
+                           "deburr_set: unknown parameter 'presets'; there are preset, ",
+                           deburr_set(handle.get(), "presets", "deburr"));
     for (const char* name : {"", ".preset", "preset.", "frame.preset", "Preset"})
       EXPECT_EQ(deburr_set(handle.get(), name, "deburr"), DEBURR_ARGUMENT) << name;
     EXPECT_EQ(deburr_set(handle.get(), (engine + ".preset").c_str(), "deburr"), DEBURR_OK);
     char first[64];
     DEBURR_EXPECT_TAKEN(handle, deburr_counter_name(handle.get(), 0, first, sizeof first));
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT,
-                          "no counter is named 'pixel'; there are " + std::string(first) + ", ",
-                          deburr_counter(handle.get(), "pixel", &value));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT,
+                           "no counter is named 'pixel'; there are " + std::string(first) + ", ",
+                           deburr_counter(handle.get(), "pixel", &value));
     std::uint32_t parameters = 0, counters = 0;
     DEBURR_EXPECT_TAKEN(handle, deburr_parameter_count(handle.get(), &parameters));
     DEBURR_EXPECT_TAKEN(handle, deburr_counter_count(handle.get(), &counters));
@@ -281,23 +281,23 @@ TEST(Calls, UnknownNamesGetTheListOfThoseThatThereAre) {
       DEBURR_EXPECT_TAKEN(handle, deburr_counter_name(handle.get(), i, text, sizeof text));
       EXPECT_EQ(tb::c::counter_of(handle.get(), text), 0u) << text;
     }
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "is outside 0..",
-                          deburr_counter_name(handle.get(), counters, text, sizeof text));
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "is outside 0..",
-                          deburr_parameter_name(handle.get(), parameters, text, sizeof text));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "is outside 0..",
+                           deburr_counter_name(handle.get(), counters, text, sizeof text));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "is outside 0..",
+                           deburr_parameter_name(handle.get(), parameters, text, sizeof text));
   }
 }
 
 TEST(Calls, AHandleOfAnotherEngineIsAnError) {
   const Handle texture(deburr_texture_new()), frames(deburr_morphological_new());
-  DEBURR_EXPECT_REFUSED(
+  DEBURR_EXPECT_REJECTED(
       texture, DEBURR_ARGUMENT,
       "a handle of the engine texture was given; it takes one of an engine that smooths frames",
       deburr_frame_begin(texture.get(), 1, 1));
-  DEBURR_EXPECT_REFUSED(frames, DEBURR_ARGUMENT, "it takes one of texture",
-                        deburr_texture_memory(frames.get(), 64));
-  DEBURR_EXPECT_REFUSED(frames, DEBURR_ARGUMENT, "it takes one of geometric",
-                        deburr_geometric_edges(frames.get(), nullptr, 0));
+  DEBURR_EXPECT_REJECTED(frames, DEBURR_ARGUMENT, "it takes one of texture",
+                         deburr_texture_memory(frames.get(), 64));
+  DEBURR_EXPECT_REJECTED(frames, DEBURR_ARGUMENT, "it takes one of geometric",
+                         deburr_geometric_edges(frames.get(), nullptr, 0));
 }
 
 TEST(Errors, AreKeptUntilTheNextOneAndCutToTheirPlace) {

@@ -289,9 +289,9 @@ TEST(Geometric, FramesAreThoseOfTheGoldenModelWithEveryPreset) {
         handle, deburr_geometric_edges(handle.get(), words.edges.data(), words.edges.size()));
     DEBURR_EXPECT_TAKEN(handle, deburr_geometric_facing(handle.get(), faces, words.facing.data(),
                                                         words.facing.size()));
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT,
-                          "the frame has no depth: give one by deburr_frame_depth",
-                          deburr_frame_process(handle.get()));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT,
+                           "the frame has no depth: give one by deburr_frame_depth",
+                           deburr_frame_process(handle.get()));
     DEBURR_EXPECT_TAKEN(
         handle, deburr_frame_depth(handle.get(), frame.depths.data(), frame.depths.size(), 0));
     DEBURR_EXPECT_TAKEN(handle, deburr_frame_process(handle.get()));
@@ -302,7 +302,7 @@ TEST(Geometric, FramesAreThoseOfTheGoldenModelWithEveryPreset) {
                         deburr_geometric_classes(handle.get(), classes.data(), classes.size()));
     for (std::size_t e = 0; e < classes.size(); ++e)
       EXPECT_EQ(classes[e], static_cast<std::uint8_t>(golden.classes()[e]));
-    DEBURR_EXPECT_REFUSED(
+    DEBURR_EXPECT_REJECTED(
         handle, DEBURR_ARGUMENT, "classes_size is 299; 300 edges need as many",
         deburr_geometric_classes(handle.get(), classes.data(), classes.size() - 1));
     EXPECT_EQ(counter_of(handle.get(), "edges"), golden.work().edges);
@@ -311,8 +311,8 @@ TEST(Geometric, FramesAreThoseOfTheGoldenModelWithEveryPreset) {
     EXPECT_EQ(counter_of(handle.get(), "blended_pixels"), golden.work().blended_pixels);
     // Without depth, where nothing is tested; that of the last frame went with it.
     DEBURR_EXPECT_TAKEN(handle, deburr_frame_begin(handle.get(), 8, 8));
-    DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "the frame has no depth",
-                          deburr_frame_process(handle.get()));
+    DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "the frame has no depth",
+                           deburr_frame_process(handle.get()));
     DEBURR_EXPECT_TAKEN(handle, deburr_set(handle.get(), "depth_test", "off"));
     DEBURR_EXPECT_TAKEN(handle, deburr_frame_process(handle.get()));
   }
@@ -344,44 +344,44 @@ TEST(BadCalls, GiveAnErrorAndChangeNothing) {
     std::vector<std::uint8_t> bytes(64, 1);
     const std::vector<std::uint32_t> words(16, 1);
     std::uint32_t number = 77;
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "no frame was begun: call deburr_frame_begin",
-                          deburr_frame_pixels(golden, bytes.data(), 64, 0));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "no frame was begun",
-                          deburr_frame_depth(golden, words.data(), 16, 0));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "no frame was begun",
-                          deburr_frame_put(golden, 0, 0, 0, 0));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "no frame was begun",
-                          deburr_frame_process(golden));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "no frame has been smoothed",
-                          deburr_plane(golden, "pixels", bytes.data(), 64, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "no frame was begun: call deburr_frame_begin",
+                           deburr_frame_pixels(golden, bytes.data(), 64, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "no frame was begun",
+                           deburr_frame_depth(golden, words.data(), 16, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "no frame was begun",
+                           deburr_frame_put(golden, 0, 0, 0, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "no frame was begun",
+                           deburr_frame_process(golden));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "no frame has been smoothed",
+                           deburr_plane(golden, "pixels", bytes.data(), 64, 0));
     for (const auto& [width, height] :
          {std::pair{0u, 1u}, {1u, 0u}, {8193u, 1u}, {1u, 8193u}, {~0u, ~0u}})
-      DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "1..8192 each way are possible",
-                            deburr_frame_begin(golden, width, height));
+      DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "1..8192 each way are possible",
+                             deburr_frame_begin(golden, width, height));
     DEBURR_EXPECT_TAKEN(golden, deburr_frame_begin(golden, 4, 4));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "pixels is NULL",
-                          deburr_frame_pixels(golden, nullptr, 64, 0));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "pixels_size is 63; 4 rows need 64",
-                          deburr_frame_pixels(golden, bytes.data(), 63, 0));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "pixels_size is 0; 4 rows need 64",
-                          deburr_frame_pixels(golden, nullptr, 0, 0));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "pixels_size is 64; 4 rows need 67",
-                          deburr_frame_pixels(golden, bytes.data(), 64, 17));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "stride 15 is shorter than a row of pixels, 16",
-                          deburr_frame_pixels(golden, bytes.data(), 64, 15));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "pixels_size is 64; 4 rows need 12884901901",
-                          deburr_frame_pixels(golden, bytes.data(), 64, ~0u));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "depth_size is 15; 4 rows need 16",
-                          deburr_frame_depth(golden, words.data(), 15, 0));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "depth is NULL",
-                          deburr_frame_depth(golden, nullptr, 16, 0));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "x 4 is outside 0..3",
-                          deburr_frame_put(golden, 4, 0, 0, 0));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "y 4 is outside 0..3",
-                          deburr_frame_put(golden, 0, 4, 0, 0));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "everything is 2; 0 or 1 are meant",
-                          deburr_frame_detail(golden, 2));
-    // Of all that was refused nothing was kept: the frame is black, and opaque.
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "pixels is NULL",
+                           deburr_frame_pixels(golden, nullptr, 64, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "pixels_size is 63; 4 rows need 64",
+                           deburr_frame_pixels(golden, bytes.data(), 63, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "pixels_size is 0; 4 rows need 64",
+                           deburr_frame_pixels(golden, nullptr, 0, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "pixels_size is 64; 4 rows need 67",
+                           deburr_frame_pixels(golden, bytes.data(), 64, 17));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "stride 15 is shorter than a row of pixels, 16",
+                           deburr_frame_pixels(golden, bytes.data(), 64, 15));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "pixels_size is 64; 4 rows need 12884901901",
+                           deburr_frame_pixels(golden, bytes.data(), 64, ~0u));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "depth_size is 15; 4 rows need 16",
+                           deburr_frame_depth(golden, words.data(), 15, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "depth is NULL",
+                           deburr_frame_depth(golden, nullptr, 16, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "x 4 is outside 0..3",
+                           deburr_frame_put(golden, 4, 0, 0, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "y 4 is outside 0..3",
+                           deburr_frame_put(golden, 0, 4, 0, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "everything is 2; 0 or 1 are meant",
+                           deburr_frame_detail(golden, 2));
+    // Of all that was rejected nothing was kept: the frame is black, and opaque.
     DEBURR_EXPECT_TAKEN(golden, deburr_frame_put(golden, 1, 0, 0xFF332211, 5));
     DEBURR_EXPECT_TAKEN(golden, deburr_set(golden, "line_pixels", "64"));
     DEBURR_EXPECT_TAKEN(golden, deburr_frame_process(golden));
@@ -392,39 +392,39 @@ TEST(BadCalls, GiveAnErrorAndChangeNothing) {
       EXPECT_EQ(number, 0xFF000000);
     };
     is_as_before();
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "unknown plane 'pixel'; there are pixels, ",
-                          deburr_plane(golden, "pixel", bytes.data(), 64, 0));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "plane is NULL",
-                          deburr_plane(golden, nullptr, bytes.data(), 64, 0));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "values_size is 63; 4 rows need 64",
-                          deburr_plane(golden, "pixels", bytes.data(), 63, 0));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "values is NULL",
-                          deburr_plane(golden, "pixels", nullptr, 64, 0));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "x 4 is outside 0..3",
-                          deburr_plane_pixel(golden, "pixels", 4, 0, &number));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "unknown plane 'pixel'; there are pixels, ",
+                           deburr_plane(golden, "pixel", bytes.data(), 64, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "plane is NULL",
+                           deburr_plane(golden, nullptr, bytes.data(), 64, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "values_size is 63; 4 rows need 64",
+                           deburr_plane(golden, "pixels", bytes.data(), 63, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "values is NULL",
+                           deburr_plane(golden, "pixels", nullptr, 64, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "x 4 is outside 0..3",
+                           deburr_plane_pixel(golden, "pixels", 4, 0, &number));
     EXPECT_EQ(deburr_plane_pixel(golden, "pixels", 0, 0, nullptr), DEBURR_ARGUMENT);
     EXPECT_EQ(deburr_plane_shape(golden, "pixels", nullptr, &number, &number), DEBURR_ARGUMENT);
     EXPECT_EQ(deburr_plane_shape(golden, "pixels", &number, nullptr, &number), DEBURR_ARGUMENT);
     EXPECT_EQ(deburr_plane_shape(golden, "pixels", &number, &number, nullptr), DEBURR_ARGUMENT);
     EXPECT_EQ(bytes, std::vector<std::uint8_t>(64, 1));
-    // A frame that the engine refuses, by the model that is there and by a new one.
+    // A frame that the engine rejects, by the model that is there and by a new one.
     DEBURR_EXPECT_TAKEN(golden, deburr_frame_begin(golden, 65, 1));
     DEBURR_EXPECT_TAKEN(golden, deburr_frame_put(golden, 0, 0, 0, 0));
     for (int i = 0; i < 2; ++i) {
-      DEBURR_EXPECT_REFUSED(golden, DEBURR_CONFIGURATION, "raise line_pixels",
-                            deburr_frame_process(golden));
+      DEBURR_EXPECT_REJECTED(golden, DEBURR_CONFIGURATION, "raise line_pixels",
+                             deburr_frame_process(golden));
       is_as_before();
       DEBURR_EXPECT_TAKEN(golden, deburr_set(golden, "linear_light", "false"));
     }
     DEBURR_EXPECT_TAKEN(golden, deburr_set(golden, "line_pixels", "65"));
     DEBURR_EXPECT_TAKEN(golden, deburr_frame_process(golden));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "y 3 is outside 0..0",
-                          deburr_plane_pixel(golden, "pixels", 3, 3, &number));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "y 3 is outside 0..0",
+                           deburr_plane_pixel(golden, "pixels", 3, 3, &number));
     DEBURR_EXPECT_TAKEN(golden, deburr_reset(golden));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "no frame has been smoothed",
-                          deburr_plane_pixel(golden, "pixels", 0, 0, &number));
-    DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "no frame was begun",
-                          deburr_frame_process(golden));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "no frame has been smoothed",
+                           deburr_plane_pixel(golden, "pixels", 0, 0, &number));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "no frame was begun",
+                           deburr_frame_process(golden));
     EXPECT_EQ(counter_of(golden, "blended_pixels"), 0u);
     EXPECT_EQ(tb::c::value_of(golden, "line_pixels"), "65");
   }
@@ -469,49 +469,50 @@ TEST(BadCalls, OfOneEngineAlone) {
   const auto give_edges = [&](std::size_t size) {
     return deburr_morphological_edges(smoother.get(), edges.data(), size, 0);
   };
-  DEBURR_EXPECT_REFUSED(smoother, DEBURR_ARGUMENT, "no frame was begun", give_edges(4));
+  DEBURR_EXPECT_REJECTED(smoother, DEBURR_ARGUMENT, "no frame was begun", give_edges(4));
   DEBURR_EXPECT_TAKEN(smoother, deburr_frame_begin(smoother.get(), 2, 2));
-  DEBURR_EXPECT_REFUSED(smoother, DEBURR_ARGUMENT, "edges_size is 3; 2 rows need 4", give_edges(3));
+  DEBURR_EXPECT_REJECTED(smoother, DEBURR_ARGUMENT, "edges_size is 3; 2 rows need 4",
+                         give_edges(3));
   for (const auto& [i, bits] : {std::pair{0, 1}, {0, 2}, {1, 2}, {2, 1}, {3, 4}, {3, 255}}) {
     edges.assign(4, 0);
     edges[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(bits);
-    DEBURR_EXPECT_REFUSED(smoother, DEBURR_ARGUMENT, "has those with a neighbour in the frame",
-                          give_edges(4));
+    DEBURR_EXPECT_REJECTED(smoother, DEBURR_ARGUMENT, "has those with a neighbour in the frame",
+                           give_edges(4));
   }
   edges = {0, 1, 2, 3};
   DEBURR_EXPECT_TAKEN(smoother, give_edges(4));
   DEBURR_EXPECT_TAKEN(smoother, deburr_frame_process(smoother.get()));
-  DEBURR_EXPECT_REFUSED(smoother, DEBURR_ARGUMENT,
-                        "the plane 'taps' was not kept: call deburr_frame_detail with 1",
-                        deburr_plane(smoother.get(), "taps", edges.data(), 4, 0));
+  DEBURR_EXPECT_REJECTED(smoother, DEBURR_ARGUMENT,
+                         "the plane 'taps' was not kept: call deburr_frame_detail with 1",
+                         deburr_plane(smoother.get(), "taps", edges.data(), 4, 0));
 
   const Handle drawn(deburr_geometric_new());
   const std::vector<std::uint32_t> words(8, 0);
   const std::vector<std::uint8_t> bits(2, 0);
   std::uint8_t classes = 0;
-  DEBURR_EXPECT_REFUSED(drawn, DEBURR_ARGUMENT, "words_size is 7; vertices have four words each",
-                        deburr_geometric_vertices(drawn.get(), words.data(), 7));
-  DEBURR_EXPECT_REFUSED(drawn, DEBURR_ARGUMENT, "words_size is 5; edges have four words each",
-                        deburr_geometric_edges(drawn.get(), words.data(), 5));
-  DEBURR_EXPECT_REFUSED(drawn, DEBURR_ARGUMENT, "words is NULL",
-                        deburr_geometric_edges(drawn.get(), nullptr, 4));
-  DEBURR_EXPECT_REFUSED(
+  DEBURR_EXPECT_REJECTED(drawn, DEBURR_ARGUMENT, "words_size is 7; vertices have four words each",
+                         deburr_geometric_vertices(drawn.get(), words.data(), 7));
+  DEBURR_EXPECT_REJECTED(drawn, DEBURR_ARGUMENT, "words_size is 5; edges have four words each",
+                         deburr_geometric_edges(drawn.get(), words.data(), 5));
+  DEBURR_EXPECT_REJECTED(drawn, DEBURR_ARGUMENT, "words is NULL",
+                         deburr_geometric_edges(drawn.get(), nullptr, 4));
+  DEBURR_EXPECT_REJECTED(
       drawn, DEBURR_ARGUMENT, "16777217 edges; at most 2^24 are possible",
       deburr_geometric_edges(drawn.get(), words.data(), (std::size_t{1} << 26) + 4));
-  DEBURR_EXPECT_REFUSED(drawn, DEBURR_ARGUMENT, "the bits of 17 faces need 3 bytes",
-                        deburr_geometric_facing(drawn.get(), 17, bits.data(), 2));
-  DEBURR_EXPECT_REFUSED(drawn, DEBURR_ARGUMENT, "bits is NULL",
-                        deburr_geometric_facing(drawn.get(), 1, nullptr, 1));
-  DEBURR_EXPECT_REFUSED(drawn, DEBURR_ARGUMENT, "classes were not kept",
-                        deburr_geometric_classes(drawn.get(), &classes, 1));
+  DEBURR_EXPECT_REJECTED(drawn, DEBURR_ARGUMENT, "the bits of 17 faces need 3 bytes",
+                         deburr_geometric_facing(drawn.get(), 17, bits.data(), 2));
+  DEBURR_EXPECT_REJECTED(drawn, DEBURR_ARGUMENT, "bits is NULL",
+                         deburr_geometric_facing(drawn.get(), 1, nullptr, 1));
+  DEBURR_EXPECT_REJECTED(drawn, DEBURR_ARGUMENT, "classes were not kept",
+                         deburr_geometric_classes(drawn.get(), &classes, 1));
   // Edges of vertices and faces that are not there are the engine's business.
   DEBURR_EXPECT_TAKEN(drawn, deburr_geometric_edges(drawn.get(), words.data(), 8));
   DEBURR_EXPECT_TAKEN(drawn, deburr_frame_begin(drawn.get(), 2, 2));
   DEBURR_EXPECT_TAKEN(drawn, deburr_frame_put(drawn.get(), 0, 0, 0, 0));
   DEBURR_EXPECT_TAKEN(drawn, deburr_frame_process(drawn.get()));
   EXPECT_EQ(counter_of(drawn.get(), "invalid_edges"), 2u);
-  DEBURR_EXPECT_REFUSED(drawn, DEBURR_ARGUMENT, "need 536870912 bytes",
-                        deburr_geometric_facing(drawn.get(), ~0u, bits.data(), 2));
+  DEBURR_EXPECT_REJECTED(drawn, DEBURR_ARGUMENT, "need 536870912 bytes",
+                         deburr_geometric_facing(drawn.get(), ~0u, bits.data(), 2));
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ inline std::uint64_t counter_of(deburr_golden* golden, const std::string& name) 
     const int status_of_call = (call);                                                           \
     EXPECT_EQ(status_of_call, DEBURR_OK) << deburr::tb::c::error_of(&*(golden), status_of_call); \
   } while (false)
-#define DEBURR_EXPECT_REFUSED(golden, status, words, call)                                       \
+#define DEBURR_EXPECT_REJECTED(golden, status, words, call)                                      \
   do {                                                                                           \
     const int status_of_call = (call);                                                           \
     EXPECT_EQ(status_of_call, (status));                                                         \

@@ -219,10 +219,10 @@ TEST(Levels, LieWhereTheLayoutHasThem) {
         return deburr_texture_level(handle.get(), 5, k, texels.data(), size,
                                     static_cast<std::uint32_t>(stride));
       };
-      DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "texels_size is ", put(texels.size() - 1));
+      DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "texels_size is ", put(texels.size() - 1));
       if (k + 1 == d.levels) {
-        DEBURR_EXPECT_REFUSED(handle, DEBURR_ARGUMENT, "is outside the memory of ",
-                              put(texels.size()));
+        DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "is outside the memory of ",
+                               put(texels.size()));
         DEBURR_EXPECT_TAKEN(handle, deburr_texture_memory(handle.get(), next));
       }
       DEBURR_EXPECT_TAKEN(handle, put(texels.size()));
@@ -276,7 +276,7 @@ TEST(State, TexturesAndMemoryOutliveNewParametersAndCountersDoNot) {
   DEBURR_EXPECT_TAKEN(handle, deburr_texture_invalidate(handle.get()));
   EXPECT_EQ(red(handle.get()), 255);
   EXPECT_EQ(counter_of(handle.get(), "line_fills"), 2u);
-  // What was refused is no change; what was taken counts from the next quad on.
+  // What was rejected is no change; what was taken counts from the next quad on.
   EXPECT_EQ(deburr_set(handle.get(), "axes", "three"), DEBURR_ARGUMENT);
   EXPECT_EQ(red(handle.get()), 255);
   EXPECT_EQ(counter_of(handle.get(), "fragments"), 4u);
@@ -309,8 +309,8 @@ TEST(Levels, MayEndAtTheLastAddressAndReplaceBasesThatAreWrong) {
   const Handle handle = white_texture();
   std::uint64_t behind = 0;
   DEBURR_EXPECT_TAKEN(handle, deburr_texture_field(handle.get(), 0, "base0", "4294967295"));
-  DEBURR_EXPECT_REFUSED(handle, DEBURR_CONFIGURATION, "the base of a level is no multiple of 64",
-                        deburr_texture_check(handle.get(), 0));
+  DEBURR_EXPECT_REJECTED(handle, DEBURR_CONFIGURATION, "the base of a level is no multiple of 64",
+                         deburr_texture_check(handle.get(), 0));
   DEBURR_EXPECT_TAKEN(handle, deburr_texture_place(handle.get(), 0, (1ull << 32) - 256, &behind));
   EXPECT_EQ(behind, 1ull << 32);
   DEBURR_EXPECT_TAKEN(handle, deburr_texture_check(handle.get(), 0));
@@ -344,32 +344,32 @@ TEST(BadTextureCalls, GiveAnErrorAndChangeNothing) {
   std::uint32_t count = 77;
   std::int64_t value = 77;
   const std::int32_t* const s = kZero.data();
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "4294967297 bytes; at most 2^32",
-                        deburr_texture_memory(golden, (1ull << 32) + 1));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "bytes is NULL",
-                        deburr_texture_write(golden, 0, nullptr, 1));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "bytes, 64 bytes from 193, is outside the memory",
-                        deburr_texture_write(golden, 193, bytes.data(), 64));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "is outside the memory of 256 bytes",
-                        deburr_texture_write(golden, ~0ull, bytes.data(), 2));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "is outside the memory",
-                        deburr_texture_read(golden, 257, bytes.data(), 0));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "is outside the memory",
-                        deburr_texture_read(golden, 200, bytes.data(), 64));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "texture 16 is outside 0..15",
-                        deburr_texture_register(golden, 16, 0, 0));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT,
-                        "offset 2 is none of a descriptor's registers, 0, 4, .. 64",
-                        deburr_texture_register(golden, 0, 2, 0));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "offset 68 is none of a descriptor's registers",
-                        deburr_texture_register(golden, 0, 68, 0));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "texture 16 is outside 0..15",
-                        deburr_texture_field(golden, 16, "width", "4"));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT,
-                        "unknown field of a texture 'depth'; there are width, height, format, ",
-                        deburr_texture_field(golden, 0, "depth", "4"));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "max_lod, base0 to base12",
-                        deburr_texture_field(golden, 0, "depth", "4"));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "4294967297 bytes; at most 2^32",
+                         deburr_texture_memory(golden, (1ull << 32) + 1));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "bytes is NULL",
+                         deburr_texture_write(golden, 0, nullptr, 1));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "bytes, 64 bytes from 193, is outside the memory",
+                         deburr_texture_write(golden, 193, bytes.data(), 64));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "is outside the memory of 256 bytes",
+                         deburr_texture_write(golden, ~0ull, bytes.data(), 2));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "is outside the memory",
+                         deburr_texture_read(golden, 257, bytes.data(), 0));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "is outside the memory",
+                         deburr_texture_read(golden, 200, bytes.data(), 64));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "texture 16 is outside 0..15",
+                         deburr_texture_register(golden, 16, 0, 0));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT,
+                         "offset 2 is none of a descriptor's registers, 0, 4, .. 64",
+                         deburr_texture_register(golden, 0, 2, 0));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "offset 68 is none of a descriptor's registers",
+                         deburr_texture_register(golden, 0, 68, 0));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "texture 16 is outside 0..15",
+                         deburr_texture_field(golden, 16, "width", "4"));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT,
+                         "unknown field of a texture 'depth'; there are width, height, format, ",
+                         deburr_texture_field(golden, 0, "depth", "4"));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "max_lod, base0 to base12",
+                         deburr_texture_field(golden, 0, "depth", "4"));
   DEBURR_EXPECT_TAKEN(golden, deburr_texture_read(golden, 256, nullptr, 0));
   for (const auto& [name, text] : {std::pair<const char*, const char*>{"width", "65536"},
                                    {"width", "-1"},
@@ -387,45 +387,45 @@ TEST(BadTextureCalls, GiveAnErrorAndChangeNothing) {
     EXPECT_EQ(deburr_texture_field(golden, 0, name, text), DEBURR_ARGUMENT) << name << text;
   EXPECT_EQ(deburr_texture_field(golden, 0, nullptr, "1"), DEBURR_ARGUMENT);
   EXPECT_EQ(deburr_texture_field(golden, 0, "width", nullptr), DEBURR_ARGUMENT);
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_CONFIGURATION, "texture 1: width or height is zero",
-                        deburr_texture_check(golden, 1));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "texture 16 is outside",
-                        deburr_texture_check(golden, 16));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "address 4 is no multiple of 64",
-                        deburr_texture_place(golden, 0, 4, &behind));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "would end past address 2^32",
-                        deburr_texture_place(golden, 0, 1ull << 32, &behind));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "would end past address 2^32",
-                        deburr_texture_place(golden, 0, ~0ull & ~63ull, &behind));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_CONFIGURATION, "texture 1: width or height is zero",
-                        deburr_texture_place(golden, 1, 0, &behind));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_CONFIGURATION, "texture 1: width or height is zero",
+                         deburr_texture_check(golden, 1));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "texture 16 is outside",
+                         deburr_texture_check(golden, 16));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "address 4 is no multiple of 64",
+                         deburr_texture_place(golden, 0, 4, &behind));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "would end past address 2^32",
+                         deburr_texture_place(golden, 0, 1ull << 32, &behind));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "would end past address 2^32",
+                         deburr_texture_place(golden, 0, ~0ull & ~63ull, &behind));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_CONFIGURATION, "texture 1: width or height is zero",
+                         deburr_texture_place(golden, 1, 0, &behind));
   EXPECT_EQ(deburr_texture_place(golden, 0, 0, nullptr), DEBURR_ARGUMENT);
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "level 1 is outside 0..0",
-                        deburr_texture_level(golden, 0, 1, bytes.data(), 64, 0));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "stride 15 is shorter than a row of texels, 16",
-                        deburr_texture_level(golden, 0, 0, bytes.data(), 64, 15));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "texels is NULL",
-                        deburr_texture_level(golden, 0, 0, nullptr, 64, 0));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "texels_size is 64; 4 rows need 12884901901",
-                        deburr_texture_level(golden, 0, 0, bytes.data(), 64, ~0u));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_CONFIGURATION,
-                        "texture 1: ", deburr_texture_level(golden, 1, 0, bytes.data(), 64, 0));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "texture 256 is outside 0..255",
-                        deburr_texture_quad(golden, 256, 15, 0, s, s, bytes.data()));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "coverage 16 is outside 0..15",
-                        deburr_texture_quad(golden, 0, 16, 0, s, s, bytes.data()));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "clamped 16 is outside 0..15",
-                        deburr_texture_quad(golden, 0, 15, 16, s, s, bytes.data()));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "s is NULL",
-                        deburr_texture_quad(golden, 0, 15, 0, nullptr, s, bytes.data()));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "t is NULL",
-                        deburr_texture_quad(golden, 0, 15, 0, s, nullptr, bytes.data()));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "rgba is NULL",
-                        deburr_texture_quad(golden, 0, 15, 0, s, s, nullptr));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "lane 4 is outside 0..3",
-                        deburr_texture_analyse(golden, 0, 4, s, s, "samples", &value));
-  DEBURR_EXPECT_REFUSED(golden, DEBURR_ARGUMENT, "unknown decision 'sample'; there are valid, ",
-                        deburr_texture_analyse(golden, 0, 0, s, s, "sample", &value));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "level 1 is outside 0..0",
+                         deburr_texture_level(golden, 0, 1, bytes.data(), 64, 0));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "stride 15 is shorter than a row of texels, 16",
+                         deburr_texture_level(golden, 0, 0, bytes.data(), 64, 15));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "texels is NULL",
+                         deburr_texture_level(golden, 0, 0, nullptr, 64, 0));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "texels_size is 64; 4 rows need 12884901901",
+                         deburr_texture_level(golden, 0, 0, bytes.data(), 64, ~0u));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_CONFIGURATION,
+                         "texture 1: ", deburr_texture_level(golden, 1, 0, bytes.data(), 64, 0));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "texture 256 is outside 0..255",
+                         deburr_texture_quad(golden, 256, 15, 0, s, s, bytes.data()));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "coverage 16 is outside 0..15",
+                         deburr_texture_quad(golden, 0, 16, 0, s, s, bytes.data()));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "clamped 16 is outside 0..15",
+                         deburr_texture_quad(golden, 0, 15, 16, s, s, bytes.data()));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "s is NULL",
+                         deburr_texture_quad(golden, 0, 15, 0, nullptr, s, bytes.data()));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "t is NULL",
+                         deburr_texture_quad(golden, 0, 15, 0, s, nullptr, bytes.data()));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "rgba is NULL",
+                         deburr_texture_quad(golden, 0, 15, 0, s, s, nullptr));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "lane 4 is outside 0..3",
+                         deburr_texture_analyse(golden, 0, 4, s, s, "samples", &value));
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "unknown decision 'sample'; there are valid, ",
+                         deburr_texture_analyse(golden, 0, 0, s, s, "sample", &value));
   EXPECT_EQ(deburr_texture_analyse(golden, 0, 0, s, s, nullptr, &value), DEBURR_ARGUMENT);
   EXPECT_EQ(deburr_texture_analyse(golden, 0, 0, s, s, "samples", nullptr), DEBURR_ARGUMENT);
   EXPECT_EQ(deburr_texture_fills(golden, nullptr, 1, &count), DEBURR_ARGUMENT);

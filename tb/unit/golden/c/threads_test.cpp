@@ -99,7 +99,7 @@ TEST(Threads, OfWhichOneIsInACallAreToldBusy) {
   EXPECT_THAT(error_of(golden, DEBURR_ARGUMENT), testing::HasSubstr("'perhaps'"));
 }
 
-// Two that fight for one handle: each call is taken whole, or refused as busy.
+// Two that fight for one handle: each call is taken whole, or rejected as busy.
 TEST(Threads, ThatShareAHandleAreRejectedAndNeverRace) {
   const Handle handle(deburr_morphological_new());
   deburr_golden* const golden = handle.get();

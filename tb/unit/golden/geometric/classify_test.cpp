@@ -135,7 +135,7 @@ TEST(Configuration, PresetsAreThePages) {
   for (const Parameters& p : {gpaa, optimised, deburr}) EXPECT_NO_THROW(check_build(p));
 }
 
-void refused(void (*change)(Parameters&), const char* name) {
+void rejected(void (*change)(Parameters&), const char* name) {
   Parameters p;
   change(p);
   EXPECT_THAT([&] { check_build(p); },
@@ -143,17 +143,17 @@ void refused(void (*change)(Parameters&), const char* name) {
 }
 
 TEST(Configuration, RejectsByName) {
-  refused([](Parameters& p) { p.depth_bias = 0; }, "depth_bias = 0 is outside 1..24");
-  refused([](Parameters& p) { p.depth_bias = 25; }, "depth_bias = 25 is outside 1..24");
-  refused([](Parameters& p) { p.crease_depth = -1; }, "crease_depth = -1 is outside 0..24");
-  refused([](Parameters& p) { p.crease_depth = 25; }, "crease_depth = 25 is outside 0..24");
-  refused([](Parameters& p) { p.combine = static_cast<spec::geometric::Combine>(3); }, "combine");
-  refused([](Parameters& p) { p.select = static_cast<Select>(2); }, "select");
-  refused([](Parameters& p) { p.reciprocal_table = 10; }, "reciprocal_table");
-  refused([](Parameters& p) { p.fills = 129; }, "memory.outstanding");
-  refused([](Parameters& p) { p.face_limit = 8193; }, "face_limit");
-  refused([](Parameters& p) { p.touched_words = 15; }, "touched_words");
-  refused([](Parameters& p) { p.fills = 7; }, "fills = 7: must be at least 8 lines");
+  rejected([](Parameters& p) { p.depth_bias = 0; }, "depth_bias = 0 is outside 1..24");
+  rejected([](Parameters& p) { p.depth_bias = 25; }, "depth_bias = 25 is outside 1..24");
+  rejected([](Parameters& p) { p.crease_depth = -1; }, "crease_depth = -1 is outside 0..24");
+  rejected([](Parameters& p) { p.crease_depth = 25; }, "crease_depth = 25 is outside 0..24");
+  rejected([](Parameters& p) { p.combine = static_cast<spec::geometric::Combine>(3); }, "combine");
+  rejected([](Parameters& p) { p.select = static_cast<Select>(2); }, "select");
+  rejected([](Parameters& p) { p.reciprocal_table = 10; }, "reciprocal_table");
+  rejected([](Parameters& p) { p.fills = 129; }, "memory.outstanding");
+  rejected([](Parameters& p) { p.face_limit = 8193; }, "face_limit");
+  rejected([](Parameters& p) { p.touched_words = 15; }, "touched_words");
+  rejected([](Parameters& p) { p.fills = 7; }, "fills = 7: must be at least 8 lines");
   Parameters fills;
   fills.fills = fills.memory_outstanding = 64;  // as many as memory answers at once
   EXPECT_NO_THROW(check_build(fills));

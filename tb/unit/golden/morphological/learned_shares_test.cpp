@@ -421,17 +421,18 @@ TEST(LearnedShares, MirroredFramesGiveMirroredOutput) {
   }
 }
 
-// ---- refusals, tables, coverage -----------------------------------------------------------------
+// ---- rejections, tables, coverage
+// -----------------------------------------------------------------
 
 TEST(LearnedShares, RejectsWhatDoesNotGoTogether) {
-  const auto refused = [](auto&& change) {
+  const auto rejected = [](auto&& change) {
     Parameters p = deburr();
     change(p);
     EXPECT_THROW(check_build(p), spec::ConfigError);
   };
-  refused([](Parameters& p) { p.threshold_mode = spec::morphological::ThresholdMode::kDynamic; });
-  refused([](Parameters& p) { p.diagonals = true; });
-  refused([](Parameters& p) { p.round_corners = true; });
+  rejected([](Parameters& p) { p.threshold_mode = spec::morphological::ThresholdMode::kDynamic; });
+  rejected([](Parameters& p) { p.diagonals = true; });
+  rejected([](Parameters& p) { p.round_corners = true; });
   Parameters p = deburr();
   p.ends = spec::morphological::Ends::kCrossings;
   p.blend = spec::morphological::BlendRule::kStrongest;

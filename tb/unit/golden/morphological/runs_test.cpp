@@ -480,7 +480,7 @@ TEST(Trim, KeepsAllWhereTheStepsOrTheReachEnd) {
 }
 
 TEST(Trim, HalvesASideThatNoLineExplains) {
-  // 5, 5, 5 and 6, 6 are no line: the second 6 is refused, one step is left, half of it is none.
+  // 5, 5, 5 and 6, 6 are no line: the second 6 is rejected, one step is left, half of it is none.
   const Frame frame = staircase({9, 5, 5, 5, 6, 6, 6, 2});
   const PredictedRun whole = run_at(frame, trimmed(Preset::kDeburrLine, false), 19);
   EXPECT_EQ(whole.right_end, SideEnd::kInconsistent);

@@ -52,11 +52,11 @@ Scene short_lines(int width, int height, int lines, int length) {
 
 // ---- registers
 
-struct RefusedStart {
+struct RejectedStart {
   std::uint32_t offset, value;
   Refusal why;
 };
-class Rejected : public ::testing::TestWithParam<RefusedStart> {};
+class Rejected : public ::testing::TestWithParam<RejectedStart> {};
 TEST_P(Rejected, ReadsAndWritesNothing) {
   Parameters p;
   p.line_pixels = 512;
@@ -75,15 +75,15 @@ TEST_P(Rejected, ReadsAndWritesNothing) {
 constexpr std::uint32_t size_of(std::uint32_t w, std::uint32_t h) { return w | h << 16; }
 INSTANTIATE_TEST_SUITE_P(
     Starts, Rejected,
-    ::testing::Values(RefusedStart{reg::kSize, size_of(0, 45), Refusal::kSize},
-                      RefusedStart{reg::kSize, size_of(61, 0), Refusal::kSize},
-                      RefusedStart{reg::kSize, size_of(8193, 9), Refusal::kSize},
-                      RefusedStart{reg::kSize, size_of(61, 8193), Refusal::kSize},
-                      RefusedStart{reg::kSize, size_of(513, 45), Refusal::kWidth},
-                      RefusedStart{reg::kSize, size_of(512, 401), Refusal::kTouchedWords},
-                      RefusedStart{reg::kEdgeCount, (1u << 24) + 1, Refusal::kEdgeCount},
-                      RefusedStart{reg::kVertexCount, (1u << 24) + 1, Refusal::kVertexCount},
-                      RefusedStart{reg::kFaceCount, 32769, Refusal::kFaceCount}));
+    ::testing::Values(RejectedStart{reg::kSize, size_of(0, 45), Refusal::kSize},
+                      RejectedStart{reg::kSize, size_of(61, 0), Refusal::kSize},
+                      RejectedStart{reg::kSize, size_of(8193, 9), Refusal::kSize},
+                      RejectedStart{reg::kSize, size_of(61, 8193), Refusal::kSize},
+                      RejectedStart{reg::kSize, size_of(513, 45), Refusal::kWidth},
+                      RejectedStart{reg::kSize, size_of(512, 401), Refusal::kTouchedWords},
+                      RejectedStart{reg::kEdgeCount, (1u << 24) + 1, Refusal::kEdgeCount},
+                      RejectedStart{reg::kVertexCount, (1u << 24) + 1, Refusal::kVertexCount},
+                      RejectedStart{reg::kFaceCount, 32769, Refusal::kFaceCount}));
 
 TEST(Registers, StartWithoutEnableIsRejected) {
   EngineBench b;

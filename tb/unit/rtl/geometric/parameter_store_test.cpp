@@ -286,7 +286,7 @@ TEST(Refusals, GiveTheFirstReason) {
   EXPECT_EQ(why(), Refusal::kNone);
 }
 
-// What was refused leaves the rules of the frame before; a START is taken in the clock after its
+// What was rejected leaves the rules of the frame before; a START is taken in the clock after its
 // write, with the registers as they are then, and units read the rules a clock later.
 TEST(Refusals, LeaveTheRulesAsTheyWere) {
   Frame b({});
@@ -303,17 +303,17 @@ TEST(Refusals, LeaveTheRulesAsTheyWere) {
     EXPECT_FALSE(b.store.starting());
     return static_cast<Refusal>(b.bus.read(reg::kRefusal));
   };
-  const auto refused = [&] { return (b.bus.read(reg::kStatus) & reg::kStatusRefused) != 0; };
+  const auto rejected = [&] { return (b.bus.read(reg::kStatus) & reg::kStatusRefused) != 0; };
   EXPECT_EQ(start(40, reg::kControlEnable), Refusal::kNone);
   EXPECT_EQ(width(), 40u);
   EXPECT_FALSE(b.sequencer.idle());
-  EXPECT_FALSE(refused());
+  EXPECT_FALSE(rejected());
   b.clock.run(10);
   ASSERT_TRUE(b.sequencer.idle());
   EXPECT_NE(b.bus.read(reg::kStatus) & reg::kStatusFrameDone, 0u);
   EXPECT_EQ(start(0, reg::kControlEnable), Refusal::kSize);
   EXPECT_TRUE(b.sequencer.idle());
-  EXPECT_TRUE(refused());
+  EXPECT_TRUE(rejected());
   EXPECT_EQ(start(60, 0), Refusal::kDisabled);
   EXPECT_EQ(width(), 40u);
   b.bus.write(reg::kSize, size_of(50, 30));

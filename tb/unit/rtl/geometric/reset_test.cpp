@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reset of the geometric engine, of every kind of build, at every clock of a frame and behind a
-// refused start: what comes after it is, to the bit and to the clock, what comes after a reset of
+// rejected start: what comes after it is, to the bit and to the clock, what comes after a reset of
 // an engine that never had a frame; every register and every counter of every unit included. And a
 // frame behind another one is what it is by itself.
 #include "tb/unit/rtl/geometric/trail.h"
@@ -72,7 +72,7 @@ TEST_P(EveryClock, AnyClockOfAFrameMayBeTheLast) {
   }
 }
 
-// A start that is refused, before it is judged and after that.
+// A start that is rejected, before it is checked and after that.
 TEST_P(EveryClock, ARejectedStartIsForgotten) {
   const Trail fresh = run(whole);
   for (const Cycle at : {0, 1, 2, 9}) {

@@ -141,7 +141,7 @@ struct Latencies {
   // An edge on its way to the first stage behind the reader that knows it: the walker.
   void line(Cycle left) {
     edges.leave(left, 1);
-    edges.judge(true);
+    edges.decided(true);
     edges.set_up(true);
   }
   // A group that passes everything.
@@ -175,7 +175,7 @@ TEST(EdgeLatency, EdgesThatAreNoLineAreLeftOut) {
   Latencies l;
   l.edges.leave(10, 3);
   l.edges.leave(20, 2);
-  for (const bool kept : {false, true, false, true, true}) l.edges.judge(kept);
+  for (const bool kept : {false, true, false, true, true}) l.edges.decided(kept);
   for (const bool line : {false, true, true}) l.edges.set_up(line);  // of 10, 20, 20
   l.group(true);
   l.group(true);
@@ -211,7 +211,7 @@ TEST(EdgeLatency, OfManyOnTheirWayEachIsItsOwn) {
   Latencies l;
   l.edges.leave(1, 2);
   l.edges.leave(5, 1);
-  for (int i = 0; i < 3; ++i) l.edges.judge(true);
+  for (int i = 0; i < 3; ++i) l.edges.decided(true);
   for (int i = 0; i < 3; ++i) l.edges.set_up(true);
   for (const bool last : {false, true, true, false, true}) l.edges.walk(last);
   for (int i = 0; i < 5; ++i) l.edges.cover(true);
@@ -224,7 +224,7 @@ TEST(EdgeLatency, OfManyOnTheirWayEachIsItsOwn) {
 // What nobody announced, as planted faults send it, is not counted, and nothing waits for it.
 TEST(EdgeLatency, TokensThatWereNotAnnouncedCountNowhere) {
   Latencies l;
-  l.edges.judge(true);
+  l.edges.decided(true);
   l.edges.set_up(true);
   l.group(true);
   l.edges.write(9);
@@ -241,7 +241,7 @@ TEST(EdgeLatency, AResetForgetsWhatIsOnTheWay) {
   for (int stage = 0; stage < 7; ++stage) {
     Latencies l;
     l.edges.leave(1, 1);
-    if (stage > 0) l.edges.judge(true);
+    if (stage > 0) l.edges.decided(true);
     if (stage > 1) l.edges.set_up(true);
     if (stage > 2) l.edges.walk(false);
     if (stage > 3) l.edges.cover(true);

@@ -262,7 +262,7 @@ const std::vector<Stair>& stairs_to_trim() {
       {"apart: lost 0 1", false, 8, 3, {{}, 0, kLost}, {{4}, 1, kLost}},
       {"apart: lost 8 1", false, 16, 3, {times(8, 3), 8, kLost}, {{2}, 1, kLost}},
       {"apart: lost of one pixel", false, 8, 1, {{2, 1, 2}, 3, kLost}, {{1}, 1, kLost}},
-      // What safe refuses, each side by itself takes, until it is lost.
+      // What safe rejects, each side by itself takes, until it is lost.
       {"apart: a bend", false, 8, 4, {{4}, 1, kLost}, {{4, 3, 3, 3, 3}, 5, kLost}},
       {"apart: a curve", false, 8, 3, {{2, 2, 3}, 3, kLost}, {{4, 4}, 2, kLost}},
       // Still open after N steps, whatever comes then.

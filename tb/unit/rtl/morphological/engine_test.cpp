@@ -495,7 +495,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadParameter{"give window_rows of at least 20", [](auto& p) { p.window_rows = 18; }},
         BadParameter{"line_pixels", [](auto& p) { p.line_pixels = 8193; }}));
 
-// What the refused ones would be with a row, a clock or a rule changed.
+// What the rejected ones would be with a row, a clock or a rule changed.
 class GoodParameters : public ::testing::TestWithParam<BadParameter> {};
 TEST_P(GoodParameters, AreBuilt) {
   ClockDomain clock("clock", period());

@@ -63,7 +63,7 @@ struct Growth {
 };
 
 struct Checked {
-  std::uint64_t alone = 0, both = 0, refused = 0, bends = 0;
+  std::uint64_t alone = 0, both = 0, rejected = 0, bends = 0;
 };
 
 // Steps 3 and 4 of the contract for every pair of steps that could come now.
@@ -74,7 +74,7 @@ void check(const Growth& now, Checked& checked) {
     ASSERT_EQ(right, consistent(now.with_right(other)));
     ASSERT_EQ(left, consistent(now.with_left(other)));
     checked.alone += 2;
-    checked.refused += !right + !left;
+    checked.rejected += !right + !left;
   }
   for (const bool right : {false, true})
     for (const bool left : {false, true}) {
@@ -110,7 +110,7 @@ TEST(LineBounds, AreThoseOfTheDefinitionInEveryShortGrowth) {
   for (const auto& [length, other] :
        {std::pair{1, 2}, {2, 1}, {2, 3}, {7, 6}, {7, 8}, {2047, 2048}, {2048, 2047}})
     grow({length, other}, 6, checked);
-  EXPECT_GT(checked.refused, 10'000u);
+  EXPECT_GT(checked.rejected, 10'000u);
   EXPECT_GT(checked.bends, 1'000u);
 }
 
@@ -147,7 +147,7 @@ TEST(LineBounds, AreThoseOfTheDefinitionInLongGrowths) {
   }
   EXPECT_GT(corners, 80'000u);
   EXPECT_GT(full, 500u);
-  EXPECT_GT(checked.refused, 50'000u);
+  EXPECT_GT(checked.rejected, 50'000u);
   EXPECT_GT(checked.bends, 1'000u);
 }
 

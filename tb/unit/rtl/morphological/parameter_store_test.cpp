@@ -258,7 +258,7 @@ TEST(FrameRules, SizesInBeatsAndRows) {
   }
 }
 
-// Out of them a frame is refused, and says so; one that was inside before is not touched.
+// Out of them a frame is rejected, and says so; one that was inside before is not touched.
 TEST(FrameRules, LimitsOfASize) {
   Parameters p = small();
   p.line_pixels = 100;
@@ -891,7 +891,7 @@ TEST(SharesRegisters, AreIgnoredWhileAFrameIsInside) {
   EXPECT_EQ(bench.bus.read(reg::kSharesData), entry);
   EXPECT_EQ(bench.bus.read(reg::kSharesSum), spec::morphological::kSharesSum);
   EXPECT_TRUE(bench.bus.read(reg::kStatus) & reg::kStatusWrittenWhileBusy);
-  // A debug write is not refused.
+  // A debug write is not rejected.
   bench.bus.debug_write(reg::kSharesData, entry ^ 1);
   EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 8u);
   EXPECT_EQ(bench.bus.read(reg::kSharesSum),

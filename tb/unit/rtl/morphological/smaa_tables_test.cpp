@@ -187,7 +187,7 @@ TEST_P(TableClocks, AnEntryIsNotUsedAClockLate) {
               ::testing::AllOf(::testing::HasSubstr("area_rom"),
                                ::testing::HasSubstr("was there from cycle 3 on")));
 }
-// A port gives a word a clock: a second query of a reader in the same clock is refused.
+// A port gives a word a clock: a second query of a reader in the same clock is rejected.
 TEST_P(TableClocks, AReaderAsksOnceAClock) {
   EXPECT_THAT(said([](AreaTable& table, auto& query, auto& other) {
                 table.address_roots(1, 0, query);

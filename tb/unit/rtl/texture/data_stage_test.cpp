@@ -310,7 +310,7 @@ TEST(TextureRtlDataStage, StandsStillWhileTexelsWait) {
 
 TEST(TextureRtlDataBanks, AWordIsNotThereInTheClockOfItsRead) {
   StageBench b(StageBench::hit({0, 4, 16, 20}));
-  EXPECT_THAT(of_a_stage_less(b.stage, b.clock), Refuses("banks", kEarly));
+  EXPECT_THAT(of_a_stage_less(b.stage, b.clock), Rejects("banks", kEarly));
 }
 
 // A second request: of the one before it, words stand on the output registers.
@@ -322,16 +322,16 @@ std::string of_a_stage_less_again(std::array<std::uint32_t, 4> place) {
   return of_a_stage_less(b.stage, b.clock);
 }
 TEST(TextureRtlDataBanks, AnotherWordOfTheRequestBeforeIsStale) {
-  EXPECT_THAT(of_a_stage_less_again({32, 36, 48, 52}), Refuses("banks", kEarly));
+  EXPECT_THAT(of_a_stage_less_again({32, 36, 48, 52}), Rejects("banks", kEarly));
 }
 TEST(TextureRtlDataBanks, TheSameWordOfTheRequestBeforeIsStale) {
-  EXPECT_THAT(of_a_stage_less_again({0, 4, 16, 20}), Refuses("banks", kEarly));
+  EXPECT_THAT(of_a_stage_less_again({0, 4, 16, 20}), Rejects("banks", kEarly));
 }
 
 TEST(TextureRtlDataBanks, OneQuadAClock) {
   const CacheToken token = StageBench::hit({0, 4, 16, 20});
   StageBench b(token);
-  EXPECT_THAT(of_a_second_token(b.stage, b.requests, token, b.clock), Refuses("banks", kTooMany));
+  EXPECT_THAT(of_a_second_token(b.stage, b.requests, token, b.clock), Rejects("banks", kTooMany));
 }
 
 // Texels 1 and 3 are left for the second pass; then the place of one of them moves into the bank of
@@ -341,23 +341,23 @@ TEST(TextureRtlDataBanks, ABankIsReadOnceAClock) {
   ASSERT_EQ(b.stage.conflicts.value(), 1u);
   const CacheToken moved = StageBench::hit({0, 64, 20, 128});
   std::memcpy(b.requests.beat(0), &moved, sizeof moved);
-  EXPECT_THAT(refusal([&] { b.clock.run(1); }),
-              Refuses("banks", "bank 0 (address 32) is used twice"));
+  EXPECT_THAT(rejection([&] { b.clock.run(1); }),
+              Rejects("banks", "bank 0 (address 32) is used twice"));
 }
 
 TEST(TextureRtlDataBanks, HaveNoWordBeyondTheLastLine) {
   StageBench b(StageBench::hit({0, 4, 16, 20}));
   b.clock.run(1);
   b.requests.push(2, StageBench::hit({0, 4, 16, 1024}));
-  EXPECT_THAT(refusal([&] { b.clock.run(2); }), Refuses("banks", "expected at most"));
+  EXPECT_THAT(rejection([&] { b.clock.run(2); }), Rejects("banks", "expected at most"));
 }
 
 TEST(TextureRtlDataBanks, HaveNoPortForAnybodyElse) {
   StageBench b(StageBench::hit({0, 4, 16, 20}));
   EXPECT_THAT((of_one_port_more<rtl::ReadPort<void>, void>(b.stage, "banks")),
-              Refuses("banks", "one port more than 4R1W"));
+              Rejects("banks", "one port more than 4R1W"));
   EXPECT_THAT((of_one_port_more<rtl::WritePort<void>, void>(b.stage, "banks")),
-              Refuses("banks", "one port more than 4R1W"));
+              Rejects("banks", "one port more than 4R1W"));
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ class Pair {
     clock.run(2);
     clock.set_reset_n(true);
   }
-  // Sends `tokens` tokens and judges `answers` answers, once after a reset.
+  // Sends `tokens` tokens and checks `answers` answers, once after a reset.
   void run(std::uint64_t tokens, const std::function<From(std::uint64_t)>& token,
            std::uint64_t answers, const std::function<bool(std::uint64_t, const To&)>& right) {
     std::uint64_t answer = 0;

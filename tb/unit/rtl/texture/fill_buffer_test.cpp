@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The FillBuffer alone: in which clock a line is there, and what its memory refuses.
+// The FillBuffer alone: in which clock a line is there, and what its memory rejects.
 #include "rtl_model/texture/fill_buffer.h"
 
 #include "spec/error.h"
@@ -47,7 +47,7 @@ TEST(TextureRtlFillBuffer, OneBeatAClock) {
   EXPECT_THROW(buffer.fill(10, 1, 0, kBeat, true), spec::CheckFailed);
 }
 
-// A beat that names a half of a line which has none, as a broken response may, is refused.
+// A beat that names a half of a line which has none, as a broken response may, is rejected.
 TEST(TextureRtlFillBuffer, ABeatPastTheLine) {
   FillBuffer buffer("buffer", 4, 64);
   buffer.reserve(1);
@@ -84,7 +84,7 @@ TEST(TextureRtlFillBuffer, OneReadAClock) {
   }
   lines.read_ahead(12);
   lines.release(12);
-  EXPECT_THAT(refusal([&] { lines.read_ahead(12); }), Refuses("buffer", kTooMany));
+  EXPECT_THAT(rejection([&] { lines.read_ahead(12); }), Rejects("buffer", kTooMany));
 }
 
 // An entry that is used again: the line before it still stands on the output register.
@@ -99,8 +99,8 @@ TEST(TextureRtlFillBuffer, TheLineBeforeInTheSameEntryIsStale) {
   buffer.reserve(13);
   buffer.fill(20, 0, 0, kBeat, true);
   lines.read_ahead(21);
-  EXPECT_THAT(refusal([&] { lines.line(21); }), Refuses("buffer", kEarly));
-  EXPECT_EQ(refusal([&] { lines.line(22); }), "nothing");
+  EXPECT_THAT(rejection([&] { lines.line(21); }), Rejects("buffer", kEarly));
+  EXPECT_EQ(rejection([&] { lines.line(22); }), "nothing");
 }
 
 // Flip-flops up to 16 kbit, SRAM above; a line of two beats needs a write mask of one.
@@ -129,7 +129,7 @@ TEST(TextureRtlFillBuffer, HasNoMoreEntriesThanItSays) {
   EXPECT_TRUE(buffer.can_reserve(2));
   EXPECT_EQ(buffer.reserve(2), 1u);
   EXPECT_FALSE(buffer.can_reserve(3));
-  EXPECT_THAT(refusal([&] { buffer.reserve(3); }), Refuses("buffer", "no entry is free"));
+  EXPECT_THAT(rejection([&] { buffer.reserve(3); }), Rejects("buffer", "no entry is free"));
   buffer.fill(4, 0, 0, kBeat, true);
   lines.read_ahead(5);
   lines.release(6);
@@ -141,8 +141,8 @@ TEST(TextureRtlFillBuffer, EachBeatComesOnce) {
   FillBuffer buffer("buffer", 4, 64);
   buffer.reserve(1);
   buffer.fill(10, 0, 0, kBeat, true);
-  EXPECT_THAT(refusal([&] { buffer.fill(11, 0, 0, kBeat, true); }), Refuses("buffer", "twice"));
-  EXPECT_THAT(refusal([&] { buffer.fill(12, 4, 0, kBeat, true); }), Refuses("buffer", "entry 4"));
+  EXPECT_THAT(rejection([&] { buffer.fill(11, 0, 0, kBeat, true); }), Rejects("buffer", "twice"));
+  EXPECT_THAT(rejection([&] { buffer.fill(12, 4, 0, kBeat, true); }), Rejects("buffer", "entry 4"));
 }
 
 }  // namespace

@@ -375,12 +375,12 @@ struct CodedBench : FilterBench {
 
 TEST(TextureRtlFilterSrgb, AWordIsNotThereInTheClockOfItsRead) {
   CodedBench b;
-  EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Refuses("srgb", kEarly));
+  EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Rejects("srgb", kEarly));
 }
 
 TEST(TextureRtlFilterSrgb, OneQuadAClock) {
   CodedBench b;
-  EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, b.clock), Refuses("srgb", kTooMany));
+  EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, b.clock), Rejects("srgb", kTooMany));
 }
 
 // Nobody else's texels are looked up.
@@ -416,24 +416,24 @@ struct WeightBench : FilterBench {
 };
 TEST(TextureRtlFilterWeights, AWordIsNotThereInTheClockOfItsRead) {
   WeightBench b;
-  EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Refuses("weights", kEarly));
+  EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Rejects("weights", kEarly));
 }
 TEST(TextureRtlFilterWeights, OneSampleAClock) {
   WeightBench b;
-  EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, b.clock), Refuses("weights", kTooMany));
+  EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, b.clock), Rejects("weights", kTooMany));
 }
 TEST(TextureRtlFilterWeights, HasNoPortForAnybodyElse) {
   WeightBench b;
   EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint16_t>, std::uint16_t>(b.unit, "weights")),
-              Refuses("weights", "one port more than 1R"));
+              Rejects("weights", "one port more than 1R"));
   EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint8_t>, std::uint8_t>(b.unit, "codes")),
-              Refuses("codes", "one port more than 3R"));
+              Rejects("codes", "one port more than 3R"));
 }
 
 TEST(TextureRtlFilterSrgb, HasNoPortForAnybodyElse) {
   CodedBench b;
   EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint16_t>, std::uint16_t>(b.unit, "srgb")),
-              Refuses("srgb", "one port more than 12R"));
+              Rejects("srgb", "one port more than 12R"));
 }
 
 }  // namespace

@@ -116,18 +116,18 @@ struct ExactBench {
 
 TEST(TextureRtlLog2Table, AWordIsNotThereInTheClockOfItsRead) {
   ExactBench b;
-  EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Refuses("table", kEarly));
+  EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Rejects("table", kEarly));
 }
 
 TEST(TextureRtlLog2Table, OneFragmentAClock) {
   ExactBench b;
-  EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, b.clock), Refuses("table", kTooMany));
+  EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, b.clock), Rejects("table", kTooMany));
 }
 
 TEST(TextureRtlLog2Table, HasNoPortForAnybodyElse) {
   ExactBench b;
   EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint16_t>, std::uint16_t>(b.unit, "table")),
-              Refuses("table", "one port more than 4R"));
+              Rejects("table", "one port more than 4R"));
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ TEST(TextureRtlMissQueue, TakesOneRequestAClock) {
   const MissToken two{{1, 2}, 2};
   b.misses.push(0, two);
   b.clock.run(2);
-  EXPECT_THAT(of_a_second_token(b.queue, b.misses, two, b.clock), Refuses("lines", kTooMany));
+  EXPECT_THAT(of_a_second_token(b.queue, b.misses, two, b.clock), Rejects("lines", kTooMany));
 }
 
 // The clock in which the lines of a second request are taken into a queue of four places, where the
@@ -154,7 +154,7 @@ TEST(TextureRtlMissQueue, SendsOneLineAClock) {
   b.clock.run(3);  // taken in 1, the first line is sent in 2
   ASSERT_EQ(b.queue.line_fills.value(), 1u);
   b.requests.reset();
-  EXPECT_THAT(of_a_stage_less(b.queue, b.clock), Refuses("lines", kTooMany));
+  EXPECT_THAT(of_a_stage_less(b.queue, b.clock), Rejects("lines", kTooMany));
 }
 
 // Memory takes nothing: two lines stand in the link, the third waits, and so it is counted.
@@ -177,9 +177,9 @@ TEST(TextureRtlMissQueue, WaitsWhileMemoryTakesNothing) {
 TEST(TextureRtlMissQueue, HasNoPortForAnybodyElse) {
   QueueBench b;
   EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint32_t>, std::uint32_t>(b.queue, "lines")),
-              Refuses("lines", "one port more than 1R4W"));
+              Rejects("lines", "one port more than 1R4W"));
   EXPECT_THAT((of_one_port_more<rtl::WritePort<std::uint32_t>, std::uint32_t>(b.queue, "lines")),
-              Refuses("lines", "one port more than 1R4W"));
+              Rejects("lines", "one port more than 1R4W"));
 }
 
 // A response for an entry that has been filled, and for one that does not exist.
@@ -191,10 +191,10 @@ TEST(TextureRtlMissQueue, TakesEachLineOnce) {
     rtl::MemoryResponse response;
     response.tag = tag;
     b.responses.push(b.clock.cycle(), response);
-    return refusal([&] { b.clock.run(2); });
+    return rejection([&] { b.clock.run(2); });
   };
   EXPECT_EQ(answer(0), "nothing");
-  EXPECT_THAT(answer(0), Refuses("fill_buffer", "twice"));
+  EXPECT_THAT(answer(0), Rejects("fill_buffer", "twice"));
 }
 
 }  // namespace

@@ -155,14 +155,14 @@ struct DividingBench : WalkerBench {
 TEST(TextureRtlWalkerReciprocal, AWordIsNotThereInTheClockOfItsRead) {
   ClockDomain clock("clock", period());
   DividingBench b(clock);
-  EXPECT_THAT(of_a_stage_less(b.unit, clock), Refuses("reciprocal", kEarly));
+  EXPECT_THAT(of_a_stage_less(b.unit, clock), Rejects("reciprocal", kEarly));
 }
 
 TEST(TextureRtlWalkerReciprocal, OneFragmentAClock) {
   ClockDomain clock("clock", period());
   DividingBench b(clock);
   EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, clock),
-              Refuses("reciprocal", kTooMany));
+              Rejects("reciprocal", kTooMany));
 }
 
 // The largest offset: 15 x 128 x (2^32 - 1) needs all of the accumulator's bits.

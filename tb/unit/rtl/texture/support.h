@@ -50,7 +50,7 @@ inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
 
 // What an access says that a memory must not let pass.
 template <class Access>
-std::string refusal(Access&& access) {
+std::string rejection(Access&& access) {
   try {
     access();
   } catch (const spec::CheckFailed& failure) {
@@ -61,7 +61,7 @@ std::string refusal(Access&& access) {
 // A second tick in the clock that has just passed: a stage less, so that a word is used before it
 // is there.
 inline std::string of_a_stage_less(Unit& unit, const ClockDomain& clock) {
-  return refusal([&] { unit.tick(clock.cycle() - 1); });
+  return rejection([&] { unit.tick(clock.cycle() - 1); });
 }
 // A second token in that clock, for a unit that has forgotten the first one.
 template <class T>
@@ -70,10 +70,10 @@ std::string of_a_second_token(Unit& unit, Link<T>& link, const T& token, const C
   unit.reset();
   link.reset();
   link.push(cycle - 1, token);
-  return refusal([&] { unit.tick(cycle); });
+  return rejection([&] { unit.tick(cycle); });
 }
-// Is this text the refusal of that memory?
-MATCHER_P2(Refuses, memory, reason, "") {
+// Is this text the rejection of that memory?
+MATCHER_P2(Rejects, memory, reason, "") {
   return arg.find(memory) != std::string::npos && arg.find(reason) != std::string::npos;
 }
 inline constexpr const char* kEarly = "is used";
@@ -87,7 +87,7 @@ std::string of_one_port_more(sc_core::sc_object& root, const std::string& name) 
     if (name == memory.basename()) found = &memory;
   });
   if (!found) return "no such memory";
-  return refusal([&] { Port(*found, "somebody"); });
+  return rejection([&] { Port(*found, "somebody"); });
 }
 
 using unit_bench::clocks_of, unit_bench::Ends, unit_bench::Sink, unit_bench::Source;

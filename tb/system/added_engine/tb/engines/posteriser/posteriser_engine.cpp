@@ -54,7 +54,7 @@ class PosteriserCommand final : public Engine {
     return {{"--size", "picture.width", "Size of the picture, WxH (32x24)", "picture.height"},
             {"--bits", "posteriser.bits", "Levels of a colour, as a power of two"}};
   }
-  void judge(const RunParameters&, RunContext&) override {}
+  void check(const RunParameters&, RunContext&) override {}
   std::vector<std::filesystem::path> input_files(MeshFiles&) const override { return {}; }
 
   void run(const RunParameters& run, RunContext& context, Result& result) override {

@@ -115,7 +115,7 @@ void PosteriserEnvironment::finish() {
   board_.require(expected_.size());
   std::uint64_t changed = 0;
   for (std::size_t i = 0; i < tones_.size(); ++i) changed += tones_[i] == expected_[i] ? 0 : 1;
-  register_board_.judge(host_, std::array<std::pair<std::uint32_t, std::uint64_t>, 2>{
+  register_board_.check(host_, std::array<std::pair<std::uint32_t, std::uint64_t>, 2>{
                                    {{reg::kPixels, expected_.size()}, {reg::kChanged, changed}}});
 }
 

@@ -48,8 +48,8 @@ class PosteriserEnvironment final : public Environment {
   void end() override {}
   void restart() override;
   void finish() override;
-  void refuse_memory_errors() override {}
-  void refuse_unused_errors() const override {}
+  void reject_memory_errors() override {}
+  void reject_unused_errors() const override {}
   Amount amount() const override { return {came_, came_, expected_.size(), "pixel"}; }
   bool memory_at_rest() const override { return true; }
   Boards outputs() const override { return {&board_}; }

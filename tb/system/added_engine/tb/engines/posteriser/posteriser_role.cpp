@@ -61,7 +61,7 @@ class PosteriserRole final : public RowSmoother {
   std::vector<std::string> prefixes() const override { return {"posteriser."}; }
   void apply_preset(ParameterSet&) override {}
   void resolve(ParameterSet&) override {}
-  void judge(const DrawnScene&) const override {}
+  void check(const DrawnScene&) const override {}
   std::string label() const override { return fmt::format("{} bits", parameters_.bits); }
   bool linear_light() const override { return false; }
   std::unique_ptr<RowsPort> rows_port(const char* name, const DrawnScene&) const override {

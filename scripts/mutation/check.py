@@ -11,7 +11,7 @@ REACHED, NO_SUCH_OPERATOR = 1, 2
 Verdict = collections.namedtuple("Verdict", "verdict by")
 
 
-class Judge:
+class Checker:
     """Runs the tests of a tree once without any mutant, and then those that can find one."""
 
     def __init__(self, tree, budget):
@@ -82,7 +82,7 @@ class Judge:
 
         return sorted(names, key=order)
 
-    def judged_by(self, file, names, **environment):
+    def checked_by(self, file, names, **environment):
         spent = 0
         for name in self.ordered(file, names):
             seconds = self.seconds[name]
@@ -105,7 +105,7 @@ class Judge:
             return Verdict("invalid", "")
         if number not in self.reach:
             return None
-        return self.judged_by(file, self.reach[number], DEBURR_MUTANT=str(number))
+        return self.checked_by(file, self.reach[number], DEBURR_MUTANT=str(number))
 
     def alone(self, file, place):
         """The verdict on a mutant that is compiled as it stands."""
@@ -124,7 +124,7 @@ class Judge:
                 if tree.run("ninja", "-C", tree.build, "-j", tree.jobs,
                             *sorted(programs)).returncode != 0:
                     return Verdict("invalid", "")
-                verdict = self.judged_by(file, {n for n in names
+                verdict = self.checked_by(file, {n for n in names
                                                 if (self.tests[n].program in own)
                                                 == (programs is own)})
                 if verdict.verdict == "killed":
