@@ -127,7 +127,7 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "range and a key given twice are\n"
       "errors. `deburr run ENGINE --show-config` prints the resolved configuration as such a "
       "file.\n\n"
-      "[Kinds](command_line.md#parameters): a `rule` changes pixels; a `build` choice changes "
+      "Kinds: a `rule` changes pixels; a `build` choice changes "
       "clocks "
       "and cost, and no pixel; an\n"
       "`input` is what the engine is given; `surroundings` change clocks; `run` is how it is "
