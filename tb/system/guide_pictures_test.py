@@ -27,7 +27,7 @@ class Picture:
 
 
 PICTURES = {
-    "before_after.png": Picture("which_engine", "deburr run morphological --scene cylinders", ("before", "after", "truth"), (70, 150, 44, 36), 6),
+    "before_after.png": Picture("which_engine", "deburr run ", ("before", "after", "truth"), (70, 150, 44, 36), 6),
 }
 
 
