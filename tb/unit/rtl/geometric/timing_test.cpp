@@ -12,6 +12,7 @@
 #include "rtl_model/geometric/lines/depth_test.h"
 #include "rtl_model/geometric/lines/line_walker.h"
 #include "rtl_model/geometric/weights/weight_combiner.h"
+#include "tb/unit/rtl/geometric/combiner_bench.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
 namespace deburr::tb::geometric_rtl::timing_test {
@@ -938,46 +939,7 @@ TEST(DepthTest, ShowsEachCandidate) {
   EXPECT_EQ(shown, wanted);
 }
 
-// ---- WeightCombiner: nothing comes out of it
-struct CombinerBench : Frame {
-  explicit CombinerBench(const Parameters& p = {})
-      : Frame(p),
-        unit("unit", clock, sized(p, {}), edge_latency),
-        in("in"),
-        source("source", clock) {
-    arbiter.connect(Client::kWeights, unit.memory);
-    unit.rules_in(rules);
-    unit.weights_in(in);
-    source.out(in);
-    unit.phase_in(phase);
-    wire(unit.cleared_out, &sequencer.weights_cleared_in);
-    drawn = &wire(unit.drawn_out);
-    bus.write(reg::kWeightBase, 0);
-    begin(2048, 16);
-  }
-  static WeightToken token(int bx, int by) {
-    WeightToken t{};
-    t.block_x = static_cast<std::uint16_t>(bx);
-    t.block_y = static_cast<std::uint16_t>(by);
-    t.candidates = 1;
-    t.coverage[0] = 100;
-    return t;
-  }
-  static WeightToken end() {
-    WeightToken t{};
-    t.end = true;
-    return t;
-  }
-  Cycle until_drawn() {
-    const Cycle from = clock.cycle();
-    while (!drawn->read(clock.cycle())) clock.run(1);
-    return clock.cycle() - from;
-  }
-  WeightCombiner unit;
-  const rtl::Wire<bool>* drawn = nullptr;
-  rtl::Link<WeightToken> in;
-  Source<WeightToken> source;
-};
+// ---- WeightCombiner
 TEST(WeightCombiner, LatencyOfTheDatasheet) {
   CombinerBench b;
   b.in.push(b.clock.cycle(), CombinerBench::end());
@@ -995,12 +957,6 @@ TEST(WeightCombiner, AGroupAClockWhateverBlock) {
   EXPECT_EQ(b.unit.stalled_cycles(), 0u);
   // The last write is answered a while after it was sent.
   EXPECT_LE(clocks, 601u + 6 + 30);
-}
-// Weights of pixel (x, y), once its block has left the cache.
-spec::geometric::Weights weights_at(CombinerBench& b, int x, int y) {
-  const std::vector<std::uint8_t> bytes = b.memory.dump(
-      static_cast<std::uint64_t>(64 * (y / 4 * 512 + x / 4) + 4 * (y % 4 * 4 + x % 4)), 4);
-  return {bytes[0], bytes[1], bytes[2], bytes[3]};
 }
 // Sends every block of the first rows to memory: others take their places.
 void push_out(CombinerBench& b) {
