@@ -171,6 +171,48 @@ TEST(EdgeClassifier, EdgesOfFacesTurnedAwayAreCulledOrClassified) {
       }
 }
 
+// By the mesh alone no facing bit is read, no face is checked, and no class goes by the view.
+TEST(EdgeClassifier, MeshSelectsBoundariesAndCreasesWhereverTheyAreSeenFrom) {
+  namespace flag = spec::geometric::flag;
+  using spec::geometric::Crease;
+  for (const Crease crease : {Crease::kOff, Crease::kPaper, Crease::kShading}) {
+    const std::string got = in_child([&] {
+      Parameters p;
+      p.select = spec::geometric::Select::kMesh;
+      p.cull = spec::geometric::Cull::kBack;
+      p.crease = crease;
+      p.edge_lanes = Lanes::kFour;
+      ClassifierBench b(p);
+      // A face that is turned to the eye beside one that is not, were the bits looked at.
+      b.facing.words.backdoor(0) = 1;
+      EdgeBeat beat{};
+      beat.count = 4;
+      beat.edge[0] = {1, 2, 0, 1, 0};
+      beat.edge[1] = {2, 3, 0xFFFFFF, 1, flag::kAngle};
+      beat.edge[2] = {3, 4, 0, 0xFFFFFF, flag::kSeam};
+      beat.edge[3] = {4, 5, 0xFFFFFF, 0xFFFFFF, flag::kBoundary};
+      b.ends.source.add(beat);
+      beat.edge[0] = {5, 6, 1, 2, flag::kAngle | flag::kSplitNormals};
+      beat.edge[1] = {6, 7, 1, 2, flag::kSplitNormals};
+      beat.edge[2] = {100, 7, 1, 2, flag::kAngle};
+      beat.edge[3] = {7, 100, 1, 2, flag::kBoundary};
+      b.ends.source.add(beat);
+      b.clock.run(20);
+      std::string text;
+      for (const rtl::Counter* const counter :
+           {&b.unit.boundary_edges, &b.unit.silhouette_edges, &b.unit.back_edges,
+            &b.unit.crease_edges, &b.unit.flat_edges, &b.unit.invalid_edges})
+        text += std::to_string(counter->value()) + " ";
+      for (const auto& taken : b.ends.sink.taken)
+        text += " " + std::to_string(taken.token.v0) + (taken.token.crease ? "c" : "");
+      return text;
+    });
+    EXPECT_EQ(got, crease == Crease::kOff     ? "1 0 0 0 5 2  4"
+                   : crease == Crease::kPaper ? "1 0 0 2 3 2  2c 4 5c"
+                                              : "1 0 0 2 3 2  3c 4 5c");
+  }
+}
+
 // ---- VertexFetch
 struct VertexBench : Frame {
   VertexBench() : Frame({}), unit("unit", clock, sized({}, {})), ends(clock) {
