@@ -118,6 +118,8 @@ class Configuration(Base):
         self.rejected(["face_limit", "no effect"], "geometric.select=all", "geometric.face_limit=8192")
         self.rejected(["cull", "no effect", "select = all"], "geometric.select=all", "geometric.cull=none")
         self.rejected(["crease_depth", "no effect"], "geometric.select=all", "geometric.crease_depth=4")
+        self.rejected(["face_limit", "no effect", "select = mesh"], "geometric.select=mesh", "geometric.face_limit=8192")
+        self.rejected(["cull", "no effect", "select = mesh"], "geometric.select=mesh", "geometric.cull=none")
         self.rejected(["crease_depth", "no effect", "crease = off"], "geometric.crease=off", "geometric.crease_depth=4")
         self.rejected(["crease_depth", "no effect"], "geometric.depth_test=off", "geometric.crease_depth=4")
         for test in ("own", "off"):

@@ -358,12 +358,14 @@ Datasheet WeightCombiner::datasheet() {
       .interval = {1, "1, a group with second candidates in another block 2"},
       .stages = {{"1", "address of tag and touched word, product of the block's address",
                   "11 x 11 multiply"},
-                 {"2", "tag, touched bit, the blocks on their way out; a read ordered; FIFO",
+                 {"2",
+                  "tag, touched bit, the blocks on their way out and in the write buffer; a read "
+                  "ordered; FIFO",
                   "SRAM read + 23-bit compare"},
-                 {"3", "a block installed, address of the word"},
+                 {"3", "a block installed, address of the word, and of that in the write buffer"},
                  {"4",
                   "the word, or what came for it, and the maxima and minima; a replaced block "
-                  "written back",
+                  "written back, or into the write buffer, and back what leaves this",
                   "SRAM read + 16 : 1 choice + 8-bit compare"},
                  {"5", "written, past the memory to the group after it"}},
       .cost =
@@ -371,7 +373,8 @@ Datasheet WeightCombiner::datasheet() {
           "list, 23 bits each, compared with a tag at once: `fills` compares of 23 bits (108 "
           "for a memory of 100 clocks) and a choice of its first free place; two 11 x 11 "
           "multiplies; a lane, of each "
-          "of its two candidates, a 16 : 1 place and an 8-bit compare."};
+          "of its two candidates, a 16 : 1 place and an 8-bit compare. `write_buffer` = N: N blocks "
+          "1R1W, N compares of 23 bits, 9 bits more of the FIFO."};
 }
 
 }  // namespace deburr::rtl::geometric

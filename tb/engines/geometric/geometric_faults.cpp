@@ -39,7 +39,7 @@ void flip_rom(rtl::geometric::GeometricEngine& engine, std::string_view name) {
 
 // A face of the first edge of two faces, whose class goes by it.
 std::optional<std::uint32_t> GeometricFaults::face_of_a_fault() const {
-  if (setup_.geometric.select == spec::geometric::Select::kAll || frames_.empty())
+  if (setup_.geometric.select != spec::geometric::Select::kEdges || frames_.empty())
     return std::nullopt;
   const ScreenEdges& screen = frames_.front().screen;
   for (const Edge& edge : screen.edges)

@@ -31,7 +31,8 @@ void load(EngineBench& b, DrawnFrame frame) {
 
 // `rules`, if not 0, are written to RULES.
 FrameResult result_of(const FrameVector& v, std::uint32_t rules = 0) {
-  const Parameters p = configuration(v.name).p;
+  Parameters p = preset_parameters(v.preset);
+  apply_settings(p, v.settings);
   EngineOptions options;
   options.bench.check_widths = true;
   EngineBench b(p, options);
@@ -55,6 +56,16 @@ TEST_P(Vectors, PixelsWeightsAndTraffic) {
   EXPECT_EQ(differences(GetParam().result, result_of(GetParam())), "");
 }
 INSTANTIATE_TEST_SUITE_P(Page, Vectors, ::testing::ValuesIn(geometric::all_frame_vectors()),
+                         [](const auto& test) { return std::string(1, test.param.name); });
+
+// Of less traffic: kept colours; a write buffer.
+std::vector<FrameVector> traffic_vectors() {
+  std::vector<FrameVector> some;
+  for (const FrameVector& v : spec::geometric::kTrafficFrameVectors)
+    if (v.name == 't' || v.name == 'v') some.push_back(v);
+  return some;
+}
+INSTANTIATE_TEST_SUITE_P(LessTraffic, Vectors, ::testing::ValuesIn(traffic_vectors()),
                          [](const auto& test) { return std::string(1, test.param.name); });
 
 TEST(FrameVectors, EachValueIsCompared) {
