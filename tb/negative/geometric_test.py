@@ -252,7 +252,7 @@ class Faults(Base):
         self.assertEqual(result["checks"]["mismatches"], 0, "the picture stays")
 
     def test_kept_lines_and_blocks(self):
-        kept, buffered = ("--set", "geometric.colour_lines=16"), ("--set", "geometric.write_buffer=4")
+        kept, buffered = ("--set", "geometric.colour_lines=2"), ("--set", "geometric.write_buffer=4")
         for name, choice in (("wrong-kept", kept), ("wrong-buffer", (*buffered, "--set", "geometric.weight_blocks=16"))):
             result = self.fault(name, 1, 1, *self.SMALL, *choice, board="memory lines")
             self.assertEqual(result["checks"]["mismatches"], 0, "the picture stays")
@@ -304,7 +304,7 @@ class Faults(Base):
                 ("wrong-nearer", ("--set", "geometric.combine=max"), "combine = outermost"),
                 ("stale-depth", ("--set", "geometric.depth_test=off"), "depth_test = own, farther"),
                 ("wrong-kept", ("--set", "geometric.colour_lines=0"), "colour_lines of at least 1"),
-                ("stale-kept", ("--set", "geometric.colour_lines=1"), "colour_lines of at least 2"),
+                ("stale-kept", ("--set", "geometric.colour_lines=0"), "colour_lines of at least 1"),
                 ("wrong-buffer", ("--set", "geometric.write_buffer=0"), "write_buffer of at least 1"),
                 ("stale-neighbour", ("--preset", "gpaa"), "frame_copy = false")):
             self.run_engine(2, *self.SMALL, *arguments, "--fault", name, says=[name, "needs", needs])
