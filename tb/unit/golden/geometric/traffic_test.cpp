@@ -128,8 +128,7 @@ TEST(KeptColours, AreNotReadAgain) {
   }
 }
 
-// What was read long ago is gone, even if it was used since: blocks (0, 1) to (3, 1) use the lines
-// of rows 7 and 8 again and again, then those of the next blocks come.
+// Eight lines, each looked up once more after all of them were read.
 TEST(KeptColours, LeaveInTheOrderOfTheirReads) {
   Drawing d(16, 16);
   // Tiled: lines are blocks. Row 7 looks down; then row 11 up, from the block above it.
@@ -747,7 +746,7 @@ TEST(CoarseDepth, EntriesThatAreLostDropNothing) {
   EXPECT_EQ(golden.memory_errors(), 1u);
   EXPECT_EQ(golden.work().passed, 0u);
   // Own blocks (0, 8) to (0, 15) and their neighbours (1, ..).
-  EXPECT_EQ(golden.traffic().read(Region::kDepth).size(), 16u);
+  ASSERT_EQ(golden.traffic().read(Region::kDepth).size(), 16u);
   EXPECT_EQ(golden.traffic().read(Region::kDepth)[0], kVectorBases.depth + 256 * 4);
   // Depths that are lost hide nothing, but the entries that were made of them do.
   golden.set_memory_errors([](std::uint32_t a) { return a == kVectorBases.depth; });
