@@ -218,25 +218,26 @@ TEST(Coverage, BinsCountWhatIsLeftOut) {
   std::uint64_t lines = 0;  // that blocks read
   for (std::uint64_t n = 1; n <= 5; ++n) lines += n * hits.at("lines/tiled/" + std::to_string(n));
   EXPECT_EQ(hits.at("fetch/colour/hit") + traffic.read(Region::kColour).size(), lines);
-  EXPECT_EQ(hits.at("pair/boundary/miss") + hits.at("pair/other/miss"),
+  EXPECT_EQ(hits.at("fetch/boundary-pair/miss") + hits.at("fetch/other-pair/miss"),
             traffic.read(Region::kPairs).size());
-  EXPECT_EQ(hits.at("pair/boundary/hit") + hits.at("pair/boundary/miss"), work.boundary_edges);
-  EXPECT_EQ(hits.at("pair/other/hit") + hits.at("pair/other/miss"),
+  EXPECT_EQ(hits.at("fetch/boundary-pair/hit") + hits.at("fetch/boundary-pair/miss"),
+            work.boundary_edges);
+  EXPECT_EQ(hits.at("fetch/other-pair/hit") + hits.at("fetch/other-pair/miss"),
             work.silhouette_edges + work.crease_edges);
-  EXPECT_EQ(hits.at("pair/vertex/invalid"),
+  EXPECT_EQ(hits.at("fetch/pair-vertex/invalid"),
             work.boundary_edges + work.silhouette_edges + work.crease_edges - work.kept_edges);
-  EXPECT_EQ(hits.at("pair/number/invalid"), 0u);
-  EXPECT_EQ(hits.at("write-buffer/empty-place"), 20u);
-  EXPECT_EQ(hits.at("write-buffer/leaves") + 20, traffic.write(Region::kWeights).size());
-  EXPECT_EQ(hits.at("write-buffer/end-full"), 1u);
-  EXPECT_EQ(hits.at("write-buffer/end-part"), 0u);
-  EXPECT_GT(hits.at("write-buffer/hit"), 0u);
+  EXPECT_EQ(hits.at("fetch/pair-number/invalid"), 0u);
+  EXPECT_EQ(hits.at("fetch/write-buffer/empty"), 20u);
+  EXPECT_EQ(hits.at("fetch/write-buffer/leaves") + 20, traffic.write(Region::kWeights).size());
+  EXPECT_EQ(hits.at("fetch/write-buffer/full-at-end"), 1u);
+  EXPECT_EQ(hits.at("fetch/write-buffer/not-full-at-end"), 0u);
+  EXPECT_GT(hits.at("fetch/write-buffer/hit"), 0u);
   EXPECT_EQ(hits.at("fetch/block/hit") + hits.at("fetch/block/miss") +
-                hits.at("fetch/block/read-back") + hits.at("write-buffer/hit"),
+                hits.at("fetch/block/read-back") + hits.at("fetch/write-buffer/hit"),
             work.passed);
-  EXPECT_EQ(hits.at("fetch/block/replaced"), hits.at("write-buffer/hit") +
-                                                 hits.at("write-buffer/leaves") +
-                                                 hits.at("write-buffer/empty-place"));
+  EXPECT_EQ(hits.at("fetch/block/replaced"), hits.at("fetch/write-buffer/hit") +
+                                                 hits.at("fetch/write-buffer/leaves") +
+                                                 hits.at("fetch/write-buffer/empty"));
 }
 
 // One pixel in the last column of a tile, whose neighbour is in the next one.
@@ -295,9 +296,7 @@ TEST(Coverage, ListsEveryBinOfEveryGroup) {
                                                        {"second", 4 * 2},
                                                        {"weight", 4 * 6},
                                                        {"group", 4},
-                                                       {"fetch", 4 * 3 + 1},
-                                                       {"pair", 6},
-                                                       {"write-buffer", 5},
+                                                       {"fetch", 4 * 3 + 1 + 6 + 5},
                                                        {"coarse", 4 + 1 + 2},
                                                        {"resolve", 3},
                                                        {"original", 3},
@@ -543,16 +542,17 @@ TEST(Coverage, EnumerationsHaveABinEach) {
                 once("fetch/" + caches[cache] + '/' + fetches[fetch]));
     }
   }
-  const std::array<std::string, 6> pairs = {"boundary/hit", "boundary/miss",  "other/hit",
-                                            "other/miss",   "number/invalid", "vertex/invalid"};
+  const std::array<std::string, 6> pairs = {"boundary-pair/hit",   "boundary-pair/miss",
+                                            "other-pair/hit",      "other-pair/miss",
+                                            "pair-number/invalid", "pair-vertex/invalid"};
   for (std::size_t i = 0; i < pairs.size(); ++i)
     EXPECT_EQ(after([&](EdgeCoverage& c) { c.count_pair(static_cast<PairFetch>(i)); }),
-              once("pair/" + pairs[i]));
-  const std::array<std::string, 5> buffered = {"hit", "empty-place", "leaves", "end-full",
-                                               "end-part"};
+              once("fetch/" + pairs[i]));
+  const std::array<std::string, 5> buffered = {"hit", "empty", "leaves", "full-at-end",
+                                               "not-full-at-end"};
   for (std::size_t i = 0; i < buffered.size(); ++i)
     EXPECT_EQ(after([&](EdgeCoverage& c) { c.count_buffered(static_cast<Buffered>(i)); }),
-              once("write-buffer/" + buffered[i]));
+              once("fetch/write-buffer/" + buffered[i]));
   const std::array<std::string, 4> borders = {"top", "bottom", "left", "right"};
   for (std::size_t i = 0; i < borders.size(); ++i)
     EXPECT_EQ(after([&](EdgeCoverage& c) {

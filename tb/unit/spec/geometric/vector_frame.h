@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The frames that the vectors of docs/reference/geometric/vectors.md are about: of random edges,
-// and of special cases.
+// of special cases, and with depths of tiles.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -146,8 +147,29 @@ inline VectorFrame special_frame() {
   return frame;
 }
 
+// That of random edges, with depths that tiles have in common.
+inline VectorFrame tile_frame() {
+  VectorFrame frame = vector_frame();
+  const std::vector<std::uint32_t> depths = frame.depths;
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    const auto width = static_cast<std::size_t>(frame.width);
+    const std::size_t x = i % width, y = i / width;
+    frame.depths[i] =
+        std::min(depths[(y - y % 8) * width + x - x % 8] + (depths[i] >> 6), 0xFFFFFFu);
+  }
+  return frame;
+}
+
 inline VectorFrame vector_frame(spec::geometric::DrawnFrame frame) {
-  return frame == spec::geometric::DrawnFrame::kSpecial ? special_frame() : vector_frame();
+  switch (frame) {
+    case spec::geometric::DrawnFrame::kRandom:
+      break;
+    case spec::geometric::DrawnFrame::kSpecial:
+      return special_frame();
+    case spec::geometric::DrawnFrame::kTiles:
+      return tile_frame();
+  }
+  return vector_frame();
 }
 
 // Those of both frames.
