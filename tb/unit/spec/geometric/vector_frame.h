@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The frames that the vectors of docs/reference/geometric/vectors.md are about: of random edges,
-// of special cases, and with depths of tiles.
+// and of special cases.
 #pragma once
 
 #include <algorithm>
@@ -147,29 +147,30 @@ inline VectorFrame special_frame() {
   return frame;
 }
 
-// That of random edges, with depths that tiles have in common.
-inline VectorFrame tile_frame() {
+// Depths that the pixels of a tile have in common, but for a little.
+inline VectorFrame tiles_frame() {
   VectorFrame frame = vector_frame();
   const std::vector<std::uint32_t> depths = frame.depths;
-  for (std::size_t i = 0; i < depths.size(); ++i) {
-    const auto width = static_cast<std::size_t>(frame.width);
-    const std::size_t x = i % width, y = i / width;
-    frame.depths[i] =
-        std::min(depths[(y - y % 8) * width + x - x % 8] + (depths[i] >> 6), 0xFFFFFFu);
-  }
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      const auto at = [&frame](int column, int row) {
+        return static_cast<std::size_t>(row * frame.width + column);
+      };
+      frame.depths[at(x, y)] =
+          std::min(0xFFFFFFu, depths[at(x & ~7, y & ~7)] + (depths[at(x, y)] >> 6));
+    }
   return frame;
 }
 
 inline VectorFrame vector_frame(spec::geometric::DrawnFrame frame) {
   switch (frame) {
-    case spec::geometric::DrawnFrame::kRandom:
-      break;
     case spec::geometric::DrawnFrame::kSpecial:
       return special_frame();
     case spec::geometric::DrawnFrame::kTiles:
-      return tile_frame();
+      return tiles_frame();
+    default:
+      return vector_frame();
   }
-  return vector_frame();
 }
 
 // Those of both frames.
@@ -184,6 +185,8 @@ inline std::vector<spec::geometric::FrameVector> all_frame_vectors() {
 // A vector by its name.
 inline spec::geometric::FrameVector frame_vector(char name) {
   for (const spec::geometric::FrameVector& v : all_frame_vectors())
+    if (v.name == name) return v;
+  for (const spec::geometric::FrameVector& v : spec::geometric::kTrafficFrameVectors)
     if (v.name == name) return v;
   throw std::out_of_range(std::string("no test vector ") + name);
 }
