@@ -38,6 +38,9 @@ constexpr std::array kGroups = {
     CoverageGroup{"geometric/group-lines",
                   "Groups by layout and the lines of depth that they look up."},
     CoverageGroup{"geometric/fetch", "The golden model's look-ups by cache and outcome."},
+    CoverageGroup{"geometric/coarse",
+                  "The coarse test of depth: what it drops by direction, what is just not dropped, "
+                  "and which of two tiles hides less."},
     CoverageGroup{"geometric/look-up", "The hardware's look-ups by cache and outcome."},
     CoverageGroup{"geometric/block", "What the weights of a block met in their cache."},
     CoverageGroup{"geometric/write-buffer",
