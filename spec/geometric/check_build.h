@@ -13,7 +13,7 @@
 
 namespace deburr::spec::geometric {
 
-inline constexpr std::array<BuildRule<Parameters>, 8> kBuildRules = {{
+inline constexpr std::array<BuildRule<Parameters>, 7> kBuildRules = {{
     {{"reciprocal_table", "pipelined"},
      "must be 0 with pipelined dividers, which take a line every clock: a table has no effect",
      [](const Parameters& p) { return !p.pipelined || p.reciprocal_table == 0; },
@@ -40,13 +40,12 @@ inline constexpr std::array<BuildRule<Parameters>, 8> kBuildRules = {{
      "must be at least 2 lines, one read while one is written; 0 sizes it from the latency of "
      "memory",
      [](const Parameters& p) { return p.copy_lines == 0 || p.copy_lines >= kMinCopyLines; }},
-    {{"coarse_lines"},
-     "must be at least 4 lines, twice as many as a group of pixels may look up; 0: no coarse test",
-     [](const Parameters& p) { return p.coarse_lines == 0 || p.coarse_lines >= kMinCoarseLines; }},
     {{"coarse_lines", "depth_test"},
-     "must be 0 with depth_test = off, which reads no depth",
-     [](const Parameters& p) { return p.coarse_lines == 0 || p.depth_test != DepthTest::kOff; },
-     [](const Parameters&) -> std::string { return "use 0, or another depth_test"; }},
+     "must be none with depth_test = off, which reads no depth",
+     [](const Parameters& p) {
+       return p.coarse_lines == CoarseLines::kNone || p.depth_test != DepthTest::kOff;
+     },
+     [](const Parameters&) -> std::string { return "use none, or another depth_test"; }},
 }};
 
 inline std::span<const BuildRule<Parameters>> build_rules(const Parameters&) { return kBuildRules; }

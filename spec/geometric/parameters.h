@@ -55,6 +55,12 @@ inline constexpr std::array<std::string_view, 7> kCacheLinesNames = {"16",  "32"
 inline constexpr std::array<std::uint16_t, 7> kCacheLineCount = {16, 32, 64, 128, 256, 512, 1024};
 inline constexpr std::array<std::uint8_t, 7> kCacheLineBits = {4, 5, 6, 7, 8, 9, 10};
 
+// Lines of coarse depth on the chip; none: no coarse test.
+enum class CoarseLines : std::uint8_t { kNone, k4, k8, k16, k32, k64 };
+inline constexpr std::array<std::string_view, 6> kCoarseLinesNames = {"none", "4",  "8",
+                                                                      "16",   "32", "64"};
+inline constexpr std::array<std::uint8_t, 6> kCoarseLineCount = {0, 4, 8, 16, 32, 64};
+
 // ---- limits
 inline constexpr int kMaxFrameSize = 8192;  // pixels, each way
 inline constexpr std::uint32_t kMaxEdges = 1u << 24;
@@ -86,7 +92,6 @@ inline constexpr std::int32_t kMinResolveLines = 16, kMaxResolveLines = 512;
 inline constexpr std::int32_t kMinCopyLines = 2, kMaxCopyLines = 256;
 // Lines that are kept on the chip, where any are: docs/reference/geometric/traffic.md.
 inline constexpr std::int32_t kMaxColourLines = 256, kMaxWriteBuffer = 128;
-inline constexpr std::int32_t kMinCoarseLines = 4, kMaxCoarseLines = 64;
 
 // Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
 struct Rules {
@@ -129,7 +134,7 @@ struct Build {
   RecordsLayout records = RecordsLayout::kJoined;
   std::int32_t colour_lines = 0;
   std::int32_t write_buffer = 0;
-  std::int32_t coarse_lines = 0;
+  CoarseLines coarse_lines = CoarseLines::kNone;
   std::int32_t memory_outstanding = 128;
 };
 
@@ -215,9 +220,9 @@ void describe(Build& p, Visitor& v) {
             "Lines of colours that the resolve keeps and need not read again; 0: none.");
   v.integer("write_buffer", p.write_buffer, 0, kMaxWriteBuffer, "block",
             "Replaced blocks of weights that stay on the chip before they are written; 0: none.");
-  v.integer("coarse_lines", p.coarse_lines, 0, kMaxCoarseLines, "line",
-            "Lines of coarse depth on the chip, 4 or more, which drop hidden candidates before "
-            "they read depth; 0: no such test.");
+  v.choice("coarse_lines", p.coarse_lines, kCoarseLinesNames,
+           "Lines of coarse depth on the chip, 32 tiles of 8 x 8 pixels each, which drop hidden "
+           "candidates before they read depth.");
   v.integer("memory.outstanding", p.memory_outstanding, kMinFills, 1024, "transaction",
             "Transactions in flight.");
 }

@@ -222,7 +222,7 @@ class EngineBench {
   static platform::GeometricRegions contract_regions() {
     const Bases b;
     return platform::GeometricRegions(
-        std::array{b.faces, b.edges, b.vertices, b.depth, b.weights, b.colour, b.copy});
+        {b.faces, b.edges, b.vertices, b.depth, b.weights, b.colour, b.copy, 0x80000, 0x90000});
   }
   void place(const platform::GeometricRegions& regions) {
     using spec::geometric::Region;
