@@ -14,6 +14,13 @@
 namespace deburr::platform {
 
 std::vector<std::uint8_t> edge_records(std::span<const spec::geometric::Edge> edges);
+// Records = split: faces and flags of all edges; vertices of boundaries, or of all others.
+std::vector<std::uint8_t> face_records(std::span<const spec::geometric::Edge> edges);
+std::vector<std::uint8_t> pair_records(std::span<const spec::geometric::Edge> edges,
+                                       bool boundaries);
+std::uint64_t boundaries_of(std::span<const spec::geometric::Edge> edges);
+// Bytes of so many records of such an array, whole lines.
+std::uint64_t split_bytes(std::uint64_t records);
 std::vector<std::uint8_t> vertex_records(std::span<const spec::geometric::Vertex> vertices);
 std::vector<std::uint8_t> facing_bits(const std::vector<bool>& faces);
 

@@ -140,8 +140,9 @@ def morphological(facts):
 
 def geometric(facts):
     page = "docs/reference/geometric/memories.md"
-    plan = Plan({"EdgeReader": (0, 0), "EdgeClassifier": (1, 0), "VertexFetch": (2, 0), "LineSetup": (3, 0),
-                 "LineWalker": (3, 1), "CoverageUnit": (2, 1), "DepthTest": (1, 1), "WeightCombiner": (0, 1),
+    plan = Plan({"EdgeReader": (0, 0), "EdgeClassifier": (1, 0), "PairFetch": (2, 0), "VertexFetch": (3, 0),
+                 "LineSetup": (4, 0), "LineWalker": (4, 1), "CoverageUnit": (3, 1), "DepthTest": (1, 1),
+                 "WeightCombiner": (0, 1),
                  "BlockScanner": (0, 2), "BlockFetch": (1, 2), "Resolver": (2, 2), "FacingStore": (0, 3),
                  "FrameCopier": (1, 3), "ParameterStore": (2, 3), "FrameSequencer": (3, 3), "MemoryArbiter": (1, 4),
                  "MemoryPort": (2, 4)},

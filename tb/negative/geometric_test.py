@@ -243,6 +243,11 @@ class Faults(Base):
     def test_depth(self):
         self.fault("stale-depth", 3, 1, board="candidates")
 
+    def test_pairs(self):
+        split = (*self.SMALL, "--set", "geometric.records=split")
+        self.fault("wrong-pair", 3, 1, *split, board="lines")
+        self.fault("stale-pair", 3, 1, *split, board="lines")
+
     def test_caches(self):
         result = self.fault("wrong-replacement", 1, 1, board="memory lines")
         cycles = [int(line["where"].split()[1]) for line in result["first_mismatches"]]
@@ -294,6 +299,8 @@ class Faults(Base):
                 ("wrong-second", ("--set", "geometric.coverage=distance"), "coverage = area"),
                 ("wrong-nearer", ("--set", "geometric.combine=max"), "combine = outermost"),
                 ("stale-depth", ("--set", "geometric.depth_test=off"), "depth_test = own, farther"),
+                ("wrong-pair", ("--set", "geometric.records=joined"), "records = split"),
+                ("stale-pair", ("--set", "geometric.records=joined"), "records = split"),
                 ("stale-neighbour", ("--preset", "gpaa"), "frame_copy = false")):
             self.run_engine(2, *self.SMALL, *arguments, "--fault", name, says=[name, "needs", needs])
 
@@ -310,7 +317,7 @@ class Registers(Base):
                  "boundary-edges", "silhouette-edges", "back-edges", "crease-edges", "flat-edges", "invalid-edges",
                  "kept-edges", "outside-edges", "degenerate-edges", "empty-edges", "lines", "columns", "groups",
                  "candidates", "passed", "blocks", "blended-pixels", "memory-errors", "frame-cycles", "edge-cycles",
-                 "resolve-cycles"]
+                 "resolve-cycles", "boundary-count", "pair-base", "other-pair-base", "coarse-base"]
 
     def test_each(self):
         self.miscount("geometric", self.CHECKED)
@@ -324,7 +331,7 @@ class Blind(Base):
         boards = {f"blind-{board}" for board in self.BOARDS}
         self.assertEqual(self.known("geometric"), boards)
         needed = {board: self.blind("geometric", board) for board in boards}
-        self.assertEqual((needed["blind-pixels"], needed["blind-status-registers"]), (32 * 32, 38))
+        self.assertEqual((needed["blind-pixels"], needed["blind-status-registers"]), (32 * 32, 42))
         work, memory = self.result()["work"], self.result()["memory"]
         self.assertEqual(needed["blind-lines"], work["line_setup_lines"])
         self.assertEqual(needed["blind-candidates"], work["coverage_unit_candidates"])

@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <string>
 
 #include "rtl_model/fabric/payload.h"
 #include "spec/geometric/packets.h"
@@ -36,7 +37,7 @@ struct EdgeFields {
   }
 };
 
-// EdgeReader -> EdgeClassifier.
+// EdgeReader -> EdgeClassifier. Without vertices where these lie in an array of their own.
 struct EdgeBeat {
   std::array<EdgeFields, kLanes> edge;
   std::uint8_t count;  // U3, 1..lanes
@@ -49,7 +50,39 @@ struct EdgeBeat {
   }
 };
 
-// EdgeClassifier -> VertexFetch.
+// What of a beat of edges is built.
+inline PayloadShape edge_beat_shape(const spec::geometric::Parameters& p) {
+  PayloadShape shape{.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)]};
+  if (p.records != spec::geometric::RecordsLayout::kSplit) return shape;
+  for (std::uint32_t lane = 0; lane < shape.lanes; ++lane) {
+    const std::string edge = "edge." + std::to_string(lane) + ".";
+    for (const char* const vertex : {"v0", "v1"}) shape.widths.emplace_back(edge + vertex, 0);
+    for (const char* const face : {"f0", "f1"})
+      shape.widths.emplace_back(edge + face, spec::geometric::kSplitFaceBits);
+  }
+  return shape;
+}
+
+// EdgeClassifier -> PairFetch, with records = split: where the vertices of an edge are.
+struct PairNumber {
+  std::uint32_t line;  // U21, of its array
+  std::uint8_t place;  // U4, 0..9
+  bool other;          // the array of edges that are no boundaries
+  bool crease;         // its class
+  bool invalid;        // it has no pair, and ends in the PairFetch
+  bool end;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("line", self.line, 21, "U21");
+    visit("place", self.place, 4, "U4");
+    visit("other", self.other);
+    visit("crease", self.crease);
+    visit("invalid", self.invalid);
+    visit("end", self.end);
+  }
+};
+
+// EdgeClassifier, or PairFetch -> VertexFetch.
 struct KeptEdge {
   std::uint32_t v0, v1;  // U24
   bool crease;           // its class
@@ -232,6 +265,16 @@ struct BlockToken {
     visit("end", self.end);
   }
 };
+
+// A record of six bytes of a line with ten of them.
+template <class Line>
+std::uint64_t split_record_of(const Line& line, std::size_t place) {
+  const std::size_t first = place * spec::geometric::kSplitBytes;
+  std::uint64_t record = 0;
+  for (std::size_t i = 0; i < spec::geometric::kSplitBytes; ++i)
+    record |= std::uint64_t{line[first + i]} << 8 * i;
+  return record;
+}
 
 // Little-endian words of a line of memory.
 template <class Line>

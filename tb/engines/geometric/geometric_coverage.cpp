@@ -39,6 +39,10 @@ constexpr std::array kGroups = {
                   "Groups by layout and the lines of depth that they look up."},
     CoverageGroup{"geometric/fetch", "The golden model's look-ups by cache and outcome."},
     CoverageGroup{"geometric/look-up", "The hardware's look-ups by cache and outcome."},
+    CoverageGroup{"geometric/pair",
+                  "Edges by the array of their pair of vertices: its line is there, or read "
+                  "(records = split). In tests alone: a vertex out of range, and a number beyond "
+                  "the array."},
     CoverageGroup{"geometric/block", "What the weights of a block met in their cache."},
     CoverageGroup{"geometric/resolve", "Blended pixels by the neighbours that are taken."},
     CoverageGroup{"geometric/original", "Where the colour before blending was taken from."},
@@ -57,6 +61,7 @@ const std::map<std::string, std::vector<std::string>>& stalls() {
       {"facing_store", {"downstream", "memory"}},
       {"edge_reader", {"downstream", "facing", "edges"}},
       {"edge_classifier", {"downstream"}},
+      {"pair_fetch", {"downstream", "pairs", "fills"}},
       {"vertex_fetch", {"downstream", "vertices", "fills"}},
       {"line_setup", {"downstream", "divider"}},
       {"line_walker", {"downstream"}},
@@ -69,6 +74,29 @@ const std::map<std::string, std::vector<std::string>>& stalls() {
       {"frame_copier", {"downstream", "memory"}},
       {"memory_arbiter", {"downstream"}}};
   return all;
+}
+
+constexpr std::array<std::string_view, 2> kPairsOutOfRange = {"vertex-out-of-range",
+                                                              "number-out-of-range"};
+
+void cover_pairs(Coverage& coverage, const rtl::geometric::GeometricEngine& e) {
+  if (!e.pair_fetch) return;
+  const auto looked = [&](const char* array, std::uint64_t lookups, std::uint64_t lines) {
+    coverage.hit(fmt::format("geometric/pair/{}/hit", array), lookups - lines);
+    coverage.hit(fmt::format("geometric/pair/{}/miss", array), lines);
+  };
+  const auto& pairs = *e.pair_fetch;
+  const std::uint64_t boundaries = pairs.boundary_lookups.value(),
+                      lines = pairs.boundary_lines.value();
+  looked("boundary", boundaries, lines);
+  looked("other", pairs.lookups.value() - boundaries, pairs.lines_read.value() - lines);
+  const std::array counts = {pairs.invalid_edges.value(), e.edge_classifier.unpaired_edges.value()};
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == 0) continue;
+    const std::string bin = fmt::format("geometric/pair/{}", kPairsOutOfRange[i]);
+    coverage.declare(bin);
+    coverage.hit(bin, counts[i]);
+  }
 }
 
 // Of golden's bins. The table of a mesh names only what there is, and who draws all edges is not
@@ -92,6 +120,9 @@ Coverage declared_geometric_coverage() {
   for (const char* const cache : {"vertex", "depth", "weight"})
     for (const char* const outcome : {"hit", "miss"})
       coverage.declare(fmt::format("geometric/look-up/{}/{}", cache, outcome));
+  for (const char* const array : {"boundary", "other"})
+    for (const char* const outcome : {"hit", "miss"})
+      coverage.declare(fmt::format("geometric/pair/{}/{}", array, outcome));
   for (const char* const what : {"fresh", "cached", "replaced", "read-back", "waited-for"})
     coverage.declare(fmt::format("geometric/block/{}", what));
   for (const auto& [unit, causes] : stalls())
@@ -103,6 +134,8 @@ Coverage declared_geometric_coverage() {
 void declare_directed_geometric_coverage(Coverage& coverage) {
   for (const auto& bin : golden::geometric::EdgeCoverage().bins())
     if (is_directed(bin.name)) coverage.declare("geometric/" + bin.name);
+  for (const std::string_view what : kPairsOutOfRange)
+    coverage.declare(fmt::format("geometric/pair/{}", what));
   for (const std::string_view region : spec::geometric::kRegionNames)
     coverage.declare(fmt::format("geometric/error/{}", region));
   for (std::size_t i = 1; i < spec::geometric::kRefusalNames.size(); ++i)
@@ -132,6 +165,7 @@ Coverage geometric_coverage(const rtl::geometric::GeometricEngine& e,
   looked("vertex", e.vertex_fetch.lookups, e.vertex_fetch.misses);
   looked("depth", e.depth_test.lookups, e.depth_test.misses);
   looked("weight", weights.lookups, weights.misses);
+  cover_pairs(coverage, e);
   coverage.hit("geometric/block/fresh", weights.misses.value() - weights.blocks_read.value());
   coverage.hit("geometric/block/cached", weights.lookups.value() - weights.misses.value());
   coverage.hit("geometric/block/replaced", weights.blocks_written.value());

@@ -48,6 +48,7 @@ LinesMoved lines_moved(const rtl::geometric::GeometricEngine& engine, bool frame
   };
   read(Region::kFaces) = engine.facing_store.lines_read.value();
   read(Region::kEdges) = engine.edge_reader.lines_read.value();
+  if (engine.pair_fetch) read(Region::kPairs) = engine.pair_fetch->lines_read.value();
   read(Region::kVertices) = engine.vertex_fetch.misses.value();
   read(Region::kDepth) = engine.depth_test.misses.value();
   read(Region::kWeights) =
@@ -95,13 +96,14 @@ std::uint64_t GeometricMeter::clocks_bound() const {
   const std::uint64_t resolve_weights = e.block_fetch.weights_read.value(),
                       colours = e.block_fetch.lines_read.value();
   const std::uint64_t edges_phase = std::max(
-      {lines_for(work.edges, count_of(p.edge_lanes)), work.kept_edges, read(Region::kVertices),
+      {lines_for(work.edges, count_of(p.edge_lanes)), e.edge_classifier.kept_edges.value(),
+       read(Region::kVertices),
        p.pipelined ? work.lines : kDividerClocks * divided / static_cast<std::uint64_t>(p.dividers),
        work.groups, e.weight_combiner.lookups.value(), lines_for(e.depth_test.lookups.value(), 2),
        read(Region::kDepth),
-       read(Region::kEdges) + read(Region::kVertices) + read(Region::kDepth) +
-           read(Region::kWeights) - resolve_weights + written(Region::kWeights) +
-           2 * written(Region::kCopy)});
+       read(Region::kEdges) + read(Region::kPairs) + read(Region::kVertices) +
+           read(Region::kDepth) + read(Region::kWeights) - resolve_weights +
+           written(Region::kWeights) + 2 * written(Region::kCopy)});
   const std::uint64_t resolve_phase = std::max(
       {words * frames_done_, work.blocks, resolve_weights + colours + written(Region::kColour),
        lines_for(work.blended_pixels, count_of(p.resolve_lanes))});
@@ -184,7 +186,9 @@ void GeometricMeter::show_parts(Observer& observer) const {
 }
 
 std::vector<Figure> GeometricMeter::work_figures() const {
-  return {{"Edges kept", key("edge_classifier_kept_edges"), "of", key("edge_classifier_edges")},
+  return {{"Edges kept",
+           key(engine_.pair_fetch ? "pair_fetch_kept_edges" : "edge_classifier_kept_edges"), "of",
+           key("edge_classifier_edges")},
           {"Lines", key("line_setup_lines")},
           {"Pixels walked a clock", key("columns_a_clock"), "walkers, at most"},
           {"Vertices found in the cache", key("vertex_hits_percent")},
@@ -235,12 +239,12 @@ std::optional<Bottleneck> GeometricMeter::bottleneck(const Result& result) const
   const rtl::geometric::GeometricEngine& e = engine_;
   // From the input of the pipe to its output.
   std::vector<UnitCycles> pipe;
-  const rtl::Unit* const units[] = {&e.edge_reader,   &e.edge_classifier, &e.vertex_fetch,
-                                    &e.line_setup,    &e.line_walker,     &e.coverage_unit,
-                                    &e.depth_test,    &e.weight_combiner, &e.frame_copier,
-                                    &e.block_scanner, &e.block_fetch,     &e.resolver};
+  const rtl::Unit* const units[] = {
+      &e.edge_reader,   &e.edge_classifier, e.pair_fetch.get(), &e.vertex_fetch,    &e.line_setup,
+      &e.line_walker,   &e.coverage_unit,   &e.depth_test,      &e.weight_combiner, &e.frame_copier,
+      &e.block_scanner, &e.block_fetch,     &e.resolver};
   for (const rtl::Unit* unit : units)
-    pipe.push_back(unit_cycles(figure(name_within(e, *unit)), *unit));
+    if (unit) pipe.push_back(unit_cycles(figure(name_within(e, *unit)), *unit));
   const std::uint64_t requests = e.memory_port.reads.value() + e.memory_port.writes.value();
   if (result.cycles > 0 && ratio(requests, result.cycles) >= kPortBound)
     return Bottleneck{figure("memory_port"), "busy",

@@ -13,6 +13,7 @@ TEST(GeometricDatasheets, AreTheContracts) {
                                                  {"FacingStore", 2, 1},
                                                  {"EdgeReader", 2, 1},
                                                  {"EdgeClassifier", 3, 1},
+                                                 {"PairFetch", 3, 1},
                                                  {"VertexFetch", 5, 1},
                                                  {"LineSetup, `pipelined`", 22, 1},
                                                  {"LineSetup, not pipelined", 22, 13},
@@ -28,8 +29,12 @@ TEST(GeometricDatasheets, AreTheContracts) {
 }
 
 TEST(GeometricDatasheets, EveryUnitHasOne) {
-  const EngineBench b;
-  expect_datasheets(b.engine, rtl::geometric::datasheets({}));
+  Parameters split;
+  split.records = spec::geometric::RecordsLayout::kSplit;
+  for (const Parameters& p : {Parameters{}, split}) {
+    const EngineBench b(p);
+    expect_datasheets(b.engine, rtl::geometric::datasheets(p));
+  }
 }
 
 }  // namespace

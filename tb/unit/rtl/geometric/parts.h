@@ -54,7 +54,7 @@ struct Frame {
         store("parameter_store", clock, control, parameters),
         sequencer("sequencer", clock),
         port_parameters{.outstanding = static_cast<std::uint32_t>(parameters.memory_outstanding)},
-        arbiter("arbiter", clock, port_parameters),
+        arbiter("arbiter", clock, port_parameters, parameters),
         port("port", clock, port_parameters),
         memory("memory", period(), EngineBench::memory_parameters({.latency = clocks})),
         requests("requests"),
