@@ -66,8 +66,9 @@ struct FrameResult {
   }
 };
 
-// The contract's frames: of random edges, and of special cases.
-enum class DrawnFrame : std::uint8_t { kRandom, kSpecial };
+// The contract's frames: of random edges, of special cases, and of random edges with depths that
+// differ from tile to tile.
+enum class DrawnFrame : std::uint8_t { kRandom, kSpecial, kTiles };
 
 struct FrameVector {
   char name;
@@ -201,6 +202,59 @@ inline constexpr std::array<FrameVector, 5> kSpecialFrameVectors = {{
       {400, 188, 101, 0, 0, 111, 0, 289, 0, 2, 23, 264, 7778, 2670, 9358, 6875, 190, 2333},
       {50, 876, 565, 565, 618, 190}},
      DrawnFrame::kSpecial},
+}};
+
+// Of less traffic: docs/reference/geometric/traffic.md.
+inline constexpr std::array<FrameVector, 7> kTrafficFrameVectors = {{
+    {'t',
+     Preset::kDeburr,
+     "colour_lines=8",
+     {{0x5379abe68b366634, 0xb5da3d8095e1b3c7, 0x496cec372ae7a065},
+      {300, 164, 63, 0, 38, 23, 12, 265, 5, 1, 17, 242, 7197, 2518, 8652, 5870, 191, 2292},
+      {50, 779, 419, 419, 444, 191}},
+     DrawnFrame::kRandom},
+    {'u',
+     Preset::kDeburr,
+     "records=split",
+     {{0x5379abe68b366634, 0xb5da3d8095e1b3c7, 0xdb0970d326031ce0},
+      {300, 165, 65, 0, 39, 23, 12, 265, 5, 1, 17, 242, 7197, 2518, 8652, 5870, 191, 2292},
+      {50, 779, 419, 419, 615, 191}},
+     DrawnFrame::kRandom},
+    {'v',
+     Preset::kDeburr,
+     "weight_blocks=16 write_buffer=4",
+     {{0x5379abe68b366634, 0xb5da3d8095e1b3c7, 0x2b06bce98298bf5a},
+      {300, 164, 63, 0, 38, 23, 12, 265, 5, 1, 17, 242, 7197, 2518, 8652, 5870, 191, 2292},
+      {50, 779, 1695, 1695, 615, 191}},
+     DrawnFrame::kRandom},
+    {'w',
+     Preset::kDeburr,
+     "coarse_lines=4",
+     {{0xbd96c5ca9715ca99, 0x00d3835dc35e5742, 0xb1d313b18584f004},
+      {300, 164, 63, 0, 38, 23, 12, 265, 5, 1, 17, 242, 7197, 2518, 8652, 4302, 172, 1895},
+      {50, 480, 245, 245, 527, 172}},
+     DrawnFrame::kTiles},
+    {'x',
+     Preset::kDeburr,
+     "layout=raster walkers=2 records=split colour_lines=5 weight_blocks=16 write_buffer=3",
+     {{0x2495477cdae39ac0, 0xa90bab035ef40c41, 0x3a100ad40f18871e},
+      {400, 188, 101, 0, 71, 40, 0, 360, 0, 2, 29, 329, 9397, 5277, 11314, 7042, 190, 2349},
+      {50, 1433, 2234, 2234, 735, 683}},
+     DrawnFrame::kSpecial},
+    {'y',
+     Preset::kGpaaOptimised,
+     "select=mesh colour_lines=8 weight_blocks=16 write_buffer=2 records=split",
+     {{0x2f31ff2736b88364, 0xcf3fe65b4a95f09f, 0x2036689968a66ae1},
+      {300, 167, 0, 0, 65, 68, 3, 229, 4, 1, 13, 211, 6370, 2230, 5697, 4562, 190, 2106},
+      {50, 677, 1681, 1681, 416, 190}},
+     DrawnFrame::kRandom},
+    {'z',
+     Preset::kDeburr,
+     "select=mesh crease_depth=0 combine=max depth_test=own depth_lines=16 coarse_lines=4",
+     {{0x03830b9e874438f3, 0x8b82d5265c309300, 0x4f92b86ddb8c28bb},
+      {300, 166, 0, 0, 86, 44, 4, 252, 4, 1, 14, 233, 6879, 2417, 8266, 4658, 167, 1916},
+      {50, 1121, 275, 275, 515, 167}},
+     DrawnFrame::kTiles},
 }};
 
 // ---- lines --------------------------------------------------------------------------------------
