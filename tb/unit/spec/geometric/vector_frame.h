@@ -163,6 +163,8 @@ inline std::vector<spec::geometric::FrameVector> all_frame_vectors() {
 inline spec::geometric::FrameVector frame_vector(char name) {
   for (const spec::geometric::FrameVector& v : all_frame_vectors())
     if (v.name == name) return v;
+  for (const spec::geometric::FrameVector& v : spec::geometric::kTrafficFrameVectors)
+    if (v.name == name) return v;
   throw std::out_of_range(std::string("no test vector ") + name);
 }
 
