@@ -47,6 +47,9 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
       line_setup("line_setup", clock, parameters_, latency_),
       line_walker("line_walker", clock, parameters_, latency_),
       coverage_unit("coverage_unit", clock, parameters_, latency_),
+      depth_screen(parameters_.coarse_lines != spec::geometric::CoarseLines::kNone
+                       ? std::make_unique<DepthScreen>("depth_screen", clock, parameters_)
+                       : nullptr),
       depth_test("depth_test", clock, parameters_, latency_),
       weight_combiner("weight_combiner", clock, parameters_, latency_),
       frame_copier("frame_copier", clock, parameters_),
@@ -60,7 +63,7 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
       kept_(pair_fetch ? "pairs" : "kept"),
       lines_("line_fifo", static_cast<std::uint32_t>(parameters_.line_fifo)),
       groups_("groups", 2, walkers_),
-      candidates_("candidates", 2, walkers_),
+      candidates_("candidates", 2, candidates_shape(parameters_, false)),
       weights_("weights", 2, walkers_),
       blocks_("block_fifo", static_cast<std::uint32_t>(parameters_.resolve_lines) / 4),
       requests_("requests", 2, request_shape(port_, 32, request_tag_bits(parameters_))),
@@ -89,7 +92,18 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
   line_walker.groups_out(groups_);
   coverage_unit.groups_in(groups_);
   coverage_unit.candidates_out(candidates_);
-  depth_test.candidates_in(candidates_);
+  if (depth_screen) {
+    screened_ =
+        std::make_unique<Link<CandidateToken>>("screened", 2, candidates_shape(parameters_, true));
+    depth_screen->candidates_in(candidates_);
+    depth_screen->screened_out(*screened_);
+    depth_test.candidates_in(*screened_);
+    memory_arbiter.connect(Client::kCoarse, depth_screen->memory);
+    depth_screen->rules_in(rules_);
+    depth_screen->phase_in(phase_);
+  } else {
+    depth_test.candidates_in(candidates_);
+  }
   depth_test.weights_out(weights_);
   weight_combiner.weights_in(weights_);
   block_scanner.blocks_out(touched_blocks_);

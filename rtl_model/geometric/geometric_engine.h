@@ -16,7 +16,7 @@
 //                                                                                |
 //       +----------------------------------------------------------- LineWalker <-+
 //       v
-//   CoverageUnit -> DepthTest -> WeightCombiner       FrameCopier (with frame_copy)
+//   CoverageUnit -> DepthScreen -> DepthTest -> WeightCombiner       FrameCopier (with frame_copy)
 //                                      |
 //       +------------------------------+ when all is drawn
 //       v
@@ -33,7 +33,7 @@
 //          DepthTest -- depth_cleared, WeightCombiner -- weights_cleared, drawn,
 //          FrameCopier -- copied, Resolver -- resolved --> FrameSequencer
 //
-// PairFetch is there with records = split alone.
+// PairFetch is there with records = split alone, DepthScreen with coarse_lines.
 //
 // Everything is in order; only memory answers in any. Source: Persson, GPAA; paper 002.
 #pragma once
@@ -58,6 +58,7 @@
 #include "rtl_model/geometric/edges/vertex_fetch.h"
 #include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/lines/coverage_unit.h"
+#include "rtl_model/geometric/lines/depth_screen.h"
 #include "rtl_model/geometric/lines/depth_test.h"
 #include "rtl_model/geometric/lines/line_setup.h"
 #include "rtl_model/geometric/lines/line_walker.h"
@@ -99,6 +100,7 @@ class GeometricEngine final : public Engine {
   LineSetup line_setup;
   LineWalker line_walker;
   CoverageUnit coverage_unit;
+  std::unique_ptr<DepthScreen> depth_screen;  // only with coarse_lines
   DepthTest depth_test;
   WeightCombiner weight_combiner;
   FrameCopier frame_copier;
@@ -135,6 +137,7 @@ class GeometricEngine final : public Engine {
   Fifo<LineToken> lines_;
   Link<GroupToken> groups_;
   Link<CandidateToken> candidates_;
+  std::unique_ptr<Link<CandidateToken>> screened_;
   Link<WeightToken> weights_;
   Link<TouchedBlock> touched_blocks_{"touched_blocks"};
   Fifo<BlockToken> blocks_;

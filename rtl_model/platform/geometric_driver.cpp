@@ -48,6 +48,8 @@ GeometricRegions::Bytes GeometricRegions::needed(const GeometricSizes& frame,
       kMemoryLine * blocks(frame.width) * blocks(frame.height);
   bytes[index_of(spec::geometric::Region::kColour)] = pixels;
   bytes[index_of(spec::geometric::Region::kCopy)] = p.frame_copy ? pixels : 0;
+  if (p.coarse_lines != spec::geometric::CoarseLines::kNone)
+    bytes[index_of(spec::geometric::Region::kCoarse)] = coarse_bytes(frame.width, frame.height);
   return bytes;
 }
 
@@ -155,6 +157,8 @@ void GeometricDriver::load(const GeometricFrame& frame) {
 void GeometricDriver::load_depths(std::span<const std::uint32_t> depths) {
   require_pixels("depths", depths.size(), sizes_);
   fill(spec::geometric::Region::kDepth, depth_buffer(layout(), depths));
+  if (rules_.coarse_lines != spec::geometric::CoarseLines::kNone)
+    fill(spec::geometric::Region::kCoarse, coarse_depth(sizes_.width, sizes_.height, depths));
 }
 
 void GeometricDriver::load_colours(std::span<const spec::geometric::Rgba8> colours) {

@@ -132,6 +132,38 @@ std::vector<std::uint8_t> depth_buffer(const PixelLayout& layout,
   return bytes;
 }
 
+std::uint64_t coarse_bytes(int width, int height) {
+  constexpr int kAcross = spec::geometric::kTileSize * spec::geometric::kCoarseAcross,
+                kDown = spec::geometric::kTileSize * spec::geometric::kCoarseDown;
+  const auto lines = [](int size, int of) {
+    return static_cast<std::uint64_t>((size + of - 1) / of);
+  };
+  return spec::geometric::kLineBytes * lines(width, kAcross) * lines(height, kDown);
+}
+
+std::vector<std::uint8_t> coarse_depth(int width, int height,
+                                       std::span<const std::uint32_t> depths) {
+  constexpr std::size_t kTile = spec::geometric::kTileSize,
+                        kAcross = spec::geometric::kCoarseAcross,
+                        kDown = spec::geometric::kCoarseDown;
+  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+  const std::size_t lines_across = (columns + kTile * kAcross - 1) / (kTile * kAcross);
+  std::vector<std::uint8_t> bytes(coarse_bytes(width, height));
+  for (std::size_t ty = 0; ty * kTile < rows; ++ty)
+    for (std::size_t tx = 0; tx * kTile < columns; ++tx) {
+      std::uint32_t least = 0xFFFFFF;
+      for (std::size_t y = ty * kTile; y < std::min(rows, (ty + 1) * kTile); ++y)
+        for (std::size_t x = tx * kTile; x < std::min(columns, (tx + 1) * kTile); ++x)
+          least = std::min(least, depths[y * columns + x] & 0xFFFFFF);
+      const std::size_t at =
+          spec::geometric::kLineBytes * (ty / kDown * lines_across + tx / kAcross) +
+          spec::geometric::kCoarseBytes * (ty % kDown * kAcross + tx % kAcross);
+      bytes[at] = static_cast<std::uint8_t>(least >> spec::geometric::kCoarseShift);
+      bytes[at + 1] = static_cast<std::uint8_t>(least >> (spec::geometric::kCoarseShift + 8));
+    }
+  return bytes;
+}
+
 std::vector<std::uint8_t> colour_buffer(const PixelLayout& layout,
                                         std::span<const spec::geometric::Rgba8> colours) {
   std::vector<std::uint8_t> bytes(layout.bytes());

@@ -161,9 +161,9 @@ struct GroupToken {
   }
 };
 
-// CoverageUnit -> DepthTest -> WeightCombiner: candidates in one block of 4 x 4 pixels, a column a
-// lane. A column's second candidate is the neighbour of its first, which takes from that; it may
-// lie in the next block across the line. Behind the test, those that passed.
+// CoverageUnit -> DepthScreen, if it is built -> DepthTest: candidates in one block of 4 x 4
+// pixels, a column a lane. A column's second candidate is the neighbour of its first, which takes
+// from that; it may lie in the next block across the line.
 struct CandidateToken {
   std::uint16_t block_x, block_y;  // U11
   bool vertical;                   // neighbours left or right, else up or down
@@ -171,6 +171,7 @@ struct CandidateToken {
   std::uint8_t candidates;         // bit k: lane k is one
   std::uint8_t forward;            // bit k: its neighbour is down or right
   std::uint8_t seconds;            // bit k: lane k has a second one
+  std::uint8_t dropped;            // bit k: the DepthScreen found lane k hidden
   Lanes8 place;                    // U4, 4 y + x in the block
   Lanes8 coverage;                 // U0.8, 1..128
   Lanes8 second;                   // U0.8, 1..128, coverage of the second one
@@ -185,6 +186,7 @@ struct CandidateToken {
     visit.lane_bits("candidates", self.candidates, kLanes);
     visit.lane_bits("forward", self.forward, kLanes);
     visit.lane_bits("seconds", self.seconds, kLanes);
+    visit.lane_bits("dropped", self.dropped, kLanes);
     visit.lanes("place", self.place, 4, "U4");
     visit.lanes("coverage", self.coverage, 8, "U0.8");
     visit.lanes("second", self.second, 8, "U0.8");
@@ -192,6 +194,15 @@ struct CandidateToken {
     visit("end", self.end);
   }
 };
+
+// What of candidates is built, also of a token that has them under this name: `dropped` behind a
+// DepthScreen alone.
+inline PayloadShape candidates_shape(const spec::geometric::Parameters& p, bool screened,
+                                     const std::string& within = "") {
+  PayloadShape shape{.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(p.walkers)]};
+  if (!screened) shape.widths.emplace_back(within + "dropped", 0);
+  return shape;
+}
 
 // Those of a group, second ones too.
 inline std::uint64_t count_of(std::uint8_t candidates, std::uint8_t seconds) {
