@@ -248,6 +248,9 @@ class Faults(Base):
         self.fault("wrong-pair", 3, 1, *split, board="lines")
         self.fault("stale-pair", 3, 1, *split, board="lines")
 
+    def test_screen(self):
+        self.fault("wrong-screen", 3, 1, *self.SMALL, "--set", "geometric.coarse_lines=4", board="candidates")
+
     def test_caches(self):
         result = self.fault("wrong-replacement", 1, 1, board="memory lines")
         cycles = [int(line["where"].split()[1]) for line in result["first_mismatches"]]
@@ -299,6 +302,7 @@ class Faults(Base):
                 ("wrong-second", ("--set", "geometric.coverage=distance"), "coverage = area"),
                 ("wrong-nearer", ("--set", "geometric.combine=max"), "combine = outermost"),
                 ("stale-depth", ("--set", "geometric.depth_test=off"), "depth_test = own, farther"),
+                ("wrong-screen", (), "coarse_lines of at least 4"),
                 ("wrong-pair", ("--set", "geometric.records=joined"), "records = split"),
                 ("stale-pair", ("--set", "geometric.records=joined"), "records = split"),
                 ("stale-neighbour", ("--preset", "gpaa"), "frame_copy = false")):

@@ -27,6 +27,9 @@ constexpr std::array kGroups = {
     CoverageGroup{"geometric/border", "Candidates whose neighbour is outside of the frame."},
     CoverageGroup{"geometric/depth",
                   "Tests against the farther pixel, by which that is and the outcome."},
+    CoverageGroup{"geometric/screen",
+                  "Candidates that the coarse test drops by the side of their neighbour, or keeps "
+                  "just at its bound; the lesser bound of two tiles (coarse_lines)."},
     CoverageGroup{
         "geometric/crease",
         "Candidates of creases that the other test passed: near enough, or too far before "
@@ -66,6 +69,7 @@ const std::map<std::string, std::vector<std::string>>& stalls() {
       {"line_setup", {"downstream", "divider"}},
       {"line_walker", {"downstream"}},
       {"coverage_unit", {"downstream"}},
+      {"depth_screen", {"downstream", "coarse", "fills"}},
       {"depth_test", {"downstream", "depth", "fills"}},
       {"weight_combiner", {"downstream", "weights", "fills", "spill"}},
       {"block_scanner", {"downstream"}},
@@ -78,6 +82,26 @@ const std::map<std::string, std::vector<std::string>>& stalls() {
 
 constexpr std::array<std::string_view, 2> kPairsOutOfRange = {"vertex-out-of-range",
                                                               "number-out-of-range"};
+
+// By the numbers of the unit's histograms.
+constexpr std::array<std::string_view, 4> kDroppedSides = {"dropped-up", "dropped-down",
+                                                           "dropped-left", "dropped-right"};
+constexpr std::array<std::string_view, 2> kLesserTiles = {"own-tile-lesser", "other-tile-lesser"};
+constexpr std::string_view kAtBound = "kept-at-bound";
+
+void cover_screen(Coverage& coverage, const rtl::geometric::GeometricEngine& e) {
+  if (!e.depth_screen) return;
+  const auto hit = [&](std::string_view bin, std::uint64_t count) {
+    if (count != 0) coverage.hit(fmt::format("geometric/screen/{}", bin), count);
+  };
+  const auto hit_bins = [&](const auto& names, const rtl::Histogram& histogram) {
+    for (const auto& bin : histogram.bins())
+      if (bin.low < names.size()) hit(names[bin.low], bin.count);
+  };
+  hit_bins(kDroppedSides, e.depth_screen->dropped_sides);
+  hit_bins(kLesserTiles, e.depth_screen->lesser_tiles);
+  hit(kAtBound, e.depth_screen->kept_at_bound.value());
+}
 
 void cover_pairs(Coverage& coverage, const rtl::geometric::GeometricEngine& e) {
   if (!e.pair_fetch) return;
@@ -123,6 +147,11 @@ Coverage declared_geometric_coverage() {
   for (const char* const array : {"boundary", "other"})
     for (const char* const outcome : {"hit", "miss"})
       coverage.declare(fmt::format("geometric/pair/{}/{}", array, outcome));
+  for (const std::string_view what : kDroppedSides)
+    coverage.declare(fmt::format("geometric/screen/{}", what));
+  for (const std::string_view what : kLesserTiles)
+    coverage.declare(fmt::format("geometric/screen/{}", what));
+  coverage.declare(fmt::format("geometric/screen/{}", kAtBound));
   for (const char* const what : {"fresh", "cached", "replaced", "read-back", "waited-for"})
     coverage.declare(fmt::format("geometric/block/{}", what));
   for (const auto& [unit, causes] : stalls())
@@ -166,6 +195,7 @@ Coverage geometric_coverage(const rtl::geometric::GeometricEngine& e,
   looked("depth", e.depth_test.lookups, e.depth_test.misses);
   looked("weight", weights.lookups, weights.misses);
   cover_pairs(coverage, e);
+  cover_screen(coverage, e);
   coverage.hit("geometric/block/fresh", weights.misses.value() - weights.blocks_read.value());
   coverage.hit("geometric/block/cached", weights.lookups.value() - weights.misses.value());
   coverage.hit("geometric/block/replaced", weights.blocks_written.value());

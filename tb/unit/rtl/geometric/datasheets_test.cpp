@@ -19,6 +19,7 @@ TEST(GeometricDatasheets, AreTheContracts) {
                                                  {"LineSetup, not pipelined", 22, 13},
                                                  {"LineWalker", 1, 1},
                                                  {"CoverageUnit", 3, 1},
+                                                 {"DepthScreen", 5, 1},
                                                  {"DepthTest", 7, 1},
                                                  {"WeightCombiner", 5, 1},
                                                  {"BlockScanner", 3, 1},
@@ -31,6 +32,7 @@ TEST(GeometricDatasheets, AreTheContracts) {
 TEST(GeometricDatasheets, EveryUnitHasOne) {
   Parameters split;
   split.records = spec::geometric::RecordsLayout::kSplit;
+  split.coarse_lines = spec::geometric::CoarseLines::k4;
   for (const Parameters& p : {Parameters{}, split}) {
     const EngineBench b(p);
     expect_datasheets(b.engine, rtl::geometric::datasheets(p));

@@ -147,7 +147,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Build{'f', "edge_lanes=1 resolve_lanes=1 edge_lines=4 resolve_lines=16"},
                       Build{'c', "", 480}, Build{'d', "pipelined=false", 480}, Build{'m'},
                       Build{'l', "walkers=2"}, Build{'m', "records=split"},
-                      Build{'c', "records=split edge_lanes=4"}));
+                      Build{'c', "records=split edge_lanes=4"}, Build{'m', "coarse_lines=4"},
+                      Build{'b', "records=split coarse_lines=8 walkers=2"}));
 
 }  // namespace
 }  // namespace deburr::tb::geometric_rtl::reset_test

@@ -32,7 +32,8 @@ TEST(GeometricTokens, LinksAreThoseOfThePage) {
   table.expect_links("one lane", GeometricEngine("one", clock, one));
   spec::geometric::Parameters split;
   split.records = spec::geometric::RecordsLayout::kSplit;
-  table.expect_links("split", GeometricEngine("split", clock, split));
+  split.coarse_lines = spec::geometric::CoarseLines::k64;
+  table.expect_links("split, coarse", GeometricEngine("split", clock, split));
 }
 
 TEST(GeometricTokens, WiresAreThoseOfThePage) {
@@ -63,12 +64,14 @@ TEST(GeometricFigures, AreTheModuleTree) {
   ClockDomain clock("clock", tb::geometric_rtl::period());
   spec::geometric::Parameters p;
   p.records = spec::geometric::RecordsLayout::kSplit;
+  p.coarse_lines = spec::geometric::CoarseLines::k4;
   const GeometricEngine engine("all", clock, p);
   const std::string header = "rtl_model/geometric/geometric_engine.h";
   for (const tb::Figure& figure :
        {tb::Figure::of_header(header), tb::Figure::of_page("reference/geometric/hardware.md")}) {
     tb::expect_figure(figure, engine, header, "FrameCopier");
     tb::expect_figure(figure, engine, header, "PairFetch");
+    tb::expect_figure(figure, engine, header, "DepthScreen");
     tb::expect_figure(figure, engine, header, "ColourStore");
     tb::expect_figure(figure, engine, header, "invalid_edge");
     tb::expect_figure(figure, engine, header, "registers");

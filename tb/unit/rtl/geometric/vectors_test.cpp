@@ -35,7 +35,7 @@ void set_ignored_of_split(EngineBench& b, std::uint32_t base, std::uint64_t reco
 void load(EngineBench& b, DrawnFrame frame) {
   const Scene scene = contract_scene(frame);
   b.load(scene);
-  if (frame == DrawnFrame::kRandom) return;
+  if (frame != DrawnFrame::kSpecial) return;
   if (b.p.records == spec::geometric::RecordsLayout::kSplit) {
     const std::uint64_t boundaries = platform::boundaries_of(scene.edges);
     set_ignored_of_split(b, b.bases.edges, scene.edges.size(), true);
@@ -78,7 +78,8 @@ INSTANTIATE_TEST_SUITE_P(Page, Vectors, ::testing::ValuesIn(geometric::all_frame
 
 // Of less traffic.
 INSTANTIATE_TEST_SUITE_P(LessTraffic, Vectors,
-                         ::testing::Values(geometric::frame_vector('u')),
+                         ::testing::Values(geometric::frame_vector('u'),
+                                           geometric::frame_vector('w')),
                          [](const auto& test) { return std::string(1, test.param.name); });
 
 TEST(FrameVectors, EachValueIsCompared) {
