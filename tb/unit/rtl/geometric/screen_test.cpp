@@ -349,6 +349,30 @@ TEST(DepthTest, AGroupThatIsDroppedTakesAClock) {
 
 // ---- the engine
 
+// By the tables of docs/reference/geometric/traffic.md, of its two units.
+TEST(MemoriesOfLessTraffic, AreThoseOfThePage) {
+  Parameters p = coarse(CoarseLines::k64);
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  EngineBench b(p);
+  std::string text;
+  for (const rtl::MemoryBase* memory : b.engine.memories()) {
+    const std::string name = std::string(memory->name()).substr(std::string("engine.").size());
+    if (name.rfind("pair_fetch.", 0) != 0 && name.rfind("depth_screen.", 0) != 0) continue;
+    text += name + " " + rtl::name_of(memory->memory_kind()) + " " +
+            std::to_string(memory->words()) + " x " + std::to_string(memory->word_bits()) + " " +
+            (name.ends_with("fifo") ? "FIFO" : memory->ports()) + "\n";
+  }
+  EXPECT_EQ(text, R"(pair_fetch.pair_tags flops 2 x 22 1R1W
+pair_fetch.pair_lines flops 2 x 480 1R1W
+pair_fetch.pair_fills sram 108 x 480 1R1W
+pair_fetch.latency_fifo flops 128 x 9 FIFO
+depth_screen.coarse_tags flops 64 x 16 2R1W
+depth_screen.coarse_lines sram 64 x 512 2R1W
+depth_screen.coarse_fills sram 108 x 512 1R1W
+depth_screen.latency_fifo sram 128 x 243 FIFO
+)");
+}
+
 TEST(CoarseTest, ChangesNoPixel) {
   for (const char name : {'a', 'b', 'd', 'h', 'm'})
     for (const char* const lines : {"4", "64"}) {
