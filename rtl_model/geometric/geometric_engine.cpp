@@ -78,7 +78,7 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
     pair_fetch->edges_out(kept_);
     memory_arbiter.connect(Client::kPairs, pair_fetch->memory);
     pair_fetch->invalid_pair_out(*invalid_pair_);
-    parameter_store.invalid_pair_in(*invalid_pair_);
+    (*parameter_store.invalid_pair_in)(*invalid_pair_);
     pair_fetch->rules_in(rules_);
     pair_fetch->phase_in(phase_);
   } else {

@@ -83,13 +83,15 @@ ParameterStore::ParameterStore(const sc_core::sc_module_name& name, ClockDomain&
                     [this](Cycle /*cycle*/) { registers_.set_sticky(reg::kStatusFrameDone); }),
       invalid_edge_in("invalid_edge_in",
                       [this](Cycle /*cycle*/) { registers_.set_sticky(reg::kStatusInvalidEdge); }),
-      invalid_pair_in("invalid_pair_in",
-                      [this](Cycle /*cycle*/) { registers_.set_sticky(reg::kStatusInvalidEdge); }),
       memory_error_in("memory_error_in",
                       [this](Cycle /*cycle*/) { registers_.set_sticky(reg::kStatusMemoryError); }),
       clock_(clock),
       registers_(registers),
       parameters_(p) {
+  if (p.records == spec::geometric::RecordsLayout::kSplit)
+    invalid_pair_in.emplace("invalid_pair_in", [this](Cycle /*cycle*/) {
+      registers_.set_sticky(reg::kStatusInvalidEdge);
+    });
   registers.set_reset(reg::kRules, spec::geometric::rules_word(p));
   registers.on_command(reg::kControlStart, [this] { start(); });
   registers.on_read(reg::kRefusal, [this] { return static_cast<std::uint32_t>(refusal_); });

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <systemc>
 
 #include "rtl_model/fabric/clock_domain.h"
@@ -41,7 +42,8 @@ class ParameterStore final : public sc_core::sc_module {
   OnPulse latch_in{"latch_in", [this](Cycle cycle) { latch(cycle); }};
   WireOut<spec::geometric::Refusal, WireKind::kCombinational> refusal_out{"refusal_out"};
   // Each sets its bit of STATUS.
-  OnPulse frame_done_in, invalid_edge_in, invalid_pair_in, memory_error_in;
+  OnPulse frame_done_in, invalid_edge_in, memory_error_in;
+  std::optional<OnPulse> invalid_pair_in;  // with records = split
 
   // Gives the registers the reset values that parameters set.
   ParameterStore(const sc_core::sc_module_name& name, ClockDomain& clock,

@@ -45,7 +45,6 @@ struct PairBench : Frame {
     unit.numbers_in(ends.in);
     unit.edges_out(ends.out);
     unit.invalid_pair_out(invalid_pair);
-    store.invalid_pair_in(invalid_pair);
     bus.write(reg::kVertexCount, kVertices);
     bus.write(reg::kPairBase, kBoundaries);
     bus.write(reg::kOtherPairBase, kOthers);
@@ -83,7 +82,6 @@ struct PairBench : Frame {
       if (each.name == cause) return each.cycles;
     return ~std::uint64_t{0};
   }
-  rtl::Pulse invalid_pair{"invalid_pair"};
   PairFetch unit;
   Ends<PairNumber, KeptEdge> ends;
 };
