@@ -158,6 +158,7 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
   weight_combiner.phase_in(phase_);
   frame_copier.phase_in(phase_);
   block_scanner.phase_in(phase_);
+  block_fetch.phase_in(phase_);
   resolver.phase_in(phase_);
   facing_store.loaded_out(facing_loaded_);
   vertex_fetch.cleared_out(vertices_cleared_);

@@ -118,10 +118,10 @@ void GeometricDriver::check(const GeometricFrame& frame) const {
                 spec::geometric::kMaxFrameSize);
   require_range("edges", sizes.edges, 0, spec::geometric::kMaxEdges);
   require_range("vertices", sizes.vertices, 0, spec::geometric::kMaxVertices);
-  // Nobody reads facing bits where all edges are drawn.
-  const bool all = rules_.select == spec::geometric::Select::kAll;
+  // Nobody reads facing bits where edges are not selected by them.
+  const bool unread = rules_.select != spec::geometric::Select::kEdges;
   require_range("faces", sizes.faces, 0,
-                all ? spec::geometric::kIndexMask + 1 : spec::geometric::kMaxFaces);
+                unread ? spec::geometric::kIndexMask + 1 : spec::geometric::kMaxFaces);
   if (frame.facing.size() < (sizes.faces + 7) / 8)
     reject(fmt::format("{} bytes of facing bits are too few for {} faces", frame.facing.size(),
                        sizes.faces));

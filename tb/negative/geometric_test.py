@@ -118,6 +118,8 @@ class Configuration(Base):
         self.rejected(["face_limit", "no effect"], "geometric.select=all", "geometric.face_limit=8192")
         self.rejected(["cull", "no effect", "select = all"], "geometric.select=all", "geometric.cull=none")
         self.rejected(["crease_depth", "no effect"], "geometric.select=all", "geometric.crease_depth=4")
+        self.rejected(["face_limit", "no effect", "select = mesh"], "geometric.select=mesh", "geometric.face_limit=8192")
+        self.rejected(["cull", "no effect", "select = mesh"], "geometric.select=mesh", "geometric.cull=none")
         self.rejected(["crease_depth", "no effect", "crease = off"], "geometric.crease=off", "geometric.crease_depth=4")
         self.rejected(["crease_depth", "no effect"], "geometric.depth_test=off", "geometric.crease_depth=4")
         for test in ("own", "off"):
@@ -257,6 +259,13 @@ class Faults(Base):
         self.assertLess(cycles[0], cycles[-1], "each as it went by")
         self.assertEqual(result["checks"]["mismatches"], 0, "the picture stays")
 
+    def test_kept_lines_and_blocks(self):
+        kept, buffered = ("--set", "geometric.colour_lines=16"), ("--set", "geometric.write_buffer=4")
+        for name, choice in (("wrong-kept", kept), ("wrong-buffer", (*buffered, "--set", "geometric.weight_blocks=16"))):
+            result = self.fault(name, 1, 1, *self.SMALL, *choice, board="memory lines")
+            self.assertEqual(result["checks"]["mismatches"], 0, "the picture stays")
+        self.fault("stale-kept", 3, 1, *self.SMALL, *kept, board="blocks")
+
     def test_originals(self):
         dense = ("--scene", "wheelcover", "--size", "400x200", "--set", "geometric.select=all", "--set",
                  "memory.latency=1")
@@ -305,6 +314,9 @@ class Faults(Base):
                 ("wrong-screen", (), "coarse_lines of at least 4"),
                 ("wrong-pair", ("--set", "geometric.records=joined"), "records = split"),
                 ("stale-pair", ("--set", "geometric.records=joined"), "records = split"),
+                ("wrong-kept", ("--set", "geometric.colour_lines=0"), "colour_lines of at least 1"),
+                ("stale-kept", ("--set", "geometric.colour_lines=1"), "colour_lines of at least 2"),
+                ("wrong-buffer", ("--set", "geometric.write_buffer=0"), "write_buffer of at least 1"),
                 ("stale-neighbour", ("--preset", "gpaa"), "frame_copy = false")):
             self.run_engine(2, *self.SMALL, *arguments, "--fault", name, says=[name, "needs", needs])
 

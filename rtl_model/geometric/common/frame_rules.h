@@ -34,7 +34,7 @@ struct FrameRules {
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("width", self.width, 14, "U14");
     visit("height", self.height, 14, "U14");
-    visit("select", self.select, 1, "U1");
+    visit("select", self.select, 2, "U2");
     visit("crease", self.crease, 2, "U2");
     visit("cull", self.cull, 1, "U1");
     visit("depth_test", self.depth_test, 2, "U2");
@@ -48,7 +48,7 @@ struct FrameRules {
     visit("frame_copy", self.frame_copy);
     visit("edge_count", self.edge_count, 25, "U25");
     visit("vertex_count", self.vertex_count, 25, "U25");
-    visit("face_count", self.face_count, 32, "U32");  // any with select = all, which reads none
+    visit("face_count", self.face_count, 32, "U32");  // any where select reads none
     visit("boundary_count", self.boundary_count, 25, "U25");
     visit("edge_base", self.edge_base, 32, "U32");
     visit("vertex_base", self.vertex_base, 32, "U32");

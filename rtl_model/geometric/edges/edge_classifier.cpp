@@ -85,8 +85,10 @@ EdgeClass EdgeClassifier::class_of(const FrameRules& rules, const EdgeFields& ed
   if (!valid) return EdgeClass::kInvalid;
   if (edge.flags & flag::kBoundary) return EdgeClass::kBoundary;
   if (rules.select == Select::kAll) return EdgeClass::kUnclassified;
-  if (facing0 != facing1) return EdgeClass::kSilhouette;
-  if (!facing0 && rules.cull == spec::geometric::Cull::kBack) return EdgeClass::kBack;
+  if (rules.select == Select::kEdges) {
+    if (facing0 != facing1) return EdgeClass::kSilhouette;
+    if (!facing0 && rules.cull == spec::geometric::Cull::kBack) return EdgeClass::kBack;
+  }
   const bool angle = edge.flags & flag::kAngle, split = edge.flags & flag::kSplitNormals,
              seam = edge.flags & flag::kSeam;
   const bool crease = (rules.crease == Crease::kPaper && angle) ||

@@ -47,6 +47,9 @@ constexpr std::array kGroups = {
                   "(records = split). In tests alone: a vertex out of range, and a number beyond "
                   "the array."},
     CoverageGroup{"geometric/block", "What the weights of a block met in their cache."},
+    CoverageGroup{"geometric/write-buffer",
+                  "What blocks met in the write buffer, and how full it was at the end."},
+    CoverageGroup{"geometric/colour", "What lines of colours met among those that are kept."},
     CoverageGroup{"geometric/resolve", "Blended pixels by the neighbours that are taken."},
     CoverageGroup{"geometric/original", "Where the colour before blending was taken from."},
     CoverageGroup{"geometric/lines", "Blocks by layout and the lines of colours that they read."},
@@ -129,6 +132,20 @@ bool is_directed(const std::string& bin) {
   return bin.ends_with("/invalid") || bin.starts_with("class/all/off/");
 }
 
+// A block that came to an empty place is there at the end, or another in its place.
+void hit_write_buffer(Coverage& coverage, const rtl::geometric::WeightCombiner& weights,
+                      const spec::geometric::Parameters& parameters) {
+  const std::uint64_t at_end = weights.buffered_blocks.sum();
+  coverage.hit("geometric/write-buffer/hit", weights.buffer_hits.value());
+  coverage.hit("geometric/write-buffer/empty", at_end);
+  coverage.hit("geometric/write-buffer/leaves", weights.blocks_written.value() - at_end);
+  for (const auto& bin : weights.buffered_blocks.bins())
+    coverage.hit(bin.low == static_cast<std::uint64_t>(parameters.write_buffer)
+                     ? "geometric/write-buffer/full-at-end"
+                     : "geometric/write-buffer/not-full-at-end",
+                 bin.count);
+}
+
 }  // namespace
 
 std::span<const CoverageGroup> geometric_coverage_groups() { return kGroups; }
@@ -154,6 +171,10 @@ Coverage declared_geometric_coverage() {
   coverage.declare(fmt::format("geometric/screen/{}", kAtBound));
   for (const char* const what : {"fresh", "cached", "replaced", "read-back", "waited-for"})
     coverage.declare(fmt::format("geometric/block/{}", what));
+  for (const char* const what : {"hit", "empty", "leaves", "full-at-end", "not-full-at-end"})
+    coverage.declare(fmt::format("geometric/write-buffer/{}", what));
+  for (const char* const what : {"hit", "free", "replaces"})
+    coverage.declare(fmt::format("geometric/colour/{}", what));
   for (const auto& [unit, causes] : stalls())
     for (const std::string& cause : causes)
       coverage.declare(fmt::format("geometric/stall/{}/{}", unit, cause));
@@ -200,6 +221,13 @@ Coverage geometric_coverage(const rtl::geometric::GeometricEngine& e,
   coverage.hit("geometric/block/cached", weights.lookups.value() - weights.misses.value());
   coverage.hit("geometric/block/replaced", weights.blocks_written.value());
   coverage.hit("geometric/block/read-back", weights.blocks_read.value());
+  if (parameters.write_buffer > 0) hit_write_buffer(coverage, weights, parameters);
+  if (parameters.colour_lines > 0) {
+    const auto& fetch = e.block_fetch;
+    coverage.hit("geometric/colour/hit", fetch.lines_kept.value());
+    coverage.hit("geometric/colour/free", fetch.lines_read.value() - fetch.lines_replaced.value());
+    coverage.hit("geometric/colour/replaces", fetch.lines_replaced.value());
+  }
   for (const rtl::Unit* unit : e.units()) {
     if (!stalls().contains(unit->basename())) continue;
     for (const auto& cause : unit->stalls()) {

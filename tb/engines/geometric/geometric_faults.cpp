@@ -39,7 +39,7 @@ void flip_rom(rtl::geometric::GeometricEngine& engine, std::string_view name) {
 
 // A face of the first edge of two faces, whose class goes by it.
 std::optional<std::uint32_t> GeometricFaults::face_of_a_fault() const {
-  if (setup_.geometric.select == spec::geometric::Select::kAll || frames_.empty())
+  if (setup_.geometric.select != spec::geometric::Select::kEdges || frames_.empty())
     return std::nullopt;
   const ScreenEdges& screen = frames_.front().screen;
   for (const Edge& edge : screen.edges)
@@ -129,6 +129,13 @@ std::vector<PlantedFault> GeometricFaults::list() const {
       {"stale-depth", "The first line of depths is taken before it has come.",
        "flip:geometric.depth_test.latency_fifo_entries:0:missed.0", tested},
       {"wrong-replacement", "The caches have other sizes than were ordered."},
+      {"wrong-kept", "Another number of lines of colours is kept than was ordered.", "",
+       unless(p.colour_lines > 0, "geometric.colour_lines of at least 1")},
+      {"stale-kept", "A kept line of colours is taken from another place.",
+       "flip:geometric.colour_order_entries:20:place.0",
+       unless(p.colour_lines > 1, "geometric.colour_lines of at least 2")},
+      {"wrong-buffer", "The write buffer has another number of places than was ordered.", "",
+       unless(p.write_buffer > 0, "geometric.write_buffer of at least 1")},
       {"stale-neighbour", "A block takes from the block above as that was blended.",
        stale_neighbour,
        unless(!planted("stale-neighbour") || !stale_neighbour.empty(),
@@ -155,6 +162,9 @@ Parameters GeometricFaults::as_built() const {
   if (planted("wrong-cull"))
     p.cull = p.cull == spec::geometric::Cull::kNone ? spec::geometric::Cull::kBack
                                                     : spec::geometric::Cull::kNone;
+  const auto other = [](std::int32_t places) { return places == 1 ? 2 : places - 1; };
+  if (planted("wrong-kept")) p.colour_lines = other(p.colour_lines);
+  if (planted("wrong-buffer")) p.write_buffer = other(p.write_buffer);
   if (planted("wrong-nearer")) p.combine = spec::geometric::Combine::kMax;
   return p;
 }

@@ -95,7 +95,8 @@ std::uint64_t GeometricMeter::clocks_bound() const {
                                 static_cast<std::uint64_t>(setup_.memory.latency));
   const std::uint64_t divided = work.lines - e.line_setup.table_lines.value();
   const std::uint64_t resolve_weights = e.block_fetch.weights_read.value(),
-                      colours = e.block_fetch.lines_read.value();
+                      colours = e.block_fetch.lines_read.value(),
+                      window = colours + e.block_fetch.lines_kept.value();
   // A group takes a clock of the DepthScreen for each line that it reads.
   const std::uint64_t screened =
       e.depth_screen ? e.depth_screen->groups.value() + e.depth_screen->both_missed.value() : 0;
@@ -108,9 +109,10 @@ std::uint64_t GeometricMeter::clocks_bound() const {
        read(Region::kEdges) + read(Region::kPairs) + read(Region::kCoarse) +
            read(Region::kVertices) + read(Region::kDepth) + read(Region::kWeights) -
            resolve_weights + written(Region::kWeights) + 2 * written(Region::kCopy)});
-  const std::uint64_t resolve_phase = std::max(
-      {words * frames_done_, work.blocks, resolve_weights + colours + written(Region::kColour),
-       lines_for(work.blended_pixels, count_of(p.resolve_lanes))});
+  const std::uint64_t resolve_phase =
+      std::max({words * frames_done_, work.blocks, window,
+                resolve_weights + colours + written(Region::kColour),
+                lines_for(work.blended_pixels, count_of(p.resolve_lanes))});
   return begin * frames_done_ + edges_phase + resolve_phase;
 }
 
@@ -161,6 +163,17 @@ void GeometricMeter::collect_hits(Result& result) const {
         "Candidates that the coarse test of depth dropped before they looked depth up.");
   hits("weight_hits_percent", e.weight_combiner.lookups, e.weight_combiner.misses,
        "Look-ups of blocks of weights that were in the cache.");
+  const auto kept = [&](const char* name, const rtl::Counter& found, const rtl::Counter& read,
+                        const char* meaning) {
+    add(result, name, 100 * ratio(found.value(), found.value() + read.value()), "%", meaning);
+  };
+  const Parameters& p = setup_.geometric;
+  if (p.colour_lines > 0)
+    kept("colour_hits_percent", e.block_fetch.lines_kept, e.block_fetch.lines_read,
+         "Look-ups of lines of colours by the resolve that were kept.");
+  if (p.write_buffer > 0)
+    kept("write_buffer_hits_percent", e.weight_combiner.buffer_hits, e.weight_combiner.blocks_read,
+         "Misses of a block touched before that was in the write buffer.");
 }
 
 void GeometricMeter::collect(Result& result) const {

@@ -50,7 +50,8 @@ void load(EngineBench& b, DrawnFrame frame) {
 
 // `rules`, if not 0, are written to RULES.
 FrameResult result_of(const FrameVector& v, std::uint32_t rules = 0) {
-  const Parameters p = configuration(v.name).p;
+  Parameters p = preset_parameters(v.preset);
+  apply_settings(p, v.settings);
   EngineOptions options;
   options.bench.check_widths = true;
   EngineBench b(p, options);
@@ -78,8 +79,7 @@ INSTANTIATE_TEST_SUITE_P(Page, Vectors, ::testing::ValuesIn(geometric::all_frame
 
 // Of less traffic.
 INSTANTIATE_TEST_SUITE_P(LessTraffic, Vectors,
-                         ::testing::Values(geometric::frame_vector('u'),
-                                           geometric::frame_vector('w')),
+                         ::testing::ValuesIn(spec::geometric::kTrafficFrameVectors),
                          [](const auto& test) { return std::string(1, test.param.name); });
 
 TEST(FrameVectors, EachValueIsCompared) {
