@@ -245,6 +245,14 @@ class Faults(Base):
     def test_depth(self):
         self.fault("stale-depth", 3, 1, board="candidates")
 
+    def test_pairs(self):
+        split = (*self.SMALL, "--set", "geometric.records=split")
+        self.fault("wrong-pair", 3, 1, *split, board="lines")
+        self.fault("stale-pair", 3, 1, *split, board="lines")
+
+    def test_screen(self):
+        self.fault("wrong-screen", 3, 1, *self.SMALL, "--set", "geometric.coarse_lines=4", board="candidates")
+
     def test_caches(self):
         result = self.fault("wrong-replacement", 1, 1, board="memory lines")
         cycles = [int(line["where"].split()[1]) for line in result["first_mismatches"]]
@@ -303,6 +311,9 @@ class Faults(Base):
                 ("wrong-second", ("--set", "geometric.coverage=distance"), "coverage = area"),
                 ("wrong-nearer", ("--set", "geometric.combine=max"), "combine = outermost"),
                 ("stale-depth", ("--set", "geometric.depth_test=off"), "depth_test = own, farther"),
+                ("wrong-screen", (), "coarse_lines of at least 4"),
+                ("wrong-pair", ("--set", "geometric.records=joined"), "records = split"),
+                ("stale-pair", ("--set", "geometric.records=joined"), "records = split"),
                 ("wrong-kept", ("--set", "geometric.colour_lines=0"), "colour_lines of at least 1"),
                 ("stale-kept", ("--set", "geometric.colour_lines=0"), "colour_lines of at least 1"),
                 ("wrong-buffer", ("--set", "geometric.write_buffer=0"), "write_buffer of at least 1"),
@@ -322,7 +333,7 @@ class Registers(Base):
                  "boundary-edges", "silhouette-edges", "back-edges", "crease-edges", "flat-edges", "invalid-edges",
                  "kept-edges", "outside-edges", "degenerate-edges", "empty-edges", "lines", "columns", "groups",
                  "candidates", "passed", "blocks", "blended-pixels", "memory-errors", "frame-cycles", "edge-cycles",
-                 "resolve-cycles"]
+                 "resolve-cycles", "boundary-count", "pair-base", "other-pair-base", "coarse-base"]
 
     def test_each(self):
         self.miscount("geometric", self.CHECKED)
@@ -336,7 +347,7 @@ class Blind(Base):
         boards = {f"blind-{board}" for board in self.BOARDS}
         self.assertEqual(self.known("geometric"), boards)
         needed = {board: self.blind("geometric", board) for board in boards}
-        self.assertEqual((needed["blind-pixels"], needed["blind-status-registers"]), (32 * 32, 38))
+        self.assertEqual((needed["blind-pixels"], needed["blind-status-registers"]), (32 * 32, 42))
         work, memory = self.result()["work"], self.result()["memory"]
         self.assertEqual(needed["blind-lines"], work["line_setup_lines"])
         self.assertEqual(needed["blind-candidates"], work["coverage_unit_candidates"])

@@ -89,6 +89,8 @@ std::vector<PlantedFault> GeometricFaults::list() const {
                                     "geometric.depth_test = own, farther");
   const std::string areas =
       unless(p.coverage == spec::geometric::CoverageRule::kArea, "geometric.coverage = area");
+  const std::string split =
+      unless(p.records == spec::geometric::RecordsLayout::kSplit, "geometric.records = split");
   std::string stale_neighbour;
   if (planted("stale-neighbour"))
     if (const auto block = block_that_takes_from_above())
@@ -102,6 +104,10 @@ std::vector<PlantedFault> GeometricFaults::list() const {
        "", unless(p.select == spec::geometric::Select::kEdges, "geometric.select = edges")},
       {"wrong-class", "A kept edge is taken for a crease, or a crease for another edge.",
        "flip:geometric.kept:5:crease"},
+      {"wrong-pair", "An edge takes the vertices of another one.", "flip:geometric.kept:5:place.0",
+       split},
+      {"stale-pair", "The first line of pairs is taken before it has come.",
+       "flip:geometric.pair_fetch.latency_fifo_entries:0:missed", split},
       {"wrong-area", "Flips the lowest bit of every area up to half a pixel from the centre.", "",
        areas},
       {"wrong-second", "A column of a group of candidates has a second one too few, or too many.",
@@ -116,6 +122,10 @@ std::vector<PlantedFault> GeometricFaults::list() const {
        "duplicate:geometric.candidates:20"},
       {"wrong-direction", "A group of candidates takes its neighbours along the other axis.",
        "flip:geometric.candidates:20:vertical"},
+      {"wrong-screen", "A candidate is dropped that is not hidden, or kept that is.",
+       "flip:geometric.screened:20:dropped.0",
+       unless(p.coarse_lines != spec::geometric::CoarseLines::kNone,
+              "geometric.coarse_lines of at least 4")},
       {"stale-depth", "The first line of depths is taken before it has come.",
        "flip:geometric.depth_test.latency_fifo_entries:0:missed.0", tested},
       {"wrong-replacement", "The caches have other sizes than were ordered."},

@@ -69,7 +69,7 @@ def faults_that_are_not_found(root):
               ("spec/morphological/shapes.h", '"Z-first-second", Side::kFirst', '"Z-first-second", Side::kSecond'),
               ("docs/reference/morphological/formats.md", "| 1, 1 | (1,0), (1,1) |", "| 1, 1 | (1,1), (1,1) |"),
               ("docs/reference/morphological/smaa.md", "7, 14 read 6;", "7, 14 read 9;"),
-              ("docs/reference/geometric/memories.md", "| `kept` | EdgeClassifier, VertexFetch | 2 |", "| `kept` | EdgeClassifier, NewUnit | 2 |"),
+              ("docs/reference/geometric/memories.md", "| `kept` | EdgeClassifier, PairFetch; ", "| `kept` | EdgeClassifier, NewUnit; "),
               ("docs/images/line_walk.svg", '<title id="title">', '<title id="title">A'),
               ("docs/reference/morphological/algorithm.md", "![A table", "![shapes](../../images/run_shapes.svg) ![A table"),
               ("docs/reference/geometric/algorithm.md", "images/line_walk.svg)", "images/no_walk.svg)"))

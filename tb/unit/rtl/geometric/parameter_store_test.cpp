@@ -205,11 +205,20 @@ TEST(FrameRules, LinesLieAsTheContractHasThem) {
 TEST(FrameRules, CountsAndBasesAreThoseOfTheirRegisters) {
   Frame b({});
   const std::vector<std::pair<std::uint32_t, std::uint32_t FrameRules::*>> registers = {
-      {reg::kEdgeCount, &FrameRules::edge_count},   {reg::kVertexCount, &FrameRules::vertex_count},
-      {reg::kFaceCount, &FrameRules::face_count},   {reg::kEdgeBase, &FrameRules::edge_base},
-      {reg::kVertexBase, &FrameRules::vertex_base}, {reg::kFaceBase, &FrameRules::face_base},
-      {reg::kDepthBase, &FrameRules::depth_base},   {reg::kColourBase, &FrameRules::colour_base},
-      {reg::kWeightBase, &FrameRules::weight_base}, {reg::kCopyBase, &FrameRules::copy_base}};
+      {reg::kEdgeCount, &FrameRules::edge_count},
+      {reg::kVertexCount, &FrameRules::vertex_count},
+      {reg::kFaceCount, &FrameRules::face_count},
+      {reg::kEdgeBase, &FrameRules::edge_base},
+      {reg::kVertexBase, &FrameRules::vertex_base},
+      {reg::kFaceBase, &FrameRules::face_base},
+      {reg::kDepthBase, &FrameRules::depth_base},
+      {reg::kColourBase, &FrameRules::colour_base},
+      {reg::kWeightBase, &FrameRules::weight_base},
+      {reg::kCopyBase, &FrameRules::copy_base},
+      {reg::kBoundaryCount, &FrameRules::boundary_count},
+      {reg::kPairBase, &FrameRules::pair_base},
+      {reg::kOtherPairBase, &FrameRules::other_pair_base},
+      {reg::kCoarseBase, &FrameRules::coarse_base}};
   std::uint32_t value = 0;
   for (const auto& [offset, field] : registers) b.bus.write(offset, value += 64);
   const FrameRules f = decode(b.control);
@@ -283,8 +292,15 @@ TEST(Refusals, GiveTheFirstReason) {
   f.edge_count = 1u << 24;
   EXPECT_EQ(why(), Refusal::kVertexCount);
   f.vertex_count = 1u << 24;
+  f.boundary_count = ~0u;
   EXPECT_EQ(why(), Refusal::kFaceCount);
   f.face_count = 8192;
+  EXPECT_EQ(why(), Refusal::kNone) << "joined records have no count of boundaries";
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  EXPECT_EQ(why(), Refusal::kBoundaryCount);
+  f.boundary_count = f.edge_count + 1;
+  EXPECT_EQ(why(), Refusal::kBoundaryCount);
+  f.boundary_count = f.edge_count;
   EXPECT_EQ(why(), Refusal::kNone);
 }
 

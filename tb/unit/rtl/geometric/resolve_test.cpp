@@ -350,6 +350,70 @@ TEST(EdgeReader, EdgeLanesAClock) {
     EXPECT_EQ(got, "403 0") << code;
   }
 }
+// Ten records a line, and no beat beyond its end: of the last line, 3 of 403.
+TEST(EdgeReader, BeatsOfSplitRecordsEndWithTheirLine) {
+  const std::vector<std::pair<int, std::string>> rows = {
+      {0, "1111111111 111 41 +403"}, {1, "22222 21 41 +202"}, {2, "442 3 41 +121"}};
+  for (const auto& [code, wanted] : rows) {
+    const std::string got = in_child([code = code] {
+      Parameters p;
+      p.records = spec::geometric::RecordsLayout::kSplit;
+      p.edge_lanes = static_cast<spec::geometric::Lanes>(code);
+      ReaderBench b(p, 403, 1);
+      b.clock.run(1000);
+      std::string first, last;
+      std::uint32_t edges = 0;
+      for (const auto& taken : b.taker.taken) {
+        if (edges < 10) first += std::to_string(taken.token.count);
+        if (edges >= 400 && !taken.token.end) last += std::to_string(taken.token.count);
+        edges += taken.token.count;
+      }
+      std::vector<std::uint64_t> lines;
+      for (std::uint64_t line = 0; line < 41; ++line) lines.push_back(64 * line);
+      std::vector<std::uint64_t> read = b.memory.lines_read();
+      std::erase_if(read, [](std::uint64_t line) { return line >= 0x40000; });
+      EXPECT_EQ(read, lines);
+      return first + " " + last + " " + std::to_string(b.reader.lines_read.value()) + " +" +
+             std::to_string(b.taker.taken.back().cycle - b.taker.taken.front().cycle);
+    });
+    EXPECT_EQ(got, wanted) << code;
+  }
+}
+// Bit by bit: f0 in 20..0, f1 in 41..21, flags in 45..42; bits 47, 46 and bytes 60 to 63 are
+// ignored.
+TEST(EdgeReader, SplitRecordsAreReadBitByBit) {
+  Parameters p;
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  p.edge_lanes = spec::geometric::Lanes::kOne;
+  Frame b(p);
+  EdgeReader reader("reader", b.clock, p, b.edge_latency);
+  rtl::Link<EdgeBeat> beats("beats");
+  unit_bench::Sink<EdgeBeat> taker("taker", b.clock);
+  b.arbiter.connect(Client::kEdges, reader.memory);
+  reader.edges_out(beats);
+  taker.in(beats);
+  reader.rules_in(b.rules);
+  reader.phase_in(b.phase);
+  std::vector<std::uint8_t> bytes(320, 0xFF);
+  for (std::size_t n = 0; n < 50; ++n) {
+    const std::uint64_t record = n < 48 ? std::uint64_t{1} << n : n == 48 ? 0 : ~std::uint64_t{0};
+    for (std::size_t i = 0; i < 6; ++i)
+      bytes[n / 10 * 64 + n % 10 * 6 + i] = static_cast<std::uint8_t>(record >> 8 * i);
+  }
+  b.memory.preload(0, bytes);
+  b.bus.write(reg::kEdgeCount, 50);
+  b.begin(64, 64);
+  b.clock.run(300);
+  ASSERT_EQ(taker.taken.size(), 51u);
+  for (std::size_t n = 0; n < 50; ++n) {
+    const EdgeFields& edge = taker.taken[n].token.edge[0];
+    const bool all = n == 49;
+    EXPECT_EQ(edge.f0, all ? 0x1FFFFFu : n < 21 ? 1u << n : 0u) << n;
+    EXPECT_EQ(edge.f1, all ? 0x1FFFFFu : n >= 21 && n < 42 ? 1u << (n - 21) : 0u) << n;
+    EXPECT_EQ(edge.flags, all ? 15u : n >= 42 && n < 46 ? 1u << (n - 42) : 0u) << n;
+  }
+  EXPECT_TRUE(taker.taken[50].token.end);
+}
 // The first line comes when the begin is long over: its answer is taken, written and read.
 TEST(EdgeReader, LatencyOfTheDatasheetFromAnAnswer) {
   ReaderBench b({}, 4, 0);

@@ -43,7 +43,7 @@ struct ClassifierBench : Frame {
     facing.phase_in(phase);
     wire(facing.loaded_out);
     unit.edges_in(ends.in);
-    unit.edges_out(ends.out);
+    (*unit.edges_out)(ends.out);
     unit.invalid_edge_out(invalid_edge);
     facing.rules_in(rules);
     unit.rules_in(rules);
@@ -364,36 +364,51 @@ TEST(MemoryArbiter, TheLatencyOfReadsIsThatOfReads) {
   ASSERT_EQ(asker.answered.size(), 6u);
   ASSERT_EQ(other.answered.size(), 6u);
   EXPECT_EQ(text_of(b.arbiter.read_latency(Client::kWeights)), "23 x 4");
-  for (std::size_t i = 0; i < kClients; ++i)
-    if (static_cast<Client>(i) != Client::kWeights) {
-      EXPECT_EQ(text_of(b.arbiter.read_latency(static_cast<Client>(i))), "") << kClientNames[i];
+  for (const Client client : clients_of({}))
+    if (client != Client::kWeights) {
+      EXPECT_EQ(text_of(b.arbiter.read_latency(client)), "")
+          << kClientNames[static_cast<std::size_t>(client)];
     }
 }
-TEST(MemoryArbiter, ServesEachOfEightAfterSevenOthers) {
-  Frame b({});
+// Eight clients, and one for each of two build choices.
+void expect_served_in_turn(const Parameters& p, std::size_t clients) {
+  Frame b(p);
   b.tie();
   std::deque<Asker> askers;
-  for (std::size_t i = 0; i < kClients; ++i) {
-    askers.emplace_back((std::string("asker") + std::to_string(i)).c_str(), b.clock);
+  ASSERT_EQ(clients_of(p).size(), clients);
+  for (const Client client : clients_of(p)) {
+    askers.emplace_back((std::string("asker") + std::to_string(askers.size())).c_str(), b.clock);
     askers.back().wanted = 40;
-    b.arbiter.connect(static_cast<Client>(i), askers.back().memory);
+    b.arbiter.connect(client, askers.back().memory);
   }
   b.clock.run(600);
   std::vector<Cycle> answers;
   for (const Asker& asker : askers) {
     ASSERT_EQ(asker.answered.size(), 40u);
     for (std::size_t i = 3; i < 40; ++i) {
-      EXPECT_EQ(asker.asked[i] - asker.asked[i - 1], 8u);
-      EXPECT_EQ(asker.answered[i] - asker.answered[i - 1], 8u);
+      EXPECT_EQ(asker.asked[i] - asker.asked[i - 1], clients);
+      EXPECT_EQ(asker.answered[i] - asker.answered[i - 1], clients);
     }
     answers.insert(answers.end(), asker.answered.begin(), asker.answered.end());
   }
   const auto [first, last] = std::minmax_element(answers.begin(), answers.end());
-  EXPECT_EQ(*last - *first, 8u * 40 - 1) << "one a clock";
+  EXPECT_EQ(*last - *first, clients * 40 - 1) << "one a clock";
+}
+TEST(MemoryArbiter, ServesEachOfEightAfterSevenOthers) { expect_served_in_turn({}, 8); }
+TEST(MemoryArbiter, ServesEachOfNineAfterEightOthers) {
+  Parameters p;
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  expect_served_in_turn(p, 9);
+}
+TEST(MemoryArbiter, ServesEachOfTenAfterNineOthers) {
+  Parameters p;
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  p.coarse_lines = spec::geometric::CoarseLines::k4;
+  expect_served_in_turn(p, 10);
 }
 
-TEST(MemoryArbiter, LinksCarryWholeAddressesAndTags) {
-  const EngineBench b;
+void expect_whole_addresses_and_tags(const Parameters& p, std::uint32_t tag_bits) {
+  const EngineBench b(p);
   std::size_t clients = 0, port = 0;
   rtl::for_each<rtl::LinkBase>([&](const rtl::LinkBase& link) {
     const std::string name = link.basename();
@@ -402,10 +417,16 @@ TEST(MemoryArbiter, LinksCarryWholeAddressesAndTags) {
     ++(of_port ? port : clients);
     EXPECT_EQ(link.payload().find("address")->bits, 32u) << name;
     // The client beside its own number.
-    EXPECT_EQ(link.payload().find("tag")->bits, of_port ? 15u : 12u) << name;
+    EXPECT_EQ(link.payload().find("tag")->bits, of_port ? tag_bits : 12u) << name;
   });
   EXPECT_EQ(port, 2u);
-  EXPECT_EQ(clients, 2 * kClients);
+  EXPECT_EQ(clients, 2 * clients_of(p).size());
+}
+TEST(MemoryArbiter, LinksCarryWholeAddressesAndTags) { expect_whole_addresses_and_tags({}, 15); }
+TEST(MemoryArbiter, ANinthClientTakesABitMoreOfTheTag) {
+  Parameters p;
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  expect_whole_addresses_and_tags(p, 16);
 }
 
 // ---- LineWalker
