@@ -61,7 +61,8 @@ class Clocks(unittest.TestCase):
         """The same with the build choices that leave out lines."""
         for passes, name in (("1", "side by side"), ("3", "three on each other")):
             for latency in ("20", "100"):
-                for choices in ("colour_lines=128", "write_buffer=128", "colour_lines=128 write_buffer=128"):
+                for choices in ("colour_lines=128", "records=split", "write_buffer=128",
+                                "records=split colour_lines=128 write_buffer=128"):
                     edges, resolve, work, lines = frame("deburr", "4", "2", "tiled", passes, latency,
                                                         f"coverage=area {choices}")
                     shown = ", ".join(choice.replace("=", " = ") for choice in choices.split())
