@@ -215,23 +215,24 @@ void BlockFetch::reset() {
 }
 
 Datasheet BlockFetch::datasheet() {
-  return {.unit = "BlockFetch",
-          .does = "Brings the weights of a touched block and the lines of colours that it needs.",
-          .latency = {5, "5, and the wait for weights"},
-          .interval = {1, "max(1, lines that are needed) a block"},
-          .stages = {{"1", "tag of the block"},
-                     {"2", "a read of weights ordered; FIFO"},
-                     {"3", "weights of the cache, or the line that came", "SRAM read"},
-                     {"4", "limits of the weights, axis, lines that are needed",
-                      "limits of a weight + 10-bit compare"},
-                     {"5",
-                      "lines that are kept; requests of the others, one or the other a clock, the "
-                      "block with the first",
-                      "`colour_lines`: 23-bit compare"}},
-          .cost =
-              "weights and lines on their way, the FIFO, 16 9-bit compares, a 13 x 10 and a "
-              "11 x 11 multiply. `colour_lines` = N: N lines 1R1W, N compares of 23 bits, the order "
-              "of lines, 9 bits each."};
+  return {
+      .unit = "BlockFetch",
+      .does = "Brings the weights of a touched block and the lines of colours that it needs.",
+      .latency = {5, "5, and the wait for weights"},
+      .interval = {1, "max(1, lines that are needed) a block"},
+      .stages = {{"1", "tag of the block"},
+                 {"2", "a read of weights ordered; FIFO"},
+                 {"3", "weights of the cache, or the line that came", "SRAM read"},
+                 {"4", "limits of the weights, axis, lines that are needed",
+                  "limits of a weight + 10-bit compare"},
+                 {"5",
+                  "lines that are kept; requests of the others, one or the other a clock, the "
+                  "block with the first",
+                  "`colour_lines`: 23-bit compare"}},
+      .cost =
+          "weights and lines on their way, the FIFO, 16 9-bit compares, a 13 x 10 and a "
+          "11 x 11 multiply. `colour_lines` = N: N lines 1R1W, N compares of 23 bits, the order "
+          "of lines, 9 bits each."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -5,9 +5,9 @@
 // Where: between BlockScanner and Resolver, which takes the lines out of the ColourStore. Weights
 // and colours have their places apart: weights of blocks to come cannot take those of the lines
 // that the oldest block waits for. A line that the ColourStore keeps is not asked for. Stalls:
-// `weights` (a block has not come), `colours` (no place for a line), `downstream`. Requests of colours go before those of weights. Whatever memory gives
-// as weights, a pixel takes a half at most of each neighbour, and nothing from outside of the
-// frame.
+// `weights` (a block has not come), `colours` (no place for a line), `downstream`. Requests of
+// colours go before those of weights. Whatever memory gives as weights, a pixel takes a half at
+// most of each neighbour, and nothing from outside of the frame.
 #pragma once
 
 #include <cstdint>

@@ -335,7 +335,8 @@ Activity WeightCombiner::tick(Cycle cycle) {
     did = true;
   }
   fills_.read_ahead(cycle);
-  if (ended_ && writes_ == 0 && !(buffer_ && buffer_->full()) && !drawn_out.driven()) drawn_out.drive(cycle, true);
+  if (ended_ && writes_ == 0 && !(buffer_ && buffer_->full()) && !drawn_out.driven())
+    drawn_out.drive(cycle, true);
   return did ? kBusy : data != kIdle ? data : tags;
 }
 
@@ -373,8 +374,8 @@ Datasheet WeightCombiner::datasheet() {
           "list, 23 bits each, compared with a tag at once: `fills` compares of 23 bits (108 "
           "for a memory of 100 clocks) and a choice of its first free place; two 11 x 11 "
           "multiplies; a lane, of each "
-          "of its two candidates, a 16 : 1 place and an 8-bit compare. `write_buffer` = N: N blocks "
-          "1R1W, N compares of 23 bits, 9 bits more of the FIFO."};
+          "of its two candidates, a 16 : 1 place and an 8-bit compare. `write_buffer` = N: N "
+          "blocks 1R1W, N compares of 23 bits, 9 bits more of the FIFO."};
 }
 
 }  // namespace deburr::rtl::geometric

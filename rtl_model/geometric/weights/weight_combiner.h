@@ -115,9 +115,7 @@ class WeightCombiner final : public Unit {
   bool spill(Lookup& lookup, std::uint32_t tag);
   void write_out(Cycle cycle, const Lookup& lookup, const BlockWeights& block);
   // A block of this token is written to memory.
-  bool writes(const Lookup& lookup) const {
-    return lookup.replaces && (!buffer_ || lookup.writes);
-  }
+  bool writes(const Lookup& lookup) const { return lookup.replaces && (!buffer_ || lookup.writes); }
   void note(std::optional<Cycle> latency) {
     if (latency) edge_latency.record(*latency);
   }
@@ -135,7 +133,7 @@ class WeightCombiner final : public Unit {
   ReadPort<BlockWeights> data_port_{data_, "block"};
   WritePort<BlockWeights> data_write_{data_, "block"};
   FillStore<BlockWeights> fills_;
-  MemoryBase spill_;  // by place: valid and tag, in spilled_
+  MemoryBase spill_;                     // by place: valid and tag, in spilled_
   std::unique_ptr<WriteBuffer> buffer_;  // with write_buffer > 0
   Fifo<Lookup> fifo_;
   Activity stalled_weights_, stalled_fills_, stalled_spill_;

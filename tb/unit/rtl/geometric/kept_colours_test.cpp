@@ -212,7 +212,8 @@ Parameters kept(int lines, Layout layout = Layout::kTiled) {
 }
 // Tiled, 256 pixels across: block (x, y).
 std::uint64_t tiled_line(int x, int y) {
-  return kColours + static_cast<std::uint64_t>(256 * (y / 2 * 32 + x / 2) + 64 * (y % 2 * 2 + x % 2));
+  return kColours +
+         static_cast<std::uint64_t>(256 * (y / 2 * 32 + x / 2) + 64 * (y % 2 * 2 + x % 2));
 }
 
 // Block (x, 1) takes from the left: the line of the block before it, which that has read, and its
@@ -323,10 +324,10 @@ std::vector<LineOfMemory> lines_of(Layout layout, int width, int height, const T
 }
 std::uint64_t address_of(Layout layout, int width, const LineOfMemory& line) {
   const auto [v, u] = line;
-  return kColours + static_cast<std::uint64_t>(
-                        layout == Layout::kTiled
-                            ? 256 * (v / 2 * ((width + 7) / 8) + u / 2) + 64 * (v % 2 * 2 + u % 2)
-                            : 64 * (v * ((width + 15) / 16) + u));
+  return kColours + static_cast<std::uint64_t>(layout == Layout::kTiled
+                                                   ? 256 * (v / 2 * ((width + 7) / 8) + u / 2) +
+                                                         64 * (v % 2 * 2 + u % 2)
+                                                   : 64 * (v * ((width + 15) / 16) + u));
 }
 
 std::string random_blocks(int lines, Layout layout, std::uint64_t seed) {

@@ -25,8 +25,8 @@ struct ResolveBench : Frame {
         combiner("combiner", clock, rtl::geometric::sized(p, {}), edge_latency),
         scanner("scanner", clock, p, combiner.touched_port()),
         colour_store(rtl::geometric::sized(p, {})),
-        fetch("fetch", clock, rtl::geometric::sized(p, {}), combiner.tag_port(), combiner.data_port(),
-              colour_store.filler()),
+        fetch("fetch", clock, rtl::geometric::sized(p, {}), combiner.tag_port(),
+              combiner.data_port(), colour_store.filler()),
         resolver("resolver", clock, p, colour_store.reader()),
         weights("weights"),
         touched("touched"),
@@ -45,8 +45,8 @@ struct ResolveBench : Frame {
     fetch.blocks_in(touched);
     fetch.blocks_out(blocks);
     resolver.blocks_in(blocks);
-    for (rtl::WireIn<rtl::geometric::Phase>* const in : {&combiner.phase_in, &scanner.phase_in,
-                                                    &fetch.phase_in, &resolver.phase_in})
+    for (rtl::WireIn<rtl::geometric::Phase>* const in :
+         {&combiner.phase_in, &scanner.phase_in, &fetch.phase_in, &resolver.phase_in})
       (*in)(phase);
     wire(combiner.cleared_out, &sequencer.weights_cleared_in);
     wire(combiner.drawn_out, &sequencer.drawn_in);

@@ -183,9 +183,8 @@ std::string random_blocks(int places, std::uint32_t latency, int fills, std::uin
   std::set<std::pair<int, int>> cached;
   for (const auto& [index, block] : rule.cache) cached.insert(block);
   for (const auto& [block, bytes] : weights)
-    if (!cached.contains(block) &&
-        b.memory.dump(address_of(block.first, block.second), 64) !=
-            std::vector<std::uint8_t>(bytes.begin(), bytes.end()))
+    if (!cached.contains(block) && b.memory.dump(address_of(block.first, block.second), 64) !=
+                                       std::vector<std::uint8_t>(bytes.begin(), bytes.end()))
       wrong += "weights ";
   if (places > 0 && places < 100 && rule.hits == 0) wrong += "nothing was hit";
   return wrong;
@@ -268,9 +267,7 @@ TEST(WriteBuffer, IsWrittenABlockAClockBehindTheLastToken) {
       const Cycle last = port.got.empty() ? from + 5 : port.got.back();
       return text + "drawn " + std::to_string(port.drawn - last);
     });
-    EXPECT_EQ(got, blocks == 1   ? "drawn 1"
-                   : blocks == 2 ? "7 drawn 1"
-                                 : "7 8 9 10 drawn 1");
+    EXPECT_EQ(got, blocks == 1 ? "drawn 1" : blocks == 2 ? "7 drawn 1" : "7 8 9 10 drawn 1");
   }
 }
 TEST(WriteBuffer, WaitsForTheLinkAtTheEnd) {
