@@ -69,7 +69,7 @@ def faults_that_are_not_found(root):
               ("spec/morphological/shapes.h", '"Z-first-second", Side::kFirst', '"Z-first-second", Side::kSecond'),
               ("docs/reference/morphological/formats.md", "| 1, 1 | (1,0), (1,1) |", "| 1, 1 | (1,1), (1,1) |"),
               ("docs/reference/morphological/smaa.md", "7, 14 read 6;", "7, 14 read 9;"),
-              ("docs/reference/geometric/memories.md", "| `kept` | EdgeClassifier, VertexFetch | 2 |", "| `kept` | EdgeClassifier, NewUnit | 2 |"),
+              ("docs/reference/geometric/memories.md", "| `kept` | EdgeClassifier, PairFetch; ", "| `kept` | EdgeClassifier, NewUnit; "),
               ("docs/howto/which_engine.md", "You have pixels alone: take `morphological`", "You have pixels alone: take both"),
               ("docs/howto/debug_a_mismatch.md", "## 3. Look at the picture", "## 3. Look at the pixel"),
               ("docs/howto/nightly_regression.md", "    coverage: [", "    covered: ["),

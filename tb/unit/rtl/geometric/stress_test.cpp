@@ -82,6 +82,7 @@ struct Builds {
   CacheLines vertices, depths, blocks;
   int fills, fifo, dividers, table;
   bool pipelined;
+  int colour_lines = 0, write_buffer = 0;
 };
 class EveryBuild : public ::testing::TestWithParam<Builds> {};
 
@@ -101,6 +102,8 @@ TEST_P(EveryBuild, GivesTheSamePicture) {
       c.p.dividers = v.dividers;
       c.p.reciprocal_table = v.table;
       c.p.pipelined = v.pipelined;
+      c.p.colour_lines = v.colour_lines;
+      c.p.write_buffer = v.write_buffer;
       c.p.edge_lines = v.fills;
       c.p.resolve_lines = v.fills < 16 ? 16 : v.fills;
       c.p.line_fifo = std::min(v.fifo / 2, 256);
@@ -123,6 +126,12 @@ INSTANTIATE_TEST_SUITE_P(
                              CacheLines::k64, CacheLines::k32, 16, 8, 3, 9, false},
                       Builds{Lanes::kFour, Lanes::kFour, Lanes::kFour, CacheLines::k16,
                              CacheLines::k32, CacheLines::k512, 8, 200, 1, 0, true},
+                      Builds{Lanes::kTwo, Lanes::kFour, Lanes::kTwo, CacheLines::k64,
+                             CacheLines::k64, CacheLines::k16, 8, 128, 1, 0, true, 1, 1},
+                      Builds{Lanes::kTwo, Lanes::kOne, Lanes::kFour, CacheLines::k64,
+                             CacheLines::k64, CacheLines::k16, 100, 4, 1, 0, true, 128, 2},
+                      Builds{Lanes::kTwo, Lanes::kTwo, Lanes::kOne, CacheLines::k64,
+                             CacheLines::k64, CacheLines::k32, 20, 30, 1, 0, true, 256, 128},
                       Builds{Lanes::kOne, Lanes::kFour, Lanes::kTwo, CacheLines::k128,
                              CacheLines::k256, CacheLines::k64, 100, 6, 5, 1, false}));
 
@@ -193,6 +202,8 @@ TEST_P(RandomFrames, InPlaceAndCopiedRowsAndTilesAreTheSame) {
         p.layout = static_cast<spec::geometric::Layout>(variant & 1);
         p.frame_copy = (variant & 2) != 0;
         p.walkers = p.resolve_lanes = static_cast<Lanes>(variant % 3);
+        p.colour_lines = std::array{0, 2, 64, 0, 256, 7}[static_cast<std::size_t>(variant)];
+        p.write_buffer = std::array{0, 0, 3, 128, 1, 9}[static_cast<std::size_t>(variant)];
         if (variant >= 3) p.weight_blocks = p.depth_lines = p.vertex_lines = CacheLines::k16;
         EngineOptions options;
         options.scatter = variant == 4 ? 50 : 0;
