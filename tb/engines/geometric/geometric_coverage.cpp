@@ -27,9 +27,11 @@ constexpr std::array kGroups = {
     CoverageGroup{"geometric/border", "Candidates whose neighbour is outside of the frame."},
     CoverageGroup{"geometric/depth",
                   "Tests against the farther pixel, by which that is and the outcome."},
-    CoverageGroup{"geometric/screen",
-                  "Candidates that the coarse test drops by the side of their neighbour, or keeps "
-                  "just at its bound; the lesser bound of two tiles (coarse_lines)."},
+    CoverageGroup{"geometric/coarse",
+                  "Candidates that the golden model's coarse test drops by the side of their "
+                  "neighbour, or keeps just at its bound; the lesser bound of two tiles "
+                  "(coarse_lines)."},
+    CoverageGroup{"geometric/screen", "The hardware's, the same."},
     CoverageGroup{
         "geometric/crease",
         "Candidates of creases that the other test passed: near enough, or too far before "
@@ -46,9 +48,10 @@ constexpr std::array kGroups = {
                   "and which of two tiles hides less."},
     CoverageGroup{"geometric/look-up", "The hardware's look-ups by cache and outcome."},
     CoverageGroup{"geometric/pair",
-                  "Edges by the array of their pair of vertices: its line is there, or read "
-                  "(records = split). In tests alone: a vertex out of range, and a number beyond "
-                  "the array."},
+                  "The golden model's edges by the array of their pair of vertices: its line is "
+                  "there, or read (records = split). In tests alone: a vertex out of range, and a "
+                  "number beyond the array."},
+    CoverageGroup{"geometric/pair-look-up", "The hardware's, the same."},
     CoverageGroup{"geometric/block", "What the weights of a block met in their cache."},
     CoverageGroup{"geometric/write-buffer",
                   "What blocks met in the write buffer, and how full it was at the end."},
@@ -112,8 +115,8 @@ void cover_screen(Coverage& coverage, const rtl::geometric::GeometricEngine& e) 
 void cover_pairs(Coverage& coverage, const rtl::geometric::GeometricEngine& e) {
   if (!e.pair_fetch) return;
   const auto looked = [&](const char* array, std::uint64_t lookups, std::uint64_t lines) {
-    coverage.hit(fmt::format("geometric/pair/{}/hit", array), lookups - lines);
-    coverage.hit(fmt::format("geometric/pair/{}/miss", array), lines);
+    coverage.hit(fmt::format("geometric/pair-look-up/{}/hit", array), lookups - lines);
+    coverage.hit(fmt::format("geometric/pair-look-up/{}/miss", array), lines);
   };
   const auto& pairs = *e.pair_fetch;
   const std::uint64_t boundaries = pairs.boundary_lookups.value(),
@@ -123,7 +126,7 @@ void cover_pairs(Coverage& coverage, const rtl::geometric::GeometricEngine& e) {
   const std::array counts = {pairs.invalid_edges.value(), e.edge_classifier.unpaired_edges.value()};
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == 0) continue;
-    const std::string bin = fmt::format("geometric/pair/{}", kPairsOutOfRange[i]);
+    const std::string bin = fmt::format("geometric/pair-look-up/{}", kPairsOutOfRange[i]);
     coverage.declare(bin);
     coverage.hit(bin, counts[i]);
   }
@@ -166,7 +169,7 @@ Coverage declared_geometric_coverage() {
       coverage.declare(fmt::format("geometric/look-up/{}/{}", cache, outcome));
   for (const char* const array : {"boundary", "other"})
     for (const char* const outcome : {"hit", "miss"})
-      coverage.declare(fmt::format("geometric/pair/{}/{}", array, outcome));
+      coverage.declare(fmt::format("geometric/pair-look-up/{}/{}", array, outcome));
   for (const std::string_view what : kDroppedSides)
     coverage.declare(fmt::format("geometric/screen/{}", what));
   for (const std::string_view what : kLesserTiles)
@@ -188,7 +191,7 @@ void declare_directed_geometric_coverage(Coverage& coverage) {
   for (const auto& bin : golden::geometric::EdgeCoverage().bins())
     if (is_directed(bin.name)) coverage.declare("geometric/" + bin.name);
   for (const std::string_view what : kPairsOutOfRange)
-    coverage.declare(fmt::format("geometric/pair/{}", what));
+    coverage.declare(fmt::format("geometric/pair-look-up/{}", what));
   for (const std::string_view region : spec::geometric::kRegionNames)
     coverage.declare(fmt::format("geometric/error/{}", region));
   for (std::size_t i = 1; i < spec::geometric::kRefusalNames.size(); ++i)
