@@ -581,7 +581,7 @@ TEST(CoarseDepth, EntriesAreTheLeastOfTheirTiles) {
   d.depths[at(0, 8)] = 0xFFFFFF;
   d.depths[at(15, 8)] = 256;
   d.depths[at(16, 8)] = 0xFFFFFF;  // alone in the frame
-  EXPECT_THAT(golden::geometric::coarse_entries({d.depths, 17, 9}),
+  EXPECT_THAT(golden::geometric::coarse_entries(golden::geometric::DepthView(d.depths, 17, 9)),
               ElementsAre(999, 0, 1000, 1000, 1, 0xFFFF));
 }
 
