@@ -9,10 +9,8 @@ using spec::geometric::EdgeClass;
 using spec::geometric::Select;
 namespace flag = spec::geometric::flag;
 
-bool in_range(Select select, const Edge& edge, std::uint32_t vertex_count,
-              std::uint32_t face_count) {
-  if (edge.v0 >= vertex_count || edge.v1 >= vertex_count) return false;
-  if (select == Select::kAll) return true;
+bool are_faces_there(Select select, const Edge& edge, std::uint32_t face_count) {
+  if (select != Select::kEdges) return true;
   return edge.f0 < face_count && ((edge.flags & flag::kBoundary) != 0 || edge.f1 < face_count);
 }
 
@@ -33,12 +31,20 @@ bool is_crease(Crease crease, std::uint8_t flags) {
 
 EdgeClass classify(const spec::geometric::Rules& rules, const Edge& edge,
                    std::uint32_t vertex_count, const FacingBits& facing) {
-  if (!in_range(rules.select, edge, vertex_count, facing.count)) return EdgeClass::kInvalid;
+  if (!are_vertices_there(edge.v0, edge.v1, vertex_count)) return EdgeClass::kInvalid;
+  return classify_faces(rules, edge, facing);
+}
+
+EdgeClass classify_faces(const spec::geometric::Rules& rules, const Edge& edge,
+                         const FacingBits& facing) {
+  if (!are_faces_there(rules.select, edge, facing.count)) return EdgeClass::kInvalid;
   if ((edge.flags & flag::kBoundary) != 0) return EdgeClass::kBoundary;
   if (rules.select == Select::kAll) return EdgeClass::kUnclassified;
-  const bool first = facing.at(edge.f0), second = facing.at(edge.f1);
-  if (first != second) return EdgeClass::kSilhouette;
-  if (!first && rules.cull == spec::geometric::Cull::kBack) return EdgeClass::kBack;
+  if (rules.select == Select::kEdges) {
+    const bool first = facing.at(edge.f0), second = facing.at(edge.f1);
+    if (first != second) return EdgeClass::kSilhouette;
+    if (!first && rules.cull == spec::geometric::Cull::kBack) return EdgeClass::kBack;
+  }
   return is_crease(rules.crease, edge.flags) ? EdgeClass::kCrease : EdgeClass::kFlat;
 }
 

@@ -21,14 +21,21 @@ struct FacingBits {
   bool at(std::uint32_t face) const { return (bytes[face >> 3] >> (face & 7) & 1) != 0; }
 };
 
-// Whether an edge refers to anything that is not there. Facing bits matter to `edges` alone.
-bool in_range(spec::geometric::Select select, const spec::geometric::Edge& edge,
-              std::uint32_t vertex_count, std::uint32_t face_count);
+// Whether what an edge refers to is there. Facing bits matter to `edges` alone.
+constexpr bool are_vertices_there(std::uint32_t v0, std::uint32_t v1, std::uint32_t vertex_count) {
+  return v0 < vertex_count && v1 < vertex_count;
+}
+bool are_faces_there(spec::geometric::Select select, const spec::geometric::Edge& edge,
+                     std::uint32_t face_count);
 bool is_crease(spec::geometric::Crease crease, std::uint8_t flags);
 // The first class that holds.
 spec::geometric::EdgeClass classify(const spec::geometric::Rules& rules,
                                     const spec::geometric::Edge& edge, std::uint32_t vertex_count,
                                     const FacingBits& facing);
+// The same without a look at the vertices.
+spec::geometric::EdgeClass classify_faces(const spec::geometric::Rules& rules,
+                                          const spec::geometric::Edge& edge,
+                                          const FacingBits& facing);
 constexpr bool is_kept(spec::geometric::EdgeClass c) {
   using spec::geometric::EdgeClass;
   return c == EdgeClass::kBoundary || c == EdgeClass::kUnclassified ||

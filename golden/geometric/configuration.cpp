@@ -20,6 +20,9 @@ Refusal refusal(const spec::geometric::Parameters& p, const FrameCounts& counts)
   if (p.select == spec::geometric::Select::kEdges &&
       counts.face_count > static_cast<std::uint64_t>(p.face_limit))
     return Refusal::kFaceCount;
+  if (p.records == spec::geometric::RecordsLayout::kSplit &&
+      counts.boundary_count > counts.edge_count)
+    return Refusal::kBoundaryCount;
   return Refusal::kNone;
 }
 
@@ -29,7 +32,6 @@ void check_frame(const spec::geometric::Parameters& p, const FrameCounts& counts
   switch (refusal(p, counts)) {
     case Refusal::kNone:
     case Refusal::kDisabled:
-    case Refusal::kBoundaryCount:  // a register alone has it
       return;
     case Refusal::kSize:
       throw spec::ConfigError(frame + "; 1..8192 each way are possible");
@@ -51,6 +53,9 @@ void check_frame(const spec::geometric::Parameters& p, const FrameCounts& counts
       throw spec::ConfigError(std::to_string(counts.face_count) +
                               " faces, the build holds the facing bits of " +
                               std::to_string(p.face_limit) + "; raise face_limit");
+    case Refusal::kBoundaryCount:
+      throw spec::ConfigError(std::to_string(counts.boundary_count) + " boundaries of " +
+                              std::to_string(counts.edge_count) + " edges");
   }
 }
 

@@ -16,6 +16,7 @@ using spec::geometric::preset_parameters;
 struct FrameCounts {
   int width = 0, height = 0;                                       // pixels
   std::uint64_t edge_count = 0, vertex_count = 0, face_count = 0;  // records, facing bits
+  std::uint64_t boundary_count = 0;                                // of the edges
 };
 
 // Why the engine rejects a start: the first reason that holds. Never kDisabled, which is not a

@@ -37,8 +37,13 @@ constexpr std::array<std::string_view, 2> kBlocks = {"same", "other"};
 constexpr std::array<std::string_view, 6> kWeights = {"raised",      "kept",    "equal",
                                                       "overwritten", "lowered", "held"};
 constexpr std::array<std::string_view, 4> kGroups = {"length", "across", "along", "line"};
-constexpr std::array<std::string_view, 3> kCaches = {"vertex", "depth", "block"};
+constexpr std::array<std::string_view, 4> kCaches = {"vertex", "depth", "block", "colour"};
 constexpr std::array<std::string_view, 4> kFetches = {"hit", "miss", "replaced", "read-back"};
+constexpr std::array<std::string_view, 6> kPairs = {
+    "boundary/hit", "boundary/miss", "other/hit", "other/miss", "number/invalid", "vertex/invalid"};
+constexpr std::array<std::string_view, 5> kBuffered = {"hit", "empty-place", "leaves", "end-full",
+                                                       "end-part"};
+constexpr std::array<std::string_view, 2> kTwoTiles = {"own", "other"};
 constexpr std::array<std::string_view, 3> kTaps = {"up-down", "left-right", "tie"};
 constexpr std::array<std::string_view, 3> kOriginals = {"none", "above", "left"};
 
@@ -56,7 +61,8 @@ bool reachable(Select select, Crease crease, EdgeClass c) {
   if (c == EdgeClass::kInvalid || c == EdgeClass::kBoundary) return true;
   if (select == Select::kAll) return c == EdgeClass::kUnclassified;
   if (c == EdgeClass::kCrease) return crease != Crease::kOff;
-  return c != EdgeClass::kUnclassified;
+  if (c == EdgeClass::kFlat) return true;
+  return select == Select::kEdges && c != EdgeClass::kUnclassified;
 }
 
 }  // namespace
@@ -160,6 +166,12 @@ void EdgeCoverage::for_each_bin(const BinSink& sink) const {
     for (std::size_t k = 0; k < kFetches.size(); ++k)
       if (kFetches[k] != "read-back" || kCaches[i] == "block")
         sink(slash({"fetch", kCaches[i], kFetches[k]}), fetches_[i][k]);
+  list("pair", kPairs, pairs_);
+  list("write-buffer", kBuffered, buffered_);
+  for (std::size_t i = 0; i < kBorders.size(); ++i)
+    sink(slash({"coarse", kBorders[i], "dropped"}), dropped_[i]);
+  sink("coarse/equal", coarse_equal_);
+  list("coarse/lesser", kTwoTiles, two_tiles_);
   list("resolve", kTaps, taps_);
   list("original", kOriginals, originals_);
   for (std::size_t layout = 0; layout < block_lines_.size(); ++layout) {
@@ -194,6 +206,11 @@ void EdgeCoverage::for_each_table(EdgeCoverage& a, const EdgeCoverage& b, Visit&
   visit(a.weights_, b.weights_);
   visit(a.groups_, b.groups_);
   visit(a.fetches_, b.fetches_);
+  visit(a.pairs_, b.pairs_);
+  visit(a.buffered_, b.buffered_);
+  visit(a.dropped_, b.dropped_);
+  visit(a.coarse_equal_, b.coarse_equal_);
+  visit(a.two_tiles_, b.two_tiles_);
   visit(a.taps_, b.taps_);
   visit(a.originals_, b.originals_);
   visit(a.block_lines_, b.block_lines_);

@@ -15,7 +15,10 @@
 //   second/<direction>/<block>           of second candidates: the first one's block or another
 //   weight/<direction>/<outcome>
 //   group/<end>                          what ended a group of columns
-//   fetch/<cache>/<outcome>
+//   fetch/<cache>/<outcome>              of look-ups; of colours that the resolve keeps, too
+//   pair/<array>/<outcome>               of vertices apart from their faces, and what is invalid
+//   write-buffer/<outcome>
+//   coarse/<direction>/dropped           of the coarse test of depth; kept at equality; two tiles
 //   resolve/<decision>, original/<where>
 //   lines/<layout>/<n>                   of colours of a block
 // Every bin can be reached (tb/unit/golden/geometric/coverage_test.cpp).
@@ -43,7 +46,17 @@ struct CoverageBin {
 
 enum class GroupEnd : std::uint8_t { kLength, kAcross, kAlong, kLine };
 enum class Fetch : std::uint8_t { kHit, kMiss, kReplaced, kReadBack };
-enum class CacheKind : std::uint8_t { kVertex, kDepth, kBlock };
+enum class CacheKind : std::uint8_t { kVertex, kDepth, kBlock, kColour };
+enum class PairFetch : std::uint8_t {
+  kBoundaryHit,
+  kBoundaryMiss,
+  kOtherHit,
+  kOtherMiss,
+  kInvalidNumber,
+  kInvalidVertex
+};
+enum class Buffered : std::uint8_t { kHit, kEmptyPlace, kLeaves, kEndFull, kEndPart };
+enum class TwoTiles : std::uint8_t { kOwnLess, kOtherLess };
 enum class Original : std::uint8_t { kNone, kAbove, kLeft };
 
 class EdgeCoverage {
@@ -70,6 +83,11 @@ class EdgeCoverage {
                     int coverage);
   void count_group(GroupEnd end) { ++groups_[index(end)]; }
   void count_fetch(CacheKind cache, Fetch outcome) { ++fetches_[index(cache)][index(outcome)]; }
+  void count_pair(PairFetch outcome) { ++pairs_[index(outcome)]; }
+  void count_buffered(Buffered outcome) { ++buffered_[index(outcome)]; }
+  void count_dropped(spec::geometric::Direction direction) { ++dropped_[index(direction)]; }
+  void count_coarse_equal() { ++coarse_equal_; }
+  void count_two_tiles(TwoTiles which) { ++two_tiles_[index(which)]; }
   void count_tap(const spec::geometric::Weights& weights);
   void count_original(Original where) { ++originals_[index(where)]; }
   void count_block_lines(spec::geometric::Layout layout, std::size_t lines) {
@@ -94,7 +112,7 @@ class EdgeCoverage {
   template <class Visit>
   static void for_each_table(EdgeCoverage& a, const EdgeCoverage& b, Visit&& visit);
 
-  std::array<std::array<std::array<std::uint64_t, 7>, 3>, 2> classes_{};
+  std::array<std::array<std::array<std::uint64_t, 7>, 3>, 3> classes_{};
   std::array<std::uint64_t, 3> turned_away_{};
   std::array<std::array<std::uint64_t, 3>, 8> lines_{};
   std::array<std::uint64_t, 6> fates_{};
@@ -106,7 +124,12 @@ class EdgeCoverage {
   std::array<std::array<std::uint64_t, 2>, 4> creases_{}, seconds_{};
   std::array<std::array<std::uint64_t, 6>, 4> weights_{};
   std::array<std::uint64_t, 4> groups_{};
-  std::array<std::array<std::uint64_t, 4>, 3> fetches_{};
+  std::array<std::array<std::uint64_t, 4>, 4> fetches_{};
+  std::array<std::uint64_t, 6> pairs_{};
+  std::array<std::uint64_t, 5> buffered_{};
+  std::array<std::uint64_t, 4> dropped_{};
+  std::uint64_t coarse_equal_ = 0;
+  std::array<std::uint64_t, 2> two_tiles_{};
   std::array<std::uint64_t, 3> taps_{};
   std::array<std::uint64_t, 3> originals_{};
   std::array<std::array<std::uint64_t, kMaxBlockLines + 1>, 2> block_lines_{};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <string>
 
 #include "golden/geometric/line.h"
@@ -36,10 +37,6 @@ void check_view(const morphological::ViewOf<Pixel>& view, int width, int height,
                    std::to_string(width) + " x " + std::to_string(height));
 }
 
-std::uint32_t lines_of(std::size_t records, std::size_t in_line) {
-  return static_cast<std::uint32_t>((records + in_line - 1) / in_line);
-}
-
 // The few lines of a block, by v, then u.
 class LineSet {
  public:
@@ -71,12 +68,14 @@ int cache_bits(spec::geometric::CacheLines lines) {
 GeometricGolden::GeometricGolden(const spec::geometric::Parameters& parameters, Detail detail)
     : parameters_(parameters), everything_(detail == Detail::kEverything) {
   check_build(parameters);
+  split_ = parameters.records == spec::geometric::RecordsLayout::kSplit;
   lanes_ = spec::geometric::kLaneCount[static_cast<std::size_t>(parameters.walkers)];
 }
 
 const std::vector<Rgba8>& GeometricGolden::process(const FrameInput& input) {
   start(input);
   for (const Edge& edge : input_.edges) draw_edge(edge);
+  if (follow_) empty_write_buffer();
   for (int by = 0; by < layout_.block_rows(); ++by) {
     const std::uint8_t* row = touched_.data() + std::ptrdiff_t{by} * layout_.block_columns();
     for (int bx = 0; bx < layout_.block_columns(); ++bx) {
@@ -88,8 +87,11 @@ const std::vector<Rgba8>& GeometricGolden::process(const FrameInput& input) {
 }
 
 void GeometricGolden::start(const FrameInput& input) {
+  const std::uint32_t boundaries = !split_                ? 0
+                                   : input.boundary_count ? *input.boundary_count
+                                                          : count_boundaries(input.edges);
   check_frame(parameters_, {input.image.width, input.image.height, input.edges.size(),
-                            input.vertices.size(), input.facing.count});
+                            input.vertices.size(), input.facing.count, boundaries});
   input_ = input;
   width_ = input.image.width;
   height_ = input.image.height;
@@ -99,12 +101,11 @@ void GeometricGolden::start(const FrameInput& input) {
   DEBURR_CHECK(input.facing.bytes.size() >= (std::size_t{input.facing.count} + 7) / 8,
                "facing bits of " + std::to_string(input.facing.count) + " faces in " +
                    std::to_string(input.facing.bytes.size()) + " bytes");
-  for (const std::uint32_t base :
-       {input.bases.edges, input.bases.vertices, input.bases.facing, input.bases.depth,
-        input.bases.colour, input.bases.weights, input.bases.copy}) {
-    DEBURR_CHECK(base % spec::geometric::kLineBytes == 0,
-                 "base address " + std::to_string(base) + " is not a multiple of 64");
-  }
+  coarse_layout_ = CoarseLayout(width_, height_);
+  DEBURR_CHECK(input.coarse.empty() || input.coarse.size() == coarse_layout_.tiles(),
+               std::to_string(input.coarse.size()) + " entries of coarse depth for " +
+                   std::to_string(coarse_layout_.tiles()) + " tiles");
+  check_bases();
   work_ = {};
   traffic_.clear();
   classes_.clear();
@@ -118,19 +119,47 @@ void GeometricGolden::start(const FrameInput& input) {
                       static_cast<std::size_t>(layout_.block_rows());
   touched_.assign(blocks, 0);
   weights_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), {});
-  if (follow_) {
-    vertex_cache_.reset(cache_bits(parameters_.vertex_lines), cache_bits(parameters_.vertex_lines));
-    const int depth_bits = cache_bits(parameters_.depth_lines);
-    depth_cache_.reset(depth_bits, depth_column_bits(parameters_.layout, depth_bits));
-    const int block_bits = cache_bits(parameters_.weight_blocks);
-    block_cache_.reset(block_bits, block_column_bits(block_bits));
+  if (split_) pairs_ = split_pairs(input.edges, boundaries, input.bases);
+  // Entries that are made from the depths drop nothing that they let pass.
+  screen_ = parameters_.coarse_lines != spec::geometric::CoarseLines::kNone &&
+            (follow_ || !input.coarse.empty());
+  if (screen_ && input.coarse.empty()) {
+    coarse_ = coarse_entries(input.depth);
+  } else if (screen_) {
+    coarse_.assign(input.coarse.begin(), input.coarse.end());
   }
+  if (follow_) start_traffic();
   pixels_.resize(weights_.size());
   for (int y = 0; y < height_; ++y) {
     std::copy_n(input.image.row(y), width_,
                 pixels_.begin() + static_cast<std::ptrdiff_t>(y) * width_);
   }
   if (error_) read_with_errors();
+}
+
+void GeometricGolden::check_bases() const {
+  const Bases& b = input_.bases;
+  for (const std::uint32_t base : {b.edges, b.vertices, b.facing, b.depth, b.colour, b.weights,
+                                   b.copy, b.pairs, b.coarse, b.other_pairs.value_or(0)}) {
+    DEBURR_CHECK(base % spec::geometric::kLineBytes == 0,
+                 "base address " + std::to_string(base) + " is not a multiple of 64");
+  }
+}
+
+void GeometricGolden::start_traffic() {
+  vertex_cache_.reset(cache_bits(parameters_.vertex_lines), cache_bits(parameters_.vertex_lines));
+  const int depth_bits = cache_bits(parameters_.depth_lines);
+  depth_cache_.reset(depth_bits, depth_column_bits(parameters_.layout, depth_bits));
+  const int block_bits = cache_bits(parameters_.weight_blocks);
+  block_cache_.reset(block_bits, block_column_bits(block_bits));
+  write_buffer_.reset(parameters_.write_buffer);
+  if (screen_) {
+    const int bits = std::countr_zero(
+        spec::geometric::kCoarseLineCount[static_cast<std::size_t>(parameters_.coarse_lines)]);
+    coarse_cache_.reset(bits, block_column_bits(bits));
+  }
+  if (parameters_.colour_lines > 0)
+    kept_colours_.reset(layout_.bytes() / spec::geometric::kLineBytes, parameters_.colour_lines);
 }
 
 // Lines that memory cannot read are zeros.
@@ -142,7 +171,7 @@ void GeometricGolden::read_with_errors() {
   };
   read_edges_.assign(input_.edges.begin(), input_.edges.end());
   for (std::size_t i = 0; i < read_edges_.size(); ++i)
-    if (bad(bases.edges + record(i, spec::geometric::kEdgesInLine))) read_edges_[i] = {};
+    if (bad(bases.edges + record(i, edges_in_line()))) read_edges_[i] = {};
   read_vertices_.assign(input_.vertices.begin(), input_.vertices.end());
   for (std::size_t i = 0; i < read_vertices_.size(); ++i)
     if (bad(bases.vertices + record(i, spec::geometric::kVerticesInLine))) read_vertices_[i] = {};
@@ -161,6 +190,10 @@ void GeometricGolden::read_with_errors() {
         read_image_[i] = {};
     }
   }
+  for (std::uint32_t ty = 0, i = 0; screen_ && i < coarse_.size(); ++ty)
+    for (std::uint32_t tx = 0; tx < coarse_layout_.columns(); ++tx, ++i)
+      if (bad(bases.coarse + coarse_layout_.offset_of(CoarseLayout::line_of({tx, ty}))))
+        coarse_[i] = 0;
   input_.edges = read_edges_;
   input_.vertices = read_vertices_;
   input_.facing.bytes = read_facing_;
@@ -170,41 +203,24 @@ void GeometricGolden::read_with_errors() {
 
 void GeometricGolden::draw_edge(const Edge& edge) {
   ++work_.edges;
-  const EdgeClass c = classify(parameters_, edge,
-                               static_cast<std::uint32_t>(input_.vertices.size()), input_.facing);
-  switch (c) {
-    case EdgeClass::kInvalid:
-      ++work_.invalid_edges;
-      break;
-    case EdgeClass::kBoundary:
-      ++work_.boundary_edges;
-      break;
-    case EdgeClass::kSilhouette:
-      ++work_.silhouette_edges;
-      break;
-    case EdgeClass::kBack:
-      ++work_.back_edges;
-      break;
-    case EdgeClass::kCrease:
-      ++work_.crease_edges;
-      break;
-    case EdgeClass::kFlat:
-      ++work_.flat_edges;
-      break;
-    case EdgeClass::kUnclassified:
-      break;
+  const auto vertices = static_cast<std::uint32_t>(input_.vertices.size());
+  const EdgeClass c = split_ ? classify_faces(parameters_, edge, input_.facing)
+                             : classify(parameters_, edge, vertices, input_.facing);
+  count_class(edge, c);
+  Pair pair{edge.v0, edge.v1};
+  bool kept = is_kept(c);
+  if (split_) {
+    const std::size_t array = array_of(edge.flags);
+    const std::uint32_t number = pairs_[array].next++;
+    const bool invalid = kept && !fetch_pair(array, number, pair);
+    if (invalid) ++work_.invalid_edges;
+    kept = kept && !invalid;
   }
-  if (everything_) {
-    classes_.push_back(c);
-    coverage_.count_class(parameters_, c);
-    const bool two_faces =
-        c == EdgeClass::kBack || c == EdgeClass::kCrease || c == EdgeClass::kFlat;
-    if (two_faces && !input_.facing.at(edge.f0)) coverage_.count_turned_away(parameters_.cull, c);
-  }
-  if (!is_kept(c)) return;
+  if (everything_) classes_.push_back(kept || !is_kept(c) ? c : EdgeClass::kInvalid);
+  if (!kept) return;
   ++work_.kept_edges;
-  if (follow_) fetch_vertices(edge);
-  const Vertex &p = input_.vertices[edge.v0], &q = input_.vertices[edge.v1];
+  if (follow_) fetch_vertices(pair);
+  const Vertex &p = input_.vertices[pair.v0], &q = input_.vertices[pair.v1];
   LineRecord line;
   const LineFate fate = set_up_line(p, q, width_, height_, line);
   if (everything_) coverage_.count_fate(fate);
@@ -237,7 +253,64 @@ void GeometricGolden::draw_edge(const Edge& edge) {
   }
 }
 
-void GeometricGolden::fetch_vertices(const Edge& edge) {
+void GeometricGolden::count_class(const Edge& edge, EdgeClass c) {
+  switch (c) {
+    case EdgeClass::kInvalid:
+      ++work_.invalid_edges;
+      break;
+    case EdgeClass::kBoundary:
+      ++work_.boundary_edges;
+      break;
+    case EdgeClass::kSilhouette:
+      ++work_.silhouette_edges;
+      break;
+    case EdgeClass::kBack:
+      ++work_.back_edges;
+      break;
+    case EdgeClass::kCrease:
+      ++work_.crease_edges;
+      break;
+    case EdgeClass::kFlat:
+      ++work_.flat_edges;
+      break;
+    case EdgeClass::kUnclassified:
+      break;
+  }
+  if (everything_) {
+    coverage_.count_class(parameters_, c);
+    const bool two_faces =
+        parameters_.select == spec::geometric::Select::kEdges &&
+        (c == EdgeClass::kBack || c == EdgeClass::kCrease || c == EdgeClass::kFlat);
+    if (two_faces && !input_.facing.at(edge.f0)) coverage_.count_turned_away(parameters_.cull, c);
+  }
+}
+
+// False if its number or a vertex is not there.
+bool GeometricGolden::fetch_pair(std::size_t array, std::uint32_t number, Pair& pair) {
+  PairArray& from = pairs_[array];
+  const auto count = [&](PairFetch outcome) {
+    if (everything_) coverage_.count_pair(outcome);
+  };
+  if (number >= from.count) {
+    count(PairFetch::kInvalidNumber);
+    return false;
+  }
+  const std::uint32_t line = number / std::uint32_t{spec::geometric::kSplitInLine};
+  const std::uint32_t address = from.base + line * spec::geometric::kLineBytes;
+  const bool hit = line == from.last_line;
+  if (follow_ && !hit) traffic_.read(Region::kPairs).push_back(address);
+  from.last_line = line;
+  count(array == 0 ? (hit ? PairFetch::kBoundaryHit : PairFetch::kBoundaryMiss)
+                   : (hit ? PairFetch::kOtherHit : PairFetch::kOtherMiss));
+  // Behind the array, where registers, flags and memory do not agree, nothing was written.
+  pair = bad(address) || number >= from.pairs.size() ? Pair{} : from.pairs[number];
+  const auto vertices = static_cast<std::uint32_t>(input_.vertices.size());
+  if (are_vertices_there(pair.v0, pair.v1, vertices)) return true;
+  count(PairFetch::kInvalidVertex);
+  return false;
+}
+
+void GeometricGolden::fetch_vertices(const Pair& pair) {
   const auto fetch = [&](std::uint32_t line) {
     std::uint64_t replaced = 0;
     const bool hit = vertex_cache_.look_up(line, 0, replaced);
@@ -249,8 +322,8 @@ void GeometricGolden::fetch_vertices(const Edge& edge) {
                                     : replaced == DirectMapped::kNothing ? Fetch::kMiss
                                                                          : Fetch::kReplaced);
   };
-  const std::uint32_t first = edge.v0 / spec::geometric::kVerticesInLine;
-  const std::uint32_t second = edge.v1 / spec::geometric::kVerticesInLine;
+  const std::uint32_t first = pair.v0 / spec::geometric::kVerticesInLine;
+  const std::uint32_t second = pair.v1 / spec::geometric::kVerticesInLine;
   fetch(first);
   if (second != first) fetch(second);
 }
@@ -291,7 +364,9 @@ void GeometricGolden::walk(const LineRecord& line) {
     const int nx = horizontal ? c : neighbour, ny = horizontal ? neighbour : c;
     std::uint32_t own = 0, other = 0;
     bool passed = true;
-    if (test) {
+    if (test && screen_ && is_dropped_early<kFollow>(x, y, nx, ny, to, at.depth)) {
+      passed = false;
+    } else if (test) {
       own = input_.depth.at(x, y) & 0xFFFFFF;
       other = input_.depth.at(nx, ny) & 0xFFFFFF;
       passed = passes(parameters_, line.crease, at.depth, own, other);
@@ -331,6 +406,35 @@ void GeometricGolden::add_candidate(int x, int y, Direction to, int share, std::
   combine(parameters_.combine, nearer, weights, to, static_cast<std::uint8_t>(share));
 }
 
+template <bool kFollow>
+bool GeometricGolden::is_dropped_early(int x, int y, int nx, int ny, Direction to,
+                                       std::uint32_t depth) {
+  const CoarseLayout::Tile own = CoarseLayout::tile_of(x, y), other = CoarseLayout::tile_of(nx, ny);
+  const bool two = parameters_.depth_test == spec::geometric::DepthTest::kFarther && other != own;
+  const std::uint16_t first = coarse_[coarse_layout_.index_of(own)];
+  const std::uint16_t second = two ? coarse_[coarse_layout_.index_of(other)] : first;
+  const std::uint16_t entry = std::min(first, second);
+  const bool dropped = is_dropped(parameters_, depth, entry);
+  if (!kFollow) return dropped;
+  const LineOfPixels line = CoarseLayout::line_of(own);
+  fetch_coarse(line);
+  if (two && CoarseLayout::line_of(other) != line) fetch_coarse(CoarseLayout::line_of(other));
+  if (!everything_) return dropped;
+  if (dropped) coverage_.count_dropped(to);
+  // The least depth that is not dropped.
+  if (!dropped && depth > 0 && is_dropped(parameters_, depth - 1, entry))
+    coverage_.count_coarse_equal();
+  if (first != second)
+    coverage_.count_two_tiles(first < second ? TwoTiles::kOwnLess : TwoTiles::kOtherLess);
+  return dropped;
+}
+
+void GeometricGolden::fetch_coarse(const LineOfPixels& line) {
+  std::uint64_t replaced = 0;
+  if (coarse_cache_.look_up(line.u, line.v, replaced)) return;
+  traffic_.read(Region::kCoarse).push_back(input_.bases.coarse + coarse_layout_.offset_of(line));
+}
+
 void GeometricGolden::count_test(const LineRecord& line, Direction to, std::uint32_t depth,
                                  std::uint32_t own, std::uint32_t other) {
   const bool seen = is_seen(parameters_, depth, own, other);
@@ -367,10 +471,18 @@ void GeometricGolden::look_up_block(std::uint32_t bx, std::uint32_t by) {
     count_fetch(CacheKind::kBlock, Fetch::kHit);
     return;
   }
+  const auto count = [&](Buffered outcome) {
+    if (everything_ && !write_buffer_.empty()) coverage_.count_buffered(outcome);
+  };
   if (replaced != DirectMapped::kNothing) {
-    traffic_.write(Region::kWeights)
-        .push_back(block_address(DirectMapped::u_of(replaced), DirectMapped::v_of(replaced)));
     count_fetch(CacheKind::kBlock, Fetch::kReplaced);
+    if (write_buffer_.exchange(DirectMapped::tag_of(bx, by), replaced)) {
+      count(Buffered::kHit);
+      return;
+    }
+    const std::uint64_t leaving = write_buffer_.push(replaced);
+    count(leaving == WriteBuffer::kNothing ? Buffered::kEmptyPlace : Buffered::kLeaves);
+    if (leaving != WriteBuffer::kNothing) write_block(leaving);
   }
   const std::size_t block = by * static_cast<std::size_t>(layout_.block_columns()) + bx;
   if (touched_[block] == 0) {
@@ -381,6 +493,20 @@ void GeometricGolden::look_up_block(std::uint32_t bx, std::uint32_t by) {
   const std::uint32_t address = block_address(bx, by);
   traffic_.read(Region::kWeights).push_back(address);
   if (bad(address)) forget_block(static_cast<int>(bx), static_cast<int>(by));
+}
+
+void GeometricGolden::write_block(std::uint64_t tag) {
+  traffic_.write(Region::kWeights)
+      .push_back(block_address(DirectMapped::u_of(tag), DirectMapped::v_of(tag)));
+}
+
+// So that the resolve finds every block in the cache or in memory.
+void GeometricGolden::empty_write_buffer() {
+  const std::vector<std::uint64_t> blocks = write_buffer_.remaining();
+  for (const std::uint64_t block : blocks) write_block(block);
+  if (!everything_ || blocks.empty()) return;
+  const bool full = blocks.size() == static_cast<std::size_t>(parameters_.write_buffer);
+  coverage_.count_buffered(full ? Buffered::kEndFull : Buffered::kEndPart);
 }
 
 void GeometricGolden::forget_block(int bx, int by) {
@@ -438,10 +564,7 @@ void GeometricGolden::resolve_block(int bx, int by) {
     }
   }
   if (!follow_) return;
-  const bool copied = parameters_.frame_copy;
-  Traffic::List& reads = traffic_.read(copied ? Region::kCopy : Region::kColour);
-  for (const LineOfPixels& line : read)
-    reads.push_back((copied ? input_.bases.copy : input_.bases.colour) + layout_.offset_of(line));
+  for (const LineOfPixels& line : read) read_colours(line);
   for (const LineOfPixels& line : written)
     traffic_.write(Region::kColour).push_back(input_.bases.colour + layout_.offset_of(line));
   if (!everything_) return;
@@ -449,15 +572,28 @@ void GeometricGolden::resolve_block(int bx, int by) {
   blocks_.push_back(record);
 }
 
+void GeometricGolden::read_colours(const LineOfPixels& line) {
+  const bool copied = parameters_.frame_copy;
+  const std::uint32_t offset = layout_.offset_of(line);
+  if (parameters_.colour_lines > 0) {
+    const bool full = kept_colours_.is_full();
+    const bool hit = kept_colours_.look_up(offset / spec::geometric::kLineBytes);
+    count_fetch(CacheKind::kColour, hit ? Fetch::kHit : full ? Fetch::kReplaced : Fetch::kMiss);
+    if (hit) return;
+  }
+  traffic_.read(copied ? Region::kCopy : Region::kColour)
+      .push_back((copied ? input_.bases.copy : input_.bases.colour) + offset);
+}
+
 void GeometricGolden::finish_traffic() {
   const Bases& bases = input_.bases;
-  using spec::geometric::kEdgesInLine, spec::geometric::kFacesInLine, spec::geometric::kLineBytes;
+  using spec::geometric::kFacesInLine, spec::geometric::kLineBytes;
   if (parameters_.select == spec::geometric::Select::kEdges) {
     Traffic::append_lines(traffic_.read(Region::kFaces), bases.facing,
-                          lines_of(input_.facing.count, kFacesInLine));
+                          lines_of(input_.facing.count, std::uint32_t{kFacesInLine}));
   }
   Traffic::append_lines(traffic_.read(Region::kEdges), bases.edges,
-                        lines_of(input_.edges.size(), kEdgesInLine));
+                        lines_of(static_cast<std::uint32_t>(input_.edges.size()), edges_in_line()));
   if (parameters_.frame_copy) {
     const std::uint32_t lines = layout_.bytes() / kLineBytes;
     Traffic::append_lines(traffic_.read(Region::kColour), bases.colour, lines);

@@ -11,13 +11,16 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "golden/geometric/classify.h"
+#include "golden/geometric/coarse.h"
 #include "golden/geometric/configuration.h"
 #include "golden/geometric/edge_coverage.h"
+#include "golden/geometric/pairs.h"
 #include "golden/geometric/traffic.h"
 #include "golden/morphological/planes.h"
 #include "spec/geometric/packets.h"
@@ -27,7 +30,6 @@
 namespace deburr::golden::geometric {
 
 using ImageView = morphological::ViewOf<spec::geometric::Rgba8>;
-using DepthView = morphological::ViewOf<std::uint32_t>;  // U24 in bits 23..0, the rest is ignored
 
 // What the engine finds in memory, and where. Views and spans are someone else's.
 struct FrameInput {
@@ -37,6 +39,10 @@ struct FrameInput {
   std::span<const spec::geometric::Vertex> vertices;
   FacingBits facing;
   Bases bases = {};
+  // BOUNDARY_COUNT; what the edges say, if it is not given. With split records alone.
+  std::optional<std::uint32_t> boundary_count = {};
+  // Coarse depth, by CoarseLayout::index_of(); what the depths say, if it is empty.
+  std::span<const std::uint16_t> coarse = {};
 };
 
 class GeometricGolden {
@@ -60,7 +66,8 @@ class GeometricGolden {
   const std::vector<spec::geometric::Weights>& weights() const { return weights_; }
   // Counters of this frame alone; hardware adds up until its counters are cleared.
   const spec::geometric::Work& work() const { return work_; }
-  // With kEverything, else empty; each in order.
+  // With kEverything, else empty; each in order. Split records: an edge whose vertices are not
+  // there is invalid here, and counted in its class, too.
   const std::vector<spec::geometric::EdgeClass>& classes() const { return classes_; }
   const std::vector<spec::geometric::LineRecord>& lines() const { return lines_; }
   const std::vector<spec::geometric::Candidate>& candidates() const { return candidates_; }
@@ -81,9 +88,13 @@ class GeometricGolden {
 
  private:
   void start(const FrameInput& input);
+  void start_traffic();
+  void check_bases() const;
   void read_with_errors();
   void draw_edge(const spec::geometric::Edge& edge);
-  void fetch_vertices(const spec::geometric::Edge& edge);
+  void count_class(const spec::geometric::Edge& edge, spec::geometric::EdgeClass c);
+  bool fetch_pair(std::size_t array, std::uint32_t number, Pair& pair);
+  void fetch_vertices(const Pair& pair);
   void count_fetch(CacheKind cache, Fetch outcome) {
     if (everything_) coverage_.count_fetch(cache, outcome);
   }
@@ -92,10 +103,17 @@ class GeometricGolden {
   template <bool kFollow>
   void add_candidate(int x, int y, spec::geometric::Direction to, int share, std::uint32_t depth,
                      bool passed, bool nearer);
+  template <bool kFollow>
+  bool is_dropped_early(int x, int y, int nx, int ny, spec::geometric::Direction to,
+                        std::uint32_t depth);
+  void fetch_coarse(const LineOfPixels& line);
   void count_test(const spec::geometric::LineRecord& line, spec::geometric::Direction to,
                   std::uint32_t depth, std::uint32_t own, std::uint32_t other);
   void fetch_depth(int x, int y, int nx, int ny);
   void look_up_block(std::uint32_t bx, std::uint32_t by);
+  void write_block(std::uint64_t tag);
+  void empty_write_buffer();
+  void read_colours(const LineOfPixels& line);
   void forget_block(int bx, int by);
   void resolve_block(int bx, int by);
   void finish_traffic();
@@ -103,6 +121,9 @@ class GeometricGolden {
   const spec::geometric::Weights& weights_at(int x, int y) const {
     return weights_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                     static_cast<std::size_t>(x)];
+  }
+  std::uint32_t edges_in_line() const {
+    return split_ ? spec::geometric::kSplitInLine : spec::geometric::kEdgesInLine;
   }
   std::uint32_t block_address(std::uint32_t bx, std::uint32_t by) const;
 
@@ -119,7 +140,17 @@ class GeometricGolden {
   std::vector<std::uint8_t> touched_;  // by block
   spec::geometric::Work work_;
 
-  DirectMapped vertex_cache_, depth_cache_, block_cache_;
+  // With split records.
+  bool split_ = false;
+  std::array<PairArray, 2> pairs_;
+  // With a coarse test.
+  bool screen_ = false;
+  CoarseLayout coarse_layout_;
+  std::vector<std::uint16_t> coarse_;
+
+  DirectMapped vertex_cache_, depth_cache_, block_cache_, coarse_cache_;
+  WriteBuffer write_buffer_;
+  KeptLines kept_colours_;
   Traffic traffic_;
   std::vector<spec::geometric::EdgeClass> classes_;
   std::vector<spec::geometric::LineRecord> lines_;

@@ -2,6 +2,7 @@
 #include "golden/geometric/traffic.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace deburr::golden::geometric {
 
@@ -37,6 +38,29 @@ int block_column_bits(int bits) { return (bits + 1) / 2; }
 int depth_column_bits(Layout layout, int bits) {
   return layout == Layout::kTiled ? block_column_bits(bits)
                                   : std::max(1, block_column_bits(bits) - 2);
+}
+
+bool WriteBuffer::exchange(std::uint64_t wanted, std::uint64_t replaced) {
+  const auto place = std::find(blocks_.begin(), blocks_.end(), wanted);
+  if (place == blocks_.end()) return false;
+  *place = replaced;
+  return true;
+}
+
+std::uint64_t WriteBuffer::push(std::uint64_t replaced) {
+  if (blocks_.empty()) return replaced;
+  std::swap(blocks_[next_], replaced);
+  next_ = (next_ + 1) % blocks_.size();
+  return replaced;
+}
+
+std::vector<std::uint64_t> WriteBuffer::remaining() const {
+  std::vector<std::uint64_t> left;
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const std::uint64_t block = blocks_[(next_ + i) % blocks_.size()];
+    if (block != kNothing) left.push_back(block);
+  }
+  return left;
 }
 
 void Traffic::clear() {

@@ -2,11 +2,14 @@
 // Where things lie in memory, and which lines of it a frame reads and writes.
 //
 // Beside the arithmetic: pixels do not depend on it, but for lines that memory cannot read.
-// docs/reference/geometric/memory.md, "What is in memory" and "Traffic".
+// docs/reference/geometric/memory.md, "What is in memory" and "Traffic";
+// docs/reference/geometric/traffic.md.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "spec/geometric/packets.h"
@@ -18,7 +21,16 @@ namespace deburr::golden::geometric {
 // Byte addresses of the regions, multiples of 64.
 struct Bases {
   std::uint32_t edges = 0, vertices = 0, facing = 0, depth = 0, colour = 0, weights = 0, copy = 0;
+  std::uint32_t pairs = 0, coarse = 0;
+  // Pairs of edges that are no boundary; where the driver puts them, after those of boundaries, if
+  // nothing else is said.
+  std::optional<std::uint32_t> other_pairs = {};
 };
+
+// Lines that so many records fill.
+constexpr std::uint32_t lines_of(std::uint32_t records, std::uint32_t in_line) {
+  return records / in_line + (records % in_line != 0 ? 1 : 0);
+}
 
 // A line of memory that holds sixteen pixels of one buffer: column and row of lines.
 struct LineOfPixels {
@@ -89,6 +101,50 @@ class DirectMapped {
 // Bits of the line's column in the index of a cache of 2^bits lines.
 int depth_column_bits(spec::geometric::Layout layout, int bits);
 int block_column_bits(int bits);
+
+// Lines of a buffer of which those that were read last are kept.
+class KeptLines {
+ public:
+  void reset(std::size_t lines, int kept) {
+    read_.assign(lines, 0);
+    reads_ = 0;
+    kept_ = static_cast<std::uint32_t>(kept);
+  }
+  // True if a line is kept, else it is read.
+  bool look_up(std::size_t line) {
+    std::uint32_t& read = read_[line];
+    if (read != 0 && reads_ - read < kept_) return true;
+    read = ++reads_;
+    return false;
+  }
+  // The next line that is read takes the place of another.
+  bool is_full() const { return reads_ >= kept_; }
+
+ private:
+  std::vector<std::uint32_t> read_;  // by line: how many lines were read with it; 0: none
+  std::uint32_t reads_ = 0, kept_ = 0;
+};
+
+// Blocks that were replaced in their cache and are not yet in memory, by DirectMapped's tags.
+class WriteBuffer {
+ public:
+  static constexpr std::uint64_t kNothing = DirectMapped::kNothing;
+  void reset(int places) {
+    blocks_.assign(static_cast<std::size_t>(places), kNothing);
+    next_ = 0;
+  }
+  bool empty() const { return blocks_.empty(); }
+  // Takes `wanted` out and puts `replaced` in its place. False if `wanted` is not there.
+  bool exchange(std::uint64_t wanted, std::uint64_t replaced);
+  // Puts `replaced` in; what leaves for it, if anything. Without places that is `replaced`.
+  std::uint64_t push(std::uint64_t replaced);
+  // What is left, in the order in which it leaves.
+  std::vector<std::uint64_t> remaining() const;
+
+ private:
+  std::vector<std::uint64_t> blocks_;
+  std::size_t next_ = 0;
+};
 
 // Addresses by region, reads and writes apart, each in order.
 struct Traffic {

@@ -94,10 +94,10 @@ golden::geometric::Bases bases_of(const py::object& given) {
   const struct {
     const char* name;
     std::uint32_t* base;
-  } regions[] = {{"edges", &bases.edges},   {"vertices", &bases.vertices},
-                 {"facing", &bases.facing}, {"depth", &bases.depth},
-                 {"colour", &bases.colour}, {"weights", &bases.weights},
-                 {"copy", &bases.copy}};
+  } regions[] = {
+      {"edges", &bases.edges}, {"vertices", &bases.vertices}, {"facing", &bases.facing},
+      {"depth", &bases.depth}, {"colour", &bases.colour},     {"weights", &bases.weights},
+      {"copy", &bases.copy},   {"pairs", &bases.pairs},       {"coarse", &bases.coarse}};
   for (const auto& [name, value] : py::reinterpret_borrow<py::dict>(given)) {
     const std::string wanted = py::cast<std::string>(py::str(name));
     std::vector<std::string> known;

@@ -23,8 +23,8 @@ def geometric(pixels, depth=None, *, vertices, edges, facing, bases=None, detail
     vertices, edges and facing say what the frame was drawn from: arrays of VERTEX (x and y in 1/256 pixel, depth U24,
     usable) and EDGE (vertices v0, v1, faces f0, f1, flags: 1 boundary, 2 angle, 4 split normals, 8 seam), and a bool a
     face, true where it is turned to the eye. bases are addresses of regions of memory by name (edges, vertices,
-    facing, depth, colour, weights, copy), for its traffic. detail=True keeps classes, lines, candidates, blocks,
-    traffic and coverage as well, and is slower. error_lines are addresses of lines that memory answers with an
+    facing, depth, colour, weights, copy, pairs, coarse), for its traffic. detail=True keeps classes, lines, candidates,
+    blocks, traffic and coverage as well, and is slower. error_lines are addresses of lines that memory answers with an
     error."""
     return _golden.geometric(rgba(pixels), depth, vertices, edges, facing, bases, bool(detail), error_lines,
                              parameters)

@@ -67,7 +67,8 @@ golden::geometric::Bases GeometricChecks::bases() const {
   return {regions_.base(Region::kEdges),  regions_.base(Region::kVertices),
           regions_.base(Region::kFaces),  regions_.base(Region::kDepth),
           regions_.base(Region::kColour), regions_.base(Region::kWeights),
-          regions_.base(Region::kCopy)};
+          regions_.base(Region::kCopy),   regions_.base(Region::kPairs),
+          regions_.base(Region::kCoarse)};
 }
 
 void GeometricChecks::begin(const geometric::Frame& frame) {

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// The coarse test of depth, by the least depth of tiles of pixels:
+// docs/reference/geometric/traffic.md, "A coarse test of depth".
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "golden/geometric/traffic.h"
+#include "golden/morphological/planes.h"
+#include "spec/geometric/parameters.h"
+#include "spec/geometric/records.h"
+
+namespace deburr::golden::geometric {
+
+using DepthView = morphological::ViewOf<std::uint32_t>;  // U24 in bits 23..0, the rest is ignored
+
+// Where the entries of tiles lie.
+class CoarseLayout {
+ public:
+  CoarseLayout() = default;
+  CoarseLayout(int width, int height);
+
+  struct Tile {
+    std::uint32_t x = 0, y = 0;
+    friend bool operator==(const Tile&, const Tile&) = default;
+  };
+  static Tile tile_of(int x, int y) {
+    return {static_cast<std::uint32_t>(x) / kPixels, static_cast<std::uint32_t>(y) / kPixels};
+  }
+  static LineOfPixels line_of(const Tile& tile) {
+    return {tile.x / spec::geometric::kCoarseAcross, tile.y / spec::geometric::kCoarseDown};
+  }
+  // Bytes from the region's base.
+  std::uint32_t offset_of(const LineOfPixels& line) const {
+    return spec::geometric::kLineBytes * (line.v * lines_across_ + line.u);
+  }
+  // Tiles row by row.
+  std::size_t index_of(const Tile& tile) const { return std::size_t{tile.y} * columns_ + tile.x; }
+  std::size_t tiles() const { return std::size_t{columns_} * rows_; }
+  std::uint32_t columns() const { return columns_; }
+
+ private:
+  static constexpr std::uint32_t kPixels = spec::geometric::kTileSize;
+  std::uint32_t columns_ = 0, rows_ = 0, lines_across_ = 0;
+};
+
+// What the driver writes of a depth buffer, by CoarseLayout::index_of().
+std::vector<std::uint16_t> coarse_entries(const DepthView& depth);
+
+// Whether a line at depth d is behind all that an entry allows.
+constexpr bool is_dropped(const spec::geometric::Rules& rules, std::uint32_t d,
+                          std::uint16_t entry) {
+  const std::uint32_t c = std::uint32_t{entry} << spec::geometric::kCoarseShift;
+  return d < c - (c >> rules.depth_bias);
+}
+
+}  // namespace deburr::golden::geometric
