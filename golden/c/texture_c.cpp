@@ -100,10 +100,10 @@ int deburr_texture_check(deburr_golden* golden, uint32_t texture) {
 }
 
 int deburr_texture_place(deburr_golden* golden, uint32_t texture, uint64_t address,
-                         uint64_t* next) {
+                         uint64_t* behind) {
   return call_of<TextureHandle>(golden, __func__, [&](TextureHandle& h) {
-    require_pointer(next, "next");
-    *next = deburr::golden::c::place(h, texture, address);
+    require_pointer(behind, "behind");
+    *behind = deburr::golden::c::place(h, texture, address);
   });
 }
 

@@ -201,7 +201,7 @@
         const row = element('tr', undefined, body);
         for (const axis of axes) element('td', p.at[axis.i], row);
         metrics.forEach((m, i) => names.forEach((_, s) => {
-          const checked = s === 0 ? '' : p.verdicts[s - 1][i];
+          const checked = s === 0 ? '' : p.judgements[s - 1][i];
           const cell = element('td', shown(p.values[s][i]), row, `n ${checked}${checked === 'worse' && m.counts ? ' fails' : ''}`);
           if (s > 0) element('small', change(m, p.values[0][i], p.values[s][i]), cell);
         }));

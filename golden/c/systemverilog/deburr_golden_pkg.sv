@@ -119,7 +119,7 @@ package deburr_golden_pkg;
   // Sets the bases of all its levels, one after the other from `address` on, and says what is after
   // them.
   import "DPI-C" function int deburr_texture_place(input chandle golden, input int unsigned texture,
-      input longint unsigned address, output longint unsigned next);
+      input longint unsigned address, output longint unsigned behind);
 
   // Puts a level's texels into memory, in the layout that the descriptor says: rows from above, the
   // texels as they lie in memory; `stride` in bytes.

@@ -282,7 +282,7 @@ class BuildChecks {
       out << "engine: " << engine_ << "\nbase:\n";
       for (const auto& [name, value] : row.settings)
         out << "  " << engine_ << "." << name << ": " << value << "\n";
-      out << "axes: {run.seed: [1, 2], run.stall_seed: [1, 2, 3]}\nrejected: " << rejected
+      out << "axes: {run.seed: [1, 2], run.stall_seed: [1, 2, 3]}\nrefused: " << rejected
           << "\nmetrics: {clocks: cycles, bytes: memory.bytes_read}\n"
           << "objectives: {minimise: [clocks, bytes]}\n";
       out.close();
