@@ -276,7 +276,9 @@ void check_presets(const char* which, const std::vector<Presets>& all, double si
       100 * (rules - 1), 100 * (after - 1), through / std::max(views_through, 1));
   EXPECT_GT(mean.silhouettes, silhouettes);
   EXPECT_LT(rules, 1.05);
-  if (views_through > 0) EXPECT_GT(through / views_through, 4);
+  if (views_through > 0) {
+    EXPECT_GT(through / views_through, 4);
+  }
 }
 
 void check_views(const char* which, tb::Half half) {
