@@ -68,8 +68,24 @@ def frames_1080p(f):
                  "geometric --scene object --preset deburr"):
         result = f.run(line + " --size 1920x1080")
         bits = result["memory_bits"]["total"]
-        yield [f"`{line}`", spaced(result["cycles"]), spaced(result["latency"]["p50"]),
+        blended = next((spaced(value) for name, value in result["work"].items()
+                        if name.endswith("_blended_pixels")), "-")
+        yield [f"`{line}`", blended, spaced(result["cycles"]), spaced(result["latency"]["p50"]),
                spaced(bits["logical"]), spaced(bits["physical"])]
+
+
+@recipe("geometric-banks", long=True)
+def geometric_banks(f):
+    """A memory that takes a request every clock, and one of banks."""
+    line = "geometric --scene object --size 1920x1080 --preset deburr"
+    for memory, given in (("takes a line a clock", ""),
+                          ("16 banks, each busy for 12 clocks",
+                           " --set memory.banks=16 --set memory.bank_busy=12")):
+        result = f.run(line + given)
+        work = result["work"]
+        yield [memory, spaced(work["resolver_blended_pixels"]), spaced(work["edge_cycles"]),
+               spaced(work["resolve_cycles"]), spaced(result["cycles"]),
+               "`{unit}`: {cause}".format(**result["bottleneck"])]
 
 
 @recipe("morphological-diagonals", long=True)

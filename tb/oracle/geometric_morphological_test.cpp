@@ -6,16 +6,20 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
-#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "golden/ideal/geometric.h"
 #include "golden/morphological/morphological_golden.h"
 #include "spec/geometric/tables.h"
 #include "tb/engines/geometric/geometric_stimuli.h"
+#include "tb/oracle/solids.h"
+#include "tb/oracle/views.h"
 #include "tb/unit/scene/fixtures.h"
 
 namespace deburr::geometric_morphological_test {
@@ -29,14 +33,39 @@ using golden::morphological::EdgePlanes;
 using golden::morphological::MorphologicalGolden;
 using spec::morphological::Leave;
 using spec::morphological::Parameters;
+using spec::morphological::Preset;
 using tb::Image;
 using tb::geometric::Checker;
 
 constexpr int kWidth = 640, kHeight = 480;
 
-Parameters rules(Leave leave = Leave::kNone) {
-  Parameters p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
+Parameters rules(Preset preset, Leave leave = Leave::kNone) {
+  Parameters p = golden::morphological::preset_parameters(preset);
   p.leave = leave;
+  return p;
+}
+
+// Edges of luma where depth has one, by the fitted line.
+Parameters at_depth(Leave leave) {
+  Parameters p = rules(Preset::kDeburrLine, leave);
+  p.edge_source = spec::morphological::EdgeSource::kPredicated;
+  p.threshold_on_depth_edge = 1966;    // 0.03
+  p.threshold_off_depth_edge = 65535;  // never
+  return p;
+}
+
+Image smoothed(const Image& image, const tb::geometric::Frame& frame, const Parameters& p) {
+  MorphologicalGolden golden(p, MorphologicalGolden::Detail::kPixels);
+  Image result = image;
+  result.pixels = golden.process({image.pixels, image.width, image.height},
+                                 {frame.depths, image.width, image.height});
+  return result;
+}
+
+spec::geometric::Parameters marking() {
+  spec::geometric::Parameters p =
+      golden::geometric::preset_parameters(spec::geometric::Preset::kDeburr);
+  p.mark = true;
   return p;
 }
 
@@ -102,7 +131,7 @@ EdgePlanes edges_of(const std::vector<NearestEdges>& channels, int width, int he
 
 // Luma's edges where one of the two pixels has a channel.
 EdgePlanes luma_edges_at(const std::vector<NearestEdges>& channels, const Image& frame) {
-  MorphologicalGolden golden(rules(), MorphologicalGolden::Detail::kPixels);
+  MorphologicalGolden golden(rules(Preset::kDeburrLine), MorphologicalGolden::Detail::kPixels);
   golden.process({frame.pixels, frame.width, frame.height});
   EdgePlanes result;
   for (auto* plane : {&result.left, &result.top}) plane->resize(frame.width, frame.height);
@@ -130,6 +159,13 @@ using Table = std::map<std::string, Figures>;
 
 double better_by(double a, double than) { return 20 * std::log10(than / a); }  // dB
 
+// By learned shares and their own edges.
+constexpr std::pair<const char*, Leave> kFollowers[] = {{"nothing left", Leave::kNone},
+                                                        {"marked", Leave::kMarked},
+                                                        {"beside", Leave::kBeside},
+                                                        {"half", Leave::kHalf},
+                                                        {"masked", Leave::kMasked}};
+
 Table measure(const tb::Scene& scene, const std::string& name, int width, int height, int samples) {
   const Checker checker(scene, width, height, samples);
   const Image& frame = checker.frame.image;
@@ -139,44 +175,25 @@ Table measure(const tb::Scene& scene, const std::string& name, int width, int he
     fmt::print("| {} | {} | {:.2f} / {:.2f} |\n", name, way, table[way].edges,
                table[way].silhouettes);
   };
-  const auto smoothed = [&](const Image& image, const Parameters& p) {
-    MorphologicalGolden golden(p, MorphologicalGolden::Detail::kPixels);
-    Image result = image;
-    result.pixels = golden.process({image.pixels, image.width, image.height},
-                                   {checker.frame.depths, image.width, image.height});
-    return result;
-  };
   const auto with_edges = [&](const EdgePlanes& edges) {
-    MorphologicalGolden golden(rules(), MorphologicalGolden::Detail::kPixels);
+    MorphologicalGolden golden(rules(Preset::kDeburrLine), MorphologicalGolden::Detail::kPixels);
     Image result = frame;
     result.pixels = golden.process({frame.pixels, width, height}, edges);
     return result;
   };
 
-  spec::geometric::Parameters geometric_rules =
-      golden::geometric::preset_parameters(spec::geometric::Preset::kDeburr);
-  geometric_rules.mark = true;
-  GeometricGolden golden(geometric_rules, GeometricGolden::Detail::kPixels);
+  GeometricGolden golden(marking(), GeometricGolden::Detail::kPixels);
   Image geometric = frame;
   geometric.pixels = golden.process(checker.frame.input());
   const std::vector<NearestEdges> channels = channels_of(golden);
 
   add("none", frame);
   add("msaa4", checker.msaa);
-  add("morphological", smoothed(frame, rules()));
+  add("morphological", smoothed(frame, checker.frame, rules(Preset::kDeburr)));
   add("geometric", geometric);
-  add("twice", smoothed(geometric, rules()));
-  add("marked", smoothed(geometric, rules(Leave::kMarked)));
-  add("beside", smoothed(geometric, rules(Leave::kBeside)));
-  add("half", smoothed(geometric, rules(Leave::kHalf)));
-  const Parameters following = golden::morphological::following_geometric(rules());
-  for (const auto& [way, leave] :
-       {std::pair("depth, marked", Leave::kMarked), std::pair("depth, beside", Leave::kBeside)}) {
-    Parameters p = following;
-    p.leave = leave;
-    add(way, smoothed(geometric, p));
-  }
-  add("depth, half", smoothed(geometric, following));
+  for (const auto& [way, leave] : kFollowers)
+    add(way, smoothed(geometric, checker.frame, rules(Preset::kDeburr, leave)));
+  add("depth, half", smoothed(geometric, checker.frame, at_depth(Leave::kHalf)));
   add("two channels", blended_by(channels, frame));
   add("channels as edges", with_edges(edges_of(channels, width, height)));
   add("luma edges at channels", with_edges(luma_edges_at(channels, frame)));
@@ -186,37 +203,26 @@ Table measure(const tb::Scene& scene, const std::string& name, int width, int he
 
 // What is asked of every scene and camera. Where lines that are not seen lie within a pixel of
 // those that are (terrain), the geometric engine's own weights are wrong.
-void check_ways(const Table& t, bool lines_are_apart, double half_may_lose) {
+void check_ways(const Table& t, bool lines_are_apart) {
   const auto gain = [&](const char* way, const char* than) {
     return Figures{better_by(t.at(way).edges, t.at(than).edges),
                    better_by(t.at(way).silhouettes, t.at(than).silhouettes)};
   };
-  // `half` may take from exact areas (silhouettes of cylinders, 0.4 dB), `beside` never does.
-  const Figures joined = gain("depth, half", "geometric");
-  EXPECT_GT(joined.edges, -half_may_lose);
-  EXPECT_GT(joined.silhouettes, -half_may_lose);
-  const Figures beside = gain("depth, beside", "geometric");
-  EXPECT_GT(beside.edges, -0.02);
-  EXPECT_GT(beside.silhouettes, -0.02);
-  EXPECT_GT(gain("half", "twice").silhouettes, 0.6);
+  // Neither takes from what the geometric engine has blended.
+  for (const char* way : {"masked", "beside"}) {
+    EXPECT_GT(gain(way, "geometric").edges, -0.02) << way;
+    EXPECT_GT(gain(way, "geometric").silhouettes, -0.02) << way;
+  }
+  EXPECT_GT(gain("masked", "morphological").edges, -0.3);
+  EXPECT_GT(gain("masked", "nothing left").silhouettes, 0.6);
   // The channels say less than the four weights.
   EXPECT_LT(gain("two channels", "geometric").edges, 0.2);
   if (!lines_are_apart) return;
-  EXPECT_GT(gain("depth, half", "msaa4").silhouettes, 0);
-  EXPECT_GT(gain("depth, half", "morphological").silhouettes, 1);
+  EXPECT_GT(gain("masked", "msaa4").silhouettes, 0);
+  EXPECT_GT(gain("masked", "morphological").silhouettes, 1);
   // Runs of edges say less than distances, whoever found the edges.
-  EXPECT_LT(gain("channels as edges", "depth, half").silhouettes, -0.5);
-  EXPECT_LT(gain("luma edges at channels", "depth, half").silhouettes, -0.4);
-}
-
-tb::Scene turned(const std::string& name, double degrees) {
-  tb::Scene scene = tb::make_scene(name);
-  const double angle = degrees * std::numbers::pi / 180;
-  const Imath::V3d from = scene.camera.eye - scene.camera.target;
-  const Imath::V3d to{from.x * std::cos(angle) + from.z * std::sin(angle), from.y,
-                      from.z * std::cos(angle) - from.x * std::sin(angle)};
-  scene.camera.eye = scene.camera.target + to;
-  return scene;
+  EXPECT_LT(gain("channels as edges", "masked").silhouettes, -0.5);
+  EXPECT_LT(gain("luma edges at channels", "masked").silhouettes, -0.4);
 }
 
 class Joined : public testing::TestWithParam<const char*> {};
@@ -225,9 +231,9 @@ TEST_P(Joined, IsBestAsBuilt) {
   const std::string name = GetParam();
   for (const int degrees : {0, 25, -50, 77}) {
     SCOPED_TRACE(degrees);
-    check_ways(measure(turned(name, degrees), fmt::format("{} {}", name, degrees), kWidth, kHeight,
-                       degrees == 0 ? 16 : 8),
-               name != "terrain", name == "cylinders" ? 0.4 : 0.25);
+    check_ways(measure(tb::turned(tb::make_scene(name), degrees),
+                       fmt::format("{} {}", name, degrees), kWidth, kHeight, degrees == 0 ? 16 : 8),
+               name != "terrain");
   }
 }
 
@@ -245,28 +251,124 @@ TEST(Joined, TracksToo) {
     tb::SceneOptions options;
     options.camera = each;
     const tb::Scene scene = tb::load_scene((data / "meshes" / "scene_track.obj").string(), options);
-    check_ways(measure(scene, fmt::format("track {}", camera++), 1280, 720, 8), true, 0.25);
+    check_ways(measure(scene, fmt::format("track {}", camera++), 1280, 720, 8), true);
   }
+}
+
+// ---- what follows, on views of every kind -------------------------------------------------------
+
+struct Way {
+  const char* name;
+  Parameters rules;
+};
+
+std::vector<Way> followers() {
+  std::vector<Way> ways;
+  for (const auto& [name, leave] : kFollowers)
+    ways.push_back({name, rules(Preset::kDeburr, leave)});
+  Parameters luma = rules(Preset::kDeburr, Leave::kMasked);
+  luma.edge_source = spec::morphological::EdgeSource::kLuma;
+  luma.threshold = rules(Preset::kDeburrLine).threshold;
+  Parameters both = at_depth(Leave::kMasked);
+  both.area = spec::morphological::AreaSource::kLearned;
+  Parameters depth = rules(Preset::kDeburr, Leave::kMasked);
+  depth.edge_source = spec::morphological::EdgeSource::kDepth;
+  ways.push_back({"masked, luma", luma});
+  ways.push_back({"masked, luma at depth", both});
+  ways.push_back({"masked, depth", depth});
+  ways.push_back({"masked, line", rules(Preset::kDeburrLine, Leave::kMasked)});
+  ways.push_back({"half, line, luma at depth", at_depth(Leave::kHalf)});
+  return ways;
+}
+
+struct Gain {
+  double mean = 0, worst = 1e9;
+  std::string view;
+};
+
+// Each way's gain over the geometric engine alone, and over the better of the two engines alone.
+struct Gains {
+  // edges, silhouettes
+  std::array<Gain, 2> over_geometric, over_better;
+};
+
+std::map<std::string, Gains> gains_of_followers(tb::Half half, const std::filesystem::path& data) {
+  std::map<std::string, Gains> gains;
+  const std::vector<tb::View> views = tb::views(half, data);
+  for (const tb::View& view : views) {
+    const Checker checker(view.scene, kWidth, kHeight, 8, nullptr, {.crossings = true});
+    const auto figures = [&](const Image& image) {
+      return std::array{checker.edge_psnr(image), checker.silhouette_psnr(image)};
+    };
+    spec::geometric::Parameters p = marking();
+    p.face_limit = 1 << 17;
+    const Image drawn = tb::geometric::smoothed(checker.frame, p).image;
+    const auto geometric = figures(drawn),
+               morphological =
+                   figures(smoothed(checker.frame.image, checker.frame, rules(Preset::kDeburr)));
+    std::string row = fmt::format("| {} | {:.2f} / {:.2f} | {:.2f} / {:.2f} |", view.name,
+                                  geometric[0], geometric[1], morphological[0], morphological[1]);
+    for (const Way& way : followers()) {
+      const auto after = figures(smoothed(drawn, checker.frame, way.rules));
+      row += fmt::format(" {:.2f} / {:.2f} |", after[0], after[1]);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const auto add = [&](Gain& gain, double before) {
+          gain.mean += (after[i] - before) / static_cast<double>(views.size());
+          if (after[i] - before < gain.worst) gain = {gain.mean, after[i] - before, view.name};
+        };
+        add(gains[way.name].over_geometric[i], geometric[i]);
+        add(gains[way.name].over_better[i], std::max(geometric[i], morphological[i]));
+      }
+    }
+    fmt::print("{}\n", row);
+    std::fflush(stdout);
+  }
+  for (const Way& way : followers()) {
+    std::string row = fmt::format("| {} |", way.name);
+    for (const auto* const than : {&gains[way.name].over_geometric, &gains[way.name].over_better})
+      for (const Gain& gain : *than)
+        row += fmt::format(" {:+.2f}, {:+.2f} ({}) |", gain.mean, gain.worst, gain.view);
+    fmt::print("{}\n", row);
+  }
+  fmt::print("{} views\n", views.size());
+  return gains;
+}
+
+// The rule that is built never takes from the geometric engine, and no other that does not has a
+// better worst view beside the better of the two engines.
+void check_followers(const std::map<std::string, Gains>& gains, double below_better) {
+  const Gains& built = gains.at("masked");
+  for (const Gain& gain : built.over_geometric) EXPECT_GT(gain.worst, -0.05) << gain.view;
+  for (const Gain& gain : built.over_better) EXPECT_GT(gain.worst, below_better) << gain.view;
+  for (const char* other : {"beside", "half, line, luma at depth", "masked, luma at depth"})
+    EXPECT_GE(built.over_better[0].worst, gains.at(other).over_better[0].worst) << other;
+  EXPECT_GT(built.over_geometric[0].mean, gains.at("beside").over_geometric[0].mean);
+  EXPECT_GT(built.over_geometric[1].mean, gains.at("beside").over_geometric[1].mean);
+}
+
+// Rules were chosen by these.
+TEST(Followers, MaskedIsBestWhereRulesWereChosen) {
+  DEBURR_REQUIRE_DATA(data);
+  check_followers(gains_of_followers(tb::Half::kChosenBy, data), -0.5);  // a teapot in checks
+}
+
+// And nothing by these.
+TEST(Followers, MaskedIsBestOnTheOtherHalf) {
+  DEBURR_REQUIRE_DATA(data);
+  check_followers(gains_of_followers(tb::Half::kHeldOut, data), -0.3);
 }
 
 // ---- the outermost line -------------------------------------------------------------------------
 
 TEST(Outermost, MendsHiddenLines) {
-  spec::geometric::Parameters p =
-      golden::geometric::preset_parameters(spec::geometric::Preset::kDeburr);
-  p.mark = true;
+  spec::geometric::Parameters p = marking();
   p.coverage = spec::geometric::CoverageRule::kDistance;  // this rule alone
   p.crease_depth = 0;
   for (const char* name : {"wheelcover", "canopy", "cylinders", "object", "terrain"}) {
     for (const int degrees : {0, 25, -50, 77}) {
-      const Checker checker(turned(name, degrees), kWidth, kHeight, 8);
+      const Checker checker(tb::turned(tb::make_scene(name), degrees), kWidth, kHeight, 8);
       const auto followed = [&](const Image& image) {
-        MorphologicalGolden golden(golden::morphological::following_geometric(rules()),
-                                   MorphologicalGolden::Detail::kPixels);
-        Image result = image;
-        result.pixels = golden.process({image.pixels, kWidth, kHeight},
-                                       {checker.frame.depths, kWidth, kHeight});
-        return result;
+        return smoothed(image, checker.frame, at_depth(Leave::kHalf));
       };
       const auto combined = [&](spec::geometric::Combine combine) {
         p.combine = combine;

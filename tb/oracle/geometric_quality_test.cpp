@@ -228,5 +228,36 @@ TEST(WeakSpot, TwoEdgesWithinAPixel) {
   for (const double thin : {0.25, 0.5, 0.75}) EXPECT_GT(left.at(thin), 0.5);
 }
 
+// What a texture draws is no edge of the mesh: leaves and fences that its alpha cuts out look so,
+// too. The morphological engine behind it finds them.
+TEST(WeakSpot, EdgesOfATexture) {
+  tb::test::FlatScreen screen(256);
+  screen.rectangle(8, 8, 248, 248);
+  Image& leaves = screen.scene().mesh.textures[0].image;
+  leaves = Image(1024, 1024, {20, 30, 20, 255});
+  for (int y = 0; y < leaves.height; ++y)
+    for (int x = 0; x < leaves.width; ++x)
+      if (std::hypot(x % 128 - 64, 1.7 * (y % 128 - 64)) < 50) leaves.at(x, y) = {90, 200, 60, 255};
+  screen.scene().lighting.specular = 0;
+  screen.scene().lighting.key_direction = {0, 0, 1};
+  const Checker checker(screen.scene(), 256, 256, 16);
+  Parameters marked = preset_parameters(Preset::kDeburr);
+  marked.mark = true;
+  const Image geometric = smoothed(checker.frame, marked).image;
+  spec::morphological::Parameters rules =
+      golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
+  rules.leave = spec::morphological::kFollowingLeave;
+  golden::morphological::MorphologicalGolden golden(
+      rules, golden::morphological::MorphologicalGolden::Detail::kPixels);
+  Image both = geometric;
+  both.pixels = golden.process({geometric.pixels, geometric.width, geometric.height});
+  const double none = checker.edge_psnr(checker.frame.image);
+  fmt::print("| leaves | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", none,
+             checker.edge_psnr(checker.msaa), checker.edge_psnr(geometric),
+             checker.edge_psnr(both));
+  EXPECT_NEAR(checker.edge_psnr(geometric), none, 0.3);
+  EXPECT_GT(checker.edge_psnr(both), none + 3);
+}
+
 }  // namespace
 }  // namespace deburr::geometric_quality_test

@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/oracle/solids.h"
+#include "tb/oracle/views.h"
 #include "tb/unit/scene/fixtures.h"
 
 namespace deburr::geometric_rules_test {
@@ -203,6 +205,107 @@ TEST(LineRules, GainOnWhatNothingWasTunedOn) {
   }
   print_gains("others", all);
   expect_gain(all, 2);
+}
+
+// ---- the preset against the one before ----------------------------------------------------------
+
+struct Presets {
+  std::string name;
+  Figures before, after;
+  // Of memory, without crossing lines: before, with the three rules, and with both sides drawn.
+  std::uint64_t lines_before = 0, lines_of_rules = 0, lines_after = 0;
+  std::size_t crossing = 0;  // lines along which surfaces cross
+};
+
+Presets measure_presets(const tb::Scene& scene, const std::string& name) {
+  const Checker checker(scene, kWidth, kHeight, 8, nullptr, {.crossings = true});
+  tb::geometric::Frame frame = checker.frame;
+  Presets m{name, {}, {}, 0, 0, 0, frame.table.crossings};
+  const auto figures = [&](const Image& image) {
+    return Figures{checker.edge_psnr(image), checker.silhouette_psnr(image)};
+  };
+  Parameters after = preset_parameters(Preset::kDeburr), rules = plain();
+  after.face_limit = rules.face_limit;
+  kWays[kAll].change(rules);
+  m.after = figures(tb::geometric::smoothed(frame, after).image);
+  frame.table = tb::build_edge_table(scene.mesh);
+  frame.screen = tb::project_edges(frame.table, scene.camera, kWidth, kHeight);
+  m.before = figures(tb::geometric::smoothed(frame, plain()).image);
+  for (const auto& [p, lines] :
+       {std::pair{plain(), &m.lines_before}, {rules, &m.lines_of_rules}, {after, &m.lines_after}}) {
+    GeometricGolden golden(p);
+    golden.process(frame.input());
+    *lines = lines_of_memory(golden.traffic());
+  }
+  fmt::print(
+      "| {} | {:.2f} / {:.2f} | {:.2f} / {:.2f} | {:.2f} / {:.2f} | {:+.2f} / {:+.2f} | {} | "
+      "{:+.1f} %, {:+.1f} % |\n",
+      name, checker.edge_psnr(checker.frame.image), checker.silhouette_psnr(checker.frame.image),
+      m.before.edges, m.before.silhouettes, m.after.edges, m.after.silhouettes,
+      m.after.edges - m.before.edges, m.after.silhouettes - m.before.silhouettes, m.crossing,
+      100.0 * static_cast<double>(m.lines_of_rules) / static_cast<double>(m.lines_before) - 100.0,
+      100.0 * static_cast<double>(m.lines_after) / static_cast<double>(m.lines_before) - 100.0);
+  std::fflush(stdout);
+  return m;
+}
+
+// Gains in the mean, edges nowhere worse, and lines of memory that the rules take.
+void check_presets(const char* which, const std::vector<Presets>& all, double silhouettes) {
+  Figures mean, worst{1e9, 1e9};
+  double rules = 0, after = 0, through = 0;
+  int views_through = 0;
+  const double n = static_cast<double>(all.size());
+  for (const Presets& m : all) {
+    const double e = m.after.edges - m.before.edges, s = m.after.silhouettes - m.before.silhouettes;
+    mean.edges += e / n;
+    mean.silhouettes += s / n;
+    worst.edges = std::min(worst.edges, e);
+    worst.silhouettes = std::min(worst.silhouettes, s);
+    rules += static_cast<double>(m.lines_of_rules) / static_cast<double>(m.lines_before) / n;
+    after += static_cast<double>(m.lines_after) / static_cast<double>(m.lines_before) / n;
+    // Creases of thin plates, seen from the edge: crease_depth takes too many of them.
+    EXPECT_GT(e, m.name.rfind("plates", 0) == 0 ? -3 : -0.2) << m.name;
+    for (const char* kind : {"chain", "crossing", "floor", "field"}) {
+      if (m.name.rfind(kind, 0) != 0) continue;
+      through += e;
+      ++views_through;
+    }
+  }
+  fmt::print(
+      "| {} | {} | {:+.2f}, {:+.2f} | {:+.2f}, {:+.2f} | {:+.1f} % | {:+.1f} % | {:+.2f} |\n",
+      which, all.size(), mean.edges, worst.edges, mean.silhouettes, worst.silhouettes,
+      100 * (rules - 1), 100 * (after - 1), through / std::max(views_through, 1));
+  EXPECT_GT(mean.silhouettes, silhouettes);
+  EXPECT_LT(rules, 1.05);
+  if (views_through > 0) {
+    EXPECT_GT(through / views_through, 4);
+  }
+}
+
+void check_views(const char* which, tb::Half half) {
+  std::vector<Presets> scenes, others;
+  for (const tb::View& view : tb::views(half, tb::data_folder()))
+    (view.group == "scenes" ? scenes : others).push_back(measure_presets(view.scene, view.name));
+  check_presets(fmt::format("{}, scenes", which).c_str(), scenes, 2.9);
+  check_presets(fmt::format("{}, other meshes", which).c_str(), others, 2);
+}
+
+TEST(Presets, GainOnOneHalf) { check_views("one half", tb::Half::kChosenBy); }
+TEST(Presets, GainOnTheOther) { check_views("the other", tb::Half::kHeldOut); }
+
+// Where every face is turned away.
+TEST(Presets, SmoothInsideOfACube) {
+  for (const double degrees : {0.0, 33.0, 71.0, 118.0}) {
+    const Checker checker(tb::inside_a_cube(degrees), kWidth, kHeight, 8);
+    const Image before = tb::geometric::smoothed(checker.frame, plain()).image,
+                after = tb::geometric::smoothed(checker.frame, preset_parameters(Preset::kDeburr))
+                            .image;
+    fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", degrees,
+               checker.edge_psnr(checker.frame.image), checker.edge_psnr(checker.msaa),
+               checker.edge_psnr(before), checker.edge_psnr(after));
+    EXPECT_EQ(before.pixels, checker.frame.image.pixels);
+    EXPECT_GT(checker.edge_psnr(after), 38) << degrees;
+  }
 }
 
 // ---- surfaces through each other ----------------------------------------------------------------
