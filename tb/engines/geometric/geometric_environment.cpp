@@ -245,4 +245,7 @@ std::vector<PictureMap> GeometricEnvironment::maps() const {
   return meter_.named(maps_->maps(engine_, line_of, memory_.lines_read(), frames_.size() == 1));
 }
 
+// Here, and not in each place that destroys one, whose compiler may leave its units slow.
+GeometricEnvironment::~GeometricEnvironment() = default;
+
 }  // namespace deburr::tb

@@ -258,4 +258,7 @@ std::vector<PictureMap> MorphologicalEnvironment::maps() const {
                : std::vector<PictureMap>();
 }
 
+// Here, and not in each place that destroys one, whose compiler may leave its units slow.
+MorphologicalEnvironment::~MorphologicalEnvironment() = default;
+
 }  // namespace deburr::tb
