@@ -7,6 +7,16 @@
 
 namespace deburr::golden::morphological {
 
+spec::morphological::Parameters following_geometric(spec::morphological::Parameters p) {
+  const spec::morphological::FollowingRules rules;
+  p.leave = rules.leave;
+  if (p.threshold_mode == spec::morphological::ThresholdMode::kDynamic) return p;
+  p.edge_source = rules.edge_source;
+  p.threshold_on_depth_edge = rules.threshold_on_depth_edge;
+  p.threshold_off_depth_edge = rules.threshold_off_depth_edge;
+  return p;
+}
+
 void check_frame(const spec::morphological::Parameters& parameters, int width, int height) {
   const std::string size = std::to_string(width) + " x " + std::to_string(height);
   if (width < 1 || height < 1 || width > spec::morphological::kMaxFrameSize ||

@@ -10,6 +10,10 @@ namespace deburr::golden::morphological {
 
 using spec::morphological::preset_parameters;
 
+// These with what following the geometric engine sets; edges stay as they are where the threshold
+// is dynamic.
+spec::morphological::Parameters following_geometric(spec::morphological::Parameters parameters);
+
 // Throws ConfigError: no pixels, over 8192 pixels a side, wider than the line buffers.
 void check_frame(const spec::morphological::Parameters& parameters, int width, int height);
 

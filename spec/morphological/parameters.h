@@ -141,8 +141,17 @@ struct Rules {
   std::int32_t reach_columns = 256;
 };
 
-// What `leave` is after the geometric engine, unless it is given.
-inline constexpr Leave kFollowingLeave = Leave::kMasked;
+// What a frame sets that the geometric engine has smoothed before, beside any preset with a fixed
+// threshold: edges of luma, but only where depth has one, and none of what was blended. The preset
+// is the one that nothing else was named for: learned shares were not learned for what geometry has
+// left over.
+struct FollowingRules {
+  Preset preset = Preset::kDeburrLine;
+  EdgeSource edge_source = EdgeSource::kPredicated;
+  std::int32_t threshold_on_depth_edge = 1966;    // U0.16: 0.03
+  std::int32_t threshold_off_depth_edge = 65535;  // U0.16: never
+  Leave leave = Leave::kMasked;
+};
 
 // Build choices: what changes clocks and cost, and no pixel. Runs that differ in these alone share
 // one golden picture.

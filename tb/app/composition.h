@@ -235,7 +235,9 @@ class RowSmoother : public PictureSmoother {
  public:
   // Whether it looks at Handed::kMarkedPixels where they are.
   virtual bool looks_at_marks() const { return false; }
-  // Behind an engine that marks what it smooths: the rules that no preset has.
+  // Behind an engine that marks what it smooths: the preset where none is given, then the rules
+  // that no preset has.
+  virtual void follow_preset(ParameterSet&, std::string_view /*why*/) {}
   virtual void follow(ParameterSet&, std::string_view /*why*/) {}
   // Made in the constructor of the frame buffer, whose port it is; build() binds it.
   virtual std::unique_ptr<RowsPort> rows_port(const char* name, const DrawnScene& scene) const = 0;

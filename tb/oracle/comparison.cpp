@@ -58,7 +58,7 @@ std::vector<Method> engines() {
     if (smoothing) method.morphological = morphological(*smoothing);
     if (edges && smoothing) {
       method.geometric->mark = true;
-      method.morphological->leave = m::kFollowingLeave;
+      method.morphological = golden::morphological::following_geometric(*method.morphological);
     }
     all.push_back(std::move(method));
   };
@@ -71,7 +71,8 @@ std::vector<Method> engines() {
   add("`gpaa`", "gpaa", g::Preset::kGpaa, {});
   add("`gpaa-optimised`", "gpaa-optimised", g::Preset::kGpaaOptimised, {});
   add("`deburr`, geometric", "deburr geo", g::Preset::kDeburr, {});
-  add("geometric, then morphological", "deburr both", g::Preset::kDeburr, m::Preset::kDeburr);
+  add("geometric, then morphological", "deburr both", g::Preset::kDeburr,
+      m::FollowingRules().preset);
   return all;
 }
 

@@ -246,7 +246,7 @@ TEST(WeakSpot, EdgesOfATexture) {
   const Image geometric = smoothed(checker.frame, marked).image;
   spec::morphological::Parameters rules =
       golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
-  rules.leave = spec::morphological::kFollowingLeave;
+  rules.leave = Leave::kMasked;
   golden::morphological::MorphologicalGolden golden(
       rules, golden::morphological::MorphologicalGolden::Detail::kPixels);
   Image both = geometric;

@@ -130,7 +130,10 @@ void FrameRoles::resolve(ParameterSet& set) {
   };
   drawer_->apply_preset(set);
   for (const auto& mesh : mesh_) mesh->apply_preset(set);
-  for (const auto& rows : rows_) rows->apply_preset(set);
+  for (const auto& rows : rows_) {
+    if (follows(*rows)) rows->follow_preset(set, why);
+    rows->apply_preset(set);
+  }
   for (const auto& mesh : mesh_)
     if (smoothing.follows() && smoothing.mesh == mesh.get()) mesh->mark(set, why);
   for (const auto& rows : rows_)

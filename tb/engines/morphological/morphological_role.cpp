@@ -91,9 +91,23 @@ class MorphologicalRole final : public RowSmoother {
     return {"morphological.", fmt::format("{}.", kMorphologicalMemory)};
   }
   void apply_preset(ParameterSet& set) override { tb::apply_preset(set, parameters_); }
+  void follow_preset(ParameterSet& set, std::string_view why) override {
+    set.imply(
+        "morphological.preset",
+        name_of(spec::morphological::FollowingRules().preset, spec::morphological::kPresetNames),
+        why);
+  }
   void follow(ParameterSet& set, std::string_view why) override {
-    set.imply("morphological.leave",
-              name_of(spec::morphological::kFollowingLeave, spec::morphological::kLeaveNames), why);
+    const spec::morphological::Parameters rules =
+        golden::morphological::following_geometric(parameters_);
+    std::vector<std::string> names = {"leave"};
+    if (rules.edge_source != parameters_.edge_source) names.push_back("edges.source");
+    if (rules.edge_source == spec::morphological::EdgeSource::kPredicated &&
+        !set.given("morphological.edges.source"))
+      names.insert(names.end(),
+                   {"edges.threshold_on_depth_edge", "edges.threshold_off_depth_edge"});
+    for (const std::string& name : names)
+      set.imply("morphological." + name, spec::value_text(rules, name), why);
   }
   void resolve(ParameterSet& set) override {
     reject_unused_rules(set, parameters_, kMorphologicalMemory);

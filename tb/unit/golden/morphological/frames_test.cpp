@@ -677,6 +677,24 @@ TEST(GivenEdges, GiveWhatTheyGaveWhereTheyWereFound) {
   }
 }
 
+TEST(FollowingGeometric, KeepsADynamicThresholdAndItsEdges) {
+  const spec::morphological::FollowingRules rules;
+  spec::morphological::Parameters p = preset_parameters(Preset::kDeburrLine);
+  const spec::morphological::Parameters fixed = golden::morphological::following_geometric(p);
+  EXPECT_EQ(fixed.leave, rules.leave);
+  EXPECT_EQ(fixed.edge_source, rules.edge_source);
+  EXPECT_EQ(fixed.threshold_on_depth_edge, rules.threshold_on_depth_edge);
+  EXPECT_EQ(fixed.threshold_off_depth_edge, rules.threshold_off_depth_edge);
+  p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
+  p.threshold_on_depth_edge = rules.threshold_on_depth_edge + 1;
+  const spec::morphological::Parameters dynamic = golden::morphological::following_geometric(p);
+  EXPECT_NE(p.leave, rules.leave);
+  EXPECT_EQ(dynamic.leave, rules.leave);
+  EXPECT_NE(p.edge_source, rules.edge_source);
+  EXPECT_EQ(dynamic.edge_source, p.edge_source);
+  EXPECT_EQ(dynamic.threshold_on_depth_edge, p.threshold_on_depth_edge);
+}
+
 TEST(NamedErrors, OfFramesSayWhatWouldFit) {
   auto p = preset_parameters(spec::morphological::Preset::kDeburrLine);
   const auto text = [&](int width, int height) -> std::string {
