@@ -48,7 +48,7 @@ install(FILES "${PROJECT_SOURCE_DIR}/golden/c/systemverilog/deburr_golden_pkg.sv
 # For copying: each folder is a project of its own.
 foreach(example c platform systemverilog)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples/${example}" DESTINATION "${CMAKE_INSTALL_DATADIR}/deburr/examples"
-    COMPONENT development)
+    COMPONENT development PATTERN build EXCLUDE)
 endforeach()
 if(BUILD_SHARED_LIBS)
   get_property(parts GLOBAL PROPERTY DEBURR_LIBRARIES_OF_golden)

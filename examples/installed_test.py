@@ -46,14 +46,21 @@ def call(*command, code=0, cwd=None, env=None, timeout=600):
     return done.stdout
 
 
+def beside_the_prefix():
+    """Folders of the source and of the build that do not lead to the prefix: other builds and prefixes, too."""
+    ways = {SOURCE, BUILD} | {folder for folder in PREFIX.parents if {SOURCE, BUILD} & set(folder.parents)}
+    return [folder for way in sorted(ways) for folder in sorted(way.iterdir())
+            if folder.is_dir() and not folder.is_symlink() and not PREFIX.is_relative_to(folder)]
+
+
 @functools.lru_cache
 def hiding():
     """What has to stand before a command so that it sees nothing of the source and of the build but the prefix; None
-    where this user may not mount. Files of the two roots stay: nothing is installed with a path to one of them
+    where this user may not mount. Files beside the way to it stay: nothing is installed with a path to one of them
     (Files)."""
-    folders = [folder for root in (SOURCE, BUILD) for folder in sorted(root.iterdir())
-               if folder.is_dir() and not folder.is_symlink() and not PREFIX.is_relative_to(folder)]
-    script = 'for folder in "${@:1:$FOLDERS}"; do mount -t tmpfs none "$folder" || exit 99; done; exec "${@:FOLDERS+1}"'
+    folders = beside_the_prefix()
+    script = ('for folder in "${@:1:$FOLDERS}"; do [ ! -d "$folder" ] || mount -t tmpfs none "$folder" || exit 99; done; '
+              'exec "${@:FOLDERS+1}"')
     for unshare in (["unshare", "--mount"], ["unshare", "--mount", "--map-root-user"]):
         command = [*unshare, "env", f"FOLDERS={len(folders)}", "bash", "-c", script, "bash", *map(str, folders)]
         done = subprocess.run([*command, "ls", SOURCE / "spec", BUILD / "CMakeFiles"], text=True, check=False,
@@ -115,7 +122,8 @@ class Scratch(unittest.TestCase):
         if not (home / "deburr").exists():
             (home / "deburr").symlink_to(PREFIX)
         return alone("bash", "-c", commands, cwd=self.folder, code=code, timeout=1500, env=EMPTY | {
-            "HOME": str(home), "CXX": CXX, "CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count()), "CCACHE_DISABLE": "1"})
+            "HOME": str(home), "CXX": CXX, "CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count()), "CCACHE_DISABLE": "1",
+            "PYTHONDONTWRITEBYTECODE": "1"})
 
     def after_installing(self, page):
         """What is printed by the first block of a page that begins with how to install, and the page's next block."""
@@ -130,11 +138,11 @@ class Scratch(unittest.TestCase):
         file.write_text(text, encoding="utf-8")
         return file
 
-    def project(self, find, link="", main="int main() {}", version="3.25"):
+    def project(self, find, link="", main="int main() {}", version="3.25", more=""):
         """A project of a user's."""
         self.write("main.cpp", main)
         self.write("CMakeLists.txt", f"cmake_minimum_required(VERSION {version})\nproject(user LANGUAGES CXX)\n"
-                   f"find_package({find})\nadd_executable(user main.cpp)\ntarget_link_libraries(user PRIVATE {link})\n")
+                   f"find_package({find})\nadd_executable(user main.cpp)\ntarget_link_libraries(user PRIVATE {link})\n{more}\n")
 
     def configure(self, *options, code=0):
         return " ".join(alone(CMAKE, "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={PREFIX}",
@@ -172,8 +180,9 @@ class Files(Scratch):
         folders = ("c", "platform", "systemverilog", *(["python"] if PYTHON_BUILT else []))
         examples = {file.relative_to(SOURCE / "examples") for folder in folders
                     for file in (SOURCE / "examples" / folder).rglob("*")}
+        examples = {file for file in examples if "build" not in file.parts}  # a reader's who has tried it in the source
         self.assertGreater(len(examples), 20)
-        self.assertLessEqual(examples, {file.relative_to(EXAMPLES) for file in EXAMPLES.rglob("*")})
+        self.assertEqual(examples, {file.relative_to(EXAMPLES) for file in EXAMPLES.rglob("*")} - {pathlib.Path(f) for f in folders})
         self.assertEqual(headers | {pathlib.Path("deburr_registers.h"), pathlib.Path("deburr_golden.h")}, installed)
 
     def test_no_file_names_the_trees(self):
@@ -227,6 +236,14 @@ class Alone(Scratch):
         if not hiding():
             self.skipTest("this user may not mount")
         self.assertEqual(alone("find", SOURCE / "spec", "-name", "*.h"), "")
+        # Neither another build of this tree nor a prefix that another test has left.
+        with tempfile.TemporaryDirectory(dir=BUILD.parent) as build, tempfile.TemporaryDirectory(dir=PREFIX.parent) as prefix:
+            for folder in (build, prefix):
+                (pathlib.Path(folder) / "left").write_text("seen")
+            hiding.cache_clear()
+            roots = {SOURCE, BUILD, PREFIX.parent} | ({BUILD.parent} if BUILD.is_relative_to(SOURCE) else set())
+            self.assertEqual(alone("find", *roots, "-path", PREFIX, "-prune", "-o", "-name", "left", "-print"), "")
+        hiding.cache_clear()
         self.assertIn("parameters.h", alone("find", PREFIX, "-name", "*.h"))
         self.write("planted", "not hidden")
         self.assertEqual(alone("cat", self.folder / "planted"), "not hidden")
@@ -284,6 +301,10 @@ int sc_main(int, char**) {
 """
 
 
+# As on a machine that has no SystemC at all: neither a library nor a CMake package.
+NO_SYSTEMC = ("-DSystemC_LIBRARY=", "-DCMAKE_DISABLE_FIND_PACKAGE_SystemCLanguage=ON")
+
+
 class Packages(Scratch):
     """find_package and pkg-config, as a user calls them."""
 
@@ -317,8 +338,8 @@ class Packages(Scratch):
                 ("deburr 9.9 REQUIRED", [], ("libdeburr-dev", "9.9", here)),
                 ("deburr 0.1 REQUIRED", [], ("libdeburr-dev", "0.1", here)),
                 ("deburr REQUIRED COMPONENTS golden texture", [], ("no component texture", "golden and models")),
-                ("deburr REQUIRED COMPONENTS models", ["-DSystemC_LIBRARY="], ("libsystemc-dev", "SYSTEMC_HOME")),
-                ("deburr REQUIRED", ["-DSystemC_LIBRARY="], ("libsystemc-dev",)),
+                ("deburr REQUIRED COMPONENTS models", NO_SYSTEMC, ("libsystemc-dev", "SYSTEMC_HOME")),
+                ("deburr REQUIRED", NO_SYSTEMC, ("libsystemc-dev",)),
                 ("deburr REQUIRED COMPONENTS models", ["-DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON"], ("libfmt-dev",))):
             shutil.rmtree(self.folder / "build", ignore_errors=True)
             self.project(find)
@@ -335,8 +356,11 @@ class Packages(Scratch):
         self.assertIn("needs the language C++, which this project has not", said)
 
     def test_what_is_optional_may_be_absent(self):
-        self.project("deburr REQUIRED COMPONENTS golden OPTIONAL_COMPONENTS models", "deburr::golden", GOLDEN_MAIN)
-        self.configure("-DSystemC_LIBRARY=")
+        self.project("deburr REQUIRED COMPONENTS golden OPTIONAL_COMPONENTS models", "deburr::golden", GOLDEN_MAIN,
+                     more='message("models: ${deburr_models_FOUND}")')
+        for options, found in ((NO_SYSTEMC, "FALSE"), ((), "TRUE")):
+            shutil.rmtree(self.folder / "build", ignore_errors=True)
+            self.assertIn(f"models: {found}", self.configure(*options))
 
 
 class Program(Scratch):

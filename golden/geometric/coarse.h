@@ -3,17 +3,16 @@
 // docs/reference/geometric/traffic.md, "A coarse test of depth".
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "golden/geometric/traffic.h"
-#include "golden/morphological/planes.h"
 #include "spec/geometric/parameters.h"
 #include "spec/geometric/records.h"
 
 namespace deburr::golden::geometric {
-
-using DepthView = morphological::ViewOf<std::uint32_t>;  // U24 in bits 23..0, the rest is ignored
 
 // Where the entries of tiles lie.
 class CoarseLayout {
@@ -46,7 +45,19 @@ class CoarseLayout {
 };
 
 // What the driver writes of a depth buffer, by CoarseLayout::index_of().
-std::vector<std::uint16_t> coarse_entries(const DepthView& depth);
+template <class View>
+std::vector<std::uint16_t> coarse_entries(const View& depth) {
+  const CoarseLayout layout(depth.width, depth.height);
+  std::vector<std::uint16_t> entries(layout.tiles(), 0xFFFF);
+  for (int y = 0; y < depth.height; ++y) {
+    for (int x = 0; x < depth.width; ++x) {
+      std::uint16_t& entry = entries[layout.index_of(CoarseLayout::tile_of(x, y))];
+      const std::uint32_t own = depth.at(x, y) & 0xFFFFFF;
+      entry = std::min(entry, static_cast<std::uint16_t>(own >> spec::geometric::kCoarseShift));
+    }
+  }
+  return entries;
+}
 
 // Whether a line at depth d is behind all that an entry allows.
 constexpr bool is_dropped(const spec::geometric::Rules& rules, std::uint32_t d,

@@ -39,10 +39,11 @@ constexpr std::array<std::string_view, 6> kWeights = {"raised",      "kept",    
 constexpr std::array<std::string_view, 4> kGroups = {"length", "across", "along", "line"};
 constexpr std::array<std::string_view, 4> kCaches = {"vertex", "depth", "block", "colour"};
 constexpr std::array<std::string_view, 4> kFetches = {"hit", "miss", "replaced", "read-back"};
-constexpr std::array<std::string_view, 6> kPairs = {
-    "boundary/hit", "boundary/miss", "other/hit", "other/miss", "number/invalid", "vertex/invalid"};
-constexpr std::array<std::string_view, 5> kBuffered = {"hit", "empty-place", "leaves", "end-full",
-                                                       "end-part"};
+constexpr std::array<std::string_view, 6> kPairs = {"boundary-pair/hit",   "boundary-pair/miss",
+                                                    "other-pair/hit",      "other-pair/miss",
+                                                    "pair-number/invalid", "pair-vertex/invalid"};
+constexpr std::array<std::string_view, 5> kBuffered = {"hit", "empty", "leaves", "full-at-end",
+                                                       "not-full-at-end"};
 constexpr std::array<std::string_view, 2> kTwoTiles = {"own", "other"};
 constexpr std::array<std::string_view, 3> kTaps = {"up-down", "left-right", "tie"};
 constexpr std::array<std::string_view, 3> kOriginals = {"none", "above", "left"};
@@ -166,8 +167,8 @@ void EdgeCoverage::for_each_bin(const BinSink& sink) const {
     for (std::size_t k = 0; k < kFetches.size(); ++k)
       if (kFetches[k] != "read-back" || kCaches[i] == "block")
         sink(slash({"fetch", kCaches[i], kFetches[k]}), fetches_[i][k]);
-  list("pair", kPairs, pairs_);
-  list("write-buffer", kBuffered, buffered_);
+  list("fetch", kPairs, pairs_);
+  list("fetch/write-buffer", kBuffered, buffered_);
   for (std::size_t i = 0; i < kBorders.size(); ++i)
     sink(slash({"coarse", kBorders[i], "dropped"}), dropped_[i]);
   sink("coarse/equal", coarse_equal_);

@@ -15,9 +15,7 @@
 //   second/<direction>/<block>           of second candidates: the first one's block or another
 //   weight/<direction>/<outcome>
 //   group/<end>                          what ended a group of columns
-//   fetch/<cache>/<outcome>              of look-ups; of colours that the resolve keeps, too
-//   pair/<array>/<outcome>               of vertices apart from their faces, and what is invalid
-//   write-buffer/<outcome>
+//   fetch/<cache>/<outcome>              of look-ups, in what is kept on the chip besides, too
 //   coarse/<direction>/dropped           of the coarse test of depth; kept at equality; two tiles
 //   resolve/<decision>, original/<where>
 //   lines/<layout>/<n>                   of colours of a block

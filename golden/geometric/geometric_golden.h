@@ -30,6 +30,7 @@
 namespace deburr::golden::geometric {
 
 using ImageView = morphological::ViewOf<spec::geometric::Rgba8>;
+using DepthView = morphological::ViewOf<std::uint32_t>;  // U24 in bits 23..0, the rest is ignored
 
 // What the engine finds in memory, and where. Views and spans are someone else's.
 struct FrameInput {

@@ -32,6 +32,10 @@ class CachePredictor {
   // distinct one is looked up once, in the order of first use; fill(line) is called for each miss.
   template <class Fill>
   void request(const std::array<std::uint32_t, 4>& lines, Fill&& fill) {
+    if (lines[1] == lines[0] && lines[2] == lines[0] && lines[3] == lines[0]) {  // as most do
+      if (!lookup(lines[0])) fill(lines[0]);
+      return;
+    }
     for (int i = 0; i < 4; ++i) {
       bool repeated = false;
       for (int j = 0; j < i; ++j) repeated = repeated || lines[j] == lines[i];

@@ -15,6 +15,10 @@ PayloadShape lanes(spec::geometric::Lanes code) {
   return {.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(code)]};
 }
 
+bool is_split(const spec::geometric::Parameters& p) {
+  return p.records == spec::geometric::RecordsLayout::kSplit;
+}
+
 MemoryPortParameters port_of(const spec::geometric::Parameters& p) {
   MemoryPortParameters port;
   port.outstanding = static_cast<std::uint32_t>(p.memory_outstanding);
@@ -28,19 +32,24 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
                                  const MemoryClocks& memory)
     : Engine(name, clock, spec::geometric::kRegisters, control_layout()),
       parameters_(sized(check_build(parameters), memory)),
-      edge_lanes_(lanes(parameters_.edge_lanes)),
       walkers_(lanes(parameters_.walkers)),
       port_(port_of(parameters_)),
       parameter_store("parameter_store", clock, control, parameters_),
       frame_sequencer("frame_sequencer", clock),
-      memory_arbiter("memory_arbiter", clock, port_),
+      memory_arbiter("memory_arbiter", clock, port_, parameters_),
       facing_store("facing_store", clock, parameters_),
       edge_reader("edge_reader", clock, parameters_, latency_),
       edge_classifier("edge_classifier", clock, parameters_, facing_store.words, latency_),
+      pair_fetch(is_split(parameters_)
+                     ? std::make_unique<PairFetch>("pair_fetch", clock, parameters_, latency_)
+                     : nullptr),
       vertex_fetch("vertex_fetch", clock, parameters_),
       line_setup("line_setup", clock, parameters_, latency_),
       line_walker("line_walker", clock, parameters_, latency_),
       coverage_unit("coverage_unit", clock, parameters_, latency_),
+      depth_screen(parameters_.coarse_lines != spec::geometric::CoarseLines::kNone
+                       ? std::make_unique<DepthScreen>("depth_screen", clock, parameters_)
+                       : nullptr),
       depth_test("depth_test", clock, parameters_, latency_),
       weight_combiner("weight_combiner", clock, parameters_, latency_),
       frame_copier("frame_copier", clock, parameters_),
@@ -50,17 +59,31 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
                   weight_combiner.data_port(), colour_store.filler()),
       resolver("resolver", clock, parameters_, colour_store.reader()),
       memory_port("memory_port", clock, port_),
-      edges_("edges", 2, edge_lanes_),
+      edges_("edges", 2, edge_beat_shape(parameters_)),
+      kept_(pair_fetch ? "pairs" : "kept"),
       lines_("line_fifo", static_cast<std::uint32_t>(parameters_.line_fifo)),
       groups_("groups", 2, walkers_),
-      candidates_("candidates", 2, walkers_),
+      candidates_("candidates", 2, candidates_shape(parameters_, false)),
       weights_("weights", 2, walkers_),
       blocks_("block_fifo", static_cast<std::uint32_t>(parameters_.resolve_lines) / 4),
-      requests_("requests", 2, request_shape(port_, 32, kRequestTagBits)),
-      responses_("responses", 2, response_shape(port_, 32, kRequestTagBits)) {
+      requests_("requests", 2, request_shape(port_, 32, request_tag_bits(parameters_))),
+      responses_("responses", 2, response_shape(port_, 32, request_tag_bits(parameters_))) {
   edge_reader.edges_out(edges_);
   edge_classifier.edges_in(edges_);
-  edge_classifier.edges_out(kept_);
+  if (pair_fetch) {
+    numbers_ = std::make_unique<Link<PairNumber>>("kept");
+    invalid_pair_ = std::make_unique<Pulse>("invalid_pair");
+    (*edge_classifier.numbers_out)(*numbers_);
+    pair_fetch->numbers_in(*numbers_);
+    pair_fetch->edges_out(kept_);
+    memory_arbiter.connect(Client::kPairs, pair_fetch->memory);
+    pair_fetch->invalid_pair_out(*invalid_pair_);
+    (*parameter_store.invalid_pair_in)(*invalid_pair_);
+    pair_fetch->rules_in(rules_);
+    pair_fetch->phase_in(phase_);
+  } else {
+    (*edge_classifier.edges_out)(kept_);
+  }
   vertex_fetch.edges_in(kept_);
   vertex_fetch.ends_out(ends_);
   line_setup.ends_in(ends_);
@@ -69,7 +92,18 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
   line_walker.groups_out(groups_);
   coverage_unit.groups_in(groups_);
   coverage_unit.candidates_out(candidates_);
-  depth_test.candidates_in(candidates_);
+  if (depth_screen) {
+    screened_ =
+        std::make_unique<Link<CandidateToken>>("screened", 2, candidates_shape(parameters_, true));
+    depth_screen->candidates_in(candidates_);
+    depth_screen->screened_out(*screened_);
+    depth_test.candidates_in(*screened_);
+    memory_arbiter.connect(Client::kCoarse, depth_screen->memory);
+    depth_screen->rules_in(rules_);
+    depth_screen->phase_in(phase_);
+  } else {
+    depth_test.candidates_in(candidates_);
+  }
   depth_test.weights_out(weights_);
   weight_combiner.weights_in(weights_);
   block_scanner.blocks_out(touched_blocks_);
@@ -124,6 +158,7 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
   weight_combiner.phase_in(phase_);
   frame_copier.phase_in(phase_);
   block_scanner.phase_in(phase_);
+  block_fetch.phase_in(phase_);
   resolver.phase_in(phase_);
   facing_store.loaded_out(facing_loaded_);
   vertex_fetch.cleared_out(vertices_cleared_);
@@ -147,8 +182,7 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
       {reg::kBackEdges, &edge_classifier.back_edges},
       {reg::kCreaseEdges, &edge_classifier.crease_edges},
       {reg::kFlatEdges, &edge_classifier.flat_edges},
-      {reg::kInvalidEdges, &edge_classifier.invalid_edges},
-      {reg::kKeptEdges, &edge_classifier.kept_edges},
+      {reg::kKeptEdges, pair_fetch ? &pair_fetch->kept_edges : &edge_classifier.kept_edges},
       {reg::kOutsideEdges, &line_setup.outside_edges},
       {reg::kDegenerateEdges, &line_setup.degenerate_edges},
       {reg::kEmptyEdges, &line_setup.empty_edges},
@@ -164,6 +198,11 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
       {reg::kEdgeCycles, &frame_sequencer.edge_cycles},
       {reg::kResolveCycles, &frame_sequencer.resolve_cycles}};
   for (const auto& [offset, counter] : shown) control.show(offset, *counter);
+  if (pair_fetch)
+    control.show_sum(reg::kInvalidEdges,
+                     {&edge_classifier.invalid_edges, &pair_fetch->invalid_edges});
+  else
+    control.show(reg::kInvalidEdges, edge_classifier.invalid_edges);
 }
 
 spec::geometric::Work GeometricEngine::work() const {
@@ -175,7 +214,8 @@ spec::geometric::Work GeometricEngine::work() const {
   work.crease_edges = edge_classifier.crease_edges.value();
   work.flat_edges = edge_classifier.flat_edges.value();
   work.invalid_edges = edge_classifier.invalid_edges.value();
-  work.kept_edges = edge_classifier.kept_edges.value();
+  work.kept_edges = (pair_fetch ? pair_fetch->kept_edges : edge_classifier.kept_edges).value();
+  if (pair_fetch) work.invalid_edges += pair_fetch->invalid_edges.value();
   work.outside_edges = line_setup.outside_edges.value();
   work.degenerate_edges = line_setup.degenerate_edges.value();
   work.empty_edges = line_setup.empty_edges.value();

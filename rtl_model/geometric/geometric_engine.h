@@ -12,11 +12,11 @@
 //                   FacingStore
 //                       | facing bits
 //                       v
-//   EdgeReader -> EdgeClassifier -> VertexFetch -> LineSetup -> line FIFO -> LineWalker
+//   EdgeReader -> EdgeClassifier -> PairFetch -> VertexFetch -> LineSetup -> line FIFO
 //                                                                                |
-//       +------------------------------------------------------------------------+
+//       +----------------------------------------------------------- LineWalker <-+
 //       v
-//   CoverageUnit -> DepthTest -> WeightCombiner       FrameCopier (with frame_copy)
+//   CoverageUnit -> DepthScreen -> DepthTest -> WeightCombiner       FrameCopier (with frame_copy)
 //                                      |
 //       +------------------------------+ when all is drawn
 //       v
@@ -27,15 +27,19 @@
 //   wires: ParameterStore -- rules, FrameSequencer -- phase --> units of the pipe
 //          ParameterStore -- start, refusal --> FrameSequencer
 //          FrameSequencer -- latch, frame_done --> ParameterStore
-//          EdgeClassifier -- invalid_edge, MemoryArbiter -- memory_error --> ParameterStore
+//          EdgeClassifier -- invalid_edge, PairFetch -- invalid_pair,
+//          MemoryArbiter -- memory_error --> ParameterStore
 //          FacingStore -- facing_loaded, VertexFetch -- vertices_cleared,
 //          DepthTest -- depth_cleared, WeightCombiner -- weights_cleared, drawn,
 //          FrameCopier -- copied, Resolver -- resolved --> FrameSequencer
+//
+// PairFetch is there with records = split alone, DepthScreen with coarse_lines.
 //
 // Everything is in order; only memory answers in any. Source: Persson, GPAA; paper 002.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <systemc>
 
 #include "rtl_model/fabric/clock_domain.h"
@@ -50,9 +54,11 @@
 #include "rtl_model/geometric/edges/edge_classifier.h"
 #include "rtl_model/geometric/edges/edge_reader.h"
 #include "rtl_model/geometric/edges/facing_store.h"
+#include "rtl_model/geometric/edges/pair_fetch.h"
 #include "rtl_model/geometric/edges/vertex_fetch.h"
 #include "rtl_model/geometric/frame_sequencer.h"
 #include "rtl_model/geometric/lines/coverage_unit.h"
+#include "rtl_model/geometric/lines/depth_screen.h"
 #include "rtl_model/geometric/lines/depth_test.h"
 #include "rtl_model/geometric/lines/line_setup.h"
 #include "rtl_model/geometric/lines/line_walker.h"
@@ -77,7 +83,7 @@ class GeometricEngine final : public Engine {
 
  private:
   const spec::geometric::Parameters parameters_;
-  const PayloadShape edge_lanes_, walkers_;
+  const PayloadShape walkers_;
   const MemoryPortParameters port_;
   EdgeLatency latency_;
 
@@ -89,10 +95,12 @@ class GeometricEngine final : public Engine {
   FacingStore facing_store;
   EdgeReader edge_reader;
   EdgeClassifier edge_classifier;
+  std::unique_ptr<PairFetch> pair_fetch;  // only with records = split
   VertexFetch vertex_fetch;
   LineSetup line_setup;
   LineWalker line_walker;
   CoverageUnit coverage_unit;
+  std::unique_ptr<DepthScreen> depth_screen;  // only with coarse_lines
   DepthTest depth_test;
   WeightCombiner weight_combiner;
   FrameCopier frame_copier;
@@ -112,21 +120,24 @@ class GeometricEngine final : public Engine {
 
  private:
   // From the registers to the units, and what sets their sticky bits.
-  Wire<FrameRules> rules_{"rules", FrameRules{}};
+  Wire<FrameRules> rules_{"rules", FrameRules{}, rules_shape(parameters_)};
   Pulse start_{"start"}, latch_{"latch"};
   CombinationalWire<spec::geometric::Refusal> refusal_{"refusal", refusal_shape()};
   Pulse frame_done_{"frame_done"}, invalid_edge_{"invalid_edge"}, memory_error_{"memory_error"};
+  std::unique_ptr<Pulse> invalid_pair_;
   // From the FrameSequencer to the units, and back to it.
   Wire<Phase> phase_{"phase", Phase::kIdle, phase_shape()};
   Wire<bool> facing_loaded_{"facing_loaded", false}, vertices_cleared_{"vertices_cleared", false},
       depth_cleared_{"depth_cleared", false}, weights_cleared_{"weights_cleared", false},
       drawn_{"drawn", false}, copied_{"copied", false}, resolved_{"resolved", false};
   Link<EdgeBeat> edges_;
-  Link<KeptEdge> kept_{"kept"};
+  std::unique_ptr<Link<PairNumber>> numbers_;
+  Link<KeptEdge> kept_;
   Link<EdgeEnds> ends_{"ends"};
   Fifo<LineToken> lines_;
   Link<GroupToken> groups_;
   Link<CandidateToken> candidates_;
+  std::unique_ptr<Link<CandidateToken>> screened_;
   Link<WeightToken> weights_;
   Link<TouchedBlock> touched_blocks_{"touched_blocks"};
   Fifo<BlockToken> blocks_;

@@ -34,8 +34,13 @@ GeometricRegions::Bytes GeometricRegions::needed(const GeometricSizes& frame,
   const auto blocks = [](int size) { return static_cast<std::uint64_t>((size + 3) / 4); };
   Bytes bytes{};
   bytes[index_of(spec::geometric::Region::kFaces)] = rounded_up((frame.faces + 7) / 8, kMemoryLine);
+  const bool split = p.records == spec::geometric::RecordsLayout::kSplit;
   bytes[index_of(spec::geometric::Region::kEdges)] =
-      rounded_up(frame.edges * spec::geometric::kEdgeBytes, kMemoryLine);
+      split ? split_bytes(frame.edges)
+            : rounded_up(frame.edges * spec::geometric::kEdgeBytes, kMemoryLine);
+  if (split)
+    bytes[index_of(spec::geometric::Region::kPairs)] =
+        split_bytes(frame.boundaries) + split_bytes(frame.edges - frame.boundaries);
   bytes[index_of(spec::geometric::Region::kVertices)] =
       rounded_up(frame.vertices * spec::geometric::kVertexBytes, kMemoryLine);
   bytes[index_of(spec::geometric::Region::kDepth)] = pixels;
@@ -43,6 +48,8 @@ GeometricRegions::Bytes GeometricRegions::needed(const GeometricSizes& frame,
       kMemoryLine * blocks(frame.width) * blocks(frame.height);
   bytes[index_of(spec::geometric::Region::kColour)] = pixels;
   bytes[index_of(spec::geometric::Region::kCopy)] = p.frame_copy ? pixels : 0;
+  if (p.coarse_lines != spec::geometric::CoarseLines::kNone)
+    bytes[index_of(spec::geometric::Region::kCoarse)] = coarse_bytes(frame.width, frame.height);
   return bytes;
 }
 
@@ -64,6 +71,11 @@ GeometricRegions GeometricRegions::allocate(std::span<const GeometricSizes> fram
                     "smaller frame or mesh",
                     regions.end_, kAddresses));
   return regions;
+}
+
+std::uint32_t GeometricRegions::other_pairs(std::uint64_t boundaries) const {
+  return base(spec::geometric::Region::kPairs) +
+         static_cast<std::uint32_t>(split_bytes(boundaries));
 }
 
 std::size_t GeometricRegions::region_of(std::uint64_t address) const {
@@ -106,10 +118,10 @@ void GeometricDriver::check(const GeometricFrame& frame) const {
                 spec::geometric::kMaxFrameSize);
   require_range("edges", sizes.edges, 0, spec::geometric::kMaxEdges);
   require_range("vertices", sizes.vertices, 0, spec::geometric::kMaxVertices);
-  // Nobody reads facing bits where all edges are drawn.
-  const bool all = rules_.select == spec::geometric::Select::kAll;
+  // Nobody reads facing bits where edges are not selected by them.
+  const bool unread = rules_.select != spec::geometric::Select::kEdges;
   require_range("faces", sizes.faces, 0,
-                all ? spec::geometric::kIndexMask + 1 : spec::geometric::kMaxFaces);
+                unread ? spec::geometric::kIndexMask + 1 : spec::geometric::kMaxFaces);
   if (frame.facing.size() < (sizes.faces + 7) / 8)
     reject(fmt::format("{} bytes of facing bits are too few for {} faces", frame.facing.size(),
                        sizes.faces));
@@ -130,7 +142,13 @@ void GeometricDriver::load(const GeometricFrame& frame) {
   check(frame);
   sizes_ = frame.sizes();
   fill(spec::geometric::Region::kFaces, frame.facing.first((sizes_.faces + 7) / 8));
-  fill(spec::geometric::Region::kEdges, edge_records(frame.edges));
+  if (rules_.records == spec::geometric::RecordsLayout::kSplit) {
+    fill(spec::geometric::Region::kEdges, face_records(frame.edges));
+    fill(spec::geometric::Region::kPairs, pair_records(frame.edges, true));
+    memory_.write(regions_.other_pairs(sizes_.boundaries), pair_records(frame.edges, false));
+  } else {
+    fill(spec::geometric::Region::kEdges, edge_records(frame.edges));
+  }
   fill(spec::geometric::Region::kVertices, vertex_records(frame.vertices));
   if (!frame.depths.empty()) load_depths(frame.depths);
   if (!frame.colours.empty()) load_colours(frame.colours);
@@ -139,6 +157,8 @@ void GeometricDriver::load(const GeometricFrame& frame) {
 void GeometricDriver::load_depths(std::span<const std::uint32_t> depths) {
   require_pixels("depths", depths.size(), sizes_);
   fill(spec::geometric::Region::kDepth, depth_buffer(layout(), depths));
+  if (rules_.coarse_lines != spec::geometric::CoarseLines::kNone)
+    fill(spec::geometric::Region::kCoarse, coarse_depth(sizes_.width, sizes_.height, depths));
 }
 
 void GeometricDriver::load_colours(std::span<const spec::geometric::Rgba8> colours) {
@@ -160,7 +180,11 @@ void GeometricDriver::program() {
       {spec::geometric::reg::kDepthBase, regions_.base(spec::geometric::Region::kDepth)},
       {spec::geometric::reg::kColourBase, regions_.base(spec::geometric::Region::kColour)},
       {spec::geometric::reg::kWeightBase, regions_.base(spec::geometric::Region::kWeights)},
-      {spec::geometric::reg::kCopyBase, regions_.base(spec::geometric::Region::kCopy)}};
+      {spec::geometric::reg::kCopyBase, regions_.base(spec::geometric::Region::kCopy)},
+      {spec::geometric::reg::kBoundaryCount, static_cast<std::uint32_t>(sizes_.boundaries)},
+      {spec::geometric::reg::kPairBase, regions_.base(spec::geometric::Region::kPairs)},
+      {spec::geometric::reg::kOtherPairBase, regions_.other_pairs(sizes_.boundaries)},
+      {spec::geometric::reg::kCoarseBase, regions_.base(spec::geometric::Region::kCoarse)}};
   require_idle("sizes and bases");
   for (const auto& [offset, value] : values) registers_.write(offset, value);
 }

@@ -31,10 +31,10 @@
 
 namespace deburr::platform {
 
-// Pixels of the frame, records of its mesh.
+// Pixels of the frame, records of its mesh; of its edges the boundaries (records = split).
 struct GeometricSizes {
   int width = 0, height = 0;
-  std::uint64_t edges = 0, vertices = 0, faces = 0;
+  std::uint64_t edges = 0, vertices = 0, faces = 0, boundaries = 0;
 };
 
 // What lies in memory for a frame; spans are someone else's. Values of pixels row by row; empty:
@@ -47,7 +47,9 @@ struct GeometricFrame {
   std::span<const std::uint8_t> facing;  // a bit a face
   std::span<const std::uint32_t> depths;
   std::span<const spec::geometric::Rgba8> colours;
-  GeometricSizes sizes() const { return {width, height, edges.size(), vertices.size(), faces}; }
+  GeometricSizes sizes() const {
+    return {width, height, edges.size(), vertices.size(), faces, boundaries_of(edges)};
+  }
 };
 
 // Where the regions begin.
@@ -67,6 +69,8 @@ class GeometricRegions {
   // What a frame needs of each.
   static Bytes needed(const GeometricSizes& frame, const spec::geometric::Parameters& parameters);
 
+  // Where the pairs of edges that are no boundaries begin.
+  std::uint32_t other_pairs(std::uint64_t boundaries) const;
   std::uint32_t base(spec::geometric::Region region) const {
     return base_[static_cast<std::size_t>(region)];
   }

@@ -12,6 +12,19 @@ void put_words(std::vector<std::uint8_t>& bytes, std::initializer_list<std::uint
     for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
 }
 
+// Record n of an array of six bytes each, ten a line, in its low 48 bits.
+void put_split(std::vector<std::uint8_t>& bytes, std::size_t n, std::uint64_t record) {
+  bytes.resize(split_bytes(n + 1));
+  const std::size_t first = n / spec::geometric::kSplitInLine * spec::geometric::kLineBytes +
+                            n % spec::geometric::kSplitInLine * spec::geometric::kSplitBytes;
+  for (std::size_t i = 0; i < spec::geometric::kSplitBytes; ++i)
+    bytes[first + i] = static_cast<std::uint8_t>(record >> (8 * i));
+}
+
+bool is_boundary(const spec::geometric::Edge& edge) {
+  return edge.flags & spec::geometric::flag::kBoundary;
+}
+
 // Calls pixel(index, offset) for each pixel of the frame, row by row.
 template <class Pixel>
 void each_pixel(const PixelLayout& layout, Pixel&& pixel) {
@@ -28,6 +41,43 @@ std::vector<std::uint8_t> edge_records(std::span<const spec::geometric::Edge> ed
   for (const spec::geometric::Edge& e : edges)
     put_words(bytes,
               {e.v0, e.v1, e.f0 | std::uint32_t{e.flags} << spec::geometric::kFlagShift, e.f1});
+  return bytes;
+}
+
+std::uint64_t split_bytes(std::uint64_t records) {
+  constexpr std::uint64_t kInLine = spec::geometric::kSplitInLine;
+  return (records + kInLine - 1) / kInLine * spec::geometric::kLineBytes;
+}
+
+std::uint64_t boundaries_of(std::span<const spec::geometric::Edge> edges) {
+  return static_cast<std::uint64_t>(std::count_if(edges.begin(), edges.end(), is_boundary));
+}
+
+std::vector<std::uint8_t> face_records(std::span<const spec::geometric::Edge> edges) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(split_bytes(edges.size()));
+  const auto face = [](std::uint32_t f) {
+    // Out of range as it is.
+    return std::uint64_t{std::min(f, spec::geometric::kSplitFaceMask)};
+  };
+  std::size_t n = 0;
+  for (const spec::geometric::Edge& e : edges)
+    put_split(bytes, n++,
+              face(e.f0) | face(e.f1) << spec::geometric::kSplitFaceBits |
+                  std::uint64_t{e.flags & 0xFu} << spec::geometric::kSplitFlagShift);
+  return bytes;
+}
+
+std::vector<std::uint8_t> pair_records(std::span<const spec::geometric::Edge> edges,
+                                       bool boundaries) {
+  std::vector<std::uint8_t> bytes;
+  std::size_t n = 0;
+  for (const spec::geometric::Edge& e : edges)
+    if (is_boundary(e) == boundaries)
+      put_split(bytes, n++,
+                std::uint64_t{e.v0 & spec::geometric::kIndexMask} |
+                    std::uint64_t{e.v1 & spec::geometric::kIndexMask}
+                        << spec::geometric::kSplitVertexBits);
   return bytes;
 }
 
@@ -79,6 +129,38 @@ std::vector<std::uint8_t> depth_buffer(const PixelLayout& layout,
     for (std::size_t i = 0; i < 4; ++i)
       bytes[offset + i] = static_cast<std::uint8_t>(depths[index] >> (8 * i));
   });
+  return bytes;
+}
+
+std::uint64_t coarse_bytes(int width, int height) {
+  constexpr int kAcross = spec::geometric::kTileSize * spec::geometric::kCoarseAcross,
+                kDown = spec::geometric::kTileSize * spec::geometric::kCoarseDown;
+  const auto lines = [](int size, int of) {
+    return static_cast<std::uint64_t>((size + of - 1) / of);
+  };
+  return spec::geometric::kLineBytes * lines(width, kAcross) * lines(height, kDown);
+}
+
+std::vector<std::uint8_t> coarse_depth(int width, int height,
+                                       std::span<const std::uint32_t> depths) {
+  constexpr std::size_t kTile = spec::geometric::kTileSize,
+                        kAcross = spec::geometric::kCoarseAcross,
+                        kDown = spec::geometric::kCoarseDown;
+  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+  const std::size_t lines_across = (columns + kTile * kAcross - 1) / (kTile * kAcross);
+  std::vector<std::uint8_t> bytes(coarse_bytes(width, height));
+  for (std::size_t ty = 0; ty * kTile < rows; ++ty)
+    for (std::size_t tx = 0; tx * kTile < columns; ++tx) {
+      std::uint32_t least = 0xFFFFFF;
+      for (std::size_t y = ty * kTile; y < std::min(rows, (ty + 1) * kTile); ++y)
+        for (std::size_t x = tx * kTile; x < std::min(columns, (tx + 1) * kTile); ++x)
+          least = std::min(least, depths[y * columns + x] & 0xFFFFFF);
+      const std::size_t at =
+          spec::geometric::kLineBytes * (ty / kDown * lines_across + tx / kAcross) +
+          spec::geometric::kCoarseBytes * (ty % kDown * kAcross + tx % kAcross);
+      bytes[at] = static_cast<std::uint8_t>(least >> spec::geometric::kCoarseShift);
+      bytes[at + 1] = static_cast<std::uint8_t>(least >> (spec::geometric::kCoarseShift + 8));
+    }
   return bytes;
 }
 

@@ -14,6 +14,13 @@
 namespace deburr::platform {
 
 std::vector<std::uint8_t> edge_records(std::span<const spec::geometric::Edge> edges);
+// Records = split: faces and flags of all edges; vertices of boundaries, or of all others.
+std::vector<std::uint8_t> face_records(std::span<const spec::geometric::Edge> edges);
+std::vector<std::uint8_t> pair_records(std::span<const spec::geometric::Edge> edges,
+                                       bool boundaries);
+std::uint64_t boundaries_of(std::span<const spec::geometric::Edge> edges);
+// Bytes of so many records of such an array, whole lines.
+std::uint64_t split_bytes(std::uint64_t records);
 std::vector<std::uint8_t> vertex_records(std::span<const spec::geometric::Vertex> vertices);
 std::vector<std::uint8_t> facing_bits(const std::vector<bool>& faces);
 
@@ -34,6 +41,11 @@ class PixelLayout {
 // A buffer of a whole frame. Values row by row; what lies between the rows and tiles is 0.
 std::vector<std::uint8_t> depth_buffer(const PixelLayout& layout,
                                        std::span<const std::uint32_t> depths);
+// The coarse depth of a frame, 16 bits a tile of 8 x 8 pixels (coarse_lines).
+std::vector<std::uint8_t> coarse_depth(int width, int height,
+                                       std::span<const std::uint32_t> depths);
+// Its bytes, whole lines.
+std::uint64_t coarse_bytes(int width, int height);
 std::vector<std::uint8_t> colour_buffer(const PixelLayout& layout,
                                         std::span<const spec::geometric::Rgba8> colours);
 // Back again.

@@ -140,8 +140,9 @@ def morphological(facts):
 
 def geometric(facts):
     page = "docs/reference/geometric/memories.md"
-    plan = Plan({"EdgeReader": (0, 0), "EdgeClassifier": (1, 0), "VertexFetch": (2, 0), "LineSetup": (3, 0),
-                 "LineWalker": (3, 1), "CoverageUnit": (2, 1), "DepthTest": (1, 1), "WeightCombiner": (0, 1),
+    plan = Plan({"EdgeReader": (0, 0), "EdgeClassifier": (1, 0), "PairFetch": (2, 0), "VertexFetch": (3, 0),
+                 "LineSetup": (4, 0), "LineWalker": (4, 1), "CoverageUnit": (3, 1), "DepthScreen": (2, 1), "DepthTest": (1, 1),
+                 "WeightCombiner": (0, 1),
                  "BlockScanner": (0, 2), "BlockFetch": (1, 2), "Resolver": (2, 2), "FacingStore": (0, 3),
                  "FrameCopier": (1, 3), "ParameterStore": (2, 3), "FrameSequencer": (3, 3), "MemoryArbiter": (1, 4),
                  "MemoryPort": (2, 4)},
@@ -153,7 +154,7 @@ def geometric(facts):
     beside = sorted(camel - linked)
     if unplaced := [unit for unit in beside if unit not in plan.units]:
         raise Missing(f"scripts/drawing/pipelines.py: {page} has units that have no place: {', '.join(unplaced)}")
-    picture = draw(facts, page, plan, (4, 5), "Units of the geometric engine and the links between them", beside)
+    picture = draw(facts, page, plan, (5, 5), "Units of the geometric engine and the links between them", beside)
     for name, start, end, places in facts.links(page):
         if "each client" in (start, end):
             shift = 0 if end == "MemoryArbiter" else 22

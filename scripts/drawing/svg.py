@@ -15,6 +15,7 @@ text { fill: var(--ink); font: 13px sans-serif; }
 .middle { text-anchor: middle; } .end { text-anchor: end; }
 .halo { stroke: var(--ground); stroke-width: 4px; paint-order: stroke; stroke-linejoin: round; }
 .ground { fill: var(--ground); }
+.answer { fill: var(--box); stroke: var(--third); stroke-width: 1.8; }
 .box { fill: var(--box); stroke: var(--dim); } .band { fill: none; stroke: var(--dim); stroke-dasharray: 5 4; }
 .rule { stroke: var(--rule); fill: none; } .link { stroke: var(--dim); stroke-width: 1.4; fill: none; }
 .wire { stroke: var(--dim); stroke-dasharray: 4 3; fill: none; } .head { fill: var(--dim); }

@@ -4,6 +4,7 @@ import collections
 import json
 import math
 import pathlib
+import subprocess
 import textwrap
 
 from mutation import mutants
@@ -15,12 +16,9 @@ PAGE = pathlib.Path("docs/measurements/mutation.md")
 VERDICTS = ("killed", "survived", "invalid")
 GOAL = 95
 Z = 1.959964  # of a confidence of 95 %
-HEAD = """# Mutants of both models
-
-Made by `scripts/mutate --report` from `tb/mutation/record.json`, the last campaign, and `tb/mutation/survivors.json`;
-do not edit. What a mutant is: [how](../reference/tests.md#mutants), [why](../explanation/verification.md#mutants).
-
-"""
+HEAD = ("Made by `scripts/mutate --report` from `tb/mutation/record.json`, the last campaign{at}, and "
+        "`tb/mutation/survivors.json`; do not edit. What a mutant is: [how](../reference/tests.md#mutants), "
+        "[why](../explanation/verification.md#mutants).")
 
 
 def record_of(results, sources):
@@ -49,9 +47,21 @@ def read(path):
     return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
 
 
-def write_record(root, record):
+def read_record(root):
+    """The record by file, and the commit that it is of, or nothing."""
+    record = read(root / RECORD)
+    return record, record.pop("commit", "")
+
+
+def commit_of(root):
+    done = subprocess.run(["git", "-C", root, "rev-parse", "HEAD"], capture_output=True, text=True, check=False)
+    return done.stdout.strip()[:12]
+
+
+def write_record(root, record, commit):
     (root / RECORD).parent.mkdir(parents=True, exist_ok=True)
-    rows = [f"{json.dumps(file)}: {json.dumps(entry)}" for file, entry in sorted(record.items())]
+    entries = [*([("commit", commit)] if commit else []), *sorted(record.items())]
+    rows = [f"{json.dumps(file)}: {json.dumps(entry)}" for file, entry in entries]
     (root / RECORD).write_text("{\n" + ",\n".join(rows) + "\n}\n", encoding="utf-8")
 
 
@@ -135,7 +145,7 @@ def kinds_of(record):
     return "\n".join(lines) + "\n\n" if len(lines) > 2 else ""
 
 
-def page_of(root, record):
+def page_of(root, record, commit):
     explained = explanations(root)
     rows = checked(record, explained)
     total = sum(rows.values(), collections.Counter())
@@ -150,7 +160,8 @@ def page_of(root, record):
             f"| {percent(row['killed'], row['killed'] + row['survived'])} |")
     old = [file for file, entry in record.items() if "kinds" not in entry]
     tried = run_of(total) + total["invalid"]
-    text = HEAD + wrapped(
+    at = f" at commit `{commit}`" if commit else ""
+    text = "# Mutants of both models\n\n" + wrapped(HEAD.format(at=at)) + "\n\n" + wrapped(
         f"Of {total['mutants']} mutants {run_of(total)} have a verdict: {total['killed']} killed, "
         f"{total['explained']} survived and explained, {total['survived']} survived and open. The goal is {GOAL} % of those that are not explained. " + goal_of(rows, not old)) + "\n\n"
     text += wrapped("In brackets: the rate of all mutants, with a confidence of 95 % (Wilson's interval), if those with a "

@@ -69,12 +69,6 @@ Change measure_change(const Image& before, const Image& after, const Image* trut
   return change;
 }
 
-Image without(Image image, const std::vector<bool>& missing, const Rgba8& colour) {
-  for (std::size_t i = 0; i < image.pixels.size(); ++i)
-    if (missing[i]) image.pixels[i] = colour;
-  return image;
-}
-
 Image delivered_part(const Image& image, std::size_t delivered, const Rgba8& rest) {
   Image part = image;
   const auto from = std::min(delivered, part.pixels.size());

@@ -39,8 +39,6 @@ void add_frame_pictures(RunContext& context, const SmoothedFrame& frame);
 
 // What stands for a pixel that did not come, and for one that could not be compared.
 inline constexpr Rgba8 kNotDelivered = {128, 128, 128, 255}, kNotCompared = {0, 0, 0, 255};
-// `colour` in place of the pixels that are missing.
-Image without(Image image, const std::vector<bool>& missing, const Rgba8& colour);
 
 // The first `delivered` pixels; `rest` in place of the others.
 Image delivered_part(const Image& image, std::size_t delivered, const Rgba8& rest);

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
+#include <utility>
 
 #include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/glob.h"
@@ -19,35 +22,71 @@ namespace {
                                           link.consumer()));
 }
 
+template <class Word>
+inline Word word(const std::byte* at) {
+  Word value;
+  std::memcpy(&value, at, sizeof value);
+  return value;
+}
+
+// kBytes, a multiple of 4.
+template <std::size_t kBytes>
+inline bool differ(const std::byte* a, const std::byte* b) {
+  std::uint64_t difference = 0;
+  for (std::size_t at = 0; at + 8 <= kBytes; at += 8)
+    difference |= word<std::uint64_t>(a + at) ^ word<std::uint64_t>(b + at);
+  if constexpr (kBytes % 8 != 0)
+    difference |= word<std::uint32_t>(a + kBytes - 4) ^ word<std::uint32_t>(b + kBytes - 4);
+  return difference != 0;
+}
+
+constexpr std::size_t kLargest = 128;  // bytes of the beats that have a follower of their own
+
 }  // namespace
 
-LinkChecker::LinkChecker(rtl::ClockDomain& clock, const std::string& glob, bool widths)
-    : widths_(widths) {
+LinkChecker::LinkChecker(rtl::ClockDomain& clock, const std::string& glob, bool widths) {
   rtl::for_each<rtl::LinkBase>([&](rtl::LinkBase& link) {
     if (!rtl::glob_match(glob, link.name())) return;
     Watched watched;
     watched.link = &link;
-    watched.depth = link.depth();
     watched.slots = link.beat(0);
-    watched.slot_bytes = static_cast<std::size_t>(link.beat(watched.after(0)) - link.beat(0));
-    watched.payload_bytes = link.payload_bytes();
-    watched.copies.resize(watched.depth * watched.payload_bytes);
+    watched.slot_bytes = static_cast<std::uint32_t>(
+        link.depth() == 1 ? link.payload_bytes()
+                          : static_cast<std::size_t>(link.beat(1) - link.beat(0)));
+    const std::uint64_t ring_bytes = std::uint64_t{link.depth()} * watched.slot_bytes;
+    DEBURR_CHECK(
+        ring_bytes <= ~std::uint32_t{0},
+        fmt::format("{}: {} beats are too many to keep a copy of each", link.name(), link.depth()));
+    watched.ring_bytes = static_cast<std::uint32_t>(ring_bytes);
+    watched.copies = std::make_unique<std::byte[]>(ring_bytes);
+    watched.follow = widths ? &LinkChecker::follow<true> : follower_of(link.payload_bytes());
     adopt(watched);
     // A beat that is there already is taken as it is.
-    for (std::uint64_t n = link.pops(); n < link.pushes(); ++n) {
-      const auto slot = static_cast<std::uint32_t>(n % watched.depth);
-      std::memcpy(watched.copy(slot), watched.slot(slot), watched.payload_bytes);
-    }
+    for (std::uint64_t n = link.pops(); n < link.pushes(); ++n)
+      std::memcpy(&watched.copies[place_of(watched, n)], link.beat(n), link.payload_bytes());
     watched_.push_back(std::move(watched));
   });
   clock.add_after(*this);
 }
 
+std::uint32_t LinkChecker::place_of(const Watched& watched, std::uint64_t beat) {
+  return static_cast<std::uint32_t>(beat % watched.link->depth()) * watched.slot_bytes;
+}
+
 void LinkChecker::adopt(Watched& watched) {
   watched.pushes = watched.link->pushes();
   watched.pops = watched.link->pops();
-  watched.tail = static_cast<std::uint32_t>(watched.pushes % watched.depth);
-  watched.head = static_cast<std::uint32_t>(watched.pops % watched.depth);
+  watched.tail = place_of(watched, watched.pushes);
+  watched.head = place_of(watched, watched.pops);
+}
+
+bool (*LinkChecker::follower_of(std::size_t payload_bytes))(Watched& watched, rtl::Cycle cycle) {
+  static constexpr auto kFollowers = []<std::size_t... kWords>(std::index_sequence<kWords...>) {
+    return std::array{&LinkChecker::follow_stream<4 * (kWords + 1)>...};
+  }
+  (std::make_index_sequence<kLargest / 4>());
+  return payload_bytes % 4 == 0 && payload_bytes <= kLargest ? kFollowers[payload_bytes / 4 - 1]
+                                                             : &LinkChecker::follow<false>;
 }
 
 void LinkChecker::reject_counts(const Watched& w, rtl::Cycle cycle) {
@@ -61,67 +100,81 @@ void LinkChecker::reject_counts(const Watched& w, rtl::Cycle cycle) {
     fail(link, cycle,
          fmt::format("{} beats have gone out, {} were popped: a beat vanished", link.pops(),
                      w.pops + popped));
-  if (pushed && w.pushes - w.pops == w.depth) fail(link, cycle, "a push into a link that was full");
+  if (pushed && w.pushes - w.pops == link.depth())
+    fail(link, cycle, "a push into a link that was full");
   fail(link, cycle, "a pop of a beat that was pushed in the same cycle");
 }
 
 void LinkChecker::reject_change(const Watched& w, rtl::Cycle cycle) {
-  const std::string fields = w.link->payload().difference(w.copy(w.head), w.slot(w.head));
+  const std::string fields = w.link->payload().difference(w.expected(), w.oldest());
   if (!fields.empty())
     fail(*w.link, cycle,
          fmt::format("beat {} changed while it waited (was/is): {}", w.pops, fields));
 }
 
 void LinkChecker::reject_width(const Watched& w, rtl::Cycle cycle) {
-  if (const rtl::Field* wide = w.link->payload().misfit(w.slot(w.tail)))
+  if (const rtl::Field* wide = w.link->payload().misfit(w.newest()))
     fail(*w.link, cycle,
          fmt::format("beat {}: the value of {} needs more than its {} bits", w.pushes, wide->name,
                      wide->bits));
 }
 
-inline void LinkChecker::follow(Watched& w, rtl::Cycle cycle) {
+template <bool kWidths>
+bool LinkChecker::follow(Watched& w, rtl::Cycle cycle) {
   const rtl::LinkBase& link = *w.link;
   const bool pushed = link.last_push() == cycle, popped = link.last_pop() == cycle;
   const std::uint64_t before = w.pushes - w.pops;
   if (link.pushes() != w.pushes + pushed || link.pops() != w.pops + popped ||
-      before + pushed > w.depth || before < popped) [[unlikely]]
+      before + pushed > link.depth() || before < popped)
     reject_counts(w, cycle);
   if (popped) {
     // All bytes first: the list of fields is needed for the text only.
-    if (std::memcmp(w.slot(w.head), w.copy(w.head), w.payload_bytes) != 0) [[unlikely]]
-      reject_change(w, cycle);
-    ++w.compared;
+    if (std::memcmp(w.expected(), w.oldest(), link.payload_bytes()) != 0) reject_change(w, cycle);
     w.head = w.after(w.head);
     ++w.pops;
   }
   if (pushed) {
-    std::memcpy(w.copy(w.tail), w.slot(w.tail), w.payload_bytes);
-    if (widths_) reject_width(w, cycle);
+    std::memcpy(w.kept(), w.newest(), link.payload_bytes());
+    if (kWidths) reject_width(w, cycle);
     w.tail = w.after(w.tail);
     ++w.pushes;
   }
+  return popped;
+}
+
+// A beat comes and another one goes: then the link was neither empty nor full, so that the slots of
+// the two are different ones.
+template <std::size_t kBytes>
+bool LinkChecker::follow_stream(Watched& w, rtl::Cycle cycle) {
+  const rtl::LinkBase& link = *w.link;
+  if (link.last_push() != cycle || link.last_pop() != cycle || w.tail == w.head ||
+      link.pushes() != w.pushes + 1 || link.pops() != w.pops + 1 ||
+      differ<kBytes>(w.expected(), w.oldest()))
+    return follow<false>(w, cycle);
+  std::memcpy(w.kept(), w.newest(), kBytes);
+  w.head = w.after(w.head);
+  w.tail = w.after(w.tail);
+  ++w.pops;
+  ++w.pushes;
+  return true;
 }
 
 rtl::Activity LinkChecker::tick(rtl::Cycle cycle) {
+  std::uint64_t compared = 0;
   for (Watched& watched : watched_) {
     const rtl::LinkBase& link = *watched.link;
     // Most links rest in most cycles, and nothing has happened to those behind anyone's back. A
     // push may have been in the place of a beat that was taken back; a pop always counts.
     const bool rests =
         link.pushes() == watched.pushes && link.pops() == watched.pops && link.last_push() != cycle;
-    if (!rests) follow(watched, cycle);
+    if (!rests) compared += watched.follow(watched, cycle);
   }
+  beats_ += compared;
   return rtl::kIdle;
 }
 
 void LinkChecker::reset() {
   for (Watched& watched : watched_) adopt(watched);
-}
-
-std::uint64_t LinkChecker::beats() const {
-  std::uint64_t sum = 0;
-  for (const Watched& watched : watched_) sum += watched.compared;
-  return sum;
 }
 
 void LinkChecker::check_empty() const {

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,38 +29,48 @@ class LinkChecker final : public rtl::Clocked {
   void reset() override;
 
   std::size_t links() const { return watched_.size(); }
-  std::uint64_t beats() const;  // popped and compared so far
+  std::uint64_t beats() const { return beats_; }  // popped and compared so far
   // Throws if a link still holds beats.
   void check_empty() const;
 
  private:
-  struct Watched {
+  // All that a clock looks at, in one cache line.
+  struct alignas(64) Watched {
     const rtl::LinkBase* link;
     std::uint64_t pushes = 0, pops = 0;  // as of the end of the last cycle
-    std::uint64_t compared = 0;
-    // The link's slots and, packed, what the beats in them were when they were pushed; the slots of
-    // the next push and pop are counted along, for a division by the depth costs more than a beat.
+    // The link's slots, and what the beats in them were when they were pushed, at the same places:
+    // bytes from the first slot on, counted along for the next push and pop.
     const std::byte* slots;
-    std::size_t slot_bytes, payload_bytes;
-    std::uint32_t depth, tail = 0, head = 0;
-    std::vector<std::byte> copies;
+    std::unique_ptr<std::byte[]> copies;
+    // What a link does that does not rest; true: a beat was compared.
+    bool (*follow)(Watched& watched, rtl::Cycle cycle);
+    std::uint32_t slot_bytes, ring_bytes, tail = 0, head = 0;
 
-    const std::byte* slot(std::uint32_t number) const { return slots + number * slot_bytes; }
-    const std::byte* copy(std::uint32_t number) const {
-      return copies.data() + number * payload_bytes;
+    std::uint32_t after(std::uint32_t place) const {
+      return place + slot_bytes == ring_bytes ? 0 : place + slot_bytes;
     }
-    std::byte* copy(std::uint32_t number) { return copies.data() + number * payload_bytes; }
-    std::uint32_t after(std::uint32_t number) const { return number + 1 == depth ? 0 : number + 1; }
+    const std::byte* oldest() const { return slots + head; }
+    const std::byte* newest() const { return slots + tail; }
+    // The copies of the same beats.
+    const std::byte* expected() const { return copies.get() + head; }
+    std::byte* kept() const { return copies.get() + tail; }
   };
-  void adopt(Watched& watched);
-  void follow(Watched& watched, rtl::Cycle cycle);
-  // What follow() does not look at closer unless it must, out of its way. The first throws always,
-  // the others if a field is concerned, and not only bits that belong to none.
+  static std::uint32_t place_of(const Watched& watched, std::uint64_t beat);
+  static void adopt(Watched& watched);
+  // Throws if anything is wrong.
+  template <bool kWidths>
+  static bool follow(Watched& watched, rtl::Cycle cycle);
+  // The same, made for a link through which a stream of beats of this size goes.
+  template <std::size_t kBytes>
+  static bool follow_stream(Watched& watched, rtl::Cycle cycle);
+  static bool (*follower_of(std::size_t payload_bytes))(Watched& watched, rtl::Cycle cycle);
   [[noreturn, gnu::cold]] static void reject_counts(const Watched& watched, rtl::Cycle cycle);
-  [[gnu::noinline]] static void reject_change(const Watched& watched, rtl::Cycle cycle);
-  [[gnu::noinline]] static void reject_width(const Watched& watched, rtl::Cycle cycle);
+  // These only if a field is concerned, and not only bits that belong to none.
+  static void reject_change(const Watched& watched, rtl::Cycle cycle);
+  static void reject_width(const Watched& watched, rtl::Cycle cycle);
+
   std::vector<Watched> watched_;
-  bool widths_;
+  std::uint64_t beats_ = 0;
 };
 
 }  // namespace deburr::tb

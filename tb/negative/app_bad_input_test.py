@@ -287,6 +287,7 @@ class Configuration(CommandTest):
             for given in (("--mode", "trilinear"), ("--set", "sampler.mode=trilinear")):
                 done = self.run_command("run", engine, *given, "--size", "16x16", "--show-config")
                 self.assertIn('sampler.mode: "linear_mipmap_linear"', done.stdout, done.stderr)
+        self.run_texture(2, "--mode", "trilinaer", says=["linear_mipmap_linear", "trilinear is linear_mipmap_linear"])
         self.config(0, "sampler.mode: trilinear\n")
         self.assertEqual(self.manifest()["configuration"]["sampler.mode"], "linear_mipmap_linear")
 

@@ -40,6 +40,17 @@ class Definitions(Sweeps):
                     "s.yaml:3: 'texture.footprint' = 'hafl' wants one of", "'half'?")
         self.reject(BASE + "axes: {texture.cache.ways: [1, 2, 1]}\n", "has the value '1' twice")
 
+    def test_faults(self):
+        """A name that every run would reject is rejected by plan; a part's own name, and links, are the run's."""
+        for fault, says in (("none", "no run of 'texture' has a fault 'none'"), ("flip-bits", "did you mean 'flip-bit'?")):
+            self.reject(BASE.replace("base: {", f"base: {{run.fault: {fault}, ") + AXES, says)
+        self.write("s.yaml", BASE + "axes: {run.fault: ['', drop-colour, 'drop:quads:9'], memory.latency: [50, 60]}\n")
+        self.expect(0, "sweep", "s.yaml", "plan", says="6 points")
+        self.write("s.yaml", BASE + "axes: {run.fault: [drop-colour, none]}\nrefused: skip\n")
+        self.expect(0, "sweep", "s.yaml", "plan", says=("1 point over", "1 that the engine rejects"))
+        self.write("s.yaml", "engine: frame\naxes: {run.fault: [drop-colour, texture.drop-quad]}\n")
+        self.expect(0, "sweep", "s.yaml", "plan", says="2 points")
+
     def test_empty_axes(self):
         self.reject(BASE + "axes: {texture.cache.ways: []}\n",
                     "s.yaml:3: axis 'texture.cache.ways' is empty")

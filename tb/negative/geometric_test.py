@@ -118,6 +118,8 @@ class Configuration(Base):
         self.rejected(["face_limit", "no effect"], "geometric.select=all", "geometric.face_limit=8192")
         self.rejected(["cull", "no effect", "select = all"], "geometric.select=all", "geometric.cull=none")
         self.rejected(["crease_depth", "no effect"], "geometric.select=all", "geometric.crease_depth=4")
+        self.rejected(["face_limit", "no effect", "select = mesh"], "geometric.select=mesh", "geometric.face_limit=8192")
+        self.rejected(["cull", "no effect", "select = mesh"], "geometric.select=mesh", "geometric.cull=none")
         self.rejected(["crease_depth", "no effect", "crease = off"], "geometric.crease=off", "geometric.crease_depth=4")
         self.rejected(["crease_depth", "no effect"], "geometric.depth_test=off", "geometric.crease_depth=4")
         for test in ("own", "off"):
@@ -243,11 +245,26 @@ class Faults(Base):
     def test_depth(self):
         self.fault("stale-depth", 3, 1, board="candidates")
 
+    def test_pairs(self):
+        split = (*self.SMALL, "--set", "geometric.records=split")
+        self.fault("wrong-pair", 3, 1, *split, board="lines")
+        self.fault("stale-pair", 3, 1, *split, board="lines")
+
+    def test_screen(self):
+        self.fault("wrong-screen", 3, 1, *self.SMALL, "--set", "geometric.coarse_lines=4", board="candidates")
+
     def test_caches(self):
         result = self.fault("wrong-replacement", 1, 1, board="memory lines")
         cycles = [int(line["where"].split()[1]) for line in result["first_mismatches"]]
         self.assertLess(cycles[0], cycles[-1], "each as it went by")
         self.assertEqual(result["checks"]["mismatches"], 0, "the picture stays")
+
+    def test_kept_lines_and_blocks(self):
+        kept, buffered = ("--set", "geometric.colour_lines=2"), ("--set", "geometric.write_buffer=4")
+        for name, choice in (("wrong-kept", kept), ("wrong-buffer", (*buffered, "--set", "geometric.weight_blocks=16"))):
+            result = self.fault(name, 1, 1, *self.SMALL, *choice, board="memory lines")
+            self.assertEqual(result["checks"]["mismatches"], 0, "the picture stays")
+        self.fault("stale-kept", 3, 1, *self.SMALL, *kept, board="blocks")
 
     def test_originals(self):
         dense = ("--scene", "wheelcover", "--size", "400x200", "--set", "geometric.select=all", "--set",
@@ -294,6 +311,12 @@ class Faults(Base):
                 ("wrong-second", ("--set", "geometric.coverage=distance"), "coverage = area"),
                 ("wrong-nearer", ("--set", "geometric.combine=max"), "combine = outermost"),
                 ("stale-depth", ("--set", "geometric.depth_test=off"), "depth_test = own, farther"),
+                ("wrong-screen", (), "coarse_lines of at least 4"),
+                ("wrong-pair", ("--set", "geometric.records=joined"), "records = split"),
+                ("stale-pair", ("--set", "geometric.records=joined"), "records = split"),
+                ("wrong-kept", ("--set", "geometric.colour_lines=0"), "colour_lines of at least 1"),
+                ("stale-kept", ("--set", "geometric.colour_lines=0"), "colour_lines of at least 1"),
+                ("wrong-buffer", ("--set", "geometric.write_buffer=0"), "write_buffer of at least 1"),
                 ("stale-neighbour", ("--preset", "gpaa"), "frame_copy = false")):
             self.run_engine(2, *self.SMALL, *arguments, "--fault", name, says=[name, "needs", needs])
 
@@ -310,7 +333,7 @@ class Registers(Base):
                  "boundary-edges", "silhouette-edges", "back-edges", "crease-edges", "flat-edges", "invalid-edges",
                  "kept-edges", "outside-edges", "degenerate-edges", "empty-edges", "lines", "columns", "groups",
                  "candidates", "passed", "blocks", "blended-pixels", "memory-errors", "frame-cycles", "edge-cycles",
-                 "resolve-cycles"]
+                 "resolve-cycles", "boundary-count", "pair-base", "other-pair-base", "coarse-base"]
 
     def test_each(self):
         self.miscount("geometric", self.CHECKED)
@@ -324,7 +347,7 @@ class Blind(Base):
         boards = {f"blind-{board}" for board in self.BOARDS}
         self.assertEqual(self.known("geometric"), boards)
         needed = {board: self.blind("geometric", board) for board in boards}
-        self.assertEqual((needed["blind-pixels"], needed["blind-status-registers"]), (32 * 32, 38))
+        self.assertEqual((needed["blind-pixels"], needed["blind-status-registers"]), (32 * 32, 42))
         work, memory = self.result()["work"], self.result()["memory"]
         self.assertEqual(needed["blind-lines"], work["line_setup_lines"])
         self.assertEqual(needed["blind-candidates"], work["coverage_unit_candidates"])

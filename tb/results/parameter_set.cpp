@@ -308,7 +308,8 @@ void ParameterSet::alias(std::string_view name, std::string_view word, std::stri
   found->aliases.emplace_back(word);
   found->parse = [parse = std::move(found->parse), word = std::string(word),
                   value = std::string(value)](std::string_view text) {
-    return parse(text == word ? std::string_view(value) : text);
+    const std::string complaint = parse(text == word ? std::string_view(value) : text);
+    return complaint.empty() ? complaint : fmt::format("{}; {} is {}", complaint, word, value);
   };
 }
 

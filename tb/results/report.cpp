@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -392,8 +393,8 @@ class ReportBuilder {
     page_.set("maps", maps);
   }
 
-  // Of a frame of a few rows or columns they would vanish: they are drawn out, and of a picture
-  // that is larger than the frame, with the scale of a map, the frame's part is shown.
+  // Of a frame of a few rows or columns they would vanish: they are drawn out. Of a picture that is
+  // larger than the frame, with the scale of a map, the frame's part is shown.
   void fill_stills(const fs::path& directory) {
     constexpr std::uint64_t kNarrow = 8;
     const Json list = manifest_.value("images", Json::array());
@@ -407,9 +408,11 @@ class ReportBuilder {
       width = std::min(width, across);
       height = std::min(height, down);
     }
+    width = std::max<std::uint64_t>(width, 1);  // of what is no PNG
+    height = std::max<std::uint64_t>(height, 1);
     const char* const shape = width / kNarrow > height   ? "flat"
                               : height / kNarrow > width ? "tall"
-                                                         : "";
+                                                         : "part";
     mustache::data images{mustache::data::type::list};
     for (std::size_t i = 0; i < list.size(); ++i) {
       const auto [across, down] = png_size(pngs[i]);
@@ -418,7 +421,7 @@ class ReportBuilder {
                                   {"role", list[i].value("role", "")},
                                   {"shape", shape},
                                   {"source", png_uri(pngs[i])}});
-      still.set("narrow", *shape != 0);
+      still.set("ratio", fmt::format("{:.4f}", double(width) / double(height)));
       still.set("across", fmt::format("{:.2f}", 100.0 * double(across) / double(width)));
       still.set("down", fmt::format("{:.2f}", 100.0 * double(down) / double(height)));
       images << still;
@@ -732,12 +735,22 @@ class ReportBuilder {
                                  {"value", value},
                                  {"default", p.value("default", "")},
                                  {"range", p.value("range", "")},
-                                 {"unit", p.value("unit", "")},
+                                 {"unit", unit_of_parameter(p)},
                                  {"meaning", p.value("meaning", "")}});
       line.set("changed", value != p.value("default", ""));
       parameters << line;
     }
     page_.set("parameters", parameters);
+  }
+
+  // A rate of memory is given in both units that its reader knows.
+  std::string unit_of_parameter(const Json& parameter) const {
+    std::string unit = parameter.value("unit", "");
+    if (unit != "byte/clk") return unit;
+    const double rate =
+        std::strtod(shown_plain(parameter.value("value", Json())).c_str(), nullptr) *
+        number(result_, "clock_mhz") / 1000;
+    return rate > 0 ? fmt::format("{}, {} GB/s", unit, amount(rate)) : unit;
   }
 
   void fill_memories() {

@@ -83,7 +83,10 @@
     }
     split.addEventListener('input', () => { state.split = split.value / 1000; draw(); });
 
-    const size = () => ({w: stills[state.left].naturalWidth, h: stills[state.left].naturalHeight});
+    // A picture of a map has its scale below it, and paper beside it: that is left out.
+    const sizeOf = (i) => maps[i] ? {w: maps[i].width, h: maps[i].height}
+                                  : {w: stills[i].naturalWidth, h: stills[i].naturalHeight};
+    const size = () => sizeOf(state.left);
     const fitScale = () => canvas.width / size().w;
     const ratio = () => canvas.width / canvas.clientWidth;
 
@@ -116,7 +119,8 @@
       state.scale = scale;
       draw();
     }
-    function paint(image, from, to) {
+    function paint(i, from, to) {
+      const {w, h} = sizeOf(i);
       if (to <= from) return;
       context.save();
       context.beginPath();
@@ -124,8 +128,7 @@
       context.clip();
       context.imageSmoothingEnabled = state.scale < 1;
       context.imageSmoothingQuality = 'high';
-      context.drawImage(image, state.x, state.y, image.naturalWidth * state.scale,
-                        image.naturalHeight * state.scale);
+      context.drawImage(stills[i], 0, 0, w, h, state.x, state.y, w * state.scale, h * state.scale);
       context.restore();
     }
     function tag(text, x, align) {
@@ -141,8 +144,8 @@
     function draw() {
       const middle = Math.round(canvas.width * state.split);
       context.clearRect(0, 0, canvas.width, canvas.height);
-      paint(stills[state.left], 0, middle);
-      paint(stills[state.right], middle, canvas.width);
+      paint(state.left, 0, middle);
+      paint(state.right, middle, canvas.width);
       context.fillStyle = '#fff';
       context.fillRect(middle - ratio(), 0, 2 * ratio(), canvas.height);
       context.fillStyle = 'rgba(0, 0, 0, .5)';
@@ -224,11 +227,10 @@
       tell();
       drawScales();
     }
-    // Of the frame: a picture of a map has its scale below it.
-    const frame = () => stills.reduce((least, image, i) => ({
-      w: Math.min(least.w, maps[i] ? maps[i].width : image.naturalWidth),
-      h: Math.min(least.h, maps[i] ? maps[i].height : image.naturalHeight)
-    }), {w: Infinity, h: Infinity});
+    const frame = () => stills.reduce((least, _, i) => {
+      const {w, h} = sizeOf(i);
+      return {w: Math.min(least.w, w), h: Math.min(least.h, h)};
+    }, {w: Infinity, h: Infinity});
     function drawPointed() {
       if (!pointed || !byKeys) return;
       const side = Math.max(state.scale, 7 * ratio());

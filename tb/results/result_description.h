@@ -242,7 +242,8 @@ void describe(const Result& r, Visitor& v) {
     v.value("bytes_written", r.bytes_written, "byte", "Bytes written to memory.");
     v.value("read_gb_per_s", r.gb_per_s(r.bytes_read), "GB/s",
             "Mean rate of reads at clock_mhz, over the whole run; 10^9 bytes a second.");
-    v.value("written_gb_per_s", r.gb_per_s(r.bytes_written), "GB/s", "The same of writes.");
+    v.value("written_gb_per_s", r.gb_per_s(r.bytes_written), "GB/s",
+            "Mean rate of writes at clock_mhz, over the whole run; 10^9 bytes a second.");
     v.value("lines_filled", r.lines_filled, "line",
             "Reads of memory: lines of the cache, or of the frame where it waits in memory.");
   });

@@ -15,6 +15,15 @@ void paste(Image& onto, const Image& picture, int left, int top) {
     std::copy_n(&picture.at(0, y), picture.width, &onto.at(left, top + y));
 }
 
+Image painted(Image image, const Mask& mask, const Rgba8& colour) {
+  if (image.width != mask.width || image.height != mask.height)
+    throw spec::ConfigError(fmt::format("no {} x {} pixels of a mask in {} x {} pixels", mask.width,
+                                        mask.height, image.width, image.height));
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    if (mask.pixels[i] != 0) image.pixels[i] = colour;
+  return image;
+}
+
 Image difference(const Image& a, const Image& b, int gain) {
   if (a.width != b.width || a.height != b.height)
     throw spec::ConfigError(fmt::format("no difference between {} x {} and {} x {} pixels", a.width,

@@ -22,6 +22,9 @@ Image zoom(const Image& image, int factor);
 Image sheet(const std::vector<Image>& cells, int columns, int gap = 8,
             const Rgba8& background = {255, 255, 255, 255});
 
+// `colour` in place of the pixels that the mask selects.
+Image painted(Image image, const Mask& mask, const Rgba8& colour);
+
 // `picture` onto `onto`, which it must not leave.
 void paste(Image& onto, const Image& picture, int left, int top);
 

@@ -167,6 +167,14 @@ Mask inverted(const Mask& mask) {
   return result;
 }
 
+Mask without(const Mask& mask, const Mask& other) {
+  require_same_size(mask, other);
+  Mask result = mask;
+  for (std::size_t i = 0; i < result.pixels.size(); ++i)
+    if (other.pixels[i] != 0) result.pixels[i] = 0;
+  return result;
+}
+
 Mask silhouette_mask(const Mask& edges, const DepthImage& depth, double relative_step) {
   require_same_size(edges, depth);
   Mask mask(edges.width, edges.height);

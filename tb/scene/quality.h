@@ -64,6 +64,8 @@ int max_difference(const Image& a, const Image& b);
 Mask edge_mask(const Image& truth, const Image& input, int threshold = 2);
 // All others: pixels that were right as they were.
 Mask inverted(const Mask& mask);
+// Those of `mask` that are not of `other`.
+Mask without(const Mask& mask, const Mask& other);
 
 // Silhouette pixels: those of `edges` where the depth of one of the four neighbours differs by more
 // than 5 %: max > 1.05 min. The ratio makes it hold for depth and for inverse depth alike; 0,

@@ -132,6 +132,18 @@ Image half_size(const Image& source, MipSpace space) {
     return shift != 0 ? (2 * sum + total) >> shift : (2 * sum + total) / (2 * total);
   };
 
+  // Where both sides are even, all four weights are alike and the mean needs none.
+  if (space == MipSpace::kStored && source.width % 2 == 0 && source.height % 2 == 0)
+    return fill(width, height, [&](int x, int y) {
+      const Rgba8* const upper = &source.at(2 * x, 2 * y);
+      const Rgba8* const lower = upper + source.width;
+      Rgba8 result;
+      for (std::size_t c = 0; c < 4; ++c)
+        result[c] = static_cast<std::uint8_t>(
+            (upper[0][c] + upper[1][c] + lower[0][c] + lower[1][c] + 2) / 4);
+      return result;
+    });
+
   return fill(width, height, [&](int x, int y) {
     const Taps& h = across[static_cast<std::size_t>(x)];
     const Taps& v = down[static_cast<std::size_t>(y)];
@@ -160,9 +172,15 @@ Image half_size(const Image& source, MipSpace space) {
 }  // namespace
 
 Image checkerboard(int width, int height, int cells, const Rgba8& a, const Rgba8& b) {
-  return fill(width, height, [&](int x, int y) {
-    return (x * cells / width + y * cells / height) % 2 == 0 ? a : b;
-  });
+  std::vector<int> column(static_cast<std::size_t>(width));
+  for (int x = 0; x < width; ++x) column[static_cast<std::size_t>(x)] = x * cells / width;
+  Image image(width, height);
+  for (int y = 0; y < height; ++y) {
+    const int row = y * cells / height;
+    std::transform(column.begin(), column.end(), &image.at(0, y),
+                   [&](int across) { return (across + row) % 2 == 0 ? a : b; });
+  }
+  return image;
 }
 
 Image road(int width, int height, std::uint32_t seed) {

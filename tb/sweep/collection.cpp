@@ -514,7 +514,11 @@ std::string page_of(const Json& json) {
   const bool has_limits = json.contains("limits");
   page.set("has_limits", has_limits);
   if (has_limits) {
-    page.set("beyond", count("beyond"));
+    const std::uint64_t beyond = json.at("counts").at("beyond");
+    page.set("beyond", beyond == 0   ? "No point is beyond a limit."
+                       : beyond == 1 ? "One point, the cross, is beyond a limit."
+                                     : fmt::format("{} points, the crosses, are beyond a limit.",
+                                                   grouped(beyond)));
     page.set("limits",
              fmt::format("{}", fmt::join(json.at("limits").get<std::vector<std::string>>(), ", ")));
   }

@@ -214,6 +214,7 @@ std::optional<PlannedPoint> PointChecker::check(const Sample& all) {
   std::optional<std::string> rejection;
   try {
     point.bound.resolve();
+    faults_.require(plan_.engine, point.bound.run.fault);
   } catch (const ConfigError& error) {
     rejection = error.what();
   }

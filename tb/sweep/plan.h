@@ -22,6 +22,7 @@
 
 #include "tb/results/input_files.h"
 #include "tb/sweep/definition.h"
+#include "tb/sweep/known_faults.h"
 #include "tb/sweep/point.h"
 #include "tb/sweep/sampling.h"
 
@@ -130,6 +131,7 @@ class PointChecker {
   const SweepDefinition& sweep_;
   const Plan& plan_;
   PointNamer namer_;
+  KnownFaults faults_;
   std::uint64_t rejected_ = 0;
   std::vector<std::uint64_t> excluded_;  // by each constraint
   std::string first_rejection_;

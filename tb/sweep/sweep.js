@@ -154,10 +154,11 @@
       return {
         label: label === null ? 'all points' : `${colour.name} = ${label}`,
         data: points.map((p) => ({x: across(p), y: up(p), point: p})),
-        backgroundColor: points.map((p) => palette[i] + (p.beyond ? '28' : p.front || goals.length === 0 ? '' : '70')),
-        borderColor: ink,
-        borderWidth: points.map((p) => p.front ? 1 : 0),
-        pointRadius: points.map((p) => p.front ? 6 : 3),
+        backgroundColor: points.map((p) => palette[i] + (p.front || goals.length === 0 ? '' : '70')),
+        borderColor: points.map((p) => p.beyond ? palette[i] : ink),
+        borderWidth: points.map((p) => p.beyond ? 1.5 : p.front ? 1 : 0),
+        pointRadius: points.map((p) => p.front ? 6 : p.beyond ? 4 : 3),
+        pointStyle: points.map((p) => p.beyond ? 'crossRot' : 'circle'),
       };
     });
     const missing = done.filter((p) => Number.isNaN(x.value(p)) || Number.isNaN(y.value(p))).length;

@@ -54,6 +54,9 @@ foreach(class Lines Forms Fragments)
   set_tests_properties(traces.${class} PROPERTIES LABELS system TIMEOUT 600
                        ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
 endforeach()
+add_test(NAME guide_pictures COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/guide_pictures_test.py" $<TARGET_FILE:deburr>
+                                     "${PROJECT_SOURCE_DIR}")
+set_tests_properties(guide_pictures PROPERTIES LABELS system TIMEOUT 300)
 add_test(NAME first_sweep COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/first_sweep_test.py" $<TARGET_FILE:deburr>
                                   "${PROJECT_SOURCE_DIR}")
 set_tests_properties(first_sweep PROPERTIES LABELS system TIMEOUT 600

@@ -52,6 +52,11 @@ class Figures(unittest.TestCase):
         self.assertEqual(tiles[name][:2], (value, unit), name)
         self.assertEqual(tiles[name][2], note, name)
 
+    def assert_row(self, name, value, unit):
+        """A row of the report's tables of figures."""
+        self.assertIn((name, f"{value:.4g}", unit), re.findall(
+            r"<tr[^>]*><td>([^<]*)</td><td class=\"n\">([^<]*)</td><td>([^<]*)</td>", self.page))
+
     def assert_percentiles(self, latency):
         """Each lies in the bin in which its rank does; no two of them in one."""
         bins = latency["histogram"]
@@ -91,6 +96,13 @@ class Texture(Figures):
             self.assertEqual(work[f"look_up_{what}_percent"], 100 * (count / sum(looked_up)), what)
         self.assertEqual(r["memory"]["read_gb_per_s"], 64 * lines * 166.67 / (1000 * r["cycles"]))
         self.assertEqual(r["memory"]["written_gb_per_s"], 0)
+        self.assert_row("Texels without a line fill", work["texel_hits_percent"], "%")
+        self.assert_row("Look-ups that hit", work["look_up_hits_percent"], "%")
+        self.assert_row("Look-ups of a line under way", work["look_up_merged_percent"], "%")
+        self.assert_row("Mean rate of reads at clock_mhz, over the whole run; 10^9 bytes a second",
+                        r["memory"]["read_gb_per_s"], "GB/s")
+        self.assert_row("Mean rate of writes at clock_mhz, over the whole run; 10^9 bytes a second", 0, "GB/s")
+        self.assertIn(f'<td class="muted">byte/clk, {64 * 166.67 / 1000:.4g} GB/s</td>', self.page)
         self.assertEqual(work["texels_fetched_per_fragment"], lines * 16 / 1024)
         self.assertEqual(r["memory"]["bytes_read"], 64 * lines)
         self.assertEqual(lines, work["tag_stage_misses"])

@@ -57,6 +57,20 @@ class Clocks(unittest.TestCase):
                         self.assertGreaterEqual(work["BLENDED_PIXELS"], 22000)
                         self.assertLess(edges + resolve, 1.05 * bound)
 
+    def test_less_traffic(self):
+        """The same with the build choices that leave out lines."""
+        for passes, name in (("1", "side by side"), ("3", "three on each other")):
+            for latency in ("20", "100"):
+                for choices in ("colour_lines=128", "records=split", "write_buffer=128",
+                                "records=split colour_lines=128 write_buffer=128"):
+                    edges, resolve, work, lines = frame("deburr", "4", "2", "tiled", passes, latency,
+                                                        f"coverage=area {choices}")
+                    shown = ", ".join(choice.replace("=", " = ") for choice in choices.split())
+                    self.assert_said(f"| {name} | {shown} | {latency} | {said(edges)} | {said(resolve)} | "
+                                     f"**{said(edges + resolve)}** | {said(BEGIN + sum(lines))} |")
+                    if passes == "1":
+                        self.assertGreaterEqual(work["BLENDED_PIXELS"], 22000)
+
     def test_sizes(self):
         for parameter in ("fills", "resolve_lines"):
             clocks = sum(frame("deburr", "4", "2", "tiled", "1", "100", f"coverage=distance {parameter}=64")[:2])

@@ -105,7 +105,7 @@ class PixelHistory(unittest.TestCase):
                     broken = [*run, "--fault", fault, "--set", "run.check_links=false"]
                     result = self.run_engine(engine, *broken, code=1)
                     came = re.search(r"\bx=(\d+) y=(\d+)", result["first_mismatches"][0]["got"])
-                    pixels = [re.search(r'href="#follow-(\d+,\d+)"', self.page).group(1)]
+                    pixels = list(dict.fromkeys(re.findall(r'href="#follow-(\d+,\d+)"', self.page)))[:2]
                     pixels += [",".join(came.groups())] if came else []
                     steps = [step for pixel in pixels
                              for step in self.run_engine(engine, *broken, "--pixel", pixel, code=1)["pixel"]["steps"]]
@@ -143,6 +143,21 @@ class PixelHistory(unittest.TestCase):
                     self.assertIn("pixel", result)
                 else:
                     self.assertIn(f"the engine {engine} keeps no history of a pixel", self.said)
+
+    # Each part's steps, and a fault in one of them leaves the others as they are.
+    def test_parts(self):
+        for engine, entry in trials("followed_in_parts").items():
+            run, pixel = [engine, *entry["run"]], "{},{}".format(*entry["pixel"])
+            history = self.run_engine(*run, "--no-images", "--pixel", pixel)["pixel"]
+            self.assertEqual((history["differences"], history["note"]), (0, ""))
+            both = {(step["part"].split()[0], step["step"]) for step in history["steps"]
+                    if step["golden"] and step["hardware"]}
+            self.assertLessEqual(set(entry["steps"].items()), both)
+            fault = ["--fault", entry["fault"], "--no-images"]
+            self.run_engine(*run, *fault, code=1)
+            wrong = re.search(r'href="#follow-(\d+,\d+)"', self.page).group(1)
+            history = self.run_engine(*run, *fault, "--pixel", wrong, code=1)["pixel"]
+            self.assertEqual({step["part"] for step in history["steps"] if step["differs"]}, {entry["fault"].split(".")[0]})
 
     # The look-ups are those of another instrument.
     def test_look_ups_are_those_of_the_trace(self):

@@ -40,7 +40,8 @@ const probe_page = async () => {
   const root = document.documentElement;
   const label = (c) => c.getAttribute('aria-label') ?? '';
   const wide = [...document.querySelectorAll('body *')].filter((e) => e.getClientRects().length > 0 &&
-      e.getBoundingClientRect().right > root.clientWidth + 1 && !e.closest('.scroll, .points-table, .window'))
+      e.getBoundingClientRect().right > root.clientWidth + 1 && !e.closest('.scroll, .points-table, .window') &&
+      !e.matches('.strip img'))  // whose boxes hide what is beyond them
       .map((e) => `${e.tagName} ${e.id} ${e.className}`).slice(0, 5);
   const told = {
     width: root.clientWidth, needs: root.scrollWidth, wide,
@@ -51,6 +52,8 @@ const probe_page = async () => {
     links: [...document.querySelectorAll('a[href]')].map((a) => a.getAttribute('href')),
     empty: [...document.querySelectorAll('section, main h2')].filter((e) => e.innerText.trim() === '' &&
         e.getClientRects().length > 0).map((e) => e.outerHTML.slice(0, 80)),
+    joined: [...document.querySelectorAll('h1 *, h2 *, h3 *')].filter((e) => e.previousSibling &&
+        /\S$/.test(e.previousSibling.textContent) && /^\S/.test(e.textContent)).map((e) => e.parentElement.textContent),
     // Steps of a pixel may be as long as they like.
     cut: [...document.querySelectorAll('.scroll:not(.tall)')].filter((e) => e.scrollWidth > e.clientWidth + 1)
         .map((e) => e.innerText.slice(0, 40)),
@@ -171,6 +174,7 @@ class PagesTest(unittest.TestCase):
             self.assertGreater(len(label), 15, f"{title}: the chart {name} has no text")
             self.assertIn(role, ("img", "application"), name)
         self.assertEqual(told["empty"], [], title)
+        self.assertEqual(told["joined"], [], f"{title}: headlines that run together")
         self.assertLessEqual(len(set(told["colours"])), 1, f"{title}: words of charts in another colour than the page's")
         with open(self.path(page), encoding="utf-8") as file:
             text = file.read()
@@ -199,6 +203,15 @@ class PagesTest(unittest.TestCase):
         return told
 
 
+# Cells of a row of these tables that stand beside each other for a reader, and end where their box does or before.
+SEEN_TOGETHER = """
+window.probe_keys = async () => [...document.querySelectorAll('%s')].map((table) => {
+  const rows = [...table.rows].map((row) => [...row.cells].slice(0, %d)), end = table.closest('.scroll').getBoundingClientRect().right;
+  return [table.rows[0].innerText, rows.length, Math.max(...rows.flat().map((cell) => cell.getBoundingClientRect().right)) - end,
+          [...rows.flat()].filter((cell) => cell.scrollWidth > cell.clientWidth).map((cell) => cell.innerText)];
+});
+"""
+
 # Points at a pixel with the keys, zooms, and comes back; the first map of the page is on the right.
 KEYS_OF_A_RUN = """
 window.probe_keys = async (wait) => {
@@ -216,6 +229,7 @@ window.probe_keys = async (wait) => {
   press('+'); said.push(zoom.textContent !== fitted); press('Home'); said.push(zoom.textContent === fitted);
   press('Enter');
   said.push(document.getElementById('pixel-command')?.textContent ?? '');
+  said.push(Chart.getChart('port-time')?.options.scales.bytes.title.text ?? null);
   return said;
 };
 """
@@ -234,9 +248,13 @@ class Runs(PagesTest):
     def check_run(self, engine, arguments):
         self.deburr("run", engine, *arguments, "--size", "96x64", "--windows=250", "--maps", "--out", engine)
         told = self.check(f"{engine}/report.html", engine, 6, KEYS_OF_A_RUN)
-        role, title, scale, corner, at, mark, zoomed, fitted, command = told["keys"]
+        role, title, scale, corner, at, mark, zoomed, fitted, command, bytes_axis = told["keys"]
         with open(self.path(f"{engine}/result.json"), encoding="utf-8") as file:
-            figures = json.load(file)["maps"][role.removeprefix("map_")]
+            result = json.load(file)
+        figures = result["maps"][role.removeprefix("map_")]
+        if result["memory"]["bytes_read"] > 0:
+            self.assertEqual(bytes_axis, ["byte/clk", f"100 are {result['clock_mhz'] / 10:.1f} GB/s"])
+            self.axes += 1
         number = lambda v: f"{v:,.0f}" if v == int(v) else f"{float(f'{v:.6g}'):,}"
         for end in ("min", "max"):
             self.assertIn(f"{number(figures[end])} {figures['unit']}", scale)
@@ -251,9 +269,11 @@ class Runs(PagesTest):
         self.assertTrue(command.endswith("--pixel 3,1"), command)
 
     def test_every_engine(self):
+        self.axes = 0
         for engine, arguments in trials("report_page").items():
             with self.subTest(engine):
                 self.check_run(engine, arguments)
+        self.assertGreater(self.axes, 1, "no page with traffic of memory")
         self.assertGreater(max(self.rows), 3, "no legend of several rows: the heights say nothing")
 
     def test_each_cause_has_a_colour_of_its_own(self):
@@ -270,8 +290,28 @@ class Runs(PagesTest):
             for (one, a), (other, b) in itertools.combinations(colours.items(), 2):
                 self.assertGreater(apart(a, b), 20, f"{one} and {other}")
 
-    def test_frames_of_a_few_rows_or_columns(self):
-        """Their stills can be seen: of a map the map, not the paper of its scale."""
+    def test_both_sides_of_a_pixel_on_a_phone(self):
+        for engine, entry in trials("followed").items():
+            self.deburr("run", engine, *entry["run"], "--pixel", "{},{}".format(*entry["pixel"]), "--out", engine)
+            told = self.check(f"{engine}/report.html", f"{engine}_pixel", 1, SEEN_TOGETHER % ("table.history", 5))
+            (head, rows, beyond, cut), = told["keys"]
+            for word in ("Golden", "Hardware", "Clock"):
+                self.assertIn(word, head)
+            self.assertGreater(rows, len(entry["steps"]))
+            self.assertLessEqual(beyond, 0, engine)
+            self.assertEqual(cut, [], engine)
+
+    def test_stills(self):
+        """All are of the frame, however small or narrow it is: of a map the map, not the paper of its scale."""
+        self.deburr("run", "texture", "--size", "40x32", "--maps", "--out", "small")
+        for width in (PHONE, DESKTOP):
+            told = self.probed("small/report.html", width)
+            self.assertGreater(len(told["stills"]), 5)
+            (across, down), = {(round(still[1]), round(still[2])) for still in told["stills"]}
+            self.assertAlmostEqual(across / down, 40 / 32, delta=0.05)
+            for role, _, _, *scale in told["stills"]:
+                for each, length in zip(scale, (across / 40, down / 32)):
+                    self.assertAlmostEqual(each, length, delta=0.03 * length, msg=role)
         for name, size in (("flat", "2000x4"), ("tall", "4x600")):
             self.deburr("run", "texture", "--scene", "plane", "--size", size, "--maps", "--out", name)
             told = self.probed(f"{name}/report.html", DESKTOP)
@@ -302,12 +342,14 @@ class Runs(PagesTest):
         self.assertFalse(steps_are_round(["0", "3", "6"]))
         with open(self.path("bad.html"), "w", encoding="utf-8") as file:
             file.write("<!doctype html><meta name=viewport content=width=device-width><body><canvas id=c></canvas>"
+                       "<h1>Alone <i>apart</i></h1><h1>Alone<i>joined</i></h1>"
                        "<div style='width:600px'>wide</div><a href=nowhere.json>x</a></body>")
         told = self.probed("bad.html")
         self.assertGreater(told["needs"], PHONE)
         self.assertTrue(told["wide"])
         self.assertEqual(told["canvases"], [["c", "", None]])
         self.assertEqual(told["links"], ["nowhere.json"])
+        self.assertEqual(told["joined"], ["Alonejoined"])
 
 
 SWEEP = """engine: texture
@@ -335,6 +377,13 @@ window.probe_keys = async (wait) => {
   const lines = Chart.getChart('scatter').data.datasets.filter((d) => d.showLine);
   return {reachable, command, cycles, fronts: document.getElementById('fronts').textContent,
           lines: lines.map((l) => [l.label, l.data.length, String(l.borderColor) + String(l.borderDash)])};
+};
+"""
+
+LOOKS_OF_POINTS = """
+window.probe_keys = async () => {
+  const sets = Chart.getChart('scatter').data.datasets.filter((d) => !d.showLine);
+  return [sets.flatMap((d) => d.data.map((at) => Boolean(at.point.beyond))), sets.flatMap((d) => d.pointStyle ?? d.data.map(() => 'circle'))];
 };
 """
 
@@ -374,6 +423,13 @@ class Sweeps(PagesTest):
         with open(self.path(page), encoding="utf-8") as file:
             without = "".join(re.findall(r"<noscript>(.*?)</noscript>", file.read(), re.S))
         self.assertEqual(without.count("<tr class="), 18)
+        # Those beyond a limit look like no other.
+        with open(self.path(f"{directory}/collected.json"), encoding="utf-8") as file:
+            bits = sorted(point["values"][1] for point in json.load(file)["points"])
+        (page,) = self.pages(self.make("limited", SWEEP + f"limits: [bits <= {bits[5]}]\n"))
+        beyond, styles = self.probed(page, DESKTOP, LOOKS_OF_POINTS)["keys"]
+        self.assertEqual(sum(beyond), sum(each > bits[5] for each in bits))
+        self.assertEqual([style != "circle" for style in styles], beyond)
 
     def test_comparison_of_sweeps(self):
         first = self.make("before", SWEEP)
@@ -385,7 +441,13 @@ class Sweeps(PagesTest):
         for name, more in (("small", ["--set", "texture.cache.bytes=1024"]), ("large", [])):
             self.deburr("run", "texture", "--size", "64x48", "--truth", "--out", name, *more)
         self.deburr("compare", "small", "large", "--html", "page.html", codes=(0, 1))
-        self.check("page.html", "comparison_of_runs", 0)
+        told = self.check("page.html", "comparison_of_runs", 0, SEEN_TOGETHER % ("#differ + .scroll table, #figures + .scroll table, "
+                                                                                 "#values + details table", 3))
+        self.assertEqual(len(told["keys"]), 3)
+        for head, rows, beyond, cut in told["keys"]:
+            self.assertGreater(rows, 1)
+            self.assertLessEqual(beyond, 0, f"{head}: B is cut")
+            self.assertEqual(cut, [], head)
 
 
 class Regressions(PagesTest):

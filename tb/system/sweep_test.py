@@ -80,6 +80,10 @@ class SweepTest(unittest.TestCase):
         with open(os.path.join(self.directory, f"out/{kind}/{name}/collected.csv")) as file:
             return list(csv.DictReader(file))
 
+    def page(self, name):
+        with open(os.path.join(self.directory, f"out/sweeps/{name}/index.html")) as file:
+            return file.read()
+
     def results(self):
         return results_in(self.directory)
 
@@ -120,6 +124,7 @@ objectives: {minimise: [kib, clocks_a_fragment]}
         self.run_sweep("limits.yaml", "run")
         least = sorted(float(row["hits"]) for row in self.rows("limits"))[POINTS // 2]
         self.assertIn(", 0 beyond the limits", self.run_sweep("limits.yaml", "collect"))
+        self.assertIn("No point is beyond a limit.", self.page("limits"))
         self.write("limits.yaml", text.replace("LEAST", repr(least)))
         rows = self.rows("limits")
         for row in rows:
@@ -137,9 +142,8 @@ objectives: {minimise: [kib, clocks_a_fragment]}
                          ["0" if any(o[0] <= c[0] and o[1] <= c[1] and o != c for o in cost) else "1" for c in cost])
         self.assertNotIn("1", [row["front"] for row in rows if row["beyond"]])
         self.assertIn(f", {POINTS - len(within)} beyond the limits", self.run_sweep("limits.yaml", "collect"))
-        with open(os.path.join(self.directory, "out/sweeps/limits/index.html")) as file:
-            page = file.read()
-        self.assertIn(f"{POINTS - len(within)} points, the faint ones, are beyond a limit", page)
+        page = self.page("limits")
+        self.assertIn(f"{POINTS - len(within)} points, the crosses, are beyond a limit.", page)
         self.assertEqual(len(re.findall(r'<tr class="beyond">', page)), POINTS - len(within))
         front = {row["point"] for row in rows if row["front"] == "1"}
         self.search("limits.yaml", "--runs", str(POINTS), "--population", "8")

@@ -18,9 +18,14 @@ namespace deburr::rtl::geometric {
 class EdgeLatency {
  public:
   void leave(Cycle cycle, std::uint32_t edges) { edges_.insert(edges_.end(), edges, cycle); }
-  // Of an edge: whether it is kept.
-  void decided(bool kept) {
+  // Of an edge: whether it is kept, or is to be once its vertices are known.
+  void decided(bool kept, bool paired_later = false) {
     const auto edge = take(edges_);
+    if (edge && kept) (paired_later ? chosen_ : kept_).push_back(*edge);
+  }
+  // Of an edge that was to be: whether it is kept.
+  void paired(bool kept) {
+    const auto edge = take(chosen_);
     if (edge && kept) kept_.push_back(*edge);
   }
   // Of a kept edge: whether it is a line.
@@ -58,6 +63,7 @@ class EdgeLatency {
   }
   void reset() {
     edges_.clear();
+    chosen_.clear();
     kept_.clear();
     lines_.clear();
     for (auto* groups : {&walked_, &covered_, &passed_}) groups->clear();
@@ -81,7 +87,7 @@ class EdgeLatency {
     if (group && any) to.push_back(*group);
   }
 
-  std::deque<Cycle> edges_, kept_, lines_;
+  std::deque<Cycle> edges_, chosen_, kept_, lines_;
   std::deque<Group> walked_, covered_, passed_;
   std::uint64_t number_ = 0;     // of the line that is walked
   std::optional<Group> newest_;  // the last one that was written

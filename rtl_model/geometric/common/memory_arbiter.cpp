@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/geometric/common/memory_arbiter.h"
 
+#include <algorithm>
 #include <string>
 
 namespace deburr::rtl::geometric {
@@ -11,6 +12,18 @@ std::string named(Client which, const char* what) {
 }
 
 }  // namespace
+
+std::vector<Client> clients_of(const spec::geometric::Parameters& p) {
+  std::vector<Client> clients;
+  for (std::size_t i = 0; i < kClients; ++i) {
+    const auto client = static_cast<Client>(i);
+    if (client == Client::kPairs && p.records != spec::geometric::RecordsLayout::kSplit) continue;
+    if (client == Client::kCoarse && p.coarse_lines == spec::geometric::CoarseLines::kNone)
+      continue;
+    clients.push_back(client);
+  }
+  return clients;
+}
 
 MemoryArbiter::Side::Side(Client which, const MemoryPortParameters& port)
     : requests(named(which, "requests").c_str(), 2, request_shape(port, 32, kPlaceBits)),
@@ -25,14 +38,22 @@ MemoryArbiter::Side::Side(Client which, const MemoryPortParameters& port)
 }
 
 MemoryArbiter::MemoryArbiter(const sc_core::sc_module_name& name, ClockDomain& clock,
-                             const MemoryPortParameters& port)
-    : Unit(name, clock) {
-  for (std::size_t i = 0; i < kClients; ++i)
-    sides_[i] = std::make_unique<Side>(static_cast<Client>(i), port);
+                             const MemoryPortParameters& port,
+                             const spec::geometric::Parameters& parameters)
+    : Unit(name, clock),
+      clients_(clients_of(parameters)),
+      round_robin_(static_cast<int>(clients_.size())) {
+  for (const Client client : clients_) sides_.push_back(std::make_unique<Side>(client, port));
+}
+
+MemoryArbiter::Side& MemoryArbiter::side_of(Client which) const {
+  const auto place = std::find(clients_.begin(), clients_.end(), which);
+  DEBURR_CHECK(place != clients_.end(), named(which, "requests") + " are not built");
+  return *sides_[static_cast<std::size_t>(place - clients_.begin())];
 }
 
 void MemoryArbiter::connect(Client which, MemoryClient& client) {
-  Side& side = *sides_[static_cast<std::size_t>(which)];
+  Side& side = side_of(which);
   client.requests_out(side.requests);
   client.responses_in(side.responses);
 }
@@ -56,7 +77,7 @@ Activity MemoryArbiter::tick(Cycle cycle) {
     }
   }
   std::uint64_t waiting = 0;
-  for (std::size_t i = 0; i < kClients; ++i)
+  for (std::size_t i = 0; i < sides_.size(); ++i)
     waiting |= std::uint64_t{sides_[i]->requests_in.can_pop(cycle)} << i;
   if (waiting == 0) return did ? kBusy : kIdle;
   if (!requests_out.can_push(cycle)) return did ? kBusy : kStalledDownstream;
@@ -76,8 +97,11 @@ Datasheet MemoryArbiter::datasheet() {
           .does = "Brings the requests of all units to the memory port, and the answers back.",
           .latency = {1, "1 each way"},
           .interval = {1, "one request and one answer a clock"},
-          .stages = {{"1", "choice of eight, round robin", "8 : 1 priority chain, 8 : 1 choice"}},
-          .cost = "two registers of a beat a client, a choice of eight."};
+          .stages = {{"1", "choice of eight to ten, round robin",
+                      "10 : 1 priority chain, 10 : 1 choice"}},
+          .cost =
+              "two registers of a beat a client, a choice of eight clients; one more each with "
+              "`records = split` and with `coarse_lines`."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <systemc>
@@ -19,6 +20,7 @@
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
+#include "spec/geometric/parameters.h"
 
 namespace deburr::rtl::geometric {
 
@@ -30,13 +32,22 @@ enum class Client : std::uint8_t {
   kWeights,
   kBlocks,
   kResolve,
-  kCopy
+  kCopy,
+  kPairs,  // records = split
+  kCoarse  // coarse_lines
 };
-inline constexpr std::size_t kClients = 8;
+inline constexpr std::size_t kClients = 10;
 inline constexpr std::array<const char*, kClients> kClientNames = {
-    "facing", "edges", "vertices", "depth", "weights", "blocks", "resolve", "copy"};
+    "facing", "edges",   "vertices", "depth", "weights",
+    "blocks", "resolve", "copy",     "pairs", "coarse"};
 inline constexpr std::uint32_t kPlaceBits = 12;  // of a client's own number
-inline constexpr std::uint32_t kRequestTagBits = kPlaceBits + 3;
+
+// In the order of Client.
+std::vector<Client> clients_of(const spec::geometric::Parameters& parameters);
+// In front of the port: a client's own number and the client's.
+inline std::uint32_t request_tag_bits(const spec::geometric::Parameters& parameters) {
+  return kPlaceBits + static_cast<std::uint32_t>(std::bit_width(clients_of(parameters).size() - 1));
+}
 
 // A client's requests and answers.
 struct MemoryClient {
@@ -71,14 +82,12 @@ class MemoryArbiter final : public Unit {
   PulseOut memory_error_out{"memory_error_out"};
 
   MemoryArbiter(const sc_core::sc_module_name& name, ClockDomain& clock,
-                const MemoryPortParameters& port);
+                const MemoryPortParameters& port, const spec::geometric::Parameters& parameters);
   // Binds a unit to its place.
   void connect(Client which, MemoryClient& client);
   Activity tick(Cycle cycle) override;
   void reset() override { round_robin_.reset(); }
-  const Histogram& read_latency(Client which) const {
-    return sides_[static_cast<std::size_t>(which)]->read_latency;
-  }
+  const Histogram& read_latency(Client which) const { return side_of(which).read_latency; }
 
   Counter memory_errors{"memory_errors", "responses", "memory responses with an error"};
 
@@ -94,8 +103,11 @@ class MemoryArbiter final : public Unit {
     Histogram read_latency;      // of its reads
     std::vector<Cycle> granted;  // by its own number, which one read has at a time
   };
-  std::array<std::unique_ptr<Side>, kClients> sides_;
-  RoundRobin round_robin_{static_cast<int>(kClients)};
+  Side& side_of(Client which) const;
+
+  std::vector<Client> clients_;  // that are built
+  std::vector<std::unique_ptr<Side>> sides_;
+  RoundRobin round_robin_;
 };
 
 }  // namespace deburr::rtl::geometric

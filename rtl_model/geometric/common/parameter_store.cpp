@@ -38,6 +38,7 @@ FrameRules decode(const ControlRegisters& registers) {
   f.edge_count = registers.value(reg::kEdgeCount);
   f.vertex_count = registers.value(reg::kVertexCount);
   f.face_count = registers.value(reg::kFaceCount);
+  f.boundary_count = registers.value(reg::kBoundaryCount);
   f.edge_base = registers.value(reg::kEdgeBase);
   f.vertex_base = registers.value(reg::kVertexBase);
   f.face_base = registers.value(reg::kFaceBase);
@@ -45,6 +46,9 @@ FrameRules decode(const ControlRegisters& registers) {
   f.colour_base = registers.value(reg::kColourBase);
   f.weight_base = registers.value(reg::kWeightBase);
   f.copy_base = registers.value(reg::kCopyBase);
+  f.pair_base = registers.value(reg::kPairBase);
+  f.other_pair_base = registers.value(reg::kOtherPairBase);
+  f.coarse_base = registers.value(reg::kCoarseBase);
   f.blocks_across = (width + 3) >> 2;
   f.blocks_down = (height + 3) >> 2;
   f.words_across = (f.blocks_across + 127) >> 7;
@@ -67,6 +71,8 @@ Refusal refusal(const FrameRules& f, bool enabled, const spec::geometric::Parame
   if (f.vertex_count > spec::geometric::kMaxVertices) return Refusal::kVertexCount;
   if (f.select == spec::geometric::Select::kEdges && over(f.face_count, p.face_limit))
     return Refusal::kFaceCount;
+  if (p.records == spec::geometric::RecordsLayout::kSplit && f.boundary_count > f.edge_count)
+    return Refusal::kBoundaryCount;
   return Refusal::kNone;
 }
 
@@ -82,6 +88,10 @@ ParameterStore::ParameterStore(const sc_core::sc_module_name& name, ClockDomain&
       clock_(clock),
       registers_(registers),
       parameters_(p) {
+  if (p.records == spec::geometric::RecordsLayout::kSplit)
+    invalid_pair_in.emplace("invalid_pair_in", [this](Cycle /*cycle*/) {
+      registers_.set_sticky(reg::kStatusInvalidEdge);
+    });
   registers.set_reset(reg::kRules, spec::geometric::rules_word(p));
   registers.on_command(reg::kControlStart, [this] { start(); });
   registers.on_read(reg::kRefusal, [this] { return static_cast<std::uint32_t>(refusal_); });

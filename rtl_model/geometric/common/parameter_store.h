@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <systemc>
 
 #include "rtl_model/fabric/clock_domain.h"
@@ -32,7 +33,7 @@ FrameRules decode(const ControlRegisters& registers);
 // Why it is not drawn.
 spec::geometric::Refusal refusal(const FrameRules& rules, bool enabled,
                                  const spec::geometric::Parameters& parameters);
-inline PayloadShape refusal_shape() { return {.widths = {{"value", 3}}}; }
+inline PayloadShape refusal_shape() { return {.widths = {{"value", 4}}}; }
 
 class ParameterStore final : public sc_core::sc_module {
  public:
@@ -42,6 +43,7 @@ class ParameterStore final : public sc_core::sc_module {
   WireOut<spec::geometric::Refusal, WireKind::kCombinational> refusal_out{"refusal_out"};
   // Each sets its bit of STATUS.
   OnPulse frame_done_in, invalid_edge_in, memory_error_in;
+  std::optional<OnPulse> invalid_pair_in;  // with records = split
 
   // Gives the registers the reset values that parameters set.
   ParameterStore(const sc_core::sc_module_name& name, ClockDomain& clock,

@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <string>
 
 #include "rtl_model/fabric/payload.h"
 #include "spec/geometric/packets.h"
@@ -36,7 +37,7 @@ struct EdgeFields {
   }
 };
 
-// EdgeReader -> EdgeClassifier.
+// EdgeReader -> EdgeClassifier. Without vertices where these lie in an array of their own.
 struct EdgeBeat {
   std::array<EdgeFields, kLanes> edge;
   std::uint8_t count;  // U3, 1..lanes
@@ -49,7 +50,39 @@ struct EdgeBeat {
   }
 };
 
-// EdgeClassifier -> VertexFetch.
+// What of a beat of edges is built.
+inline PayloadShape edge_beat_shape(const spec::geometric::Parameters& p) {
+  PayloadShape shape{.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)]};
+  if (p.records != spec::geometric::RecordsLayout::kSplit) return shape;
+  for (std::uint32_t lane = 0; lane < shape.lanes; ++lane) {
+    const std::string edge = "edge." + std::to_string(lane) + ".";
+    for (const char* const vertex : {"v0", "v1"}) shape.widths.emplace_back(edge + vertex, 0);
+    for (const char* const face : {"f0", "f1"})
+      shape.widths.emplace_back(edge + face, spec::geometric::kSplitFaceBits);
+  }
+  return shape;
+}
+
+// EdgeClassifier -> PairFetch, with records = split: where the vertices of an edge are.
+struct PairNumber {
+  std::uint32_t line;  // U21, of its array
+  std::uint8_t place;  // U4, 0..9
+  bool other;          // the array of edges that are no boundaries
+  bool crease;         // its class
+  bool invalid;        // it has no pair, and ends in the PairFetch
+  bool end;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("line", self.line, 21, "U21");
+    visit("place", self.place, 4, "U4");
+    visit("other", self.other);
+    visit("crease", self.crease);
+    visit("invalid", self.invalid);
+    visit("end", self.end);
+  }
+};
+
+// EdgeClassifier, or PairFetch -> VertexFetch.
 struct KeptEdge {
   std::uint32_t v0, v1;  // U24
   bool crease;           // its class
@@ -128,9 +161,9 @@ struct GroupToken {
   }
 };
 
-// CoverageUnit -> DepthTest -> WeightCombiner: candidates in one block of 4 x 4 pixels, a column a
-// lane. A column's second candidate is the neighbour of its first, which takes from that; it may
-// lie in the next block across the line. Behind the test, those that passed.
+// CoverageUnit -> DepthScreen, if it is built -> DepthTest: candidates in one block of 4 x 4
+// pixels, a column a lane. A column's second candidate is the neighbour of its first, which takes
+// from that; it may lie in the next block across the line.
 struct CandidateToken {
   std::uint16_t block_x, block_y;  // U11
   bool vertical;                   // neighbours left or right, else up or down
@@ -138,6 +171,7 @@ struct CandidateToken {
   std::uint8_t candidates;         // bit k: lane k is one
   std::uint8_t forward;            // bit k: its neighbour is down or right
   std::uint8_t seconds;            // bit k: lane k has a second one
+  std::uint8_t dropped;            // bit k: the DepthScreen found lane k hidden
   Lanes8 place;                    // U4, 4 y + x in the block
   Lanes8 coverage;                 // U0.8, 1..128
   Lanes8 second;                   // U0.8, 1..128, coverage of the second one
@@ -152,6 +186,7 @@ struct CandidateToken {
     visit.lane_bits("candidates", self.candidates, kLanes);
     visit.lane_bits("forward", self.forward, kLanes);
     visit.lane_bits("seconds", self.seconds, kLanes);
+    visit.lane_bits("dropped", self.dropped, kLanes);
     visit.lanes("place", self.place, 4, "U4");
     visit.lanes("coverage", self.coverage, 8, "U0.8");
     visit.lanes("second", self.second, 8, "U0.8");
@@ -159,6 +194,15 @@ struct CandidateToken {
     visit("end", self.end);
   }
 };
+
+// What of candidates is built, also of a token that has them under this name: `dropped` behind a
+// DepthScreen alone.
+inline PayloadShape candidates_shape(const spec::geometric::Parameters& p, bool screened,
+                                     const std::string& within = "") {
+  PayloadShape shape{.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(p.walkers)]};
+  if (!screened) shape.widths.emplace_back(within + "dropped", 0);
+  return shape;
+}
 
 // Those of a group, second ones too.
 inline std::uint64_t count_of(std::uint8_t candidates, std::uint8_t seconds) {
@@ -232,6 +276,16 @@ struct BlockToken {
     visit("end", self.end);
   }
 };
+
+// A record of six bytes of a line with ten of them.
+template <class Line>
+std::uint64_t split_record_of(const Line& line, std::size_t place) {
+  const std::size_t first = place * spec::geometric::kSplitBytes;
+  std::uint64_t record = 0;
+  for (std::size_t i = 0; i < spec::geometric::kSplitBytes; ++i)
+    record |= std::uint64_t{line[first + i]} << 8 * i;
+  return record;
+}
 
 // Little-endian words of a line of memory.
 template <class Line>

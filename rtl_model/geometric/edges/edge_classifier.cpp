@@ -16,22 +16,44 @@ using spec::geometric::Select;
 EdgeClassifier::EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain& clock,
                                const spec::geometric::Parameters& p, Memory<std::uint32_t>& facing,
                                EdgeLatency& latency)
-    : Unit(name, clock), latency_(latency) {
+    : Unit(name, clock),
+      latency_(latency),
+      split_(p.records == spec::geometric::RecordsLayout::kSplit) {
+  if (split_)
+    numbers_out.emplace("numbers_out");
+  else
+    edges_out.emplace("edges_out");
   for (int lane = 0; lane < spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)];
        ++lane)
     for (const char* const face : {" f0", " f1"})
       ports_.emplace_back(facing, "lane " + std::to_string(lane) + face);
 }
 
+// The number of an edge in the array of its pair, of every edge that is read.
+void EdgeClassifier::give_number(const FrameRules& rules, Beat& beat, std::size_t lane) {
+  const bool other = !(beat.edges.edge[lane].flags & flag::kBoundary);
+  NextPair& next = next_[other];
+  const std::uint32_t there =
+      other ? rules.edge_count - rules.boundary_count : rules.boundary_count;
+  beat.number[lane] = {next.line, next.place, other, false, false, false};
+  beat.unpaired |= static_cast<std::uint8_t>((next.count >= there) << lane);
+  ++next.count;
+  if (++next.place < spec::geometric::kSplitInLine) return;
+  next.place = 0;
+  ++next.line;
+}
+
 // Stage 1.
 void EdgeClassifier::look(Cycle cycle, Beat& beat) {
   const FrameRules& rules = rules_in.read(cycle);
   const bool selects = rules.select == Select::kEdges;
-  beat.valid = beat.looked = 0;
+  beat.valid = beat.looked = beat.unpaired = 0;
+  if (split_ && beat.edges.end) next_ = {};
   for (std::size_t lane = 0; lane < beat.edges.count; ++lane) {
     const EdgeFields& edge = beat.edges.edge[lane];
     const bool boundary = edge.flags & flag::kBoundary;
-    const bool vertices = edge.v0 < rules.vertex_count && edge.v1 < rules.vertex_count;
+    if (split_) give_number(rules, beat, lane);
+    const bool vertices = split_ || (edge.v0 < rules.vertex_count && edge.v1 < rules.vertex_count);
     const bool faces = edge.f0 < rules.face_count && (boundary || edge.f1 < rules.face_count);
     if (!vertices || (selects && !faces)) continue;
     const auto bit = static_cast<std::uint8_t>(1u << lane);
@@ -63,8 +85,10 @@ EdgeClass EdgeClassifier::class_of(const FrameRules& rules, const EdgeFields& ed
   if (!valid) return EdgeClass::kInvalid;
   if (edge.flags & flag::kBoundary) return EdgeClass::kBoundary;
   if (rules.select == Select::kAll) return EdgeClass::kUnclassified;
-  if (facing0 != facing1) return EdgeClass::kSilhouette;
-  if (!facing0 && rules.cull == spec::geometric::Cull::kBack) return EdgeClass::kBack;
+  if (rules.select == Select::kEdges) {
+    if (facing0 != facing1) return EdgeClass::kSilhouette;
+    if (!facing0 && rules.cull == spec::geometric::Cull::kBack) return EdgeClass::kBack;
+  }
   const bool angle = edge.flags & flag::kAngle, split = edge.flags & flag::kSplitNormals,
              seam = edge.flags & flag::kSeam;
   const bool crease = (rules.crease == Crease::kPaper && angle) ||
@@ -95,38 +119,57 @@ Counter* EdgeClassifier::counter_of(EdgeClass c) {
 void EdgeClassifier::classify(Cycle cycle, const Beat& beat) {
   const FrameRules& rules = rules_in.read(cycle);
   edges += beat.edges.count;
-  if (std::popcount(beat.valid) != beat.edges.count) invalid_edge_out.raise(cycle);
+  bool invalid = std::popcount(beat.valid) != beat.edges.count;
   creases_ = 0;
   for (std::size_t lane = 0; lane < beat.edges.count; ++lane) {
     const EdgeClass c = class_of(rules, beat.edges.edge[lane], beat.valid >> lane & 1,
                                  beat.facing0 >> lane & 1, beat.facing1 >> lane & 1);
     if (Counter* const counter = counter_of(c)) ++*counter;
     const bool kept = c != EdgeClass::kInvalid && c != EdgeClass::kBack && c != EdgeClass::kFlat;
-    latency_.decided(kept);
+    latency_.decided(kept, split_);
     if (!kept) continue;
     ++kept_edges;
+    if (beat.unpaired >> lane & 1) {
+      ++invalid_edges;
+      ++unpaired_edges;
+      invalid = true;
+    }
     pending_ |= static_cast<std::uint8_t>(1u << lane);
     creases_ |= static_cast<std::uint8_t>((c == EdgeClass::kCrease) << lane);
   }
+  if (invalid) invalid_edge_out.raise(cycle);
   if (beat.edges.end) pending_ = kEnd;
 }
 
 void EdgeClassifier::leave(Cycle cycle) {
-  KeptEdge& kept = edges_out.emplace(cycle);
-  kept.end = pending_ == kEnd;
-  if (!kept.end) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(pending_));
-    const EdgeFields& edge = pipe_.at(3)->edges.edge[lane];
-    kept.v0 = edge.v0;
-    kept.v1 = edge.v1;
-    kept.crease = creases_ >> lane & 1;
+  const bool end = pending_ == kEnd;
+  const auto lane = static_cast<std::size_t>(std::countr_zero(pending_));
+  const bool crease = creases_ >> lane & 1;
+  if (split_) {
+    PairNumber& number = numbers_out->emplace(cycle);
+    if (!end) {
+      const Beat& beat = *pipe_.at(3);
+      number = beat.number[lane];
+      number.crease = crease;
+      number.invalid = beat.unpaired >> lane & 1;
+    }
+    number.end = end;
+  } else {
+    KeptEdge& kept = edges_out->emplace(cycle);
+    kept.end = end;
+    if (!end) {
+      const EdgeFields& edge = pipe_.at(3)->edges.edge[lane];
+      kept.v0 = edge.v0;
+      kept.v1 = edge.v1;
+      kept.crease = crease;
+    }
   }
   pending_ &= static_cast<std::uint8_t>(pending_ - 1);
 }
 
 Activity EdgeClassifier::tick(Cycle cycle) {
   if (pending_ != 0) {
-    if (!edges_out.can_push(cycle)) return kStalledDownstream;
+    if (!can_leave(cycle)) return kStalledDownstream;
     leave(cycle);
     return kBusy;
   }
@@ -135,7 +178,7 @@ Activity EdgeClassifier::tick(Cycle cycle) {
   pipe_.move();
   if (const Beat* beat = pipe_.at(3)) {
     classify(cycle, *beat);
-    if (pending_ != 0 && edges_out.can_push(cycle)) leave(cycle);
+    if (pending_ != 0 && can_leave(cycle)) leave(cycle);
   }
   if (Beat* beat = pipe_.at(2)) choose_bits(cycle, *beat);
   if (arrives) {
@@ -149,19 +192,23 @@ Activity EdgeClassifier::tick(Cycle cycle) {
 void EdgeClassifier::reset() {
   pipe_.reset();
   pending_ = creases_ = 0;
+  next_ = {};
 }
 
 Datasheet EdgeClassifier::datasheet() {
-  return {.unit = "EdgeClassifier",
-          .does = "Decides of each edge whether it can be seen as one.",
-          .latency = {3, "3, and 1 for each kept edge that waits for another of its beat"},
-          .interval = {1, "the kept edges of a beat of edge_lanes edges, at least 1"},
-          .stages = {{"1", "ranges, addresses of the facing bits", "24-bit compare"},
-                     {"2", "their words, bit of 32", "SRAM read, 32 : 1 choice"},
-                     {"3", "class, counts; kept edges leave one a clock"}},
-          .cost =
-              "a lane four 24-bit compares and two reads of FacingStore; registers of two "
-              "beats."};
+  return {
+      .unit = "EdgeClassifier",
+      .does = "Decides of each edge whether it can be seen as one.",
+      .latency = {3, "3, and 1 for each kept edge that waits for another of its beat"},
+      .interval = {1, "the kept edges of a beat of edge_lanes edges, at least 1"},
+      .stages = {{"1", "ranges, addresses of the facing bits; `records = split`: numbers of pairs",
+                  "24-bit compare, `records = split` 24-bit add and compare"},
+                 {"2", "their words, bit of 32", "SRAM read, 32 : 1 choice"},
+                 {"3", "class, counts; kept edges leave one a clock"}},
+      .cost =
+          "a lane four 24-bit compares and two reads of FacingStore; registers of two beats. "
+          "`records = split`: a lane two 24-bit and one 25-bit compare; two numbers of 24 bits, "
+          "each also as line and place, and their adders."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Decides of each edge whether it can be seen as one, and lets those through.
 //
-// Where: behind the EdgeReader. Stalls: `downstream`. Source: paper 002, eqs (1) to (4), as
-// docs/reference/geometric/algorithm.md has them.
+// Where: behind the EdgeReader. With records = split it counts where the vertices of each edge are,
+// and the PairFetch looks at them; else it does so itself. Stalls: `downstream`. Source: paper 002,
+// eqs (1) to (4), as docs/reference/geometric/algorithm.md has them.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <systemc>
 #include <vector>
 
@@ -26,7 +28,8 @@ class EdgeClassifier final : public Unit {
  public:
   WireIn<FrameRules> rules_in{"rules_in"};
   In<EdgeBeat> edges_in{"edges_in"};
-  Out<KeptEdge> edges_out{"edges_out"};
+  std::optional<Out<KeptEdge>> edges_out;      // with records = joined
+  std::optional<Out<PairNumber>> numbers_out;  // with records = split
   // An index is out of range.
   PulseOut invalid_edge_out{"invalid_edge_out"};
 
@@ -47,7 +50,10 @@ class EdgeClassifier final : public Unit {
       "flat_edges", "edges",
       "edges between two faces turned to the eye, or not culled, that are no crease"};
   Counter invalid_edges{"invalid_edges", "edges", "edges with an index out of range"};
-  Counter kept_edges{"kept_edges", "edges", "edges whose vertices are fetched"};
+  Counter kept_edges{"kept_edges", "edges",
+                     "edges whose vertices are fetched; with records = split those that are to be"};
+  Counter unpaired_edges{"unpaired_edges", "edges",
+                         "records = split: edges to be kept beyond the pairs that there are"};
 
   static Datasheet datasheet();
 
@@ -57,7 +63,20 @@ class EdgeClassifier final : public Unit {
     std::uint8_t valid;   // bit k: the indices of lane k are in range
     std::uint8_t looked;  // bit k: its facing bits are asked for
     std::uint8_t facing0, facing1;
+    // With records = split.
+    std::array<PairNumber, kLanes> number;
+    std::uint8_t unpaired;  // bit k: number k is beyond its array
   };
+  // Where the next edge of an array has its pair.
+  struct NextPair {
+    std::uint32_t line = 0;   // U21
+    std::uint8_t place = 0;   // U4, 0..9
+    std::uint32_t count = 0;  // U24
+  };
+  void give_number(const FrameRules& rules, Beat& beat, std::size_t lane);
+  bool can_leave(Cycle cycle) const {
+    return split_ ? numbers_out->can_push(cycle) : edges_out->can_push(cycle);
+  }
   void look(Cycle cycle, Beat& beat);
   void choose_bits(Cycle cycle, Beat& beat);
   void classify(Cycle cycle, const Beat& beat);
@@ -68,10 +87,12 @@ class EdgeClassifier final : public Unit {
 
   static constexpr std::uint8_t kEnd = 1u << kLanes;  // of pending_
   EdgeLatency& latency_;                              // an instrument
-  std::vector<ReadPort<std::uint32_t>> ports_;        // lane, face
+  const bool split_;
+  std::vector<ReadPort<std::uint32_t>> ports_;  // lane, face
   Pipe<Beat, 3> pipe_;
-  std::uint8_t pending_ = 0;  // lanes of the beat in stage 3 that have not left
-  std::uint8_t creases_ = 0;  // of its lanes
+  std::uint8_t pending_ = 0;      // lanes of the beat in stage 3 that have not left
+  std::uint8_t creases_ = 0;      // of its lanes
+  std::array<NextPair, 2> next_;  // boundaries, other edges; of the beat after that in stage 1
 };
 
 }  // namespace deburr::rtl::geometric

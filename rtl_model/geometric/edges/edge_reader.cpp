@@ -7,7 +7,6 @@
 
 namespace deburr::rtl::geometric {
 
-using spec::geometric::kEdgesInLine;
 using spec::geometric::kIndexMask;
 using spec::geometric::kLineBytes;
 
@@ -15,6 +14,8 @@ EdgeReader::EdgeReader(const sc_core::sc_module_name& name, ClockDomain& clock,
                        const spec::geometric::Parameters& p, EdgeLatency& latency)
     : Unit(name, clock),
       latency_(latency),
+      split_(p.records == spec::geometric::RecordsLayout::kSplit),
+      in_line_(split_ ? spec::geometric::kSplitInLine : spec::geometric::kEdgesInLine),
       lanes_(spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)]),
       buffer_("edge_buffer", p.edge_lines, kLineBytes * 8, "edges read ahead"),
       stalled_facing_(declare_stall("facing", "the frame's begin is not over")),
@@ -22,13 +23,32 @@ EdgeReader::EdgeReader(const sc_core::sc_module_name& name, ClockDomain& clock,
 
 bool EdgeReader::ask(Cycle cycle) {
   const FrameRules& rules = rules_in.read(cycle);
-  const std::uint32_t lines = (rules.edge_count + kEdgesInLine - 1) / kEdgesInLine;
-  if (asked_ == lines || !buffer_.can_reserve(cycle) || !memory.requests_out.can_push(cycle))
+  if (asked_edges_ >= rules.edge_count || !buffer_.can_reserve(cycle) ||
+      !memory.requests_out.can_push(cycle))
     return false;
   memory.read(cycle, rules.edge_base + asked_ * kLineBytes, buffer_.reserve());
   ++asked_;
+  asked_edges_ += in_line_;
   ++lines_read;
   return true;
+}
+
+void EdgeReader::decode(const Line& line, std::size_t place, EdgeFields& edge) const {
+  if (split_) {
+    const std::uint64_t record = split_record_of(line, place);
+    edge.f0 = static_cast<std::uint32_t>(record) & spec::geometric::kSplitFaceMask;
+    edge.f1 = static_cast<std::uint32_t>(record >> spec::geometric::kSplitFaceBits) &
+              spec::geometric::kSplitFaceMask;
+    edge.flags = static_cast<std::uint8_t>(record >> spec::geometric::kSplitFlagShift & 0xF);
+    return;
+  }
+  const std::size_t word = 4 * place;
+  const std::uint32_t faces = word_of(line, word + 2);
+  edge.v0 = word_of(line, word) & kIndexMask;
+  edge.v1 = word_of(line, word + 1) & kIndexMask;
+  edge.f0 = faces & kIndexMask;
+  edge.f1 = word_of(line, word + 3) & kIndexMask;
+  edge.flags = static_cast<std::uint8_t>(faces >> spec::geometric::kFlagShift & 0xF);
 }
 
 Activity EdgeReader::hand_on(Cycle cycle) {
@@ -38,23 +58,18 @@ Activity EdgeReader::hand_on(Cycle cycle) {
   if (!edges_out.can_push(cycle)) return kStalledDownstream;
   EdgeBeat& beat = edges_out.emplace(cycle);
   beat.end = ended_ = left == 0;
-  beat.count = static_cast<std::uint8_t>(std::min(left, lanes_));
+  beat.count = static_cast<std::uint8_t>(std::min({left, lanes_, in_line_ - place_}));
   if (ended_) return kBusy;
   latency_.leave(cycle, beat.count);
   const Line& line = buffer_.line(cycle);
-  const std::uint32_t first = handed_ % kEdgesInLine;
-  for (std::uint32_t lane = 0; lane < beat.count; ++lane) {
-    const std::size_t word = std::size_t{4} * (first + lane);
-    const std::uint32_t faces = word_of(line, word + 2);
-    EdgeFields& edge = beat.edge[lane];
-    edge.v0 = word_of(line, word) & kIndexMask;
-    edge.v1 = word_of(line, word + 1) & kIndexMask;
-    edge.f0 = faces & kIndexMask;
-    edge.f1 = word_of(line, word + 3) & kIndexMask;
-    edge.flags = static_cast<std::uint8_t>(faces >> spec::geometric::kFlagShift & 0xF);
-  }
+  for (std::uint32_t lane = 0; lane < beat.count; ++lane)
+    decode(line, place_ + lane, beat.edge[lane]);
   handed_ += beat.count;
-  if (handed_ % kEdgesInLine == 0 || left == beat.count) buffer_.release(cycle);
+  place_ += beat.count;
+  if (place_ == in_line_ || left == beat.count) {
+    buffer_.release(cycle);
+    place_ = 0;
+  }
   return kBusy;
 }
 
@@ -62,8 +77,7 @@ Activity EdgeReader::tick(Cycle cycle) {
   const Phase phase = phase_in.read(cycle);
   if (phase == Phase::kIdle) return kIdle;
   if (phase == Phase::kResolve) {
-    asked_ = handed_ = 0;
-    ended_ = false;
+    begin();
     return kIdle;
   }
   if (ended_) return kIdle;
@@ -78,19 +92,24 @@ Activity EdgeReader::tick(Cycle cycle) {
   return did ? kBusy : activity;
 }
 
+void EdgeReader::begin() {
+  asked_ = asked_edges_ = handed_ = place_ = 0;
+  ended_ = false;
+}
+
 void EdgeReader::reset() {
   latency_.reset();
   buffer_.reset();
-  asked_ = handed_ = 0;
-  ended_ = false;
+  begin();
 }
 
 Datasheet EdgeReader::datasheet() {
   return {.unit = "EdgeReader",
           .does = "Reads the edge table ahead and hands its records on.",
           .latency = {2, "2 from a line's answer"},
-          .interval = {1, "1, for edge_lanes edges"},
-          .stages = {{"1", "line", "SRAM read"}, {"2", "choice of edges", "4 : 1 choice"}},
+          .interval = {1, "1, for edge_lanes edges of a line"},
+          .stages = {{"1", "line", "SRAM read"},
+                     {"2", "choice of edges", "4 : 1 choice, `records = split` 10 : 1"}},
           .cost = "edge_buffer, counters of 25 bits."};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the edge table ahead and hands its records on, edge_lanes a clock.
+// Reads the edge table ahead and hands its records on, edge_lanes a clock. With records = split
+// these are faces and flags, ten a line, and no beat goes beyond a line's end.
 //
 // Where: head of the pipe. Lines are asked for as soon as a frame begins, and each has its place in
 // edge_buffer before; edges go out once the begin is over. Stalls: `facing` (the begin is not
@@ -39,13 +40,18 @@ class EdgeReader final : public Unit {
  private:
   bool ask(Cycle cycle);
   Activity hand_on(Cycle cycle);
+  void decode(const Line& line, std::size_t place, EdgeFields& edge) const;
+  void begin();
 
   EdgeLatency& latency_;  // an instrument
-  const std::uint32_t lanes_;
+  const bool split_;
+  const std::uint32_t in_line_, lanes_;  // edges of a line and of a beat, at most
   FillStore<Line> buffer_;
   Activity stalled_facing_, stalled_edges_;
-  std::uint32_t asked_ = 0;   // U23, lines
-  std::uint32_t handed_ = 0;  // U25, edges
+  std::uint32_t asked_ = 0;        // U23, lines
+  std::uint32_t asked_edges_ = 0;  // U25, of these
+  std::uint32_t handed_ = 0;       // U25, edges
+  std::uint32_t place_ = 0;        // U4, of the next one in its line
   bool ended_ = false;
 };
 

@@ -45,7 +45,7 @@ Activity FacingStore::tick(Cycle cycle) {
   }
   const FrameRules& rules = rules_in.read(cycle);
   const std::uint32_t lines =
-      rules.select == spec::geometric::Select::kAll
+      rules.select != spec::geometric::Select::kEdges
           ? 0
           : (rules.face_count + spec::geometric::kFacesInLine - 1) / spec::geometric::kFacesInLine;
   if (asked_ < lines) {

@@ -59,7 +59,7 @@ CoverageUnit::CoverageUnit(const sc_core::sc_module_name& name, ClockDomain& clo
 void CoverageUnit::find(Cycle cycle, const GroupToken& group, Beat& beat) const {
   CandidateToken& out = beat.out;
   out.end = group.end;
-  out.candidates = out.forward = out.seconds = 0;
+  out.candidates = out.forward = out.seconds = out.dropped = 0;
   beat.leaves = beat.half = 0;
   if (group.end) return;
   const FrameRules& rules = rules_in.read(cycle);

@@ -16,6 +16,10 @@ std::uint32_t depth_tag_of(std::uint32_t u, std::uint32_t v, bool tiled) {
   return 1u << (kDepthTagBits - 1) | (tiled ? v << 11 | u : v << 9 | u);
 }
 
+std::uint32_t not_dropped(const CandidateToken& group) {
+  return group.candidates & ~std::uint32_t{group.dropped};
+}
+
 template <class Visit>
 void for_each_lane(std::uint32_t lanes, Visit&& visit) {
   for (; lanes != 0; lanes &= lanes - 1) visit(static_cast<std::size_t>(std::countr_zero(lanes)));
@@ -40,7 +44,7 @@ DepthTest::DepthTest(const sc_core::sc_module_name& name, ClockDomain& clock,
                            .content = "sixteen depths"}),
       fills_("depth_fills", p.fills, 24 * spec::geometric::kPixelsInLine, "depths on their way"),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo),
-            {.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(p.walkers)]}),
+            candidates_shape(p, p.coarse_lines != spec::geometric::CoarseLines::kNone, "group.")),
       stalled_depth_(declare_stall("depth", "a line of depths has not come")),
       stalled_fills_(declare_stall("fills", "no place for a line of depths is free")) {}
 
@@ -82,7 +86,7 @@ void DepthTest::find_lines(Cycle cycle, const CandidateToken& group, Wanted& out
     else
       at(x >> 4, y, x & 15);
   };
-  for_each_lane(group.candidates, [&](std::size_t lane) {
+  for_each_lane(not_dropped(group), [&](std::size_t lane) {
     const std::uint32_t x = group.block_x * 4u + (group.place[lane] & 3),
                         y = group.block_y * 4u + (group.place[lane] >> 2);
     find(x, y, l.own_line[lane], l.own_word[lane]);
@@ -170,7 +174,7 @@ Activity DepthTest::look_up(Cycle cycle) {
 void DepthTest::capture(Cycle cycle, Work& work, std::size_t which, const DepthLine& line) const {
   const Lookup& l = work.lookup;
   const bool farther = rules_in.read(cycle).depth_test == spec::geometric::DepthTest::kFarther;
-  for_each_lane(l.group.candidates, [&](std::size_t lane) {
+  for_each_lane(not_dropped(l.group), [&](std::size_t lane) {
     if (l.own_line[lane] == which) work.own[lane] = line[l.own_word[lane]];
     if (farther && l.other_line[lane] == which) work.other[lane] = line[l.other_word[lane]];
   });
@@ -191,7 +195,7 @@ void DepthTest::capture_words(Cycle cycle) {
 void DepthTest::compare(Cycle cycle, Work& work) const {
   work.nearer = work.farther = 0;
   const bool farther = rules_in.read(cycle).depth_test == spec::geometric::DepthTest::kFarther;
-  for_each_lane(work.lookup.group.candidates, [&](std::size_t lane) {
+  for_each_lane(not_dropped(work.lookup.group), [&](std::size_t lane) {
     const std::uint32_t own = work.own[lane], other = work.other[lane];
     work.far[lane] = farther ? std::min(own, other) : own;
     if (!farther) return;
@@ -226,7 +230,7 @@ void DepthTest::test(Cycle cycle, const Work& work) {
     const std::uint32_t far = work.far[lane], depth = group.depth[lane];
     const bool before = depth >= far - (far >> rules.depth_bias),
                near = !limited || far >= depth - (depth >> rules.crease_depth),
-               passes = off || (before && near);
+               passes = off || (before && near && !(group.dropped >> lane & 1));
     passing |= static_cast<std::uint8_t>(passes << lane);
     if (observer) show(group, lane, passes);
   });

@@ -18,6 +18,7 @@ BlockFetch::BlockFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
                        const spec::geometric::Parameters& p, const ReadPort<std::uint32_t>& tags,
                        const ReadPort<BlockWeights>& weights, const ColourStore::Filler& colours)
     : Unit(name, clock),
+      keeps_lines_(p.colour_lines > 0),
       places_(p),
       tag_port_(tags),
       data_port_(weights),
@@ -111,24 +112,38 @@ void BlockFetch::choose(const FrameRules& rules, BlockToken& block) {
   }
 }
 
+// The first line that is left: kept, or asked for; kIdle: done.
+Activity BlockFetch::ask_for_line(Cycle cycle) {
+  const FrameRules& rules = rules_in.read(cycle);
+  const auto line = static_cast<std::uint32_t>(std::countr_zero(to_ask_));
+  const std::uint32_t i = line / 3, j = line % 3;
+  const std::uint32_t u = (rules.tiled ? asking_.x : asking_.x >> 2) + j - 1,
+                      v = (rules.tiled ? asking_.y : asking_.y * 4u) + i - 1;
+  const std::uint32_t tag = ColourStore::Filler::tag_of(rules.tiled, u, v);
+  if (const auto kept = colours_.find(tag)) {
+    if (!colours_.can_order_kept(cycle)) return stalled_colours_;
+    colours_.order_kept(cycle, *kept);
+    ++lines_kept;
+  } else {
+    if (!colours_.can_order_read(cycle)) return stalled_colours_;
+    if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
+    const ColourStore::Filler::Ordered ordered = colours_.order_read(cycle, tag);
+    memory.read(cycle,
+                (rules.frame_copy ? rules.copy_base : rules.colour_base) + rules.line_offset(u, v),
+                ordered.place | kColourPlace);
+    ++lines_read;
+    lines_replaced += ordered.replaces;
+  }
+  to_ask_ &= to_ask_ - 1;
+  return kIdle;
+}
+
 // Stage 5; kIdle: nothing is left to do.
 Activity BlockFetch::ask(Cycle cycle) {
   if (!is_asking_) return kIdle;
   if (!handed_ && !blocks_out.can_push(cycle)) return kStalledDownstream;
-  if (to_ask_ != 0) {
-    if (!colours_.can_reserve(cycle)) return stalled_colours_;
-    if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
-    const FrameRules& rules = rules_in.read(cycle);
-    const auto line = static_cast<std::uint32_t>(std::countr_zero(to_ask_));
-    const std::uint32_t i = line / 3, j = line % 3;
-    const std::uint32_t u = (rules.tiled ? asking_.x : asking_.x >> 2) + j - 1,
-                        v = (rules.tiled ? asking_.y : asking_.y * 4u) + i - 1;
-    memory.read(cycle,
-                (rules.frame_copy ? rules.copy_base : rules.colour_base) + rules.line_offset(u, v),
-                colours_.reserve() | kColourPlace);
-    ++lines_read;
-    to_ask_ &= to_ask_ - 1;
-  }
+  if (to_ask_ != 0)
+    if (const Activity asked = ask_for_line(cycle); asked != kIdle) return asked;
   if (!handed_) blocks_out.push(cycle, asking_);
   handed_ = true;
   if (to_ask_ == 0) is_asking_ = false;
@@ -170,6 +185,7 @@ Activity BlockFetch::deliver(Cycle cycle) {
 }
 
 Activity BlockFetch::tick(Cycle cycle) {
+  if (keeps_lines_ && phase_in.read(cycle) == Phase::kBegin) colours_.clear();
   const Activity data = deliver(cycle);
   const Activity tags = look_up(cycle);
   bool did = data == kBusy || tags == kBusy;
@@ -199,19 +215,24 @@ void BlockFetch::reset() {
 }
 
 Datasheet BlockFetch::datasheet() {
-  return {.unit = "BlockFetch",
-          .does = "Brings the weights of a touched block and the lines of colours that it needs.",
-          .latency = {5, "5, and the wait for weights"},
-          .interval = {1, "max(1, lines to read) a block"},
-          .stages = {{"1", "tag of the block"},
-                     {"2", "a read of weights ordered; FIFO"},
-                     {"3", "weights of the cache, or the line that came", "SRAM read"},
-                     {"4", "limits of the weights, axis, lines that are needed",
-                      "limits of a weight + 10-bit compare"},
-                     {"5", "requests, one a clock, the block with the first"}},
-          .cost =
-              "weights and lines on their way, the FIFO, 16 9-bit compares, a 13 x 10 and a "
-              "11 x 11 multiply."};
+  return {
+      .unit = "BlockFetch",
+      .does = "Brings the weights of a touched block and the lines of colours that it needs.",
+      .latency = {5, "5, and the wait for weights"},
+      .interval = {1, "max(1, lines that are needed) a block"},
+      .stages = {{"1", "tag of the block"},
+                 {"2", "a read of weights ordered; FIFO"},
+                 {"3", "weights of the cache, or the line that came", "SRAM read"},
+                 {"4", "limits of the weights, axis, lines that are needed",
+                  "limits of a weight + 10-bit compare"},
+                 {"5",
+                  "lines that are kept; requests of the others, one or the other a clock, the "
+                  "block with the first",
+                  "`colour_lines`: 23-bit compare"}},
+      .cost =
+          "weights and lines on their way, the FIFO, 16 9-bit compares, a 13 x 10 and a "
+          "11 x 11 multiply. `colour_lines` = N: N lines 1R1W, N compares of 23 bits, the order "
+          "of lines, 9 bits each."};
 }
 
 }  // namespace deburr::rtl::geometric

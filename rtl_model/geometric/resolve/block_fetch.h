@@ -4,10 +4,10 @@
 //
 // Where: between BlockScanner and Resolver, which takes the lines out of the ColourStore. Weights
 // and colours have their places apart: weights of blocks to come cannot take those of the lines
-// that the oldest block waits for. Stalls: `weights` (a block has not come), `colours` (no place
-// for a line), `downstream`. Requests of colours go before those of weights. Whatever memory gives
-// as weights, a pixel takes a half at most of each neighbour, and nothing from outside of the
-// frame.
+// that the oldest block waits for. A line that the ColourStore keeps is not asked for. Stalls:
+// `weights` (a block has not come), `colours` (no place for a line), `downstream`. Requests of
+// colours go before those of weights. Whatever memory gives as weights, a pixel takes a half at
+// most of each neighbour, and nothing from outside of the frame.
 #pragma once
 
 #include <cstdint>
@@ -29,6 +29,7 @@ namespace deburr::rtl::geometric {
 class BlockFetch final : public Unit {
  public:
   WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<Phase> phase_in{"phase_in"};
   In<TouchedBlock> blocks_in{"blocks_in"};
   Out<BlockToken> blocks_out{"blocks_out"};
   MemoryClient memory;
@@ -41,6 +42,8 @@ class BlockFetch final : public Unit {
 
   Counter weights_read{"weights_read", "lines", "blocks of weights read from memory"};
   Counter lines_read{"lines_read", "lines", "lines of colours read, of the frame or its copy"};
+  Counter lines_kept{"lines_kept", "lines", "lines of colours that were kept, and not read again"};
+  Counter lines_replaced{"lines_replaced", "lines", "lines read that took the place of a kept one"};
 
   static Datasheet datasheet();
 
@@ -59,11 +62,13 @@ class BlockFetch final : public Unit {
   Activity look_up(Cycle cycle);
   Activity deliver(Cycle cycle);
   Activity ask(Cycle cycle);
+  Activity ask_for_line(Cycle cycle);
   static void choose(const FrameRules& rules, BlockToken& block);
   static void limit(const FrameRules& rules, BlockToken& block);
   static std::uint32_t lines_of_pixel(bool tiled, const BlockToken& block, std::uint32_t pixel,
                                       bool horizontal);
 
+  const bool keeps_lines_;
   const WeightPlaces places_;
   ReadPort<std::uint32_t> tag_port_;
   ReadPort<BlockWeights> data_port_;

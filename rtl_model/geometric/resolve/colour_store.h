@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Lines of colours on their way from memory to the resolve.
+// Lines of colours on their way from memory to the resolve, and those that it has read last.
 //
-// Where: between BlockFetch, which reserves places and fills them, and Resolver, which takes the
-// lines out in the order in which they were asked for. Each holds its side alone. Timing and cost
-// are the FillStore's.
+// Where: between BlockFetch, which orders lines, and Resolver, which takes them in that order. Each
+// holds its side alone. Without kept lines (colour_lines = 0) timing and cost are the FillStore's.
+// With N of them the BlockFetch looks a line up, one a clock: a hit is on the chip or on its way
+// and can be taken from the second clock after that on; a miss is read, and takes the place of the
+// line that was read first in the same clock. The data follow in order: a missed line is written
+// into kept_colours as it is taken, and a hit reads its word in the clock before it is taken. So a
+// line is overwritten after all hits before it. Made for 250 MHz; longest path: N compares of 23
+// bits. Cost: N lines, N tags, and an entry of colour_order for each line that is ordered.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/geometric/common/fill_store.h"
 #include "spec/geometric/parameters.h"
@@ -13,16 +26,163 @@
 
 namespace deburr::rtl::geometric {
 
-class ColourStore final : private FillStore<Line> {
+class ColourStore final {
  public:
-  using FillStore<Line>::Filler;
-  using FillStore<Line>::Reader;
-  using FillStore<Line>::filler;
-  using FillStore<Line>::reader;
+  // BlockFetch's side. A line of memory goes by its tag; all of them are of one frame and layout.
+  class Filler {
+   public:
+    static std::uint32_t tag_of(bool tiled, std::uint32_t u, std::uint32_t v) {
+      return kValid | v << (tiled ? 11 : 9) | u;
+    }
+    // Where the line is kept, if it is: it needs no read.
+    std::optional<std::uint8_t> find(std::uint32_t tag) const { return store_->find(tag); }
+    bool can_order_kept(Cycle cycle) const { return store_->kept_->order.can_push(cycle); }
+    void order_kept(Cycle cycle, std::uint8_t place) {
+      store_->kept_->order.push(cycle, {true, place});
+    }
+    bool can_order_read(Cycle cycle) const { return store_->can_order_read(cycle); }
+    // The place of what memory will answer, and whether the line takes that of a kept one.
+    struct Ordered {
+      std::uint32_t place;
+      bool replaces;
+    };
+    Ordered order_read(Cycle cycle, std::uint32_t tag) { return store_->order_read(cycle, tag); }
+    void fill(Cycle cycle, std::uint32_t place, const Line& line) {
+      store_->fills_.fill(cycle, place, line);
+    }
+    // A frame begins with no line kept.
+    void clear() { store_->clear(); }
+    void reset() { store_->reset(); }
+
+   private:
+    friend ColourStore;
+    explicit Filler(ColourStore& store) : store_(&store) {}
+    ColourStore* store_;
+  };
+  // Resolver's side: the oldest line that was ordered.
+  class Reader {
+   public:
+    bool ready(Cycle cycle) const { return store_->ready(cycle); }
+    const Line& line(Cycle cycle) const { return store_->line(cycle); }
+    void release(Cycle cycle) { store_->release(cycle); }
+    // In every clock, after anything else.
+    void read_ahead(Cycle cycle) { store_->read_ahead(cycle); }
+
+   private:
+    friend ColourStore;
+    explicit Reader(ColourStore& store) : store_(&store) {}
+    ColourStore* store_;
+  };
 
   explicit ColourStore(const spec::geometric::Parameters& p)
-      : FillStore("resolve_colours", p.resolve_lines / 2, 8 * spec::geometric::kLineBytes,
-                  "colours on their way to the resolve") {}
+      : fills_("resolve_colours", p.resolve_lines / 2, 8 * spec::geometric::kLineBytes,
+               "colours on their way to the resolve") {
+    if (p.colour_lines > 0) kept_ = std::make_unique<Kept>(p);
+  }
+
+  Filler filler() { return Filler(*this); }
+  Reader reader() { return Reader(*this); }
+
+ private:
+  static constexpr std::uint32_t kTagBits = 23, kValid = 1u << (kTagBits - 1);
+
+  struct Order {
+    bool hit;
+    std::uint8_t place;  // U8, in kept_colours
+    template <class Self, class Visit>
+    static constexpr void fields(Self& self, Visit&& visit) {
+      visit("hit", self.hit);
+      visit("place", self.place, 8, "U8");
+    }
+  };
+  struct Kept {
+    explicit Kept(const spec::geometric::Parameters& p)
+        : lines("kept_colours", {.words = static_cast<std::uint64_t>(p.colour_lines),
+                                 .word_bits = 8 * spec::geometric::kLineBytes,
+                                 .read_during_write = ReadDuringWrite::kNewWord,
+                                 .content = "lines of colours that were read last"}),
+          tags("kept_tags", {.words = static_cast<std::uint64_t>(p.colour_lines),
+                             .word_bits = kTagBits,
+                             .kind = MemoryKind::kFlops,
+                             .read_ports = static_cast<std::uint32_t>(p.colour_lines),
+                             .latency = 0,
+                             .content = "u, v of each, valid, compared at once"}),
+          order("colour_order", static_cast<std::uint32_t>(p.resolve_lines / 2)),
+          tag(static_cast<std::size_t>(p.colour_lines), 0) {}
+    Memory<Line> lines;
+    ReadPort<Line> read{lines, "hit"};
+    WritePort<Line> write{lines, "line that was read"};
+    MemoryBase tags;  // by place: in `tag`
+    Fifo<Order> order;
+    std::vector<std::uint32_t> tag;  // 0: no line
+    std::uint32_t next = 0;          // U8, place of the line that was read first
+    // The oldest line: what it is, since when.
+    Order oldest{};
+    bool has_oldest = false;
+    Cycle since = kNever;
+  };
+
+  std::optional<std::uint8_t> find(std::uint32_t tag) const {
+    if (!kept_) return std::nullopt;
+    const auto there = std::find(kept_->tag.begin(), kept_->tag.end(), tag);
+    if (there == kept_->tag.end()) return std::nullopt;
+    return static_cast<std::uint8_t>(there - kept_->tag.begin());
+  }
+  bool can_order_read(Cycle cycle) const {
+    return fills_.can_reserve(cycle) && (!kept_ || kept_->order.can_push(cycle));
+  }
+  Filler::Ordered order_read(Cycle cycle, std::uint32_t tag) {
+    bool replaces = false;
+    if (kept_) {
+      std::uint32_t& there = kept_->tag[kept_->next];
+      replaces = there != 0;
+      there = tag;
+      kept_->order.push(cycle, {false, static_cast<std::uint8_t>(kept_->next)});
+      kept_->next = kept_->next + 1 == kept_->tag.size() ? 0 : kept_->next + 1;
+    }
+    return {fills_.reserve(), replaces};
+  }
+  void clear() {
+    if (!kept_ || kept_->tag.front() == 0) return;
+    std::fill(kept_->tag.begin(), kept_->tag.end(), 0);
+    kept_->next = 0;
+  }
+
+  bool hit() const { return kept_ && kept_->oldest.hit; }
+  bool ready(Cycle cycle) const {
+    if (kept_ && (!kept_->has_oldest || kept_->since == cycle)) return false;
+    return hit() || fills_.ready(cycle);
+  }
+  const Line& line(Cycle cycle) const {
+    return hit() ? kept_->read.at(cycle, kept_->oldest.place, kept_->since) : fills_.line(cycle);
+  }
+  void release(Cycle cycle) {
+    if (kept_) {
+      kept_->has_oldest = false;
+      if (hit()) return;
+      kept_->write.write(cycle, kept_->oldest.place, fills_.line(cycle));
+    }
+    fills_.release(cycle);
+  }
+  void read_ahead(Cycle cycle) {
+    fills_.read_ahead(cycle);
+    if (!kept_ || kept_->has_oldest || !kept_->order.can_pop(cycle)) return;
+    kept_->oldest = kept_->order.take(cycle);
+    kept_->has_oldest = true;
+    kept_->since = cycle;
+    if (kept_->oldest.hit) kept_->read.read(cycle, kept_->oldest.place);
+  }
+  void reset() {
+    fills_.reset();
+    if (!kept_) return;
+    clear();
+    kept_->order.reset();
+    kept_->oldest = {};
+    kept_->has_oldest = false;
+  }
+
+  FillStore<Line> fills_;
+  std::unique_ptr<Kept> kept_;  // with colour_lines > 0
 };
 
 }  // namespace deburr::rtl::geometric

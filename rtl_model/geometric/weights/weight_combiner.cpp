@@ -15,6 +15,12 @@ using spec::geometric::Weights;
 constexpr std::uint32_t kBlockMask = spec::geometric::kBlocksInWord - 1;
 constexpr std::uint64_t kWholeLine = ~std::uint64_t{0};
 
+PayloadShape lookup_shape(const spec::geometric::Parameters& p) {
+  PayloadShape shape{.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(p.walkers)]};
+  if (p.write_buffer == 0) shape.widths = {{"writes", 0}, {"hit", 0}, {"ring", 0}};
+  return shape;
+}
+
 }  // namespace
 
 WeightCombiner::WeightCombiner(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -43,16 +49,18 @@ WeightCombiner::WeightCombiner(const sc_core::sc_module_name& name, ClockDomain&
                        .write_ports = 2,
                        .latency = 0,
                        .content = "blocks on their way out, compared at once"}),
-      fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo),
-            {.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(p.walkers)]}),
+      fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo), lookup_shape(p)),
       stalled_weights_(declare_stall("weights", "a block of weights has not come")),
       stalled_fills_(declare_stall("fills", "no place for a block of weights is free")),
       stalled_spill_(declare_stall("spill", "a block is still on its way out")),
-      spilled_(static_cast<std::size_t>(p.fills), 0) {}
+      spilled_(static_cast<std::size_t>(p.fills), 0) {
+  if (p.write_buffer > 0) buffer_ = std::make_unique<WriteBuffer>(p.write_buffer);
+}
 
 Activity WeightCombiner::clear(Cycle cycle) {
   const std::uint32_t words = rules_in.read(cycle).touched_words, all = std::max(words, blocks_);
   if (clearing_ == all) return kIdle;
+  if (buffer_ && clearing_ == 0) buffer_->clear();
   if (clearing_ < words) touched_write_.write(cycle, clearing_, TouchedWord{});
   if (clearing_ < blocks_) tag_write_.write(cycle, clearing_, 0);
   if (++clearing_ == all) cleared_out.drive(cycle, true);
@@ -68,38 +76,66 @@ bool WeightCombiner::spilling(std::uint32_t tag) const {
   return std::find(spilled_.begin(), spilled_.end(), tag) != spilled_.end();
 }
 
+// Puts the block into the list; false: it is full.
+bool WeightCombiner::spill(Lookup& lookup, std::uint32_t tag) {
+  const auto free = std::find(spilled_.begin(), spilled_.end(), 0u);
+  if (free == spilled_.end()) return false;
+  *free = tag;
+  lookup.spill = static_cast<std::uint8_t>(free - spilled_.begin());
+  lookup.old_x = tag & 0x7FF;
+  lookup.old_y = tag >> 11 & 0x7FF;
+  return true;
+}
+
+// Stage 2, of a block that leaves the cache; kIdle: done.
+Activity WeightCombiner::replace(std::uint32_t tag) {
+  if (!buffer_) return spill(lookup_, tag) ? kIdle : stalled_spill_;
+  lookup_.writes = false;
+  if (lookup_.hit) {
+    buffer_->exchange(lookup_.ring, tag);
+    return kIdle;
+  }
+  lookup_.ring = buffer_->next();
+  const std::uint32_t leaves = buffer_->tag(lookup_.ring);
+  lookup_.writes = leaves != 0;
+  if (lookup_.writes && !spill(lookup_, leaves)) return stalled_spill_;
+  buffer_->put_next(tag);
+  return kIdle;
+}
+
 // Stage 2; kIdle: done.
 Activity WeightCombiner::look_up_block(Cycle cycle) {
   const std::uint32_t x = lookup_.group.block_x, y = lookup_.group.block_y,
                       tag = WeightPlaces::tag_of(x, y);
   const std::uint32_t there = tag_port_.at(cycle, lookup_.index, looked_);
   lookup_.missed = there != tag;
-  lookup_.reads = lookup_.replaces = false;
+  lookup_.reads = lookup_.replaces = lookup_.hit = false;
   if (lookup_.missed) {
     const TouchedWord& touched = touched_port_.at(cycle, touched_at_, looked_);
-    lookup_.reads = touched.get(x & kBlockMask);
+    const bool was_touched = touched.get(x & kBlockMask);
+    if (const auto place = buffer_ ? buffer_->find(tag) : std::nullopt) {
+      lookup_.hit = true;
+      lookup_.ring = *place;
+    }
+    lookup_.reads = was_touched && !lookup_.hit;
     lookup_.replaces = there != 0;
     if (lookup_.reads) {
       if (spilling(tag)) return stalled_spill_;
       if (!fills_.can_reserve(cycle)) return stalled_fills_;
       if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
     }
-    if (lookup_.replaces) {
-      const auto free = std::find(spilled_.begin(), spilled_.end(), 0u);
-      if (free == spilled_.end()) return stalled_spill_;
-      *free = there;
-      lookup_.spill = static_cast<std::uint8_t>(free - spilled_.begin());
-      lookup_.old_x = there & 0x7FF;
-      lookup_.old_y = there >> 11 & 0x7FF;
-    }
+    if (lookup_.replaces)
+      if (const Activity done = replace(there); done != kIdle) return done;
     if (lookup_.reads) {
       memory.read(cycle, address_of(cycle, x, y), fills_.reserve());
       ++blocks_read;
-    } else {
+    }
+    if (!was_touched) {
       TouchedWord word = touched;
       word.set(x & kBlockMask);
       touched_write_.write(cycle, touched_at_, word);
     }
+    buffer_hits += lookup_.hit;
     tag_write_.write(cycle, lookup_.index, tag);
     ++misses;
   }
@@ -153,7 +189,7 @@ void WeightCombiner::keep_own_block() {
 
 // Stage 1.
 void WeightCombiner::address(Cycle cycle) {
-  lookup_.missed = lookup_.reads = lookup_.replaces = false;
+  lookup_.missed = lookup_.reads = lookup_.replaces = lookup_.hit = false;
   looking_ = true;
   looked_ = cycle;
   if (lookup_.group.end) return;
@@ -164,6 +200,24 @@ void WeightCombiner::address(Cycle cycle) {
   touched_port_.read(cycle, touched_at_);
 }
 
+// A whole block to memory; its place in the spill list is in the tag.
+void WeightCombiner::write_out(Cycle cycle, const Lookup& l, const BlockWeights& block) {
+  Line& line = memory.write(cycle, address_of(cycle, l.old_x, l.old_y), l.spill, kWholeLine);
+  for (std::size_t i = 0; i < block.size(); ++i)
+    std::copy(block[i].begin(), block[i].end(), line.begin() + static_cast<std::ptrdiff_t>(4 * i));
+  ++writes_;
+  ++blocks_written;
+}
+
+// What was there leaves the cache.
+void WeightCombiner::move_out(Cycle cycle, Work& work, const BlockWeights& there) {
+  const Lookup& l = work.lookup;
+  if (!buffer_) return write_out(cycle, l, there);
+  if (l.hit) work.block = buffer_->at(cycle, l.ring);
+  if (l.writes) write_out(cycle, l, buffer_->at(cycle, l.ring));
+  buffer_->write(cycle, l.ring, there);
+}
+
 // Stage 4.
 void WeightCombiner::combine(Cycle cycle, Work& work) {
   const Lookup& l = work.lookup;
@@ -171,14 +225,7 @@ void WeightCombiner::combine(Cycle cycle, Work& work) {
   const bool past = before && !before->lookup.group.end && before->lookup.index == l.index;
   if (!l.missed || l.replaces) {
     const BlockWeights& there = past ? before->block : data_port_.at(cycle, l.index);
-    if (l.replaces) {
-      Line& line = memory.write(cycle, address_of(cycle, l.old_x, l.old_y), l.spill, kWholeLine);
-      for (std::size_t i = 0; i < there.size(); ++i)
-        std::copy(there[i].begin(), there[i].end(),
-                  line.begin() + static_cast<std::ptrdiff_t>(4 * i));
-      ++writes_;
-      ++blocks_written;
-    }
+    if (l.replaces) move_out(cycle, work, there);
     if (!l.missed) work.block = there;
   }
   using spec::geometric::Combine;
@@ -209,12 +256,13 @@ void WeightCombiner::combine(Cycle cycle, Work& work) {
 Activity WeightCombiner::deliver(Cycle cycle) {
   if (!fifo_.can_pop(cycle) && pipe_.empty()) return kIdle;
   if (const Work* next = pipe_.at(1);
-      next && next->lookup.replaces && !memory.requests_out.can_push(cycle))
+      next && writes(next->lookup) && !memory.requests_out.can_push(cycle))
     return kStalledDownstream;
   pipe_.move();
   if (const Work* work = pipe_.at(3)) {
     if (work->lookup.group.end) {
       ended_ = true;
+      if (buffer_) buffered_blocks.record(buffer_->full());
       note(latency_.end());
     } else {
       data_write_.write(cycle, work->lookup.index, work->block);
@@ -233,8 +281,22 @@ Activity WeightCombiner::deliver(Cycle cycle) {
     work.block = {};
   }
   if (!l.group.end && (!l.missed || l.replaces)) data_port_.read(cycle, l.index);
+  if (buffer_ && (l.hit || writes(l))) buffer_->read(cycle, l.ring);
   work.lookup = l;
   fifo_.pop(cycle);
+  return kBusy;
+}
+
+// Behind the last token: what is in the write buffer, a block a clock.
+Activity WeightCombiner::flush(Cycle cycle) {
+  if (buffer_->full() == 0) return kIdle;
+  if (buffer_->has_first()) {
+    if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
+    if (!spill(lookup_, buffer_->tag(buffer_->next()))) return stalled_spill_;
+    write_out(cycle, lookup_, buffer_->at(cycle, buffer_->next()));
+    buffer_->drop_first();
+  }
+  buffer_->read_first(cycle);
   return kBusy;
 }
 
@@ -265,7 +327,7 @@ Activity WeightCombiner::tick(Cycle cycle) {
     clearing_ = 0;
     cleared_out.drive(cycle, false);
   }
-  const Activity data = deliver(cycle);
+  const Activity data = ended_ && buffer_ ? flush(cycle) : deliver(cycle);
   const Activity tags = look_up(cycle);
   bool did = data == kBusy || tags == kBusy;
   if (memory.responses_in.can_pop(cycle)) {
@@ -273,7 +335,8 @@ Activity WeightCombiner::tick(Cycle cycle) {
     did = true;
   }
   fills_.read_ahead(cycle);
-  if (ended_ && writes_ == 0 && !drawn_out.driven()) drawn_out.drive(cycle, true);
+  if (ended_ && writes_ == 0 && !(buffer_ && buffer_->full()) && !drawn_out.driven())
+    drawn_out.drive(cycle, true);
   return did ? kBusy : data != kIdle ? data : tags;
 }
 
@@ -283,6 +346,7 @@ void WeightCombiner::reset() {
   pipe_.reset();
   clearing_ = 0;
   looking_ = ended_ = false;
+  if (buffer_) buffer_->clear();
   std::fill(spilled_.begin(), spilled_.end(), 0);
   writes_ = 0;
 }
@@ -295,12 +359,14 @@ Datasheet WeightCombiner::datasheet() {
       .interval = {1, "1, a group with second candidates in another block 2"},
       .stages = {{"1", "address of tag and touched word, product of the block's address",
                   "11 x 11 multiply"},
-                 {"2", "tag, touched bit, the blocks on their way out; a read ordered; FIFO",
+                 {"2",
+                  "tag, touched bit, the blocks on their way out and in the write buffer; a read "
+                  "ordered; FIFO",
                   "SRAM read + 23-bit compare"},
-                 {"3", "a block installed, address of the word"},
+                 {"3", "a block installed, address of the word, and of that in the write buffer"},
                  {"4",
                   "the word, or what came for it, and the maxima and minima; a replaced block "
-                  "written back",
+                  "written back, or into the write buffer, and back what leaves this",
                   "SRAM read + 16 : 1 choice + 8-bit compare"},
                  {"5", "written, past the memory to the group after it"}},
       .cost =
@@ -308,7 +374,8 @@ Datasheet WeightCombiner::datasheet() {
           "list, 23 bits each, compared with a tag at once: `fills` compares of 23 bits (108 "
           "for a memory of 100 clocks) and a choice of its first free place; two 11 x 11 "
           "multiplies; a lane, of each "
-          "of its two candidates, a 16 : 1 place and an 8-bit compare."};
+          "of its two candidates, a 16 : 1 place and an 8-bit compare. `write_buffer` = N: N "
+          "blocks 1R1W, N compares of 23 bits, 9 bits more of the FIFO."};
 }
 
 }  // namespace deburr::rtl::geometric

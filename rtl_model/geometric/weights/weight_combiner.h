@@ -4,13 +4,16 @@
 //
 // Where: end of the edges' pipe; the resolve reads its memories through handles of its ports. Where
 // second candidates lie in another block than the first ones, the group is looked up once more. A
-// word that is written in stage 5 goes past the memory to the group behind. Stalls: `weights` (the
-// block has not come), `fills` (no place for one), `spill` (the block is still on its way out, or
-// the list of those is full), `downstream`. A write goes before a read of the same clock.
+// word that is written in stage 5 goes past the memory to the group behind. With a write buffer a
+// replaced block goes into its ring and is written when it leaves this, at the latest after the
+// last token: one a clock then. Stalls: `weights` (the block has not come), `fills` (no place for
+// one), `spill` (the block is still on its way out, or the list of those is full), `downstream`. A
+// write goes before a read of the same clock.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <systemc>
 #include <vector>
@@ -26,6 +29,7 @@
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/tokens.h"
 #include "rtl_model/geometric/weights/weight_memories.h"
+#include "rtl_model/geometric/weights/write_buffer.h"
 
 namespace deburr::rtl::geometric {
 
@@ -53,6 +57,9 @@ class WeightCombiner final : public Unit {
   Counter misses{"misses", "blocks", "look-ups of a block that is not in the cache"};
   Counter blocks_read{"blocks_read", "blocks", "blocks that came back from memory"};
   Counter blocks_written{"blocks_written", "blocks", "replaced blocks written to memory"};
+  Counter buffer_hits{"buffer_hits", "blocks", "blocks that came back from the write buffer"};
+  Histogram buffered_blocks{"buffered_blocks", "blocks",
+                            "in the write buffer of a frame when its edges are drawn"};
   Histogram edge_latency{"edge_latency", "clk",
                          "from an edge's leaving the EdgeReader to its last group's being written"};
 
@@ -65,9 +72,12 @@ class WeightCombiner final : public Unit {
     bool more;                   // those of the other block come behind
     std::uint16_t index;         // U10
     bool missed, reads;          // reads: what missed comes from memory, else it is zeros
-    bool replaces;               // a block is written back
-    std::uint16_t old_x, old_y;  // U11, that block
+    bool replaces;               // a block leaves the cache
+    bool writes;                 // a block is written to memory: that one, or of the write buffer
+    std::uint16_t old_x, old_y;  // U11, the block that is written
     std::uint8_t spill;          // U8, its place in the list
+    bool hit;                    // of the write buffer
+    std::uint8_t ring;           // U7, its place, or that of the block that leaves the cache
     template <class Self, class Visit>
     static constexpr void fields(Self& self, Visit&& visit) {
       visit("group", self.group);
@@ -76,9 +86,12 @@ class WeightCombiner final : public Unit {
       visit("missed", self.missed);
       visit("reads", self.reads);
       visit("replaces", self.replaces);
+      visit("writes", self.writes);
       visit("old_x", self.old_x, 11, "U11");
       visit("old_y", self.old_y, 11, "U11");
       visit("spill", self.spill, 8, "U8");
+      visit("hit", self.hit);
+      visit("ring", self.ring, 7, "U7");
     }
   };
   struct Work {
@@ -91,11 +104,18 @@ class WeightCombiner final : public Unit {
   void address(Cycle cycle);
   void keep_own_block();
   Activity look_up_block(Cycle cycle);
+  Activity replace(std::uint32_t tag);
   Activity deliver(Cycle cycle);
+  void move_out(Cycle cycle, Work& work, const BlockWeights& there);
+  Activity flush(Cycle cycle);
   void combine(Cycle cycle, Work& work);
   void answer(Cycle cycle);
   std::uint32_t address_of(Cycle cycle, std::uint32_t x, std::uint32_t y) const;
   bool spilling(std::uint32_t tag) const;
+  bool spill(Lookup& lookup, std::uint32_t tag);
+  void write_out(Cycle cycle, const Lookup& lookup, const BlockWeights& block);
+  // A block of this token is written to memory.
+  bool writes(const Lookup& lookup) const { return lookup.replaces && (!buffer_ || lookup.writes); }
   void note(std::optional<Cycle> latency) {
     if (latency) edge_latency.record(*latency);
   }
@@ -113,7 +133,8 @@ class WeightCombiner final : public Unit {
   ReadPort<BlockWeights> data_port_{data_, "block"};
   WritePort<BlockWeights> data_write_{data_, "block"};
   FillStore<BlockWeights> fills_;
-  MemoryBase spill_;  // by place: valid and tag, in spilled_
+  MemoryBase spill_;                     // by place: valid and tag, in spilled_
+  std::unique_ptr<WriteBuffer> buffer_;  // with write_buffer > 0
   Fifo<Lookup> fifo_;
   Activity stalled_weights_, stalled_fills_, stalled_spill_;
   std::uint32_t clearing_ = 0;  // U17

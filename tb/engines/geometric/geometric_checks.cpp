@@ -155,6 +155,7 @@ std::vector<std::pair<std::uint32_t, std::uint64_t>> GeometricChecks::expected_r
     const rtl::geometric::GeometricEngine& engine) const {
   const geometric::Frame& frame = *frame_;
   const golden::geometric::Bases at = bases();
+  const std::uint64_t boundaries = platform::boundaries_of(frame.screen.edges);
   std::uint32_t status = reg::kStatusIdle | reg::kStatusFrameDone;
   if (errors_ > 0) status |= reg::kStatusMemoryError;
   if (work_.invalid_edges > 0) status |= reg::kStatusInvalidEdge;
@@ -175,6 +176,10 @@ std::vector<std::pair<std::uint32_t, std::uint64_t>> GeometricChecks::expected_r
       {reg::kColourBase, at.colour},
       {reg::kWeightBase, at.weights},
       {reg::kCopyBase, at.copy},
+      {reg::kBoundaryCount, boundaries},
+      {reg::kPairBase, regions_.base(Region::kPairs)},
+      {reg::kOtherPairBase, regions_.other_pairs(boundaries)},
+      {reg::kCoarseBase, regions_.base(Region::kCoarse)},
       {reg::kRefusal, 0}};
   for (const WorkCount& each : spec::geometric::kWorkCounts)
     expected.emplace_back(each.offset, work_.*each.count);

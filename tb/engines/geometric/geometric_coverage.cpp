@@ -27,6 +27,11 @@ constexpr std::array kGroups = {
     CoverageGroup{"geometric/border", "Candidates whose neighbour is outside of the frame."},
     CoverageGroup{"geometric/depth",
                   "Tests against the farther pixel, by which that is and the outcome."},
+    CoverageGroup{"geometric/coarse",
+                  "Candidates that the golden model's coarse test drops by the side of their "
+                  "neighbour, or keeps just at its bound; the lesser bound of two tiles "
+                  "(coarse_lines)."},
+    CoverageGroup{"geometric/screen", "The hardware's, the same."},
     CoverageGroup{
         "geometric/crease",
         "Candidates of creases that the other test passed: near enough, or too far before "
@@ -38,8 +43,19 @@ constexpr std::array kGroups = {
     CoverageGroup{"geometric/group-lines",
                   "Groups by layout and the lines of depth that they look up."},
     CoverageGroup{"geometric/fetch", "The golden model's look-ups by cache and outcome."},
+    CoverageGroup{"geometric/coarse",
+                  "The coarse test of depth: what it drops by direction, what is just not dropped, "
+                  "and which of two tiles hides less."},
     CoverageGroup{"geometric/look-up", "The hardware's look-ups by cache and outcome."},
+    CoverageGroup{"geometric/pair",
+                  "The golden model's edges by the array of their pair of vertices: its line is "
+                  "there, or read (records = split). In tests alone: a vertex out of range, and a "
+                  "number beyond the array."},
+    CoverageGroup{"geometric/pair-look-up", "The hardware's, the same."},
     CoverageGroup{"geometric/block", "What the weights of a block met in their cache."},
+    CoverageGroup{"geometric/write-buffer",
+                  "What blocks met in the write buffer, and how full it was at the end."},
+    CoverageGroup{"geometric/colour", "What lines of colours met among those that are kept."},
     CoverageGroup{"geometric/resolve", "Blended pixels by the neighbours that are taken."},
     CoverageGroup{"geometric/original", "Where the colour before blending was taken from."},
     CoverageGroup{"geometric/lines", "Blocks by layout and the lines of colours that they read."},
@@ -57,10 +73,12 @@ const std::map<std::string, std::vector<std::string>>& stalls() {
       {"facing_store", {"downstream", "memory"}},
       {"edge_reader", {"downstream", "facing", "edges"}},
       {"edge_classifier", {"downstream"}},
+      {"pair_fetch", {"downstream", "pairs", "fills"}},
       {"vertex_fetch", {"downstream", "vertices", "fills"}},
       {"line_setup", {"downstream", "divider"}},
       {"line_walker", {"downstream"}},
       {"coverage_unit", {"downstream"}},
+      {"depth_screen", {"downstream", "coarse", "fills"}},
       {"depth_test", {"downstream", "depth", "fills"}},
       {"weight_combiner", {"downstream", "weights", "fills", "spill"}},
       {"block_scanner", {"downstream"}},
@@ -71,10 +89,67 @@ const std::map<std::string, std::vector<std::string>>& stalls() {
   return all;
 }
 
+constexpr std::array<std::string_view, 2> kPairsOutOfRange = {"vertex-out-of-range",
+                                                              "number-out-of-range"};
+
+// By the numbers of the unit's histograms.
+constexpr std::array<std::string_view, 4> kDroppedSides = {"dropped-up", "dropped-down",
+                                                           "dropped-left", "dropped-right"};
+constexpr std::array<std::string_view, 2> kLesserTiles = {"own-tile-lesser", "other-tile-lesser"};
+constexpr std::string_view kAtBound = "kept-at-bound";
+
+void cover_screen(Coverage& coverage, const rtl::geometric::GeometricEngine& e) {
+  if (!e.depth_screen) return;
+  const auto hit = [&](std::string_view bin, std::uint64_t count) {
+    if (count != 0) coverage.hit(fmt::format("geometric/screen/{}", bin), count);
+  };
+  const auto hit_bins = [&](const auto& names, const rtl::Histogram& histogram) {
+    for (const auto& bin : histogram.bins())
+      if (bin.low < names.size()) hit(names[bin.low], bin.count);
+  };
+  hit_bins(kDroppedSides, e.depth_screen->dropped_sides);
+  hit_bins(kLesserTiles, e.depth_screen->lesser_tiles);
+  hit(kAtBound, e.depth_screen->kept_at_bound.value());
+}
+
+void cover_pairs(Coverage& coverage, const rtl::geometric::GeometricEngine& e) {
+  if (!e.pair_fetch) return;
+  const auto looked = [&](const char* array, std::uint64_t lookups, std::uint64_t lines) {
+    coverage.hit(fmt::format("geometric/pair-look-up/{}/hit", array), lookups - lines);
+    coverage.hit(fmt::format("geometric/pair-look-up/{}/miss", array), lines);
+  };
+  const auto& pairs = *e.pair_fetch;
+  const std::uint64_t boundaries = pairs.boundary_lookups.value(),
+                      lines = pairs.boundary_lines.value();
+  looked("boundary", boundaries, lines);
+  looked("other", pairs.lookups.value() - boundaries, pairs.lines_read.value() - lines);
+  const std::array counts = {pairs.invalid_edges.value(), e.edge_classifier.unpaired_edges.value()};
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == 0) continue;
+    const std::string bin = fmt::format("geometric/pair-look-up/{}", kPairsOutOfRange[i]);
+    coverage.declare(bin);
+    coverage.hit(bin, counts[i]);
+  }
+}
+
 // Of golden's bins. The table of a mesh names only what there is, and who draws all edges is not
 // asked what a crease is, but by presets.
 bool is_directed(const std::string& bin) {
   return bin.ends_with("/invalid") || bin.starts_with("class/all/off/");
+}
+
+// A block that came to an empty place is there at the end, or another in its place.
+void hit_write_buffer(Coverage& coverage, const rtl::geometric::WeightCombiner& weights,
+                      const spec::geometric::Parameters& parameters) {
+  const std::uint64_t at_end = weights.buffered_blocks.sum();
+  coverage.hit("geometric/write-buffer/hit", weights.buffer_hits.value());
+  coverage.hit("geometric/write-buffer/empty", at_end);
+  coverage.hit("geometric/write-buffer/leaves", weights.blocks_written.value() - at_end);
+  for (const auto& bin : weights.buffered_blocks.bins())
+    coverage.hit(bin.low == static_cast<std::uint64_t>(parameters.write_buffer)
+                     ? "geometric/write-buffer/full-at-end"
+                     : "geometric/write-buffer/not-full-at-end",
+                 bin.count);
 }
 
 }  // namespace
@@ -92,8 +167,20 @@ Coverage declared_geometric_coverage() {
   for (const char* const cache : {"vertex", "depth", "weight"})
     for (const char* const outcome : {"hit", "miss"})
       coverage.declare(fmt::format("geometric/look-up/{}/{}", cache, outcome));
+  for (const char* const array : {"boundary", "other"})
+    for (const char* const outcome : {"hit", "miss"})
+      coverage.declare(fmt::format("geometric/pair-look-up/{}/{}", array, outcome));
+  for (const std::string_view what : kDroppedSides)
+    coverage.declare(fmt::format("geometric/screen/{}", what));
+  for (const std::string_view what : kLesserTiles)
+    coverage.declare(fmt::format("geometric/screen/{}", what));
+  coverage.declare(fmt::format("geometric/screen/{}", kAtBound));
   for (const char* const what : {"fresh", "cached", "replaced", "read-back", "waited-for"})
     coverage.declare(fmt::format("geometric/block/{}", what));
+  for (const char* const what : {"hit", "empty", "leaves", "full-at-end", "not-full-at-end"})
+    coverage.declare(fmt::format("geometric/write-buffer/{}", what));
+  for (const char* const what : {"hit", "free", "replaces"})
+    coverage.declare(fmt::format("geometric/colour/{}", what));
   for (const auto& [unit, causes] : stalls())
     for (const std::string& cause : causes)
       coverage.declare(fmt::format("geometric/stall/{}/{}", unit, cause));
@@ -103,6 +190,8 @@ Coverage declared_geometric_coverage() {
 void declare_directed_geometric_coverage(Coverage& coverage) {
   for (const auto& bin : golden::geometric::EdgeCoverage().bins())
     if (is_directed(bin.name)) coverage.declare("geometric/" + bin.name);
+  for (const std::string_view what : kPairsOutOfRange)
+    coverage.declare(fmt::format("geometric/pair-look-up/{}", what));
   for (const std::string_view region : spec::geometric::kRegionNames)
     coverage.declare(fmt::format("geometric/error/{}", region));
   for (std::size_t i = 1; i < spec::geometric::kRefusalNames.size(); ++i)
@@ -132,10 +221,19 @@ Coverage geometric_coverage(const rtl::geometric::GeometricEngine& e,
   looked("vertex", e.vertex_fetch.lookups, e.vertex_fetch.misses);
   looked("depth", e.depth_test.lookups, e.depth_test.misses);
   looked("weight", weights.lookups, weights.misses);
+  cover_pairs(coverage, e);
+  cover_screen(coverage, e);
   coverage.hit("geometric/block/fresh", weights.misses.value() - weights.blocks_read.value());
   coverage.hit("geometric/block/cached", weights.lookups.value() - weights.misses.value());
   coverage.hit("geometric/block/replaced", weights.blocks_written.value());
   coverage.hit("geometric/block/read-back", weights.blocks_read.value());
+  if (parameters.write_buffer > 0) hit_write_buffer(coverage, weights, parameters);
+  if (parameters.colour_lines > 0) {
+    const auto& fetch = e.block_fetch;
+    coverage.hit("geometric/colour/hit", fetch.lines_kept.value());
+    coverage.hit("geometric/colour/free", fetch.lines_read.value() - fetch.lines_replaced.value());
+    coverage.hit("geometric/colour/replaces", fetch.lines_replaced.value());
+  }
   for (const rtl::Unit* unit : e.units()) {
     if (!stalls().contains(unit->basename())) continue;
     for (const auto& cause : unit->stalls()) {

@@ -36,7 +36,8 @@ platform::GeometricRegions regions_of(std::span<const geometric::Frame> frames,
   std::vector<platform::GeometricSizes> sizes;
   for (const geometric::Frame& frame : frames)
     sizes.push_back({frame.image.width, frame.image.height, frame.screen.edges.size(),
-                     frame.screen.vertices.size(), frame.screen.faces});
+                     frame.screen.vertices.size(), frame.screen.faces,
+                     platform::boundaries_of(frame.screen.edges)});
   return platform::GeometricRegions::allocate(sizes, parameters);
 }
 
@@ -141,7 +142,7 @@ void GeometricEnvironment::load() {
   Random random(simulation().options().seed, "memory");
   for (const Region region : {Region::kWeights, Region::kCopy}) {
     const std::uint64_t end =
-        region == Region::kCopy ? regions_.bytes() : regions_.base(Region::kColour);
+        regions_.base(region == Region::kCopy ? Region::kPairs : Region::kColour);
     std::vector<std::uint8_t> noise(end - regions_.base(region));
     for (std::uint8_t& byte : noise) byte = static_cast<std::uint8_t>(random.word());
     memory_.preload(regions_.base(region), noise);
@@ -243,5 +244,8 @@ std::vector<PictureMap> GeometricEnvironment::maps() const {
   };
   return meter_.named(maps_->maps(engine_, line_of, memory_.lines_read(), frames_.size() == 1));
 }
+
+// Here, and not in each place that destroys one, whose compiler may leave its units slow.
+GeometricEnvironment::~GeometricEnvironment() = default;
 
 }  // namespace deburr::tb

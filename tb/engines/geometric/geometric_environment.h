@@ -46,6 +46,7 @@ class GeometricEnvironment final : public Environment {
   // draw(). ConfigError for wrong parameters or a frame that the engine does not take.
   GeometricEnvironment(Simulation& simulation, std::span<const geometric::Frame> frames,
                        const GeometricSetup& setup, std::string name = {});
+  ~GeometricEnvironment() override;
 
   void configure() override;
   bool begin(std::size_t piece) override;

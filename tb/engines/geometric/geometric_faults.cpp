@@ -39,7 +39,7 @@ void flip_rom(rtl::geometric::GeometricEngine& engine, std::string_view name) {
 
 // A face of the first edge of two faces, whose class goes by it.
 std::optional<std::uint32_t> GeometricFaults::face_of_a_fault() const {
-  if (setup_.geometric.select == spec::geometric::Select::kAll || frames_.empty())
+  if (setup_.geometric.select != spec::geometric::Select::kEdges || frames_.empty())
     return std::nullopt;
   const ScreenEdges& screen = frames_.front().screen;
   for (const Edge& edge : screen.edges)
@@ -89,6 +89,8 @@ std::vector<PlantedFault> GeometricFaults::list() const {
                                     "geometric.depth_test = own, farther");
   const std::string areas =
       unless(p.coverage == spec::geometric::CoverageRule::kArea, "geometric.coverage = area");
+  const std::string split =
+      unless(p.records == spec::geometric::RecordsLayout::kSplit, "geometric.records = split");
   std::string stale_neighbour;
   if (planted("stale-neighbour"))
     if (const auto block = block_that_takes_from_above())
@@ -102,6 +104,10 @@ std::vector<PlantedFault> GeometricFaults::list() const {
        "", unless(p.select == spec::geometric::Select::kEdges, "geometric.select = edges")},
       {"wrong-class", "A kept edge is taken for a crease, or a crease for another edge.",
        "flip:geometric.kept:5:crease"},
+      {"wrong-pair", "An edge takes the vertices of another one.", "flip:geometric.kept:5:place.0",
+       split},
+      {"stale-pair", "The first line of pairs is taken before it has come.",
+       "flip:geometric.pair_fetch.latency_fifo_entries:0:missed", split},
       {"wrong-area", "Flips the lowest bit of every area up to half a pixel from the centre.", "",
        areas},
       {"wrong-second", "A column of a group of candidates has a second one too few, or too many.",
@@ -116,9 +122,20 @@ std::vector<PlantedFault> GeometricFaults::list() const {
        "duplicate:geometric.candidates:20"},
       {"wrong-direction", "A group of candidates takes its neighbours along the other axis.",
        "flip:geometric.candidates:20:vertical"},
+      {"wrong-screen", "A candidate is dropped that is not hidden, or kept that is.",
+       "flip:geometric.screened:20:dropped.0",
+       unless(p.coarse_lines != spec::geometric::CoarseLines::kNone,
+              "geometric.coarse_lines of at least 4")},
       {"stale-depth", "The first line of depths is taken before it has come.",
        "flip:geometric.depth_test.latency_fifo_entries:0:missed.0", tested},
       {"wrong-replacement", "The caches have other sizes than were ordered."},
+      {"wrong-kept", "Another number of lines of colours is kept than was ordered.", "",
+       unless(p.colour_lines > 0, "geometric.colour_lines of at least 1")},
+      {"stale-kept", "The first line of colours is taken for a kept one.",
+       "flip:geometric.colour_order_entries:0:hit",
+       unless(p.colour_lines > 0, "geometric.colour_lines of at least 1")},
+      {"wrong-buffer", "The write buffer has another number of places than was ordered.", "",
+       unless(p.write_buffer > 0, "geometric.write_buffer of at least 1")},
       {"stale-neighbour", "A block takes from the block above as that was blended.",
        stale_neighbour,
        unless(!planted("stale-neighbour") || !stale_neighbour.empty(),
@@ -145,6 +162,9 @@ Parameters GeometricFaults::as_built() const {
   if (planted("wrong-cull"))
     p.cull = p.cull == spec::geometric::Cull::kNone ? spec::geometric::Cull::kBack
                                                     : spec::geometric::Cull::kNone;
+  const auto other = [](std::int32_t places) { return places == 1 ? 2 : places - 1; };
+  if (planted("wrong-kept")) p.colour_lines = other(p.colour_lines);
+  if (planted("wrong-buffer")) p.write_buffer = other(p.write_buffer);
   if (planted("wrong-nearer")) p.combine = spec::geometric::Combine::kMax;
   return p;
 }

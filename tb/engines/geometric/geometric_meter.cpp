@@ -48,8 +48,10 @@ LinesMoved lines_moved(const rtl::geometric::GeometricEngine& engine, bool frame
   };
   read(Region::kFaces) = engine.facing_store.lines_read.value();
   read(Region::kEdges) = engine.edge_reader.lines_read.value();
+  if (engine.pair_fetch) read(Region::kPairs) = engine.pair_fetch->lines_read.value();
   read(Region::kVertices) = engine.vertex_fetch.misses.value();
   read(Region::kDepth) = engine.depth_test.misses.value();
+  if (engine.depth_screen) read(Region::kCoarse) = engine.depth_screen->misses.value();
   read(Region::kWeights) =
       engine.weight_combiner.blocks_read.value() + engine.block_fetch.weights_read.value();
   read(frame_copy ? Region::kCopy : Region::kColour) = engine.block_fetch.lines_read.value();
@@ -93,18 +95,24 @@ std::uint64_t GeometricMeter::clocks_bound() const {
                                 static_cast<std::uint64_t>(setup_.memory.latency));
   const std::uint64_t divided = work.lines - e.line_setup.table_lines.value();
   const std::uint64_t resolve_weights = e.block_fetch.weights_read.value(),
-                      colours = e.block_fetch.lines_read.value();
+                      colours = e.block_fetch.lines_read.value(),
+                      window = colours + e.block_fetch.lines_kept.value();
+  // A group takes a clock of the DepthScreen for each line that it reads.
+  const std::uint64_t screened =
+      e.depth_screen ? e.depth_screen->groups.value() + e.depth_screen->both_missed.value() : 0;
   const std::uint64_t edges_phase = std::max(
-      {lines_for(work.edges, count_of(p.edge_lanes)), work.kept_edges, read(Region::kVertices),
+      {lines_for(work.edges, count_of(p.edge_lanes)), e.edge_classifier.kept_edges.value(),
+       read(Region::kVertices),
        p.pipelined ? work.lines : kDividerClocks * divided / static_cast<std::uint64_t>(p.dividers),
        work.groups, e.weight_combiner.lookups.value(), lines_for(e.depth_test.lookups.value(), 2),
-       read(Region::kDepth),
-       read(Region::kEdges) + read(Region::kVertices) + read(Region::kDepth) +
-           read(Region::kWeights) - resolve_weights + written(Region::kWeights) +
-           2 * written(Region::kCopy)});
-  const std::uint64_t resolve_phase = std::max(
-      {words * frames_done_, work.blocks, resolve_weights + colours + written(Region::kColour),
-       lines_for(work.blended_pixels, count_of(p.resolve_lanes))});
+       read(Region::kDepth), screened,
+       read(Region::kEdges) + read(Region::kPairs) + read(Region::kCoarse) +
+           read(Region::kVertices) + read(Region::kDepth) + read(Region::kWeights) -
+           resolve_weights + written(Region::kWeights) + 2 * written(Region::kCopy)});
+  const std::uint64_t resolve_phase =
+      std::max({words * frames_done_, work.blocks, window,
+                resolve_weights + colours + written(Region::kColour),
+                lines_for(work.blended_pixels, count_of(p.resolve_lanes))});
   return begin * frames_done_ + edges_phase + resolve_phase;
 }
 
@@ -114,7 +122,8 @@ void GeometricMeter::collect_traffic(Result& result) const {
   const LinesMoved lines = lines_moved(e, setup_.geometric.frame_copy);
   constexpr const char* kBytes = "byte/pixel";
   std::uint64_t frame_bytes = e.memory_port.bytes_written.value();
-  for (const Region region : {Region::kDepth, Region::kWeights, Region::kColour, Region::kCopy})
+  for (const Region region :
+       {Region::kDepth, Region::kCoarse, Region::kWeights, Region::kColour, Region::kCopy})
     frame_bytes += kLine * lines.read[index_of(region)];
   add(result, "edge_cycles", e.frame_sequencer.edge_cycles.value(), "clk",
       "Of the last frame, from its start until every edge was drawn.");
@@ -149,8 +158,22 @@ void GeometricMeter::collect_hits(Result& result) const {
        "Look-ups of lines of vertices that ordered none.");
   hits("depth_hits_percent", e.depth_test.lookups, e.depth_test.misses,
        "Look-ups of lines of depth that ordered none.");
+  if (e.depth_screen)
+    add(result, "dropped_early", e.depth_screen->dropped.value(), "pixel",
+        "Candidates that the coarse test of depth dropped before they looked depth up.");
   hits("weight_hits_percent", e.weight_combiner.lookups, e.weight_combiner.misses,
        "Look-ups of blocks of weights that were in the cache.");
+  const auto kept = [&](const char* name, const rtl::Counter& found, const rtl::Counter& read,
+                        const char* meaning) {
+    add(result, name, 100 * ratio(found.value(), found.value() + read.value()), "%", meaning);
+  };
+  const Parameters& p = setup_.geometric;
+  if (p.colour_lines > 0)
+    kept("colour_hits_percent", e.block_fetch.lines_kept, e.block_fetch.lines_read,
+         "Look-ups of lines of colours by the resolve that were kept.");
+  if (p.write_buffer > 0)
+    kept("write_buffer_hits_percent", e.weight_combiner.buffer_hits, e.weight_combiner.blocks_read,
+         "Misses of a block touched before that was in the write buffer.");
 }
 
 void GeometricMeter::collect(Result& result) const {
@@ -184,7 +207,9 @@ void GeometricMeter::show_parts(Observer& observer) const {
 }
 
 std::vector<Figure> GeometricMeter::work_figures() const {
-  return {{"Edges kept", key("edge_classifier_kept_edges"), "of", key("edge_classifier_edges")},
+  return {{"Edges kept",
+           key(engine_.pair_fetch ? "pair_fetch_kept_edges" : "edge_classifier_kept_edges"), "of",
+           key("edge_classifier_edges")},
           {"Lines", key("line_setup_lines")},
           {"Pixels walked a clock", key("columns_a_clock"), "walkers, at most"},
           {"Vertices found in the cache", key("vertex_hits_percent")},
@@ -235,12 +260,13 @@ std::optional<Bottleneck> GeometricMeter::bottleneck(const Result& result) const
   const rtl::geometric::GeometricEngine& e = engine_;
   // From the input of the pipe to its output.
   std::vector<UnitCycles> pipe;
-  const rtl::Unit* const units[] = {&e.edge_reader,   &e.edge_classifier, &e.vertex_fetch,
-                                    &e.line_setup,    &e.line_walker,     &e.coverage_unit,
-                                    &e.depth_test,    &e.weight_combiner, &e.frame_copier,
-                                    &e.block_scanner, &e.block_fetch,     &e.resolver};
+  const rtl::Unit* const units[] = {&e.edge_reader,     &e.edge_classifier,   e.pair_fetch.get(),
+                                    &e.vertex_fetch,    &e.line_setup,        &e.line_walker,
+                                    &e.coverage_unit,   e.depth_screen.get(), &e.depth_test,
+                                    &e.weight_combiner, &e.frame_copier,      &e.block_scanner,
+                                    &e.block_fetch,     &e.resolver};
   for (const rtl::Unit* unit : units)
-    pipe.push_back(unit_cycles(figure(name_within(e, *unit)), *unit));
+    if (unit) pipe.push_back(unit_cycles(figure(name_within(e, *unit)), *unit));
   const std::uint64_t requests = e.memory_port.reads.value() + e.memory_port.writes.value();
   if (result.cycles > 0 && ratio(requests, result.cycles) >= kPortBound)
     return Bottleneck{figure("memory_port"), "busy",

@@ -54,6 +54,10 @@ void reject_unused_rules(const ParameterSet& set, const spec::geometric::Paramet
     reject("cull", "geometric.select = all draws every edge, whichever way its faces are turned");
     reject("face_limit", "geometric.select = all reads no facing bits");
   }
+  if (p.select == spec::geometric::Select::kMesh) {
+    reject("cull", "geometric.select = mesh never looks whichever way faces are turned");
+    reject("face_limit", "geometric.select = mesh reads no facing bits");
+  }
   if (p.crease == spec::geometric::Crease::kOff)
     reject("crease_depth", "geometric.crease = off has no creases");
   if (p.depth_test == spec::geometric::DepthTest::kOff)

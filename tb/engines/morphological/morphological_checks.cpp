@@ -113,8 +113,15 @@ void MorphologicalChecks::got_frame(rtl::Cycle cycle, std::size_t position, std:
   if (!used_ || (beat.count == std::min(left, lanes) && beat.start_of_frame == first &&
                  beat.end_of_row == last))
     return;
+  // The pixel that is not as it should be: the first that a row lacks, or the last, after which it
+  // should have ended. A row that ends in its first half has come twice, at its beginning.
+  const auto width = static_cast<std::size_t>(frame_->image.width);
+  const bool lacks = beat.end_of_row && beat.count < left && left - beat.count <= width / 2;
+  const std::size_t wrong = lacks                      ? position + beat.count
+                            : last && !beat.end_of_row ? position + left - 1
+                                                       : position;
   pixels.complain(
-      cycle, position, "frame",
+      cycle, wrong, "frame",
       fmt::format("{} pixels at most, start of frame {}, end of row {}", left, first, last),
       fmt::format("{} pixels, start of frame {}, end of row {}", beat.count, beat.start_of_frame,
                   beat.end_of_row));

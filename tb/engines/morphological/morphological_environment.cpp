@@ -230,7 +230,9 @@ void MorphologicalEnvironment::check_output(rtl::Cycle cycle,
       taps_[position_] = t;
     }
     if (maps_) maps_->see(position_, t);
-    if (history_) history_->see(position_, p, t, cycle);
+    if (history_)
+      history_->see(position_, {p, t, beat.start_of_frame && i == 0,
+                                beat.end_of_row && i + 1 == beat.count, cycle});
     ++position_;
     ++progress_.delivered;
   }
@@ -255,5 +257,8 @@ std::vector<PictureMap> MorphologicalEnvironment::maps() const {
   return maps_ ? meter_.named(maps_->maps(engine_, frames_.size() == 1))
                : std::vector<PictureMap>();
 }
+
+// Here, and not in each place that destroys one, whose compiler may leave its units slow.
+MorphologicalEnvironment::~MorphologicalEnvironment() = default;
 
 }  // namespace deburr::tb

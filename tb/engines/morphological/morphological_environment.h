@@ -46,6 +46,7 @@ class MorphologicalEnvironment final : public Environment {
   // that the engine does not take.
   MorphologicalEnvironment(Simulation& simulation, std::span<const MorphologicalInput> frames,
                            const MorphologicalSetup& setup, std::string name = {});
+  ~MorphologicalEnvironment() override;
 
   void configure() override;
   bool begin(std::size_t piece) override;

@@ -41,6 +41,9 @@ std::string shares_of(const BlendTap& tap) {
   return fmt::format("{} {}, {}", tap.horizontal ? "left, right" : "up, down", tap.first,
                      tap.second);
 }
+std::string signals_of(bool first, bool last) {
+  return fmt::format("{}, {}", first ? "yes" : "no", last ? "yes" : "no");
+}
 std::string text_of(const RunRecord& r) {
   constexpr std::array<std::string_view, 3> kParts = {"", " (head)", " (tail)"};
   return fmt::format("{}..{} {}{}", r.start, r.start + r.length - 1,
@@ -134,11 +137,10 @@ void MorphologicalHistory::see(const RunRecord& run, rtl::Cycle cycle) {
 void MorphologicalHistory::see(const LineRecord& line, rtl::Cycle cycle) {
   if (is_near(line.run)) lines_.emplace_back(line, cycle);
 }
-void MorphologicalHistory::see(std::size_t position, const Rgba8& pixel, const BlendTap& tap,
-                               rtl::Cycle cycle) {
+void MorphologicalHistory::see(std::size_t position, const Delivered& pixel) {
   if (position == static_cast<std::size_t>(pixel_.y) * static_cast<std::size_t>(width_) +
                       static_cast<std::size_t>(pixel_.x))
-    delivered_.push_back({pixel, tap, cycle});
+    delivered_.push_back(pixel);
 }
 
 void MorphologicalHistory::add_side(const Side& side, const MorphologicalGolden* golden,
@@ -216,6 +218,10 @@ PixelHistory MorphologicalHistory::history(const MorphologicalInput& frame, bool
   add_delivered(
       "blend", "shares of neighbours", taps, [&] { return shares_of(golden->taps()[at]); },
       [](const Delivered& one) { return shares_of(one.tap); });
+  add_delivered(
+      "signals", "start of frame, end of row", golden != nullptr,
+      [&] { return signals_of(at == 0, pixel_.x == width_ - 1); },
+      [](const Delivered& one) { return signals_of(one.first, one.last); });
   add_delivered(
       "colour", "RGBA", golden != nullptr, [&] { return text_of(golden->pixels()[at]); },
       [](const Delivered& one) { return text_of(one.pixel); });

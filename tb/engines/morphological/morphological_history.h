@@ -23,9 +23,14 @@ class MorphologicalHistory {
   void begin(int width);
   void see(const spec::morphological::RunRecord& run, rtl::Cycle cycle);
   void see(const spec::morphological::LineRecord& line, rtl::Cycle cycle);
+  struct Delivered {
+    spec::morphological::Rgba8 pixel;
+    spec::morphological::BlendTap tap;
+    bool first = false, last = false;  // what its beat says: of the frame, of its row
+    rtl::Cycle cycle;
+  };
   // What was delivered as number `position` of the frame.
-  void see(std::size_t position, const spec::morphological::Rgba8& pixel,
-           const spec::morphological::BlendTap& tap, rtl::Cycle cycle);
+  void see(std::size_t position, const Delivered& pixel);
   // `golden`: null without one. `ended`: all of the frame was done, so what was not seen does not
   // come.
   PixelHistory history(const MorphologicalInput& frame, bool ended,
@@ -34,11 +39,6 @@ class MorphologicalHistory {
  private:
   template <class T>
   using Seen = std::vector<std::pair<T, rtl::Cycle>>;
-  struct Delivered {
-    spec::morphological::Rgba8 pixel;
-    spec::morphological::BlendTap tap;
-    rtl::Cycle cycle;
-  };
   // Runs along one of the pixel's sides.
   struct Side;
   bool is_at(const Side& side, const spec::morphological::RunRecord& run) const;

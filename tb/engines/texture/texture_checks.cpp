@@ -99,7 +99,6 @@ bool TextureChecks::got(const Colour& colour, rtl::Cycle cycle) {
 }
 
 void TextureChecks::check_traffic(platform::MemoryModel& memory, rtl::Cycle cycle, bool forget) {
-  if (memory.lines_read().empty()) return;  // as in most clocks
   if (used_)
     for (; fills_checked_ < memory.lines_read().size(); ++fills_checked_)
       fills.got({memory.lines_read()[fills_checked_]}, cycle);

@@ -274,11 +274,11 @@ class TextureEngine final : public Engine {
   }
 
   // Pictures are stored as sRGB, whatever the unit delivers of sRGB textures.
-  Image stored(const Image& image, const std::vector<bool>& sky) const {
+  Image stored(const Image& image, const Mask& drawn) const {
     if (!linear_light()) return image;
     Image out = image;
     for (std::size_t i = 0; i < out.pixels.size(); ++i) {
-      if (sky[i]) continue;  // it is not from the unit
+      if (drawn.pixels[i] == 0) continue;  // it is not from the unit
       for (std::size_t c = 0; c < 3; ++c)
         out.pixels[i][c] =
             static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(out.pixels[i][c] / 255.0)));
@@ -297,18 +297,19 @@ class TextureEngine final : public Engine {
   void add_pictures(const RunParameters& run, RunContext& context, const TextureScene& scene,
                     const TextureEnvironment& unit, Result& result) const {
     if (unit.frame().empty()) return;
+    Mask came;
+    came.width = unit.frame().width;
+    came.height = unit.frame().height;
+    came.pixels = unit.came();
     // Of a foreign picture nobody knows which pixels have no fragment before all have come.
-    std::vector<bool> sky(unit.came().size()), missing(sky.size());
-    for (std::size_t i = 0; i < sky.size(); ++i) {
-      sky[i] = foreign() ? unit.came()[i] == 0 : scene.stream().depth.pixels[i] == 0;
-      missing[i] = !sky[i] && unit.came()[i] == 0;
-    }
+    const Mask drawn = foreign() ? came : drawn_pixels(scene);
+    const Mask missing = without(drawn, came);
     const Image before = foreign() ? Image() : unfiltered(scene);
     // What was under way when the run was ended came on one side only.
-    const auto lost = static_cast<std::uint64_t>(std::count(missing.begin(), missing.end(), true));
+    const auto lost = static_cast<std::uint64_t>(count(missing));
     const std::string note =
         lost == 0 ? "" : fmt::format("; grey: {} pixels were not delivered", grouped(lost));
-    const Image after = without(stored(unit.frame(), sky), missing, kNotDelivered);
+    const Image after = painted(stored(unit.frame(), drawn), missing, kNotDelivered);
     if (!foreign())
       context.add_image("before", before, "Before", "nearest texel of level 0, no filter");
     context.add_image("after", after, "Hardware model",
@@ -316,8 +317,8 @@ class TextureEngine final : public Engine {
     if (run.check == CheckMode::kGolden) {
       // Once the run is over, what did not come is lost, and differs.
       const bool over = unit.done();
-      Image expected = stored(unit.golden_frame(), sky);
-      if (!over) expected = without(std::move(expected), missing, kNotDelivered);
+      Image expected = stored(unit.golden_frame(), drawn);
+      if (!over) expected = painted(std::move(expected), missing, kNotDelivered);
       context.add_image("golden", expected, "Golden model",
                         over ? "the same fragments by the golden model"
                              : "the same fragments by the golden model" + note);
@@ -346,9 +347,7 @@ class TextureEngine final : public Engine {
     options.samples = kTruthSamples;
     options.interrupted = [] { return interrupted(); };
     const Mask drawn = drawn_pixels(scene);
-    std::vector<bool> sky(drawn.pixels.size());
-    for (std::size_t i = 0; i < sky.size(); ++i) sky[i] = drawn.pixels[i] == 0;
-    return {unfiltered(scene), stored(golden_frame(scene, texture_).image, sky),
+    return {unfiltered(scene), stored(golden_frame(scene, texture_).image, drawn),
             render(scene.scene(), options), drawn};
   }
 

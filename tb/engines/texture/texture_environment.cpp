@@ -125,7 +125,8 @@ void TextureEnvironment::configure() {
 
 void TextureEnvironment::watch() {
   if (fetch_again_ && memory_.lines_read().size() > kFaultyRequest) fetch_again();
-  checks_.check_traffic(memory_, simulation().clock().cycle(), !fetch_again_);
+  if (!memory_.lines_read().empty())  // in most clocks it is
+    checks_.check_traffic(memory_, simulation().clock().cycle(), !fetch_again_);
 }
 
 bool TextureEnvironment::done() const {
@@ -200,5 +201,8 @@ std::optional<PixelHistory> TextureEnvironment::pixel_history() const {
 Coverage TextureEnvironment::coverage() const {
   return coverage_ ? coverage_->bins(unit_) : TextureCoverage::declared();
 }
+
+// Here, and not in each place that destroys one, whose compiler may leave its units slow.
+TextureEnvironment::~TextureEnvironment() = default;
 
 }  // namespace deburr::tb

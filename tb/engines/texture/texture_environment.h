@@ -49,6 +49,7 @@ class TextureEnvironment final : public Environment {
   // from `colours` and shows them to check_output(). ConfigError for wrong parameters.
   TextureEnvironment(Simulation& simulation, const TextureScene& scene, const TextureSetup& setup,
                      std::string name = {});
+  ~TextureEnvironment() override;
 
   void configure() override;
   bool begin(std::size_t piece) override { return piece == 0; }

@@ -197,7 +197,7 @@ def main():
     if len(header_macros(header)[0]) < 300:
         wrong.append("the header is not all there")
     # Faults that must be seen: an offset, a bit, a reset value, a code, an access, a lost register, a stride.
-    for before, after in ((" ID @ 0x000;", " ID @ 0x0FC;"), ("crease[3:2]", "crease[4:3]"), ("32'hDEB00003", "32'hDEB00002"),
+    for before, after in ((" ID @ 0x000;", " ID @ 0x0FC;"), ("crease[3:2]", "crease[4:3]"), ("32'hDEB00004", "32'hDEB00002"),
                           (" paper = 2'd1;", " paper = 2'd2;"), ("onwrite = woclr;", ""), ("} SIZE @", "} SIZES @"),
                           ("+= 0x80", "+= 0x40"), ("enable[0:0]", "enable[0:0")):
         if before not in text:

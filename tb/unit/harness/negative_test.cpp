@@ -268,6 +268,44 @@ TEST(LinkChecker, FindsABeatThatChangesWhereBeatsComeAndGoInTheSameClock) {
       }),
       AllOf(HasSubstr("rogue: cycle 9: beat 8 changed while it waited"), HasSubstr("number=8/12")));
 }
+
+template <std::size_t kBytes>
+struct Bytes {
+  std::array<std::uint8_t, kBytes> byte{};
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("byte", self.byte, 8);
+  }
+};
+template <std::size_t kBytes>
+void expect_every_byte_compared() {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  rtl::Link<Bytes<kBytes>> link("link", 3);
+  LinkChecker checker(clock);
+  for (std::size_t changed = 0; changed < kBytes; ++changed)
+    for (std::uint64_t beat = 0; beat < 4; ++beat) {  // in every slot, and in the first one again
+      link.reset();
+      checker.reset();
+      for (Cycle cycle = 0; cycle <= beat; ++cycle) {
+        link.push(cycle, {});
+        if (cycle > 0) link.pop(cycle);
+        ASSERT_NO_THROW(checker.tick(cycle));
+      }
+      link.beat(beat)[changed] ^= std::byte{1};
+      link.pop(beat + 1);
+      EXPECT_THROW(checker.tick(beat + 1), spec::SimulationError)
+          << "byte " << changed << " of " << kBytes << ", beat " << beat;
+    }
+}
+template <std::size_t... kBytes>
+void expect_every_byte_compared(std::index_sequence<kBytes...> /*sizes*/) {
+  (expect_every_byte_compared<kBytes>(), ...);
+}
+TEST(LinkChecker, ComparesEveryByteOfBeatsOfAnySize) {
+  expect_every_byte_compared(
+      std::index_sequence<1, 4, 7, 8, 9, 12, 15, 16, 17, 20, 31, 32, 33, 40, 56, 100>());
+}
+
 TEST(LinkChecker, FindsAPopInTheClockOfThePush) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
                 if (cycle != 5) return;

@@ -69,13 +69,18 @@ def faults_that_are_not_found(root):
               ("spec/morphological/shapes.h", '"Z-first-second", Side::kFirst', '"Z-first-second", Side::kSecond'),
               ("docs/reference/morphological/formats.md", "| 1, 1 | (1,0), (1,1) |", "| 1, 1 | (1,1), (1,1) |"),
               ("docs/reference/morphological/smaa.md", "7, 14 read 6;", "7, 14 read 9;"),
-              ("docs/reference/geometric/memories.md", "| `kept` | EdgeClassifier, VertexFetch | 2 |", "| `kept` | EdgeClassifier, NewUnit | 2 |"),
+              ("docs/reference/geometric/memories.md", "| `kept` | EdgeClassifier, PairFetch; ", "| `kept` | EdgeClassifier, NewUnit; "),
+              ("docs/howto/which_engine.md", "You have pixels alone: take `morphological`", "You have pixels alone: take both"),
+              ("docs/howto/debug_a_mismatch.md", "## 3. Look at the picture", "## 3. Look at the pixel"),
+              ("docs/howto/nightly_regression.md", "    coverage: [", "    covered: ["),
+              ("examples/platform/main.cpp", "display_.pixels_in(blended_)", "display_.pixels_in(pixels_)"),
+              ("docs/howto/testbench.md", "`deburr_texture_fills` after each quad", "`deburr_texture_lines` after each quad"),
               ("docs/images/line_walk.svg", '<title id="title">', '<title id="title">A'),
               ("docs/reference/morphological/algorithm.md", "![A table", "![shapes](../../images/run_shapes.svg) ![A table"),
               ("docs/reference/geometric/algorithm.md", "images/line_walk.svg)", "images/no_walk.svg)"))
     with tempfile.TemporaryDirectory() as folder:
         copy = pathlib.Path(folder)
-        for part in ("docs", "scripts", "spec"):
+        for part in ("docs", "scripts", "spec", "examples"):
             shutil.copytree(root / part, copy / part)
         for page in root.glob("*.md"):
             shutil.copy(page, copy)

@@ -141,8 +141,13 @@ class Mutate(unittest.TestCase):
         file = self.root / "tb/mutation/survivors.json"
         file.write_text(json.dumps(explained), encoding="utf-8")
         self.assertEqual(self.mutate("--check").returncode, 1)
+        for words in (["init", "-q"], ["-c", "user.name=a", "-c", "user.email=a", "commit", "-q", "--allow-empty", "-m", "a"]):
+            subprocess.run(["git", "-C", self.root, *words], check=True)
         self.assertEqual(self.mutate("--report", "--work", self.work).returncode, 0)
         self.assertEqual(self.mutate("--check").returncode, 0)
+        commit = subprocess.run(["git", "-C", self.root, "rev-parse", "HEAD"], capture_output=True, text=True, check=True).stdout
+        page = (self.root / "docs/measurements/mutation.md").read_text(encoding="utf-8")
+        self.assertIn(f"at commit `{commit[:12]}`", page.replace("\n", " "))
 
         killed = next(e for e in map(json.loads, lines) if e["verdict"] == "killed")
         for wrong, what in (({**explained[0], "is": killed["is"], "was": killed["was"]}, "is killed"),

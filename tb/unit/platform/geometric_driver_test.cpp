@@ -34,6 +34,68 @@ TEST(GeometricRecords, AnEdgeIsFourWords) {
                    0,    0,    3,    0,    0,    0,    4,    0, 0,    0}));
 }
 
+// f0 in bits 20..0, f1 in 41..21, flags in 45..42; ten a line.
+TEST(GeometricRecords, SplitFacesAreSixBytes) {
+  std::vector<Edge> edges = {{1, 2, 0x1ABCDE, 0x012345, 0xB}, {1, 2, 0x200000, 0xFFFFFF, 0x14}};
+  const Bytes two = platform::face_records(edges);
+  const std::uint64_t first = 0x1ABCDE | std::uint64_t{0x012345} << 21 | std::uint64_t{0xB} << 42;
+  Bytes expected(64);
+  for (std::size_t i = 0; i < 6; ++i) expected[i] = static_cast<std::uint8_t>(first >> 8 * i);
+  // Faces beyond 21 bits are the last one; 0x14 has one flag of four.
+  const std::uint8_t second[] = {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x13};
+  std::copy_n(second, 6, &expected[6]);
+  EXPECT_EQ(two, expected);
+  edges.resize(11);
+  edges[10] = {0, 0, 7, 0, 0};
+  const Bytes eleven = platform::face_records(edges);
+  EXPECT_EQ(eleven.size(), 128u);
+  EXPECT_EQ(eleven[64], 7);
+  EXPECT_EQ(platform::face_records({}).size(), 0u);
+}
+
+TEST(GeometricRecords, PairsOfBoundariesAndOfOthersLieApart) {
+  std::vector<Edge> edges;
+  for (std::uint32_t i = 0; i < 25; ++i)
+    edges.push_back({i, 0xABC000 + i, 0, 0, static_cast<std::uint8_t>(i % 2)});
+  EXPECT_EQ(platform::boundaries_of(edges), 12u);
+  const Bytes boundaries = platform::pair_records(edges, true),
+              others = platform::pair_records(edges, false);
+  EXPECT_EQ(boundaries.size(), 128u);
+  EXPECT_EQ(others.size(), 128u);
+  for (std::uint32_t n = 0; n < 12; ++n)
+    for (const bool boundary : {true, false}) {
+      const Bytes& bytes = boundary ? boundaries : others;
+      const std::uint8_t v = static_cast<std::uint8_t>(2 * n + boundary);
+      const Bytes record(bytes.begin() + n / 10 * 64 + n % 10 * 6,
+                         bytes.begin() + n / 10 * 64 + n % 10 * 6 + 6);
+      EXPECT_EQ(record, (Bytes{v, 0, 0, v, 0xC0, 0xAB})) << n;
+    }
+}
+
+// The least depth of the pixels inside the frame, / 256.
+TEST(GeometricRecords, CoarseDepthIsTheLeastOfATile) {
+  constexpr int kWidth = 70, kHeight = 35;
+  std::vector<std::uint32_t> depths(kWidth * kHeight, 0xFFFFFF);
+  const auto set = [&](int x, int y, std::uint32_t depth) {
+    depths[static_cast<std::size_t>(y * kWidth + x)] = depth;
+  };
+  set(7, 7, 0x1234FF);                 // tile (0, 0)
+  set(8, 7, 0x5600);                   // tile (1, 0)
+  set(69, 0, 0x777777);                // tile (8, 0): the first of line 1
+  set(0, 32, 0xFF);                    // tile (0, 4): the first of line 2
+  set(69, 34, 0x01000000 + 0x030201);  // tile (8, 4); bits above 23 are ignored
+  const Bytes bytes = platform::coarse_depth(kWidth, kHeight, depths);
+  ASSERT_EQ(bytes.size(), 4u * 64);
+  const auto entry = [&](std::size_t at) { return bytes[at] | bytes[at + 1] << 8; };
+  EXPECT_EQ(entry(0), 0x1234);
+  EXPECT_EQ(entry(2), 0x0056);
+  EXPECT_EQ(entry(4), 0xFFFF);
+  EXPECT_EQ(entry(16), 0xFFFF);  // tile (0, 1)
+  EXPECT_EQ(entry(64), 0x7777);
+  EXPECT_EQ(entry(128), 0);
+  EXPECT_EQ(entry(192), 0x0302);
+}
+
 TEST(GeometricRecords, AVertexIsFourWords) {
   const Vertex vertices[] = {{-2, 0x00ABCDEF, 0x123456, true}, {1, -256, 7, false}};
   EXPECT_EQ(platform::vertex_records(vertices),
@@ -96,7 +158,7 @@ TEST(GeometricRegions, FollowEachOtherAtPages) {
   const GeometricRegions copied = GeometricRegions::allocate(frames, p);
   // Faces 5056 bytes, edges 4800, vertices 32000, 8 x 6 tiles of 256, 16 x 12 blocks of 64.
   const std::uint32_t expected[] = {0, 8192, 16384, 49152, 61440, 73728, 86016};
-  for (std::size_t i = 0; i < GeometricRegions::kCount; ++i) {
+  for (std::size_t i = 0; i < std::size(expected); ++i) {
     EXPECT_EQ(in_place.base(static_cast<Region>(i)), expected[i]) << i;
     EXPECT_EQ(copied.base(static_cast<Region>(i)), expected[i]) << i;
   }
@@ -108,6 +170,28 @@ TEST(GeometricRegions, FollowEachOtherAtPages) {
   EXPECT_EQ(copied.region_of(98304), GeometricRegions::kCount);
   EXPECT_EQ(copied.end_of(8192), 16384u);
   EXPECT_EQ(copied.end_of(86016), 98304u);
+}
+
+// Behind the copy: pairs of both arrays, whole lines each; 32 tiles of 8 x 8 pixels a line.
+TEST(GeometricRegions, OfLessTrafficComeLast) {
+  const GeometricSizes frames[] = {{61, 45, 301, 200, 49, 41}, {1280, 720, 3, 2, 40000, 3}};
+  Parameters p;
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  p.coarse_lines = spec::geometric::CoarseLines::k4;
+  const auto needed = GeometricRegions::needed(frames[0], p);
+  EXPECT_EQ(needed[1], 31u * 64);
+  EXPECT_EQ(needed[7], (5u + 26) * 64);
+  EXPECT_EQ(needed[8], 2u * 64);
+  EXPECT_EQ(GeometricRegions::needed(frames[1], p)[7], 64u);
+  EXPECT_EQ(GeometricRegions::needed(frames[1], p)[8], 460u * 64);
+  const GeometricRegions all = GeometricRegions::allocate(frames, p);
+  EXPECT_EQ(all.base(Region::kCopy), all.base(Region::kPairs)) << "there is no copy";
+  EXPECT_EQ(all.region_of(all.base(Region::kPairs)), 7u);
+  EXPECT_EQ(all.base(Region::kCoarse), all.base(Region::kPairs) + 4096);
+  EXPECT_EQ(all.bytes(), all.base(Region::kCoarse) + 32768u);
+  EXPECT_EQ(all.other_pairs(41), all.base(Region::kPairs) + 5 * 64);
+  EXPECT_EQ(all.other_pairs(0), all.base(Region::kPairs));
+  EXPECT_EQ(all.other_pairs(40), all.base(Region::kPairs) + 4 * 64);
 }
 
 TEST(GeometricRegions, BeyondAddressesOf32BitsAreRejected) {
@@ -122,9 +206,10 @@ TEST(GeometricRegions, BeyondAddressesOf32BitsAreRejected) {
 struct Bed {
   explicit Bed(const Parameters& p = raster(), std::size_t bytes = 1 << 20)
       : memory(bytes), driver(registers, memory, p) {
-    registers.values[reg::kId] = 0xDEB00003;
+    registers.values[reg::kId] = 0xDEB00004;
     registers.values[reg::kStatus] = 1;
-    driver.place(GeometricRegions({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0x6000, 0x7000}));
+    driver.place(
+        GeometricRegions({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0x6000, 0x7000, 0x8000, 0x9000}));
   }
   static Parameters raster() {
     Parameters p;
@@ -182,7 +267,33 @@ TEST(GeometricDriver, ProgramsSizesAndBasesThenStarts) {
               ElementsAre(Write{0x0C, 17 | 2 << 16}, Write{0x14, 1}, Write{0x18, 2}, Write{0x1C, 9},
                           Write{0x20, 0x2000}, Write{0x24, 0x3000}, Write{0x28, 0x1000},
                           Write{0x2C, 0x4000}, Write{0x30, 0x6000}, Write{0x34, 0x5000},
-                          Write{0x38, 0x7000}, Write{0x04, 5}));
+                          Write{0x38, 0x7000}, Write{0x98, 0}, Write{0x9C, 0x8000},
+                          Write{0xA0, 0x8000}, Write{0xA4, 0x9000}, Write{0x04, 5}));
+}
+
+// Faces of all edges, then pairs of the boundary and of the others; coarse depth with the depths.
+TEST(GeometricDriver, PutsSplitRecordsAndCoarseDepthIntoTheirRegions) {
+  Parameters p = Bed::raster();
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  p.coarse_lines = spec::geometric::CoarseLines::k4;
+  Bed b(p);
+  b.edges = {{0, 1, 2, 3, 4}, {1, 0, 5, 6, 1}, {1, 1, 7, 8, 8}};
+  b.depths[0] = 0x123456;
+  b.driver.load(b.frame());
+  EXPECT_EQ(b.memory.read(0x2000, 12), (Bytes{2, 0, 0x60, 0, 0, 0x10, 5, 0, 0xC0, 0, 0, 0x04}));
+  EXPECT_EQ(b.memory.read(0x2000 + 64, 1), (Bytes{0xEE}));
+  EXPECT_EQ(b.memory.read(0x8000, 6), (Bytes{1, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(b.memory.read(0x8040, 12), (Bytes{0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}));
+  EXPECT_EQ(b.memory.read(0x9000, 4), (Bytes{0, 0, 0, 0}));
+  b.depths.assign(34, 0xABCDEF);
+  b.depths[16] = 0x010203;  // pixel (16, 0)
+  b.driver.load_depths(b.depths);
+  EXPECT_EQ(b.memory.read(0x9000, 6), (Bytes{0xCD, 0xAB, 0xCD, 0xAB, 0x02, 0x01}));
+  b.driver.program();
+  EXPECT_EQ(b.registers.values[reg::kBoundaryCount], 1u);
+  EXPECT_EQ(b.registers.values[reg::kPairBase], 0x8000u);
+  EXPECT_EQ(b.registers.values[reg::kOtherPairBase], 0x8040u);
+  EXPECT_EQ(b.registers.values[reg::kCoarseBase], 0x9000u);
 }
 
 // The rules of the preset without those that came later.
@@ -203,15 +314,15 @@ TEST(GeometricDriver, WritesRulesAsFieldsOfARegister) {
   };
   // edges 1, linear light, shading 2, farther 2, max 0, bias 9, tiled, cull back
   Parameters p = of_nearest_lines();
-  EXPECT_EQ(written(p), 0x2492Bu);
+  EXPECT_EQ(written(p), 0x824929u);
   p.select = spec::geometric::Select::kAll;
-  EXPECT_EQ(written(p), 0x2492Au);
+  EXPECT_EQ(written(p), 0x824928u);
   p.crease = spec::geometric::Crease::kPaper;
-  EXPECT_EQ(written(p), 0x24926u);
+  EXPECT_EQ(written(p), 0x824924u);
   p.depth_test = spec::geometric::DepthTest::kOwn;
-  EXPECT_EQ(written(p), 0x24916u);
+  EXPECT_EQ(written(p), 0x824914u);
   p.combine = spec::geometric::Combine::kLast;
-  EXPECT_EQ(written(p), 0x24956u);
+  EXPECT_EQ(written(p), 0x824954u);
   p.linear_light = false;
   EXPECT_EQ(written(p), 0x24954u);
   p.depth_bias = 24;

@@ -18,6 +18,7 @@
 namespace deburr::tb::parameters_test {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -145,7 +146,7 @@ TEST_F(Parameters, AnotherWordForAValue) {
   set_.set("unit.colour", "green", "test");
   EXPECT_EQ(values_.colour, Colour::kGreen);
   EXPECT_THAT(complaint([&] { set_.set("unit.colour", "carlet", "test"); }),
-              HasSubstr("wants one of"));
+              testing::AllOf(HasSubstr("wants one of"), EndsWith("; scarlet is red")));
 }
 
 TEST_F(Parameters, UnknownNamesShowNearMatches) {

@@ -45,6 +45,9 @@ TEST(Quality, EdgesAndSilhouettes) {
   EXPECT_EQ(edges.pixels, (std::vector<std::uint8_t>{0, 0, 1, 0, 1}));
   EXPECT_EQ(count(edges), 2);
   EXPECT_EQ(inverted(edges).pixels, (std::vector<std::uint8_t>{1, 1, 0, 1, 0}));
+  Mask right(5, 1);
+  right.pixels = {0, 1, 1, 0, 0};
+  EXPECT_EQ(without(edges, right).pixels, (std::vector<std::uint8_t>{0, 0, 0, 0, 1}));
 
   DepthImage depth(5, 1);
   depth.pixels = {1.0f, 1.0f, 1.04f, 1.06f, 1.0f};  // around pixel 2: 4 % and 1.9 %; around 4: 6 %
@@ -119,6 +122,11 @@ TEST(Compose, DifferenceCropZoomAndSheet) {
   EXPECT_EQ(page.at(4, 0), red);
   EXPECT_EQ(page.at(3, 6), red);  // the smaller cell does not fill its place
   Image framed = a;
+  Mask first(4, 2);
+  first.at(0, 0) = 1;
+  EXPECT_EQ(count_different(painted(a, first, red), a), 1);
+  EXPECT_EQ(painted(a, first, red).at(0, 0), red);
+  EXPECT_THROW(painted(cut, first, red), spec::ConfigError);
   draw_frame(framed, 1, 0, 2, 2, red);
   EXPECT_EQ(framed.at(1, 0), red);
   EXPECT_EQ(framed.at(3, 0), a.at(3, 0));

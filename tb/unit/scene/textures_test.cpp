@@ -89,7 +89,7 @@ double area_mean(const Image& source, const Image& target, int x, int y, std::si
 }
 
 TEST(MipChain, IsTheAreaAverageForOddSizesToo) {
-  for (const auto& [w, h] : {std::pair(8, 8), {7, 5}, {13, 4}, {3, 1}, {31, 17}}) {
+  for (const auto& [w, h] : {std::pair(8, 8), {12, 6}, {7, 5}, {13, 4}, {3, 1}, {31, 17}}) {
     const std::vector<Image> levels = mip_chain(noise(w, h, 3));
     for (std::size_t k = 1; k < levels.size(); ++k)
       for (int y = 0; y < levels[k].height; ++y)

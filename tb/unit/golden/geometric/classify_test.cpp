@@ -13,31 +13,35 @@ namespace {
 
 using golden::geometric::check_frame;
 using golden::geometric::classify;
+using golden::geometric::classify_faces;
 using golden::geometric::FacingBits;
 using golden::geometric::FrameCounts;
 using golden::geometric::is_kept;
 using golden::geometric::preset_parameters;
 using golden::geometric::refusal;
+using spec::geometric::CoarseLines;
 using spec::geometric::Crease;
 using spec::geometric::Cull;
 using spec::geometric::Edge;
 using spec::geometric::EdgeClass;
 using spec::geometric::Parameters;
 using spec::geometric::Preset;
+using spec::geometric::RecordsLayout;
 using spec::geometric::Refusal;
 using spec::geometric::Rules;
 using spec::geometric::Select;
 namespace flag = spec::geometric::flag;
 
-constexpr Select kSelects[] = {Select::kAll, Select::kEdges};
+constexpr Select kSelects[] = {Select::kAll, Select::kEdges, Select::kMesh};
 constexpr Crease kCreases[] = {Crease::kOff, Crease::kPaper, Crease::kShading};
 
 // The page's table of classes, read as a list of rows.
 EdgeClass from_the_page(const Rules& rules, int flags, bool front0, bool front1) {
   if ((flags & 1) != 0) return EdgeClass::kBoundary;
   if (rules.select == Select::kAll) return EdgeClass::kUnclassified;
-  if (front0 != front1) return EdgeClass::kSilhouette;
-  if (!front0 && rules.cull == Cull::kBack) return EdgeClass::kBack;
+  const bool edges = rules.select == Select::kEdges;
+  if (edges && front0 != front1) return EdgeClass::kSilhouette;
+  if (edges && !front0 && rules.cull == Cull::kBack) return EdgeClass::kBack;
   const bool paper = (flags & 2) != 0;
   const bool shading = (flags & 6) == 6 || (flags & 8) != 0;
   const bool crease = rules.crease == Crease::kPaper     ? paper
@@ -62,23 +66,27 @@ TEST(Classify, AllFlagsFacingsAndRules) {
                 static_cast<std::uint8_t>((facings & 1) != 0 ? 8 : 0),
                 static_cast<std::uint8_t>((facings & 2) != 0 ? 4 : 0)};
             const Edge edge{0, 1, 3, 10, static_cast<std::uint8_t>(flags)};
-            EXPECT_EQ(classify(rules, edge, 2, {bytes, 11}),
-                      from_the_page(rules, flags, (facings & 1) != 0, (facings & 2) != 0))
-                << flags << ' ' << facings;
+            const EdgeClass expected =
+                from_the_page(rules, flags, (facings & 1) != 0, (facings & 2) != 0);
+            EXPECT_EQ(classify(rules, edge, 2, {bytes, 11}), expected) << flags << ' ' << facings;
+            // Vertices that are not there matter to the one that checks them alone.
+            EXPECT_EQ(classify_faces(rules, edge, {bytes, 11}), expected);
+            EXPECT_EQ(classify(rules, edge, 1, {bytes, 11}), EdgeClass::kInvalid);
             ++seen;
           }
         }
       }
     }
   }
-  EXPECT_EQ(seen, 2 * 3 * 2 * 256 * 4);
+  EXPECT_EQ(seen, 3 * 3 * 2 * 256 * 4);
 }
 
 TEST(Classify, IndicesEndWhereTheCountsEnd) {
   const std::array<std::uint8_t, 1> bytes = {0xFF};
   const FacingBits facing{bytes, 5};
-  Rules edges, all;
+  Rules edges, all, mesh;
   all.select = Select::kAll;
+  mesh.select = Select::kMesh;
   const auto is_valid = [&](const Rules& rules, const Edge& edge) {
     return classify(rules, edge, 4, facing) != EdgeClass::kInvalid;
   };
@@ -90,10 +98,13 @@ TEST(Classify, IndicesEndWhereTheCountsEnd) {
   // A boundary has no second face; its first must be there all the same.
   EXPECT_TRUE(is_valid(edges, {3, 3, 4, 5, flag::kBoundary}));
   EXPECT_FALSE(is_valid(edges, {3, 3, 5, 0, flag::kBoundary}));
-  // Without a choice no face matters.
-  EXPECT_TRUE(is_valid(all, {3, 3, 5, 5, 0}));
-  EXPECT_FALSE(is_valid(all, {4, 3, 0, 0, 0}));
-  EXPECT_FALSE(is_valid(all, {3, 4, 0, 0, flag::kBoundary}));
+  // Without a choice by the view no face matters.
+  for (const Rules& rules : {all, mesh}) {
+    EXPECT_TRUE(is_valid(rules, {3, 3, 5, 5, 0}));
+    EXPECT_TRUE(is_valid(rules, {3, 3, 5, 5, flag::kBoundary}));
+    EXPECT_FALSE(is_valid(rules, {4, 3, 0, 0, 0}));
+    EXPECT_FALSE(is_valid(rules, {3, 4, 0, 0, flag::kBoundary}));
+  }
 }
 
 TEST(Classify, KeepsWhatCanBeSeenAsAnEdge) {
@@ -148,11 +159,21 @@ TEST(Configuration, RejectsByName) {
   rejected([](Parameters& p) { p.crease_depth = -1; }, "crease_depth = -1 is outside 0..24");
   rejected([](Parameters& p) { p.crease_depth = 25; }, "crease_depth = 25 is outside 0..24");
   rejected([](Parameters& p) { p.combine = static_cast<spec::geometric::Combine>(3); }, "combine");
-  rejected([](Parameters& p) { p.select = static_cast<Select>(2); }, "select");
+  rejected([](Parameters& p) { p.select = static_cast<Select>(3); }, "select");
   rejected([](Parameters& p) { p.reciprocal_table = 10; }, "reciprocal_table");
   rejected([](Parameters& p) { p.fills = 129; }, "memory.outstanding");
   rejected([](Parameters& p) { p.face_limit = 8193; }, "face_limit");
   rejected([](Parameters& p) { p.touched_words = 15; }, "touched_words");
+  rejected([](Parameters& p) { p.colour_lines = 257; }, "colour_lines = 257 is outside 0..256");
+  rejected([](Parameters& p) { p.write_buffer = 129; }, "write_buffer = 129 is outside 0..128");
+  rejected([](Parameters& p) { p.records = static_cast<RecordsLayout>(2); }, "records");
+  rejected([](Parameters& p) { p.coarse_lines = static_cast<CoarseLines>(6); }, "coarse_lines");
+  rejected(
+      [](Parameters& p) {
+        p.coarse_lines = CoarseLines::k4;
+        p.depth_test = spec::geometric::DepthTest::kOff;
+      },
+      "must be none with depth_test = off");
   rejected([](Parameters& p) { p.fills = 7; }, "fills = 7: must be at least 8 lines");
   Parameters fills;
   fills.fills = fills.memory_outstanding = 64;  // as many as memory answers at once
@@ -179,9 +200,16 @@ TEST(Configuration, FramesEndWhereTheBuildEnds) {
   EXPECT_EQ(why({8, 8, (1u << 24) + 1, 0, 0}), Refusal::kEdgeCount);
   EXPECT_EQ(why({8, 8, 0, (1u << 24) + 1, 0}), Refusal::kVertexCount);
   EXPECT_EQ(why({8, 8, 0, 0, 32769}), Refusal::kFaceCount);
-  p.select = Select::kAll;
-  EXPECT_EQ(why({8, 8, 0, 0, 32769}), Refusal::kNone);
+  for (const Select select : {Select::kAll, Select::kMesh}) {
+    p.select = select;
+    EXPECT_EQ(why({8, 8, 0, 0, 32769}), Refusal::kNone);
+  }
   p.select = Select::kEdges;
+  EXPECT_EQ(why({8, 8, 5, 0, 0, 6}), Refusal::kNone);
+  p.records = RecordsLayout::kSplit;
+  EXPECT_EQ(why({8, 8, 5, 0, 0, 6}), Refusal::kBoundaryCount);
+  EXPECT_EQ(why({8, 8, 5, 0, 0, 5}), Refusal::kNone);
+  EXPECT_EQ(why({8, 8, 0, 0, 0, 0}), Refusal::kNone);
   p.line_pixels = 8192;
   p.touched_words = 1 << 20;
   EXPECT_EQ(why({1, 1, 0, 0, 0}), Refusal::kNone);
@@ -194,7 +222,8 @@ TEST(Configuration, FramesEndWhereTheBuildEnds) {
 // Of several reasons the first counts: each is the reason once those before it are mended.
 TEST(Configuration, RejectsForTheFirstReason) {
   Parameters p;  // 2048 pixels, 1088 words, 32768 faces
-  FrameCounts f = {8193, 8192, (1u << 24) + 1, (1u << 24) + 1, 32769};
+  p.records = RecordsLayout::kSplit;
+  FrameCounts f = {8193, 8192, (1u << 24) + 1, (1u << 24) + 1, 32769, (1u << 24) + 2};
   EXPECT_EQ(refusal(p, f), Refusal::kSize);
   f.width = 2049;
   EXPECT_EQ(refusal(p, f), Refusal::kWidth);
@@ -207,14 +236,18 @@ TEST(Configuration, RejectsForTheFirstReason) {
   f.vertex_count = 1u << 24;
   EXPECT_EQ(refusal(p, f), Refusal::kFaceCount);
   f.face_count = 32768;
+  EXPECT_EQ(refusal(p, f), Refusal::kBoundaryCount);
+  f.boundary_count = 1u << 24;
   EXPECT_EQ(refusal(p, f), Refusal::kNone);
 }
 
 // What is wrong and what would be possible, in words.
 TEST(Configuration, SaysWhatWouldFit) {
   const auto text = [](const FrameCounts& counts) -> std::string {
+    Parameters p;
+    p.records = RecordsLayout::kSplit;
     try {
-      check_frame(Parameters{}, counts);
+      check_frame(p, counts);
     } catch (const spec::ConfigError& error) {
       return error.what();
     }
@@ -232,6 +265,7 @@ TEST(Configuration, SaysWhatWouldFit) {
   EXPECT_EQ(text({8, 8, 0, (1u << 24) + 1, 0}), "16777217 vertices; at most 2^24 are possible");
   EXPECT_EQ(text({8, 8, 0, 0, 32769}),
             "32769 faces, the build holds the facing bits of 32768; raise face_limit");
+  EXPECT_EQ(text({8, 8, 5, 0, 0, 6}), "6 boundaries of 5 edges");
 }
 
 }  // namespace

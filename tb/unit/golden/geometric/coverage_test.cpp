@@ -2,6 +2,7 @@
 // Can every bin of the functional coverage be reached, and does a bin count what it says?
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -19,6 +20,7 @@ using golden::geometric::CoverageBin;
 using golden::geometric::EdgeCoverage;
 using golden::geometric::GeometricGolden;
 using spec::geometric::CacheLines;
+using spec::geometric::CoarseLines;
 using spec::geometric::Combine;
 using spec::geometric::Crease;
 using spec::geometric::Layout;
@@ -34,6 +36,15 @@ Drawing random_drawing(std::uint64_t seed) {
   for (auto& pixel : d.colours) pixel = {static_cast<std::uint8_t>(random.below(256)), 0, 0, 255};
   constexpr std::uint32_t kDepths[] = {0, 4000000, 4001000, 8000000};
   for (auto& depth : d.depths) depth = kDepths[random.below(4)];
+  if (seed % 2 != 0) {  // tiles that hide what lies behind them
+    for (std::size_t ty = 0; ty < 7; ++ty)
+      for (std::size_t tx = 0; tx < 9; ++tx) {
+        const std::uint32_t depth = kDepths[random.below(4)];
+        for (std::size_t y = 8 * ty; y < std::min<std::size_t>(8 * ty + 8, 50); ++y)
+          for (std::size_t x = 8 * tx; x < std::min<std::size_t>(8 * tx + 8, 70); ++x)
+            d.depths[70 * y + x] = depth;
+      }
+  }
   for (std::uint32_t face = 0; face < 40; ++face) d.set_facing(face, random.chance(500));
   const auto coordinate = [&](int size) {
     const int v = random.between(-4 * 256, (size + 4) * 256);
@@ -41,9 +52,10 @@ Drawing random_drawing(std::uint64_t seed) {
   };
   for (int i = 0; i < 400; ++i) {
     const std::uint32_t reach = std::uint32_t{8} << random.below(12);
-    // Some at the depth of what is drawn.
+    // Some at the depth of what is drawn, or as far behind 4000000 as may be.
     const bool level = random.chance(300);
-    const auto depth_of_end = [&] { return level ? 4100000u : random.below(1u << 24); };
+    const std::uint32_t depth = random.chance(500) ? 4100000 : 4000000 - 4000000 / 512;
+    const auto depth_of_end = [&] { return level ? depth : random.below(1u << 24); };
     const spec::geometric::Vertex p{coordinate(70), coordinate(50), depth_of_end(),
                                     !random.chance(10)};
     const auto near = [&](int v) {
@@ -81,7 +93,7 @@ TEST(Coverage, EveryBinCanBeReached) {
   dense.process(most_lines().input());
   sum.merge(dense.coverage());
   for (std::uint64_t seed = 0; seed < 24; ++seed) {
-    for (const Select select : {Select::kAll, Select::kEdges}) {
+    for (const Select select : {Select::kAll, Select::kEdges, Select::kMesh}) {
       for (const Crease crease : {Crease::kOff, Crease::kPaper, Crease::kShading}) {
         Parameters p;
         p.select = select;
@@ -94,17 +106,35 @@ TEST(Coverage, EveryBinCanBeReached) {
         p.cull = seed % 5 < 2 ? spec::geometric::Cull::kNone : spec::geometric::Cull::kBack;
         p.crease_depth = seed % 2 == 0 ? 0 : 4;
         p.depth_lines = p.weight_blocks = p.vertex_lines = CacheLines::k16;
+        if (seed % 3 != 0) {
+          p.records = spec::geometric::RecordsLayout::kSplit;
+          p.colour_lines = seed % 3 == 1 ? 8 : 128;
+          p.write_buffer = seed % 3 == 1 ? 8 : 128;
+          p.coarse_lines = CoarseLines::k4;
+        }
         GeometricGolden golden(p);
-        golden.process(random_drawing(seed).input());
+        const Drawing d = random_drawing(seed);
+        golden::geometric::FrameInput input = d.input();
+        if (seed % 6 == 1) input.boundary_count = 100;  // about a half
+        golden.process(input);
         sum.merge(golden.coverage());
       }
     }
   }
+  // A few blocks leave the cache, and stay in the buffer.
+  Parameters few;
+  few.weight_blocks = CacheLines::k16;
+  few.write_buffer = 128;
+  GeometricGolden sparse(few);
+  Drawing row = most_lines();
+  row.vertices[3].x = 70 * 256;
+  sparse.process(row.input());
+  sum.merge(sparse.coverage());
   std::string holes;
   for (const CoverageBin& bin : sum.bins())
     if (bin.hits == 0) holes += bin.name + '\n';
   EXPECT_EQ(holes, "");
-  EXPECT_GT(sum.bins().size(), 90u);
+  EXPECT_GT(sum.bins().size(), 170u);
 }
 
 TEST(Coverage, BinsCountWhatTheWorkCounts) {
@@ -161,6 +191,83 @@ TEST(Coverage, BinsCountWhatTheWorkCounts) {
   for (const CoverageBin& bin : golden.coverage().bins()) EXPECT_EQ(bin.hits, 0u);
 }
 
+template <class... Names>
+std::map<std::string, std::uint64_t> once(Names... names) {
+  return {{names, 1}...};
+}
+
+// What the choices that leave traffic out count, over their lists.
+TEST(Coverage, BinsCountWhatIsLeftOut) {
+  Parameters p;
+  p.weight_blocks = CacheLines::k16;
+  p.depth_lines = CacheLines::k1024;
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  p.colour_lines = 20;
+  p.write_buffer = 20;
+  p.coarse_lines = CoarseLines::k4;
+  GeometricGolden golden(p);
+  const Drawing d = tb::geometric::vector_drawing();
+  golden.process(d.input());
+  std::map<std::string, std::uint64_t> hits;
+  for (const CoverageBin& bin : golden.coverage().bins()) hits[bin.name] = bin.hits;
+  const auto& traffic = golden.traffic();
+  const auto& work = golden.work();
+  EXPECT_EQ(hits.at("fetch/colour/miss"), 20u);
+  EXPECT_EQ(hits.at("fetch/colour/miss") + hits.at("fetch/colour/replaced"),
+            traffic.read(Region::kColour).size());
+  std::uint64_t lines = 0;  // that blocks read
+  for (std::uint64_t n = 1; n <= 5; ++n) lines += n * hits.at("lines/tiled/" + std::to_string(n));
+  EXPECT_EQ(hits.at("fetch/colour/hit") + traffic.read(Region::kColour).size(), lines);
+  EXPECT_EQ(hits.at("fetch/boundary-pair/miss") + hits.at("fetch/other-pair/miss"),
+            traffic.read(Region::kPairs).size());
+  EXPECT_EQ(hits.at("fetch/boundary-pair/hit") + hits.at("fetch/boundary-pair/miss"),
+            work.boundary_edges);
+  EXPECT_EQ(hits.at("fetch/other-pair/hit") + hits.at("fetch/other-pair/miss"),
+            work.silhouette_edges + work.crease_edges);
+  EXPECT_EQ(hits.at("fetch/pair-vertex/invalid"),
+            work.boundary_edges + work.silhouette_edges + work.crease_edges - work.kept_edges);
+  EXPECT_EQ(hits.at("fetch/pair-number/invalid"), 0u);
+  EXPECT_EQ(hits.at("fetch/write-buffer/empty"), 20u);
+  EXPECT_EQ(hits.at("fetch/write-buffer/leaves") + 20, traffic.write(Region::kWeights).size());
+  EXPECT_EQ(hits.at("fetch/write-buffer/full-at-end"), 1u);
+  EXPECT_EQ(hits.at("fetch/write-buffer/not-full-at-end"), 0u);
+  EXPECT_GT(hits.at("fetch/write-buffer/hit"), 0u);
+  EXPECT_EQ(hits.at("fetch/block/hit") + hits.at("fetch/block/miss") +
+                hits.at("fetch/block/read-back") + hits.at("fetch/write-buffer/hit"),
+            work.passed);
+  EXPECT_EQ(hits.at("fetch/block/replaced"), hits.at("fetch/write-buffer/hit") +
+                                                 hits.at("fetch/write-buffer/leaves") +
+                                                 hits.at("fetch/write-buffer/empty"));
+}
+
+// One pixel in the last column of a tile, whose neighbour is in the next one.
+TEST(Coverage, CoarseBinsAreOfTheLimitAndTheTiles) {
+  const auto hits = [](std::uint32_t depth, std::uint32_t own, std::uint32_t other) {
+    Drawing d(16, 1);
+    d.vertices = {{7 * 256 + 192, -64, depth, true}, {7 * 256 + 192, 320, depth, true}};
+    d.set_facing(0, true);
+    d.edges = {{0, 1, 0, 0, spec::geometric::flag::kBoundary}};
+    for (std::size_t x = 0; x < 16; ++x) d.depths[x] = x < 8 ? own : other;
+    Parameters p;
+    p.coarse_lines = CoarseLines::k4;
+    GeometricGolden golden(p);
+    golden.process(d.input());
+    std::map<std::string, std::uint64_t> result;
+    for (const CoverageBin& bin : golden.coverage().bins())
+      if (bin.hits != 0 && bin.name.starts_with("coarse/")) result[bin.name] = bin.hits;
+    return result;
+  };
+  // 25600 less its 512th.
+  EXPECT_EQ(hits(25549, 25600, 25600), once("coarse/right/dropped"));
+  EXPECT_EQ(hits(25550, 25600, 25600), once("coarse/equal"));
+  EXPECT_TRUE(hits(25551, 25600, 25600).empty());
+  EXPECT_TRUE(hits(0, 0, 0).empty());
+  EXPECT_EQ(hits(25551, 25600, 25856), once("coarse/lesser/own"));
+  EXPECT_EQ(hits(25551, 25856, 25600), once("coarse/lesser/other"));
+  // Both in the same 256.
+  EXPECT_TRUE(hits(25551, 25601, 25855).empty());
+}
+
 // ---- what each bin counts, one thing at a time --------------------------------------------------
 
 std::map<std::string, std::uint64_t> hits_of(const EdgeCoverage& coverage) {
@@ -170,18 +277,13 @@ std::map<std::string, std::uint64_t> hits_of(const EdgeCoverage& coverage) {
   return hits;
 }
 
-template <class... Names>
-std::map<std::string, std::uint64_t> once(Names... names) {
-  return {{names, 1}...};
-}
-
 // Holes in the list of bins itself would not show as bins that nobody hits. Of 7 classes, `all` can
-// give three, `edges` five without creases and six with either rule.
+// give three, `edges` five without creases and six with either rule, `mesh` three and four.
 TEST(Coverage, ListsEveryBinOfEveryGroup) {
   std::map<std::string, std::size_t> sizes;
   for (const CoverageBin& bin : EdgeCoverage().bins())
     ++sizes[bin.name.substr(0, bin.name.find('/'))];
-  EXPECT_EQ(sizes, (std::map<std::string, std::size_t>{{"class", 3 * 3 + 5 + 2 * 6},
+  EXPECT_EQ(sizes, (std::map<std::string, std::size_t>{{"class", 3 * 3 + 5 + 2 * 6 + 3 + 2 * 4},
                                                        {"line", 8 * 3},
                                                        {"fate", 5},
                                                        {"columns", 4},
@@ -194,7 +296,8 @@ TEST(Coverage, ListsEveryBinOfEveryGroup) {
                                                        {"second", 4 * 2},
                                                        {"weight", 4 * 6},
                                                        {"group", 4},
-                                                       {"fetch", 3 * 3 + 1},
+                                                       {"fetch", 4 * 3 + 1 + 6 + 5},
+                                                       {"coarse", 4 + 1 + 2},
                                                        {"resolve", 3},
                                                        {"original", 3},
                                                        {"lines", 10 + 5}}));
@@ -395,11 +498,14 @@ TEST(Coverage, TapsAreOfTheHeavierAxis) {
 
 // Each counter by itself: the bin's name, and no other bin.
 TEST(Coverage, EnumerationsHaveABinEach) {
+  using golden::geometric::Buffered;
   using golden::geometric::CacheKind;
   using golden::geometric::Fetch;
   using golden::geometric::GroupEnd;
   using golden::geometric::LineFate;
   using golden::geometric::Original;
+  using golden::geometric::PairFetch;
+  using golden::geometric::TwoTiles;
   const auto after = [](auto&& count) {
     EdgeCoverage coverage;
     count(coverage);
@@ -425,7 +531,7 @@ TEST(Coverage, EnumerationsHaveABinEach) {
   EXPECT_EQ(original(Original::kNone), once("original/none"));
   EXPECT_EQ(original(Original::kAbove), once("original/above"));
   EXPECT_EQ(original(Original::kLeft), once("original/left"));
-  const std::array<std::string, 3> caches = {"vertex", "depth", "block"};
+  const std::array<std::string, 4> caches = {"vertex", "depth", "block", "colour"};
   const std::array<std::string, 4> fetches = {"hit", "miss", "replaced", "read-back"};
   for (std::size_t cache = 0; cache < caches.size(); ++cache) {
     for (std::size_t fetch = 0; fetch < fetches.size(); ++fetch) {
@@ -436,6 +542,28 @@ TEST(Coverage, EnumerationsHaveABinEach) {
                 once("fetch/" + caches[cache] + '/' + fetches[fetch]));
     }
   }
+  const std::array<std::string, 6> pairs = {"boundary-pair/hit",   "boundary-pair/miss",
+                                            "other-pair/hit",      "other-pair/miss",
+                                            "pair-number/invalid", "pair-vertex/invalid"};
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    EXPECT_EQ(after([&](EdgeCoverage& c) { c.count_pair(static_cast<PairFetch>(i)); }),
+              once("fetch/" + pairs[i]));
+  const std::array<std::string, 5> buffered = {"hit", "empty", "leaves", "full-at-end",
+                                               "not-full-at-end"};
+  for (std::size_t i = 0; i < buffered.size(); ++i)
+    EXPECT_EQ(after([&](EdgeCoverage& c) { c.count_buffered(static_cast<Buffered>(i)); }),
+              once("fetch/write-buffer/" + buffered[i]));
+  const std::array<std::string, 4> borders = {"top", "bottom", "left", "right"};
+  for (std::size_t i = 0; i < borders.size(); ++i)
+    EXPECT_EQ(after([&](EdgeCoverage& c) {
+                c.count_dropped(static_cast<spec::geometric::Direction>(i));
+              }),
+              once("coarse/" + borders[i] + "/dropped"));
+  EXPECT_EQ(after([](EdgeCoverage& c) { c.count_coarse_equal(); }), once("coarse/equal"));
+  EXPECT_EQ(after([](EdgeCoverage& c) { c.count_two_tiles(TwoTiles::kOwnLess); }),
+            once("coarse/lesser/own"));
+  EXPECT_EQ(after([](EdgeCoverage& c) { c.count_two_tiles(TwoTiles::kOtherLess); }),
+            once("coarse/lesser/other"));
   for (std::size_t lines = 1; lines <= 10; ++lines) {
     const std::string n = std::to_string(lines);
     const auto block = [&](Layout layout) {

@@ -52,7 +52,9 @@ inline constexpr golden::geometric::Bases kVectorBases{
     .depth = vector_base(spec::geometric::Region::kDepth),
     .colour = vector_base(spec::geometric::Region::kColour),
     .weights = vector_base(spec::geometric::Region::kWeights),
-    .copy = vector_base(spec::geometric::Region::kCopy)};
+    .copy = vector_base(spec::geometric::Region::kCopy),
+    .pairs = vector_base(spec::geometric::Region::kPairs),
+    .coarse = vector_base(spec::geometric::Region::kCoarse)};
 
 inline Drawing vector_drawing(
     spec::geometric::DrawnFrame which = spec::geometric::DrawnFrame::kRandom) {
@@ -74,16 +76,17 @@ inline std::uint64_t hash_of(const std::vector<std::array<std::uint8_t, 4>>& pix
   return hash.value();
 }
 
-// Of the reads of faces, edges, vertices, depth and weights, the writes of weights, the reads of
-// colours by the resolve, the writes of colours, and the reads and writes of the copying.
+// Of the reads of faces, edges, pairs, vertices, coarse depth, depth and weights, the writes of
+// weights, the reads of colours by the resolve, the writes of colours, and the reads and writes of
+// the copying.
 inline std::uint64_t hash_of(const golden::geometric::Traffic& traffic, bool frame_copy) {
   using spec::geometric::Region;
   stimuli::VectorHash hash;
   const auto add = [&](const std::vector<std::uint32_t>& list) {
     for (const std::uint32_t address : list) hash.lowest_first(address, 4);
   };
-  for (const Region region :
-       {Region::kFaces, Region::kEdges, Region::kVertices, Region::kDepth, Region::kWeights})
+  for (const Region region : {Region::kFaces, Region::kEdges, Region::kPairs, Region::kVertices,
+                              Region::kCoarse, Region::kDepth, Region::kWeights})
     add(traffic.read(region));
   add(traffic.write(Region::kWeights));
   add(traffic.read(frame_copy ? Region::kCopy : Region::kColour));

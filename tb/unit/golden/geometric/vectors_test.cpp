@@ -74,6 +74,10 @@ TEST_P(Frames, NeedNoDetail) {
 INSTANTIATE_TEST_SUITE_P(All, Frames, testing::ValuesIn(tb::geometric::all_frame_vectors()),
                          [](const auto& test) { return std::string(1, test.param.name); });
 
+INSTANTIATE_TEST_SUITE_P(LessTraffic, Frames,
+                         testing::ValuesIn(spec::geometric::kTrafficFrameVectors),
+                         [](const auto& test) { return std::string(1, test.param.name); });
+
 TEST(FrameVectors, EachValueIsCompared) {
   const FrameVector& v = spec::geometric::kFrameVectors[0];
   tb::expect_each_value_is_compared(v.result, result_of(v));

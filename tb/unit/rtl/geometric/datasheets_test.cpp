@@ -13,11 +13,13 @@ TEST(GeometricDatasheets, AreTheContracts) {
                                                  {"FacingStore", 2, 1},
                                                  {"EdgeReader", 2, 1},
                                                  {"EdgeClassifier", 3, 1},
+                                                 {"PairFetch", 3, 1},
                                                  {"VertexFetch", 5, 1},
                                                  {"LineSetup, `pipelined`", 22, 1},
                                                  {"LineSetup, not pipelined", 22, 13},
                                                  {"LineWalker", 1, 1},
                                                  {"CoverageUnit", 3, 1},
+                                                 {"DepthScreen", 5, 1},
                                                  {"DepthTest", 7, 1},
                                                  {"WeightCombiner", 5, 1},
                                                  {"BlockScanner", 3, 1},
@@ -28,8 +30,13 @@ TEST(GeometricDatasheets, AreTheContracts) {
 }
 
 TEST(GeometricDatasheets, EveryUnitHasOne) {
-  const EngineBench b;
-  expect_datasheets(b.engine, rtl::geometric::datasheets({}));
+  Parameters split;
+  split.records = spec::geometric::RecordsLayout::kSplit;
+  split.coarse_lines = spec::geometric::CoarseLines::k4;
+  for (const Parameters& p : {Parameters{}, split}) {
+    const EngineBench b(p);
+    expect_datasheets(b.engine, rtl::geometric::datasheets(p));
+  }
 }
 
 }  // namespace

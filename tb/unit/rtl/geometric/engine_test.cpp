@@ -192,6 +192,8 @@ TEST(Memories, NoneIsIdealised) {
         p.vertex_lines = p.depth_lines = p.weight_blocks = CacheLines::k1024;
         p.fills = p.edge_lines = p.line_fifo = p.copy_lines = 256;
         p.resolve_lines = 512;
+        p.colour_lines = 256;
+        p.write_buffer = 128;
         p.latency_fifo = 1024;
         p.memory_outstanding = 1024;
         p.line_pixels = 8192;
@@ -256,6 +258,24 @@ TEST(Memories, AreThoseOfThePage) {
     built.erase(row.name);
   }
   for (const auto& [name, memory] : built) ADD_FAILURE() << name << " is not on the page";
+}
+// Those that the page of less traffic adds, by kind too, and the FIFO whose tokens they widen.
+TEST(Memories, OfKeptColoursAndTheWriteBuffer) {
+  Parameters p;
+  p.colour_lines = 100;
+  p.write_buffer = 40;
+  EngineBench b(p);
+  std::map<std::string, std::string> built;
+  for (const rtl::MemoryBase* memory : b.engine.memories())
+    built[std::string(memory->name()).substr(std::string("engine.").size())] =
+        std::string(rtl::name_of(memory->memory_kind())) + " " + std::to_string(memory->words()) +
+        " x " + std::to_string(memory->word_bits()) + " " + memory->ports();
+  EXPECT_EQ(built["kept_colours"], "sram 100 x 512 1R1W");
+  EXPECT_EQ(built["kept_tags"], "flops 100 x 23 100R1W");
+  EXPECT_EQ(built["colour_order"], "flops 108 x 9 1R1W");
+  EXPECT_EQ(built["weight_combiner.write_buffer"], "sram 40 x 512 1R1W");
+  EXPECT_EQ(built["weight_combiner.write_tags"], "flops 40 x 23 40R1W");
+  EXPECT_EQ(built["weight_combiner.latency_fifo"], "sram 128 x 177 1R1W");
 }
 // What the page's formulas say of other builds: rows of any length are rounded up.
 TEST(Memories, RowsOfAnyLengthFit) {

@@ -31,8 +31,9 @@ class IgnoredBits : public ::testing::TestWithParam<char> {
   bool selects_all() const { return b.p.select == spec::geometric::Select::kAll; }
 
   Meaning meaning_of(Region region) const {
-    const platform::GeometricSizes sizes = {scene.width, scene.height, scene.edges.size(),
-                                            scene.vertices.size(), scene.facing.size()};
+    const platform::GeometricSizes sizes = {
+        scene.width,           scene.height,        scene.edges.size(),
+        scene.vertices.size(), scene.facing.size(), platform::boundaries_of(scene.edges)};
     Meaning words(platform::GeometricRegions::needed(sizes, b.p)[static_cast<std::size_t>(region)] /
                   4);
     const auto put = [&](const std::vector<std::uint8_t>& bytes) {

@@ -72,8 +72,9 @@ TEST(FrameRules, EachBitOfRulesIsItsFields) {
   Frame b({});
   const std::vector<std::pair<std::uint32_t, std::string>> rows = {
       {0, "0 0 0 0 0 1 0 0 0 0 0 0 "},          {1u << 0, "1 0 0 0 0 1 0 0 0 0 0 0 "},
-      {1u << 1, "0 0 0 0 1 1 0 0 0 0 0 0 "},    {1u << 2, "0 1 0 0 0 1 0 0 0 0 0 0 "},
-      {2u << 2, "0 2 0 0 0 1 0 0 0 0 0 0 "},    {3u << 2, "0 0 0 0 0 1 0 0 0 0 0 0 "},  // no such
+      {2u << 0, "2 0 0 0 0 1 0 0 0 0 0 0 "},    {3u << 0, "0 0 0 0 0 1 0 0 0 0 0 0 "},
+      {1u << 2, "0 1 0 0 0 1 0 0 0 0 0 0 "},    {2u << 2, "0 2 0 0 0 1 0 0 0 0 0 0 "},
+      {3u << 2, "0 0 0 0 0 1 0 0 0 0 0 0 "},  // no such
       {1u << 4, "0 0 1 0 0 1 0 0 0 0 0 0 "},    {2u << 4, "0 0 2 0 0 1 0 0 0 0 0 0 "},
       {3u << 4, "0 0 0 0 0 1 0 0 0 0 0 0 "},    {1u << 6, "0 0 0 1 0 1 0 0 0 0 0 0 "},
       {2u << 6, "0 0 0 2 0 1 0 0 0 0 0 0 "},    {3u << 6, "0 0 0 0 0 1 0 0 0 0 0 0 "},
@@ -88,7 +89,7 @@ TEST(FrameRules, EachBitOfRulesIsItsFields) {
       {4u << 18, "0 0 0 0 0 1 0 0 0 0 0 4 "},   {8u << 18, "0 0 0 0 0 1 0 0 0 0 0 8 "},
       {16u << 18, "0 0 0 0 0 1 0 0 0 0 0 16 "}, {24u << 18, "0 0 0 0 0 1 0 0 0 0 0 24 "},
       {25u << 18, "0 0 0 0 0 1 0 0 0 0 0 24 "}, {31u << 18, "0 0 0 0 0 1 0 0 0 0 0 24 "},
-      {0xFF800000, "0 0 0 0 0 1 0 0 0 0 0 0 "}};
+      {1u << 23, "0 0 0 0 1 1 0 0 0 0 0 0 "},   {0xFF000000, "0 0 0 0 0 1 0 0 0 0 0 0 "}};
   for (const auto& [rules, fields] : rows) {
     b.bus.write(reg::kRules, rules);
     EXPECT_EQ(text_of(decode(b.control)), fields) << rules;
@@ -98,7 +99,7 @@ TEST(FrameRules, EachBitOfRulesIsItsFields) {
 // Bits of no field count nowhere, whatever holds the registers.
 TEST(FrameRules, OtherBitsOfRulesAreNotLookedAt) {
   rtl::ControlRegisters raw("raw", spec::geometric::kRegisters, rtl::geometric::control_layout());
-  raw.write(reg::kRules, 0xFF800000);
+  raw.write(reg::kRules, 0xFF000000);
   EXPECT_EQ(text_of(decode(raw)), "0 0 0 0 0 1 0 0 0 0 0 0 ");
   raw.write(reg::kSize, 0xC000C000 | size_of(40, 30));
   EXPECT_EQ(decode(raw).width, 40u);
@@ -113,13 +114,14 @@ TEST(FrameRules, ResetValuesAreTheParameters) {
   };
   for (const Row& row : {Row{[](Parameters&) {}, 0},
                          Row{[](Parameters& p) { p.select = static_cast<Select>(1); }, 1},
+                         Row{[](Parameters& p) { p.select = static_cast<Select>(2); }, 2},
                          Row{[](Parameters& p) { p.crease = static_cast<Crease>(1); }, 1u << 2},
                          Row{[](Parameters& p) { p.crease = static_cast<Crease>(2); }, 2u << 2},
                          Row{[](Parameters& p) { p.depth_test = DepthTest::kOwn; }, 1u << 4},
                          Row{[](Parameters& p) { p.depth_test = DepthTest::kFarther; }, 2u << 4},
                          Row{[](Parameters& p) { p.combine = static_cast<Combine>(1); }, 1u << 6},
                          Row{[](Parameters& p) { p.combine = static_cast<Combine>(2); }, 2u << 6},
-                         Row{[](Parameters& p) { p.linear_light = true; }, 1u << 1},
+                         Row{[](Parameters& p) { p.linear_light = true; }, 1u << 23},
                          Row{[](Parameters& p) { p.coverage = CoverageRule::kArea; }, 1u << 16},
                          Row{[](Parameters& p) { p.cull = Cull::kBack; }, 1u << 17},
                          Row{[](Parameters& p) { p.crease_depth = 24; }, 24u << 18},
@@ -203,11 +205,20 @@ TEST(FrameRules, LinesLieAsTheContractHasThem) {
 TEST(FrameRules, CountsAndBasesAreThoseOfTheirRegisters) {
   Frame b({});
   const std::vector<std::pair<std::uint32_t, std::uint32_t FrameRules::*>> registers = {
-      {reg::kEdgeCount, &FrameRules::edge_count},   {reg::kVertexCount, &FrameRules::vertex_count},
-      {reg::kFaceCount, &FrameRules::face_count},   {reg::kEdgeBase, &FrameRules::edge_base},
-      {reg::kVertexBase, &FrameRules::vertex_base}, {reg::kFaceBase, &FrameRules::face_base},
-      {reg::kDepthBase, &FrameRules::depth_base},   {reg::kColourBase, &FrameRules::colour_base},
-      {reg::kWeightBase, &FrameRules::weight_base}, {reg::kCopyBase, &FrameRules::copy_base}};
+      {reg::kEdgeCount, &FrameRules::edge_count},
+      {reg::kVertexCount, &FrameRules::vertex_count},
+      {reg::kFaceCount, &FrameRules::face_count},
+      {reg::kEdgeBase, &FrameRules::edge_base},
+      {reg::kVertexBase, &FrameRules::vertex_base},
+      {reg::kFaceBase, &FrameRules::face_base},
+      {reg::kDepthBase, &FrameRules::depth_base},
+      {reg::kColourBase, &FrameRules::colour_base},
+      {reg::kWeightBase, &FrameRules::weight_base},
+      {reg::kCopyBase, &FrameRules::copy_base},
+      {reg::kBoundaryCount, &FrameRules::boundary_count},
+      {reg::kPairBase, &FrameRules::pair_base},
+      {reg::kOtherPairBase, &FrameRules::other_pair_base},
+      {reg::kCoarseBase, &FrameRules::coarse_base}};
   std::uint32_t value = 0;
   for (const auto& [offset, field] : registers) b.bus.write(offset, value += 64);
   const FrameRules f = decode(b.control);
@@ -281,8 +292,15 @@ TEST(Refusals, GiveTheFirstReason) {
   f.edge_count = 1u << 24;
   EXPECT_EQ(why(), Refusal::kVertexCount);
   f.vertex_count = 1u << 24;
+  f.boundary_count = ~0u;
   EXPECT_EQ(why(), Refusal::kFaceCount);
   f.face_count = 8192;
+  EXPECT_EQ(why(), Refusal::kNone) << "joined records have no count of boundaries";
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  EXPECT_EQ(why(), Refusal::kBoundaryCount);
+  f.boundary_count = f.edge_count + 1;
+  EXPECT_EQ(why(), Refusal::kBoundaryCount);
+  f.boundary_count = f.edge_count;
   EXPECT_EQ(why(), Refusal::kNone);
 }
 

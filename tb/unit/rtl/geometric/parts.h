@@ -54,7 +54,7 @@ struct Frame {
         store("parameter_store", clock, control, parameters),
         sequencer("sequencer", clock),
         port_parameters{.outstanding = static_cast<std::uint32_t>(parameters.memory_outstanding)},
-        arbiter("arbiter", clock, port_parameters),
+        arbiter("arbiter", clock, port_parameters, parameters),
         port("port", clock, port_parameters),
         memory("memory", period(), EngineBench::memory_parameters({.latency = clocks})),
         requests("requests"),
@@ -78,6 +78,7 @@ struct Frame {
     arbiter.memory_error_out(memory_error);
     store.memory_error_in(memory_error);
     store.invalid_edge_in(invalid_edge);
+    if (store.invalid_pair_in) (*store.invalid_pair_in)(invalid_pair);
   }
   // A wire of its own for what a unit drives, which the sequencer may wait for.
   rtl::Wire<bool>& wire(rtl::WireOut<bool>& from, rtl::WireIn<bool>* to = nullptr) {
@@ -133,7 +134,7 @@ struct Frame {
   rtl::CombinationalWire<spec::geometric::Refusal> refusal{"refusal",
                                                            rtl::geometric::refusal_shape()};
   rtl::Pulse start{"start"}, latch{"latch"}, frame_done{"frame_done"}, memory_error{"memory_error"},
-      invalid_edge{"invalid_edge"};
+      invalid_edge{"invalid_edge"}, invalid_pair{"invalid_pair"};
   rtl::Wire<bool> high{"high", true}, low{"low", false};
   rtl::geometric::EdgeLatency edge_latency;
 

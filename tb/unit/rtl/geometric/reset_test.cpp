@@ -146,7 +146,12 @@ INSTANTIATE_TEST_SUITE_P(
                       Build{'g', "edge_lanes=4 walkers=1 resolve_lanes=4"},
                       Build{'f', "edge_lanes=1 resolve_lanes=1 edge_lines=4 resolve_lines=16"},
                       Build{'c', "", 480}, Build{'d', "pipelined=false", 480}, Build{'m'},
-                      Build{'l', "walkers=2"}));
+                      Build{'l', "walkers=2"}, Build{'m', "records=split"},
+                      Build{'c', "records=split edge_lanes=4"}, Build{'m', "coarse_lines=4"},
+                      Build{'b', "records=split coarse_lines=8 walkers=2"},
+                      Build{'c', "colour_lines=5 write_buffer=3"},
+                      Build{'g', "colour_lines=256 write_buffer=64 resolve_lines=16"},
+                      Build{'m', "colour_lines=1 write_buffer=1"}));
 
 }  // namespace
 }  // namespace deburr::tb::geometric_rtl::reset_test

@@ -6,13 +6,9 @@
 #include "rtl_model/geometric/common/sizing.h"
 #include "rtl_model/geometric/edges/edge_reader.h"
 #include "rtl_model/geometric/edges/facing_store.h"
-#include "rtl_model/geometric/resolve/block_fetch.h"
-#include "rtl_model/geometric/resolve/block_scanner.h"
-#include "rtl_model/geometric/resolve/colour_store.h"
 #include "rtl_model/geometric/resolve/frame_copier.h"
-#include "rtl_model/geometric/resolve/resolver.h"
-#include "rtl_model/geometric/weights/weight_combiner.h"
 #include "tb/unit/rtl/geometric/parts.h"
+#include "tb/unit/rtl/geometric/resolve_bench.h"
 
 namespace deburr::tb::geometric_rtl::resolve_test {
 namespace {
@@ -20,100 +16,6 @@ namespace {
 using namespace rtl::geometric;  // NOLINT: names of units and tokens
 using spec::geometric::CacheLines;
 using spec::geometric::Layout;
-
-// Everything from the WeightCombiner on; the test gives the combiner its groups.
-struct ResolveBench : Frame {
-  explicit ResolveBench(const Parameters& p = {}, int width = 1024, int height = 64,
-                        std::uint32_t latency = 20)
-      : Frame(p, latency),
-        combiner("combiner", clock, sized(p, {}), edge_latency),
-        scanner("scanner", clock, p, combiner.touched_port()),
-        colour_store(sized(p, {})),
-        fetch("fetch", clock, sized(p, {}), combiner.tag_port(), combiner.data_port(),
-              colour_store.filler()),
-        resolver("resolver", clock, p, colour_store.reader()),
-        weights("weights"),
-        touched("touched"),
-        blocks("blocks", 16),
-        source("source", clock) {
-    arbiter.connect(Client::kWeights, combiner.memory);
-    arbiter.connect(Client::kBlocks, fetch.memory);
-    arbiter.connect(Client::kResolve, resolver.memory);
-    source.out(weights);
-    combiner.rules_in(rules);
-    scanner.rules_in(rules);
-    fetch.rules_in(rules);
-    resolver.rules_in(rules);
-    combiner.weights_in(weights);
-    scanner.blocks_out(touched);
-    fetch.blocks_in(touched);
-    fetch.blocks_out(blocks);
-    resolver.blocks_in(blocks);
-    for (rtl::WireIn<Phase>* const in : {&combiner.phase_in, &scanner.phase_in, &resolver.phase_in})
-      (*in)(phase);
-    wire(combiner.cleared_out, &sequencer.weights_cleared_in);
-    wire(combiner.drawn_out, &sequencer.drawn_in);
-    sequencer.copied_in(high);
-    wire(resolver.resolved_out, &sequencer.resolved_in);
-    bus.write(reg::kColourBase, 0x40000);
-    bus.write(reg::kWeightBase, 0x80000);
-    begin(width, height);
-    resolver.observer = [this](const spec::geometric::BlockRecord& block) {
-      resolved.push_back(block);
-    };
-  }
-  // A block with these pixels cut, which take from above, or from the left.
-  void touch(int bx, int by, std::uint16_t pixels, bool vertical = false) {
-    for (std::uint32_t left = pixels; left != 0; left &= left - 1) {
-      WeightToken t{};
-      t.block_x = static_cast<std::uint16_t>(bx);
-      t.block_y = static_cast<std::uint16_t>(by);
-      t.vertical = vertical;
-      t.candidates = 1;
-      t.place[0] = static_cast<std::uint8_t>(std::countr_zero(left));
-      t.coverage[0] = 128;
-      source.add(t);
-    }
-  }
-  // Draws, then notes when each link got its first and last beat.
-  void run() {
-    WeightToken last{};
-    last.end = true;
-    source.add(last);
-    while (phase.read(clock.cycle()) != Phase::kResolve) clock.run(1);
-    if (before_resolve) before_resolve();
-    resolve_from = clock.cycle();
-    const std::uint64_t sent = arbiter.requests_out.link().pushes();
-    while (!sequencer.idle()) {
-      clock.run(1);
-      const Cycle now = clock.cycle();
-      const auto note = [&](const char* name, std::uint64_t count) {
-        auto& times = at[name];
-        while (times.size() < count) times.push_back(now - 1);
-      };
-      note("touched", touched.pushes());
-      note("fetched", touched.pops());
-      note("blocks", blocks.pushes());
-      note("resolved", blocks.pops());
-      note("writes", resolver.lines_written.value());
-      note("reads", fetch.lines_read.value());
-      note("requests", arbiter.requests_out.link().pushes() - sent);
-    }
-  }
-  WeightCombiner combiner;
-  BlockScanner scanner;
-  ColourStore colour_store;
-  BlockFetch fetch;
-  Resolver resolver;
-  rtl::Link<WeightToken> weights;
-  rtl::Link<TouchedBlock> touched;
-  rtl::Link<BlockToken> blocks;
-  Source<WeightToken> source;
-  Cycle resolve_from = 0;
-  std::function<void()> before_resolve;
-  std::map<std::string, std::vector<Cycle>> at;  // clocks of the beats
-  std::vector<spec::geometric::BlockRecord> resolved;
-};
 
 TEST(Resolve, LatenciesOfABlock) {
   ResolveBench b;
@@ -447,6 +349,70 @@ TEST(EdgeReader, EdgeLanesAClock) {
     });
     EXPECT_EQ(got, "403 0") << code;
   }
+}
+// Ten records a line, and no beat beyond its end: of the last line, 3 of 403.
+TEST(EdgeReader, BeatsOfSplitRecordsEndWithTheirLine) {
+  const std::vector<std::pair<int, std::string>> rows = {
+      {0, "1111111111 111 41 +403"}, {1, "22222 21 41 +202"}, {2, "442 3 41 +121"}};
+  for (const auto& [code, wanted] : rows) {
+    const std::string got = in_child([code = code] {
+      Parameters p;
+      p.records = spec::geometric::RecordsLayout::kSplit;
+      p.edge_lanes = static_cast<spec::geometric::Lanes>(code);
+      ReaderBench b(p, 403, 1);
+      b.clock.run(1000);
+      std::string first, last;
+      std::uint32_t edges = 0;
+      for (const auto& taken : b.taker.taken) {
+        if (edges < 10) first += std::to_string(taken.token.count);
+        if (edges >= 400 && !taken.token.end) last += std::to_string(taken.token.count);
+        edges += taken.token.count;
+      }
+      std::vector<std::uint64_t> lines;
+      for (std::uint64_t line = 0; line < 41; ++line) lines.push_back(64 * line);
+      std::vector<std::uint64_t> read = b.memory.lines_read();
+      std::erase_if(read, [](std::uint64_t line) { return line >= 0x40000; });
+      EXPECT_EQ(read, lines);
+      return first + " " + last + " " + std::to_string(b.reader.lines_read.value()) + " +" +
+             std::to_string(b.taker.taken.back().cycle - b.taker.taken.front().cycle);
+    });
+    EXPECT_EQ(got, wanted) << code;
+  }
+}
+// Bit by bit: f0 in 20..0, f1 in 41..21, flags in 45..42; bits 47, 46 and bytes 60 to 63 are
+// ignored.
+TEST(EdgeReader, SplitRecordsAreReadBitByBit) {
+  Parameters p;
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  p.edge_lanes = spec::geometric::Lanes::kOne;
+  Frame b(p);
+  EdgeReader reader("reader", b.clock, p, b.edge_latency);
+  rtl::Link<EdgeBeat> beats("beats");
+  unit_bench::Sink<EdgeBeat> taker("taker", b.clock);
+  b.arbiter.connect(Client::kEdges, reader.memory);
+  reader.edges_out(beats);
+  taker.in(beats);
+  reader.rules_in(b.rules);
+  reader.phase_in(b.phase);
+  std::vector<std::uint8_t> bytes(320, 0xFF);
+  for (std::size_t n = 0; n < 50; ++n) {
+    const std::uint64_t record = n < 48 ? std::uint64_t{1} << n : n == 48 ? 0 : ~std::uint64_t{0};
+    for (std::size_t i = 0; i < 6; ++i)
+      bytes[n / 10 * 64 + n % 10 * 6 + i] = static_cast<std::uint8_t>(record >> 8 * i);
+  }
+  b.memory.preload(0, bytes);
+  b.bus.write(reg::kEdgeCount, 50);
+  b.begin(64, 64);
+  b.clock.run(300);
+  ASSERT_EQ(taker.taken.size(), 51u);
+  for (std::size_t n = 0; n < 50; ++n) {
+    const EdgeFields& edge = taker.taken[n].token.edge[0];
+    const bool all = n == 49;
+    EXPECT_EQ(edge.f0, all ? 0x1FFFFFu : n < 21 ? 1u << n : 0u) << n;
+    EXPECT_EQ(edge.f1, all ? 0x1FFFFFu : n >= 21 && n < 42 ? 1u << (n - 21) : 0u) << n;
+    EXPECT_EQ(edge.flags, all ? 15u : n >= 42 && n < 46 ? 1u << (n - 42) : 0u) << n;
+  }
+  EXPECT_TRUE(taker.taken[50].token.end);
 }
 // The first line comes when the begin is long over: its answer is taken, written and read.
 TEST(EdgeReader, LatencyOfTheDatasheetFromAnAnswer) {

@@ -39,25 +39,25 @@ TEST_P(Stress, ChangesNothing) {
   options.bench.fast_path = t.fast;
   options.bench.seed = t.latency + t.stalls;
   EngineBench b(c.p, options);
-  b.load(contract_scene());
+  const Scene scene = contract_scene(geometric::frame_vector(t.configuration).frame);
+  b.load(scene);
   for (int frame = 0; frame < 2; ++frame) {
-    b.load_frame(contract_scene());
+    b.load_frame(scene);
     b.run();
     expect_page(b, c);
   }
 }
-INSTANTIATE_TEST_SUITE_P(Any, Stress,
-                         ::testing::Values(Trouble{'a', 300, 5, 0, std::nullopt, false, true},
-                                           Trouble{'c', 0, 3, 90, std::nullopt, false, true},
-                                           Trouble{'d', 200, 1, 60, 7, true, true},
-                                           Trouble{'e', 150, 10, 40, 3, true, true},
-                                           Trouble{'f', 0, 20, 200, 5, true, true},
-                                           Trouble{'g', 400, 2, 10, 9, true, true},
-                                           Trouble{'h', 100, 1, 150, 11, true, true},
-                                           Trouble{'l', 300, 5, 40, 6, true, true},
-                                           Trouble{'m', 200, 1, 90, 8, true, true},
-                                           Trouble{'n', 150, 20, 60, 2, true, true},
-                                           Trouble{'c', 250, 40, 100, 4, true, false}));
+INSTANTIATE_TEST_SUITE_P(
+    Any, Stress,
+    ::testing::Values(
+        Trouble{'a', 300, 5, 0, std::nullopt, false, true},
+        Trouble{'c', 0, 3, 90, std::nullopt, false, true}, Trouble{'d', 200, 1, 60, 7, true, true},
+        Trouble{'e', 150, 10, 40, 3, true, true}, Trouble{'f', 0, 20, 200, 5, true, true},
+        Trouble{'g', 400, 2, 10, 9, true, true}, Trouble{'h', 100, 1, 150, 11, true, true},
+        Trouble{'l', 300, 5, 40, 6, true, true}, Trouble{'m', 200, 1, 90, 8, true, true},
+        Trouble{'n', 150, 20, 60, 2, true, true}, Trouble{'u', 300, 3, 60, 4, true, true},
+        Trouble{'u', 0, 1, 0, 1, true, true}, Trouble{'w', 300, 2, 90, 5, true, true},
+        Trouble{'z', 150, 40, 20, 6, true, true}, Trouble{'c', 250, 40, 100, 4, true, false}));
 
 // Evaluated in another order, every clock is the same.
 TEST(Evaluation, OrderDoesNotMatter) {
@@ -66,7 +66,9 @@ TEST(Evaluation, OrderDoesNotMatter) {
     EngineOptions options;
     options.scatter = 30;
     options.bench.shuffle = seed;
-    EngineBench b(configuration('c').p, options);
+    Parameters p = configuration('c').p;
+    apply_settings(p, "records=split coarse_lines=4");
+    EngineBench b(p, options);
     b.load(contract_scene());
     b.run();
     return std::to_string(b.bus.read(reg::kEdgeCycles)) + " " +
@@ -82,6 +84,7 @@ struct Builds {
   CacheLines vertices, depths, blocks;
   int fills, fifo, dividers, table;
   bool pipelined;
+  int colour_lines = 0, write_buffer = 0;
 };
 class EveryBuild : public ::testing::TestWithParam<Builds> {};
 
@@ -101,6 +104,8 @@ TEST_P(EveryBuild, GivesTheSamePicture) {
       c.p.dividers = v.dividers;
       c.p.reciprocal_table = v.table;
       c.p.pipelined = v.pipelined;
+      c.p.colour_lines = v.colour_lines;
+      c.p.write_buffer = v.write_buffer;
       c.p.edge_lines = v.fills;
       c.p.resolve_lines = v.fills < 16 ? 16 : v.fills;
       c.p.line_fifo = std::min(v.fifo / 2, 256);
@@ -123,6 +128,12 @@ INSTANTIATE_TEST_SUITE_P(
                              CacheLines::k64, CacheLines::k32, 16, 8, 3, 9, false},
                       Builds{Lanes::kFour, Lanes::kFour, Lanes::kFour, CacheLines::k16,
                              CacheLines::k32, CacheLines::k512, 8, 200, 1, 0, true},
+                      Builds{Lanes::kTwo, Lanes::kFour, Lanes::kTwo, CacheLines::k64,
+                             CacheLines::k64, CacheLines::k16, 8, 128, 1, 0, true, 1, 1},
+                      Builds{Lanes::kTwo, Lanes::kOne, Lanes::kFour, CacheLines::k64,
+                             CacheLines::k64, CacheLines::k16, 100, 4, 1, 0, true, 128, 2},
+                      Builds{Lanes::kTwo, Lanes::kTwo, Lanes::kOne, CacheLines::k64,
+                             CacheLines::k64, CacheLines::k32, 20, 30, 1, 0, true, 256, 128},
                       Builds{Lanes::kOne, Lanes::kFour, Lanes::kTwo, CacheLines::k128,
                              CacheLines::k256, CacheLines::k64, 100, 6, 5, 1, false}));
 
@@ -193,6 +204,8 @@ TEST_P(RandomFrames, InPlaceAndCopiedRowsAndTilesAreTheSame) {
         p.layout = static_cast<spec::geometric::Layout>(variant & 1);
         p.frame_copy = (variant & 2) != 0;
         p.walkers = p.resolve_lanes = static_cast<Lanes>(variant % 3);
+        p.colour_lines = std::array{0, 2, 64, 0, 256, 7}[static_cast<std::size_t>(variant)];
+        p.write_buffer = std::array{0, 0, 3, 128, 1, 9}[static_cast<std::size_t>(variant)];
         if (variant >= 3) p.weight_blocks = p.depth_lines = p.vertex_lines = CacheLines::k16;
         EngineOptions options;
         options.scatter = variant == 4 ? 50 : 0;

@@ -52,6 +52,8 @@ struct Bases {
   std::uint32_t colour = vector_base(spec::geometric::Region::kColour);
   std::uint32_t weights = vector_base(spec::geometric::Region::kWeights);
   std::uint32_t copy = vector_base(spec::geometric::Region::kCopy);
+  std::uint32_t pairs = vector_base(spec::geometric::Region::kPairs);
+  std::uint32_t coarse = vector_base(spec::geometric::Region::kCoarse);
 };
 inline constexpr std::uint32_t kRegionBytes = 0x10000;
 
@@ -129,8 +131,12 @@ class EngineBench {
   void load(const Scene& scene) {
     width = scene.width;
     height = scene.height;
-    const platform::GeometricSizes sizes = {width, height, scene.edges.size(),
-                                            scene.vertices.size(), scene.facing.size()};
+    const platform::GeometricSizes sizes = {width,
+                                            height,
+                                            scene.edges.size(),
+                                            scene.vertices.size(),
+                                            scene.facing.size(),
+                                            platform::boundaries_of(scene.edges)};
     const auto bytes = platform::GeometricRegions::needed(sizes, driver.rules());
     const bool fits = std::all_of(bytes.begin(), bytes.end(),
                                   [](std::uint64_t size) { return size <= kRegionBytes; });
@@ -206,8 +212,8 @@ class EngineBench {
     const auto add = [&](const std::vector<std::uint64_t>& list) {
       for (const std::uint64_t address : list) hash.lowest_first(address, 4);
     };
-    for (const std::uint32_t base :
-         {bases.faces, bases.edges, bases.vertices, bases.depth, bases.weights})
+    for (const std::uint32_t base : {bases.faces, bases.edges, bases.pairs, bases.vertices,
+                                     bases.coarse, bases.depth, bases.weights})
       add(reads(base));
     add(writes(bases.weights));
     add(reads(p.frame_copy ? bases.copy : bases.colour));
@@ -222,7 +228,7 @@ class EngineBench {
   static platform::GeometricRegions contract_regions() {
     const Bases b;
     return platform::GeometricRegions(
-        {b.faces, b.edges, b.vertices, b.depth, b.weights, b.colour, b.copy, 0x80000, 0x90000});
+        {b.faces, b.edges, b.vertices, b.depth, b.weights, b.colour, b.copy, b.pairs, b.coarse});
   }
   void place(const platform::GeometricRegions& regions) {
     using spec::geometric::Region;
@@ -230,7 +236,8 @@ class EngineBench {
     bases = {regions.base(Region::kEdges),  regions.base(Region::kVertices),
              regions.base(Region::kFaces),  regions.base(Region::kDepth),
              regions.base(Region::kColour), regions.base(Region::kWeights),
-             regions.base(Region::kCopy)};
+             regions.base(Region::kCopy),   regions.base(Region::kPairs),
+             regions.base(Region::kCoarse)};
   }
   // Of the whole frame, whatever the scene has of them.
   struct Pixels {

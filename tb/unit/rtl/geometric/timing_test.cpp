@@ -12,6 +12,7 @@
 #include "rtl_model/geometric/lines/depth_test.h"
 #include "rtl_model/geometric/lines/line_walker.h"
 #include "rtl_model/geometric/weights/weight_combiner.h"
+#include "tb/unit/rtl/geometric/combiner_bench.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
 namespace deburr::tb::geometric_rtl::timing_test {
@@ -42,7 +43,7 @@ struct ClassifierBench : Frame {
     facing.phase_in(phase);
     wire(facing.loaded_out);
     unit.edges_in(ends.in);
-    unit.edges_out(ends.out);
+    (*unit.edges_out)(ends.out);
     unit.invalid_edge_out(invalid_edge);
     facing.rules_in(rules);
     unit.rules_in(rules);
@@ -168,6 +169,48 @@ TEST(EdgeClassifier, EdgesOfFacesTurnedAwayAreCulledOrClassified) {
                                                        : "0 0 1: 3";
         EXPECT_EQ(got, wanted) << flags << ", crease " << static_cast<int>(crease);
       }
+}
+
+// By the mesh alone no facing bit is read, no face is checked, and no class goes by the view.
+TEST(EdgeClassifier, MeshSelectsBoundariesAndCreasesWhereverTheyAreSeenFrom) {
+  namespace flag = spec::geometric::flag;
+  using spec::geometric::Crease;
+  for (const Crease crease : {Crease::kOff, Crease::kPaper, Crease::kShading}) {
+    const std::string got = in_child([&] {
+      Parameters p;
+      p.select = spec::geometric::Select::kMesh;
+      p.cull = spec::geometric::Cull::kBack;
+      p.crease = crease;
+      p.edge_lanes = Lanes::kFour;
+      ClassifierBench b(p);
+      // A face that is turned to the eye beside one that is not, were the bits looked at.
+      b.facing.words.backdoor(0) = 1;
+      EdgeBeat beat{};
+      beat.count = 4;
+      beat.edge[0] = {1, 2, 0, 1, 0};
+      beat.edge[1] = {2, 3, 0xFFFFFF, 1, flag::kAngle};
+      beat.edge[2] = {3, 4, 0, 0xFFFFFF, flag::kSeam};
+      beat.edge[3] = {4, 5, 0xFFFFFF, 0xFFFFFF, flag::kBoundary};
+      b.ends.source.add(beat);
+      beat.edge[0] = {5, 6, 1, 2, flag::kAngle | flag::kSplitNormals};
+      beat.edge[1] = {6, 7, 1, 2, flag::kSplitNormals};
+      beat.edge[2] = {100, 7, 1, 2, flag::kAngle};
+      beat.edge[3] = {7, 100, 1, 2, flag::kBoundary};
+      b.ends.source.add(beat);
+      b.clock.run(20);
+      std::string text;
+      for (const rtl::Counter* const counter :
+           {&b.unit.boundary_edges, &b.unit.silhouette_edges, &b.unit.back_edges,
+            &b.unit.crease_edges, &b.unit.flat_edges, &b.unit.invalid_edges})
+        text += std::to_string(counter->value()) + " ";
+      for (const auto& taken : b.ends.sink.taken)
+        text += " " + std::to_string(taken.token.v0) + (taken.token.crease ? "c" : "");
+      return text;
+    });
+    EXPECT_EQ(got, crease == Crease::kOff     ? "1 0 0 0 5 2  4"
+                   : crease == Crease::kPaper ? "1 0 0 2 3 2  2c 4 5c"
+                                              : "1 0 0 2 3 2  3c 4 5c");
+  }
 }
 
 // ---- VertexFetch
@@ -321,36 +364,51 @@ TEST(MemoryArbiter, TheLatencyOfReadsIsThatOfReads) {
   ASSERT_EQ(asker.answered.size(), 6u);
   ASSERT_EQ(other.answered.size(), 6u);
   EXPECT_EQ(text_of(b.arbiter.read_latency(Client::kWeights)), "23 x 4");
-  for (std::size_t i = 0; i < kClients; ++i)
-    if (static_cast<Client>(i) != Client::kWeights) {
-      EXPECT_EQ(text_of(b.arbiter.read_latency(static_cast<Client>(i))), "") << kClientNames[i];
+  for (const Client client : clients_of({}))
+    if (client != Client::kWeights) {
+      EXPECT_EQ(text_of(b.arbiter.read_latency(client)), "")
+          << kClientNames[static_cast<std::size_t>(client)];
     }
 }
-TEST(MemoryArbiter, ServesEachOfEightAfterSevenOthers) {
-  Frame b({});
+// Eight clients, and one for each of two build choices.
+void expect_served_in_turn(const Parameters& p, std::size_t clients) {
+  Frame b(p);
   b.tie();
   std::deque<Asker> askers;
-  for (std::size_t i = 0; i < kClients; ++i) {
-    askers.emplace_back((std::string("asker") + std::to_string(i)).c_str(), b.clock);
+  ASSERT_EQ(clients_of(p).size(), clients);
+  for (const Client client : clients_of(p)) {
+    askers.emplace_back((std::string("asker") + std::to_string(askers.size())).c_str(), b.clock);
     askers.back().wanted = 40;
-    b.arbiter.connect(static_cast<Client>(i), askers.back().memory);
+    b.arbiter.connect(client, askers.back().memory);
   }
   b.clock.run(600);
   std::vector<Cycle> answers;
   for (const Asker& asker : askers) {
     ASSERT_EQ(asker.answered.size(), 40u);
     for (std::size_t i = 3; i < 40; ++i) {
-      EXPECT_EQ(asker.asked[i] - asker.asked[i - 1], 8u);
-      EXPECT_EQ(asker.answered[i] - asker.answered[i - 1], 8u);
+      EXPECT_EQ(asker.asked[i] - asker.asked[i - 1], clients);
+      EXPECT_EQ(asker.answered[i] - asker.answered[i - 1], clients);
     }
     answers.insert(answers.end(), asker.answered.begin(), asker.answered.end());
   }
   const auto [first, last] = std::minmax_element(answers.begin(), answers.end());
-  EXPECT_EQ(*last - *first, 8u * 40 - 1) << "one a clock";
+  EXPECT_EQ(*last - *first, clients * 40 - 1) << "one a clock";
+}
+TEST(MemoryArbiter, ServesEachOfEightAfterSevenOthers) { expect_served_in_turn({}, 8); }
+TEST(MemoryArbiter, ServesEachOfNineAfterEightOthers) {
+  Parameters p;
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  expect_served_in_turn(p, 9);
+}
+TEST(MemoryArbiter, ServesEachOfTenAfterNineOthers) {
+  Parameters p;
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  p.coarse_lines = spec::geometric::CoarseLines::k4;
+  expect_served_in_turn(p, 10);
 }
 
-TEST(MemoryArbiter, LinksCarryWholeAddressesAndTags) {
-  const EngineBench b;
+void expect_whole_addresses_and_tags(const Parameters& p, std::uint32_t tag_bits) {
+  const EngineBench b(p);
   std::size_t clients = 0, port = 0;
   rtl::for_each<rtl::LinkBase>([&](const rtl::LinkBase& link) {
     const std::string name = link.basename();
@@ -359,10 +417,16 @@ TEST(MemoryArbiter, LinksCarryWholeAddressesAndTags) {
     ++(of_port ? port : clients);
     EXPECT_EQ(link.payload().find("address")->bits, 32u) << name;
     // The client beside its own number.
-    EXPECT_EQ(link.payload().find("tag")->bits, of_port ? 15u : 12u) << name;
+    EXPECT_EQ(link.payload().find("tag")->bits, of_port ? tag_bits : 12u) << name;
   });
   EXPECT_EQ(port, 2u);
-  EXPECT_EQ(clients, 2 * kClients);
+  EXPECT_EQ(clients, 2 * clients_of(p).size());
+}
+TEST(MemoryArbiter, LinksCarryWholeAddressesAndTags) { expect_whole_addresses_and_tags({}, 15); }
+TEST(MemoryArbiter, ANinthClientTakesABitMoreOfTheTag) {
+  Parameters p;
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  expect_whole_addresses_and_tags(p, 16);
 }
 
 // ---- LineWalker
@@ -938,46 +1002,7 @@ TEST(DepthTest, ShowsEachCandidate) {
   EXPECT_EQ(shown, wanted);
 }
 
-// ---- WeightCombiner: nothing comes out of it
-struct CombinerBench : Frame {
-  explicit CombinerBench(const Parameters& p = {})
-      : Frame(p),
-        unit("unit", clock, sized(p, {}), edge_latency),
-        in("in"),
-        source("source", clock) {
-    arbiter.connect(Client::kWeights, unit.memory);
-    unit.rules_in(rules);
-    unit.weights_in(in);
-    source.out(in);
-    unit.phase_in(phase);
-    wire(unit.cleared_out, &sequencer.weights_cleared_in);
-    drawn = &wire(unit.drawn_out);
-    bus.write(reg::kWeightBase, 0);
-    begin(2048, 16);
-  }
-  static WeightToken token(int bx, int by) {
-    WeightToken t{};
-    t.block_x = static_cast<std::uint16_t>(bx);
-    t.block_y = static_cast<std::uint16_t>(by);
-    t.candidates = 1;
-    t.coverage[0] = 100;
-    return t;
-  }
-  static WeightToken end() {
-    WeightToken t{};
-    t.end = true;
-    return t;
-  }
-  Cycle until_drawn() {
-    const Cycle from = clock.cycle();
-    while (!drawn->read(clock.cycle())) clock.run(1);
-    return clock.cycle() - from;
-  }
-  WeightCombiner unit;
-  const rtl::Wire<bool>* drawn = nullptr;
-  rtl::Link<WeightToken> in;
-  Source<WeightToken> source;
-};
+// ---- WeightCombiner
 TEST(WeightCombiner, LatencyOfTheDatasheet) {
   CombinerBench b;
   b.in.push(b.clock.cycle(), CombinerBench::end());
@@ -995,12 +1020,6 @@ TEST(WeightCombiner, AGroupAClockWhateverBlock) {
   EXPECT_EQ(b.unit.stalled_cycles(), 0u);
   // The last write is answered a while after it was sent.
   EXPECT_LE(clocks, 601u + 6 + 30);
-}
-// Weights of pixel (x, y), once its block has left the cache.
-spec::geometric::Weights weights_at(CombinerBench& b, int x, int y) {
-  const std::vector<std::uint8_t> bytes = b.memory.dump(
-      static_cast<std::uint64_t>(64 * (y / 4 * 512 + x / 4) + 4 * (y % 4 * 4 + x % 4)), 4);
-  return {bytes[0], bytes[1], bytes[2], bytes[3]};
 }
 // Sends every block of the first rows to memory: others take their places.
 void push_out(CombinerBench& b) {

@@ -61,8 +61,9 @@ inline Trail trail_of(EngineBench& b) {
                  b.memory.lines_written(),
                  statistics(b.clock).dump(),
                  registers_of(b)};
-  for (const std::uint32_t base : {b.bases.faces, b.bases.edges, b.bases.vertices, b.bases.depth,
-                                   b.bases.weights, b.bases.colour, b.bases.copy}) {
+  for (const std::uint32_t base :
+       {b.bases.faces, b.bases.edges, b.bases.vertices, b.bases.depth, b.bases.weights,
+        b.bases.colour, b.bases.copy, b.bases.pairs, b.bases.coarse}) {
     trail.traffic.push_back(b.reads(base));
     trail.traffic.push_back(b.writes(base));
   }

@@ -21,17 +21,37 @@ void set_ignored(EngineBench& b, std::uint32_t base, std::size_t records,
   b.memory.preload(base, bytes);
 }
 
+// The same of records of six bytes: bits 47 and 46, and what follows the tenth of a line.
+void set_ignored_of_split(EngineBench& b, std::uint32_t base, std::uint64_t records, bool faces) {
+  std::vector<std::uint8_t> bytes = b.memory.dump(base, platform::split_bytes(records));
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const std::size_t at = i % 64;
+    if (at >= 60) bytes[i] = 0xFF;
+    if (faces && at % 6 == 5 && at < 60) bytes[i] |= 0xC0;
+  }
+  b.memory.preload(base, bytes);
+}
+
 void load(EngineBench& b, DrawnFrame frame) {
   const Scene scene = contract_scene(frame);
   b.load(scene);
-  if (frame == DrawnFrame::kRandom) return;
-  set_ignored(b, b.bases.edges, scene.edges.size(), geometric::kIgnoredOfEdge);
+  if (frame != DrawnFrame::kSpecial) return;
+  if (b.p.records == spec::geometric::RecordsLayout::kSplit) {
+    const std::uint64_t boundaries = platform::boundaries_of(scene.edges);
+    set_ignored_of_split(b, b.bases.edges, scene.edges.size(), true);
+    set_ignored_of_split(b, b.bases.pairs, boundaries, false);
+    set_ignored_of_split(b, b.driver.regions().other_pairs(boundaries),
+                         scene.edges.size() - boundaries, false);
+  } else {
+    set_ignored(b, b.bases.edges, scene.edges.size(), geometric::kIgnoredOfEdge);
+  }
   set_ignored(b, b.bases.vertices, scene.vertices.size(), geometric::kIgnoredOfVertex);
 }
 
 // `rules`, if not 0, are written to RULES.
 FrameResult result_of(const FrameVector& v, std::uint32_t rules = 0) {
-  const Parameters p = configuration(v.name).p;
+  Parameters p = preset_parameters(v.preset);
+  apply_settings(p, v.settings);
   EngineOptions options;
   options.bench.check_widths = true;
   EngineBench b(p, options);
@@ -55,6 +75,11 @@ TEST_P(Vectors, PixelsWeightsAndTraffic) {
   EXPECT_EQ(differences(GetParam().result, result_of(GetParam())), "");
 }
 INSTANTIATE_TEST_SUITE_P(Page, Vectors, ::testing::ValuesIn(geometric::all_frame_vectors()),
+                         [](const auto& test) { return std::string(1, test.param.name); });
+
+// Of less traffic.
+INSTANTIATE_TEST_SUITE_P(LessTraffic, Vectors,
+                         ::testing::ValuesIn(spec::geometric::kTrafficFrameVectors),
                          [](const auto& test) { return std::string(1, test.param.name); });
 
 TEST(FrameVectors, EachValueIsCompared) {

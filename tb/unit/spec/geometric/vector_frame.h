@@ -3,6 +3,7 @@
 // and of special cases.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -146,8 +147,30 @@ inline VectorFrame special_frame() {
   return frame;
 }
 
+// Depths that the pixels of a tile have in common, but for a little.
+inline VectorFrame tiles_frame() {
+  VectorFrame frame = vector_frame();
+  const std::vector<std::uint32_t> depths = frame.depths;
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      const auto at = [&frame](int column, int row) {
+        return static_cast<std::size_t>(row * frame.width + column);
+      };
+      frame.depths[at(x, y)] =
+          std::min(0xFFFFFFu, depths[at(x & ~7, y & ~7)] + (depths[at(x, y)] >> 6));
+    }
+  return frame;
+}
+
 inline VectorFrame vector_frame(spec::geometric::DrawnFrame frame) {
-  return frame == spec::geometric::DrawnFrame::kSpecial ? special_frame() : vector_frame();
+  switch (frame) {
+    case spec::geometric::DrawnFrame::kSpecial:
+      return special_frame();
+    case spec::geometric::DrawnFrame::kTiles:
+      return tiles_frame();
+    default:
+      return vector_frame();
+  }
 }
 
 // Those of both frames.
@@ -162,6 +185,8 @@ inline std::vector<spec::geometric::FrameVector> all_frame_vectors() {
 // A vector by its name.
 inline spec::geometric::FrameVector frame_vector(char name) {
   for (const spec::geometric::FrameVector& v : all_frame_vectors())
+    if (v.name == name) return v;
+  for (const spec::geometric::FrameVector& v : spec::geometric::kTrafficFrameVectors)
     if (v.name == name) return v;
   throw std::out_of_range(std::string("no test vector ") + name);
 }

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/edges/pair_fetch.h"
+
+#include "spec/geometric/records.h"
+
+namespace deburr::rtl::geometric {
+namespace {
+
+constexpr std::uint32_t kPairTagBits = 22, kPairLineBits = 8 * spec::geometric::kSplitBytes *
+                                                           spec::geometric::kSplitInLine;
+constexpr std::uint32_t kPairValid = 1u << (kPairTagBits - 1);
+
+MemoryShape of_both_arrays(std::uint32_t bits, const char* content) {
+  return {
+      .words = 2, .word_bits = bits, .kind = MemoryKind::kFlops, .latency = 0, .content = content};
+}
+
+}  // namespace
+
+PairFetch::PairFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
+                     const spec::geometric::Parameters& p, EdgeLatency& latency)
+    : Unit(name, clock),
+      latency_(latency),
+      tags_("pair_tags", of_both_arrays(kPairTagBits, "line, valid")),
+      lines_("pair_lines", of_both_arrays(kPairLineBits, "ten pairs of each array")),
+      fills_("pair_fills", p.fills, kPairLineBits, "pairs on their way"),
+      fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo)),
+      stalled_pairs_(declare_stall("pairs", "a line of pairs has not come")),
+      stalled_fills_(declare_stall("fills", "no place for a line of pairs is free")) {}
+
+// Stage 1.
+Activity PairFetch::look_up(Cycle cycle) {
+  if (!numbers_in.can_pop(cycle)) return kIdle;
+  if (!fifo_.can_push(cycle)) return kStalledDownstream;
+  const PairNumber& number = numbers_in.front(cycle);
+  bool missed = false;
+  if (!number.end && !number.invalid) {
+    tag_port_.read(cycle, number.other);
+    missed = tag_port_.at(cycle, number.other) != (number.line | kPairValid);
+    if (missed) {
+      if (!fills_.can_reserve(cycle)) return stalled_fills_;
+      if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
+      const FrameRules& rules = rules_in.read(cycle);
+      memory.read(cycle,
+                  (number.other ? rules.other_pair_base : rules.pair_base) +
+                      number.line * spec::geometric::kLineBytes,
+                  fills_.reserve());
+      tag_write_.write(cycle, number.other, number.line | kPairValid);
+    }
+    ++lookups;
+    boundary_lookups += !number.other;
+    lines_read += missed;
+    boundary_lines += missed && !number.other;
+  }
+  fifo_.push(cycle,
+             {number.place, number.other, missed, number.crease, number.invalid, number.end});
+  numbers_in.pop(cycle);
+  return kBusy;
+}
+
+// Stages 3 and 2.
+Activity PairFetch::deliver(Cycle cycle) {
+  if (!fifo_.can_pop(cycle) && pipe_.empty()) return kIdle;
+  const FrameRules& rules = rules_in.read(cycle);
+  const auto is_kept = [&](const Work& work) {
+    return !work.invalid && work.edge.v0 < rules.vertex_count && work.edge.v1 < rules.vertex_count;
+  };
+  if (const Work* const next = pipe_.at(1))
+    if ((next->edge.end || is_kept(*next)) && !edges_out.can_push(cycle)) return kStalledDownstream;
+  pipe_.move();
+  if (const Work* const work = pipe_.at(2)) {
+    const bool kept = !work->edge.end && is_kept(*work);
+    if (kept || work->edge.end) edges_out.push(cycle, work->edge);
+    if (!work->edge.end) latency_.paired(kept);
+    kept_edges += kept;
+    if (!kept && !work->edge.end && !work->invalid) {
+      ++invalid_edges;
+      invalid_pair_out.raise(cycle);
+    }
+  }
+  if (!fifo_.can_pop(cycle)) return kBusy;
+  const Lookup& l = fifo_.front(cycle);
+  if (l.missed && !fills_.ready(cycle)) return stalled_pairs_;
+  Work& work = pipe_.enter();
+  work.invalid = l.invalid;
+  work.edge.crease = l.crease;
+  work.edge.end = l.end;
+  if (!l.invalid && !l.end) {
+    std::uint64_t pair = 0;
+    if (l.missed) {
+      const PairLine& line = fills_.line(cycle);
+      line_write_.write(cycle, l.other, line);
+      pair = line[l.place];
+      fills_.release(cycle);
+    } else {
+      line_port_.read(cycle, l.other);
+      pair = line_port_.at(cycle, l.other)[l.place];
+    }
+    work.edge.v0 = static_cast<std::uint32_t>(pair) & spec::geometric::kIndexMask;
+    work.edge.v1 = static_cast<std::uint32_t>(pair >> spec::geometric::kSplitVertexBits) &
+                   spec::geometric::kIndexMask;
+  }
+  fifo_.pop(cycle);
+  return kBusy;
+}
+
+Activity PairFetch::tick(Cycle cycle) {
+  const Phase phase = phase_in.read(cycle);
+  if (phase != Phase::kEdges) {
+    const bool empties = phase == Phase::kBegin && !emptied_;
+    if (empties) tags_.clear();
+    emptied_ = phase == Phase::kBegin;
+    return empties ? kBusy : kIdle;
+  }
+  const Activity data = deliver(cycle);
+  const Activity tags = look_up(cycle);
+  bool did = data == kBusy || tags == kBusy;
+  if (memory.responses_in.can_pop(cycle)) {
+    const MemoryResponse& response = memory.responses_in.take(cycle);
+    PairLine line;
+    for (std::size_t i = 0; i < line.size(); ++i) line[i] = split_record_of(response.data, i);
+    fills_.fill(cycle, response.tag, line);
+    did = true;
+  }
+  fills_.read_ahead(cycle);
+  return did ? kBusy : data != kIdle ? data : tags;
+}
+
+void PairFetch::reset() {
+  fills_.reset();
+  fifo_.reset();
+  pipe_.reset();
+  emptied_ = false;
+}
+
+Datasheet PairFetch::datasheet() {
+  return {
+      .unit = "PairFetch",
+      .does = "Fetches the vertices of each edge that is to be kept from their own arrays.",
+      .latency = {3, "3, and the wait for a line"},
+      .interval = {1},
+      .stages = {{"1", "line against the tag of its array, a read ordered; FIFO", "22-bit compare"},
+                 {"2", "a line that came into the register of its array; choice of a pair",
+                  "10 : 1 choice of 48 bits"},
+                 {"3", "vertices in range; leave", "24-bit compare"}},
+      .cost =
+          "two tags and two lines in registers, the lines on their way, the FIFO; a 22-bit and "
+          "two 25-bit compares, a 10 : 1 choice of 48 bits."};
+}
+
+}  // namespace deburr::rtl::geometric

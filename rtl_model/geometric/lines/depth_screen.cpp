@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/geometric/lines/depth_screen.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "spec/geometric/records.h"
+
+namespace deburr::rtl::geometric {
+namespace {
+
+constexpr std::uint32_t kCoarseTagBits = 16, kCoarseEntryBits = 8 * spec::geometric::kCoarseBytes;
+
+std::uint32_t coarse_tag_of(std::uint32_t u, std::uint32_t v) {
+  return 1u << (kCoarseTagBits - 1) | v << 7 | u;
+}
+
+}  // namespace
+
+DepthScreen::DepthScreen(const sc_core::sc_module_name& name, ClockDomain& clock,
+                         const spec::geometric::Parameters& p)
+    : Unit(name, clock),
+      lines_(spec::geometric::kCoarseLineCount[static_cast<std::size_t>(p.coarse_lines)]),
+      index_bits_(static_cast<std::uint32_t>(std::countr_zero(lines_))),
+      tags_("coarse_tags", {.words = lines_,
+                            .word_bits = kCoarseTagBits,
+                            .kind = MemoryKind::kFlops,
+                            .read_ports = 2,
+                            .latency = 0,
+                            .content = "v, u, valid"}),
+      data_("coarse_lines", {.words = lines_,
+                             .word_bits = kCoarseEntryBits * kInLine,
+                             .read_ports = 2,
+                             .content = "32 bounds of depth"}),
+      fills_("coarse_fills", p.fills, kCoarseEntryBits * kInLine, "bounds on their way"),
+      fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo),
+            candidates_shape(p, false, "group.")),
+      stalled_coarse_(declare_stall("coarse", "a line of coarse depth has not come")),
+      stalled_fills_(declare_stall("fills", "no place for a line of coarse depth is free")) {}
+
+// Stage 1.
+void DepthScreen::find_tiles(Cycle cycle, const CandidateToken& group) {
+  const FrameRules& rules = rules_in.read(cycle);
+  Lookup& l = lookup_;
+  l.group = group;
+  l.missed = l.crossing = 0;
+  l.two_lines = false;
+  l.looks = !group.end && rules.depth_test != spec::geometric::DepthTest::kOff;
+  if (!l.looks) return;
+  const auto find = [&](std::size_t which, std::uint32_t tx, std::uint32_t ty) {
+    line_[which] = {static_cast<std::uint16_t>(tx / spec::geometric::kCoarseAcross),
+                    static_cast<std::uint16_t>(ty / spec::geometric::kCoarseDown)};
+    l.tile[which] = static_cast<std::uint8_t>(ty % spec::geometric::kCoarseDown *
+                                                  spec::geometric::kCoarseAcross +
+                                              tx % spec::geometric::kCoarseAcross);
+    const std::uint32_t low = (index_bits_ + 1) / 2;
+    l.index[which] =
+        static_cast<std::uint8_t>((line_[which].u & ((1u << low) - 1)) |
+                                  (line_[which].v & ((1u << (index_bits_ - low)) - 1)) << low);
+  };
+  const std::uint32_t tx = group.block_x >> 1, ty = group.block_y >> 1;
+  find(0, tx, ty);
+  if (rules.depth_test != spec::geometric::DepthTest::kFarther) return;
+  // A block touches one border of its tile each way, so all neighbours beyond it are in one tile.
+  const std::uint32_t block = group.vertical ? group.block_x : group.block_y;
+  const bool forward = block & 1;
+  for (std::uint32_t left = group.candidates; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const std::uint32_t row = group.vertical ? group.place[lane] & 3u : group.place[lane] >> 2;
+    const bool crosses = (group.forward >> lane & 1) == forward && row == (forward ? 3u : 0u);
+    l.crossing |= static_cast<std::uint8_t>(crosses << lane);
+  }
+  if (l.crossing == 0) return;
+  const std::uint32_t step = forward ? 1 : ~0u;
+  find(1, group.vertical ? tx + step : tx, group.vertical ? ty : ty + step);
+  l.two_lines = line_[0] != line_[1];
+}
+
+Activity DepthScreen::order(Cycle cycle, std::size_t which) {
+  if (!fills_.can_reserve(cycle)) return stalled_fills_;
+  if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
+  const FrameRules& rules = rules_in.read(cycle);
+  const Place line = line_[which];
+  // A multiply 8 x 8.
+  const std::uint32_t across = (rules.width + 63) >> 6;
+  memory.read(cycle, rules.coarse_base + ((line.v * across + line.u) << 6), fills_.reserve());
+  tag_write_.write(cycle, lookup_.index[which], coarse_tag_of(line.u, line.v));
+  lookup_.missed |= static_cast<std::uint8_t>(1u << which);
+  ++misses;
+  return kBusy;
+}
+
+// Stages 2 and 1.
+Activity DepthScreen::look_up(Cycle cycle) {
+  if (looking_) {
+    if (!fifo_.can_push(cycle)) return kStalledDownstream;
+    const auto found = [&](std::size_t which) {
+      tag_ports_[which].read(cycle, lookup_.index[which]);
+      return tag_ports_[which].at(cycle, lookup_.index[which]) ==
+             coarse_tag_of(line_[which].u, line_[which].v);
+    };
+    if (lookup_.looks && !first_done_) {
+      const bool missed = !found(0), other_missed = lookup_.two_lines && !found(1);
+      if (missed)
+        if (const Activity done = order(cycle, 0); done != kBusy) return done;
+      first_done_ = true;
+      ++groups;
+      lookups += lookup_.two_lines ? 2 : 1;
+      if (other_missed) {
+        both_missed += missed;
+        if (missed) return kBusy;
+        if (const Activity done = order(cycle, 1); done != kBusy) return done;
+      }
+    } else if (lookup_.looks) {
+      if (const Activity done = order(cycle, 1); done != kBusy) return done;
+    }
+    fifo_.push(cycle, lookup_);
+    looking_ = false;
+  }
+  if (!candidates_in.can_pop(cycle)) return kIdle;
+  find_tiles(cycle, candidates_in.take(cycle));
+  looking_ = true;
+  first_done_ = false;
+  return kBusy;
+}
+
+// What look-up `which` wants of a line; of the same line both.
+void DepthScreen::take(Work& work, std::size_t which, const CoarseLine& line) const {
+  const Lookup& l = work.lookup;
+  work.bound[which] = line[l.tile[which]];
+  if (which == 0 && !l.two_lines && l.crossing != 0) work.bound[1] = line[l.tile[1]];
+}
+
+// The missed line of a look-up, if it has come.
+bool DepthScreen::install(Cycle cycle, std::size_t which) {
+  if (!fills_.ready(cycle)) return false;
+  const CoarseLine& line = fills_.line(cycle);
+  data_write_.write(cycle, work_.lookup.index[which], line);
+  take(work_, which, line);
+  fills_.release(cycle);
+  work_.lookup.missed &= static_cast<std::uint8_t>(~(1u << which));
+  return true;
+}
+
+// Stage 5.
+void DepthScreen::screen(Cycle cycle, Work& work) {
+  const Lookup& l = work.lookup;
+  CandidateToken& group = work.lookup.group;
+  group.dropped = 0;
+  if (!l.looks) return;
+  const std::uint32_t bias = rules_in.read(cycle).depth_bias;
+  for (std::uint32_t left = group.candidates; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const bool two = l.crossing >> lane & 1;
+    const std::uint32_t entry = two ? std::min(work.bound[0], work.bound[1]) : work.bound[0],
+                        c = entry << spec::geometric::kCoarseShift, least = c - (c >> bias);
+    const bool drops = group.depth[lane] < least;
+    group.dropped |= static_cast<std::uint8_t>(drops << lane);
+    if (drops) dropped_sides.record(2u * group.vertical + (group.forward >> lane & 1));
+    if (two)
+      lesser_tiles.record(work.bound[0] < work.bound[1]   ? 0
+                          : work.bound[0] > work.bound[1] ? 1
+                                                          : 2);
+    kept_at_bound += entry != 0 && group.depth[lane] == least;
+  }
+  dropped += count_of(group.dropped, group.dropped & group.seconds);
+}
+
+// Stages 5 to 3.
+Activity DepthScreen::deliver(Cycle cycle) {
+  if (!working_ && !fifo_.can_pop(cycle) && pipe_.empty()) return kIdle;
+  if (pipe_.leaves() && !screened_out.can_push(cycle)) return kStalledDownstream;
+  pipe_.move();
+  if (Work* const done = pipe_.at(3)) {
+    screen(cycle, *done);
+    screened_out.push(cycle, done->lookup.group);
+  }
+  if (Work* const words = pipe_.at(2))
+    for (std::size_t which = 0; which < 2; ++which)
+      if (words->from_cache >> which & 1)
+        take(*words, which, data_ports_[which].at(cycle, words->lookup.index[which]));
+  if (!working_) {
+    if (!fifo_.can_pop(cycle)) return kBusy;
+    work_.lookup = fifo_.take(cycle);
+    const Lookup& l = work_.lookup;
+    work_.from_cache = !l.looks ? 0 : l.two_lines ? 3 : 1;
+    work_.from_cache &= static_cast<std::uint8_t>(~l.missed);
+    working_ = true;
+  }
+  Lookup& l = work_.lookup;
+  if (l.missed != 0) {
+    if (!install(cycle, l.missed & 1 ? 0 : 1)) return stalled_coarse_;
+    if (l.missed != 0) return kBusy;
+  }
+  for (std::size_t which = 0; which < 2; ++which)
+    if (work_.from_cache >> which & 1) data_ports_[which].read(cycle, l.index[which]);
+  pipe_.enter() = work_;
+  working_ = false;
+  return kBusy;
+}
+
+Activity DepthScreen::tick(Cycle cycle) {
+  const Phase phase = phase_in.read(cycle);
+  if (phase != Phase::kEdges) {
+    const bool empties = phase == Phase::kBegin && !emptied_;
+    if (empties) tags_.clear();
+    emptied_ = phase == Phase::kBegin;
+    return empties ? kBusy : kIdle;
+  }
+  const Activity data = deliver(cycle);
+  const Activity tags = look_up(cycle);
+  bool did = data == kBusy || tags == kBusy;
+  if (memory.responses_in.can_pop(cycle)) {
+    const MemoryResponse& response = memory.responses_in.take(cycle);
+    CoarseLine line;
+    for (std::size_t i = 0; i < line.size(); ++i)
+      line[i] = static_cast<std::uint16_t>(response.data[2 * i] | response.data[2 * i + 1] << 8);
+    fills_.fill(cycle, response.tag, line);
+    did = true;
+  }
+  fills_.read_ahead(cycle);
+  return did ? kBusy : data != kIdle ? data : tags;
+}
+
+void DepthScreen::reset() {
+  fills_.reset();
+  fifo_.reset();
+  pipe_.reset();
+  emptied_ = looking_ = first_done_ = working_ = false;
+}
+
+Datasheet DepthScreen::datasheet() {
+  return {
+      .unit = "DepthScreen",
+      .does = "Drops candidates behind a lower bound of their tile's depths.",
+      .latency = {5, "5, and the wait for a line"},
+      .interval = {1, "1; 2 if both look-ups miss"},
+      .stages = {{"1", "lines and tiles of the group, first uses"},
+                 {"2", "two tags, a fill ordered a clock; FIFO",
+                  "64 : 1 choice + 16-bit compare; 8 x 8 multiply"},
+                 {"3", "a line installed, address of the words"},
+                 {"4", "two lines, choice of a tile, the lesser bound",
+                  "SRAM read, 32 : 1 choice + 16-bit compare"},
+                 {"5", "test against the bound", "24-bit shift, subtract and compare"}},
+      .cost =
+          "tags in registers, data 2R1W, the lines on their way, the FIFO; two 16-bit compares, "
+          "an 8 x 8 multiply, two 32 : 1 choices of 16 bits and their minimum, its shift and "
+          "subtract and that of the group's own tile; a lane a 2 : 1 choice and a 24-bit "
+          "compare."};
+}
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Drops candidates that lie behind a lower bound of the depths of their tile of 8 x 8 pixels,
+// before they look depth up (coarse_lines).
+//
+// Where: between CoverageUnit and DepthTest, with a small cache of coarse lines that looks ahead.
+// Every group goes on, with a bit for each candidate that is dropped, so that DepthTest keeps their
+// order. A group lies in one tile, and so do its neighbours. Stalls: `coarse` (the line has not
+// come), `fills` (no place for one), `downstream`. Source: docs/reference/geometric/traffic.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <systemc>
+
+#include "rtl_model/fabric/datasheet.h"
+#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/histogram.h"
+#include "rtl_model/fabric/pipe.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/geometric/common/fill_store.h"
+#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/memory_arbiter.h"
+#include "rtl_model/geometric/common/tokens.h"
+
+namespace deburr::rtl::geometric {
+
+class DepthScreen final : public Unit {
+ public:
+  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<Phase> phase_in{"phase_in"};
+  In<CandidateToken> candidates_in{"candidates_in"};
+  Out<CandidateToken> screened_out{"screened_out"};
+  MemoryClient memory;
+
+  DepthScreen(const sc_core::sc_module_name& name, ClockDomain& clock,
+              const spec::geometric::Parameters& parameters);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+
+  Counter groups{"groups", "groups", "groups whose tiles were looked up"};
+  Counter lookups{"lookups", "lines", "lines of coarse depth looked up"};
+  Counter misses{"misses", "lines", "look-ups that ordered a line"};
+  Counter both_missed{"both_missed", "groups", "groups of which two look-ups ordered a line"};
+  Counter dropped{"dropped", "pixels", "candidates that were dropped"};
+  Counter kept_at_bound{"kept_at_bound", "pixels",
+                        "candidates of a column just at the bound, which were kept"};
+  Histogram dropped_sides{"dropped_sides", "side",
+                          "first candidates that were dropped by the side of their neighbour: up, "
+                          "down, left, right"};
+  Histogram lesser_tiles{"lesser_tiles", "tile",
+                         "first candidates with a neighbour in another tile by the lesser bound: "
+                         "their own, the other, equal"};
+
+  static Datasheet datasheet();
+
+ private:
+  static constexpr std::size_t kInLine =
+      std::size_t{spec::geometric::kCoarseAcross} * spec::geometric::kCoarseDown;
+  using CoarseLine = std::array<std::uint16_t, kInLine>;
+  struct Lookup {
+    CandidateToken group;
+    std::array<std::uint8_t, 2> index;  // U6: of its own line, of that of its neighbours
+    std::array<std::uint8_t, 2> tile;   // U5, in the line
+    std::uint8_t missed;                // bit k: look-up k
+    bool looks;                         // its tile is looked up at all
+    bool two_lines;                     // look-up 1 is another line than look-up 0
+    std::uint8_t crossing;              // bit k: the neighbour of lane k is in the other tile
+    template <class Self, class Visit>
+    static constexpr void fields(Self& self, Visit&& visit) {
+      visit("group", self.group);
+      visit("index", self.index, 6, "U6");
+      visit("tile", self.tile, 5, "U5");
+      visit("missed", self.missed, 2, "bit k: look-up k");
+      visit("looks", self.looks);
+      visit("two_lines", self.two_lines);
+      visit.lane_bits("crossing", self.crossing, kLanes);
+    }
+  };
+  // A line of memory.
+  struct Place {
+    std::uint16_t u = 0, v = 0;  // U7, U8
+    friend bool operator==(const Place&, const Place&) = default;
+  };
+  struct Work {
+    Lookup lookup;
+    std::array<std::uint16_t, 2> bound;  // entries of both tiles
+    std::uint8_t from_cache;             // bit k: the word of look-up k comes from the data
+  };
+
+  void find_tiles(Cycle cycle, const CandidateToken& group);
+  Activity look_up(Cycle cycle);
+  Activity order(Cycle cycle, std::size_t which);
+  bool install(Cycle cycle, std::size_t which);
+  Activity deliver(Cycle cycle);
+  void take(Work& work, std::size_t which, const CoarseLine& line) const;
+  void screen(Cycle cycle, Work& work);
+
+  const std::uint32_t lines_, index_bits_;
+  Memory<std::uint32_t> tags_;  // v, u, valid bit
+  std::array<ReadPort<std::uint32_t>, 2> tag_ports_{ReadPort<std::uint32_t>{tags_, "own"},
+                                                    ReadPort<std::uint32_t>{tags_, "neighbours"}};
+  WritePort<std::uint32_t> tag_write_{tags_, "fills"};
+  Memory<CoarseLine> data_;
+  std::array<ReadPort<CoarseLine>, 2> data_ports_{ReadPort<CoarseLine>{data_, "own"},
+                                                  ReadPort<CoarseLine>{data_, "neighbours"}};
+  WritePort<CoarseLine> data_write_{data_, "install"};
+  FillStore<CoarseLine> fills_;
+  Fifo<Lookup> fifo_;
+  Activity stalled_coarse_, stalled_fills_;
+  bool emptied_ = false;  // the tags, of this frame
+
+  // Stage 2.
+  Lookup lookup_{};
+  std::array<Place, 2> line_{};
+  bool looking_ = false, first_done_ = false;
+  // Stages 3 to 5.
+  Work work_{};
+  bool working_ = false;
+  Pipe<Work, 3> pipe_;
+};
+
+}  // namespace deburr::rtl::geometric

@@ -1,0 +1,432 @@
+// SPDX-License-Identifier: MIT
+// records = split: the EdgeClassifier that counts where the vertices of each edge are, the
+// PairFetch by itself, and the engine with both. Memory answers 20 clocks after a request.
+#include <algorithm>
+
+#include "rtl_model/geometric/common/sizing.h"
+#include "rtl_model/geometric/edges/edge_classifier.h"
+#include "rtl_model/geometric/edges/pair_fetch.h"
+#include "tb/unit/rtl/geometric/parts.h"
+
+namespace deburr::tb::geometric_rtl::pairs_test {
+namespace {
+
+using namespace rtl::geometric;  // NOLINT: names of units and tokens
+using spec::geometric::Lanes;
+namespace flag = spec::geometric::flag;
+
+Parameters split(Lanes lanes = Lanes::kTwo) {
+  Parameters p;
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  p.edge_lanes = lanes;
+  return p;
+}
+
+// Clocks from the first to the last of what has come out.
+template <class E>
+Cycle spread(const E& ends) {
+  return ends.sink.taken.back().cycle - ends.sink.taken.front().cycle;
+}
+template <class F, class E>
+void finish(F& frame, const E& ends, std::size_t tokens) {
+  ASSERT_TRUE(frame.clock.run_until([&] { return ends.sink.taken.size() == tokens; }, 100'000));
+}
+
+// ---- PairFetch
+
+constexpr std::uint32_t kBoundaries = 0x1000, kOthers = 0x2000, kVertices = 1000;
+
+struct PairBench : Frame {
+  explicit PairBench(const Parameters& p = split())
+      : Frame(p), unit("unit", clock, sized(p, {20, 1}), edge_latency), ends(clock) {
+    arbiter.connect(Client::kPairs, unit.memory);
+    unit.rules_in(rules);
+    unit.phase_in(phase);
+    unit.numbers_in(ends.in);
+    unit.edges_out(ends.out);
+    unit.invalid_pair_out(invalid_pair);
+    bus.write(reg::kVertexCount, kVertices);
+    bus.write(reg::kPairBase, kBoundaries);
+    bus.write(reg::kOtherPairBase, kOthers);
+    begin(64, 64);
+  }
+  // Pair n of the boundaries is (2 n, 2 n + 1), of the others (500 + n, 499 - n), but for `odd`.
+  void fill(std::uint32_t pairs, std::uint32_t odd = ~0u, std::uint32_t v0 = 0,
+            std::uint32_t v1 = 0) {
+    for (const bool other : {false, true})
+      for (std::uint32_t n = 0; n < pairs; ++n) {
+        std::uint64_t record = other ? pair(500 + n, 499 - n) : pair(2 * n, 2 * n + 1);
+        if (n == odd) record = pair(v0, v1);
+        std::vector<std::uint8_t> bytes;
+        for (std::size_t i = 0; i < 6; ++i)
+          bytes.push_back(static_cast<std::uint8_t>(record >> 8 * i));
+        memory.preload((other ? kOthers : kBoundaries) + n / 10 * 64 + n % 10 * 6, bytes);
+      }
+  }
+  static std::uint64_t pair(std::uint32_t v0, std::uint32_t v1) {
+    return v0 | std::uint64_t{v1} << 24;
+  }
+  static PairNumber number(std::uint32_t n, bool other = false, bool crease = false) {
+    return {n / 10, static_cast<std::uint8_t>(n % 10), other, crease, false, false};
+  }
+  std::string taken() const {
+    std::string text;
+    for (const auto& each : ends.sink.taken)
+      text += each.token.end ? "end"
+                             : std::to_string(each.token.v0) + "-" + std::to_string(each.token.v1) +
+                                   (each.token.crease ? "c " : " ");
+    return text;
+  }
+  std::uint64_t stalled(const std::string& cause) const {
+    for (const auto& each : unit.stalls())
+      if (each.name == cause) return each.cycles;
+    return ~std::uint64_t{0};
+  }
+  PairFetch unit;
+  Ends<PairNumber, KeptEdge> ends;
+};
+
+TEST(PairFetch, LatencyOfTheDatasheetOrWaitsForALine) {
+  PairBench b;
+  // M + 6 clocks more.
+  EXPECT_EQ(b.latency(b.ends, PairBench::number(3)), "29");
+  b.clock.run(10);
+  const std::string there = b.latency(b.ends, PairBench::number(9));
+  expect_notices_a_clock(PairFetch::datasheet(), &rtl::Datasheet::latency,
+                         [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, there); });
+  EXPECT_EQ(b.latency(b.ends, PairBench::number(10)), "29");
+  EXPECT_EQ(b.latency(b.ends, PairBench::number(10, true)), "29");
+  EXPECT_EQ(b.latency(b.ends, PairBench::number(12)), there) << "each array has its own line";
+  EXPECT_EQ(b.unit.lookups.value(), 5u);
+  EXPECT_EQ(b.unit.boundary_lookups.value(), 4u);
+  EXPECT_EQ(b.unit.lines_read.value(), 3u);
+  EXPECT_EQ(b.unit.boundary_lines.value(), 2u);
+}
+TEST(PairFetch, AnEdgeAClockHitOrMissed) {
+  for (const std::uint32_t step : {1u, 3u, 10u}) {
+    const std::string got = in_child([step] {
+      PairBench b;
+      for (std::uint32_t i = 0; i < 60; ++i) b.ends.source.add(PairBench::number(step * i, i & 1));
+      finish(b, b.ends, 60);
+      return std::to_string(spread(b.ends)) + " " + std::to_string(b.unit.lines_read.value());
+    });
+    const std::string lines = step == 1 ? "12" : step == 3 ? "36" : "60";
+    EXPECT_EQ(got, std::to_string(59 * PairFetch::datasheet().interval.clocks) + " " + lines);
+  }
+}
+TEST(PairFetch, PairsAreThoseOfTheirArrayInOrder) {
+  PairBench b;
+  b.fill(40);
+  std::string wanted;
+  for (const auto& [n, other] : {std::pair{0u, false},
+                                 {9u, false},
+                                 {0u, true},
+                                 {10u, false},
+                                 {9u, true},
+                                 {11u, true},
+                                 {20u, true},
+                                 {19u, false},
+                                 {39u, false},
+                                 {29u, true}}) {
+    b.ends.source.add(PairBench::number(n, other, n == 9));
+    wanted += (other ? std::to_string(500 + n) + "-" + std::to_string(499 - n)
+                     : std::to_string(2 * n) + "-" + std::to_string(2 * n + 1)) +
+              (n == 9 ? "c " : " ");
+  }
+  PairNumber end{};
+  end.end = true;
+  b.ends.source.add(end);
+  finish(b, b.ends, 11);
+  EXPECT_EQ(b.taken(), wanted + "end");
+  const std::vector<std::uint64_t> lines = {kBoundaries,  kOthers,       kBoundaries + 64,
+                                            kOthers + 64, kOthers + 128, kBoundaries + 192};
+  EXPECT_EQ(b.memory.lines_read(), lines);
+  EXPECT_EQ(b.unit.kept_edges.value(), 10u);
+  EXPECT_EQ(b.unit.invalid_edges.value(), 0u);
+}
+// 24 bits each; the last vertex is one, the count itself is none.
+TEST(PairFetch, VerticesEndBeforeTheirCount) {
+  struct Row {
+    std::uint32_t v0, v1;
+    bool kept;
+  };
+  for (const Row& row : {Row{999, 999, true}, Row{1000, 999, false}, Row{999, 1000, false},
+                         Row{0xFFFFFF, 0, false}, Row{0, 0xFFFFFF, false}}) {
+    const std::string got = in_child([&] {
+      PairBench b;
+      b.fill(4, 1, row.v0, row.v1);
+      for (std::uint32_t n = 0; n < 3; ++n) b.ends.source.add(PairBench::number(n));
+      b.clock.run(60);
+      const bool sticky = b.bus.read(reg::kStatus) & reg::kStatusInvalidEdge;
+      return b.taken() + std::to_string(b.unit.invalid_edges.value()) + " " +
+             std::to_string(b.unit.kept_edges.value()) + (sticky ? " sticky" : "");
+    });
+    const std::string edge = std::to_string(row.v0) + "-" + std::to_string(row.v1) + " ";
+    EXPECT_EQ(got, row.kept ? "0-1 " + edge + "4-5 0 3" : "0-1 4-5 1 2 sticky");
+  }
+}
+// What the classifier found to have no pair reads nothing, is counted there, and leaves nothing;
+// the place of its number is of no account.
+TEST(PairFetch, AnEdgeWithoutAPairEndsHere) {
+  PairBench b;
+  b.fill(4);
+  PairNumber none = PairBench::number(77);
+  none.invalid = true;
+  for (const PairNumber& each :
+       {PairBench::number(0), none, none, PairBench::number(1), none, PairBench::number(2)})
+    b.ends.source.add(each);
+  b.clock.run(60);
+  EXPECT_EQ(b.taken(), "0-1 2-3 4-5 ");
+  EXPECT_EQ(spread(b.ends), 5u) << "a clock each";
+  EXPECT_EQ(b.unit.lookups.value(), 3u);
+  EXPECT_EQ(b.unit.lines_read.value(), 1u);
+  EXPECT_EQ(b.unit.invalid_edges.value(), 0u);
+  EXPECT_EQ(b.bus.read(reg::kStatus) & reg::kStatusInvalidEdge, 0u);
+}
+// The output takes nothing: two wait in its link and one in stage 3; what is dropped in front of
+// them goes, what stands after them does not.
+TEST(PairFetch, WhatIsDroppedNeedsNoOutput) {
+  PairBench b;
+  b.fill(10, 2, 5000, 0);
+  b.latency(b.ends, PairBench::number(0));
+  const Cycle from = b.clock.cycle();
+  b.ends.sink.hold_from = from;
+  b.ends.sink.hold_to = from + 100;
+  for (const std::uint32_t n : {3u, 2u, 4u, 2u, 5u, 2u}) b.ends.source.add(PairBench::number(n));
+  b.clock.run(50);
+  EXPECT_EQ(b.unit.invalid_edges.value(), 2u);
+  EXPECT_EQ(b.unit.kept_edges.value(), 3u);
+  // Taken in from + 1 .. from + 6; the fifth is to leave in from + 7.
+  EXPECT_EQ(b.stalled("downstream"), 50u - 7);
+  b.clock.run_until([&] { return b.unit.invalid_edges.value() == 3; }, 1000);
+  b.clock.run(5);
+  EXPECT_EQ(b.taken(), "0-1 6-7 8-9 10-11 ");
+  // The link has room from the clock after the sink's first on.
+  EXPECT_EQ(b.ends.sink.taken[3].cycle, from + 100 + 2);
+  EXPECT_EQ(b.stalled("downstream"), 101u - 7);
+}
+// Clocks in which a line is waited for, and in which no place is free, are told apart.
+TEST(PairFetch, StallsByCause) {
+  PairBench b;
+  b.latency(b.ends, PairBench::number(3));
+  // Stage 2 would have it in the clock after stage 1, and has it M + 6 clocks later.
+  EXPECT_EQ(b.stalled("pairs"), 26u - 1) << "an answer is taken in one of them";
+  EXPECT_EQ(b.stalled("fills"), 0u);
+}
+TEST(PairFetch, TooFewFillsSetThePace) {
+  Parameters p = split();
+  p.fills = 8;
+  PairBench b(p);
+  for (std::uint32_t i = 0; i < 80; ++i) b.ends.source.add(PairBench::number(10 * i));
+  finish(b, b.ends, 80);
+  // Eight lines in M + 8 clocks. What waits for its line is named before what has no place.
+  EXPECT_EQ(b.ends.sink.taken[79].cycle - b.ends.sink.taken[7].cycle, 72u / 8 * 28);
+  EXPECT_GT(b.stalled("pairs"), 0u);
+}
+TEST(PairFetch, TheDefaultFillsCoverTheLatency) {
+  PairBench b;
+  for (std::uint32_t i = 0; i < 200; ++i) b.ends.source.add(PairBench::number(10 * i));
+  finish(b, b.ends, 200);
+  EXPECT_EQ(spread(b.ends), 199u);
+  EXPECT_EQ(b.stalled("fills"), 0u);
+}
+
+// ---- EdgeClassifier, with numbers of pairs
+
+struct NumberBench : Frame {
+  explicit NumberBench(const Parameters& p, std::uint32_t edges, std::uint32_t boundaries)
+      : Frame(p),
+        facing("facing", clock, p),
+        unit("unit", clock, p, facing.words, edge_latency),
+        ends(clock) {
+    arbiter.connect(Client::kFacing, facing.memory);
+    facing.phase_in(phase);
+    wire(facing.loaded_out);
+    unit.edges_in(ends.in);
+    (*unit.numbers_out)(ends.out);
+    unit.invalid_edge_out(invalid_edge);
+    facing.rules_in(rules);
+    unit.rules_in(rules);
+    bus.write(reg::kEdgeCount, edges);
+    bus.write(reg::kBoundaryCount, boundaries);
+    begin(64, 64);
+  }
+  // 'b': a boundary, 'o': another edge.
+  void add(const std::string& kinds, std::size_t lanes) {
+    for (std::size_t first = 0; first < kinds.size(); first += lanes) {
+      EdgeBeat beat{};
+      for (std::size_t i = first; i < std::min(first + lanes, kinds.size()); ++i)
+        beat.edge[beat.count++].flags = kinds[i] == 'b' ? flag::kBoundary : 0;
+      ends.source.add(beat);
+    }
+  }
+  void end() {
+    EdgeBeat beat{};
+    beat.end = true;
+    ends.source.add(beat);
+  }
+  std::string taken() const {
+    std::string text;
+    for (const auto& each : ends.sink.taken) {
+      const PairNumber& n = each.token;
+      text += n.end ? "end "
+                    : (n.other ? "o" : "b") + std::to_string(n.line) + "." +
+                          std::to_string(n.place) + (n.invalid ? "! " : " ");
+    }
+    return text;
+  }
+  FacingStore facing;
+  EdgeClassifier unit;
+  Ends<EdgeBeat, PairNumber> ends;
+};
+Parameters all_of(Lanes lanes) {
+  Parameters p = split(lanes);
+  p.select = spec::geometric::Select::kAll;
+  return p;
+}
+TEST(EdgeClassifier, NumbersTheEdgesOfEachArray) {
+  for (const auto& [lanes, count] :
+       {std::pair{Lanes::kOne, 1u}, {Lanes::kTwo, 2u}, {Lanes::kFour, 4u}}) {
+    const std::string got = in_child([lanes = lanes, count = count] {
+      NumberBench b(all_of(lanes), 26, 12);
+      for (int frame = 0; frame < 2; ++frame) {
+        b.add("bobboobbbobbbboo", count);
+        b.add("oooooooooo", count);
+        b.end();
+      }
+      b.clock.run(150);
+      return b.taken();
+    });
+    const std::string frame =
+        "b0.0 o0.0 b0.1 b0.2 o0.1 o0.2 b0.3 b0.4 b0.5 o0.3 b0.6 b0.7 b0.8 b0.9 o0.4 o0.5 "
+        "o0.6 o0.7 o0.8 o0.9 o1.0 o1.1 o1.2 o1.3 o1.4! o1.5! end ";
+    // Of 26 edges 12 are boundaries, says the register; there are ten of these, and two others too
+    // many.
+    EXPECT_EQ(got, frame + frame) << count;
+  }
+}
+TEST(EdgeClassifier, CountsEdgesBeyondTheirPairs) {
+  NumberBench b(all_of(Lanes::kFour), 9, 2);
+  b.add("bbbbooooo", 4);
+  b.clock.run(40);
+  EXPECT_EQ(b.taken(), "b0.0 b0.1 b0.2! b0.3! o0.0 o0.1 o0.2 o0.3 o0.4 ");
+  EXPECT_EQ(b.unit.edges.value(), 9u);
+  EXPECT_EQ(b.unit.boundary_edges.value(), 4u);
+  EXPECT_EQ(b.unit.invalid_edges.value(), 2u);
+  EXPECT_EQ(b.unit.unpaired_edges.value(), 2u);
+  EXPECT_EQ(b.unit.kept_edges.value(), 9u) << "the PairFetch drops them";
+  EXPECT_NE(b.bus.read(reg::kStatus) & reg::kStatusInvalidEdge, 0u);
+}
+// Edges that are dropped, invalid ones too, have a number all the same; they go beyond the array
+// without being found invalid.
+TEST(EdgeClassifier, DroppedEdgesHaveNumbers) {
+  NumberBench b(split(Lanes::kTwo), 8, 2);
+  b.bus.write(reg::kFaceCount, 4);
+  b.rules.drive(b.clock.cycle() - 1, decode(b.control));
+  EdgeBeat beat{};
+  const auto add = [&](std::uint32_t f0, unsigned flags) {
+    beat.edge[beat.count++] = {0, 0, f0, 0, static_cast<std::uint8_t>(flags)};
+    if (beat.count < 2) return;
+    b.ends.source.add(beat);
+    beat = {};
+  };
+  add(0, 0);                                                    // flat: o0
+  add(9, flag::kBoundary);                                      // invalid: b0
+  add(0, flag::kBoundary);                                      // b1
+  add(9, flag::kSeam);                                          // invalid: o1
+  add(1, flag::kSeam);                                          // crease: o2
+  add(0, 0);                                                    // flat: o3
+  for (int i = 0; i < 4; ++i) add(0, i & 1 ? flag::kSeam : 0);  // o4..o7, six there are
+  b.clock.run(40);
+  EXPECT_EQ(b.taken(), "b0.1 o0.2 o0.5 o0.7! ");
+  EXPECT_EQ(b.unit.invalid_edges.value(), 3u);
+  EXPECT_EQ(b.unit.unpaired_edges.value(), 1u);
+  EXPECT_EQ(b.unit.flat_edges.value(), 4u);
+  EXPECT_EQ(b.unit.crease_edges.value(), 3u);
+  EXPECT_EQ(b.unit.boundary_edges.value(), 1u);
+}
+TEST(EdgeClassifier, LatencyOfTheDatasheetWithNumbers) {
+  NumberBench b(all_of(Lanes::kTwo), 9, 2);
+  EdgeBeat beat{};
+  beat.count = 1;
+  expect_latency_of(EdgeClassifier::datasheet(), b.latency(b.ends, beat));
+}
+
+// ---- the engine
+
+// Of the contract's scene all vertices of drawn edges are in range but some; the picture is the one
+// of joined records.
+TEST(SplitRecords, GiveThePictureOfJoinedOnes) {
+  for (const char name : {'a', 'b', 'c', 'l', 'm'})
+    for (const char* const lanes : {"1", "2", "4"}) {
+      const std::string got = in_child([&] {
+        Configuration c = configuration(name);
+        apply_settings(c.p, std::string("records=split edge_lanes=") + lanes);
+        EngineBench b(c.p);
+        b.load(contract_scene());
+        std::string text;
+        for (int frame = 0; frame < 2; ++frame) {
+          b.load_frame(contract_scene());
+          b.run();
+          EXPECT_EQ(b.pixel_hash(), c.pixels);
+          EXPECT_EQ(b.weight_hash(), c.weights);
+          text += std::to_string(b.reads(b.bases.edges).size()) + " ";
+        }
+        const spec::geometric::Work work = b.engine.work();
+        EXPECT_EQ(work.kept_edges,
+                  work.outside_edges + work.degenerate_edges + work.empty_edges + work.lines);
+        EXPECT_EQ(b.bus.read(reg::kKeptEdges), work.kept_edges);
+        EXPECT_EQ(b.bus.read(reg::kInvalidEdges), work.invalid_edges);
+        return text;
+      });
+      EXPECT_EQ(got, "30 30 ") << name << ", edge_lanes " << lanes;
+    }
+}
+TEST(SplitRecords, ABoundaryCountBeyondTheEdgesIsRejected) {
+  EngineBench b(split());
+  const Scene scene = contract_scene();
+  b.load(scene);
+  const auto edges = static_cast<std::uint32_t>(scene.edges.size());
+  b.bus.write(reg::kBoundaryCount, edges + 1);
+  b.start();
+  b.clock.run(50);
+  EXPECT_EQ(b.driver.refusal(), spec::geometric::Refusal::kBoundaryCount);
+  EXPECT_NE(b.bus.read(reg::kStatus) & reg::kStatusRefused, 0u);
+  EXPECT_TRUE(b.engine.idle());
+  EXPECT_EQ(b.memory.reads(), 0u);
+  b.bus.write(reg::kBoundaryCount, edges);
+  b.run();
+  EXPECT_EQ(b.driver.refusal(), spec::geometric::Refusal::kNone);
+}
+TEST(JoinedRecords, HaveNoBoundaryCountAndNoPairs) {
+  EngineBench b(configuration('l').p);
+  b.load(contract_scene());
+  for (const std::uint32_t offset : {reg::kBoundaryCount, reg::kPairBase, reg::kOtherPairBase})
+    b.bus.write(offset, 0xFFFFFFC0);
+  b.run();
+  EXPECT_EQ(b.driver.refusal(), spec::geometric::Refusal::kNone);
+  EXPECT_EQ(b.pixel_hash(), configuration('l').pixels);
+}
+// BOUNDARY_COUNT and memory do not agree: what has no pair is dropped, of the rest each is drawn as
+// its array has it.
+TEST(SplitRecords, EdgesWithoutAPairAreDropped) {
+  Parameters p = configuration('l').p;
+  p.records = spec::geometric::RecordsLayout::kSplit;
+  EngineBench b(p);
+  const Scene scene = contract_scene();
+  b.load(scene);
+  const auto boundaries = static_cast<std::uint32_t>(platform::boundaries_of(scene.edges));
+  b.run();
+  const spec::geometric::Work all = b.engine.work();
+  b.bus.write(reg::kControl, reg::kControlClearCounters | reg::kControlEnable);
+  b.bus.write(reg::kBoundaryCount, boundaries - 3);
+  b.run();
+  const spec::geometric::Work fewer = b.engine.work();
+  EXPECT_EQ(b.engine.edge_classifier.unpaired_edges.value(), 3u);
+  EXPECT_EQ(fewer.boundary_edges, all.boundary_edges);
+  EXPECT_EQ(fewer.invalid_edges, all.invalid_edges + 3);
+  EXPECT_EQ(fewer.kept_edges, all.kept_edges - 3);
+}
+
+}  // namespace
+}  // namespace deburr::tb::geometric_rtl::pairs_test
