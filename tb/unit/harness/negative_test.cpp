@@ -282,8 +282,11 @@ void expect_every_byte_compared() {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   rtl::Link<Bytes<kBytes>> link("link", 3);
   LinkChecker checker(clock);
+  // In every slot, and in the first one again; where a beat comes in the same clock, and where none
+  // does.
   for (std::size_t changed = 0; changed < kBytes; ++changed)
-    for (std::uint64_t beat = 0; beat < 4; ++beat) {  // in every slot, and in the first one again
+    for (std::uint64_t number = 0; number < 8; ++number) {
+      const std::uint64_t beat = number / 2;
       link.reset();
       checker.reset();
       for (Cycle cycle = 0; cycle <= beat; ++cycle) {
@@ -293,6 +296,7 @@ void expect_every_byte_compared() {
       }
       link.beat(beat)[changed] ^= std::byte{1};
       link.pop(beat + 1);
+      if (number % 2 != 0) link.push(beat + 1, {});
       EXPECT_THROW(checker.tick(beat + 1), spec::SimulationError)
           << "byte " << changed << " of " << kBytes << ", beat " << beat;
     }
