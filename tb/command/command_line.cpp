@@ -25,6 +25,7 @@
 #include "tb/base/file.h"
 #include "tb/base/headline.h"
 #include "tb/base/interrupt.h"
+#include "tb/base/json_text.h"
 #include "tb/base/near_matches.h"
 #include "tb/base/shell.h"
 #include "tb/base/terminal.h"
@@ -71,11 +72,10 @@ int finish(const Outcome& outcome, const CommandLine& line) {
     if (outcome.code != 0) object["repro"] = repro;
     if (!outcome.directory.empty()) {
       object["directory"] = outcome.directory.string();
-      object["result"] =
-          Json::parse(read_file(outcome.directory / outcome.result, kMaxResultBytes));
+      object["result"] = parse_json(read_file(outcome.directory / outcome.result, kMaxResultBytes));
     }
-    if (!outcome.details.empty()) object.update(Json::parse(outcome.details));
-    fmt::print("{}\n", object.dump(2, ' ', false, Json::error_handler_t::replace));
+    if (!outcome.details.empty()) object.update(parse_json(outcome.details));
+    fmt::print("{}\n", json_text(object, 2, NotUtf8::kReplace));
     return outcome.code;
   }
   if (outcome.code != 0) fmt::print("REPRO: {}\n", repro);
@@ -93,8 +93,8 @@ void fill_closed_streams() {
 
 bool is_utf8(const std::string& text) {
   try {
-    return !nlohmann::json(text).dump().empty();
-  } catch (const nlohmann::json::exception&) {
+    return !json_text(nlohmann::ordered_json(text)).empty();
+  } catch (const nlohmann::ordered_json::exception&) {
     return false;
   }
 }
