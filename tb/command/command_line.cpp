@@ -36,6 +36,7 @@
 namespace deburr::tb {
 namespace {
 
+using Json = nlohmann::ordered_json;
 using spec::ExitCode;
 
 // CLI11 lists the options that one excludes by their addresses, which differ from run to run.
@@ -67,7 +68,6 @@ int finish(const Outcome& outcome, const CommandLine& line) {
   const std::string repro =
       outcome.repro.empty() ? line.text : shell_quoted(line.words[0]) + " " + outcome.repro;
   if (line.json) {
-    using Json = nlohmann::ordered_json;
     Json object = {{"exit_code", outcome.code}, {"outcome", outcome.text}, {"command", line.text}};
     if (outcome.code != 0) object["repro"] = repro;
     if (!outcome.directory.empty()) {
