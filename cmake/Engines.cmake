@@ -44,7 +44,7 @@ std::vector<std::unique_ptr<Engine>> engines() {
 }  // namespace deburr::tb
 ]])
   add_library(deburr_${library}_list OBJECT "${file}")
-  target_link_libraries(deburr_${library}_list PRIVATE deburr::app deburr_options)
+  target_link_libraries(deburr_${library}_list PRIVATE deburr::app deburr_options deburr_light_options)
   add_library(deburr_${library} INTERFACE)
   target_link_libraries(deburr_${library} INTERFACE
     $<TARGET_OBJECTS:deburr_${library}_list> deburr::app ${libraries})

@@ -46,7 +46,8 @@ endif()
 # Unit tests are compiled to be run once, and what only starts simulations and shows their results is
 # a small part of a run: -O1 takes two thirds of the time of -O3, -Og four fifths of that.
 add_library(deburr_light_options INTERFACE)
-target_compile_options(deburr_light_options INTERFACE $<$<CONFIG:Release>:-Og>)
+set(DEBURR_LIGHT_OPTIONS $<$<CONFIG:Release>:-Og>)
+target_compile_options(deburr_light_options INTERFACE ${DEBURR_LIGHT_OPTIONS})
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)

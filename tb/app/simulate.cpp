@@ -11,6 +11,7 @@
 #include "rtl_model/fabric/memory.h"
 #include "spec/error.h"
 #include "tb/base/interrupt.h"
+#include "tb/base/json_text.h"
 #include "tb/results/progress.h"
 #include "tb/results/windows.h"
 #include "tb/traces/line_trace.h"
@@ -76,7 +77,7 @@ void leave_windows(const Simulation& simulation, RunContext& context, const Resu
     context.add_record("timeline", kTimelineFile, simulation.timeline()->json());
   if (!simulation.windows()) return;
   const nlohmann::ordered_json windows = simulation.windows()->json();
-  context.add_record("windows", kWindowsFile, windows.dump() + "\n");
+  context.add_record("windows", kWindowsFile, json_text(windows) + "\n");
   if (whole_cycles) check_windows(windows, to_json(result));
 }
 

@@ -17,6 +17,7 @@
 #include "tb/app/run_once.h"
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
+#include "tb/base/json_text.h"
 #include "tb/base/terminal.h"
 #include "tb/command/commands.h"
 #include "tb/results/compare_runs.h"
@@ -174,7 +175,7 @@ void print_sweeps(const Json& comparison) {
   for (const Json& sweep : sweeps)
     if (sweep.contains("joint_front"))
       print_wrapped(fmt::format("{}: {} of its points are on the front of all together\n",
-                                text(sweep.at("name")), sweep["joint_front"].dump()));
+                                text(sweep.at("name")), json_text(sweep["joint_front"])));
   std::vector<std::vector<std::string>> rows = {
       {"", "better", "equal", "worse", "mean change", "least", "most"}};
   for (std::size_t i = 1; i < sweeps.size(); ++i)
@@ -182,7 +183,7 @@ void print_sweeps(const Json& comparison) {
       const Json& sum = comparison.at("summary")[i - 1][m];
       std::vector<std::string>& row = rows.emplace_back();
       row.push_back(text(sweeps[i].at("name")) + " " + text(comparison["metrics"][m].at("name")));
-      for (const char* key : {"better", "equal", "worse"}) row.push_back(sum.at(key).dump());
+      for (const char* key : {"better", "equal", "worse"}) row.push_back(json_text(sum.at(key)));
       for (const char* key : {"mean", "least", "most"})
         row.push_back(sum.contains(key)
                           ? fmt::format("{:+.2f} {}", sum[key].get<double>(), text(sum["unit"]))
@@ -206,7 +207,7 @@ std::vector<std::string> what_is_worse(const Json& comparison) {
       if (const Json& points = comparison["summary"][i][m].at("worse");
           points != 0 && comparison["metrics"][m].at("counts").get<bool>())
         worse.push_back(fmt::format("{} at {} points of {}", text(comparison["metrics"][m]["name"]),
-                                    points.dump(), text(comparison["sweeps"][i + 1]["name"])));
+                                    json_text(points), text(comparison["sweeps"][i + 1]["name"])));
   const auto lost = std::count_if(comparison.at("only").begin(), comparison.at("only").end(),
                                   [](const Json& point) { return point.at("worse").get<bool>(); });
   if (lost > 0) worse.push_back(fmt::format("{} points that A has failed", lost));
@@ -294,7 +295,7 @@ Outcome compare_results(const CompareOptions& options, bool json) {
   } else {
     outcome.text = "PASS compare: nothing is worse by more than its tolerance" + idealised;
   }
-  if (json) outcome.details = Json{{"comparison", comparison}}.dump();
+  if (json) outcome.details = json_text(Json{{"comparison", comparison}});
   return outcome;
 }
 

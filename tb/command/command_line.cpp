@@ -25,6 +25,7 @@
 #include "tb/base/file.h"
 #include "tb/base/headline.h"
 #include "tb/base/interrupt.h"
+#include "tb/base/json_text.h"
 #include "tb/base/near_matches.h"
 #include "tb/base/shell.h"
 #include "tb/base/terminal.h"
@@ -35,6 +36,7 @@
 namespace deburr::tb {
 namespace {
 
+using Json = nlohmann::ordered_json;
 using spec::ExitCode;
 
 // CLI11 lists the options that one excludes by their addresses, which differ from run to run.
@@ -66,16 +68,14 @@ int finish(const Outcome& outcome, const CommandLine& line) {
   const std::string repro =
       outcome.repro.empty() ? line.text : shell_quoted(line.words[0]) + " " + outcome.repro;
   if (line.json) {
-    using Json = nlohmann::ordered_json;
     Json object = {{"exit_code", outcome.code}, {"outcome", outcome.text}, {"command", line.text}};
     if (outcome.code != 0) object["repro"] = repro;
     if (!outcome.directory.empty()) {
       object["directory"] = outcome.directory.string();
-      object["result"] =
-          Json::parse(read_file(outcome.directory / outcome.result, kMaxResultBytes));
+      object["result"] = parse_json(read_file(outcome.directory / outcome.result, kMaxResultBytes));
     }
-    if (!outcome.details.empty()) object.update(Json::parse(outcome.details));
-    fmt::print("{}\n", object.dump(2, ' ', false, Json::error_handler_t::replace));
+    if (!outcome.details.empty()) object.update(parse_json(outcome.details));
+    fmt::print("{}\n", json_text(object, 2, NotUtf8::kReplace));
     return outcome.code;
   }
   if (outcome.code != 0) fmt::print("REPRO: {}\n", repro);
@@ -93,8 +93,8 @@ void fill_closed_streams() {
 
 bool is_utf8(const std::string& text) {
   try {
-    return !nlohmann::json(text).dump().empty();
-  } catch (const nlohmann::json::exception&) {
+    return !json_text(nlohmann::ordered_json(text)).empty();
+  } catch (const nlohmann::ordered_json::exception&) {
     return false;
   }
 }

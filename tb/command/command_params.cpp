@@ -13,6 +13,7 @@
 #include "tb/app/engine.h"
 #include "tb/app/reference_pages.h"
 #include "tb/app/shorthands.h"
+#include "tb/base/json_text.h"
 #include "tb/base/near_matches.h"
 #include "tb/base/terminal.h"
 #include "tb/command/commands.h"
@@ -120,7 +121,8 @@ Outcome print_params(const ParamsCommand& command, bool json) {
     for (const BuildLimit& limit : limits)
       rules.push_back({{"parameters", limit.parameters}, {"must", limit.must}});
     Outcome outcome{0, fmt::format("PASS params: {} parameters", shown.size())};
-    outcome.details = Json{{"parameters", listed}, {"options", options}, {"limits", rules}}.dump();
+    outcome.details =
+        json_text(Json{{"parameters", listed}, {"options", options}, {"limits", rules}});
     return outcome;
   }
   std::size_t name = 0, kind = 0, value = 0, range = 0, unit = 0;

@@ -16,6 +16,7 @@
 #include "spec/error.h"
 #include "tb/base/file.h"
 #include "tb/base/interrupt.h"
+#include "tb/base/json_text.h"
 #include "tb/base/ready_file.h"
 #include "tb/command/commands.h"
 #include "tb/command/point_options.h"
@@ -154,10 +155,10 @@ class Regression {
     }
     Outcome outcome{failed.empty() ? 0 : static_cast<int>(ExitCode::kMismatch),
                     (failed.empty() ? "PASS " : "FAIL ") + text};
-    outcome.details =
+    outcome.details = json_text(
         Json{{"counts", {{"rerun", points.size()}, {"passed", passed}, {"failed", failed.size()}}},
-             {"failures", std::move(failures)}}
-            .dump(-1, ' ', false, Json::error_handler_t::replace);
+             {"failures", std::move(failures)}},
+        -1, NotUtf8::kReplace);
     if (!failed.empty()) outcome.repro = arguments_of(failed[0]->engine, failed[0]->settings);
     if (passed + failed.size() < points.size()) {
       outcome.code = static_cast<int>(ExitCode::kSimulation);

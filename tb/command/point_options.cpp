@@ -15,6 +15,7 @@
 
 #include "spec/error.h"
 #include "tb/base/interrupt.h"
+#include "tb/base/json_text.h"
 #include "tb/base/terminal.h"
 #include "tb/results/report.h"
 #include "tb/sweep/slurm.h"
@@ -54,9 +55,7 @@ Json details_of(const SweepPlace& place, Json counts, const std::vector<FailedPo
 }
 
 // A reason may hold bytes of a file that was not understood.
-std::string text_of(const Json& details) {
-  return details.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+std::string text_of(const Json& details) { return json_text(details, -1, NotUtf8::kReplace); }
 
 std::string in_words(const FailedPoint& point) {
   return fmt::format("failed      {}: {}: {}", point.directory.string(), point.failure.kind,

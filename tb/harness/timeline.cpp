@@ -7,13 +7,15 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "tb/base/json_text.h"
+
 namespace deburr::tb {
 namespace {
 
 constexpr int kProcess = 1;
 constexpr std::uint32_t kSkidDepth = 2;  // of a link that passes a beat a clock and holds no more
 
-std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
+std::string quoted(const std::string& text) { return json_text(nlohmann::ordered_json(text)); }
 
 }  // namespace
 

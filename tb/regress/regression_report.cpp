@@ -14,6 +14,7 @@
 #include "spec/error.h"
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
+#include "tb/base/json_text.h"
 #include "tb/regress/junit.h"
 #include "tb/regress/regression_result.h"
 #include "tb/results/build_info.h"
@@ -365,8 +366,7 @@ void write_regression(const Testplan& testplan, std::uint64_t base_seed, const P
                       const SweepPlace& place, const RegressionResult& result) {
   const Json json = json_of(testplan, base_seed, plan, place, result);
   const std::string junit = junit_of(testplan, result),
-                    collected = json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n",
-                    page = page_of(json);
+                    collected = json_text(json, 1, NotUtf8::kReplace) + "\n", page = page_of(json);
   write_files_atomically({{place.directory / "junit.xml", junit},
                           {place.directory / kCollectedFile, collected},
                           {place.directory / "index.html", page}});
@@ -398,7 +398,7 @@ std::set<std::string> failed_in_report(const SweepPlace& place) {
   if (!fs::exists(file, error))
     throw spec::FileError(
         fmt::format("there is no report in '{}': 'run' it first", place.directory.string()));
-  const Json json = Json::parse(read_file(file, kMaxReportBytes), nullptr, false);
+  const Json json = try_parse_json(read_file(file, kMaxReportBytes));
   if (!json.is_object() || json.value("schema", 0) != kReportSchema)
     throw spec::FileError(
         fmt::format("'{}' is not a report of this version: 'collect' it again", file.string()));

@@ -13,6 +13,7 @@
 
 #include "rtl_model/fabric/glob.h"
 #include "tb/base/file.h"
+#include "tb/base/json_text.h"
 #include "tb/base/near_matches.h"
 #include "tb/regress/failure_message.h"
 #include "tb/results/parameter_set.h"
@@ -29,7 +30,7 @@ SortedJson result_in(const fs::path& directory) {
   const fs::path file = directory / "result.json";
   std::error_code error;
   if (!fs::exists(file, error)) return nullptr;
-  return SortedJson::parse(read_file(file, kMaxResultBytes), nullptr, /*exceptions=*/false);
+  return try_parse_sorted_json(read_file(file, kMaxResultBytes));
 }
 
 void add(const Bins& some, Bins& all) {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "spec/error.h"
+#include "tb/base/json_text.h"
 #include "tb/results/input_files.h"
 #include "tb/results/parameter_set.h"
 #include "tb/results/result.h"
@@ -144,7 +145,7 @@ std::string value_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (is_infinite(value)) return "identical";
   if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
-  return value.dump();
+  return json_text(value);
 }
 
 // Parts of a key may have dots themselves.

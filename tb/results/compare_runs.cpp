@@ -9,6 +9,7 @@
 
 #include "spec/error.h"
 #include "tb/base/file.h"
+#include "tb/base/json_text.h"
 #include "tb/results/result.h"
 
 namespace deburr::tb {
@@ -57,7 +58,7 @@ Run read_run(const fs::path& path, std::size_t index) {
   Run run{letter(index), path, folder ? path : path.parent_path(), read_result(path), nullptr};
   const fs::path manifest = run.folder / "manifest.json";
   if (!fs::is_regular_file(manifest, error)) return run;
-  run.manifest = Json::parse(read_file(manifest, kMaxRunManifestBytes), nullptr, false);
+  run.manifest = try_parse_json(read_file(manifest, kMaxRunManifestBytes));
   if (!run.manifest.is_object())
     throw spec::FileError(
         fmt::format("'{}' is damaged: run that again, or remove it", manifest.string()));

@@ -11,6 +11,7 @@
 
 #include "spec/error.h"
 #include "tb/base/file.h"
+#include "tb/base/json_text.h"
 #include "tb/results/compare_runs.h"
 #include "tb/results/input_files.h"
 
@@ -56,7 +57,7 @@ Sweep read_sweep(const fs::path& path) {
         fmt::format("'{}' is a sweep that was not collected: run 'deburr sweep FILE "
                     "collect' first",
                     path.string()));
-  Sweep sweep{path, Json::parse(read_file(file, kMaxSweepBytes), nullptr, false), {}, {}};
+  Sweep sweep{path, try_parse_json(read_file(file, kMaxSweepBytes)), {}, {}};
   const Json& json = sweep.json;
   const auto damaged = [&](const std::string& what) {
     throw FileError(fmt::format("'{}' is damaged ({}): run 'deburr sweep FILE collect' again",

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "spec/error.h"
+#include "tb/base/json_text.h"
 #include "tb/base/near_matches.h"
 #include "tb/base/yaml_file.h"
 
@@ -92,7 +93,7 @@ class Manifest {
     const auto found = from_.find(parameter->name);
     if (found == from_.end() || found->second.empty() || found->second == kGiven) return false;
     return found->second != kDefault || parameter->text() == value ||
-           parameter->json().dump() == value;
+           json_text(parameter->json()) == value;
   }
 
   // Names of files are as seen from the folder in which the run was started.

@@ -16,6 +16,7 @@
 #include "spec/error.h"
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
+#include "tb/base/json_text.h"
 #include "tb/results/amount.h"
 #include "tb/results/embedded.h"
 #include "tb/results/input_files.h"
@@ -40,7 +41,7 @@ std::string report_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
   if (value.is_null()) return "-";
-  return value.dump();
+  return json_text(value);
 }
 
 mustache::data row(std::initializer_list<std::pair<const char*, std::string>> cells) {
@@ -90,7 +91,7 @@ std::pair<std::uint64_t, std::uint64_t> png_size(const std::string& bytes) {
 
 Json read_manifest(const fs::path& directory) {
   const fs::path file = directory / "manifest.json";
-  Json manifest = Json::parse(read_file(file, kMaxManifestBytes), nullptr, false);
+  Json manifest = try_parse_json(read_file(file, kMaxManifestBytes));
   if (!manifest.is_object())
     throw spec::FileError(fmt::format("'{}' is not a valid manifest", file.string()));
   return manifest;
@@ -470,7 +471,7 @@ class ReportBuilder {
     if (name.empty()) return;
     reject_path(directory, name);
     const fs::path file = directory / name;
-    windows_ = Json::parse(read_file(file, kMaxWindowsBytes), nullptr, false);
+    windows_ = try_parse_json(read_file(file, kMaxWindowsBytes));
     const auto demand = [&](bool valid) {
       if (!valid)
         throw spec::FileError(fmt::format("'{}' is not a valid file of windows", file.string()));
@@ -814,7 +815,7 @@ class ReportBuilder {
   }
 
   static std::string shown_plain(const Json& value) {
-    return value.is_string() ? value.get<std::string>() : value.dump();
+    return value.is_string() ? value.get<std::string>() : json_text(value);
   }
 
   Json result_, manifest_, windows_, maps_ = Json::object();
@@ -825,7 +826,7 @@ class ReportBuilder {
 }  // namespace
 
 std::string json_for_script(const Json& json) {
-  std::string text = json.dump();
+  std::string text = json_text(json);
   constexpr std::string_view kEscaped = "\\u003c";
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; at += kEscaped.size())
     text.replace(at, 1, kEscaped);

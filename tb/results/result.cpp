@@ -14,6 +14,7 @@
 
 #include "spec/error.h"
 #include "tb/base/file.h"
+#include "tb/base/json_text.h"
 #include "tb/results/result_description.h"
 
 namespace deburr::tb {
@@ -268,7 +269,7 @@ std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
 
 Json read_result(const std::filesystem::path& path) {
   const std::filesystem::path file = is_folder(path) ? path / "result.json" : path;
-  Json json = Json::parse(read_file(file, kMaxResultBytes), nullptr, false);
+  Json json = try_parse_json(read_file(file, kMaxResultBytes));
   if (json.is_discarded()) throw FileError(fmt::format("'{}' is not valid JSON", file.string()));
   if (!json.is_object() || json.value("schema", Json()) != kResultSchema)
     throw FileError(fmt::format("'{}' is not a result of schema {}", file.string(), kResultSchema));

@@ -16,6 +16,7 @@
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
 #include "tb/base/interrupt.h"
+#include "tb/base/json_text.h"
 #include "tb/results/build_info.h"
 #include "tb/results/report.h"
 #include "tb/scene/image_io.h"
@@ -201,7 +202,7 @@ std::string RunContext::golden_key() const {
       key["build"] = parameters_.resolved(ParameterKind::kBuild);
   for (const Json& input : listed_->inputs)
     if (!input.contains("role")) key["files"].push_back(listed_content(input));
-  return sha256(key.dump());
+  return sha256(json_text(key));
 }
 
 bool RunContext::may_share_golden() const {
@@ -215,7 +216,7 @@ bool RunContext::may_share_golden() const {
 std::string RunContext::key_of_golden(const std::vector<std::string_view>& built) const {
   Json key = golden_dependencies(parameters_, seed_, built);
   key["files"] = shared_->files().contents(shared_files_);
-  return key.dump();
+  return json_text(key);
 }
 
 std::string RunContext::key_of(std::string_view what,
@@ -227,7 +228,7 @@ std::string RunContext::key_of(std::string_view what,
       continue;
     key[p.name] = p.json();
   }
-  return key.dump();
+  return json_text(key);
 }
 
 Json RunContext::manifest(const Result& result) const {
@@ -281,7 +282,7 @@ void RunContext::finish(const Result& result) {
   Json json = to_json(noted);
   const Json origin = manifest(result);
   const fs::path draft = directory_.draft();
-  write_file_atomically(draft / kResult, json.dump(2) + "\n");
+  write_file_atomically(draft / kResult, json_text(json, 2) + "\n");
   if (report_) write_file_atomically(draft / kReport, build_report(draft, std::move(json), origin));
   directory_.publish(origin, kResult);
 }

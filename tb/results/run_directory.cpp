@@ -23,6 +23,7 @@
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
 #include "tb/base/interrupt.h"
+#include "tb/base/json_text.h"
 #include "tb/scene/truth.h"
 
 namespace deburr::tb {
@@ -39,7 +40,7 @@ constexpr std::size_t kMaxJsonBytes = 64u << 20;
 Json read_json(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return nullptr;
-  return Json::parse(read_file(file, kMaxJsonBytes), nullptr, false);
+  return try_parse_json(read_file(file, kMaxJsonBytes));
 }
 
 // What a manifest says its run left, in the order in which it got there. Only what a run can have
@@ -192,7 +193,7 @@ void RunDirectory::write_claim(const std::string& command) const {
                      {"host", host.data()},
                      {"started", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now))},
                      {"command", command}};
-  const std::string text = json.dump(2) + "\n";
+  const std::string text = json_text(json, 2) + "\n";
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t written = ::write(lock_, text.data() + done, text.size() - done);
     if (written < 0 && errno == EINTR) continue;
@@ -238,7 +239,7 @@ void RunDirectory::publish(Json manifest, std::string_view head) {
     if (fs::exists(fs::symlink_status(path_ / name)) && !ours.contains(name))
       reject_foreign(path_ / name);
   manifest["files"] = files;
-  write_file_atomically(draft() / kManifest, manifest.dump(2) + "\n");
+  write_file_atomically(draft() / kManifest, json_text(manifest, 2) + "\n");
   move_in();
   made_.clear();
   release();

@@ -14,6 +14,7 @@
 #include "spec/error.h"
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
+#include "tb/base/json_text.h"
 #include "tb/base/near_matches.h"
 #include "tb/results/build_info.h"
 #include "tb/results/compare_sweeps.h"
@@ -105,8 +106,7 @@ Expression::Lookup lookup_in(const SweepDefinition& sweep, const std::vector<dou
 
 nlohmann::json result_in(const fs::path& directory) {
   const fs::path file = directory / "result.json";
-  auto result =
-      nlohmann::json::parse(read_file(file, kMaxResultBytes), nullptr, /*exceptions=*/false);
+  auto result = try_parse_sorted_json(read_file(file, kMaxResultBytes));
   if (!result.is_object() || result.value("schema", 0) != kResultSchema)
     throw spec::FileError(fmt::format(
         "'{}' is not a result of this version: remove its directory, and run the sweep again",
@@ -427,7 +427,7 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
 }
 
 std::string cell_text(const Json& value) {
-  return value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump();
+  return value.is_null() ? "" : value.is_string() ? value.get<std::string>() : json_text(value);
 }
 
 // The table without script: rows of the front first, so many.
@@ -569,8 +569,7 @@ void write_collection(const SweepDefinition& sweep, const Plan& plan, const Swee
                       const Collection& collection) {
   const Json json = json_of(sweep, plan, place, collection);
   const std::string csv = csv_of(sweep, place, collection),
-                    collected = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n",
-                    page = page_of(json);
+                    collected = json_text(json, -1, NotUtf8::kReplace) + "\n", page = page_of(json);
   write_files_atomically({{place.directory / "collected.csv", csv},
                           {place.directory / "collected.json", collected},
                           {place.directory / "index.html", page}});

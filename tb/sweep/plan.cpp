@@ -19,6 +19,7 @@
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
 #include "tb/base/headline.h"
+#include "tb/base/json_text.h"
 #include "tb/results/build_info.h"
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
@@ -307,7 +308,7 @@ void write_points(const std::vector<PlannedPoint>& points, const SweepPlace& pla
 void write_plan(Plan& plan, const SweepPlace& place) {
   plan.digest = sha256_of_file(plan.file);
   plan.model = build_info().model;
-  write_file_atomically(plan_file(place.directory), to_json(plan).dump(1) + "\n");
+  write_file_atomically(plan_file(place.directory), json_text(to_json(plan), 1) + "\n");
 }
 
 Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place) {
@@ -351,7 +352,7 @@ Plan read_plan(const fs::path& directory) {
     throw FileError(
         fmt::format("there is no plan in '{}': run or plan it first", directory.string()));
   try {
-    const Json json = Json::parse(read_file(file, kMaxPlanBytes));
+    const Json json = parse_json(read_file(file, kMaxPlanBytes));
     if (json.at("schema") != kPlanSchema) throw FileError("of another version");
     Plan plan;
     plan.engine = json.at("engine");
@@ -387,7 +388,7 @@ std::string line_of(const PlannedPoint& point) {
     for (const Setting& s : point.settings) settings.push_back({s.name, s.value, s.where});
     line.push_back({{"engine", point.engine}, {"settings", std::move(settings)}});
   }
-  return line.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(line, -1, NotUtf8::kReplace);
 }
 
 void for_each_point(const fs::path& file, const std::function<void(const PlannedPoint&)>& take,
@@ -398,7 +399,7 @@ void for_each_point(const fs::path& file, const std::function<void(const Planned
   std::string line;
   in.seekg(static_cast<std::streamoff>(lines.offset));
   for (std::uint64_t taken = 0; taken < lines.count && std::getline(in, line); ++taken) {
-    const Json json = Json::parse(line, nullptr, false);
+    const Json json = try_parse_json(line);
     if (!json.is_array() || json.size() < 3)
       throw FileError(fmt::format("'{}' is damaged: plan it again", file.string()));
     PlannedPoint point{json[0], json[1], json[2], {}};

@@ -15,6 +15,7 @@
 #include "spec/error.h"
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
+#include "tb/base/json_text.h"
 #include "tb/base/shell.h"
 #include "tb/results/build_info.h"
 
@@ -71,9 +72,8 @@ std::string input_name(const BoundEngine& bound) {
 }
 
 std::string golden_name(const BoundEngine& bound) {
-  return golden_dependencies(bound.set, static_cast<std::uint64_t>(bound.run.seed),
-                             bound.engine.built_for_golden())
-      .dump();
+  return json_text(golden_dependencies(bound.set, static_cast<std::uint64_t>(bound.run.seed),
+                                       bound.engine.built_for_golden()));
 }
 
 fs::path point_directory(const fs::path& points, std::string_view name) {
@@ -100,8 +100,7 @@ bool has_failed_result(const fs::path& directory) {
 }
 
 Failure read_failure(const fs::path& directory) {
-  const Json json = Json::parse(read_file(directory / kFailure, kMaxFailureBytes), nullptr,
-                                /*allow_exceptions=*/false);
+  const Json json = try_parse_json(read_file(directory / kFailure, kMaxFailureBytes));
   if (!json.is_object()) return {"unknown", "failure.json cannot be read", true};
   return {json.value("kind", "unknown"), json.value("reason", ""), json.value("again", true)};
 }
@@ -111,8 +110,7 @@ void write_failure(const fs::path& directory, const Failure& failure) {
   fs::create_directories(directory, error);
   const Json json = {{"kind", failure.kind}, {"reason", failure.reason}, {"again", failure.again}};
   // A reason may hold bytes of a file that was not understood.
-  write_file_atomically(directory / kFailure,
-                        json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(directory / kFailure, json_text(json, 2, NotUtf8::kReplace) + "\n");
 }
 
 void remove_failure(const fs::path& directory) {

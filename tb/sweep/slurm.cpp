@@ -26,6 +26,7 @@
 #include "tb/base/file.h"
 #include "tb/base/headline.h"
 #include "tb/base/interrupt.h"
+#include "tb/base/json_text.h"
 #include "tb/base/shell.h"
 #include "tb/base/yaml_file.h"
 #include "tb/results/report.h"
@@ -170,7 +171,7 @@ SlurmProfile read_profile(const fs::path& file) {
 std::optional<SlurmJob> submitted_job(const SweepPlace& place) {
   std::error_code error;
   if (!fs::exists(job_file(place), error)) return std::nullopt;
-  const Json json = Json::parse(read_file(job_file(place), kMaxProfileBytes), nullptr, false);
+  const Json json = try_parse_json(read_file(job_file(place), kMaxProfileBytes));
   if (!json.is_object()) return std::nullopt;
   return SlurmJob{json.value("id", ""), json.value("conf", ""), json.value("tasks", 0u)};
 }
@@ -219,7 +220,7 @@ SlurmJob submit(const Plan& plan, const SweepPlace& place, const std::vector<Pla
   SlurmJob job{answer.text.substr(0, answer.text.find(';')), profile.conf, tasks};
   write_file_atomically(
       job_file(place),
-      Json{{"id", job.id}, {"conf", job.conf}, {"tasks", job.tasks}}.dump(1) + "\n");
+      json_text(Json{{"id", job.id}, {"conf", job.conf}, {"tasks", job.tasks}}, 1) + "\n");
   return job;
 }
 

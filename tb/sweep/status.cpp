@@ -12,6 +12,7 @@
 
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
+#include "tb/base/json_text.h"
 #include "tb/sweep/worker.h"
 
 namespace deburr::tb {
@@ -38,8 +39,7 @@ std::string time_left(const SweepPlace& place) {
   std::error_code error;
   const auto ended = static_cast<double>(read_progress(place.directory).ended());
   if (ended == 0 || !fs::exists(start_file(place), error)) return "";
-  const auto start =
-      nlohmann::json::parse(read_file(start_file(place), 1 << 16), nullptr, /*exceptions=*/false);
+  const auto start = try_parse_json(read_file(start_file(place), 1 << 16));
   if (!start.is_object()) return "";
   const double passed =
       static_cast<double>(duration_cast<seconds>(system_clock::now().time_since_epoch()).count()) -
@@ -78,8 +78,9 @@ Status look(const SweepPlace& place, const Plan& plan) {
 
 void note_start(const SweepPlace& place, std::uint64_t points) {
   const auto now = duration_cast<seconds>(system_clock::now().time_since_epoch()).count();
-  write_file_atomically(start_file(place),
-                        nlohmann::json{{"began", now}, {"points", points}}.dump() + "\n");
+  write_file_atomically(
+      start_file(place),
+      json_text(nlohmann::ordered_json{{"began", now}, {"points", points}}) + "\n");
 }
 
 }  // namespace deburr::tb

@@ -4,9 +4,9 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-constexpr std::uint32_t kShareBits = 8, kSpanBits = 12;
+constexpr std::uint32_t kShareBits = 8, kShareSpanBits = 12;
 // Of a left edge both shares and the span, of a top one the second share and the span.
-constexpr std::uint32_t kWordBits = 3 * kShareBits + 2 * kSpanBits;
+constexpr std::uint32_t kWordBits = 3 * kShareBits + 2 * kShareSpanBits;
 
 }  // namespace
 

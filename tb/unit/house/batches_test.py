@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Which sources this build compiles, and in which batches (cmake/Layers.cmake): no source of the tree
 is forgotten, none is compiled by two targets or twice by one, and sources of a batch are at most
-twelve. With DEBURR_UNITY off, as in the preset `dev`, every file stands alone.
+twenty. With DEBURR_UNITY off, as in the preset `dev`, every file stands alone.
 usage: batches_test.py SOURCE BUILD [unittest options]"""
 import collections
 import json
@@ -17,7 +17,7 @@ SOURCE, BUILD = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
 LAYERS = ("spec", "golden", "rtl_model", "tb")
 BATCH = re.compile(r"_batch_\d+\.cpp$")
 INCLUDE = re.compile(r'^#include "(.+)"$', re.M)
-MOST = 12
+MOST = 20
 # Compiled under a condition only: by the presets asan, fuzz and hdl, and where EGL's headers are.
 SOMETIMES = {"tb/unit/scene/leaks.cpp", "tb/fuzz/fuzzer.cpp", "tb/fuzz/write_seeds.cpp",
              "tb/oracle/mesa_device.cpp", "tb/oracle/mesa_test.cpp",
@@ -29,13 +29,19 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 include({source}/cmake/Options.cmake)
 include({source}/cmake/Layers.cmake)
 file(WRITE "${{PROJECT_BINARY_DIR}}/made.cpp" "")
-foreach(number RANGE 1 14)
+foreach(number RANGE 1 36)
   file(WRITE "${{PROJECT_BINARY_DIR}}/../golden/s${{number}}.cpp" "")
   list(APPEND sources "${{PROJECT_SOURCE_DIR}}/golden/s${{number}}.cpp")
 endforeach()
 set_source_files_properties("${{PROJECT_SOURCE_DIR}}/golden/s5.cpp" PROPERTIES COMPILE_OPTIONS -O2)
 deburr_library(many LAYER golden SOURCES ${{sources}} "${{PROJECT_BINARY_DIR}}/made.cpp")
 deburr_library(one LAYER golden SOURCES "${{PROJECT_SOURCE_DIR}}/golden/s1.cpp")
+foreach(name a b c d e)
+  file(WRITE "${{PROJECT_BINARY_DIR}}/../golden/${{name}}.cpp" "")
+  set(${{name}} "${{PROJECT_SOURCE_DIR}}/golden/${{name}}.cpp")
+endforeach()
+deburr_library(mixed LAYER golden SOURCES ${{a}} ${{b}} NOT_SIMULATED ${{c}} ${{d}})
+deburr_library(light LAYER golden NOT_SIMULATED ${{e}})
 """
 
 
@@ -73,20 +79,32 @@ class Batches(unittest.TestCase):
         root = pathlib.Path(scratch.name).resolve()
         (root / "golden").mkdir()
         (root / "CMakeLists.txt").write_text(TINY.format(source=SOURCE), encoding="utf-8")
-        subprocess.run(["cmake", "-G", "Ninja", "-S", root, "-B", root / "build", *options],
-                       check=True, capture_output=True)
-        return sorted([path.name for path in unit] for unit in units_of(root / "build", root).values())
+        subprocess.run(["cmake", "-G", "Ninja", "-S", root, "-B", root / "build",
+                        "-DCMAKE_BUILD_TYPE=Release", *options], check=True, capture_output=True)
+        commands = json.loads((root / "build/compile_commands.json").read_text(encoding="utf-8"))
+        self.light = {re.search(r" -o (\S+)", entry["command"])[1] for entry in commands
+                      if re.search(" -O3 .* -Og ", entry["command"])}
+        units = units_of(root / "build", root)
+        self.light = sorted(path.name for unit in self.light for path in units[unit])
+        return sorted([path.name for path in unit] for unit in units.values())
 
     def test_batches_are_of_one_size_and_leave_out_what_stands_alone(self):
         units = self.tiny()
         alone = [unit for unit in units if len(unit) == 1]
-        self.assertEqual(alone, [["made.cpp"], ["s1.cpp"], ["s5.cpp"]])
+        self.assertEqual(alone, [["e.cpp"], ["made.cpp"], ["s1.cpp"], ["s5.cpp"]])
         batches = [unit for unit in units if len(unit) > 1]
-        self.assertEqual(sorted(len(unit) for unit in batches), [6, 7])
-        self.assertEqual(sum(batches, []), [f"s{n}.cpp" for n in range(1, 15) if n != 5])
+        self.assertEqual(sorted(len(unit) for unit in batches), [2, 2, 17, 18])
+        self.assertEqual(sum(batches[2:], []), [f"s{n}.cpp" for n in range(1, 37) if n != 5])
+
+    def test_what_is_not_simulated_is_apart_and_compiled_faster(self):
+        units = self.tiny()
+        self.assertIn(["a.cpp", "b.cpp"], units)
+        self.assertIn(["c.cpp", "d.cpp"], units)
+        self.assertEqual(self.light, ["c.cpp", "d.cpp", "e.cpp"])
 
     def test_without_unity_every_file_stands_alone(self):
-        self.assertEqual([len(unit) for unit in self.tiny("-DDEBURR_UNITY=OFF")], [1] * 16)
+        self.assertEqual([len(unit) for unit in self.tiny("-DDEBURR_UNITY=OFF")], [1] * 43)
+        self.assertEqual(self.light, ["c.cpp", "d.cpp", "e.cpp"])
 
     def test_dev_is_without_unity_and_the_other_presets_are_not(self):
         presets = json.loads((SOURCE / "CMakePresets.json").read_text(encoding="utf-8"))
