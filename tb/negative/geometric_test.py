@@ -251,7 +251,7 @@ class Faults(Base):
         self.fault("stale-pair", 3, 1, *split, board="lines")
 
     def test_screen(self):
-        self.fault("wrong-screen", 3, 1, *self.SMALL, "--set", "geometric.coarse_lines=4", board="candidates")
+        self.fault("wrong-screen", 3, 1, *self.SMALL, "--set", "geometric.coarse_lines=4", board="memory lines")
 
     def test_caches(self):
         result = self.fault("wrong-replacement", 1, 1, board="memory lines")
@@ -295,6 +295,13 @@ class Faults(Base):
                     self.failing(4096 * page, 1, *canopy, "--preset", preset)
                 page += count
             self.failing(0, 4096 * page, *canopy, "--preset", preset)
+
+    def test_memory_errors_of_less_traffic_are_predicted(self):
+        """Faces that shift the pairs of all edges after them, pairs of both arrays, coarse depth."""
+        canopy = ("--scene", "canopy", "--size", "64x64", "--set", "geometric.weight_blocks=16",
+                  "--set", "geometric.records=split", "--set", "geometric.coarse_lines=4")
+        for page, count in ((1, 1), (21, 3), (23, 1), (24, 1), (21, 4)):
+            self.failing(4096 * page, 4096 * count, *canopy)
 
     def failing(self, address, count, *arguments):
         self.run_engine(3, *arguments, "--set", f"memory.error_address={address}", "--set",

@@ -172,7 +172,7 @@ std::string decibels(double value) {
 std::string grouped_digits(std::uint64_t value) {
   std::string digits = fmt::format("{}", value);
   for (int i = static_cast<int>(digits.size()) - 3; i > 0; i -= 3)
-    digits.insert(static_cast<std::size_t>(i), " ");
+    digits.insert(static_cast<std::size_t>(i), 1, ' ');
   return digits;
 }
 

@@ -32,7 +32,7 @@ void finish(F& frame, const E& ends, std::size_t tokens) {
 
 constexpr std::uint32_t kBase = 0x10000;
 
-// A frame of 640 x 512 pixels: 80 x 64 tiles, 10 x 16 lines.
+// A frame of 610 x 512 pixels: 77 x 64 tiles, 10 x 16 lines.
 struct ScreenBench : Frame {
   explicit ScreenBench(const Parameters& p = coarse())
       : Frame(p), unit("unit", clock, sized(p, {20, 1})), ends(clock) {
@@ -42,7 +42,7 @@ struct ScreenBench : Frame {
     unit.candidates_in(ends.in);
     unit.screened_out(ends.out);
     bus.write(reg::kCoarseBase, kBase);
-    begin(640, 512);
+    begin(610, 512);
   }
   void set(std::uint32_t tx, std::uint32_t ty, std::uint32_t entry) {
     const std::uint32_t at = kBase + 64 * (ty / 4 * 10 + tx / 8) + 2 * (8 * (ty % 4) + tx % 8);

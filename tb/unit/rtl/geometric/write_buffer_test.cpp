@@ -251,7 +251,7 @@ TEST(WriteBuffer, ABlockOnItsWayOutIsWaitedFor) {
 
 // The last token is in stage 5 five clocks after its push; then a read of a place in each clock,
 // and its request in the clock after that.
-TEST(WriteBuffer, IsWrittenABlockAClockBehindTheLastToken) {
+TEST(WriteBuffer, IsWrittenABlockAClockAfterTheLastToken) {
   for (const int blocks : {1, 2, 5}) {
     const std::string got = in_child([blocks] {
       CombinerBench b(with_buffer(8));
