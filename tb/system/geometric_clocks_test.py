@@ -58,18 +58,23 @@ class Clocks(unittest.TestCase):
                         self.assertLess(edges + resolve, 1.05 * bound)
 
     def test_less_traffic(self):
-        """The same with the build choices that leave out lines."""
+        """The same with the build choices that leave out lines; with the larger cache near the port's bound, far from a
+        memory, too."""
+        larger = "records=split colour_lines=128 weight_blocks=256"
         for passes, name in (("1", "side by side"), ("3", "three on each other")):
             for latency in ("20", "100"):
                 for choices in ("colour_lines=128", "records=split", "write_buffer=128",
-                                "records=split colour_lines=128 write_buffer=128"):
+                                "records=split colour_lines=128 write_buffer=128", larger):
                     edges, resolve, work, lines = frame("deburr", "4", "2", "tiled", passes, latency,
                                                         f"coverage=area {choices}")
                     shown = ", ".join(choice.replace("=", " = ") for choice in choices.split())
                     self.assert_said(f"| {name} | {shown} | {latency} | {said(edges)} | {said(resolve)} | "
                                      f"**{said(edges + resolve)}** | {said(BEGIN + sum(lines))} |")
+                    self.assertGreater(edges + resolve, BEGIN + sum(lines))
                     if passes == "1":
                         self.assertGreaterEqual(work["BLENDED_PIXELS"], 22000)
+                        if choices == larger:
+                            self.assertLess(edges + resolve, min(50000, 1.05 * (BEGIN + sum(lines))))
 
     def test_sizes(self):
         for parameter in ("fills", "resolve_lines"):

@@ -147,7 +147,7 @@ TEST(ColourStore, WithoutAnEntryNothingIsOrdered) {
 }
 TEST(ColourStore, AFrameAndAResetBeginWithNothingKept) {
   for (const bool reset : {false, true}) {
-    Store s(keeping(2));
+    Store s(keeping(3));
     s.miss(1, kA);
     s.fill(2, 1);
     for (rtl::Cycle c = 1; c < 5; ++c) s.take(c);
