@@ -232,7 +232,7 @@ void DepthScreen::reset() {
 Datasheet DepthScreen::datasheet() {
   return {
       .unit = "DepthScreen",
-      .does = "Drops candidates that lie behind a lower bound of their tile's depths.",
+      .does = "Drops candidates that a lower bound of their tile's depths hides.",
       .latency = {5, "5, and the wait for a line"},
       .interval = {1, "1; 2 if both look-ups miss"},
       .stages = {{"1", "lines and tiles of the group, first uses"},
