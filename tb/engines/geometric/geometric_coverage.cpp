@@ -27,11 +27,6 @@ constexpr std::array kGroups = {
     CoverageGroup{"geometric/border", "Candidates whose neighbour is outside of the frame."},
     CoverageGroup{"geometric/depth",
                   "Tests against the farther pixel, by which that is and the outcome."},
-    CoverageGroup{"geometric/coarse",
-                  "Candidates that the golden model's coarse test drops by the side of their "
-                  "neighbour, or keeps just at its bound; the lesser bound of two tiles "
-                  "(coarse_lines)."},
-    CoverageGroup{"geometric/screen", "The hardware's, the same."},
     CoverageGroup{
         "geometric/crease",
         "Candidates of creases that the other test passed: near enough, or too far before "
@@ -44,14 +39,13 @@ constexpr std::array kGroups = {
                   "Groups by layout and the lines of depth that they look up."},
     CoverageGroup{"geometric/fetch", "The golden model's look-ups by cache and outcome."},
     CoverageGroup{"geometric/coarse",
-                  "The coarse test of depth: what it drops by direction, what is just not dropped, "
-                  "and which of two tiles hides less."},
+                  "The golden model's coarse test of depth (coarse_lines): what it drops by "
+                  "direction, what is just not dropped, and which of two tiles hides less."},
+    CoverageGroup{"geometric/screen", "The hardware's, the same."},
     CoverageGroup{"geometric/look-up", "The hardware's look-ups by cache and outcome."},
-    CoverageGroup{"geometric/pair",
-                  "The golden model's edges by the array of their pair of vertices: its line is "
-                  "there, or read (records = split). In tests alone: a vertex out of range, and a "
-                  "number beyond the array."},
-    CoverageGroup{"geometric/pair-look-up", "The hardware's, the same."},
+    CoverageGroup{"geometric/pair-look-up",
+                  "The hardware's look-ups of pairs by array and outcome (records = split). In "
+                  "tests alone: a vertex out of range, and a number beyond the array."},
     CoverageGroup{"geometric/block", "What the weights of a block met in their cache."},
     CoverageGroup{"geometric/write-buffer",
                   "What blocks met in the write buffer, and how full it was at the end."},
