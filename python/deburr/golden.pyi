@@ -48,7 +48,7 @@ def geometric(
     detail: bool = ...,
     error_lines: _Array | None = ...,
     preset: typing.Literal['gpaa', 'gpaa-optimised', 'deburr'] = ...,
-    select: typing.Literal['all', 'edges'] = ...,
+    select: typing.Literal['all', 'edges', 'mesh'] = ...,
     crease: typing.Literal['off', 'paper', 'shading'] = ...,
     cull: typing.Literal['none', 'back'] = ...,
     coverage: typing.Literal['distance', 'area'] = ...,
@@ -78,6 +78,10 @@ def geometric(
     resolve_lanes: int = ...,
     resolve_lines: int = ...,
     copy_lines: int = ...,
+    records: typing.Literal['joined', 'split'] = ...,
+    colour_lines: int = ...,
+    write_buffer: int = ...,
+    coarse_lines: typing.Literal['none', '4', '8', '16', '32', '64'] = ...,
     memory_outstanding: int = ...,
 ) -> GeometricFrame: ...
 
