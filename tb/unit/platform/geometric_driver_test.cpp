@@ -371,7 +371,7 @@ TEST(GeometricDriver, AnotherEngineIsRejected) {
   Bed b;
   b.registers.values[reg::kId] = 0xDEB00001;
   EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.identify(); }),
-            "the ID register reads 0xdeb00001, expected 0xdeb00003");
+            "the ID register reads 0xdeb00001, expected 0xdeb00004");
 }
 
 TEST(GeometricDriver, NothingIsWrittenToABusyEngine) {
@@ -461,7 +461,7 @@ TEST(GeometricDriver, TheCopyNeedsRoomOnlyWhereFramesAreCopied) {
   b.driver.place(GeometricRegions({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0x6000, 0x6000}));
   EXPECT_THAT(rejection(b, b.frame()), HasSubstr("overlaps"));
   b.driver.set_rules(Bed::raster());
-  EXPECT_EQ(b.registers.written.back(), (std::pair{0x10u, 0x1109ABu}));
+  EXPECT_EQ(b.registers.written.back(), (std::pair{0x10u, 0x9109A9u}));
   EXPECT_EQ(rejection(b, b.frame()), "");
 }
 

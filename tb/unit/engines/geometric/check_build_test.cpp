@@ -23,6 +23,9 @@ BuildChecks<Parameters, rtl::geometric::GeometricEngine> checks() {
                "fills = 64 with memory.outstanding = 63"},
               {{{"resolve_lines", "15"}}, "resolve_lines", "at least 16 lines"},
               {{{"frame_copy", "true"}, {"copy_lines", "1"}}, "copy_lines", "at least 2 lines"},
+              {{{"coarse_lines", "16"}, {"depth_test", "off"}},
+               "coarse_lines",
+               "must be none with depth_test = off"},
           }};
 }
 

@@ -29,13 +29,14 @@ TEST(RegisterBits, ThatDoNotExistReadAsZero) {
   EngineBench b;
   std::map<std::uint32_t, std::uint32_t> masks = {{reg::kControl, reg::kControlEnable},
                                                   {reg::kSize, 0x3FFF3FFF},
-                                                  {reg::kRules, 0x7FFFFF},
+                                                  {reg::kRules, 0xFFFFFF},
                                                   {reg::kEdgeCount, 0xFFFFFFFF},
                                                   {reg::kVertexCount, 0xFFFFFFFF},
-                                                  {reg::kFaceCount, 0xFFFFFFFF}};
+                                                  {reg::kFaceCount, 0xFFFFFFFF},
+                                                  {reg::kBoundaryCount, 0xFFFFFFFF}};
   for (const std::uint32_t base :
        {reg::kEdgeBase, reg::kVertexBase, reg::kFaceBase, reg::kDepthBase, reg::kColourBase,
-        reg::kWeightBase, reg::kCopyBase})
+        reg::kWeightBase, reg::kCopyBase, reg::kPairBase, reg::kOtherPairBase, reg::kCoarseBase})
     masks[base] = 0xFFFFFFC0;
   for (const spec::RegisterInfo& info : spec::geometric::kRegisters) {
     if (info.access != spec::Access::kReadWrite) continue;
