@@ -68,13 +68,69 @@ Frame columns() {
   return frame;
 }
 
+// Lines along and across the sides of tiles, of which every other one is farther: hidden by their
+// bounds, and just not.
+Frame tiles() {
+  Frame frame = random_frame(70, 50, 4, 1);
+  ScreenEdges& screen = frame.screen;
+  screen.vertices.clear();
+  screen.edges.clear();
+  for (int y = 0; y < 50; ++y)
+    for (int x = 0; x < 70; ++x)
+      frame.depths[static_cast<std::size_t>(y * 70 + x)] =
+          (x / 8 + y / 8) % 2 == 0 ? 1u << 20 : 1u << 21;
+  const auto line = [&](int x0, int y0, int x1, int y1, std::uint32_t z) {
+    const auto v = static_cast<std::uint32_t>(screen.vertices.size());
+    screen.vertices.push_back({x0, y0, z, true});
+    screen.vertices.push_back({x1, y1, z, true});
+    screen.edges.push_back({v, v + 1, 0, 0, spec::geometric::flag::kBoundary});
+  };
+  constexpr std::uint32_t kHidden = 1000, kJustNot = (1u << 20) - (1u << 20 >> 9);
+  for (const std::uint32_t z : {kHidden, kJustNot})
+    for (int at = 300; at < 12'000; at += 850) {
+      line(at, 300, at + 20, 12'000, z);
+      line(300, at, 12'000, at + 20, z);
+    }
+  return frame;
+}
+
+// Short lines far from each other, each of which asks for another line of coarse depth; depth
+// itself has been read when they come again.
+Frame leaps() {
+  Frame frame = random_frame(1024, 40, 5, 1);
+  ScreenEdges& screen = frame.screen;
+  screen.vertices.clear();
+  screen.edges.clear();
+  std::fill(frame.depths.begin(), frame.depths.end(), 1000u);
+  for (std::uint32_t i = 0; i < 16; ++i) {
+    const auto x = static_cast<std::int32_t>((i * 7 % 16 * 66 + 20) * 256);
+    const auto y = static_cast<std::int32_t>((i % 2 * 32 + 4) * 256);
+    screen.vertices.push_back({x, y, 1'000'000, true});
+    screen.vertices.push_back({x + 600, y + 100, 1'000'000, true});
+  }
+  for (std::uint32_t i = 0; i < 256; ++i)
+    screen.edges.push_back(
+        {2 * (i % 16), 2 * (i % 16) + 1, 0, 0, spec::geometric::flag::kBoundary});
+  return frame;
+}
+
 void run_frames(Coverage& coverage) {
+  GeometricRunOptions coarse;
+  coarse.geometric.coarse_lines = spec::geometric::CoarseLines::k4;
+  coarse.geometric.fills = spec::geometric::kMinFills;
+  coarse.memory.latency = 150;
+  add_text(coverage, run({tiles()}, coarse));
+  coarse.geometric.depth_lines = CacheLines::k1024;
+  coarse.geometric.weight_blocks = CacheLines::k1024;
+  coarse.geometric.latency_fifo = 1024;
+  coarse.stall_permille = 250;
+  add_text(coverage, run({leaps()}, coarse));
   GeometricRunOptions raster;
   raster.geometric.layout = Layout::kRaster;
   add_text(coverage, run({columns()}, raster));
   for (std::uint64_t seed = 0; seed < 12; ++seed)
-    for (const Select select : {Select::kAll, Select::kEdges}) {
-      std::size_t number = 2 * seed + (select == Select::kAll);
+    for (const Select select : {Select::kAll, Select::kEdges, Select::kMesh}) {
+      std::size_t number = 2 * seed + (select != Select::kEdges);
       for (const Crease crease : {Crease::kOff, Crease::kPaper, Crease::kShading}) {
         GeometricRunOptions options;
         Parameters& p = options.geometric;
@@ -94,6 +150,13 @@ void run_frames(Coverage& coverage) {
         p.line_fifo = 2;
         p.edge_lines = 4;
         p.pipelined = number % 4 == 0;
+        // What leaves out lines of memory, in several company, too.
+        p.records = static_cast<spec::geometric::RecordsLayout>(seed >> 1 & 1);
+        p.colour_lines = seed % 3 == 0 ? 0 : seed % 3 == 1 ? 2 : 32;
+        p.write_buffer = seed % 4 == 0 ? 0 : seed % 4 == 1 ? 2 : 128;
+        if (seed % 4 == 3) p.weight_blocks = CacheLines::k128;  // the buffer is not full
+        p.coarse_lines =
+            seed % 5 < 2 ? spec::geometric::CoarseLines::kNone : spec::geometric::CoarseLines::k4;
         options.memory.latency = 3 + static_cast<int>(number * 7 % 50);
         options.memory.latency_max = number % 3 == 0 ? 150 : 0;
         options.memory.bytes_per_clock = number % 2 == 0 ? 64 : 16;
@@ -110,6 +173,14 @@ void run_errors(Coverage& coverage) {
                GeometricRunOptions options;
                options.geometric.weight_blocks = CacheLines::k16;
                options.geometric.frame_copy = static_cast<Region>(region) == Region::kCopy;
+               // Flags that read as zeros shift the numbers of pairs.
+               if (static_cast<Region>(region) == Region::kPairs ||
+                   static_cast<Region>(region) == Region::kEdges)
+                 options.geometric.records = spec::geometric::RecordsLayout::kSplit;
+               if (static_cast<Region>(region) == Region::kEdges)
+                 options.geometric.select = Select::kAll;  // they are kept all the same
+               if (static_cast<Region>(region) == Region::kCoarse)
+                 options.geometric.coarse_lines = spec::geometric::CoarseLines::k4;
                const std::vector<Frame> frames = {random_frame(90, 50, 20)};
                options.memory.error_address =
                    regions_of(frames, options.geometric).base(static_cast<Region>(region));
@@ -128,14 +199,15 @@ void run_refusals(Coverage& coverage) {
   struct Row {
     std::uint32_t offset, value;
   };
-  for (const Row& row :
-       {Row{reg::kControl, reg::kControlStart}, Row{reg::kSize, 61}, Row{reg::kSize, 700 | 9 << 16},
-        Row{reg::kSize, 500 | 401 << 16}, Row{reg::kEdgeCount, (1 << 24) + 1},
-        Row{reg::kVertexCount, (1 << 24) + 1}, Row{reg::kFaceCount, 32769}})
+  for (const Row& row : {Row{reg::kControl, reg::kControlStart}, Row{reg::kSize, 61},
+                         Row{reg::kSize, 700 | 9 << 16}, Row{reg::kSize, 500 | 401 << 16},
+                         Row{reg::kEdgeCount, (1 << 24) + 1}, Row{reg::kVertexCount, (1 << 24) + 1},
+                         Row{reg::kFaceCount, 32769}, Row{reg::kBoundaryCount, 1 << 24}})
     add_text(coverage, forked_text([&] {
                GeometricRunOptions options;
                options.geometric.line_pixels = 512;
                options.geometric.touched_words = 100;
+               options.geometric.records = spec::geometric::RecordsLayout::kSplit;
                Simulation simulation(options);
                const std::vector<Frame> frames = {random_frame(61, 45, 2)};
                GeometricEnvironment environment(simulation, frames, options);

@@ -288,9 +288,13 @@ TEST_P(BrokenMemory, ErrorResponsesReadAsZeroAndAreReported) {
   GeometricRunOptions options;
   options.geometric = preset(which);
   options.geometric.weight_blocks = CacheLines::k16;
+  const auto index = static_cast<spec::geometric::Region>(region);
+  if (index == spec::geometric::Region::kPairs)
+    options.geometric.records = spec::geometric::RecordsLayout::kSplit;
+  if (index == spec::geometric::Region::kCoarse)
+    options.geometric.coarse_lines = spec::geometric::CoarseLines::k4;
   const std::vector<Frame> frames = {random_frame(90, 50, region + 20)};
   const platform::GeometricRegions map = regions_of(frames, options.geometric);
-  const auto index = static_cast<spec::geometric::Region>(region);
   const std::uint64_t from = map.base(index);
   options.memory.error_address = static_cast<std::int64_t>(from);
   options.memory.error_bytes = 64 * 9;

@@ -83,8 +83,7 @@ const std::map<std::string, std::vector<std::string>>& stalls() {
   return all;
 }
 
-constexpr std::array<std::string_view, 2> kPairsOutOfRange = {"vertex-out-of-range",
-                                                              "number-out-of-range"};
+constexpr std::array<std::string_view, 2> kPairsOutOfRange = {"vertex/invalid", "number/invalid"};
 
 // By the numbers of the unit's histograms.
 constexpr std::array<std::string_view, 4> kDroppedSides = {"dropped-up", "dropped-down",

@@ -162,7 +162,7 @@ Parameters GeometricFaults::as_built() const {
   if (planted("wrong-cull"))
     p.cull = p.cull == spec::geometric::Cull::kNone ? spec::geometric::Cull::kBack
                                                     : spec::geometric::Cull::kNone;
-  const auto other = [](std::int32_t places) { return places == 1 ? 2 : places - 1; };
+  const auto other = [](std::int32_t places) { return places <= 1 ? places + 1 : places - 1; };
   if (planted("wrong-kept")) p.colour_lines = other(p.colour_lines);
   if (planted("wrong-buffer")) p.write_buffer = other(p.write_buffer);
   if (planted("wrong-nearer")) p.combine = spec::geometric::Combine::kMax;
