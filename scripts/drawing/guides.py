@@ -144,11 +144,11 @@ def platform(facts):
     links = {}
     for unit, end, link in re.findall(r"^    (\w+)_\.(\w+_(?:in|out))\((\w+)_\);", text, re.M):
         links.setdefault(link, {})[end.rsplit("_", 1)[1]] = unit
-    masters = sorted(start for start, _, end, _ in hops if end == "router")
-    slaves = sorted(end for start, _, end, _ in hops if start == "router")
+    initiators = sorted(start for start, _, end, _ in hops if end == "router")
+    targets = sorted(end for start, _, end, _ in hops if start == "router")
     wires = sorted(set(re.findall(r"software_\.\w+_interrupt\((\w+)_\.interrupt\)", text)))
-    if (masters, slaves, wires) != (["smoother", "software", "texture"], ["memory", "painter", "smoother", "texture"], ["smoother", "texture"]):
-        raise Missing(f"{source}: other sockets: {masters}, {slaves}, {wires}")
+    if (initiators, targets, wires) != (["smoother", "software", "texture"], ["memory", "painter", "smoother", "texture"], ["smoother", "texture"]):
+        raise Missing(f"{source}: other sockets: {initiators}, {targets}, {wires}")
     if links != {"quads": {"out": "painter", "in": "texture"}, "colours": {"out": "texture", "in": "painter"},
                  "pixels": {"out": "painter", "in": "smoother"}, "blended": {"out": "smoother", "in": "display"}}:
         raise Missing(f"{source}: other links: {links}")
@@ -183,7 +183,7 @@ def platform(facts):
     picture.text(489, 304, "pixels", "small halo middle")
     display = Box(picture, 650, 322, 170, 34, kind("display"))
     way(picture, (750, 278), (750, display.y), label="blended", dx=28, dy=6)
-    picture.lines(20, 336, ["Solid: sockets and links, a beat a clock.", "Dashed: interrupts, signals."], "small dim")
+    picture.lines(20, 336, ["Solid: sockets (software b_transport, engines nb_transport); links, a beat a clock.", "Dashed: interrupts, signals."], "small dim")
     return picture
 
 

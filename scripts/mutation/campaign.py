@@ -63,8 +63,8 @@ class Campaign:
     """Results are lines of JSON in `work`/results, a file for each who writes: what is there is not
     done again, and a file that has changed begins anew."""
 
-    def __init__(self, tree, check, count, each, seed, say):
-        self.tree, self.check, self.say = tree, check, say
+    def __init__(self, tree, checker, count, each, seed, say):
+        self.tree, self.checker, self.say = tree, checker, say
         self.chosen = drawn(tree.mutants, count, each, seed)
         self.lock = threading.Lock()
 
@@ -73,7 +73,7 @@ class Campaign:
         return (str(file), digest(self.tree.sources[file]), mutant.begin, mutant.kind, mutant.text)
 
     def run(self, jobs, alone, again, explained=(), name="local", part=0, parts=1):
-        """Checks what is not checked yet, or if `again` survived and is not `explained`: behind
+        """Checks what has no verdict yet, or if `again` survived and is not `explained`: behind
         switches first, then, if `alone`, one by one what must be compiled. `part` of `parts` of
         them all."""
         done = {key_of(entry) for entry in read_results(self.tree.work)
@@ -89,7 +89,7 @@ class Campaign:
             if out.tell():
                 out.write("\n")
             def checked(number, item):
-                verdict = self.check.by_switch(*item)
+                verdict = self.checker.by_switch(*item)
                 if verdict is None:
                     later.append(item)
                 else:
@@ -103,7 +103,7 @@ class Campaign:
             # A header costs a build of nearly everything.
             later.sort(key=lambda item: (item[0].suffix == ".h", wanted.index(item)))
             for number, item in enumerate(later if alone else ()):
-                self.put(out, item, self.check.alone(*item), "alone")
+                self.put(out, item, self.checker.alone(*item), "alone")
                 self.say(f"{number + 1} of {len(later)} mutants compiled alone")
 
     def put(self, out, item, verdict, way):

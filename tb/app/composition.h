@@ -185,7 +185,8 @@ class PictureDrawer : public CompositionRole {
   // To elaborate with.
   virtual std::shared_ptr<const DrawnScene> smallest() const = 0;
 
-  // The supersampled truth: made for all runs of a scene; checked by, as of compare_with_scene().
+  // The supersampled truth, made once for all runs of a scene, and what results are compared with,
+  // as of compare_with_scene().
   virtual std::string truth_caption() const = 0;
   virtual void prepare_truth(const DrawnScene& scene, const RenderOptions& options,
                              const RunContext& context) const = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The fragments that filters are checked on: quads that each have their own affine map from pixels
-// to the texture, with footprints of every size, shape and direction.
+// The fragments that filters are checked with: quads that each have their own affine map from
+// pixels to the texture, with footprints of every size, shape and direction.
 #pragma once
 
 #include <cstdint>

@@ -132,7 +132,7 @@ struct Behind {
 };
 constexpr std::array<Behind, 1> kBehind = {{{"vehicle 2", "smaa medium", 0, 0.3}}};
 
-// Deburr is ahead of a method, or that it is not was said. NaN: not checked.
+// Deburr is ahead of a method, or stands in kBehind. NaN: not compared.
 void expect_ahead(const std::string& frame, const std::string& method, const Figures& deburr,
                   const Figures& other) {
   Behind said{frame, method, 0, 0};

@@ -130,8 +130,8 @@ TEST(TextureFlicker, OnRollIsThatOfTheOtherMotions) {
 }
 
 // How much is left to flicker depends on the picture: filters of finite width pass what a
-// supersampled pixel does not. So a photograph is checked by the true ellipse with the same number
-// of samples.
+// supersampled pixel does not. So a photograph is compared with the true ellipse with the same
+// number of samples.
 class TextureFlickerOnPhotographs : public testing::TestWithParam<const char*> {
  protected:
   std::string photo() const {

@@ -63,11 +63,11 @@ class RegressionPlanner {
   void expand(const Feature& feature, const Stimulus& stimulus) {
     const SweepDefinition& configurations = stimulus.configurations;
     const Plan samples = plan_without_points(configurations);
-    PointChecker check(configurations, samples);
+    PointChecker points(configurations, samples);
     std::set<std::string> known;
     const auto take = [&](const Sample& sample) {
-      // Behind its own conditions, so that axes without an effect are not given.
-      const std::optional<PlannedPoint> point = check.check(sample);
+      // After its own conditions, so that axes without an effect are not given.
+      const std::optional<PlannedPoint> point = points.check(sample);
       if (!point || !known.insert(point->name).second) return false;
       expand(feature, stimulus, in_words(samples, point->sample),
              samples.settings_of(point->sample));
@@ -78,7 +78,7 @@ class RegressionPlanner {
     else
       for_each_sample(configurations, take);
     Plan checked;
-    check.tell(checked);
+    points.tell(checked);
     for (const std::string& what : checked.left_out)
       plan_.left_out.push_back(fmt::format("{}/{}: {}", feature.id, stimulus.name, what));
   }

@@ -40,8 +40,8 @@ struct Comparison {
   bool worse = false;
 };
 
-// `b` checked against `a`, both as read_result() gives them. A mismatch, a lost verdict, or a
-// checked value that only `a` has is worse. ConfigError for results of different engines.
+// `b` compared with `a`, both as read_result() gives them. A mismatch, a lost verdict, or a value
+// with a better side that only `a` has is worse. ConfigError for results of different engines.
 Comparison compare(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b,
                    const Tolerances& tolerances);
 

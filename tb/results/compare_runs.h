@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Two or more runs of one engine side by side: the parameters that differ, the figures that a
-// reader looks for first, and every other value that differs, each checked against the first run's.
+// reader looks for first, and every other value that differs, each compared with the first run's.
 #pragma once
 
 #include <filesystem>

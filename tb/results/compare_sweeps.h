@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Two or more collected sweeps of one engine side by side: points with the same values of the axes
-// are matched and checked against the first sweep's, fronts are laid over each other.
+// are matched and compared with the first sweep's, fronts are laid over each other.
 #pragma once
 
 #include <filesystem>

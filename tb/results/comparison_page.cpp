@@ -262,9 +262,9 @@ class ComparisonPage {
         row.set("metric", text_of(metrics[m].at("name")));
         row.set("unit", text_of(metrics[m].at("unit")));
         row.set("meaning", text_of(metrics[m].at("meaning")));
-        const bool checked = !metrics[m].at("maximise").is_null();
+        const bool has_direction = !metrics[m].at("maximise").is_null();
         for (const char* key : {"better", "equal", "worse"})
-          row.set(key, checked ? figure_text(sum.at(key)) : "-");
+          row.set(key, has_direction ? figure_text(sum.at(key)) : "-");
         row.set("state", sum.at("worse") != 0 ? "worse" : "");
         for (const char* key : {"mean", "least", "most"})
           row.set(key, sum.contains(key) ? fmt::format("{:+.2f} {}", sum[key].get<double>(),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One self-contained page of a comparison (compare_runs.h, compare_sweeps.h): what differs,
-// checked, with the pictures of runs side by side, or the fronts of sweeps over each other. It
+// One self-contained page of a comparison (compare_runs.h, compare_sweeps.h): what differs, with a
+// verdict each, and the pictures of runs side by side, or the fronts of sweeps over each other. It
 // opens from disk, without a network; of runs it is readable without JavaScript.
 #pragma once
 

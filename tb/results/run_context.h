@@ -83,7 +83,7 @@ class RunContext {
   // What had to be decided about an input (a mesh without normals): on the error stream, in result
   // and report.
   void add_note(const std::string& note);
-  // Before claim(), which rejects to replace what somebody else left under one of these names.
+  // Before claim(), which does not replace what somebody else left under one of these names.
   void set_leaves(Leaves leaves) { leaves_ = std::move(leaves); }
   // The directory is this run's from here on (RunDirectory::claim).
   void claim(IfTaken if_taken = IfTaken::kReject);

@@ -60,7 +60,7 @@ GBuffer render_gbuffer(const Scene& scene, int width, int height);
 // kPhong and one sample.
 Image light(const Scene& scene, const GBuffer& buffer);
 
-// The set that morphological anti-aliasing is checked on, as data/README.md describes it.
+// The set that morphological anti-aliasing is measured on, as data/README.md describes it.
 struct LitFrames {
   Image noaa;   // one sample at the pixel centre
   Image truth;  // N x N samples, averaged in linear light

@@ -80,7 +80,7 @@ class QuadBench {
   void repeat() { driver_.send(input_.quads); }
   // The first `cycles` clocks of a run.
   void run_for(rtl::Cycle cycles) { clock_.run(cycles); }
-  // From now on checks by other parameters than were built.
+  // From now on expects other parameters than were built.
   void order(const spec::texture::Parameters& parameters) { parameters_ = parameters; }
   std::uint64_t received() const { return sink_.received(); }
   // To the end. DeadlockError, or what broke on a link.

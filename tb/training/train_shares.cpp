@@ -295,7 +295,7 @@ int run(int argc, char** argv) {
         "Held out", others, [&](const TruthFrame&) -> const ShareTables& { return tables; }, false);
   }
   if (folds < 2) return 0;
-  // Every group is checked by tables that were trained on the groups of the other folds.
+  // Every group is measured with tables that were trained on the groups of the other folds.
   const auto fold_of = [&](const TruthFrame& frame) {
     return static_cast<int>(std::find(groups.begin(), groups.end(), frame.group) - groups.begin()) %
            folds;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The frames that learned shares are trained and checked on: scenes and shapes of the project's
+// The frames that learned shares are trained and measured on: scenes and shapes of the project's
 // own, and the meshes of a data folder if there is one.
 //
 // `track` and seventeen of the meshes are never trained on

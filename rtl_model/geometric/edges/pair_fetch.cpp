@@ -142,7 +142,7 @@ Datasheet PairFetch::datasheet() {
       .stages = {{"1", "line against the tag of its array, a read ordered; FIFO", "22-bit compare"},
                  {"2", "a line that came into the register of its array; choice of a pair",
                   "10 : 1 choice of 48 bits"},
-                 {"3", "vertices in range; leave", "24-bit compare"}},
+                 {"3", "vertices in range; leave", "25-bit compare"}},
       .cost =
           "two tags and two lines in registers, the lines on their way, the FIFO; a 22-bit and "
           "two 25-bit compares, a 10 : 1 choice of 48 bits."};

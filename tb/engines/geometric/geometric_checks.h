@@ -42,7 +42,7 @@ class GeometricChecks {
   void check_traffic(const platform::MemoryModel& memory, rtl::Cycle cycle);
   // The frame is done; this is what is in memory.
   void end(const Image& after, rtl::Cycle cycle);
-  // All frames are done: so many comparisons there must be, and the registers are checked.
+  // All frames are done: sets how many comparisons there must be, and checks the registers.
   void finish(const rtl::geometric::GeometricEngine& engine, const platform::MemoryModel& memory,
               std::uint64_t pixels, platform::RegisterBus& registers);
 

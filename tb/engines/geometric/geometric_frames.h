@@ -81,7 +81,7 @@ LoadedGeometricFrame load_geometric_frame(
 std::vector<std::filesystem::path> frame_files(const GeometricSceneParameters& parameters,
                                                MeshFiles& meshes);
 
-// The picture that a frame of the scene is checked by: as it is lit, N x N samples a pixel,
+// The picture that a frame of the scene is compared with: as it is lit, N x N samples a pixel,
 // averaged in linear light.
 Image geometric_truth(const Scene& scene, int width, int height, int samples,
                       const std::function<bool()>& interrupted = nullptr);

@@ -211,7 +211,7 @@ class TextureEngine final : public Engine {
           trace_in_.file));
   }
 
-  // All of the file has been read and checked behind it.
+  // All of the file has been read and checked after it.
   ForeignFragments fragments_of_file(const TextureScene& scene) const {
     const std::size_t textures = scene.memory().descriptors().size();
     const FragmentSummary summary = examine_fragments(trace_in_.file, textures);

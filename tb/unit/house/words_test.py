@@ -24,7 +24,7 @@ QUOTED = re.compile(r"`[^`]*`|(?<!\w)'[^']*'")
 TEST = re.compile(r"\bTEST(?:_F|_P)?\(\w+,\s*(\w+)\)")
 # The key of a sweep's file, and a wire of the twins.
 KEY = re.compile(r"\brefused: |\bbehind == ")
-# Names in the code: of keys and registers, and of what is behind in a queue.
+# Names that stay: of keys and registers; of what is behind in a queue; look-ups, as counters call them.
 NAME = re.compile(r"[A-Za-z_]\w*")
 KEY_NAMES = {"refused", "kRefused", "kStatusRefused"}
 NOT_OF_NAMES = {"behind", "lookup"}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Several runs or sweeps side by side: what is listed, what is matched, and how it is checked.
+// Several runs or sweeps side by side: what is listed, what is matched, and how it is compared.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

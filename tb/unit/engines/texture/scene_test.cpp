@@ -151,8 +151,8 @@ TEST(TextureScene, GivesTheSamplerItsState) {
   EXPECT_TRUE(scene.inputs().empty()) << "made by formula";
 }
 
-// Fragments, hardware and truth must go by the same wrap mode, or a picture is checked by the truth
-// of another one.
+// Fragments, hardware and truth must go by the same wrap mode, or a picture is compared with the
+// truth of another one.
 TEST(TextureScene, AChosenWrapModeIsThatOfFragmentsAndTruth) {
   SceneParameters p = small("plane");
   p.texture = "gradient";
