@@ -102,7 +102,8 @@ void lathe(Mesh& mesh, const V3d& foot, std::span<const Imath::V2d> profile, int
     return V3d(std::cos(a), 0, std::sin(a));
   };
   for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
-    const Imath::V2d from = profile[k], to = profile[k + 1], step = to - from;
+    const Imath::V2d &from = profile[k], &to = profile[k + 1];
+    const Imath::V2d step = to - from;
     for (int i = 0; i < sides; ++i) {
       const auto at = [&](const Imath::V2d& p, int j) {
         return foot + out(j) * p.x + V3d(0, p.y, 0);

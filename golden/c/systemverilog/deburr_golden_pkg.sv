@@ -75,7 +75,7 @@ package deburr_golden_pkg;
   import "DPI-C" function int deburr_frame_put(input chandle golden, input int unsigned x,
       input int unsigned y, input int unsigned rgba, input int unsigned depth);
 
-  // 1: the planes that only a slower model knows are kept from the next frame on, 0: they are not.
+  // 1: the planes that only a slower model has are kept from the next frame on, 0: they are not.
   import "DPI-C" function int deburr_frame_detail(input chandle golden,
       input int unsigned everything);
 
