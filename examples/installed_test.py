@@ -46,19 +46,19 @@ def call(*command, code=0, cwd=None, env=None, timeout=600):
     return done.stdout
 
 
-def beside_the_prefix():
-    """Folders of the source and of the build that do not lead to the prefix: other builds and prefixes, too."""
-    ways = {SOURCE, BUILD} | {folder for folder in PREFIX.parents if {SOURCE, BUILD} & set(folder.parents)}
+def beside(prefix):
+    """Folders of the source and of the build that do not lead to a prefix: other builds and prefixes, too."""
+    ways = {SOURCE, BUILD} | {folder for folder in prefix.parents if {SOURCE, BUILD} & set(folder.parents)}
     return [folder for way in sorted(ways) for folder in sorted(way.iterdir())
-            if folder.is_dir() and not folder.is_symlink() and not PREFIX.is_relative_to(folder)]
+            if folder.is_dir() and not folder.is_symlink() and not prefix.is_relative_to(folder)]
 
 
 @functools.lru_cache
-def hiding():
-    """What has to stand before a command so that it sees nothing of the source and of the build but the prefix; None
+def hiding(prefix=PREFIX):
+    """What has to stand before a command so that it sees nothing of the source and of the build but a prefix; None
     where this user may not mount. Files beside the way to it stay: nothing is installed with a path to one of them
     (Files)."""
-    folders = beside_the_prefix()
+    folders = beside(prefix)
     script = ('for folder in "${@:1:$FOLDERS}"; do [ ! -d "$folder" ] || mount -t tmpfs none "$folder" || exit 99; done; '
               'exec "${@:FOLDERS+1}"')
     for unshare in (["unshare", "--mount"], ["unshare", "--mount", "--map-root-user"]):
@@ -70,9 +70,9 @@ def hiding():
     return None
 
 
-def alone(*command, **how):
-    """What a command says that has the prefix and no more of us, where this user may hide the rest."""
-    return call(*(hiding() or []), *command, **how)
+def alone(*command, prefix=PREFIX, **how):
+    """What a command says that has a prefix and no more of us, where this user may hide the rest."""
+    return call(*(hiding(prefix) or []), *command, **how)
 
 
 def one_file(pattern):
@@ -110,6 +110,8 @@ def not_printed(block, said):
 
 
 class Scratch(unittest.TestCase):
+    prefix = PREFIX  # that is installed
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="deburr_installed_")
         self.addCleanup(folder.cleanup)
@@ -120,8 +122,8 @@ class Scratch(unittest.TestCase):
         home = self.folder / "home"
         home.mkdir(exist_ok=True)
         if not (home / "deburr").exists():
-            (home / "deburr").symlink_to(PREFIX)
-        return alone("bash", "-c", commands, cwd=self.folder, code=code, timeout=1500, env=EMPTY | {
+            (home / "deburr").symlink_to(self.prefix)
+        return alone("bash", "-c", commands, prefix=self.prefix, cwd=self.folder, code=code, timeout=1500, env=EMPTY | {
             "HOME": str(home), "CXX": CXX, "CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count()), "CCACHE_DISABLE": "1",
             "PYTHONDONTWRITEBYTECODE": "1"})
 

@@ -183,7 +183,7 @@ class CommandLines(unittest.TestCase):
                 (["-L", "slurm"], slurm),
                 (["-L", "smoke", "--tidy"], ["clang-tidy"]),
                 (["-R", "slurm"], ["clang-format", "clang-tidy", *clang]),
-                ([], ["clang-format", "clang-tidy", *clang])):
+                ([], ["clang-format", "clang-tidy"])):
             with self.subTest(arguments=arguments):
                 calls = self.call("scripts/test", *arguments, DEBURR_NO_INSTALL="0")[2]
                 installed = [call.split("--no-install-recommends ")[1].split() for call in calls
