@@ -53,7 +53,11 @@ class FillStore {
             MemoryKind kind = MemoryKind::kSram)
       : places_(static_cast<std::uint32_t>(places)),
         memory_(name,
-                {.words = places_, .word_bits = bits, .kind = kind, .content = std::move(content)}),
+                {.words = places_,
+                 .word_bits = bits,
+                 .kind = kind,
+                 .content = std::move(content),
+                 .register_bits = places_}),
         arrived_(places_, kNever) {}
 
   Filler filler() { return Filler(*this); }
