@@ -157,8 +157,8 @@ std::string MemoryBase::built_as() const {
   if (shape_.kind != MemoryKind::kFlops && shape_.banks > 1)
     text += fmt::format(", {} banks", shape_.banks);
   if (shape_.kind == MemoryKind::kSram) {
-    if (shape_.read_during_write == ReadDuringWrite::kOldWord) text += ", read first";
-    if (shape_.read_during_write == ReadDuringWrite::kNewWord) text += ", bypass";
+    if (shape_.read_during_write == ReadDuringWrite::kOldWord) text += ", old word";
+    if (shape_.read_during_write == ReadDuringWrite::kNewWord) text += ", new word";
   }
   if (shape_.mask_bits != 0) text += fmt::format(", write mask of {} bits", shape_.mask_bits);
   return text;

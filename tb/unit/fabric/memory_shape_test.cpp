@@ -598,7 +598,7 @@ TEST(Memory, PartOfAWordNeedsAWriteMask) {
   EXPECT_EQ(read.at(2, 1), (std::array{10, 20}));
   read.read(2, 1);
   EXPECT_EQ(read.at(3, 1), (std::array{10, 21}));
-  EXPECT_EQ(memory.built_as(), "1R1W, read first, write mask of 8 bits");
+  EXPECT_EQ(memory.built_as(), "1R1W, old word, write mask of 8 bits");
   Ported p(1);
   EXPECT_THAT(rejection([&] { p.write.change(0, 1, [](int& word) { word = 1; }); }),
               HasSubstr("mask_bits"));

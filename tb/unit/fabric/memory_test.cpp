@@ -677,10 +677,10 @@ TEST(MemoryPort, TheBufferTakesALineAnEdge) {
       return text;
     });
   };
-  EXPECT_EQ(beats(true, false, {0, 1}), "1.0@1 8.0@2 8.1@3 8.2@4 8.3@5 ");
-  EXPECT_EQ(beats(true, false, {1, 0}), "1.0@5 8.0@6 8.1@7 8.2@8 8.3@9 ");
-  EXPECT_EQ(beats(true, true, {1, 0}), "1.0@1 8.0@2 ");
-  EXPECT_EQ(beats(false, false, {1, 0}), "8.0@1 8.1@2 8.2@3 8.3@4 1.0@5 ");
+  EXPECT_EQ(beats(true, false, {0, 1}), "1.0@2 8.0@3 8.1@4 8.2@5 8.3@6 ");
+  EXPECT_EQ(beats(true, false, {1, 0}), "1.0@6 8.0@7 8.1@8 8.2@9 8.3@10 ");
+  EXPECT_EQ(beats(true, true, {1, 0}), "1.0@2 8.0@3 ");
+  EXPECT_EQ(beats(false, false, {1, 0}), "8.0@2 8.1@3 8.2@4 8.3@5 1.0@6 ");
 }
 
 TEST(MemoryPort, WhatOnlyReadsIsNotWritten) {
