@@ -52,8 +52,8 @@
 namespace deburr::rtl {
 
 enum class MemoryKind : std::uint8_t { kFlops, kSram, kRom };
-// What a read gives of a word that is written in the same clock. SRAM gives anything, so that such a
-// read stops the run, unless the shape says which word it is: the old one (a macro that reads
+// What a read gives of a word that is written in the same clock. SRAM gives anything, so that such
+// a read stops the run, unless the shape says which word it is: the old one (a macro that reads
 // first) or the new one (a bypass). Flip-flops give the old one by themselves.
 enum class ReadDuringWrite : std::uint8_t { kForbidden, kOldWord, kNewWord };
 // Which bank holds a word: neighbours in different banks, or blocks of words (a row of pixels

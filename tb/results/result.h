@@ -138,8 +138,7 @@ struct MemoryBits {
   std::uint64_t memories = 0, logical = 0, physical = 0, logical_at_frame_width = 0;
 };
 // Of every kind that there is, and the total.
-std::vector<MemoryBits> memory_bits(std::span<const MemoryFigures> memories,
-                                    const LinkBits& links);
+std::vector<MemoryBits> memory_bits(std::span<const MemoryFigures> memories, const LinkBits& links);
 
 // What a reader looks for first: a value of the result by its key ("work.frame_clocks"), beside
 // one that it should be compared with; without such a key, against_label is a remark.

@@ -13,8 +13,7 @@ std::string named(Client which, const char* what) {
 
 // What this client's links carry.
 MemoryPortParameters of(Client which, MemoryPortParameters port) {
-  port.read_only =
-      which != Client::kWeights && which != Client::kResolve && which != Client::kCopy;
+  port.read_only = which != Client::kWeights && which != Client::kResolve && which != Client::kCopy;
   return port;
 }
 
@@ -34,7 +33,8 @@ std::vector<Client> clients_of(const spec::geometric::Parameters& p) {
 
 MemoryArbiter::Side::Side(Client which, const MemoryPortParameters& port)
     : requests(named(which, "requests").c_str(), 2, request_shape(of(which, port), 32, kPlaceBits)),
-      responses(named(which, "responses").c_str(), 2, response_shape(of(which, port), 32, kPlaceBits)),
+      responses(named(which, "responses").c_str(), 2,
+                response_shape(of(which, port), 32, kPlaceBits)),
       requests_in(named(which, "requests_in").c_str()),
       responses_out(named(which, "responses_out").c_str()),
       read_latency(named(which, "read_latency").c_str(), "clk",

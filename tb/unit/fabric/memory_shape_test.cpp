@@ -1018,8 +1018,8 @@ TEST(MemoryCost, AWideFifoIsSram) {
   EXPECT_EQ(wide.register_bits(), 2U * 680);
 }
 
-// By hand: a written word a write port and its mask, a bit a read whether it meets one, all of it as
-// long as a read takes.
+// By hand: a written word a write port and its mask, a bit a read whether it meets one, all of it
+// as long as a read takes.
 TEST(MemoryCost, NewWordsOfSramAreABypass) {
   const auto bits = [](MemoryShape shape, ReadDuringWrite rule) {
     shape.read_during_write = rule;
