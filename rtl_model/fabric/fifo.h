@@ -2,9 +2,11 @@
 // A FIFO inside a unit: the link's protocol (latency 1, initiation interval 1, one push and one pop
 // a cycle), with its storage counted and its fill level recorded.
 //
-// Built of flip-flops up to MemoryBase::kMostFlopBits. Above, of SRAM 1R1W that is read ahead into
-// two output registers, and that a beat goes past while these have room: so the latency is 1 all
-// the same. Cost: depth x payload bits of memory.
+// Built of flip-flops up to kMostFlopWords entries and MemoryBase::kMostFlopBits, since beyond them
+// the choice of the oldest is the longest path. Above, of SRAM 1R1W that is read ahead into two
+// output registers, and that a beat goes past while these have room: so the latency is 1 all the
+// same, and no word is read in the clock that writes it. Cost: depth x payload bits of memory, with
+// SRAM two registers of the payload.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +21,8 @@ namespace deburr::rtl {
 template <class T>
 class Fifo final : public MemoryBase {
  public:
+  static constexpr std::uint32_t kMostFlopWords = 32;
+
   explicit Fifo(const char* name, std::uint32_t depth, const PayloadShape& shape = {})
       : Fifo(name, depth, Payload::of<T>(shape).bits(), shape) {}
 
@@ -47,12 +51,15 @@ class Fifo final : public MemoryBase {
       : MemoryBase(name, memory_shape(depth, bits)),
         link_(inner_name("entries").c_str(), depth, shape) {}
   static MemoryShape memory_shape(std::uint32_t depth, std::uint32_t bits) {
-    const MemoryKind kind = kind_for(std::uint64_t{depth} * bits);
+    const MemoryKind kind =
+        depth > kMostFlopWords ? MemoryKind::kSram : kind_for(std::uint64_t{depth} * bits);
+    const bool flops = kind == MemoryKind::kFlops;
     return {.words = depth,
             .word_bits = bits,
             .kind = kind,
-            .latency = kind == MemoryKind::kFlops ? 0U : 1U,
-            .content = "entries of a FIFO"};
+            .latency = flops ? 0U : 1U,
+            .content = "entries of a FIFO",
+            .register_bits = flops ? 0 : std::uint64_t{2} * bits};
   }
 
   Link<T> link_;

@@ -19,7 +19,7 @@ std::string port_text(const MemoryShape& shape) {
 }
 
 bool forbids(const MemoryShape& shape) {
-  return shape.read_during_write == ReadDuringWrite::kForbidden;
+  return shape.kind == MemoryKind::kSram && shape.read_during_write == ReadDuringWrite::kForbidden;
 }
 
 bool overlap(std::uint64_t a, std::uint64_t a_count, std::uint64_t b, std::uint64_t b_count) {
@@ -143,10 +143,23 @@ std::uint64_t MemoryBase::physical_bits() const {
   return bank_words * shape_.banks * copies_ * word_bits();
 }
 
+std::uint64_t MemoryBase::bypass_bits() const {
+  const MemoryShape& s = shape_;
+  if (s.kind != MemoryKind::kSram || s.read_during_write != ReadDuringWrite::kNewWord) return 0;
+  const std::uint64_t mask = s.mask_bits == 0 ? 0 : s.word_bits / s.mask_bits;
+  const std::uint64_t reads = s.read_ports + s.shared_ports;
+  const std::uint64_t writes = s.write_ports + s.shared_ports;
+  return s.latency * (writes * s.span * (s.word_bits + mask) + reads * s.span);
+}
+
 std::string MemoryBase::built_as() const {
   std::string text = copies_ == 1 ? macro_ : fmt::format("{} copies of {}", copies_, macro_);
   if (shape_.kind != MemoryKind::kFlops && shape_.banks > 1)
     text += fmt::format(", {} banks", shape_.banks);
+  if (shape_.kind == MemoryKind::kSram) {
+    if (shape_.read_during_write == ReadDuringWrite::kOldWord) text += ", old word";
+    if (shape_.read_during_write == ReadDuringWrite::kNewWord) text += ", new word";
+  }
   if (shape_.mask_bits != 0) text += fmt::format(", write mask of {} bits", shape_.mask_bits);
   return text;
 }
@@ -161,6 +174,7 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
       words_(words()),
       span_(this->shape().span),
       latency_(this->shape().latency),
+      any_word_(forbids(this->shape()) ? 0 : kNever),
       read_banks_(read_banks_used_),
       write_banks_(this->shape().shared_ports ? read_banks_used_ : write_banks_used_) {
   const MemoryShape& s = this->shape();
@@ -178,9 +192,9 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
     read_banks_used_.assign(s.banks, kNever);
     write_banks_used_.assign(s.banks, kNever);
   }
-  const bool plain = !s.separate_banks && !forbids(s);
-  const bool one_bank = s.separate_banks && !forbids(s) && s.order == BankOrder::kInterleaved &&
-                        std::has_single_bit(s.banks);
+  const bool plain = !s.separate_banks;
+  const bool one_bank =
+      s.separate_banks && s.order == BankOrder::kInterleaved && std::has_single_bit(s.banks);
   for (Port& port : ports_) {
     port.latency = latency_;
     const bool shared = port.side == Side::kShared;
@@ -245,7 +259,7 @@ void PortedMemory::reset() {
   }
   std::fill(read_banks_used_.begin(), read_banks_used_.end(), kNever);
   std::fill(write_banks_used_.begin(), write_banks_used_.end(), kNever);
-  written_ = kNever;
+  written_ = read_ = written_guard_ = kNever;
 }
 
 std::uint64_t PortedMemory::reads() const {

@@ -52,8 +52,10 @@
 namespace deburr::rtl {
 
 enum class MemoryKind : std::uint8_t { kFlops, kSram, kRom };
-// What a read gives of a word that is written in the same clock.
-enum class ReadDuringWrite : std::uint8_t { kOldWord, kNewWord, kForbidden };
+// What a read gives of a word that is written in the same clock. SRAM gives anything, so that such
+// a read stops the run, unless the shape says which word it is: the old one (a macro that reads
+// first) or the new one (a bypass). Flip-flops give the old one by themselves.
+enum class ReadDuringWrite : std::uint8_t { kForbidden, kOldWord, kNewWord };
 // Which bank holds a word: neighbours in different banks, or blocks of words (a row of pixels
 // each).
 enum class BankOrder : std::uint8_t { kInterleaved, kBlocks };
@@ -66,7 +68,7 @@ struct MemoryShape {
   MemoryKind kind = MemoryKind::kSram;
   std::uint32_t read_ports = 1, write_ports = 1, shared_ports = 0;  // shared: reads or writes
   std::uint32_t latency = 1;                                        // clocks, 0..kMostLatency
-  ReadDuringWrite read_during_write = ReadDuringWrite::kOldWord;
+  ReadDuringWrite read_during_write = ReadDuringWrite::kForbidden;
   std::uint32_t banks = 1;
   BankOrder order = BankOrder::kInterleaved;
   // Words from the address on that one access may take: they lie in as many banks.
@@ -83,6 +85,8 @@ struct MemoryShape {
   // the ports that read, in every copy. Its words are there from the beginning, as the memories of
   // an FPGA have theirs; elsewhere they are loaded before the first access.
   bool loaded = false;
+  // Flip-flops beside the words: of a FIFO its output registers, of a fill store its arrived bits.
+  std::uint64_t register_bits = 0;
   // Why the memory may be one that nobody sells; of no account if it can be built.
   std::string idealised = {};
 };
@@ -108,6 +112,11 @@ class MemoryBase : public sc_core::sc_object {
   std::uint64_t logical_bits() const { return words() * word_bits(); }
   // With copies, and with the words that fill up the last bank.
   std::uint64_t physical_bits() const;
+  // Flip-flops beside the words: those of the shape, and the bypass of SRAM that gives new words.
+  std::uint64_t register_bits() const { return shape_.register_bits + bypass_bits(); }
+  // The words that are written, with their masks, and for each read whether it meets them; all of
+  // it as long as a read takes.
+  std::uint64_t bypass_bits() const;
   std::uint32_t copies() const { return copies_; }
   std::uint32_t banks() const { return shape_.banks; }
   // "3 copies of 1R1W, 4 banks"
@@ -222,13 +231,16 @@ class PortedMemory : public MemoryBase {
     read.address = address;
     read.count = count;
     ++port.reads;
-    if (address < port.plain) [[likely]]
-      return;
-    if (address < port.one_bank && count == 1) [[likely]] {
-      Cycle& used = port.banks[address & port.bank_mask];
-      if (used != cycle) [[likely]] {
-        used = cycle;
+    read_ = cycle | any_word_;
+    if (written_guard_ != cycle) [[likely]] {
+      if (address < port.plain) [[likely]]
         return;
+      if (address < port.one_bank && count == 1) [[likely]] {
+        Cycle& used = port.banks[address & port.bank_mask];
+        if (used != cycle) [[likely]] {
+          used = cycle;
+          return;
+        }
       }
     }
     if (address >= words_) [[unlikely]]
@@ -239,10 +251,11 @@ class PortedMemory : public MemoryBase {
     issue(port, cycle, address, count, port.written == cycle);
     const bool meets = written_ == cycle;
     port.written = written_ = cycle;
+    written_guard_ = cycle | any_word_;
     port.write_address = address;
     port.write_count = count;
     ++port.writes;
-    if (address < port.plain && !meets) [[likely]]
+    if (address < port.plain && !meets && read_ != cycle) [[likely]]
       return;
     if (address >= words_) [[unlikely]]
       fail_address(port, cycle, address, count);
@@ -283,6 +296,9 @@ class PortedMemory : public MemoryBase {
   const std::uint64_t words_;
   const std::uint32_t span_, latency_;
   Cycle written_ = kNever;  // the last write through any port
+  // Where a read may not meet a write: the last read and write. Elsewhere kNever, by any_word_.
+  Cycle read_ = kNever, written_guard_ = kNever;
+  const Cycle any_word_;
   std::vector<Port> ports_;
   std::vector<Port*> readers_, writers_;  // shared ports are among both
 

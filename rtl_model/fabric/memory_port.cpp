@@ -39,14 +39,22 @@ std::unique_ptr<const MemoryBase> make_gather_buffer(const MemoryPortParameters&
 
 PayloadShape request_shape(const MemoryPortParameters& port, std::uint32_t address_bits,
                            std::uint32_t tag_bits) {
-  return {.widths = {{"address", address_bits}, {"tag", tag_bits}, {"byte_mask", port.line_bytes}},
-          .counts = {{"data", port.line_bytes}}};
+  PayloadShape shape{.widths = {{"address", address_bits}, {"tag", tag_bits}}};
+  if (port.read_only) {
+    for (const char* field : {"write", "byte_mask", "data"}) shape.widths.emplace_back(field, 0);
+  } else {
+    shape.widths.emplace_back("byte_mask", port.line_bytes);
+    shape.counts.emplace_back("data", port.line_bytes);
+  }
+  return shape;
 }
 
 PayloadShape response_shape(const MemoryPortParameters& port, std::uint32_t address_bits,
                             std::uint32_t tag_bits) {
-  return {.widths = {{"address", address_bits}, {"tag", tag_bits}},
-          .counts = {{"data", port.line_bytes}}};
+  PayloadShape shape{.widths = {{"address", address_bits}, {"tag", tag_bits}},
+                     .counts = {{"data", port.line_bytes}}};
+  if (port.read_only) shape.widths.emplace_back("write", 0);
+  return shape;
 }
 
 struct MemoryPort::Transaction final : tlm::tlm_generic_payload {
@@ -56,12 +64,13 @@ struct MemoryPort::Transaction final : tlm::tlm_generic_payload {
   std::uint32_t tag = 0, epoch = 0;
   std::uint16_t lines = 1;
   std::uint16_t next_line = 0;  // write: beats gathered; read: beats responded
-  bool write = false, arrived = false, masked = false;
+  bool write = false, arrived = false, masked = false, taken = false;
   std::uint64_t bytes = 0;  // that are read, or enabled
   Cycle sent = 0;
   sc_core::sc_time when;  // arrival of the response
   // The first edge before which, or at whose very time, it has arrived; the first one that sees it.
   Cycle come = 0, visible = 0;
+  Cycle in_buffer = 0;  // `in_order`: the edge at which its (first) line is taken
 };
 
 MemoryPort::MemoryPort(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -124,6 +133,9 @@ Activity MemoryPort::work(Cycle cycle) {
       if (starts) {
         const std::uint32_t most =
             request.write ? parameters_.max_write_lines : parameters_.max_burst_lines;
+        DEBURR_CHECK(!request.write || !parameters_.read_only,
+                     fmt::format("{}: cycle {}: a write of {:#x} through a port that only reads",
+                                 name(), cycle, request.address));
         DEBURR_CHECK(
             request.address % parameters_.line_bytes == 0 && request.lines >= 1 &&
                 request.lines <= most,
@@ -138,7 +150,7 @@ Activity MemoryPort::work(Cycle cycle) {
         t.lines = request.lines;
         t.next_line = 0;
         t.write = request.write;
-        t.arrived = false;
+        t.arrived = t.taken = false;
         t.address = request.address;
         t.set_address(t.address);
         t.data.resize(std::size_t{t.lines} * parameters_.line_bytes);
@@ -312,11 +324,23 @@ void MemoryPort::take_coming(Cycle cycle) {
   next_comes_ = coming_.empty() ? kNever : coming_.front()->come;
 }
 
+// One line an edge goes into the buffer, in the order of arrival; an answer to a write has none.
+void MemoryPort::take_lines(Cycle cycle) {
+  for (Transaction* t : arrived_) {
+    if (t->taken || cycle < t->visible) continue;
+    t->taken = true;
+    t->in_buffer = std::max(t->visible, t->write ? 0 : intake_free_);
+    if (!t->write) intake_free_ = t->in_buffer + t->lines;
+  }
+}
+
 // Pushes one beat of a response that has arrived before this edge, if there is one.
 bool MemoryPort::respond(Cycle cycle) {
+  if (parameters_.in_order) take_lines(cycle);
   if (arrived_.empty() || !responses_out.can_push(cycle)) return false;
   Transaction* t = parameters_.in_order ? in_flight_.front() : arrived_.front();
   if (!t->arrived || cycle < t->visible) return false;
+  if (parameters_.in_order && cycle < t->in_buffer) return false;
 
   MemoryResponse& response = responses_out.emplace(cycle);
   response.address = t->address + std::uint64_t{t->next_line} * parameters_.line_bytes;
@@ -362,6 +386,7 @@ void MemoryPort::reset() {
     list->clear();
   }
   next_comes_ = kNever;
+  intake_free_ = 0;
   if (gathering_) gathering_->release();
   gathering_ = nullptr;
   in_flight_.clear();

@@ -9,10 +9,10 @@
 // there is room for each that is outstanding; ResponseEnd says in which of the protocol's forms.
 // Stalls: `outstanding` (limit reached), `request_channel` (the target has not ended the last
 // request), `downstream` (nobody takes the responses).
-// What the interconnect is, the model leaves open: a burst goes and comes in one transaction, and
-// all responses that come before an edge are in the buffer at that edge, however many. From it goes
-// one beat a clock. A buffer of 1R1W takes them so if the interconnect brings at most a line a
-// clock.
+// What the interconnect is, the model leaves open: a burst goes and comes in one transaction. The
+// buffer is 1R1W: of lines that come before the same edge it takes one at each edge, in the order
+// in which they come, and the interconnect holds the others. One beat a clock leaves it, in the
+// same order, so none leaves later for it, but with `in_order`, where an older one may come last.
 #pragma once
 
 #include <array>
@@ -83,10 +83,12 @@ struct MemoryPortParameters {
   std::uint32_t max_burst_lines = 1;      // lines; 1..64
   std::uint32_t max_write_lines = 1;      // lines of a burst that writes; 1..max_burst_lines
   bool in_order = false;                  // responses in the order of requests
+  bool read_only = false;                 // nobody writes through it: its links carry no data there
   std::uint32_t line_bytes = kLineBytes;  // 4..kLineBytes: of each beat, the first so many
 };
 
-// What of a beat is built for a port with these parameters, addresses and tags of so many bits.
+// What of a beat is built for a port with these parameters, addresses and tags of so many bits:
+// with `read_only` a request has no data and no mask, and neither beat says that it writes.
 PayloadShape request_shape(const MemoryPortParameters& port, std::uint32_t address_bits,
                            std::uint32_t tag_bits);
 PayloadShape response_shape(const MemoryPortParameters& port, std::uint32_t address_bits,
@@ -154,6 +156,7 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   void count(Transaction& transaction);
   static void put_in_order(std::deque<Transaction*>& list, Transaction& transaction);
   void take_coming(Cycle cycle);
+  void take_lines(Cycle cycle);
   [[gnu::noinline]] Activity work(Cycle cycle);
   bool respond(Cycle cycle);
   bool busy() const { return gathering_ || !in_flight_.empty(); }
@@ -168,6 +171,7 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   // one of them has come.
   std::deque<Transaction*> coming_;
   Cycle next_comes_ = kNever;
+  Cycle intake_free_ = 0;  // `in_order`: the first edge at which the buffer takes a line
   Transaction* requesting_ = nullptr;  // BEGIN_REQ sent, END_REQ not yet seen
   Transaction* responding_ = nullptr;  // BEGIN_RESP seen, END_RESP to be sent by a call
   Transaction* gathering_ = nullptr;   // burst write whose beats are still coming in

@@ -214,11 +214,11 @@ void Payload::check_fields() const {
 void Payload::check_shape(const PayloadShape& shape) const {
   for (const auto& width : shape.widths) {
     const std::string &what = width.first, within = what + ".";
-    DEBURR_CHECK(
-        std::any_of(fields_.begin(), fields_.end(),
-                    [&](const Field& f) { return f.name == what || f.name.starts_with(within); }) ||
-            std::find(left_out_.begin(), left_out_.end(), what) != left_out_.end(),
-        fmt::format("a payload without {} cannot be built with less of it", what));
+    const auto meant = [&](const std::string& n) { return n == what || n.starts_with(within); };
+    DEBURR_CHECK(std::any_of(fields_.begin(), fields_.end(),
+                             [&](const Field& f) { return meant(f.name); }) ||
+                     std::any_of(left_out_.begin(), left_out_.end(), meant),
+                 fmt::format("a payload without {} cannot be built with less of it", what));
   }
   std::vector<std::string> arrays;
   find_arrays(node_, "", arrays);
@@ -241,6 +241,9 @@ void Payload::collect(PayloadNode& node) {
     return out;
   });
   for (PayloadNode& child : node.children) collect(child);
+  std::erase_if(node.children, [](const PayloadNode& child) {
+    return child.kind == PayloadNode::Kind::kArray && child.children.empty();
+  });
 }
 
 const Field* Payload::find(std::string_view field) const {

@@ -40,6 +40,8 @@ MemoryShape bank_shape(const spec::texture::Parameters& p) {
           .read_ports = 4,
           .write_ports = 1,
           .latency = 1,
+          // A fill replaces a line in the clock in which an older request reads it.
+          .read_during_write = ReadDuringWrite::kOldWord,
           .banks = banks,
           .span = banks,
           .separate_banks = true,

@@ -21,6 +21,7 @@ MemoryPortParameters port_parameters(const spec::texture::Parameters& p) {
   port.outstanding = static_cast<std::uint32_t>(p.cache_outstanding);
   port.line_bytes = std::min(static_cast<std::uint32_t>(p.cache_line_bytes), kLineBytes);
   port.max_burst_lines = static_cast<std::uint32_t>(p.cache_line_bytes) / port.line_bytes;
+  port.read_only = true;
   return port;
 }
 

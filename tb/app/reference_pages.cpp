@@ -345,9 +345,14 @@ std::string datasheets_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "* **Initiation interval** is from one token to the next.\n"
       "* **Longest path** of a stage is an estimate from its operators and their widths, not a "
       "synthesis; a stage without one is\n"
-      "  shorter than others of its unit. Units are made for 250 MHz if nothing else is said: no "
-      "stage does more than a 24 x 24\n"
-      "  multiply, an SRAM read and a 16-bit addition, or a choice of 1 in 32 and an addition.\n"
+      "  shorter than others of its unit. Units are made for 250 MHz in standard cells if nothing "
+      "else is said: no stage does more\n"
+      "  than a 24 x 24 multiply, an SRAM read and a 16-bit addition, or a choice of 1 in 32 and "
+      "an "
+      "addition. In an FPGA such a\n"
+      "  multiply runs at 100 to 170 MHz. Stages that do more say so, with their share of the "
+      "multiply's delay where they were\n"
+      "  synthesised by themselves (yosys, 180 nm standard cells osu018).\n"
       "\n## Fabric\n";
   page += rtl::datasheets_markdown(std::vector{rtl::MemoryPort::datasheet()});
   for (const auto& engine : engines)

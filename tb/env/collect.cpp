@@ -66,6 +66,7 @@ MemoryFigures memory_figures(std::string name, const rtl::MemoryBase& memory, in
   f.logical_bits = f.logical_bits_at_frame_width = memory.logical_bits();
   if (width > 0) f.logical_bits_at_frame_width = memory.bits_at(static_cast<std::uint64_t>(width));
   f.physical_bits = memory.physical_bits();
+  f.register_bits = memory.register_bits();
   f.high_water = memory.high_water();
   f.idealised = memory.idealised();
   return f;

@@ -31,17 +31,6 @@ void Meter::add(Result& result, std::string_view name, const rtl::MemoryBase& me
   result.memories.push_back(memory_figures(figure(name), memory, width));
 }
 
-void Meter::add_parts(Result& result, const rtl::Engine& engine, int width) const {
-  for (const rtl::Unit* unit : engine.units()) add(result, name_within(engine, *unit), *unit);
-  for (const rtl::MemoryBase* memory : engine.memories())
-    add(result, name_within(engine, *memory), *memory, width);
-}
-
-void Meter::add_counters(Result& result, const rtl::Engine& engine) const {
-  for (const rtl::Counter* counter : engine.counters())
-    add(result, name_within(engine, *counter), *counter);
-}
-
 namespace {
 
 // What is inside a FIFO is shown under the FIFO's name, which its memory has.
@@ -53,6 +42,22 @@ const sc_core::sc_object& fifo_or_link(const rtl::Engine& engine, const rtl::Lin
 }
 
 }  // namespace
+
+void Meter::add_parts(Result& result, const rtl::Engine& engine, int width) const {
+  for (const rtl::Unit* unit : engine.units()) add(result, name_within(engine, *unit), *unit);
+  for (const rtl::MemoryBase* memory : engine.memories())
+    add(result, name_within(engine, *memory), *memory, width);
+  for (const rtl::LinkBase* link : engine.links()) {
+    if (&fifo_or_link(engine, *link) != link) continue;
+    ++result.link_bits.links;
+    result.link_bits.bits += std::uint64_t{link->depth()} * link->payload_bits();
+  }
+}
+
+void Meter::add_counters(Result& result, const rtl::Engine& engine) const {
+  for (const rtl::Counter* counter : engine.counters())
+    add(result, name_within(engine, *counter), *counter);
+}
 
 void Meter::show(Observer& observer, const rtl::Engine& engine) const {
   const auto name = [&](const sc_core::sc_object& object) {

@@ -18,6 +18,7 @@ inline rtl::MemoryPortParameters memory_port_of(const spec::texture::Build& buil
   port.outstanding = static_cast<std::uint32_t>(build.cache_outstanding);
   port.line_bytes = std::min(static_cast<std::uint32_t>(build.cache_line_bytes), rtl::kLineBytes);
   port.max_burst_lines = static_cast<std::uint32_t>(build.cache_line_bytes) / port.line_bytes;
+  port.read_only = true;
   return port;
 }
 // An address is 32 bits, a tag the number of a place for a line on its way.

@@ -161,7 +161,8 @@ Json to_json(const Result& result) { return ResultWriter(result).file(); }
 
 // ---- memories -----------------------------------------------------------------------------------
 
-std::vector<MemoryBits> memory_bits(std::span<const MemoryFigures> memories) {
+std::vector<MemoryBits> memory_bits(std::span<const MemoryFigures> memories,
+                                    const LinkBits& links) {
   std::vector<MemoryBits> all = {{"flops"}, {"sram"}, {"rom"}, {"total"}};
   for (const MemoryFigures& m : memories)
     for (MemoryBits& bits : all) {
@@ -171,6 +172,15 @@ std::vector<MemoryBits> memory_bits(std::span<const MemoryFigures> memories) {
       bits.physical += m.physical_bits;
       bits.logical_at_frame_width += m.logical_bits_at_frame_width;
     }
+  MemoryBits registers{"registers"};
+  for (const MemoryFigures& m : memories) {
+    if (m.register_bits == 0) continue;
+    ++registers.memories;
+    registers.logical += m.register_bits;
+  }
+  registers.physical = registers.logical_at_frame_width = registers.logical;
+  all.push_back(registers);
+  all.push_back({"links", links.links, links.bits, links.bits, links.bits});
   std::erase_if(all, [](const MemoryBits& b) { return b.kind != "total" && b.memories == 0; });
   return all;
 }

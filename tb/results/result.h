@@ -104,6 +104,7 @@ struct MemoryFigures {
   std::string built_as;            // "2 copies of 1R1W, 4 banks"
   std::uint64_t copies = 1, banks = 1;
   std::uint64_t logical_bits = 0, physical_bits = 0;
+  std::uint64_t register_bits = 0;  // flip-flops beside its words
   // Logical bits for frames of the width that this run had, where the size goes with the width.
   std::uint64_t logical_bits_at_frame_width = 0;
   std::optional<std::uint64_t> high_water;  // words in use at most, of a FIFO
@@ -125,13 +126,19 @@ struct MapFigures {
   std::string account;       // what the values were checked against; empty: nothing
 };
 
+// The links of an engine, those inside of FIFOs left out.
+struct LinkBits {
+  std::uint64_t links = 0, bits = 0;
+};
+
 // Bits of all memories of a kind.
 struct MemoryBits {
-  std::string_view kind;  // "total": of all kinds
+  // "total": of flops, sram and rom. Beside it "registers": flip-flops beside memories; "links".
+  std::string_view kind;
   std::uint64_t memories = 0, logical = 0, physical = 0, logical_at_frame_width = 0;
 };
 // Of every kind that there is, and the total.
-std::vector<MemoryBits> memory_bits(std::span<const MemoryFigures> memories);
+std::vector<MemoryBits> memory_bits(std::span<const MemoryFigures> memories, const LinkBits& links);
 
 // What a reader looks for first: a value of the result by its key ("work.frame_clocks"), beside
 // one that it should be compared with; without such a key, against_label is a remark.
@@ -176,6 +183,7 @@ struct Result {
   std::vector<UnitCycles> units;
   std::optional<Bottleneck> bottleneck;
   std::vector<MemoryFigures> memories;
+  LinkBits link_bits;
   std::vector<LinkFigures> links;                                // of a run with windows
   std::vector<MapFigures> maps;                                  // of a run with maps
   std::optional<std::map<std::string, std::uint64_t>> coverage;  // hits by bin; run.coverage

@@ -101,6 +101,10 @@ void describe(const MemoryFigures& m, Visitor& v) {
           "Bits that are built: with copies, and with the words that fill up the last bank.");
   v.value("logical_bits_at_frame_width", m.logical_bits_at_frame_width, "bit",
           "logical_bits if it were built for the width of this frame.");
+  if (v.has(m.register_bits != 0))
+    v.value("register_bits", m.register_bits, "bit",
+            "Flip-flops beside its words: output registers of a FIFO, arrived bits, and of SRAM "
+            "that gives the word of the same clock the bypass.");
   if (v.has(m.high_water.has_value()))
     v.value("high_water", m.high_water.value_or(0), "word", "Most entries at a time; of a FIFO.");
 }
@@ -267,9 +271,11 @@ void describe(const Result& r, Visitor& v) {
     });
   v.each("memories", r.memories, &MemoryFigures::name,
          [&](const MemoryFigures& m) { describe(m, v); });
-  v.each("memory_bits", memory_bits(r.memories), &MemoryBits::kind, [&](const MemoryBits& bits) {
+  const std::vector<MemoryBits> sums = memory_bits(r.memories, r.link_bits);
+  v.each("memory_bits", sums, &MemoryBits::kind, [&](const MemoryBits& bits) {
     v.value("memories", bits.memories, "",
-            "Memories of a kind (flops, sram, rom), and of all kinds (total).");
+            "Memories of a kind (flops, sram, rom), and of all of these (total); beside the total "
+            "memories with registers beside their words (registers), and links (links).");
     v.value("logical", bits.logical, "bit", "Their logical bits.");
     v.value("physical", bits.physical, "bit", "Their physical bits.");
     v.value("logical_at_frame_width", bits.logical_at_frame_width, "bit",

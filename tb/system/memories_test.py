@@ -51,7 +51,12 @@ class Memories(unittest.TestCase):
                 self.assertEqual(m["logical_bits"], m["words"] * m["word_bits"])
                 self.assertGreaterEqual(m["physical_bits"], m["logical_bits"])
                 self.assertIn(m["kind"], ("flops", "sram", "rom"))
-            for kind, bits in result["memory_bits"].items():
+            sums = result["memory_bits"]
+            beside = [m["register_bits"] for m in memories if "register_bits" in m]
+            self.assertEqual((sums["registers"]["memories"], sums["registers"]["physical"]), (len(beside), sum(beside)))
+            self.assertGreater(sums["links"]["physical"], sums["links"]["memories"])
+            for kind in sums.keys() - {"registers", "links"}:
+                bits = sums[kind]
                 of_kind = [m for m in memories if kind in ("total", m["kind"])]
                 self.assertEqual(bits["memories"], len(of_kind))
                 self.assertEqual(bits["logical"], sum(m["logical_bits"] for m in of_kind))

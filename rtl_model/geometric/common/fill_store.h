@@ -52,8 +52,11 @@ class FillStore {
   FillStore(const char* name, std::int32_t places, std::uint32_t bits, std::string content,
             MemoryKind kind = MemoryKind::kSram)
       : places_(static_cast<std::uint32_t>(places)),
-        memory_(name,
-                {.words = places_, .word_bits = bits, .kind = kind, .content = std::move(content)}),
+        memory_(name, {.words = places_,
+                       .word_bits = bits,
+                       .kind = kind,
+                       .content = std::move(content),
+                       .register_bits = places_}),
         arrived_(places_, kNever) {}
 
   Filler filler() { return Filler(*this); }

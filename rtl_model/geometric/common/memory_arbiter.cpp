@@ -11,6 +11,12 @@ std::string named(Client which, const char* what) {
   return std::string(kClientNames[static_cast<std::size_t>(which)]) + "_" + what;
 }
 
+// What this client's links carry.
+MemoryPortParameters of(Client which, MemoryPortParameters port) {
+  port.read_only = which != Client::kWeights && which != Client::kResolve && which != Client::kCopy;
+  return port;
+}
+
 }  // namespace
 
 std::vector<Client> clients_of(const spec::geometric::Parameters& p) {
@@ -26,8 +32,9 @@ std::vector<Client> clients_of(const spec::geometric::Parameters& p) {
 }
 
 MemoryArbiter::Side::Side(Client which, const MemoryPortParameters& port)
-    : requests(named(which, "requests").c_str(), 2, request_shape(port, 32, kPlaceBits)),
-      responses(named(which, "responses").c_str(), 2, response_shape(port, 32, kPlaceBits)),
+    : requests(named(which, "requests").c_str(), 2, request_shape(of(which, port), 32, kPlaceBits)),
+      responses(named(which, "responses").c_str(), 2,
+                response_shape(of(which, port), 32, kPlaceBits)),
       requests_in(named(which, "requests_in").c_str()),
       responses_out(named(which, "responses_out").c_str()),
       read_latency(named(which, "read_latency").c_str(), "clk",

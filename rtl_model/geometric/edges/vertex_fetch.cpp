@@ -40,6 +40,8 @@ VertexFetch::VertexFetch(const sc_core::sc_module_name& name, ClockDomain& clock
       data_("vertex_data", {.words = lines_,
                             .word_bits = kVertexBits * kVerticesInLine,
                             .read_ports = 2,
+                            // v1's line replaces the one of v0 in the clock that reads v0.
+                            .read_during_write = ReadDuringWrite::kOldWord,
                             .content = "four vertices: x, y, depth, usable"}),
       fills_("vertex_fills", p.fills, kVertexBits * kVerticesInLine, "vertices on their way"),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo)),

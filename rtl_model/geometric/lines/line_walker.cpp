@@ -62,9 +62,10 @@ Datasheet LineWalker::datasheet() {
       .does = "Steps along a line, a group of columns a clock.",
       .latency = {1},
       .interval = {1, "a group a clock, over the ends of lines too"},
-      .stages = {{"1",
-                  "position + k slope for k = 0..N, blocks compared, choice of the next position",
-                  "2 : 1 choice, 40-bit add + 13-bit compare + 5 : 1 choice"}},
+      .stages =
+          {{"1", "position + k slope for k = 0..N, blocks compared, choice of the next position",
+            "2 : 1 choice, with four walkers 3 x slope (an add), 40-bit add + 13-bit compare + "
+            "5 : 1 choice: 1.22 of the multiply with four walkers"}},
       .cost =
           "9 adds of 40 bits (position + k slope, the next position), 5 of 38 (the next "
           "depth), 3 compares of 14 bits, a 5 : 1 choice."};

@@ -222,9 +222,10 @@ Datasheet BlockFetch::datasheet() {
       .interval = {1, "max(1, lines that are needed) a block"},
       .stages = {{"1", "tag of the block"},
                  {"2", "a read of weights ordered; FIFO"},
-                 {"3", "weights of the cache, or the line that came", "SRAM read"},
+                 {"3", "a read of the cache's weights, or the line that came"},
                  {"4", "limits of the weights, axis, lines that are needed",
-                  "limits of a weight + 10-bit compare"},
+                  "SRAM read, limits of a weight, 8-bit add, 9-bit compare, or of 16 pixels: more "
+                  "than a read and an addition"},
                  {"5",
                   "lines that are kept; requests of the others, one or the other a clock, the "
                   "block with the first",

@@ -48,6 +48,8 @@ PixelStore::PixelStore(const sc_core::sc_module_name& name, ClockDomain& clock,
         "pixel_lines" + std::to_string(i),
         MemoryShape{.words = static_cast<std::size_t>(rows_ / kLines) * stride_,
                     .word_bits = static_cast<std::uint32_t>(32 * lanes_),
+                    // A row takes the place of the one that is read for the last time.
+                    .read_during_write = ReadDuringWrite::kOldWord,
                     .banks = banks,
                     .span = banks,
                     .content = "every fourth row of the pixels to be blended",

@@ -34,6 +34,8 @@ MemoryShape axis_shape(std::size_t words, std::size_t columns, std::size_t banks
                        const char* content) {
   return {.words = words,
           .write_ports = static_cast<std::uint32_t>(banks),
+          // A record may end in the clock in which the walk comes by: it is too late for that beat.
+          .read_during_write = ReadDuringWrite::kOldWord,
           .banks = static_cast<std::uint32_t>(banks),
           .separate_banks = banks > 1,
           .content = content,

@@ -440,7 +440,11 @@ TEST(Memory, SharedPortReadsOrWrites) {
 }
 
 TEST(Memory, OneAccessGivesNeighboursInDifferentBanks) {
-  Memory<int> memory("memory", {.words = 10, .word_bits = 4, .banks = 4, .span = 3});
+  Memory<int> memory("memory", {.words = 10,
+                                .word_bits = 4,
+                                .read_during_write = ReadDuringWrite::kOldWord,
+                                .banks = 4,
+                                .span = 3});
   ReadPort<int> read(memory, "read");
   WritePort<int> write(memory, "write");
   write.write(0, 5, std::array{50, 60, 70});
@@ -582,7 +586,10 @@ TEST(Memory, SeveralWritersDoNotMeet) {
 }
 
 TEST(Memory, PartOfAWordNeedsAWriteMask) {
-  Memory<std::array<int, 2>> memory("memory", {.words = 8, .word_bits = 16, .mask_bits = 8});
+  Memory<std::array<int, 2>> memory("memory", {.words = 8,
+                                               .word_bits = 16,
+                                               .read_during_write = ReadDuringWrite::kOldWord,
+                                               .mask_bits = 8});
   ReadPort<std::array<int, 2>> read(memory, "read");
   WritePort<std::array<int, 2>> write(memory, "write");
   write.write(0, 1, {10, 20});
@@ -591,7 +598,7 @@ TEST(Memory, PartOfAWordNeedsAWriteMask) {
   EXPECT_EQ(read.at(2, 1), (std::array{10, 20}));
   read.read(2, 1);
   EXPECT_EQ(read.at(3, 1), (std::array{10, 21}));
-  EXPECT_THAT(memory.built_as(), HasSubstr("write mask of 8 bits"));
+  EXPECT_EQ(memory.built_as(), "1R1W, old word, write mask of 8 bits");
   Ported p(1);
   EXPECT_THAT(rejection([&] { p.write.change(0, 1, [](int& word) { word = 1; }); }),
               HasSubstr("mask_bits"));
@@ -993,12 +1000,69 @@ TEST(MemoryCost, FlipFlopsEndAtTheirLastBit) {
 }
 
 TEST(MemoryCost, ADeepFifoIsSram) {
-  const rtl::Fifo<std::uint32_t> shallow("shallow", 512), deep("deep", 513);
+  const rtl::Fifo<std::uint32_t> shallow("shallow", 32), deep("deep", 33);
   EXPECT_EQ(shallow.memory_kind(), MemoryKind::kFlops);
-  EXPECT_EQ(shallow.logical_bits(), 16'384U);
+  EXPECT_EQ(shallow.logical_bits(), 1024U);
+  EXPECT_EQ(shallow.register_bits(), 0U);
   EXPECT_EQ(deep.memory_kind(), MemoryKind::kSram);
   EXPECT_EQ(deep.built_as(), "1R1W");
-  EXPECT_EQ(deep.physical_bits(), 513U * 32);
+  EXPECT_EQ(deep.physical_bits(), 33U * 32);
+  EXPECT_EQ(deep.register_bits(), 2U * 32);  // its output registers
+}
+
+TEST(MemoryCost, AWideFifoIsSram) {
+  const rtl::Fifo<rtl::MemoryRequest> narrow("narrow", 24), wide("wide", 25);
+  EXPECT_EQ(narrow.logical_bits(), 24U * 680);
+  EXPECT_EQ(narrow.memory_kind(), MemoryKind::kFlops);
+  EXPECT_EQ(wide.memory_kind(), MemoryKind::kSram);
+  EXPECT_EQ(wide.register_bits(), 2U * 680);
+}
+
+// By hand: a written word a write port and its mask, a bit a read whether it meets one, all of it
+// as long as a read takes.
+TEST(MemoryCost, NewWordsOfSramAreABypass) {
+  const auto bits = [](MemoryShape shape, ReadDuringWrite rule) {
+    shape.read_during_write = rule;
+    return MemoryBase("memory", shape).register_bits();
+  };
+  const MemoryShape plain{.words = 64, .word_bits = 27, .read_ports = 2};
+  EXPECT_EQ(bits(plain, ReadDuringWrite::kNewWord), 27U + 2);
+  EXPECT_EQ(bits(plain, ReadDuringWrite::kOldWord), 0U);
+  EXPECT_EQ(bits(plain, ReadDuringWrite::kForbidden), 0U);
+  const MemoryShape masked{.words = 64, .word_bits = 24, .latency = 2, .mask_bits = 8};
+  EXPECT_EQ(bits(masked, ReadDuringWrite::kNewWord), 2U * (24 + 3 + 1));
+  const MemoryShape wide{.words = 64, .word_bits = 8, .banks = 4, .span = 3};
+  EXPECT_EQ(bits(wide, ReadDuringWrite::kNewWord), 3U * (8 + 1));
+  const MemoryShape either{
+      .words = 64, .word_bits = 8, .read_ports = 0, .write_ports = 0, .shared_ports = 2};
+  EXPECT_EQ(bits(either, ReadDuringWrite::kNewWord), 2U * (8 + 1));
+  const MemoryShape flops{
+      .words = 64, .word_bits = 8, .kind = MemoryKind::kFlops, .register_bits = 5};
+  EXPECT_EQ(bits(flops, ReadDuringWrite::kNewWord), 5U) << "a choice before the register";
+}
+
+TEST(Memory, SramForbidsWhatItsShapeDoesNotSay) {
+  Memory<int> sram("sram", {.words = 8, .word_bits = 4});
+  ReadPort<int> read(sram, "read");
+  WritePort<int> write(sram, "write");
+  write.write(0, 5, 1);
+  read.read(0, 4);
+  EXPECT_THAT(rejection([&] {
+                write.write(1, 6, 1);
+                read.read(1, 6);
+              }),
+              HasSubstr("forbidden"));
+  EXPECT_THAT(rejection([&] {
+                read.read(2, 6);
+                write.write(2, 6, 1);
+              }),
+              HasSubstr("forbidden"));
+  Memory<int> flops("flops", {.words = 8, .word_bits = 4, .kind = MemoryKind::kFlops});
+  ReadPort<int> now(flops, "read");
+  WritePort<int> later(flops, "write");
+  later.write(0, 5, 7);
+  now.read(0, 5);
+  EXPECT_EQ(now.at(1, 5), 0) << "the old word by themselves";
 }
 
 }  // namespace

@@ -628,6 +628,75 @@ TEST(MemoryPort, InOrderItWaitsForTheOldestAnswer) {
   EXPECT_GT(s.port.stalled_cycles(), 200U);
 }
 
+// Answers when it is told to.
+struct ToldTarget : sc_core::sc_module, tlm::tlm_fw_transport_if<> {
+  tlm::tlm_target_socket<> socket{"socket"};
+  std::vector<tlm::tlm_generic_payload*> asked;
+  explicit ToldTarget(const sc_core::sc_module_name& name) : sc_module(name) { socket.bind(*this); }
+  void answer(std::size_t which) {
+    asked.at(which)->set_response_status(tlm::TLM_OK_RESPONSE);
+    tlm::tlm_phase phase = tlm::BEGIN_RESP;
+    sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+    socket->nb_transport_bw(*asked.at(which), phase, delay);
+  }
+  tlm::tlm_sync_enum nb_transport_fw(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
+                                     sc_core::sc_time&) override {
+    asked.push_back(&payload);
+    phase = tlm::END_REQ;
+    return tlm::TLM_UPDATED;
+  }
+  void b_transport(tlm::tlm_generic_payload&, sc_core::sc_time&) override {}
+  bool get_direct_mem_ptr(tlm::tlm_generic_payload&, tlm::tlm_dmi&) override { return false; }
+  unsigned transport_dbg(tlm::tlm_generic_payload&) override { return 0; }
+};
+
+// Of answers that come before one edge the buffer takes a line an edge, in the order in which they
+// come: who waits for the last one waits for the lines before it, none of which an answer to a
+// write has. In the order of arrival every beat leaves as if all had been taken at once.
+TEST(MemoryPort, TheBufferTakesALineAnEdge) {
+  const auto beats = [](bool in_order, bool write, std::vector<std::size_t> answers) {
+    return in_child([&] {
+      MemoryPortParameters parameters;
+      parameters.max_burst_lines = 4;
+      parameters.in_order = in_order;
+      Side s(parameters);
+      ToldTarget target("target");
+      s.port.memory.bind(target.socket);
+      MemoryRequest burst = read_of(8);
+      burst.write = write;
+      burst.lines = write ? 1 : 4;
+      s.driver.send(read_of(1));
+      s.driver.send(burst);
+      s.clock.run(20);
+      for (const std::size_t which : answers) target.answer(which);
+      s.clock.run(20);
+      std::string text;
+      for (std::size_t i = 0; i < s.sink.beats().size(); ++i)
+        text += fmt::format("{}.{}@{} ", s.sink.beats()[i].tag, s.sink.beats()[i].line,
+                            s.sink.cycles()[i] - 20);
+      return text;
+    });
+  };
+  EXPECT_EQ(beats(true, false, {0, 1}), "1.0@2 8.0@3 8.1@4 8.2@5 8.3@6 ");
+  EXPECT_EQ(beats(true, false, {1, 0}), "1.0@6 8.0@7 8.1@8 8.2@9 8.3@10 ");
+  EXPECT_EQ(beats(true, true, {1, 0}), "1.0@2 8.0@3 ");
+  EXPECT_EQ(beats(false, false, {1, 0}), "8.0@2 8.1@3 8.2@4 8.3@5 1.0@6 ");
+}
+
+TEST(MemoryPort, WhatOnlyReadsIsNotWritten) {
+  EXPECT_THAT(in_child([] {
+                MemoryPortParameters parameters;
+                parameters.read_only = true;
+                System s(parameters, with_latency(10));
+                MemoryRequest request = read_of(3);
+                request.write = true;
+                s.driver.send(request);
+                s.clock.run(20);
+                return std::string("written");
+              }),
+              testing::HasSubstr("a write of 0xc0 through a port that only reads"));
+}
+
 // The first beat of a burst that writes is taken, and waits inside for the others.
 TEST(MemoryPort, WaitsForTheBeatsOfABurst) {
   MemoryPortParameters parameters;

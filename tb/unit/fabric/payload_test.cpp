@@ -347,6 +347,12 @@ TEST(Payload, MemoryBeatsHaveTheWidthOfTheirPort) {
   EXPECT_EQ(Payload::of<rtl::MemoryRequest>(rtl::request_shape(port, 32, 5)).bits(), 333U);
   EXPECT_EQ(Payload::of<rtl::MemoryResponse>(rtl::response_shape(port, 32, 5)).bits(), 303U);
   EXPECT_EQ(rtl::kPayloadBits<rtl::MemoryRequest>, 64U + 32 + 7 + 1 + 64 + 512);
+  // Nothing that cannot differ: 32 + 5 + 7, and 32 + 5 + 6 + 1 + 2 + 32 x 8.
+  port.read_only = true;
+  const Payload request = Payload::of<rtl::MemoryRequest>(rtl::request_shape(port, 32, 5));
+  EXPECT_EQ(request.bits(), 44U);
+  EXPECT_EQ(request.find("data.0"), nullptr);
+  EXPECT_EQ(Payload::of<rtl::MemoryResponse>(rtl::response_shape(port, 32, 5)).bits(), 302U);
 }
 
 TEST(Payload, MemoryBeatsHaveTheBitsOfTheirFormats) {

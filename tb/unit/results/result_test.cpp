@@ -103,6 +103,8 @@ Result full_result() {
   r.throughput_bound_meaning = "One a clock.";
   r.bytes_written = 64;
   r.memories[1].high_water = 7;
+  r.memories[1].register_bits = 130;
+  r.link_bits = {3, 700};
   r.memories[1].idealised = "nine ports";
   r.links = {{"cache_in", "engine.cache.in", 30, {5, 10, 25}}, {"empty", "engine.empty", 0, {0}}};
   r.maps = {{"samples", "Samples", "sample", "Samples of each pixel.", 1, 16, 48, 12, "the walker"},
@@ -196,7 +198,7 @@ constexpr const char* kFullResult = R"json({
       "content": "Lines of the cache.", "kind": "flops", "words": 80, "word_bits": 64,
       "ports": "2R1W", "read_latency": 1, "built_as": "2 copies of 1R1W", "copies": 1, "banks": 1,
       "logical_bits": 5120, "physical_bits": 5120, "logical_bits_at_frame_width": 1280,
-      "high_water": 7
+      "register_bits": 130, "high_water": 7
     }
   },
   "memory_bits": {
@@ -206,7 +208,9 @@ constexpr const char* kFullResult = R"json({
     },
     "total": {
       "memories": 2, "logical": 136192, "physical": 267264, "logical_at_frame_width": 132352
-    }
+    },
+    "registers": {"memories": 1, "logical": 130, "physical": 130, "logical_at_frame_width": 130},
+    "links": {"memories": 3, "logical": 700, "physical": 700, "logical_at_frame_width": 700}
   },
   "idealised": {"cache_lines": "nine ports"},
   "links": {
@@ -354,7 +358,10 @@ TEST_F(Directory, IdenticalPicturesAreNullInTheFileAndInfiniteForItsReaders) {
 }
 
 TEST(Results, MemoriesAddUpByKind) {
-  const Json bits = to_json(sample_result())["memory_bits"];
+  Result result = sample_result();
+  result.memories[1].register_bits = 130;
+  result.link_bits = {3, 700};
+  const Json bits = to_json(result)["memory_bits"];
   EXPECT_EQ(bits["sram"]["logical"], 131072);
   EXPECT_EQ(bits["sram"]["physical"], 262144);
   EXPECT_EQ(bits["flops"]["memories"], 1);
@@ -362,6 +369,11 @@ TEST(Results, MemoriesAddUpByKind) {
   EXPECT_EQ(bits["total"]["physical"], 262144 + 5120);
   EXPECT_EQ(bits["total"]["logical_at_frame_width"], 131072 + 1280);
   EXPECT_FALSE(bits.contains("rom")) << "there is none";
+  EXPECT_EQ(bits["registers"]["memories"], 1) << "those that have some";
+  EXPECT_EQ(bits["registers"]["physical"], 130);
+  EXPECT_EQ(bits["links"]["memories"], 3);
+  EXPECT_EQ(bits["links"]["logical"], 700);
+  EXPECT_FALSE(to_json(sample_result())["memory_bits"].contains("registers")) << "there are none";
 }
 
 TEST(Results, AnIdealisedMemoryIsNamedEverywhere) {

@@ -272,7 +272,7 @@ TEST(Memories, OfKeptColoursAndTheWriteBuffer) {
         " x " + std::to_string(memory->word_bits()) + " " + memory->ports();
   EXPECT_EQ(built["kept_colours"], "sram 100 x 512 1R1W");
   EXPECT_EQ(built["kept_tags"], "flops 100 x 23 100R1W");
-  EXPECT_EQ(built["colour_order"], "flops 108 x 9 1R1W");
+  EXPECT_EQ(built["colour_order"], "sram 108 x 9 1R1W");
   EXPECT_EQ(built["weight_combiner.write_buffer"], "sram 40 x 512 1R1W");
   EXPECT_EQ(built["weight_combiner.write_tags"], "flops 40 x 23 40R1W");
   EXPECT_EQ(built["weight_combiner.latency_fifo"], "sram 128 x 177 1R1W");

@@ -365,7 +365,7 @@ TEST(MemoriesOfLessTraffic, AreThoseOfThePage) {
   EXPECT_EQ(text, R"(pair_fetch.pair_tags flops 2 x 22 1R1W
 pair_fetch.pair_lines flops 2 x 480 1R1W
 pair_fetch.pair_fills sram 108 x 480 1R1W
-pair_fetch.latency_fifo flops 128 x 9 FIFO
+pair_fetch.latency_fifo sram 128 x 9 FIFO
 depth_screen.coarse_tags flops 64 x 16 2R1W
 depth_screen.coarse_lines sram 64 x 512 2R1W
 depth_screen.coarse_fills sram 108 x 512 1R1W

@@ -536,7 +536,7 @@ TEST(TextureRtlUnit, AccountsForItsMemories) {
             128u * (2 * (19 + 1 + 1) + 1));  // tag, valid,
                                              // turned; order
   EXPECT_EQ(find("cache.data_stage.banks").physical_bits(), 16384u * 8);
-  EXPECT_EQ(find("cache.data_stage.banks").built_as(), "1R1W, 16 banks");
+  EXPECT_EQ(find("cache.data_stage.banks").built_as(), "1R1W, 16 banks, old word");
   EXPECT_EQ(find("cache.miss_queue.lines").logical_bits(), 64u * 26);
   EXPECT_EQ(find("cache.miss_queue.fill_buffer").physical_bits(), 64u * 512);
   EXPECT_EQ(find("cache.miss_queue.fill_buffer_arrived").logical_bits(), 64u);
