@@ -102,7 +102,7 @@ struct Rules {
   CoverageRule coverage = CoverageRule::kArea;
   DepthTest depth_test = DepthTest::kFarther;
   std::int32_t depth_bias = 9;
-  std::int32_t crease_depth = 4;
+  std::int32_t crease_depth = 3;
   Combine combine = Combine::kOutermost;
   bool linear_light = true;
   bool mark = false;
@@ -185,7 +185,7 @@ void describe(Build& p, Visitor& v) {
             "Facing bits on the chip; a mesh with more faces is rejected.");
   v.choice("edge_lanes", p.edge_lanes, kLanesNames, "Edges classified a clock.");
   v.integer("edge_lines", p.edge_lines, 4, 256, "line",
-            "Lines of the edge table read ahead, four edges each.");
+            "Lines of the edge table read ahead, four edges each; ten with records = split.");
   v.choice("vertex_lines", p.vertex_lines, kCacheLinesNames,
            "Lines of the vertex cache, four vertices each.");
   v.integer("dividers", p.dividers, 1, 8, "unit", "Dividers of the line setup.");
@@ -200,11 +200,12 @@ void describe(Build& p, Visitor& v) {
            "Lines of the depth cache, sixteen pixels each.");
   v.choice("weight_blocks", p.weight_blocks, kCacheLinesNames,
            "Blocks of 4 x 4 pixels whose weights are on the chip.");
-  v.integer("fills", p.fills, 0, kMaxFills, "line",
-            "Lines on their way into each of the three caches, 8 or more; 0 sizes it from the "
-            "latency of memory.");
+  v.integer(
+      "fills", p.fills, 0, kMaxFills, "line",
+      "Lines on their way into each cache, of vertices, depth and weights, and of pairs and "
+      "coarse depth where these are built; 8 or more; 0 sizes it from the latency of memory.");
   v.integer("latency_fifo", p.latency_fifo, 4, 1024, "token",
-            "Look-ups that wait for their lines, for each of the three caches.");
+            "Look-ups that wait for their lines, for each cache that `fills` names.");
   v.choice("resolve_lanes", p.resolve_lanes, kLanesNames, "Pixels blended a clock.");
   v.integer("resolve_lines", p.resolve_lines, 0, kMaxResolveLines, "line",
             "Lines of colours and weights on their way to the resolve, 16 or more; 0 sizes it from "
@@ -249,7 +250,7 @@ inline constexpr std::array<PresetRow, 3> kPresets = {{
      Combine::kLast, true},
     {Preset::kGpaaOptimised, Select::kEdges, Crease::kPaper, Cull::kBack, CoverageRule::kDistance,
      0, Combine::kLast, true},
-    {Preset::kDeburr, Select::kEdges, Crease::kShading, Cull::kNone, CoverageRule::kArea, 4,
+    {Preset::kDeburr, Select::kEdges, Crease::kShading, Cull::kNone, CoverageRule::kArea, 3,
      Combine::kOutermost, false},
 }};
 

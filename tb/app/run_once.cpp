@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/app/simulate.h"
 #include "tb/base/interrupt.h"
 #include "tb/scene/truth.h"
 
@@ -17,16 +18,6 @@ using spec::ConfigError;
 using spec::ExitCode;
 
 constexpr std::int64_t kMostTimelineCycles = 100'000;
-
-// A failed check names its file as the compiler saw it; users know it from the root of the
-// repository.
-std::string from_repository(const std::string& text) {
-  for (const char* layer :
-       {"/layers/spec/", "/layers/golden/", "/layers/rtl_model/", "/layers/tb/"})
-    if (const std::size_t at = text.find(layer); at != std::string::npos)
-      return text.substr(at + std::string_view(layer).size());
-  return text;
-}
 
 void reject_no_history(const Engine& engine) {
   if (keeps_pixel_history(engine)) return;

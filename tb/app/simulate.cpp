@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "rtl_model/fabric/memory.h"
 #include "spec/error.h"
@@ -141,11 +142,20 @@ void simulate(Simulation& simulation, Environment& environment, RunContext& cont
   } catch (const spec::FileError&) {  // a wave that could not be written: nothing stays
     throw;
   } catch (...) {
-    simulation.collect(result);
-    if (lines) lines->finish();
-    add_pictures();
-    leave_windows(simulation, context, result, false);
-    leave_maps(simulation, environment, context, result);
+    // What cannot be left of it does not hide why it failed.
+    const auto leave = [&context](auto&& part) {
+      try {
+        part();
+      } catch (const std::exception& error) {
+        context.add_note(fmt::format("of the run that failed something is missing: {}",
+                                     from_repository(error.what())));
+      }
+    };
+    leave([&] { simulation.collect(result); });
+    if (lines) leave([&] { lines->finish(); });
+    leave(add_pictures);
+    leave([&] { leave_windows(simulation, context, result, false); });
+    leave([&] { leave_maps(simulation, environment, context, result); });
     throw;
   }
   simulation.collect(result);
@@ -159,6 +169,14 @@ void simulate(Simulation& simulation, Environment& environment, RunContext& cont
   environment.check();
   environment.reject_unused_errors();
   reject_empty_trace(simulation);
+}
+
+std::string from_repository(const std::string& text) {
+  for (const char* layer :
+       {"/layers/spec/", "/layers/golden/", "/layers/rtl_model/", "/layers/tb/"})
+    if (const std::size_t at = text.find(layer); at != std::string::npos)
+      return text.substr(at + std::string_view(layer).size());
+  return text;
 }
 
 void describe(Simulation& simulation, Environment& environment, Result& result) {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "tb/app/engine.h"
 #include "tb/env/environment.h"
@@ -21,6 +22,10 @@ SimulationOptions simulation_options(const RunParameters& run, const RunContext&
 // Where the context only checks, it returns before the first clock.
 void simulate(Simulation& simulation, Environment& environment, RunContext& context, Result& result,
               const std::function<void()>& add_pictures);
+
+// The text of a failed check, which names its file as the compiler saw it, with the file as users
+// know it: from the root of the repository.
+std::string from_repository(const std::string& text);
 
 // For Engine::describe_statistics(): what an environment reports, without a run.
 void describe(Simulation& simulation, Environment& environment, Result& result);

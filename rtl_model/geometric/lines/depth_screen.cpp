@@ -152,7 +152,7 @@ void DepthScreen::screen(Cycle cycle, Work& work) {
   for (std::uint32_t left = group.candidates; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
     const bool two = l.crossing >> lane & 1;
-    const std::uint32_t entry = two ? std::min(work.bound[0], work.bound[1]) : work.bound[0],
+    const std::uint32_t entry = two ? work.lesser : work.bound[0],
                         c = entry << spec::geometric::kCoarseShift, least = c - (c >> bias);
     const bool drops = group.depth[lane] < least;
     group.dropped |= static_cast<std::uint8_t>(drops << lane);
@@ -175,10 +175,12 @@ Activity DepthScreen::deliver(Cycle cycle) {
     screen(cycle, *done);
     screened_out.push(cycle, done->lookup.group);
   }
-  if (Work* const words = pipe_.at(2))
+  if (Work* const words = pipe_.at(2)) {
     for (std::size_t which = 0; which < 2; ++which)
       if (words->from_cache >> which & 1)
         take(*words, which, data_ports_[which].at(cycle, words->lookup.index[which]));
+    words->lesser = std::min(words->bound[0], words->bound[1]);
+  }
   if (!working_) {
     if (!fifo_.can_pop(cycle)) return kBusy;
     work_.lookup = fifo_.take(cycle);

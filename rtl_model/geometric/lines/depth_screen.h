@@ -84,6 +84,7 @@ class DepthScreen final : public Unit {
   struct Work {
     Lookup lookup;
     std::array<std::uint16_t, 2> bound;  // entries of both tiles
+    std::uint16_t lesser;                // of them
     std::uint8_t from_cache;             // bit k: the word of look-up k comes from the data
   };
 

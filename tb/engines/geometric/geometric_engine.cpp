@@ -218,6 +218,7 @@ class GeometricCommand final : public Engine {
                     Result& result) const {
     const Image& before = loaded.frame.image;
     const Image after = engine.frame();
+    if (after.pixels.size() != before.pixels.size()) return;  // no frame was begun
     Image expected(after.width, after.height);
     const bool golden = run.check == CheckMode::kGolden &&
                         engine.golden_model().pixels().size() == expected.pixels.size();

@@ -133,7 +133,7 @@ TEST(Configuration, PresetsAreThePages) {
   EXPECT_EQ(deburr.combine, spec::geometric::Combine::kOutermost);
   EXPECT_EQ(deburr.coverage, spec::geometric::CoverageRule::kArea);
   EXPECT_EQ(deburr.coverage, untouched.coverage);
-  EXPECT_EQ(deburr.crease_depth, 4);
+  EXPECT_EQ(deburr.crease_depth, 3);
   EXPECT_EQ(deburr.crease_depth, untouched.crease_depth);
   EXPECT_EQ(deburr.cull, Cull::kNone);
   EXPECT_EQ(deburr.cull, untouched.cull);
