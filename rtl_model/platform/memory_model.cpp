@@ -34,9 +34,9 @@ void for_each_round(const tlm::tlm_generic_payload& payload, Visit&& visit) {
 std::uint64_t enabled_bytes(const tlm::tlm_generic_payload& payload) {
   const unsigned char* const enables = payload.get_byte_enable_ptr();
   if (!enables) return payload.get_data_length();
-  std::uint64_t bytes = 0;
+  std::uint32_t bytes = 0;
   for_each_round(payload, [&](std::uint64_t, std::uint64_t count) {
-    bytes += static_cast<std::uint64_t>(std::count(enables, enables + count, TLM_BYTE_ENABLED));
+    for (std::uint64_t i = 0; i < count; ++i) bytes += enables[i] == TLM_BYTE_ENABLED;
   });
   return bytes;
 }
@@ -183,8 +183,10 @@ void MemoryModel::transfer(tlm::tlm_generic_payload& payload, std::uint64_t addr
     return;
   }
   for_each_round(payload, [&](std::uint64_t first, std::uint64_t count) {
-    for (std::uint64_t i = 0; i < count; ++i)
-      if (enables[i] == TLM_BYTE_ENABLED) to[first + i] = from[first + i];
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const std::uint8_t before = to[first + i], now = from[first + i];
+      to[first + i] = enables[i] == TLM_BYTE_ENABLED ? now : before;
+    }
   });
 }
 
