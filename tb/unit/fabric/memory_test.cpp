@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "rtl_model/platform/memory_host.h"
 #include "tb/harness/link_checker.h"
@@ -278,8 +281,6 @@ TEST(MemoryModel, ResponsesSentAheadComeAtTheirTime) {
         port.outstanding = 1 + random.below(32);
         port.in_order = random.chance(500);
         System s(port, memory, random.chance(500) ? 300 : 0);
-        platform::MemoryHost host("host", memory.bytes);
-        host.bus.bind(s.memory.ports);
         s.memory.fail_range(7 * 64, 9 * 64);
         for (std::uint32_t i = 0; i < 600; ++i) {
           MemoryRequest request = read_of(random.below(64));
@@ -290,11 +291,7 @@ TEST(MemoryModel, ResponsesSentAheadComeAtTheirTime) {
         }
         s.clock.run(100 + random.below(100));
         const std::uint64_t bytes_written = s.memory.bytes_written();
-        std::vector<std::uint8_t> halfway(64 * 64);
-        if (seed % 4 == 0) s.port.debug_read(0, halfway.data(), 64 * 64);
-        if (seed % 4 == 1) s.memory.preload(0, halfway);
-        if (seed % 4 == 2) halfway = host.read(0, 6 * 64);
-        if (seed % 2 == 1) halfway = s.memory.dump(0, 64 * 64);
+        const std::vector<std::uint8_t> halfway = s.memory.dump(0, 64 * 64);
         s.clock.set_reset_n(false);
         s.clock.run(2);
         s.clock.set_reset_n(true);
@@ -347,6 +344,14 @@ struct Relocator : sc_core::sc_module {
   }
 };
 
+MemoryRequest write_of(std::uint32_t line) {
+  MemoryRequest write = read_of(line);
+  write.write = true;
+  write.byte_mask = ~std::uint64_t{0};
+  write.data.fill(0xEE);
+  return write;
+}
+
 TEST(MemoryModel, AWriteAnsweredAheadGoesWhereAnInterconnectSentIt) {
   Side side;
   Relocator between("between");
@@ -355,14 +360,42 @@ TEST(MemoryModel, AWriteAnsweredAheadGoesWhereAnInterconnectSentIt) {
   between.out.bind(memory.ports);
   side.driver.send(read_of(0));
   ASSERT_TRUE(side.clock.run_until([&] { return side.sink.received() == 1; }, 1000));
-  MemoryRequest write = read_of(3);
-  write.write = true;
-  write.byte_mask = ~std::uint64_t{0};
-  write.data.fill(0xEE);
-  side.driver.send(write);
+  side.driver.send(write_of(3));
   ASSERT_TRUE(side.clock.run_until([&] { return side.sink.received() == 2; }, 1000));
   EXPECT_EQ(memory.dump(3 * 64, 1)[0], 0);
   EXPECT_EQ(memory.dump(Relocator::kBase + 3 * 64, 1)[0], 0xEE);
+}
+
+// A write that was answered ahead is there for whoever looks after its time, however.
+TEST(MemoryModel, AWriteAnsweredAheadIsThereForEveryLook) {
+  using Look = std::function<std::uint8_t(System&, platform::MemoryHost&)>;
+  constexpr std::uint64_t kAt = 3 * 64;
+  const std::vector<Look> looks = {
+      [](System& s, platform::MemoryHost&) { return s.memory.dump(kAt, 1)[0]; },
+      [](System&, platform::MemoryHost& host) { return host.read(kAt, 1)[0]; },
+      [](System& s, platform::MemoryHost&) {
+        std::uint8_t byte = 0;
+        s.port.debug_read(kAt, &byte, 1);
+        return byte;
+      },
+      [](System& s, platform::MemoryHost&) {
+        s.memory.preload(kAt, std::vector<std::uint8_t>{0x11});
+        return static_cast<std::uint8_t>(
+            s.memory.dump(kAt, 1)[0] == 0x11 ? s.memory.dump(kAt + 1, 1)[0] : 0);
+      }};
+  for (std::size_t look = 0; look < looks.size(); ++look)
+    EXPECT_EQ(in_child([&] {
+                System s({}, with_latency(10));
+                platform::MemoryHost host("host", s.memory.size());
+                host.bus.bind(s.memory.ports);
+                s.driver.send(read_of(0));
+                s.clock.run(20);
+                s.driver.send(write_of(3));
+                s.clock.run(20);
+                return fmt::format("{:x}", looks[look](s, host));
+              }),
+              "ee")
+        << look;
 }
 
 // Every beat of a read fits the links as they are built for narrow lines; a mask that does not is
