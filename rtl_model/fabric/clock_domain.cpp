@@ -200,10 +200,8 @@ void ClockDomain::activate() {
   evaluating_ = true;
   try {
     block_end_ = 0;
-    do {
-      evaluate();
-      if (cycle_ < block_end_) evaluate_block();
-    } while (may_run_on());
+    evaluate();
+    while (may_run_on()) evaluate_block();
   } catch (...) {
     evaluating_ = false;
     if (!in_run_) throw;  // the kernel turns it into a report

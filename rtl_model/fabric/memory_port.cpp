@@ -127,7 +127,8 @@ Activity MemoryPort::work(Cycle cycle) {
     const bool completes = (starts ? 1 : gathering_->next_line + 1) == beats;
     if (starts && in_flight_.size() >= parameters_.outstanding) {
       lost = stalled_outstanding_;
-    } else if (completes && (requesting_ || channel_free_ > clock().time_of(cycle))) {
+    } else if (completes &&
+               (requesting_ || channel_free_.value() > cycle * clock().period().value())) {
       lost = stalled_channel_;
     } else {
       if (starts) {
@@ -208,10 +209,10 @@ void MemoryPort::send(Transaction& t, Cycle cycle) {
   tlm::tlm_phase phase = tlm::BEGIN_REQ;
   sc_core::sc_time delay = clock().offset();
   const tlm::tlm_sync_enum status = memory->nb_transport_fw(t, phase, delay);
-  const sc_core::sc_time when = sc_core::sc_time_stamp() + delay;
   if (status == tlm::TLM_ACCEPTED) return;
   // The target answers at once: it ended the request, or the request and began the response, or
   // all.
+  const sc_core::sc_time when = sc_core::sc_time_stamp() + delay;
   if (requesting_ == &t) {
     requesting_ = nullptr;
     channel_free_ = when;
@@ -302,10 +303,11 @@ void MemoryPort::arrived(Transaction& t, const sc_core::sc_time& when) {
 // By their arrival; most are the last.
 void MemoryPort::put_in_order(std::deque<Transaction*>& list, Transaction& t) {
   const auto earlier = [](const Transaction* a, const Transaction* b) { return a->when < b->when; };
-  if (list.empty() || !earlier(&t, list.back()))
-    list.push_back(&t);
+  Transaction* const newest = &t;
+  if (list.empty() || !earlier(newest, list.back()))
+    list.push_back(newest);
   else
-    list.insert(std::upper_bound(list.begin(), list.end(), &t, earlier), &t);
+    list.insert(std::upper_bound(list.begin(), list.end(), newest, earlier), newest);
 }
 
 void MemoryPort::count(Transaction& t) {

@@ -23,6 +23,24 @@ std::uint32_t next_below(std::uint64_t& state, std::uint32_t bound) {
   return static_cast<std::uint32_t>(((z >> 32) * bound) >> 32);
 }
 
+// Calls visit(first, count) for the bytes that each round of the byte enables is for.
+template <class Visit>
+void for_each_round(const tlm::tlm_generic_payload& payload, Visit&& visit) {
+  const std::uint64_t length = payload.get_data_length(), round = payload.get_byte_enable_length();
+  for (std::uint64_t first = 0; first < length; first += round)
+    visit(first, std::min(round, length - first));
+}
+
+std::uint64_t enabled_bytes(const tlm::tlm_generic_payload& payload) {
+  const unsigned char* const enables = payload.get_byte_enable_ptr();
+  if (!enables) return payload.get_data_length();
+  std::uint32_t bytes = 0;
+  for_each_round(payload, [&](std::uint64_t, std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) bytes += enables[i] == TLM_BYTE_ENABLED;
+  });
+  return bytes;
+}
+
 }  // namespace
 
 MemoryModel::MemoryModel(const sc_core::sc_module_name& name, const sc_core::sc_time& clock_period,
@@ -53,13 +71,15 @@ void MemoryModel::preload(std::uint64_t address, std::span<const std::uint8_t> d
   if (address > contents_.size() || data.size() > contents_.size() - address)
     throw spec::ConfigError(fmt::format("{}: {} bytes at {:#x} do not fit into {} bytes", name(),
                                         data.size(), address, contents_.size()));
+  land(sc_core::sc_time_stamp().value());
   std::copy(data.begin(), data.end(), contents_.begin() + static_cast<std::ptrdiff_t>(address));
 }
 
-std::vector<std::uint8_t> MemoryModel::dump(std::uint64_t address, std::uint64_t bytes) const {
+std::vector<std::uint8_t> MemoryModel::dump(std::uint64_t address, std::uint64_t bytes) {
   if (address > contents_.size() || bytes > contents_.size() - address)
     throw spec::ConfigError(fmt::format("{}: no {} bytes at {:#x} in {} bytes", name(), bytes,
                                         address, contents_.size()));
+  land(sc_core::sc_time_stamp().value());
   const auto begin = contents_.begin() + static_cast<std::ptrdiff_t>(address);
   return {begin, begin + static_cast<std::ptrdiff_t>(bytes)};
 }
@@ -79,8 +99,10 @@ void MemoryModel::forget_lines() {
 }
 
 bool MemoryModel::at_rest() const {
-  const bool answered = ahead_.empty() || ahead_.back() <= sc_core::sc_time_stamp().value();
-  return answered && events_.empty() &&
+  const std::uint64_t now = sc_core::sc_time_stamp().value();
+  const bool answered = ahead_.empty() || ahead_.back() <= now,
+             landed = landing_.empty() || landing_.back().time < now;
+  return answered && landed && events_.empty() &&
          std::all_of(ports_.begin(), ports_.end(),
                      [](const Port& port) { return port.responses.empty() && !port.responding; });
 }
@@ -144,31 +166,28 @@ bool MemoryModel::admit(tlm::tlm_generic_payload& payload, std::uint64_t number,
 
   if (payload.get_byte_enable_ptr() && payload.get_byte_enable_length() == 0)
     return fail(tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
+  if (counted && payload.is_write()) bytes_written_ += enabled_bytes(payload);
   payload.set_dmi_allowed(false);
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
   return true;
 }
 
-void MemoryModel::transfer(tlm::tlm_generic_payload& payload) {
+void MemoryModel::transfer(tlm::tlm_generic_payload& payload, std::uint64_t address) {
   const std::uint64_t length = payload.get_data_length();
-  const unsigned char* enables = payload.get_byte_enable_ptr();
-  const std::uint64_t enables_length = payload.get_byte_enable_length();
-  std::uint8_t* here = contents_.data() + payload.get_address();
-  unsigned char* there = payload.get_data_ptr();
+  std::uint8_t* to = contents_.data() + address;
+  unsigned char* from = payload.get_data_ptr();
+  if (payload.is_read()) std::swap(to, from);
+  const unsigned char* const enables = payload.get_byte_enable_ptr();
   if (!enables) {
-    payload.is_write() ? std::memcpy(here, there, length) : std::memcpy(there, here, length);
-    if (payload.is_write()) bytes_written_ += length;
-  } else {
-    for (std::uint64_t i = 0, e = 0; i < length; ++i, e = e + 1 == enables_length ? 0 : e + 1) {
-      if (enables[e] != TLM_BYTE_ENABLED) continue;
-      if (payload.is_write()) {
-        here[i] = there[i];
-        ++bytes_written_;
-      } else {
-        there[i] = here[i];
-      }
-    }
+    std::memcpy(to, from, length);
+    return;
   }
+  for_each_round(payload, [&](std::uint64_t first, std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const std::uint8_t before = to[first + i], now = from[first + i];
+      to[first + i] = enables[i] == TLM_BYTE_ENABLED ? now : before;
+    }
+  });
 }
 
 tlm::tlm_sync_enum MemoryModel::nb_transport_fw(int port, tlm::tlm_generic_payload& payload,
@@ -221,7 +240,7 @@ std::optional<std::uint64_t> MemoryModel::accept(Request request, std::uint64_t 
   tlm::tlm_generic_payload& payload = *request.payload;
   if (admit(payload, request.number, request.counted)) {
     request.writes_late = payload.is_write() && parameters_.write_at_response;
-    if (!request.writes_late) transfer(payload);
+    if (!request.writes_late) transfer(payload, payload.get_address());
   }
   std::uint64_t& bank =
       bank_free_[payload.get_address() / parameters_.interleave_bytes % parameters_.banks];
@@ -234,11 +253,23 @@ std::optional<std::uint64_t> MemoryModel::accept(Request request, std::uint64_t 
   }
   const std::uint64_t response = take_bus(ready, payload);
   const Port& here = port_at(request.port);
-  if (parameters_.answer_ahead && here.ends_at_once && payload.is_read() && !request.lost &&
-      here.responses.empty())
+  if (parameters_.answer_ahead && here.ends_at_once && !request.lost && here.responses.empty()) {
+    if (request.writes_late) {
+      payload.acquire();
+      landing_.push_back({response, payload.get_address(), &payload});
+    }
     return response;
+  }
   schedule(response, Step::kRespond, request);
   return std::nullopt;
+}
+
+void MemoryModel::land(std::uint64_t end) {
+  for (; !landing_.empty() && landing_.front().time < end; landing_.pop_front()) {
+    const Landing& write = landing_.front();
+    transfer(*write.payload, write.address);
+    write.payload->release();
+  }
 }
 
 // When the last byte of a transaction is there whose first one may come at `ready`. The bus goes to
@@ -267,7 +298,8 @@ void MemoryModel::serve() {
       events_.push(
           {take_bus(event.time, *event.request.payload), order_++, Step::kRespond, event.request});
     } else {
-      if (event.request.writes_late) transfer(*event.request.payload);
+      tlm::tlm_generic_payload& payload = *event.request.payload;
+      if (event.request.writes_late) transfer(payload, payload.get_address());
       if (!event.request.lost) port_at(event.request.port).responses.push_back(event.request);
     }
   }
@@ -302,6 +334,7 @@ void MemoryModel::send_response(int port, tlm::tlm_generic_payload& payload,
 
 // Transactions whose response was sent ahead are gone when its time has come.
 void MemoryModel::settle(std::uint64_t time) {
+  land(time + 1);
   while (!ahead_.empty() && ahead_.front() <= time) {
     ahead_.pop_front();
     finished();
@@ -327,7 +360,8 @@ void MemoryModel::wake_for_held() {
 }
 
 void MemoryModel::b_transport(int, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
-  if (admit(payload, requests_++, true)) transfer(payload);
+  land(sc_core::sc_time_stamp().value());
+  if (admit(payload, requests_++, true)) transfer(payload, payload.get_address());
   const std::uint64_t clocks = draw_latency() + transfer_clocks(payload.get_data_length()) - 1;
   delay += sc_core::sc_time::from_value(clocks * period_);
 }
@@ -335,6 +369,7 @@ void MemoryModel::b_transport(int, tlm::tlm_generic_payload& payload, sc_core::s
 unsigned MemoryModel::transport_dbg(int, tlm::tlm_generic_payload& payload) {
   const std::uint64_t address = payload.get_address();
   if (address >= contents_.size()) return 0;
+  land(sc_core::sc_time_stamp().value());
   const std::uint64_t length =
       std::min<std::uint64_t>(payload.get_data_length(), contents_.size() - address);
   std::uint8_t* here = contents_.data() + address;

@@ -11,9 +11,10 @@
 // reads a line before its write was answered gets the old one. b_transport() does both at once.
 //
 // With a fixed latency transactions keep their order (banks that are busy change it), so the time
-// of a response is known when its request begins. That of a read is then sent at once, with this
-// time as its delay, which spares SystemC an event a line: to an initiator that ended the response
-// before it as it began, and so holds back no other.
+// of a response is known when its request begins. It is then sent at once, with this time as its
+// delay, which spares SystemC an event a line: to an initiator that ended the response before it as
+// it began, and so holds back no other. The data of a write that was answered so come in before the
+// next look at the contents.
 #pragma once
 
 #include <tlm_utils/multi_passthrough_target_socket.h>
@@ -41,10 +42,11 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   MemoryModel(const sc_core::sc_module_name& name, const sc_core::sc_time& clock_period,
               const MemoryModelParameters& parameters = {});
 
-  // --- Contents, without time ---
+  // --- Contents, as they are at sc_time_stamp(), which stands still while a clock domain runs on:
+  // to be looked at between its runs ---
   // ConfigError if outside.
   void preload(std::uint64_t address, std::span<const std::uint8_t> data);
-  std::vector<std::uint8_t> dump(std::uint64_t address, std::uint64_t bytes) const;
+  std::vector<std::uint8_t> dump(std::uint64_t address, std::uint64_t bytes);
   using sc_module::dump;  // SystemC's, into a stream
   // The same for a driver.
   void write(std::uint64_t address, std::span<const std::uint8_t> data) override {
@@ -74,7 +76,8 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   const std::vector<std::uint64_t>& lines_written() const { return lines_written_; }
   // Addresses that have been checked.
   void forget_lines();
-  // Nothing that was asked is still to be answered or written; what is lost never is.
+  // Nothing that was asked is still to be answered or written; what is lost never is. Between runs,
+  // as the contents.
   bool at_rest() const;
   // Everything from here on; what is still withheld was asked before, and is not counted.
   void clear_statistics();
@@ -104,6 +107,12 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
     std::deque<Request> responses;             // whose time has come
     tlm::tlm_generic_payload* held = nullptr;  // BEGIN_REQ seen, END_REQ withheld
   };
+  // A write that was answered ahead. On the answer's way back an interconnect may have put its own
+  // address into the payload.
+  struct Landing {
+    std::uint64_t time, address;
+    tlm::tlm_generic_payload* payload;
+  };
   SC_HAS_PROCESS(MemoryModel);
   void end_of_elaboration() override { ports_.resize(ports.size()); }
 
@@ -117,6 +126,8 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
              const sc_core::sc_time& delay);
   // The time of its response, if that may be sent ahead.
   std::optional<std::uint64_t> accept(Request request, std::uint64_t time);
+  // Of the writes that were answered ahead, those that come in before `end`.
+  void land(std::uint64_t end);
   std::uint64_t take_bus(std::uint64_t ready, const tlm::tlm_generic_payload& payload);
   void settle(std::uint64_t time);
   void wake_for_held();
@@ -129,7 +140,7 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   void count(const tlm::tlm_generic_payload& payload);
   bool admit(tlm::tlm_generic_payload& payload, std::uint64_t number, bool counted);
   // Reads or writes the contents.
-  void transfer(tlm::tlm_generic_payload& payload);
+  void transfer(tlm::tlm_generic_payload& payload, std::uint64_t address);
   std::uint64_t transfer_clocks(std::uint64_t bytes) const;
   std::uint32_t draw_latency();
 
@@ -151,6 +162,7 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   std::uint64_t bus_free_ = 0;
   const bool ordered_;               // transactions keep their order
   std::deque<std::uint64_t> ahead_;  // times of responses that were sent ahead, while to come
+  std::deque<Landing> landing_;      // the writes among them
   std::vector<Port> ports_;          // as many as are bound
   std::deque<int> held_;             // ports in the order in which their requests are withheld
   std::size_t uncounted_ = 0;        // of these, the first ones

@@ -25,6 +25,13 @@ FacingStore::FacingStore(const sc_core::sc_module_name& name, ClockDomain& clock
       stalled_memory_(declare_stall("memory", "waits for facing bits")) {}
 
 Activity FacingStore::tick(Cycle cycle) {
+  if (phase_in.read(cycle) != Phase::kBegin && !loaded_out.driven() &&
+      !memory.responses_in.can_pop(cycle))
+    return kIdle;
+  return work(cycle);
+}
+
+Activity FacingStore::work(Cycle cycle) {
   bool did = false;
   if (memory.responses_in.can_pop(cycle)) {
     const MemoryResponse& response = memory.responses_in.take(cycle);
@@ -35,8 +42,7 @@ Activity FacingStore::tick(Cycle cycle) {
     ++answered_;
     did = true;
   }
-  const Phase phase = phase_in.read(cycle);
-  if (phase != Phase::kBegin) {
+  if (phase_in.read(cycle) != Phase::kBegin) {
     if (loaded_out.driven()) {
       loaded_out.drive(cycle, false);
       asked_ = answered_ = 0;

@@ -40,6 +40,9 @@ class FacingStore final : public Unit {
  private:
   static constexpr std::size_t kWordsInLine = spec::geometric::kFacesInLine / 32;
 
+  // A clock in which there is something to do.
+  [[gnu::noinline]] Activity work(Cycle cycle);
+
   WritePort<std::uint32_t> write_{words, "responses"};
   Activity stalled_memory_;
   std::uint32_t asked_ = 0, answered_ = 0;  // U12, lines

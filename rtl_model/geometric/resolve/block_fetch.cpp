@@ -82,17 +82,20 @@ std::uint32_t BlockFetch::lines_of_pixel(bool tiled, const BlockToken& block, st
 
 // What memory gives as weights may be anything.
 void BlockFetch::limit(const FrameRules& rules, BlockToken& block) {
+  for (spec::geometric::Weights& weights : block.weights)
+    for (std::uint8_t& weight : weights)
+      weight = std::min<std::uint8_t>(weight, spec::geometric::kMaxWeight);
+  // Only a block at the frame's border has pixels without a neighbour.
   const auto last_x = static_cast<std::int32_t>(rules.width) - 1,
              last_y = static_cast<std::int32_t>(rules.height) - 1;
+  if (block.x != 0 && block.y != 0 && 4 * block.x + 3 < last_x && 4 * block.y + 3 < last_y) return;
   for (std::int32_t pixel = 0; pixel < spec::geometric::kBlockPixels; ++pixel) {
     const std::int32_t x = 4 * block.x + (pixel & 3), y = 4 * block.y + (pixel >> 2);
     const bool inside = x <= last_x && y <= last_y;
     const std::array<bool, 4> may = {inside && y != 0, inside && y != last_y, inside && x != 0,
                                      inside && x != last_x};
-    for (std::size_t direction = 0; direction < may.size(); ++direction) {
-      std::uint8_t& weight = block.weights[static_cast<std::size_t>(pixel)][direction];
-      weight = may[direction] ? std::min<std::uint8_t>(weight, spec::geometric::kMaxWeight) : 0;
-    }
+    for (std::size_t direction = 0; direction < may.size(); ++direction)
+      if (!may[direction]) block.weights[static_cast<std::size_t>(pixel)][direction] = 0;
   }
 }
 

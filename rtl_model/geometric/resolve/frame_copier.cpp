@@ -17,14 +17,16 @@ FrameCopier::FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock
 
 Activity FrameCopier::tick(Cycle cycle) {
   const Phase phase = phase_in.read(cycle);
-  if (phase != Phase::kBegin && phase != Phase::kEdges) {
-    if (copied_out.driven()) {
-      copied_out.drive(cycle, false);
-      asked_ = written_ = answered_ = 0;
-    }
+  const bool copies = phase == Phase::kBegin || phase == Phase::kEdges;
+  return copies == copied_out.driven() ? kIdle : work(cycle);
+}
+
+Activity FrameCopier::work(Cycle cycle) {
+  if (copied_out.driven()) {  // for the frame before
+    copied_out.drive(cycle, false);
+    asked_ = written_ = answered_ = 0;
     return kIdle;
   }
-  if (copied_out.driven()) return kIdle;
   const FrameRules& rules = rules_in.read(cycle);
   const std::uint32_t lines = rules.frame_copy ? rules.frame_lines() : 0;
   bool did = false;

@@ -37,6 +37,9 @@ class FrameCopier final : public Unit {
   static Datasheet datasheet();
 
  private:
+  // A clock in which there is something to do.
+  [[gnu::noinline]] Activity work(Cycle cycle);
+
   FillStore<Line> buffer_;
   Activity stalled_memory_;
   std::uint32_t asked_ = 0, written_ = 0, answered_ = 0;  // U23, lines

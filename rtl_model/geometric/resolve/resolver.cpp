@@ -153,6 +153,7 @@ void Resolver::take_pixels(Cycle cycle, Beat& beat) {
   const bool linear = rules_in.read(cycle).linear_light;
   beat.block = static_cast<std::uint8_t>(blended_block_ % kBlocks);
   beat.count = 0;
+  auto light = light_.begin();
   for (; to_blend_ != 0 && beat.count < lanes_; to_blend_ &= to_blend_ - 1) {
     const auto p = static_cast<std::size_t>(std::countr_zero(to_blend_)), x = p & 3, y = p >> 2;
     const bool horizontal = token.horizontal >> p & 1;
@@ -172,7 +173,7 @@ void Resolver::take_pixels(Cycle cycle, Beat& beat) {
     if (linear)
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t operand = 0; operand < 3; ++operand)
-          light_[(beat.count * std::size_t{3} + c) * 3 + operand].read(cycle, o.code[operand][c]);
+          (light++)->read(cycle, o.code[operand][c]);
     ++beat.count;
   }
   beat.last = to_blend_ == 0;
@@ -183,12 +184,13 @@ void Resolver::take_pixels(Cycle cycle, Beat& beat) {
 // Stage 4.
 void Resolver::subtract(Cycle cycle, Beat& beat) {
   const bool linear = rules_in.read(cycle).linear_light;
+  auto port = light_.begin();
   for (std::size_t lane = 0; lane < beat.count; ++lane) {
     Operands& o = beat.operands[lane];
     for (std::size_t c = 0; c < 3; ++c) {
       const auto light = [&](std::size_t operand) -> std::int32_t {
         const std::uint8_t code = o.code[operand][c];
-        return linear ? light_[(lane * 3 + c) * 3 + operand].at(cycle, code) : code;
+        return linear ? (port++)->at(cycle, code) : code;
       };
       o.centre[c] = light(0);
       o.first[c] = light(1) - o.centre[c];
@@ -209,12 +211,13 @@ void Resolver::multiply(Beat& beat) {
 // Stage 6.
 void Resolver::round(Cycle cycle, Beat& beat) {
   const bool linear = rules_in.read(cycle).linear_light;
+  auto code = codes_.begin();
   for (std::size_t lane = 0; lane < beat.count; ++lane) {
     Operands& o = beat.operands[lane];
     for (std::size_t c = 0; c < 3; ++c) {
       const std::int32_t v = o.sum[c], moved = (std::abs(v) + 128) >> 8;
       o.value[c] = static_cast<std::uint16_t>(v < 0 ? o.centre[c] - moved : o.centre[c] + moved);
-      if (linear) codes_[lane * 3 + c].read(cycle, o.value[c]);
+      if (linear) (code++)->read(cycle, o.value[c]);
     }
   }
 }
@@ -222,11 +225,12 @@ void Resolver::round(Cycle cycle, Beat& beat) {
 // Stage 7.
 void Resolver::encode(Cycle cycle, const Beat& beat) {
   const FrameRules& rules = rules_in.read(cycle);
+  auto code = codes_.begin();
   for (std::size_t lane = 0; lane < beat.count; ++lane) {
     const Operands& o = beat.operands[lane];
     Rgba& result = results_[o.pixel];
     for (std::size_t c = 0; c < 3; ++c)
-      result[c] = rules.linear_light ? codes_[lane * 3 + c].at(cycle, o.value[c])
+      result[c] = rules.linear_light ? (code++)->at(cycle, o.value[c])
                                      : static_cast<std::uint8_t>(o.value[c]);
     result[3] = static_cast<std::uint8_t>(rules.mark ? o.code[0][3] & 0xFE : o.code[0][3]);
   }
