@@ -25,7 +25,8 @@ endfunction()
 # deburr_hdl_model(<class> TOP <module> [FOLDER <folder of its own sources>] [SETTINGS <setting>...]
 #                  [FAULT <file> <from> <to>]):
 # a library with the module verilated as C++ class <class>, with these parameters of the texture unit. A
-# FAULT is planted in a copy of one source: the text <from>, which stands there once, becomes <to>.
+# FAULT is planted in a copy of one source: the text <from>, which stands there once, becomes <to>. Models
+# without a fault may do the work of SystemC units in a run (deburr_hdl_twins).
 function(deburr_hdl_model class)
   cmake_parse_arguments(ARG "" "TOP;FOLDER" "SETTINGS;FAULT" ${ARGN})
   deburr_hdl_headers(headers ${ARG_SETTINGS})
@@ -65,6 +66,10 @@ function(deburr_hdl_model class)
   set_property(GLOBAL APPEND_STRING PROPERTY DEBURR_HDL_MODELS
                "inline constexpr const char* k${class} = \"${settings}\";\n")
   set_property(GLOBAL APPEND PROPERTY DEBURR_HDL_LIBRARIES deburr_${class})
+  set_property(TARGET deburr_${class} PROPERTY DEBURR_HDL_TOP ${ARG_TOP})
+  if(NOT ARG_FAULT)
+    set_property(GLOBAL APPEND PROPERTY DEBURR_HDL_TWINS ${class})
+  endif()
 endfunction()
 
 # What every verilated model needs.
@@ -93,4 +98,39 @@ function(deburr_hdl_finish target)
   add_library(${target} INTERFACE)
   target_include_directories(${target} INTERFACE "${CMAKE_CURRENT_BINARY_DIR}")
   target_link_libraries(${target} INTERFACE ${libraries})
+endfunction()
+
+# deburr_hdl_twins(<name> <class>...): an object that adds these models to those that a run may take
+# (tb/engines/texture/texture_twins.h). A program that links deburr_<name> has them.
+function(deburr_hdl_twins name)
+  set(includes "")
+  set(calls "")
+  set(libraries "")
+  foreach(class ${ARGN})
+    get_target_property(top deburr_${class} DEBURR_HDL_TOP)
+    string(APPEND includes "#include <${class}.h>\n")
+    string(APPEND calls "  deburr::tb::hdl::add_${top}<${class}>(deburr::tb::hdl::k${class});\n")
+    list(APPEND libraries deburr_${class})
+  endforeach()
+  set(file "${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp")
+  file(CONFIGURE OUTPUT "${file}" @ONLY CONTENT "// SPDX-License-Identifier: MIT
+// Written by cmake/Hdl.cmake.
+${includes}#include <models.h>
+
+#include \"tb/hdl/in_engine.h\"
+
+namespace {
+
+[[maybe_unused]] const bool added = [] {
+${calls}  return true;
+}();
+
+}  // namespace
+")
+  add_library(deburr_${name}_object OBJECT "${file}")
+  target_link_libraries(deburr_${name}_object PRIVATE deburr::texture_environment ${libraries} deburr_options)
+  target_include_directories(deburr_${name}_object PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
+  add_library(deburr_${name} INTERFACE)
+  target_link_libraries(deburr_${name} INTERFACE $<TARGET_OBJECTS:deburr_${name}_object> ${libraries}
+                                                 deburr::texture_environment)
 endfunction()

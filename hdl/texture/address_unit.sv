@@ -27,6 +27,7 @@ module address_unit #(
   input  logic [3:0]                   write_handle,
   input  logic [4:0]                   write_word,
   input  logic [31:0]                  write_data,
+  output logic                         saturated,  // counts one in SATURATED
   // What the links between the blocks do in this clock, the first one in bit 0: for a bench.
   output logic [4:0]                   link_push,
   output logic [4:0]                   link_pop
@@ -42,7 +43,7 @@ module address_unit #(
   logic [`DERIVATIVE_TOKEN_BITS-1:0] derivative_in, derivative_out;
   derivative_unit derivative (
     .clk, .rst_n, .in_valid, .in_pop, .in_data, .out_push(derivative_push), .out_ready(derivative_ready),
-    .out_data(derivative_in), .handle(handle_derivative), .descriptor(of_derivative));
+    .out_data(derivative_in), .saturated, .handle(handle_derivative), .descriptor(of_derivative));
   link #(.BITS(`DERIVATIVE_TOKEN_BITS)) derivatives (
     .clk, .rst_n, .push(derivative_push), .push_data(derivative_in), .can_push(derivative_ready),
     .pop(derivative_pop), .front(derivative_out), .can_pop(derivative_valid));

@@ -12,6 +12,7 @@ module derivative_unit (
   output logic                              out_push,
   input  logic                              out_ready,
   output logic [`DERIVATIVE_TOKEN_BITS-1:0] out_data,
+  output logic                              saturated,  // counts one in SATURATED
   output logic [3:0]                        handle,  // of the fragment that is in stage 1
   input  logic [`DESCRIPTOR_BITS-1:0]       descriptor
 );
@@ -91,9 +92,11 @@ module derivative_unit (
 
   // 3: magnitude, rounded to 16 fraction bits, saturated.
   logic [30:0] size_s_x, size_t_x, size_s_y, size_t_y;
-  texel_size of_s_x (.product(p_s_x), .size(size_s_x));
-  texel_size of_t_x (.product(p_t_x), .size(size_t_x));
-  texel_size of_s_y (.product(p_s_y), .size(size_s_y));
-  texel_size of_t_y (.product(p_t_y), .size(size_t_y));
+  logic saturated_s_x, saturated_t_x, saturated_s_y, saturated_t_y;
+  texel_size of_s_x (.product(p_s_x), .size(size_s_x), .saturated(saturated_s_x));
+  texel_size of_t_x (.product(p_t_x), .size(size_t_x), .saturated(saturated_t_x));
+  texel_size of_s_y (.product(p_s_y), .size(size_s_y), .saturated(saturated_s_y));
+  texel_size of_t_y (.product(p_t_y), .size(size_t_y), .saturated(saturated_t_y));
+  assign saturated = out_push && with_2[`TICKET_VALID] && (saturated_s_x || saturated_t_x || saturated_s_y || saturated_t_y);
   assign out_data = {size_t_y, size_s_y, size_t_x, size_s_x, t_y_2, s_y_2, t_x_2, s_x_2, with_2};
 endmodule

@@ -73,6 +73,7 @@ def run(
     run_images: bool = ...,
     run_line_trace_look_ups: bool = ...,
     run_fragment_trace: typing.Literal['none', 'text', 'binary'] = ...,
+    run_hdl: str | _Path | _Array = ...,
     scene_source: str | _Path | _Array = ...,
     scene_texture: str | _Path | _Array = ...,
     scene_texture_size: int = ...,
@@ -156,6 +157,7 @@ def run(
     layout: typing.Literal['linear', 'tiled'] = ...,
     fragments: str | _Path | _Array = ...,
     fragment_trace: typing.Literal['none', 'text', 'binary'] = ...,
+    hdl: str | _Path | _Array = ...,
 ) -> Run: ...
 @typing.overload
 def run(
@@ -647,6 +649,7 @@ def sweep(
     run_images: bool = ...,
     run_line_trace_look_ups: bool = ...,
     run_fragment_trace: typing.Literal['none', 'text', 'binary'] = ...,
+    run_hdl: str | _Path | _Array = ...,
     scene_source: str | _Path | _Array = ...,
     scene_texture: str | _Path | _Array = ...,
     scene_texture_size: int = ...,
@@ -730,6 +733,7 @@ def sweep(
     layout: typing.Literal['linear', 'tiled'] = ...,
     fragments: str | _Path | _Array = ...,
     fragment_trace: typing.Literal['none', 'text', 'binary'] = ...,
+    hdl: str | _Path | _Array = ...,
 ) -> typing.Any: ...
 @typing.overload
 def sweep(

@@ -31,6 +31,14 @@ void ClockDomain::add_before(Clocked& clocked) { before_.push_back(&clocked); }
 void ClockDomain::add_after(Clocked& clocked) { after_.push_back(&clocked); }
 void ClockDomain::add(LinkBase& link) { claim(link); }
 
+void ClockDomain::replace(Unit& unit, std::vector<const Counter*> counted) {
+  DEBURR_CHECK(cycle_ == 0 && !unit.replaced_,
+               fmt::format("{} is replaced {}", unit.name(), cycle_ ? "in mid-run" : "twice"));
+  unit.replaced_ = true;
+  unit.counted_for_it_ = std::move(counted);
+  std::erase_if(slots_, [&](const Slot& slot) { return slot.clocked == &unit; });
+}
+
 void ClockDomain::claim(LinkBase& link) {
   DEBURR_CHECK(link.clock_ == nullptr || link.clock_ == this,
                fmt::format("{} joins two clock domains ({} is one): a link has one clock",

@@ -41,6 +41,11 @@ class ClockDomain final : public sc_core::sc_module {
   void add_after(Clocked& clocked);   // ticked after all units (checkers, traces)
   void add(LinkBase& link);  // only for a link that no Unit's port is bound to: reset with the rest
 
+  // From now on something else does the work of a unit, at the unit's ports, and counts these of
+  // its counters: the unit is neither ticked nor reset. Its links and counters are reset as before.
+  // Before the first edge.
+  void replace(Unit& unit, std::vector<const class Counter*> counted = {});
+
   // What else an edge in reset does (registers, which are no units).
   void on_reset(std::function<void()> action) { on_reset_.push_back(std::move(action)); }
 

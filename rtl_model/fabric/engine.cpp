@@ -1,12 +1,34 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/fabric/engine.h"
 
+#include <type_traits>
+
 namespace deburr::rtl {
 namespace {
+
+const Unit* unit_of_port(const std::string& port) {
+  const sc_core::sc_object* const found = sc_core::sc_find_object(port.c_str());
+  return found ? dynamic_cast<const Unit*>(found->get_parent_object()) : nullptr;
+}
+// Between two replaced units of one module: what does their work there has links of its own.
+bool unused(const LinkBase& link) {
+  const auto within = [&](const std::string& port) {
+    const Unit* const unit = unit_of_port(port);
+    return unit && unit->replaced() && unit->get_parent_object() == link.get_parent_object();
+  };
+  return within(link.producer()) && within(link.consumer());
+}
 
 template <class T>
 void collect(const sc_core::sc_object& root, std::vector<const T*>& found) {
   for (const sc_core::sc_object* child : root.get_child_objects()) {
+    if (const auto* unit = dynamic_cast<const Unit*>(child); unit && unit->replaced()) {
+      if constexpr (std::is_same_v<T, Counter>)
+        found.insert(found.end(), unit->counted_for_it().begin(), unit->counted_for_it().end());
+      continue;
+    }
+    if constexpr (std::is_same_v<T, LinkBase>)
+      if (const auto* link = dynamic_cast<const LinkBase*>(child); link && unused(*link)) continue;
     if (const auto* wanted = dynamic_cast<const T*>(child)) found.push_back(wanted);
     collect(*child, found);
   }

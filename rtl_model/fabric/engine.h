@@ -60,7 +60,8 @@ class Engine : public sc_core::sc_module {
   virtual bool idle() const = 0;
   void clear_counters();
 
-  // For reports: everything below this module, in the order of declaration.
+  // For reports: everything below this module, in the order of declaration. Of a unit that is
+  // replaced there are the counters alone that are counted for it.
   std::vector<const Unit*> units() const;
   std::vector<const Counter*> counters() const;
   std::vector<const MemoryBase*> memories() const;

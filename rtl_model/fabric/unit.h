@@ -52,6 +52,11 @@ class Unit : public Clocked, public sc_core::sc_module {
   const std::string& activity_name(Activity activity) const;
   int activities() const { return static_cast<int>(names_.size()); }
 
+  // Something else does its work (ClockDomain::replace): it keeps no account, and of its counters
+  // only those that are counted for it.
+  bool replaced() const { return replaced_; }
+  const std::vector<const Counter*>& counted_for_it() const { return counted_for_it_; }
+
   // busy + stalled + idle = cycles since reset.
   void check_accounting() const;
   // Every port is bound; the domain asks at the end of elaboration.
@@ -67,6 +72,8 @@ class Unit : public Clocked, public sc_core::sc_module {
   ClockDomain& clock_;
   std::array<std::uint64_t, kActivities> activity_{};
   std::vector<std::string> names_, meanings_;
+  bool replaced_ = false;
+  std::vector<const Counter*> counted_for_it_;
 };
 
 }  // namespace deburr::rtl

@@ -14,7 +14,8 @@ spec::texture::Parameters sized(spec::texture::Parameters p, const MemoryClocks&
 }  // namespace
 
 TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const spec::texture::Parameters& parameters, const MemoryClocks& memory)
+                         const spec::texture::Parameters& parameters, const MemoryClocks& memory,
+                         const StandIns& stand_ins)
     : Engine(name, clock, register_table(), control_layout()),
       parameters_(sized(check_build(parameters), memory)),
       address("address", clock, parameters_, control, descriptors_, probe_),
@@ -38,7 +39,11 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
   control.show(reg::kSaturated, address.derivative.saturated);
   control.show(reg::kMemoryErrors, cache.miss_queue.memory_errors);
   control.show(reg::kInvalidFragments, address.derivative.invalid);
+  if (stand_ins) stand_ins_ = stand_ins(*this, probe_);
 }
+
+// Here, and not in each place that destroys one.
+TextureUnit::~TextureUnit() = default;
 
 bool TextureUnit::idle() const {
   return probe_.inside() == 0 && address.derivative.quads_in.link().empty();

@@ -10,7 +10,10 @@
 // Source: paper 2.1, figure 3.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <systemc>
+#include <vector>
 
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/datasheet.h"
@@ -31,10 +34,17 @@ class TextureUnit final : public Engine {
   In<spec::texture::Quad> quads_in{"quads_in"};
   Out<spec::texture::Colour> colours_out{"colours_out"};
 
+  // Makes what does the work of some of its units, below it and at their ports
+  // (ClockDomain::replace), for example another description of them.
+  using StandIns = std::function<std::vector<std::unique_ptr<sc_core::sc_module>>(
+      TextureUnit& unit, LatencyProbe& probe)>;
+
   // ConfigError for what cannot be built (spec/texture/check_build.h). What the memory takes sizes
   // a latency FIFO whose depth is ordered as 0.
   TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::texture::Parameters& parameters, const MemoryClocks& memory = {});
+              const spec::texture::Parameters& parameters, const MemoryClocks& memory = {},
+              const StandIns& stand_ins = {});
+  ~TextureUnit() override;
 
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
@@ -58,6 +68,7 @@ class TextureUnit final : public Engine {
  private:
   Link<TexelToken> texels_{"texels"};
   Link<TexelQuadToken> texel_quads_{"texel_quads"};
+  std::vector<std::unique_ptr<sc_core::sc_module>> stand_ins_;
 };
 
 }  // namespace deburr::rtl::texture

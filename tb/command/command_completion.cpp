@@ -26,8 +26,14 @@ namespace {
 // where only the shell knows more: files.
 using Words = std::map<std::string, std::string>;
 
-// "a | b | c" -> "a b c"; nothing for any other range.
+// "a | b | c" and "list of a, b, c" -> "a b c"; nothing for any other range.
 std::string choices(const std::string& range) {
+  constexpr std::string_view kListOf = "list of ";
+  if (range.starts_with(kListOf)) {
+    std::string words = range.substr(kListOf.size());
+    std::erase(words, ',');
+    return words;
+  }
   if (range.find(" | ") == std::string::npos || range.starts_with("name | file")) return "";
   std::string words;
   for (const char c : range)

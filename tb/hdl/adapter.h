@@ -88,8 +88,8 @@ Words from_port(const Port& port, std::uint32_t bits) {
 // noise.
 template <class T, class Valid, class Port>
 void show(rtl::In<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, Random& noise,
-          Valid& valid, Port& port) {
-  valid = beats.can_pop(cycle);
+          Valid& valid, Port& port, bool admits = true) {
+  valid = admits && beats.can_pop(cycle);
   if (valid) {
     to_port(port, packed(payload, &beats.front(cycle)), payload.bits());
   } else {
@@ -98,50 +98,51 @@ void show(rtl::In<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, Rand
     to_port(port, words, payload.bits());
   }
 }
-// What the unit pushes into a link behind it.
+// What the unit pushes into a link after it.
 template <class T, class Port>
-bool push(rtl::Out<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, bool pushes,
-          const Port& port) {
-  if (!pushes) return false;
+T push(rtl::Out<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, const Port& port) {
   T beat{};
   unpack(payload, from_port(port, payload.bits()), &beat);
   beats.push(cycle, beat);
-  return true;
+  return beat;
 }
 
+// A unit at two ports that stand anywhere: its own, or those of a SystemC unit whose work it does.
 template <class Model, class From, class To>
-class VerilatedUnit final : public rtl::Unit {
+class VerilatedAt : public rtl::Unit {
  public:
-  rtl::In<From> beats_in{"beats_in"};
-  rtl::Out<To> beats_out{"beats_out"};
-
   // `from` and `to`: what of the payloads is built, as the links say it.
-  VerilatedUnit(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
-                const rtl::PayloadShape& from = {}, const rtl::PayloadShape& to = {})
-      : Unit(name, clock), from_(rtl::Payload::of<From>(from)), to_(rtl::Payload::of<To>(to)) {
+  VerilatedAt(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, rtl::In<From>& in,
+              rtl::Out<To>& out, const rtl::PayloadShape& from = {},
+              const rtl::PayloadShape& to = {})
+      : Unit(name, clock),
+        in_(in),
+        out_(out),
+        from_(rtl::Payload::of<From>(from)),
+        to_(rtl::Payload::of<To>(to)) {
     // Registers without a reset hold noise at first (--x-initial unique), another one for each
     // seed.
     context_->randReset(2);
     context_->randSeed(7);
     model_ = std::make_unique<Model>(context_.get(), "model");
-    reset();
+    VerilatedAt::reset();
   }
-  ~VerilatedUnit() override { model_->final(); }
+  ~VerilatedAt() override { model_->final(); }
 
   Model& model() { return *model_; }
   // What the unit says before each edge.
   std::function<void(Model&)> on_clock;
 
   rtl::Activity tick(rtl::Cycle cycle) override {
-    show(beats_in, from_, cycle, noise_, model_->in_valid, model_->in_data);
-    const bool ready = beats_out.can_push(cycle);
+    show(in_, from_, cycle, noise_, model_->in_valid, model_->in_data, admits());
+    const bool ready = out_.can_push(cycle);
     model_->out_ready = ready;
     model_->clk = 0;
     model_->eval();
     if (on_clock) on_clock(*model_);
-    const bool pushes = push(beats_out, to_, cycle, model_->out_push, model_->out_data);
-    const bool pops = model_->in_pop;
-    if (pops) beats_in.pop(cycle);
+    const bool pushes = model_->out_push, pops = model_->in_pop;
+    if (pushes) pushed(cycle, push(out_, to_, cycle, model_->out_data));
+    if (pops) popped(cycle, in_.take(cycle));
     model_->clk = 1;
     model_->eval();
     return pushes || pops ? rtl::kBusy : ready ? rtl::kIdle : rtl::kStalledDownstream;
@@ -164,10 +165,28 @@ class VerilatedUnit final : public rtl::Unit {
   }
 
  private:
+  // Whether it may see what waits for it, and what it did.
+  virtual bool admits() const { return true; }
+  virtual void popped(rtl::Cycle, const From&) {}
+  virtual void pushed(rtl::Cycle, const To&) {}
+
+  rtl::In<From>& in_;
+  rtl::Out<To>& out_;
   std::unique_ptr<VerilatedContext> context_ = std::make_unique<VerilatedContext>();
   std::unique_ptr<Model> model_;
   rtl::Payload from_, to_;
   Random noise_{1};
+};
+
+// With ports of its own.
+template <class Model, class From, class To>
+class VerilatedUnit final : public VerilatedAt<Model, From, To> {
+ public:
+  VerilatedUnit(const sc_core::sc_module_name& name, rtl::ClockDomain& clock)
+      : VerilatedAt<Model, From, To>(name, clock, beats_in, beats_out) {}
+
+  rtl::In<From> beats_in{"beats_in"};
+  rtl::Out<To> beats_out{"beats_out"};
 };
 
 // Writes the words of a descriptor into the descriptors of a verilated unit.

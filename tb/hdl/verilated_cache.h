@@ -15,45 +15,55 @@
 
 namespace deburr::tb::hdl {
 
-template <class Model>
-class VerilatedCache final : public rtl::Unit {
- public:
-  rtl::In<rtl::texture::TexelToken> texels_in{"texels_in"};
-  rtl::Out<rtl::texture::TexelQuadToken> texels_out{"texels_out"};
-  rtl::Out<rtl::MemoryRequest> requests_out{"requests_out"};
-  rtl::In<rtl::MemoryResponse> responses_in{"responses_in"};
+struct CachePorts {
+  rtl::In<rtl::texture::TexelToken>& texels_in;
+  rtl::Out<rtl::texture::TexelQuadToken>& texels_out;
+  rtl::Out<rtl::MemoryRequest>& requests_out;
+  rtl::In<rtl::MemoryResponse>& responses_in;
+};
 
-  VerilatedCache(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
-                 const spec::texture::Build& build)
+// At ports that stand anywhere.
+template <class Model>
+class VerilatedCacheAt : public rtl::Unit {
+ public:
+  VerilatedCacheAt(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
+                   const CachePorts& ports, const spec::texture::Build& build)
       : Unit(name, clock),
+        ports_(ports),
         request_(rtl::Payload::of<rtl::MemoryRequest>(memory_request_shape(build))),
         response_(rtl::Payload::of<rtl::MemoryResponse>(memory_response_shape(build))) {
     context_->randReset(2);
     context_->randSeed(11);
     model_ = std::make_unique<Model>(context_.get(), "model");
     model_->invalidate = 0;
-    reset();
+    VerilatedCacheAt::reset();
   }
-  ~VerilatedCache() override { model_->final(); }
+  ~VerilatedCacheAt() override { model_->final(); }
 
   // What the cache says before each edge.
   std::function<void(Model&)> on_clock;
 
   rtl::Activity tick(rtl::Cycle cycle) override {
-    show(texels_in, texel_, cycle, noise_, model_->in_valid, model_->in_data);
-    show(responses_in, response_, cycle, noise_, model_->response_valid, model_->response_data);
-    model_->out_ready = texels_out.can_push(cycle);
-    model_->request_ready = requests_out.can_push(cycle);
+    show(ports_.texels_in, texel_, cycle, noise_, model_->in_valid, model_->in_data);
+    show(ports_.responses_in, response_, cycle, noise_, model_->response_valid,
+         model_->response_data);
+    const bool ready = ports_.texels_out.can_push(cycle);
+    model_->out_ready = ready;
+    model_->request_ready = ports_.requests_out.can_push(cycle);
     model_->clk = 0;
     model_->eval();
     if (on_clock) on_clock(*model_);
-    push(texels_out, quad_, cycle, model_->out_push, model_->out_data);
-    push(requests_out, request_, cycle, model_->request_push, model_->request_data);
-    if (model_->in_pop) texels_in.pop(cycle);
-    if (model_->response_pop) responses_in.pop(cycle);
+    const bool pushes = model_->out_push, asks = model_->request_push, pops = model_->in_pop,
+               receives = model_->response_pop;
+    if (pushes) push(ports_.texels_out, quad_, cycle, model_->out_data);
+    if (asks) asked(push(ports_.requests_out, request_, cycle, model_->request_data));
+    if (pops) ports_.texels_in.pop(cycle);
+    if (receives) received(ports_.responses_in.take(cycle));
     model_->clk = 1;
     model_->eval();
-    return rtl::kBusy;
+    return pushes || asks || pops || receives ? rtl::kBusy
+           : ready                            ? rtl::kIdle
+                                              : rtl::kStalledDownstream;
   }
   // Reset and invalidation take a clock of their own, in which the links do nothing.
   void reset() override {
@@ -68,6 +78,9 @@ class VerilatedCache final : public rtl::Unit {
   }
 
  private:
+  // What it did.
+  virtual void asked(const rtl::MemoryRequest&) {}
+  virtual void received(const rtl::MemoryResponse&) {}
   void edge() {
     model_->in_valid = 0;
     model_->response_valid = 0;
@@ -78,12 +91,28 @@ class VerilatedCache final : public rtl::Unit {
     model_->clk = 1;
     model_->eval();
   }
+  CachePorts ports_;
   std::unique_ptr<VerilatedContext> context_ = std::make_unique<VerilatedContext>();
   std::unique_ptr<Model> model_;
   rtl::Payload texel_ = rtl::Payload::of<rtl::texture::TexelToken>();
   rtl::Payload quad_ = rtl::Payload::of<rtl::texture::TexelQuadToken>();
   rtl::Payload request_, response_;
   Random noise_{1};
+};
+
+// With ports of its own.
+template <class Model>
+class VerilatedCache final : public VerilatedCacheAt<Model> {
+ public:
+  VerilatedCache(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
+                 const spec::texture::Build& build)
+      : VerilatedCacheAt<Model>(name, clock, {texels_in, texels_out, requests_out, responses_in},
+                                build) {}
+
+  rtl::In<rtl::texture::TexelToken> texels_in{"texels_in"};
+  rtl::Out<rtl::texture::TexelQuadToken> texels_out{"texels_out"};
+  rtl::Out<rtl::MemoryRequest> requests_out{"requests_out"};
+  rtl::In<rtl::MemoryResponse> responses_in{"responses_in"};
 };
 
 }  // namespace deburr::tb::hdl

@@ -48,9 +48,10 @@ class QuadBench {
  public:
   // One a process. `input` is what the hardware gets and must outlive the bench.
   QuadBench(const QuadInput& input, const spec::texture::Parameters& parameters,
-            platform::MemoryModelParameters memory = {}, const BenchOptions& options = {})
+            platform::MemoryModelParameters memory = {}, const BenchOptions& options = {},
+            const rtl::texture::TextureUnit::StandIns& stand_ins = {})
       : input_(input),
-        unit_("texture", clock_, parameters, memory_clocks(memory)),
+        unit_("texture", clock_, parameters, memory_clocks(memory), stand_ins),
         memory_("memory", clock_.period(), sized(memory, input)),
         parameters_(parameters) {
     driver_.beats_out(quads_);
@@ -129,10 +130,11 @@ class QuadBench {
 
   rtl::texture::TextureUnit& unit() { return unit_; }
 
- private:
   static rtl::MemoryClocks memory_clocks(const platform::MemoryModelParameters& memory) {
     return {static_cast<std::int32_t>(std::max(memory.latency_min, memory.latency_max)), 1};
   }
+
+ private:
   static platform::MemoryModelParameters sized(platform::MemoryModelParameters memory,
                                                const QuadInput& input) {
     memory.bytes = input.memory.size();

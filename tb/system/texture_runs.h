@@ -8,6 +8,7 @@
 #include "golden/texture/texture_golden.h"
 #include "tb/engines/texture/texture_environment.h"
 #include "tb/engines/texture/texture_scene.h"
+#include "tb/engines/texture/texture_twins.h"
 #include "tb/stimuli/texture_quads.h"
 
 namespace deburr::tb {
@@ -37,9 +38,22 @@ inline TextureRunOptions paper_options() {
   return options;
 }
 
+// The suites run a second time with units of hdl/ in their places, where the build has their
+// configuration (tb/hdl/suites_with_twins.cpp).
+inline bool& twins_do_the_work() {
+  static bool they_do = false;
+  return they_do;
+}
+inline rtl::texture::TextureUnit::StandIns stand_ins_of_suite(
+    const spec::texture::Parameters& parameters, const rtl::MemoryClocks& memory) {
+  if (!twins_do_the_work()) return {};
+  return texture_twins_there_are(as_built(parameters, memory));
+}
+
 // Simulates and checks: throws what Simulation::run() throws, and a Mismatch.
 inline TextureOutcome simulate(const SceneParameters& scene, const SamplerParameters& sampler,
-                               const TextureRunOptions& options) {
+                               TextureRunOptions options) {
+  options.stand_ins = stand_ins_of_suite(options.texture, memory_clocks(options));
   constexpr std::uint32_t kTextureSeed =
       1;  // the options' seed is for the weather, not the picture
   const TextureScene built(scene, sampler, kTextureSeed);

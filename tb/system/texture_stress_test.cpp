@@ -128,7 +128,8 @@ TEST_P(FrameReset, LeavesNothing) {
   BenchOptions options;
   options.stall_permille = static_cast<std::uint32_t>(stall_permille);
   options.poison = true;
-  QuadBench bench(input, parameters, memory, options);
+  QuadBench bench(input, parameters, memory, options,
+                  stand_ins_of_suite(parameters, QuadBench::memory_clocks(memory)));
   bench.reset();
   const QuadOutcome fresh = bench.run();
   EXPECT_EQ(bench.check(input, fresh), "");
@@ -167,7 +168,8 @@ TEST(FrameReset, IsMissedWhenThereIsNone) {
   const QuadInput input = {scene.memory().descriptors(), scene.memory().bytes(),
                            scene.stream().quads};
   // By rules whose lines fit into the cache.
-  QuadBench bench(input, spec::texture::preset_parameters(spec::texture::Preset::kPaper));
+  const spec::texture::Parameters paper = paper_rules();
+  QuadBench bench(input, paper, {}, {}, stand_ins_of_suite(paper, QuadBench::memory_clocks({})));
   bench.reset();
   const QuadOutcome fresh = bench.run();
   EXPECT_EQ(bench.check(input, fresh), "");

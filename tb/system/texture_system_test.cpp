@@ -33,7 +33,8 @@ void expect_identical(const TextureOutcome& outcome, int line_bytes = 64) {
 // Hashes are compared with hashes of the same model elsewhere, so that what none looks at is seen
 // here alone.
 TEST(Texture, TheHashIsOfEveryChannelAndPlaceOfEveryColour) {
-  const TextureRunOptions options;
+  TextureRunOptions options;
+  options.stand_ins = stand_ins_of_suite(options.texture, memory_clocks(options));
   const TextureScene scene(picture("tunnel", 32), {}, 1);
   Simulation simulation(options);
   TextureEnvironment environment(simulation, scene, options);

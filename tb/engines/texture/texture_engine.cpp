@@ -30,6 +30,7 @@
 #include "tb/engines/texture/texture_sequence.h"
 #include "tb/engines/texture/texture_traces.h"
 #include "tb/engines/texture/texture_truth.h"
+#include "tb/engines/texture/texture_twins.h"
 #include "tb/results/report.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
@@ -52,6 +53,7 @@ class TextureEngine final : public Engine {
   void add_parameters(ParameterSet& set) override {
     set.add("run", ParameterKind::kRun, look_up_trace_);
     set.add("run", ParameterKind::kRun, trace_out_);
+    set.add("run", ParameterKind::kRun, twins_);
     set.add("scene", ParameterKind::kInput, scene_);
     set.add("scene", ParameterKind::kInput, trace_in_);
     add_sampler(set, sampler_);
@@ -77,7 +79,10 @@ class TextureEngine final : public Engine {
          {"--fragments", "scene.fragments",
           "Fragments of another rasteriser: a trace, text or binary (docs/reference/traces.md)"},
          {"--fragment-trace", "run.fragment_trace",
-          "Leave the fragments as such a trace: text or binary"}});
+          "Leave the fragments as such a trace: text or binary"},
+         {"--hdl", "run.hdl",
+          "Units that run as SystemVerilog: address, cache, filter (with commas between), or "
+          "all"}});
   }
 
   void resolve(ParameterSet& set) override {
@@ -87,6 +92,11 @@ class TextureEngine final : public Engine {
     reject_slow_memory(set, "memory", memory_);
     reject_empty_lod_range(sampler_);
     reject_unused_look_ups(set);
+    twin_units_ = twin_units(twins_.units);
+    if (!twin_units_.empty()) {
+      reject_views_inside(set);
+      stand_ins();
+    }
     if (foreign()) reject_unused_scene(set);
     lists_ = lists_of(scene_);
     frames_ = frames_of(set, sequence_, lists_);
@@ -107,6 +117,7 @@ class TextureEngine final : public Engine {
     const std::shared_ptr<const TextureScene> shared = load(run, context);
     const TextureScene& scene = *shared;
     TextureSetup setup{texture_, memory_};
+    setup.stand_ins = stand_ins();
     if (foreign())
       setup.foreign = fragments_of_file(scene);
     else
@@ -197,6 +208,11 @@ class TextureEngine final : public Engine {
 
   bool foreign() const { return !trace_in_.file.empty(); }
 
+  rtl::texture::TextureUnit::StandIns stand_ins() const {
+    return texture_twins(twin_units_,
+                         as_built(texture_, memory_clocks(memory_, texture_.cache_line_bytes)));
+  }
+
   std::vector<std::filesystem::path> with_trace(std::vector<std::filesystem::path> files) const {
     if (foreign()) add_once(files, trace_in_.file);
     return files;
@@ -251,7 +267,7 @@ class TextureEngine final : public Engine {
     };
     return fmt::format(
         "{}{} fragments, {}, N_max {}, {} {}; {}; axes {}, footprint {}, log2 {}, count {}, "
-        "kernel {}; cache {} bytes, {} ways; memory latency {} clk",
+        "kernel {}; cache {} bytes, {} ways; memory latency {} clk{}{}",
         scene.stream().width > 0
             ? fmt::format("{} x {} pixels, ", scene.stream().width, scene.stream().height)
             : "",
@@ -265,7 +281,8 @@ class TextureEngine final : public Engine {
         name(texture_.log2, spec::texture::kLog2Names),
         name(texture_.count, spec::texture::kCountNames),
         name(texture_.kernel, spec::texture::kKernelNames), texture_.cache_bytes,
-        texture_.cache_ways, memory_.latency);
+        texture_.cache_ways, memory_.latency,
+        twin_units_.empty() ? "" : "; in SystemVerilog: ", fmt::join(twin_units_, ", "));
   }
 
   bool linear_light() const {
@@ -352,6 +369,8 @@ class TextureEngine final : public Engine {
   }
 
   LookUpTrace look_up_trace_;
+  TwinParameters twins_;
+  std::vector<std::string> twin_units_;
   FragmentTraceOut trace_out_;
   FragmentTraceIn trace_in_;
   SceneParameters scene_;

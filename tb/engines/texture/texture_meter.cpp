@@ -28,6 +28,16 @@ void TextureMeter::collect(Result& result) const {
   const double texel_hits = 100 - 100 * ratio(number(lines), 4 * number(bilinears));
   add(result, "texel_hits_percent", texel_hits, "%",
       "Texels asked for that ordered no line: 100 - 100 x misses_per_texel.");
+  if (looks_up()) collect_look_ups(result, texel_hits);
+  add(result, "texels_fetched_per_fragment",
+      ratio(number(lines) * unit_.parameters().cache_line_bytes / texel_bytes, number(fragments)),
+      "texel/fragment", "Texels of all lines fetched over fragments.");
+  add(result, "fifo_depth", static_cast<std::uint64_t>(unit_.parameters().cache_fifo_depth),
+      "request", "Entries of the latency FIFO, as ordered or as the latency of memory asks for.");
+  add_counters(result, unit_);
+}
+
+void TextureMeter::collect_look_ups(Result& result, double texel_hits) const {
   const rtl::texture::TagStage& tags = unit_.cache.tag_stage;
   const std::uint64_t look_ups = tags.hits.value() + tags.merged.value() + tags.misses.value();
   const auto of_look_ups = [&](const rtl::Counter& count) {
@@ -44,12 +54,6 @@ void TextureMeter::collect(Result& result) const {
        fmt::format("{:.2f} % of look-ups, {:.2f} % more merged with a fill under way; {:.2f} "
                    "% of texels",
                    of_look_ups(tags.hits), of_look_ups(tags.merged), texel_hits)});
-  add(result, "texels_fetched_per_fragment",
-      ratio(number(lines) * unit_.parameters().cache_line_bytes / texel_bytes, number(fragments)),
-      "texel/fragment", "Texels of all lines fetched over fragments.");
-  add(result, "fifo_depth", static_cast<std::uint64_t>(unit_.parameters().cache_fifo_depth),
-      "request", "Entries of the latency FIFO, as ordered or as the latency of memory asks for.");
-  add_counters(result, unit_);
 }
 
 void TextureMeter::show_parts(Observer& observer, const rtl::LinkBase& in,
@@ -69,11 +73,14 @@ void TextureMeter::collect_headline(Result& result) const {
   result.figures = {{"Fragments", key("fragments")},
                     {"Bilinear requests of a fragment", key("bilinears_per_fragment")},
                     {"Line fills of a texel", key("misses_per_texel")},
-                    {"Texels without a line fill", key("texel_hits_percent")},
-                    {"Look-ups that hit", key("look_up_hits_percent")},
-                    {"Look-ups of a line under way", key("look_up_merged_percent")},
-                    {"Texels fetched for a fragment", key("texels_fetched_per_fragment")}};
-  result.bottleneck = find_bottleneck(result.units, figure("filter"));
+                    {"Texels without a line fill", key("texel_hits_percent")}};
+  if (looks_up()) {
+    result.figures.push_back({"Look-ups that hit", key("look_up_hits_percent")});
+    result.figures.push_back({"Look-ups of a line under way", key("look_up_merged_percent")});
+  }
+  result.figures.push_back({"Texels fetched for a fragment", key("texels_fetched_per_fragment")});
+  if (!unit_.address.derivative.replaced() && looks_up() && !unit_.filter.replaced())
+    result.bottleneck = find_bottleneck(result.units, figure("filter"));
 }
 
 }  // namespace deburr::tb

@@ -25,6 +25,10 @@ class TextureMeter : public Meter {
   void collect_headline(Result& result) const;
 
  private:
+  // The look-ups are counted; nobody counts those of a cache that is replaced.
+  bool looks_up() const { return !unit_.cache.tag_stage.replaced(); }
+  void collect_look_ups(Result& result, double texel_hits) const;
+
   const rtl::texture::TextureUnit& unit_;
   const platform::MemoryModel& memory_;
   const platform::TextureMemory& textures_;

@@ -8,6 +8,7 @@
 #include "rtl_model/fabric/engine.h"
 #include "rtl_model/platform/memory_model.h"
 #include "rtl_model/texture/latency_fifo.h"
+#include "rtl_model/texture/texture_unit.h"
 #include "spec/texture/parameters.h"
 #include "tb/engines/texture/texture_expectation.h"
 #include "tb/env/memory_parameters.h"
@@ -32,10 +33,18 @@ struct TextureSetup {
   std::shared_ptr<const TextureExpectation> expectation = nullptr;
   // Connects the engine with its memory; null: directly.
   std::function<void(rtl::Engine&, platform::MemoryModel&)> connect{};
+  // What does the work of units of the engine; null: nothing (texture_twins.h).
+  rtl::texture::TextureUnit::StandIns stand_ins{};
 };
 // What this memory takes at most.
 inline rtl::MemoryClocks memory_clocks(const TextureSetup& setup) {
   return memory_clocks(setup.memory, setup.texture.cache_line_bytes);
+}
+// With the depth of the FIFO that is built.
+inline spec::texture::Parameters as_built(spec::texture::Parameters parameters,
+                                          const rtl::MemoryClocks& memory) {
+  parameters.cache_fifo_depth = rtl::texture::LatencyFifo::depth(parameters, memory);
+  return parameters;
 }
 
 }  // namespace deburr::tb

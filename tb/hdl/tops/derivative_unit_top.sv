@@ -11,6 +11,7 @@ module derivative_unit_top (
   output logic                out_push,
   input  logic                out_ready,
   output logic [`DERIVATIVE_TOKEN_BITS-1:0] out_data,
+  output logic                saturated,
   input  logic                write,
   input  logic [3:0]          write_handle,
   input  logic [4:0]          write_word,
@@ -22,6 +23,6 @@ module derivative_unit_top (
   descriptors store (.clk, .rst_n, .write, .write_handle, .write_word, .write_data, .handle_0(handle),
                      .handle_1(4'd0), .handle_2(4'd0), .descriptor_0(descriptor), .descriptor_1,
                      .descriptor_2);
-  derivative_unit unit (.clk, .rst_n, .in_valid, .in_pop, .in_data, .out_push, .out_ready, .out_data, .handle,
+  derivative_unit unit (.clk, .rst_n, .in_valid, .in_pop, .in_data, .out_push, .out_ready, .out_data, .saturated, .handle,
                .descriptor);
 endmodule

@@ -150,6 +150,26 @@ TEST(Engine, ListsWhatIsBelowIt) {
   EXPECT_EQ(engine.memory(), nullptr);
 }
 
+// Of a unit whose work something else does nothing is left but what is counted for it.
+TEST(Engine, AReplacedUnitStandsStill) {
+  Bed bed(true, false);
+  bed.clock.replace(bed.engine.b, {&bed.engine.b.tokens});
+  bed.clock.run(9);
+  EXPECT_EQ(bed.engine.a.tokens.value(), 9U);
+  EXPECT_EQ(bed.engine.b.tokens.value(), 0U);
+  EXPECT_EQ(bed.engine.b.busy_cycles(), 0U);  // and the account of run() holds
+  EXPECT_EQ(bed.engine.units(), std::vector<const rtl::Unit*>{&bed.engine.a});
+  EXPECT_EQ(bed.engine.memories().size(), 1U);
+  EXPECT_EQ(bed.engine.counters().size(), 2U);
+  ++bed.engine.b.tokens;
+  EXPECT_EQ(bed.host.read(kBoth), 10U);
+  bed.clock.set_reset_n(false);
+  bed.clock.run(1);
+  EXPECT_EQ(bed.engine.b.tokens.value(), 0U);
+  EXPECT_THROW(bed.clock.replace(bed.engine.b), spec::CheckFailed);
+  EXPECT_THROW(bed.clock.replace(bed.engine.a), spec::CheckFailed);  // in mid-run
+}
+
 TEST(Engine, HasItsMemorySocketIfItIsBuiltWithOne) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Engine engine("engine", clock, true, true);

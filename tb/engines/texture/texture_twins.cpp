@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "tb/engines/texture/texture_twins.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include "spec/check_build.h"
+#include "spec/error.h"
+
+namespace deburr::tb {
+namespace {
+
+using StandIns = rtl::texture::TextureUnit::StandIns;
+
+struct TwinUnit {
+  std::string_view name;
+  std::vector<std::string_view> parameters;  // that are compiled into a model of it
+};
+const std::array<TwinUnit, 3>& known_units() {
+  static const std::array<TwinUnit, 3> all = {
+      {{"address",
+        {"axes", "footprint", "log2", "count", "count_cap", "kernel", "spread", "axis_clocks"}},
+       {"cache",
+        {"cache.bytes", "cache.line_bytes", "cache.ways", "cache.replacement", "cache.outstanding",
+         "cache.fifo_depth"}},
+       {"filter", {"count", "kernel", "srgb_output"}}}};
+  return all;
+}
+
+std::vector<TextureTwin>& twins() {
+  static std::vector<TextureTwin> all;
+  return all;
+}
+
+// "axes=two footprint=half ..."
+std::string configuration(const TwinUnit& unit, const spec::texture::Parameters& parameters) {
+  std::string text;
+  for (const std::string_view name : unit.parameters)
+    text +=
+        fmt::format("{}{}={}", text.empty() ? "" : " ", name, spec::value_text(parameters, name));
+  return text;
+}
+
+const TextureTwin* find(const TwinUnit& unit, const spec::texture::Parameters& as_built) {
+  const std::string wanted = configuration(unit, as_built);
+  for (const TextureTwin& twin : twins())
+    if (twin.unit == unit.name && configuration(unit, twin.parameters) == wanted) return &twin;
+  return nullptr;
+}
+
+const TwinUnit& unit_named(std::string_view name) {
+  const auto found = std::find_if(known_units().begin(), known_units().end(),
+                                  [&](const TwinUnit& unit) { return unit.name == name; });
+  if (found == known_units().end())
+    throw spec::ConfigError(fmt::format(
+        "run.hdl: no unit '{}': give address, cache or filter, separated by commas, or all", name));
+  return *found;
+}
+
+StandIns makers(std::vector<const TextureTwin*> chosen) {
+  if (chosen.empty()) return {};
+  return [chosen = std::move(chosen)](rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe) {
+    std::vector<std::unique_ptr<sc_core::sc_module>> made;
+    for (const TextureTwin* twin : chosen) made.push_back(twin->make(unit, probe));
+    return made;
+  };
+}
+
+}  // namespace
+
+void add_texture_twin(TextureTwin twin) { twins().push_back(std::move(twin)); }
+
+std::vector<std::string> twin_units(const std::string& text) {
+  std::set<std::string_view> named;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view name = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(rest.size(), name.size() + 1));
+    if (name == "all")
+      for (const TwinUnit& unit : known_units()) named.insert(unit.name);
+    else
+      named.insert(unit_named(name).name);
+  }
+  if (!named.empty() && twins().empty())
+    throw spec::ConfigError(
+        "run.hdl: this program was built without the units in SystemVerilog: configure with "
+        "-DDEBURR_HDL=ON (cmake --preset hdl) where Verilator is installed (scripts/install hdl), "
+        "or leave it out");
+  std::vector<std::string> units;
+  for (const TwinUnit& unit : known_units())
+    if (named.contains(unit.name)) units.emplace_back(unit.name);
+  return units;
+}
+
+StandIns texture_twins(const std::vector<std::string>& units,
+                       const spec::texture::Parameters& as_built) {
+  std::vector<const TextureTwin*> chosen;
+  for (const std::string& name : units) {
+    const TwinUnit& unit = unit_named(name);
+    const TextureTwin* const twin = find(unit, as_built);
+    if (!twin) {
+      std::string there;
+      for (const TextureTwin& other : twins())
+        if (other.unit == name) there += "\n  " + configuration(unit, other.parameters);
+      throw spec::ConfigError(fmt::format(
+          "run.hdl: this build has no unit {} in SystemVerilog for\n  {}\nIt has those for{}\nTo "
+          "add one, add these settings to a deburr_hdl_model(...) in tb/hdl/CMakeLists.txt and "
+          "build again (docs/explanation/hdl.md)",
+          name, configuration(unit, as_built), there));
+    }
+    chosen.push_back(twin);
+  }
+  return makers(std::move(chosen));
+}
+
+StandIns texture_twins_there_are(const spec::texture::Parameters& as_built) {
+  std::vector<const TextureTwin*> chosen;
+  for (const TwinUnit& unit : known_units())
+    if (const TextureTwin* const twin = find(unit, as_built)) chosen.push_back(twin);
+  return makers(std::move(chosen));
+}
+
+void reject_views_inside(const ParameterSet& set) {
+  for (const char* name : {"run.maps", "run.coverage", "run.line_trace_look_ups"})
+    if (set.find(name)->text() == "true")
+      throw spec::ConfigError(
+          fmt::format("{}: a unit that runs as SystemVerilog is not looked into: leave out {} or "
+                      "run.hdl (--hdl)",
+                      name, name));
+  if (!set.find("run.pixel")->text().empty())
+    throw spec::ConfigError(
+        "run.pixel: a unit that runs as SystemVerilog is not looked into: leave out run.pixel or "
+        "run.hdl (--hdl)");
+}
+
+}  // namespace deburr::tb

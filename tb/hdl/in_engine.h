@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// Units of hdl/texture, verilated, that do the work of SystemC units inside of a texture unit:
+// at their ports, with its registers and counters (docs/explanation/hdl.md, "In the engine").
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/texture/texture_unit.h"
+#include "spec/texture/registers.h"
+#include "tb/engines/texture/texture_setup.h"
+#include "tb/engines/texture/texture_twins.h"
+#include "tb/hdl/adapter.h"
+#include "tb/hdl/settings.h"
+#include "tb/hdl/verilated_cache.h"
+
+namespace deburr::tb::hdl {
+
+template <class Model>
+class AddressInEngine final
+    : public VerilatedAt<Model, spec::texture::Quad, rtl::texture::TexelToken> {
+  using Base = VerilatedAt<Model, spec::texture::Quad, rtl::texture::TexelToken>;
+
+ public:
+  AddressInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe)
+      : Base("address_hdl", unit.address.derivative.clock(), unit.address.derivative.quads_in,
+             unit.address.addresser.texels_out),
+        unit_(unit),
+        probe_(probe) {
+    rtl::texture::AddressUnit& address = unit.address;
+    rtl::ClockDomain& clock = this->clock();
+    rtl::texture::DerivativeUnit& d = address.derivative;
+    clock.replace(d, {&d.quads, &d.fragments, &d.clamped, &d.saturated, &d.invalid});
+    if (address.footprint) clock.replace(*address.footprint);
+    if (address.axis) clock.replace(*address.axis);
+    clock.replace(address.log2);
+    clock.replace(address.level);
+    clock.replace(address.walker);
+    clock.replace(address.addresser, {&address.addresser.bilinears});
+    this->on_clock = [&d](Model& says) {
+      if (says.saturated) ++d.saturated;
+    };
+    namespace reg = spec::texture::reg;
+    for (const spec::RegisterInfo& info : rtl::texture::register_table()) {
+      if (info.offset < reg::kTextureBase) continue;
+      const std::uint32_t at = info.offset - reg::kTextureBase;
+      unit.control.on_taken(info.offset, [this, at](std::uint32_t value) {
+        write_word(*this, at / reg::kTextureStride, at % reg::kTextureStride / 4, value);
+      });
+    }
+  }
+  void reset() override {
+    Base::reset();
+    probe_.reset();
+  }
+
+ private:
+  bool admits() const override { return unit_.control.enabled(); }
+  void popped(rtl::Cycle cycle, const spec::texture::Quad& quad) override {
+    rtl::texture::DerivativeUnit& d = unit_.address.derivative;
+    const unsigned lanes = quad.coverage & 0xFu;
+    const auto covered = static_cast<std::uint64_t>(std::popcount(lanes));
+    ++d.quads;
+    d.fragments += covered;
+    d.clamped += static_cast<std::uint64_t>(std::popcount(lanes & quad.clamped));
+    for (std::uint64_t i = 0; i < covered; ++i) probe_.enters(cycle);
+  }
+  void pushed(rtl::Cycle, const rtl::texture::TexelToken& request) override {
+    if (request.ticket.valid) {
+      ++unit_.address.addresser.bilinears;
+    } else {
+      ++unit_.address.derivative.invalid;
+      unit_.control.set_sticky(spec::texture::reg::kStatusInvalidTexture);
+    }
+  }
+
+  rtl::texture::TextureUnit& unit_;
+  rtl::LatencyProbe& probe_;
+};
+
+template <class Model>
+class CacheInEngine final : public VerilatedCacheAt<Model> {
+ public:
+  CacheInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe&)
+      : VerilatedCacheAt<Model>(
+            "cache_hdl", unit.cache.tag_stage.clock(),
+            {unit.cache.tag_stage.texels_in, unit.cache.data_stage.texels_out,
+             unit.cache.miss_queue.requests_out, unit.cache.miss_queue.responses_in},
+            unit.parameters()),
+        unit_(unit),
+        failed_(static_cast<std::size_t>(unit.parameters().cache_outstanding)) {
+    rtl::texture::TextureCache& cache = unit.cache;
+    rtl::texture::MissQueue& m = cache.miss_queue;
+    rtl::ClockDomain& clock = this->clock();
+    clock.replace(m, {&m.line_fills, &m.fill_bytes, &m.memory_errors});
+    clock.replace(cache.tag_stage);
+    clock.replace(cache.latency_fifo);
+    clock.replace(cache.data_stage);
+    unit.control.on_command(spec::texture::reg::kControlInvalidate, [this] { this->invalidate(); });
+  }
+  void reset() override {
+    VerilatedCacheAt<Model>::reset();
+    failed_.assign(failed_.size(), false);
+  }
+
+ private:
+  void asked(const rtl::MemoryRequest&) override {
+    ++unit_.cache.miss_queue.line_fills;
+    unit_.cache.miss_queue.fill_bytes +=
+        static_cast<std::uint64_t>(unit_.parameters().cache_line_bytes);
+  }
+  // A line counts once, whichever of its beats had an error.
+  void received(const rtl::MemoryResponse& beat) override {
+    const bool failed = failed_[beat.tag] || beat.status != rtl::MemoryStatus::kOk;
+    failed_[beat.tag] = failed && !beat.last;
+    if (!failed || !beat.last) return;
+    ++unit_.cache.miss_queue.memory_errors;
+    unit_.control.set_sticky(spec::texture::reg::kStatusMemoryError);
+  }
+
+  rtl::texture::TextureUnit& unit_;
+  std::vector<bool> failed_;  // of lines on their way, by tag
+};
+
+template <class Model>
+class FilterInEngine final
+    : public VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::Colour> {
+ public:
+  FilterInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe)
+      : VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::Colour>(
+            "filter_hdl", unit.filter.clock(), unit.filter.texels_in, unit.filter.colours_out),
+        filter_(unit.filter),
+        probe_(probe) {
+    this->clock().replace(filter_, {&filter_.fragments});
+  }
+
+ private:
+  void pushed(rtl::Cycle cycle, const spec::texture::Colour&) override {
+    ++filter_.fragments;
+    filter_.fragment_latency.record(probe_.leaves(cycle + 1));
+  }
+
+  rtl::texture::FilterPipeline& filter_;
+  rtl::LatencyProbe& probe_;
+};
+
+// For the list that the build makes (cmake/Hdl.cmake). `settings` are those of the model.
+template <class InEngine>
+void add_twin(const char* unit, const char* settings) {
+  add_texture_twin({unit, as_built(parameters_of(settings), {}),
+                    [](rtl::texture::TextureUnit& around,
+                       rtl::LatencyProbe& probe) -> std::unique_ptr<sc_core::sc_module> {
+                      return std::make_unique<InEngine>(around, probe);
+                    }});
+}
+template <class Model>
+void add_address_unit(const char* settings) {
+  add_twin<AddressInEngine<Model>>("address", settings);
+}
+template <class Model>
+void add_texture_cache(const char* settings) {
+  add_twin<CacheInEngine<Model>>("cache", settings);
+}
+template <class Model>
+void add_filter_pipeline(const char* settings) {
+  add_twin<FilterInEngine<Model>>("filter", settings);
+}
+
+}  // namespace deburr::tb::hdl

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+// A whole texture unit with units of hdl/ in their places: colours, line fills and registers are
+// the golden model's, and every link between the units moves in the same clocks as with SystemC
+// units.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/base/forked.h"
+#include "tb/harness/stall_injector.h"
+#include "tb/system/texture_runs.h"
+
+namespace deburr::tb::twin_in_engine_test {
+namespace {
+
+constexpr std::size_t kLinks = 6;
+// What stands outside of every unit that is replaced: only these are held, since those inside are
+// not there in both.
+constexpr std::array<const char*, kLinks> kOutside = {"quads",
+                                                      "texture.texels",
+                                                      "texture.cache.memory_requests",
+                                                      "texture.cache.memory_responses",
+                                                      "texture.texel_quads",
+                                                      "colours"};
+
+// Hashes of the clocks in which links were pushed and popped.
+class Clocks final : public rtl::Clocked {
+ public:
+  explicit Clocks(rtl::ClockDomain& clock) {
+    for (const char* name : kOutside)
+      links_.push_back({dynamic_cast<rtl::LinkBase*>(sc_core::sc_find_object(name))});
+    clock.add_after(*this);
+  }
+  std::uint64_t hash(std::size_t link) const { return links_[link].hash.value(); }
+  std::uint64_t beats(std::size_t link) const { return links_[link].link->pops(); }
+
+  rtl::Activity tick(rtl::Cycle cycle) override {
+    for (Watched& w : links_) {
+      if (w.link->pushes() != w.pushes) w.hash.add(2 * cycle);
+      if (w.link->pops() != w.pops) w.hash.add(2 * cycle + 1);
+      w.pushes = w.link->pushes();
+      w.pops = w.link->pops();
+    }
+    return rtl::kIdle;
+  }
+  void reset() override {
+    for (Watched& w : links_) w = {w.link};
+  }
+
+ private:
+  struct Watched {
+    rtl::LinkBase* link = nullptr;
+    std::uint64_t pushes = 0, pops = 0;
+    OutputHash hash{};
+  };
+  std::vector<Watched> links_;
+};
+
+struct Outcome {
+  std::uint64_t cycles = 0, colour_hash = 0, colours = 0, fills = 0, comparisons = 0,
+                mismatches = 0, stand_ins = 0;
+  std::array<std::uint64_t, kLinks> clocks{}, beats{};
+  std::uint64_t latencies = 0;
+};
+
+// Checked by the golden model, which throws what differs.
+Outcome run(const TextureRunOptions& options, const SamplerParameters& sampler, int side,
+            const std::vector<std::string>& units, std::uint32_t stall_permille) {
+  return forked<Outcome>([&] {
+    TextureRunOptions mine = options;
+    mine.stand_ins = texture_twins(units, as_built(mine.texture, memory_clocks(mine)));
+    const TextureScene scene(picture("plane", side), sampler, 1);
+    Simulation simulation(mine);
+    TextureEnvironment environment(simulation, scene, mine);
+    simulation.elaborate(environment);
+    std::vector<std::unique_ptr<StallInjector>> stalls;
+    if (stall_permille != 0)
+      for (const char* link : kOutside)
+        stalls.push_back(std::make_unique<StallInjector>(
+            simulation.clock(),
+            StallInjector::Options{stall_permille, stall_permille, mine.seed, link}));
+    Clocks clocks(simulation.clock());
+    simulation.run();
+    environment.check();
+    Result result;
+    simulation.collect(result);
+    Outcome outcome;
+    outcome.cycles = simulation.cycles();
+    outcome.colour_hash = environment.colour_hash();
+    outcome.colours = environment.delivered();
+    outcome.fills = result.traffic_comparisons;
+    outcome.comparisons = result.comparisons;
+    outcome.mismatches = result.mismatches + result.traffic_mismatches;
+    outcome.latencies = environment.unit().fragment_latency.sum();
+    for (const UnitCycles& unit : result.units) outcome.stand_ins += unit.name.ends_with("_hdl");
+    for (std::size_t i = 0; i < kLinks; ++i)
+      outcome.clocks[i] = clocks.hash(i), outcome.beats[i] = clocks.beats(i);
+    return outcome;
+  });
+}
+
+TextureRunOptions calm(bool paper) {
+  TextureRunOptions options;
+  if (paper) options.texture = paper_rules();
+  return options;
+}
+TextureRunOptions storm(bool paper) {
+  TextureRunOptions options = calm(paper);
+  options.memory.latency = 20;
+  options.memory.latency_max = 300;
+  options.texture.cache_fifo_depth = 107;
+  options.seed = 3;
+  return options;
+}
+
+void expect_equal(const Outcome& model, const Outcome& twin, std::size_t units) {
+  EXPECT_EQ(model.stand_ins, 0u);
+  EXPECT_EQ(twin.stand_ins, units);
+  EXPECT_EQ(twin.mismatches, 0u);
+  EXPECT_GE(twin.comparisons, twin.colours);
+  EXPECT_EQ(model.colours, twin.colours);
+  EXPECT_EQ(model.colour_hash, twin.colour_hash);
+  EXPECT_EQ(model.fills, twin.fills);
+  EXPECT_EQ(model.cycles, twin.cycles);
+  EXPECT_EQ(model.latencies, twin.latencies);
+  for (std::size_t i = 0; i < kLinks; ++i) {
+    EXPECT_EQ(model.beats[i], twin.beats[i]) << kOutside[i];
+    EXPECT_EQ(model.clocks[i], twin.clocks[i]) << kOutside[i];
+    EXPECT_GT(model.beats[i], 0u) << kOutside[i];
+  }
+}
+
+const std::vector<std::string> kAll = {"address", "cache", "filter"};
+
+// Each mode by both presets, one of them calm, the other one in a storm: stalls of all links
+// outside of the units, and memory that answers at random.
+class TwinsInEngine : public testing::TestWithParam<std::tuple<int, bool>> {};
+
+TEST_P(TwinsInEngine, GiveTheSameInTheSameClocks) {
+  const auto [mode, paper] = GetParam();
+  SamplerParameters sampler;
+  sampler.mode = static_cast<spec::texture::MinFilter>(mode);
+  const bool stormy = (mode % 2 == 0) == paper;
+  const TextureRunOptions options = stormy ? storm(paper) : calm(paper);
+  const std::uint32_t stalls = stormy ? 100 : 0;
+  const Outcome twin = run(options, sampler, 512, kAll, stalls);
+  expect_equal(run(options, sampler, 512, {}, stalls), twin, kAll.size());
+  EXPECT_GT(twin.colours, 100'000u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Texture, TwinsInEngine,
+                         testing::Combine(testing::Range(0, 6), testing::Bool()),
+                         [](const auto& p) {
+                           const auto mode = static_cast<std::size_t>(std::get<0>(p.param));
+                           return fmt::format("{}_{}", spec::texture::kMinFilterNames[mode],
+                                              std::get<1>(p.param) ? "paper" : "deburr");
+                         });
+
+// One unit among SystemC ones, and two.
+class SomeTwinsInEngine : public testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(SomeTwinsInEngine, GiveTheSameInTheSameClocks) {
+  const TextureRunOptions options = storm(false);
+  expect_equal(run(options, {}, 96, {}, 200), run(options, {}, 96, GetParam(), 200),
+               GetParam().size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Texture, SomeTwinsInEngine,
+                         testing::Values(std::vector<std::string>{"address"},
+                                         std::vector<std::string>{"cache"},
+                                         std::vector<std::string>{"filter"},
+                                         std::vector<std::string>{"address", "filter"}),
+                         [](const auto& p) { return fmt::format("{}", fmt::join(p.param, "_")); });
+
+// The comparison of clocks sees a memory that takes one clock more.
+TEST(TwinsInEngineFaults, AnotherClockIsSeen) {
+  TextureRunOptions later = calm(false);
+  later.memory.latency += 1;
+  later.texture.cache_fifo_depth = 107;
+  const Outcome a = run(calm(false), {}, 64, {}, 0), b = run(later, {}, 64, kAll, 0);
+  EXPECT_EQ(a.colour_hash, b.colour_hash);
+  for (const std::size_t link : {3, 4, 5}) EXPECT_NE(a.clocks[link], b.clocks[link]);
+}
+
+// ---- choosing
+
+TEST(ChooseTwins, AllOrSomeInTheirOrder) {
+  EXPECT_EQ(twin_units(""), std::vector<std::string>{});
+  EXPECT_EQ(twin_units("all"), kAll);
+  EXPECT_EQ(twin_units("filter,address"), (std::vector<std::string>{"address", "filter"}));
+  EXPECT_EQ(twin_units("cache,all"), kAll);
+  EXPECT_THROW(twin_units("address;cache"), spec::ConfigError);
+  EXPECT_THROW(twin_units("adress"), spec::ConfigError);
+}
+
+TEST(ChooseTwins, RejectsWhatTheBuildDoesNotHaveAndSaysWhatItHas) {
+  spec::texture::Parameters p;
+  p.cache_ways = 4;
+  p.cache_fifo_depth = 107;
+  EXPECT_NO_THROW(texture_twins({"address", "filter"}, p));
+  try {
+    texture_twins({"address", "cache"}, p);
+    FAIL();
+  } catch (const spec::ConfigError& error) {
+    const std::string text = error.what();
+    for (const char* part : {"unit cache", "cache.ways=4", "cache.ways=2", "deburr_hdl_model"})
+      EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace deburr::tb::twin_in_engine_test
