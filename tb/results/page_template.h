@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A page from its template. Reading and filling one are templates: compiled here once, and not for every page.
+// A page from its template. Reading and filling one are templates: compiled here once, and not for
+// every page.
 #pragma once
 
 #include <kainjow/mustache.hpp>
