@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 
 #include "spec/error.h"
@@ -13,6 +12,7 @@
 #include "tb/base/interrupt.h"
 #include "tb/results/build_info.h"
 #include "tb/results/embedded.h"
+#include "tb/results/page_template.h"
 #include "tb/results/progress.h"
 #include "tb/results/report.h"
 #include "tb/scene/image_io.h"
@@ -185,10 +185,9 @@ nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
   mustache::data root;
   root.set("style", std::string(embedded::style_css()));
   root.set("papers", list);
-  mustache::mustache page{std::string(embedded::papers_template())};
-  DEBURR_CHECK(page.is_valid(), "papers.mustache: " + page.error_message());
   write_file_atomically(directory / "papers.json", json.dump(2) + "\n");
-  write_file_atomically(directory / "index.html", page.render(root));
+  write_file_atomically(directory / "index.html",
+                        filled_page(embedded::papers_template(), "papers.mustache", root));
   Json ids = Json::array();
   for (const Paper& paper : papers) ids.push_back(paper.id);
   return {{"unit", "papers"}, {"papers", ids}, {"commit", build_info().commit}};

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -19,6 +18,7 @@
 #include "tb/regress/regression_result.h"
 #include "tb/results/build_info.h"
 #include "tb/results/embedded.h"
+#include "tb/results/page_template.h"
 #include "tb/results/report.h"
 
 namespace deburr::tb {
@@ -355,9 +355,7 @@ std::string page_of(const Json& json) {
   page.set("has_coverage", !json.at("coverage").empty());
   page.set("coverage", coverage);
   page.set("data", json_for_script(drawn));
-  mustache::mustache text{std::string(embedded::regression_template())};
-  DEBURR_CHECK(text.is_valid(), "regression.mustache: " + text.error_message());
-  return text.render(page);
+  return filled_page(embedded::regression_template(), "regression.mustache", page);
 }
 
 }  // namespace

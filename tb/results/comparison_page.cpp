@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -15,7 +14,9 @@
 #include "tb/results/build_info.h"
 #include "tb/results/compare.h"
 #include "tb/results/embedded.h"
+#include "tb/results/page_template.h"
 #include "tb/results/report.h"
+#include "tb/results/result.h"
 
 namespace deburr::tb {
 namespace {
@@ -63,9 +64,7 @@ class ComparisonPage {
     page_.set("data", json_for_script(runs ? Json{{"kind", "runs"}} : comparison_));
     page_.set("version", build_info().version);
     page_.set("commit", build_info().commit);
-    mustache::mustache page{std::string(embedded::comparison_template())};
-    DEBURR_CHECK(page.is_valid(), "comparison.mustache: " + page.error_message());
-    return page.render(page_);
+    return filled_page(embedded::comparison_template(), "comparison.mustache", page_);
   }
 
  private:

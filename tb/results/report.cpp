@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 #include <tuple>
 #include <utility>
@@ -20,6 +19,7 @@
 #include "tb/results/amount.h"
 #include "tb/results/embedded.h"
 #include "tb/results/input_files.h"
+#include "tb/results/page_template.h"
 #include "tb/results/picture_map.h"
 #include "tb/results/result.h"
 #include "tb/scene/png.h"
@@ -116,9 +116,7 @@ class ReportBuilder {
     page_.set("data", fmt::format(R"({{"result":{},"windows":{},"maps":{},"map_colours":{}}})",
                                   json_for_script(result_), json_for_script(windows_),
                                   json_for_script(maps_), json_for_script(Json(map_colours()))));
-    mustache::mustache page{std::string(embedded::report_template())};
-    if (!page.is_valid()) throw spec::CheckFailed("report.mustache: " + page.error_message());
-    return page.render(page_);
+    return filled_page(embedded::report_template(), "report.mustache", page_);
   }
 
  private:

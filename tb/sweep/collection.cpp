@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <kainjow/mustache.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -19,6 +18,7 @@
 #include "tb/results/build_info.h"
 #include "tb/results/compare_sweeps.h"
 #include "tb/results/embedded.h"
+#include "tb/results/page_template.h"
 #include "tb/results/report.h"
 #include "tb/results/result.h"
 
@@ -540,9 +540,7 @@ std::string page_of(const Json& json) {
   page.set("has_no_value", none.is_non_empty_list());
   page.set("no_value", none);
   set_table(json, page);
-  mustache::mustache text{std::string(embedded::sweep_template())};
-  DEBURR_CHECK(text.is_valid(), "sweep.mustache: " + text.error_message());
-  return text.render(page);
+  return filled_page(embedded::sweep_template(), "sweep.mustache", page);
 }
 
 }  // namespace
