@@ -102,7 +102,7 @@ struct Rules {
   CoverageRule coverage = CoverageRule::kArea;
   DepthTest depth_test = DepthTest::kFarther;
   std::int32_t depth_bias = 9;
-  std::int32_t crease_depth = 4;
+  std::int32_t crease_depth = 3;
   Combine combine = Combine::kOutermost;
   bool linear_light = true;
   bool mark = false;
@@ -249,7 +249,7 @@ inline constexpr std::array<PresetRow, 3> kPresets = {{
      Combine::kLast, true},
     {Preset::kGpaaOptimised, Select::kEdges, Crease::kPaper, Cull::kBack, CoverageRule::kDistance,
      0, Combine::kLast, true},
-    {Preset::kDeburr, Select::kEdges, Crease::kShading, Cull::kNone, CoverageRule::kArea, 4,
+    {Preset::kDeburr, Select::kEdges, Crease::kShading, Cull::kNone, CoverageRule::kArea, 3,
      Combine::kOutermost, false},
 }};
 
