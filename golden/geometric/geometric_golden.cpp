@@ -233,7 +233,7 @@ void GeometricGolden::draw_edge(const Edge& edge) {
       return;
     case LineFate::kEmptyColumns:
     case LineFate::kEmptyBefore:
-    case LineFate::kEmptyBehind:
+    case LineFate::kEmptyAfter:
       ++work_.empty_edges;
       return;
     case LineFate::kLine:
@@ -302,7 +302,7 @@ bool GeometricGolden::fetch_pair(std::size_t array, std::uint32_t number, Pair& 
   from.last_line = line;
   count(array == 0 ? (hit ? PairFetch::kBoundaryHit : PairFetch::kBoundaryMiss)
                    : (hit ? PairFetch::kOtherHit : PairFetch::kOtherMiss));
-  // Behind the array, where registers, flags and memory do not agree, nothing was written.
+  // After the array, where registers, flags and memory do not agree, nothing was written.
   pair = bad(address) || number >= from.pairs.size() ? Pair{} : from.pairs[number];
   const auto vertices = static_cast<std::uint32_t>(input_.vertices.size());
   if (are_vertices_there(pair.v0, pair.v1, vertices)) return true;

@@ -40,7 +40,7 @@ LineFate set_up_line(const Vertex& p, const Vertex& q, int width, int height, Li
   const std::int64_t last = std::min(columns - 1, ((end.major + 127) >> 8) - 1);
   if (first > last) return LineFate::kEmptyColumns;
   if (start.minor < 0 && end.minor < 0) return LineFate::kEmptyBefore;
-  if (start.minor >= 256 * rows && end.minor >= 256 * rows) return LineFate::kEmptyBehind;
+  if (start.minor >= 256 * rows && end.minor >= 256 * rows) return LineFate::kEmptyAfter;
 
   const auto length = static_cast<std::uint32_t>(end.major - start.major);
   const int e = std::bit_width(length) - 1;

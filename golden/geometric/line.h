@@ -23,7 +23,7 @@ enum class LineFate : std::uint8_t {
   kDegenerate,    // both ends in one place
   kEmptyColumns,  // no column of the frame
   kEmptyBefore,   // both ends above or to the left of the frame
-  kEmptyBehind    // both ends below or to the right of it
+  kEmptyAfter     // both ends below or to the right of it
 };
 
 bool is_usable(const spec::geometric::Vertex& vertex);

@@ -47,6 +47,14 @@ class Facts:
             found.append((re.sub(r"_entries$|_\?\?", "", name.strip("`")), start, end, int(places)))
         return found
 
+    def optional(self, page):
+        """Unit that not every build has -> (from, to): what its link joins without it."""
+        found = {}
+        for _, ends, *_ in self.table(page, "link", "from, to", "places"):
+            if without := re.fullmatch(r"(\w+), (\w+); without that one (\w+)", ends):
+                found[without[2]] = without[1], without[3]
+        return found
+
     def latency(self, name):
         """Words for the latency of a unit (or of 'A or B'), from its datasheet; none if it has none."""
         cells = []

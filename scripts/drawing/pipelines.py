@@ -66,8 +66,19 @@ def draw_unit(picture, facts, plan, name, inside=(), classes="box"):
         picture.text(x + WIDTH / 2, first + 14 * (len(rows) + i), row, "middle small dim")
 
 
-def draw(facts, page, plan, size, title, beside=()):
-    """The picture and its links, each with all that a test or a description needs."""
+def draw_way_past(picture, plan, unit, start, end):
+    """The link where a unit of one row with both ends is not built."""
+    (c0, row), (c1, _) = plan.units[start], plan.units[end]
+    if {row} != {plan.units[name][1] for name in (end, unit)}:
+        raise Missing(f"scripts/drawing/pipelines.py: the way past {unit} from {start} to {end} is no row")
+    points = [at(c0, row, .75 if c1 > c0 else .25, 0), at(c0, row, .75 if c1 > c0 else .25, -.3),
+              at(c1, row, .25 if c1 > c0 else .75, -.3), at(c1, row, .25 if c1 > c0 else .75, 0)]
+    picture.path([plan.point(*point) for point in points], "wire", arrow=True)
+
+
+def draw(facts, page, plan, size, title, beside=(), optional=None):
+    """The picture and its links, each with all that a test or a description needs. `optional`: as facts.optional."""
+    optional = optional or {}
     links = facts.links(page)
     units = []
     for name, start, end, _ in links:
@@ -79,13 +90,16 @@ def draw(facts, page, plan, size, title, beside=()):
     columns, rows = size
     width, height = 2 * LEFT + columns * WIDTH + (columns - 1) * GAP_X, 2 * TOP + rows * HEIGHT + (rows - 1) * GAP_Y
     words = "; ".join(f"{start} to {end} by {name.rsplit('.', 1)[-1]}" for name, start, end, _ in links if end)
-    picture = Picture(width, height + 30, title, f"Units as boxes with their latency, links as arrows: {words}.")
+    past = "".join(f" Without {unit} {start} to {end}." for unit, (start, end) in optional.items())
+    picture = Picture(width, height + 30, title, f"Units as boxes with their latency, links as arrows: {words}.{past}")
     for name, start, end, places in links:
         if start in plan.units and end in plan.units:
             draw_link(picture, plan, name, start, end, places)
     for unit in [*units, *beside]:
         inside = [places for _, start, end, places in links if end is None and start == unit]
-        draw_unit(picture, facts, plan, unit, inside, "box" if unit in units else "band")
+        draw_unit(picture, facts, plan, unit, inside, "faint" if unit in optional else "box" if unit in units else "band")
+    for unit, (start, end) in optional.items():
+        draw_way_past(picture, plan, unit, start, end)
     picture.text(LEFT, height + 16, "Arrows are links, of two places if no number stands beside the name.", "small dim")
     return picture
 
@@ -154,7 +168,8 @@ def geometric(facts):
     beside = sorted(camel - linked)
     if unplaced := [unit for unit in beside if unit not in plan.units]:
         raise Missing(f"scripts/drawing/pipelines.py: {page} has units that have no place: {', '.join(unplaced)}")
-    picture = draw(facts, page, plan, (5, 5), "Units of the geometric engine and the links between them", beside)
+    optional = facts.optional(page)
+    picture = draw(facts, page, plan, (5, 5), "Units of the geometric engine and the links between them", beside, optional)
     for name, start, end, places in facts.links(page):
         if "each client" in (start, end):
             shift = 0 if end == "MemoryArbiter" else 22
@@ -162,7 +177,9 @@ def geometric(facts):
             picture.path([(x, y + shift) for x, y in way], arrow=True)
             picture.text(LEFT + (WIDTH + GAP_X) / 2, way[0][1] + shift + (-6 if not shift else 14),
                          "each client's " + name.rsplit("_", 1)[-1], "small halo middle")
-    picture.height += 16
+    picture.height += 32
+    picture.text(LEFT, picture.height - 30, f"{' and '.join(optional)} stand only where they are built; "
+                 "without one of them its link goes the way in dashes.", "small dim")
     picture.text(LEFT, picture.height - 14, "Units in dashes have no link but to memory; wires join them. "
                  "The BlockScanner reads what the WeightCombiner touched.", "small dim")
     return picture

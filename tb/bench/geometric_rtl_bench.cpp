@@ -8,7 +8,8 @@
 //       parameters as "fills=128 coverage=area"; cycles, then clocks of both phases and what the
 //       port alone would take, work, stalls, memories
 //   geometric_rtl_bench --idle <n>      n clocks of an engine that waits for a frame
-//   geometric_rtl_bench --dividers      clocks of the edges over dividers, with and without table
+//   geometric_rtl_bench --dividers      JSON, a row a build and latency: dividers, clocks of the
+//       memory, blended pixels, clocks of the edges, of the resolve, in all
 //   geometric_rtl_bench --ratio <n>     how many times as fast the golden model draws the same
 //   frame,
 //       turn and turn about with the hardware model, so that it means something on a busy machine
@@ -171,24 +172,34 @@ void frames(int count, const std::vector<std::string>& arguments) {
 }
 
 void dividers() {
-  std::cout << "dividers  without table  with table of 10 bits  (clocks of the edges)\n";
-  const auto clocks = [](int units, int table, bool pipelined) {
-    return forked_text([&] {
-      Parameters p;
-      p.edge_lanes = spec::geometric::Lanes::kFour;
-      p.coverage = spec::geometric::CoverageRule::kDistance;
-      p.pipelined = pipelined;
-      p.dividers = units;
-      p.reciprocal_table = table;
-      Frames f(p);
-      f.run();
-      return std::to_string(f.driver.clocks().edges);
-    });
+  struct Setup {
+    const char* name;
+    int units, table;
+    bool pipelined;
   };
-  for (int units = 1; units <= 8; ++units)
-    std::cout << fmt::format("{:8} {:>14} {:>22}\n", units, clocks(units, 0, false),
-                             clocks(units, 10, false));
-  std::cout << fmt::format("pipelined {:>13}\n", clocks(1, 0, true));
+  constexpr std::array<Setup, 7> kSetups = {{{"1", 1, 0, false},
+                                             {"2", 2, 0, false},
+                                             {"3", 3, 0, false},
+                                             {"4", 4, 0, false},
+                                             {"5", 5, 0, false},
+                                             {"1, and the table", 1, 10, false},
+                                             {"pipelined", 1, 0, true}}};
+  const auto drawn = [](const Setup& setup, std::int32_t latency) {
+    Parameters p;
+    p.dividers = setup.units;
+    p.reciprocal_table = setup.table;
+    p.pipelined = setup.pipelined;
+    Frames f(p, 1, latency);
+    f.run();
+    const auto clocks = f.driver.clocks();
+    return fmt::format("[\"{}\", {}, {}, {}, {}, {}]", setup.name, latency,
+                       f.engine.work().blended_pixels, clocks.edges, clocks.resolve, clocks.frame);
+  };
+  std::vector<std::string> rows;
+  for (const std::int32_t latency : {100, 20})
+    for (const Setup& setup : kSetups)
+      rows.push_back(forked_text([&] { return drawn(setup, latency); }));
+  std::cout << fmt::format("[{}]\n", fmt::join(rows, ",\n"));
 }
 
 void ratio(int count) {

@@ -165,7 +165,7 @@ class Configuration(Base):
         self.assertEqual(self.result()["work"]["line_setup_lines"], 12)
 
     def test_order_of_edges(self):
-        """The picture stays with `max`, whose seed decides nothing else; the traffic does not."""
+        """The picture stays in any order of edges, whose seed decides nothing else; the traffic does not."""
         def picture(*arguments):
             self.run_engine(0, "--scene", "canopy", "--size", "96x64", *arguments, says="PASS")
             with open(self.path("out/after.png"), "rb") as file:

@@ -249,7 +249,7 @@ INSTANTIATE_TEST_SUITE_P(Geometric, DataMesh,
 
 class SamePicture : public testing::TestWithParam<Preset> {};
 
-TEST_P(SamePicture, WhateverTheBuildAndWithMaxTheOrderOfEdges) {
+TEST_P(SamePicture, WhateverTheBuildAndButForLastTheOrderOfEdges) {
   const Preset which = GetParam();
   const auto run = [&](auto&& change, std::uint64_t shuffle = 0) {
     return forked<GeometricOutcome>([&] {

@@ -58,7 +58,7 @@ EXPECTED_002 = {
         "sphere none": "-", "object none": "-", "terrain none": "-", "cube deburr": "best",
         "wheelcover deburr": "best", "wing deburr": "best", "canopy deburr": "best",
         "sphere deburr": "best", "object deburr": "best", "terrain deburr": "second"}),
-    "The order of edges": ("needs max", {}),
+    "The order of edges": ("matters", {}),
 }
 # The same of paper 004, and the figures as the paper prints them.
 EXPECTED_004 = {

@@ -195,7 +195,7 @@ struct CandidateToken {
   }
 };
 
-// What of candidates is built, also of a token that has them under this name: `dropped` behind a
+// What of candidates is built, also of a token that has them under this name: `dropped` after a
 // DepthScreen alone.
 inline PayloadShape candidates_shape(const spec::geometric::Parameters& p, bool screened,
                                      const std::string& within = "") {

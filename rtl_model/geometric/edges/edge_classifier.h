@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Decides of each edge whether it can be seen as one, and lets those through.
 //
-// Where: behind the EdgeReader. With records = split it counts where the vertices of each edge are,
+// Where: after the EdgeReader. With records = split it counts where the vertices of each edge are,
 // and the PairFetch looks at them; else it does so itself. Stalls: `downstream`. Source: paper 002,
 // eqs (1) to (4), as docs/reference/geometric/algorithm.md has them.
 #pragma once

@@ -2,7 +2,7 @@
 // What a line cuts off the pixels of a group, and across which side: of each column the pixel in
 // which it lies, and with coverage = area the neighbour that it cuts, too.
 //
-// Where: behind the LineWalker. Stalls: `downstream`. Coverage is rounded. Source: paper 002, eq
+// Where: after the LineWalker. Stalls: `downstream`. Coverage is rounded. Source: paper 002, eq
 // (7); areas: docs/reference/geometric/formats.md. A column looks two areas up: the pixel's in the
 // near half of the table, up to half a pixel from the centre, the neighbour's in the far one. Just
 // half a pixel away both are the same, which is in the far half.

@@ -2,7 +2,7 @@
 // Drops the candidates that lie behind what the frame shows: behind the farther of their own pixel
 // and the neighbour that they would take from; and those of a crease with that far behind it.
 //
-// Where: behind the CoverageUnit, with a small cache of depth lines that looks ahead. A group of
+// Where: after the CoverageUnit, with a small cache of depth lines that looks ahead. A group of
 // which no candidate passes leaves nothing. What the DepthScreen has dropped looks nothing up and
 // does not pass. A second candidate passes with the first of its column,
 // whose depths it shares. Lines of a group have different indices, so none replaces another.

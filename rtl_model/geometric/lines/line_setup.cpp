@@ -88,8 +88,8 @@ void LineSetup::find_axis(Cycle cycle, Beat& beat) {
   const std::int32_t first = std::max(0, (beat.major0 + 127) >> 8),
                      last = std::min(columns - 1, ((major1 + 127) >> 8) - 1);
   const bool before = beat.minor0 < 0 && minor1 < 0,
-             behind = beat.minor0 >= rows << 8 && minor1 >= rows << 8;
-  if (first > last || before || behind) return drop(empty_edges);
+             after = beat.minor0 >= rows << 8 && minor1 >= rows << 8;
+  if (first > last || before || after) return drop(empty_edges);
   beat.length = horizontal ? across : down;
   beat.minor_extent = horizontal ? down : across;
   beat.minor_falls = minor1 < beat.minor0;

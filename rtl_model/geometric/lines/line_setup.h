@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Turns a kept edge into a line: axis, columns, slope, position and depth at the first column.
 //
-// Where: behind VertexFetch. All stages move together; before the quotient a line waits for a
+// Where: after VertexFetch. All stages move together; before the quotient a line waits for a
 // divider. Lines leave in order, since every line takes as long from the divider on, one of the
 // table too. Stalls: `divider` (none is free), `downstream`. Error bounds:
 // docs/reference/geometric/formats.md. Source: paper 002, eqs (5), (6).

@@ -2,7 +2,7 @@
 // Steps along a line, a group of columns a clock: as many of the next ones, `walkers` at most, as
 // have their pixels in one block of 4 x 4.
 //
-// Where: behind the line FIFO. Stalls: `downstream`.
+// Where: after the line FIFO. Stalls: `downstream`.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Blends the pixels of a touched block and writes them back, in place.
 //
-// Where: end of the resolve. Loading, blending and writing work on three blocks behind each other.
+// Where: end of the resolve. Loading, blending and writing work on three successive blocks.
 // A neighbour that was blended before is replaced by what it was: `originals` keeps the last row of
 // each block column, registers the last column of the block to the left. With frame_copy neighbours
 // come from the copy, and nothing is replaced. Results are rounded by magnitude. Stalls: `colours`

@@ -287,7 +287,7 @@ Activity WeightCombiner::deliver(Cycle cycle) {
   return kBusy;
 }
 
-// Behind the last token: what is in the write buffer, a block a clock.
+// After the last token: what is in the write buffer, a block a clock.
 Activity WeightCombiner::flush(Cycle cycle) {
   if (buffer_->full() == 0) return kIdle;
   if (buffer_->has_first()) {

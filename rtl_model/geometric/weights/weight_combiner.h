@@ -4,7 +4,7 @@
 //
 // Where: end of the edges' pipe; the resolve reads its memories through handles of its ports. Where
 // second candidates lie in another block than the first ones, the group is looked up once more. A
-// word that is written in stage 5 goes past the memory to the group behind. With a write buffer a
+// word that is written in stage 5 goes past the memory to the group after it. With a write buffer a
 // replaced block goes into its ring and is written when it leaves this, at the latest after the
 // last token: one a clock then. Stalls: `weights` (the block has not come), `fills` (no place for
 // one), `spill` (the block is still on its way out, or the list of those is full), `downstream`. A
@@ -69,7 +69,7 @@ class WeightCombiner final : public Unit {
   // A group of which the candidates of one block are left.
   struct Lookup {
     WeightToken group;
-    bool more;                   // those of the other block come behind
+    bool more;                   // those of the other block come after it
     std::uint16_t index;         // U10
     bool missed, reads;          // reads: what missed comes from memory, else it is zeros
     bool replaces;               // a block leaves the cache

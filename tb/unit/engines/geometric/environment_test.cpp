@@ -154,7 +154,7 @@ TEST(GeometricEnvironment, WeatherChangesClocksAndNothingElse) {
   }
 }
 
-TEST(GeometricEnvironment, TheOrderOfEdgesChangesNoPixelWithMax) {
+TEST(GeometricEnvironment, TheOrderOfEdgesChangesNoPixel) {
   const Outcome table = run({}, small_setup()),
                 shuffled = run({}, small_setup(), 1, EdgeOrder::kShuffled);
   EXPECT_EQ(shuffled.hash, table.hash);

@@ -517,7 +517,7 @@ TEST(Coverage, EnumerationsHaveABinEach) {
   EXPECT_EQ(fate(LineFate::kDegenerate), once("fate/degenerate"));
   EXPECT_EQ(fate(LineFate::kEmptyColumns), once("fate/empty-columns"));
   EXPECT_EQ(fate(LineFate::kEmptyBefore), once("fate/empty-before"));
-  EXPECT_EQ(fate(LineFate::kEmptyBehind), once("fate/empty-after"));
+  EXPECT_EQ(fate(LineFate::kEmptyAfter), once("fate/empty-after"));
   const auto group = [&](GroupEnd end) {
     return after([&](EdgeCoverage& c) { c.count_group(end); });
   };

@@ -97,7 +97,7 @@ TEST(Fates, EachHasItsReason) {
   EXPECT_EQ(fate({0, -1, 0, true}, {900, -1, 0, true}), LineFate::kEmptyBefore);
   EXPECT_EQ(fate({0, -1, 0, true}, {900, 0, 0, true}), LineFate::kLine);
   EXPECT_EQ(fate({0, 0, 0, true}, {900, -1, 0, true}), LineFate::kLine);
-  EXPECT_EQ(fate({0, 4096, 0, true}, {900, 4096, 0, true}), LineFate::kEmptyBehind);
+  EXPECT_EQ(fate({0, 4096, 0, true}, {900, 4096, 0, true}), LineFate::kEmptyAfter);
   EXPECT_EQ(fate({0, 4096, 0, true}, {900, 4095, 0, true}), LineFate::kLine);
   EXPECT_EQ(fate({0, 4095, 0, true}, {900, 4096, 0, true}), LineFate::kLine);
   EXPECT_EQ(fate({-300, 0, 0, true}, {-10, 0, 0, true}), LineFate::kEmptyColumns);
