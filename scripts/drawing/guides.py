@@ -54,8 +54,11 @@ def which_engine(facts):
     table = {plain(row[0]): row for row in facts.table(page, "method", "needs")}
 
     def figures(name):
-        _, _, edges, clocks, *_ = table[name]
-        return f"edges {edges} dB, {clocks} clocks"
+        _, _, edges, blended, clocks, *_ = table[name]
+        return f"edges {edges} dB, {clocks} clocks, {blended} pixels blended"
+
+    size, latency = facts.find(page, r"Frames of (\d+ x \d+), .*?memory\s+of (\d+) clocks").groups()
+    smoothing = facts.find(page, r"`(--preset \w+) --set (morphological\.edges\.source=\w+)`").groups()
 
     both = "geometric, then morphological"
     picture = Picture(840, 436, "From what you have to the engine that smooths it",
@@ -66,11 +69,12 @@ def which_engine(facts):
     third = Box(picture, 20, 210, 226, 64, inside + "?")
     fourth = Box(picture, 20, 310, 226, 64, f"There is {mask.replace(' in it', ' in the picture')}?")
     answers = [Box(picture, 606, y, 214, 64, text, small, "answer") for y, text, small in
-               ((50, "geometric", figures("deburr, geometric")), (130, both, figures(both)),
+               ((50, "geometric", figures("deburr, geometric")), (130, both, ", ".join(smoothing)),
                 (210, "morphological", f"--depth, {source}"), (290, "morphological", "--mask"),
                 (364, "morphological", figures("deburr, morphological")))]
     picture.text(20, 30, "Pixels to be smoothed", "strong")
-    picture.text(820, 30, "Engine; means over the nine scenes of the comparison", "small dim end")
+    picture.lines(820, 22, ["Engine; edges: mean of the nine scenes of the comparison;",
+                            f"clocks and pixels: of the hardest, object, {size}, memory of {latency} clocks"], "small dim end")
     way(picture, first.at(1, .5), second.at(0, .5), label="yes")
     way(picture, second.at(1, .5), answers[0].at(0, .5), label="no")
     way(picture, second.at(.5, 1), (second.at(.5, 1)[0], answers[1].at(0, .5)[1]), answers[1].at(0, .5), label="yes", dx=16, dy=4)

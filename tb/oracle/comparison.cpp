@@ -126,7 +126,8 @@ ComparisonCost cost_of(const GeometricRules& rules, const Frame& frame) {
         const rtl::geometric::GeometricEngine& engine = environment.engine();
         const std::uint64_t bytes =
             engine.memory_port.bytes_read.value() + engine.memory_port.bytes_written.value();
-        return ComparisonCost{number(engine.frame_sequencer.frame_cycles.value()),
+        return ComparisonCost{number(engine.work().blended_pixels),
+                              number(engine.frame_sequencer.frame_cycles.value()),
                               number(bytes) / (kWidth * kHeight), 0};
       });
 }
@@ -141,7 +142,8 @@ ComparisonCost cost_of(const MorphologicalRules& rules, const MorphologicalInput
         return std::make_unique<MorphologicalEnvironment>(simulation, std::span(&input, 1), setup);
       },
       [&](const MorphologicalEnvironment& environment) {
-        return ComparisonCost{number(environment.engine().sequencer.frame_cycles.value()),
+        return ComparisonCost{number(environment.engine().work().blended_pixels),
+                              number(environment.engine().sequencer.frame_cycles.value()),
                               kStreamBytes + (depth ? kDepthBytes : 0), 0};
       });
 }
@@ -149,6 +151,7 @@ ComparisonCost cost_of(const MorphologicalRules& rules, const MorphologicalInput
 ComparisonCost cost_of(const Method& method, const Frame& frame) {
   ComparisonCost sum;
   const auto add = [&](const ComparisonCost& cost) {
+    sum.blended += cost.blended;
     sum.clocks += cost.clocks;
     sum.bytes += cost.bytes;
     sum.bits += cost.bits;
@@ -169,8 +172,8 @@ std::string decibels(double value) {
 }
 
 // Digits in groups of three.
-std::string grouped_digits(std::uint64_t value) {
-  std::string digits = fmt::format("{}", value);
+std::string grouped_digits(double value) {
+  std::string digits = fmt::format("{}", std::llround(value));
   for (int i = static_cast<int>(digits.size()) - 3; i > 0; i -= 3)
     digits.insert(static_cast<std::size_t>(i), 1, ' ');
   return digits;
@@ -215,10 +218,9 @@ std::vector<ComparisonRow> compare_methods(const std::string& scene) {
 
 std::string comparison_section(const std::string& name, std::span<const ComparisonRow> rows) {
   std::string text = fmt::format(
-      "### {}\n\n| | PSNR, dB | edges, dB | silhouettes, dB | clocks | bytes a pixel | memory, "
-      "bits "
-      "|\n|---|---|---|---|---|---|---|\n",
-      name);
+      "### {}\n\n| | PSNR, dB | edges, dB | silhouettes, dB | blended pixels | clocks, M = {} | "
+      "bytes a pixel | memory, bits |\n|---|---|---|---|---|---|---|---|\n",
+      name, GeometricSetup().memory.latency);
   for (const ComparisonRow& row : rows) {
     text += "| " + row.method;
     for (double ComparisonRow::*const column :
@@ -227,12 +229,11 @@ std::string comparison_section(const std::string& name, std::span<const Comparis
       text += value == decibels(best(rows, column)) ? " | **" + value + "**" : " | " + value;
     }
     if (row.cost)
-      text +=
-          fmt::format(" | {} | {:.1f} | {} |\n",
-                      grouped_digits(static_cast<std::uint64_t>(std::llround(row.cost->clocks))),
-                      row.cost->bytes, grouped_digits(row.cost->bits));
+      text += fmt::format(" | {} | {} | {:.1f} | {} |\n", grouped_digits(row.cost->blended),
+                          grouped_digits(row.cost->clocks), row.cost->bytes,
+                          grouped_digits(static_cast<double>(row.cost->bits)));
     else
-      text += " | - | - | - |\n";
+      text += " | - | - | - | - |\n";
   }
   return text + "\n";
 }
@@ -247,12 +248,14 @@ std::vector<ComparisonRow> means_of(std::span<const std::vector<ComparisonRow>> 
       mean.edges += rows[i].edges;
       mean.silhouettes += rows[i].silhouettes;
       if (!mean.cost) continue;
+      mean.cost->blended += rows[i].cost->blended;
       mean.cost->clocks += rows[i].cost->clocks;
       mean.cost->bytes += rows[i].cost->bytes;
       DEBURR_CHECK(mean.cost->bits == rows[i].cost->bits, "memory that depends on the scene");
     }
     for (double* const value : {&mean.psnr, &mean.edges, &mean.silhouettes}) *value /= n;
     if (!mean.cost) continue;
+    mean.cost->blended /= n;
     mean.cost->clocks /= n;
     mean.cost->bytes /= n;
   }

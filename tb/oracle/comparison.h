@@ -17,6 +17,7 @@ namespace deburr::tb {
 
 // Of a frame, by the hardware model, compared with golden throughout.
 struct ComparisonCost {
+  double blended = 0;  // pixels that took a share of a neighbour; of two engines the sum
   double clocks = 0;
   double bytes = 0;        // a pixel of the frame, streams and memory
   std::uint64_t bits = 0;  // of all memories, physical
