@@ -1,14 +1,17 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Proves one property of the units in hdl/, and that the proof can fail: with a fault planted in the
-source it must be refuted. Sequential properties are proved by induction over two or three clocks with
-invariants that stand beside the unit (yosys-smtbmc, z3), combinational ones for all inputs by yosys' SAT
-solver.
+source it must be refuted. Sequential properties are proved by induction over one to three clocks with
+invariants by hand (yosys-smtbmc, z3), combinational ones for all inputs by yosys' SAT solver. Invariants
+stand in the unit, or in a proof module that names the unit's registers by wires with the attribute
+`hierconn`.
 
 usage: formal_test.py SOURCE HEADERS PROOF | --list"""
 import dataclasses
+import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -32,7 +35,8 @@ class Proof:
 
 LINK = ("fabric/link.sv", "behind == HERE) place[i] <= push_data;\n          else if (pop)",
         "count == HERE) place[i] <= push_data;\n          else if (pop)")
-FABRIC = ("link", "fifo", "pipe")  # whose own properties are assumed of their surroundings where they are not the top
+# Cells whose own properties assume a protocol, which must not be assumed where they are parts of another top.
+FABRIC = ("link", "fifo", "pipe")
 PROOFS = {
     # Count, order and data of a beat that is followed; the faults: a push beside a pop goes one place too far.
     "link_1": Proof("link", "induction", ("fabric/link.sv", "can_push <= next_count != FULL", "can_push <= !push"),
@@ -62,7 +66,8 @@ PROOFS = {
                          ("texture/bank_passes.sv", "{1'b0, bank_32 && first_2}", "{1'b0, bank_32}")),
     "root_stage": Proof("root_stage_proof", "sat",
                         ("texture/root_stage.sv", "bit_2 = with_2 >= try_2", "bit_2 = with_2 > try_2")),
-    "root_pipe": Proof("root_pipe", "induction", ("texture/root_stage.sv", "{digits[59:0], 4'd0}", "{digits[60:0], 3'd0}"),
+    "root_pipe": Proof("root_pipe", "induction",
+                       ("texture/root_stage.sv", "{digits[59:0], 4'd0}", "{digits[60:0], 3'd0}"),
                        steps=1, base=3, registers=True),
     # Four lines, the fewest places; five of lines in two beats.
     "miss_path_4": Proof("miss_path_proof", "induction",
@@ -78,7 +83,7 @@ PROOFS = {
 }
 # The level for each count, with and without cap, of a minor side and of an area.
 LEVEL = ("texture/level_unit.sv", "mixed_end = level_mixed >= ", "mixed_end = level_mixed > ")
-PROOFS |= {f"level_{axes}_{count}_{cap}": Proof("level_bounds_proof", "bmc", LEVEL, steps=4, registers=True,
+PROOFS |= {f"level_{axes}_{count}_{cap}": Proof("level_bounds_proof", "bmc", LEVEL, steps=3, registers=True,
                                                 parameters={"AXES": a, "COUNT": n, "CAP": c})
            for a, axes in enumerate(("two", "four")) for n, count in enumerate(("floor", "ceil", "any"))
            for c, cap in enumerate(("none", "texel"))}
@@ -102,6 +107,7 @@ def script(proof, sources, headers, out):
     else:
         lines += [f"cutpoint t:*{proof.free}*"] if proof.free else []
         lines += ["proc", "chformal -remove a:src=*/hdl/fabric/*"] if proof.top not in FABRIC else []
+        # A name that no register has would be a wire that is free.
         lines += [f"prep -flatten -nordff -top {proof.top}", "select -assert-none a:hierconn w:*g_beat[1]* %d",
                   f"write_smt2 -wires {out}"]
     return "; ".join(lines)
@@ -109,12 +115,16 @@ def script(proof, sources, headers, out):
 
 def run(command, log):
     """Exit code and what was said; None when it takes too long."""
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=SECONDS)
-    except subprocess.TimeoutExpired:
-        return None, f"no answer in {SECONDS} s: {' '.join(map(str, command))[:200]}"
-    log.write_text(done.stdout + done.stderr, encoding="utf-8")
-    return done.returncode, done.stdout + done.stderr
+    # A group of its own: what yosys-smtbmc has started ends with it.
+    with subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          start_new_session=True) as process:
+        try:
+            out, error = process.communicate(timeout=SECONDS)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            return None, f"no answer in {SECONDS} s: {' '.join(map(str, command))[:200]}"
+    log.write_text(out + error, encoding="utf-8")
+    return process.returncode, out + error
 
 
 def proved(proof, source, headers, fault):

@@ -26,7 +26,7 @@ module cache_moves_proof (
     response_data[`MEMORY_RESPONSE_LAST] = 1'b1;
   end
   logic [2:0] link_push, link_pop;
-  texture_cache #(.OUTSTANDING(4), .FIFO_DEPTH(2)) cache (
+  texture_cache #(.BYTES(256), .WAYS(2), .OUTSTANDING(4), .FIFO_DEPTH(2)) cache (
     .clk, .rst_n, .in_valid, .in_pop, .in_data, .out_push, .out_ready, .out_data(), .request_push, .request_ready,
     .request_data, .response_valid(answer), .response_pop, .response_data, .invalidate(1'b0), .link_push, .link_pop);
 
@@ -67,13 +67,16 @@ module cache_moves_proof (
   wire outside = (\cache.data.valid_2 && !out_ready) || (\cache.queue.waiting != 0 && !request_ready) || owed != 4'd0;
 
   // Lines that requests still have to write, oldest first, and lines on their way.
-  wire [2:0] to_write_0 = \cache.requests.place[0] [`CACHE_TOKEN_FILLS], to_write_1 = \cache.requests.place[1] [`CACHE_TOKEN_FILLS];
+  wire [2:0] to_write_0 = \cache.requests.place[0] [`CACHE_TOKEN_FILLS];
+  wire [2:0] to_write_1 = \cache.requests.place[1] [`CACHE_TOKEN_FILLS];
   wire [2:0] first = \cache.entries.first [`CACHE_TOKEN_FILLS], second = \cache.entries.second [`CACHE_TOKEN_FILLS];
   wire [2:0] word = \cache.entries.word [`CACHE_TOKEN_FILLS];
-  wire [2:0] memory_0 = \cache.entries.memory[0] [`CACHE_TOKEN_FILLS], memory_1 = \cache.entries.memory[1] [`CACHE_TOKEN_FILLS];
+  wire [2:0] memory_0 = \cache.entries.memory[0] [`CACHE_TOKEN_FILLS];
+  wire [2:0] memory_1 = \cache.entries.memory[1] [`CACHE_TOKEN_FILLS];
   wire [2:0] stored_0 = \cache.entries.read_place ? memory_1 : memory_0;
   wire [2:0] stored_1 = \cache.entries.read_place ? memory_0 : memory_1;
-  wire [2:0] missed_0 = \cache.misses.place[0] [`MISS_TOKEN_COUNT], missed_1 = \cache.misses.place[1] [`MISS_TOKEN_COUNT];
+  wire [2:0] missed_0 = \cache.misses.place[0] [`MISS_TOKEN_COUNT];
+  wire [2:0] missed_1 = \cache.misses.place[1] [`MISS_TOKEN_COUNT];
   wire [2:0] head = \cache.entries.ready != 0 ? first : word;
   wire two_links = \cache.requests.count == 2'd2, one_link = \cache.requests.count != 2'd0;
   wire [5:0] to_write = (one_link ? to_write_0 : 3'd0) + (two_links ? to_write_1 : 3'd0) +
@@ -112,6 +115,7 @@ module cache_moves_proof (
     i_fills: assert (\cache.fills.can_reserve == (\cache.fills.held != 4) &&
                      (!\cache.fills.line_valid || \cache.fills.held != 0));
     i_reserved: assert (\cache.fills.reserved == \cache.fills.read_place + unread[1:0]);
-    i_places: assert ((\cache.fills.arrived & owed) == 0 && (\cache.fills.arrived | owed) == (turned[3:0] | turned[7:4]));
+    i_places: assert ((\cache.fills.arrived & owed) == 0 &&
+                      (\cache.fills.arrived | owed) == (turned[3:0] | turned[7:4]));
   end
 endmodule

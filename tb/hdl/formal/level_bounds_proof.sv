@@ -20,8 +20,8 @@ module level_bounds_proof #(
   wire in_pop, out_push;
   wire [`LEVEL_TOKEN_BITS-1:0] out;
   wire [3:0] handle;
-  level_unit #(.AXES(AXES), .COUNT(COUNT), .CAP(CAP)) unit (.clk, .rst_n(1'b1), .in_valid(1'b1), .in_pop, .in_data(token), .out_push,
-                   .out_ready(1'b1), .out_data(out), .handle, .descriptor);
+  level_unit #(.AXES(AXES), .COUNT(COUNT), .CAP(CAP)) unit (
+    .clk, .rst_n(1'b1), .in_valid(1'b1), .in_pop, .in_data(token), .out_push, .out_ready(1'b1), .out_data(out), .handle, .descriptor);
   reg [1:0] clocks = 2'd0;
   always @(posedge clk) if (clocks != 2'd3) clocks <= clocks + 2'd1;
   wire [3:0] last = out[`LEVEL_TOKEN_LAST_INDEX];

@@ -166,7 +166,8 @@ module miss_path_proof #(
     i_one_beat: assert (BEATS == 2 || owed_second == 0);
     i_queued: assert (!(followed && !sent) || \queue.f_line == address);
     i_place: assert (!(followed && sent && !done) ||
-                     (on_register ? behind(place, 1) == \fills.read_place : place == behind(\fills.read_place , front)));
+                     (on_register ? behind(place, 1) == \fills.read_place
+                                  : place == behind(\fills.read_place , front)));
     i_first: assert (!(followed && sent && !done) || on_register || owed_first[place] ||
                      word[15:0] == content[15:0]);
     i_second: assert (BEATS == 1 || !(followed && sent && !done) || on_register || owed_second[place] ||
