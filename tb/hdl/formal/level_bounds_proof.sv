@@ -21,7 +21,8 @@ module level_bounds_proof #(
   wire [`LEVEL_TOKEN_BITS-1:0] out;
   wire [3:0] handle;
   level_unit #(.AXES(AXES), .COUNT(COUNT), .CAP(CAP)) unit (
-    .clk, .rst_n(1'b1), .in_valid(1'b1), .in_pop, .in_data(token), .out_push, .out_ready(1'b1), .out_data(out), .handle, .descriptor);
+    .clk, .rst_n(1'b1), .in_valid(1'b1), .in_pop, .in_data(token), .out_push, .out_ready(1'b1),
+    .out_data(out), .handle, .descriptor);
   reg [1:0] clocks = 2'd0;
   always @(posedge clk) if (clocks != 2'd3) clocks <= clocks + 2'd1;
   wire [3:0] last = out[`LEVEL_TOKEN_LAST_INDEX];
@@ -44,7 +45,10 @@ module level_bounds_proof #(
   wire signed [31:0] limited = taken > limit ? limit : taken;
   wire signed [31:0] cap = COUNT == `COUNT_ANY ? lb_max : ((lb_max + 4095) >>> 12) <<< 12;
   wire signed [31:0] capped = CAP == `CAP_TEXEL && limited > cap ? cap : limited;
-  wire signed [31:0] e = lb_max <= 0 || capped < 0 ? 0 : capped;
+  wire signed [31:0] page_e = lb_max <= 0 || capped < 0 ? 0 : capped;
+  // The unit's own E, which is the page's, so that what follows from it is a question of its own.
+  (* hierconn *) wire [14:0] \unit.e_1 ;
+  wire signed [31:0] e = {17'd0, \unit.e_1 };
   localparam logic [16*`LOG2_COUNT_BITS-1:0] STEPS = `LOG2_COUNT;
   integer n;
   reg [4:0] samples;
@@ -76,7 +80,8 @@ module level_bounds_proof #(
   end
   always @*
     if (clocks >= 2'd2) begin
-      a_formats: assert (l_of < 262144 && e >= 0 && e < 32768 && detail >= -1048576 && detail < 1048576);
+      a_e: assert (e == page_e);
+      a_formats: assert (l_of < 262144 && page_e >= 0 && page_e < 32768 && detail >= -1048576 && detail < 1048576);
       a_samples: assert ({1'b0, last} + 5'd1 == samples);
       a_page: assert (page_level == {28'd0, level} && page_fraction == fraction);
       a_filter: assert (page_linear == out[`LEVEL_TOKEN_LINEAR]);
