@@ -20,4 +20,10 @@ module sram_1r1w #(
     if (read) word <= memory[read_address];
     if (write) memory[write_address] <= write_data;
   end
+
+`ifdef FORMAL
+  // A proof looks at one word.
+  wire [ADDRESS_BITS-1:0] f_address;
+  wire [BITS-1:0] f_word = memory[f_address];
+`endif
 endmodule

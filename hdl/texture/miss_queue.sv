@@ -75,4 +75,10 @@ module miss_queue #(
     request_data[`MEMORY_REQUEST_TAG] = reserved;
     request_data[`MEMORY_REQUEST_LINES] = BURST;
   end
+
+`ifdef FORMAL
+  // A proof looks into one place (tb/hdl/formal/miss_path_proof.sv).
+  wire [PLACE_BITS-1:0] f_place;
+  wire [LINE_BITS-1:0] f_line = lines[f_place];
+`endif
 endmodule

@@ -11,6 +11,10 @@ module root_pipe (
   logic [31:0] roots[1:15];
   logic [33:0] rests[1:15];
   logic [63:0] digits[1:15];
+`ifdef FORMAL
+  reg [15:1] f_come = 15'd0;
+  reg [63:0] f_radicands[1:15];
+`endif
   genvar i;
   generate
     for (i = 0; i < 16; i = i + 1) begin : g_stage
@@ -32,6 +36,24 @@ module root_pipe (
         assign root = next_root;
         wire unused = &{1'b0, next_rest, next_digits};
       end
+`ifdef FORMAL
+      // Each stage has the digits that are to come of the radicand its root and rest are of, and nothing is cut
+      // off. What a stage does with them: tb/hdl/formal/root_stage_proof.sv.
+      wire f_there = i == 0 ? 1'b1 : f_come[i > 0 ? i : 1];
+      wire [63:0] f_whole = i == 0 ? {1'b0, radicand} : f_radicands[i > 0 ? i : 1];
+      if (i < 15) begin : g_known
+        always @(posedge clk)
+          if (move) begin
+            f_come[i+1] <= f_there;
+            f_radicands[i+1] <= f_whole;
+          end
+      end
+      always @* if (f_there) begin
+        assert (to_come == f_whole << 4 * i);
+        assert ({32'd0, known} < 64'd1 << 2 * i);
+        assert (rest <= {1'b0, known, 1'b0});
+      end
+`endif
     end
   endgenerate
 endmodule

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the digit recurrence of a square root keeps: the rest is at most twice the root, so that its upper
-// bits, which no register has, are zero; and each digit is the larger one that fits.
+// bits, which no register has, are zero; and with b the two new bits of the root x, the rest loses
+// (4 x + b)^2 - (4 x)^2 = b (8 x + b). So it stays what the digits that were used exceed the square of the root
+// by; at most twice the root, it makes the root the largest whose square fits.
 module root_stage_proof (
   input logic [29:0] root,  // of 32 bits the two lowest are still to come
   input logic [33:0] rest,
@@ -10,9 +12,13 @@ module root_stage_proof (
   logic [33:0] next_rest;
   logic [63:0] next_digits;
   root_stage unit (.root({2'd0, root}), .rest, .digits({digits, 60'd0}), .next_root, .next_rest, .next_digits);
+  wire [1:0] bits = next_root[1:0];
+  wire [37:0] once = {3'd0, root, 3'd0} + {36'd0, bits};
+  wire [37:0] lost = (bits[0] ? once : 38'd0) + (bits[1] ? once << 1 : 38'd0);
   always @* begin
     assume (rest <= {3'd0, root, 1'b0});
     a_rest: assert (next_rest <= {1'b0, next_root, 1'b0});
+    a_lost: assert ({4'd0, next_rest} + lost == {rest, digits});
     a_prefix: assert (next_root[31:2] == root);
   end
 endmodule
