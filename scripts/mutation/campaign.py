@@ -72,10 +72,20 @@ class Campaign:
         mutant = self.tree.mutants[file][place]
         return (str(file), digest(self.tree.sources[file]), mutant.begin, mutant.kind, mutant.text)
 
+    def explained(self, explanations):
+        """The mutants that (file, line before, line after) of the explanations name."""
+        files = {file for file, _, _ in explanations}
+        return [(file, place) for file, all_of in self.tree.mutants.items() if str(file) in files
+                for place, mutant in enumerate(all_of)
+                if (str(file), *shown(self.tree.sources[file], mutant)[1:]) in explanations]
+
     def run(self, jobs, alone, again, explained=(), name="local", part=0, parts=1):
         """Checks what has no verdict yet, or if `again` survived and is not `explained`: behind
         switches first, then, if `alone`, one by one what must be compiled. `part` of `parts` of
-        them all."""
+        them all. What is explained is checked whether it was drawn or not, since an explanation is of
+        a survivor."""
+        drawn_ones = set(self.chosen)
+        self.chosen += [item for item in self.explained(explained) if item not in drawn_ones]
         done = {key_of(entry) for entry in read_results(self.tree.work)
                 if not again or entry["verdict"] != "survived"
                 or (entry["file"], entry["was"], entry["is"]) in explained}

@@ -16,13 +16,13 @@ PAGE = pathlib.Path("docs/measurements/mutation.md")
 VERDICTS = ("killed", "survived", "invalid")
 GOAL = 95
 Z = 1.959964  # of a confidence of 95 %
-HEAD = ("Made by `scripts/mutate --report` from `tb/mutation/record.json`, the last campaign{at}, and "
+HEAD = ("Made by `scripts/mutate --report` from `tb/mutation/record.json`, campaigns{at}, and "
         "`tb/mutation/survivors.json`; do not edit. What a mutant is: [how](../reference/tests.md#mutants), "
         "[why](../explanation/verification.md#mutants).")
 
 
-def record_of(results, sources):
-    """What a campaign found, a file at a time; results on other contents of a file do not count."""
+def record_of(results, sources, commit=""):
+    """What a campaign found at a commit, a file at a time; results on other contents of a file do not count."""
     record = {}
     for file, source in sources.items():
         content = digest(source)
@@ -34,7 +34,7 @@ def record_of(results, sources):
         of_kind = collections.Counter(m.kind for m in all_of)
         verdicts = collections.Counter((r["kind"], r["verdict"]) for r in own)
         record[str(file)] = {
-            "hash": content, "mutants": len(known),
+            **({"commit": commit} if commit and own else {}), "hash": content, "mutants": len(known),
             "alone": sum(r["way"] == "alone" for r in own),
             "killed": counts["killed"], "invalid": counts["invalid"],
             "kinds": {kind: [of_kind[kind]] + [verdicts[kind, verdict] for verdict in VERDICTS]
@@ -43,14 +43,18 @@ def record_of(results, sources):
     return record
 
 
+def joined(old, new):
+    """The new record, with what the old one knows of the files that the new one has no verdict on."""
+    nothing = set(without_verdict(new))
+    return {file: old.get(file, entry) if file in nothing else entry for file, entry in new.items()}
+
+
 def read(path):
     return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
 
 
 def read_record(root):
-    """The record by file, and the commit that it is of, or nothing."""
-    record = read(root / RECORD)
-    return record, record.pop("commit", "")
+    return read(root / RECORD)
 
 
 def commit_of(root):
@@ -58,11 +62,17 @@ def commit_of(root):
     return done.stdout.strip()[:12]
 
 
-def write_record(root, record, commit):
+def write_record(root, record):
     (root / RECORD).parent.mkdir(parents=True, exist_ok=True)
-    entries = [*([("commit", commit)] if commit else []), *sorted(record.items())]
-    rows = [f"{json.dumps(file)}: {json.dumps(entry)}" for file, entry in entries]
+    rows = [f"{json.dumps(file)}: {json.dumps(entry)}" for file, entry in sorted(record.items())]
     (root / RECORD).write_text("{\n" + ",\n".join(rows) + "\n}\n", encoding="utf-8")
+
+
+def commits_of(record):
+    """What the page says of when the files of a record were checked."""
+    counts = collections.Counter(entry["commit"] for entry in record.values() if "commit" in entry)
+    texts = [f"`{commit}` ({files} files)" for commit, files in counts.most_common()]
+    return " at " + ", ".join(texts) if texts else ""
 
 
 def folder_of(file):
@@ -145,7 +155,7 @@ def kinds_of(record):
     return "\n".join(lines) + "\n\n" if len(lines) > 2 else ""
 
 
-def page_of(root, record, commit):
+def page_of(root, record):
     explained = explanations(root)
     rows = checked(record, explained)
     total = sum(rows.values(), collections.Counter())
@@ -160,8 +170,7 @@ def page_of(root, record, commit):
             f"| {percent(row['killed'], row['killed'] + row['survived'])} |")
     old = [file for file, entry in record.items() if "kinds" not in entry]
     tried = run_of(total) + total["invalid"]
-    at = f" at commit `{commit}`" if commit else ""
-    text = "# Mutants of both models\n\n" + wrapped(HEAD.format(at=at)) + "\n\n" + wrapped(
+    text = "# Mutants of both models\n\n" + wrapped(HEAD.format(at=commits_of(record))) + "\n\n" + wrapped(
         f"Of {total['mutants']} mutants {run_of(total)} have a verdict: {total['killed']} killed, "
         f"{total['explained']} survived and explained, {total['survived']} survived and open. The goal is {GOAL} % of those that are not explained. " + goal_of(rows, not old)) + "\n\n"
     text += wrapped("In brackets: the rate of all mutants, with a confidence of 95 % (Wilson's interval), if those with a "

@@ -147,7 +147,7 @@ class Mutate(unittest.TestCase):
         self.assertEqual(self.mutate("--check").returncode, 0)
         commit = subprocess.run(["git", "-C", self.root, "rev-parse", "HEAD"], capture_output=True, text=True, check=True).stdout
         page = (self.root / "docs/measurements/mutation.md").read_text(encoding="utf-8")
-        self.assertIn(f"at commit `{commit[:12]}`", page.replace("\n", " "))
+        self.assertIn(f"campaigns at `{commit[:12]}` (1 files)", page.replace("\n", " "))
 
         killed = next(e for e in map(json.loads, lines) if e["verdict"] == "killed")
         for wrong, what in (({**explained[0], "is": killed["is"], "was": killed["was"]}, "is killed"),
@@ -163,6 +163,25 @@ class Mutate(unittest.TestCase):
         done = self.mutate("--check")
         self.assertIn("its line is gone", done.stderr)
         self.assertIn("1 files have changed", done.stdout)
+
+    def test_files_that_a_campaign_leaves_out_keep_their_verdicts(self):
+        (self.root / "rtl_model/tiny/other.h").write_text("inline bool other() { return true; }\n", encoding="utf-8")
+        (self.root / "docs/measurements").mkdir(parents=True)
+        record = self.root / "tb/mutation/record.json"
+        found = []
+        for files in (".*/tiny.h", "rtl_model/tiny/other.*"):
+            scratch = tempfile.TemporaryDirectory(prefix="deburr_tiny_work_")
+            self.addCleanup(scratch.cleanup)
+            self.work = pathlib.Path(scratch.name)
+            self.assertEqual(self.campaign("--files", files).returncode, 1)
+            found.append(json.loads(record.read_text(encoding="utf-8")))
+        tiny, other = "rtl_model/tiny/tiny.h", "rtl_model/tiny/other.h"
+        self.assertEqual([found[0][tiny]["killed"], len(found[0][tiny]["survived"])], [3, 4])
+        self.assertEqual([found[0][other]["killed"], found[0][other]["survived"]], [0, []])
+        self.assertEqual(found[1][tiny], found[0][tiny])
+        self.assertEqual(len(found[1][other]["survived"]), 1)
+        self.assertEqual(self.campaign("--files", "none.*").returncode, 2)
+        self.assertEqual(self.campaign("--files", "(").returncode, 2)
 
     def test_a_switch_does_what_the_text_would(self):
         """Every mutant of functions over small numbers, behind its switch and as it stands."""

@@ -323,6 +323,19 @@ TEST(Frame, CountsAddUp) {
   }
 }
 
+TEST(Frame, LeavesNothingInTheNextOne) {
+  GeometricGolden once(preset_parameters(Preset::kDeburr)), twice = once;
+  once.process(vector_drawing().input());
+  for (int frame = 0; frame < 2; ++frame) twice.process(vector_drawing().input());
+  EXPECT_EQ(twice.work(), once.work());
+  EXPECT_EQ(twice.classes(), once.classes());
+  EXPECT_EQ(twice.lines(), once.lines());
+  EXPECT_EQ(twice.candidates(), once.candidates());
+  EXPECT_EQ(twice.blocks(), once.blocks());
+  EXPECT_EQ(twice.weights(), once.weights());
+  EXPECT_EQ(twice.pixels(), once.pixels());
+}
+
 // Of a line over columns 1 to 12 that enters the next row of blocks at column 5, 6 or 7: the group
 // before ends there, those before columns 4 and 8 with their block, and 8 to 11 are four.
 TEST(Frame, GroupsEndWithBlocksAndWalkers) {
