@@ -37,6 +37,7 @@ class Unit:
     parts: list               # of a unit without registers of its own: (key, how many)
     configurations: list
     ports: dict               # bits of each
+    rank: int = 0             # the first configurations of a module come first
 
     def shown(self):
         return " ".join(f"{name}={value}" for name, value in self.parameters.items())
@@ -164,11 +165,12 @@ def plain(name):
     return name.split("\\")[1] if name.startswith("$paramod\\") else name
 
 
-def elaborate(configuration, sources, folder, run):
+def elaborate(configuration, sources, folder, run, note):
     """Writes the design of a configuration for the flows, once, and gives its modules as yosys names them."""
     design = folder / f"{sha(configuration.top, configuration.inputs)[:16]}.il"
     listed = design.with_suffix(".json")
     if not (design.exists() and listed.exists()):
+        note(f"reads {configuration.name}")
         files = " ".join(str(sources.files[name]) for name in sources.below(configuration.top))
         # Memories of these cells stay memories, and are not mapped to flip-flops.
         script = (f"read_verilog -sv -I{configuration.headers} {files}\nhierarchy -check -top {configuration.top}\n"
@@ -213,14 +215,15 @@ def units_of(configuration, sources, design, modules):
 
 def all_units(found, sources, folder, run, note):
     """The units of all configurations, each once, sorted by name and parameters."""
-    units = {}
-    for number, one in enumerate(found, 1):
-        note(f"read {number} of {len(found)}: {one.name}")
-        for key, unit in units_of(one, sources, *elaborate(one, sources, folder, run)).items():
+    units, ranks = {}, {}
+    for one in found:
+        ranks[one.top] = rank = ranks.get(one.top, 0) + 1
+        for key, unit in units_of(one, sources, *elaborate(one, sources, folder, run, note)).items():
             if key in units:
                 units[key].configurations.append(one.name)
             else:
                 units[key] = unit
+                unit.rank = rank
     # What the shown parameters do not tell apart: other settings make a port wider.
     alike = {}
     for unit in units.values():

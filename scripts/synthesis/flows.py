@@ -16,6 +16,8 @@ from .designs import Problem, sha
 
 LIBERTY = pathlib.Path("/usr/share/qflow/tech/osu018/osu018_stdcells.lib")
 TECHNOLOGIES = ("osu018", "xc7", "ecp5")
+# What stands in the place of a row: it took too long, or nobody has mapped it yet.
+NOT_MAPPED, NOT_RUN = "not mapped", "not run"
 TOOLS = ("yosys", "yosys-abc")
 YARDSTICK = "24 x 24 multiply"
 YARDSTICK_TEXT = """module yardstick(input [23:0] a, input [23:0] b, output [47:0] p);
@@ -160,7 +162,9 @@ class Names:
 
     def __init__(self, module):
         self._bits, self._shown = {}, {}
-        for name, net in sorted(module["netnames"].items(), key=lambda item: (item[1]["hide_name"], len(item[0]))):
+        # Of the names of a register that which no cell inside has given it, and of those the longest: `high_y_1`, not `d_y`.
+        for name, net in sorted(module["netnames"].items(),
+                                key=lambda item: (item[1]["hide_name"], item[0].count("."), -len(item[0]))):
             for at, bit in enumerate(net["bits"]):
                 self._bits[name, at] = bit
                 if not net["hide_name"] and isinstance(bit, int):
@@ -173,6 +177,8 @@ class Names:
                 for port in ("RD_ADDR", "WR_ADDR", "WR_DATA", "RD_EN", "WR_EN"):
                     for bit in cell["connections"][port]:
                         self._written.setdefault(bit, "memory")
+        self._inputs = {bit: name for name, port in module["ports"].items() if port["direction"] == "input"
+                        for bit in port["bits"]}
         self._outputs = {bit: name for name, port in module["ports"].items() if port["direction"] == "output"
                          for bit in port["bits"]}
 
@@ -184,7 +190,8 @@ class Names:
             bit = self._written[bit]
             if bit == "memory":
                 return "a memory"
-        return self._outputs.get(bit) if end and bit in self._outputs else self._shown.get(bit)
+        ports = self._outputs if end else self._inputs
+        return ports.get(bit) or self._shown.get(bit)
 
 
 def measured(technology, said, out):
@@ -213,7 +220,7 @@ def measured(technology, said, out):
 
 
 class Mapper:
-    """Rows from the cache, or made anew; a row over the time limit is None."""
+    """Rows from the cache, or made anew; a row over the time limit is `not mapped`."""
 
     def __init__(self, yosys, folder, versions, seconds):
         self._yosys, self._folder, self._versions, self._seconds = yosys, folder, versions, seconds
@@ -226,14 +233,14 @@ class Mapper:
                                ".json")
 
     def known(self, key, technology):
-        """(True, row or None) of what is in the cache."""
+        """(True, row) of what is in the cache."""
         try:
             kept = json.loads(self._file(key, technology).read_text(encoding="utf-8"))
         except (OSError, ValueError):
             return False, None
         if "over" in kept and kept["over"] < self._seconds:
             return False, None
-        return True, kept.get("row")
+        return True, kept.get("row", NOT_MAPPED)
 
     def map(self, key, technology, design, name, what):
         there, row = self.known(key, technology)
@@ -252,7 +259,7 @@ class Mapper:
         part = self._file(key, technology).with_suffix(f".{os.getpid()}.{threading.get_ident()}")
         part.write_text(json.dumps(kept), encoding="utf-8")
         part.rename(self._file(key, technology))
-        return kept.get("row")
+        return kept.get("row", NOT_MAPPED)
 
 
 def yardstick(mapper, folder):
@@ -260,7 +267,7 @@ def yardstick(mapper, folder):
     file = folder / "yardstick.sv"
     file.write_text(YARDSTICK_TEXT, encoding="utf-8")
     row = mapper.map(sha(YARDSTICK_TEXT), "osu018", file, "yardstick", YARDSTICK)
-    if row is None:
+    if row == NOT_MAPPED:
         raise Problem(f"the yardstick, a {YARDSTICK}, is over the time limit: give more --seconds")
     return row["ns"]
 

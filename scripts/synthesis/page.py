@@ -2,7 +2,7 @@
 """docs/measurements/cost.md, which says what cost.json does."""
 import textwrap
 
-NOT_MAPPED = "not mapped"
+from .flows import NOT_MAPPED, NOT_RUN
 
 
 def number(value, digits=0):
@@ -25,8 +25,8 @@ def gates(cost):
     for unit in cost["units"]:
         row = unit["osu018"]
         start = [f"`{unit['unit']}`", shown(unit)]
-        if row is None:
-            yield start + [NOT_MAPPED] + ["-"] * 5
+        if isinstance(row, str):
+            yield start + [row] + ["-"] * 5
             continue
         to = row["to"] or "-"
         yield start + [number(row["gates"]), number(row["flip_flops"]), number(row["memory_bits"] or None),
@@ -38,8 +38,8 @@ def fpga(cost):
         cells = []
         for technology in ("xc7", "ecp5"):
             row = unit[technology]
-            if row is None:
-                cells += [NOT_MAPPED] + ["-"] * 3
+            if isinstance(row, str):
+                cells += [row] + ["-"] * 3
             else:
                 blocks = row["block_rams"]
                 cells += [number(row["luts"]), number(row["flip_flops"]), number(row["multipliers"] or None),
@@ -69,7 +69,9 @@ def paragraphs(cost):
         "**Memories** (`sram_1r1w`, `fifo`, `rom`) are not mapped to flip-flops. For osu018 they are left out of gates "
         "and flip-flops, and *memory* is their bits, with those of FIFOs that the hardware builds of flip-flops. The "
         "tags, the queue of lines and the descriptors are flip-flops.",
-        f"**{NOT_MAPPED}**: yosys and abc did not end in {number(cost['seconds'])} s of processor time. There is no guess.",
+        f"**{NOT_MAPPED}**: yosys and abc did not end in {number(cost['seconds'])} s of processor time. There is no guess."
+        + (f" **{NOT_RUN}**: `scripts/synthesise` maps it." if any(
+            unit[technology] == NOT_RUN for unit in cost["units"] for technology in ("osu018", "xc7", "ecp5")) else ""),
         "**`address_unit`, `texture_cache`** are the sum of their units and links: no path goes through a link, so their "
         "ns are those of the longest part. A few gates between the parts are not in it.",
     ]
