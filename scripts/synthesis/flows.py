@@ -134,7 +134,9 @@ class Yosys:
             if self._stopped:
                 raise KeyboardInterrupt
             said = log.read_text(encoding="utf-8", errors="replace")
-            if seconds is not None and used.ru_utime + used.ru_stime >= seconds:
+            # The kernel may end it a little before its own count reaches the limit.
+            if seconds is not None and (used.ru_utime + used.ru_stime >= seconds or
+                                        process.returncode == -signal.SIGXCPU):
                 raise Limit
             if process.returncode:
                 errors = [line for line in said.splitlines() if "ERROR" in line] or said.splitlines()[-3:]

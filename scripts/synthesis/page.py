@@ -10,9 +10,10 @@ def number(value, digits=0):
     return "-" if value is None else f"{value:,.{digits}f}".replace(",", " ")
 
 
-def table(head, rows):
+def table(head, rows, texts=2):
+    """`texts` columns of text, then figures."""
     yield "| " + " | ".join(head) + " |"
-    yield "|" + "|".join("---" if i < 2 else "--:" for i in range(len(head))) + "|"
+    yield "|" + "|".join("---" if i < texts else "--:" for i in range(len(head))) + "|"
     for row in rows:
         yield "| " + " | ".join(row) + " |"
 
@@ -82,7 +83,7 @@ def paragraphs(cost):
     yield "From `tb/hdl/configurations.txt`, where each is compared with the model ([how](../explanation/hdl.md))."
     yield table(["configuration", "module", "settings"],
                 [[f"`{one['name']}`", f"`{one['unit']}`", " ".join(f"`{s}`" for s in one["settings"]) or "defaults"]
-                 for one in cost["configurations"]])
+                 for one in cost["configurations"]], 3)
     yield "## Standard cells"
     yield "Technology: osu018, 180 nm."
     yield table(["unit", "parameters", "gates", "flip-flops", "memory, bits", "ns (osu018)", "ratio", "ends in"],

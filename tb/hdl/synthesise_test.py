@@ -194,7 +194,8 @@ class Synthesise(unittest.TestCase):
 
     def interrupted(self, end):
         self.write("slow", "VSlow slow ways=5\n")
-        process = subprocess.Popen(self.command("--configurations", str(self.root / "slow"), "--seconds", "600"), stderr=subprocess.PIPE, text=True,
+        process = subprocess.Popen(self.command("--configurations", str(self.root / "slow"), "--seconds", "600"),
+                                   stderr=subprocess.PIPE, text=True,
                                    cwd=self.root, env={**os.environ, "TMPDIR": str(self.root)})
         for line in process.stderr:
             if "rows, " in line:
