@@ -12,6 +12,11 @@ module rom #(
   input  logic [ADDRESS_BITS-1:0] address,
   output logic [BITS-1:0]         word
 );
+  // An array, which synthesis makes a memory of; a choice of bits from CONTENTS would be gates.
+  logic [BITS-1:0] words[0:WORDS-1];
+  integer i;
+  initial
+    for (i = 0; i < WORDS; i = i + 1) words[i] = CONTENTS[i*BITS +: BITS];
   always_ff @(posedge clk)
-    if (read) word <= CONTENTS[address*BITS +: BITS];
+    if (read) word <= words[address];
 endmodule

@@ -270,8 +270,6 @@ void FilterPipeline::reset() {
 }
 
 Datasheet FilterPipeline::datasheet(const spec::texture::Parameters& p) {
-  const char* const kLerp =
-      "two 20 x 9 multiplies and their sum (18 rows of partial products, 24 x 24 has 24)";
   Datasheet sheet = {
       .unit = "FilterPipeline",
       .variant = "`srgb_output = linear`",
@@ -281,13 +279,16 @@ Datasheet FilterPipeline::datasheet(const spec::texture::Parameters& p) {
                  {"2", "unpack (sRGB: ROM), weight (ROM)", "ROM read"},
                  {"3", "horizontal products", "12 x 9 multiply"},
                  {"4", "horizontal sums"},
-                 {"5", "vertical lerp", kLerp},
-                 {"6", "level lerp", kLerp},
-                 {"7", "accumulate", "20 x 9 multiply and an addition"},
+                 {"5", "vertical lerp",
+                  "two 20 x 9 multiplies and their sum (18 rows of partial products, 24 x 24 has "
+                  "24), rounded in it"},
+                 {"6", "level lerp", "20 x 9 multiply and a 28-bit addition"},
+                 {"7", "rounding of the level lerp, product with the weight, accumulate",
+                  "28-bit addition, then a 20 x 9 multiply and a 28-bit addition"},
                  {"8", "round, pack"}},
       .formats =
-          "U8.4 after stage 2, U8.12 after 4, 5 and 6, U8.20 in 7, U8.0 out (`encoded`: U8.4 "
-          "after 8); rounded in 5, 6 and 8.",
+          "U8.4 after stage 2, U8.12 after 4 and 5, U8.20 in 6 and 7, U8.0 out (`encoded`: U8.4 "
+          "after 8); rounded in 5, 7 and 8.",
       .cost =
           "four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, and three times 20 x 9), 24 "
           "adders, the ROM `srgb`, 256 x 12 bits, 12R, one word a coded channel; `weights`, "

@@ -122,7 +122,8 @@ Datasheet LevelUnit::datasheet() {
                  {"2",
                   "level of detail with bias, clamped to its range; number of samples (`any`: 15 "
                   "comparisons side by side, whose ones are counted)",
-                  "20-bit addition of three operands, then two 20-bit comparisons with a choice"},
+                  "20-bit addition of three operands, two 20-bit comparisons with a choice, then a "
+                  "comparison with 0"},
                  {"3", "level and fraction by mode, filter, magnification"}},
       .formats = "S5.12 in; L in U6.12, E in U3.12; l in S8.12, rounded to S8.8.",
       .cost =

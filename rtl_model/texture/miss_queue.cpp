@@ -104,13 +104,15 @@ void MissQueue::reset() {
 }
 
 Datasheet MissQueue::datasheet() {
-  return {.unit = "MissQueue",
-          .does = "Sends missed lines to memory and collects them in the fill buffer.",
-          .latency = {0, "-"},
-          .interval = {1, "one line a clock each way"},
-          .stages = {{"-", "a line to send; an entry is held from issue until the line is used",
-                      "choice of 1 in 256 lines (64 by default), nothing after it"}},
-          .cost = "flip-flops of outstanding x line number, 1R4W; the FillBuffer."};
+  return {
+      .unit = "MissQueue",
+      .does = "Sends missed lines to memory and collects them in the fill buffer.",
+      .latency = {0, "-"},
+      .interval = {1, "one line a clock each way"},
+      .stages = {{"-", "a line to send; an entry is held from issue until the line is used",
+                  "free places with this clock's, then the write of up to four lines: a choice of "
+                  "1 in 4 at every entry; choice of 1 in 256 lines (64 by default)"}},
+      .cost = "flip-flops of outstanding x line number, 1R4W; the FillBuffer."};
 }
 
 }  // namespace deburr::rtl::texture

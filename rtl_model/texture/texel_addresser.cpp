@@ -152,12 +152,14 @@ Datasheet TexelAddresser::datasheet() {
                   "half a texel less, rounded, split into texel and fraction, both texels of each "
                   "axis brought into range"},
                  {"5", "two column parts, two row parts, four sums",
-                  "`linear`: 12 x 9 multiply, then a 32-bit addition of three operands"}},
+                  "`tiled`: 13-bit subtraction, bits of both sides in tiles, a count of 10 of them, "
+                  "two shifters of four levels, then a 32-bit addition; `linear`: 12 x 9 multiply, "
+                  "then one of three operands"}},
       .formats = "position S9.24, texel position rounded to 8 fraction bits, address U32.",
       .cost =
           "a choice of 1 in 16 descriptors and 1 in 13 levels, two 34 x 13 multipliers, two "
-          "12 x 9 ones for `linear` pitch; `tiled` is wires and multiplexers; registers of four "
-          "requests, the first with 13 level bases."};
+          "12 x 9 ones for `linear` pitch; `tiled`: two subtractors, and an address a count of 10 "
+          "bits and two shifters; registers of four requests, the first with 13 level bases."};
 }
 
 }  // namespace deburr::rtl::texture

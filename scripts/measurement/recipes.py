@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Which pages are measured; importing this fills RECIPES."""
-from measurement import geometric, guides, morphological, results  # noqa: F401
+from measurement import geometric, guides, morphological, results, synthesis  # noqa: F401
 
 # Pages whose every table is measured, or says that it is not.
 MEASURED = ("measurements/results", "measurements/comparison", "measurements/geometric_quality",

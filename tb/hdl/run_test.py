@@ -54,7 +54,7 @@ class Run(unittest.TestCase):
         for options, words in (
                 (["--hdl", "rasteriser"], ["run.hdl", "rasteriser", "address, cache or filter"]),
                 (["--hdl", "all", "--set", "texture.footprint=half"],
-                 ["unit address", "footprint=half", "footprint=exact", "deburr_hdl_model"]),
+                 ["unit address", "footprint=half", "footprint=exact", "configurations.txt"]),
                 (["--hdl", "cache", "--set", "memory.latency=200"], ["cache.fifo_depth=207", "cache.fifo_depth=107"]),
                 (["--hdl", "all", "--maps"], ["run.maps"]),
                 (["--hdl", "all", "--pixel", "3,3"], ["run.pixel"]),

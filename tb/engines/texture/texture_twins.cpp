@@ -107,8 +107,8 @@ StandIns texture_twins(const std::vector<std::string>& units,
         if (other.unit == name) there += "\n  " + configuration(unit, other.parameters);
       throw spec::ConfigError(fmt::format(
           "run.hdl: this build has no unit {} in SystemVerilog for\n  {}\nIt has those for{}\nTo "
-          "add one, add these settings to a deburr_hdl_model(...) in tb/hdl/CMakeLists.txt and "
-          "build again (docs/explanation/hdl.md)",
+          "add one, add a line with these settings to tb/hdl/configurations.txt and build again "
+          "(docs/explanation/hdl.md)",
           name, configuration(unit, as_built), there));
     }
     chosen.push_back(twin);
