@@ -49,6 +49,10 @@ add_library(deburr_light_options INTERFACE)
 set(DEBURR_LIGHT_OPTIONS $<$<CONFIG:Release>:-Og>)
 target_compile_options(deburr_light_options INTERFACE ${DEBURR_LIGHT_OPTIONS})
 
+# GCC collects garbage whenever its heap has doubled, from 128 MiB on: a tenth of its time for a batch of tb/, which
+# from 512 MiB on takes up to 0.25 GB more. Objects are the same.
+target_compile_options(deburr_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
+
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")

@@ -10,4 +10,4 @@ deburr_test(texture_direction_test LABELS oracle TIMEOUT 600
 deburr_test(texture_flicker_test LABELS oracle TIMEOUT 600
   LONG TextureFlickerOnPhotographs[.].*/[gr]
   SOURCE "${CMAKE_CURRENT_LIST_DIR}/texture_flicker_test.cpp"
-  LINK deburr::ideal deburr::texture_scene)
+  LINK deburr::ideal deburr::texture_environment)
