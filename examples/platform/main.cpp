@@ -152,7 +152,7 @@ class Platform {
   }
 
   const Frame& picture() const { return display_.frame(); }
-  Frame expected_picture() const {
+  Frame expected_picture() {
     return expected(texture_parameters(), smoother_parameters(), memory_.dump(0, kMemoryBytes));
   }
   bool failed() const { return software_.texture_failed(); }
