@@ -55,7 +55,7 @@ def which_engine(facts):
 
     def figures(name):
         _, _, edges, blended, clocks, *_ = table[name]
-        return f"edges {edges} dB, {clocks} clocks, {blended} pixels blended"
+        return re.sub(r"(?<=\d) (?=\d)", "\xa0", f"edges {edges} dB, {clocks} clocks, {blended} pixels blended")
 
     size, latency = facts.find(page, r"Frames of (\d+ x \d+), .*?memory\s+of (\d+) clocks").groups()
     smoothing = facts.find(page, r"`(--preset \w+) --set (morphological\.edges\.source=\w+)`").groups()
