@@ -100,13 +100,14 @@ function(deburr_hdl_finish target)
   target_link_libraries(${target} INTERFACE ${libraries})
 endfunction()
 
-# deburr_hdl_twins(<name> <class>...): an object that adds these models to those that a run may take
-# (tb/engines/texture/texture_twins.h). A program that links deburr_<name> has them.
+# deburr_hdl_twins(<name> LINK <library> CLASSES <class>...): an object that adds these models to those that a run of
+# the library's engine may take. A program that links deburr_<name> has them.
 function(deburr_hdl_twins name)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "LINK" "CLASSES")
   set(includes "")
   set(calls "")
   set(libraries "")
-  foreach(class ${ARGN})
+  foreach(class ${ARG_CLASSES})
     get_target_property(top deburr_${class} DEBURR_HDL_TOP)
     string(APPEND includes "#include <${class}.h>\n")
     string(APPEND calls "  deburr::tb::hdl::add_${top}<${class}>(deburr::tb::hdl::k${class});\n")
@@ -128,9 +129,9 @@ ${calls}  return true;
 }  // namespace
 ")
   add_library(deburr_${name}_object OBJECT "${file}")
-  target_link_libraries(deburr_${name}_object PRIVATE deburr::texture_environment ${libraries} deburr_options)
+  target_link_libraries(deburr_${name}_object PRIVATE ${ARG_LINK} ${libraries} deburr_options)
   target_include_directories(deburr_${name}_object PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
   add_library(deburr_${name} INTERFACE)
   target_link_libraries(deburr_${name} INTERFACE $<TARGET_OBJECTS:deburr_${name}_object> ${libraries}
-                                                 deburr::texture_environment)
+                                                 ${ARG_LINK})
 endfunction()

@@ -128,6 +128,8 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   std::optional<std::uint64_t> accept(Request request, std::uint64_t time);
   // Of the writes that were answered ahead, those that come in before `end`.
   void land(std::uint64_t end);
+  // For a look without time: those that come in before now, and those whose answer has been taken.
+  void land_answered();
   std::uint64_t take_bus(std::uint64_t ready, const tlm::tlm_generic_payload& payload);
   void settle(std::uint64_t time);
   void wake_for_held();

@@ -145,16 +145,17 @@ Datasheet TexelAddresser::datasheet() {
       .unit = "TexelAddresser",
       .does = "From a sample position to the addresses of its four texels and its fractions.",
       .latency = {5},
-      .stages = {{"1", "choice of the descriptor", "choice of 1 in 16"},
-                 {"2", "choice of the level in it, wrapping of both coordinates"},
-                 {"3", "their products with the level's width and height", "34 x 13 multiply"},
-                 {"4",
-                  "half a texel less, rounded, split into texel and fraction, both texels of each "
-                  "axis brought into range"},
-                 {"5", "two column parts, two row parts, four sums",
-                  "`tiled`: 13-bit subtraction, bits of both sides in tiles, a count of 10 of them, "
-                  "two shifters of four levels, then a 32-bit addition; `linear`: 12 x 9 multiply, "
-                  "then one of three operands"}},
+      .stages =
+          {{"1", "choice of the descriptor", "choice of 1 in 16"},
+           {"2", "choice of the level in it, wrapping of both coordinates"},
+           {"3", "their products with the level's width and height", "34 x 13 multiply"},
+           {"4",
+            "half a texel less, rounded, split into texel and fraction, both texels of each "
+            "axis brought into range"},
+           {"5", "two column parts, two row parts, four sums",
+            "`tiled`: 13-bit subtraction, bits of both sides in tiles, a count of 10 of them, "
+            "two shifters of four levels, then a 32-bit addition; `linear`: 12 x 9 multiply, "
+            "then one of three operands"}},
       .formats = "position S9.24, texel position rounded to 8 fraction bits, address U32.",
       .cost =
           "a choice of 1 in 16 descriptors and 1 in 13 levels, two 34 x 13 multipliers, two "

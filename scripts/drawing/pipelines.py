@@ -85,7 +85,7 @@ def draw(facts, page, plan, size, title, beside=(), optional=None):
         for unit in filter(None, (start, end)):
             if unit in plan.units and unit not in units:
                 units.append(unit)
-            elif unit not in plan.units and "each client" not in (start, end):
+            elif unit not in plan.units and not unit.startswith("each client"):
                 raise Missing(f"scripts/drawing/pipelines.py: {page} has a unit {unit}, which has no place")
     columns, rows = size
     width, height = 2 * LEFT + columns * WIDTH + (columns - 1) * GAP_X, 2 * TOP + rows * HEIGHT + (rows - 1) * GAP_Y

@@ -8,5 +8,5 @@ from measurement.sources import recipe, spaced
 @recipe("geometric-dividers", long=True)
 def dividers(f):
     """The frame of 33 000 edges, far from a memory and near one."""
-    for setup, *figures in json.loads(f.program("tb/bench/geometric_rtl_bench", "--dividers")):
+    for setup, *figures in json.loads(f.bench("geometric_rtl_bench", "--dividers")):
         yield [setup, *map(spaced, figures)]

@@ -57,6 +57,8 @@ NAMED = {
         "tables of pages are measured, its own among them": [
             "scripts/measurement/guides.py", "scripts/measurement/recipes.py",
             "scripts/measurement/results.py"],
+        "an example of files, in what a script says of itself": ["scripts/mutate"],
+        "it alone leaves pictures of a frame that it could not begin": ["tb/unit/app/simulate_test.cpp"],
     },
     "morphological": {
         "its units and the shapes of its runs are drawn for its pages": [

@@ -461,7 +461,7 @@ TEST(GeometricDriver, TheCopyNeedsRoomOnlyWhereFramesAreCopied) {
   b.driver.place(GeometricRegions({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0x6000, 0x6000}));
   EXPECT_THAT(rejection(b, b.frame()), HasSubstr("overlaps"));
   b.driver.set_rules(Bed::raster());
-  EXPECT_EQ(b.registers.written.back(), (std::pair{0x10u, 0x9109A9u}));
+  EXPECT_EQ(b.registers.written.back(), (std::pair{0x10u, 0x8D09A9u}));
   EXPECT_EQ(rejection(b, b.frame()), "");
 }
 

@@ -8,7 +8,7 @@
 #include "spec/error.h"
 #include "tb/engines/texture/texture_twins.h"
 
-namespace deburr::tb::engines_texture_twins_test {
+namespace deburr::tb::twins_test {
 namespace {
 
 using testing::AllOf;
@@ -41,4 +41,4 @@ TEST(TextureTwins, AreNotThereWhereTheProgramHasNone) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::engines_texture_twins_test
+}  // namespace deburr::tb::twins_test

@@ -579,7 +579,7 @@ TEST(CoarseDepth, EntriesAreTheLeastOfTheirTiles) {
   d.depths[at(7, 0)] = 0xAB000000u | (999 * 256 + 255);  // the last column of a tile
   d.depths[at(8, 7)] = 255;                              // the first one, in the last row
   d.depths[at(16, 0)] = 0xFFFFFF;                        // with other pixels of a column
-  d.depths[at(0, 8)] = 512;  // the first column of the frame
+  d.depths[at(0, 8)] = 512;                              // the first column of the frame
   d.depths[at(15, 8)] = 256;
   d.depths[at(16, 8)] = 0xFFFFFF;  // alone in the frame
   EXPECT_THAT(golden::geometric::coarse_entries(golden::geometric::DepthView(d.depths, 17, 9)),

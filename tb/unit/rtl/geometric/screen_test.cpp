@@ -34,7 +34,7 @@ constexpr std::uint32_t kBase = 0x10000;
 
 // A frame of 610 x 512 pixels: 77 x 64 tiles, 10 x 16 lines.
 struct ScreenBench : Frame {
-  explicit ScreenBench(const Parameters& p = coarse())
+  explicit ScreenBench(const Parameters& p = coarse(), int width = 610)
       : Frame(p), unit("unit", clock, sized(p, {20, 1})), ends(clock) {
     arbiter.connect(Client::kCoarse, unit.memory);
     unit.rules_in(rules);
@@ -42,7 +42,7 @@ struct ScreenBench : Frame {
     unit.candidates_in(ends.in);
     unit.screened_out(ends.out);
     bus.write(reg::kCoarseBase, kBase);
-    begin(610, 512);
+    begin(width, 512);
   }
   void set(std::uint32_t tx, std::uint32_t ty, std::uint32_t entry) {
     const std::uint32_t at = kBase + 64 * (ty / 4 * 10 + tx / 8) + 2 * (8 * (ty % 4) + tx % 8);
@@ -151,6 +151,17 @@ TEST(DepthScreen, LinesOfOneIndexReplaceEachOther) {
       return std::string("done");
     });
     EXPECT_EQ(got, "done");
+  }
+}
+TEST(DepthScreen, ARowOfLinesIsAsWideAsTheFrame) {
+  for (const auto& [width, across] : {std::pair{576, 9}, {577, 10}, {640, 10}, {641, 11}}) {
+    const std::string got = in_child([width = width] {
+      ScreenBench b(coarse(), width);
+      b.ends.source.add(ScreenBench::inside(0, 1));
+      finish(b, b.ends, 1);
+      return std::to_string(b.lines()[0]);
+    });
+    EXPECT_EQ(got, std::to_string(across)) << width;
   }
 }
 // c = 256 e; dropped below c - (c >> 4).
