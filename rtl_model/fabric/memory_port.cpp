@@ -320,6 +320,10 @@ void MemoryPort::take_coming(Cycle cycle) {
   while (!coming_.empty() && coming_.front()->come <= cycle) {
     Transaction& t = *coming_.front();
     coming_.pop_front();
+    if (t.epoch != epoch_) {  // asked for before a reset
+      t.release();
+      continue;
+    }
     count(t);
     put_in_order(arrived_, t);
   }
@@ -383,11 +387,8 @@ void MemoryPort::reset() {
   // What the target still has comes back to transactions of an old epoch and is dropped then.
   // The request channel is the target's business and goes on.
   ++epoch_;
-  for (std::deque<Transaction*>* list : {&arrived_, &coming_}) {
-    for (Transaction* t : *list) t->release();
-    list->clear();
-  }
-  next_comes_ = kNever;
+  for (Transaction* t : arrived_) t->release();
+  arrived_.clear();
   intake_free_ = 0;
   if (gathering_) gathering_->release();
   gathering_ = nullptr;

@@ -256,7 +256,9 @@ std::optional<std::uint64_t> MemoryModel::accept(Request request, std::uint64_t 
   if (parameters_.answer_ahead && here.ends_at_once && !request.lost && here.responses.empty()) {
     if (request.writes_late) {
       payload.acquire();
-      landing_.push_back({response, payload.get_address(), &payload});
+      const auto later = [](std::uint64_t when, const Landing& l) { return when < l.time; };
+      landing_.insert(std::upper_bound(landing_.begin(), landing_.end(), response, later),
+                      {response, payload.get_address(), &payload});
     }
     return response;
   }
@@ -272,8 +274,8 @@ void MemoryModel::land(std::uint64_t end) {
   }
 }
 
-// SystemC's time stands still while a clock domain runs on. An initiator that has released a write
-// has had its answer, whatever the time.
+// SystemC's time stands still while a clock domain runs on. A write that its initiator holds no
+// more has been answered, whatever the time.
 void MemoryModel::land_answered() {
   while (!landing_.empty() && landing_.front().payload->get_ref_count() == 1)
     land(landing_.front().time + 1);
@@ -369,6 +371,7 @@ void MemoryModel::wake_for_held() {
 
 void MemoryModel::b_transport(int, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
   land_answered();
+  land((sc_core::sc_time_stamp() + delay).value() + 1);
   if (admit(payload, requests_++, true)) transfer(payload, payload.get_address());
   const std::uint64_t clocks = draw_latency() + transfer_clocks(payload.get_data_length()) - 1;
   delay += sc_core::sc_time::from_value(clocks * period_);

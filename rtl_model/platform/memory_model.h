@@ -14,7 +14,7 @@
 // of a response is known when its request begins. It is then sent at once, with this time as its
 // delay, which spares SystemC an event a line: to an initiator that ended the response before it as
 // it began, and so holds back no other. The data of a write that was answered so come in before the
-// next look at the contents.
+// next look at the contents; the payload keeps them until then.
 #pragma once
 
 #include <tlm_utils/multi_passthrough_target_socket.h>

@@ -157,7 +157,8 @@ Datasheet AxisUnit::datasheet(const spec::texture::Parameters& p) {
          {"7-22",
           "two root bits each; beside 7 the same multiples of the coordinate differences, those of "
           "the direction found, beside 8 their sum, rounded",
-          "two 34-bit subtractors one after the other; two 41-bit additions"}});
+          "two 34-bit subtractors one after the other; in 8 two 41-bit additions and the rounding: "
+          "1.48 of the multiply"}});
   } else {
     sheet.stages.insert(
         sheet.stages.end(),

@@ -73,13 +73,14 @@ Datasheet FootprintUnit::datasheet(const spec::texture::Parameters& p) {
   if (p.footprint == spec::texture::FootprintRule::kExact) {
     sheet.variant = "`footprint = exact`";
     sheet.latency = {19};
-    sheet.stages = {{"1", "squares",
-                     "31-bit squarer (half the partial products of a 31 x 31 multiply, fewer than "
-                     "24 x 24 has)"},
-                    {"2", "sums", "62-bit addition"},
-                    {"3-18", "two root bits each, of both sides; beside 3: which sum is larger",
-                     "two 34-bit subtractors one after the other"},
-                    {"19", "d_max, d_min, major axis"}};
+    sheet.stages = {
+        {"1", "squares",
+         "31-bit squarer: 1.29 of the multiply, as a 31 x 31 multiply whose equal halves "
+         "nobody shares"},
+        {"2", "sums", "62-bit addition"},
+        {"3-18", "two root bits each, of both sides; beside 3: which sum is larger",
+         "two 34-bit subtractors one after the other"},
+        {"19", "d_max, d_min, major axis"}};
     sheet.formats = "U15.16 in; squares and sum exact, U31.32; root U16.16, truncated.";
     sheet.cost =
         "four 31-bit squarers, two 62-bit adders, 2 x 16 x two 34-bit subtractors, a 63-bit "

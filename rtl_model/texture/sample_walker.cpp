@@ -137,7 +137,7 @@ Datasheet SampleWalker::datasheet(const spec::texture::Parameters& p) {
     sheet.stages = {
         {"1", "spread times axis, 1/N from its ROM", "34 x 8 multiply"},
         {"2", "times 1/N", "41 x 17 multiply (17 rows of partial products, 24 x 24 has 24)"},
-        {"3", "offset of the first sample", "57 x 4 multiply"},
+        {"3", "offset of the first sample", "57 x 4 multiply: 1.18 of the multiply"},
         {"4", request.work, request.path}};
   } else {
     sheet.variant = "other `count`";

@@ -32,6 +32,7 @@ TagStore::TagStore(const char* name, const spec::texture::Parameters& p)
                      .read_ports = kPorts,
                      .write_ports = kPorts,
                      .latency = 1,
+                     // A request sees its sets as the one before it leaves them.
                      .read_during_write = ReadDuringWrite::kNewWord,
                      .content = "tags, and the order in which the ways of a set were used"}),
       tags_(std::size_t{1} << (sets_log2(p) + ways_log2_)),

@@ -154,7 +154,8 @@ Datasheet TexelAddresser::datasheet() {
             "axis brought into range"},
            {"5", "two column parts, two row parts, four sums",
             "`tiled`: 13-bit subtraction, bits of both sides in tiles, a count of 10 of them, "
-            "two shifters of four levels, then a 32-bit addition; `linear`: 12 x 9 multiply, "
+            "two shifters of four levels, then a 32-bit addition: 1.03 of the multiply; `linear`: "
+            "12 x 9 multiply, "
             "then one of three operands"}},
       .formats = "position S9.24, texel position rounded to 8 fraction bits, address U32.",
       .cost =

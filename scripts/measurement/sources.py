@@ -121,9 +121,9 @@ class Sources:
             raise Problem(f"{len(found)} tables of paper {number} begin with {title!r}")
         return found[0]
 
-    def bench(self, program, *words):
+    def program(self, program, *words):
         def make():
-            return self._call(" ".join([program, *words]), [self.build / "tb/bench" / program, *words])
+            return self._call(" ".join([program, *words]), [self.build / program, *words])
         return self._once(" ".join([program, *words]), make)
 
 

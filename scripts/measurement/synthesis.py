@@ -10,7 +10,8 @@ UNITS = (
     ("DerivativeUnit", "derivative_unit", {}, {r"[st]_[xy]|width|height": 1, r"p_.*": 2, "out_data": 3}),
     ("AxisUnit, `footprint = exact`", "axis_unit", {"footprint": "exact"},
      {r"[st]_[xy]\[\d\]|product_\d|with_it\[1\]": 1, r"area\[2\]|g_slot\[\d\]\.[st]": 2, r".*\.(ss|tt)": 3, r".*\.squares": 4,
-      r"longest_5|which_5": 5, r"longest_6|direction_6": 6, r"m_.*": 7, r".*(roots|rests)\[\d+\]|.*axis_[st]_at.*": "7-22",
+      r"longest_5|which_5": 5, r"longest_6|direction_6": 6, r"m_.* to .*axis_[st]_at.*": 8, r"m_.*": 7,
+      r".*(roots|rests)\[\d+\]|.*axis_[st]_at.*": "7-22",
       "out_data": "7-22"}),
     ("AxisUnit, other", "axis_unit", {"footprint": None},
      {r"[st]_[xy]\[\d\]|product_\d|with_it\[1\]": 1, r"area\[2\]|g_slot\[\d\]\.[st]": 2, r".*\.(low|high)_3": 3,
@@ -28,7 +29,8 @@ UNITS = (
      {r"wide_[st]_1|a memory": 1, r".*step_[st]_2": 2, r"offset_[st]|stride_[st]": 3, "out_data": 4}),
     ("TexelAddresser", "texel_addresser", {}, {r"bases_1": 1, r"width_2|height_2|[st]_2|base_2": 2, r"product_[st]": 3,
                                                r"[xy][01]_4|f_._4": 4, "out_data": 5}),
-    ("TagStage", "tag_stage", {}, {r"set_\d|same_\d+": 1, r"miss_data|out_data|sets.*|valids": 2}),
+    ("TagStage", "tag_stage", {}, {r"(asked|at|set|same|drawn|valid)_\w+ to .*": 2, r"set_\d|same_\d+": 1,
+                               r"miss_data|out_data|sets.*|valids|drawn|valid_2": 2}),
     ("MissQueue", "miss_queue", {}, {r".*": "-"}),
     ("FillBuffer", "fill_buffer", {}, {r"arrived|line_valid|can_reserve|a memory|held|read_place": 1, "line": 2}),
     ("LatencyFifo", "fifo", {}, {r".*": "-"}),
@@ -40,9 +42,10 @@ UNITS = (
 )
 
 
-def stage(unit, ends, to):
+def stage(unit, ends, start, to):
+    """By the register in which a path ends, or by both ends: what is written may be read in the same clock."""
     for pattern, number in ends.items():
-        if re.fullmatch(pattern, to or ""):
+        if re.fullmatch(pattern, to or "") or re.fullmatch(pattern, f"{start} to {to}"):
             return str(number)
     raise Problem(f"{unit}: which stage ends in {to}? (scripts/measurement/synthesis.py)")
 
@@ -67,4 +70,5 @@ def longest_paths(f):
         shown = " ".join(f"`{name}={value}`" for name, value in slowest["parameters"].items() if name not in wanted or
                          not wanted[name]) or "-"
         yield [title, shown + ("" if len(mapped) == len(rows) else f", of {len(mapped)} of {len(rows)} variants"),
-               stage(title, ends, row["to"]), f"`{row['from']}` to `{row['to']}`", f"{row['ns']:.2f}", f"{row['ratio']:.2f}"]
+               stage(title, ends, row["from"], row["to"]), f"`{row['from']}` to `{row['to']}`", f"{row['ns']:.2f}",
+               f"{row['ratio']:.2f}"]

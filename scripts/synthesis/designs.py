@@ -48,7 +48,8 @@ def sha(*texts):
 
 
 def bare(text):
-    """Verilog without comments and without what only its layout says."""
+    """Verilog without comments, without what only its layout says, and without what is proved of it."""
+    text = re.sub(r"^\s*`ifdef FORMAL\b.*?^\s*`endif\b", "", text, flags=re.S | re.M)
     return re.sub(r"\s+", " ", re.sub(r"//[^\n]*|/\*.*?\*/", " ", text, flags=re.S)).strip()
 
 

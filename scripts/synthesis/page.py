@@ -51,7 +51,7 @@ def fpga(cost):
 def paragraphs(cost):
     tools, yard = cost["tools"], cost["yardstick"]
     yield ("Made by `scripts/synthesise`; do not edit. What the units of `hdl/` cost, mapped by yosys to three "
-           "technologies. The same figures for programs: [cost.json](cost.json).")
+           "technologies. The same figures for programs: `docs/measurements/cost.json`.")
     yield ("[How to read it](#how-to-read-it), [configurations](#configurations), [standard cells](#standard-cells), "
            "[FPGAs](#fpgas).")
     yield "## How to read it"

@@ -120,8 +120,7 @@ class VerilatedAt : public rtl::Unit {
         out_(out),
         from_(rtl::Payload::of<From>(from)),
         to_(rtl::Payload::of<To>(to)) {
-    // Registers without a reset hold noise at first (--x-initial unique), another one for each
-    // seed.
+    // Registers without a reset hold noise at first (--x-initial unique).
     context_->randReset(2);
     context_->randSeed(7);
     model_ = std::make_unique<Model>(context_.get(), "model");

@@ -53,6 +53,8 @@ PROOFS = {
     "log2_value_32": Proof("log2_value_proof", "sat", ("texture/log2_value.sv", "shifted[11:0]", "shifted[12:1]")),
     "log2_value_47": Proof("log2_value_proof", "sat", ("texture/log2_value.sv", "i < BITS", "i < BITS - 1"),
                            parameters={"BITS": 47}),
+    "log2_segments": Proof("log2_segments_proof", "sat",
+                           ("texture/log2_correction.sv", "10'd20 + (r >> 2)", "10'd20 + (r >> 3)")),
     # The least fall that holds: a fault that makes it larger is refuted.
     "log2_falls_segments": Proof("log2_monotone_proof", "sat", ("texture/log2_correction.sv", "10'd356", "10'd355")),
     "log2_falls_corrected": Proof("log2_monotone_proof", "sat",
@@ -82,9 +84,22 @@ PROOFS = {
                          steps=1, base=3, registers=True, free="tag_look_up"),
 }
 # The level for each count, with and without cap, of a minor side and of an area.
-LEVEL = ("texture/level_unit.sv", "mixed_end = level_mixed >= ", "mixed_end = level_mixed > ")
-PROOFS |= {f"level_{axes}_{count}_{cap}": Proof("level_bounds_proof", "bmc", LEVEL, steps=3, registers=True,
-                                                parameters={"AXES": a, "COUNT": n, "CAP": c})
+
+
+def level_fault(axes, count, cap):
+    """One of what this level alone has."""
+    if count == "any":
+        return "if (e_1 > {1'b0,", "if (e_1 >= {1'b0,"
+    if cap == "texel":
+        return "limited < cap ? limited : cap", "limited > cap ? limited : cap"
+    if axes == "four":
+        return "(lb_max <<< 1) - lb_minor", "lb_max - lb_minor"
+    return "mixed_end = level_mixed >= ", "mixed_end = level_mixed > "
+
+
+PROOFS |= {f"level_{axes}_{count}_{cap}": Proof("level_bounds_proof", "bmc",
+                                                ("texture/level_unit.sv", *level_fault(axes, count, cap)), steps=3,
+                                                registers=True, parameters={"AXES": a, "COUNT": n, "CAP": c})
            for a, axes in enumerate(("two", "four")) for n, count in enumerate(("floor", "ceil", "any"))
            for c, cap in enumerate(("none", "texel"))}
 # The length of a side by each rule without a root.

@@ -86,12 +86,6 @@ class Clocks(unittest.TestCase):
         rows = sum(frame("deburr", "4", "2", "raster", "3", "20", "coverage=distance")[:2])
         self.assert_said(f"{said(one_lane)} with edge_lanes = 1, {said(rows)} in `raster`")
 
-    def test_dividers(self):
-        rows = [line.split() for line in bench("--dividers").splitlines()[1:]]
-        alone = [row[1] for row in rows[:5]]
-        self.assert_said(f"edge_lanes = 4: {', '.join(map(said, alone))} clocks of the edges with 1..5 dividers, "
-                         f"{said(rows[-1][1])} pipelined, and {said(rows[0][2])} with one divider and the table")
-
 
 if __name__ == "__main__":
     if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):

@@ -73,7 +73,7 @@ class Memories(unittest.TestCase):
         page = {}
         for line in table.splitlines():
             cells = [cell.strip() for cell in line.strip("|").split("|")]
-            if not cells[0].startswith("`"):
+            if not line.startswith("| `"):
                 continue
             name = cells[0].split("`")[1].removeprefix("cache.").removeprefix("address.").replace(".", "_")
             page[name] = (cells[2], cells[3].split(",")[0], cells[5], int(cells[6].replace(" ", "")))

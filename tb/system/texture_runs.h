@@ -39,7 +39,7 @@ inline TextureRunOptions paper_options() {
 }
 
 // The suites run a second time with units of hdl/ in their places, where the build has their
-// configuration (tb/hdl/suites_with_twins.cpp).
+// configuration (tb/hdl/suites_with_twins_test.cpp).
 inline bool& twins_do_the_work() {
   static bool they_do = false;
   return they_do;

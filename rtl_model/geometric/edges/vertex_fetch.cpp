@@ -35,6 +35,7 @@ VertexFetch::VertexFetch(const sc_core::sc_module_name& name, ClockDomain& clock
       tags_("vertex_tags", {.words = lines_,
                             .word_bits = kVertexTagBits,
                             .read_ports = 2,
+                            // A look-up sees the line that the one before it has ordered.
                             .read_during_write = ReadDuringWrite::kNewWord,
                             .content = "line of vertices, valid"}),
       data_("vertex_data", {.words = lines_,

@@ -36,6 +36,7 @@ DepthTest::DepthTest(const sc_core::sc_module_name& name, ClockDomain& clock,
       tags_("depth_tags", {.words = lines_,
                            .word_bits = kDepthTagBits,
                            .read_ports = 2,
+                           // A look-up sees the line that the one before it has ordered.
                            .read_during_write = ReadDuringWrite::kNewWord,
                            .content = "u, v, valid"}),
       data_("depth_data", {.words = lines_,

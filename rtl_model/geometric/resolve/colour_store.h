@@ -99,6 +99,7 @@ class ColourStore final {
     explicit Kept(const spec::geometric::Parameters& p)
         : lines("kept_colours", {.words = static_cast<std::uint64_t>(p.colour_lines),
                                  .word_bits = 8 * spec::geometric::kLineBytes,
+                                 // A line may be used in the clock that keeps it.
                                  .read_during_write = ReadDuringWrite::kNewWord,
                                  .content = "lines of colours that were read last"}),
           tags("kept_tags", {.words = static_cast<std::uint64_t>(p.colour_lines),

@@ -31,14 +31,17 @@ WeightCombiner::WeightCombiner(const sc_core::sc_module_name& name, ClockDomain&
       blocks_(spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.weight_blocks)]),
       tags_("weight_tags", {.words = blocks_,
                             .word_bits = WeightPlaces::kTagBits,
+                            // A look-up sees the block that the one before it has ordered.
                             .read_during_write = ReadDuringWrite::kNewWord,
                             .content = "x, y of a block, valid"}),
       touched_("touched", {.words = static_cast<std::uint64_t>(p.touched_words),
                            .word_bits = spec::geometric::kBlocksInWord,
+                           // Marks of one word follow each other, each on those before.
                            .read_during_write = ReadDuringWrite::kNewWord,
                            .content = "a bit a block: a line has cut it"}),
       data_("weight_data", {.words = blocks_,
                             .word_bits = 8 * spec::geometric::kLineBytes,
+                            // Groups of one block follow each other, each on the weights before.
                             .read_during_write = ReadDuringWrite::kNewWord,
                             .content = "sixteen pixels of four weights"}),
       fills_("weight_fills", p.fills, 8 * spec::geometric::kLineBytes, "weights on their way"),

@@ -25,6 +25,7 @@ class WriteBuffer {
   explicit WriteBuffer(std::int32_t places)
       : data_("write_buffer", {.words = static_cast<std::uint64_t>(places),
                                .word_bits = 8 * spec::geometric::kLineBytes,
+                               // A block may be taken back in the clock that replaces it.
                                .read_during_write = ReadDuringWrite::kNewWord,
                                .content = "blocks of weights that were replaced"}),
         tags_("write_tags", {.words = static_cast<std::uint64_t>(places),

@@ -18,6 +18,7 @@ ShareRows::ShareRows(const sc_core::sc_module_name& name, const spec::morphologi
       columns_(columns),
       memory_("weight_lines", {.words = columns,
                                .word_bits = kWordBits,
+                               // A row of one beat is read as it is written.
                                .read_during_write = ReadDuringWrite::kNewWord,
                                .banks = static_cast<std::uint32_t>(2 * lanes_),
                                .span = static_cast<std::uint32_t>(lanes_ + 1),

@@ -46,6 +46,7 @@ EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clo
             {.words = std::max<std::uint64_t>(words_for(p.line_pixels, lanes_),
                                               std::uint64_t{2} * lanes_),
              .word_bits = 3 * 25,
+             // A row of one beat is read as it is written.
              .read_during_write = ReadDuringWrite::kNewWord,
              .banks = 2 * lanes_,
              .span = lanes_ + 1,
@@ -58,6 +59,7 @@ EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clo
   depth_.emplace("depth_lines",
                  MemoryShape{.words = words_for(p.line_pixels, lanes_),
                              .word_bits = 2 * 24,
+                             // A row of one beat is read as it is written.
                              .read_during_write = ReadDuringWrite::kNewWord,
                              .banks = lanes_,
                              .span = lanes_,

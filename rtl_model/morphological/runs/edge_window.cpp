@@ -59,6 +59,7 @@ MemoryShape shape(const spec::morphological::Parameters& p, std::int32_t lanes) 
   const bool crossings = p.ends == spec::morphological::Ends::kCrossings;
   shape.word_bits = static_cast<std::uint32_t>(2 * (p.window_rows + 1) + (crossings ? 1 : 0));
   shape.read_ports = static_cast<std::uint32_t>(1 + PortSchedule(p).ports());
+  // Readers know by the beat whether a column has moved on.
   shape.read_during_write = ReadDuringWrite::kOldWord;
   shape.banks = shape.span = columns;
   shape.content = "left and top edges of window_rows + 1 rows, a word a column";
