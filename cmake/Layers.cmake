@@ -15,7 +15,7 @@ function(deburr_layer_root variable layer)
   set(${variable} "${root}" PARENT_SCOPE)
 endfunction()
 
-# deburr_batches(<target> [<source>...]): compiles the sources of a target in batches of at most twenty of
+# deburr_batches(<target> [<source>...]): compiles the sources of a target in batches of at most forty of
 # about the same size, one translation unit each (option DEBURR_UNITY); those that are named with
 # deburr_light_options, and apart from the others. Sources that are generated and those with options of their
 # own, which are set before, stay as they are. Not UNITY_BUILD: its files name sources by absolute paths, so
@@ -42,7 +42,7 @@ function(deburr_batches target)
   set(number 0)
   foreach(group main light)
     list(LENGTH ${group} count)
-    math(EXPR batches "(${count} + 19) / 20")
+    math(EXPR batches "(${count} + 39) / 40")
     foreach(batch RANGE 1 ${batches})
       if(count EQUAL 0)
         break()

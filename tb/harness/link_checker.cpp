@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 #include "rtl_model/fabric/counters.h"
@@ -76,11 +77,12 @@ std::uint32_t LinkChecker::place_of(const Watched& watched, std::uint64_t beat) 
 void LinkChecker::adopt(Watched& watched) {
   watched.pushes = watched.link->pushes();
   watched.pops = watched.link->pops();
+  beats_ -= watched.pops;
   watched.tail = place_of(watched, watched.pushes);
   watched.head = place_of(watched, watched.pops);
 }
 
-bool (*LinkChecker::follower_of(std::size_t payload_bytes))(Watched& watched, rtl::Cycle cycle) {
+void (*LinkChecker::follower_of(std::size_t payload_bytes))(Watched& watched, rtl::Cycle cycle) {
   static constexpr auto kFollowers = []<std::size_t... kWords>(std::index_sequence<kWords...>) {
     return std::array{&LinkChecker::follow_stream<4 * (kWords + 1)>...};
   }
@@ -120,7 +122,7 @@ void LinkChecker::reject_width(const Watched& w, rtl::Cycle cycle) {
 }
 
 template <bool kWidths>
-bool LinkChecker::follow(Watched& w, rtl::Cycle cycle) {
+void LinkChecker::follow(Watched& w, rtl::Cycle cycle) {
   const rtl::LinkBase& link = *w.link;
   const bool pushed = link.last_push() == cycle, popped = link.last_pop() == cycle;
   const std::uint64_t before = w.pushes - w.pops;
@@ -139,42 +141,68 @@ bool LinkChecker::follow(Watched& w, rtl::Cycle cycle) {
     w.tail = w.after(w.tail);
     ++w.pushes;
   }
-  return popped;
 }
 
-// A beat comes and another one goes: then the link was neither empty nor full, so that the slots of
-// the two are different ones.
+// The places of the next push and pop are the same if the link is empty, or if it is full.
 template <std::size_t kBytes>
-bool LinkChecker::follow_stream(Watched& w, rtl::Cycle cycle) {
+void LinkChecker::follow_beats(Watched& w, rtl::Cycle cycle) {
+  const rtl::LinkBase& link = *w.link;
+  const bool pushed = link.last_push() == cycle, popped = link.last_pop() == cycle;
+  const bool empty = w.pushes == w.pops;
+  if (link.pushes() != w.pushes + pushed || link.pops() != w.pops + popped || (popped && empty) ||
+      (pushed && !empty && w.tail == w.head))
+    reject_counts(w, cycle);
+  if (popped) {
+    if (differ<kBytes>(w.expected(), w.oldest())) reject_change(w, cycle);
+    w.head = w.after(w.head);
+    ++w.pops;
+  }
+  if (pushed) {
+    std::memcpy(w.kept(), w.newest(), kBytes);
+    w.tail = w.after(w.tail);
+    ++w.pushes;
+  }
+}
+
+// A beat comes and another one goes: then the link was neither empty nor full, so that the places
+// of the two are different ones.
+template <std::size_t kBytes>
+void LinkChecker::follow_stream(Watched& w, rtl::Cycle cycle) {
   const rtl::LinkBase& link = *w.link;
   if (link.last_push() != cycle || link.last_pop() != cycle || w.tail == w.head ||
       link.pushes() != w.pushes + 1 || link.pops() != w.pops + 1 ||
       differ<kBytes>(w.expected(), w.oldest()))
-    return follow<false>(w, cycle);
+    return follow_beats<kBytes>(w, cycle);
   std::memcpy(w.kept(), w.newest(), kBytes);
   w.head = w.after(w.head);
   w.tail = w.after(w.tail);
   ++w.pops;
   ++w.pushes;
-  return true;
 }
 
 rtl::Activity LinkChecker::tick(rtl::Cycle cycle) {
-  std::uint64_t compared = 0;
   for (Watched& watched : watched_) {
     const rtl::LinkBase& link = *watched.link;
     // Most links rest in most cycles, and nothing has happened to those behind anyone's back. A
     // push may have been in the place of a beat that was taken back; a pop always counts.
     const bool rests =
         link.pushes() == watched.pushes && link.pops() == watched.pops && link.last_push() != cycle;
-    if (!rests) compared += watched.follow(watched, cycle);
+    if (!rests) watched.follow(watched, cycle);
   }
-  beats_ += compared;
   return rtl::kIdle;
 }
 
 void LinkChecker::reset() {
-  for (Watched& watched : watched_) adopt(watched);
+  for (Watched& watched : watched_) {
+    beats_ += watched.pops;
+    adopt(watched);
+  }
+}
+
+std::uint64_t LinkChecker::beats() const {
+  return std::accumulate(
+      watched_.begin(), watched_.end(), beats_,
+      [](std::uint64_t sum, const Watched& watched) { return sum + watched.pops; });
 }
 
 void LinkChecker::check_empty() const {

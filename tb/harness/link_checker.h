@@ -29,7 +29,7 @@ class LinkChecker final : public rtl::Clocked {
   void reset() override;
 
   std::size_t links() const { return watched_.size(); }
-  std::uint64_t beats() const { return beats_; }  // popped and compared so far
+  std::uint64_t beats() const;  // popped and compared so far
   // Throws if a link still holds beats.
   void check_empty() const;
 
@@ -42,8 +42,8 @@ class LinkChecker final : public rtl::Clocked {
     // bytes from the first slot on, counted along for the next push and pop.
     const std::byte* slots;
     std::unique_ptr<std::byte[]> copies;
-    // What a link does that does not rest; true: a beat was compared.
-    bool (*follow)(Watched& watched, rtl::Cycle cycle);
+    // What a link does that does not rest.
+    void (*follow)(Watched& watched, rtl::Cycle cycle);
     std::uint32_t slot_bytes, ring_bytes, tail = 0, head = 0;
 
     std::uint32_t after(std::uint32_t place) const {
@@ -56,20 +56,24 @@ class LinkChecker final : public rtl::Clocked {
     std::byte* kept() const { return copies.get() + tail; }
   };
   static std::uint32_t place_of(const Watched& watched, std::uint64_t beat);
-  static void adopt(Watched& watched);
+  void adopt(Watched& watched);
   // Throws if anything is wrong.
   template <bool kWidths>
-  static bool follow(Watched& watched, rtl::Cycle cycle);
-  // The same, made for a link through which a stream of beats of this size goes.
+  static void follow(Watched& watched, rtl::Cycle cycle);
+  // The same for beats of this size, and for a link through which a stream of them goes: without
+  // the first, which would cost the second registers, in it.
   template <std::size_t kBytes>
-  static bool follow_stream(Watched& watched, rtl::Cycle cycle);
-  static bool (*follower_of(std::size_t payload_bytes))(Watched& watched, rtl::Cycle cycle);
+  [[gnu::noinline]] static void follow_beats(Watched& watched, rtl::Cycle cycle);
+  template <std::size_t kBytes>
+  static void follow_stream(Watched& watched, rtl::Cycle cycle);
+  static void (*follower_of(std::size_t payload_bytes))(Watched& watched, rtl::Cycle cycle);
   [[noreturn, gnu::cold]] static void reject_counts(const Watched& watched, rtl::Cycle cycle);
   // These only if a field is concerned, and not only bits that belong to none.
   static void reject_change(const Watched& watched, rtl::Cycle cycle);
   static void reject_width(const Watched& watched, rtl::Cycle cycle);
 
   std::vector<Watched> watched_;
+  // Beats that were compared, less the pops of all links since their resets.
   std::uint64_t beats_ = 0;
 };
 
