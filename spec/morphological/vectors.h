@@ -125,7 +125,8 @@ inline constexpr std::array<FrameVector, 22> kFrameVectors = {{
      VectorImage::kBlocks,
      Preset::kMlaaSlope,
      Quality::kHigh,
-     "safe=true edges.threshold=1311 edges.local_contrast=paper linear_light=false window_rows=20 "
+     "safe=true edges.threshold=334305 edges.local_contrast=paper linear_light=false "
+     "window_rows=20 "
      "reach_columns=9",
      {0xdda27397e1d7e1a8, 1808, 1213, 15, 531, 262, 655, 4442, 0, 1354}},
     {"blocks_deburr_line_small",
@@ -184,7 +185,7 @@ inline constexpr std::array<FrameVector, 22> kFrameVectors = {{
      {0x7bcfc3977ff28c59, 1926, 1217, 26, 547, 227, 352, 3770, 0, 2875}},
 }};
 
-inline constexpr std::array<FrameVector, 33> kSmaaFrameVectors = {{
+inline constexpr std::array<FrameVector, 38> kSmaaFrameVectors = {{
     {"smaa_noise_low",
      VectorImage::kNoise,
      Preset::kSmaa,
@@ -279,7 +280,7 @@ inline constexpr std::array<FrameVector, 33> kSmaaFrameVectors = {{
      VectorImage::kBlocks,
      Preset::kSmaa,
      Quality::kHigh,
-     "area=analytic",
+     "area=analytic border=end",
      {0xc0ea4a726d0468d5, 1549, 1127, 0, 452, 0, 0, 0, 4, 1311}},
     {"smaa_blocks_runs_alone",
      VectorImage::kBlocks,
@@ -291,7 +292,7 @@ inline constexpr std::array<FrameVector, 33> kSmaaFrameVectors = {{
      VectorImage::kBlocks,
      Preset::kSmaa,
      Quality::kHigh,
-     "ends=gaps",
+     "ends=gaps border=end",
      {0x3695452169102f8d, 1549, 1034, 0, 443, 0, 0, 0, 4, 1283}},
     {"smaa_blocks_small",
      VectorImage::kBlocks,
@@ -333,13 +334,13 @@ inline constexpr std::array<FrameVector, 33> kSmaaFrameVectors = {{
      VectorImage::kShades,
      Preset::kSmaa,
      Quality::kHigh,
-     "edges.threshold=514",
+     "edges.threshold=131072",
      {0x6efbd85401fe9778, 1763, 745, 0, 346, 0, 0, 0, 0, 1446}},
     {"smaa_shades_514_paper",
      VectorImage::kShades,
      Preset::kSmaa,
      Quality::kHigh,
-     "edges.threshold=514 edges.local_contrast=paper",
+     "edges.threshold=131072 edges.local_contrast=paper",
      {0xcbdfbd0fa8c57f10, 1750, 739, 0, 340, 0, 0, 0, 0, 1455}},
     {"smaa_shades_dynamic",
      VectorImage::kShades,
@@ -357,32 +358,47 @@ inline constexpr std::array<FrameVector, 33> kSmaaFrameVectors = {{
      VectorImage::kShades,
      Preset::kSmaaDynamic,
      Quality::kHigh,
-     "edges.alpha=13107",
+     "edges.alpha=3355443",
      {0x09daa7e5f48a7931, 1596, 663, 0, 302, 0, 0, 0, 0, 1353}},
     {"smaa_shades_current",
      VectorImage::kShades,
      Preset::kSmaaDynamic,
      Quality::kHigh,
-     "edges.dynamic_luma=current edges.alpha=52429 edges.floor=1",
+     "edges.dynamic_luma=current edges.alpha=13421772 edges.floor=1",
      {0x86b25eb49b0d2fee, 1233, 837, 0, 259, 0, 0, 0, 10, 893}},
     {"smaa_shades_max",
      VectorImage::kShades,
      Preset::kSmaaDynamic,
      Quality::kHigh,
-     "edges.dynamic_luma=max edges.alpha=52429 edges.floor=1",
+     "edges.dynamic_luma=max edges.alpha=13421772 edges.floor=1",
      {0xba424a04a7396185, 901, 531, 0, 135, 0, 0, 0, 6, 603}},
     {"smaa_shades_min",
      VectorImage::kShades,
      Preset::kSmaaDynamic,
      Quality::kHigh,
-     "edges.dynamic_luma=min edges.alpha=52429 edges.floor=1",
+     "edges.dynamic_luma=min edges.alpha=13421772 edges.floor=1",
      {0x1a3348ed21c1d79c, 2068, 1224, 0, 380, 0, 0, 0, 15, 1672}},
     {"smaa_shades_mean",
      VectorImage::kShades,
      Preset::kSmaaDynamic,
      Quality::kHigh,
-     "edges.dynamic_luma=mean edges.alpha=52429 edges.floor=1",
+     "edges.dynamic_luma=mean edges.alpha=13421772 edges.floor=1",
      {0x5e97e28f2b5f7944, 1661, 826, 0, 276, 0, 0, 0, 6, 1330}},
+    {"smaa_noise_end", VectorImage::kNoise, Preset::kSmaa, Quality::kHigh, "border=end", {}},
+    {"smaa_line_end", VectorImage::kLine, Preset::kSmaa, Quality::kLow, "border=end", {}},
+    {"smaa_blocks_end", VectorImage::kBlocks, Preset::kSmaa, Quality::kHigh, "border=end", {}},
+    {"smaa_noise_published",
+     VectorImage::kNoise,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "area_values=published",
+     {}},
+    {"smaa_blocks_published",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kUltra,
+     "area=table_minimal area_values=published",
+     {}},
 }};
 
 // ---- runs ---------------------------------------------------------------------------------------
@@ -558,6 +574,7 @@ inline constexpr std::array<LimitVector, 8> kLimitVectors = {{
 
 struct TableHashes {
   std::uint64_t half = 0, dip = 0, roots = 0, mix = 0, diagonals = 0;
+  std::uint64_t published_half = 0, published_dip = 0, published_diagonals = 0;
 
   // By the names that the page gives the tables.
   template <class Self, class Visit>
@@ -567,16 +584,24 @@ struct TableHashes {
     visit("S", self.roots);
     visit("R", self.mix);
     visit("D", self.diagonals);
+    visit("T, published", self.published_half);
+    visit("U, published", self.published_dip);
+    visit("D, published", self.published_diagonals);
   }
 };
 
 // What is hashed, in this order; numbers over 255 by their bytes, highest first.
-inline constexpr std::array<std::string_view, 5> kTableOrders = {
-    "i, j = 0..15", "i, j = 0..15", "d = 0..224, 2 bytes", "s = 0..510, 3 bytes",
-    "e1, e2 = 0..3, d1, d2 = 0..19, A, B"};
-inline constexpr TableHashes kTableHashes = {0x08fb6f2f5185e12b, 0x4091cb22adf7523a,
-                                             0x0cdd319ff9fc3614, 0xd96f58a228eff378,
-                                             0xbd207affdb832b8f};
+inline constexpr std::array<std::string_view, 8> kTableOrders = {
+    "i, j = 0..15",
+    "i, j = 0..15",
+    "d = 0..224, 2 bytes",
+    "s = 0..510, 3 bytes",
+    "e1, e2 = 0..3, d1, d2 = 0..19, A, B",
+    "as T",
+    "as U",
+    "as D"};
+inline constexpr TableHashes kTableHashes = {
+    0x08fb6f2f5185e12b, 0x4091cb22adf7523a, 0x0cdd319ff9fc3614, 0, 0xbd207affdb832b8f, 0, 0, 0};
 
 // Shares after interpolation, of the distances l and r.
 struct TableResult {
