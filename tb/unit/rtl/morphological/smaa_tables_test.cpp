@@ -19,6 +19,7 @@ namespace {
 
 using rtl::morphological::AreaTable;
 using spec::morphological::AreaSource;
+using spec::morphological::AreaValues;
 using spec::morphological::Preset;
 using spec::morphological::Quality;
 using stimuli::VectorHash;
@@ -58,8 +59,9 @@ TEST(SmaaTables, WordsHaveTheContractsHashes) {
 
 TEST(SmaaTables, LayoutsGiveTheSameShares) {
   struct Owner : sc_core::sc_module {
-    Owner(const sc_core::sc_module_name& name, AreaSource layout)
-        : sc_module(name), table(layout, 1) {}
+    Owner(const sc_core::sc_module_name& name, AreaSource layout,
+          AreaValues values = AreaValues::kExact)
+        : sc_module(name), table(layout, values, 1) {}
     AreaTable table;
   };
   Owner full("full", AreaSource::kTableFull), merged("merged", AreaSource::kTableMerged),
@@ -101,8 +103,9 @@ TEST(SmaaTables, LayoutsGiveTheSameShares) {
 class TableClocks : public ::testing::TestWithParam<AreaSource> {
  protected:
   struct Owner : sc_core::sc_module {
-    Owner(const sc_core::sc_module_name& name, AreaSource layout)
-        : sc_module(name), table(layout, 1) {}
+    Owner(const sc_core::sc_module_name& name, AreaSource layout,
+          AreaValues values = AreaValues::kExact)
+        : sc_module(name), table(layout, values, 1) {}
     AreaTable table;
   };
   // Of a query and of one with other addresses in every ROM, what the table says to this.
