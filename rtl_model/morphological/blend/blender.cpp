@@ -26,7 +26,7 @@ bool is_marked(const spec::morphological::Rgba8& pixel) { return (pixel[3] & 1) 
 
 // More than those of shares as they come: of shares as they are blended, U1.12.
 constexpr int kMoreBits = 4;
-constexpr int kShareBits = 8 + kMoreBits;
+constexpr int kBlendBits = 8 + kMoreBits;
 // R(s), U1.20: what squares are multiplied by to be shares of s again.
 constexpr std::uint32_t kMixBits = 21;
 std::vector<std::uint32_t> mix_words() {
@@ -224,7 +224,7 @@ void Blender::round(Cycle cycle, Beat& beat) {
     Operands& o = beat.operands[lane];
     for (std::size_t c = 0; c < 3; ++c) {
       const std::int32_t v = o.sum[c],
-                         moved = (std::abs(v) + (1 << (kShareBits - 1))) >> kShareBits;
+                         moved = (std::abs(v) + (1 << (kBlendBits - 1))) >> kBlendBits;
       o.value[c] = static_cast<std::uint16_t>(v < 0 ? o.centre[c] - moved : o.centre[c] + moved);
       if (linear) codes_[lane * 3 + c].read(cycle, o.value[c]);
     }

@@ -16,6 +16,8 @@ constexpr std::uint8_t code(bool first, bool second) {
   return static_cast<std::uint8_t>(int{first} | int{second} << 1);
 }
 
+constexpr std::uint8_t either(int a, int b) { return static_cast<std::uint8_t>(a | b); }
+
 constexpr std::uint16_t u16(std::int32_t value) { return static_cast<std::uint16_t>(value); }
 
 }  // namespace
@@ -246,7 +248,8 @@ RunExtractor::Corner RunExtractor::corner_of_row(std::int32_t x) const {
   Corner corner{code(window_.left(x, row_ - 1), window_.left(x, row_))};
   if (rules.corners) {
     corner.far = code(window_.left(x, row_ - 2), window_.left(x, row_ + 1));
-    if (rules.clamp) corner.far |= corner.code & code(row_ == 1, row_ + 1 == rules.height);
+    if (rules.clamp)
+      corner.far = either(corner.far, corner.code & code(row_ == 1, row_ + 1 == rules.height));
   }
   return corner;
 }
@@ -262,7 +265,8 @@ RunExtractor::Corner RunExtractor::corner_of_column(std::int32_t x, std::int32_t
   if (below && corner.code == 0) return {.endless = true};
   if (far) {
     corner.far = code(window_.top(x - 2, y), x + 1 < rules.width && window_.top(x + 1, y));
-    if (rules.clamp) corner.far |= corner.code & code(x == 1, x + 1 == rules.width);
+    if (rules.clamp)
+      corner.far = either(corner.far, corner.code & code(x == 1, x + 1 == rules.width));
   }
   return corner;
 }
