@@ -195,7 +195,7 @@ class Configuration(Base):
                         "morphological.edges.threshold_mode=dynamic", says="predicated")
         self.run_engine(2, *self.SMALL, "--lanes", "3", says="1, 2, 4")
 
-    RANGES = {"edges.threshold": (1, 65535), "edges.alpha": (0, 65535), "edges.floor": (1, 65535),
+    RANGES = {"edges.threshold": (1, 16777215), "edges.alpha": (0, 16777215), "edges.floor": (1, 16777215),
               "search_steps": (1, 112), "diagonal_steps": (1, 16), "corner_rounding": (0, 256)}
 
     def test_numbers_of_smaa_out_of_their_ranges(self):
@@ -217,6 +217,7 @@ class Configuration(Base):
 
     def test_unknown_choices_of_smaa(self):
         for name, known in (("quality", "low, medium, high, ultra"), ("ends", "gaps, crossings"),
+                            ("border", "end, clamp"), ("area_values", "exact, published"),
                             ("area", "analytic, table_full, table_merged, table_minimal"),
                             ("blend", "longest, strongest"), ("edges.dynamic_luma", "current, max, min, mean"),
                             ("edges.local_contrast", "off, paper, symmetric, smaa"), ("diagonals", "true or false"),
@@ -244,6 +245,12 @@ class Configuration(Base):
         self.run_engine(2, *self.SMALL, "--preset", "smaa-dynamic", "--set", "morphological.edges.source=predicated",
                         says=["predicated", "threshold_mode = fixed"])
         self.run_engine(0, *self.SMALL, *smaa, "--set", "morphological.edges.source=predicated", says="PASS")
+        # A border that runs go on beyond: what has no search has none to go on.
+        for name, value in (("ends", "gaps"), ("area", "analytic")):
+            one = ("--set", f"morphological.{name}={value}")
+            self.run_engine(2, *self.SMALL, *smaa, *one, says=["morphological.border", name, "must be end"])
+            self.run_engine(0, *self.SMALL, *smaa, *one, "--set", "morphological.border=end", says="PASS")
+        self.run_engine(2, *self.SMALL, "--preset", "mlaa", "--set", "morphological.border=clamp", says="must be end")
 
     def test_a_rule_beside_a_preset_overrides_it(self):
         done = self.run_engine(0, "--preset", "mlaa-slope", "--set", "morphological.steps=8", "--show-config")
@@ -271,6 +278,7 @@ class Configuration(Base):
             (("--preset", "mlaa"), "--set", "morphological.steps=3", "extends no run"),
             ((), "--set", "morphological.quality=low", "morphological.preset = smaa or smaa-dynamic"),
             ((), "--set", "morphological.search_steps=8", "area = analytic"),
+            ((), "--set", "morphological.area_values=published", "morphological.area or morphological.diagonals"),
             ((), "--set", "morphological.diagonal_steps=4", "diagonals = true"),
             (("--preset", "smaa", "--set", "morphological.quality=low"), "--set", "morphological.diagonal_steps=4",
              "diagonals = true"),
@@ -573,17 +581,17 @@ class SmaaFaults(BlockFaults):
         self.fault("wrong-mix", "--preset", "smaa", *self.SMALL)
 
     def test_thresholds_at_equality(self):
-        # Steps of blue are 255 T exactly; steps from 1 to 2 are alpha times luma exactly.
+        # Steps of blue are T exactly; steps from 1 to 2 are alpha times luma exactly.
         blue = self.picture("blue.png", columns_png(8, [(0, 0, 0)] * 6 + [(0, 0, 255)] * 6))
         dark = self.picture("dark.png", columns_png(8, [(1, 1, 1)] * 6 + [(2, 2, 2)] * 6))
         off = self.rules(edges__local_contrast="off")
-        self.fault("wrong-threshold", *blue, "--preset", "smaa", *off, *self.rules(edges__threshold=4732))
+        self.fault("wrong-threshold", *blue, "--preset", "smaa", *off, *self.rules(edges__threshold=255 * 4732))
         self.fault("wrong-floor", *blue, "--preset", "smaa-dynamic", *off,
-                   *self.rules(edges__alpha=1, edges__floor=4732))
+                   *self.rules(edges__alpha=1, edges__floor=255 * 4732))
         for luma in ("current", "max"):  # of the right column, which owns the edge and is the brighter
             self.fault("wrong-threshold", *dark, "--preset", "smaa-dynamic", *off,
-                       *self.rules(edges__alpha=32768, edges__floor=1, edges__dynamic_luma=luma))
-        for luma, code in (("min", 65535), ("mean", 43690)):  # 1 and 1.5: just below, no equality
+                       *self.rules(edges__alpha=8388608, edges__floor=1, edges__dynamic_luma=luma))
+        for luma, code in (("min", 16777215), ("mean", 11184810)):  # 1 and 1.5: just below, no equality
             self.run_engine(0, "--fault", "wrong-threshold", *dark, "--preset", "smaa-dynamic", *off,
                             *self.rules(edges__alpha=code, edges__floor=1, edges__dynamic_luma=luma), says="PASS")
 

@@ -13,7 +13,8 @@
 namespace deburr::tb {
 namespace {
 
-constexpr std::int32_t kMostThreshold = 65535;  // of T and of the floor, U0.16
+// Of T and of the floor, U8.16.
+constexpr std::int32_t kMostThreshold = (1 << spec::morphological::kThresholdBits) - 1;
 
 }  // namespace
 
@@ -87,10 +88,10 @@ std::vector<PlantedFault> MorphologicalFaults::smaa_faults() const {
       {"wrong-threshold",
        "The threshold errs where it is just reached: T a unit higher, or alpha a unit lower.", "",
        unless(luma && (dynamic ? p.alpha > 0 : p.threshold < kMostThreshold),
-              "edges.source = luma, alpha of at least 1, T of at most 65534")},
+              "edges.source = luma, alpha of at least 1, T of at most 16777214")},
       {"wrong-floor", "The floor of a dynamic threshold is a unit higher.", "",
        unless(luma && dynamic && p.floor < kMostThreshold,
-              "edges.threshold_mode = dynamic, floor of at most 65534")},
+              "edges.threshold_mode = dynamic, floor of at most 16777214")},
       {"wrong-contrast",
        "An edge of exactly half the contrast beside it is dropped for kept, kept for dropped.", "",
        unless(luma && contrast, "edges.local_contrast = smaa or paper")},
