@@ -528,8 +528,8 @@ TEST(Corners, AreDecidedAfterTheLimitOfTheSearches) {
     }
   }
   // The pixel with l beyond and r = 7: it has a share, and loses half of it.
-  EXPECT_EQ(shares(30, 22, 15, false).second, 4);
-  EXPECT_EQ(shares(30, 22, 15, true).second, 2);
+  EXPECT_EQ(shares(30, 22, 15, false).second, 11);
+  EXPECT_EQ(shares(30, 22, 15, true).second, 6);  // 5.5
 }
 
 }  // namespace
