@@ -217,6 +217,7 @@ class Configuration(Base):
 
     def test_unknown_choices_of_smaa(self):
         for name, known in (("quality", "low, medium, high, ultra"), ("ends", "gaps, crossings"),
+                            ("border", "end, clamp"), ("area_values", "exact, published"),
                             ("area", "analytic, table_full, table_merged, table_minimal"),
                             ("blend", "longest, strongest"), ("edges.dynamic_luma", "current, max, min, mean"),
                             ("edges.local_contrast", "off, paper, symmetric, smaa"), ("diagonals", "true or false"),
@@ -244,6 +245,12 @@ class Configuration(Base):
         self.run_engine(2, *self.SMALL, "--preset", "smaa-dynamic", "--set", "morphological.edges.source=predicated",
                         says=["predicated", "threshold_mode = fixed"])
         self.run_engine(0, *self.SMALL, *smaa, "--set", "morphological.edges.source=predicated", says="PASS")
+        # A border that runs go on beyond: what has no search has none to go on.
+        for name, value in (("ends", "gaps"), ("area", "analytic")):
+            one = ("--set", f"morphological.{name}={value}")
+            self.run_engine(2, *self.SMALL, *smaa, *one, says=["morphological.border", name, "must be end"])
+            self.run_engine(0, *self.SMALL, *smaa, *one, "--set", "morphological.border=end", says="PASS")
+        self.run_engine(2, *self.SMALL, "--preset", "mlaa", "--set", "morphological.border=clamp", says="must be end")
 
     def test_a_rule_beside_a_preset_overrides_it(self):
         done = self.run_engine(0, "--preset", "mlaa-slope", "--set", "morphological.steps=8", "--show-config")
@@ -271,6 +278,7 @@ class Configuration(Base):
             (("--preset", "mlaa"), "--set", "morphological.steps=3", "extends no run"),
             ((), "--set", "morphological.quality=low", "morphological.preset = smaa or smaa-dynamic"),
             ((), "--set", "morphological.search_steps=8", "area = analytic"),
+            ((), "--set", "morphological.area_values=published", "morphological.area or morphological.diagonals"),
             ((), "--set", "morphological.diagonal_steps=4", "diagonals = true"),
             (("--preset", "smaa", "--set", "morphological.quality=low"), "--set", "morphological.diagonal_steps=4",
              "diagonals = true"),

@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "golden/ideal/smaa.h"
+#include "golden/morphological/area_table.h"
+#include "golden/morphological/diagonals.h"
 #include "golden/morphological/morphological_golden.h"
 #include "tb/harness/test_paths.h"
 #include "tb/scene/truth.h"
@@ -34,6 +36,9 @@ using golden::ideal::SmaaSettings;
 using golden::ideal::SmaaWeights;
 using golden::morphological::EdgeShares;
 using golden::morphological::MorphologicalGolden;
+using spec::morphological::AreaValues;
+using spec::morphological::Border;
+using spec::morphological::Parameters;
 using spec::morphological::Preset;
 using spec::morphological::Quality;
 
@@ -87,6 +92,38 @@ TEST_F(PublishedTables, HaveTheAreasOfTheOracle) {
           expect(80 + 20 * e1 + d1, 20 * e2 + d2,
                  golden::ideal::smaa_diagonal_bytes(e1, e2, d1, d2),
                  fmt::format("diagonal {}, {}, distances {} and {}", e1, e2, d1, d2));
+}
+
+// What the tables hold with area_values = published: a byte v is v / 255, to the nearest.
+TEST_F(PublishedTables, HaveTheValuesOfTheTables) {
+  const std::vector<int> texture = bytes_of("AreaTex.h");
+  constexpr int kWidth = 160;
+  ASSERT_EQ(texture.size(), std::size_t{2} * kWidth * 560);
+  const auto byte = [&](int x, int y, int channel) {
+    return texture[static_cast<std::size_t>(2 * (y * kWidth + x) + channel)];
+  };
+  const auto nearest = [](int value, int one) { return (2 * one * value + 255) / 510; };
+  const golden::morphological::FullAreaTable areas(AreaValues::kPublished);
+  for (int pattern = 0; pattern < 16; ++pattern) {
+    const int start = 3 * (pattern & 1) + (pattern >> 2 & 1),
+              end = 3 * (pattern >> 1 & 1) + (pattern >> 3 & 1);
+    for (int i = 0; i < 16; ++i)
+      for (int j = 0; j < 16; ++j) {
+        const auto entry = areas.entry(pattern, i, j);
+        EXPECT_EQ(entry.second, nearest(byte(16 * start + i, 16 * end + j, 0), 512));
+        EXPECT_EQ(entry.first, nearest(byte(16 * start + i, 16 * end + j, 1), 512));
+      }
+  }
+  const golden::morphological::DiagonalTable diagonals(AreaValues::kPublished);
+  for (int e1 = 0; e1 < 4; ++e1)
+    for (int e2 = 0; e2 < 4; ++e2)
+      for (int d1 = 0; d1 < 20; ++d1)
+        for (int d2 = 0; d2 < 20; ++d2) {
+          const auto entry = diagonals.at(e1, e2, d1, d2);
+          const int x = 80 + 20 * e1 + d1, y = 20 * e2 + d2;
+          EXPECT_EQ(entry.a, std::min(255, nearest(byte(x, y, 0), 256)));
+          EXPECT_EQ(entry.b, std::min(255, nearest(byte(x, y, 1), 256)));
+        }
 }
 
 // A fetch weighs its four edges with 1, 3, 7 and 21 of 32; the texture is cropped and upside down.
@@ -149,13 +186,15 @@ struct Differences {
   }
 };
 
-Differences differences(Quality quality, const std::vector<Image>& frames, SmaaBorder border,
-                        const SmaaSettings& ideal) {
+Differences differences(Quality quality, const std::vector<Image>& frames,
+                        const SmaaSettings& ideal, void (*change)(Parameters&) = nullptr) {
   Differences found;
   for (const Image& image : frames) {
-    MorphologicalGolden golden(golden::morphological::preset_parameters(Preset::kSmaa, quality));
+    Parameters p = golden::morphological::preset_parameters(Preset::kSmaa, quality);
+    if (change != nullptr) change(p);
+    MorphologicalGolden golden(p);
     golden.process({image.pixels, image.width, image.height});
-    SmaaEdges edges(image.width, image.height, border);
+    SmaaEdges edges(image.width, image.height, SmaaBorder::kClamp);
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x) {
         edges.set_left(x, y, golden.edges().left.at(x, y));
@@ -174,18 +213,25 @@ Differences differences(Quality quality, const std::vector<Image>& frames, SmaaB
 
 TEST(PublishedSmaa, HasTheseWeights) {
   const std::vector<Image> all = frames();
-  MarkdownTable table({"quality", "edges", "border ends: over 1", "over 3.1", "largest",
-                       "as published: over 1", "over 3.1", "largest "});
+  MarkdownTable table({"quality", "edges", "preset: over 1", "over 3.1", "largest",
+                       "published values: over 1", "over 3.1", "largest ", "border ends: over 1",
+                       "over 3.1", "largest  "});
   for (const Quality quality : {Quality::kLow, Quality::kMedium, Quality::kHigh, Quality::kUltra}) {
-    const Differences ends = differences(quality, all, SmaaBorder::kEnd, settings(quality)),
-                      clamps = differences(quality, all, SmaaBorder::kClamp, settings(quality));
-    EXPECT_GT(ends.edges, 10000);
-    EXPECT_EQ(ends.over_3, 0) << "without the border only bytes and diagonals differ";
-    EXPECT_GT(clamps.over_3, 0) << "the border is seen";
+    const SmaaSettings ideal = settings(quality);
+    const Differences preset = differences(quality, all, ideal),
+                      published =
+                          differences(quality, all, ideal,
+                                      [](Parameters&p) { p.area_values = AreaValues::kPublished; }),
+                      ends = differences(quality, all, ideal,
+                                         [](Parameters&p) { p.border = Border::kEnd; });
+    EXPECT_GT(preset.edges, 10000);
+    EXPECT_EQ(preset.over_3, 0) << "only bytes and diagonals differ";
+    EXPECT_EQ(published.over_1, 0) << "nothing differs but by rounding";
+    EXPECT_GT(ends.over_3, 0) << "the border is seen";
     std::vector<std::string> row = {
         std::string(spec::morphological::kQualityNames[static_cast<std::size_t>(quality)]),
-        fmt::format("{}", ends.edges)};
-    for (const Differences* d : {&ends, &clamps})
+        fmt::format("{}", preset.edges)};
+    for (const Differences* d : {&preset, &published, &ends})
       row.insert(row.end(), {fmt::format("{}", d->over_1), fmt::format("{}", d->over_3),
                              fmt::format("{:.1f}", d->largest)});
     table.row(row);
@@ -200,7 +246,7 @@ TEST(PublishedSmaa, IsNotAnotherSetting) {
   const auto over_1 = [&](void (*change)(SmaaSettings&)) {
     SmaaSettings ideal = settings(Quality::kHigh);
     change(ideal);
-    return differences(Quality::kHigh, all, SmaaBorder::kEnd, ideal).over_1;
+    return differences(Quality::kHigh, all, ideal).over_1;
   };
   const int published = over_1([](SmaaSettings&) {});
   EXPECT_GT(over_1([](SmaaSettings& s) { s.search_steps = 4; }), published + 10);
