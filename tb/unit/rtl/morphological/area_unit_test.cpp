@@ -472,7 +472,7 @@ TEST(TableEnds, AreRoundedToPixelsOf13Bits) {
     record.t = row.height - kOne / 2;
     record.inverse = row.inverse;
     // An endless end is as far away as there is, whatever the line says.
-    for (const std::uint8_t endless : {0, 1, 2, 3}) {
+    for (std::uint8_t endless = 0; endless < 4; ++endless) {
       StoredRecord stored = record;
       TableShares::set_ends(stored, endless);
       EXPECT_EQ(stored.first_end(), endless & 1 ? -4096 : row.first)
