@@ -543,6 +543,7 @@ TEST(SmaaCoverage, EdgesOfAFrameAreOfTheFloorOrAlpha) {
     for (const AreaSource area : {AreaSource::kAnalytic, AreaSource::kTableFull}) {
       p.diagonals = diagonals;
       p.area = area;
+      p.border = spec::morphological::Border::kEnd;
       const bool counted = diagonals || area == AreaSource::kTableFull;
       for (const Frame& frame : {across, down})
         EXPECT_EQ(hits(p, frame), (counted ? Hits{{"threshold/fixed", 2}} : Hits{}));

@@ -375,8 +375,8 @@ TEST(MorphologicalEdges, DynamicThresholdsHoldToTheUnit) {
       EXPECT_FALSE(edge(c.alpha));  // strict
       EXPECT_FALSE(edge(c.alpha + 1));
     } else {
-      EXPECT_TRUE(edge(4091989));  // 5 / 20.5 of 2^24 is 4091989.5
-      EXPECT_FALSE(edge(4091990));
+      EXPECT_TRUE(edge(4092003));  // 5 / 20.5 of 2^24 is 4092003.9
+      EXPECT_FALSE(edge(4092004));
     }
   }
 }
