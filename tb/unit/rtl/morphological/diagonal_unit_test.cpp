@@ -42,6 +42,7 @@ void PrintTo(const Build& b, std::ostream* out) {
 Parameters built_as(const Build& build) {
   Parameters p = smaa(spec::morphological::Quality::kUltra);
   p.diagonal_steps = build.steps;
+  p.border = spec::morphological::Border::kEnd;
   p.lanes = static_cast<spec::morphological::Lanes>(build.lanes_code);
   p.line_pixels = 128;
   return p;
@@ -321,7 +322,7 @@ TEST_P(DiagonalBuilds, TheBorderRepeatsItsEdges) {
       changed += differences(got, expected(edges, m, bench.lanes));
     }
   if (m > 1) {
-    EXPECT_GT(changed, 20u) << "the border shows nowhere";
+    EXPECT_GT(changed, m == 2 ? 3u : 20u) << "the border shows nowhere";
   }
 }
 

@@ -391,15 +391,15 @@ TEST(Registers, ResetValuesOfSmaaAreThePresets) {
 TEST(Registers, DiagonalsAreCountedShownAndCleared) {
   EngineBench bench(smaa());
   bench.run(noise());
-  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 233u);  // of the contract's vector
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 258u);  // of the contract's vector
   bench.run(noise());
-  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 233u);
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 258u);
   EXPECT_EQ(bench.bus.try_write(reg::kDiagonals, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
-  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 233u);
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 258u);
   // Switched off they are not looked for.
   bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) & ~(1u << 20));
   bench.run(noise());
-  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 233u);
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 258u);
   bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
   EXPECT_EQ(bench.bus.read(reg::kDiagonals), 0u);
 }
