@@ -490,6 +490,16 @@ INSTANTIATE_TEST_SUITE_P(
                        p.edge_source = spec::morphological::EdgeSource::kColour;
                        p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
                      }},
+        BadParameter{"border = clamp with ends = gaps",
+                     [](auto& p) {
+                       p.border = spec::morphological::Border::kClamp;
+                       p.area = spec::morphological::AreaSource::kTableFull;
+                     }},
+        BadParameter{"border = clamp with area = analytic",
+                     [](auto& p) {
+                       p.border = spec::morphological::Border::kClamp;
+                       p.ends = spec::morphological::Ends::kCrossings;
+                     }},
         BadParameter{"divider.latency = 1 is outside 14..64",
                      [](auto& p) { p.divider_latency = 1; }},
         BadParameter{"give window_rows of at least 20", [](auto& p) { p.window_rows = 18; }},
