@@ -161,9 +161,9 @@ module testbench;
     check(golden, deburr_set(golden, "edges.local_contrast", "off"));
     for (int unsigned frame = 0; frame < frames; ++frame) begin
       // Rectangles of colours that are near each other, so that many steps are at the threshold.
-      automatic int unsigned codes = 8 + below(24), threshold = codes * 65536 / 255;
+      automatic int unsigned codes = 8 + below(24), threshold = codes * 65536;
       check(golden, deburr_set(golden, "edges.threshold", $sformatf("%0d", threshold)));
-      least = 8'((255 * threshold + 65535) >> 16);
+      least = 8'(codes);
       foreach (picture[i]) picture[i] = 32'hFF808080;
       for (int shape = 0; shape < 60; ++shape) begin
         automatic int unsigned x0 = below(WIDTH), y0 = below(HEIGHT), w = 1 + below(20), h = 1 + below(20);

@@ -36,8 +36,9 @@ Tap tap_of(const Weights& weights) {
 
 Rgba8 resolve(const spec::geometric::Rules& rules, const Tap& tap, const Rgba8& pixel,
               const Rgba8& first, const Rgba8& second) {
-  Rgba8 result =
-      morphological::blend(rules.linear_light, pixel, first, tap.first, second, tap.second);
+  const auto fine = [](int share) { return share << spec::morphological::kMixFractionBits; };
+  Rgba8 result = morphological::blend(rules.linear_light, pixel, first, second,
+                                      {fine(tap.first), fine(tap.second)});
   if (rules.mark) result[3] = static_cast<std::uint8_t>(result[3] & 0xFE);
   return result;
 }

@@ -11,6 +11,8 @@
 namespace deburr::golden::morphological {
 namespace {
 
+using spec::morphological::AreaValues;
+
 constexpr int kRoots = spec::morphological::kTableRoots;
 
 // Runs of 32 pixels and more are not smoothed.
@@ -41,6 +43,26 @@ std::uint64_t dip_entry(int l, int r) {
   return straight + (round + 1) / 2;
 }
 
+// The bytes of the published table.
+std::uint64_t half_byte(int l, int r) {
+  const std::uint64_t length = length_of(l, r);
+  if (l > r) return 0;
+  if (l == r) return 255 / (8 * length);
+  return 255 * static_cast<std::uint64_t>(r - l) / (2 * length);
+}
+
+std::uint64_t dip_byte(int l, int r) {
+  const std::uint64_t length = length_of(l, r);
+  const auto off_centre = static_cast<std::uint64_t>(std::abs(l - r));
+  if (length >= kSmoothed)
+    return off_centre > 0 ? 255 * off_centre / (2 * length) : 255 / (4 * length);
+  const std::uint64_t straight = off_centre > 0 ? 8 * off_centre : 4;
+  const std::uint64_t missing = kSmoothed - length;
+  const std::uint64_t round =
+      isqrt(255 * 255 * 64 * missing * missing * std::max<std::uint64_t>(off_centre, 1) / length);
+  return (255 * straight + round) / 512;
+}
+
 template <class Entry>
 AreaTile tile_of(Entry&& entry) {
   AreaTile tile{};
@@ -69,11 +91,17 @@ constexpr std::array<int, 16> kReadAt = {-1, 0, 1, 2, 3, -1, 4, 4, 5, 6, -1, 6, 
 
 }  // namespace
 
-AreaTile half_tile() { return tile_of(half_entry); }
-AreaTile dip_tile() { return tile_of(dip_entry); }
+AreaTile half_tile(AreaValues values) {
+  if (values == AreaValues::kExact) return tile_of(half_entry);
+  return tile_of([](int l, int r) { return rdiv(512 * half_byte(l, r), 255); });
+}
+AreaTile dip_tile(AreaValues values) {
+  if (values == AreaValues::kExact) return tile_of(dip_entry);
+  return tile_of([](int l, int r) { return rdiv(512 * dip_byte(l, r), 255); });
+}
 
-FullAreaTable::FullAreaTable() {
-  const AreaTile half = half_tile(), dip = dip_tile();
+FullAreaTable::FullAreaTable(AreaValues values) {
+  const AreaTile half = half_tile(values), dip = dip_tile(values);
   for (int pattern = 0; pattern < 16; ++pattern) {
     for (int i = 0; i < kRoots; ++i) {
       for (int j = 0; j < kRoots; ++j) {
@@ -148,8 +176,9 @@ int table_root(int distance) {
   return static_cast<int>(isqrt(65536 * static_cast<std::uint64_t>(distance)));
 }
 
-EdgeShares table_shares(int shape, int before, int after) {
-  static const FullAreaTable table;
+EdgeShares table_shares(int shape, int before, int after, AreaValues values) {
+  static const FullAreaTable exact(AreaValues::kExact), published(AreaValues::kPublished);
+  const FullAreaTable& table = values == AreaValues::kExact ? exact : published;
   static const auto roots = [] {
     std::array<int, spec::morphological::kTableDistances> result{};
     for (std::size_t d = 0; d < result.size(); ++d) result[d] = table_root(static_cast<int>(d));
@@ -178,7 +207,9 @@ LineEnds line_ends(const spec::morphological::LineRecord& line) {
   const auto limited = [](std::int64_t position) {
     return static_cast<int>(std::clamp<std::int64_t>(position, -4096, 4095));
   };
-  return {limited(-pixels(begin)), limited(pixels(4096 - begin))};
+  const LineEnds ends = {limited(-pixels(begin)), limited(pixels(4096 - begin))};
+  return {(line.run.endless & 1) != 0 ? -4096 : ends.first,
+          (line.run.endless & 2) != 0 ? 4095 : ends.last};
 }
 
 TableAddress table_address(const spec::morphological::LineRecord& line, const LineEnds& ends,

@@ -23,9 +23,10 @@ namespace deburr::golden::morphological {
 using AreaTile = std::array<std::array<std::uint8_t, spec::morphological::kTableRoots>,
                             spec::morphological::kTableRoots>;
 // The nearer half of a line that crosses the edge once: T of the number formats.
-AreaTile half_tile();
+AreaTile half_tile(
+    spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact);
 // Both halves of a line that dips into one side, smoothed: U of the number formats.
-AreaTile dip_tile();
+AreaTile dip_tile(spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact);
 
 // One entry of a tile of the published table.
 struct AreaEntry {
@@ -42,7 +43,8 @@ constexpr int pattern_of_shape(int shape) {
 // The three layouts: what they store, and the entry of a pattern that each decodes to.
 class FullAreaTable {
  public:
-  FullAreaTable();
+  explicit FullAreaTable(
+      spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact);
   AreaEntry entry(int pattern, int i, int j) const {
     return tiles_[static_cast<std::size_t>(pattern)][static_cast<std::size_t>(i)]
                  [static_cast<std::size_t>(j)];
@@ -67,20 +69,26 @@ class MergedAreaTable {
 
 class MinimalAreaTable {
  public:
+  explicit MinimalAreaTable(
+      spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact)
+      : half_(half_tile(values)), dip_(dip_tile(values)) {}
   AreaEntry entry(int pattern, int i, int j) const;
   static constexpr int kBits = 2 * 256 * 8;
 
  private:
-  AreaTile half_ = half_tile(), dip_ = dip_tile();
+  AreaTile half_, dip_;
 };
 
 // S(d), U4.8: the root by which a tile is read.
 int table_root(int distance);
 // Shares of a pixel `before` pixels from the start and `after` from the end of a run of this shape,
 // both 0..kTableDistances - 1.
-EdgeShares table_shares(int shape, int before, int after);
+EdgeShares table_shares(
+    int shape, int before, int after,
+    spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact);
 
-// Where a line leaves the strip of one step, rounded to pixels from the record's start.
+// Where a line leaves the strip of one step, rounded to pixels from the record's start; of an end
+// that is endless, a place beyond every limit.
 struct LineEnds {
   int first = 0, last = 0;
 };
@@ -92,11 +100,17 @@ struct TableAddress {
   int shape = 0;  // without the code of an end beyond its limit
   int before = 0, after = 0;
   SearchEnd start = SearchEnd::kWithin, end = SearchEnd::kWithin;
+  // Far bits of a record, without those of an end beyond its limit.
+  int far_seen(int far) const {
+    return (start == SearchEnd::kBeyond ? 0 : far & 3) | (end == SearchEnd::kBeyond ? 0 : far & 12);
+  }
 };
 TableAddress table_address(const spec::morphological::LineRecord& line, const LineEnds& ends,
                            int search_steps, int k);
-inline EdgeShares table_shares(const TableAddress& address) {
-  return table_shares(address.shape, address.before, address.after);
+inline EdgeShares table_shares(
+    const TableAddress& address,
+    spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact) {
+  return table_shares(address.shape, address.before, address.after, values);
 }
 
 }  // namespace deburr::golden::morphological

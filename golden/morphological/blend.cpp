@@ -49,43 +49,44 @@ spec::morphological::BlendTap tap_of(const PixelShares& s, Decision decision) {
   return tap;
 }
 
+Weights unmixed(const spec::morphological::BlendTap& tap) {
+  constexpr int kUnit = 1 << spec::morphological::kMixFractionBits;
+  return {kUnit * tap.first, kUnit * tap.second};
+}
+
 std::uint32_t mix_reciprocal(int sum) {
-  return sum == 0 ? 0 : static_cast<std::uint32_t>(rdiv(65536, static_cast<std::uint64_t>(sum)));
+  return sum == 0 ? 0 : static_cast<std::uint32_t>(rdiv(1 << 20, static_cast<std::uint64_t>(sum)));
 }
 
-spec::morphological::BlendTap mixed_by_squares(const spec::morphological::BlendTap& tap) {
-  if (tap.first == 0 || tap.second == 0) return tap;
-  const std::uint32_t reciprocal = mix_reciprocal(tap.first + tap.second);
-  const auto mixed = [&](std::uint32_t share) {
-    const std::uint64_t square = std::uint64_t{share} * share;
-    return static_cast<std::uint8_t>((square * reciprocal + (1u << 15)) >> 16);
+Weights mixed_by_squares(const spec::morphological::BlendTap& tap) {
+  if (tap.first == 0 || tap.second == 0) return unmixed(tap);
+  const std::uint64_t reciprocal = mix_reciprocal(tap.first + tap.second);
+  const auto mixed = [&](std::uint64_t share) {
+    return static_cast<int>((share * share * reciprocal + (1 << 15)) >> 16);
   };
-  spec::morphological::BlendTap result = tap;
-  result.first = mixed(tap.first);
-  result.second = mixed(tap.second);
-  return result;
+  return {mixed(tap.first), mixed(tap.second)};
 }
 
-int blend_channel(bool linear_light, int c, int n1, int w1, int n2, int w2) {
+int blend_channel(bool linear_light, int c, int n1, int n2, Weights weights) {
   const auto decoded = [&](int code) {
     return linear_light ? spec::morphological::kLinear12FromSrgb[static_cast<std::size_t>(code)]
                         : code;
   };
   const int own = decoded(c);
-  const int v = w1 * (decoded(n1) - own) + w2 * (decoded(n2) - own);
-  const int d = (std::abs(v) + 128) >> 8;
+  const int v = weights.first * (decoded(n1) - own) + weights.second * (decoded(n2) - own);
+  const int d = (std::abs(v) + 2048) >> 12;
   const int result = v < 0 ? own - d : own + d;
   return linear_light ? spec::morphological::kSrgbFromLinear12[static_cast<std::size_t>(result)]
                       : result;
 }
 
 spec::morphological::Rgba8 blend(bool linear_light, const spec::morphological::Rgba8& pixel,
-                                 const spec::morphological::Rgba8& first, int w1,
-                                 const spec::morphological::Rgba8& second, int w2) {
+                                 const spec::morphological::Rgba8& first,
+                                 const spec::morphological::Rgba8& second, Weights weights) {
   spec::morphological::Rgba8 result = pixel;
   for (std::size_t i = 0; i < 3; ++i) {
     result[i] = static_cast<std::uint8_t>(
-        blend_channel(linear_light, pixel[i], first[i], w1, second[i], w2));
+        blend_channel(linear_light, pixel[i], first[i], second[i], weights));
   }
   return result;
 }

@@ -42,16 +42,23 @@ constexpr bool is_horizontal(Decision d) {
 // The two shares of the chosen axis; `edges` stays 0.
 spec::morphological::BlendTap tap_of(const PixelShares& shares, Decision decision);
 
-// R(sum of two shares), U0.16, 0..510; of 0: 0.
+// What is taken of the two neighbours, U0.12, first + second <= 4096.
+struct Weights {
+  int first = 0, second = 0;
+  friend bool operator==(const Weights&, const Weights&) = default;
+};
+// The shares as they are.
+Weights unmixed(const spec::morphological::BlendTap& tap);
+// R(sum of two shares), U0.20, 0..510; of 0: 0.
 std::uint32_t mix_reciprocal(int sum);
 // Each of the two shares in proportion to its square; one that is alone stays.
-spec::morphological::BlendTap mixed_by_squares(const spec::morphological::BlendTap& tap);
+Weights mixed_by_squares(const spec::morphological::BlendTap& tap);
 
 // One channel code: v = w1 (n1 - c) + w2 (n2 - c), its magnitude rounded.
-int blend_channel(bool linear_light, int c, int n1, int w1, int n2, int w2);
+int blend_channel(bool linear_light, int c, int n1, int n2, Weights weights);
 // Alpha passes.
 spec::morphological::Rgba8 blend(bool linear_light, const spec::morphological::Rgba8& pixel,
-                                 const spec::morphological::Rgba8& first, int w1,
-                                 const spec::morphological::Rgba8& second, int w2);
+                                 const spec::morphological::Rgba8& first,
+                                 const spec::morphological::Rgba8& second, Weights weights);
 
 }  // namespace deburr::golden::morphological

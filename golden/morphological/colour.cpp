@@ -119,8 +119,10 @@ EdgePlanes colour_edges(const spec::morphological::Parameters& p, const ImageVie
   const int width = image.width;
   EdgePlanes edges{BitPlane(width, image.height), BitPlane(width, image.height)};
   std::vector<Byte> flags(static_cast<std::size_t>(edges.left.words()) * 64);
-  // The least code step with 65536 c >= 255 T.
-  const Byte least = static_cast<Byte>((255 * p.threshold + 65535) >> 16);
+  // The least step in codes with 65536 c >= T; no step of a byte may have one.
+  const int least_step = (p.threshold + 65535) >> 16;
+  if (least_step > 255) return edges;
+  const Byte least = static_cast<Byte>(least_step);
   ByteSteps steps(image, p.leave == spec::morphological::Leave::kMasked);
   for (int y = 0; y < image.height; ++y) {
     steps.advance_to(y);

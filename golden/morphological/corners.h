@@ -8,22 +8,16 @@
 #include <cstdint>
 
 #include "golden/morphological/area.h"
-#include "spec/morphological/packets.h"
 
 namespace deburr::golden::morphological {
 
-// Shares of pixel k of the record; `stays` is corner_rounding, 256 keeps all.
-constexpr EdgeShares rounded_at_corners(const EdgeShares& shares,
-                                        const spec::morphological::RunRecord& run, int stays,
-                                        int k) {
-  using spec::morphological::RunPart;
-  const bool near_start =
-      run.part == RunPart::kHead || (run.part == RunPart::kWhole && 2 * k < run.length - 1);
-  const bool near_end =
-      run.part == RunPart::kTail || (run.part == RunPart::kWhole && 2 * k > run.length - 1);
+// Shares of a pixel `before` pixels from the start and `after` from the end of its run, whose ends
+// have these far bits; `stays` is corner_rounding, 256 keeps all.
+constexpr EdgeShares rounded_at_corners(const EdgeShares& shares, int far, int stays, int before,
+                                        int after) {
   const auto rounded = [&](int share, int side) {
-    const int start = run.far >> side & 1, end = run.far >> (side + 2) & 1;
-    const int halves = near_start ? 2 * start : near_end ? 2 * end : start + end;
+    const int start = far >> side & 1, end = far >> (side + 2) & 1;
+    const int halves = before < after ? 2 * start : before > after ? 2 * end : start + end;
     return static_cast<std::uint8_t>((share * (512 - (256 - stays) * halves) + 256) >> 9);
   };
   return {rounded(shares.first, 0), rounded(shares.second, 1)};

@@ -9,6 +9,9 @@
 namespace deburr::golden::morphological {
 namespace {
 
+using spec::morphological::AreaValues;
+using spec::morphological::Border;
+
 struct Point {
   int x, y;
 };
@@ -63,6 +66,58 @@ std::uint64_t samples_below(Point p1, Point p2, int x, int y) {
   return count;
 }
 
+// The same as the published program counts them, where double precision decides for samples on the
+// line. The sign of a sum of two numbers is that of their comparison, which nothing can fuse.
+std::uint64_t samples_counted_below(Point p1, Point p2, int x, int y) {
+  if (p1.x == p2.x && p1.y == p2.y) return kAll;
+  const double a = p2.y - p1.y, b = p1.x - p2.x;
+  const double middle_x = (p1.x + p2.x) / 2.0, middle_y = (p1.y + p2.y) / 2.0;
+  std::uint64_t count = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const double across = a * (x + i / 29.0 - middle_x);
+    for (int j = 0; j < kSamples; ++j) {
+      const double down = b * (y + j / 29.0 - middle_y);
+      count += across > -down ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+// The areas of one pixel between its lines, to the nearest.
+DiagonalAreas exact_areas(std::span<const Line> lines, int d1, int d2) {
+  const int n = d1 + d2 + 1;
+  const std::uint64_t all = kAll * lines.size();
+  std::uint64_t above = 0, below = 0;
+  for (const Line& line : lines) {
+    const Point to{line.to.x + n, line.to.y + n};
+    above += kAll - samples_below(line.from, to, 1 + d1, d1);
+    below += samples_below(line.from, to, 1 + d1, 1 + d1);
+  }
+  const auto area = [&](std::uint64_t samples) {
+    return static_cast<std::uint8_t>(std::min<std::uint64_t>(255, rdiv(256 * samples, all)));
+  };
+  return {area(above), area(below)};
+}
+
+// Of the published bytes.
+DiagonalAreas published_areas(std::span<const Line> lines, int d1, int d2) {
+  const int n = d1 + d2 + 1;
+  double above = 0, below = 0;
+  const auto share = [](std::uint64_t samples) {
+    return static_cast<double>(samples) / static_cast<double>(kAll);
+  };
+  for (const Line& line : lines) {
+    const Point to{line.to.x + n, line.to.y + n};
+    above += 1 - share(samples_counted_below(line.from, to, 1 + d1, d1));
+    below += share(samples_counted_below(line.from, to, 1 + d1, 1 + d1));
+  }
+  const auto area = [&](double sum) {
+    const auto byte = static_cast<std::uint64_t>(255 * (sum / static_cast<double>(lines.size())));
+    return static_cast<std::uint8_t>(std::min<std::uint64_t>(255, rdiv(256 * byte, 255)));
+  };
+  return {area(above), area(below)};
+}
+
 // Distance of an end and whether it is open: `good(i)` says that step i follows the diagonal.
 struct Search {
   int distance;
@@ -77,41 +132,35 @@ Search search(int steps, Good&& good) {
 
 }  // namespace
 
-DiagonalTable::DiagonalTable() {
+DiagonalTable::DiagonalTable(AreaValues values) {
   for (int e1 = 0; e1 < 4; ++e1) {
     for (int e2 = 0; e2 < 4; ++e2) {
       const int codes = 4 * e1 + e2;
-      const Lines& lines = kLines[static_cast<std::size_t>(codes)];
-      const std::uint64_t all = kAll * static_cast<std::uint64_t>(lines.count);
+      const Lines& of = kLines[static_cast<std::size_t>(codes)];
+      const auto lines = std::span(of.line).first(static_cast<std::size_t>(of.count));
       for (int d1 = 0; d1 < spec::morphological::kDiagonalDistances; ++d1) {
         for (int d2 = 0; d2 < spec::morphological::kDiagonalDistances; ++d2) {
-          const int n = d1 + d2 + 1;
-          std::uint64_t above = 0, below = 0;
-          for (const Line& line :
-               std::span(lines.line).first(static_cast<std::size_t>(lines.count))) {
-            const Point to{line.to.x + n, line.to.y + n};
-            above += kAll - samples_below(line.from, to, 1 + d1, d1);
-            below += samples_below(line.from, to, 1 + d1, 1 + d1);
-          }
-          const auto area = [&](std::uint64_t samples) {
-            return static_cast<std::uint8_t>(
-                std::min<std::uint64_t>(255, rdiv(256 * samples, all)));
-          };
-          entries_[index(e1, e2, d1, d2)] = {area(above), area(below)};
+          entries_[index(e1, e2, d1, d2)] = values == AreaValues::kExact
+                                                ? exact_areas(lines, d1, d2)
+                                                : published_areas(lines, d1, d2);
         }
       }
     }
   }
 }
 
-const DiagonalTable& diagonal_table() {
-  static const DiagonalTable table;
-  return table;
+const DiagonalTable& diagonal_table(AreaValues values) {
+  if (values == AreaValues::kExact) {
+    static const DiagonalTable exact(AreaValues::kExact);
+    return exact;
+  }
+  static const DiagonalTable published(AreaValues::kPublished);
+  return published;
 }
 
-DiagonalEnds rising_diagonal(const EdgePlanes& edges, int steps, int x, int y) {
-  const auto left = [&](int px, int py) { return edges.left.at(px, py); };
-  const auto top = [&](int px, int py) { return edges.top.at(px, py); };
+DiagonalEnds rising_diagonal(const EdgePlanes& edges, int steps, int x, int y, Border border) {
+  const auto left = [&](int px, int py) { return edges.left.at(border, px, py); };
+  const auto top = [&](int px, int py) { return edges.top.at(border, px, py); };
   DiagonalEnds ends;
   if (left(x, y)) {
     const Search down =
@@ -130,9 +179,9 @@ DiagonalEnds rising_diagonal(const EdgePlanes& edges, int steps, int x, int y) {
   return ends;
 }
 
-DiagonalEnds falling_diagonal(const EdgePlanes& edges, int steps, int x, int y) {
-  const auto left = [&](int px, int py) { return edges.left.at(px, py); };
-  const auto top = [&](int px, int py) { return edges.top.at(px, py); };
+DiagonalEnds falling_diagonal(const EdgePlanes& edges, int steps, int x, int y, Border border) {
+  const auto left = [&](int px, int py) { return edges.left.at(border, px, py); };
+  const auto top = [&](int px, int py) { return edges.top.at(border, px, py); };
   DiagonalEnds ends;
   const Search up =
       search(steps, [&](int i) { return top(x - i, y - i) && left(x - i + 1, y - i); });
@@ -152,11 +201,12 @@ DiagonalEnds falling_diagonal(const EdgePlanes& edges, int steps, int x, int y) 
   return ends;
 }
 
-DiagonalShares diagonal_shares(const DiagonalEnds& rising, const DiagonalEnds& falling) {
+DiagonalShares diagonal_shares(const DiagonalEnds& rising, const DiagonalEnds& falling,
+                               AreaValues values) {
   DiagonalShares shares;
   const auto areas = [&](const DiagonalEnds& ends) {
     shares.span = std::max(shares.span, ends.d1 + ends.d2 + 1);
-    return diagonal_table().at(ends.e1, ends.e2, ends.d1, ends.d2);
+    return diagonal_table(values).at(ends.e1, ends.e2, ends.d1, ends.d2);
   };
   if (rising.counts()) {
     const DiagonalAreas found = areas(rising);

@@ -23,7 +23,8 @@ struct DiagonalAreas {
 
 class DiagonalTable {
  public:
-  DiagonalTable();
+  explicit DiagonalTable(
+      spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact);
   // e1, e2: crossing codes of the ends, 0..3. d1, d2: 0..19.
   DiagonalAreas at(int e1, int e2, int d1, int d2) const { return entries_[index(e1, e2, d1, d2)]; }
   static constexpr int kBits =
@@ -37,7 +38,8 @@ class DiagonalTable {
   }
   std::array<DiagonalAreas, kBits / 16> entries_{};
 };
-const DiagonalTable& diagonal_table();
+const DiagonalTable& diagonal_table(
+    spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact);
 
 // One direction as it was found at a pixel. It counts if its ends are more than two pixels apart.
 struct DiagonalEnds {
@@ -47,8 +49,12 @@ struct DiagonalEnds {
   bool counts() const { return d1 + d2 > 2; }
 };
 // At the top edge of (x, y), following at most `steps` pixels each way.
-DiagonalEnds rising_diagonal(const EdgePlanes& edges, int steps, int x, int y);
-DiagonalEnds falling_diagonal(const EdgePlanes& edges, int steps, int x, int y);
+DiagonalEnds rising_diagonal(
+    const EdgePlanes& edges, int steps, int x, int y,
+    spec::morphological::Border border = spec::morphological::Border::kEnd);
+DiagonalEnds falling_diagonal(
+    const EdgePlanes& edges, int steps, int x, int y,
+    spec::morphological::Border border = spec::morphological::Border::kEnd);
 
 // Shares of a top edge from its diagonals, not limited; both 0 where it has none.
 struct DiagonalShares {
@@ -56,6 +62,8 @@ struct DiagonalShares {
   int span = 0;
   bool taken() const { return first + second != 0; }
 };
-DiagonalShares diagonal_shares(const DiagonalEnds& rising, const DiagonalEnds& falling);
+DiagonalShares diagonal_shares(
+    const DiagonalEnds& rising, const DiagonalEnds& falling,
+    spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact);
 
 }  // namespace deburr::golden::morphological

@@ -19,8 +19,8 @@ std::int32_t step(const PixelPair& pair) { return std::abs(pair.luma_p - pair.lu
 
 // The rules of the table "Raw edges", one each, so that the common one becomes a plain loop.
 struct FixedRule {
-  std::int32_t limit;  // 255 T, U8.16
-  explicit FixedRule(const Parameters& p) : limit(255 * p.threshold) {}
+  std::int32_t limit;  // U8.16
+  explicit FixedRule(const Parameters& p) : limit(p.threshold) {}
   bool operator()(const PixelPair& pair) const { return step(pair) >= limit; }
 };
 
@@ -36,12 +36,12 @@ std::int32_t twice_reference(const PixelPair& pair) {
 
 template <spec::morphological::DynamicLuma luma>
 struct DynamicRule {
-  std::int64_t alpha;
+  std::int64_t alpha;  // U0.24
   std::int32_t floor;  // U8.16
-  explicit DynamicRule(const Parameters& p) : alpha(p.alpha), floor(255 * p.floor) {}
+  explicit DynamicRule(const Parameters& p) : alpha(p.alpha), floor(p.floor) {}
   bool operator()(const PixelPair& pair) const {
     const std::int64_t c = step(pair);
-    return (c << 17) > alpha * twice_reference<luma>(pair) && c >= floor;
+    return (c << 25) > alpha * twice_reference<luma>(pair) && c >= floor;
   }
 };
 
@@ -60,7 +60,7 @@ struct PredicatedRule {
   DepthRule depth;
   std::int32_t on, off;  // U8.16
   explicit PredicatedRule(const Parameters& p)
-      : depth(p), on(255 * p.threshold_on_depth_edge), off(255 * p.threshold_off_depth_edge) {}
+      : depth(p), on(p.threshold_on_depth_edge), off(p.threshold_off_depth_edge) {}
   bool operator()(const PixelPair& pair) const { return step(pair) >= (depth(pair) ? on : off); }
 };
 
@@ -274,7 +274,7 @@ void clear_beside(const BitPlane& mask, EdgePlanes& edges) {
 bool floor_decides(const Parameters& p, const PixelPair& pair) {
   using spec::morphological::DynamicLuma;
   const auto of = [&](std::int32_t twice_luma) {
-    return std::int64_t{255} * p.floor << 17 >= std::int64_t{p.alpha} * twice_luma;
+    return std::int64_t{p.floor} << 25 >= std::int64_t{p.alpha} * twice_luma;
   };
   switch (p.dynamic_luma) {
     case DynamicLuma::kCurrent:

@@ -131,8 +131,8 @@ void MorphologicalGolden::smooth(const ImageView& image) {
     decisions_.assign(pixels, Decision::kNone);
   }
 
-  horizontal_.edges = AxisEdges::horizontal(edges_);
-  vertical_.edges = AxisEdges::vertical(edges_);
+  horizontal_.edges = AxisEdges::horizontal(edges_, parameters_.border);
+  vertical_.edges = AxisEdges::vertical(edges_, parameters_.border);
   process_axis(horizontal_);
   const std::size_t first_vertical = runs_.size();
   process_axis(vertical_);
@@ -192,7 +192,7 @@ void MorphologicalGolden::process_record(AxisShares& axis,
   }
   if (!everything_) return;
   if (learned) learned_coverage_.count_record(line);
-  count_searches(line);
+  count_searches(line, axis.edges.along.width());
   coverage_.count_run(run, prediction, axis.edges.along.width(), axis.edges.along.height());
   runs_.push_back({line, static_cast<std::int16_t>(prediction.left.end),
                    static_cast<std::int16_t>(prediction.right.end),
@@ -238,30 +238,38 @@ void MorphologicalGolden::share(AxisShares& axis,
   const auto put = [&](const EdgeShares& s) {
     axis.shares.push_back({s.first, s.second, line.span});
   };
-  // Each pixel's shares by of(k).
-  const auto each = [&](const auto& of) {
-    for (int k = 0; k < line.run.length; ++k) {
-      put(line.run.far == 0 ? of(k)
-                            : rounded_at_corners(of(k), line.run, parameters_.corner_rounding, k));
-    }
+  const auto rounded = [&](const EdgeShares& s, int far, int before, int after) {
+    return far == 0 ? s : rounded_at_corners(s, far, parameters_.corner_rounding, before, after);
   };
-  if (!from_table(parameters_)) {
-    each([&](int k) { return shares(line, k); });
-  } else {
+  if (from_table(parameters_)) {
     const LineEnds ends = line_ends(line);
-    each([&](int k) {
-      return table_shares(table_address(line, ends, parameters_.search_steps, k));
-    });
+    for (int k = 0; k < line.run.length; ++k) {
+      const TableAddress address = table_address(line, ends, parameters_.search_steps, k);
+      put(rounded(table_shares(address, parameters_.area_values), address.far_seen(line.run.far),
+                  address.before, address.after));
+    }
+    return;
   }
+  // Of a long run the other end lies as far away as the reach.
+  using spec::morphological::RunPart;
+  const int rest = reach(parameters_, line.run.axis) - line.run.length;
+  const int start = line.run.part == RunPart::kTail ? rest : 0,
+            end = line.run.length + (line.run.part == RunPart::kHead ? rest : 0);
+  for (int k = 0; k < line.run.length; ++k)
+    put(rounded(shares(line, k), line.run.far, k + start, end - 1 - k));
 }
 
 // Of every record, with sides or without.
-void MorphologicalGolden::count_searches(const spec::morphological::LineRecord& line) {
+void MorphologicalGolden::count_searches(const spec::morphological::LineRecord& line, int extent) {
   if (!from_table(parameters_)) return;
+  if (parameters_.border == spec::morphological::Border::kClamp)
+    smaa_coverage_.count_record(line.run, extent);
   const LineEnds ends = line_ends(line);
-  for (int k = 0; k < line.run.length; ++k)
-    smaa_coverage_.count_pixel(line.run.axis,
-                               table_address(line, ends, parameters_.search_steps, k));
+  for (int k = 0; k < line.run.length; ++k) {
+    const TableAddress address = table_address(line, ends, parameters_.search_steps, k);
+    smaa_coverage_.count_pixel(line.run.axis, address);
+    if (line.run.far != 0) smaa_coverage_.count_corner(line.run.axis, address, line.run.far);
+  }
 }
 
 void MorphologicalGolden::count_thresholds(const ImageView& image) {
@@ -292,13 +300,18 @@ void MorphologicalGolden::process_diagonals() {
     for (int i = 0; i < edges_.top.words(); ++i) {
       for (std::uint64_t rest = edges_.top.row(y)[i]; rest != 0; rest &= rest - 1) {
         const int x = 64 * i + std::countr_zero(rest);
-        const DiagonalEnds rising = rising_diagonal(edges_, parameters_.diagonal_steps, x, y);
-        const DiagonalEnds falling = falling_diagonal(edges_, parameters_.diagonal_steps, x, y);
+        const DiagonalEnds rising =
+            rising_diagonal(edges_, parameters_.diagonal_steps, x, y, parameters_.border);
+        const DiagonalEnds falling =
+            falling_diagonal(edges_, parameters_.diagonal_steps, x, y, parameters_.border);
         if (everything_) {
-          smaa_coverage_.count_diagonal(true, rising);
-          smaa_coverage_.count_diagonal(false, falling);
+          const int width = edges_.top.width(), height = edges_.top.height();
+          smaa_coverage_.count_diagonal(true, rising,
+                                        y + rising.d1 >= height || x + rising.d2 >= width);
+          smaa_coverage_.count_diagonal(false, falling,
+                                        y + falling.d2 >= height || x + falling.d2 >= width);
         }
-        const DiagonalShares found = diagonal_shares(rising, falling);
+        const DiagonalShares found = diagonal_shares(rising, falling, parameters_.area_values);
         if (!found.taken()) continue;
         ++work_.diagonal_pixels;
         horizontal_.shares[horizontal_.index(x, y)] = {
@@ -368,7 +381,6 @@ void MorphologicalGolden::blend_pixel(const ImageView& image, int x, int y) {
   spec::morphological::BlendTap tap = tap_of(shares, decision);
   if (decision != Decision::kNone) tap = remaining_tap(image, x, y, tap);
   const bool left = (tap.first | tap.second) == 0;
-  if (strongest) tap = mixed_by_squares(tap);
   const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                             static_cast<std::size_t>(x);
   if (everything_) {
@@ -386,7 +398,8 @@ void MorphologicalGolden::blend_pixel(const ImageView& image, int x, int y) {
   const int dx = tap.horizontal ? 1 : 0, dy = tap.horizontal ? 0 : 1;
   const spec::morphological::Rgba8& first = tap.first != 0 ? image.at(x - dx, y - dy) : pixel;
   const spec::morphological::Rgba8& second = tap.second != 0 ? image.at(x + dx, y + dy) : pixel;
-  pixels_[index] = blend(parameters_.linear_light, pixel, first, tap.first, second, tap.second);
+  pixels_[index] = blend(parameters_.linear_light, pixel, first, second,
+                         strongest ? mixed_by_squares(tap) : unmixed(tap));
 }
 
 std::vector<spec::morphological::FrameAccess> MorphologicalGolden::traffic(

@@ -124,7 +124,7 @@ class MorphologicalGolden {
   void share_learned(AxisShares& axis, const spec::morphological::LineRecord& line);
   void share_gap(AxisShares& axis, int edges);
   bool is_learned(const spec::morphological::RunRecord& run, const Prediction& prediction) const;
-  void count_searches(const spec::morphological::LineRecord& line);
+  void count_searches(const spec::morphological::LineRecord& line, int extent);
   void count_thresholds(const ImageView& image);
   void process_diagonals();
   void put_runs_in_order(std::size_t first_vertical);

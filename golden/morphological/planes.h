@@ -7,12 +7,14 @@
 // runs are found a word at a time.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "spec/morphological/packets.h"
+#include "spec/morphological/parameters.h"
 
 namespace deburr::golden::morphological {
 
@@ -69,6 +71,11 @@ class BitPlane {
     }
     return (row(y)[x >> 6] >> (x & 63) & 1) != 0;
   }
+  // With Border::kClamp outside the frame the bit of the nearest pixel.
+  bool at(spec::morphological::Border border, int x, int y) const {
+    if (border == spec::morphological::Border::kEnd) return at(x, y);
+    return at(std::clamp(x, 0, width_ - 1), std::clamp(y, 0, height_ - 1));
+  }
   void set(int x, int y) { row(y)[x >> 6] |= std::uint64_t{1} << (x & 63); }
 
   // Bit x % 64 of word x / 64 is pixel x. At least one bit beyond the last pixel exists and is 0.
@@ -101,21 +108,31 @@ struct EdgePlanes {
 struct AxisEdges {
   spec::morphological::Axis axis = spec::morphological::Axis::kHorizontal;
   BitPlane along, across;
+  spec::morphological::Border border = spec::morphological::Border::kEnd;  // of the ends of runs
 
-  static AxisEdges horizontal(const EdgePlanes& edges) {
-    return {spec::morphological::Axis::kHorizontal, edges.top, edges.left};
+  static AxisEdges horizontal(const EdgePlanes& edges, spec::morphological::Border border =
+                                                           spec::morphological::Border::kEnd) {
+    return {spec::morphological::Axis::kHorizontal, edges.top, edges.left, border};
   }
-  static AxisEdges vertical(const EdgePlanes& edges) {
-    return {spec::morphological::Axis::kVertical, edges.left.transposed(), edges.top.transposed()};
+  static AxisEdges vertical(const EdgePlanes& edges, spec::morphological::Border border =
+                                                         spec::morphological::Border::kEnd) {
+    return {spec::morphological::Axis::kVertical, edges.left.transposed(), edges.top.transposed(),
+            border};
   }
 
   // The two crossings at a lattice corner: bit 0 first side (N), bit 1 second side (S).
   int crossings(int position, int line) const {
     return (across.at(position, line - 1) ? 1 : 0) | (across.at(position, line) ? 2 : 0);
   }
-  // The crossings a pixel further out, on either side of them: do crossings() go on?
+  // The same of the end of a run, which may lie on the border.
+  int end_crossings(int position, int line) const {
+    return (across.at(border, position, line - 1) ? 1 : 0) |
+           (across.at(border, position, line) ? 2 : 0);
+  }
+  // Those a pixel further out, on either side of them: do they go on?
   int far_crossings(int position, int line) const {
-    return (across.at(position, line - 2) ? 1 : 0) | (across.at(position, line + 1) ? 2 : 0);
+    return (across.at(border, position, line - 2) ? 1 : 0) |
+           (across.at(border, position, line + 1) ? 2 : 0);
   }
   // The whole code of a corner: N, S, W, E in bits 0 to 3.
   int corner(int position, int line) const {

@@ -6,6 +6,16 @@
 #include "golden/morphological/configuration.h"
 
 namespace deburr::golden::morphological {
+namespace {
+
+// Which ends go on beyond the frame: bit 0 the start, bit 1 the end.
+int endless_ends(const AxisEdges& edges, int line, int first, int end) {
+  if (edges.border != spec::morphological::Border::kClamp) return 0;
+  const bool end_crosses = edges.end_crossings(end, line) != 0;
+  return (first == 0 ? 1 : 0) | (end == edges.along.width() && !end_crosses ? 2 : 0);
+}
+
+}  // namespace
 
 int next_crossing(const AxisEdges& edges, int line, int from, int end) {
   const std::uint64_t* first_side = line > 0 ? edges.across.row(line - 1) : nullptr;
@@ -20,33 +30,40 @@ int next_crossing(const AxisEdges& edges, int line, int from, int end) {
 }
 
 int run_shape(const AxisEdges& edges, int line, int first, int end) {
-  return edges.crossings(first, line) + 4 * edges.crossings(end, line);
+  return edges.end_crossings(first, line) + 4 * edges.end_crossings(end, line);
 }
 
 RunParts records_of(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
                     int line, int first, int end) {
   const auto record = [&](spec::morphological::RunPart part, int start, int length, int shape,
-                          int far) {
+                          int far, int endless) {
     return spec::morphological::RunRecord{edges.axis,
                                           part,
                                           static_cast<std::uint16_t>(line),
                                           static_cast<std::uint16_t>(start),
                                           static_cast<std::uint16_t>(length),
                                           static_cast<std::uint8_t>(shape),
-                                          static_cast<std::uint8_t>(far)};
+                                          static_cast<std::uint8_t>(far),
+                                          static_cast<std::uint8_t>(endless)};
   };
   const int shape = run_shape(edges, line, first, end);
-  const int far = parameters.round_corners
-                      ? edges.far_crossings(first, line) + 4 * edges.far_crossings(end, line)
-                      : 0;
+  const int endless = endless_ends(edges, line, first, end);
+  const auto far_of = [&](int position, bool beyond) {
+    return parameters.round_corners && !beyond ? edges.far_crossings(position, line) : 0;
+  };
+  const int far = far_of(first, (endless & 1) != 0) + 4 * far_of(end, (endless & 2) != 0);
   const int longest = reach(parameters, edges.axis);
   if (end - first <= longest) {
-    return {{record(spec::morphological::RunPart::kWhole, first, end - first, shape, far), {}}, 1};
+    return {
+        {record(spec::morphological::RunPart::kWhole, first, end - first, shape, far, endless), {}},
+        1};
   }
   const int half = longest / 2;
-  return {{record(spec::morphological::RunPart::kHead, first, half, shape & 3, far & 3),
-           record(spec::morphological::RunPart::kTail, end - half, half, shape & 12, far & 12)},
-          2};
+  return {
+      {record(spec::morphological::RunPart::kHead, first, half, shape & 3, far & 3, endless & 1),
+       record(spec::morphological::RunPart::kTail, end - half, half, shape & 12, far & 12,
+              endless & 2)},
+      2};
 }
 
 std::vector<spec::morphological::RunRecord> find_runs(

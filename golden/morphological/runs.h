@@ -62,7 +62,7 @@ void for_each_run(const AxisEdges& edges, spec::morphological::Ends ends, int li
   });
 }
 
-// Codes of a run's ends and the index of kRunShapes.
+// Codes of a run's ends as the index of kRunShapes.
 int run_shape(const AxisEdges& edges, int line, int first, int end);
 
 // The records of one run, start first: one, or the head and the tail of a run beyond the reach.

@@ -20,6 +20,8 @@ constexpr std::array<std::string_view, 2> kLimits = {"at", "beyond"};
 constexpr std::array<std::string_view, 2> kDirections = {"rising", "falling"};
 constexpr std::array<std::string_view, 4> kOpen = {"closed", "open-1", "open-2", "open-both"};
 constexpr std::array<std::string_view, 3> kLengths = {"3", "4-7", "8+"};
+constexpr std::array<std::string_view, 4> kEndless = {"start", "end", "both", "repeated"};
+constexpr std::array<std::string_view, 4> kCorners = {"start", "middle", "end", "cut"};
 constexpr std::array<std::string_view, 2> kRegimes = {"floor", "alpha"};
 
 // From here on the last root of a tile is read.
@@ -52,9 +54,27 @@ void SmaaCoverage::count_pixel(spec::morphological::Axis axis, const TableAddres
   }
 }
 
-void SmaaCoverage::count_diagonal(bool rising, const DiagonalEnds& ends) {
+void SmaaCoverage::count_record(const spec::morphological::RunRecord& run, int extent) {
+  auto& bins = endless_[static_cast<std::size_t>(run.axis)];
+  if (run.endless != 0) ++bins[run.endless - 1u];
+  const bool meets_end =
+      run.part != spec::morphological::RunPart::kHead && run.start + run.length == extent;
+  if (meets_end && (run.endless & 2) == 0 && run.shape >= 4) ++bins[3];
+}
+
+void SmaaCoverage::count_corner(spec::morphological::Axis axis, const TableAddress& address,
+                                int far) {
+  auto& bins = corners_[static_cast<std::size_t>(axis)];
+  if (address.far_seen(far) == 0)
+    ++bins[3];
+  else
+    ++bins[address.before < address.after ? 0 : address.before > address.after ? 2 : 1];
+}
+
+void SmaaCoverage::count_diagonal(bool rising, const DiagonalEnds& ends, bool beyond_frame) {
   if (!ends.counts()) return;
   const std::size_t direction = rising ? 0 : 1;
+  beyond_[direction] += beyond_frame;
   const int codes = 4 * ends.e1 + ends.e2;
   ++codes_[direction][static_cast<std::size_t>(codes)];
   ++open_[direction][(ends.open1 ? 1u : 0u) + (ends.open2 ? 2u : 0u)];
@@ -81,6 +101,10 @@ std::vector<CoverageBin> SmaaCoverage::bins() const {
     for (std::size_t end = 0; end < 2; ++end)
       for (std::size_t limit = 0; limit < 2; ++limit)
         add(searches_[axis][end][limit], "search", kAxisNames[axis], kEnds[end], kLimits[limit]);
+    for (std::size_t which = 0; which < 4; ++which)
+      add(endless_[axis][which], "endless", kAxisNames[axis], kEndless[which]);
+    for (std::size_t which = 0; which < 4; ++which)
+      add(corners_[axis][which], "corner", kAxisNames[axis], kCorners[which]);
   }
   for (std::size_t tile = 0; tile < 2; ++tile)
     for (std::size_t entry = 0; entry < 2; ++entry)
@@ -93,6 +117,7 @@ std::vector<CoverageBin> SmaaCoverage::bins() const {
       add(open_[direction][open], "diagonal-ends", kDirections[direction], kOpen[open]);
     for (std::size_t length = 0; length < 3; ++length)
       add(lengths_[direction][length], "diagonal-length", kDirections[direction], kLengths[length]);
+    add(beyond_[direction], "diagonal-beyond", kDirections[direction], {});
   }
   add(fixed_, "threshold", "fixed", {});
   for (std::size_t luma = 0; luma < 4; ++luma)

@@ -6,9 +6,15 @@
 //                                             the longer of their distances
 //   table-entry/<tile>/<first|last>           distances 0, and beyond the last root but one
 //   search/<axis>/<end>/<at|beyond>           the limit
+//   endless/<axis>/<start|end|both|repeated>  records with border = clamp; repeated: one pixel
+//   whose
+//                                             crossings the border repeats
+//   corner/<axis>/<start|middle|end|cut>      pixels of records with a far bit, by the nearer end;
+//                                             cut: the limit hides all of its far bits
 //   diagonal/<direction>/<e1>-<e2>            directions that count
 //   diagonal-ends/<direction>/<which>         that are open
 //   diagonal-length/<direction>/<pixels>
+//   diagonal-beyond/<direction>               that follow repeated edges beyond the frame
 //   threshold/fixed                           edges of a fixed T
 //   threshold/<luma>/<floor|alpha>            edges of a dynamic one, by what decided it
 // Every bin can be reached (tb/unit/golden/morphological/coverage_test.cpp).
@@ -30,7 +36,11 @@ namespace deburr::golden::morphological {
 class SmaaCoverage {
  public:
   void count_pixel(spec::morphological::Axis axis, const TableAddress& address);
-  void count_diagonal(bool rising, const DiagonalEnds& ends);
+  // `extent`: pixels of the frame along the run.
+  void count_record(const spec::morphological::RunRecord& run, int extent);
+  // Of a record with far bits.
+  void count_corner(spec::morphological::Axis axis, const TableAddress& address, int far);
+  void count_diagonal(bool rising, const DiagonalEnds& ends, bool beyond_frame);
   void count_threshold(spec::morphological::DynamicLuma luma, bool floor) {
     ++thresholds_[static_cast<std::size_t>(luma)][floor ? 0 : 1];
   }
@@ -48,6 +58,9 @@ class SmaaCoverage {
   std::array<std::array<std::uint64_t, 16>, 2> codes_{};   // rising, falling
   std::array<std::array<std::uint64_t, 4>, 2> open_{};     //
   std::array<std::array<std::uint64_t, 3>, 2> lengths_{};  //
+  std::array<std::uint64_t, 2> beyond_{};                  //
+  std::array<std::array<std::uint64_t, 4>, 2> endless_{};  // axis
+  std::array<std::array<std::uint64_t, 4>, 2> corners_{};  //
   std::array<Pair, 4> thresholds_{};
   std::uint64_t fixed_ = 0;
 };

@@ -16,7 +16,7 @@ namespace deburr::spec::morphological {
 // Of a line of memory.
 inline constexpr std::int32_t kLinePixels = kFrameLineBytes / kFramePixelBytes;
 
-inline constexpr std::array<BuildRule<Parameters>, 8> kBuildRules = {{
+inline constexpr std::array<BuildRule<Parameters>, 10> kBuildRules = {{
     {{"window_rows"},
      "must be an even number of rows",
      [](const Parameters& p) { return p.window_rows % 2 == 0; }},
@@ -54,6 +54,19 @@ inline constexpr std::array<BuildRule<Parameters>, 8> kBuildRules = {{
        return "make it at most " + std::to_string(p.window_rows / 2 - 1) +
               ", or give window_rows of at least " + std::to_string(2 * p.diagonal_steps + 2);
      }},
+    {{"border", "ends"},
+     "must be end with ends = gaps: only runs that end at crossings have a search to go on beyond "
+     "the border",
+     [](const Parameters& p) { return p.border != Border::kClamp || p.ends == Ends::kCrossings; },
+     [](const Parameters&) -> std::string { return "use border = end, or ends = crossings"; }},
+    {{"border", "area"},
+     "must be end with area = analytic or learned, which know no limit where a search beyond the "
+     "border would end",
+     [](const Parameters& p) {
+       return p.border != Border::kClamp ||
+              (p.area != AreaSource::kAnalytic && p.area != AreaSource::kLearned);
+     },
+     [](const Parameters&) -> std::string { return "use border = end, or area = table_full"; }},
     {{"line_pixels", "lanes", "storage"},
      "must be at least 17 with lanes = 4 and storage = memory: a line of memory fills eight banks "
      "of the pixels to be blended, and 16 pixels are four words",

@@ -34,8 +34,8 @@ struct PixelBeat {
 };
 
 // How a pixel was blended, for checks and pictures: first = share of the upper (left) neighbour,
-// second = of the lower (right) one, U0.8, as they are mixed; both 0 where the pixel passed
-// unchanged.
+// second = of the lower (right) one, U0.8, before blend = strongest mixes them; both 0 where the
+// pixel passed unchanged.
 struct BlendTap {
   bool horizontal = false;  // the neighbours are left and right
   std::uint8_t first = 0, second = 0;
@@ -77,6 +77,8 @@ enum class RunPart : std::uint8_t { kWhole, kHead, kTail };
 // `far` says which crossings go on for a second pixel (docs/reference/morphological/smaa.md,
 // "Corners"): bit 0 on the first side and bit 1 on the second at the start, bits 2 and 3 at the
 // end; 0 without round_corners.
+// `endless` says which ends lie beyond the frame with border = clamp (smaa.md, "Border"): bit 0 the
+// start, bit 1 the end; such an end has no crossings.
 struct RunRecord {
   Axis axis = Axis::kHorizontal;
   RunPart part = RunPart::kWhole;
@@ -85,6 +87,7 @@ struct RunRecord {
   std::uint16_t length = 0;  // pixels covered by this record
   std::uint8_t shape = 0;    // index of kRunShapes
   std::uint8_t far = 0;
+  std::uint8_t endless = 0;
   friend bool operator==(const RunRecord&, const RunRecord&) = default;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -95,6 +98,7 @@ struct RunRecord {
     visit("length", self.length, 12, "U12");
     visit("shape", self.shape, 4, "index of kRunShapes");
     visit("far", self.far, 4, "sharp corners: start first, second, end first, second");
+    visit("endless", self.endless, 2, "beyond the frame: bit 0 start, bit 1 end");
   }
 };
 

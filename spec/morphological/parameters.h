@@ -46,6 +46,10 @@ inline constexpr std::array<std::string_view, 4> kLocalContrastNames = {"off", "
 enum class Ends : std::uint8_t { kGaps, kCrossings };
 inline constexpr std::array<std::string_view, 2> kEndsNames = {"gaps", "crossings"};
 
+// Edges outside the frame: none, or those of the nearest pixel, as a sampler clamps.
+enum class Border : std::uint8_t { kEnd, kClamp };
+inline constexpr std::array<std::string_view, 2> kBorderNames = {"end", "clamp"};
+
 enum class Predictor : std::uint8_t { kNone, kChord, kFit };
 inline constexpr std::array<std::string_view, 3> kPredictorNames = {"none", "chord", "fit"};
 
@@ -60,6 +64,10 @@ enum class AreaSource : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 5> kAreaSourceNames = {
     "analytic", "table_full", "table_merged", "table_minimal", "learned"};
+
+// Entries of the tables of runs and of diagonals: areas to the nearest, or the published bytes.
+enum class AreaValues : std::uint8_t { kExact, kPublished };
+inline constexpr std::array<std::string_view, 2> kAreaValuesNames = {"exact", "published"};
 
 enum class BlendRule : std::uint8_t { kLongest, kStrongest };
 inline constexpr std::array<std::string_view, 2> kBlendRuleNames = {"longest", "strongest"};
@@ -87,6 +95,8 @@ inline constexpr int kInverseFractionBits = 12;
 inline constexpr int kMaxWeight = 128;  // U0.8: a half, the largest share that a run gives
 // Of a diagonal with blend = strongest, which normalises shares.
 inline constexpr int kMaxDiagonalWeight = 255;
+inline constexpr int kMixFractionBits = 4;  // more than U0.8 that strongest's shares have
+inline constexpr int kThresholdBits = 24;   // U8.16 codes; alpha U0.24
 inline constexpr int kLongZ = 16;  // pixels of a clean Z that keeps its line with area = learned
 inline constexpr int kRowLag = 5;  // rows of delay beyond the reach
 inline constexpr int kLeastDividerLatency = 14;
@@ -115,20 +125,22 @@ struct Rules {
   EdgeSource edge_source = EdgeSource::kColour;
   ThresholdMode threshold_mode = ThresholdMode::kFixed;
   DynamicLuma dynamic_luma = DynamicLuma::kMax;
-  std::int32_t threshold = 3341;                 // U0.16: 13 codes
-  std::int32_t threshold_on_depth_edge = 655;    // U0.16: 0.01
-  std::int32_t threshold_off_depth_edge = 3277;  // U0.16: 0.05
-  std::int32_t alpha = 6554;                     // U0.16: 0.1
-  std::int32_t floor = 514;                      // U0.16: 2/255
-  std::int32_t depth_threshold = 3277;           // U0.16: 0.05
+  std::int32_t threshold = 851955;                 // U8.16: 13 codes
+  std::int32_t threshold_on_depth_edge = 167025;   // U8.16: 0.01 of 255
+  std::int32_t threshold_off_depth_edge = 835635;  // U8.16: 0.05 of 255
+  std::int32_t alpha = 1677721;                    // U0.24: 0.1, rounded down
+  std::int32_t floor = 131072;                     // U8.16: 2 codes
+  std::int32_t depth_threshold = 3277;             // U0.16: 0.05
   LocalContrast local_contrast = LocalContrast::kSymmetric;
   Ends ends = Ends::kGaps;
+  Border border = Border::kEnd;
   Predictor predictor = Predictor::kFit;
   std::int32_t steps = 8;
   bool contiguous = true;
   bool safe = true;
   bool trim = true;
   AreaSource area = AreaSource::kLearned;
+  AreaValues area_values = AreaValues::kExact;
   std::int32_t search_steps = 16;
   bool diagonals = false;
   std::int32_t diagonal_steps = 8;
@@ -148,8 +160,8 @@ struct Rules {
 struct FollowingRules {
   Preset preset = Preset::kDeburrLine;
   EdgeSource edge_source = EdgeSource::kPredicated;
-  std::int32_t threshold_on_depth_edge = 1966;    // U0.16: 0.03
-  std::int32_t threshold_off_depth_edge = 65535;  // U0.16: never
+  std::int32_t threshold_on_depth_edge = 501330;     // U8.16: 0.03 of 255
+  std::int32_t threshold_off_depth_edge = 16711425;  // U8.16: 255 of 255 but for rounding
   Leave leave = Leave::kMasked;
 };
 
@@ -179,19 +191,25 @@ void describe(Rules& p, Visitor& v) {
   v.choice(
       "edges.source", p.edge_source, kEdgeSourceNames,
       "What makes an edge: luma, depth, luma with a threshold that depth moves, or the largest "
-      "step of the three colours.");
+      "step of the three colours. SMAA's published text compares colours of the pixel itself with "
+      "left-left (pull request 11 of its repository); here it is the neighbours' step, as in its "
+      "ports.");
   v.choice("edges.threshold_mode", p.threshold_mode, kThresholdModeNames,
-           "fixed: T. dynamic: alpha times luma (paper 003), above a floor.");
+           "fixed: T. dynamic: alpha times luma (paper 003), above a floor, which is ours.");
   v.choice("edges.dynamic_luma", p.dynamic_luma, kDynamicLumaNames,
            "Luma that alpha multiplies: of the current pixel (paper 003), or the larger, the "
            "smaller or the mean of the pair.");
-  v.integer("edges.threshold", p.threshold, 1, 65535, "1/65536", "T, a share of full scale.");
-  v.integer("edges.threshold_on_depth_edge", p.threshold_on_depth_edge, 1, 65535, "1/65536",
+  constexpr std::int32_t kMost = (1 << kThresholdBits) - 1;
+  v.integer("edges.threshold", p.threshold, 1, kMost, "code / 65536",
+            "T: the smallest step that is an edge. A share of full scale times 16711680.");
+  v.integer("edges.threshold_on_depth_edge", p.threshold_on_depth_edge, 1, kMost, "code / 65536",
             "T of source = predicated where depth has an edge.");
-  v.integer("edges.threshold_off_depth_edge", p.threshold_off_depth_edge, 1, 65535, "1/65536",
+  v.integer("edges.threshold_off_depth_edge", p.threshold_off_depth_edge, 1, kMost, "code / 65536",
             "T of source = predicated where depth has no edge.");
-  v.integer("edges.alpha", p.alpha, 0, 65535, "1/65536", "Factor of the dynamic threshold.");
-  v.integer("edges.floor", p.floor, 1, 65535, "1/65536",
+  v.integer("edges.alpha", p.alpha, 0, kMost, "1/16777216",
+            "Factor of the dynamic threshold; rounded down, so that a step of exactly alpha times "
+            "luma stays an edge.");
+  v.integer("edges.floor", p.floor, 1, kMost, "code / 65536",
             "Smallest step that a dynamic threshold lets through.");
   v.integer("edges.depth_threshold", p.depth_threshold, 1, 65535, "1/65536",
             "Relative step of depth that is an edge.");
@@ -199,6 +217,10 @@ void describe(Rules& p, Visitor& v) {
            "Drop edges beside one of twice the contrast: eq (2), (3) of paper 003, a symmetric "
            "form of them, or SMAA's, which keeps an edge of exactly half the contrast.");
   v.choice("ends", p.ends, kEndsNames, "Where runs end: at gaps, or at crossing edges too (SMAA).");
+  v.choice(
+      "border", p.border, kBorderNames,
+      "Edges beyond the frame's border: end: none, so that runs end there. clamp: those of the "
+      "nearest pixel, as SMAA's samplers see them; with ends = crossings and a table.");
   v.choice("predictor", p.predictor, kPredictorNames,
            "Line through a run: its own ends, the chord of the extended ends (paper 000), or the "
            "least-squares line through all visited corners.");
@@ -215,6 +237,10 @@ void describe(Rules& p, Visitor& v) {
       "Where areas come from: the line itself, or SMAA's table as it is published, as paper "
       "003 merges it, or as small as it gets; the tables give the same pixels. learned: the line "
       "of a clean Z that was extended or is long, learned ROMs elsewhere.");
+  v.choice(
+      "area_values", p.area_values, kAreaValuesNames,
+      "Entries of the tables of runs and of diagonals: exact areas to the nearest, or those of "
+      "the bytes that SMAA's authors publish.");
   v.integer("search_steps", p.search_steps, 1, kMaxSearchSteps, "step",
             "N: a table covers 2 N - 1 pixels to the left (up) and 2 N to the right (down).");
   v.boolean("diagonals", p.diagonals, "Diagonal patterns of SMAA, before the others.");
@@ -275,7 +301,7 @@ void describe(Parameters& p, Visitor& v) {
 // corner_rounding keep their defaults where they are not used.
 struct QualityRow {
   Quality quality;
-  std::int32_t threshold;  // of `smaa` only
+  std::int32_t threshold;  // U8.16, of `smaa` only
   std::int32_t search_steps;
   bool diagonals;
   std::int32_t diagonal_steps;
@@ -284,10 +310,10 @@ struct QualityRow {
   std::int32_t window_rows;
 };
 inline constexpr std::array<QualityRow, 4> kQualities = {{
-    {Quality::kLow, 9830, 4, false, 8, false, 64, 38},
-    {Quality::kMedium, 6554, 8, false, 8, false, 64, 70},
-    {Quality::kHigh, 6554, 16, true, 8, true, 64, 134},
-    {Quality::kUltra, 3277, 32, true, 16, true, 64, 258},
+    {Quality::kLow, 2506752, 4, false, 8, false, 64, 38},
+    {Quality::kMedium, 1671168, 8, false, 8, false, 64, 70},
+    {Quality::kHigh, 1671168, 16, true, 8, true, 64, 134},
+    {Quality::kUltra, 835584, 32, true, 16, true, 64, 258},
 }};
 
 // What a preset sets; every other parameter keeps its default.
@@ -296,7 +322,7 @@ struct PresetRow {
   EdgeSource edge_source;
   ThresholdMode threshold_mode;
   DynamicLuma dynamic_luma;
-  std::int32_t threshold;  // 0: that of the quality
+  std::int32_t threshold;  // U8.16; 0: that of the quality
   LocalContrast local_contrast;
   Predictor predictor;
   std::int32_t steps;
@@ -305,28 +331,29 @@ struct PresetRow {
   bool trim;
   AreaSource area;
   Ends ends;
+  Border border;
   BlendRule blend;
   bool has_qualities;  // a row of kQualities goes before
 };
 inline constexpr std::array<PresetRow, 6> kPresets = {{
-    {Preset::kMlaa, EdgeSource::kLuma, ThresholdMode::kFixed, DynamicLuma::kMax, 6554,
+    {Preset::kMlaa, EdgeSource::kLuma, ThresholdMode::kFixed, DynamicLuma::kMax, 1671270,
      LocalContrast::kOff, Predictor::kNone, 0, false, false, false, AreaSource::kAnalytic,
-     Ends::kGaps, BlendRule::kLongest, false},
-    {Preset::kMlaaSlope, EdgeSource::kLuma, ThresholdMode::kFixed, DynamicLuma::kMax, 6554,
+     Ends::kGaps, Border::kEnd, BlendRule::kLongest, false},
+    {Preset::kMlaaSlope, EdgeSource::kLuma, ThresholdMode::kFixed, DynamicLuma::kMax, 1671270,
      LocalContrast::kOff, Predictor::kChord, 4, false, false, false, AreaSource::kAnalytic,
-     Ends::kGaps, BlendRule::kLongest, false},
+     Ends::kGaps, Border::kEnd, BlendRule::kLongest, false},
     {Preset::kSmaa, EdgeSource::kLuma, ThresholdMode::kFixed, DynamicLuma::kMax, 0,
      LocalContrast::kSmaa, Predictor::kNone, 0, false, false, false, AreaSource::kTableFull,
-     Ends::kCrossings, BlendRule::kStrongest, true},
-    {Preset::kSmaaDynamic, EdgeSource::kLuma, ThresholdMode::kDynamic, DynamicLuma::kCurrent, 1966,
-     LocalContrast::kPaper, Predictor::kNone, 0, false, false, false, AreaSource::kTableMerged,
-     Ends::kCrossings, BlendRule::kStrongest, true},
-    {Preset::kDeburrLine, EdgeSource::kLuma, ThresholdMode::kFixed, DynamicLuma::kMax, 1966,
+     Ends::kCrossings, Border::kClamp, BlendRule::kStrongest, true},
+    {Preset::kSmaaDynamic, EdgeSource::kLuma, ThresholdMode::kDynamic, DynamicLuma::kCurrent,
+     501330, LocalContrast::kPaper, Predictor::kNone, 0, false, false, false,
+     AreaSource::kTableMerged, Ends::kCrossings, Border::kClamp, BlendRule::kStrongest, true},
+    {Preset::kDeburrLine, EdgeSource::kLuma, ThresholdMode::kFixed, DynamicLuma::kMax, 501330,
      LocalContrast::kSymmetric, Predictor::kFit, 8, true, true, true, AreaSource::kAnalytic,
-     Ends::kGaps, BlendRule::kLongest, false},
-    {Preset::kDeburr, EdgeSource::kColour, ThresholdMode::kFixed, DynamicLuma::kMax, 3341,
+     Ends::kGaps, Border::kEnd, BlendRule::kLongest, false},
+    {Preset::kDeburr, EdgeSource::kColour, ThresholdMode::kFixed, DynamicLuma::kMax, 851955,
      LocalContrast::kSymmetric, Predictor::kFit, 8, true, true, true, AreaSource::kLearned,
-     Ends::kGaps, BlendRule::kLongest, false},
+     Ends::kGaps, Border::kEnd, BlendRule::kLongest, false},
 }};
 
 constexpr bool has_qualities(Preset preset) {
@@ -357,6 +384,7 @@ constexpr void for_each_of(Preset preset, Quality quality, Set&& set) {
   set("edges.threshold", &Rules::threshold, threshold);
   set("edges.local_contrast", &Rules::local_contrast, row.local_contrast);
   set("ends", &Rules::ends, row.ends);
+  set("border", &Rules::border, row.border);
   set("predictor", &Rules::predictor, row.predictor);
   set("steps", &Rules::steps, row.steps);
   set("contiguous", &Rules::contiguous, row.contiguous);

@@ -43,7 +43,7 @@ inline constexpr std::uint32_t kLeftPixels = 0x7C;
 inline constexpr std::uint32_t kSharesAddress = 0x80;
 inline constexpr std::uint32_t kSharesData = 0x84;
 inline constexpr std::uint32_t kSharesSum = 0x88;
-inline constexpr std::uint32_t kIdValue = 0xDEB00102;
+inline constexpr std::uint32_t kIdValue = 0xDEB00103;
 
 // Fields, from the lowest bit on. Codes are those of the enumerations of spec/morphological/.
 namespace control {
@@ -87,15 +87,24 @@ inline constexpr Field kStrongest{"blend", 22, 22, {}, kBlendRuleNames};
 inline constexpr Field kLearned{"area_learned", 23, 23,
                                 "1: areas are learned, where the ROMs are built"};
 inline constexpr Field kLeave{"leave", 26, 24, {}, kLeaveNames};
+inline constexpr Field kBorder{"border", 27, 27, "end where clamp is not built", kBorderNames};
 inline constexpr std::array kFields = {
     kSource,     kThresholdMode, kDynamicLuma, kLocalContrast, kPredictor, kSteps,
     kContiguous, kSafe,          kLinearLight, kTrim,          kCrossings, kTable,
-    kDiagonals,  kRoundCorners,  kStrongest,   kLearned,       kLeave};
+    kDiagonals,  kRoundCorners,  kStrongest,   kLearned,       kLeave,     kBorder};
 }  // namespace rules
 namespace threshold {
-inline constexpr Field kValue{"value", 15, 0, "U0.16"};
+inline constexpr Field kValue{"value", kThresholdBits - 1, 0, "codes, U8.16"};
 inline constexpr std::array kFields = {kValue};
 }  // namespace threshold
+namespace alpha {
+inline constexpr Field kValue{"value", kThresholdBits - 1, 0, "U0.24"};
+inline constexpr std::array kFields = {kValue};
+}  // namespace alpha
+namespace depth_threshold {
+inline constexpr Field kValue{"value", 15, 0, "U0.16"};
+inline constexpr std::array kFields = {kValue};
+}  // namespace depth_threshold
 namespace line_base {
 inline constexpr Field kAddress = kLineAddress;
 inline constexpr std::array kFields = {kAddress};
@@ -140,11 +149,11 @@ inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
     {reg::kThresholdOff, "THRESHOLD_OFF", Access::kReadWrite, 0,
      "T of predicated edges where depth has none.", reg::threshold::kFields},
     {reg::kAlpha, "ALPHA", Access::kReadWrite, 0, "Factor of the dynamic threshold.",
-     reg::threshold::kFields},
+     reg::alpha::kFields},
     {reg::kFloor, "FLOOR", Access::kReadWrite, 0, "Smallest luma step of a dynamic threshold.",
      reg::threshold::kFields},
     {reg::kDepthThreshold, "DEPTH_THRESHOLD", Access::kReadWrite, 0,
-     "Relative depth step that is an edge.", reg::threshold::kFields},
+     "Relative depth step that is an edge.", reg::depth_threshold::kFields},
     {reg::kPixelBase, "PIXEL_BASE", Access::kReadWrite, 0,
      "Byte address of the frame with storage = memory.", reg::line_base::kFields},
     {reg::kSmaa, "SMAA", Access::kReadWrite, 0, "Searches and corners of SMAA.",
@@ -198,7 +207,7 @@ constexpr std::uint32_t rules_word(const Parameters& p) {
          rules::kCrossings.in(code(p.ends)) | rules::kTable.in(code(table)) |
          rules::kLearned.in(code(learned)) | rules::kDiagonals.in(code(p.diagonals)) |
          rules::kRoundCorners.in(code(p.round_corners)) | rules::kStrongest.in(code(p.blend)) |
-         rules::kLeave.in(code(p.leave));
+         rules::kLeave.in(code(p.leave)) | rules::kBorder.in(code(p.border));
 }
 constexpr std::uint32_t smaa_word(const Parameters& p) {
   const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };

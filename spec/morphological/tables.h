@@ -14,7 +14,7 @@ namespace deburr::spec::morphological {
 inline constexpr int kTableRoots = 16;         // entries each way of a tile, at squares 0..15
 inline constexpr int kTableDistances = 225;    // distances that the last tile entry reaches: 0..224
 inline constexpr int kDiagonalDistances = 20;  // of the diagonal table, each way
-inline constexpr int kMixSums = 511;           // sums of two shares, 0..510
+inline constexpr int kMixSums = 511;           // sums of two shares, 0..510; words are U0.20
 
 // clang-format off
 // U0.8 sRGB code -> linear light, U0.12 scaled so that 4095 is one: round(4095 * decode(i / 255)).

@@ -195,7 +195,7 @@ class Configuration(Base):
                         "morphological.edges.threshold_mode=dynamic", says="predicated")
         self.run_engine(2, *self.SMALL, "--lanes", "3", says="1, 2, 4")
 
-    RANGES = {"edges.threshold": (1, 65535), "edges.alpha": (0, 65535), "edges.floor": (1, 65535),
+    RANGES = {"edges.threshold": (1, 16777215), "edges.alpha": (0, 16777215), "edges.floor": (1, 16777215),
               "search_steps": (1, 112), "diagonal_steps": (1, 16), "corner_rounding": (0, 256)}
 
     def test_numbers_of_smaa_out_of_their_ranges(self):
@@ -217,6 +217,7 @@ class Configuration(Base):
 
     def test_unknown_choices_of_smaa(self):
         for name, known in (("quality", "low, medium, high, ultra"), ("ends", "gaps, crossings"),
+                            ("border", "end, clamp"), ("area_values", "exact, published"),
                             ("area", "analytic, table_full, table_merged, table_minimal"),
                             ("blend", "longest, strongest"), ("edges.dynamic_luma", "current, max, min, mean"),
                             ("edges.local_contrast", "off, paper, symmetric, smaa"), ("diagonals", "true or false"),
@@ -244,6 +245,12 @@ class Configuration(Base):
         self.run_engine(2, *self.SMALL, "--preset", "smaa-dynamic", "--set", "morphological.edges.source=predicated",
                         says=["predicated", "threshold_mode = fixed"])
         self.run_engine(0, *self.SMALL, *smaa, "--set", "morphological.edges.source=predicated", says="PASS")
+        # A border that runs go on beyond: what has no search has none to go on.
+        for name, value in (("ends", "gaps"), ("area", "analytic")):
+            one = ("--set", f"morphological.{name}={value}")
+            self.run_engine(2, *self.SMALL, *smaa, *one, says=["morphological.border", name, "must be end"])
+            self.run_engine(0, *self.SMALL, *smaa, *one, "--set", "morphological.border=end", says="PASS")
+        self.run_engine(2, *self.SMALL, "--preset", "mlaa", "--set", "morphological.border=clamp", says="must be end")
 
     def test_a_rule_beside_a_preset_overrides_it(self):
         done = self.run_engine(0, "--preset", "mlaa-slope", "--set", "morphological.steps=8", "--show-config")
@@ -271,6 +278,7 @@ class Configuration(Base):
             (("--preset", "mlaa"), "--set", "morphological.steps=3", "extends no run"),
             ((), "--set", "morphological.quality=low", "morphological.preset = smaa or smaa-dynamic"),
             ((), "--set", "morphological.search_steps=8", "area = analytic"),
+            ((), "--set", "morphological.area_values=published", "morphological.area or morphological.diagonals"),
             ((), "--set", "morphological.diagonal_steps=4", "diagonals = true"),
             (("--preset", "smaa", "--set", "morphological.quality=low"), "--set", "morphological.diagonal_steps=4",
              "diagonals = true"),
@@ -573,17 +581,17 @@ class SmaaFaults(BlockFaults):
         self.fault("wrong-mix", "--preset", "smaa", *self.SMALL)
 
     def test_thresholds_at_equality(self):
-        # Steps of blue are 255 T exactly; steps from 1 to 2 are alpha times luma exactly.
+        # Steps of blue are T exactly; steps from 1 to 2 are alpha times luma exactly.
         blue = self.picture("blue.png", columns_png(8, [(0, 0, 0)] * 6 + [(0, 0, 255)] * 6))
         dark = self.picture("dark.png", columns_png(8, [(1, 1, 1)] * 6 + [(2, 2, 2)] * 6))
         off = self.rules(edges__local_contrast="off")
-        self.fault("wrong-threshold", *blue, "--preset", "smaa", *off, *self.rules(edges__threshold=4732))
+        self.fault("wrong-threshold", *blue, "--preset", "smaa", *off, *self.rules(edges__threshold=255 * 4732))
         self.fault("wrong-floor", *blue, "--preset", "smaa-dynamic", *off,
-                   *self.rules(edges__alpha=1, edges__floor=4732))
+                   *self.rules(edges__alpha=1, edges__floor=255 * 4732))
         for luma in ("current", "max"):  # of the right column, which owns the edge and is the brighter
             self.fault("wrong-threshold", *dark, "--preset", "smaa-dynamic", *off,
-                       *self.rules(edges__alpha=32768, edges__floor=1, edges__dynamic_luma=luma))
-        for luma, code in (("min", 65535), ("mean", 43690)):  # 1 and 1.5: just below, no equality
+                       *self.rules(edges__alpha=1 << 23, edges__floor=1, edges__dynamic_luma=luma))
+        for luma, code in (("min", 16777215), ("mean", 11184810)):  # 1 and 1.5: just below, no equality
             self.run_engine(0, "--fault", "wrong-threshold", *dark, "--preset", "smaa-dynamic", *off,
                             *self.rules(edges__alpha=code, edges__floor=1, edges__dynamic_luma=luma), says="PASS")
 
@@ -595,6 +603,27 @@ class SmaaFaults(BlockFaults):
     def test_searches_a_step_short(self):
         self.fault("wrong-search", "--preset", "smaa", *self.rules(quality="low"), *self.SMALL)
         self.fault("wrong-diagonal", *self.picture("stair.png", stair_png(40)), "--preset", "smaa")
+
+    def test_the_border(self):
+        noise = self.picture("noise.png", noisy_png(48, 40))
+        for preset in ("smaa", "smaa-dynamic"):
+            for rules in (self.rules(diagonals="false"), self.rules(quality="ultra")):
+                self.fault("wrong-border", *noise, "--preset", preset, *rules)
+        self.fault("wrong-endless", *noise, "--preset", "smaa", code=3, unchecked=1, says="changed while it waited")
+        self.run_engine(2, *self.SMALL, "--preset", "smaa", *self.rules(border="end"), "--fault", "wrong-border",
+                        says="border = clamp")
+        # Where no run meets the border nothing is found.
+        inner = [bytes([255 * (20 <= x < 40 and 15 <= y < 31)] * 3) for y in range(48) for x in range(60)]
+        self.run_engine(0, *self.picture("inner.png", rgb_png(60, inner)), "--preset", "smaa", "--fault",
+                        "wrong-border", says="PASS")
+
+    def test_values_of_the_tables(self):
+        for values in ("exact", "published"):
+            for area in ("table_full", "table_merged", "table_minimal"):
+                self.fault("wrong-values", "--preset", "smaa", *self.SMALL,
+                           *self.rules(area=area, area_values=values, diagonals="false"))
+            self.fault("wrong-values", *self.picture("stair.png", stair_png(40)), "--preset", "mlaa",
+                       *self.rules(diagonals="true", diagonal_steps=8, area_values=values))
 
     def test_corners(self):
         self.fault("wrong-corner", "--preset", "smaa", *self.SMALL)
@@ -615,12 +644,13 @@ class SmaaFaults(BlockFaults):
         for name, needs in (("wrong-area", "area = table"), ("wrong-root", "area = table"),
                             ("wrong-decode", "area = table_merged"), ("wrong-search", "search_steps of at least 2"),
                             ("wrong-floor", "threshold_mode = dynamic"), ("wrong-contrast", "smaa or paper"),
-                            ("wrong-entry", "ends = crossings"), ("wrong-diagonal", "diagonals = true"),
+                            ("wrong-entry", "ends = crossings"), ("wrong-border", "border = clamp"),
+                            ("wrong-endless", "border = clamp"), ("wrong-values", "diagonals = true"), ("wrong-diagonal", "diagonals = true"),
                             ("wrong-diagonal-area", "diagonals = true"), ("drop-diagonals", "diagonals = true"),
                             ("wrong-corner", "round_corners = true"), ("wrong-mix", "blend = strongest")):
             self.run_engine(2, *self.SMALL, "--fault", name, says=[name, "needs", needs])
         smaa = ("--preset", "smaa")
-        for name, rules, needs in (("wrong-threshold", {"edges__threshold": 65535}, "T of at most 65534"),
+        for name, rules, needs in (("wrong-threshold", {"edges__threshold": 16777215}, "T of at most 16777214"),
                                    ("wrong-search", {"search_steps": 1}, "search_steps of at least 2"),
                                    ("wrong-diagonal", {"diagonal_steps": 1}, "diagonal_steps of at least 2"),
                                    ("wrong-corner", {"corner_rounding": 0}, "corner_rounding of at least 1"),

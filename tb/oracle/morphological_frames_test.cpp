@@ -92,10 +92,10 @@ std::vector<std::pair<std::string, spec::morphological::Parameters>> smaa_rules(
                     spec::morphological::kQualityNames[static_cast<std::size_t>(quality)]),
         preset_parameters(Preset::kSmaa, quality));
   }
-  for (const int alpha : {3277, 6554, 13107}) {
+  for (const int alpha : {838860, 1677721, 3355443}) {
     spec::morphological::Parameters p = preset_parameters(Preset::kSmaaDynamic);
     p.alpha = alpha;
-    all.emplace_back(fmt::format("smaa-dynamic {:.2f}", alpha / 65536.0), p);
+    all.emplace_back(fmt::format("smaa-dynamic {:.2f}", alpha / 16777216.0), p);
   }
   return all;
 }

@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "golden/morphological/morphological_golden.h"
 #include "tb/base/random.h"
@@ -18,6 +20,7 @@
 namespace deburr::smaa_test {
 namespace {
 
+using golden::ideal::SmaaBorder;
 using golden::ideal::SmaaEdges;
 using golden::ideal::SmaaLuma;
 using golden::ideal::SmaaMargins;
@@ -27,6 +30,7 @@ using golden::ideal::SmaaWeights;
 using golden::morphological::EdgeShares;
 using golden::morphological::MorphologicalGolden;
 using golden::morphological::preset_parameters;
+using spec::morphological::Border;
 using spec::morphological::Preset;
 using spec::morphological::Quality;
 using tb::Image;
@@ -87,8 +91,9 @@ std::vector<Image> greys() {
   return images;
 }
 
-SmaaEdges edges_of(const MorphologicalGolden& golden) {
-  SmaaEdges edges(golden.width(), golden.height());
+SmaaEdges edges_of(const MorphologicalGolden& golden, Border border) {
+  SmaaEdges edges(golden.width(), golden.height(),
+                  border == Border::kClamp ? SmaaBorder::kClamp : SmaaBorder::kEnd);
   for (int y = 0; y < golden.height(); ++y) {
     for (int x = 0; x < golden.width(); ++x) {
       edges.set_left(x, y, golden.edges().left.at(x, y));
@@ -101,8 +106,8 @@ SmaaEdges edges_of(const MorphologicalGolden& golden) {
 struct EdgeComparison {
   int edges = 0, differing = 0, unexplained = 0;
   EdgeComparison(const MorphologicalGolden& golden, const SmaaLuma& luma, double threshold) {
-    // T is rounded by half of 2^-16, each of three weights of luma by as much.
-    constexpr double kRounding = 4.0 / 131072;
+    // Each of three weights of luma is rounded by half of 2^-16 at most.
+    constexpr double kRounding = 3.0 / 131072;
     const auto compare = [&](bool edge, const SmaaMargins& ideal) {
       edges += ideal.edge();
       if (edge == ideal.edge()) return;
@@ -164,7 +169,7 @@ TEST(Smaa, HasItsEdgesOnColoursButWhereRoundingDecides) {
 }
 
 // A step of exactly T is an edge in both: one of 255 blue codes has 0.0722 of full scale, which is
-// 4732 / 65536 in the weights of luma and in T alike.
+// 4732 / 65536 in the weights of luma.
 TEST(Smaa, TakesAStepOfExactlyTheThreshold) {
   const auto edges = [](int step, int threshold, double ideal) {
     const Image image = tb::stimuli::draw(2, 1, [&](int x, int) {
@@ -178,16 +183,16 @@ TEST(Smaa, TakesAStepOfExactlyTheThreshold) {
     EXPECT_EQ(left_margins(luma_of(image), ideal, 1, 0).edge(), edge);
     return edge;
   };
-  EXPECT_TRUE(edges(255, 4732, 0.0722));
-  EXPECT_FALSE(edges(255, 4733, 4733.0 / 65536));
-  EXPECT_FALSE(edges(254, 4732, 0.0722));
+  EXPECT_TRUE(edges(255, 255 * 4732, 0.0722));
+  EXPECT_FALSE(edges(255, 255 * 4732 + 1, 4733.0 / 65536));
+  EXPECT_FALSE(edges(254, 255 * 4732, 0.0722));
 }
 
 struct WeightComparison {
   int edges = 0, diagonals = 0, wrong = 0, differently_taken = 0;
   double worst = 0;  // of 255
-  void add(const MorphologicalGolden& golden, const SmaaSettings& ideal) {
-    const SmaaEdges edge_map = edges_of(golden);
+  void add(const MorphologicalGolden& golden, const SmaaSettings& ideal, Border border) {
+    const SmaaEdges edge_map = edges_of(golden, border);
     std::uint64_t taken = 0;
     for (int y = 0; y < golden.height(); ++y) {
       for (int x = 0; x < golden.width(); ++x) {
@@ -213,30 +218,37 @@ struct WeightComparison {
 };
 
 // Windows wide enough that no run is cut by them.
-WeightComparison compared(Quality quality, const SmaaSettings& ideal) {
+WeightComparison compared(Quality quality, const SmaaSettings& ideal,
+                          Border border = Border::kClamp,
+                          std::optional<Border> ideal_border = std::nullopt) {
   WeightComparison comparison;
   for (const Image& image : greys()) {
-    MorphologicalGolden golden(preset_parameters(Preset::kSmaa, quality));
+    spec::morphological::Parameters p = preset_parameters(Preset::kSmaa, quality);
+    p.border = border;
+    MorphologicalGolden golden(p);
     golden.process({image.pixels, image.width, image.height});
-    comparison.add(golden, ideal);
+    comparison.add(golden, ideal, ideal_border.value_or(border));
   }
   return comparison;
 }
 
 TEST(Smaa, HasTheWeightsOfThePublishedOne) {
-  for (const Quality quality : kAll) {
-    const WeightComparison found = compared(quality, settings(quality));
-    std::cout << spec::morphological::kQualityNames[static_cast<std::size_t>(quality)] << ": "
-              << found.edges << " edges, " << found.diagonals << " diagonals, worst difference "
-              << found.worst << " / 255\n";
-    EXPECT_EQ(found.wrong, 0);
-    EXPECT_EQ(found.differently_taken, 0);
-    EXPECT_GT(found.edges, 30000);
-    EXPECT_EQ(found.diagonals > 1000, settings(quality).diagonal_steps > 0);
+  for (const Border border : {Border::kEnd, Border::kClamp}) {
+    for (const Quality quality : kAll) {
+      const WeightComparison found = compared(quality, settings(quality), border);
+      std::cout << spec::morphological::kQualityNames[static_cast<std::size_t>(quality)] << ", "
+                << spec::morphological::kBorderNames[static_cast<std::size_t>(border)] << ": "
+                << found.edges << " edges, " << found.diagonals << " diagonals, worst difference "
+                << found.worst << " / 255\n";
+      EXPECT_EQ(found.wrong, 0);
+      EXPECT_EQ(found.differently_taken, 0);
+      EXPECT_GT(found.edges, 30000);
+      EXPECT_EQ(found.diagonals > 1000, settings(quality).diagonal_steps > 0);
+    }
   }
 }
 
-// The comparison sees a step of a search, a step of a diagonal, and the corners.
+// The comparison sees a step of a search, a step of a diagonal, the corners and the border.
 TEST(Smaa, DiffersFromAnyOtherSetting) {
   const auto wrong = [](void (*change)(SmaaSettings&)) {
     SmaaSettings ideal = settings(Quality::kHigh);
@@ -250,6 +262,9 @@ TEST(Smaa, DiffersFromAnyOtherSetting) {
   EXPECT_GT(wrong([](SmaaSettings& s) { s.diagonal_steps = 0; }), 10);
   EXPECT_GT(wrong([](SmaaSettings& s) { s.corner_keeps = 0.3; }), 10);
   EXPECT_GT(wrong([](SmaaSettings& s) { s.corner_keeps.reset(); }), 10);
+  for (const auto& [border, other] :
+       {std::pair{Border::kEnd, Border::kClamp}, std::pair{Border::kClamp, Border::kEnd}})
+    EXPECT_GT(compared(Quality::kHigh, settings(Quality::kHigh), border, other).wrong, 10);
 }
 
 }  // namespace

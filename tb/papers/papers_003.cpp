@@ -134,9 +134,12 @@ Parameters dynamic(int alpha, int floor, DynamicLuma luma = DynamicLuma::kCurren
 
 struct Share {
   double real;
-  int code;  // U0.16
+  int threshold;  // U8.16
+  int alpha;      // U0.24
 };
-constexpr std::array<Share, 3> kShares = {{{0.05, 3277}, {0.1, 6554}, {0.2, 13107}}};
+constexpr std::array<Share, 3> kShares = {
+    {{0.05, 835584, 838860}, {0.1, 1671168, 1677721}, {0.2, 3342336, 3355443}}};
+constexpr int kTwoCodes = 131072;
 constexpr int kNoFloor = 1;
 
 struct NamedImage {
@@ -172,8 +175,9 @@ PaperTable densities(const PaperOptions& options) {
       const auto percent = [&](const Parameters& p) {
         return edge_pixels_percent(frame.image, edges_of(frame.image, p));
       };
-      const double t = percent(fixed(share.code)), open = percent(dynamic(share.code, kNoFloor)),
-                   floored = percent(dynamic(share.code, 514));
+      const double t = percent(fixed(share.threshold)),
+                   open = percent(dynamic(share.alpha, kNoFloor)),
+                   floored = percent(dynamic(share.alpha, kTwoCodes));
       table.rows.push_back({frame.name, fmt::format("{:g}", share.real), decimals(t, 2),
                             decimals(open, 2), decimals(floored, 2), below(t, open)});
     }
@@ -190,7 +194,7 @@ PaperTable symmetry(const PaperOptions& options) {
       {}};
   const std::vector<NamedImage> all = frames(options);
   for (std::size_t luma = 0; luma < spec::morphological::kDynamicLumaNames.size(); ++luma) {
-    Parameters p = dynamic(6554, 514, static_cast<DynamicLuma>(luma));
+    Parameters p = dynamic(1677721, kTwoCodes, static_cast<DynamicLuma>(luma));
     p.local_contrast = LocalContrast::kOff;
     std::int64_t changed = 0, bits = 0;
     for (const NamedImage& frame : all) {
@@ -233,7 +237,7 @@ std::vector<Method> methods() {
   for (const Share& share : kShares) {
     Method method{fmt::format("smaa-dynamic {:g}", share.real), true,
                   preset_parameters(Preset::kSmaaDynamic)};
-    method.parameters.alpha = share.code;
+    method.parameters.alpha = share.alpha;
     all.push_back(method);
   }
   for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
@@ -447,13 +451,14 @@ PaperFigure edge_figure(const char* title, const NamedImage& frame) {
   PaperFigure figure{title, "Edge pixels in black.", {}};
   figure.images.push_back({frame.name + "_frame", "the frame", "", frame.image, false});
   for (const Share& share : kShares) {
-    figure.images.push_back({fmt::format("{}_fixed_{}", frame.name, share.code),
+    figure.images.push_back({fmt::format("{}_fixed_{:g}", frame.name, share.real),
                              fmt::format("fixed, T = {:g}", share.real), "",
-                             drawn(frame.image, edges_of(frame.image, fixed(share.code))), false});
+                             drawn(frame.image, edges_of(frame.image, fixed(share.threshold))),
+                             false});
     figure.images.push_back(
-        {fmt::format("{}_dynamic_{}", frame.name, share.code),
+        {fmt::format("{}_dynamic_{:g}", frame.name, share.real),
          fmt::format("dynamic, alpha = {:g}", share.real), "no floor, as in the paper",
-         drawn(frame.image, edges_of(frame.image, dynamic(share.code, kNoFloor))), false});
+         drawn(frame.image, edges_of(frame.image, dynamic(share.alpha, kNoFloor))), false});
   }
   return figure;
 }

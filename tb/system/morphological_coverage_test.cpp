@@ -86,8 +86,9 @@ spec::morphological::Parameters narrow() {
 using Groups = std::span<const std::string_view>;
 constexpr std::string_view kRuns[] = {"shape",          "long-end", "prediction",
                                       "prediction-end", "border",   "decision"};
-constexpr std::string_view kSmaa[] = {"table",         "table-entry",     "search",   "diagonal",
-                                      "diagonal-ends", "diagonal-length", "threshold"};
+constexpr std::string_view kSmaa[] = {
+    "table",    "table-entry",   "search",          "endless",         "corner",
+    "diagonal", "diagonal-ends", "diagonal-length", "diagonal-beyond", "threshold"};
 constexpr std::string_view kLeave[] = {"left", "leave-border", "half"};
 constexpr std::string_view kShares[] = {"class"};
 
@@ -255,8 +256,10 @@ TEST(SmaaCoverage, EveryBinIsHit) {
     run(all, cases[i].parameters, frames[i]);
   }
   const Coverage coverage = part_of(all, kSmaa);
-  // Shapes x distances of both axes, limits, table entries, diagonals both ways, thresholds.
-  EXPECT_EQ(coverage.size(), 2u * 16 * 5 + 2 * 2 * 2 + 2 * 2 + 2 * (16 + 4 + 3) + 1 + 4 * 2);
+  // Shapes x distances of both axes, limits, borders, corners, table entries, diagonals both ways,
+  // thresholds.
+  EXPECT_EQ(coverage.size(),
+            2u * 16 * 5 + 2 * 2 * 2 + 2 * (4 + 4) + 2 * 2 + 2 * (16 + 4 + 3 + 1) + 1 + 4 * 2);
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
 

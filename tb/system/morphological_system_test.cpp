@@ -287,7 +287,7 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
   p = preset(kBuilt[below(6)], lanes);
   p.threshold_mode = static_cast<spec::morphological::ThresholdMode>(below(2));
   p.dynamic_luma = static_cast<spec::morphological::DynamicLuma>(below(4));
-  p.floor = 1 + below(900);
+  p.floor = 1 + below(255 * 900);
   p.local_contrast = static_cast<spec::morphological::LocalContrast>(below(4));
   p.ends = static_cast<spec::morphological::Ends>(below(2));
   p.predictor = static_cast<spec::morphological::Predictor>(below(3));
@@ -309,6 +309,13 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
   if (p.edge_source == spec::morphological::EdgeSource::kColour)
     p.threshold_mode = spec::morphological::ThresholdMode::kFixed;
   if (p.area == spec::morphological::AreaSource::kLearned) p.diagonals = p.round_corners = false;
+  const bool table = p.area != spec::morphological::AreaSource::kAnalytic &&
+                     p.area != spec::morphological::AreaSource::kLearned;
+  if (table && p.ends == spec::morphological::Ends::kCrossings)
+    p.border = static_cast<spec::morphological::Border>(below(2));
+  else
+    p.border = spec::morphological::Border::kEnd;
+  if (table || p.diagonals) p.area_values = static_cast<spec::morphological::AreaValues>(below(2));
   options.records = true;
   const auto seed = static_cast<std::uint64_t>(GetParam());
   expect_identical({blocks(97, 80, seed + 1), fans(13, seed), noise(60, 50, seed),

@@ -11,6 +11,7 @@ namespace deburr::rtl::morphological {
 namespace {
 
 using spec::morphological::AreaSource;
+using spec::morphological::AreaValues;
 
 constexpr int kRoots = spec::morphological::kTableRoots;
 constexpr int kTileWords = kRoots * kRoots / 4;  // of a parity
@@ -19,55 +20,69 @@ enum MinimalTile : int { kT, kU };
 
 int nearest(int over, int under) { return (2 * over + under) / (2 * under); }
 
-int root(int square) {
-  int r = 0;
-  while ((r + 1) * (r + 1) <= square) ++r;
-  return r;
+int root(std::int64_t square) {
+  std::int64_t r = 0;
+  for (std::int64_t bit = std::int64_t{1} << 20; bit != 0; bit >>= 1)
+    if ((r + bit) * (r + bit) <= square) r += bit;
+  return static_cast<int>(r);
 }
 
-// The share of the nearer half of a line from half a pixel at the end to nothing in the middle.
-int half_entry(int i, int j) {
-  const int l = i * i, r = j * j, d = l + r + 1;
-  if (l > r) return 0;
-  return l < r ? nearest(256 * (r - l), d) : nearest(64, d);
-}
+// Entry of a published byte, which is v / 255.
+int of_byte(int v) { return nearest(512 * v, 255); }
 
-// Of both halves, smoothed where the run is short.
-int arch_entry(int i, int j) {
-  const int l = i * i, r = j * j, d = l + r + 1, n = std::max(l, r) - std::min(l, r);
-  if (d >= 32) return n > 0 ? nearest(256 * n, d) : nearest(128, d);
-  const int own = n > 0 ? 8 * n : 4;
-  return own + (root(256 * (32 - d) * (32 - d) * std::max(n, 1) / d) + 1) / 2;
-}
+// Areas over l pixels before and r behind, as entries at the roots of both.
+struct Entries {
+  bool published;
 
-// Of the published table: second value in the low byte, first value in the high one.
-int pattern_entry(int p, int i, int j) {
-  const auto both = [](int second, int first) { return second | first << 8; };
-  switch (p) {
-    case 1:
-      return both(half_entry(i, j), 0);
-    case 2:
-      return both(half_entry(j, i), 0);
-    case 3:
-      return both(arch_entry(i, j), 0);
-    case 4:
-      return both(0, half_entry(i, j));
-    case 8:
-      return both(0, half_entry(j, i));
-    case 12:
-      return both(0, arch_entry(i, j));
-    case 6:
-    case 7:
-    case 14:
-      return both(half_entry(j, i), half_entry(i, j));
-    case 9:
-    case 11:
-    case 13:
-      return both(half_entry(i, j), half_entry(j, i));
-    default:
-      return 0;
+  // The share of the nearer half of a line from half a pixel at the end to nothing in the middle.
+  int half(int i, int j) const {
+    const int l = i * i, r = j * j, d = l + r + 1;
+    if (l > r) return 0;
+    if (published) return of_byte(l < r ? 255 * (r - l) / (2 * d) : 255 / (8 * d));
+    return l < r ? nearest(256 * (r - l), d) : nearest(64, d);
   }
-}
+
+  // Of both halves, smoothed where the run is short.
+  int arch(int i, int j) const {
+    const int l = i * i, r = j * j, d = l + r + 1, n = std::max(l, r) - std::min(l, r);
+    if (d >= 32) {
+      if (published) return of_byte(n > 0 ? 255 * n / (2 * d) : 255 / (4 * d));
+      return n > 0 ? nearest(256 * n, d) : nearest(128, d);
+    }
+    const int own = n > 0 ? 8 * n : 4, rest = (32 - d) * (32 - d) * std::max(n, 1);
+    if (published) return of_byte((255 * own + root(std::int64_t{2040} * 2040 * rest / d)) / 512);
+    return own + (root(256 * rest / d) + 1) / 2;
+  }
+
+  // Of the published table: second value in the low byte, first value in the high one.
+  int pattern(int p, int i, int j) const {
+    const auto both = [](int second, int first) { return second | first << 8; };
+    switch (p) {
+      case 1:
+        return both(half(i, j), 0);
+      case 2:
+        return both(half(j, i), 0);
+      case 3:
+        return both(arch(i, j), 0);
+      case 4:
+        return both(0, half(i, j));
+      case 8:
+        return both(0, half(j, i));
+      case 12:
+        return both(0, arch(i, j));
+      case 6:
+      case 7:
+      case 14:
+        return both(half(j, i), half(i, j));
+      case 9:
+      case 11:
+      case 13:
+        return both(half(i, j), half(j, i));
+      default:
+        return 0;
+    }
+  }
+};
 
 int tiles_of(AreaSource layout) {
   switch (layout) {
@@ -80,23 +95,24 @@ int tiles_of(AreaSource layout) {
   }
 }
 
-int stored_entry(AreaSource layout, int tile, int i, int j) {
+int stored_entry(AreaSource layout, const Entries& entries, int tile, int i, int j) {
   switch (layout) {
     case AreaSource::kTableMerged:
-      return pattern_entry(kMergedTiles[static_cast<std::size_t>(tile)], i, j);
+      return entries.pattern(kMergedTiles[static_cast<std::size_t>(tile)], i, j);
     case AreaSource::kTableMinimal:
-      return tile == kT ? half_entry(i, j) : arch_entry(i, j);
+      return tile == kT ? entries.half(i, j) : entries.arch(i, j);
     default:
-      return pattern_entry(tile, i, j);
+      return entries.pattern(tile, i, j);
   }
 }
 
-std::vector<std::uint16_t> area_words(AreaSource layout, int parity) {
+std::vector<std::uint16_t> area_words(AreaSource layout, AreaValues values, int parity) {
+  const Entries entries{values == AreaValues::kPublished};
   std::vector<std::uint16_t> words;
   for (int tile = 0; tile < tiles_of(layout); ++tile)
     for (int i = parity / 2; i < kRoots; i += 2)
       for (int j = parity % 2; j < kRoots; j += 2)
-        words.push_back(static_cast<std::uint16_t>(stored_entry(layout, tile, i, j)));
+        words.push_back(static_cast<std::uint16_t>(stored_entry(layout, entries, tile, i, j)));
   return words;
 }
 
@@ -104,7 +120,7 @@ std::vector<std::uint16_t> root_words() {
   std::vector<std::uint16_t> words;
   words.reserve(spec::morphological::kTableDistances);
   for (int d = 0; d < spec::morphological::kTableDistances; ++d)
-    words.push_back(static_cast<std::uint16_t>(root(65536 * d)));
+    words.push_back(static_cast<std::uint16_t>(root(65536 * std::int64_t{d})));
   return words;
 }
 
@@ -116,7 +132,7 @@ int pattern_of(std::uint8_t shape) {
 
 }  // namespace
 
-AreaTable::AreaTable(AreaSource layout, int lanes)
+AreaTable::AreaTable(AreaSource layout, AreaValues values, int lanes)
     : layout_(layout),
       reads_(layout == AreaSource::kTableMinimal ? 2 : 1),
       sqrt_rom_("sqrt_rom",
@@ -140,7 +156,7 @@ AreaTable::AreaTable(AreaSource layout, int lanes)
             .read_ports = static_cast<std::uint32_t>(readers) * static_cast<std::uint32_t>(reads_),
             .write_ports = 0,
             .content = "areas of tiles, by the parities of both roots"},
-        area_words(layout, parity));
+        area_words(layout, values, parity));
     for (std::size_t port = 0; port < static_cast<std::size_t>(readers) * reads_; ++port)
       read_[static_cast<std::size_t>(parity)].emplace_back(area_rom_.back(),
                                                            "edge " + std::to_string(port));

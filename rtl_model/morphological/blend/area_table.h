@@ -8,7 +8,8 @@
 // one a read. Layouts: full: 16 tiles of two values, by the pattern; merged: 8 tiles, patterns 0,
 // 5, 10 and 15 are not read, 7 and 14 read 6, 11 and 13 read 9; minimal: two tiles of one value, T,
 // read for both sides, and U. All give the same shares. Every word is computed from the formulas of
-// docs/reference/morphological/formats.md when the engine is built.
+// docs/reference/morphological/formats.md when the engine is built: the area, or with area_values =
+// published that of the published byte.
 // Source: SMAA (Jimenez et al. 2012); paper 003 (merged); minimal is ours.
 #pragma once
 
@@ -35,7 +36,8 @@ class AreaTable {
     std::uint8_t first = 0, second = 0;
   };
 
-  AreaTable(spec::morphological::AreaSource layout, int lanes);
+  AreaTable(spec::morphological::AreaSource layout, spec::morphological::AreaValues values,
+            int lanes);
 
   void address_roots(Cycle cycle, std::size_t reader, const Query& query);
   // The roots come.

@@ -17,8 +17,7 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
             TableShares::is_built(p)),
       record_store_("record_store", p, store, columns_, {records, bank_conflicts}),
       record_walk_("record_walk", store, record_store_, {horizontal_edges, vertical_edges}),
-      table_(TableShares::is_built(p) ? std::make_unique<TableShares>("table", p.area, store)
-                                      : nullptr),
+      table_(TableShares::is_built(p) ? std::make_unique<TableShares>("table", p, store) : nullptr),
       learned_(p.area == spec::morphological::AreaSource::kLearned
                    ? std::make_unique<LearnedShares>("learned", store.lanes())
                    : nullptr),
@@ -56,10 +55,11 @@ void AreaUnit::ask_edge(Beat& beat, std::size_t number, const StoredRecord& reco
                         const RecordWalk::Edge& edge) {
   if (kLearned && record.learned) return learned_->ask(number, record, edge.k, edge.after);
   if constexpr (kSmaa) {
-    const std::uint8_t near = record.part == spec::morphological::RunPart::kHead   ? 0
-                              : record.part == spec::morphological::RunPart::kTail ? 1
-                                                                                   : edge.near;
-    if (store_.rules().table) return table_->ask(number, record, edge.k, near);
+    if (store_.rules().table) return table_->ask(number, record, edge.k);
+    const std::uint8_t near = record.part == spec::morphological::RunPart::kHead ? 0
+                              : record.part == spec::morphological::RunPart::kTail
+                                  ? 1
+                                  : nearer_end(edge.k, edge.after);
     shares_of(beat.shares, number) =
         at_corners(store_.rules(), AnalyticShares::of(record, edge.k), record.far, near);
   } else {

@@ -24,10 +24,14 @@ void for_each_lane(std::uint8_t lanes, Visit&& visit) {
 // By the geometric engine.
 bool is_marked(const spec::morphological::Rgba8& pixel) { return (pixel[3] & 1) == 0; }
 
-// R(s), U0.17: what squares are multiplied by to be shares of s again.
+// More than those of shares as they come: of shares as they are blended, U1.12.
+constexpr int kMoreBits = 4;
+constexpr int kBlendBits = 8 + kMoreBits;
+// R(s), U1.20: what squares are multiplied by to be shares of s again.
+constexpr std::uint32_t kMixBits = 21;
 std::vector<std::uint32_t> mix_words() {
   std::vector<std::uint32_t> words(spec::morphological::kMixSums);
-  for (std::uint32_t s = 1; s < words.size(); ++s) words[s] = (2 * 65536 + s) / (2 * s);
+  for (std::uint32_t s = 1; s < words.size(); ++s) words[s] = ((2u << 20) + s) / (2 * s);
   return words;
 }
 
@@ -40,11 +44,11 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
       probe_(probe),
       mix_rom_("mix_rom",
                {.words = spec::morphological::kMixSums,
-                .word_bits = 17,
+                .word_bits = kMixBits,
                 .kind = MemoryKind::kRom,
                 .read_ports = static_cast<std::uint32_t>(store.lanes()),
                 .write_ports = 0,
-                .content = "65536 over a sum of shares"},
+                .content = "2^20 over a sum of shares"},
                mix_words()),
       linear_rom_("linear_rom",
                   {.words = spec::morphological::kLinear12FromSrgb.size(),
@@ -155,7 +159,10 @@ void Blender::choose_axes(Cycle cycle, const ShareToken& token, const PixelToken
     tap.horizontal = horizontal;
     tap.first = first_share;
     tap.second = second_share;
-    beat.operands[i].code = {around.centre[i], first, second};
+    Operands& operands = beat.operands[i];
+    operands.code = {around.centre[i], first, second};
+    operands.share = {static_cast<std::uint16_t>(first_share << kMoreBits),
+                      static_cast<std::uint16_t>(second_share << kMoreBits)};
     beat.blend = static_cast<std::uint8_t>(beat.blend | 1u << i);
     if (strongest) mix_[i].read(cycle, std::uint64_t{tap.first} + tap.second);
   }
@@ -165,13 +172,12 @@ void Blender::choose_axes(Cycle cycle, const ShareToken& token, const PixelToken
 // Stages 2 and 3: each share becomes its square over the sum of both.
 void Blender::mix(Cycle cycle, Beat& beat) {
   for_each_lane(beat.blend, [&](std::size_t lane) {
-    spec::morphological::BlendTap& tap = beat.result.tap[lane];
+    const spec::morphological::BlendTap& tap = beat.result.tap[lane];
     const std::uint32_t word = mix_[lane].at(cycle, std::uint64_t{tap.first} + tap.second);
     const auto mixed = [&](std::uint32_t share) {
-      return static_cast<std::uint8_t>((std::uint64_t{share} * share * word + (1u << 15)) >> 16);
+      return static_cast<std::uint16_t>((std::uint64_t{share} * share * word + (1u << 15)) >> 16);
     };
-    tap.first = mixed(tap.first);
-    tap.second = mixed(tap.second);
+    beat.operands[lane].share = {mixed(tap.first), mixed(tap.second)};
   });
 }
 
@@ -206,9 +212,8 @@ void Blender::subtract(Cycle cycle, Beat& beat) {
 void Blender::multiply(Beat& beat) {
   for_each_lane(beat.blend, [&](std::size_t lane) {
     Operands& o = beat.operands[lane];
-    const spec::morphological::BlendTap& tap = beat.result.tap[lane];
     for (std::size_t c = 0; c < 3; ++c)
-      o.sum[c] = tap.first * o.first[c] + tap.second * o.second[c];
+      o.sum[c] = o.share[0] * o.first[c] + o.share[1] * o.second[c];
   });
 }
 
@@ -218,7 +223,8 @@ void Blender::round(Cycle cycle, Beat& beat) {
   for_each_lane(beat.blend, [&](std::size_t lane) {
     Operands& o = beat.operands[lane];
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::int32_t v = o.sum[c], moved = (std::abs(v) + 128) >> 8;
+      const std::int32_t v = o.sum[c],
+                         moved = (std::abs(v) + (1 << (kBlendBits - 1))) >> kBlendBits;
       o.value[c] = static_cast<std::uint16_t>(v < 0 ? o.centre[c] - moved : o.centre[c] + moved);
       if (linear) codes_[lane * 3 + c].read(cycle, o.value[c]);
     }
@@ -287,16 +293,16 @@ Datasheet Blender::datasheet() {
                       "(`strongest`: two maxima, compare, sums of both pairs)"},
                      {"2", "address of linear_rom; word of mix_rom, squares of both shares"},
                      {"3", "linear light, differences; squares x word, rounded",
-                      "17 x 16 multiply + 33-bit add"},
-                     {"4", "products, their sum", "8 x 13 multiply"},
+                      "21 x 16 multiply + 37-bit add"},
+                     {"4", "products, their sum", "13 x 13 multiply"},
                      {"5", "rounding, new value, address of encode_rom"},
                      {"6", "codes", "ROM read"}},
-          .formats = "shares U0.8, linear light U0.12.",
+          .formats = "shares U0.8, as they are blended U1.12; linear light U0.12.",
           .cost =
               "a lane: nine reads of linear_rom, 256 x 12 bits (three a channel, after the "
               "choice of the axis), three of encode_rom, 4096 x 8 bits (two reads a copy), two "
-              "multipliers 8 x 13 a channel, one of mix_rom, 511 x 17 bits, two multipliers 8 x "
-              "8 and two 17 x 16, nine comparators, five bits of marks, two shifts."};
+              "multipliers 13 x 13 a channel, one of mix_rom, 511 x 21 bits, two multipliers 8 x "
+              "8 and two 21 x 16, nine comparators, five bits of marks, two shifts."};
 }
 
 }  // namespace deburr::rtl::morphological

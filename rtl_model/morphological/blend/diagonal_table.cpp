@@ -49,30 +49,66 @@ int below(unsigned ends, int n, int x, int y) {
   return count;
 }
 
+// The same as a share of all points in double precision, in which those on the line fall on a side
+// by rounding.
+double published_area(unsigned ends, int n, int x, int y) {
+  const double x1 = ends >> 3, y1 = ends >> 2 & 1, x2 = n + static_cast<int>(ends >> 1 & 1),
+               y2 = n + static_cast<int>(ends & 1);
+  if (x1 == x2 && y1 == y2) return 1;
+  int count = 0;
+  for (int i = 0; i < kSide; ++i)
+    for (int j = 0; j < kSide; ++j) {
+      const double along = (y2 - y1) * (x + i / double{kGrid} - (x1 + x2) / 2),
+                   across = (x1 - x2) * (y + j / double{kGrid} - (y1 + y2) / 2);
+      count += along + across > 0;
+    }
+  return count / double{kPoints};
+}
+
+// Entry of the published byte v of both lines, which is v / 255: of what lies above them, or below.
+unsigned published_share(const std::array<std::uint8_t, 2>& lines, int n, int x, int y,
+                         bool above) {
+  double sum = 0;
+  for (const std::uint8_t line : lines) {
+    const double area = published_area(line, n, x, y);
+    sum += above ? 1 - area : area;
+  }
+  const auto v = static_cast<unsigned>(255 * (sum / 2));
+  return std::min(255u, (2 * 256 * v + 255) / (2 * 255));
+}
+
 // Of both lines' points, U0.8, to nearest.
 unsigned share(int points) {
   return static_cast<unsigned>((256 * points + kPoints) / (2 * kPoints));
 }
 
-std::vector<std::uint16_t> computed_words() {
+std::vector<std::uint16_t> computed_words(bool published) {
   std::vector<std::uint16_t> words;
   words.reserve(kDiagonalWords);
   for (const auto& lines : kLines)
     for (int d1 = 0; d1 < spec::morphological::kDiagonalDistances; ++d1)
       for (int d2 = 0; d2 < spec::morphological::kDiagonalDistances; ++d2) {
-        const auto of_both = [&, n = d1 + d2 + 1, x = 1 + d1](int y) {
+        const int n = d1 + d2 + 1, x = 1 + d1;
+        const auto of_both = [&](int y) {
           return below(lines[0], n, x, y) + below(lines[1], n, x, y);
         };
-        words.push_back(static_cast<std::uint16_t>(share(2 * kPoints - of_both(d1)) |
-                                                   share(of_both(1 + d1)) << 8));
+        words.push_back(static_cast<std::uint16_t>(
+            published ? published_share(lines, n, x, d1, true) |
+                            published_share(lines, n, x, 1 + d1, false) << 8
+                      : share(2 * kPoints - of_both(d1)) | share(of_both(1 + d1)) << 8));
       }
   return words;
 }
 
 }  // namespace
 
-const std::vector<std::uint16_t>& diagonal_words() {
-  static const std::vector<std::uint16_t> words = computed_words();
+const std::vector<std::uint16_t>& diagonal_words(spec::morphological::AreaValues values) {
+  // The published ones take a while, and few engines have them.
+  if (values == spec::morphological::AreaValues::kPublished) {
+    static const std::vector<std::uint16_t> published = computed_words(true);
+    return published;
+  }
+  static const std::vector<std::uint16_t> words = computed_words(false);
   return words;
 }
 

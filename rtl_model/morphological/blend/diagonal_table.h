@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Words of diagonal_rom: SMAA's areas of a diagonal, A in the low byte, B in the high one, at
-// ((4 e1 + e2) x 20 + d1) x 20 + d2. Formula: docs/reference/morphological/formats.md.
+// ((4 e1 + e2) x 20 + d1) x 20 + d2. Formulas: docs/reference/morphological/formats.md.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "spec/morphological/parameters.h"
 #include "spec/morphological/tables.h"
 
 namespace deburr::rtl::morphological {
@@ -19,6 +20,6 @@ constexpr std::uint64_t diagonal_address(int e1, int e2, int d1, int d2) {
   return static_cast<std::uint64_t>(word);
 }
 
-const std::vector<std::uint16_t>& diagonal_words();
+const std::vector<std::uint16_t>& diagonal_words(spec::morphological::AreaValues values);
 
 }  // namespace deburr::rtl::morphological

@@ -22,6 +22,7 @@ DiagonalUnit::DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clo
       lanes_(static_cast<std::size_t>(store.lanes())),
       steps_(p.diagonal_steps),
       delay_(static_cast<std::size_t>(diagonal_delay(p.diagonal_steps, store.lanes()))),
+      clamp_(p.border == spec::morphological::Border::kClamp),
       window_memory_("diagonal_window",
                      {.words = (delay_ + 1) * lanes_ + static_cast<std::size_t>(steps_) + 1,
                       .word_bits = static_cast<std::uint32_t>(4 * steps_ + 2) + kTagBits,
@@ -37,7 +38,7 @@ DiagonalUnit::DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clo
             .read_ports = static_cast<std::uint32_t>(2 * lanes_),
             .write_ports = 0,
             .content = "areas of diagonals, by crossing codes and distances of both ends"},
-           diagonal_words()),
+           diagonal_words(p.area_values)),
       shares_("diagonal_shares",
               static_cast<std::uint32_t>(
                   (static_cast<std::size_t>(p.line_pixels) + lanes_ - 1) / lanes_ + 16),
@@ -46,6 +47,15 @@ DiagonalUnit::DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clo
     read_.emplace_back(rom_, std::to_string(lane) + " rising");
     read_.emplace_back(rom_, std::to_string(lane) + " falling");
   }
+}
+
+// Rows beyond the frame as its first and its last one, of a column of that slot row.
+std::uint64_t DiagonalUnit::repeat_rows(std::uint64_t rows, std::int32_t row) const {
+  const std::int32_t y = row - store_.reach_rows() - spec::morphological::kRowLag + 2,
+                     first = steps_ - y, last = first + store_.rules().height - 1;
+  if (first > 0 && (rows >> first & 1) != 0) rows |= (std::uint64_t{1} << first) - 1;
+  if (last < 2 * steps_ && (rows >> last & 1) != 0) rows |= ~std::uint64_t{0} << last;
+  return rows;
 }
 
 // Stage 1. Without a token: columns of no row.
@@ -59,6 +69,12 @@ void DiagonalUnit::shift(Cycle cycle, const DiagonalColumnsToken* token) {
     column.left = token->left[lane];
     column.top = token->top[lane];
     column.row = static_cast<std::uint8_t>(token->slot.row & kRowMask);
+    if (!clamp_ || !store_.rules().clamp) continue;
+    column.left = repeat_rows(column.left, token->slot.row);
+    column.top = repeat_rows(column.top, token->slot.row);
+    if (first + lane == 0) first_[column.row & 1] = column;
+    if (first + lane + 1 == static_cast<std::size_t>(store_.rules().width))
+      last_[column.row & 1] = column;
   }
 }
 
@@ -203,9 +219,12 @@ Datasheet DiagonalUnit::datasheet(const spec::morphological::Parameters& p) {
   return {.unit = "DiagonalUnit",
           .does = "Shares of the pixels that lie on a diagonal (`diagonals`).",
           .latency = {behind + 5, "D + 5, D = ceil((diagonal_steps + 1) / lanes)"},
-          .stages = {{"1", "shift (D beats until the pixels are in hand)", "choice of two"},
+          .stages = {{"1",
+                      "shift (D beats until the pixels are in hand); with border = clamp rows "
+                      "beyond the frame as the nearest one",
+                      "17 : 1 choice of a row, choice of two"},
                      {"2", "tags, good steps, first gap, four searches",
-                      "6-bit compare, 16-bit first gap"},
+                      "6-bit compare, with border = clamp a choice of two, 16-bit first gap"},
                      {"3", "the ends' extra bits and crossing bits, d1 + d2 > 2",
                       "32 : 1 choice + 5-bit add"},
                      {"4", "addresses of `diagonal_rom`", "three small adds (400 e, 20 d1, d2)"},
@@ -214,7 +233,9 @@ Datasheet DiagonalUnit::datasheet(const spec::morphological::Parameters& p) {
           .cost =
               "a lane: four first-gap circuits of M bits, eight choices of M + 1 : 1, two reads "
               "of diagonal_rom (6400 x 16); diagonal_window, (D + 1) lanes + M + 1 columns x (4 "
-              "M + 2 + 7) bits; diagonal_shares, a word of 23 lanes bits a beat."};
+              "M + 2 + 7) bits; diagonal_shares, a word of 23 lanes bits a beat; with border = "
+              "clamp once registers of the first and the last column of two rows, 4 x (4 M + 2) "
+              "bits, and a choice of two a bit of the window that a search reads."};
 }
 
 }  // namespace deburr::rtl::morphological

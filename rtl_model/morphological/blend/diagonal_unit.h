@@ -6,10 +6,12 @@
 // beat, 2 M + 1 rows about row y = s - R - 3, M = diagonal_steps; in a window of them in flip-flops
 // every step of every search is a fixed bit. The pixels in hand lie D = ceil((M + 1) / lanes) beats
 // behind the newest columns. Each column carries 6 bits of its slot row and a valid bit; a column
-// of another row, or none, reads as 0, which is the frame's border. Behind the last beat of a row,
-// and only there, columns that are not valid are shifted in clocks in which no beat has come, so
-// that the row is finished. Results go, a word a beat, in raster order, into a FIFO that the
-// AreaUnit takes them from a row later.
+// of another row, or none, reads as 0, which is the frame's border; with border = clamp as the
+// first or the last column of its own row, which registers keep from the clock in which it is
+// shifted in, and rows beyond the frame are shifted in as the nearest one. Behind the last beat of
+// a row, and only there, columns that are not valid are shifted in clocks in which no beat has
+// come, so that the row is finished. Results go, a word a beat, in raster order, into a FIFO that
+// the AreaUnit takes them from a row later.
 //
 // Stalls: `downstream` (never: the FIFO holds a row and 16 beats, and the AreaUnit is ten slots
 // behind). Source: SMAA (Jimenez et al. 2012), diagonal patterns.
@@ -84,10 +86,16 @@ class DiagonalUnit final : public Unit {
 
   bool bit(std::uint64_t Column::*plane, std::size_t place, int dx, int dy) const {
     const Column& column = window_[(place + static_cast<std::size_t>(dx)) % kPlaces];
-    return column.valid && column.row == window_[place % kPlaces].row &&
-           (column.*plane >> (dy + steps_) & 1);
+    const std::uint8_t row = window_[place % kPlaces].row;
+    if (column.valid && column.row == row) return column.*plane >> (dy + steps_) & 1;
+    return clamp_ && beyond(plane, row, dx < 0) >> (dy + steps_) & 1;
+  }
+  // What a column beyond the border reads as: the row's first or last one.
+  std::uint64_t beyond(std::uint64_t Column::*plane, std::uint8_t row, bool before) const {
+    return store_.rules().clamp ? (before ? first_ : last_)[row & 1].*plane : 0;
   }
   void shift(Cycle cycle, const DiagonalColumnsToken* token);
+  std::uint64_t repeat_rows(std::uint64_t rows, std::int32_t row) const;
   void search(Cycle cycle, Beat& beat);
   void address(Cycle cycle, const Beat& beat);
   void deliver(Cycle cycle, const Beat& beat);
@@ -100,6 +108,7 @@ class DiagonalUnit final : public Unit {
   const std::size_t lanes_;
   const int steps_;          // M, as built
   const std::size_t delay_;  // D, beats
+  const bool clamp_;         // built with border = clamp
   Memory<void> window_memory_;
   ReadPort<void> fixed_bits_{window_memory_, "searches"};  // of all words
   WritePort<void> columns_{window_memory_, "columns"};
@@ -107,6 +116,8 @@ class DiagonalUnit final : public Unit {
   std::vector<ReadPort<std::uint16_t>> read_;  // a lane: rising, falling
   Fifo<DiagonalSharesToken> shares_;
   std::array<Column, kPlaces> window_{};
+  // Of rows by the parity of their slot's, for the next row's come while pixels are in hand.
+  std::array<Column, 2> first_{}, last_{};
   std::size_t newest_ = 0;  // place behind the newest column
   std::size_t drains_ = 0;  // shifts that finish the row whose last beat has come
   Pipe<Beat, kStages> pipe_;

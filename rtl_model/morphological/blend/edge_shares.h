@@ -28,8 +28,13 @@ inline EdgeShares& shares_of(BeatShares& beat, std::size_t edge) {
   return edge % 2 ? pixel.left : pixel.top;
 }
 
-// Shares at sharp corners, U0.8; the factor is U1.9. `near`: which end is nearer, 0 the start, 1
-// the end, 2 neither. In the stage after the shares, of every line's.
+// By the pixels before and behind: 0 the start is nearer, 1 the end, 2 neither.
+constexpr std::uint8_t nearer_end(std::int32_t before, std::int32_t behind) {
+  return before < behind ? 0 : before > behind ? 1 : 2;
+}
+
+// Shares at sharp corners, U0.8; the factor is U1.9. `near`: nearer_end(). In the stage after the
+// shares, of every line's.
 inline EdgeShares at_corners(const FrameRules& rules, EdgeShares shares, std::uint8_t far,
                              std::uint8_t near) {
   if (!rules.corners) return shares;

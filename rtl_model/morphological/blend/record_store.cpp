@@ -181,7 +181,7 @@ void RecordStore::store(Cycle cycle, AxisRecords& axis, const LineToken& token) 
              std::int64_t{line.offset} * line.slope;
   record.growth = static_cast<std::uint32_t>(line.scale) * line.slope;
   record.inverse = line.inverse;
-  if (store_.rules().table) TableShares::set_ends(record);
+  if (store_.rules().table) TableShares::set_ends(record, line.run.endless);
   if (shapes_ || line.learned) {
     record.shape = line.run.shape;
     record.far = line.run.far;

@@ -5,10 +5,6 @@ namespace deburr::rtl::morphological {
 
 // With crossings, corners, diagonals or a table.
 void RecordWalk::match_smaa(Cycle cycle, Beat& beat) {
-  const auto near = [](const Edge& edge, const AxisRecords::Mark& mark) -> std::uint8_t {
-    const std::int32_t twice = 2 * edge.k, last = mark.length - 1;
-    return twice < last ? 0 : twice > last ? 1 : 2;
-  };
   std::uint8_t hand = 1, any = 0;
   for (std::size_t i = 0; i < beat.count; ++i) {
     const std::size_t x = beat.x + i;
@@ -22,7 +18,6 @@ void RecordWalk::match_smaa(Cycle cycle, Beat& beat) {
     Edge& along = beat.horizontal[i];
     along.k = static_cast<std::uint16_t>(x - hand_.start);
     along.from = along.k < hand_.length ? hand : 0;
-    along.near = near(along, hand_);
     along.after = static_cast<std::uint16_t>(hand_.length - 1 - along.k);
 
     Edge& down = beat.vertical[i];
@@ -35,7 +30,6 @@ void RecordWalk::match_smaa(Cycle cycle, Beat& beat) {
       if (k >= column.length) continue;
       down.k = k;
       down.from = static_cast<std::uint8_t>(2 + entries * i + entry);
-      down.near = near(down, column);
       down.after = static_cast<std::uint16_t>(column.length - 1 - k);
       column_.read(cycle, entries * x + entry);
     }

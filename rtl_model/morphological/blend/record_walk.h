@@ -33,8 +33,7 @@ class RecordWalk final : public sc_core::sc_module {
   struct Edge {
     std::uint16_t k = 0;      // pixel of the record
     std::uint8_t from = 0;    // 0 none, 1 in hand, 2 + b: read from bank b in this beat
-    std::uint8_t near = 0;    // which end, if corners are rounded: 0 start, 1 end, 2 none
-    std::uint16_t after = 0;  // pixels of the record behind it, with learned shares
+    std::uint16_t after = 0;  // pixels of the record behind it, with learned shares or corners
   };
   // A beat in stages 1 to 3.
   struct Beat {

@@ -6,23 +6,23 @@
 namespace deburr::rtl::morphological {
 
 TableShares::TableShares(const sc_core::sc_module_name& name,
-                         spec::morphological::AreaSource layout, const ParameterStore& store)
-    : sc_module(name), store_(store), table_(layout, store.lanes()) {}
+                         const spec::morphological::Parameters& p, const ParameterStore& store)
+    : sc_module(name), store_(store), table_(p.area, p.area_values, store.lanes()) {}
 
-void TableShares::set_ends(StoredRecord& record) {
+void TableShares::set_ends(StoredRecord& record, std::uint8_t endless) {
   constexpr std::int64_t kHalf = std::int64_t{1} << (spec::morphological::kRecipFractionBits - 1);
   // S5.12, above the line's lower end.
   const std::int64_t height = (record.t + kHalf + 2048) >> 12;
+  constexpr std::int32_t kFirst = -4096, kLast = 4095;  // S13
   const auto limited = [](std::int64_t pixel) {
-    return static_cast<std::int32_t>(std::clamp<std::int64_t>(pixel, -4096, 4095));
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(pixel, kFirst, kLast));
   };
   const std::int64_t inverse = record.inverse;
-  record.set_ends(limited(-((height * inverse + kHalf) >> 24)),
-                  limited(((4096 - height) * inverse + kHalf) >> 24));
+  record.set_ends(endless & 1 ? kFirst : limited(-((height * inverse + kHalf) >> 24)),
+                  endless & 2 ? kLast : limited(((4096 - height) * inverse + kHalf) >> 24));
 }
 
-void TableShares::ask(std::size_t edge, const StoredRecord& record, std::int32_t k,
-                      std::uint8_t near) {
+void TableShares::ask(std::size_t edge, const StoredRecord& record, std::int32_t k) {
   Beat* beat = pipe_.at(1);
   if (!beat) {
     beat = &pipe_.enter();
@@ -34,7 +34,6 @@ void TableShares::ask(std::size_t edge, const StoredRecord& record, std::int32_t
   search.right = std::max(0, record.last_end() - 1 - k);
   search.query.shape = record.shape;
   search.far = record.far;
-  search.near = near;
   search.span = record.span;
 }
 
@@ -43,10 +42,17 @@ void TableShares::cut(Cycle cycle, Beat& beat) {
   const std::int32_t most_left = 2 * store_.rules().search_steps - 1, most_right = most_left + 1;
   for_each(beat, [&](std::size_t edge, Search& search) {
     AreaTable::Query& query = search.query;
-    if (search.left > most_left) query.shape &= 0b1100;
-    if (search.right > most_right) query.shape &= 0b0011;
+    if (search.left > most_left) {
+      query.shape &= 0b1100;
+      search.far &= 0b1100;
+    }
+    if (search.right > most_right) {
+      query.shape &= 0b0011;
+      search.far &= 0b0011;
+    }
     query.left = static_cast<std::uint8_t>(std::min(search.left, most_left));
     query.right = static_cast<std::uint8_t>(std::min(search.right, most_right));
+    search.near = nearer_end(query.left, query.right);
     table_.address_roots(cycle, edge, query);
   });
 }
@@ -72,9 +78,10 @@ Datasheet TableShares::datasheet() {
       .unit = "TableShares",
       .does = "Shares of an edge by SMAA's table, by its distances to both ends of its line.",
       .latency = {5},
-      .stages = {{"1", "k - a, b - 1 - k; limits, cut shape, addresses of `sqrt_rom`",
+      .stages = {{"1", "k - a, b - 1 - k; limits, cut shape and far bits, addresses of `sqrt_rom`",
                   "two 13-bit subtracts, one after the other, + choice"},
-                 {"2", "roots, addresses of `area_rom`", "ROM read + 5-bit add"},
+                 {"2", "roots, addresses of `area_rom`; which end is nearer",
+                  "ROM read + 5-bit add"},
                  {"3", "entries, differences of neighbours in l", "ROM read + 9-bit subtract"},
                  {"4", "first interpolation", "9 x 8 multiply + 17-bit add"},
                  {"5", "second, rounding; sides", "18 x 8 multiply + 25-bit add"}},

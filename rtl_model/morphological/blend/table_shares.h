@@ -23,8 +23,8 @@ namespace deburr::rtl::morphological {
 
 class TableShares final : public sc_core::sc_module {
  public:
-  TableShares(const sc_core::sc_module_name& name, spec::morphological::AreaSource layout,
-              const ParameterStore& store);
+  TableShares(const sc_core::sc_module_name& name,
+              const spec::morphological::Parameters& parameters, const ParameterStore& store);
 
   // Whether an engine of these parameters has it.
   static bool is_built(const spec::morphological::Parameters& p) {
@@ -33,8 +33,8 @@ class TableShares final : public sc_core::sc_module {
   }
 
   // As a line is stored: where its ends lie, as if a step were its whole length, rounded to whole
-  // pixels.
-  static void set_ends(StoredRecord& record);
+  // pixels; an endless one as far away as there is. `endless`: bit 0 the start, bit 1 the end.
+  static void set_ends(StoredRecord& record, std::uint8_t endless);
 
   // The stages move on: before the walk asks for its beat. `beat`: the shares of the beat in stage
   // 3 here, stage 6 of the AreaUnit, if there is one.
@@ -42,7 +42,7 @@ class TableShares final : public sc_core::sc_module {
     if (!pipe_.empty()) move_on(cycle, beat);
   }
   // The walk's last stage: the edge of a beat that is pixel k of this record.
-  void ask(std::size_t edge, const StoredRecord& record, std::int32_t k, std::uint8_t near);
+  void ask(std::size_t edge, const StoredRecord& record, std::int32_t k);
   void reset() { pipe_.reset(); }
 
   static Datasheet datasheet();

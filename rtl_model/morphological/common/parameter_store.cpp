@@ -61,6 +61,8 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
   };
   f.crossings = is_set(field::kCrossings) && p.ends == spec::morphological::Ends::kCrossings;
   f.table = is_set(field::kTable) && is_table(p);
+  f.clamp = is_set(field::kBorder) && p.border == spec::morphological::Border::kClamp &&
+            f.crossings && f.table;
   f.learned = is_set(field::kLearned) && is_learned(p);
   f.search_steps =
       std::clamp(number(reg::smaa::kSearchSteps), 1, spec::morphological::kMaxSearchSteps);
@@ -72,10 +74,10 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
   f.strongest = is_set(field::kStrongest);
   f.leave = choice_of<spec::morphological::Leave>(field::kLeave, rules);
 
-  f.threshold = 255 * registers.value(reg::kThreshold);
-  f.threshold_on = 255 * registers.value(reg::kThresholdOn);
-  f.threshold_off = 255 * registers.value(reg::kThresholdOff);
-  f.floor = 255 * registers.value(reg::kFloor);
+  f.threshold = registers.value(reg::kThreshold);
+  f.threshold_on = registers.value(reg::kThresholdOn);
+  f.threshold_off = registers.value(reg::kThresholdOff);
+  f.floor = registers.value(reg::kFloor);
   f.alpha = registers.value(reg::kAlpha);
   f.depth_threshold = registers.value(reg::kDepthThreshold);
   f.pixel_base = registers.value(reg::kPixelBase);

@@ -6,11 +6,11 @@
 // beat of a frame. A write while a frame is inside is ignored (CONTROL and STATUS excepted) and
 // sets a sticky bit. Codes of RULES that no choice has count as code 0; steps are limited to
 // window_rows / 2 - 2, those of SMAA's searches to their ranges; what was not built (depth lines
-// with source = luma) reads as 0, and `contiguous`, crossings, tables, diagonals and corners count
-// as off in an engine that was built without them, and so do learned shares, whose registers read 0
-// then (else: SharesLoader). A reset gives every register its reset value; SIZE is 0 then and must
-// be written again. Cost: 15 x 32 flip-flops twice (registers, decoded products of the frame
-// inside). Made for 300 MHz; longest path: 16-bit multiply by 255.
+// with source = luma) reads as 0, and `contiguous`, crossings, clamp, tables, diagonals and corners
+// count as off in an engine that was built without them, and so do learned shares, whose registers
+// read 0 then (else: SharesLoader). A reset gives every register its reset value; SIZE is 0 then
+// and must be written again. Cost: 15 x 32 flip-flops twice (registers, decoded values of the frame
+// inside). Made for 300 MHz; longest path: the least of three 5-bit numbers.
 #pragma once
 
 #include <cstdint>
@@ -31,13 +31,15 @@ struct FrameRules {
   bool dynamic = false;
   spec::morphological::DynamicLuma dynamic_luma{};
   spec::morphological::LocalContrast local_contrast{};
-  // Thresholds of luma steps, U8.16: 255 x register.
+  // Thresholds of luma steps, U8.16.
   std::uint32_t threshold = 0, threshold_on = 0, threshold_off = 0, floor = 0;
-  std::uint32_t alpha = 0, depth_threshold = 0;  // U0.16
+  std::uint32_t alpha = 0;            // U0.24
+  std::uint32_t depth_threshold = 0;  // U0.16
   spec::morphological::Predictor predictor{};
   std::int32_t steps = 0;  // U5
   bool contiguous = false, safe = false, trim = false, linear_light = false;
   bool crossings = false;               // where runs end
+  bool clamp = false;                   // edges beyond the frame are those of the nearest pixel
   bool table = false, learned = false;  // where areas come from
   std::int32_t search_steps = 0;        // U7, 1..112
   std::int32_t diagonal_steps = 0;      // U5, 0: none

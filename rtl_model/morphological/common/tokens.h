@@ -205,6 +205,8 @@ inline PayloadShape record_shape(const spec::morphological::Parameters& p, const
                                  const std::string& run) {
   PayloadShape shape;
   if (!p.round_corners) shape.widths.emplace_back(run + "far", 0);
+  if (p.border != spec::morphological::Border::kClamp)
+    shape.widths.emplace_back(run + "endless", 0);
   if (p.ends != spec::morphological::Ends::kCrossings)
     for (const char* const field : {"entry", "beyond"}) shape.widths.emplace_back(token + field, 0);
   return shape;
@@ -228,6 +230,8 @@ inline PayloadShape line_shape(const spec::morphological::Parameters& p) {
   PayloadShape shape;
   leave_out_shares(shape, p, "line.");
   if (!p.round_corners) shape.widths.emplace_back("line.run.far", 0);
+  if (p.border != spec::morphological::Border::kClamp)
+    shape.widths.emplace_back("line.run.endless", 0);
   if (p.ends != spec::morphological::Ends::kCrossings) shape.widths.emplace_back("entry", 0);
   return shape;
 }

@@ -166,8 +166,8 @@ bool EdgeDetector::is_edge(Position p, Position q) const {
     case spec::morphological::EdgeSource::kColour:
       if (!rules.dynamic) return c >= rules.threshold;
   }
-  // U9.32: both sides are products with U0.16, of twice the luma.
-  return (std::uint64_t{c} << 17) > std::uint64_t{rules.alpha} * doubled_luma(p, q) &&
+  // U9.40: both sides are products with U0.24, of twice the luma.
+  return (std::uint64_t{c} << 25) > std::uint64_t{rules.alpha} * doubled_luma(p, q) &&
          c >= rules.floor;
 }
 
@@ -235,12 +235,14 @@ Datasheet EdgeDetector::datasheet() {
           .stages = {{"1", "address"},
                      {"2", "words of the columns, write back", "SRAM read"},
                      {"3", "differences, maxima of two pairs, products with the thresholds",
-                      "25 x 16 multiply, or a 24-bit compare with its choice"},
+                      "25 x 24 multiply, or a 24-bit compare with its choice"},
                      {"4", "last maxima, decision", "three 24-bit compares with their choices"}},
-          .formats = "U8.16 luma or three codes U0.8, U24 depth, U0.16 thresholds.",
+          .formats =
+              "U8.16 luma or three codes U0.8, U24 depth; thresholds U8.16, alpha U0.24, of depth "
+              "U0.16.",
           .cost =
               "a lane: two differences and compares (fixed), six differences of 8 bits and two "
-              "maxima (colour), two multipliers 25 x 16 more (dynamic, depth), nine differences "
+              "maxima (colour), two multipliers 25 x 24 more (dynamic, depth), nine differences "
               "and an 8-input maximum a bit (local contrast)."};
 }
 

@@ -16,6 +16,8 @@ constexpr std::uint8_t code(bool first, bool second) {
   return static_cast<std::uint8_t>(int{first} | int{second} << 1);
 }
 
+constexpr std::uint8_t either(int a, int b) { return static_cast<std::uint8_t>(a | b); }
+
 constexpr std::uint16_t u16(std::int32_t value) { return static_cast<std::uint16_t>(value); }
 
 }  // namespace
@@ -200,6 +202,7 @@ void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) 
         open_ = true;
         start_ = x;
         start_corner_ = corner_of_row(x);
+        start_corner_.endless = x == 0 && store_.rules().clamp;
       } else if (crossings && (window_.left(x, row_ - 1) || window_.left(x, row_))) {
         Corner corner = corner_of_row(x);
         corner.beyond = true;
@@ -217,7 +220,14 @@ void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) 
       close(find, x, corner_of_row(x));
     }
   }
-  if (open_ && end == store_.rules().width) close(find, end, {});
+  if (open_ && end == store_.rules().width) close(find, end, right_border());
+}
+
+// The corner behind the last column, whose edges are those of that column.
+RunExtractor::Corner RunExtractor::right_border() const {
+  if (!store_.rules().clamp) return {};
+  const Corner corner = corner_of_row(store_.rules().width - 1);
+  return corner.code != 0 ? corner : Corner{.endless = true};
 }
 
 // The run ends in front of column `end`.
@@ -234,19 +244,30 @@ void RunExtractor::close(Find& find, std::int32_t end, Corner corner) {
 
 // Corner (x, y) of the row in hand: from its column.
 RunExtractor::Corner RunExtractor::corner_of_row(std::int32_t x) const {
+  const FrameRules& rules = store_.rules();
   Corner corner{code(window_.left(x, row_ - 1), window_.left(x, row_))};
-  if (store_.rules().corners)
+  if (rules.corners) {
     corner.far = code(window_.left(x, row_ - 2), window_.left(x, row_ + 1));
+    if (rules.clamp)
+      corner.far = either(corner.far, corner.code & code(row_ == 1, row_ + 1 == rules.height));
+  }
   return corner;
 }
 
 // Corner (x, y) of a column's run: from the columns beside it. A second pixel beyond the frame is
-// nothing.
+// nothing, with border = clamp the first one again.
 RunExtractor::Corner RunExtractor::corner_of_column(std::int32_t x, std::int32_t y,
                                                     bool far) const {
+  const FrameRules& rules = store_.rules();
+  const bool below = rules.clamp && y == rules.height;
+  if (below) --y;
   Corner corner{code(window_.top(x - 1, y), window_.top(x, y))};
-  if (far)
-    corner.far = code(window_.top(x - 2, y), x + 1 < store_.rules().width && window_.top(x + 1, y));
+  if (below && corner.code == 0) return {.endless = true};
+  if (far) {
+    corner.far = code(window_.top(x - 2, y), x + 1 < rules.width && window_.top(x + 1, y));
+    if (rules.clamp)
+      corner.far = either(corner.far, corner.code & code(x == 1, x + 1 == rules.width));
+  }
   return corner;
 }
 
@@ -282,6 +303,7 @@ void RunExtractor::vertical_at(Find& find, std::int32_t x, bool starts) {
     } else {
       run.length = u16(length);
       Corner start = corner(0), end = corner(length);
+      start.endless = rules.clamp && row_ == 0;
       start.beyond = window_.left(x, row_ - 1);
       end.beyond = window_.left(x, row_ + length);
       found(find, run, start, end);
@@ -321,6 +343,7 @@ void RunExtractor::smaa_vertical(Find& find, std::int32_t first, std::int32_t en
 void RunExtractor::found(Find& find, RunRecord run, Corner start, Corner end) const {
   run.shape = static_cast<std::uint8_t>(start.code + 4 * end.code);
   run.far = static_cast<std::uint8_t>(start.far + 4 * end.far);
+  run.endless = code(start.endless, end.endless);
   RunToken& token = find.run[find.count++];
   token.run = run;
   token.slot = token_.slot.number & kSlotMask;
@@ -397,7 +420,8 @@ Datasheet RunExtractor::record_datasheet() {
       .stages = {{"1, 2", "as slots; end of a horizontal run or beginning of a vertical one"},
                  {"3, 4",
                   "length of a vertical run: first gap below row y, in groups of 16 rows; choice "
-                  "of a group, and of each group the code at its first gap",
+                  "of a group, and of each group the code at its first gap (border = clamp: below "
+                  "the frame that of its last row)",
                   "choice of 1 in 9 groups (window_rows of 258; 3 by default)"},
                  {"5", "code of its end: choice of a group; shape; side or none",
                   "16 : 1 table of shapes"},
@@ -406,7 +430,9 @@ Datasheet RunExtractor::record_datasheet() {
           "a lane: a first-gap circuit of R + 1 bits, two choices of R + 1 : 1, two "
           "counters, 3 columns of flip-flops (window_rows + 1 pairs of bits; with corners 5, "
           "and a circuit more); registers of 12 records that are being looked for and of 4 "
-          "that wait for their FIFOs. Memory: record_fifo entries an axis and lane."};
+          "that wait for their FIFOs; with border = clamp a register of R + 1 bits that says "
+          "where the frame ends, and a gate of each code below it. Memory: record_fifo entries an "
+          "axis and lane."};
 }
 
 }  // namespace deburr::rtl::morphological

@@ -13,7 +13,9 @@
 // column's word, which turns over where a run begins. With rounded corners a record carries whether
 // its crossings go on for a second pixel; vertical runs need the column to the right for that and
 // are looked for a column behind, in the last slot of a row at its last column as well. With
-// diagonals stage 2 hands the columns of the beat on to the DiagonalUnit.
+// diagonals stage 2 hands the columns of the beat on to the DiagonalUnit. With border = clamp edges
+// beyond the frame are those of the nearest pixel: a run that meets the border ends there with the
+// code of its last pixel's corner, or is endless if that is none.
 //
 // Records without a side are counted and, but with learned shares, go nowhere. Rows of a single
 // beat read a word that is being written: it is taken from the register that it was written from.
@@ -99,7 +101,8 @@ class RunExtractor final : public Unit {
   // side, bit 1 on the second.
   struct Corner {
     std::uint8_t code = 0, far = 0;
-    bool beyond = false;  // edges along the run go on there
+    bool beyond = false;   // edges along the run go on there
+    bool endless = false;  // it goes on beyond the frame
   };
 
   // kSmaa: of an engine with crossings, corners or diagonals; others do not pay for them.
@@ -117,6 +120,7 @@ class RunExtractor final : public Unit {
   void smaa_vertical(Find& find, std::int32_t first, std::int32_t end);
   void vertical_at(Find& find, std::int32_t x, bool starts);
   void found(Find& find, spec::morphological::RunRecord run, Corner start, Corner end) const;
+  Corner right_border() const;
   bool crosses(std::int32_t x, std::int32_t y) const {
     return window_.top(x - 1, y) || window_.top(x, y);
   }

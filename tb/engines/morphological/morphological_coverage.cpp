@@ -25,9 +25,19 @@ constexpr std::array kGroups = {
     CoverageGroup{"morphological/table-entry",
                   "Distances 0, and beyond the last root but one, by tile of the table."},
     CoverageGroup{"morphological/search", "Searches that end at their limit, and beyond it."},
+    CoverageGroup{
+        "morphological/endless",
+        "Runs that go on beyond the border with border = clamp, by axis and end; repeated: "
+        "runs of one pixel whose crossings the border repeats."},
+    CoverageGroup{
+        "morphological/corner",
+        "Pixels of runs with sharp corners, by axis and the nearer end; cut: the corners lie "
+        "beyond the limit of the searches."},
     CoverageGroup{"morphological/diagonal", "Diagonals by direction and codes of their ends."},
     CoverageGroup{"morphological/diagonal-ends", "Ends of diagonals that are open."},
     CoverageGroup{"morphological/diagonal-length", "Diagonals by direction and pixels."},
+    CoverageGroup{"morphological/diagonal-beyond",
+                  "Diagonals that follow repeated edges beyond the border, by direction."},
     CoverageGroup{"morphological/threshold", "Edges by what decided their threshold."},
     CoverageGroup{"morphological/left", "Pixels that keep their colour by the rule of marks."},
     CoverageGroup{"morphological/leave-border",

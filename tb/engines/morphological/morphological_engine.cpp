@@ -250,7 +250,7 @@ class MorphologicalCommand final : public Engine {
     const spec::morphological::Parameters& p = parameters_;
     const int lanes = spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
     return fmt::format(
-        "{} x {} pixels, {}: edges from {} at T = {:.4f}, local contrast {}, predictor {} "
+        "{} x {} pixels, {}: edges from {} at T = {:.2f} codes, local contrast {}, predictor {} "
         "with N = {}{}{}{}, {} light; {} pixel{} a clock, {} window rows, {}",
         loaded.input.image.width, loaded.input.image.height, preset_label_,
         name_of(p.edge_source, spec::morphological::kEdgeSourceNames), p.threshold / 65536.0,

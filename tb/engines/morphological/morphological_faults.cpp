@@ -13,7 +13,8 @@
 namespace deburr::tb {
 namespace {
 
-constexpr std::int32_t kMostThreshold = 65535;  // of T and of the floor, U0.16
+// Of T and of the floor, U8.16.
+constexpr std::int32_t kMostThreshold = (1 << spec::morphological::kThresholdBits) - 1;
 
 }  // namespace
 
@@ -81,16 +82,17 @@ std::vector<PlantedFault> MorphologicalFaults::smaa_faults() const {
                         p.local_contrast == spec::morphological::LocalContrast::kPaper;
   const bool table = p.area != spec::morphological::AreaSource::kAnalytic &&
                      p.area != spec::morphological::AreaSource::kLearned;
+  const bool clamp = p.border == spec::morphological::Border::kClamp;
   const std::string for_table = unless(table, "area = table_full, table_merged or table_minimal"),
                     for_diagonals = unless(p.diagonals, "diagonals = true");
   return {
       {"wrong-threshold",
        "The threshold errs where it is just reached: T a unit higher, or alpha a unit lower.", "",
        unless(luma && (dynamic ? p.alpha > 0 : p.threshold < kMostThreshold),
-              "edges.source = luma, alpha of at least 1, T of at most 65534")},
+              "edges.source = luma, alpha of at least 1, T of at most 16777214")},
       {"wrong-floor", "The floor of a dynamic threshold is a unit higher.", "",
        unless(luma && dynamic && p.floor < kMostThreshold,
-              "edges.threshold_mode = dynamic, floor of at most 65534")},
+              "edges.threshold_mode = dynamic, floor of at most 16777214")},
       {"wrong-contrast",
        "An edge of exactly half the contrast beside it is dropped for kept, kept for dropped.", "",
        unless(luma && contrast, "edges.local_contrast = smaa or paper")},
@@ -101,6 +103,12 @@ std::vector<PlantedFault> MorphologicalFaults::smaa_faults() const {
        unless(p.area == spec::morphological::AreaSource::kTableMerged, "area = table_merged")},
       {"wrong-search", "Searches along runs end a step early.", "",
        unless(table && p.search_steps > 1, "area = table_*, search_steps of at least 2")},
+      {"wrong-border", "Edges end at the frame's border.", "", unless(clamp, "border = clamp")},
+      {"wrong-endless", "The end of a horizontal run that lies in the frame counts as endless.",
+       "flip:morphological.lines_h0:20:line.run.endless.1", unless(clamp, "border = clamp")},
+      {"wrong-values", "Tables hold exact areas for the published ones, or the published ones.", "",
+       table || p.diagonals ? ""
+                            : "morphological.area = table_* or morphological.diagonals = true"},
       {"wrong-entry", "A vertical record is stored in the other entry of its column.",
        "flip:morphological.lines_v0:20:entry",
        unless(p.ends == spec::morphological::Ends::kCrossings, "ends = crossings")},
@@ -135,6 +143,11 @@ spec::morphological::Parameters MorphologicalFaults::as_built() const {
                            : spec::morphological::LocalContrast::kSmaa;
   if (planted("wrong-search")) p.search_steps = std::max(1, p.search_steps - 1);
   if (planted("wrong-diagonal")) p.diagonal_steps = std::max(1, p.diagonal_steps - 1);
+  if (planted("wrong-border")) p.border = spec::morphological::Border::kEnd;
+  if (planted("wrong-values"))
+    p.area_values = p.area_values == spec::morphological::AreaValues::kExact
+                        ? spec::morphological::AreaValues::kPublished
+                        : spec::morphological::AreaValues::kExact;
   if (planted("wrong-colour")) p.edge_source = spec::morphological::EdgeSource::kLuma;
   if (planted("wrong-corner")) p.corner_rounding = std::max(0, p.corner_rounding - 1);
   return p;
@@ -192,7 +205,7 @@ void MorphologicalFaults::plant(rtl::morphological::MorphologicalEngine& engine)
   if (planted("wrong-sum"))
     in_rom("share_rom", kShare, [](auto& rom) { rom.backdoor(128 - 32) ^= 1u << 2; });
   if (planted("wrong-mix"))
-    in_rom("mix_rom", kWord, [](auto& rom) { rom.backdoor(64) ^= 1u << 9; });
+    in_rom("mix_rom", kWord, [](auto& rom) { rom.backdoor(64) ^= 1u << 13; });
 }
 
 }  // namespace deburr::tb

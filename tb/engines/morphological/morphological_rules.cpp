@@ -76,6 +76,10 @@ void reject_unused_rules(const ParameterSet& set, const spec::morphological::Par
   if (p.area == spec::morphological::AreaSource::kAnalytic ||
       p.area == spec::morphological::AreaSource::kLearned)
     reject("morphological.area = analytic and learned search nothing", {"search_steps"});
+  if ((p.area == spec::morphological::AreaSource::kAnalytic ||
+       p.area == spec::morphological::AreaSource::kLearned) &&
+      !p.diagonals)
+    reject("it belongs to tables: morphological.area or morphological.diagonals", {"area_values"});
   if (!p.diagonals) reject("it belongs to morphological.diagonals = true", {"diagonal_steps"});
   if (!p.round_corners)
     reject("it belongs to morphological.round_corners = true", {"corner_rounding"});

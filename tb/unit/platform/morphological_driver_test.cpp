@@ -78,7 +78,7 @@ Parameters nothing() {
 
 struct Bed {
   explicit Bed(const Parameters& p = nothing()) : driver(registers, p, &memory) {
-    registers.values[reg::kId] = 0xDEB00102;
+    registers.values[reg::kId] = 0xDEB00103;
     registers.values[reg::kStatus] = 1;
   }
   FakeRegisters registers;

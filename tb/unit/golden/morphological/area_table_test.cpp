@@ -11,11 +11,13 @@
 #include <cmath>
 #include <utility>
 
+#include "golden/ideal/smaa.h"
 #include "golden/ideal/smaa_area.h"
 #include "golden/morphological/arithmetic.h"
 #include "golden/morphological/corners.h"
 #include "golden/morphological/line.h"
 #include "spec/morphological/shapes.h"
+#include "tb/base/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
 namespace deburr::area_table_test {
@@ -86,6 +88,27 @@ TEST(AreaTable, IsTheSameInEveryLayout) {
     zero += full.entry(pattern, i, j) == AreaEntry{};
   });
   EXPECT_LT(zero, 8 * 256);  // most entries say something
+}
+
+// Values of the published bytes: the areas rounded down, in all layouts alike.
+TEST(AreaTable, HoldsThePublishedBytesIfAsked) {
+  using spec::morphological::AreaValues;
+  const FullAreaTable full(AreaValues::kPublished), exact;
+  const MergedAreaTable merged(full);
+  const MinimalAreaTable minimal(AreaValues::kPublished);
+  int differing = 0;
+  each_entry([&](int pattern, int i, int j) {
+    const auto bytes = golden::ideal::smaa_area_bytes(pattern, i * i, j * j);
+    const AreaEntry entry = full.entry(pattern, i, j);
+    EXPECT_NEAR(entry.second, 512 * bytes.r / 255.0, 0.5) << pattern << ' ' << i << ' ' << j;
+    EXPECT_NEAR(entry.first, 512 * bytes.g / 255.0, 0.5) << pattern << ' ' << i << ' ' << j;
+    EXPECT_EQ(merged.entry(pattern, i, j), entry);
+    EXPECT_EQ(minimal.entry(pattern, i, j), entry);
+    differing += entry != exact.entry(pattern, i, j);
+  });
+  EXPECT_GT(differing, 1000);
+  EXPECT_EQ(table_shares(1, 0, 224), (EdgeShares{128, 0}));
+  EXPECT_EQ(table_shares(1, 0, 224, AreaValues::kPublished), (EdgeShares{127, 0}));
 }
 
 // Patterns that the merged layout reads together differ from those that it does not.
@@ -297,6 +320,35 @@ TEST(Searches, EndAtTheirLimits) {
   }
 }
 
+// An endless end lies beyond every limit, wherever the pixel is.
+TEST(Searches, GoToTheirLimitAtAnEndlessEnd) {
+  for (const int steps : {1, 4, 112}) {
+    for (const int length : {1, 2, 9, 400}) {
+      for (int endless = 0; endless < 4; ++endless) {
+        LineRecord line = whole_run(length, 9);
+        line.run.endless = static_cast<std::uint8_t>(endless);
+        const LineEnds ends = line_ends(line);
+        EXPECT_EQ(ends.first, endless % 2 != 0 ? -4096 : 0);
+        EXPECT_EQ(ends.last, endless / 2 != 0 ? 4095 : length);
+        for (int k = 0; k < length; ++k) {
+          const auto address = table_address(line, ends, steps, k);
+          if (endless % 2 != 0) {
+            EXPECT_EQ(address.before, 2 * steps - 1);
+            EXPECT_EQ(address.shape & 3, 0);
+          }
+          if (endless / 2 != 0) {
+            EXPECT_EQ(address.after, 2 * steps);
+            EXPECT_EQ(address.shape & 12, 0);
+          }
+          if (endless % 2 == 0) {
+            EXPECT_EQ(address.before, std::min(k, 2 * steps - 1));
+          }
+        }
+      }
+    }
+  }
+}
+
 // What one pixel more or less would do, on a Z: the far end is seen or not.
 TEST(Searches, SeeTheCrossingAtTheLimitOnly) {
   constexpr int kSteps = 4, kLeft = 7, kRight = 8;
@@ -321,7 +373,13 @@ TEST(AreaTable, GivesTheSameFramesInEveryLayout) {
     EXPECT_EQ(smooth(p, frame), full);
     p.area = spec::morphological::AreaSource::kTableMinimal;
     EXPECT_EQ(smooth(p, frame), full);
+    p.area_values = spec::morphological::AreaValues::kPublished;
+    const Frame published = smooth(p, frame);
+    EXPECT_NE(published, full);
+    p.area = spec::morphological::AreaSource::kTableFull;
+    EXPECT_EQ(smooth(p, frame), published);
     p.area = spec::morphological::AreaSource::kAnalytic;
+    p.border = spec::morphological::Border::kEnd;
     EXPECT_NE(smooth(p, frame), full);
   }
 }
@@ -401,15 +459,78 @@ TEST(Searches, LoseNothingByTheReachOf4NPlus2) {
   EXPECT_NE(shares(Quality::kUltra, 300, 126), ultra);
 }
 
+// ---- border -------------------------------------------------------------------------------------
+
+// A frame within a larger one, beyond whose borders its outermost edges go on.
+golden::morphological::EdgePlanes with_margin(const golden::morphological::EdgePlanes& edges,
+                                              int margin) {
+  const int width = edges.left.width(), height = edges.left.height();
+  using golden::morphological::BitPlane;
+  golden::morphological::EdgePlanes large{BitPlane(width + 2 * margin, height + 2 * margin),
+                                          BitPlane(width + 2 * margin, height + 2 * margin)};
+  for (int y = 0; y < height + 2 * margin; ++y)
+    for (int x = 0; x < width + 2 * margin; ++x) {
+      const int from_x = std::clamp(x - margin, 0, width - 1),
+                from_y = std::clamp(y - margin, 0, height - 1);
+      if (edges.left.at(from_x, from_y)) large.left.set(x, y);
+      if (edges.top.at(from_x, from_y)) large.top.set(x, y);
+    }
+  return large;
+}
+
+// With border = clamp every edge has the shares that it has in such a frame, whose margin no search
+// crosses.
+TEST(Border, ClampedIsAFrameWhoseEdgesGoOn) {
+  using golden::morphological::BitPlane;
+  tb::Random random(21);
+  int edges = 0, differing = 0;
+  for (const Quality quality : {Quality::kLow, Quality::kHigh}) {
+    Parameters p = preset_parameters(Preset::kSmaa, quality);
+    p.round_corners = p.diagonals = true;
+    const int margin = 2 * p.search_steps + 3;
+    for (const auto& [width, height] :
+         {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 3}, {12, 9}, {40, 30}, {90, 7}, {7, 90}}) {
+      for (const auto& [lefts, tops] :
+           {std::pair{500, 500}, {30, 950}, {950, 30}, {3, 995}, {995, 3}, {800, 800}}) {
+        golden::morphological::EdgePlanes small{BitPlane(width, height), BitPlane(width, height)};
+        for (int y = 0; y < height; ++y)
+          for (int x = 0; x < width; ++x) {
+            if (x > 0 && random.chance(lefts)) small.left.set(x, y);
+            if (y > 0 && random.chance(tops)) small.top.set(x, y);
+          }
+        const auto flat = [](int, int) { return tb::morphological::grey(9); };
+        const Frame inner(width, height, flat),
+            outer(width + 2 * margin, height + 2 * margin, flat);
+        p.border = spec::morphological::Border::kClamp;
+        MorphologicalGolden clamped(p);
+        clamped.process(inner.view(), small);
+        p.border = spec::morphological::Border::kEnd;
+        MorphologicalGolden ended(p), larger(p);
+        ended.process(inner.view(), small);
+        larger.process(outer.view(), with_margin(small, margin));
+        for (int y = 0; y < height; ++y)
+          for (int x = 0; x < width; ++x) {
+            ASSERT_EQ(clamped.top_shares(x, y), larger.top_shares(x + margin, y + margin))
+                << width << " x " << height << ", " << x << ' ' << y;
+            ASSERT_EQ(clamped.left_shares(x, y), larger.left_shares(x + margin, y + margin))
+                << width << " x " << height << ", " << x << ' ' << y;
+            edges += small.left.at(x, y) + small.top.at(x, y);
+            differing += clamped.top_shares(x, y) != ended.top_shares(x, y) ||
+                         clamped.left_shares(x, y) != ended.left_shares(x, y);
+          }
+      }
+    }
+  }
+  EXPECT_GT(edges, 5000);
+  EXPECT_GT(differing, 500);
+}
+
 // ---- corners ------------------------------------------------------------------------------------
 
 TEST(Corners, KeepTheirShareOfTheWeightBesideASharpCorner) {
-  RunRecord run;
-  run.length = 5;
   const EdgeShares shares{100, 60};
   const auto at = [&](int far, int stays, int k) {
-    run.far = static_cast<std::uint8_t>(far);
-    const EdgeShares s = golden::morphological::rounded_at_corners(shares, run, stays, k);
+    const EdgeShares s = golden::morphological::rounded_at_corners(shares, far, stays, k, 4 - k);
     return std::pair(int{s.first}, int{s.second});
   };
   for (int k = 0; k < 5; ++k) {
@@ -422,20 +543,13 @@ TEST(Corners, KeepTheirShareOfTheWeightBesideASharpCorner) {
     EXPECT_EQ(at(4, 64, k), std::pair(k > 2 ? 25 : k == 2 ? 63 : 100, 60));
     EXPECT_EQ(at(8, 64, k), std::pair(100, k > 2 ? 15 : k == 2 ? 38 : 60));
   }
-  run.part = RunPart::kHead;
-  for (int k = 0; k < 5; ++k) EXPECT_EQ(at(1, 64, k), std::pair(25, 60));
-  run.part = RunPart::kTail;
-  for (int k = 0; k < 5; ++k) EXPECT_EQ(at(4, 64, k), std::pair(25, 60));
 }
 
 // Seven at 329 / 512 are 4.498, one at 257 / 512 is 0.502, a hundred and 64 at a half are whole.
 TEST(Corners, RoundToTheNearestShare) {
-  RunRecord run;
-  run.length = 3;
-  run.far = 1;
   const auto middle = [&](int share, int stays) {
     const EdgeShares shares{static_cast<std::uint8_t>(share), 0};
-    return int{golden::morphological::rounded_at_corners(shares, run, stays, 1).first};
+    return int{golden::morphological::rounded_at_corners(shares, 1, stays, 1, 1).first};
   };
   EXPECT_EQ(middle(7, 73), 4);  // 2303 / 512
   EXPECT_EQ(middle(1, 1), 1);   // 257 / 512
@@ -446,13 +560,42 @@ TEST(Corners, RoundToTheNearestShare) {
 
 // A run of an even number of pixels has no middle.
 TEST(Corners, SplitAnEvenRunInTwo) {
-  RunRecord run;
-  run.length = 4;
-  run.far = 1;
   for (int k = 0; k < 4; ++k) {
-    EXPECT_EQ(golden::morphological::rounded_at_corners({128, 0}, run, 128, k).first,
+    EXPECT_EQ(golden::morphological::rounded_at_corners({128, 0}, 1, 128, k, 3 - k).first,
               k < 2 ? 64 : 128);
   }
+}
+
+// Near and far are told after the limit, which hides the far bits of an end beyond it: with N = 4
+// the pixels at l = r = 7 of a run of more than 15 are in the middle, and lose half.
+TEST(Corners, AreDecidedAfterTheLimitOfTheSearches) {
+  const auto shares = [&](int length, int k, int far, bool rounded) {
+    const LineRecord line = whole_run(length, 9);
+    const auto address = table_address(line, line_ends(line), 4, k);
+    const EdgeShares s = table_shares(address);
+    if (!rounded) return std::pair(int{s.first}, int{s.second});
+    const EdgeShares kept = golden::morphological::rounded_at_corners(
+        s, address.far_seen(far), 0, address.before, address.after);
+    return std::pair(int{kept.first}, int{kept.second});
+  };
+  for (const int length : {17, 18, 30}) {
+    for (int k = 0; k < length; ++k) {
+      const int l = k, r = length - 1 - k;
+      const auto [first, second] = shares(length, k, 15, false);
+      const auto kept = shares(length, k, 15, true);
+      // A start beyond 7 pixels or an end beyond 8 gives nothing.
+      const bool start = l <= 7, end = r <= 8;
+      const int seen_l = std::min(l, 7), seen_r = std::min(r, 8);
+      const int halves = seen_l < seen_r   ? (start ? 2 : 0)
+                         : seen_l > seen_r ? (end ? 2 : 0)
+                                           : (start ? 1 : 0) + (end ? 1 : 0);
+      const auto rest = [&](int share) { return (share * (512 - 256 * halves) + 256) >> 9; };
+      EXPECT_EQ(kept, std::pair(rest(first), rest(second))) << length << ' ' << k;
+    }
+  }
+  // The pixel with l beyond and r = 7: it has a share, and loses half of it.
+  EXPECT_EQ(shares(30, 22, 15, false).second, 11);
+  EXPECT_EQ(shares(30, 22, 15, true).second, 6);  // 5.5
 }
 
 }  // namespace

@@ -51,31 +51,58 @@ TEST(Blender, DecidesTheAxisByTheStrongestShare) {
 // Two shares in proportion to their squares, for every pair; a single one as it is.
 TEST(Blender, MixesSharesBySquares) {
   using golden::morphological::mixed_by_squares;
+  using golden::morphological::Weights;
   for (int a = 0; a < 256; ++a) {
     EXPECT_EQ(golden::morphological::mix_reciprocal(a),
-              a == 0 ? 0u : static_cast<std::uint32_t>(std::floor(65536.0 / a + 0.5)));
+              a == 0 ? 0u : static_cast<std::uint32_t>(std::floor(1048576.0 / a + 0.5)));
     for (int b = 0; b < 256; ++b) {
       spec::morphological::BlendTap tap;
       tap.horizontal = true;
       tap.edges = 2;
       tap.first = static_cast<std::uint8_t>(a);
       tap.second = static_cast<std::uint8_t>(b);
-      const spec::morphological::BlendTap mixed = mixed_by_squares(tap);
-      EXPECT_TRUE(mixed.horizontal);
-      EXPECT_EQ(mixed.edges, 2);
-      EXPECT_LE(mixed.first + mixed.second, 256);
+      const Weights mixed = mixed_by_squares(tap);
+      EXPECT_LE(mixed.first + mixed.second, 4096);
       const double sum = std::max(1, a + b);
-      // The rounded reciprocal is off by half of 2^-16, of up to 255^2 at most.
-      EXPECT_NEAR(mixed.first, a * a / sum, 0.5 + a * a / 131072.0) << a << ' ' << b;
-      EXPECT_NEAR(mixed.second, b * b / sum, 0.5 + b * b / 131072.0) << a << ' ' << b;
+      // The rounded reciprocal is off by half of 2^-20, of up to 255^2 at most.
+      EXPECT_NEAR(mixed.first, 16 * a * a / sum, 0.5 + a * a / 131072.0) << a << ' ' << b;
+      EXPECT_NEAR(mixed.second, 16 * b * b / sum, 0.5 + b * b / 131072.0) << a << ' ' << b;
+      EXPECT_EQ(golden::morphological::unmixed(tap), (Weights{16 * a, 16 * b}));
       if (a == 0 || b == 0) {
-        EXPECT_EQ(mixed, tap);
+        EXPECT_EQ(mixed, golden::morphological::unmixed(tap));
       }
     }
   }
-  const auto mixed = mixed_by_squares({false, 64, 32, 0});
-  EXPECT_EQ(mixed.first, 43);
-  EXPECT_EQ(mixed.second, 11);
+  EXPECT_EQ(mixed_by_squares({false, 64, 32, 0}), (Weights{683, 171}));
+}
+
+// Of exact squares the blended code is at most one off, dark pixels beside bright ones included.
+TEST(Blender, MixesWithinACodeInLinearLight) {
+  const auto linear = [](int code) {
+    return spec::morphological::kLinear12FromSrgb[static_cast<std::size_t>(code)];
+  };
+  int most = 0, off = 0;
+  for (const int c : {0, 1, 3, 8, 30, 120, 255}) {
+    for (const auto& [n1, n2] : {std::pair{255, 255}, {255, 0}, {255, 90}, {40, 255}, {13, 17}}) {
+      for (int a = 1; a < 256; ++a) {
+        for (int b = 1; b < 256; ++b) {
+          const double sum = a + b, d1 = linear(n1) - linear(c), d2 = linear(n2) - linear(c);
+          const double exact = linear(c) + (a * a * d1 + b * b * d2) / (256 * sum);
+          const int wanted =
+              spec::morphological::kSrgbFromLinear12[static_cast<std::size_t>(std::lround(exact))];
+          spec::morphological::BlendTap tap;
+          tap.first = static_cast<std::uint8_t>(a);
+          tap.second = static_cast<std::uint8_t>(b);
+          const int got =
+              blend_channel(true, c, n1, n2, golden::morphological::mixed_by_squares(tap));
+          most = std::max(most, std::abs(got - wanted));
+          off += got != wanted;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(most, 1);
+  EXPECT_LT(off, 35 * 255 * 255 / 20);
 }
 
 TEST(Blender, TakesTheSharesOfTheChosenAxisOnly) {
@@ -92,7 +119,8 @@ TEST(Blender, RoundsTheMagnitude) {
       for (int w = 0; w <= 128; ++w) {
         const double change = w / 256.0 * (n - c);
         const double rounded = std::floor(std::abs(change) + 0.5);
-        EXPECT_EQ(blend_channel(false, c, n, w, 77, 0), c + (change < 0 ? -rounded : rounded));
+        EXPECT_EQ(blend_channel(false, c, n, 77, {16 * w, 0}),
+                  c + (change < 0 ? -rounded : rounded));
       }
     }
   }
@@ -105,29 +133,29 @@ TEST(Blender, InvertsWithItsInputsInGammaSpaceOnly) {
     const int c = static_cast<int>(random.word() & 255), a = static_cast<int>(random.word() & 255),
               b = static_cast<int>(random.word() & 255), wa = static_cast<int>(random.word() % 129),
               wb = static_cast<int>(random.word() % 129);
-    const int result = blend_channel(false, c, a, wa, b, wb);
+    const int result = blend_channel(false, c, a, b, {16 * wa, 16 * wb});
     EXPECT_TRUE(result >= 0 && result <= 255);
-    EXPECT_EQ(blend_channel(false, 255 - c, 255 - a, wa, 255 - b, wb), 255 - result);
-    const int linear = blend_channel(true, c, a, wa, b, wb);
+    EXPECT_EQ(blend_channel(false, 255 - c, 255 - a, 255 - b, {16 * wa, 16 * wb}), 255 - result);
+    const int linear = blend_channel(true, c, a, b, {16 * wa, 16 * wb});
     EXPECT_TRUE(linear >= 0 && linear <= 255);
     broken_in_linear_light |=
-        blend_channel(true, 255 - c, 255 - a, wa, 255 - b, wb) != 255 - linear;
+        blend_channel(true, 255 - c, 255 - a, 255 - b, {16 * wa, 16 * wb}) != 255 - linear;
   }
   EXPECT_TRUE(broken_in_linear_light);
 }
 
 TEST(Blender, HalfOfBlackAndWhiteIsHalfTheLight) {
-  EXPECT_EQ(blend_channel(true, 0, 255, 128, 0, 0), 188);
-  EXPECT_EQ(blend_channel(false, 0, 255, 128, 0, 0), 128);
-  EXPECT_EQ(blend_channel(true, 0, 255, 128, 255, 128), 255);
+  EXPECT_EQ(blend_channel(true, 0, 255, 0, {2048, 0}), 188);
+  EXPECT_EQ(blend_channel(false, 0, 255, 0, {2048, 0}), 128);
+  EXPECT_EQ(blend_channel(true, 0, 255, 255, {2048, 2048}), 255);
 }
 
 TEST(Blender, PassesAlphaAndPixelsWithoutShares) {
   const spec::morphological::Rgba8 pixel = {1, 2, 3, 77}, other = {255, 255, 255, 255};
-  EXPECT_EQ(blend(true, pixel, other, 128, other, 128)[3], 77);
+  EXPECT_EQ(blend(true, pixel, other, other, {2048, 2048})[3], 77);
   for (int code = 0; code < 256; ++code) {
-    EXPECT_EQ(blend_channel(true, code, 255 - code, 0, 0, 0), code);
-    EXPECT_EQ(blend_channel(true, code, code, 128, code, 128), code);
+    EXPECT_EQ(blend_channel(true, code, 255 - code, 0, {}), code);
+    EXPECT_EQ(blend_channel(true, code, code, code, {2048, 2048}), code);
   }
 }
 

@@ -195,6 +195,7 @@ TEST(SmaaCoverage, ListsEveryBinOfEveryGroup) {
   const std::map<std::string, std::size_t> expected = {
       {"table", 2 * 16 * 5},   {"table-entry", 2 * 2},   {"search", 2 * 2 * 2},
       {"diagonal", 2 * 16},    {"diagonal-ends", 2 * 4}, {"diagonal-length", 2 * 3},
+      {"diagonal-beyond", 2},  {"endless", 2 * 4},       {"corner", 2 * 4},
       {"threshold", 1 + 4 * 2}};
   EXPECT_EQ(groups_of(SmaaCoverage().bins()), expected);
 }
@@ -425,8 +426,14 @@ TEST(SmaaCoverage, DiagonalsHaveCodesEndsAndALength) {
   using golden::morphological::DiagonalEnds;
   const auto diagonal = [](bool rising, const DiagonalEnds& ends) {
     SmaaCoverage coverage;
-    coverage.count_diagonal(rising, ends);
-    return hits_of(coverage.bins());
+    coverage.count_diagonal(rising, ends, false);
+    const Hits hits = hits_of(coverage.bins());
+    Hits beyond = hits;
+    if (!hits.empty()) beyond[rising ? "diagonal-beyond/rising" : "diagonal-beyond/falling"] = 1;
+    SmaaCoverage over_the_border;
+    over_the_border.count_diagonal(rising, ends, true);
+    EXPECT_EQ(hits_of(over_the_border.bins()), beyond);
+    return hits;
   };
   const std::array<std::string, 4> ends = {"closed", "open-1", "open-2", "open-both"};
   for (const bool rising : {false, true}) {
@@ -446,6 +453,46 @@ TEST(SmaaCoverage, DiagonalsHaveCodesEndsAndALength) {
     for (const auto& [pixels, name] : std::map<int, std::string>{{4, "4-7"}, {7, "4-7"}, {8, "8+"}})
       EXPECT_TRUE(
           diagonal(rising, {pixels - 1, 1}).contains(path({"diagonal-length", direction, name})));
+  }
+}
+
+TEST(SmaaCoverage, RecordsAreEndlessOrRepeatACrossing) {
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const std::string of_axis = std::string("endless/") + kAxisNames[axis] + '/';
+    const auto record = [&](int endless, int shape, int extent, RunPart part = RunPart::kWhole) {
+      RunRecord run = inner_run(axis, 5, shape, part);
+      run.endless = static_cast<std::uint8_t>(endless);
+      SmaaCoverage coverage;
+      coverage.count_record(run, extent);
+      return hits_of(coverage.bins());
+    };
+    EXPECT_EQ(record(0, 9, 40), Hits{});
+    EXPECT_EQ(record(1, 8, 40), once(of_axis + "start"));
+    EXPECT_EQ(record(2, 1, 8), once(of_axis + "end"));
+    EXPECT_EQ(record(3, 0, 8), once(of_axis + "both"));
+    EXPECT_EQ(record(0, 5, 8), once(of_axis + "repeated"));
+    EXPECT_EQ(record(0, 5, 9), Hits{});  // does not meet the border
+    EXPECT_EQ(record(0, 4, 8, RunPart::kTail), once(of_axis + "repeated"));
+    EXPECT_EQ(record(0, 1, 8, RunPart::kHead), Hits{});
+  }
+}
+
+TEST(SmaaCoverage, CornersHaveANearerEndOrAreCut) {
+  using enum SearchEnd;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const std::string of_axis = std::string("corner/") + kAxisNames[axis] + '/';
+    const auto corner = [&](const TableAddress& address, int far) {
+      SmaaCoverage coverage;
+      coverage.count_corner(static_cast<Axis>(axis), address, far);
+      return hits_of(coverage.bins());
+    };
+    EXPECT_EQ(corner({9, 2, 3}, 1), once(of_axis + "start"));
+    EXPECT_EQ(corner({9, 3, 3}, 1), once(of_axis + "middle"));
+    EXPECT_EQ(corner({9, 4, 3}, 1), once(of_axis + "end"));
+    EXPECT_EQ(corner({8, 7, 3, kBeyond, kWithin}, 3), once(of_axis + "cut"));
+    EXPECT_EQ(corner({8, 7, 3, kBeyond, kWithin}, 7), once(of_axis + "end"));
+    EXPECT_EQ(corner({1, 3, 8, kWithin, kBeyond}, 12), once(of_axis + "cut"));
+    EXPECT_EQ(corner({1, 7, 8, kAtLimit, kAtLimit}, 12), once(of_axis + "start"));
   }
 }
 
@@ -486,8 +533,8 @@ TEST(SmaaCoverage, EdgesOfAFrameAreOfTheFloorOrAlpha) {
   spec::morphological::Parameters p = preset_parameters(Preset::kSmaaDynamic);
   p.local_contrast = spec::morphological::LocalContrast::kOff;
   p.dynamic_luma = DynamicLuma::kMin;
-  p.alpha = 6554;
-  p.floor = 2570;
+  p.alpha = 1677721;
+  p.floor = 655360;
   for (const Frame& frame : {across, down})
     EXPECT_EQ(hits(p, frame), once("threshold/min/floor", "threshold/min/alpha"));
   // A fixed one is counted with SMAA's blocks: tables, or diagonals.
@@ -496,6 +543,7 @@ TEST(SmaaCoverage, EdgesOfAFrameAreOfTheFloorOrAlpha) {
     for (const AreaSource area : {AreaSource::kAnalytic, AreaSource::kTableFull}) {
       p.diagonals = diagonals;
       p.area = area;
+      p.border = spec::morphological::Border::kEnd;
       const bool counted = diagonals || area == AreaSource::kTableFull;
       for (const Frame& frame : {across, down})
         EXPECT_EQ(hits(p, frame), (counted ? Hits{{"threshold/fixed", 2}} : Hits{}));

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "golden/ideal/smaa.h"
 #include "tb/base/random.h"
 #include "tb/unit/golden/morphological/support.h"
 
@@ -201,6 +202,46 @@ TEST(Diagonal, EndsAtTheBorders) {
   EXPECT_GT(counted, 100);
 }
 
+// With border = clamp as in a larger frame whose margin repeats the outermost edges; of the left
+// and the upper border that is what `end` finds, too, but for codes.
+TEST(Diagonal, GoesOnBeyondTheBordersWithClamp) {
+  using spec::morphological::Border;
+  constexpr int kSteps = 4, kMargin = 12;
+  Random random(8);
+  int counted = 0, differing = 0;
+  for (int width = 1; width <= 2 * kSteps + 3; ++width) {
+    for (int height : {1, 2, 3, 5, 11}) {
+      EdgePlanes small = empty(width, height),
+                 large = empty(width + 2 * kMargin, height + 2 * kMargin);
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+          if (x > 0 && random.chance(800)) small.left.set(x, y);
+          if (y > 0 && random.chance(800)) small.top.set(x, y);
+        }
+      for (int y = 0; y < large.left.height(); ++y)
+        for (int x = 0; x < large.left.width(); ++x) {
+          const int from_x = std::clamp(x - kMargin, 0, width - 1),
+                    from_y = std::clamp(y - kMargin, 0, height - 1);
+          if (small.left.at(from_x, from_y)) large.left.set(x, y);
+          if (small.top.at(from_x, from_y)) large.top.set(x, y);
+        }
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          const DiagonalEnds up = rising_diagonal(small, kSteps, x, y, Border::kClamp);
+          const DiagonalEnds down = falling_diagonal(small, kSteps, x, y, Border::kClamp);
+          EXPECT_TRUE(up == rising_diagonal(large, kSteps, x + kMargin, y + kMargin));
+          EXPECT_TRUE(down == falling_diagonal(large, kSteps, x + kMargin, y + kMargin));
+          counted += up.counts() + down.counts();
+          differing += !(up == rising_diagonal(small, kSteps, x, y)) +
+                       !(down == falling_diagonal(small, kSteps, x, y));
+        }
+      }
+    }
+  }
+  EXPECT_GT(counted, 100);
+  EXPECT_GT(differing, 30);
+}
+
 // ---- the table ----------------------------------------------------------------------------------
 
 // A line through two corners of a pixel halves it, but for the samples on it, which count for
@@ -234,6 +275,23 @@ TEST(DiagonalTable, ApproachesTheAreasBesideItsLine) {
       EXPECT_NEAR(diagonal_table().at(2, 2, d1, d2).b / 256.0, below / kColumns, kOff);
     }
   }
+}
+
+TEST(DiagonalTable, HoldsThePublishedBytesIfAsked) {
+  const auto& table = diagonal_table(spec::morphological::AreaValues::kPublished);
+  int differing = 0;
+  for (int e1 = 0; e1 < 4; ++e1)
+    for (int e2 = 0; e2 < 4; ++e2)
+      for (int d1 = 0; d1 < 20; ++d1)
+        for (int d2 = 0; d2 < 20; ++d2) {
+          const auto bytes = golden::ideal::smaa_diagonal_bytes(e1, e2, d1, d2);
+          const DiagonalAreas entry = table.at(e1, e2, d1, d2);
+          const auto value = [](int byte) { return byte == 255 ? 255 : (512 * byte + 255) / 510; };
+          EXPECT_EQ(entry.a, value(bytes.r)) << e1 << ' ' << e2 << ' ' << d1 << ' ' << d2;
+          EXPECT_EQ(entry.b, value(bytes.g)) << e1 << ' ' << e2 << ' ' << d1 << ' ' << d2;
+          differing += !(entry == diagonal_table().at(e1, e2, d1, d2));
+        }
+  EXPECT_GT(differing, 3000);
 }
 
 TEST(DiagonalTable, CostsTheContractsBits) {
@@ -279,8 +337,8 @@ TEST(DiagonalPixels, TakeTheirSharesFromTheRuns) {
     for (int x = 0; x < frame.width; ++x) {
       const DiagonalShares found =
           with.edges().top.at(x, y)
-              ? diagonal_shares(rising_diagonal(with.edges(), p.diagonal_steps, x, y),
-                                falling_diagonal(with.edges(), p.diagonal_steps, x, y))
+              ? diagonal_shares(rising_diagonal(with.edges(), p.diagonal_steps, x, y, p.border),
+                                falling_diagonal(with.edges(), p.diagonal_steps, x, y, p.border))
               : DiagonalShares{};
       if (found.taken()) {
         ++taken;

@@ -76,15 +76,14 @@ class PlainEdges {
       case spec::morphological::EdgeSource::kDepth:
         return z(p, q);
       case spec::morphological::EdgeSource::kPredicated:
-        return c(p, q) >=
-               255 * (z(p, q) ? p_.threshold_on_depth_edge : p_.threshold_off_depth_edge);
+        return c(p, q) >= (z(p, q) ? p_.threshold_on_depth_edge : p_.threshold_off_depth_edge);
       case spec::morphological::EdgeSource::kLuma:
       case spec::morphological::EdgeSource::kColour:
         break;
     }
     if (p_.threshold_mode == spec::morphological::ThresholdMode::kFixed)
-      return c(p, q) >= 255 * p_.threshold;
-    return 131072 * c(p, q) > p_.alpha * twice_reference(p, q) && c(p, q) >= 255 * p_.floor;
+      return c(p, q) >= p_.threshold;
+    return 33554432 * c(p, q) > p_.alpha * twice_reference(p, q) && c(p, q) >= p_.floor;
   }
   std::int64_t twice_reference(Pixel p, Pixel q) const {
     switch (p_.dynamic_luma) {
@@ -201,7 +200,7 @@ TEST(MorphologicalEdges, AreThoseOfTheFormulas) {
         p.threshold_mode = mode.threshold;
         p.dynamic_luma = mode.luma;
         p.local_contrast = contrast;
-        p.threshold = 3000;
+        p.threshold = 765000;
         if (size[0] % 2 != 0) p.leave = spec::morphological::Leave::kMasked;
         const Frame frame = random_frame(size[0], size[1], random);
         const std::vector<std::uint32_t> depth = random_depth(frame, random);
@@ -227,14 +226,14 @@ TEST(MorphologicalEdges, AWrongBitIsCaught) {
 }
 
 TEST(MorphologicalEdges, ThresholdsHoldToTheUnit) {
-  // Blue steps of luma are 4732 units; 255 T is crossed between two codes.
+  // Blue steps of luma are 4732 units.
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.local_contrast = spec::morphological::LocalContrast::kOff;
   for (const int step : {1, 2, 77, 255}) {
     const Frame frame(2, 1, [&](int x, int) {
       return spec::morphological::Rgba8{0, 0, static_cast<std::uint8_t>(x * step), 255};
     });
-    p.threshold = 4732 * step / 255;
+    p.threshold = 4732 * step;
     EXPECT_TRUE(find_edges(p, frame.view()).left.at(1, 0));
     p.threshold += 1;
     EXPECT_FALSE(find_edges(p, frame.view()).left.at(1, 0));
@@ -250,7 +249,7 @@ TEST(MorphologicalEdges, ThresholdsOfColourHoldToTheUnit) {
         pixel[channel] = static_cast<std::uint8_t>(x * step);
         return pixel;
       });
-      p.threshold = 65536 * step / 255;
+      p.threshold = 65536 * step;
       EXPECT_TRUE(find_edges(p, frame.view()).left.at(1, 0));
       p.threshold += 1;
       EXPECT_FALSE(find_edges(p, frame.view()).left.at(1, 0));
@@ -258,7 +257,7 @@ TEST(MorphologicalEdges, ThresholdsOfColourHoldToTheUnit) {
   }
 }
 
-// Predicated by a depth edge or by none: a blue step of 255 codes is 255 T of 4732, and an edge.
+// Predicated by a depth edge or by none: a blue step of 255 codes is 1206660 units.
 TEST(MorphologicalEdges, PredicatedThresholdsHoldToTheUnit) {
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.edge_source = spec::morphological::EdgeSource::kPredicated;
@@ -268,22 +267,24 @@ TEST(MorphologicalEdges, PredicatedThresholdsHoldToTheUnit) {
   });
   for (const bool on : {false, true}) {
     const std::vector<std::uint32_t> depth = {1000000, on ? 2000000u : 1000000u};
-    for (const int threshold : {4731, 4732, 4733}) {
+    for (const int threshold : {1206659, 1206660, 1206661}) {
       p.threshold_on_depth_edge = on ? threshold : 1;
-      p.threshold_off_depth_edge = on ? 65535 : threshold;
+      p.threshold_off_depth_edge = on ? 16777215 : threshold;
       EXPECT_EQ(find_edges(p, frame.view(), DepthView(depth, 2, 1)).left.at(1, 0),
-                threshold <= 4732);
+                threshold <= 1206660);
     }
   }
 }
 
-// 255 T / 65536 lies a 65536th above 254 codes: the least step is 255.
+// A T that lies a 65536th above 254 codes needs a step of 255, one above 255 has no edge at all.
 TEST(MorphologicalEdges, ThresholdsOfColourAreRoundedUp) {
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
-  p.threshold = 65279;
-  for (const int step : {253, 254, 255}) {
+  for (const int step : {0, 253, 254, 255}) {
     const Frame frame(2, 1, [&](int x, int) { return tb::morphological::grey(x * step); });
+    p.threshold = 254 * 65536 + 1;
     EXPECT_EQ(find_edges(p, frame.view()).left.at(1, 0), step == 255);
+    p.threshold = 255 * 65536 + 1;
+    EXPECT_FALSE(find_edges(p, frame.view()).left.at(1, 0));
   }
 }
 
@@ -353,12 +354,12 @@ TEST(MorphologicalEdges, DynamicThresholdsHoldToTheUnit) {
     int alpha;   // at which c is exactly alpha x luma
   };
   for (const Case& c :
-       {Case{DynamicLuma::kCurrent, 48, 64, 16384}, Case{DynamicLuma::kCurrent, 80, 64, 16384},
-        Case{DynamicLuma::kMax, 48, 64, 16384}, Case{DynamicLuma::kMax, 64, 48, 16384},
-        Case{DynamicLuma::kMin, 80, 64, 16384}, Case{DynamicLuma::kMin, 64, 80, 16384},
+       {Case{DynamicLuma::kCurrent, 48, 64, 4194304}, Case{DynamicLuma::kCurrent, 80, 64, 4194304},
+        Case{DynamicLuma::kMax, 48, 64, 4194304}, Case{DynamicLuma::kMax, 64, 48, 4194304},
+        Case{DynamicLuma::kMin, 80, 64, 4194304}, Case{DynamicLuma::kMin, 64, 80, 4194304},
         // The mean is 20.5: not a whole code.
         Case{DynamicLuma::kMean, 18, 23, 0}, Case{DynamicLuma::kMean, 23, 18, 0},
-        Case{DynamicLuma::kMean, 56, 72, 16384}, Case{DynamicLuma::kMean, 72, 56, 16384}}) {
+        Case{DynamicLuma::kMean, 56, 72, 4194304}, Case{DynamicLuma::kMean, 72, 56, 4194304}}) {
     p.dynamic_luma = c.luma;
     const auto edge = [&](int alpha) {
       p.alpha = alpha;
@@ -374,31 +375,48 @@ TEST(MorphologicalEdges, DynamicThresholdsHoldToTheUnit) {
       EXPECT_FALSE(edge(c.alpha));  // strict
       EXPECT_FALSE(edge(c.alpha + 1));
     } else {
-      EXPECT_TRUE(edge(15984));  // 5 / 20.5 of 65536 is 15984.4
-      EXPECT_FALSE(edge(15985));
+      EXPECT_TRUE(edge(4092003));  // 5 / 20.5 of 2^24 is 4092003.9
+      EXPECT_FALSE(edge(4092004));
     }
   }
 }
 
-// The floor of 514 and alpha are equal at 255 x 514 = 30 x 4369: 30 codes, of the luma that counts.
+// A tenth of the luma, as the preset has it, is an edge, and nothing below.
+TEST(MorphologicalEdges, AStepOfExactlyTheFactorStaysAnEdge) {
+  auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kSmaaDynamic);
+  for (int tenth = 2; tenth <= 25; ++tenth) {
+    const auto edge = [&](int step) {
+      const Frame frame(
+          2, 1, [&](int x, int) { return tb::morphological::grey(10 * tenth - (x ? 0 : step)); });
+      return find_edges(p, frame.view()).left.at(1, 0);
+    };
+    p.alpha = 1677721;
+    EXPECT_TRUE(edge(tenth));
+    EXPECT_FALSE(edge(tenth - 1));
+    p.alpha = 1677722;  // rounded up it would be none
+    EXPECT_FALSE(edge(tenth));
+  }
+}
+
+// The floor of 2 codes and alpha are equal at 32 codes, of the luma that counts.
 TEST(MorphologicalEdges, TheFloorDecidesUpToEquality) {
   using golden::morphological::PixelPair;
   using spec::morphological::DynamicLuma;
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
-  p.floor = 514;
+  p.floor = 131072;
   const auto codes = [](int own, int other) { return PixelPair{own << 16, other << 16}; };
-  for (const int alpha : {4368, 4369, 4370}) {
+  for (const int alpha : {1048575, 1048576, 1048577}) {
     p.alpha = alpha;
     const auto decides = [&](DynamicLuma luma, const PixelPair& pair) {
       p.dynamic_luma = luma;
-      EXPECT_EQ(floor_decides(p, pair), alpha <= 4369);
+      EXPECT_EQ(floor_decides(p, pair), alpha <= 1048576);
     };
-    decides(DynamicLuma::kCurrent, codes(30, 90));
-    decides(DynamicLuma::kMax, codes(30, 20));
-    decides(DynamicLuma::kMax, codes(20, 30));
-    decides(DynamicLuma::kMin, codes(30, 40));
-    decides(DynamicLuma::kMin, codes(40, 30));
-    decides(DynamicLuma::kMean, codes(10, 50));
+    decides(DynamicLuma::kCurrent, codes(32, 90));
+    decides(DynamicLuma::kMax, codes(32, 20));
+    decides(DynamicLuma::kMax, codes(20, 32));
+    decides(DynamicLuma::kMin, codes(32, 40));
+    decides(DynamicLuma::kMin, codes(40, 32));
+    decides(DynamicLuma::kMean, codes(10, 54));
   }
 }
 
@@ -411,9 +429,9 @@ TEST(MorphologicalEdges, TheFloorIsNotStrict) {
   const Frame frame(2, 1, [](int x, int) {
     return spec::morphological::Rgba8{0, 0, static_cast<std::uint8_t>(255 * x), 255};
   });
-  p.floor = 4732;
+  p.floor = 1206660;
   EXPECT_TRUE(find_edges(p, frame.view()).left.at(1, 0));
-  p.floor = 4733;
+  p.floor = 1206661;
   EXPECT_FALSE(find_edges(p, frame.view()).left.at(1, 0));
 }
 

@@ -74,7 +74,7 @@ TEST(Symmetry, MirroringDoesNotHoldForRulesThatLookToOneSide) {
   EXPECT_NE(smooth(paper, mirrored_x(frame)), mirrored_x(smooth(paper, frame)));
   spec::morphological::Parameters current = preset_parameters(Preset::kMlaa);
   current.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
-  current.alpha = 30000;
+  current.alpha = 7680000;
   current.dynamic_luma = spec::morphological::DynamicLuma::kMax;
   EXPECT_EQ(smooth(current, mirrored_x(frame)), mirrored_x(smooth(current, frame)));
   current.dynamic_luma = spec::morphological::DynamicLuma::kCurrent;
@@ -87,7 +87,7 @@ TEST(Symmetry, OfTheDynamicLuma) {
   const Frame frame = tb::morphological::rendered_like(180, 120, 60);
   spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
   p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
-  p.alpha = 30000;
+  p.alpha = 7680000;
   for (const auto luma : {DynamicLuma::kMax, DynamicLuma::kMin, DynamicLuma::kMean}) {
     p.dynamic_luma = luma;
     EXPECT_EQ(smooth(p, mirrored_x(frame)), mirrored_x(smooth(p, frame)));
@@ -184,7 +184,7 @@ TEST(Symmetry, InvertingCodesInvertsInGammaSpace) {
   p.linear_light = false;
   p.threshold_mode =
       spec::morphological::ThresholdMode::kDynamic;  // relative to luma: not symmetric
-  p.alpha = 30000;
+  p.alpha = 7680000;
   const Frame frame = tb::morphological::rendered_like(180, 120, 60);
   EXPECT_NE(smooth(p, inverted(frame)), inverted(smooth(p, frame)));
 }
@@ -581,11 +581,11 @@ TEST(NamedErrors, OfParameters) {
   EXPECT_THAT(error_of([](P& p) { p.corner_rounding = 257; }), HasSubstr("outside 0..256"));
   EXPECT_THAT(error_of([](P& p) { p.diagonal_steps = 0; }), HasSubstr("diagonal_steps"));
   EXPECT_THAT(error_of([](P& p) { p.corner_rounding = -1; }), HasSubstr("corner_rounding"));
-  EXPECT_THAT(error_of([](P& p) { p.alpha = 65536; }), HasSubstr("edges.alpha"));
-  EXPECT_THAT(error_of([](P& p) { p.alpha = -1; }), HasSubstr("outside 0..65535"));
+  EXPECT_THAT(error_of([](P& p) { p.alpha = 16777216; }), HasSubstr("edges.alpha"));
+  EXPECT_THAT(error_of([](P& p) { p.alpha = -1; }), HasSubstr("outside 0..16777215"));
   EXPECT_EQ(error_of([](P& p) { p.alpha = 0; }), "");
   EXPECT_THAT(error_of([](P& p) { p.floor = 0; }), HasSubstr("edges.floor"));
-  EXPECT_THAT(error_of([](P& p) { p.threshold = 65536; }), HasSubstr("outside 1..65535"));
+  EXPECT_THAT(error_of([](P& p) { p.threshold = 16777216; }), HasSubstr("outside 1..16777215"));
   const auto too_far = [](P& p) {
     p.steps = 4;
     p.diagonals = true;
@@ -613,15 +613,15 @@ TEST(Presets, AreThoseOfTheContract) {
     int threshold, search_steps, diagonal_steps, window_rows;
     bool diagonals, round_corners;
   };
-  for (const Row& row : {Row{Quality::kLow, 9830, 4, 8, 38, false, false},
-                         Row{Quality::kMedium, 6554, 8, 8, 70, false, false},
-                         Row{Quality::kHigh, 6554, 16, 8, 134, true, true},
-                         Row{Quality::kUltra, 3277, 32, 16, 258, true, true}}) {
+  for (const Row& row : {Row{Quality::kLow, 2506752, 4, 8, 38, false, false},
+                         Row{Quality::kMedium, 1671168, 8, 8, 70, false, false},
+                         Row{Quality::kHigh, 1671168, 16, 8, 134, true, true},
+                         Row{Quality::kUltra, 835584, 32, 16, 258, true, true}}) {
     for (const auto preset : {Preset::kSmaa, Preset::kSmaaDynamic}) {
       const spec::morphological::Parameters p = preset_parameters(preset, row.quality);
       const bool dynamic = preset == Preset::kSmaaDynamic;
       EXPECT_EQ(p.quality, row.quality);
-      EXPECT_EQ(p.threshold, dynamic ? 1966 : row.threshold);
+      EXPECT_EQ(p.threshold, dynamic ? 501330 : row.threshold);
       EXPECT_EQ(p.search_steps, row.search_steps);
       EXPECT_EQ(p.diagonals, row.diagonals);
       EXPECT_EQ(p.diagonal_steps, row.diagonal_steps);
@@ -629,9 +629,10 @@ TEST(Presets, AreThoseOfTheContract) {
       EXPECT_EQ(p.corner_rounding, 64);
       EXPECT_EQ(p.window_rows, row.window_rows);
       EXPECT_EQ(p.ends, spec::morphological::Ends::kCrossings);
+      EXPECT_EQ(p.border, spec::morphological::Border::kClamp);
       EXPECT_EQ(p.blend, spec::morphological::BlendRule::kStrongest);
-      EXPECT_EQ(p.alpha, 6554);
-      EXPECT_EQ(p.floor, 514);
+      EXPECT_EQ(p.alpha, 1677721);
+      EXPECT_EQ(p.floor, 131072);
       EXPECT_NO_THROW(MorphologicalGolden{p});
     }
   }

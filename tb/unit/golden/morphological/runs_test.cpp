@@ -164,6 +164,61 @@ TEST(Runs, KnowWhichOfTheirCrossingsGoOn) {
   }
 }
 
+// With border = clamp: what lies beyond a border, by every crossing of the outermost corners.
+TEST(Runs, GoOnBeyondTheBorderOrRepeatItsCrossing) {
+  using spec::morphological::Border;
+  constexpr int kWidth = 12;
+  spec::morphological::Parameters p = preset_parameters(Preset::kSmaa);
+  const auto runs = [&](Border border, int line, int first, int last, int bits) {
+    AxisEdges edges{spec::morphological::Axis::kHorizontal, BitPlane(kWidth, 6),
+                    BitPlane(kWidth, 6), border};
+    for (int x = first; x <= last; ++x) edges.along.set(x, line);
+    // Rows line - 2 .. line + 1 of the last column.
+    for (int row = 0; row < 4; ++row)
+      if ((bits >> row & 1) != 0 && line - 2 + row >= 0 && line - 2 + row < 6)
+        edges.across.set(kWidth - 1, line - 2 + row);
+    return find_runs(p, edges);
+  };
+  for (int bits = 0; bits < 16; ++bits) {
+    const int code = bits >> 1 & 3, far = (bits & 1) | (bits >> 3 & 1) << 1;
+    const auto ended = runs(Border::kEnd, 3, 7, 11, bits),
+               clamped = runs(Border::kClamp, 3, 7, 11, bits);
+    ASSERT_EQ(clamped.size(), code == 0 ? 1u : 2u);
+    ASSERT_EQ(ended.size(), clamped.size());
+    const auto last = clamped.back();
+    EXPECT_EQ(ended.back().endless, 0);
+    EXPECT_EQ(ended.back().shape & 12, 0);
+    if (code == 0) {
+      EXPECT_EQ(last.endless, 2);
+      EXPECT_EQ(last.shape & 12, 0);
+      EXPECT_EQ(last.far & 12, 0);
+      EXPECT_EQ(last.length, 5);
+    } else {
+      EXPECT_EQ(last.start, kWidth - 1);
+      EXPECT_EQ(last.endless, 0);
+      EXPECT_EQ(last.shape, code + 4 * code);
+      EXPECT_EQ(last.far, far + 4 * far);
+    }
+    // At the outermost lines the far bit repeats the crossing beside it.
+    const auto top = runs(Border::kClamp, 1, 11, 11, bits),
+               bottom = runs(Border::kClamp, 5, 11, 11, bits);
+    const int n = bits >> 1 & 1, s = bits >> 2 & 1;
+    if (code != 0) {
+      EXPECT_EQ(top.back().far & 3, n | (bits >> 3 & 1) << 1);
+      EXPECT_EQ(bottom.back().far & 3, (bits & 1) | s << 1);
+    }
+  }
+  const auto start = runs(Border::kClamp, 3, 0, 4, 0), both = runs(Border::kClamp, 3, 0, 11, 0);
+  EXPECT_EQ(start[0].endless, 1);
+  EXPECT_EQ(both[0].endless, 3);
+  EXPECT_EQ(runs(Border::kClamp, 3, 1, 10, 0)[0].endless, 0);
+  p.reach_columns = 8;
+  const auto parts = runs(Border::kClamp, 3, 0, 11, 0);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].endless, 1);
+  EXPECT_EQ(parts[1].endless, 2);
+}
+
 TEST(Runs, BeyondTheReachAreCutToTheirEnds) {
   spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
   p.reach_columns = 9;

@@ -471,9 +471,79 @@ TEST(TableEnds, AreRoundedToPixelsOf13Bits) {
     StoredRecord record;
     record.t = row.height - kOne / 2;
     record.inverse = row.inverse;
-    TableShares::set_ends(record);
-    EXPECT_EQ(record.first_end(), row.first) << row.height << ' ' << row.inverse;
-    EXPECT_EQ(record.last_end(), row.last) << row.height << ' ' << row.inverse;
+    // An endless end is as far away as there is, whatever the line says.
+    for (std::uint8_t endless = 0; endless < 4; ++endless) {
+      StoredRecord stored = record;
+      TableShares::set_ends(stored, endless);
+      EXPECT_EQ(stored.first_end(), endless & 1 ? -4096 : row.first)
+          << row.height << ' ' << row.inverse;
+      EXPECT_EQ(stored.last_end(), endless & 2 ? 4095 : row.last)
+          << row.height << ' ' << row.inverse;
+    }
+  }
+}
+
+// With N = 1 searches see one pixel before and two behind, and which end is nearer is said by
+// these. Far bits of an end that is not seen do not count. By the contract's formulas, apart from
+// any model.
+TEST(AreaUnitCorners, AreDecidedAfterTheCut) {
+  struct Row {
+    int length;
+    RunPart part;
+    std::uint8_t shape, far, endless;
+    std::vector<int> first;  // shares of the upper pixel, in order
+  };
+  // Codes: 1 first side. Bits: 1 at the start, 4 at the end.
+  for (const Row& row :
+       {// k = 3 has one pixel before it, of three, and one behind it: neither end is nearer. k = 2
+        // has its end two pixels away; what is before it looks nearer and is not seen.
+        Row{5, RunPart::kWhole, 4, 4, 0, {0, 0, 6, 7, 16}},
+        Row{5, RunPart::kWhole, 4, 1, 0, {0, 0, 6, 11, 64}},
+        Row{5, RunPart::kWhole, 1, 1, 0, {20, 8, 0, 0, 0}},
+        // The middle of three sees both ends.
+        Row{3, RunPart::kWhole, 4, 4, 0, {0, 7, 16}}, Row{3, RunPart::kWhole, 4, 1, 0, {0, 7, 64}},
+        // An endless start is a pixel before every one, an endless end two behind.
+        Row{3, RunPart::kWhole, 4, 4, 1, {6, 7, 16}}, Row{1, RunPart::kWhole, 4, 4, 1, {16}},
+        Row{2, RunPart::kWhole, 1, 4, 2, {80, 33}}, Row{4, RunPart::kWhole, 1, 1, 2, {20, 8, 0, 0}},
+        // Ends of a run of eight, whose other end is not seen: as above.
+        Row{4, RunPart::kTail, 4, 4, 0, {0, 6, 7, 16}},
+        Row{4, RunPart::kHead, 1, 1, 0, {20, 8, 0, 0}}}) {
+    const std::string got = forked_text([&] {
+      Parameters p = with_table(AreaSource::kTableFull);
+      p.round_corners = true;
+      p.corner_rounding = 64;
+      p.search_steps = 1;
+      p.ends = spec::morphological::Ends::kCrossings;
+      p.border = spec::morphological::Border::kClamp;
+      Area bench(p, 11, 7);
+      bench.send_slots(0);
+      LineToken token{};
+      const auto length = static_cast<std::uint16_t>(row.length);
+      const int reach = 8, h = row.length;
+      token.line.run = {Axis::kHorizontal, row.part, 2, 3, length, row.shape, row.far, row.endless};
+      const bool whole = row.part == RunPart::kWhole;
+      const int run = whole ? h : reach;
+      token.line.offset = row.part == RunPart::kTail ? 2 * h - reach : run;
+      token.line.slope = static_cast<std::uint32_t>(((1 << 24) + run) / (2 * run));
+      token.line.inverse = static_cast<std::uint32_t>(run) << 12;
+      token.line.span = length;
+      token.slot = bench.slots_before(2 + kReach + 2);
+      bench.drivers_h[0]->send(0, token);
+      bench.clock.run(bench.slots_before(kLag + 7) + 40);
+      std::string text;
+      for (int k = 0; k < row.length; ++k) {
+        const Shares& pixel =
+            bench.shares_gate.beats[static_cast<std::size_t>(11 + 3 + k)].shares[0];
+        text += std::to_string(bench.shares_gate.beats[static_cast<std::size_t>(11 + 3 + k)].any
+                                   ? pixel.down
+                                   : 0) +
+                ' ';
+      }
+      return text;
+    });
+    std::string wanted;
+    for (const int share : row.first) wanted += std::to_string(share) + ' ';
+    EXPECT_EQ(got, wanted) << row.length << " shape " << int{row.shape} << " far " << int{row.far};
   }
 }
 

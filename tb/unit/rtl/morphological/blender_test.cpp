@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "spec/morphological/tables.h"
 #include "tb/base/forked.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/parts.h"
@@ -126,13 +127,13 @@ TEST(BlenderBlock, TheStrongestShareChoosesAndSquaresMix) {
   };
   const std::vector<Row> rows = {
       {{0, 0, 0, 0, 9, 9, 9, 9}, false, 0, 0},
-      {{64, 32, 63, 63, 1, 1, 99, 99}, false, 43, 11},  // the longer line does not count
-      {{64, 32, 64, 64, 1, 1, 99, 99}, false, 43, 11},  // a tie
+      {{64, 32, 63, 63, 1, 1, 99, 99}, false, 64, 32},  // the longer line does not count
+      {{64, 32, 64, 64, 1, 1, 99, 99}, false, 64, 32},  // a tie
       {{64, 32, 0, 65, 9, 9, 1, 1}, true, 0, 65},
       {{60, 60, 61, 0, 9, 9, 1, 1}, true, 61, 0},  // the larger sum does not count
-      {{255, 255, 0, 0, 1, 1, 1, 1}, false, 128, 128},
-      {{1, 255, 0, 0, 1, 1, 1, 1}, false, 0, 254},
-      {{128, 128, 0, 0, 1, 1, 1, 1}, false, 64, 64}};
+      {{255, 255, 0, 0, 1, 1, 1, 1}, false, 255, 255},
+      {{1, 255, 0, 0, 1, 1, 1, 1}, false, 1, 255},
+      {{128, 128, 0, 0, 1, 1, 1, 1}, false, 128, 128}};
   for (const Row& row : rows) bench.send(row.s, 100, 0, 200, 50, 255);
   bench.clock.run(40);
   ASSERT_EQ(bench.sink.beats().size(), rows.size());
@@ -143,35 +144,66 @@ TEST(BlenderBlock, TheStrongestShareChoosesAndSquaresMix) {
     EXPECT_EQ(tap.second, rows[i].second) << i;
     EXPECT_EQ(bench.sink.cycles()[i], i + 7);
   }
-  EXPECT_EQ(bench.sink.beats()[1].pixel[0][0], 100 + (-43 * 100 + 11 * 100 - 128) / 256);
+  // Squares of 64 and 32 over 96, in 1/4096: 682.7 and 170.7.
+  EXPECT_EQ(bench.sink.beats()[1].pixel[0][0], 100 - (683 * 100 - 171 * 100 + 2048) / 4096);
   EXPECT_EQ(bench.blender.blended_pixels.value(), rows.size() - 1);
 }
 
+// By what they make of three contrasts; the shares that are shown are those before.
 TEST(BlenderBlock, MixesAllPairsOfShares) {
   Parameters p = preset(spec::morphological::Preset::kDeburrLine);
-  p.linear_light = false;
   p.blend = spec::morphological::BlendRule::kStrongest;
   Blending bench(p);
-  for (std::uint32_t a = 0; a < 256; ++a)
-    for (std::uint32_t b = 0; b < 256; ++b)
-      bench.send({static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b), 0, 0, 1, 1, 0, 0},
-                 100, 100, 100, 100, 100);
-  bench.clock.run(65'600);
-  ASSERT_EQ(bench.sink.beats().size(), 65'536u);
+  const Rgba8 above{255, 0, 0, 0}, centre{0, 0, 255, 0}, below{0, 255, 128, 0};
   for (std::uint32_t a = 0; a < 256; ++a)
     for (std::uint32_t b = 0; b < 256; ++b) {
-      const spec::morphological::BlendTap& tap = bench.sink.beats()[a * 256 + b].tap[0];
-      const std::uint32_t s = a + b;
-      if (s == 0) continue;
-      // Contract: R(s) = rdiv(65536, s), (w^2 R(s) + 2^15) >> 16.
-      const std::uint64_t r = (131072 + s) / (2 * s);
-      ASSERT_EQ(tap.first, (std::uint64_t{a} * a * r + 32768) >> 16) << a << " " << b;
-      ASSERT_EQ(tap.second, (std::uint64_t{b} * b * r + 32768) >> 16) << a << " " << b;
-      if (b == 0) {
-        ASSERT_EQ(tap.first, a) << "a single share stays";
-      }
-      ASSERT_LE(tap.first + tap.second, 256);
+      ShareToken token{};
+      token.slot.row = static_cast<std::uint16_t>(2 + 32 + 5);
+      token.any = true;
+      token.shares[0] = {
+          static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b), 0, 0, 1, 1, 0, 0};
+      PixelToken around{};
+      around.above[0] = above;
+      around.centre[0] = centre;
+      around.below[0] = below;
+      bench.send(token, around);
     }
+  bench.clock.run(65'600);
+  ASSERT_EQ(bench.sink.beats().size(), 65'536u);
+  // Contract: R(s) = rdiv(2^20, s), (w^2 R(s) + 2^15) >> 16.
+  const auto mixed = [](std::uint32_t w, std::uint32_t s) {
+    const std::uint64_t r = ((2u << 20) + s) / (2 * s);
+    return static_cast<std::int32_t>((std::uint64_t{w} * w * r + 32768) >> 16);
+  };
+  const auto blended = [&](int first, int second, std::size_t channel) {
+    const auto light = [&](const Rgba8& pixel) {
+      return static_cast<std::int32_t>(spec::morphological::kLinear12FromSrgb[pixel[channel]]);
+    };
+    const std::int32_t c = light(centre),
+                       v = first * (light(above) - c) + second * (light(below) - c),
+                       moved = ((v < 0 ? -v : v) + 2048) / 4096;
+    return spec::morphological::kSrgbFromLinear12[static_cast<std::size_t>(v < 0 ? c - moved
+                                                                                 : c + moved)];
+  };
+  std::size_t coarser = 0;
+  for (std::uint32_t a = 0; a < 256; ++a)
+    for (std::uint32_t b = 0; b < 256; ++b) {
+      const spec::morphological::BlendedBeat& beat = bench.sink.beats()[a * 256 + b];
+      ASSERT_EQ(beat.tap[0].first, a);
+      ASSERT_EQ(beat.tap[0].second, b);
+      if (a + b == 0) continue;
+      const std::int32_t first = mixed(a, a + b), second = mixed(b, a + b);
+      if (b == 0) {
+        ASSERT_EQ(first, 16 * a) << "a single share stays";
+      }
+      ASSERT_LE(first + second, 4096);
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        ASSERT_EQ(beat.pixel[0][channel], blended(first, second, channel)) << a << ' ' << b;
+        coarser +=
+            beat.pixel[0][channel] != blended((first + 1) / 2 * 2, (second + 1) / 2 * 2, channel);
+      }
+    }
+  EXPECT_GT(coarser, 5'000u) << "the last bit shows nowhere";
 }
 
 // ---- pixels that are left -----------------------------------------------------------------------
@@ -339,17 +371,18 @@ TEST_P(HalfShares, AreThoseOfMarkedNeighbours) {
       for (const Row& row : rows)
         for (int lane = 0; lane < lanes; ++lane, ++beat) {
           const auto& tap = bench.sink.beats().at(beat).tap[static_cast<std::size_t>(lane)];
-          int first = row.first, second = row.second;
+          int first = 16 * row.first, second = 16 * row.second;
           if (blend == BlendRule::kStrongest && first + second != 0) {
-            const int s = first + second, r = (131072 + s) / (2 * s);
-            first = (first * first * r + 32768) >> 16;
-            second = (second * second * r + 32768) >> 16;
+            const int s = row.first + row.second, r = ((2 << 20) + s) / (2 * s);
+            first = (row.first * row.first * r + 32768) >> 16;
+            second = (row.second * row.second * r + 32768) >> 16;
           }
           blended += row.first + row.second != 0;
-          if (tap.horizontal != row.horizontal || tap.first != first || tap.second != second)
+          if (tap.horizontal != row.horizontal || tap.first != row.first ||
+              tap.second != row.second)
             wrong += std::to_string(beat) + " ";
           const int value = bench.sink.beats()[beat].pixel[static_cast<std::size_t>(lane)][1],
-                    sum = first * 100 - second * 80, moved = ((sum < 0 ? -sum : sum) + 128) / 256;
+                    sum = first * 100 - second * 80, moved = ((sum < 0 ? -sum : sum) + 2048) / 4096;
           if (value != 100 + (sum < 0 ? -moved : moved)) wrong += std::to_string(beat) + "v ";
         }
       if (bench.blender.blended_pixels.value() != blended ||

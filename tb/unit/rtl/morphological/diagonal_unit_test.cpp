@@ -42,6 +42,7 @@ void PrintTo(const Build& b, std::ostream* out) {
 Parameters built_as(const Build& build) {
   Parameters p = smaa(spec::morphological::Quality::kUltra);
   p.diagonal_steps = build.steps;
+  p.border = spec::morphological::Border::kEnd;
   p.lanes = static_cast<spec::morphological::Lanes>(build.lanes_code);
   p.line_pixels = 128;
   return p;
@@ -118,14 +119,16 @@ struct Expected {
   std::uint64_t taken = 0, reads = 0;
 };
 
-Expected expected(const EdgePlanes& edges, int steps, int lanes, bool strongest = true) {
-  const int width = edges.top.width(), most = strongest ? 255 : 128;
+// `margin`: of a frame with so many pixels more around it, which are not part of it.
+Expected expected(const EdgePlanes& edges, int steps, int lanes, bool strongest = true,
+                  int margin = 0) {
+  const int width = edges.top.width() - 2 * margin, most = strongest ? 255 : 128;
   Expected all;
-  for (int y = 0; y < edges.top.height(); ++y)
+  for (int y = margin; y < edges.top.height() - margin; ++y)
     for (int x0 = 0; x0 < width; x0 += lanes) {
       DiagonalSharesToken word{};
       for (int lane = 0; lane < std::min(lanes, width - x0); ++lane) {
-        const int x = x0 + lane;
+        const int x = margin + x0 + lane;
         if (steps == 0 || !edges.top.at(x, y)) continue;
         const DiagonalEnds rising = rising_diagonal(edges, steps, x, y),
                            falling = falling_diagonal(edges, steps, x, y);
@@ -292,6 +295,36 @@ INSTANTIATE_TEST_SUITE_P(Each, DiagonalBuilds,
                          ::testing::Values(Build{1, 0}, Build{2, 1}, Build{3, 2}, Build{8, 0},
                                            Build{8, 1}, Build{8, 2}, Build{15, 0}, Build{16, 0},
                                            Build{16, 1}, Build{16, 2}));
+
+// With border = clamp pixels beyond the frame have the edges of the nearest one: what golden says
+// of a frame that has them. Rows of one column on, and each by as many beats less as the next one
+// needs while pixels of this one are in hand.
+TEST_P(DiagonalBuilds, TheBorderRepeatsItsEdges) {
+  Parameters p = built_as(GetParam());
+  p.border = spec::morphological::Border::kClamp;
+  const int m = p.diagonal_steps, margin = m + 2;
+  Diagonals bench(p);
+  std::size_t changed = 0;
+  for (int width = 1; width <= 2 * m + 3 + 2 * bench.lanes; ++width)
+    for (const int height : {1, 2, 12}) {
+      const EdgePlanes edges = random_edges(width, height, static_cast<std::uint64_t>(width));
+      EdgePlanes wide = empty(width + 2 * margin, height + 2 * margin);
+      for (int y = 0; y < height + 2 * margin; ++y)
+        for (int x = 0; x < width + 2 * margin; ++x) {
+          const int u = std::clamp(x - margin, 0, width - 1),
+                    v = std::clamp(y - margin, 0, height - 1);
+          if (edges.left.at(u, v)) wide.left.set(x, y);
+          if (edges.top.at(u, v)) wide.top.set(x, y);
+        }
+      const Expected want = expected(wide, m, bench.lanes, true, margin);
+      const auto got = bench.run(edges);
+      EXPECT_EQ(differences(got, want), 0u) << width << 'x' << height;
+      changed += differences(got, expected(edges, m, bench.lanes));
+    }
+  if (m > 1) {
+    EXPECT_GT(changed, m == 2 ? 3u : 20u) << "the border shows nowhere";
+  }
+}
 
 // Fewer steps than are built, by the register; one more or less would have been seen.
 TEST(DiagonalUnitBlock, TakesAsManyStepsAsTheRegisterSays) {

@@ -41,15 +41,17 @@ constexpr std::uint32_t kPlainRules = 0;  // luma, fixed, no local contrast
 
 TEST(EdgeDetectorBlock, FixedThresholdIsMetNotExceeded) {
   Front front(preset(spec::morphological::Preset::kMlaa));
-  // T = 0.1: 255 x 6554 = 1671270 lies between 25 and 26 codes; T = 0.02: between 5 and 6.
+  // T = 1671270 / 65536 lies between 25 and 26 codes; 334305 between 5 and 6.
   const Frame steps = row({0, 25, 51, 26, 0, 255});
   EXPECT_EQ(left_bits(front.detect(steps)), "001011");
   EXPECT_EQ(left_bits(front.detect(transposed(steps))), "000000");
   EXPECT_EQ(top_bits(front.detect(transposed(steps))), "001011");
-  EXPECT_EQ(left_bits(front.detect(row({0, 5, 11, 11}), {{reg::kThreshold, 1311}})), "0010");
-  // Exactly on the threshold: 255 x 65536 / 255 = 65536 a code; T = 257 is 65535, T = 258 65790.
-  EXPECT_EQ(left_bits(front.detect(row({0, 1}), {{reg::kThreshold, 257}})), "01");
-  EXPECT_EQ(left_bits(front.detect(row({0, 1}), {{reg::kThreshold, 258}})), "00");
+  EXPECT_EQ(left_bits(front.detect(row({0, 5, 11, 11}), {{reg::kThreshold, 334305}})), "0010");
+  // Exactly on the threshold: a code is 65536. And all 24 bits count.
+  EXPECT_EQ(left_bits(front.detect(row({0, 1}), {{reg::kThreshold, 65536}})), "01");
+  EXPECT_EQ(left_bits(front.detect(row({0, 1}), {{reg::kThreshold, 65537}})), "00");
+  EXPECT_EQ(left_bits(front.detect(row({0, 255, 1}), {{reg::kThreshold, 255 << 16}})), "010");
+  EXPECT_EQ(left_bits(front.detect(row({0, 255, 0}), {{reg::kThreshold, 0xFFFFFF}})), "000");
 }
 
 TEST(EdgeDetectorBlock, TakesSevenClocksFromBeatToBits) {
@@ -68,19 +70,25 @@ TEST(EdgeDetectorBlock, TakesSevenClocksFromBeatToBits) {
 TEST(EdgeDetectorBlock, DynamicThresholdIsStrictAndHasAFloor) {
   Front front(preset(spec::morphological::Preset::kMlaa));
   const std::uint32_t current = 1u << 2, larger = 1u << 2 | 1u << 3;
-  const std::map<std::uint32_t, std::uint32_t> alpha = {{reg::kAlpha, 6554}, {reg::kFloor, 514}};
+  const std::map<std::uint32_t, std::uint32_t> alpha = {{reg::kAlpha, 1677722},
+                                                        {reg::kFloor, 131072}};
   const auto with = [&](std::uint32_t rules) {
     auto writes = alpha;
     writes[reg::kRules] = rules;
     return writes;
   };
-  // 10 codes of 100 are 655360 against 6554 x 100 = 655400: no. 11 codes: yes.
+  // 10 codes of 100, of which 1677722 / 2^24 is a little more: no. 11 codes: yes. With alpha a unit
+  // less, as it is rounded down, 10 are enough.
   EXPECT_EQ(left_bits(front.detect(row({90, 100}), with(current))), "00");
+  EXPECT_EQ(
+      left_bits(front.detect(
+          row({90, 100}), {{reg::kRules, current}, {reg::kAlpha, 1677721}, {reg::kFloor, 131072}})),
+      "01");
   EXPECT_EQ(left_bits(front.detect(row({89, 100}), with(current))), "01");
   // The other way round the current pixel is the darker one.
   EXPECT_EQ(left_bits(front.detect(row({100, 90}), with(current))), "01");
   EXPECT_EQ(left_bits(front.detect(row({100, 90}), with(larger))), "00");
-  // Beside black alpha times luma is small; the floor (514 x 255 = 131070, two codes) rules.
+  // Beside black alpha times luma is small; the floor of two codes rules.
   EXPECT_EQ(left_bits(front.detect(row({0, 1, 0, 2, 0}), with(current))), "00011");
 }
 
@@ -101,7 +109,7 @@ TEST(EdgeDetectorBlock, EachLumaRuleIsStrictAtEquality) {
         Row{3, 60, 101, true, true}, Row{3, 60, 99, false, false}, Row{3, 61, 101, false, false},
         Row{3, 59, 99, true, true}}) {
     const std::map<std::uint32_t, std::uint32_t> writes = {
-        {reg::kRules, 1u << 2 | r.rule << 3}, {reg::kAlpha, 32768}, {reg::kFloor, 1}};
+        {reg::kRules, 1u << 2 | r.rule << 3}, {reg::kAlpha, 1 << 23}, {reg::kFloor, 1}};
     const std::string edge = r.edge ? "01" : "00", other = r.other_way ? "01" : "00";
     const Frame pair = row({r.before, r.here}), back = row({r.here, r.before});
     EXPECT_EQ(left_bits(front.detect(pair, writes)), edge) << r.rule << " " << r.before;
@@ -121,7 +129,7 @@ TEST(EdgeDetectorBlock, DepthAndPredicatedSources) {
   frame.depth = {0, 0, 1, 0xFFFFFF, 0xFFFFFF};
   EXPECT_EQ(left_bits(front.detect(frame)), "00110");
   EXPECT_EQ(top_bits(front.detect(transposed(frame))), "00110");
-  // Predicated: three codes on a depth edge (655), thirteen elsewhere (3277).
+  // Predicated: three codes on a depth edge (167025), thirteen elsewhere (835635).
   Frame steps = row({0, 2, 5, 17, 30});
   steps.depth = {1000, 500, 1000, 1000, 1000};
   EXPECT_EQ(left_bits(front.detect(steps, {{reg::kRules, 2}})), "00101");
@@ -137,9 +145,10 @@ TEST(EdgeDetectorBlock, ColourComparesEachCode) {
                  {101, 38, 79, 0}, {101, 51, 79, 0}, {88, 64, 66, 0},  {100, 64, 66, 0}};
   EXPECT_EQ(left_bits(front.detect(steps)), "01100110");
   EXPECT_EQ(top_bits(front.detect(transposed(steps))), "01100110");
-  // T = 1: any step at all; 3341 is met by 13 codes, 3342 is not.
+  // T = 1: any step at all; 13 codes are met by 13, and a unit more is not.
   EXPECT_EQ(left_bits(front.detect(steps, {{reg::kThreshold, 1}})), "01101111");
-  EXPECT_EQ(left_bits(front.detect(steps, {{reg::kThreshold, 3342}})), "00000000");
+  EXPECT_EQ(left_bits(front.detect(steps, {{reg::kThreshold, (13 << 16) + 1}})), "00000000");
+  EXPECT_EQ(left_bits(front.detect(steps, {{reg::kThreshold, 13 << 16}})), "01100110");
 }
 
 TEST(EdgeDetectorBlock, LocalContrastComparesColours) {
@@ -207,8 +216,8 @@ TEST(EdgeDetectorBlock, WithoutDepthLinesDepthReadsZero) {
 
 // ---- every comparison at equality, and one on either side ---------------------------------------
 
-// Blue at 255 has the luma 255 x 4732, and black none: their step is 255 T with T = 4732 exactly.
-constexpr std::uint32_t kBlueStep = 4732;
+// Blue at 255 has the luma 255 x 4732, and black none.
+constexpr std::uint32_t kBlueStep = 255 * 4732;
 Frame black_and_blue(const char* colours) {
   Frame frame(static_cast<int>(std::string(colours).size()), 1);
   for (std::size_t i = 0; colours[i] != '\0'; ++i)
@@ -250,7 +259,8 @@ TEST_P(AtEquality, AFixedThresholdIsMet) {
 TEST_P(AtEquality, ADynamicThresholdIsExceeded) {
   // Codes 1 and 2: a step of half the larger one.
   for (const std::uint32_t larger : {0u, 1u << 3})
-    for (const auto& [alpha, bits] : {std::pair{32767u, "01"}, {32768u, "00"}, {32769u, "00"}})
+    for (const auto& [alpha, bits] :
+         {std::pair{(1u << 23) - 1, "01"}, {1u << 23, "00"}, {(1u << 23) + 1, "00"}})
       expect(row({1, 2}), {{reg::kRules, 1u << 2 | larger}, {reg::kAlpha, alpha}, {reg::kFloor, 1}},
              bits);
 }
@@ -260,7 +270,7 @@ TEST_P(AtEquality, AFloorIsMet) {
   for (const auto& [floor, bits] :
        {std::pair{kBlueStep - 1, "01"}, {kBlueStep, "01"}, {kBlueStep + 1, "00"}})
     expect(black_and_blue("b."),
-           {{reg::kRules, 1u << 2}, {reg::kAlpha, 65535}, {reg::kFloor, floor}}, bits);
+           {{reg::kRules, 1u << 2}, {reg::kAlpha, 0xFFFFFF}, {reg::kFloor, floor}}, bits);
 }
 
 TEST_P(AtEquality, ADepthThresholdIsMet) {

@@ -462,11 +462,11 @@ INSTANTIATE_TEST_SUITE_P(
                        p.diagonal_steps = 10;
                      }},
         BadParameter{"threshold", [](auto& p) { p.threshold = 0; }},
-        BadParameter{"edges.threshold", [](auto& p) { p.threshold = 65536; }},
+        BadParameter{"edges.threshold", [](auto& p) { p.threshold = 1 << 24; }},
         BadParameter{"edges.alpha", [](auto& p) { p.alpha = -1; }},
-        BadParameter{"edges.alpha", [](auto& p) { p.alpha = 65536; }},
+        BadParameter{"edges.alpha", [](auto& p) { p.alpha = 1 << 24; }},
         BadParameter{"edges.floor", [](auto& p) { p.floor = 0; }},
-        BadParameter{"edges.floor", [](auto& p) { p.floor = 65536; }},
+        BadParameter{"edges.floor", [](auto& p) { p.floor = 1 << 24; }},
         BadParameter{"search_steps", [](auto& p) { p.search_steps = 0; }},
         BadParameter{"1..112", [](auto& p) { p.search_steps = 113; }},
         BadParameter{"diagonal_steps", [](auto& p) { p.diagonal_steps = 0; }},
@@ -489,6 +489,16 @@ INSTANTIATE_TEST_SUITE_P(
                      [](auto& p) {
                        p.edge_source = spec::morphological::EdgeSource::kColour;
                        p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
+                     }},
+        BadParameter{"border = clamp with ends = gaps",
+                     [](auto& p) {
+                       p.border = spec::morphological::Border::kClamp;
+                       p.area = spec::morphological::AreaSource::kTableFull;
+                     }},
+        BadParameter{"border = clamp with area = analytic",
+                     [](auto& p) {
+                       p.border = spec::morphological::Border::kClamp;
+                       p.ends = spec::morphological::Ends::kCrossings;
                      }},
         BadParameter{"divider.latency = 1 is outside 14..64",
                      [](auto& p) { p.divider_latency = 1; }},

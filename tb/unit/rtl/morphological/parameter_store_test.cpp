@@ -40,7 +40,7 @@ TEST(ParameterStoreBlock, TrimIsABitOfRulesLatchedWithTheFrame) {
   EXPECT_TRUE(on.store.rules().safe);
   on.store.leave();
   on.bus.write(reg::kRules, ~0u);
-  EXPECT_EQ(on.bus.read(reg::kRules), 0x7FFFFFFu) << "no bits beyond";
+  EXPECT_EQ(on.bus.read(reg::kRules), 0xFFFFFFFu) << "no bits beyond";
   on.reset();
   EXPECT_EQ(on.bus.read(reg::kRules), reset_value);
 }
@@ -125,6 +125,7 @@ std::string text_of(const rtl::morphological::FrameRules& f) {
   add("trim", f.trim);
   add("crossings", f.crossings);
   add("table", f.table);
+  add("clamp", f.clamp);
   add("diagonal_steps", f.diagonal_steps);
   add("corners", f.corners);
   add("strongest", f.strongest);
@@ -186,16 +187,22 @@ TEST(FrameRules, EachBitOfRulesIsItsFields) {
                    {5u << 24, ""},
                    {6u << 24, ""},
                    {7u << 24, ""},
-                   {0xF8000000, ""}});
+                   {1u << 27, ""},
+                   {1u << 27 | 1u << 18, "crossings 1"},
+                   {1u << 27 | 1u << 19, "table 1"},
+                   {1u << 27 | 3u << 18, "crossings 1, table 1, clamp 1"},
+                   {0xF0000000, ""}});
+  p.border = spec::morphological::Border::kEnd;  // clamp is not built
+  expect_rules(p, {{1u << 27 | 3u << 18, "crossings 1, table 1"}});
 }
 // Bits of no field count nowhere, whatever holds the registers.
 TEST(FrameRules, OtherBitsAreNotLookedAt) {
   rtl::ControlRegisters raw("raw", spec::morphological::kRegisters,
                             rtl::morphological::control_layout());
   const auto decoded = [&] { return rtl::morphological::decode(raw, smaa()); };
-  raw.write(reg::kRules, 0xF8000000);
+  raw.write(reg::kRules, 0xF0000000);
   EXPECT_EQ(text_of(decoded().rules), "");
-  raw.write(reg::kRules, 0xF8000000 | 1u << 24);
+  raw.write(reg::kRules, 0xF0000000 | 1u << 24);
   EXPECT_EQ(text_of(decoded().rules), "leave 1");
   raw.write(reg::kSize, 0xC000C000 | 40 | 30 << 16);
   EXPECT_EQ(decoded().rules.width, 40);
@@ -214,18 +221,16 @@ TEST(FrameRules, OfAnEngineWithLearnedShares) {
                           {1u << 14, "contiguous 1"}});
 }
 
-// 255 times the register, U8.16; the others as they are.
 TEST(FrameRules, ThresholdsAreThoseOfTheirRegisters) {
   Registers r(preset(Preset::kMlaa));
   std::uint32_t value = 100;
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>> registers = {
-      {reg::kThreshold, 255}, {reg::kThresholdOn, 255}, {reg::kThresholdOff, 255},
-      {reg::kFloor, 255},     {reg::kAlpha, 1},         {reg::kDepthThreshold, 1},
-      {reg::kPixelBase, 1}};
   std::vector<std::uint32_t> wanted;
-  for (const auto& [offset, factor] : registers) {
+  for (const std::uint32_t offset :
+       {reg::kThreshold, reg::kThresholdOn, reg::kThresholdOff, reg::kFloor, reg::kAlpha,
+        reg::kDepthThreshold, reg::kPixelBase}) {
     r.bus.write(offset, value += 64 * 3 + (offset == reg::kPixelBase ? 64 - value % 64 : 0));
-    wanted.push_back(factor * r.bus.read(offset));
+    wanted.push_back(value);
+    EXPECT_EQ(r.bus.read(offset), value);
   }
   r.frame(8, 8);
   const rtl::morphological::FrameRules& f = r.store.rules();
@@ -233,9 +238,13 @@ TEST(FrameRules, ThresholdsAreThoseOfTheirRegisters) {
                                         f.alpha, f.depth_threshold, f.pixel_base}),
             wanted);
   r.store.leave();
-  r.bus.write(reg::kThreshold, 0xFFFF);
+  for (const std::uint32_t offset : {reg::kThreshold, reg::kThresholdOn, reg::kThresholdOff,
+                                     reg::kFloor, reg::kAlpha, reg::kDepthThreshold})
+    r.bus.write(offset, ~0u);
   r.frame(8, 8);
-  EXPECT_EQ(r.store.rules().threshold, 255u * 65535);
+  EXPECT_EQ((std::vector<std::uint32_t>{f.threshold, f.threshold_on, f.threshold_off, f.floor,
+                                        f.alpha, f.depth_threshold}),
+            (std::vector<std::uint32_t>{0xFFFFFF, 0xFFFFFF, 0xFFFFFF, 0xFFFFFF, 0xFFFFFF, 0xFFFF}));
 }
 
 TEST(FrameRules, SizesInBeatsAndRows) {
@@ -285,7 +294,7 @@ TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
   EngineBench bench(in_memory());
   ASSERT_TRUE(bench.bus.debug_write(reg::kPixelBase, 0x12345));
   ASSERT_TRUE(bench.bus.debug_write(reg::kSize, 97u | 61u << 16 | 0xC000C000u));
-  ASSERT_TRUE(bench.bus.debug_write(reg::kThreshold, 0xABCD0000u | 6554u));
+  ASSERT_TRUE(bench.bus.debug_write(reg::kThreshold, 0xAB000000u | 1671270u));
   ASSERT_TRUE(bench.bus.debug_write(reg::kRules, 0xFE000000u | 1u << 16));
   const Frame in = noise();
   bench.driver.send(beats_of(in, 1));
@@ -293,8 +302,8 @@ TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
                    1'000'000);
   EXPECT_EQ(bench.bus.read(reg::kPixelBase), 0x12340u);
   EXPECT_EQ(bench.bus.read(reg::kSize), 97u | 61u << 16);
-  EXPECT_EQ(bench.bus.read(reg::kThreshold), 6554u);
-  EXPECT_EQ(bench.bus.read(reg::kRules), 3u << 25 | 1u << 16);
+  EXPECT_EQ(bench.bus.read(reg::kThreshold), 1671270u);
+  EXPECT_EQ(bench.bus.read(reg::kRules), 7u << 25 | 1u << 16);
   ASSERT_FALSE(bench.memory->lines_read().empty());
   EXPECT_EQ(bench.memory->lines_read()[0], 0x12340u);
   EXPECT_EQ(bench.bus.read(reg::kMemoryErrors), 0u);
@@ -327,9 +336,9 @@ TEST(Registers, ResetValuesAreTheParameters) {
   // luma, fixed, max, symmetric, fit, 8 steps, contiguous, safe, linear light, trim
   EXPECT_EQ(bench.bus.read(reg::kRules),
             1u << 3 | 2u << 5 | 2u << 7 | 8u << 9 | 1u << 14 | 1u << 15 | 1u << 16 | 1u << 17);
-  EXPECT_EQ(bench.bus.read(reg::kThreshold), 1966u);
+  EXPECT_EQ(bench.bus.read(reg::kThreshold), 501330u);
   EXPECT_EQ(bench.bus.read(reg::kAlpha), 1234u);
-  EXPECT_EQ(bench.bus.read(reg::kFloor), 514u);
+  EXPECT_EQ(bench.bus.read(reg::kFloor), 131072u);
   EXPECT_EQ(bench.bus.read(reg::kDepthThreshold), 3277u);
   EXPECT_EQ(bench.bus.read(reg::kSize), 0u);
   bench.bus.write(reg::kPixelBase, 0x12345);
@@ -342,27 +351,30 @@ TEST(Registers, ResetValuesAreTheParameters) {
 // Bit by bit from the contract's table.
 TEST(Registers, ResetValuesOfSmaaAreThePresets) {
   constexpr std::uint32_t kLinear = 1u << 16, kCrossings = 1u << 18, kTable = 1u << 19,
-                          kDiagonals = 1u << 20, kCorners = 1u << 21, kStrongest = 1u << 22;
+                          kDiagonals = 1u << 20, kCorners = 1u << 21, kStrongest = 1u << 22,
+                          kClamp = 1u << 27;
   using spec::morphological::Quality;
   struct Row {
     Preset preset;
     Quality quality;
     std::uint32_t rules, threshold, smaa;
   };
-  constexpr std::uint32_t kFixed = 1u << 3 | 3u << 5 | kLinear | kCrossings | kTable | kStrongest,
-                          kDynamic = 1u << 2 | 1u << 5 | kLinear | kCrossings | kTable | kStrongest;
+  constexpr std::uint32_t kFixed = 1u << 3 | 3u << 5 | kLinear | kCrossings | kTable | kStrongest |
+                                   kClamp,
+                          kDynamic = 1u << 2 | 1u << 5 | kLinear | kCrossings | kTable |
+                                     kStrongest | kClamp;
   struct Owner : sc_core::sc_module {
     Owner(const sc_core::sc_module_name& name, const Parameters& p) : sc_module(name), store(p) {}
     Registers store;
   };
   for (const Row& row :
-       {Row{Preset::kSmaa, Quality::kLow, kFixed, 9830, 4u | 8u << 8 | 64u << 16},
-        Row{Preset::kSmaa, Quality::kMedium, kFixed, 6554, 8u | 8u << 8 | 64u << 16},
-        Row{Preset::kSmaa, Quality::kHigh, kFixed | kDiagonals | kCorners, 6554,
+       {Row{Preset::kSmaa, Quality::kLow, kFixed, 2506752, 4u | 8u << 8 | 64u << 16},
+        Row{Preset::kSmaa, Quality::kMedium, kFixed, 1671168, 8u | 8u << 8 | 64u << 16},
+        Row{Preset::kSmaa, Quality::kHigh, kFixed | kDiagonals | kCorners, 1671168,
             16u | 8u << 8 | 64u << 16},
-        Row{Preset::kSmaa, Quality::kUltra, kFixed | kDiagonals | kCorners, 3277,
+        Row{Preset::kSmaa, Quality::kUltra, kFixed | kDiagonals | kCorners, 835584,
             32u | 16u << 8 | 64u << 16},
-        Row{Preset::kSmaaDynamic, Quality::kHigh, kDynamic | kDiagonals | kCorners, 1966,
+        Row{Preset::kSmaaDynamic, Quality::kHigh, kDynamic | kDiagonals | kCorners, 501330,
             16u | 8u << 8 | 64u << 16}}) {
     Owner owner("owner", smaa(row.quality, row.preset));
     EXPECT_EQ(owner.store.bus.read(reg::kRules), row.rules);
@@ -379,15 +391,15 @@ TEST(Registers, ResetValuesOfSmaaAreThePresets) {
 TEST(Registers, DiagonalsAreCountedShownAndCleared) {
   EngineBench bench(smaa());
   bench.run(noise());
-  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 233u);  // of the contract's vector
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 258u);  // of the contract's vector
   bench.run(noise());
-  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 233u);
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 258u);
   EXPECT_EQ(bench.bus.try_write(reg::kDiagonals, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
-  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 233u);
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 258u);
   // Switched off they are not looked for.
   bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) & ~(1u << 20));
   bench.run(noise());
-  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 233u);
+  EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 258u);
   bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
   EXPECT_EQ(bench.bus.read(reg::kDiagonals), 0u);
 }
@@ -427,7 +439,7 @@ TEST(Registers, RulesCountFromTheNextFrame) {
   EXPECT_EQ(bench.bus.read(reg::kProbes), 2u * 5382u);
   // mlaa: T = 0.1, no local contrast, no predictor.
   bench.bus.write(reg::kRules, 1u << 16);
-  bench.bus.write(reg::kThreshold, 6554);
+  bench.bus.write(reg::kThreshold, 1671270);
   EXPECT_EQ(hash(bench.run(line())), vector_hash("line_mlaa"));
   // mlaa-slope.
   bench.bus.write(reg::kRules, 1u << 16 | 1u << 7 | 4u << 9);
@@ -443,9 +455,9 @@ TEST(Registers, WritesWhileAFrameIsInsideAreIgnoredAndSaidSo) {
   bench.driver.send(beats_of(line(), 1));
   bench.clock.run(500);
   EXPECT_EQ(bench.bus.read(reg::kStatus), 0u) << "not idle";
-  bench.bus.write(reg::kThreshold, 60000);
+  bench.bus.write(reg::kThreshold, 15300000);
   bench.bus.write(reg::kSize, 5);
-  EXPECT_EQ(bench.bus.read(reg::kThreshold), 1966u);
+  EXPECT_EQ(bench.bus.read(reg::kThreshold), 501330u);
   EXPECT_EQ(bench.bus.read(reg::kSize), 200u | 150u << 16);
   EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusWrittenWhileBusy);
   bench.bench->run([&] { return bench.sink.received() == 30000 && bench.engine.idle(); }, 100'000);
@@ -545,7 +557,7 @@ P plain() {
   p.edge_source = spec::morphological::EdgeSource::kLuma;
   p.threshold_mode = spec::morphological::ThresholdMode::kFixed;
   p.dynamic_luma = spec::morphological::DynamicLuma::kCurrent;
-  p.threshold = 3000;
+  p.threshold = 765000;
   p.area = spec::morphological::AreaSource::kAnalytic;
   p.local_contrast = spec::morphological::LocalContrast::kOff;
   p.predictor = spec::morphological::Predictor::kChord;
@@ -602,8 +614,8 @@ void as_analytic(P& p) { p.area = spec::morphological::AreaSource::kAnalytic; }
 void masked(P& p) { p.leave = spec::morphological::Leave::kMasked; }
 void dynamic(P& p) {
   p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
-  p.alpha = 9000;
-  p.floor = 900;
+  p.alpha = 2304000;
+  p.floor = 229500;
 }
 void fit(P& p) { p.predictor = spec::morphological::Predictor::kFit; }
 void marked(P& p) { p.leave = spec::morphological::Leave::kMarked; }
@@ -723,6 +735,11 @@ template <int kShare>
 void corner_rounding(P& p) {
   p.corner_rounding = kShare;
 }
+void clamped(P& p) {
+  with_smaa(p);
+  p.border = spec::morphological::Border::kClamp;
+}
+void not_clamped(P& p) { p.border = spec::morphological::Border::kEnd; }
 void no_diagonals(P& p) { p.diagonals = false; }
 void no_corners(P& p) { p.round_corners = false; }
 
@@ -733,6 +750,19 @@ INSTANTIATE_TEST_SUITE_P(
               [](P& p) { p.ends = spec::morphological::Ends::kGaps; }},
         Field{"area_analytic", with_smaa, reg::kRules, 19, 19, 0,
               [](P& p) { p.area = spec::morphological::AreaSource::kAnalytic; }},
+        Field{"border_end", clamped, reg::kRules, 27, 27, 0, not_clamped},
+        Field{"border_is_end_with_gaps", clamped, reg::kRules, 18, 18, 0,
+              [](P& p) {
+                not_clamped(p);
+                p.ends = spec::morphological::Ends::kGaps;
+              }},
+        Field{"border_is_end_without_a_table", clamped, reg::kRules, 19, 19, 0,
+              [](P& p) {
+                not_clamped(p);
+                p.area = spec::morphological::AreaSource::kAnalytic;
+              }},
+        Field{"clamp_is_off_where_not_built", with_smaa, reg::kRules, 27, 27, 1, as_it_is, false},
+        Field{"clamp_does_not_go_with_gaps", as_it_is, reg::kRules, 27, 27, 1, as_it_is, false},
         Field{"diagonals_off", with_smaa, reg::kRules, 20, 20, 0, no_diagonals},
         Field{"corners_off", with_smaa, reg::kRules, 21, 21, 0, no_corners},
         Field{"blend_longest", with_smaa, reg::kRules, 22, 22, 0,
@@ -772,20 +802,20 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Thresholds, RegisterField,
     ::testing::Values(
-        Field{"threshold", as_it_is, reg::kThreshold, 0, 15, 20000,
-              [](P& p) { p.threshold = 20000; }},
-        Field{"threshold_on", predicated, reg::kThresholdOn, 0, 15, 20000,
-              [](P& p) { p.threshold_on_depth_edge = 20000; }},
-        Field{"threshold_off", predicated, reg::kThresholdOff, 0, 15, 20000,
-              [](P& p) { p.threshold_off_depth_edge = 20000; }},
-        Field{"threshold_on_counts_for_predicated_alone", as_it_is, reg::kThresholdOn, 0, 15, 60000,
-              as_it_is, false},
-        Field{"threshold_off_counts_for_predicated_alone", as_it_is, reg::kThresholdOff, 0, 15,
-              60000, as_it_is, false},
-        Field{"threshold_does_not_count_for_predicated", predicated, reg::kThreshold, 0, 15, 60000,
-              as_it_is, false},
-        Field{"alpha", dynamic, reg::kAlpha, 0, 15, 30000, [](P& p) { p.alpha = 30000; }},
-        Field{"floor", dynamic, reg::kFloor, 0, 15, 9000, [](P& p) { p.floor = 9000; }},
+        Field{"threshold", as_it_is, reg::kThreshold, 0, 23, 5100000,
+              [](P& p) { p.threshold = 5100000; }},
+        Field{"threshold_on", predicated, reg::kThresholdOn, 0, 23, 5100000,
+              [](P& p) { p.threshold_on_depth_edge = 5100000; }},
+        Field{"threshold_off", predicated, reg::kThresholdOff, 0, 23, 5100000,
+              [](P& p) { p.threshold_off_depth_edge = 5100000; }},
+        Field{"threshold_on_counts_for_predicated_alone", as_it_is, reg::kThresholdOn, 0, 23,
+              15300000, as_it_is, false},
+        Field{"threshold_off_counts_for_predicated_alone", as_it_is, reg::kThresholdOff, 0, 23,
+              15300000, as_it_is, false},
+        Field{"threshold_does_not_count_for_predicated", predicated, reg::kThreshold, 0, 23,
+              15300000, as_it_is, false},
+        Field{"alpha", dynamic, reg::kAlpha, 0, 23, 7680000, [](P& p) { p.alpha = 7680000; }},
+        Field{"floor", dynamic, reg::kFloor, 0, 23, 2295000, [](P& p) { p.floor = 2295000; }},
         Field{"depth_threshold", depth, reg::kDepthThreshold, 0, 15, 12000,
               [](P& p) { p.depth_threshold = 12000; }}),
     [](const auto& field) { return field.param.name; });
@@ -793,10 +823,10 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(RegisterBits, ThatDoNotExistReadAsZero) {
   EngineBench bench(plain());
   const std::map<std::uint32_t, std::uint32_t> bits = {
-      {reg::kSize, 0x3FFF3FFF},    {reg::kRules, 0x7FFFFFF},       {reg::kThreshold, 0xFFFF},
-      {reg::kThresholdOn, 0xFFFF}, {reg::kThresholdOff, 0xFFFF},   {reg::kAlpha, 0xFFFF},
-      {reg::kFloor, 0xFFFF},       {reg::kDepthThreshold, 0xFFFF}, {reg::kPixelBase, 0xFFFFFFC0},
-      {reg::kSmaa, 0x01FF1F7F},    {reg::kSharesAddress, 0},       {reg::kSharesData, 0}};
+      {reg::kSize, 0x3FFF3FFF},      {reg::kRules, 0xFFFFFFF},       {reg::kThreshold, 0xFFFFFF},
+      {reg::kThresholdOn, 0xFFFFFF}, {reg::kThresholdOff, 0xFFFFFF}, {reg::kAlpha, 0xFFFFFF},
+      {reg::kFloor, 0xFFFFFF},       {reg::kDepthThreshold, 0xFFFF}, {reg::kPixelBase, 0xFFFFFFC0},
+      {reg::kSmaa, 0x01FF1F7F},      {reg::kSharesAddress, 0},       {reg::kSharesData, 0}};
   for (const auto& [offset, mask] : bits) {
     bench.bus.write(offset, 0xFFFFFFFF);
     EXPECT_EQ(bench.bus.read(offset), mask) << offset;

@@ -75,8 +75,31 @@ struct Planes {
   }
 };
 
+// A plane as its nearest pixel has it, beyond the frame too.
+Planes clamped(const Planes& planes, int margin) {
+  Planes wide(planes.width + 2 * margin, planes.height + 2 * margin);
+  for (int y = 0; y < wide.height; ++y)
+    for (int x = 0; x < wide.width; ++x) {
+      const int u = std::clamp(x - margin, 0, planes.width - 1),
+                v = std::clamp(y - margin, 0, planes.height - 1);
+      wide.left[static_cast<std::size_t>(y * wide.width + x)] = planes.left_at(u, v);
+      wide.top[static_cast<std::size_t>(y * wide.width + x)] = planes.top_at(u, v);
+    }
+  return wide;
+}
+
 // Word for word from the contract, on whole planes.
 std::vector<RunRecord> runs_by_definition(const Planes& planes, const Parameters& rules) {
+  const bool clamp = rules.border == spec::morphological::Border::kClamp;
+  constexpr int kMargin = 2;
+  const Planes around = clamped(planes, kMargin);
+  // Edges about a corner, which beyond the frame are nothing or those of the nearest pixel.
+  const auto left_at = [&](int x, int y) {
+    return clamp ? around.left_at(x + kMargin, y + kMargin) : planes.left_at(x, y);
+  };
+  const auto top_at = [&](int x, int y) {
+    return clamp ? around.top_at(x + kMargin, y + kMargin) : planes.top_at(x, y);
+  };
   const bool crossings = rules.ends == spec::morphological::Ends::kCrossings;
   const int reach_rows = reach_of(rules), reach_columns = rules.reach_columns;
   const bool corners = rules.round_corners;
@@ -89,14 +112,14 @@ std::vector<RunRecord> runs_by_definition(const Planes& planes, const Parameters
       return vertical ? planes.left_at(q, p) : planes.top_at(p, q);
     };
     const auto code = [&](int p, int q) {
-      const bool first = vertical ? planes.top_at(q - 1, p) : planes.left_at(p, q - 1);
-      const bool second = vertical ? planes.top_at(q, p) : planes.left_at(p, q);
+      const bool first = vertical ? top_at(q - 1, p) : left_at(p, q - 1);
+      const bool second = vertical ? top_at(q, p) : left_at(p, q);
       return (first ? 1 : 0) + (second ? 2 : 0);
     };
     const auto far = [&](int at, int q) {
-      if (!corners) return 0;
-      const bool first = vertical ? planes.top_at(q - 2, at) : planes.left_at(at, q - 2);
-      const bool second = vertical ? planes.top_at(q + 1, at) : planes.left_at(at, q + 1);
+      if (!corners || (at == length && code(at, q) == 0)) return 0;
+      const bool first = vertical ? top_at(q - 2, at) : left_at(at, q - 2);
+      const bool second = vertical ? top_at(q + 1, at) : left_at(at, q + 1);
       return (first ? 1 : 0) + (second ? 2 : 0);
     };
     for (int q = 0; q < lines; ++q)
@@ -105,18 +128,21 @@ std::vector<RunRecord> runs_by_definition(const Planes& planes, const Parameters
         if (!along(p, q) || (along(p - 1, q) && !crossed(p))) continue;
         int end = p + 1;
         while (along(end, q) && !crossed(end)) ++end;
-        const auto add = [&](RunPart part, int start, int size, int shape, int sharp) {
+        const int endless_start = clamp && p == 0,
+                  endless_end = clamp && end == length && code(end, q) == 0;
+        const auto add = [&](RunPart part, int start, int size, int shape, int sharp, int endless) {
           found.push_back({vertical ? Axis::kVertical : Axis::kHorizontal, part,
                            static_cast<std::uint16_t>(q), static_cast<std::uint16_t>(start),
                            static_cast<std::uint16_t>(size), static_cast<std::uint8_t>(shape),
-                           static_cast<std::uint8_t>(sharp)});
+                           static_cast<std::uint8_t>(sharp), static_cast<std::uint8_t>(endless)});
         };
         if (end - p > reach) {
-          add(RunPart::kHead, p, reach / 2, code(p, q), far(p, q));
-          add(RunPart::kTail, end - reach / 2, reach / 2, 4 * code(end, q), 4 * far(end, q));
+          add(RunPart::kHead, p, reach / 2, code(p, q), far(p, q), endless_start);
+          add(RunPart::kTail, end - reach / 2, reach / 2, 4 * code(end, q), 4 * far(end, q),
+              2 * endless_end);
         } else {
           add(RunPart::kWhole, p, end - p, code(p, q) + 4 * code(end, q),
-              far(p, q) + 4 * far(end, q));
+              far(p, q) + 4 * far(end, q), endless_start + 2 * endless_end);
         }
       }
   }
@@ -194,7 +220,8 @@ void PrintTo(const Extract& e, std::ostream* out) {
 }
 class RunExtraction : public ::testing::TestWithParam<Extract> {};
 
-void extract(const Extract& e, spec::morphological::Ends ends, bool corners, bool learned = false);
+void extract(const Extract& e, spec::morphological::Ends ends, bool corners, bool learned = false,
+             bool clamp = false);
 
 // Planes that no image gives: every code at both ends, runs of all lengths, long runs.
 TEST_P(RunExtraction, FindsEveryRunOnce) {
@@ -216,13 +243,25 @@ TEST_P(RunExtraction, FindsSharpCornersAtCrossings) {
   extract(GetParam(), spec::morphological::Ends::kCrossings, true);
 }
 
-void extract(const Extract& e, spec::morphological::Ends ends, bool corners, bool learned) {
+TEST_P(RunExtraction, RepeatsTheOutermostEdges) {
+  extract(GetParam(), spec::morphological::Ends::kCrossings, false, false, true);
+}
+TEST_P(RunExtraction, RepeatsThemForSharpCorners) {
+  extract(GetParam(), spec::morphological::Ends::kCrossings, true, false, true);
+}
+
+void extract(const Extract& e, spec::morphological::Ends ends, bool corners, bool learned,
+             bool clamp) {
   Parameters p = preset(spec::morphological::Preset::kMlaa, e.reach_rows, e.reach_columns);
   p.lanes = static_cast<spec::morphological::Lanes>(e.lanes_code);
   p.record_fifo = 3;
   p.ends = ends;
   p.round_corners = corners;
   if (learned) p.area = spec::morphological::AreaSource::kLearned;
+  if (clamp) {
+    p.area = spec::morphological::AreaSource::kTableFull;
+    p.border = spec::morphological::Border::kClamp;
+  }
   Extraction bench(p);
   bench.finisher.wait_permille = e.wait_permille;
   Random random(e.permille * 7u + static_cast<std::uint32_t>(e.width));
@@ -334,6 +373,59 @@ TEST(RunExtractorBlock, ARecordInEveryColumnDoesNotStall) {
   bench.run(planes);
   EXPECT_EQ(bench.runs.size(), runs_by_definition(planes, p).size());
   EXPECT_EQ(bench.extractor.record_stalls.value(), 0u);
+}
+
+// ---- the border repeats its edges ---------------------------------------------------------------
+
+// Runs at each side of the frame, endless or ended by the last crossing edge, and far bits beyond
+// it.
+TEST(ClampedBorder, RunsThatNoEdgeCrossesAreEndless) {
+  Parameters p = preset(spec::morphological::Preset::kMlaa, 4, 8);
+  p.ends = spec::morphological::Ends::kCrossings;
+  p.area = spec::morphological::AreaSource::kTableFull;
+  p.round_corners = true;
+  p.border = spec::morphological::Border::kClamp;
+  constexpr int kWidth = 12, kHeight = 10;
+  Planes horizontal(kWidth, kHeight);
+  const auto top = [&](int from, int to, int y) {
+    for (int x = from; x < to; ++x) horizontal.top[static_cast<std::size_t>(y * kWidth + x)] = true;
+  };
+  const auto left = [&](int x, int y) {
+    horizontal.left[static_cast<std::size_t>(y * kWidth + x)] = true;
+  };
+  top(0, 3, 1);  // from the left border; its crossing N is in row 0
+  left(3, 0);
+  top(8, 12, 9);  // to the right border, from a crossing S in the last row
+  left(8, 9);
+  top(11, 12, 5);  // the last pixel, between a crossing and the one that repeats it
+  left(11, 5);
+  top(2, 12, 7);  // longer than the reach: the tail is endless, the head starts at a crossing
+  left(2, 6);
+  const std::vector<RunRecord> wanted = {
+      {Axis::kHorizontal, RunPart::kWhole, 1, 0, 3, 1 << 2, 1 << 2, 1},
+      {Axis::kHorizontal, RunPart::kWhole, 9, 8, 4, 2, 2, 2},
+      {Axis::kHorizontal, RunPart::kWhole, 5, 11, 1, 2 | 2 << 2, 0, 0},
+      {Axis::kHorizontal, RunPart::kHead, 7, 2, 4, 1, 0, 0},
+      {Axis::kHorizontal, RunPart::kTail, 7, 8, 4, 0, 0, 2}};
+  Planes vertical(kHeight, kWidth);
+  std::vector<RunRecord> transposed = wanted;
+  for (RunRecord& run : transposed) run.axis = Axis::kVertical;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      vertical.left[static_cast<std::size_t>(x * kHeight + y)] = horizontal.top_at(x, y);
+      vertical.top[static_cast<std::size_t>(x * kHeight + y)] = horizontal.left_at(x, y);
+    }
+  p.window_rows = 18;  // R = 8, as the columns
+  struct Owner : sc_core::sc_module {
+    Owner(const sc_core::sc_module_name& name, const Parameters& parameters)
+        : sc_module(name), bench(parameters) {}
+    Extraction bench;
+  };
+  Owner across("across", p), down("down", p);
+  across.bench.run(horizontal);
+  down.bench.run(vertical);
+  EXPECT_THAT(across.bench.runs, ::testing::IsSupersetOf(wanted));
+  EXPECT_THAT(down.bench.runs, ::testing::IsSupersetOf(transposed));
 }
 
 // RECORD_STALLS: clocks in which a slot waits, not those in which none has come.

@@ -50,7 +50,7 @@ TEST(FirstBeat, TakesTheFrameInTheClockThatTakesIt) {
   const std::uint32_t rules = bench.bus.read(reg::kRules);
   bench.bus.write(reg::kRules, 1u << 16 | 1u << 7 | 4u << 9);
   EXPECT_NE(bench.bus.read(reg::kRules), rules);
-  bench.bus.write(reg::kThreshold, 6554);
+  bench.bus.write(reg::kThreshold, 1671270);
   bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
                    1'000'000);
   EXPECT_EQ(hash(bench.last(97, 61)), vector_hash("noise_slope"));

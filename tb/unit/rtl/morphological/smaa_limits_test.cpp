@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Where SMAA's searches end, in pixels, of every quality: 2 N - 1 to the left (up) and 2 N to the
 // right (down) are seen, one more is not; with fewer too, by the register. Whole frames against
-// golden: every shape in every length about the limits, along both axes.
+// golden: every shape in every length about the limits, along both axes, ended by the border or
+// going on beyond it, with sharp corners or without.
 #include <string>
 #include <vector>
 
@@ -20,10 +21,11 @@ namespace reg = spec::morphological::reg;
 struct Case {
   Quality quality;
   bool vertical;
+  bool clamp = false;  // border, and corners are rounded
 };
 void PrintTo(const Case& c, std::ostream* out) {
   *out << spec::morphological::kQualityNames[static_cast<std::size_t>(c.quality)]
-       << (c.vertical ? ", vertical" : ", horizontal");
+       << (c.vertical ? ", vertical" : ", horizontal") << (c.clamp ? ", clamp" : "");
 }
 
 Frame transposed(const Frame& f) {
@@ -55,8 +57,11 @@ class SmaaLimits : public ::testing::TestWithParam<Case> {
  protected:
   static Parameters parameters() {
     Parameters p = smaa(GetParam().quality);
-    // Diagonals and corners apart: distances alone.
-    p.diagonals = p.round_corners = false;
+    // Diagonals apart: distances alone, and which of them is the smaller one.
+    p.diagonals = false;
+    p.round_corners = GetParam().clamp;
+    p.border =
+        GetParam().clamp ? spec::morphological::Border::kClamp : spec::morphological::Border::kEnd;
     p.line_pixels = 1024;
     return p;
   }
@@ -116,7 +121,8 @@ TEST_P(SmaaLimits, AreThoseOfGoldenInEveryShape) {
 // The Z of the contract's vectors, long enough that no pixel sees both ends: the last pixel that
 // sees an end has a share, and the next one has none.
 TEST_P(SmaaLimits, TheLastPixelThatReachesAnEndHasAShareAndTheNextHasNone) {
-  const Parameters p = parameters();
+  Parameters p = parameters();
+  p.round_corners = false;
   const int n = p.search_steps;
   EngineBench bench(p);
   // As long as the reach; `ultra` has a head and a tail of it.
@@ -157,13 +163,14 @@ TEST_P(SmaaLimits, TheLastPixelThatReachesAnEndHasAShareAndTheNextHasNone) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Qualities, SmaaLimits,
-                         ::testing::Values(Case{Quality::kLow, false}, Case{Quality::kLow, true},
-                                           Case{Quality::kMedium, false},
-                                           Case{Quality::kMedium, true},
-                                           Case{Quality::kHigh, false}, Case{Quality::kHigh, true},
-                                           Case{Quality::kUltra, false},
-                                           Case{Quality::kUltra, true}));
+INSTANTIATE_TEST_SUITE_P(
+    Qualities, SmaaLimits,
+    ::testing::Values(Case{Quality::kLow, false}, Case{Quality::kLow, true},
+                      Case{Quality::kMedium, false}, Case{Quality::kMedium, true},
+                      Case{Quality::kHigh, false}, Case{Quality::kHigh, true},
+                      Case{Quality::kUltra, false}, Case{Quality::kUltra, true},
+                      Case{Quality::kLow, false, true}, Case{Quality::kLow, true, true},
+                      Case{Quality::kHigh, false, true}, Case{Quality::kUltra, true, true}));
 
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl::smaa_limits_test

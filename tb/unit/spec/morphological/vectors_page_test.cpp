@@ -145,7 +145,7 @@ TEST(MorphologicalVectorsPage, HasTheSharesOfTheTables) {
 TEST(MorphologicalVectors, HaveNamesOfTheirOwn) {
   std::set<std::string_view> names;
   for (const FrameVector& v : frame_vectors()) EXPECT_TRUE(names.insert(v.name).second) << v.name;
-  EXPECT_EQ(names.size(), 55u);
+  EXPECT_EQ(names.size(), 60u);
 }
 
 }  // namespace
