@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "golden/morphological/configuration.h"
+#include "golden/morphological/morphological_golden.h"
 #include "spec/error.h"
 #include "tb/base/fnv.h"
 #include "tb/training/share_file.h"
@@ -41,6 +42,19 @@ std::string listed(const Table& table) {
   return text;
 }
 
+// The least step of a colour that is an edge of preset deburr, whatever units its T has.
+int least_step() {
+  for (int step = 1; step < 256; ++step) {
+    golden::morphological::MorphologicalGolden golden(
+        golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr));
+    const auto code = static_cast<std::uint8_t>(step);
+    const std::vector<Rgba8> pixels = {{0, 0, 0, 255}, {code, code, code, 255}};
+    golden.process({pixels, 2, 1});
+    if (golden.edges().left.at(1, 0)) return step;
+  }
+  return 256;
+}
+
 }  // namespace
 
 std::uint64_t hash_of(const TruthFrame& frame) {
@@ -53,10 +67,9 @@ std::uint64_t hash_of(const TruthFrame& frame) {
 
 std::string recipe_text(const Recipe& recipe, const FrameOptions& options,
                         const std::vector<HashedFrame>& frames) {
-  const auto rules = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
   std::string text =
-      fmt::format("trainer {}\n{}\nrules deburr edges.threshold={}\nframes samples={} size={}\n",
-                  kTrainerVersion, recipe.text(), rules.threshold, options.samples, options.size);
+      fmt::format("trainer {}\n{}\nedges from {} codes on\nframes samples={} size={}\n",
+                  kTrainerVersion, recipe.text(), least_step(), options.samples, options.size);
   for (const auto& [name, hash] : frames) text += fmt::format("{}{} {:016x}\n", kFrame, name, hash);
   return text;
 }
