@@ -115,7 +115,7 @@ struct Rules {
   EdgeSource edge_source = EdgeSource::kColour;
   ThresholdMode threshold_mode = ThresholdMode::kFixed;
   DynamicLuma dynamic_luma = DynamicLuma::kMax;
-  std::int32_t threshold = 3341;                 // U0.16: 13 codes
+  std::int32_t threshold = 5140;                 // U0.16: 20 codes
   std::int32_t threshold_on_depth_edge = 655;    // U0.16: 0.01
   std::int32_t threshold_off_depth_edge = 3277;  // U0.16: 0.05
   std::int32_t alpha = 6554;                     // U0.16: 0.1
@@ -324,7 +324,7 @@ inline constexpr std::array<PresetRow, 6> kPresets = {{
     {Preset::kDeburrLine, EdgeSource::kLuma, ThresholdMode::kFixed, DynamicLuma::kMax, 1966,
      LocalContrast::kSymmetric, Predictor::kFit, 8, true, true, true, AreaSource::kAnalytic,
      Ends::kGaps, BlendRule::kLongest, false},
-    {Preset::kDeburr, EdgeSource::kColour, ThresholdMode::kFixed, DynamicLuma::kMax, 3341,
+    {Preset::kDeburr, EdgeSource::kColour, ThresholdMode::kFixed, DynamicLuma::kMax, 5140,
      LocalContrast::kSymmetric, Predictor::kFit, 8, true, true, true, AreaSource::kLearned,
      Ends::kGaps, BlendRule::kLongest, false},
 }};
