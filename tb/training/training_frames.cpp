@@ -163,17 +163,22 @@ void add_shapes(std::vector<FrameSource>& frames, const FrameOptions& options,
   }
 }
 
+// Of the kinds with textures some come with a truth, too, in which the textures stay as they are:
+// that teaches to leave them.
 void add_training_scenes(std::vector<FrameSource>& frames, const FrameOptions& options,
-                         std::uint64_t first_seed, int seeds, int views) {
+                         std::uint64_t first_seed, int seeds, int views, int kept_textures) {
   const Renderer renderer(options);
   for (const std::string_view kind : training_scene_kinds()) {
     for (int i = 0; i < seeds; ++i) {
       const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(i);
       const std::string group = fmt::format("{}{}", kind, seed);
-      for (int view = 0; view < views; ++view)
-        frames.push_back(
-            renderer.source(fmt::format("{}_{}", group, view), group,
-                            [kind, seed, view] { return training_scene(kind, seed, view); }));
+      for (int view = 0; view < views; ++view) {
+        const auto make = [kind, seed, view] { return training_scene(kind, seed, view); };
+        const std::string name = fmt::format("{}_{}", group, view);
+        frames.push_back(renderer.source(name, group, make));
+        if (i < kept_textures && (kind == "room" || kind == "signs"))
+          frames.push_back(renderer.source(name + "_edges", group, make, Renderer::Truth::kEdges));
+      }
     }
   }
 }
@@ -284,7 +289,7 @@ std::vector<FrameSource> training_set(const FrameOptions& options) {
   }
   add_stand_ins(frames, options, {11, 12}, 2);
   add_shapes(frames, options, 100, 6);
-  add_training_scenes(frames, options, 1, 4, 3);
+  add_training_scenes(frames, options, 1, 4, 3, 2);
   return frames;
 }
 
@@ -309,7 +314,7 @@ std::vector<FrameSource> held_out_set(const FrameOptions& options) {
   std::vector<FrameSource> frames;
   add_stand_ins(frames, options, {1}, 1);
   add_shapes(frames, options, 1, 3);
-  add_training_scenes(frames, options, 901, 1, 1);
+  add_training_scenes(frames, options, 901, 1, 1, 0);
   if (options.data.empty()) return frames;
   const auto add_track = [&](const std::string& size, const char* truth, bool depth) {
     const auto file = [folder = options.data / "frames", size](const std::string& what) {
