@@ -125,7 +125,7 @@ struct Rules {
   EdgeSource edge_source = EdgeSource::kColour;
   ThresholdMode threshold_mode = ThresholdMode::kFixed;
   DynamicLuma dynamic_luma = DynamicLuma::kMax;
-  std::int32_t threshold = 851955;                 // U8.16: 13 codes
+  std::int32_t threshold = 1310720;                // U8.16: 20 codes
   std::int32_t threshold_on_depth_edge = 167025;   // U8.16: 0.01 of 255
   std::int32_t threshold_off_depth_edge = 835635;  // U8.16: 0.05 of 255
   std::int32_t alpha = 1677721;                    // U0.24: 0.1, rounded down
@@ -351,7 +351,7 @@ inline constexpr std::array<PresetRow, 6> kPresets = {{
     {Preset::kDeburrLine, EdgeSource::kLuma, ThresholdMode::kFixed, DynamicLuma::kMax, 501330,
      LocalContrast::kSymmetric, Predictor::kFit, 8, true, true, true, AreaSource::kAnalytic,
      Ends::kGaps, Border::kEnd, BlendRule::kLongest, false},
-    {Preset::kDeburr, EdgeSource::kColour, ThresholdMode::kFixed, DynamicLuma::kMax, 851955,
+    {Preset::kDeburr, EdgeSource::kColour, ThresholdMode::kFixed, DynamicLuma::kMax, 1310720,
      LocalContrast::kSymmetric, Predictor::kFit, 8, true, true, true, AreaSource::kLearned,
      Ends::kGaps, Border::kEnd, BlendRule::kLongest, false},
 }};

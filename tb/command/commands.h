@@ -12,6 +12,7 @@ void add_run(CLI::App& app, CommandLine& line);
 void add_params(CLI::App& app, CommandLine& line);
 void add_compare(CLI::App& app, CommandLine& line);
 void add_report(CLI::App& app, CommandLine& line);
+void add_train(CLI::App& app, CommandLine& line);
 void add_sweep(CLI::App& app, CommandLine& line);
 void add_regress(CLI::App& app, CommandLine& line);
 void add_completion(CLI::App& app, CommandLine& line);

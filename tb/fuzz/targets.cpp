@@ -24,6 +24,7 @@
 #include "tb/scene/png.h"
 #include "tb/traces/fragment_reader.h"
 #include "tb/traces/fragment_writer.h"
+#include "tb/training/share_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -120,6 +121,17 @@ void configurations(std::string_view bytes) {
   });
 }
 
+void shares(std::string_view bytes) {
+  taken_or_rejected([&] {
+    // What was taken is written as what is taken again.
+    const auto read = training::parse_share_file("input", bytes);
+    const std::string text = training::share_file_text(read, {});
+    const auto again = training::parse_share_file("again", text);
+    require(training::entries_of(again) == training::entries_of(read),
+            "other shares than were written");
+  });
+}
+
 constexpr std::string_view kPpm = "P3\n2 1\n255\n255 0 0 0 255 0\n";
 constexpr std::string_view kObj =
     "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
@@ -208,7 +220,11 @@ std::vector<std::string> configurations_seeds() {
   return {few, set.yaml()};
 }
 
-constexpr std::array<FuzzTarget, 8> kTargets{
+std::vector<std::string> shares_seeds() {
+  return {training::share_file_text({}, {}), training::share_file_text({}, {"a note"})};
+}
+
+constexpr std::array<FuzzTarget, 9> kTargets{
     {{"pictures", pictures, pictures_seeds},
      {"depths", depths, depths_seeds},
      {"obj", obj, obj_seeds},
@@ -216,6 +232,7 @@ constexpr std::array<FuzzTarget, 8> kTargets{
      {"traces", traces, traces_seeds},
      {"configurations", configurations, configurations_seeds},
      {"run_files", run_files, run_files_seeds},
+     {"shares", shares, shares_seeds},
      {"c_calls", c_calls, c_calls_seeds}}};
 
 }  // namespace

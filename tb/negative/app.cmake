@@ -23,6 +23,11 @@ foreach(class Fragments Lines)
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_traces_test.py" -v ${class})
   list(APPEND APP_NEGATIVE_TESTS app_traces.${class})
 endforeach()
+foreach(class Trains Rejects)
+  add_test(NAME app_train.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_train_test.py" -v ${class})
+  list(APPEND APP_NEGATIVE_TESTS app_train.${class})
+endforeach()
 add_test(NAME app_regress COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_regress_test.py" -v)
 add_test(NAME app_images COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/app_images_test.py" -v)
 set_tests_properties(${APP_NEGATIVE_TESTS} app_images app_regress PROPERTIES

@@ -667,11 +667,10 @@ PaperTable held_out(const PaperOptions& options) {
   frames.size = options.size;
   if (const char* folder = std::getenv("DEBURR_DATA")) frames.data = folder;
   Waiting waiting("paper 000: frames that learned shares did not see", options.quiet);
-  frames.progress = [&](const std::string&) {
+  for (const training::FrameSource& source : training::held_out_set(frames)) {
     options.go_on();
     waiting.update();
-  };
-  for (const training::TruthFrame& frame : training::held_out_frames(frames)) {
+    const training::TruthFrame frame = source.make();
     const Mask edges = edge_mask(frame.truth, frame.frame);
     const Mask silhouettes =
         frame.depth.empty() ? Mask(edges.width, edges.height) : silhouette_mask(edges, frame.depth);

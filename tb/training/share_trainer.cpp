@@ -7,12 +7,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 #include "spec/error.h"
 #include "spec/morphological/tables.h"
 #include "tb/base/fnv.h"
 #include "tb/base/random.h"
+#include "tb/scene/exact_math.h"
 
 namespace deburr::tb::training {
 namespace {
@@ -26,7 +26,7 @@ constexpr double kMost = 0.5;
 
 using Weights = std::vector<double>;  // A, B, C, as real sums
 
-double sigmoid(double z) { return 1 / (1 + std::exp(-z)); }
+double sigmoid(double z) { return 1 / (1 + exponential(-z)); }
 
 // The code of linear light as a real number, and its slope.
 class Encoding {
@@ -34,7 +34,7 @@ class Encoding {
   Encoding() {
     for (std::size_t i = 0; i < code_.size(); ++i) {
       const double l = static_cast<double>(i) / kSteps;
-      code_[i] = 255 * (l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055);
+      code_[i] = 255 * (l <= 0.0031308 ? 12.92 * l : 1.055 * power(l, 1 / 2.4) - 0.055);
     }
   }
   struct Point {
@@ -145,6 +145,17 @@ double analytic_share(int near_code, int far_code, int near_distance, int far_di
   return std::clamp(share, 0.03, 0.49);
 }
 
+Weights weights_of(const ShareTables& tables) {
+  Weights weights;
+  const auto take = [&](const auto& table) {
+    for (const std::int8_t v : table) weights.push_back(v / kUnit);
+  };
+  take(tables.of_codes);
+  take(tables.of_near);
+  take(tables.of_far);
+  return weights;
+}
+
 }  // namespace
 
 std::string Recipe::text() const {
@@ -162,19 +173,18 @@ ShareTables first_guess() {
         analytic_share(i >> 8, i >> 6 & 3, kDistances[static_cast<std::size_t>(i >> 3 & 7)],
                        kDistances[static_cast<std::size_t>(i & 7)]);
     tables.of_codes[static_cast<std::size_t>(i)] =
-        static_cast<std::int8_t>(std::lround(kUnit * std::log(share / (1 - share))));
+        static_cast<std::int8_t>(std::lround(kUnit * logarithm(share / (1 - share))));
   }
   return tables;
 }
 
-ShareTables train(const std::vector<std::vector<ShareSample>>& frames, const Recipe& recipe) {
+ShareTables train(const std::vector<std::vector<ShareSample>>& frames, const Recipe& recipe,
+                  const ShareTables& start, const std::function<void(int)>& batch_done) {
   DEBURR_CHECK(!frames.empty(), "no frames to learn from");
   const Encoding encoding;
   const Pixel pixel(encoding, recipe);
-  Weights weights;
-  const ShareTables guess = first_guess();
-  for (const std::int8_t v : guess.of_codes) weights.push_back(v / kUnit);
-  weights.resize(kAll, 0);
+  const Weights begun = weights_of(start);
+  Weights weights = begun;
 
   std::vector<double> frame_weight;
   for (const auto& samples : frames) {
@@ -197,15 +207,15 @@ ShareTables train(const std::vector<std::vector<ShareSample>>& frames, const Rec
     }
     first_left *= kFirst;
     second_left *= kSecond;
-    const double rate =
-        recipe.rate * 0.5 * (1 + std::cos(std::numbers::pi * step / recipe.batches));
+    const double rate = recipe.rate * 0.5 * (1 + sin_cos(kPi * step / recipe.batches).cos);
     for (std::size_t i = 0; i < kAll; ++i) {
       mean[i] += (1 - kFirst) * (gradient[i] - mean[i]);
       square[i] += (1 - kSecond) * (gradient[i] * gradient[i] - square[i]);
       weights[i] -=
           rate * (mean[i] / (1 - first_left)) / (std::sqrt(square[i] / (1 - second_left)) + kTiny);
-      if (i >= kA) weights[i] -= rate * recipe.decay * weights[i];
+      if (i >= kA) weights[i] -= rate * recipe.decay * (weights[i] - begun[i]);
     }
+    if (batch_done) batch_done(step + 1);
   }
   ShareTables tables;
   std::size_t at = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Trains the ROMs of learned shares, says how good they are on frames that they saw and on frames
-// that they did not, and writes spec/morphological/learned_shares.h. Called by
+// that they did not, and writes spec/morphological/learned_shares.h with its recipe. Called by
 // scripts/train-shares.
 #include <fmt/format.h>
 
@@ -17,6 +17,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,7 +26,10 @@
 #include "golden/morphological/morphological_golden.h"
 #include "spec/error.h"
 #include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
 #include "tb/scene/quality.h"
+#include "tb/training/recipe.h"
+#include "tb/training/share_file.h"
 #include "tb/training/share_trainer.h"
 #include "tb/training/training_frames.h"
 
@@ -159,71 +163,6 @@ void report_text(const std::vector<const TruthFrame*>& frames, const ShareTables
   }
 }
 
-template <class Table>
-std::string listed(const Table& table) {
-  std::string text, line = "   ";
-  for (const std::int8_t v : table) {
-    const std::string item = fmt::format(" {},", v);
-    if (line.size() + item.size() > 100) {
-      text += line + '\n';
-      line = "   ";
-    }
-    line += item;
-  }
-  text += line;
-  text.pop_back();
-  return text;
-}
-
-std::uint32_t sum_of(const ShareTables& tables) {
-  std::uint32_t sum = 0, index = 0;
-  const auto add = [&](const auto& table) {
-    for (const std::int8_t v : table) sum += ++index * static_cast<std::uint8_t>(v);
-  };
-  add(tables.of_codes);
-  add(tables.of_near);
-  add(tables.of_far);
-  return sum;
-}
-
-std::string header_of(const ShareTables& tables, const std::string& recipe) {
-  return fmt::format(
-      R"(// SPDX-License-Identifier: MIT
-// Contents of the ROMs of learned shares (docs/reference/morphological/learned_shares.md) as an
-// engine is built with them. Written by scripts/train-shares; do not edit.
-#pragma once
-
-#include <array>
-#include <cstdint>
-
-namespace deburr::spec::morphological {{
-
-// FNV-1a (64 bits) of the recipe that these were trained by.
-inline constexpr std::uint64_t kSharesRecipe = 0x{:016x};
-
-// Of all entries, as the register SHARES_SUM has it.
-inline constexpr std::uint32_t kSharesSum = {};
-
-// clang-format off
-// A, S3.4: ((code_near * 4 + code_far) * 8 + D(d_near)) * 8 + D(d_far).
-inline constexpr std::array<std::int8_t, 1024> kSharesOfCodes = {{
-{}}};
-
-// B, S3.4: (E_near * 8 + D(d_near)) * 4 + Lambda(L).
-inline constexpr std::array<std::int8_t, 640> kSharesOfNear = {{
-{}}};
-
-// C, S3.4: (E_far * 8 + D(d_far)) * 4 + Lambda(L).
-inline constexpr std::array<std::int8_t, 640> kSharesOfFar = {{
-{}}};
-// clang-format on
-
-}}  // namespace deburr::spec::morphological
-)",
-      hash_of(recipe), sum_of(tables), listed(tables.of_codes), listed(tables.of_near),
-      listed(tables.of_far));
-}
-
 using Samples = std::map<std::string, std::vector<ShareSample>>;
 
 ShareTables trained(const std::vector<const TruthFrame*>& frames, const Samples& samples,
@@ -234,66 +173,135 @@ ShareTables trained(const std::vector<const TruthFrame*>& frames, const Samples&
   return train(chosen, recipe);
 }
 
+// Triangles by their corners, to a 100 000th of a unit: what two meshes of one kit have in common
+// stands in the same place.
+std::set<std::array<std::int64_t, 9>> triangles_of(const Mesh& mesh) {
+  std::set<std::array<std::int64_t, 9>> found;
+  for (const Triangle& triangle : mesh.triangles) {
+    std::array<std::array<std::int64_t, 3>, 3> corners{};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        corners[i][c] =
+            std::llround(1e5 * mesh.vertices[triangle.vertex[i]].position[static_cast<int>(c)]);
+    std::sort(corners.begin(), corners.end());
+    std::array<std::int64_t, 9> key{};
+    for (std::size_t i = 0; i < 9; ++i) key[i] = corners[i / 3][i % 3];
+    found.insert(key);
+  }
+  return found;
+}
+
+// How much of each held-out mesh was trained on as well.
+void report_overlap(const std::vector<FrameSource>& trained_on,
+                    const std::vector<FrameSource>& held_out) {
+  std::set<std::array<std::int64_t, 9>> seen;
+  std::set<std::string> groups;
+  for (const FrameSource& source : trained_on)
+    if (source.mesh && groups.insert(source.group).second) seen.merge(triangles_of(source.mesh()));
+  std::cout << "\nHeld-out meshes: triangles, and how many of them a mesh that was trained on has "
+               "in the same place\n\n| mesh | triangles | trained on |\n|---|---|---|\n";
+  for (const FrameSource& source : held_out) {
+    if (!source.mesh) continue;
+    const auto own = triangles_of(source.mesh());
+    const auto common = std::count_if(own.begin(), own.end(),
+                                      [&](const auto& each) { return seen.contains(each); });
+    std::cout << fmt::format("| {} | {} | {} % |\n", source.group, own.size(),
+                             100 * common / std::ssize(own));
+  }
+}
+
 int run(int argc, char** argv) {
   FrameOptions options;
   Recipe recipe;
-  std::string write;
-  int folds = 4;
-  bool quiet = false, brief = false;
+  std::string write, check;
+  int folds = 4, overlays = 0;
+  bool quiet = false, brief = false, meshes = false;
   CLI::App app("Trains the ROMs of learned shares and tests them");
-  app.add_option("--data", options.data, "folder of meshes, kenney and frames");
+  app.add_option("--data", options.data, "folder of meshes, kenney and frames to be measured");
   app.add_option("--cache", options.cache, "folder where rendered frames are kept");
-  app.add_option("--write", write, "header to write");
+  app.add_option("--write", write, "folder of the repository: writes ROMs and recipe");
+  app.add_option("--check", check, "folder of the repository: compares them, byte for byte");
   app.add_option("--folds", folds, "trainings that test the training frames themselves");
   app.add_option("--batches", recipe.batches, "");
   app.add_option("--rate", recipe.rate, "");
   app.add_option("--decay", recipe.decay, "");
   app.add_option("--seed", recipe.seed, "");
-  app.add_option("--shapes", options.shapes, "frames of plain shapes");
-  app.add_option("--overlays", options.overlays, "training frames that come once more with text");
-  app.add_option("--views", options.views, "of each mesh to be trained on");
   app.add_option("--axis", recipe.axis_slope, "");
+  app.add_option("--overlays", overlays, "training frames that come once more with text");
+  app.add_flag("--meshes", meshes, "train on meshes of the data folder, too");
   app.add_flag("--brief", brief, "of the training frames, only means and where deburr is worse");
   app.add_flag("--quiet", quiet, "no progress");
   CLI11_PARSE(app, argc, argv);
-  if (!quiet) options.progress = [](const std::string& name) { std::cerr << "\r\x1b[K" << name; };
+  const bool of_recipe = recipe.text() == Recipe().text() && overlays == 0 && !meshes;
+  const bool kept = !write.empty() || !check.empty();
+  if (kept && !of_recipe)
+    throw spec::ConfigError(
+        "these options are not the recipe's: the ROMs in spec are those of a training without them "
+        "(--batches, --rate, --decay, --seed, --axis, --overlays, --meshes)");
+  if (kept && !options.cache.empty())
+    throw spec::ConfigError("--write and --check render every frame: leave out --cache");
 
-  std::vector<TruthFrame> training = own_frames(options);
-  for (TruthFrame& frame : mesh_frames(options)) training.push_back(std::move(frame));
-  for (int i = 0; i < options.overlays; ++i)
-    training.push_back(overlaid(training[static_cast<std::size_t>(i * 7) % 100]).frame);
-  const std::vector<TruthFrame> held_out = held_out_frames(options);
+  std::vector<FrameSource> sources = training_set(options);
+  if (meshes)
+    for (FrameSource& source : mesh_set(options)) sources.push_back(std::move(source));
+  const std::vector<FrameSource> held_out_sources =
+      check.empty() ? held_out_set(options) : std::vector<FrameSource>();
+  const auto made = [&](const FrameSource& source) {
+    if (!quiet) std::cerr << "\r\x1b[K" << source.name;
+    return source.make();
+  };
+  std::vector<TruthFrame> training;
+  for (const FrameSource& source : sources) training.push_back(made(source));
+  for (int i = 0; i < overlays; ++i)
+    training.push_back(overlaid(training[static_cast<std::size_t>(i) * 7 % sources.size()]).frame);
   Samples samples;
-  std::string names;
+  std::vector<HashedFrame> hashed;
   std::vector<const TruthFrame*> all;
   std::vector<std::string> groups;
   for (const TruthFrame& frame : training) {
     std::vector<ShareSample> found = samples_of(frame);
-    if (found.empty()) continue;
+    if (found.empty())
+      throw spec::ConfigError(fmt::format("the frame '{}' has no edge to learn from", frame.name));
     samples[frame.name] = std::move(found);
     all.push_back(&frame);
-    names += ' ' + frame.name;
+    hashed.emplace_back(frame.name, hash_of(frame));
     if (std::find(groups.begin(), groups.end(), frame.group) == groups.end())
       groups.push_back(frame.group);
   }
-  if (!quiet) std::cerr << '\n';
-  const std::string text = recipe.text() + " frames:" + names;
-  std::cout << text << '\n';
+  const std::string text = recipe_text(recipe, options, hashed);
+  if (!quiet) std::cerr << "\r\x1b[Ktraining on " << all.size() << " frames\n";
   const ShareTables tables = trained(all, samples, recipe);
-  if (!write.empty()) write_file_atomically(write, header_of(tables, text));
+  std::cout << fmt::format("recipe {:016x}, {} frames, sum of the shares {}\n", hash_of(text),
+                           all.size(), sum_of(tables));
+  constexpr const char *kHeader = "spec/morphological/learned_shares.h",
+                       *kRecipe = "tb/training/recipe.txt";
+  if (!write.empty())
+    write_files_atomically({{std::filesystem::path(write) / kHeader, header_of(tables, text)},
+                            {std::filesystem::path(write) / kRecipe, text}});
+  if (!check.empty()) {
+    bool same = true;
+    for (const auto& [file, made_again] :
+         {std::pair(kHeader, header_of(tables, text)), std::pair(kRecipe, text)}) {
+      const bool equal = read_file(std::filesystem::path(check) / file, 1 << 20) == made_again;
+      std::cout << file << (equal ? ": the same, byte for byte\n" : ": DIFFERENT\n");
+      same = same && equal;
+    }
+    return same ? 0 : 1;
+  }
 
   report(
       "Trained on (in sample)", all,
       [&](const TruthFrame&) -> const ShareTables& { return tables; }, brief);
-  if (!held_out.empty()) {
-    std::vector<const TruthFrame*> others;
-    others.reserve(held_out.size());
-    for (const TruthFrame& frame : held_out) others.push_back(&frame);
-    report_text({others.begin(), others.begin() + std::min<std::ptrdiff_t>(8, std::ssize(others))},
-                tables);
-    report(
-        "Held out", others, [&](const TruthFrame&) -> const ShareTables& { return tables; }, false);
-  }
+  report_overlap(sources, held_out_sources);
+  std::vector<TruthFrame> held_out;
+  for (const FrameSource& source : held_out_sources) held_out.push_back(made(source));
+  std::vector<const TruthFrame*> others;
+  others.reserve(held_out.size());
+  for (const TruthFrame& frame : held_out) others.push_back(&frame);
+  report_text({others.begin(), others.begin() + std::min<std::ptrdiff_t>(8, std::ssize(others))},
+              tables);
+  report(
+      "Held out", others, [&](const TruthFrame&) -> const ShareTables& { return tables; }, false);
   if (folds < 2) return 0;
   // Every group is measured with tables that were trained on the groups of the other folds.
   const auto fold_of = [&](const TruthFrame& frame) {
@@ -302,10 +310,10 @@ int run(int argc, char** argv) {
   };
   std::vector<ShareTables> by_fold;
   for (int fold = 0; fold < folds; ++fold) {
-    std::vector<const TruthFrame*> others;
+    std::vector<const TruthFrame*> those;
     for (const TruthFrame* frame : all)
-      if (fold_of(*frame) != fold) others.push_back(frame);
-    by_fold.push_back(trained(others, samples, recipe));
+      if (fold_of(*frame) != fold) those.push_back(frame);
+    by_fold.push_back(trained(those, samples, recipe));
   }
   report(
       fmt::format("The same frames, by tables trained without their meshes ({} folds)", folds), all,

@@ -2,19 +2,22 @@
 #include "tb/training/training_frames.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
-#include <numbers>
 #include <utility>
 
+#include "spec/error.h"
 #include "tb/base/random.h"
+#include "tb/scene/exact_math.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/label.h"
 #include "tb/scene/truth.h"
 #include "tb/training/stand_ins.h"
+#include "tb/training/training_scenes.h"
 
 namespace deburr::tb::training {
 namespace {
@@ -31,91 +34,113 @@ bool get(std::ifstream& file, ImageOf<Pixel>& image) {
                 static_cast<std::streamsize>(image.pixels.size() * sizeof(Pixel))));
 }
 
+// Frames of scenes, rendered or read from where they are kept.
 class Renderer {
  public:
   explicit Renderer(const FrameOptions& options) : options_(options) {}
 
+  // The truth smooths edges and textures, or edges alone.
+  enum class Truth : std::uint8_t { kAll, kEdges };
+
+  FrameSource source(const std::string& name, const std::string& group,
+                     const std::function<Scene()>& make, Truth truth = Truth::kAll) const {
+    return {name, group,
+            [options = options_, name, group, make, truth] {
+              return rendered(options, name, group, make, truth);
+            },
+            [make] { return make().mesh; }};
+  }
+
   // The same scene from `views` sides, the first one its own.
   template <class MakeScene>
-  void add(std::vector<TruthFrame>& frames, const std::string& group, int views, int width,
-           int height, const MakeScene& make) const {
+  void add(std::vector<FrameSource>& frames, const std::string& group, int views,
+           const MakeScene& make) const {
     for (int view = 0; view < views; ++view) {
-      TruthFrame frame;
-      frame.name = fmt::format("{}_{}x{}{}", group, width, height,
-                               view == 0 ? std::string() : fmt::format("_{}", view));
-      frame.group = group;
-      if (options_.progress) options_.progress(frame.name);
-      const std::filesystem::path kept =
-          options_.cache / fmt::format("{}_{}.frames", frame.name, options_.samples);
-      frame.frame = frame.truth = Image(width, height);
-      frame.depth = DepthImage(width, height);
-      if (!read(kept, frame)) {
+      const std::string name = fmt::format("{}_{}x{}{}", group, options_.size, options_.size,
+                                           view == 0 ? std::string() : fmt::format("_{}", view));
+      frames.push_back(source(name, group, [make, view] {
         Scene scene = make(view);
         turn(scene.camera, view);
-        LitFrames lit = render_lit_frames(scene, width, height, options_.samples);
-        frame.frame = std::move(lit.noaa);
-        frame.truth = std::move(lit.truth);
-        frame.depth = std::move(lit.depth);
-        write(kept, frame);
-      }
-      frames.push_back(std::move(frame));
+        return scene;
+      }));
     }
   }
 
  private:
+  static TruthFrame rendered(const FrameOptions& options, const std::string& name,
+                             const std::string& group, const std::function<Scene()>& make,
+                             Truth truth) {
+    const std::filesystem::path kept =
+        options.cache / fmt::format("{}_{}.frames", name, options.samples);
+    const int size = options.size;
+    TruthFrame frame{name, group, Image(size, size), Image(size, size), DepthImage(size, size)};
+    if (read(options, kept, frame)) return frame;
+    const Scene scene = make();
+    LitFrames lit =
+        render_lit_frames(scene, size, size, truth == Truth::kAll ? options.samples : 1);
+    frame.truth = truth == Truth::kAll ? std::move(lit.truth)
+                                       : render_covered(scene, size, size, options.samples);
+    frame.frame = std::move(lit.noaa);
+    frame.depth = std::move(lit.depth);
+    write(options, kept, frame);
+    return frame;
+  }
   // About the upright axis through the target, and a little nearer.
   static void turn(Camera& camera, int view) {
     if (view == 0) return;
-    const double angle = 1.1 * view, near = view % 2 != 0 ? 0.7 : 0.9;
+    const SinCos angle = sin_cos(1.1 * view);
+    const double near = view % 2 != 0 ? 0.7 : 0.9;
     const Imath::V3d from = (camera.eye - camera.target) * near;
-    camera.eye =
-        camera.target + Imath::V3d(from.x * std::cos(angle) + from.z * std::sin(angle), from.y,
-                                   from.z * std::cos(angle) - from.x * std::sin(angle));
+    camera.eye = camera.target + Imath::V3d(from.x * angle.cos + from.z * angle.sin, from.y,
+                                            from.z * angle.cos - from.x * angle.sin);
   }
-  bool read(const std::filesystem::path& kept, TruthFrame& frame) const {
-    if (options_.cache.empty()) return false;
+  static bool read(const FrameOptions& options, const std::filesystem::path& kept,
+                   TruthFrame& frame) {
+    if (options.cache.empty()) return false;
     std::ifstream file(kept, std::ios::binary);
     return file && get(file, frame.frame) && get(file, frame.truth) && get(file, frame.depth);
   }
-  void write(const std::filesystem::path& kept, const TruthFrame& frame) const {
-    if (options_.cache.empty()) return;
-    std::filesystem::create_directories(options_.cache);
+  static void write(const FrameOptions& options, const std::filesystem::path& kept,
+                    const TruthFrame& frame) {
+    if (options.cache.empty()) return;
+    std::filesystem::create_directories(options.cache);
     std::ofstream file(kept, std::ios::binary);
     put(file, frame.frame);
     put(file, frame.truth);
     put(file, frame.depth);
   }
 
-  const FrameOptions& options_;
+  FrameOptions options_;
 };
 
-// Adds those of the meshes that the data folder has.
-void add_meshes(std::vector<TruthFrame>& frames, const FrameOptions& options,
+void add_meshes(std::vector<FrameSource>& frames, const FrameOptions& options,
                 const std::vector<std::string>& meshes, int views) {
   const Renderer renderer(options);
   for (const std::string& mesh : meshes) {
     const std::filesystem::path path = options.data / mesh;
-    if (options.data.empty() || !std::filesystem::exists(path)) continue;
+    if (!std::filesystem::exists(path))
+      throw spec::FileError(
+          fmt::format("there is no mesh '{}': name a folder that has it by --data", path.string()));
     // The first one as other tables show it, with a checkerboard where the mesh has no texture.
-    renderer.add(frames, path.filename().string(), views, options.size, options.size,
-                 [&](int view) {
-                   SceneOptions plain;
-                   plain.plain = view != 0;
-                   return import_scene(path, plain);
-                 });
+    renderer.add(frames, path.filename().string(), views, [path](int view) {
+      SceneOptions plain;
+      plain.plain = view != 0;
+      return import_scene(path, plain);
+    });
   }
 }
 
 // Meshes made by formula, seen with a checkerboard first and then in their own colours.
-void add_stand_ins(std::vector<TruthFrame>& frames, const FrameOptions& options,
+void add_stand_ins(std::vector<FrameSource>& frames, const FrameOptions& options,
                    const std::vector<std::uint64_t>& seeds, int views) {
   const Renderer renderer(options);
   for (const char* kind : {"street", "vehicle", "forest"}) {
     for (const std::uint64_t seed : seeds) {
       const std::string group = fmt::format("{}{}", kind, seed);
-      renderer.add(frames, group, views, options.size, options.size, [&](int view) {
+      renderer.add(frames, group, views, [kind, seed, group](int view) {
         const std::filesystem::path folder =
-            std::filesystem::temp_directory_path() / fmt::format("deburr_training_{}", group);
+            std::filesystem::temp_directory_path() /
+            fmt::format("deburr_training_{}_{}", group, ::getpid());
         std::filesystem::create_directories(folder);
         SceneOptions plain;
         plain.plain = view != 0;
@@ -123,6 +148,37 @@ void add_stand_ins(std::vector<TruthFrame>& frames, const FrameOptions& options,
         std::filesystem::remove_all(folder);
         return made;
       });
+    }
+  }
+}
+
+void add_shapes(std::vector<FrameSource>& frames, const FrameOptions& options,
+                std::uint64_t first_seed, int number) {
+  for (int i = 0; i < number; ++i) {
+    const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(i);
+    const std::string name = fmt::format("shapes{}", seed);
+    frames.push_back({name, name, [size = options.size, samples = options.samples, seed] {
+                        return shapes_frame(size, size, samples, seed);
+                      }});
+  }
+}
+
+// Of the kinds with textures some come with a truth, too, in which the textures stay as they are:
+// that teaches to leave them.
+void add_training_scenes(std::vector<FrameSource>& frames, const FrameOptions& options,
+                         std::uint64_t first_seed, int seeds, int views, int kept_textures) {
+  const Renderer renderer(options);
+  for (const std::string_view kind : training_scene_kinds()) {
+    for (int i = 0; i < seeds; ++i) {
+      const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(i);
+      const std::string group = fmt::format("{}{}", kind, seed);
+      for (int view = 0; view < views; ++view) {
+        const auto make = [kind, seed, view] { return training_scene(kind, seed, view); };
+        const std::string name = fmt::format("{}_{}", group, view);
+        frames.push_back(renderer.source(name, group, make));
+        if (i < kept_textures && (kind == "room" || kind == "signs"))
+          frames.push_back(renderer.source(name + "_edges", group, make, Renderer::Truth::kEdges));
+      }
     }
   }
 }
@@ -147,10 +203,10 @@ struct Shape {
 
 double decoded(std::uint8_t code) {
   const double v = code / 255.0;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  return v <= 0.04045 ? v / 12.92 : power((v + 0.055) / 1.055, 2.4);
 }
 std::uint8_t encoded(double l) {
-  const double v = l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
+  const double v = l <= 0.0031308 ? 12.92 * l : 1.055 * power(l, 1 / 2.4) - 0.055;
   return static_cast<std::uint8_t>(std::floor(255 * v + 0.5));
 }
 
@@ -166,13 +222,13 @@ TruthFrame shapes_frame(int width, int height, int samples, std::uint64_t seed) 
   const Rgba8 ground = colour();
   std::vector<Shape> shapes;
   for (int i = 0; i < 60; ++i) {
-    const double angle = random.uniform(0, 2 * std::numbers::pi);
-    const double size = std::exp(random.uniform(std::log(3.0), std::log(0.3 * width)));
+    const double angle = random.uniform(0, 2 * kPi);
+    const double size = exponential(random.uniform(logarithm(3.0), logarithm(0.3 * width)));
     const auto kind = static_cast<Shape::Kind>(random.below(3));
     const double x = random.uniform(0, width), y = random.uniform(0, height);
     const double thin = random.uniform(0.02, 1);
-    shapes.push_back(
-        {kind, x, y, size, std::max(0.6, size * thin), std::cos(angle), std::sin(angle), colour()});
+    const SinCos turn = sin_cos(angle);
+    shapes.push_back({kind, x, y, size, std::max(0.6, size * thin), turn.cos, turn.sin, colour()});
   }
   const auto at = [&](double x, double y) -> const Rgba8& {
     for (auto shape = shapes.rbegin(); shape != shapes.rend(); ++shape)
@@ -224,24 +280,21 @@ Overlaid overlaid(const TruthFrame& frame) {
   return result;
 }
 
-std::vector<TruthFrame> own_frames(const FrameOptions& options) {
+std::vector<FrameSource> training_set(const FrameOptions& options) {
+  std::vector<FrameSource> frames;
   const Renderer renderer(options);
-  std::vector<TruthFrame> frames;
-  const int size = options.size;
   for (const SceneName& scene : scene_names()) {
     const std::string name(scene.name);
-    // Those of the quality matrix, in its size; the others from two sides.
-    renderer.add(frames, name, 1, size, size, [&](int) { return make_scene(name); });
+    renderer.add(frames, name, 1, [name](int) { return make_scene(name); });
   }
   add_stand_ins(frames, options, {11, 12}, 2);
-  for (int i = 0; i < options.shapes; ++i)
-    frames.push_back(
-        shapes_frame(size, size, options.samples, 100 + static_cast<std::uint64_t>(i)));
+  add_shapes(frames, options, 100, 6);
+  add_training_scenes(frames, options, 1, 4, 3, 2);
   return frames;
 }
 
-std::vector<TruthFrame> mesh_frames(const FrameOptions& options) {
-  std::vector<TruthFrame> frames;
+std::vector<FrameSource> mesh_set(const FrameOptions& options) {
+  std::vector<FrameSource> frames;
   add_meshes(
       frames, options,
       {"meshes/teapot.obj", "meshes/spot.obj", "meshes/kenney_truck.obj", "meshes/WusonOBJ.obj",
@@ -253,26 +306,36 @@ std::vector<TruthFrame> mesh_frames(const FrameOptions& options) {
        "kenney/racing/models/vehicle-truck-red.glb", "kenney/racing/models/vehicle-motorcycle.glb",
        "kenney/racing/models/track-finish.glb", "kenney/racing/models/decoration-tents.glb",
        "kenney/racing/models/decoration-forest.glb"},
-      options.views);
+      5);
   return frames;
 }
 
-std::vector<TruthFrame> held_out_frames(const FrameOptions& options) {
-  std::vector<TruthFrame> frames;
+std::vector<FrameSource> held_out_set(const FrameOptions& options) {
+  std::vector<FrameSource> frames;
   add_stand_ins(frames, options, {1}, 1);
-  for (const std::uint64_t seed : {1, 2, 3})
-    frames.push_back(shapes_frame(options.size, options.size, options.samples, seed));
-  const std::filesystem::path folder = options.data / "frames";
-  if (!options.data.empty() && std::filesystem::exists(folder / "track_720p_noaa.png")) {
-    frames.push_back({"track_720p", "track", read_image(folder / "track_720p_noaa.png"),
-                      read_image(folder / "track_720p_ssaa256.png"),
-                      read_depth(folder / "track_720p_depth24.png")});
-    frames.push_back({"track_1080p",
-                      "track",
-                      read_image(folder / "track_1080p_noaa.png"),
-                      read_image(folder / "track_1080p_ssaa64.png"),
-                      {}});
-  }
+  add_shapes(frames, options, 1, 3);
+  add_training_scenes(frames, options, 901, 1, 1, 0);
+  if (options.data.empty()) return frames;
+  const auto add_track = [&](const std::string& size, const char* truth, bool depth) {
+    const auto file = [folder = options.data / "frames", size](const std::string& what) {
+      const std::filesystem::path path = folder / fmt::format("track_{}_{}.png", size, what);
+      if (!std::filesystem::exists(path))
+        throw spec::FileError(fmt::format(
+            "there is no frame '{}': name a folder that has it by --data", path.string()));
+      return path;
+    };
+    const std::filesystem::path noaa = file("noaa"), ssaa = file(truth),
+                                depths = depth ? file("depth24") : std::filesystem::path();
+    const std::string name = "track_" + size;
+    frames.push_back({name, "track",
+                      [name, noaa, ssaa, depths] {
+                        return TruthFrame{name, "track", read_image(noaa), read_image(ssaa),
+                                          depths.empty() ? DepthImage() : read_depth(depths)};
+                      },
+                      nullptr});
+  };
+  add_track("720p", "ssaa256", true);
+  add_track("1080p", "ssaa64", false);
   add_meshes(
       frames, options,
       {"kenney/city/models/building-small-b.glb", "kenney/city/models/building-small-d.glb",

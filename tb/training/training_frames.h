@@ -1,35 +1,41 @@
 // SPDX-License-Identifier: MIT
-// The frames that learned shares are trained and measured on: scenes and shapes of the project's
-// own, and the meshes of a data folder if there is one.
-//
-// `track` and seventeen of the meshes are never trained on
-// (docs/measurements/morphological_quality.md, "Learned shares").
+// The frames that learned shares are trained and measured on. All that the ROMs are trained on is
+// made by formula: scenes and shapes of the project's own. Meshes of a data folder are measured,
+// and trained on in experiments alone.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "tb/scene/scenes.h"
 #include "tb/training/share_samples.h"
 
 namespace deburr::tb::training {
 
 struct FrameOptions {
-  std::filesystem::path data;   // of meshes, kenney and frames; empty: none
-  std::filesystem::path cache;  // rendered frames are kept there; empty: nowhere
-  int samples = 8;              // of a pixel's truth, each way
-  int size = 512;               // pixels a side of the rendered ones
-  int shapes = 6;               // frames of plain shapes
-  int overlays = 0;             // of the first frames once more, with text
-  int views = 5;                // of each mesh to be trained on
-  std::function<void(const std::string&)> progress = {};
+  std::filesystem::path data = {};   // of meshes, kenney and frames; empty: none
+  std::filesystem::path cache = {};  // rendered frames are kept there; empty: nowhere
+  int samples = 8;                   // of a pixel's truth, each way
+  int size = 512;                    // pixels a side of the rendered ones
 };
 
-std::vector<TruthFrame> own_frames(const FrameOptions& options);
-std::vector<TruthFrame> mesh_frames(const FrameOptions& options);
-// Not to be trained on: of the project's own scenes, then `track` and meshes of the data folder.
-std::vector<TruthFrame> held_out_frames(const FrameOptions& options);
+// A frame that is not made yet.
+struct FrameSource {
+  std::string name;   // unique
+  std::string group;  // frames of one mesh or scene
+  std::function<TruthFrame()> make;
+  std::function<Mesh()> mesh = nullptr;  // what is seen; null: no mesh, or not known
+};
+
+// What the ROMs are trained on (tb/training/recipe.txt).
+std::vector<FrameSource> training_set(const FrameOptions& options);
+// Not to be trained on: by formula, then `track` and meshes of the data folder if one is named.
+std::vector<FrameSource> held_out_set(const FrameOptions& options);
+// Five views of each of nineteen meshes of the data folder.
+std::vector<FrameSource> mesh_set(const FrameOptions& options);
 
 // Discs, bars and triangles of flat colours at random.
 TruthFrame shapes_frame(int width, int height, int samples, std::uint64_t seed);

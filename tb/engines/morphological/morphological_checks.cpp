@@ -61,6 +61,7 @@ MorphologicalChecks::MorphologicalChecks(const MorphologicalSetup& setup, bool g
       setup_(setup),
       used_(golden),
       golden_(setup.morphological) {
+  if (setup.shares) golden_.set_share_tables(*setup.shares);
   if (const auto range = error_range(setup.memory); range && in_memory())
     golden_.set_read_errors(
         [range = *range](std::uint32_t line) {

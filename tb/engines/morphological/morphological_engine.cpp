@@ -71,6 +71,10 @@ class MorphologicalCommand final : public Engine {
     else if (set.find("run.line_trace")->text() != "none")
       set.reject("run.line_trace",
                  "nothing is asked of memory: morphological.storage = memory asks for lines");
+    if (!frame_.shares.empty() && parameters_.area != spec::morphological::AreaSource::kLearned)
+      set.reject("frame.shares",
+                 fmt::format("morphological.area = {} has no learned shares",
+                             name_of(parameters_.area, spec::morphological::kAreaSourceNames)));
     reject_unused_frame(set);
     preset_label_ = preset_label(set, parameters_);
   }
@@ -88,6 +92,7 @@ class MorphologicalCommand final : public Engine {
          {"--truth", "frame.truth", "Anti-aliased picture to compare with"},
          {"--depth", "frame.depth", "Depth of the image: quality of silhouettes too"},
          {"--mask", "frame.mask", "Picture of what to leave as it is: white is masked"},
+         {"--shares", "frame.shares", "Learned shares of `deburr train` instead of those shipped"},
          {"--size", "frame.width", "Size of a rendered scene, WxH (640x480)", "frame.height"}},
         joined(smoothing_shorthands(), sequence_shorthands()));
   }
@@ -113,6 +118,7 @@ class MorphologicalCommand final : public Engine {
     MorphologicalEnvironment environment(simulation, frames,
                                          {.morphological = parameters_,
                                           .memory = memory_,
+                                          .shares = loaded.shares,
                                           .expectation = golden_of(loaded, context)});
     simulate(simulation, environment, context, result,
              [&] { add_pictures(run, context, loaded, environment, result); });
@@ -210,8 +216,13 @@ class MorphologicalCommand final : public Engine {
   std::shared_ptr<const golden::morphological::MorphologicalGolden> golden_of(
       const LoadedFrame& loaded, const RunContext& context) const {
     using golden::morphological::MorphologicalGolden;
-    return context.shared_golden<MorphologicalGolden>(
-        built_for_golden(), [&] { return golden_frame(loaded.input, parameters_); });
+    return context.shared_golden<MorphologicalGolden>(built_for_golden(), [&] {
+      return golden_frame(loaded.input, parameters_, shares_of(loaded));
+    });
+  }
+
+  static const golden::morphological::ShareTables* shares_of(const LoadedFrame& loaded) {
+    return loaded.shares ? &*loaded.shares : nullptr;
   }
 
   FrameParameters first() const { return in_frame(frame_, lists_, 0); }
@@ -223,7 +234,7 @@ class MorphologicalCommand final : public Engine {
     const Image& image = loaded.input.image;
     golden::morphological::check_frame(parameters_, image.width, image.height);
     Image after(image.width, image.height);
-    after.pixels = golden_frame(loaded.input, parameters_).pixels();
+    after.pixels = golden_frame(loaded.input, parameters_, shares_of(loaded)).pixels();
     return {image, std::move(after), loaded.truth ? *loaded.truth : Image()};
   }
 

@@ -17,6 +17,7 @@
 #include "tb/scene/motion.h"
 #include "tb/scene/scenes.h"
 #include "tb/scene/truth.h"
+#include "tb/training/share_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -158,13 +159,19 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
   }
   if (frame.depth) frame.input.depth = depth_codes(*frame.depth);
   if (!p.mask.empty()) apply_mask(p.mask, frame);
+  if (!p.shares.empty()) {
+    frame.shares = training::read_share_file(p.shares);
+    add_once(frame.inputs, p.shares);
+  }
   return frame;
 }
 
 golden::morphological::MorphologicalGolden golden_frame(
-    const MorphologicalInput& input, const spec::morphological::Parameters& parameters) {
+    const MorphologicalInput& input, const spec::morphological::Parameters& parameters,
+    const golden::morphological::ShareTables* shares) {
   const Image& image = input.image;
   golden::morphological::MorphologicalGolden golden(parameters);
+  if (shares != nullptr) golden.set_share_tables(*shares);
   golden.process({image.pixels, image.width, image.height},
                  input.depth.empty()
                      ? golden::morphological::DepthView()
@@ -180,7 +187,8 @@ std::vector<std::filesystem::path> frame_files(const FrameParameters& p, MeshFil
     for (const std::string& file : {p.source, p.depth, p.truth})
       if (!file.empty()) add_once(files, file);
   }
-  if (!p.mask.empty()) add_once(files, p.mask);
+  for (const std::string& file : {p.mask, p.shares})
+    if (!file.empty()) add_once(files, file);
   return files;
 }
 

@@ -24,7 +24,7 @@ namespace deburr::tb {
 
 struct FrameParameters {
   std::string source = "cylinders";
-  std::string depth, truth, mask;
+  std::string depth, truth, mask, shares;
   std::int32_t width = 640, height = 480;
   std::int32_t truth_samples = 8;
   std::int32_t count = 1;
@@ -43,6 +43,10 @@ void describe(FrameParameters& p, Visitor& v) {
          "Pixels to leave as they are, where red is 128 or more: bit 0 of their alpha becomes 0, "
          "that of "
          "all others 1, and the rule leave becomes masked.");
+  v.text(
+      "shares", p.shares, "file",
+      "Learned shares in place of those that the engine was built with, as `deburr train` writes "
+      "them; they are loaded through its registers.");
   v.integer("width", p.width, 1, 8192, "pixel", "Width of a rendered scene.");
   v.integer("height", p.height, 1, 8192, "pixel", "Height of a rendered scene.");
   v.integer("truth_samples", p.truth_samples, 0, 32, "",
@@ -64,8 +68,9 @@ struct LoadedFrame {
   MorphologicalInput input;
   std::optional<Image> truth;
   std::optional<DepthImage> depth;
-  std::string truth_name;                     // "supersampled-64", or the file's name
-  std::vector<std::string> conversions;       // what the reader of images or meshes changed
+  std::string truth_name;                // "supersampled-64", or the file's name
+  std::vector<std::string> conversions;  // what the reader of images or meshes changed
+  std::optional<golden::morphological::ShareTables> shares;  // else those of the ROMs
   std::vector<std::filesystem::path> inputs;  // files that it was made of, or looked for in vain
 };
 
@@ -81,9 +86,10 @@ LoadedFrame load_frame(const FrameParameters& parameters, std::uint32_t seed,
 std::vector<std::filesystem::path> frame_files(const FrameParameters& parameters,
                                                MeshFiles& meshes);
 
-// What the golden model makes of a frame.
+// What the golden model makes of a frame; null: with the shares that it is built with.
 golden::morphological::MorphologicalGolden golden_frame(
-    const MorphologicalInput& input, const spec::morphological::Parameters& parameters);
+    const MorphologicalInput& input, const spec::morphological::Parameters& parameters,
+    const golden::morphological::ShareTables* shares = nullptr);
 
 // Whether 24-bit depths, taken apart into R, G and B, change from pixel to pixel as a picture does:
 // two of them alike. Of depth, G and B are the lower digits of R: they fall as it rises.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "golden/morphological/morphological_golden.h"
@@ -19,6 +20,8 @@ struct MorphologicalSetup {
   MemoryParameters memory;  // storage = memory only
   bool records = false;     // runs and lines inside the engine are compared too
   std::uint32_t pixel_base = 0;
+  // Loaded before the first frame; else the engine has those that it was built with.
+  std::optional<golden::morphological::ShareTables> shares = std::nullopt;
   // A golden model that has worked on the frames, which are all the same, already; null: it works
   // here. Its parameters may differ in what is built. Never with errors of memory.
   std::shared_ptr<const golden::morphological::MorphologicalGolden> expectation = nullptr;

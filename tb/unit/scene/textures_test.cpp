@@ -121,5 +121,17 @@ TEST(ExactMath, SineAndCosine) {
   EXPECT_NEAR(tangent(0.7), std::tan(0.7), 1e-15);
 }
 
+TEST(ExactMath, ExponentialAndLogarithm) {
+  for (int i = -4000; i <= 4000; ++i) {
+    const double x = 0.0127 * i, e = std::exp(x);
+    EXPECT_NEAR(exponential(x) / e, 1, 1e-15) << x;
+    EXPECT_NEAR(logarithm(e), std::log(e), 1e-15 * std::max(1.0, std::abs(x))) << x;
+  }
+  for (int i = 1; i < 1000; ++i)
+    EXPECT_NEAR(power(0.001 * i, 1 / 2.4), std::pow(0.001 * i, 1 / 2.4), 1e-15);
+  EXPECT_EQ(exponential(0), 1);
+  EXPECT_EQ(logarithm(1), 0);
+}
+
 }  // namespace
 }  // namespace deburr::tb::textures_test

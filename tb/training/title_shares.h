@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Shares for a title: trained on pairs of its own frames, without and with supersampling, from the
+// shipped shares on, and measured on what was kept back.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "golden/morphological/learned_shares.h"
+#include "tb/scene/image.h"
+
+namespace deburr::tb::training {
+
+struct TitlePair {
+  std::string name;  // what errors and tables call it
+  Image frame, truth;
+};
+
+struct TitleOptions {
+  int batches = 600;
+  std::uint64_t seed = 1;
+  std::function<void(int)> batch_done = nullptr;  // may throw: then nothing was trained
+};
+
+// PSNR in dB of a kept-back picture, over the edges (docs/reference/scenes.md) and over all of it.
+struct KeptBack {
+  std::string name;
+  double none = 0, shipped = 0, trained = 0;  // edges
+  double shipped_frame = 0, trained_frame = 0;
+};
+
+struct TitleShares {
+  golden::morphological::ShareTables tables;
+  std::vector<std::string> trained_on;
+  std::vector<KeptBack> kept_back;
+  double gain = 0;        // dB on edges, the mean over what was kept back
+  double frame_gain = 0;  // over all pixels
+};
+
+// Of several pairs every second one is kept back, of one pair the right half. ConfigError for no
+// pair, sizes that differ or are too small, a frame without an edge, and a truth that is the frame.
+TitleShares train_title(const std::vector<TitlePair>& pairs, const TitleOptions& options);
+
+}  // namespace deburr::tb::training

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Are the ROMs those of their recipe, and is the recipe that of this trainer and these frames?
+// Whether a training gives them, byte for byte, takes minutes: shares_from_their_recipe.
+#include "tb/training/recipe.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "spec/error.h"
+#include "spec/morphological/learned_shares.h"
+#include "tb/base/file.h"
+#include "tb/harness/test_paths.h"
+
+namespace deburr::tb::training::recipe_test {
+namespace {
+
+std::string text_of(const char* file) { return read_file(source_folder() / file, 1 << 20); }
+std::string kept() { return text_of("tb/training/recipe.txt"); }
+
+TEST(Recipe, IsTheOneThatTheRomsWereTrainedBy) {
+  EXPECT_EQ(hash_of(kept()), spec::morphological::kSharesRecipe);
+  EXPECT_EQ(header_of(golden::morphological::ShareTables(), kept()),
+            text_of("spec/morphological/learned_shares.h"));
+}
+
+// Version, options and rules.
+TEST(Recipe, IsThatOfThisTrainer) {
+  EXPECT_EQ(recipe_text(Recipe(), FrameOptions(), frames_of_recipe(kept())), kept());
+}
+
+TEST(Recipe, HasTheFramesOfTheTraining) {
+  std::vector<std::string> names, expected;
+  for (const HashedFrame& frame : frames_of_recipe(kept())) names.push_back(frame.first);
+  for (const FrameSource& source : training_set({})) expected.push_back(source.name);
+  EXPECT_EQ(names, expected);
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+}
+
+// A few of each sort; all of them: shares_from_their_recipe.
+TEST(Recipe, HashesThePixelsOfItsFrames) {
+  const std::vector<HashedFrame> frames = frames_of_recipe(kept());
+  const std::vector<FrameSource> sources = training_set({});
+  ASSERT_EQ(frames.size(), sources.size());
+  for (const std::string name : {"cube_512x512", "shapes100", "vehicle11_512x512_1", "wires2_1"}) {
+    const auto found = std::find_if(sources.begin(), sources.end(),
+                                    [&](const FrameSource& source) { return source.name == name; });
+    ASSERT_NE(found, sources.end()) << name;
+    const TruthFrame frame = found->make();
+    EXPECT_EQ(frame.name, name);
+    EXPECT_EQ(hash_of(frame), frames[static_cast<std::size_t>(found - sources.begin())].second)
+        << name;
+  }
+}
+
+TEST(Recipe, AnotherPixelNameOrSizeIsAnotherFrame) {
+  const TruthFrame frame = shapes_frame(40, 30, 2, 1);
+  const std::uint64_t hash = hash_of(frame);
+  TruthFrame other = frame;
+  other.frame.at(39, 29)[2] ^= 1;
+  EXPECT_NE(hash_of(other), hash);
+  other = frame;
+  other.truth.at(0, 0)[0] ^= 1;
+  EXPECT_NE(hash_of(other), hash);
+  other = frame;
+  other.name += 'x';
+  EXPECT_NE(hash_of(other), hash);
+  other = frame;
+  std::swap(other.frame.width, other.frame.height);
+  EXPECT_NE(hash_of(other), hash);
+}
+
+TEST(Recipe, AnotherOptionIsAnotherRecipe) {
+  const std::vector<HashedFrame> frames = {{"a", 1}, {"b", 2}};
+  const std::string text = recipe_text(Recipe(), FrameOptions(), frames);
+  Recipe recipe;
+  recipe.decay *= 2;
+  EXPECT_NE(recipe_text(recipe, FrameOptions(), frames), text);
+  FrameOptions options;
+  options.samples = 4;
+  EXPECT_NE(recipe_text(Recipe(), options, frames), text);
+  EXPECT_EQ(frames_of_recipe(text), frames);
+  EXPECT_THROW(frames_of_recipe("frame a\n"), spec::FileError);
+}
+
+// What is named and not there is an error, never a smaller set.
+TEST(TrainingFrames, AMissingOneIsAnError) {
+  FrameOptions options;
+  options.data = "/nowhere";
+  EXPECT_THROW(mesh_set(options), spec::FileError);
+  EXPECT_THROW(held_out_set(options), spec::FileError);
+  options.data.clear();
+  EXPECT_THROW(mesh_set(options), spec::FileError);
+  EXPECT_FALSE(held_out_set(options).empty());
+}
+
+// No frame, and no scene, is both trained on and held out.
+TEST(TrainingFrames, HeldOutOnesAreNotTrainedOn) {
+  std::vector<std::string> groups;
+  for (const FrameSource& source : training_set({})) groups.push_back(source.group);
+  for (const FrameSource& source : held_out_set({}))
+    EXPECT_EQ(std::count(groups.begin(), groups.end(), source.group), 0) << source.group;
+}
+
+}  // namespace
+}  // namespace deburr::tb::training::recipe_test
