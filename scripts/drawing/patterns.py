@@ -164,3 +164,88 @@ def diagonal_ends(facts):
     picture.text(434, 777, "lines from P to Q + (n, n)", "small")
     picture.text(600, 777, f"d1 = {d1}, d2 = {d2}, n = {span}", "small")
     return picture
+
+
+def crossing_codes(facts):
+    page = "docs/reference/morphological/smaa.md"
+    quarters = facts.table(page, "code N + 2 S")[0][1:]
+    facts.find(page, r"in one access a quarter of a pixel off the line")
+    length, at, cell = 8, 3, 30
+    words = "; ".join(f"code {code}, {CODES[code]}: 4e = {quarters[code]}" for code in range(4))
+    picture = Picture(840, 330, "The four codes of a corner inside a row of eight edges, and where SMAA reads them",
+                      "Eight edges in a row between two rows of pixels, four times, with no crossing edge, one above, one below "
+                      f"and both at the corner after the third edge. {words}. With ends = crossings a corner with a code other "
+                      "than 0 ends a run of three and begins one of five.")
+    for code in range(4):
+        x, y = 60 + 410 * (code % 2), 92 + 138 * (code // 2)
+        for row in range(2):
+            for column in range(-1, length + 1):
+                picture.rect(x + column * cell, y + (row - 1) * cell, cell, cell, "rule")
+        picture.path([(x, y), (x + length * cell, y)], "edge")
+        if code & 1:
+            picture.path([(x + at * cell, y), (x + at * cell, y - cell)], "edge")
+        if code & 2:
+            picture.path([(x + at * cell, y), (x + at * cell, y + cell)], "edge")
+        picture.circle(x + (at + .5) * cell, y + cell / 4, 4, "mark")
+        picture.text(x - cell, y - cell - 9, f"code {code}: {CODES[code]}", "strong")
+        picture.text(x + (length + 1) * cell, y - cell - 9, f"4e = {quarters[code]}", "strong end")
+        for start, end in ([(0, length)] if code == 0 else [(0, at), (at, length)]):
+            picture.path([(x + start * cell + 3, y + cell + 12), (x + end * cell - 3, y + cell + 12)], "link")
+            picture.text(x + (start + end) / 2 * cell, y + cell + 27, f"run of {end - start}", "middle small")
+    picture.circle(70, 312, 4, "mark")
+    picture.text(82, 316, "where SMAA reads both bits at once: a quarter of a pixel off the line, 1/4 of the upper and 3/4 of the "
+                 "lower bit", "small")
+    return picture
+
+
+def far_bits(facts):
+    page = "docs/reference/morphological/smaa.md"
+    above, below = (int(n) for n in facts.find(
+        page, r"bit 0 = left\(X, y - (\d)\) \(first side\), bit 1 = left\(X,\s+y \+ (\d)\) \(second side\)").groups())
+    facts.find(page, r"`far` = bits\s+of the start \+ 4 x bits of the end")
+    facts.find(page, r"near the start if 2k < L - 1, near the end if 2k > L - 1, else in the middle")
+    facts.find(page, r"f = 512 - G x \(2s near the start, 2e near the end, s \+ e in the middle\)")
+    stays = int(facts.find(page, r"`corner_rounding` \| 0\.\.256, 1/256 \| (\d+) \|")[1])
+
+    def kept(s, e, place):
+        """Percent of a share that stays."""
+        return (512 - (256 - stays) * {"start": 2 * s, "middle": s + e, "end": 2 * e}[place]) / 5.12
+
+    cell = 30
+    picture = Picture(840, 420, "The four far bits of a run of eight pixels, and what a sharp corner leaves of shares",
+                      "Above: a run of eight edges with the four edges that its far bits look at, each the second pixel of a "
+                      f"crossing: {above} rows above the line bit 0 at the start and bit 2 at the end, {below} below the "
+                      "line's own row bit 1 and bit 3. Below: runs of eight and of seven pixels whose crossing on the first "
+                      f"side goes on at the start: with corner_rounding = {stays} {kept(1, 0, 'start'):g} % of a share of that "
+                      f"side stays in the half near the start, all of it near the end, {kept(1, 0, 'middle'):g} % in the middle "
+                      "of an odd run.")
+
+    def grid(x, y, length):
+        for row in range(-above, below + 1):
+            for column in range(-1, length + 1):
+                picture.rect(x + column * cell, y + row * cell, cell, cell, "rule")
+        picture.path([(x, y), (x + length * cell, y)], "edge")
+
+    x, y, length = 300, 96, 8
+    picture.text(12, 40, "far bits", "strong")
+    picture.lines(12, 60, ("Edges that make a corner sharp:", "each the second pixel of a", "crossing. Outside the frame",
+                           "they are 0, of a head at its", "end and of a tail at its start."), "small")
+    grid(x, y, length)
+    for bit in range(4):
+        at = x + (length * cell if bit & 2 else 0)
+        side, first, far = ("first", y - cell, y - above * cell) if bit % 2 == 0 else ("second", y + cell, y + (below + 1) * cell)
+        picture.path([(at, y), (at, first)], "candidate")
+        picture.rect(at - 4, min(first, far), 8, cell, f"{side} shade")
+        picture.text(at + (-10 if not bit & 2 else 10), (first + far) / 2 + 4, f"bit {bit}", "small halo" + ("" if bit & 2 else " end"))
+    for x, length in ((60, 8), (470, 7)):
+        y = 306
+        grid(x, y, length)
+        picture.path([(x, y), (x, y - above * cell)], "edge")
+        picture.text(x - cell, y - above * cell - 10, f"L = {length}, far = 1: s = 1, e = 0 on the first side", "strong small")
+        for k in range(length):
+            place = "start" if 2 * k < length - 1 else "end" if 2 * k > length - 1 else "middle"
+            picture.rect(x + k * cell, y - cell, cell, cell, "first " + ("shade" if place == "end" else "pale"))
+            picture.text(x + (k + .5) * cell, y - cell / 2 + 4, f"{kept(1, 0, place):g}", "middle small")
+    picture.rect(60, 394, 14, 11, "first shade")
+    picture.text(80, 404, f"pixels of the first side with the percentage of their share that stays, corner_rounding = {stays}", "small")
+    return picture

@@ -261,8 +261,10 @@ void describe(Rules& p, Visitor& v) {
       "a marked one's share; masked: marked ones, which make no edge either. Other than none, it "
       "ends the mark.");
   v.boolean("linear_light", p.linear_light, "Blend in linear light (sRGB) instead of codes.");
-  v.integer("window_rows", p.window_rows, 10, 258, "row",
-            "Rows of edges held; even. A pixel depends on window_rows / 2 - 1 rows each way.");
+  v.integer(
+      "window_rows", p.window_rows, 10, 258, "row",
+      "Rows of edges held; even. What a run gives a pixel depends on edges of window_rows / 2 - 1 "
+      "rows each way.");
   v.integer("reach_columns", p.reach_columns, 4, 2048, "pixel",
             "Longest horizontal run, and how far it may be extended.");
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -18,9 +19,11 @@
 #include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/engines/morphological/morphological_environment.h"
 #include "tb/scene/compose.h"
+#include "tb/scene/flip.h"
 #include "tb/scene/label.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/scenes.h"
+#include "tb/scene/ssim.h"
 #include "tb/stimuli/reference_filters.h"
 
 namespace deburr::tb {
@@ -167,10 +170,6 @@ ComparisonCost cost_of(const Method& method, const Frame& frame) {
 
 // ---- tables -------------------------------------------------------------------------------------
 
-std::string decibels(double value) {
-  return std::isfinite(value) ? fmt::format("{:.2f}", value) : "-";
-}
-
 // Digits in groups of three.
 std::string grouped_digits(double value) {
   std::string digits = fmt::format("{}", std::llround(value));
@@ -179,12 +178,37 @@ std::string grouped_digits(double value) {
   return digits;
 }
 
-// The best of a column, as a value of its cells.
-double best(std::span<const ComparisonRow> rows, double ComparisonRow::*column) {
-  double most = 0;
-  for (const ComparisonRow& row : rows)
-    if (std::isfinite(row.*column)) most = std::max(most, row.*column);
-  return most;
+// A column of quality.
+struct Column {
+  const char* title;
+  double ComparisonRow::*value;
+  int digits;
+  bool least_is_best;
+};
+constexpr Column kColumns[] = {{"PSNR, dB", &ComparisonRow::psnr, 2, false},
+                               {"edges, dB", &ComparisonRow::edges, 2, false},
+                               {"silhouettes, dB", &ComparisonRow::silhouettes, 2, false},
+                               {"FLIP", &ComparisonRow::flip, 4, true},
+                               {"SSIM", &ComparisonRow::ssim, 4, false}};
+
+bool is_truth(const ComparisonRow& row) { return !std::isfinite(row.psnr); }
+
+// Of the truth there is nothing to say.
+std::string cell(const ComparisonRow& row, const Column& column) {
+  return is_truth(row) ? "-" : fmt::format("{:.{}f}", row.*column.value, column.digits);
+}
+
+// The best cell of a column.
+std::string best(std::span<const ComparisonRow> rows, const Column& column) {
+  const auto rank = [&](const ComparisonRow& row) {
+    if (is_truth(row)) return -std::numeric_limits<double>::infinity();
+    return row.*column.value * (column.least_is_best ? -1 : 1);
+  };
+  return cell(*std::max_element(rows.begin(), rows.end(),
+                                [&](const ComparisonRow& a, const ComparisonRow& b) {
+                                  return rank(a) < rank(b);
+                                }),
+              column);
 }
 
 }  // namespace
@@ -198,12 +222,15 @@ std::span<const std::string_view> comparison_scenes() {
 std::vector<ComparisonRow> compare_methods(const std::string& scene) {
   const Checker checker(make_scene(scene), kWidth, kHeight, kSamples);
   std::vector<ComparisonRow> rows;
-  const auto add = [&](const std::string& name, const Image& image) -> ComparisonRow& {
-    rows.push_back({name,
-                    psnr(image, checker.truth),
-                    checker.edge_psnr(image),
-                    checker.silhouette_psnr(image),
-                    {}});
+  std::vector<Image> images;
+  const auto add = [&](const std::string& name, Image image) -> ComparisonRow& {
+    ComparisonRow row;
+    row.method = name;
+    row.psnr = psnr(image, checker.truth);
+    row.edges = checker.edge_psnr(image);
+    row.silhouettes = checker.silhouette_psnr(image);
+    images.push_back(std::move(image));
+    rows.push_back(std::move(row));
     return rows.back();
   };
   add("none", checker.frame.image);
@@ -213,20 +240,29 @@ std::vector<ComparisonRow> compare_methods(const std::string& scene) {
   for (const Method& method : engines())
     add(method.name, picture_of(method, checker.frame)).cost = cost_of(method, checker.frame);
   add("supersampled, 256 samples", checker.truth);
+  std::vector<const Image*> tests;
+  for (const Image& image : images) tests.push_back(&image);
+  const std::vector<double> flips = flip(checker.truth, tests),
+                            similar = ssim(checker.truth, tests);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].flip = flips[i];
+    rows[i].ssim = similar[i];
+  }
   return rows;
 }
 
 std::string comparison_section(const std::string& name, std::span<const ComparisonRow> rows) {
-  std::string text = fmt::format(
-      "### {}\n\n| | PSNR, dB | edges, dB | silhouettes, dB | blended pixels | clocks, M = {} | "
-      "bytes a pixel | memory, bits |\n|---|---|---|---|---|---|---|---|\n",
-      name, GeometricSetup().memory.latency);
+  std::string text = fmt::format("### {}\n\n|", name), line = "|";
+  for (const Column& column : kColumns) text += fmt::format(" | {}", column.title);
+  text += fmt::format(" | blended pixels | clocks, M = {} | bytes a pixel | memory, bits |\n",
+                      GeometricSetup().memory.latency);
+  for (std::size_t i = 0; i < std::size(kColumns) + 5; ++i) line += "---|";
+  text += line + "\n";
   for (const ComparisonRow& row : rows) {
     text += "| " + row.method;
-    for (double ComparisonRow::*const column :
-         {&ComparisonRow::psnr, &ComparisonRow::edges, &ComparisonRow::silhouettes}) {
-      const std::string value = decibels(row.*column);
-      text += value == decibels(best(rows, column)) ? " | **" + value + "**" : " | " + value;
+    for (const Column& column : kColumns) {
+      const std::string value = cell(row, column);
+      text += value == best(rows, column) ? " | **" + value + "**" : " | " + value;
     }
     if (row.cost)
       text += fmt::format(" | {} | {} | {:.1f} | {} |\n", grouped_digits(row.cost->blended),
@@ -244,16 +280,14 @@ std::vector<ComparisonRow> means_of(std::span<const std::vector<ComparisonRow>> 
   for (std::size_t i = 0; i < means.size(); ++i) {
     ComparisonRow& mean = means[i];
     for (const auto& rows : scenes.subspan(1)) {
-      mean.psnr += rows[i].psnr;
-      mean.edges += rows[i].edges;
-      mean.silhouettes += rows[i].silhouettes;
+      for (const Column& column : kColumns) mean.*column.value += rows[i].*column.value;
       if (!mean.cost) continue;
       mean.cost->blended += rows[i].cost->blended;
       mean.cost->clocks += rows[i].cost->clocks;
       mean.cost->bytes += rows[i].cost->bytes;
       DEBURR_CHECK(mean.cost->bits == rows[i].cost->bits, "memory that depends on the scene");
     }
-    for (double* const value : {&mean.psnr, &mean.edges, &mean.silhouettes}) *value /= n;
+    for (const Column& column : kColumns) mean.*column.value /= n;
     if (!mean.cost) continue;
     mean.cost->blended /= n;
     mean.cost->clocks /= n;
@@ -271,7 +305,7 @@ struct Place {
   int x, y;  // of the crop's corner
 };
 constexpr Place kPlaces[] = {{"object", 264, 116}, {"cylinders", 414, 136}};
-constexpr int kCrop = 28, kZoom = 6, kColumns = 8, kGap = 8, kLetters = 2, kLeading = 4;
+constexpr int kCrop = 28, kZoom = 6, kAcross = 8, kGap = 8, kLetters = 2, kLeading = 4;
 
 // The picture with lines of text over it.
 Image captioned(const Image& picture, std::span<const std::string> lines) {
@@ -311,10 +345,10 @@ Image comparison_sheet() {
     for (const Method& method : engines()) add(method.label, picture_of(method, checker.frame));
     add("truth", checker.truth);
     // The next place begins a row.
-    while (cells.size() % kColumns != 0)
+    while (cells.size() % kAcross != 0)
       cells.emplace_back(cells.front().width, cells.front().height, Rgba8{255, 255, 255, 255});
   }
-  const Image inner = sheet(cells, kColumns, kGap);
+  const Image inner = sheet(cells, kAcross, kGap);
   Image result(inner.width + 2 * kGap, inner.height + 2 * kGap, {255, 255, 255, 255});
   paste(result, inner, kGap, kGap);
   return result;

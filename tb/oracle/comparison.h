@@ -26,6 +26,7 @@ struct ComparisonCost {
 struct ComparisonRow {
   std::string method;
   double psnr = 0, edges = 0, silhouettes = 0;  // dB; infinite for the truth
+  double flip = 0, ssim = 0;                    // over the frame
   std::optional<ComparisonCost> cost;           // of what the project has hardware for
 };
 

@@ -221,6 +221,43 @@ std::string perceptual_table(std::span<const Filter> filters, std::span<const Co
   return text + "\n";
 }
 
+// Frames of `columns` that were compressed before a filter sees them. The last filter is the one
+// that others are compared with.
+std::string compressed_table(std::span<const Filter> filters, std::span<const Column> columns) {
+  constexpr std::array<int, 4> kQualities = {100, 90, 75, 50};
+  std::vector<std::string> titles = {""};
+  std::vector<std::vector<std::string>> rows(filters.size() + 1);
+  rows[0] = {"none"};
+  for (std::size_t i = 0; i < filters.size(); ++i) rows[i + 1] = {filters[i].name};
+  for (const int quality : kQualities) {
+    std::vector<double> mean(rows.size());
+    std::vector<int> ahead(rows.size());
+    std::size_t frames = 0;
+    for (const Column& column : columns) frames += column.pairs.size();
+    for (const Column& column : columns) {
+      for (const Pair& pair : column.pairs) {
+        const Mask edges = edge_mask(pair.truth, pair.frame);
+        const Image frame = quality == 100 ? pair.frame : compressed(pair.frame, quality);
+        std::vector<Image> images = smoothed_by(filters, frame);
+        images.insert(images.begin(), frame);
+        const double last = psnr(images.back(), pair.truth, edges);
+        for (std::size_t i = 0; i < images.size(); ++i) {
+          const double value = psnr(images[i], pair.truth, edges);
+          mean[i] += value / static_cast<double>(frames);
+          ahead[i] += value > last;
+        }
+      }
+    }
+    titles.push_back(quality == 100 ? "as rendered" : fmt::format("JPEG {}", quality));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i].push_back(i + 1 == rows.size() ? fmt::format("{:.2f}", mean[i])
+                                             : fmt::format("{:.2f}; {}", mean[i], ahead[i]));
+  }
+  std::string text = head(titles);
+  for (const auto& cells : rows) text += row(cells);
+  return text;
+}
+
 std::vector<Pair> stand_ins() {
   const fs::path folder = fs::temp_directory_path() / fmt::format("deburr_harm_{}", ::getpid());
   fs::create_directories(folder);
@@ -290,15 +327,18 @@ std::string formula_tables() {
       checked("smoothed hall, JPEG 90", compressed(hall, 90), all),
       checked("smoothed hall, JPEG 50", compressed(hall, 50), all),
       checked("landscape, JPEG 75", compressed(landscape, 75), all)};
+  return "\nTextured frames; the figures of `none` are the frame's own:\n\n" + textured_table(all) +
+         "\nFrames that are right as they are. " + tables_of_right_frames(all, frames);
+}
+
+TruthTables formula_frames_with_truth() {
   std::vector<Column> columns;
   columns.push_back({"five scenes", {}});
   for (const char* const scene : {"cylinders", "object", "road", "quad", "tunnel"})
     columns.back().pairs.push_back(rendered(make_scene(scene), 512, 512));
   columns.push_back({"nine stand-ins", stand_ins()});
-  return "\nTextured frames; the figures of `none` are the frame's own:\n\n" + textured_table(all) +
-         "\nFrames that are right as they are. " + tables_of_right_frames(all, frames) +
-         "Frames with truth, PSNR in dB; FLIP / SSIM, over the whole frame:\n\n" +
-         perceptual_table(all, columns);
+  const std::vector<Filter> all = filters();
+  return {"\n" + perceptual_table(all, columns), "\n" + compressed_table(all, columns) + "\n"};
 }
 
 std::string missing_data(const fs::path& data) {
@@ -313,17 +353,30 @@ std::string missing_data(const fs::path& data) {
   return "";
 }
 
-std::string data_tables(const fs::path& data) {
+namespace {
+
+void require(const fs::path& data) {
   if (const std::string missing = missing_data(data); !missing.empty())
     throw spec::FileError(fmt::format(
         "there is no '{}': set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/",
         missing));
+}
+
+}  // namespace
+
+std::string data_tables(const fs::path& data) {
+  require(data);
   const std::vector<Filter> all = filters();
   std::vector<Checked> photos;
   photos.reserve(kPhotos.size());
   for (const char* const name : kPhotos)
     photos.push_back(
         checked(fmt::format("photograph: {}", name), read_image(photo_file(data, name)), all));
+  return "\nPhotographs. " + tables_of_right_frames(all, photos);
+}
+
+std::string data_frames_with_truth(const fs::path& data) {
+  require(data);
   std::vector<Column> columns;
   columns.reserve(kFrames.size() + 1);
   for (const FramePair& pair : kFrames)
@@ -332,9 +385,7 @@ std::string data_tables(const fs::path& data) {
   columns.push_back({"17 held-out meshes", {}});
   for (const char* const name : kHeldOut)
     columns.back().pairs.push_back(rendered(import_scene(data / name), 512, 512));
-  return "\nPhotographs. " + tables_of_right_frames(all, photos) +
-         "Frames with truth, PSNR in dB; FLIP / SSIM, over the whole frame:\n\n" +
-         perceptual_table(all, columns);
+  return "\n" + perceptual_table(filters(), columns);
 }
 
 }  // namespace deburr::tb::harm

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What smoothing does to what is right, and what FLIP and SSIM say of frames with truth: tables of
-// docs/measurements/morphological_harm.md. One part is of frames by formula, which every clone
-// has; the other of frames that others made (DEBURR_DATA).
+// What smoothing does to what is right: tables of docs/measurements/morphological_harm.md. And what
+// FLIP and SSIM say of frames with truth: of docs/measurements/morphological_quality.md. One part
+// of each is of frames by formula, which every clone has; the other of frames that others made
+// (DEBURR_DATA).
 #pragma once
 
 #include <filesystem>
@@ -14,6 +15,13 @@ namespace deburr::tb::harm {
 std::string formula_tables();
 // FileError where the folder has not what they need.
 std::string data_tables(const std::filesystem::path& data);
+
+struct TruthTables {
+  std::string perceptual;  // PSNR, FLIP and SSIM over the frame
+  std::string compressed;  // PSNR over edges of frames that were compressed first
+};
+TruthTables formula_frames_with_truth();
+std::string data_frames_with_truth(const std::filesystem::path& data);
 // What of that is not there; empty: all is.
 std::string missing_data(const std::filesystem::path& data);
 

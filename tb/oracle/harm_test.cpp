@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Are the tables of harm in docs/measurements/morphological_harm.md what is measured today? And
-// are the frames what the page says of them?
+// Are the tables of harm in docs/measurements/morphological_harm.md, and of FLIP and SSIM in
+// morphological_quality.md beside it, what is measured today? And are the frames what the page says
+// of them?
 #include "tb/oracle/harm.h"
 
 #include <gtest/gtest.h>
@@ -23,6 +24,7 @@ namespace {
 using harm::Text;
 
 constexpr const char *kPage = "measurements/morphological_harm.md",
+                     *kQualityPage = "measurements/morphological_quality.md",
                      *kFormula = "MorphologicalHarm.OfFramesByFormula",
                      *kData = "MorphologicalHarm.OfFramesOfOthers";
 
@@ -35,6 +37,20 @@ TEST(MorphologicalHarm, OfFramesOfOthers) {
     GTEST_SKIP() << "no " << missing
                  << ": set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/";
   expect_generated(kPage, kData, harm::data_tables(data_folder()));
+}
+
+TEST(MorphologicalHarm, OfFramesWithTruth) {
+  const harm::TruthTables tables = harm::formula_frames_with_truth();
+  expect_generated(kQualityPage, "MorphologicalHarm.OfFramesWithTruth", tables.perceptual);
+  expect_generated(kPage, "MorphologicalHarm.OfFramesWithTruth", tables.compressed);
+}
+
+TEST(MorphologicalHarm, OfFramesOfOthersWithTruth) {
+  if (const std::string missing = harm::missing_data(data_folder()); !missing.empty())
+    GTEST_SKIP() << "no " << missing
+                 << ": set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/";
+  expect_generated(kQualityPage, "MorphologicalHarm.OfFramesOfOthersWithTruth",
+                   harm::data_frames_with_truth(data_folder()));
 }
 
 // The last line of a table, and the one above which its rows begin.

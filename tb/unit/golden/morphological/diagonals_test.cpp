@@ -168,6 +168,51 @@ TEST(Diagonal, ReadsTheCodesOfItsEnds) {
 
 // Nothing outside the frame is an edge: the same bits in the middle of a larger frame give the same
 // ends, for frames of one pixel to more than a search is long.
+// Rows kY - M .. kY + M, columns kX - M - 1 .. kX + M + 1: all edges beyond are others and nothing
+// changes; each of these outermost lines matters.
+TEST(Diagonal, LooksAtNoEdgeBeyondItsSteps) {
+  constexpr int kSteps = 4;
+  Random random(11);
+  struct Box {
+    int left, right, up, down;
+  };
+  const auto other_beyond = [](const EdgePlanes& edges, const Box& box) {
+    EdgePlanes result = empty();
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        const bool inside =
+            x >= kX - box.left && x <= kX + box.right && y >= kY - box.up && y <= kY + box.down;
+        if (edges.top.at(x, y) == inside) result.top.set(x, y);
+        if (edges.left.at(x, y) == inside) result.left.set(x, y);
+      }
+    }
+    return result;
+  };
+  const Box whole = {kSteps + 1, kSteps + 1, kSteps, kSteps};
+  const Box smaller[] = {{kSteps, kSteps + 1, kSteps, kSteps},
+                         {kSteps + 1, kSteps, kSteps, kSteps},
+                         {kSteps + 1, kSteps + 1, kSteps - 1, kSteps},
+                         {kSteps + 1, kSteps + 1, kSteps, kSteps - 1}};
+  int changes[4] = {};
+  for (int i = 0; i < 2000; ++i) {
+    const int first = random.between(0, kSteps + 1), second = random.between(0, kSteps + 1);
+    EdgePlanes edges = i % 2 == 0 ? rising(first, second) : falling(first, second);
+    for (int y = kY - kSteps - 2; y <= kY + kSteps + 2; ++y) {
+      for (int x = kX - kSteps - 2; x <= kX + kSteps + 2; ++x) {
+        if (random.below(4) == 0) edges.top.set(x, y);
+        if (random.below(4) == 0) edges.left.set(x, y);
+      }
+    }
+    const auto same = [&](const EdgePlanes& others) {
+      return rising_diagonal(edges, kSteps, kX, kY) == rising_diagonal(others, kSteps, kX, kY) &&
+             falling_diagonal(edges, kSteps, kX, kY) == falling_diagonal(others, kSteps, kX, kY);
+    };
+    EXPECT_TRUE(same(other_beyond(edges, whole))) << i;
+    for (std::size_t k = 0; k < 4; ++k) changes[k] += !same(other_beyond(edges, smaller[k]));
+  }
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_GT(changes[k], 0) << "side " << k;
+}
+
 TEST(Diagonal, EndsAtTheBorders) {
   constexpr int kSteps = 4, kMargin = 12;
   Random random(7);
