@@ -22,22 +22,16 @@ function(deburr_hdl_headers variable)
   endif()
 endfunction()
 
-# deburr_hdl_model(<class> TOP <module> [FOLDER <folder of its own sources>] [SETTINGS <setting>...]
-#                  [FAULT <file> <from> <to>]):
+# deburr_hdl_model(<class> TOP <module> [SETTINGS <setting>...] [FAULT <file> <from> <to>]):
 # a library with the module verilated as C++ class <class>, with these parameters of the texture unit. A
 # FAULT is planted in a copy of one source: the text <from>, which stands there once, becomes <to>. Models
 # without a fault may do the work of SystemC units in a run (deburr_hdl_twins).
 function(deburr_hdl_model class)
-  cmake_parse_arguments(ARG "" "TOP;FOLDER" "SETTINGS;FAULT" ${ARGN})
+  cmake_parse_arguments(ARG "" "TOP" "SETTINGS;FAULT" ${ARGN})
   deburr_hdl_headers(headers ${ARG_SETTINGS})
   set(folder "${CMAKE_CURRENT_BINARY_DIR}/${class}")
   set(paths -y "${DEBURR_HDL_ROOT}/fabric" -y "${DEBURR_HDL_ROOT}/texture")
   set(depends ${DEBURR_HDL_SOURCES} "${headers}/tokens.svh")
-  if(ARG_FOLDER)
-    list(APPEND paths -y "${ARG_FOLDER}")
-    file(GLOB tops CONFIGURE_DEPENDS "${ARG_FOLDER}/*.sv")
-    list(APPEND depends ${tops})
-  endif()
   if(ARG_FAULT)
     list(GET ARG_FAULT 0 file)
     cmake_path(GET file FILENAME name)

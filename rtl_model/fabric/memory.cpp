@@ -156,10 +156,10 @@ std::string MemoryBase::built_as() const {
   std::string text = copies_ == 1 ? macro_ : fmt::format("{} copies of {}", copies_, macro_);
   if (shape_.kind != MemoryKind::kFlops && shape_.banks > 1)
     text += fmt::format(", {} banks", shape_.banks);
-  if (shape_.kind == MemoryKind::kSram) {
-    if (shape_.read_during_write == ReadDuringWrite::kOldWord) text += ", old word";
-    if (shape_.read_during_write == ReadDuringWrite::kNewWord) text += ", new word";
-  }
+  // Flip-flops give the old word by themselves.
+  if (shape_.kind == MemoryKind::kSram && shape_.read_during_write == ReadDuringWrite::kOldWord)
+    text += ", old word";
+  if (shape_.read_during_write == ReadDuringWrite::kNewWord) text += ", new word";
   if (shape_.mask_bits != 0) text += fmt::format(", write mask of {} bits", shape_.mask_bits);
   return text;
 }

@@ -84,6 +84,14 @@ Words from_port(const Port& port, std::uint32_t bits) {
   return words;
 }
 
+// A model whose registers without a reset hold noise at first (--x-initial unique).
+template <class Model>
+std::unique_ptr<Model> made_with_noise(VerilatedContext& context, Random& noise) {
+  context.randReset(2);
+  context.randSeed(static_cast<int>(noise.word() >> 1 | 1));  // 0 would be another one in each run
+  return std::make_unique<Model>(&context, "model");
+}
+
 // What a link before the unit shows it before the edge. What an empty one shows means nothing:
 // noise.
 template <class T, class Valid, class Port>
@@ -111,19 +119,17 @@ T push(rtl::Out<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, const 
 template <class Model, class From, class To>
 class VerilatedAt : public rtl::Unit {
  public:
-  // `from` and `to`: what of the payloads is built, as the links say it.
-  VerilatedAt(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, rtl::In<From>& in,
-              rtl::Out<To>& out, const rtl::PayloadShape& from = {},
+  // `seed`: of all noise. `from` and `to`: what of the payloads is built, as the links say it.
+  VerilatedAt(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed,
+              rtl::In<From>& in, rtl::Out<To>& out, const rtl::PayloadShape& from = {},
               const rtl::PayloadShape& to = {})
       : Unit(name, clock),
         in_(in),
         out_(out),
         from_(rtl::Payload::of<From>(from)),
-        to_(rtl::Payload::of<To>(to)) {
-    // Registers without a reset hold noise at first (--x-initial unique).
-    context_->randReset(2);
-    context_->randSeed(7);
-    model_ = std::make_unique<Model>(context_.get(), "model");
+        to_(rtl::Payload::of<To>(to)),
+        noise_(seed, this->basename()),
+        model_(made_with_noise<Model>(*context_, noise_)) {
     VerilatedAt::reset();
   }
   ~VerilatedAt() override { model_->final(); }
@@ -172,17 +178,17 @@ class VerilatedAt : public rtl::Unit {
   rtl::In<From>& in_;
   rtl::Out<To>& out_;
   std::unique_ptr<VerilatedContext> context_ = std::make_unique<VerilatedContext>();
-  std::unique_ptr<Model> model_;
   rtl::Payload from_, to_;
-  Random noise_{1};
+  Random noise_;
+  std::unique_ptr<Model> model_;
 };
 
 // With ports of its own.
 template <class Model, class From, class To>
 class VerilatedUnit final : public VerilatedAt<Model, From, To> {
  public:
-  VerilatedUnit(const sc_core::sc_module_name& name, rtl::ClockDomain& clock)
-      : VerilatedAt<Model, From, To>(name, clock, beats_in, beats_out) {}
+  VerilatedUnit(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed)
+      : VerilatedAt<Model, From, To>(name, clock, seed, beats_in, beats_out) {}
 
   rtl::In<From> beats_in{"beats_in"};
   rtl::Out<To> beats_out{"beats_out"};

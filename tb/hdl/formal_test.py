@@ -55,6 +55,10 @@ PROOFS = {
                            parameters={"BITS": 47}),
     "log2_segments": Proof("log2_segments_proof", "sat",
                            ("texture/log2_correction.sv", "10'd20 + (r >> 2)", "10'd20 + (r >> 3)")),
+    "log2_corrected": Proof("log2_corrected_proof", "sat",
+                            ("texture/log2_correction.sv", "TABLE[y[11:9]*", "TABLE[y[10:9]*")),
+    "log2_exact": Proof("log2_exact_proof", "bmc", ("texture/log2_exact.sv", "+ 13'd32", "+ 13'd31"), steps=4,
+                        registers=True),
     # The least fall that holds: a fault that makes it larger is refuted.
     "log2_falls_segments": Proof("log2_monotone_proof", "sat", ("texture/log2_correction.sv", "10'd356", "10'd355")),
     "log2_falls_corrected": Proof("log2_monotone_proof", "sat",

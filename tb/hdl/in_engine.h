@@ -25,8 +25,8 @@ class AddressInEngine final
   using Base = VerilatedAt<Model, spec::texture::Quad, rtl::texture::TexelToken>;
 
  public:
-  AddressInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe)
-      : Base("address_hdl", unit.address.derivative.clock(), unit.address.derivative.quads_in,
+  AddressInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe, std::uint64_t seed)
+      : Base("address_hdl", unit.address.derivative.clock(), seed, unit.address.derivative.quads_in,
              unit.address.addresser.texels_out),
         unit_(unit),
         probe_(probe) {
@@ -84,9 +84,9 @@ class AddressInEngine final
 template <class Model>
 class CacheInEngine final : public VerilatedCacheAt<Model> {
  public:
-  CacheInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe&)
+  CacheInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe&, std::uint64_t seed)
       : VerilatedCacheAt<Model>(
-            "cache_hdl", unit.cache.tag_stage.clock(),
+            "cache_hdl", unit.cache.tag_stage.clock(), seed,
             {unit.cache.tag_stage.texels_in, unit.cache.data_stage.texels_out,
              unit.cache.miss_queue.requests_out, unit.cache.miss_queue.responses_in},
             unit.parameters()),
@@ -129,9 +129,10 @@ template <class Model>
 class FilterInEngine final
     : public VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::Colour> {
  public:
-  FilterInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe)
+  FilterInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe, std::uint64_t seed)
       : VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::Colour>(
-            "filter_hdl", unit.filter.clock(), unit.filter.texels_in, unit.filter.colours_out),
+            "filter_hdl", unit.filter.clock(), seed, unit.filter.texels_in,
+            unit.filter.colours_out),
         filter_(unit.filter),
         probe_(probe) {
     this->clock().replace(filter_, {&filter_.fragments});
@@ -151,9 +152,9 @@ class FilterInEngine final
 template <class InEngine>
 void add_twin(const char* unit, const char* settings) {
   add_texture_twin({unit, as_built(parameters_of(settings), {}),
-                    [](rtl::texture::TextureUnit& around,
-                       rtl::LatencyProbe& probe) -> std::unique_ptr<sc_core::sc_module> {
-                      return std::make_unique<InEngine>(around, probe);
+                    [](rtl::texture::TextureUnit& around, rtl::LatencyProbe& probe,
+                       std::uint64_t seed) -> std::unique_ptr<sc_core::sc_module> {
+                      return std::make_unique<InEngine>(around, probe, seed);
                     }});
 }
 template <class Model>

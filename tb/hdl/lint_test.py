@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """The modules of hdl/ that no other one builds, and all below them, in each configuration that is printed:
 Verilator reads them (-Wall, with the named waivers of hdl/lint.vlt), Icarus Verilog does, and yosys builds
-them (no latch, no loop, nothing driven twice). A planted fault is rejected by each.
+them (no latch, no loop, nothing driven twice). A planted fault is rejected by each. No file of hdl/ is left
+over that none of these configurations builds (Verilator) or reads (Icarus Verilog).
 
 usage: lint_test.py SOURCE VERILATOR|ICARUS|YOSYS HEADERS..."""
 import pathlib
@@ -33,6 +34,43 @@ def commands(tool, root, headers, module):
                                  "opt; check -assert; select -assert-none t:$dlatch"]
 
 
+def seen(tool, root, headers, module, folder):
+    """The modules below one that the tool builds, or reads the files of; None of yosys, which is given every file."""
+    if tool == "yosys":
+        return None
+    command = list(map(str, commands(tool, root, headers, module)))
+    if tool == "verilator":
+        command[command.index("--lint-only"):][:1] = []
+        command = [command[0], "--xml-only", "--Mdir", folder, "-Wno-fatal", *command[2:]]
+        subprocess.run(command, capture_output=True, check=True)
+        text = (pathlib.Path(folder) / f"V{module}.xml").read_text(encoding="utf-8")
+        return set(re.findall(r'<module [^>]*\borigName="(\w+)"', text))
+    files = pathlib.Path(folder) / "files"
+    subprocess.run([*command, "-M", files], capture_output=True, check=True)
+    return {pathlib.Path(name).stem for name in files.read_text(encoding="utf-8").split() if name.endswith(".sv")}
+
+
+def left_over(tool, root, printed):
+    """What is said of files below hdl/ that nothing sees."""
+    texts = texts_of(root)
+    with tempfile.TemporaryDirectory(prefix="deburr_lint_") as folder:
+        found = [seen(tool, root, headers, top, folder) for headers in printed for top in tops_of(texts)]
+    if None in found:
+        return []
+    return [f"{tool}: {name}.sv: no configuration that is printed builds it" for name in
+            sorted(texts.keys() - set().union(*found))]
+
+
+def texts_of(root):
+    return {path.stem: path.read_text(encoding="utf-8") for path in root.rglob("*.sv")}
+
+
+def tops_of(texts):
+    """The modules that no other one builds."""
+    built = {name for text in texts.values() for name in re.findall(r"^ *(\w+) (?:#\(.*\) )?\w+ \((?:$|\.)", text, re.M)}
+    return sorted(texts.keys() - built)
+
+
 def rejected(tool, root, headers, module):
     """What the tool says against a module, or None."""
     done = subprocess.run(list(map(str, commands(tool, root, headers, module))), capture_output=True, text=True,
@@ -49,12 +87,10 @@ def main():
     if shutil.which(program) is None:
         print(f"skipped '{program} is not installed: scripts/install hdl'")
         return
-    texts = {path.stem: path.read_text(encoding="utf-8") for path in root.rglob("*.sv")}
-    built = {name for text in texts.values() for name in re.findall(r"^ *(\w+) (?:#\(.*\) )?\w+ \($", text, re.M)}
-    tops = sorted(texts.keys() - built - {name for text in texts.values()
-                                          for name in re.findall(r"^ *(\w+) (?:#\(.*\) )?\w+ \(\.", text, re.M)})
-    problems = [rejected(tool, root, pathlib.Path(headers), top) for headers in sys.argv[3:] for top in tops]
+    tops, printed = tops_of(texts_of(root)), [pathlib.Path(headers) for headers in sys.argv[3:]]
+    problems = [rejected(tool, root, headers, top) for headers in printed for top in tops]
     count = len(problems)
+    problems += left_over(tool, root, printed)
     with tempfile.TemporaryDirectory(prefix="deburr_lint_") as folder:
         copy = pathlib.Path(folder) / "hdl"
         shutil.copytree(root, copy)
@@ -66,6 +102,13 @@ def main():
         file.write_text(text.replace(good, bad), encoding="utf-8")
         if rejected(tool, copy, pathlib.Path(sys.argv[3]), "log2_value") is None:
             problems.append(f"{tool} reads {bad!r} and finds nothing wrong")
+        # A module that a unit names where no configuration builds it.
+        file.write_text(text, encoding="utf-8")
+        (copy / "texture/nowhere.sv").write_text("module nowhere (input logic clk);\nendmodule\n", encoding="utf-8")
+        with (copy / "texture/address_unit.sv").open("a", encoding="utf-8") as stream:
+            stream.write("`ifdef NEVER\nmodule never (input logic clk);\n  nowhere cell (.clk);\nendmodule\n`endif\n")
+        if tool != "yosys" and not any("nowhere.sv" in said for said in left_over(tool, copy, printed[:1])):
+            problems.append(f"{tool} builds and reads nowhere.sv nowhere, and nothing is said of it")
     problems = [problem for problem in problems if problem]
     print("\n".join(problems) or f"{tool}: {count} times read, from {', '.join(tops)}")
     sys.exit(1 if problems or not count else 0)

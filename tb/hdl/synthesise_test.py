@@ -23,7 +23,8 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 
 HEADERS = """#!/bin/sh
 mkdir -p "$1"
-printf '`define CHOSEN_WAYS %s\\n' "${2#ways=}" >"$1/tokens.svh"
+word=${2:-ways=3}
+printf '`define CHOSEN_WAYS %s\\n' "${word#ways=}" >"$1/tokens.svh"
 """
 # 8 flip-flops that count, a memory of 16 x 4 bits.
 SMALL = """`include "tokens.svh"
@@ -55,7 +56,7 @@ class Synthesise(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory(prefix="deburr_synthesise_")
         cls.root = pathlib.Path(cls.folder.name)
         for name, text in {"hdl/texture/small.sv": SMALL, "hdl/texture/both.sv": BOTH, "hdl/texture/slow.sv": SLOW,
-                           "headers": HEADERS, "configurations": "VBoth both ways=3  # twice the cell\n"}.items():
+                           "headers": HEADERS, "configurations": "VBoth both ways=3  # twice the cell\nVSmall small\n"}.items():
             cls.write(name, text)
         (cls.root / "headers").chmod(0o755)
         cls.write("hdl/fabric/sram_1r1w.sv", (SOURCE / "hdl/fabric/sram_1r1w.sv").read_text(encoding="utf-8"))
@@ -166,6 +167,19 @@ class Synthesise(unittest.TestCase):
                 self.write(name, text)
                 self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
                 self.assertIn(said, done.stdout)
+
+    def test_check_finds_a_row_of_a_preset_that_is_not_run(self):
+        for name, said in (("small", "VSmall: small ways=3 is not run for xc7\n"), ("sram_1r1w", "VSmall: sram_1r1w ")):
+            cost = self.cost()
+            for unit in cost["units"]:
+                if unit["unit"] == name:
+                    unit["xc7"] = "not run"
+            self.addCleanup(self.write, "out/cost.json", (self.root / "out/cost.json").read_text(encoding="utf-8"))
+            self.write("out/cost.json", json.dumps(cost))
+            done = self.call("--check")
+            self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+            self.assertIn(said, done.stdout)
+            self.doCleanups()
 
     def test_check_passes_a_comment(self):
         self.changed("hdl/texture/small.sv", "endmodule", "  // Said in other words.\nendmodule")

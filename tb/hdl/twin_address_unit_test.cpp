@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The address unit of hdl/texture: what comes out is what the golden model's functions say, and
-// every clock of it is the SystemC unit's, under random stalls at both ends, by every rule.
+// every clock of it is the SystemC unit's, under random stalls at both ends and after resets in the
+// middle of its work, by every rule.
 #include <VAddressCapped.h>
 #include <VAddressCeil.h>
 #include <VAddressDeburr.h>
@@ -9,6 +10,7 @@
 #include <VAddressEightInTwo.h>
 #include <VAddressFourInTwo.h>
 #include <VAddressMax.h>
+#include <VAddressNotEmptied.h>
 #include <VAddressPaper.h>
 #include <VAddressQuarter.h>
 #include <VAddressTent.h>
@@ -117,7 +119,7 @@ void append_requests(const spec::texture::Parameters& rules, const Descriptors& 
 }
 
 struct Result {
-  std::uint64_t quads = 0, requests = 0;
+  std::uint64_t quads = 0, requests = 0, broken_off = 0;
   std::uint64_t golden_differ = 0;                       // requests that are not the golden model's
   std::uint64_t payloads_differ = 0, clocks_differ = 0;  // from the SystemC unit
   bool finished = true;
@@ -125,7 +127,7 @@ struct Result {
 };
 
 // Batches of quads with new descriptors each, of which some are invalid. `permille` of the clocks
-// are stalls, at both ends.
+// are stalls, at both ends. Each batch is broken off by a reset once, and begins again.
 template <class Model>
 Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t permille,
                std::uint64_t seed = 1) {
@@ -140,7 +142,7 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
   StalledSource<Quad> source_of_model("source_of_model", clock, before, quads),
       source_of_twin("source_of_twin", clock, before, quads);
   hw::AddressUnit model("model", clock, parameters, store.control, store.descriptors, probe);
-  VerilatedUnit<Model, Quad, hw::TexelToken> twin("twin", clock);
+  VerilatedUnit<Model, Quad, hw::TexelToken> twin("twin", clock, seed);
   StalledSink<hw::TexelToken> sink_of_model("sink_of_model", clock, after),
       sink_of_twin("sink_of_twin", clock, after);
   hdl::LinkComparison<Quad> before_it("before_it", clock, quads_of_model, quads_of_twin);
@@ -200,18 +202,22 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
       quads.push_back(random_quad(random, tag, texture));
       append_requests(parameters, descriptors, valid, quads.back(), wanted);
     }
-    clock.set_reset_n(false);
-    clock.run(2);
-    clock.set_reset_n(true);
-    probe.reset();
-    write(store, descriptors);
-    for (std::uint32_t h = 0; h < 16; ++h)
-      for (const auto& [offset, value] :
-           platform::descriptor_registers(static_cast<int>(h), descriptors[h]))
-        hdl::write_word(
-            twin, h,
-            (offset - spec::texture::reg::kTextureBase) % spec::texture::reg::kTextureStride / 4,
-            value);
+    for (const rtl::Cycle work : {10 + random.below(3000), 0u}) {
+      clock.set_reset_n(false);
+      clock.run(1 + random.below(3));
+      clock.set_reset_n(true);
+      probe.reset();
+      write(store, descriptors);
+      for (std::uint32_t h = 0; h < 16; ++h)
+        for (const auto& [offset, value] :
+             platform::descriptor_registers(static_cast<int>(h), descriptors[h]))
+          hdl::write_word(
+              twin, h,
+              (offset - spec::texture::reg::kTextureBase) % spec::texture::reg::kTextureStride / 4,
+              value);
+      clock.run(work);
+      result.broken_off += sink_of_twin.received() != 0 && work != 0;
+    }
     const bool finished = clock.run_until(
         [&] {
           return sink_of_model.received() >= wanted.size() &&
@@ -228,24 +234,25 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
   result.clocks_differ =
       before_it.clocks_that_differ() + behind_it.clocks_that_differ() + inside.clocks_that_differ();
   result.payloads_differ = behind_it.payloads_that_differ();
-  result.first += before_it.first() + inside.first() + behind_it.first();
+  result.first +=
+      before_it.first() + inside.first() + behind_it.first() + "; seed " + std::to_string(seed);
   return result;
 }
 
 template <class Model>
-void expect_equal_unit(const char* settings, std::uint64_t requests = 100'000) {
+void expect_equal_unit(const char* settings) {
+  constexpr std::uint64_t requests = 1'000'000;
   const Result r = compare<Model>(settings, requests, 300);
   EXPECT_TRUE(r.finished) << r.first;
   EXPECT_EQ(r.golden_differ, 0u) << r.first;
   EXPECT_EQ(r.payloads_differ, 0u) << r.first;
   EXPECT_EQ(r.clocks_differ, 0u) << r.first;
   EXPECT_GE(r.requests, requests);
+  EXPECT_GE(r.broken_off, 10u);
 }
 
-TEST(TwinAddressUnit, Paper) { expect_equal_unit<VAddressPaper>(hdl::kVAddressPaper, 1'000'000); }
-TEST(TwinAddressUnit, Deburr) {
-  expect_equal_unit<VAddressDeburr>(hdl::kVAddressDeburr, 1'000'000);
-}
+TEST(TwinAddressUnit, Paper) { expect_equal_unit<VAddressPaper>(hdl::kVAddressPaper); }
+TEST(TwinAddressUnit, Deburr) { expect_equal_unit<VAddressDeburr>(hdl::kVAddressDeburr); }
 TEST(TwinAddressUnit, Ceil) { expect_equal_unit<VAddressCeil>(hdl::kVAddressCeil); }
 TEST(TwinAddressUnit, Quarter) { expect_equal_unit<VAddressQuarter>(hdl::kVAddressQuarter); }
 TEST(TwinAddressUnit, Capped) { expect_equal_unit<VAddressCapped>(hdl::kVAddressCapped); }
@@ -283,6 +290,12 @@ TEST(TwinAddressUnitFaults, AMortonIndexWithXAndYChanged) {
 }
 TEST(TwinAddressUnitFaults, APitchThatIsNotRoundedUp) {
   EXPECT_GE(compare<VAddressUnevenPitch>(hdl::kVAddressUnevenPitch, 20'000, 300).golden_differ, 1u);
+}
+// A request of the work that was broken off comes after the reset.
+TEST(TwinAddressUnitFaults, AResetThatLeavesAFragmentBehind) {
+  const Result r = compare<VAddressNotEmptied>(hdl::kVAddressNotEmptied, 20'000, 300);
+  EXPECT_GE(r.golden_differ, 1u);
+  EXPECT_GE(r.clocks_differ, 1u);
 }
 // Right requests, and a clock that differs only when the units behind stand still.
 TEST(TwinAddressUnitFaults, AThirdPlaceInALink) {

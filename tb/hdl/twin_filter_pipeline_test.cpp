@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The filter pipeline of hdl/texture: colours are the golden model's, clocks the SystemC unit's,
-// under random stalls at both ends, for all kinds of weights and both outputs.
+// under random stalls at both ends and after resets in the middle of its work, for all kinds of
+// weights and both outputs.
 #include <VFilterDeburr.h>
 #include <VFilterEncoded.h>
 #include <VFilterEncodedPaper.h>
+#include <VFilterNotEmptied.h>
 #include <VFilterPaper.h>
 #include <VFilterTent.h>
 #include <VFilterWrongHold.h>
@@ -17,6 +19,7 @@
 #include <vector>
 
 #include "rtl_model/texture/filter_pipeline.h"
+#include "tb/base/random.h"
 #include "tb/hdl/adapter.h"
 #include "tb/hdl/settings.h"
 #include "tb/hdl/side_by_side.h"
@@ -28,7 +31,7 @@ namespace {
 using spec::texture::Colour;
 
 struct Result {
-  std::uint64_t requests = 0, colours = 0;
+  std::uint64_t requests = 0, colours = 0, broken_off = 0;
   std::uint64_t golden_differ = 0, payloads_differ = 0, clocks_differ = 0;
   bool finished = false;
   std::string first;
@@ -51,11 +54,11 @@ Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed 
   rtl::Link<Colour> colours_of_model("colours_of_model"), colours_of_twin("colours_of_twin");
   rtl::LatencyProbe probe;
   const hdl::Stalls before{permille, seed}, after{permille, seed + 1000};
-  hdl::StalledSource<hw::TexelQuadToken> source_of_model("source_of_model", clock, before,
-                                                         work.tokens),
-      source_of_twin("source_of_twin", clock, before, work.tokens);
+  std::vector<hw::TexelQuadToken> sent;
+  hdl::StalledSource<hw::TexelQuadToken> source_of_model("source_of_model", clock, before, sent),
+      source_of_twin("source_of_twin", clock, before, sent);
   hw::FilterPipeline model("model", clock, parameters, probe);
-  hdl::VerilatedUnit<Model, hw::TexelQuadToken, Colour> twin("twin", clock);
+  hdl::VerilatedUnit<Model, hw::TexelQuadToken, Colour> twin("twin", clock, seed);
   hdl::StalledSink<Colour> sink_of_model("sink_of_model", clock, after),
       sink_of_twin("sink_of_twin", clock, after);
   hdl::LinkComparison<hw::TexelQuadToken> before_it("before_it", clock, texels_of_model,
@@ -75,11 +78,25 @@ Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed 
 
   Result result;
   sink_of_twin.on_beat = [&](const Colour& got) {
-    const std::uint64_t number = sink_of_twin.received() - 1;
+    const std::uint64_t number = sent.front().ticket.tag + sink_of_twin.received() - 1;
     if (number >= work.colours.size() || !(got == work.colours[number]))
       if (result.golden_differ++ == 0)
         result.first = "golden/twin colour " + std::to_string(number) + "; ";
   };
+  // Broken off by resets, among the fragments of several samples, which come last.
+  Random random(seed);
+  for (int i = 0; i < 40; ++i) {
+    auto begin = work.tokens.end() - 4000 - random.below(60'000);
+    while (!begin[-1].control.last_of_fragment) --begin;
+    sent.assign(begin, begin + 3000);
+    clock.run(20 + random.below(1000));
+    result.broken_off += sink_of_twin.received() != 0;
+    clock.set_reset_n(false);
+    clock.run(1 + random.below(3));
+    clock.set_reset_n(true);
+    probe.reset();
+  }
+  sent = work.tokens;
   const std::uint64_t wanted = work.colours.size();
   result.finished = clock.run_until(
       [&] { return sink_of_model.received() >= wanted && sink_of_twin.received() >= wanted; },
@@ -90,7 +107,7 @@ Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed 
   result.colours = wanted;
   result.clocks_differ = before_it.clocks_that_differ() + behind_it.clocks_that_differ();
   result.payloads_differ = behind_it.payloads_that_differ();
-  result.first += before_it.first() + behind_it.first();
+  result.first += before_it.first() + behind_it.first() + "; seed " + std::to_string(seed);
   return result;
 }
 
@@ -102,6 +119,7 @@ void expect_equal_unit(const char* settings, std::uint32_t permille = 300) {
   EXPECT_EQ(r.payloads_differ, 0u) << r.first;
   EXPECT_EQ(r.clocks_differ, 0u) << r.first;
   EXPECT_GE(r.requests, 200'000u);
+  EXPECT_GE(r.broken_off, 20u);
 }
 
 TEST(TwinFilterPipeline, Paper) { expect_equal_unit<VFilterPaper>(hdl::kVFilterPaper); }
@@ -123,6 +141,10 @@ TEST(TwinFilterPipelineFaults, ASecondLevelThatIsNotAdded) {
 }
 TEST(TwinFilterPipelineFaults, ARoundingThatTruncates) {
   EXPECT_GE(compare<VFilterWrongRound>(hdl::kVFilterWrongRound, 300).golden_differ, 1u);
+}
+// A sample of the work that was broken off goes on after the reset.
+TEST(TwinFilterPipelineFaults, AResetThatLeavesASampleOpen) {
+  EXPECT_GE(compare<VFilterNotEmptied>(hdl::kVFilterNotEmptied, 300).golden_differ, 1u);
 }
 // Right colours, in clocks of its own: a pipeline that closes no gap at its end.
 TEST(TwinFilterPipelineFaults, AnEndThatWaitsWithoutNeed) {

@@ -171,7 +171,7 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
   StalledSource<TexelToken> source_of_model("source_of_model", clock, before, requests),
       source_of_twin("source_of_twin", clock, before, requests);
   hw::TextureCache model("model", clock, parameters, store.control);
-  hdl::VerilatedCache<Model> twin("twin", clock, parameters);
+  hdl::VerilatedCache<Model> twin("twin", clock, seed, parameters);
   rtl::MemoryPort port_of_twin("port_of_twin", clock, hdl::memory_port_of(parameters));
   StalledSink<TexelQuadToken> sink_of_model("sink_of_model", clock, after),
       sink_of_twin("sink_of_twin", clock, after);
@@ -295,7 +295,7 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
   result.payloads_differ = behind_it.payloads_that_differ() + asked.payloads_that_differ() +
                            answered.payloads_that_differ();
   result.first += before_it.first() + " | " + inside.first() + " | " + asked.first() + " | " +
-                  answered.first() + " | " + behind_it.first();
+                  answered.first() + " | " + behind_it.first() + " | seed " + std::to_string(seed);
   return result;
 }
 

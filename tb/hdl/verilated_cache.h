@@ -26,15 +26,14 @@ struct CachePorts {
 template <class Model>
 class VerilatedCacheAt : public rtl::Unit {
  public:
-  VerilatedCacheAt(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
+  VerilatedCacheAt(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed,
                    const CachePorts& ports, const spec::texture::Build& build)
       : Unit(name, clock),
         ports_(ports),
         request_(rtl::Payload::of<rtl::MemoryRequest>(memory_request_shape(build))),
-        response_(rtl::Payload::of<rtl::MemoryResponse>(memory_response_shape(build))) {
-    context_->randReset(2);
-    context_->randSeed(11);
-    model_ = std::make_unique<Model>(context_.get(), "model");
+        response_(rtl::Payload::of<rtl::MemoryResponse>(memory_response_shape(build))),
+        noise_(seed, this->basename()),
+        model_(made_with_noise<Model>(*context_, noise_)) {
     model_->invalidate = 0;
     VerilatedCacheAt::reset();
   }
@@ -93,21 +92,21 @@ class VerilatedCacheAt : public rtl::Unit {
   }
   CachePorts ports_;
   std::unique_ptr<VerilatedContext> context_ = std::make_unique<VerilatedContext>();
-  std::unique_ptr<Model> model_;
   rtl::Payload texel_ = rtl::Payload::of<rtl::texture::TexelToken>();
   rtl::Payload quad_ = rtl::Payload::of<rtl::texture::TexelQuadToken>();
   rtl::Payload request_, response_;
-  Random noise_{1};
+  Random noise_;
+  std::unique_ptr<Model> model_;
 };
 
 // With ports of its own.
 template <class Model>
 class VerilatedCache final : public VerilatedCacheAt<Model> {
  public:
-  VerilatedCache(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
+  VerilatedCache(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed,
                  const spec::texture::Build& build)
-      : VerilatedCacheAt<Model>(name, clock, {texels_in, texels_out, requests_out, responses_in},
-                                build) {}
+      : VerilatedCacheAt<Model>(name, clock, seed,
+                                {texels_in, texels_out, requests_out, responses_in}, build) {}
 
   rtl::In<rtl::texture::TexelToken> texels_in{"texels_in"};
   rtl::Out<rtl::texture::TexelQuadToken> texels_out{"texels_out"};

@@ -2,8 +2,12 @@
 // Short forms for whole runs of the texture unit against its golden model.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <iostream>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "golden/texture/texture_golden.h"
 #include "tb/engines/texture/texture_environment.h"
@@ -45,23 +49,43 @@ inline bool& twins_do_the_work() {
   return they_do;
 }
 inline rtl::texture::TextureUnit::StandIns stand_ins_of_suite(
-    const spec::texture::Parameters& parameters, const rtl::MemoryClocks& memory) {
+    const spec::texture::Parameters& parameters, const rtl::MemoryClocks& memory,
+    std::uint64_t seed) {
   if (!twins_do_the_work()) return {};
-  return texture_twins_there_are(as_built(parameters, memory));
+  return texture_twins_there_are(as_built(parameters, memory), seed);
+}
+// Units of the suite that runs which may stay SystemC, since the build has not all of its
+// configurations.
+inline std::vector<std::string> (*not_all_built)() = nullptr;
+// After a run: throws where a unit in SystemVerilog should have taken part and moved no beat.
+inline void expect_twins_of_suite(const rtl::texture::TextureUnit& unit) {
+  if (!twins_do_the_work()) return;
+  const std::vector<std::string> may_be =
+      not_all_built ? not_all_built() : std::vector<std::string>();
+  for (const std::string& idle : idle_twins(unit))
+    if (std::find(may_be.begin(), may_be.end(), idle) == may_be.end())
+      throw std::runtime_error("the unit " + idle + " in SystemVerilog has moved no beat");
 }
 
 // Simulates and checks: throws what Simulation::run() throws, and a Mismatch.
 inline TextureOutcome simulate(const SceneParameters& scene, const SamplerParameters& sampler,
                                TextureRunOptions options) {
-  options.stand_ins = stand_ins_of_suite(options.texture, memory_clocks(options));
+  options.stand_ins = stand_ins_of_suite(options.texture, memory_clocks(options), options.seed);
   constexpr std::uint32_t kTextureSeed =
       1;  // the options' seed is for the weather, not the picture
   const TextureScene built(scene, sampler, kTextureSeed);
   Simulation simulation(options);
   TextureEnvironment environment(simulation, built, options);
   simulation.elaborate(environment);
-  simulation.run();
-  environment.check();
+  try {
+    simulation.run();
+    environment.check();
+    expect_twins_of_suite(environment.unit());
+  } catch (...) {
+    if (twins_do_the_work())
+      std::cerr << "seed of the run and of the units in SystemVerilog: " << options.seed << "\n";
+    throw;
+  }
   Result result;
   simulation.collect(result);
   const golden::texture::TextureWork& work = environment.golden_work();

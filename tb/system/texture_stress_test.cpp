@@ -129,10 +129,11 @@ TEST_P(FrameReset, LeavesNothing) {
   options.stall_permille = static_cast<std::uint32_t>(stall_permille);
   options.poison = true;
   QuadBench bench(input, parameters, memory, options,
-                  stand_ins_of_suite(parameters, QuadBench::memory_clocks(memory)));
+                  stand_ins_of_suite(parameters, QuadBench::memory_clocks(memory), options.seed));
   bench.reset();
   const QuadOutcome fresh = bench.run();
   EXPECT_EQ(bench.check(input, fresh), "");
+  expect_twins_of_suite(bench.unit());
   ASSERT_GT(fresh.colours.size(), 1000u);
 
   constexpr rtl::Cycle kShort = 4, kDrained = 400;
@@ -169,10 +170,12 @@ TEST(FrameReset, IsMissedWhenThereIsNone) {
                            scene.stream().quads};
   // By rules whose lines fit into the cache.
   const spec::texture::Parameters paper = paper_rules();
-  QuadBench bench(input, paper, {}, {}, stand_ins_of_suite(paper, QuadBench::memory_clocks({})));
+  QuadBench bench(input, paper, {}, {},
+                  stand_ins_of_suite(paper, QuadBench::memory_clocks({}), BenchOptions{}.seed));
   bench.reset();
   const QuadOutcome fresh = bench.run();
   EXPECT_EQ(bench.check(input, fresh), "");
+  expect_twins_of_suite(bench.unit());
   bench.repeat();
   QuadOutcome again = bench.run();
   EXPECT_NE(bench.check(input, again), "");

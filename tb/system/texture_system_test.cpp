@@ -34,13 +34,14 @@ void expect_identical(const TextureOutcome& outcome, int line_bytes = 64) {
 // here alone.
 TEST(Texture, TheHashIsOfEveryChannelAndPlaceOfEveryColour) {
   TextureRunOptions options;
-  options.stand_ins = stand_ins_of_suite(options.texture, memory_clocks(options));
+  options.stand_ins = stand_ins_of_suite(options.texture, memory_clocks(options), options.seed);
   const TextureScene scene(picture("tunnel", 32), {}, 1);
   Simulation simulation(options);
   TextureEnvironment environment(simulation, scene, options);
   simulation.elaborate(environment);
   simulation.run();
   environment.check();
+  expect_twins_of_suite(environment.unit());
   OutputHash hash;
   const TextureExpectation expected = expected_of(scene, options.texture);
   for (const spec::texture::Colour& colour : expected.colours) {

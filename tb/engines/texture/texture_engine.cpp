@@ -95,7 +95,7 @@ class TextureEngine final : public Engine {
     twin_units_ = twin_units(twins_.units);
     if (!twin_units_.empty()) {
       reject_views_inside(set);
-      stand_ins();
+      stand_ins(0);  // rejects what the build does not have
     }
     if (foreign()) reject_unused_scene(set);
     lists_ = lists_of(scene_);
@@ -117,7 +117,7 @@ class TextureEngine final : public Engine {
     const std::shared_ptr<const TextureScene> shared = load(run, context);
     const TextureScene& scene = *shared;
     TextureSetup setup{texture_, memory_};
-    setup.stand_ins = stand_ins();
+    setup.stand_ins = stand_ins(run.seed);
     if (foreign())
       setup.foreign = fragments_of_file(scene);
     else
@@ -208,9 +208,9 @@ class TextureEngine final : public Engine {
 
   bool foreign() const { return !trace_in_.file.empty(); }
 
-  rtl::texture::TextureUnit::StandIns stand_ins() const {
-    return texture_twins(twin_units_,
-                         as_built(texture_, memory_clocks(memory_, texture_.cache_line_bytes)));
+  rtl::texture::TextureUnit::StandIns stand_ins(std::uint64_t seed) const {
+    return texture_twins(
+        twin_units_, as_built(texture_, memory_clocks(memory_, texture_.cache_line_bytes)), seed);
   }
 
   std::vector<std::filesystem::path> with_trace(std::vector<std::filesystem::path> files) const {

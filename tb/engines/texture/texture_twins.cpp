@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "rtl_model/fabric/unit.h"
 #include "spec/check_build.h"
 #include "spec/error.h"
 
@@ -61,11 +62,12 @@ const TwinUnit& unit_named(std::string_view name) {
   return *found;
 }
 
-StandIns makers(std::vector<const TextureTwin*> chosen) {
+StandIns makers(std::vector<const TextureTwin*> chosen, std::uint64_t seed) {
   if (chosen.empty()) return {};
-  return [chosen = std::move(chosen)](rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe) {
+  return [chosen = std::move(chosen), seed](rtl::texture::TextureUnit& unit,
+                                            rtl::LatencyProbe& probe) {
     std::vector<std::unique_ptr<sc_core::sc_module>> made;
-    for (const TextureTwin* twin : chosen) made.push_back(twin->make(unit, probe));
+    for (const TextureTwin* twin : chosen) made.push_back(twin->make(unit, probe, seed));
     return made;
   };
 }
@@ -96,7 +98,7 @@ std::vector<std::string> twin_units(const std::string& text) {
 }
 
 StandIns texture_twins(const std::vector<std::string>& units,
-                       const spec::texture::Parameters& as_built) {
+                       const spec::texture::Parameters& as_built, std::uint64_t seed) {
   std::vector<const TextureTwin*> chosen;
   for (const std::string& name : units) {
     const TwinUnit& unit = unit_named(name);
@@ -113,14 +115,27 @@ StandIns texture_twins(const std::vector<std::string>& units,
     }
     chosen.push_back(twin);
   }
-  return makers(std::move(chosen));
+  return makers(std::move(chosen), seed);
 }
 
-StandIns texture_twins_there_are(const spec::texture::Parameters& as_built) {
+StandIns texture_twins_there_are(const spec::texture::Parameters& as_built, std::uint64_t seed) {
   std::vector<const TextureTwin*> chosen;
   for (const TwinUnit& unit : known_units())
     if (const TextureTwin* const twin = find(unit, as_built)) chosen.push_back(twin);
-  return makers(std::move(chosen));
+  return makers(std::move(chosen), seed);
+}
+
+std::vector<std::string> idle_twins(const rtl::texture::TextureUnit& unit) {
+  std::vector<std::string> idle;
+  for (const TwinUnit& known : known_units()) {
+    std::uint64_t busy = 0;
+    for (const sc_core::sc_object* const below : unit.get_child_objects())
+      if (const auto* const twin = dynamic_cast<const rtl::Unit*>(below);
+          twin && twin->basename() == fmt::format("{}_hdl", known.name))
+        busy += twin->busy_cycles();
+    if (busy == 0) idle.emplace_back(known.name);
+  }
+  return idle;
 }
 
 void reject_views_inside(const ParameterSet& set) {

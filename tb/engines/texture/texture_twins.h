@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -35,8 +36,10 @@ void describe(TwinParameters& p, Visitor& v) {
 struct TextureTwin {
   std::string unit;  // "address", "cache" or "filter"
   spec::texture::Parameters parameters;
-  // Makes it below the unit around it, in the place of the SystemC one.
-  std::function<std::unique_ptr<sc_core::sc_module>(rtl::texture::TextureUnit&, rtl::LatencyProbe&)>
+  // Makes it below the unit around it, in the place of the SystemC one. The seed is that of what
+  // its registers hold before their reset and of what empty links show it.
+  std::function<std::unique_ptr<sc_core::sc_module>(rtl::texture::TextureUnit&, rtl::LatencyProbe&,
+                                                    std::uint64_t seed)>
       make;
 };
 void add_texture_twin(TextureTwin twin);
@@ -47,10 +50,13 @@ std::vector<std::string> twin_units(const std::string& text);
 // Models of these units with parameters as built, the depth of the FIFO among them. ConfigError if
 // there is none of a unit; it says which there are.
 rtl::texture::TextureUnit::StandIns texture_twins(const std::vector<std::string>& units,
-                                                  const spec::texture::Parameters& as_built);
+                                                  const spec::texture::Parameters& as_built,
+                                                  std::uint64_t seed);
 // Those of all units of which there is one, for suites that run with many configurations.
 rtl::texture::TextureUnit::StandIns texture_twins_there_are(
-    const spec::texture::Parameters& as_built);
+    const spec::texture::Parameters& as_built, std::uint64_t seed);
+// The units of which none below `unit` has moved a beat since reset.
+std::vector<std::string> idle_twins(const rtl::texture::TextureUnit& unit);
 
 // ConfigError for what looks inside of units, beside twins.
 void reject_views_inside(const ParameterSet& set);

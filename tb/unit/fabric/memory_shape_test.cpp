@@ -1039,6 +1039,11 @@ TEST(MemoryCost, NewWordsOfSramAreABypass) {
   const MemoryShape flops{
       .words = 64, .word_bits = 8, .kind = MemoryKind::kFlops, .register_bits = 5};
   EXPECT_EQ(bits(flops, ReadDuringWrite::kNewWord), 5U) << "a choice before the register";
+  MemoryShape fresh = flops;
+  fresh.read_during_write = ReadDuringWrite::kNewWord;
+  EXPECT_EQ(MemoryBase("memory", fresh).built_as(), "flip-flops, new word");
+  fresh.read_during_write = ReadDuringWrite::kOldWord;
+  EXPECT_EQ(MemoryBase("memory", fresh).built_as(), "flip-flops");
 }
 
 TEST(Memory, SramForbidsWhatItsShapeDoesNotSay) {

@@ -16,7 +16,7 @@ LINK = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)")
 HEADING = re.compile(r"#+\s+(.*)")
 PLACEHOLDER = re.compile(r"@[A-Z_]{3,}@")
 CODE = re.compile(r"`([^`]+)`")
-FOLDERS = ("cmake", "docs", "examples", "golden", "python", "rtl_model", "scripts", "spec", "tb")
+FOLDERS = ("cmake", "docs", "examples", "golden", "hdl", "python", "rtl_model", "scripts", "spec", "tb")
 PATH = re.compile(rf"(?<![\w./-])((?:{'|'.join(FOLDERS)})/[\w./-]*\w/?|(?:\w+/)+\w+\.(?:h|cpp|py|md))(?![\w/{{])")
 # Qualified names, and single ones that can be no other word: CamelCase, kCamelCase.
 NAME = re.compile(r"(?<![\w:])(?:[A-Za-z_]\w*::)+\w+|\b[A-Z][a-z]+[A-Z]\w*|\bk[A-Z]\w+")
@@ -91,7 +91,7 @@ def script_problems(tree, root):
 def comment_problems(root):
     """Pages and headings that comments of sources name."""
     known = {page.relative_to(root).as_posix(): anchors(page) for page in (root / "docs").rglob("*.md")}
-    sources = sorted(path for folder in (*FOLDERS, "hdl") for path in (root / folder).rglob("*")
+    sources = sorted(path for folder in FOLDERS for path in (root / folder).rglob("*")
                      if path.suffix in (*SOURCES, ".sv") and path.is_file())
     for source in sources:
         text = source.read_text(encoding="utf-8")
@@ -153,7 +153,7 @@ def planted_faults_are_caught():
             "## A `heading`\n@TABLE@\n"
             "`spec/engine/packets.h` `engine/packets.h` `spec/` `spec/NAME/` `a / b` `out/x.json`\n"
             "`spec::engine::PixelBeat` `PixelBeat::count` `kLanes` `std::array` `Plain` `[](int)`\n"
-            "`spec/packets.h` `spec::PixelBeat` `engine/none.h` `PixelBeat::none` `EdgeBeat` `kNone`\n"
+            "`spec/packets.h` `spec::PixelBeat` `engine/none.h` `hdl/none.sv` `PixelBeat::none` `EdgeBeat` `kNone`\n"
             "```\nscripts/none --count 3\n```\n", encoding="utf-8")
         (root / "docs/orphan.md").write_text("alone\n", encoding="utf-8")
         (root / "scripts/test").write_text("# spec/engine/packets.h spec/none.h\n", encoding="utf-8")
@@ -161,7 +161,7 @@ def planted_faults_are_caught():
             "// docs/a.md, \"A\n// heading\"; docs/a.md. (docs/gone.md)\n"
             "namespace deburr::spec::engine {\nstruct PixelBeat {\n  std::array<int, kLanes> count;\n};\n}\n"
             "// docs/a.md, \"None\"; docs/a.md (\"No\")\nconst auto page = \"docs/away.md\";\n", encoding="utf-8")
-        return len(list(problems(root))) == 16
+        return len(list(problems(root))) == 17
 
 
 def main():

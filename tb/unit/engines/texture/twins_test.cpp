@@ -35,9 +35,9 @@ TEST(TextureTwins, RejectUnknownUnits) {
 }
 
 TEST(TextureTwins, AreNotThereWhereTheProgramHasNone) {
-  EXPECT_FALSE(texture_twins({}, {}));
-  EXPECT_FALSE(texture_twins_there_are({}));
-  EXPECT_THROW(texture_twins({"cache"}, {}), spec::ConfigError);
+  EXPECT_FALSE(texture_twins({}, {}, 1));
+  EXPECT_FALSE(texture_twins_there_are({}, 1));
+  EXPECT_THROW(texture_twins({"cache"}, {}, 1), spec::ConfigError);
 }
 
 }  // namespace

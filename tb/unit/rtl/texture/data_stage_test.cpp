@@ -227,6 +227,38 @@ TEST_P(DataStageClocks, FillsBeginInTheClockOfTheLastPass) {
   const auto& [misses_first, c] = GetParam();
   EXPECT_EQ(clocks_of(request_of(c.hits, c.passes, c.lines, misses_first)), c.expected);
 }
+// Behind texels that wait it takes neither a pass nor a fill, and as many clocks as ever from the
+// one in which they move on.
+TEST_P(DataStageClocks, BeginWhenTheTexelsBeforeMoveOn) {
+  const auto& [misses_first, c] = GetParam();
+  const CacheToken before = StageBench::hit({0, 4, 16, 20});
+  StageBench b(before);
+  const std::array<std::uint8_t, 64> line{};
+  for (std::uint8_t i = 0; i < c.lines; ++i) {
+    b.fills.fill(b.clock.cycle(), b.fills.reserve(b.clock.cycle()), 0, line, true);
+    b.clock.run(1);
+  }
+  for (int i = 0; i < 2; ++i) {
+    b.requests.push(b.clock.cycle(), before);
+    b.clock.run(1);
+  }
+  b.requests.push(b.clock.cycle(), request_of(c.hits, c.passes, c.lines, misses_first));
+  b.clock.run(20);
+  ASSERT_EQ(b.texels.occupancy(), 2u);
+  ASSERT_EQ(b.requests.occupancy(), 1u);
+  EXPECT_EQ(b.stage.stalls()[3].cycles, 0u) << "passes while texels wait";
+  EXPECT_EQ(b.line_used.high_clocks(b.clock.cycle()), 0u) << "fills while texels wait";
+  const Cycle from = b.clock.cycle();
+  Cycle popped = 0;
+  for (int texels = 0; texels < 4 && b.clock.cycle() < from + 40; b.clock.run(1)) {
+    popped = b.clock.cycle();
+    if (!b.texels.can_pop(popped)) continue;
+    b.texels.pop(popped);
+    ++texels;
+  }
+  // A place of the link is free a clock after the pop; its last clock, the push, the pop.
+  EXPECT_EQ(popped - from, c.expected.taken + 2);
+}
 INSTANTIATE_TEST_SUITE_P(TextureRtl, DataStageClocks,
                          testing::Combine(testing::Bool(),
                                           testing::Values(PassesAndFills{4, 1, 0, {1, 0, 0, 0}},
