@@ -139,6 +139,7 @@ TEST(EdgeDetectorBlock, DepthAndPredicatedSources) {
 TEST(EdgeDetectorBlock, ColourComparesEachCode) {
   Parameters p = preset(spec::morphological::Preset::kDeburr);
   p.local_contrast = spec::morphological::LocalContrast::kOff;
+  p.threshold = 13 << 16;
   Front front(p);
   Frame steps(8, 1);
   steps.pixel = {{100, 50, 80, 0}, {113, 50, 80, 0}, {113, 50, 67, 0}, {113, 50, 67, 9},
