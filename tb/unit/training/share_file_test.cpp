@@ -64,7 +64,7 @@ TEST(ShareFile, EntriesAreInTheOrderOfTheRegisters) {
 
 TEST(ShareFile, LinesMayEndAndCommentsStandAnywhere) {
   const std::string text = share_file_text(counted(), {});
-  EXPECT_EQ(complaint(replaced(text, "near 640\n", "near 640   # so many\r\n\n  # nothing\n")),
+  EXPECT_EQ(complaint(replaced(text, "near 640\n", "near 640\r\n\n  # nothing\n# more\r\n")),
             "taken");
   EXPECT_EQ(complaint(text.substr(0, text.size() - 1)), "taken");
 }
