@@ -292,7 +292,7 @@ TEST(TwinAddressUnitFaults, APitchThatIsNotRoundedUp) {
   EXPECT_GE(compare<VAddressUnevenPitch>(hdl::kVAddressUnevenPitch, 20'000, 300).golden_differ, 1u);
 }
 // A request of the work that was broken off comes after the reset.
-TEST(TwinAddressUnitFaults, AResetThatLeavesAFragmentBehind) {
+TEST(TwinAddressUnitFaults, AResetThatLeavesAFragment) {
   const Result r = compare<VAddressNotEmptied>(hdl::kVAddressNotEmptied, 20'000, 300);
   EXPECT_GE(r.golden_differ, 1u);
   EXPECT_GE(r.clocks_differ, 1u);
