@@ -67,9 +67,10 @@ std::uint64_t hash_of(const TruthFrame& frame) {
 
 std::string recipe_text(const Recipe& recipe, const FrameOptions& options,
                         const std::vector<HashedFrame>& frames) {
-  std::string text =
-      fmt::format("trainer {}\n{}\nedges from {} codes on\nframes samples={} size={}\n",
-                  kTrainerVersion, recipe.text(), least_step(), options.samples, options.size);
+  std::string text = fmt::format(
+      "# SPDX-License-Identifier: MIT\ntrainer {}\n{}\nedges from {} codes on\nframes samples={} "
+      "size={}\n",
+      kTrainerVersion, recipe.text(), least_step(), options.samples, options.size);
   for (const auto& [name, hash] : frames) text += fmt::format("{}{} {:016x}\n", kFrame, name, hash);
   return text;
 }
