@@ -60,8 +60,8 @@ inline constexpr std::array<BuildRule<Parameters>, 10> kBuildRules = {{
      [](const Parameters& p) { return p.border != Border::kClamp || p.ends == Ends::kCrossings; },
      [](const Parameters&) -> std::string { return "use border = end, or ends = crossings"; }},
     {{"border", "area"},
-     "must be end with area = analytic or learned, which know no limit where a search beyond the "
-     "border would end",
+     "must be end with area = analytic or learned, which have no limit at which a "
+     "search beyond the border would end",
      [](const Parameters& p) {
        return p.border != Border::kClamp ||
               (p.area != AreaSource::kAnalytic && p.area != AreaSource::kLearned);

@@ -220,7 +220,7 @@ void describe(Rules& p, Visitor& v) {
   v.choice(
       "border", p.border, kBorderNames,
       "Edges beyond the frame's border: end: none, so that runs end there. clamp: those of the "
-      "nearest pixel, as SMAA's samplers see them; with ends = crossings and a table.");
+      "nearest pixel, as SMAA's samplers give them; with ends = crossings and a table.");
   v.choice("predictor", p.predictor, kPredictorNames,
            "Line through a run: its own ends, the chord of the extended ends (paper 000), or the "
            "least-squares line through all visited corners.");

@@ -198,6 +198,10 @@ std::vector<SmaaCase> smaa_cases() {
     spec::morphological::Parameters p = quality(Preset::kSmaa, q);
     p.local_contrast = spec::morphological::LocalContrast::kOff;
     add_case(q == Quality::kLow ? "low" : "ultra", p);
+    if (q == Quality::kLow) continue;
+    // Runs that end at the border have ends without crossings at every distance.
+    p.border = spec::morphological::Border::kEnd;
+    add_case("ultra, ending at the border", p);
   }
   for (const auto luma :
        {DynamicLuma::kCurrent, DynamicLuma::kMax, DynamicLuma::kMin, DynamicLuma::kMean}) {
