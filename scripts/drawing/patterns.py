@@ -201,9 +201,9 @@ def crossing_codes(facts):
 def far_bits(facts):
     page = "docs/reference/morphological/smaa.md"
     above, below = (int(n) for n in facts.find(
-        page, r"bit 0 = left\(X, y - (\d)\) \(first side\), bit 1 = left\(X,\s+y \+ (\d)\) \(second side\)").groups())
+        page, r"bit 0 = left\(X, y - (\d)\) \(first side\), bit 1 = left\(X,\s+y \+ (\d)\)\s+\(second side\)").groups())
     facts.find(page, r"`far` = bits\s+of the start \+ 4 x bits of the end")
-    facts.find(page, r"near the start if 2k < L - 1, near the end if 2k > L - 1, else in the middle")
+    facts.find(page, r"near the start if l < r, near the end if l > r, else in the middle")
     facts.find(page, r"f = 512 - G x \(2s near the start, 2e near the end, s \+ e in the middle\)")
     stays = int(facts.find(page, r"`corner_rounding` \| 0\.\.256, 1/256 \| (\d+) \|")[1])
 
@@ -228,8 +228,8 @@ def far_bits(facts):
 
     x, y, length = 300, 96, 8
     picture.text(12, 40, "far bits", "strong")
-    picture.lines(12, 60, ("Edges that make a corner sharp:", "each the second pixel of a", "crossing. Outside the frame",
-                           "they are 0, of a head at its", "end and of a tail at its start."), "small")
+    picture.lines(12, 60, ("Edges that make a corner sharp:", "each the second pixel of a", "crossing. Outside the frame", "they are as `border` says; 0",
+                           "of a head at its end, of a", "tail at its start."), "small")
     grid(x, y, length)
     for bit in range(4):
         at = x + (length * cell if bit & 2 else 0)

@@ -28,7 +28,7 @@ RandomDraws morphological_draws() {
                {"morphological.line_pixels", evenly<96, 1100>},
                {"morphological.memory.outstanding", magnitude<4, 256>}};
   // Files; and a truth and frames behind each other, which are nothing of the hardware.
-  all.fixed = {"frame.depth",         "frame.truth",     "frame.mask",
+  all.fixed = {"frame.depth",         "frame.truth",     "frame.mask",     "frame.shares",
                "frame.truth_samples", "sequence.frames", "sequence.motion"};
   all.given = {{"frame.truth_samples", "0"}};
   all.wanted = {traces_something};

@@ -81,6 +81,7 @@ NAMED = {
             "tb/training/share_trainer.cpp", "tb/training/share_trainer.h", "tb/training/title_shares.cpp",
             "tb/training/title_shares.h", "tb/training/train_shares.cpp", "tb/unit/training/recipe_test.cpp",
             "tb/unit/training/share_file_test.cpp", "tb/unit/training/share_trainer_test.cpp"],
+        "values of its tables that its contract takes from doubles": ["tb/unit/house/layers_test.py"],
         "an example of an engine, in tests of what every engine has": [
             "tb/negative/app_bad_input_test.py", "tb/negative/app_faults_test.py", "tb/negative/app_images_test.py",
             "tb/negative/app_regress_test.py", "tb/negative/app_sweep_test.py", "tb/negative/app_traces_test.py", "tb/negative/app_train_test.py",
