@@ -150,7 +150,8 @@ Datasheet AxisUnit::datasheet(const spec::texture::Parameters& p) {
   if (exact) {
     sheet.stages.insert(
         sheet.stages.end(),
-        {{"3", "squares of each candidate", "31-bit squarer"},
+        {{"3", "squares of each candidate",
+          "31-bit squarer: 1.29 of the multiply, as the FootprintUnit's"},
          {"4", "their sums", "62-bit addition"},
          {"5", "the longest of four", "two comparisons of 63 bits with a choice"},
          {"6", "of those and of the clocks before", "two comparisons of 63 bits with a choice"},
@@ -167,7 +168,8 @@ Datasheet AxisUnit::datasheet(const spec::texture::Parameters& p) {
          {"5", "the longest of four", "two comparisons of 32 bits with a choice"},
          {"6", "of those and of the clocks before", "two comparisons of 32 bits with a choice"},
          {"7", "the same multiples of the coordinate differences, those of the direction found"},
-         {"8", "their sum, rounded", "two 41-bit additions"}});
+         {"8", "their sum, rounded",
+          "two 41-bit additions and the rounding: 1.46 of the multiply"}});
   }
   sheet.formats =
       "U15.16 with the signs of the differences in; U16.16, U31.16 and S9.24 out; "

@@ -40,7 +40,6 @@ def seen(tool, root, headers, module, folder):
         return None
     command = list(map(str, commands(tool, root, headers, module)))
     if tool == "verilator":
-        command[command.index("--lint-only"):][:1] = []
         command = [command[0], "--xml-only", "--Mdir", folder, "-Wno-fatal", *command[2:]]
         subprocess.run(command, capture_output=True, check=True)
         text = (pathlib.Path(folder) / f"V{module}.xml").read_text(encoding="utf-8")

@@ -23,8 +23,9 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 
 HEADERS = """#!/bin/sh
 mkdir -p "$1"
-word=${2:-ways=3}
-printf '`define CHOSEN_WAYS %s\\n' "${word#ways=}" >"$1/tokens.svh"
+ways=3
+for word in "$@"; do case "$word" in ways=*) ways=${word#ways=} ;; esac; done
+printf '`define CHOSEN_WAYS %s\\n' "$ways" >"$1/tokens.svh"
 """
 # 8 flip-flops that count, a memory of 16 x 4 bits.
 SMALL = """`include "tokens.svh"
@@ -48,6 +49,10 @@ SLOW = """module slow (input logic clk, input logic [255:0] a, output logic [511
   always_ff @(posedge clk) p <= a * {a[127:0], a[255:128]};
 endmodule
 """
+CONFIGURATIONS = """VBoth both ways=3  # twice the cell
+VSmall small
+VPaper small axes=two footprint=half log2=mitchell count=floor
+"""
 
 
 class Synthesise(unittest.TestCase):
@@ -56,7 +61,7 @@ class Synthesise(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory(prefix="deburr_synthesise_")
         cls.root = pathlib.Path(cls.folder.name)
         for name, text in {"hdl/texture/small.sv": SMALL, "hdl/texture/both.sv": BOTH, "hdl/texture/slow.sv": SLOW,
-                           "headers": HEADERS, "configurations": "VBoth both ways=3  # twice the cell\nVSmall small\n"}.items():
+                           "headers": HEADERS, "configurations": CONFIGURATIONS}.items():
             cls.write(name, text)
         (cls.root / "headers").chmod(0o755)
         cls.write("hdl/fabric/sram_1r1w.sv", (SOURCE / "hdl/fabric/sram_1r1w.sv").read_text(encoding="utf-8"))
@@ -157,6 +162,10 @@ class Synthesise(unittest.TestCase):
                 ("headers", "CHOSEN_WAYS %s", "CHOSEN_WAYS 1%s", "VBoth: its sources have changed"),
                 ("configurations", "ways=3", "ways=4", "VBoth: its settings have changed"),
                 ("configurations", "VBoth", "VOther", "VOther is not in it\nVBoth is no configuration any more"),
+                ("configurations", "axes=two footprint=half", "footprint=half axes=two",
+                 "no configuration of paper: axes=two footprint=half log2=mitchell count=floor"),
+                ("configurations", "VSmall small", "VSmall small ways=3",
+                 "no configuration of deburr: none without settings"),
                 ("out/cost.md", "| `small` | `ways=3` | ", "| `small` | `ways=3` | 1", "cost.md is not what cost.json says"),
                 ("out/cost.json", '"flow": "', '"flow": "0', "mapped in another way")):
             with self.subTest(said=said, name=name):
