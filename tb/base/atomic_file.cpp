@@ -92,6 +92,20 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
+std::unique_ptr<TemporaryFile> written(const fs::path& path, std::string_view bytes) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw spec::FileError(
+        fmt::format("cannot write '{}': it exists and is not a regular file; give another name",
+                    path.string()));
+  }
+  auto file = std::make_unique<TemporaryFile>(path);
+  file->write(bytes);
+  file->finish(bytes.size());
+  return file;
+}
+
 }  // namespace
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
@@ -100,19 +114,10 @@ void write_file_atomically(const fs::path& path, std::string_view bytes) {
 
 void write_files_atomically(std::initializer_list<FileContent> contents) {
   std::vector<std::unique_ptr<TemporaryFile>> files;
-  for (const auto& [path, bytes] : contents) {
-    std::error_code ignored;
-    const fs::file_status status = fs::status(path, ignored);
-    if (fs::exists(status) && !fs::is_regular_file(status)) {
-      throw spec::FileError(
-          fmt::format("cannot write '{}': it exists and is not a regular file; give another name",
-                      path.string()));
-    }
-    files.push_back(std::make_unique<TemporaryFile>(path));
-    files.back()->write(bytes);
-    files.back()->finish(bytes.size());
-  }
+  for (const auto& [path, bytes] : contents) files.push_back(written(path, bytes));
   for (const auto& file : files) file->rename();
 }
+
+void try_to_write(const fs::path& path, std::string_view bytes) { written(path, bytes); }
 
 }  // namespace deburr::tb

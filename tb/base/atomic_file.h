@@ -20,4 +20,8 @@ struct FileContent {
 // The same for files that belong together: none is replaced before all have been written.
 void write_files_atomically(std::initializer_list<FileContent> contents);
 
+// All but the renaming, before work that takes long: throws what a write would throw now, and
+// leaves nothing.
+void try_to_write(const std::filesystem::path& path, std::string_view bytes);
+
 }  // namespace deburr::tb

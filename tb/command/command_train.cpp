@@ -62,7 +62,8 @@ std::vector<TitlePair> read_pairs(const TrainOptions& options, bool quiet) {
   return pairs;
 }
 
-// Before the work: what cannot be written is an error now.
+// Before the work: what cannot be written, for a disk that is full or a folder that is closed, too,
+// is an error now.
 void check_output(const TrainOptions& options) {
   const std::filesystem::path out = options.out;
   for (const std::string& text : {options.in, options.truth})
@@ -75,13 +76,15 @@ void check_output(const TrainOptions& options) {
         fmt::format("cannot write '{}': there is no folder '{}'", options.out, folder.string()));
   if (is_folder(out))
     throw spec::FileError(fmt::format("cannot write '{}': it is a folder", options.out));
-  if (!is_there(out)) return;
-  try {
-    training::read_share_file(out);
-  } catch (const spec::FileError&) {
-    throw spec::ConfigError(fmt::format(
-        "'{}' stands there and holds no shares: remove it, or give another --out", options.out));
+  if (is_there(out)) {
+    try {
+      training::read_share_file(out);
+    } catch (const spec::FileError&) {
+      throw spec::ConfigError(fmt::format(
+          "'{}' stands there and holds no shares: remove it, or give another --out", options.out));
+    }
   }
+  try_to_write(out, training::share_file_text({}, {}));
 }
 
 std::string row(const KeptBack& k) {
@@ -116,12 +119,17 @@ Outcome train(const TrainOptions& options, const CommandLine& line) {
   catch_interrupts();
   const auto begun = std::chrono::steady_clock::now();
   TitleShares shares;
+  const auto ask = [] {
+    if (interrupted()) throw Interrupted();
+  };
   try {
     Progress progress("training", static_cast<std::uint64_t>(options.batches), "batch", quiet);
-    shares = training::train_title(pairs, {options.batches, options.seed, [&](int done) {
-                                             if (interrupted()) throw Interrupted();
-                                             progress.update(static_cast<std::uint64_t>(done));
-                                           }});
+    const auto batch_done = [&](int done) {
+      ask();
+      progress.update(static_cast<std::uint64_t>(done));
+    };
+    shares = training::train_title(pairs, {options.batches, options.seed, batch_done, ask});
+    ask();
   } catch (const Interrupted&) {
     return {kInterruptedExit, "INTERRUPTED train: no shares were written"};
   }

@@ -4,9 +4,11 @@
 nothing is written then. See --help of unittest."""
 import json
 import os
+import resource
 import shutil
 import signal
 import subprocess
+import time
 import unittest
 
 from app_support import DEBURR, CommandTest, png
@@ -93,6 +95,39 @@ class Trains(Base):
         self.assertIn("RESULT: INTERRUPTED train: no shares were written", out)
         self.nothing_written()
 
+    def checkers(self, name, side, codes):
+        """Cells of 5 x 3 pixels, dark and bright."""
+        rows = [b"".join(bytes([code]) * 15 for code in (codes if even else codes[::-1])) * (side // 10 + 1)
+                for even in (True, False)]
+        picture = b"".join(rows[y // 3 % 2][:3 * side] for y in range(side))
+        return self.write(name, b"P6 %d %d 255\n" % (side, side) + picture)
+
+    def test_an_interrupt_after_the_last_batch_does_too(self):
+        """One batch of a small picture, then the large one that is kept back is measured, for seconds."""
+        pairs = [";".join(self.checkers(f"{what}{side}.ppm", side, codes) for side in (64, 1536))
+                 for what, codes in (("plain", (20, 230)), ("smooth", (30, 220)))]
+        process = subprocess.Popen([DEBURR, "train", "--in", pairs[0], "--truth", pairs[1], "--out",
+                                    self.path("title.shares"), "--batches", "1"], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        self.wait_until_caught(process)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130, out + err)
+        self.assertIn("RESULT: INTERRUPTED train: no shares were written", out)
+        self.assertNotIn("kept back: ", out)
+        self.nothing_written()
+
+    def wait_until_caught(self, process):
+        """Until it has taken over SIGINT."""
+        while process.poll() is None:
+            with open(f"/proc/{process.pid}/status") as status:
+                caught = next(line for line in status if line.startswith("SigCgt:"))
+            if int(caught.split()[1], 16) >> (signal.SIGINT - 1) & 1:
+                return
+            time.sleep(0.01)
+        self.fail(process.communicate())
+
 
 class Rejects(Base):
     """Bad input."""
@@ -128,6 +163,25 @@ class Rejects(Base):
             self.assertEqual(file.read(), "a letter\n")
         self.train(5, self.frame, self.truth, out="nowhere/x", says="there is no folder")
         self.train(5, self.frame, self.truth, out="tunnel", says="it is a folder")
+
+    def test_where_nothing_can_be_written_it_says_so_before_the_work(self):
+        done = self.expect(5, "train", "--in", self.frame, "--truth", self.truth, "--out", "/proc/title.shares",
+                           says="cannot create a file in the folder of '/proc/title.shares'")
+        self.assertNotIn("kept back: ", done.stdout)
+
+    def test_a_full_disk_leaves_the_file_of_before(self):
+        self.rendered("gains", "--scene", "tunnel", size="384x288")
+        self.train(0, self.path("gains/before.png"), self.path("gains/truth.png"), "--batches", "200")
+        with open(self.path("title.shares")) as file:
+            before = file.read()
+        for size in (0, 1000, 4096):
+            done = self.expect(5, "train", "--in", self.frame, "--truth", self.truth, "--out", self.path("title.shares"),
+                               says="File too large",
+                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+            self.assertNotIn("kept back: ", done.stdout)
+            with open(self.path("title.shares")) as file:
+                self.assertEqual(file.read(), before)
+        self.assertEqual([name for name in os.listdir(self.directory) if name.endswith(".tmp")], [])
 
     def test_a_run_of_a_file_that_holds_no_shares(self):
         run = ("run", "morphological", "--in", self.frame, "--out", self.path("out"))

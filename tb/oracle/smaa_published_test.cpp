@@ -291,6 +291,7 @@ TEST(PublishedSmaa, HasTheseWeights) {
     // Only bytes and diagonals differ. Where two diagonals cross, what they differ by adds up.
     EXPECT_EQ(preset.over_3, preset.sums_over_3);
     EXPECT_LE(preset.largest, 2 * 2.7);
+    EXPECT_LE(preset.over_3, 1);
     EXPECT_EQ(both_end.over_3, 0);
     EXPECT_EQ(published.over_1, 0) << "nothing differs but by rounding";
     EXPECT_GT(ends.over_3, 0) << "the border is seen";

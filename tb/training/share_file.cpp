@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
-#include <optional>
 
 #include "spec/error.h"
 #include "tb/base/file.h"

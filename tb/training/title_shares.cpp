@@ -98,7 +98,11 @@ TitleShares train_title(const std::vector<TitlePair>& pairs, const TitleOptions&
   const Split split = split_of(pairs);
   TitleShares result;
   std::vector<std::vector<ShareSample>> samples;
+  const auto before_picture = [&] {
+    if (options.before_picture) options.before_picture();
+  };
   for (const TitlePair& pair : split.trained_on) {
+    before_picture();
     samples.push_back(samples_of({pair.name, pair.name, pair.frame, pair.truth, {}}));
     if (samples.back().empty())
       throw spec::ConfigError(
@@ -111,6 +115,7 @@ TitleShares train_title(const std::vector<TitlePair>& pairs, const TitleOptions&
   recipe.seed = options.seed;
   result.tables = train(samples, recipe, ShareTables(), options.batch_done);
   for (const TitlePair& pair : split.kept_back) {
+    before_picture();
     result.kept_back.push_back(measured(pair, result.tables));
     const KeptBack& last = result.kept_back.back();
     result.gain += last.trained - last.shipped;

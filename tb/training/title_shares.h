@@ -21,7 +21,9 @@ struct TitlePair {
 struct TitleOptions {
   int batches = 600;
   std::uint64_t seed = 1;
-  std::function<void(int)> batch_done = nullptr;  // may throw: then nothing was trained
+  // Both may throw: then nothing was trained.
+  std::function<void(int)> batch_done = nullptr;
+  std::function<void()> before_picture = nullptr;  // is sampled or measured
 };
 
 // PSNR in dB of a kept-back picture, over the edges (docs/reference/scenes.md) and over all of it.

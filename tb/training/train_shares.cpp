@@ -316,7 +316,7 @@ int run(int argc, char** argv) {
     by_fold.push_back(trained(those, samples, recipe));
   }
   report(
-      fmt::format("The same frames, by tables trained without their meshes ({} folds)", folds), all,
+      fmt::format("The same frames, by tables trained without their groups ({} folds)", folds), all,
       [&](const TruthFrame& frame) -> const ShareTables& {
         return by_fold[static_cast<std::size_t>(fold_of(frame))];
       },

@@ -24,7 +24,7 @@ void for_each_lane(std::uint8_t lanes, Visit&& visit) {
 // By the geometric engine.
 bool is_marked(const spec::morphological::Rgba8& pixel) { return (pixel[3] & 1) == 0; }
 
-// More than those of shares as they come: of shares as they are blended, U1.12.
+// More than those of shares as they come: of shares as they are blended, U0.12.
 constexpr int kMoreBits = 4;
 constexpr int kBlendBits = 8 + kMoreBits;
 // R(s), U1.20: what squares are multiplied by to be shares of s again.
@@ -297,7 +297,7 @@ Datasheet Blender::datasheet() {
                      {"4", "products, their sum", "13 x 13 multiply"},
                      {"5", "rounding, new value, address of encode_rom"},
                      {"6", "codes", "ROM read"}},
-          .formats = "shares U0.8, as they are blended U1.12; linear light U0.12.",
+          .formats = "shares U0.8, as they are blended U0.12; linear light U0.12.",
           .cost =
               "a lane: nine reads of linear_rom, 256 x 12 bits (three a channel, after the "
               "choice of the axis), three of encode_rom, 4096 x 8 bits (two reads a copy), two "

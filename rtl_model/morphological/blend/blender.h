@@ -54,7 +54,7 @@ class Blender final : public Unit {
   struct Operands {
     std::array<spec::morphological::Rgba8, 3> code;     // centre, first, second
     std::array<std::int32_t, 3> centre, first, second;  // differences to centre; S13
-    std::array<std::uint16_t, 2> share;                 // U1.12, first, second
+    std::array<std::uint16_t, 2> share;                 // U0.12, first, second
     std::array<std::int32_t, 3> sum;                    // S25
     std::array<std::uint16_t, 3> value;                 // U0.12
   };

@@ -93,6 +93,16 @@ TEST(TitleShares, SayHowFarTheyAre) {
   EXPECT_THAT(told, ElementsAre(1, 2, 3, 4));
 }
 
+// So work that was given up ends there.
+TEST(TitleShares, AskBeforeEveryPicture) {
+  TitleOptions options = quick();
+  std::string order;
+  options.batch_done = [&](int) { order += 'b'; };
+  options.before_picture = [&] { order += 'p'; };
+  train_title({shapes(1), shapes(2), shapes(3), shapes(4)}, options);
+  EXPECT_EQ(order, "ppbbbbpp");
+}
+
 TEST(TitleShares, RejectWhatTeachesNothing) {
   EXPECT_THAT(complaint({}), HasSubstr("no pairs"));
   TitlePair wide = shapes(1);
