@@ -290,7 +290,7 @@ def floor():
 
 FIELDS = {"format": "rgba8", "layout": "tiled", "min_filter": "linear_mipmap_linear", "mag_filter": "linear",
           "max_count_log2": 4, "max_lod": 3072, "wrap_s": "repeat", "wrap_t": "mirrored_repeat"}
-PICTURE = 0xdc150633d8bdb080  # of examples/c/draw.c
+PICTURE = 0xc807d6205d1665b6  # of examples/c/draw.c
 
 
 class Texture(unittest.TestCase):

@@ -297,13 +297,14 @@ void RunExtractor::vertical_at(Find& find, std::int32_t x, bool starts) {
   std::int32_t length = 1;
   if (starts) {
     while (length <= reach_rows_ && goes_on(length, length)) ++length;
+    Corner start = corner(0);
+    start.endless = rules.clamp && row_ == 0;
     if (length > reach_rows_) {
       run.part = RunPart::kHead;
-      found(find, run, corner(0), {});
+      found(find, run, start, {});
     } else {
       run.length = u16(length);
-      Corner start = corner(0), end = corner(length);
-      start.endless = rules.clamp && row_ == 0;
+      Corner end = corner(length);
       start.beyond = window_.left(x, row_ - 1);
       end.beyond = window_.left(x, row_ + length);
       found(find, run, start, end);
