@@ -119,15 +119,14 @@ T push(rtl::Out<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, const 
 template <class Model, class From, class To>
 class VerilatedAt : public rtl::Unit {
  public:
-  // `seed`: of all noise. `from` and `to`: what of the payloads is built, as the links say it.
+  // `seed`: of all noise.
   VerilatedAt(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed,
-              rtl::In<From>& in, rtl::Out<To>& out, const rtl::PayloadShape& from = {},
-              const rtl::PayloadShape& to = {})
+              rtl::In<From>& in, rtl::Out<To>& out)
       : Unit(name, clock),
         in_(in),
         out_(out),
-        from_(rtl::Payload::of<From>(from)),
-        to_(rtl::Payload::of<To>(to)),
+        from_(rtl::Payload::of<From>()),
+        to_(rtl::Payload::of<To>()),
         noise_(seed, this->basename()),
         model_(made_with_noise<Model>(*context_, noise_)) {
     VerilatedAt::reset();

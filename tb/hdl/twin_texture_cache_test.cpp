@@ -146,7 +146,7 @@ struct Answers {
   std::uint32_t latency = 20, scatter = 0, outstanding = 1024, bytes_per_clock = 0;
 };
 struct Result {
-  std::uint64_t requests = 0, lines = 0, inside = 0, clocks = 0;
+  std::uint64_t requests = 0, lines = 0, clocks = 0;
   std::uint64_t memory_differs = 0;                      // texels that are not what memory holds
   std::uint64_t payloads_differ = 0, clocks_differ = 0;  // from the SystemC cache
   bool finished = true;

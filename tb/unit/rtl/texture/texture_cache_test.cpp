@@ -70,6 +70,35 @@ TEST(TextureRtlCache, HitIsNotReadyAClockEarlier) {
   EXPECT_TRUE(b.ends.out.can_pop(pushed + 1 + kHit));
 }
 
+// Missed lines that come while the output is held: one is written, and its request waits in
+// stage 2. The next one waits on the output register of the FillBuffer, so that requests leave a
+// clock after each other.
+TEST(TextureRtlCache, MissesWhileTheOutputIsHeld) {
+  CacheBench b;
+  std::vector<TexelToken> asked = {in_line(0)};
+  b.time_of(asked[0]);
+  const Cycle held_to = b.clock.cycle() + 120;
+  b.ends.sink.hold_to = held_to;
+  // Two hits fill the link, and a miss stage 2. The others come when nothing moves any more.
+  const auto add = [&](std::uint32_t line) {
+    asked.push_back(in_line(line));
+    b.ends.source.add(asked.back());
+  };
+  for (const std::uint32_t line : {0u, 0u, 1u}) add(line);
+  b.clock.run(60);
+  EXPECT_EQ(b.cache.data_stage.lines_written.value(), 2u);
+  for (const std::uint32_t line : {2u, 3u}) add(line);
+  b.clock.run_until([&] { return b.clock.cycle() >= held_to; }, 100);
+  EXPECT_EQ(b.cache.memory_port.bytes_read.value(), 4 * 64u);  // asked for long ago
+  EXPECT_EQ(b.cache.data_stage.lines_written.value(), 2u);
+  EXPECT_EQ(b.ends.sink.taken.size(), 1u);
+  b.clock.run(20);
+  b.check_data(asked);
+  std::vector<Cycle> clocks = clocks_of(b.ends.sink);
+  clocks.erase(clocks.begin());
+  EXPECT_THAT(clocks, ElementsAre(held_to, held_to + 1, held_to + 2, held_to + 3, held_to + 4));
+}
+
 // A line that is evicted before its own fill has arrived: the older request must still get it, and
 // the younger one gets the newer line.
 TEST(TextureRtlCache, EvictedBeforeItArrived) {
