@@ -145,18 +145,19 @@ void TagStage::reset() {
 }
 
 Datasheet TagStage::datasheet() {
-  return {.unit = "TagStage",
-          .does = "Looks up the lines of a request, allocates those that miss and orders them.",
-          .latency = {2},
-          .stages = {{"1", "distinct lines, read of their sets", "choice of 1 in 512 sets"},
-                     {"2", "up to four look-ups, allocation, misses to the queue",
-                      "comparison of a tag, then four choices of a way and, for a set that is read "
-                      "in the same clock, a choice of 1 in 5: 1.09 of the multiply with 128 sets of "
-                      "two ways (`lru`), 1.24 with 16 of four (`random`), 1.14 with one of eight "
-                      "(`fifo`)"}},
-          .cost =
-              "tags and order of use: sets x ways x (tag + 2) bits and ways x (ways - 1) / 2 a "
-              "set, 4 x ways comparators; six line comparators, registers of a request."};
+  return {
+      .unit = "TagStage",
+      .does = "Looks up the lines of a request, allocates those that miss and orders them.",
+      .latency = {2},
+      .stages = {{"1", "distinct lines, read of their sets", "choice of 1 in 512 sets"},
+                 {"2", "up to four look-ups, allocation, misses to the queue",
+                  "comparison of a tag, then four choices of a way and, for a set that is read "
+                  "in the same clock, a choice of 1 in 5: 1.09 of the multiply with 128 sets of "
+                  "two ways (`lru`), 1.24 with 16 of four (`random`), 1.14 with one of eight "
+                  "(`fifo`)"}},
+      .cost =
+          "tags and order of use: sets x ways x (tag + 2) bits and ways x (ways - 1) / 2 a "
+          "set, 4 x ways comparators; six line comparators, registers of a request."};
 }
 
 }  // namespace deburr::rtl::texture
