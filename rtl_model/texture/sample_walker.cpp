@@ -26,10 +26,10 @@ SampleWalker::SampleWalker(const sc_core::sc_module_name& name, ClockDomain& clo
       narrow_spread_(kernel == spec::texture::Kernel::kTent ? std::min(spread, kWholeAxis)
                                                             : spread) {
   if (count != spec::texture::CountRule::kAny) return;
-  constexpr std::size_t kMostSamples = spec::texture::kReciprocal.size() - 1;
+  constexpr std::size_t kLargestCount = spec::texture::kReciprocal.size() - 1;
   reciprocal_ =
       std::make_unique<Memory<std::uint32_t>>("reciprocal",
-                                              MemoryShape{.words = kMostSamples,
+                                              MemoryShape{.words = kLargestCount,
                                                           .word_bits = kReciprocalBits + 1,
                                                           .kind = MemoryKind::kRom,
                                                           .read_ports = 1,
