@@ -58,8 +58,8 @@ std::uint64_t dip_byte(int l, int r) {
     return off_centre > 0 ? 255 * off_centre / (2 * length) : 255 / (4 * length);
   const std::uint64_t straight = off_centre > 0 ? 8 * off_centre : 4;
   const std::uint64_t missing = kSmoothed - length;
-  const std::uint64_t round =
-      isqrt(255 * 255 * 64 * missing * missing * std::max<std::uint64_t>(off_centre, 1) / length);
+  const std::uint64_t round = isqrt(std::uint64_t{255} * 255 * 64 * missing * missing *
+                                    std::max<std::uint64_t>(off_centre, 1) / length);
   return (255 * straight + round) / 512;
 }
 

@@ -241,6 +241,7 @@ std::vector<ComparisonRow> compare_methods(const std::string& scene) {
     add(method.name, picture_of(method, checker.frame)).cost = cost_of(method, checker.frame);
   add("supersampled, 256 samples", checker.truth);
   std::vector<const Image*> tests;
+  tests.reserve(images.size());
   for (const Image& image : images) tests.push_back(&image);
   const std::vector<double> flips = flip(checker.truth, tests),
                             similar = ssim(checker.truth, tests);

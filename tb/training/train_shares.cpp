@@ -251,6 +251,7 @@ int run(int argc, char** argv) {
     return source.make();
   };
   std::vector<TruthFrame> training;
+  training.reserve(sources.size());
   for (const FrameSource& source : sources) training.push_back(made(source));
   for (int i = 0; i < overlays; ++i)
     training.push_back(overlaid(training[static_cast<std::size_t>(i) * 7 % sources.size()]).frame);
@@ -294,6 +295,7 @@ int run(int argc, char** argv) {
       [&](const TruthFrame&) -> const ShareTables& { return tables; }, brief);
   report_overlap(sources, held_out_sources);
   std::vector<TruthFrame> held_out;
+  held_out.reserve(held_out_sources.size());
   for (const FrameSource& source : held_out_sources) held_out.push_back(made(source));
   std::vector<const TruthFrame*> others;
   others.reserve(held_out.size());

@@ -318,7 +318,7 @@ std::vector<FrameSource> held_out_set(const FrameOptions& options) {
   if (options.data.empty()) return frames;
   const auto add_track = [&](const std::string& size, const char* truth, bool depth) {
     const auto file = [folder = options.data / "frames", size](const std::string& what) {
-      const std::filesystem::path path = folder / fmt::format("track_{}_{}.png", size, what);
+      std::filesystem::path path = folder / fmt::format("track_{}_{}.png", size, what);
       if (!std::filesystem::exists(path))
         throw spec::FileError(fmt::format(
             "there is no frame '{}': name a folder that has it by --data", path.string()));
