@@ -10,6 +10,7 @@
 
 #include "rtl_model/fabric/engine.h"
 #include "rtl_model/platform/register_host.h"
+#include "tb/base/sanitized.h"
 
 namespace deburr::tb {
 
@@ -21,5 +22,9 @@ std::vector<std::string> engine_state(const rtl::Engine& engine, platform::Regis
 // The lines that differ, "was" first; empty if nothing does.
 std::string state_difference(const std::vector<std::string>& was,
                              const std::vector<std::string>& is);
+
+// Resets are tried at every clock of a frame, and under sanitizers, which look for other faults and
+// are ten times slower, at every fifth.
+inline constexpr int kClocksApart = kSanitized ? 5 : 1;
 
 }  // namespace deburr::tb

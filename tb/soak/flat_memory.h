@@ -11,22 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "tb/base/sanitized.h"
+
 namespace deburr::tb {
 
 // AddressSanitizer has a heap of its own, and keeps what is freed for a while: leaks are its to
-// find. GCC and clang say in different ways that it is there.
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define DEBURR_HAS_ADDRESS_SANITIZER
-#endif
-#elif defined(__SANITIZE_ADDRESS__)
-#define DEBURR_HAS_ADDRESS_SANITIZER
-#endif
-#ifdef DEBURR_HAS_ADDRESS_SANITIZER
-inline constexpr bool kCheckMemory = false;
-#else
-inline constexpr bool kCheckMemory = true;
-#endif
+// find.
+inline constexpr bool kCheckMemory = !kSanitized;
 
 // Of the process: resident memory in bytes; 0 where it is gone.
 std::uint64_t resident_bytes(pid_t process);

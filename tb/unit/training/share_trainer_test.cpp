@@ -79,8 +79,10 @@ TEST(ShareTrainer, GivesTheTablesOfItsVersion) {
 TEST(ShareTrainer, BeginsWithTheTablesThatItIsGiven) {
   Recipe none = small_recipe();
   none.batches = 0;
-  EXPECT_TRUE(same(train(small_set(), none, ShareTables()), ShareTables()));
-  EXPECT_TRUE(same(train(small_set(), none), first_guess()));
+  const std::vector<std::vector<ShareSample>> samples = {
+      samples_of(shapes_frame(kSize, kSize, kSamples, 1001))};
+  EXPECT_TRUE(same(train(samples, none, ShareTables()), ShareTables()));
+  EXPECT_TRUE(same(train(samples, none), first_guess()));
 }
 
 TEST(ShareTrainer, TablesAreBetterThanTheFirstGuessOnFramesThatTheyDidNotSee) {

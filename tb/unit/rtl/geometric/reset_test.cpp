@@ -3,6 +3,7 @@
 // rejected start: what comes after it is, to the bit and to the clock, what comes after a reset of
 // an engine that never had a frame; every register and every counter of every unit included. And a
 // frame behind another one is what it is by itself.
+#include "tb/harness/engine_state.h"
 #include "tb/unit/rtl/geometric/trail.h"
 
 namespace deburr::tb::geometric_rtl::reset_test {
@@ -61,7 +62,7 @@ TEST_P(EveryClock, AnyClockOfAFrameMayBeTheLast) {
   b.load(broken);
   const Cycle last = b.run(20'000);
   ASSERT_GT(last, 500u);
-  for (Cycle at = 1; at < last; at += 3) {
+  for (Cycle at = 1; at < last; at += 3 * kClocksApart) {
     SCOPED_TRACE("reset " + std::to_string(at) + " clocks into a frame");
     b.reset();
     b.load(broken);

@@ -172,7 +172,7 @@ TEST_P(EveryClock, OfAFrameMayBeTheLast) {
   const Cycle last = bench.clock.cycle() - clocks;
   ASSERT_GT(trail.record_stalls, 0u);
   ASSERT_EQ(trail.work.diagonal_pixels != 0, GetParam().smaa);
-  for (Cycle at = 1; at < last; ++at) {
+  for (Cycle at = 1; at < last; at += kClocksApart) {
     SCOPED_TRACE("reset " + std::to_string(at) + " clocks into a frame");
     reset_to(broken, 1);
     bench.clock.run(at);
