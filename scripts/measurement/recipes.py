@@ -9,7 +9,8 @@ MEASURED = ("measurements/results", "measurements/comparison", "measurements/geo
             "measurements/morphological_predictor", "measurements/search", "measurements/texture_cache",
             "measurements/texture_design", "measurements/texture_filter", "measurements/tests",
             "measurements/morphological_harm", "measurements/geometric_morphological",
-            "measurements/morphological_peers", "measurements/geometric_traffic")
+            "measurements/morphological_peers", "measurements/geometric_traffic",
+            "measurements/morphological_training")
 # Of these, what a program writes as a whole, and the test that says whether it is what it writes.
 HELD = {"measurements/mutation": "mutation_record", "reference/coverage": "app_pages"}
 # Blocks that a program writes between its two marks, and the test that says the same of them.
