@@ -39,8 +39,11 @@ void set_registers(deburr_golden* golden, std::uint32_t texture, const Descripto
   const std::array<std::uint32_t, 4> words = {
       spec::texture::size_word(d), spec::texture::mode_word(d), spec::texture::lod_bias_word(d),
       spec::texture::lod_clamp_word(d)};
+  // Bits of no field count for nothing.
   for (std::uint32_t i = 0; i < words.size(); ++i)
-    DEBURR_EXPECT_TAKEN(golden, deburr_texture_register(golden, texture, 4 * i, words[i]));
+    DEBURR_EXPECT_TAKEN(
+        golden, deburr_texture_register(golden, texture, 4 * i,
+                                        words[i] | ~spec::texture::kDescriptorRegisters[i].mask()));
   for (std::uint32_t level = 0; level < d.base.size(); ++level)
     DEBURR_EXPECT_TAKEN(golden, deburr_texture_register(
                                     golden, texture, reg::kLevelBase + 4 * level, d.base[level]));

@@ -101,8 +101,12 @@ TEST(Registers, WritesOfAFrameUnderWayAreIgnored) {
   b.start();
   EXPECT_EQ(b.bus.read(reg::kStatus) & reg::kStatusIdle, 0u);
   b.clock.run(1000);
-  b.bus.write(reg::kRules, 0);
-  b.bus.write(reg::kColourBase, 0);
+  for (const spec::RegisterInfo& info : spec::geometric::kRegisters)
+    if (info.access == spec::Access::kReadWrite && info.offset != reg::kControl) {
+      const std::uint32_t value = b.bus.read(info.offset);
+      b.bus.write(info.offset, ~value);
+      EXPECT_EQ(b.bus.read(info.offset), value) << info.name;
+    }
   b.bus.write(reg::kControl, reg::kControlStart);  // enable goes, the frame goes on
   b.bench->run([&] { return b.engine.idle(); }, 20'000);
   EXPECT_EQ(b.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusFrameDone |

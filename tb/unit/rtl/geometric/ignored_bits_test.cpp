@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What lies in memory beside what docs/reference/geometric/memory.md gives a meaning to: bits of
-// its records that are ignored, records behind the last one, what lies between rows and tiles, room
-// for weights and for the copy before a frame. Whatever is there, a frame is the same, in pixels,
+// What lies in memory beside what docs/reference/geometric/memory.md and traffic.md give a meaning
+// to: bits of their records that are ignored, records after the last one, what lies between rows
+// and tiles, room for weights and for the copy before a frame; bits of registers that no field has,
+// and registers that a build has no use for. Whatever is there, a frame is the same, in pixels,
 // accesses and clocks; and each of the other bits counts, or the noise would prove nothing.
 #include <bit>
 #include <functional>
+#include <ostream>
+#include <string_view>
 
 #include "tb/base/random.h"
 #include "tb/unit/rtl/geometric/trail.h"
@@ -17,8 +20,22 @@ using spec::geometric::Region;
 // Of each word of a region the bits that have a meaning.
 using Meaning = std::vector<std::uint32_t>;
 
-class IgnoredBits : public ::testing::TestWithParam<char> {
+// An engine of the contract's vectors, and what is set beside that.
+struct Build {
+  char configuration;
+  const char* settings = "";
+  friend void PrintTo(const Build& build, std::ostream* out) {
+    *out << build.configuration << ' ' << build.settings;
+  }
+};
+
+class IgnoredBits : public ::testing::TestWithParam<Build> {
  protected:
+  static Parameters parameters() {
+    Parameters p = configuration(GetParam().configuration).p;
+    apply_settings(p, GetParam().settings);
+    return p;
+  }
   // Neither table ends with a line of memory, nor do the rows and tiles of the frame; a fifth of
   // the vertices is not usable.
   static Scene scene_of_the_frame() {
@@ -29,6 +46,40 @@ class IgnoredBits : public ::testing::TestWithParam<char> {
     return scene;
   }
   bool selects_all() const { return b.p.select == spec::geometric::Select::kAll; }
+  bool is_split() const { return b.p.records == spec::geometric::RecordsLayout::kSplit; }
+  bool is_screened() const { return b.p.coarse_lines != spec::geometric::CoarseLines::kNone; }
+
+  // Bits of a record of six bytes, of which a line of memory has ten.
+  static void mean(Meaning& words, std::size_t record, std::size_t low, std::size_t high) {
+    const std::size_t first = 8 * (64 * (record / 10) + 6 * (record % 10));
+    for (std::size_t bit = first + low; bit <= first + high; ++bit)
+      words[bit / 32] |= 1u << bit % 32;
+  }
+  void mean_faces(Meaning& words) const {
+    for (std::size_t i = 0; i < scene.edges.size(); ++i) {
+      if (!selects_all()) mean(words, i, 0, 20);
+      if (!selects_all() && !(scene.edges[i].flags & spec::geometric::flag::kBoundary))
+        mean(words, i, 21, 41);
+      mean(words, i, 42, 45);
+    }
+  }
+  void mean_pairs(Meaning& words) const {
+    const std::uint64_t boundaries = platform::boundaries_of(scene.edges),
+                        others = scene.edges.size() - boundaries;
+    for (std::size_t i = 0; i < boundaries; ++i) mean(words, i, 0, 47);
+    // The second array begins with a line.
+    for (std::size_t i = 0; i < others; ++i) mean(words, (boundaries + 9) / 10 * 10 + i, 0, 47);
+  }
+  void mean_tiles(Meaning& words) const {
+    const auto across = static_cast<std::size_t>((scene.width + 7) / 8),
+               down = static_cast<std::size_t>((scene.height + 7) / 8);
+    for (std::size_t ty = 0; ty < down; ++ty)
+      for (std::size_t tx = 0; tx < across; ++tx) {
+        const std::size_t line = ty / 4 * ((across + 7) / 8) + tx / 8,
+                          entry = 32 * line + 8 * (ty % 4) + tx % 8;
+        words[entry / 2] |= 0xFFFFu << 16 * (entry % 2);
+      }
+  }
 
   Meaning meaning_of(Region region) const {
     const platform::GeometricSizes sizes = {
@@ -44,6 +95,10 @@ class IgnoredBits : public ::testing::TestWithParam<char> {
     const std::size_t pixels = scene.colours.size();
     switch (region) {
       case Region::kEdges:
+        if (is_split()) {
+          mean_faces(words);
+          break;
+        }
         for (std::size_t i = 0; i < scene.edges.size(); ++i) {
           const bool one_face = scene.edges[i].flags & spec::geometric::flag::kBoundary;
           words[4 * i] = words[4 * i + 1] = 0xFFFFFF;
@@ -70,6 +125,12 @@ class IgnoredBits : public ::testing::TestWithParam<char> {
         put(platform::colour_buffer(
             layout, std::vector<spec::geometric::Rgba8>(pixels, {255, 255, 255, 255})));
         break;
+      case Region::kPairs:
+        if (is_split()) mean_pairs(words);
+        break;
+      case Region::kCoarse:
+        if (is_screened()) mean_tiles(words);
+        break;
       default:  // weights, copy: room
         break;
     }
@@ -90,7 +151,7 @@ class IgnoredBits : public ::testing::TestWithParam<char> {
     return trail_of(b);
   }
 
-  EngineBench b{configuration(GetParam()).p};
+  EngineBench b{parameters()};
   const Scene scene = scene_of_the_frame();
 };
 
@@ -117,7 +178,8 @@ TEST_P(IgnoredBits, ChangeNothing) {
 }
 
 // The highest bit of each word that has a meaning; of faces any of them, since with cull = none
-// only those count that differ from their neighbours.
+// only those count that differ from their neighbours, and of split records, of whose flags the
+// highest does not always count.
 TEST_P(IgnoredBits, AreNoOthers) {
   b.reset(40);
   b.load(scene);
@@ -130,33 +192,107 @@ TEST_P(IgnoredBits, AreNoOthers) {
         std::any_of(words.begin(), words.end(), [](std::uint32_t word) { return word != 0; });
     Random random(i, "meaning");
     const Trail got = run(region, [&](std::uint32_t m) {
-      return region == Region::kFaces ? m & random.word() : std::bit_floor(m);
+      const bool any = region == Region::kFaces || (region == Region::kEdges && is_split());
+      return any ? m & random.word() : std::bit_floor(m);
     });
     EXPECT_EQ(!frame_difference(fresh, got).empty(), counts) << spec::geometric::kRegionNames[i];
   }
 }
 
-// In tiles and in rows; of chosen edges and of all of them; blended in place and from a copy;
-// without a depth test.
-INSTANTIATE_TEST_SUITE_P(Configurations, IgnoredBits, ::testing::Values('a', 'd', 'f', 'h', 'l'));
-
-// With select = all FACE_COUNT is of no account.
-class IgnoredFaceCount : public IgnoredBits {};
-TEST_P(IgnoredFaceCount, ChangesNothing) {
-  ASSERT_TRUE(selects_all());
+// Bits of every register that no field has, in the write that starts a frame, too.
+TEST_P(IgnoredBits, OfRegistersChangeNothing) {
+  b.reset(40);
   b.load(scene);
   b.run();
   const Trail fresh = trail_of(b);
-  for (const std::uint32_t faces : {0u, 1u, ~0u}) {
+  Random random(1, "registers");
+  std::uint64_t ignored = 0;
+  for (int round = 0; round < 3; ++round) {
     b.reset(40);
     b.load(scene);
-    b.bus.write(reg::kFaceCount, faces);
+    const auto noisy = [&](const spec::RegisterInfo& info, std::uint32_t value) {
+      const std::uint32_t noise = (round == 0 ? ~0u : random.word()) & ~info.mask();
+      ignored += static_cast<std::uint64_t>(std::popcount(noise));
+      b.bus.write(info.offset, value | noise);
+    };
+    for (const spec::RegisterInfo& info : spec::geometric::kRegisters)
+      if (info.access == spec::Access::kReadWrite && info.offset != reg::kControl)
+        noisy(info, b.bus.read(info.offset));
+      else if (info.access == spec::Access::kWriteOneToClear)
+        noisy(info, 0);
+    const spec::RegisterInfo& control =
+        *spec::register_named(spec::geometric::kRegisters, "CONTROL");
+    b.run([&] { noisy(control, reg::kControlEnable | reg::kControlStart); });
+    noisy(control, reg::kControlEnable);
+    EXPECT_EQ(trail_difference(fresh, trail_of(b)), "");
+  }
+  EXPECT_GT(ignored, 200u);
+}
+
+// Registers that this build, or its rules, have no use for; each of the others counts, a little
+// more or less of it.
+TEST_P(IgnoredBits, AreWholeRegistersOfWhatIsNotUsed) {
+  using spec::geometric::DepthTest;
+  const auto of_no_use = [&](std::uint32_t offset) {
+    switch (offset) {
+      case reg::kFaceCount:
+      case reg::kFaceBase:
+        return b.p.select != spec::geometric::Select::kEdges;
+      case reg::kDepthBase:
+        return b.p.depth_test == DepthTest::kOff;
+      case reg::kCopyBase:
+        return !b.p.frame_copy;
+      case reg::kBoundaryCount:
+      case reg::kPairBase:
+      case reg::kOtherPairBase:
+        return !is_split();
+      case reg::kCoarseBase:
+        return !is_screened();
+      default:
+        return false;
+    }
+  };
+  b.reset(40);
+  b.load(scene);
+  b.run();
+  const Trail fresh = trail_of(b);
+  const auto run_with = [&](std::uint32_t offset, std::uint32_t value) {
+    b.reset(40);
+    b.load(scene);
+    b.bus.write(offset, value);
     b.run();
-    EXPECT_EQ(b.driver.refusal(), spec::geometric::Refusal::kNone);
-    EXPECT_EQ(frame_difference(fresh, trail_of(b)), "") << faces;
+    return trail_of(b);
+  };
+  for (const spec::RegisterInfo& info : spec::geometric::kRegisters) {
+    if (info.access != spec::Access::kReadWrite || info.offset == reg::kControl) continue;
+    SCOPED_TRACE(info.name);
+    if (of_no_use(info.offset)) {
+      for (const std::uint32_t value : {0u, 1u, ~0u}) {
+        EXPECT_EQ(frame_difference(fresh, run_with(info.offset, value)), "") << value;
+        EXPECT_EQ(b.driver.refusal(), spec::geometric::Refusal::kNone);
+      }
+      continue;
+    }
+    b.reset(40);
+    b.load(scene);
+    const std::uint32_t value = b.bus.read(info.offset);
+    const bool is_base = std::string_view(info.name).ends_with("_BASE"),
+               is_count = std::string_view(info.name).ends_with("_COUNT");
+    EXPECT_NE(frame_difference(fresh, run_with(info.offset, is_base    ? value + 64
+                                                            : is_count ? value / 2
+                                                                       : value ^ 1)),
+              "");
   }
 }
-INSTANTIATE_TEST_SUITE_P(Configurations, IgnoredFaceCount, ::testing::Values('f', 'h'));
+
+// In tiles and in rows; of chosen edges and of all of them; blended in place and from a copy;
+// without a depth test; with records in two arrays and with coarse depth.
+INSTANTIATE_TEST_SUITE_P(
+    Configurations, IgnoredBits,
+    ::testing::Values(Build{'a'}, Build{'d'}, Build{'f'}, Build{'h'}, Build{'l'},
+                      Build{'a', "records=split"}, Build{'m', "records=split coarse_lines=4"},
+                      Build{'f', "records=split edge_lanes=4"},
+                      Build{'d', "coarse_lines=8 records=split edge_lanes=1"}));
 
 }  // namespace
 }  // namespace deburr::tb::geometric_rtl::ignored_bits_test

@@ -213,6 +213,22 @@ TEST(PairFetch, StallsByCause) {
   EXPECT_EQ(b.stalled("pairs"), 26u - 1) << "an answer is taken in one of them";
   EXPECT_EQ(b.stalled("fills"), 0u);
 }
+// A clock for its tags in the begin of each frame; nothing while there is nothing to fetch.
+TEST(PairFetch, IsIdleButWhereItWorks) {
+  PairBench b;
+  EXPECT_EQ(b.unit.busy_cycles(), 1u);
+  const std::uint64_t idle = b.unit.idle_cycles();
+  b.clock.run(50);
+  EXPECT_EQ(b.unit.busy_cycles(), 1u);
+  EXPECT_EQ(b.unit.idle_cycles(), idle + 50);
+  b.latency(b.ends, PairBench::number(3));
+  b.clock.run(50);
+  const std::uint64_t busy = b.unit.busy_cycles();
+  EXPECT_EQ(busy, 1u + 4) << "look-up, answer, stages 2 and 3";
+  EXPECT_EQ(b.unit.idle_cycles() + busy + b.stalled("pairs"), b.clock.cycle());
+  b.clock.run(50);
+  EXPECT_EQ(b.unit.busy_cycles(), busy);
+}
 TEST(PairFetch, TooFewFillsSetThePace) {
   Parameters p = split();
   p.fills = 8;

@@ -240,6 +240,46 @@ TEST(DepthScreen, ANeighbourInAnotherTileCounts) {
           << row.x << " " << row.y << " side " << row.side;
     }
 }
+// Groups of one tile and of two, in one line and in two, each after each other one: what the group
+// before looked at is of no account, whether its lines were there or came.
+TEST(DepthScreen, AGroupHasNothingOfTheOneBefore) {
+  struct Row {
+    std::uint32_t x;
+    ScreenBench::Side side;
+    std::uint32_t least;  // entry of its tiles
+  };
+  // Tile tx has entry 100 (tx - 5). A line is eight tiles; that of tiles 16.. has the index of
+  // that of tiles 0...
+  const std::vector<Row> rows = {{52, ScreenBench::kUp, 100},      {55, ScreenBench::kRight, 100},
+                                 {56, ScreenBench::kLeft, 100},    {60, ScreenBench::kUp, 200},
+                                 {63, ScreenBench::kRight, 200},   {64, ScreenBench::kLeft, 200},
+                                 {70, ScreenBench::kUp, 300},      {71, ScreenBench::kRight, 300},
+                                 {72, ScreenBench::kLeft, 300},    {76, ScreenBench::kUp, 400},
+                                 {127, ScreenBench::kRight, 1000}, {128, ScreenBench::kLeft, 1000},
+                                 {130, ScreenBench::kUp, 1100}};
+  ScreenBench b;
+  for (std::uint32_t tx = 6; tx <= 16; ++tx) b.set(tx, 0, 100 * (tx - 5));
+  std::string wanted;
+  std::size_t tokens = 0;
+  const auto add = [&](const Row& row, bool dropped) {
+    // 256 e, less a sixteenth of it.
+    const std::uint32_t bound = 240 * row.least;
+    b.ends.source.add(ScreenBench::pixel(row.x, 1, row.side, dropped ? bound - 1 : bound));
+    wanted += dropped ? "1" : "0";
+    ++tokens;
+  };
+  for (const Row& before : rows)
+    for (const Row& row : rows) {
+      add(before, false);
+      add(row, true);
+      add(before, true);
+      add(row, false);
+    }
+  finish(b, b.ends, tokens);
+  EXPECT_EQ(b.dropped(), wanted);
+  EXPECT_GT(b.unit.misses.value(), 100u);
+  EXPECT_LT(b.unit.misses.value(), b.unit.lookups.value() / 2);
+}
 // depth_test = own looks at no neighbour's tile; off at none, and drops nothing.
 TEST(DepthScreen, TilesByTheRuleOfTheTest) {
   for (const auto& [test, wanted] : {std::pair{spec::geometric::DepthTest::kOwn, "1 1 1"},

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <systemc>
@@ -157,11 +158,15 @@ class EngineBench {
   void start() { driver.start(); }
   // A whole frame; gives its clocks.
   Cycle run(Cycle limit = 2'000'000) {
+    return run([this] { start(); }, limit);
+  }
+  // One that is started in another way.
+  Cycle run(const std::function<void()>& starts, Cycle limit = 2'000'000) {
     lines.clear();
     candidates.clear();
     blocks.clear();
     memory.clear_statistics();
-    start();
+    starts();
     return bench->run([this] { return engine.idle(); }, limit);
   }
   void reset(Cycle cycles = 2) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What the morphological engine is given and has no use for: depths where edges need none, alphas
 // where nothing is marked, lanes behind the last pixel of a row, what lies between the rows of a
-// frame in memory. Whatever is there, pixels, taps, work and clocks are the same; and what is not
-// ignored counts, or the noise would prove nothing.
+// frame in memory, bits of registers that no field has. Whatever is there, pixels, taps, work and
+// clocks are the same; and what is not ignored counts, or the noise would prove nothing.
 #include <algorithm>
+#include <bit>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ namespace {
 using spec::morphological::EdgeSource;
 using spec::morphological::Leave;
 using spec::morphological::PixelBeat;
+namespace reg = spec::morphological::reg;
 
 struct Build {
   spec::morphological::Preset preset;
@@ -59,10 +61,11 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
           4'000'000 + 9'000'000 * static_cast<std::uint32_t>(above(i % kWidth, i / kWidth));
     return frame;
   }
-  // A frame whose beats are changed on their way.
+  // A frame whose beats are changed on their way; `written` once its registers are.
   Trail run(
       const std::function<void(PixelBeat&)>& change,
-      const std::function<void()>& each_clock = [] {}) {
+      const std::function<void()>& each_clock = [] {},
+      const std::function<void()>& written = [] {}) {
     bench.clock.set_reset_n(false);
     bench.clock.run(40);
     bench.clock.set_reset_n(true);
@@ -75,6 +78,7 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
       return true;
     });
     bench.software.set_size(kWidth, kHeight);
+    written();
     bench.bench->run(
         [&] {
           each_clock();
@@ -136,6 +140,33 @@ TEST_P(IgnoredBits, ChangeNothing) {
   };
   EXPECT_EQ(difference(fresh, lanes(false)), "");
   EXPECT_NE(difference(fresh, lanes(true)), "");
+}
+
+// Bits of every register that no field has.
+TEST_P(IgnoredBits, OfRegistersChangeNothing) {
+  const Trail fresh = run([](PixelBeat&) {});
+  std::uint64_t ignored = 0;
+  for (int round = 0; round < 3; ++round) {
+    const auto noisy = [&](const spec::RegisterInfo& info) {
+      const std::uint32_t noise = (round == 0 ? ~0u : random.word()) & ~info.mask();
+      ignored += static_cast<std::uint64_t>(std::popcount(noise));
+      const bool is_state = info.access == spec::Access::kReadWrite;
+      bench.bus.write(info.offset, noise | (is_state ? bench.bus.read(info.offset) : 0));
+    };
+    const auto written = [&] {
+      for (const spec::RegisterInfo& info : spec::morphological::kRegisters)
+        if (info.access == spec::Access::kReadWrite ||
+            info.access == spec::Access::kWriteOneToClear)
+          noisy(info);
+      bench.bus.write(reg::kSharesAddress, 0);  // the write of an entry has moved it on
+    };
+    // CONTROL while a frame is inside, too.
+    const auto each_clock = [&] {
+      noisy(*spec::register_named(spec::morphological::kRegisters, "CONTROL"));
+    };
+    EXPECT_EQ(difference(fresh, run([](PixelBeat&) {}, each_clock, written)), "");
+  }
+  EXPECT_GT(ignored, 100u);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -455,8 +455,12 @@ TEST(Registers, WritesWhileAFrameIsInsideAreIgnoredAndSaidSo) {
   bench.driver.send(beats_of(line(), 1));
   bench.clock.run(500);
   EXPECT_EQ(bench.bus.read(reg::kStatus), 0u) << "not idle";
-  bench.bus.write(reg::kThreshold, 15300000);
-  bench.bus.write(reg::kSize, 5);
+  for (const spec::RegisterInfo& info : spec::morphological::kRegisters)
+    if (info.access == spec::Access::kReadWrite && info.offset != reg::kControl) {
+      const std::uint32_t value = bench.bus.read(info.offset);
+      bench.bus.write(info.offset, ~value);
+      EXPECT_EQ(bench.bus.read(info.offset), value) << info.name;
+    }
   EXPECT_EQ(bench.bus.read(reg::kThreshold), 501330u);
   EXPECT_EQ(bench.bus.read(reg::kSize), 200u | 150u << 16);
   EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusWrittenWhileBusy);

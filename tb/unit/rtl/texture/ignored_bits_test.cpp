@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the texture unit is given and has no use for: bits of the descriptors that have no field,
+// What the texture unit is given and has no use for: bits of registers that have no field,
 // bases of levels that are not there, descriptors that nobody names, bytes of memory that are no
 // texel, and of a quad what is for the testbench. Whatever is there, colours, clocks and accesses
 // of memory are the same; and what has a meaning counts, or the noise would prove nothing.
@@ -53,7 +53,8 @@ class IgnoredBits : public testing::TestWithParam<Variant> {
   Trail run(
       const std::vector<std::uint8_t>& bytes,
       const std::vector<std::pair<std::uint32_t, std::uint32_t>>& written,
-      const std::function<void(spec::texture::Quad&)>& change = [](auto&) {}) {
+      const std::function<void(spec::texture::Quad&)>& change = [](auto&) {},
+      const std::function<void()>& after = [] {}) {
     bench.reset(40);
     bench.memory.preload(0, bytes);
     bench.memory.clear_statistics();
@@ -68,6 +69,7 @@ class IgnoredBits : public testing::TestWithParam<Variant> {
       bench.source.add(q);
     }
     EXPECT_TRUE(bench.finish());
+    after();
     Trail trail = engine_state(bench.unit, bench.bus);
     // The registers of descriptors are what was changed.
     std::erase_if(
@@ -118,6 +120,29 @@ TEST_P(IgnoredBits, OfDescriptors) {
     changed[i].second ^= mask;
     EXPECT_EQ(!state_difference(fresh, run(plain.bytes(), changed)).empty(), mask != 0)
         << changed[i].first;
+  }
+}
+
+// Of the registers outside of descriptors, before a job and after it.
+TEST_P(IgnoredBits, OfRegisters) {
+  const Trail fresh = run(plain.bytes(), registers);
+  for (const bool all : {true, false}) {
+    auto noisy = registers;
+    for (const spec::RegisterInfo& info : spec::texture::kRegisters) {
+      const std::uint32_t noise = (all ? ~0u : random.word()) & ~info.mask();
+      if (info.access == spec::Access::kReadWrite)
+        noisy.emplace_back(info.offset, bench.bus.read(info.offset) | noise);
+      else if (info.access == spec::Access::kWriteOneToClear)
+        noisy.emplace_back(info.offset, noise);
+    }
+    ASSERT_EQ(noisy.size(), registers.size() + 2) << "CONTROL and STATUS";
+    const auto again = [&] {
+      for (std::size_t i = registers.size(); i < noisy.size(); ++i)
+        bench.bus.write(noisy[i].first, noisy[i].second);
+    };
+    EXPECT_EQ(state_difference(fresh, run(
+                                          plain.bytes(), noisy, [](auto&) {}, again)),
+              "");
   }
 }
 
