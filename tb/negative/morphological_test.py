@@ -227,10 +227,8 @@ class Configuration(Base):
                 self.assertEqual(f"note: morphological.{name} = {value} is " in done.stderr, value < least, done.stderr)
         for rules in ((), predicated, dynamic, (*dynamic, "--set", "morphological.edges.alpha=0")):
             self.assertNotIn("morphological.edges.", self.run_engine(0, *self.SMALL, *rules).stderr)
-        frame = ("--smoothing", "geometric-morphological")
-        done = self.run_engine(0, *self.SMALL, *frame, "--set", "morphological.edges.threshold_on_depth_edge=1966",
-                               engine="frame")
-        self.assertIn("= 1966 is 0.030 of a code, so noise makes edges: its unit is code / 65536", done.stderr)
+        done = self.run_engine(0, *self.SMALL, "--set", "morphological.edges.threshold=5140", engine="frame")
+        self.assertIn("= 5140 is 0.078 of a code, so noise makes edges: its unit is code / 65536", done.stderr)
 
     def test_unknown_choices_of_smaa(self):
         for name, known in (("quality", "low, medium, high, ultra"), ("ends", "gaps, crossings"),

@@ -276,17 +276,6 @@ TEST(MorphologicalEdges, PredicatedThresholdsHoldToTheUnit) {
   }
 }
 
-// What follows the geometric engine leaves the inside of surfaces as it is, black beside white too.
-TEST(MorphologicalEdges, FollowingGeometryHasNoneOffAnEdgeOfDepth) {
-  const auto p = golden::morphological::following_geometric(
-      golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine));
-  const Frame frame(2, 1, [](int x, int) { return tb::morphological::grey(255 * x); });
-  for (const bool on : {false, true}) {
-    const std::vector<std::uint32_t> depth = {1000000, on ? 2000000u : 1000000u};
-    EXPECT_EQ(find_edges(p, frame.view(), DepthView(depth, 2, 1)).left.at(1, 0), on);
-  }
-}
-
 // A T that lies a 65536th above 254 codes needs a step of 255, one above 255 has no edge at all.
 TEST(MorphologicalEdges, ThresholdsOfColourAreRoundedUp) {
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
