@@ -215,6 +215,21 @@ class Configuration(Base):
                 self.run_engine(0, *self.SMALL, "--preset", preset, "--set", f"morphological.{name}={value}",
                                 says="PASS")
 
+    def test_thresholds_below_a_code_are_noted(self):
+        """Legal, and most likely of the time when thresholds were shares of full scale."""
+        predicated = ("--set", "morphological.edges.source=predicated")
+        dynamic = ("--preset", "smaa-dynamic")
+        for name, least, rules in (("edges.threshold", 65536, ()), ("edges.threshold_on_depth_edge", 65536, predicated),
+                                   ("edges.threshold_off_depth_edge", 65536, predicated),
+                                   ("edges.floor", 65536, dynamic), ("edges.alpha", 65794, dynamic)):
+            for value in (least - 1, least):
+                done = self.run_engine(0, *self.SMALL, *rules, "--set", f"morphological.{name}={value}")
+                self.assertEqual(f"note: morphological.{name} = {value} is " in done.stderr, value < least, done.stderr)
+        for rules in ((), predicated, dynamic, (*dynamic, "--set", "morphological.edges.alpha=0")):
+            self.assertNotIn("morphological.edges.", self.run_engine(0, *self.SMALL, *rules).stderr)
+        done = self.run_engine(0, *self.SMALL, "--set", "morphological.edges.threshold=5140", engine="frame")
+        self.assertIn("= 5140 is 0.078 of a code, so noise makes edges: its unit is code / 65536", done.stderr)
+
     def test_unknown_choices_of_smaa(self):
         for name, known in (("quality", "low, medium, high, ultra"), ("ends", "gaps, crossings"),
                             ("border", "end, clamp"), ("area_values", "exact, published"),

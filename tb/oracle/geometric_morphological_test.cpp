@@ -49,8 +49,9 @@ Parameters rules(Preset preset, Leave leave = Leave::kNone) {
 Parameters at_depth(Leave leave) {
   Parameters p = rules(Preset::kDeburrLine, leave);
   p.edge_source = spec::morphological::EdgeSource::kPredicated;
-  p.threshold_on_depth_edge = 501330;     // 0.03 of 255
-  p.threshold_off_depth_edge = 16711425;  // hardly ever
+  const spec::morphological::FollowingRules following;
+  p.threshold_on_depth_edge = following.threshold_on_depth_edge;
+  p.threshold_off_depth_edge = following.threshold_off_depth_edge;
   return p;
 }
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "tb/oracle/mesa_device.h"
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
 #include <GLES3/gl3.h>
 
 #include <array>
-#include <cstdlib>
+#include <utility>
 
 #include "spec/error.h"
+#include "tb/oracle/mesa_context.h"
 
 namespace deburr::tb::texture {
 namespace {
@@ -43,28 +42,6 @@ void main() {
   vec2 st = texelFetch(coordinates, ivec2(gl_FragCoord.xy), 0).xy;
   colour = texture(image, st, bias);
 })";
-
-GLuint compile(GLenum kind, const char* source) {
-  const GLuint shader = glCreateShader(kind);
-  glShaderSource(shader, 1, &source, nullptr);
-  glCompileShader(shader);
-  GLint ok = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-  if (ok == 0) {
-    std::array<char, 1024> log{};
-    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw spec::SimulationError(std::string("Mesa rejected a shader: ") + log.data());
-  }
-  return shader;
-}
-
-GLuint link(const char* fragment_shader) {
-  const GLuint program = glCreateProgram();
-  glAttachShader(program, compile(GL_VERTEX_SHADER, kVertexShader));
-  glAttachShader(program, compile(GL_FRAGMENT_SHADER, fragment_shader));
-  glLinkProgram(program);
-  return program;
-}
 
 struct GlFormat {
   GLenum internal, format, type;
@@ -123,67 +100,27 @@ void upload(const EncodedTexture& texture) {
 }  // namespace
 
 struct MesaDevice::State {
-  EGLDisplay display = EGL_NO_DISPLAY;
-  EGLContext context = EGL_NO_CONTEXT;
+  std::unique_ptr<MesaContext> context;
   GLuint program = 0, biased_program = 0, vertices = 0;
 };
 
 MesaDevice::MesaDevice() : state_(std::make_unique<State>()) {}
+MesaDevice::~MesaDevice() = default;
 
 std::unique_ptr<MesaDevice> MesaDevice::open(const std::string& driver, std::string& why) {
-  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-  setenv("GALLIUM_DRIVER", driver.c_str(), 1);
   // llvmpipe's default trades accuracy of the level of detail for speed.
-  setenv("GALLIVM_PERF", "no_brilinear,no_rho_approx,no_quad_lod", 1);
-  const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-  if (extensions == nullptr ||
-      std::string(extensions).find("EGL_MESA_platform_surfaceless") == std::string::npos) {
-    why = "EGL has no surfaceless platform: install libegl1 and libgl1-mesa-dri";
-    return nullptr;
-  }
-  const auto get_display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
-      eglGetProcAddress("eglGetPlatformDisplayEXT"));
+  auto context = MesaContext::open(driver, "no_brilinear,no_rho_approx,no_quad_lod", why);
+  if (context == nullptr) return nullptr;
   std::unique_ptr<MesaDevice> device(new MesaDevice);
   State& s = *device->state_;
-  s.display = get_display == nullptr
-                  ? EGL_NO_DISPLAY
-                  : get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  if (s.display == EGL_NO_DISPLAY || eglInitialize(s.display, nullptr, nullptr) == EGL_FALSE) {
-    s.display = EGL_NO_DISPLAY;
-    why = "EGL found no software device: install libgl1-mesa-dri";
-    return nullptr;
-  }
-  eglBindAPI(EGL_OPENGL_ES_API);
-  constexpr std::array<EGLint, 3> kVersion = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
-  s.context = eglCreateContext(s.display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kVersion.data());
-  if (s.context == EGL_NO_CONTEXT ||
-      eglMakeCurrent(s.display, EGL_NO_SURFACE, EGL_NO_SURFACE, s.context) == EGL_FALSE) {
-    why = "EGL gave no OpenGL ES 3 context";
-    return nullptr;
-  }
-  if (device->name().find(driver) == std::string::npos) {
-    why = "Mesa offers " + device->name() + " where " + driver + " was asked for";
-    return nullptr;
-  }
-  s.program = link(kFragmentShader);
-  s.biased_program = link(kBiasedFragmentShader);
+  s.context = std::move(context);
+  s.program = gl_program(kVertexShader, kFragmentShader);
+  s.biased_program = gl_program(kVertexShader, kBiasedFragmentShader);
   glGenVertexArrays(1, &s.vertices);
   return device;
 }
 
-MesaDevice::~MesaDevice() {
-  if (state_->display == EGL_NO_DISPLAY) return;
-  eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  // The display stays: Mesa unloads its driver with it and loses memory on the way.
-  if (state_->context != EGL_NO_CONTEXT) eglDestroyContext(state_->display, state_->context);
-}
-
-std::string MesaDevice::name() const {
-  const auto text = [](GLenum what) {
-    return std::string(reinterpret_cast<const char*>(glGetString(what)));
-  };
-  return text(GL_RENDERER) + ", " + text(GL_VERSION);
-}
+std::string MesaDevice::name() const { return state_->context->name(); }
 
 Pixels MesaDevice::draw(const CoordinateImage& image, const EncodedTexture& texture,
                         const spec::texture::Descriptor& state) {

@@ -69,7 +69,9 @@ inline double logarithm(double x) {
   return doublings * kLog2High + (2.0 * s * sum + doublings * kLog2Low);
 }
 
-// x > 0.
-inline double power(double x, double exponent) { return exponential(exponent * logarithm(x)); }
+// x >= 0, exponent > 0.
+inline double power(double x, double exponent) {
+  return x > 0 ? exponential(exponent * logarithm(x)) : 0;
+}
 
 }  // namespace deburr::tb

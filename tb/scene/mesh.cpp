@@ -12,6 +12,7 @@
 
 #include "spec/error.h"
 #include "tb/base/fnv.h"
+#include "tb/scene/exact_math.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/import.h"
 #include "tb/scene/mesh_builder.h"
@@ -156,7 +157,7 @@ void texture_everything(Mesh& mesh, const Texture* fallback) {
     Rgba8 colour{0, 0, 0, 255};
     for (int c = 0; c < 3; ++c)
       colour[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(
-          std::lround(std::pow(std::clamp(material.colour[c], 0.0, 1.0), 1.0 / 2.2) * 255.0));
+          std::lround(power(std::clamp(material.colour[c], 0.0, 1.0), 1.0 / 2.2) * 255.0));
     for (int y = 0; y < kCell; ++y) std::fill_n(&palette.image.at(left, top + y), kCell, colour);
     centre[static_cast<std::uint32_t>(plain[k])] =
         V2d((left + 0.5 * kCell) / palette.image.width, (top + 0.5 * kCell) / palette.image.height);

@@ -306,11 +306,11 @@ std::vector<Image> mip_chain(const Image& base, MipSpace space) {
 }
 
 double srgb_to_linear(double stored) {
-  return stored <= 0.04045 ? stored / 12.92 : std::pow((stored + 0.055) / 1.055, 2.4);
+  return stored <= 0.04045 ? stored / 12.92 : power((stored + 0.055) / 1.055, 2.4);
 }
 
 double linear_to_srgb(double linear) {
-  return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+  return linear <= 0.0031308 ? linear * 12.92 : 1.055 * power(linear, 1.0 / 2.4) - 0.055;
 }
 
 }  // namespace deburr::tb

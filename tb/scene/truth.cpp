@@ -7,11 +7,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <vector>
 
 #include "spec/error.h"
 #include "tb/base/interrupt.h"
+#include "tb/scene/exact_math.h"
 #include "tb/scene/setup.h"
 #include "tb/scene/textures.h"
 
@@ -26,25 +28,29 @@ constexpr double kGamma = 2.2;
 // What stored bytes mean while samples are averaged.
 enum class Transfer : std::uint8_t { kStored, kSrgb, kGamma22 };
 
-struct Transport {
-  Transfer transfer;
+class Transport {
+ public:
   std::array<float, 256> decode{};
 
-  explicit Transport(Transfer t) : transfer(t) {
-    for (int v = 0; v < 256; ++v) {
-      const double x = v / 255.0;
-      const double y = t == Transfer::kStored ? x
-                       : t == Transfer::kSrgb ? srgb_to_linear(x)
-                                              : std::pow(x, kGamma);
-      decode[static_cast<std::size_t>(v)] = static_cast<float>(y);
-    }
+  explicit Transport(Transfer transfer) {
+    const auto decoded = [&](double x) {
+      return transfer == Transfer::kStored ? x
+             : transfer == Transfer::kSrgb ? srgb_to_linear(x)
+                                           : power(x, kGamma);
+    };
+    for (std::size_t v = 0; v < 256; ++v)
+      decode[v] = static_cast<float>(decoded(static_cast<double>(v) / 255.0));
+    for (std::size_t v = 0; v < 255; ++v)
+      next_[v] = decoded((static_cast<double>(v) + 0.5) / 255.0);
   }
+  // The nearest byte; a half is the next one.
   std::uint8_t encode(double value) const {
-    value = std::clamp(value, 0.0, 1.0);
-    if (transfer == Transfer::kSrgb) value = linear_to_srgb(value);
-    if (transfer == Transfer::kGamma22) value = std::pow(value, 1.0 / kGamma);
-    return static_cast<std::uint8_t>(std::lround(value * 255.0));
+    return static_cast<std::uint8_t>(std::upper_bound(next_.begin(), next_.end(), value) -
+                                     next_.begin());
   }
+
+ private:
+  std::array<double, 255> next_{};  // where byte v + 1 begins
 };
 
 using Colour = std::array<float, 4>;
@@ -360,7 +366,7 @@ class Shader {
       const double sx = (x_.s - s * x_.sum) * w * width_, tx = (x_.t - t * x_.sum) * w * height_;
       const double sy = (y_.s - s * y_.sum) * w * width_, ty = (y_.t - t * y_.sum) * w * height_;
       const double longest = std::max(sx * sx + tx * tx, sy * sy + ty * ty);
-      return longest > 0.0 ? 0.5 * std::log2(longest) : 0.0;
+      return longest > 0.0 ? 0.5 * std::numbers::log2e * logarithm(longest) : 0.0;
     }
 
    private:

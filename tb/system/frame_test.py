@@ -80,7 +80,7 @@ class Smoothing(unittest.TestCase):
         self.assertEqual(implied["morphological.preset"], "deburr-line")
         self.assertEqual(implied["morphological.leave"], "masked")
         self.assertEqual(implied["morphological.edges.source"], "predicated")
-        self.assertEqual(implied["morphological.edges.threshold_off_depth_edge"], 16711425)
+        self.assertEqual(implied["morphological.edges.threshold_off_depth_edge"], 16777215)
         given = configuration("--set", "morphological.leave=beside", "--set", "morphological.edges.source=luma")
         self.assertEqual(given["morphological.leave"], "beside")
         self.assertEqual(given["morphological.edges.source"], "luma")

@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <fstream>
-#include <numbers>
 #include <vector>
 
 #include "spec/error.h"
 #include "tb/base/random.h"
+#include "tb/scene/exact_math.h"
 
 namespace deburr::tb {
 namespace {
@@ -34,7 +33,7 @@ class Writer {
   void use(int colour) { text_ += fmt::format("usemtl c{}\n", colour); }
   // Turned by `angle` around the upright axis through its centre.
   void box(const Point& centre, const Point& size, double angle) {
-    const double c = std::cos(angle), s = std::sin(angle);
+    const auto [s, c] = sin_cos(angle);
     std::array<int, 8> corner{};
     for (std::size_t i = 0; i < corner.size(); ++i) {
       const double x = (i & 1 ? 0.5 : -0.5) * size.x, y = (i & 2 ? 0.5 : -0.5) * size.y,
@@ -50,10 +49,9 @@ class Writer {
   void prism(const Point& foot, double height, double low, double high, int sides) {
     std::vector<int> below, above;
     for (int i = 0; i < sides; ++i) {
-      const double a = 2 * std::numbers::pi * i / sides;
-      below.push_back(vertex({foot.x + low * std::cos(a), foot.y, foot.z + low * std::sin(a)}));
-      above.push_back(
-          vertex({foot.x + high * std::cos(a), foot.y + height, foot.z + high * std::sin(a)}));
+      const SinCos a = sin_cos(2 * kPi * i / sides);
+      below.push_back(vertex({foot.x + low * a.cos, foot.y, foot.z + low * a.sin}));
+      above.push_back(vertex({foot.x + high * a.cos, foot.y + height, foot.z + high * a.sin}));
     }
     const int tip = vertex({foot.x, foot.y + height, foot.z});
     for (std::size_t i = 0; i < below.size(); ++i) {
@@ -70,8 +68,8 @@ class Writer {
   void wheel(const Point& centre, double radius, double width, int sides) {
     std::vector<int> front, back;
     for (int i = 0; i < sides; ++i) {
-      const double a = 2 * std::numbers::pi * i / sides;
-      const double x = centre.x + radius * std::cos(a), y = centre.y + radius * std::sin(a);
+      const SinCos a = sin_cos(2 * kPi * i / sides);
+      const double x = centre.x + radius * a.cos, y = centre.y + radius * a.sin;
       front.push_back(vertex({x, y, centre.z + width / 2}));
       back.push_back(vertex({x, y, centre.z - width / 2}));
     }

@@ -71,16 +71,6 @@ Split split_of(const std::vector<TitlePair>& pairs) {
   return split;
 }
 
-Image smoothed(const Image& frame, const ShareTables& tables) {
-  MorphologicalGolden golden(
-      golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr),
-      MorphologicalGolden::Detail::kPixels);
-  golden.set_share_tables(tables);
-  Image out(frame.width, frame.height);
-  out.pixels = golden.process({frame.pixels, frame.width, frame.height});
-  return out;
-}
-
 KeptBack measured(const TitlePair& pair, const ShareTables& tables) {
   const Mask edges = edge_mask(pair.truth, pair.frame);
   const Image shipped = smoothed(pair.frame, ShareTables()), trained = smoothed(pair.frame, tables);
@@ -93,6 +83,16 @@ KeptBack measured(const TitlePair& pair, const ShareTables& tables) {
 }
 
 }  // namespace
+
+Image smoothed(const Image& frame, const ShareTables& tables) {
+  MorphologicalGolden golden(
+      golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr),
+      MorphologicalGolden::Detail::kPixels);
+  golden.set_share_tables(tables);
+  Image out(frame.width, frame.height);
+  out.pixels = golden.process({frame.pixels, frame.width, frame.height});
+  return out;
+}
 
 TitleShares train_title(const std::vector<TitlePair>& pairs, const TitleOptions& options) {
   const Split split = split_of(pairs);

@@ -41,6 +41,9 @@ struct TitleShares {
   double frame_gain = 0;  // over all pixels
 };
 
+// What the engine with these shares makes of a frame, by the rules of the preset `deburr`.
+Image smoothed(const Image& frame, const golden::morphological::ShareTables& tables);
+
 // Of several pairs every second one is kept back, of one pair the right half. ConfigError for no
 // pair, sizes that differ or are too small, a frame without an edge, and a truth that is the frame.
 TitleShares train_title(const std::vector<TitlePair>& pairs, const TitleOptions& options);

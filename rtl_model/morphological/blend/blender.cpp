@@ -294,15 +294,16 @@ Datasheet Blender::datasheet() {
                      {"2", "address of linear_rom; word of mix_rom, squares of both shares"},
                      {"3", "linear light, differences; squares x word, rounded",
                       "21 x 16 multiply + 37-bit add"},
-                     {"4", "products, their sum", "13 x 13 multiply"},
+                     {"4", "products, their sum", "signed 13 x 13 multiply"},
                      {"5", "rounding, new value, address of encode_rom"},
                      {"6", "codes", "ROM read"}},
-          .formats = "shares U0.8, as they are blended U0.12; linear light U0.12.",
+          .formats = "shares U0.8, as blended U0.12; linear light U0.12, its differences S13.",
           .cost =
               "a lane: nine reads of linear_rom, 256 x 12 bits (three a channel, after the "
               "choice of the axis), three of encode_rom, 4096 x 8 bits (two reads a copy), two "
-              "multipliers 13 x 13 a channel, one of mix_rom, 511 x 21 bits, two multipliers 8 x "
-              "8 and two 21 x 16, nine comparators, five bits of marks, two shifts."};
+              "signed multipliers 13 x 13 a channel, one of mix_rom, 511 x 21 bits, two "
+              "multipliers 8 x 8 and two 21 x 16, nine comparators, five bits of marks, two "
+              "shifts."};
 }
 
 }  // namespace deburr::rtl::morphological

@@ -90,12 +90,47 @@ void reject_unused_rules(const ParameterSet& set, const spec::morphological::Par
   }
 }
 
+namespace {
+
+// Thresholds that are legal and hardly meant: numbers of the time when they were shares of full
+// scale read as 1/255 of what they said.
+std::vector<std::string> threshold_notes(const spec::morphological::Parameters& p) {
+  std::vector<std::string> notes;
+  const auto below_a_code = [&](std::string_view name, std::int32_t threshold) {
+    if (threshold < spec::morphological::kOneCode)
+      notes.push_back(fmt::format(
+          "morphological.{} = {} is {:.3f} of a code, so noise makes edges: its unit is code / {}",
+          name, threshold, static_cast<double>(threshold) / spec::morphological::kOneCode,
+          spec::morphological::kOneCode));
+  };
+  if (p.edge_source == spec::morphological::EdgeSource::kDepth) return notes;
+  if (p.edge_source == spec::morphological::EdgeSource::kPredicated) {
+    below_a_code("edges.threshold_on_depth_edge", p.threshold_on_depth_edge);
+    below_a_code("edges.threshold_off_depth_edge", p.threshold_off_depth_edge);
+  } else if (p.threshold_mode == spec::morphological::ThresholdMode::kFixed) {
+    below_a_code("edges.threshold", p.threshold);
+  } else {
+    below_a_code("edges.floor", p.floor);
+    // 255 alpha below a code; none at all is said by 0.
+    if (p.alpha > 0 && std::int64_t{255} * p.alpha < 1 << 24)
+      notes.push_back(fmt::format(
+          "morphological.edges.alpha = {} is {:.5f}, below a code even of white, so edges.floor "
+          "alone decides: its unit is 1 / {}",
+          p.alpha, static_cast<double>(p.alpha) / (1 << 24), 1 << 24));
+  }
+  return notes;
+}
+
+}  // namespace
+
 std::vector<std::string> build_notes(const spec::morphological::Parameters& values) {
-  if (values.trial_clocks >= 4) return {};
-  return {fmt::format(
-      "morphological.trial_clocks = {}: steps of a trial share a clock, so the engine is not made "
-      "for 250 MHz (docs/reference/morphological/throughput.md, Trials)",
-      values.trial_clocks)};
+  std::vector<std::string> notes = threshold_notes(values);
+  if (values.trial_clocks < 4)
+    notes.push_back(fmt::format(
+        "morphological.trial_clocks = {}: steps of a trial share a clock, so the engine is not "
+        "made for 250 MHz (docs/reference/morphological/throughput.md, Trials)",
+        values.trial_clocks));
+  return notes;
 }
 
 std::vector<Shorthand> smoothing_shorthands() {

@@ -24,7 +24,8 @@ std::string preset_label(const ParameterSet& set, const spec::morphological::Par
 void reject_unused_rules(const ParameterSet& set, const spec::morphological::Parameters& values,
                          std::string_view memory);
 
-// What the result says of a build that no clock of 250 MHz holds, although it can be simulated.
+// What the result says of a build that no clock of 250 MHz holds, although it can be simulated, and
+// of thresholds below a code, which are legal and hardly meant.
 std::vector<std::string> build_notes(const spec::morphological::Parameters& values);
 
 // Of what smooths: --preset, --lanes, --storage.

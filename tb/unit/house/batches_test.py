@@ -20,7 +20,8 @@ INCLUDE = re.compile(r'^#include "(.+)"$', re.M)
 MOST = 40
 # Compiled under a condition only: by the presets asan, fuzz and hdl, and where EGL's headers are.
 SOMETIMES = {"tb/unit/scene/leaks.cpp", "tb/fuzz/fuzzer.cpp", "tb/fuzz/write_seeds.cpp",
-             "tb/oracle/mesa_device.cpp", "tb/oracle/mesa_test.cpp",
+             "tb/oracle/mesa_context.cpp", "tb/oracle/mesa_device.cpp", "tb/oracle/mesa_test.cpp",
+             "tb/oracle/smaa_shader.cpp", "tb/oracle/smaa_shader_test.cpp",
              *(path.relative_to(SOURCE).as_posix() for path in (SOURCE / "tb/hdl").glob("*.cpp"))}
 # One source each, so that the others can be compiled as they are.
 TINY = """cmake_minimum_required(VERSION 3.25)

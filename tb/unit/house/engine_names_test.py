@@ -72,7 +72,9 @@ NAMED = {
         "the field's word for such methods, or what they are compared with": [
             "golden/ideal/cmaa2.h", "golden/ideal/coverage.h", "golden/ideal/smaa.h", "tb/oracle/comparison.cpp",
             "tb/oracle/geometric_quality_test.cpp", "tb/oracle/harm.cpp", "tb/oracle/harm_test.cpp",
-            "tb/oracle/smaa_published_test.cpp", "tb/oracle/smaa_test.cpp", "tb/scene/truth.h"],
+            "tb/oracle/smaa_frames.h",
+            "tb/oracle/smaa_published_test.cpp", "tb/oracle/smaa_shader_test.cpp", "tb/oracle/smaa_test.cpp",
+            "tb/scene/truth.h"],
         "papers whose methods it has": ["tb/papers/papers_000.cpp", "tb/papers/papers_003.cpp"],
         "lines and discs that its shares are measured and learned by": [
             "scripts/train-shares", "tb/stimuli/discs.cpp", "tb/stimuli/discs.h", "tb/stimuli/line_fans.cpp",

@@ -45,6 +45,10 @@ THREADS = re.compile(r"\bSC_C?THREAD\b")
 ASSERT = re.compile(r"(?<![\w_])assert\s*\(")
 NAMESPACE = re.compile(r"^\s*using\s+namespace\b")
 RANDOM = re.compile(r"\bstd::(?:mt19937|minstd_rand|ranlux|default_random|random_device|s?rand\b|\w+_distribution)")
+# What frames and trainings are made by, which are the same on every machine; measures are not.
+EXACT, MEASURES = {"scene", "stimuli", "training"}, {"flip.cpp", "quality.cpp", "ssim.cpp"}
+OF_THE_C_LIBRARY = re.compile(
+    r"\bstd::(?:a?(?:sin|cos|tan)h?|atan2|pow|exp2?|expm1|log(?:2|10|1p)?|cbrt|hypot)f?\(")
 CONDITIONAL = re.compile(r"^\s*#\s*if(n?def)?\b")
 # A header of C asks what language it is read in.
 IN_C = re.compile(r"^#ifdef __cplusplus$")
@@ -179,6 +183,9 @@ def violations(root):
                     yield f"{where}:{number}: assert instead of DEBURR_CHECK"
                 if RANDOM.search(line):
                     yield f"{where}:{number}: a generator besides tb/base/random.h"
+                if (layer == "tb" and where.parts[1] in EXACT and path.name not in MEASURES
+                        and OF_THE_C_LIBRARY.search(line)):
+                    yield f"{where}:{number}: a function of the C library where tb/scene/exact_math.h has one"
                 if path.suffix == ".h" and NAMESPACE.match(line):
                     yield f"{where}:{number}: using namespace in a header"
                 if layer == "rtl_model" and THREADS.search(line):
@@ -208,6 +215,8 @@ def planted_faults_are_caught():
         "tb/d.cpp": "#include <random>",
         "tb/unit/a.cpp": "std::mt19937_64 random(1);",
         "tb/unit/b.cpp": "std::uniform_int_distribution<int> pick(0, 3);",
+        "tb/scene/a.cpp": "double y = std::pow(x, 2.2);",
+        "tb/training/a.h": "inline double f(double x) { return std::log2(x); }",
         "tb/app/a.cpp": '#include "tb/unit/scene/fixtures.h"',
         "tb/app/b.cpp": '#include "tb/sweep/point.h"',
         "tb/app/c.h": "#include <nlohmann/json.hpp>",

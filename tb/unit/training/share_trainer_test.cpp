@@ -17,6 +17,7 @@
 #include "tb/scene/quality.h"
 #include "tb/training/recipe.h"
 #include "tb/training/share_file.h"
+#include "tb/training/title_shares.h"
 #include "tb/training/training_frames.h"
 
 namespace deburr::tb::training::share_trainer_test {
@@ -40,15 +41,6 @@ Recipe small_recipe() {
   return recipe;
 }
 
-Image smoothed(const Image& frame, const ShareTables& tables) {
-  MorphologicalGolden golden(
-      golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr),
-      MorphologicalGolden::Detail::kPixels);
-  golden.set_share_tables(tables);
-  Image out(frame.width, frame.height);
-  out.pixels = golden.process({frame.pixels, frame.width, frame.height});
-  return out;
-}
 double quality(const TruthFrame& frame, const ShareTables& tables) {
   return psnr(smoothed(frame.frame, tables), frame.truth, edge_mask(frame.truth, frame.frame));
 }

@@ -696,6 +696,19 @@ TEST(FollowingGeometric, KeepsADynamicThresholdAndItsEdges) {
   EXPECT_EQ(dynamic.threshold_on_depth_edge, p.threshold_on_depth_edge);
 }
 
+// The inside of surfaces stays as it is, black beside white too.
+TEST(FollowingGeometric, HasNoEdgeOffAnEdgeOfDepth) {
+  const spec::morphological::Parameters p =
+      golden::morphological::following_geometric(preset_parameters(Preset::kDeburrLine));
+  const std::vector<spec::morphological::Rgba8> pixels = {{0, 0, 0, 255}, {255, 255, 255, 255}};
+  for (const bool on : {false, true}) {
+    const std::vector<std::uint32_t> depth = {1000000, on ? 2000000u : 1000000u};
+    MorphologicalGolden golden(p);
+    golden.process({pixels, 2, 1}, {depth, 2, 1});
+    EXPECT_EQ(golden.edges().left.at(1, 0), on);
+  }
+}
+
 TEST(NamedErrors, OfFramesSayWhatWouldFit) {
   auto p = preset_parameters(spec::morphological::Preset::kDeburrLine);
   const auto text = [&](int width, int height) -> std::string {

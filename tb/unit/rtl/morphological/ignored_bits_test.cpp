@@ -175,7 +175,7 @@ INSTANTIATE_TEST_SUITE_P(
         Build{spec::morphological::Preset::kMlaa, "lanes=4"},
         Build{spec::morphological::Preset::kMlaaSlope, "edges.source=depth lanes=2"},
         Build{spec::morphological::Preset::kDeburrLine,
-              "edges.source=predicated edges.threshold_off_depth_edge=16711425 leave=half"},
+              "edges.source=predicated edges.threshold_off_depth_edge=16777215 leave=half"},
         Build{spec::morphological::Preset::kSmaa, "lanes=2 leave=marked"},
         Build{spec::morphological::Preset::kSmaaDynamic, "lanes=4 leave=beside"},
         Build{spec::morphological::Preset::kDeburr, "lanes=4 storage=memory leave=masked"}));
