@@ -11,13 +11,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <systemc>
 #include <vector>
 
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/unit.h"
+#include "spec/error.h"
 
 namespace deburr::tb::unit_bench {
 
@@ -70,6 +73,14 @@ std::vector<rtl::Cycle> clocks_of(const Sink<T>& sink) {
   std::vector<rtl::Cycle> clocks;
   for (const auto& taken : sink.taken) clocks.push_back(taken.cycle);
   return clocks;
+}
+
+// Clocks that a unit lost to a cause. CheckFailed if it knows none of this name.
+inline std::uint64_t stalls(const rtl::Unit& unit, std::string_view cause) {
+  for (const rtl::Unit::StallCause& stall : unit.stalls())
+    if (stall.name == cause) return stall.cycles;
+  DEBURR_CHECK(false, std::string(unit.name()) + " has no cause " + std::string(cause));
+  return 0;
 }
 
 // A unit of the test's own between two links. Its ports are bound by the test.

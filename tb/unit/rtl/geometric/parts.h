@@ -45,7 +45,7 @@ inline std::string text_of(const rtl::Histogram& histogram) {
   return text;
 }
 
-using unit_bench::Ends, unit_bench::Source;
+using unit_bench::Ends, unit_bench::Source, unit_bench::stalls;
 
 // All that a unit needs around it.
 struct Frame {

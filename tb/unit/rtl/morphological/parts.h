@@ -110,14 +110,6 @@ inline std::string of_a_stage_less(rtl::Unit& unit, const ClockDomain& clock) {
   return "nothing";
 }
 
-// Clocks that a unit lost to a cause.
-inline std::uint64_t stalls(const rtl::Unit& unit, std::string_view cause) {
-  for (const rtl::Unit::StallCause& stall : unit.stalls())
-    if (stall.name == cause) return stall.cycles;
-  ADD_FAILURE() << unit.name() << " has no cause " << cause;
-  return 0;
-}
-
 // An engine small enough for single blocks: four rows of reach, no predictor.
 inline constexpr int kReach = 4, kLag = kReach + spec::morphological::kRowLag;
 

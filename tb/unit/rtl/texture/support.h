@@ -90,7 +90,8 @@ std::string of_one_port_more(sc_core::sc_object& root, const std::string& name) 
   return rejection([&] { Port(*found, "somebody"); });
 }
 
-using unit_bench::clocks_of, unit_bench::Ends, unit_bench::Sink, unit_bench::Source;
+using unit_bench::clocks_of, unit_bench::Ends, unit_bench::Sink, unit_bench::Source,
+    unit_bench::stalls;
 
 // The clock in which the consumer of `link` can take its oldest token for the first time; kNever if
 // that does not happen within `limit` clocks. Proves "not ready at n - 1, ready at n".
