@@ -100,4 +100,10 @@ struct Ends {
   Sink<To> sink;
 };
 
+// Clocks from the first to the last of what has come out.
+template <class From, class To>
+rtl::Cycle spread(const Ends<From, To>& ends) {
+  return ends.sink.taken.back().cycle - ends.sink.taken.front().cycle;
+}
+
 }  // namespace deburr::tb::unit_bench

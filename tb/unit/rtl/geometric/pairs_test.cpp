@@ -22,16 +22,6 @@ Parameters split(Lanes lanes = Lanes::kTwo) {
   return p;
 }
 
-// Clocks from the first to the last of what has come out.
-template <class E>
-Cycle spread(const E& ends) {
-  return ends.sink.taken.back().cycle - ends.sink.taken.front().cycle;
-}
-template <class F, class E>
-void finish(F& frame, const E& ends, std::size_t tokens) {
-  ASSERT_TRUE(frame.clock.run_until([&] { return ends.sink.taken.size() == tokens; }, 100'000));
-}
-
 // ---- PairFetch
 
 constexpr std::uint32_t kBoundaries = 0x1000, kOthers = 0x2000, kVertices = 1000;

@@ -21,15 +21,6 @@ Parameters coarse(CoarseLines lines = CoarseLines::k4) {
   return p;
 }
 
-template <class E>
-Cycle spread(const E& ends) {
-  return ends.sink.taken.back().cycle - ends.sink.taken.front().cycle;
-}
-template <class F, class E>
-void finish(F& frame, const E& ends, std::size_t tokens) {
-  ASSERT_TRUE(frame.clock.run_until([&] { return ends.sink.taken.size() == tokens; }, 100'000));
-}
-
 constexpr std::uint32_t kBase = 0x10000;
 
 // A frame of 610 x 512 pixels: 77 x 64 tiles, 10 x 16 lines.
