@@ -83,6 +83,22 @@ inline std::uint64_t stalls(const rtl::Unit& unit, std::string_view cause) {
   return 0;
 }
 
+// What an access says that a memory must not let pass.
+template <class Access>
+std::string rejection(Access&& access) {
+  try {
+    access();
+  } catch (const spec::CheckFailed& failure) {
+    return failure.what();
+  }
+  return "nothing";
+}
+// A second tick in the clock that has just passed: a stage less, so that a word is used before it
+// is there.
+inline std::string of_a_stage_less(rtl::Unit& unit, const rtl::ClockDomain& clock) {
+  return rejection([&] { unit.tick(clock.cycle() - 1); });
+}
+
 // A unit of the test's own between two links. Its ports are bound by the test.
 template <class From, class To>
 struct Ends {

@@ -99,16 +99,7 @@ struct Ends {
   Sink<To> sink;
 };
 
-// What a second tick in the clock that has just passed says: a stage less, so that a word is used
-// before it is there.
-inline std::string of_a_stage_less(rtl::Unit& unit, const ClockDomain& clock) {
-  try {
-    unit.tick(clock.cycle() - 1);
-  } catch (const spec::CheckFailed& failure) {
-    return failure.what();
-  }
-  return "nothing";
-}
+using unit_bench::of_a_stage_less;
 
 // An engine small enough for single blocks: four rows of reach, no predictor.
 inline constexpr int kReach = 4, kLag = kReach + spec::morphological::kRowLag;

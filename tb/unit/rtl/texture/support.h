@@ -48,21 +48,8 @@ using rtl::Unit;
 
 inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
 
-// What an access says that a memory must not let pass.
-template <class Access>
-std::string rejection(Access&& access) {
-  try {
-    access();
-  } catch (const spec::CheckFailed& failure) {
-    return failure.what();
-  }
-  return "nothing";
-}
-// A second tick in the clock that has just passed: a stage less, so that a word is used before it
-// is there.
-inline std::string of_a_stage_less(Unit& unit, const ClockDomain& clock) {
-  return rejection([&] { unit.tick(clock.cycle() - 1); });
-}
+using unit_bench::of_a_stage_less, unit_bench::rejection;
+
 // A second token in that clock, for a unit that has forgotten the first one.
 template <class T>
 std::string of_a_second_token(Unit& unit, Link<T>& link, const T& token, const ClockDomain& clock) {
