@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <deque>
 #include <iterator>
 #include <map>
@@ -24,6 +25,7 @@
 #include "tb/base/near_matches.h"
 #include "tb/base/yaml_file.h"
 #include "tb/results/parameter_set.h"
+#include "tb/sweep/sampling.h"
 
 namespace deburr::tb {
 namespace {
@@ -447,6 +449,13 @@ std::uint64_t share_of(std::uint64_t number, std::uint64_t divisor) {
   return (number + divisor - 1) / divisor;
 }
 
+// What runs of random configurations compare differs by more than its mean: of `runs` of them that
+// much is to be had.
+double sure_part(std::uint64_t runs) {
+  constexpr double kSpread = 8;
+  return std::max(0.0, 1 - kSpread / std::sqrt(static_cast<double>(runs)));
+}
+
 }  // namespace
 
 Testplan read_testplan(const fs::path& file) {
@@ -496,8 +505,18 @@ Testplan part_of(Testplan testplan, std::uint64_t divisor) {
   testplan.name += fmt::format("-of-{}", divisor);
   testplan.title += fmt::format(", one seed of {}", divisor);
   for (Feature& feature : testplan.features) {
-    for (Stimulus& stimulus : feature.stimuli) stimulus.seeds = share_of(stimulus.seeds, divisor);
-    for (RequiredCheck& check : feature.checks) check.minimum = share_of(check.minimum, divisor);
+    std::uint64_t runs = 0;
+    bool random = false;
+    for (Stimulus& stimulus : feature.stimuli) {
+      stimulus.seeds = share_of(stimulus.seeds, divisor);
+      runs += sample_bound(stimulus.configurations) * stimulus.seeds;
+      random = random || stimulus.random;
+    }
+    const double sure = random ? sure_part(runs) : 1;
+    for (RequiredCheck& check : feature.checks) {
+      const double share = sure * static_cast<double>(share_of(check.minimum, divisor));
+      check.minimum = std::max(std::uint64_t{1}, static_cast<std::uint64_t>(share));
+    }
     for (RequiredBins& bins : feature.coverage) bins.every = false;
   }
   for (RequiredBins& bins : testplan.coverage) bins.every = false;

@@ -122,6 +122,24 @@ TEST(CoverageResult, OfAPartOfAPlanNeedsOneBinOfTheGlob) {
   EXPECT_FALSE((CoverageResult{part, 0, {}}.met())) << "a glob that names no bin";
 }
 
+TEST(RequiredCheck, OfAPartIsItsShareAndOfFewRandomRunsLess) {
+  const auto minimum = [](bool random, std::uint64_t seeds, std::uint64_t divisor) {
+    Testplan plan;
+    plan.features.resize(1);
+    plan.features[0].stimuli.resize(1);
+    plan.features[0].stimuli[0].seeds = seeds;
+    plan.features[0].stimuli[0].random = random;
+    plan.features[0].checks = {{"pixels", 1'000'000, "plan.yaml:3"}};
+    return part_of(plan, divisor).features[0].checks[0].minimum;
+  };
+  EXPECT_EQ(minimum(true, 25'600, 1), 1'000'000u);
+  EXPECT_EQ(minimum(false, 25'600, 100), 10'000u);
+  EXPECT_EQ(minimum(true, 25'600, 100), 5'000u) << "256 runs: 1 - 8 / 16";
+  EXPECT_EQ(minimum(true, 102'400, 4), 237'500u) << "25600 runs: 1 - 8 / 160";
+  EXPECT_EQ(minimum(true, 6'400, 100), 1u) << "64 runs";
+  EXPECT_EQ(minimum(true, 100, 100), 1u) << "one run";
+}
+
 TEST(CoverageResult, OfAllRunsOfAPartNeedsOneBinOfTheGlob) {
   Testplan plan;
   plan.coverage = {{"texture/*", "plan.yaml:3"}};
