@@ -192,7 +192,8 @@ class Regression {
       if (!pending.points.empty()) run_here(plan, place, pending.points, settings("waves"));
       add_waves(result, runs, place_);
     }
-    write_regression(testplan_, base_seed_, plan_, place_, result);
+    for (const std::string& fall : write_regression(testplan_, base_seed_, plan_, place_, result))
+      say(options_, "fell        " + fall);
     return result;
   }
 
@@ -211,6 +212,12 @@ class Regression {
                                 bucket.engine, bucket.kind, bucket.message));
     for (const FeatureResult& feature : result.features)
       if (!feature.holds()) say(options_, "broken      " + reasons(feature));
+    for (const CoverageResult& covered : result.merged)
+      if (!covered.met()) say(options_, "broken      all runs: " + reason(covered, /*named=*/true));
+    for (const UnmetBin& unmet : result.unmet)
+      if (unmet.hits > 0)
+        say(options_,
+            fmt::format("met         {}, which the testplan excepts: {}", unmet.bin, unmet.reason));
     if (interrupted()) return {kInterruptedExit, "INTERRUPTED " + figures};
     if (result.missing > 0)
       return {static_cast<int>(ExitCode::kSimulation),
@@ -241,12 +248,16 @@ class Regression {
                                         grouped(check.comparisons), grouped(check.required.minimum))
                           : check.unknown);
     for (const CoverageResult& covered : feature.coverage)
-      if (!covered.met())
-        why.push_back(covered.unknown.empty()
-                          ? fmt::format("{}: {} of {} bins were not met", covered.required.glob,
-                                        grouped(covered.holes.size()), grouped(covered.bins))
-                          : covered.unknown);
+      if (!covered.met()) why.push_back(reason(covered));
     return fmt::format("{}: {}", feature.feature->id, fmt::join(why, "; "));
+  }
+
+  static std::string reason(const CoverageResult& covered, bool named = false) {
+    if (!covered.unknown.empty()) return covered.unknown;
+    std::string text = fmt::format("{}: {} of {} bins were not met", covered.required.glob,
+                                   grouped(covered.holes.size()), grouped(covered.bins));
+    if (named) text += fmt::format(": {}", fmt::join(covered.holes, ", "));
+    return text;
   }
 
   const RegressOptions& options_;

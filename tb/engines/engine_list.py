@@ -31,7 +31,11 @@ def testplan(path):
     own, included = plan.get("features", []), []
     for pattern in plan.pop("include", []):
         files = [path.parent / pattern.replace("*", name) for name in engines()] if "*" in pattern else [path.parent / pattern]
-        for feature in (f for file in files for f in yaml.safe_load(file.read_text(encoding="utf-8"))["features"]):
+        parts = [yaml.safe_load(file.read_text(encoding="utf-8")) for file in files]
+        for key in ("coverage", "unmet"):  # of the whole plan
+            if more := [entry for part in parts for entry in part.get(key, [])]:
+                plan[key] = plan.get(key, []) + more
+        for feature in (f for part in parts for f in part["features"]):
             known = next((f for f in own + included if f["id"] == feature["id"]), None)
             if known is None:
                 included.append(feature)

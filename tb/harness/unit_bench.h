@@ -11,13 +11,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <systemc>
 #include <vector>
 
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/unit.h"
+#include "spec/error.h"
 
 namespace deburr::tb::unit_bench {
 
@@ -72,6 +75,30 @@ std::vector<rtl::Cycle> clocks_of(const Sink<T>& sink) {
   return clocks;
 }
 
+// Clocks that a unit lost to a cause. CheckFailed if it knows none of this name.
+inline std::uint64_t stalls(const rtl::Unit& unit, std::string_view cause) {
+  for (const rtl::Unit::StallCause& stall : unit.stalls())
+    if (stall.name == cause) return stall.cycles;
+  DEBURR_CHECK(false, std::string(unit.name()) + " has no cause " + std::string(cause));
+  return 0;
+}
+
+// What an access says that a memory must not let pass.
+template <class Access>
+std::string rejection(Access&& access) {
+  try {
+    access();
+  } catch (const spec::CheckFailed& failure) {
+    return failure.what();
+  }
+  return "nothing";
+}
+// A second tick in the clock that has just passed: a stage less, so that a word is used before it
+// is there.
+inline std::string of_a_stage_less(rtl::Unit& unit, const rtl::ClockDomain& clock) {
+  return rejection([&] { unit.tick(clock.cycle() - 1); });
+}
+
 // A unit of the test's own between two links. Its ports are bound by the test.
 template <class From, class To>
 struct Ends {
@@ -88,5 +115,11 @@ struct Ends {
   Source<From> source;
   Sink<To> sink;
 };
+
+// Clocks from the first to the last of what has come out.
+template <class From, class To>
+rtl::Cycle spread(const Ends<From, To>& ends) {
+  return ends.sink.taken.back().cycle - ends.sink.taken.front().cycle;
+}
 
 }  // namespace deburr::tb::unit_bench

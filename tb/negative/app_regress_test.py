@@ -118,6 +118,25 @@ class Testplans(CommandTest):
         self.reject(HEAD + "    coverage: ['morphological/*']\n",
                     "t.yaml:9: no bin of the feature's engines is called 'morphological/*'")
 
+    def test_globs_of_all_runs(self):
+        self.reject(HEAD + "coverage: ['texture/[ab]']\n", "t.yaml:9: 'texture/[ab]' is no glob")
+        self.reject(HEAD + "coverage: [texture/cash/hit]\n",
+                    "t.yaml:9: no bin of the plan's engines is called 'texture/cash/hit'", "did you mean 'texture/cache/hit'")
+        self.reject(HEAD + "coverage: ['morphological/*']\n",
+                    "t.yaml:9: no bin of the plan's engines is called 'morphological/*'")
+        self.reject(HEAD + "coverage: [{bins: texture/cache/hit, reason: None.}]\n",
+                    "t.yaml:9: 'coverage' wants a list of globs, got a map")
+        self.reject(HEAD + "coverage: []\n", "t.yaml:9: 'coverage' wants a list, got an empty list")
+        self.reject(HEAD + "unmet: [texture/cache/hit]\n", "t.yaml:9: 'unmet' wants maps of bins and reason, got a single value")
+        self.reject(HEAD + "unmet: [{bins: texture/cache/hit}]\n", "t.yaml:9: 'reason' is missing")
+        self.reject(HEAD + "unmet: [{bins: texture/cache/hit, reason: ''}]\n", "t.yaml:9: 'reason' wants a text")
+        self.reject(HEAD + "unmet: [{reason: None.}]\n", "t.yaml:9: 'bins' is missing")
+        self.reject(HEAD + "unmet: [{bins: texture/cash/hit, reason: None.}]\n",
+                    "t.yaml:9: no bin of the plan's engines is called 'texture/cash/hit'")
+        self.reject(HEAD + "unmet: [{bin: texture/cache/hit, reason: None.}]\n",
+                    "t.yaml:9: unknown key 'bin': did you mean 'bins'?")
+        self.reject(HEAD + "    unmet: [{bins: texture/cache/hit, reason: None.}]\n", "t.yaml:9: unknown key 'unmet'")
+
     def test_a_scoreboard_that_no_run_has_is_a_check_that_failed(self):
         self.write("t.yaml", HEAD.replace("colours: 1", "colors: 1"))
         why = ("t.yaml:8: no run of this feature has a scoreboard 'colors' (there are colours, line fills, "

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 'use strict';
 (() => {
-  const features = JSON.parse(document.getElementById('data').textContent);
+  const {features, trend} = JSON.parse(document.getElementById('data').textContent);
   const style = getComputedStyle(document.documentElement);
   const colour = (name) => style.getPropertyValue(name).trim();
 
@@ -23,6 +23,27 @@
     options: {
       indexAxis: 'y', animation: false, maintainAspectRatio: false,
       scales: {x: {stacked: true, beginAtZero: true, ticks: {precision: 0}}, y: {stacked: true}},
+    },
+  });
+
+  if (trend.length < 2) return;
+  const line = (key, label, stroke, axis) =>
+    ({label, data: trend.map((night) => night[key]), borderColor: stroke, backgroundColor: stroke, yAxisID: axis,
+      borderWidth: 1.5, pointRadius: 2.5, tension: 0});
+  new Chart(document.getElementById('trend'), {
+    type: 'line',
+    data: {
+      labels: trend.map((night) => night.date),
+      datasets: [line('passed', 'pass rate', colour('--good'), 'rate'), line('met', 'bins met', colour('--accent'), 'rate'),
+                 line('speed', 'speed', colour('--muted'), 'speed')],
+    },
+    options: {
+      animation: false, maintainAspectRatio: false,
+      scales: {
+        rate: {position: 'left', max: 100, title: {display: true, text: '%'}},
+        speed: {position: 'right', beginAtZero: true, grid: {drawOnChartArea: false},
+                title: {display: true, text: 'thousand clocks a second'}},
+      },
     },
   });
 })();

@@ -16,6 +16,7 @@
 #include "tb/base/json_text.h"
 #include "tb/regress/junit.h"
 #include "tb/regress/regression_result.h"
+#include "tb/regress/trend.h"
 #include "tb/results/build_info.h"
 #include "tb/results/embedded.h"
 #include "tb/results/page_template.h"
@@ -31,6 +32,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kCollectedFile = "collected.json";
 constexpr int kReportSchema = 1;
 constexpr std::size_t kMaxReportBytes = 256u << 20;
+constexpr std::size_t kMostNights = 30, kCommitDigits = 12;  // in a table
 
 constexpr std::string_view name_of(PointState state) {
   return state == PointState::kDone     ? "passed"
@@ -47,6 +49,20 @@ std::string command_of(const PlannedPoint& point) {
   return command_of(point.engine, point.settings);
 }
 
+Json with_unknown(Json entry, const std::string& unknown) {
+  if (!unknown.empty()) entry["unknown"] = unknown;
+  return entry;
+}
+
+Json to_json(const CoverageResult& covered) {
+  return with_unknown({{"glob", covered.required.glob},
+                       {"bins", covered.bins},
+                       {"hit", covered.bins - covered.holes.size()},
+                       {"met", covered.met()},
+                       {"holes", covered.holes}},
+                      covered.unknown);
+}
+
 Json to_json(const FeatureResult& result) {
   const Feature& feature = *result.feature;
   Json json = {{"id", feature.id},          {"title", feature.title},  {"holds", result.holds()},
@@ -55,25 +71,23 @@ Json to_json(const FeatureResult& result) {
                {"coverage", Json::array()}};
   for (const TracedSentence& trace : feature.traces)
     json["traces"].push_back({{"page", trace.page.string()}, {"says", trace.says}});
-  const auto add = [&](const char* list, Json entry, const std::string& unknown) {
-    if (!unknown.empty()) entry["unknown"] = unknown;
-    json[list].push_back(std::move(entry));
-  };
   for (const CheckResult& check : result.checks)
-    add("checks",
-        {{"scoreboard", check.required.scoreboard},
-         {"minimum", check.required.minimum},
-         {"comparisons", check.comparisons},
-         {"met", check.met()}},
-        check.unknown);
+    json["checks"].push_back(with_unknown({{"scoreboard", check.required.scoreboard},
+                                           {"minimum", check.required.minimum},
+                                           {"comparisons", check.comparisons},
+                                           {"met", check.met()}},
+                                          check.unknown));
   for (const CoverageResult& covered : result.coverage)
-    add("coverage",
-        {{"glob", covered.required.glob},
-         {"bins", covered.bins},
-         {"hit", covered.bins - covered.holes.size()},
-         {"met", covered.met()},
-         {"holes", covered.holes}},
-        covered.unknown);
+    json["coverage"].push_back(to_json(covered));
+  return json;
+}
+
+// What is demanded of all runs together.
+Json whole_of(const RegressionResult& result) {
+  Json json = {{"coverage", Json::array()}, {"unmet", Json::array()}};
+  for (const CoverageResult& covered : result.merged) json["coverage"].push_back(to_json(covered));
+  for (const UnmetBin& unmet : result.unmet)
+    json["unmet"].push_back({{"bin", unmet.bin}, {"reason", unmet.reason}, {"hits", unmet.hits}});
   return json;
 }
 
@@ -126,8 +140,10 @@ Json json_of(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan
                {"inputs", inputs_of(plan, "testplan")},
                {"left_out", plan.left_out},
                {"features", Json::array()},
+               {"whole", whole_of(result)},
                {"buckets", Json::array()},
                {"coverage", Json::object()},
+               {"trend", Json::array()},
                {"runs", Json::array()}};
   for (const fs::path& page : testplan.pages)
     json["inputs"].push_back(input_entry(fs::proximate(page), content_of(page), "page"));
@@ -137,13 +153,16 @@ Json json_of(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan
   for (const auto& [engine, bins] : result.coverage) json["coverage"][engine] = to_json(bins);
   // A glob of bins is a check too, as in JUnit.
   std::uint64_t checks = 0, failed_checks = 0, holes = 0;
+  const auto count = [&](const Json& list) {
+    for (const Json& check : list) {
+      ++checks;
+      failed_checks += check["met"].get<bool>() ? 0 : 1;
+      if (check.contains("holes")) holes += check["holes"].size();
+    }
+  };
   for (const Json& feature : json["features"])
-    for (const char* list : {"checks", "coverage"})
-      for (const Json& check : feature[list]) {
-        ++checks;
-        failed_checks += check["met"].get<bool>() ? 0 : 1;
-        if (check.contains("holes")) holes += check["holes"].size();
-      }
+    for (const char* list : {"checks", "coverage"}) count(feature[list]);
+  count(json["whole"]["coverage"]);
   json["counts"]["checks"] = checks;
   json["counts"]["failed_checks"] = failed_checks;
   json["counts"]["holes"] = holes;
@@ -161,6 +180,16 @@ Json json_of(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan
   }
   json["counts"]["simulated_seconds"] = seconds;
   return json;
+}
+
+void add_coverage(const std::vector<CoverageResult>& coverage, JunitReport& report) {
+  for (const CoverageResult& covered : coverage)
+    report.add({"coverage: " + covered.required.glob, 0,
+                covered.met() ? JunitOutcome::kPassed : JunitOutcome::kFailed, "coverage",
+                covered.unknown.empty()
+                    ? fmt::format("{} of {} bins were not met", covered.holes.size(), covered.bins)
+                    : covered.unknown,
+                fmt::format("{}\n{}", covered.required.where, fmt::join(covered.holes, "\n"))});
 }
 
 std::string junit_of(const Testplan& testplan, const RegressionResult& result) {
@@ -192,13 +221,12 @@ std::string junit_of(const Testplan& testplan, const RegressionResult& result) {
                                                       check.comparisons, check.required.minimum)
                                         : check.unknown,
                   check.required.where});
-    for (const CoverageResult& covered : feature.coverage)
-      report.add({"coverage: " + covered.required.glob, 0,
-                  covered.met() ? JunitOutcome::kPassed : JunitOutcome::kFailed, "coverage",
-                  covered.unknown.empty() ? fmt::format("{} of {} bins were not met",
-                                                        covered.holes.size(), covered.bins)
-                                          : covered.unknown,
-                  fmt::format("{}\n{}", covered.required.where, fmt::join(covered.holes, "\n"))});
+    add_coverage(feature.coverage, report);
+    report.end_suite();
+  }
+  if (!result.merged.empty()) {
+    report.begin_suite("all runs");
+    add_coverage(result.merged, report);
     report.end_suite();
   }
   return report.text();
@@ -206,10 +234,12 @@ std::string junit_of(const Testplan& testplan, const RegressionResult& result) {
 
 // ---- the page -----------------------------------------------------------------------------------
 
+// In percent.
+double rate_of(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
 std::string percent(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? "-"
-                    : fmt::format("{:.1f} %",
-                                  100.0 * static_cast<double>(part) / static_cast<double>(whole));
+  return whole == 0 ? "-" : fmt::format("{:.1f} %", rate_of(part, whole));
 }
 
 mustache::data list_of(const Json& texts) {
@@ -220,6 +250,39 @@ mustache::data list_of(const Json& texts) {
 
 void tell_unknown(const Json& check, mustache::data& entry) {
   if (check.contains("unknown")) entry.set("unknown", check.at("unknown").get<std::string>());
+}
+
+mustache::data data_of_coverage(const Json& list) {
+  mustache::data coverage{mustache::data::type::list};
+  for (const Json& covered : list) {
+    mustache::data entry;
+    entry.set("glob", covered.at("glob").get<std::string>());
+    entry.set("bins", grouped(covered.at("bins").get<std::uint64_t>()));
+    entry.set("hit", grouped(covered.at("hit").get<std::uint64_t>()));
+    entry.set("has_holes", !covered.at("holes").empty());
+    entry.set("holes", list_of(covered.at("holes")));
+    tell_unknown(covered, entry);
+    coverage << entry;
+  }
+  return coverage;
+}
+
+// What is demanded of all runs together, and what of that the plan excepts.
+void tell_whole(const Json& whole, mustache::data& page) {
+  mustache::data unmet{mustache::data::type::list};
+  for (const Json& bin : whole.at("unmet")) {
+    mustache::data entry;
+    for (const char* key : {"bin", "reason"}) entry.set(key, bin.at(key).get<std::string>());
+    const auto hits = bin.at("hits").get<std::uint64_t>();
+    entry.set("hits", hits == 0 ? "" : grouped(hits));
+    entry.set("was_met", hits > 0);
+    unmet << entry;
+  }
+  page.set("has_merged", !whole.at("coverage").empty());
+  page.set("merged", data_of_coverage(whole.at("coverage")));
+  page.set("has_unmet", !whole.at("unmet").empty());
+  page.set("unmet_bins", grouped(whole.at("unmet").size()));
+  page.set("unmet", unmet);
 }
 
 mustache::data row_of(const Json& feature) {
@@ -237,8 +300,7 @@ mustache::data row_of(const Json& feature) {
       met += check.at("met").get<bool>() ? 1 : 0;
     }
   row.set("checks_met", fmt::format("{} of {}", met, all_checks));
-  mustache::data traces{mustache::data::type::list}, checks{mustache::data::type::list},
-      coverage{mustache::data::type::list};
+  mustache::data traces{mustache::data::type::list}, checks{mustache::data::type::list};
   for (const Json& trace : feature.at("traces")) {
     mustache::data entry;
     entry.set("page", trace.at("page").get<std::string>());
@@ -255,22 +317,14 @@ mustache::data row_of(const Json& feature) {
     checks << entry;
   }
   for (const Json& covered : feature.at("coverage")) {
-    mustache::data entry;
     bins += covered.at("bins").get<std::uint64_t>();
     hit += covered.at("hit").get<std::uint64_t>();
-    entry.set("glob", covered.at("glob").get<std::string>());
-    entry.set("bins", grouped(covered.at("bins").get<std::uint64_t>()));
-    entry.set("hit", grouped(covered.at("hit").get<std::uint64_t>()));
-    entry.set("has_holes", !covered.at("holes").empty());
-    entry.set("holes", list_of(covered.at("holes")));
-    tell_unknown(covered, entry);
-    coverage << entry;
   }
   row.set("covered", bins == 0 ? "-" : fmt::format("{} of {}", grouped(hit), grouped(bins)));
   row.set("traces", traces);
   row.set("has_checks", all_checks > 0);
   row.set("checks", checks);
-  row.set("coverage", coverage);
+  row.set("coverage", data_of_coverage(feature.at("coverage")));
   return row;
 }
 
@@ -307,7 +361,33 @@ mustache::data card_of(const Json& bucket) {
   return card;
 }
 
-std::string page_of(const Json& json) {
+// Of the last nights; the drawing has them all.
+void tell_trend(const std::vector<Night>& nights, mustache::data& page) {
+  mustache::data rows{mustache::data::type::list};
+  const std::size_t shown = std::min(nights.size(), kMostNights);
+  for (std::size_t i = nights.size(); i > nights.size() - shown; --i) {
+    const Night& night = nights[i - 1];
+    const std::vector<std::string> falls =
+        i > 1 ? falls_between(nights[i - 2], night) : std::vector<std::string>();
+    mustache::data row;
+    row.set("date", night.date);
+    row.set("seed", fmt::format("{}", night.seed));
+    row.set("commit", night.commit.substr(0, kCommitDigits));
+    row.set("runs", grouped(night.runs));
+    row.set("rate", percent(night.passed, night.runs));
+    row.set("met", fmt::format("{} of {}", grouped(night.met), grouped(night.bins)));
+    row.set("seconds", grouped(static_cast<std::uint64_t>(night.seconds)));
+    row.set("speed", grouped(static_cast<std::uint64_t>(night.clocks_a_second() / 1e3)));
+    row.set("fell", !falls.empty());
+    row.set("falls", fmt::format("{}", fmt::join(falls, "; ")));
+    rows << row;
+  }
+  page.set("has_trend", nights.size() > 1);
+  page.set("nights", grouped(nights.size()));
+  page.set("trend", rows);
+}
+
+std::string page_of(const Json& json, const std::vector<Night>& nights) {
   mustache::data page;
   page.set("style", std::string(embedded::style_css()));
   page.set("chart_js", embedded::charts());
@@ -352,22 +432,41 @@ std::string page_of(const Json& json) {
   page.set("features", features);
   page.set("has_buckets", !json.at("buckets").empty());
   page.set("buckets", buckets);
-  page.set("has_coverage", !json.at("coverage").empty());
   page.set("coverage", coverage);
-  page.set("data", json_for_script(drawn));
+  tell_whole(json.at("whole"), page);
+  page.set("has_coverage",
+           !json.at("coverage").empty() || !json.at("whole").at("coverage").empty());
+  tell_trend(nights, page);
+  Json trend = Json::array();
+  for (const Night& night : nights)
+    trend.push_back({{"date", night.date},
+                     {"passed", rate_of(night.passed, night.runs)},
+                     {"met", night.bins == 0 ? Json() : Json(rate_of(night.met, night.bins))},
+                     {"speed", night.clocks_a_second() / 1e3}});
+  page.set("data", json_for_script({{"features", std::move(drawn)}, {"trend", std::move(trend)}}));
   return filled_page(embedded::regression_template(), "regression.mustache", page);
 }
 
 }  // namespace
 
-void write_regression(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan,
-                      const SweepPlace& place, const RegressionResult& result) {
-  const Json json = json_of(testplan, base_seed, plan, place, result);
+std::vector<std::string> write_regression(const Testplan& testplan, std::uint64_t base_seed,
+                                          const Plan& plan, const SweepPlace& place,
+                                          const RegressionResult& result) {
+  const fs::path trend = trend_file(place.out, testplan.name);
+  const TrendLock lock(trend.parent_path());
+  std::vector<Night> nights = read_trend(trend);
+  if (result.missing == 0) nights = with_night(std::move(nights), night_of(result, base_seed));
+  Json json = json_of(testplan, base_seed, plan, place, result);
+  for (const Night& night : nights) json["trend"].push_back(to_json(night));
   const std::string junit = junit_of(testplan, result),
-                    collected = json_text(json, 1, NotUtf8::kReplace) + "\n", page = page_of(json);
+                    collected = json_text(json, 1, NotUtf8::kReplace) + "\n",
+                    page = page_of(json, nights), text = trend_text(nights);
   write_files_atomically({{place.directory / "junit.xml", junit},
                           {place.directory / kCollectedFile, collected},
-                          {place.directory / "index.html", page}});
+                          {place.directory / "index.html", page},
+                          {trend, text}});
+  if (result.missing > 0 || nights.size() < 2) return {};
+  return falls_between(nights[nights.size() - 2], nights.back());
 }
 
 std::uint64_t seed_of_last_report(const fs::path& out, const std::string& testplan) {

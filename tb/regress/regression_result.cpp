@@ -58,6 +58,7 @@ class RunCollector {
     }
     for_each_point(points_file(place_.directory), [&](const PlannedPoint& point) { add(point); });
     for (std::size_t i = 0; i < all_.features.size(); ++i) check(all_.features[i], seen_[i]);
+    check_all();
     fill_buckets();
     return std::move(all_);
   }
@@ -72,7 +73,7 @@ class RunCollector {
   void add(const PlannedPoint& point) {
     const std::size_t feature = index_.at(origin_of(point).feature);
     const fs::path directory = point_directory(place_.points(), point.name);
-    RegressionRun run{point, state_of(directory), {}, 0};
+    RegressionRun run{.point = point, .state = state_of(directory), .failure = {}};
     FeatureResult& figures = all_.features[feature];
     switch (run.state) {
       case PointState::kDone:
@@ -97,6 +98,7 @@ class RunCollector {
   void read(const SortedJson& result, Seen& seen, RegressionRun& run) {
     if (!result.is_object()) return;
     run.seconds = result.value("/host/seconds"_json_pointer, 0.0);
+    run.clocks = result.value("cycles", std::uint64_t{0});
     if (run.state != PointState::kDone) return;
     const SortedJson boards = result.value("scoreboards", SortedJson::object());
     for (const auto& [name, board] : boards.items())
@@ -115,23 +117,42 @@ class RunCollector {
             unknown(check.where, "scoreboard", check.scoreboard, keys_of(seen.comparisons));
       feature.checks.push_back(std::move(result));
     }
-    for (const RequiredBins& bins : feature.feature->coverage) {
-      CoverageResult covered{bins, 0, {}};
-      for (const auto& [bin, hits] : seen.bins) {
-        if (!rtl::glob_match(bins.glob, bin)) continue;
-        ++covered.bins;
-        if (hits == 0) covered.holes.push_back(bin);
-      }
-      if (covered.bins == 0 && feature.passed > 0)
-        covered.unknown = unknown(bins.where, "bin", bins.glob, groups_of(seen.bins));
-      feature.coverage.push_back(std::move(covered));
+    for (const RequiredBins& bins : feature.feature->coverage)
+      feature.coverage.push_back(covered(bins, seen.bins, feature.passed, "this feature"));
+  }
+
+  // What all runs together have met, without what the plan excepts.
+  void check_all() {
+    Bins bins;
+    for (const auto& [engine, some] : all_.coverage) tb::add(some, bins);
+    for (const UnmetBins& unmet : testplan_.unmet)
+      std::erase_if(bins, [&](const auto& entry) {
+        if (!rtl::glob_match(unmet.glob, entry.first)) return false;
+        all_.unmet.push_back({entry.first, unmet.reason, entry.second});
+        return true;
+      });
+    for (const RequiredBins& required : testplan_.coverage)
+      all_.merged.push_back(covered(required, bins, all_.passed, "the plan"));
+  }
+
+  static CoverageResult covered(const RequiredBins& required, const Bins& seen,
+                                std::uint64_t passed, std::string_view whose) {
+    CoverageResult covered{required, 0, {}};
+    for (const auto& [bin, hits] : seen) {
+      if (!rtl::glob_match(required.glob, bin)) continue;
+      ++covered.bins;
+      if (hits == 0) covered.holes.push_back(bin);
     }
+    if (covered.bins == 0 && passed > 0)
+      covered.unknown = unknown(required.where, "bin", required.glob, groups_of(seen), whose);
+    return covered;
   }
 
   static std::string unknown(const std::string& where, std::string_view what,
-                             const std::string& name, const std::vector<std::string>& known) {
-    return fmt::format("{}: no run of this feature has a {} '{}' (there are {}){}", where, what,
-                       name, fmt::join(known, ", "), did_you_mean(near_matches(name, known)));
+                             const std::string& name, const std::vector<std::string>& known,
+                             std::string_view whose = "this feature") {
+    return fmt::format("{}: no run of {} has a {} '{}' (there are {}){}", where, whose, what, name,
+                       fmt::join(known, ", "), did_you_mean(near_matches(name, known)));
   }
 
   // Bins are too many to be listed: "texture/cache/*".
@@ -179,7 +200,9 @@ bool FeatureResult::holds() const {
 
 bool RegressionResult::holds() const {
   return std::all_of(features.begin(), features.end(),
-                     [](const FeatureResult& feature) { return feature.holds(); });
+                     [](const FeatureResult& feature) { return feature.holds(); }) &&
+         std::all_of(merged.begin(), merged.end(),
+                     [](const CoverageResult& covered) { return covered.met(); });
 }
 
 RegressionResult collect_regression(const Testplan& testplan, const SweepPlace& place) {

@@ -25,6 +25,7 @@ struct RegressionRun {
   PointState state = PointState::kMissing;
   Failure failure;     // of one that failed
   double seconds = 0;  // of the host
+  std::uint64_t clocks = 0;
 };
 
 struct CheckResult {
@@ -34,7 +35,14 @@ struct CheckResult {
   bool met() const { return comparisons >= required.minimum; }
 };
 
-// The bins that a glob of a feature names, as its own runs met them.
+// A bin that a plan says is not met: why, and how often it was.
+struct UnmetBin {
+  std::string bin, reason;
+  std::uint64_t hits = 0;
+};
+
+// The bins that a glob of a feature names, as its own runs met them; or one of the whole plan, as
+// all runs did.
 struct CoverageResult {
   RequiredBins required;
   std::uint64_t bins = 0;
@@ -64,8 +72,11 @@ struct RegressionResult {
   std::vector<FeatureResult> features;
   std::vector<FailureBucket> buckets;
   std::map<std::string, Bins> coverage;  // by the engine that bins are of, whatever ran it
+  std::vector<CoverageResult> merged;    // what the plan demands of all runs together
+  std::vector<UnmetBin> unmet;           // what it excepts
   std::uint64_t passed = 0, failed = 0, missing = 0;
-  // Every run passed, and every feature was checked and covered as it says.
+  // Every run passed, and every feature and all of them together were checked and covered as the
+  // plan says.
   bool holds() const;
 };
 
@@ -78,10 +89,12 @@ std::vector<PlannedPoint> runs_with_waves(const RegressionResult& result, const 
 void add_waves(RegressionResult& result, const std::vector<PlannedPoint>& runs,
                const SweepPlace& place);
 
-// junit.xml, collected.json and index.html in the regression's directory: all of them, or FileError
-// and those of before.
-void write_regression(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan,
-                      const SweepPlace& place, const RegressionResult& result);
+// junit.xml, collected.json and index.html in the regression's directory, and the night in the
+// trend of its testplan, unless runs are missing: all of them, or FileError and those of before.
+// Says what is worse than the night before.
+std::vector<std::string> write_regression(const Testplan& testplan, std::uint64_t base_seed,
+                                          const Plan& plan, const SweepPlace& place,
+                                          const RegressionResult& result);
 
 // The base seed of the report of this testplan that was written last. FileError where none is.
 std::uint64_t seed_of_last_report(const std::filesystem::path& out, const std::string& testplan);

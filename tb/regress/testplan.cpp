@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <deque>
 #include <iterator>
 #include <map>
@@ -24,6 +25,7 @@
 #include "tb/base/near_matches.h"
 #include "tb/base/yaml_file.h"
 #include "tb/results/parameter_set.h"
+#include "tb/sweep/sampling.h"
 
 namespace deburr::tb {
 namespace {
@@ -171,9 +173,10 @@ class Pages {
   std::vector<fs::path> found_;
 };
 
-// A coverage glob, which is checked when every file has named the engines of its feature.
+// A coverage glob, which is checked when every file has named the engines of its feature, or of the
+// plan.
 struct PendingGlob {
-  std::string feature;
+  std::string feature;  // empty: of the plan
   YAML::Node node;
   const YamlFile* yaml;
 };
@@ -189,10 +192,11 @@ class TestplanFile {
   // What it says of the whole plan; files that it includes.
   std::vector<fs::path> read_whole(Testplan& plan) {
     const YAML::Node& root = yaml_.root();
-    yaml_.require_keys(root, {"title", "include", "features"});
+    yaml_.require_keys(root, {"title", "include", "features", "coverage", "unmet"});
     plan.file = yaml_.path();
     plan.name = plan.title = plan.file.stem().string();
     if (root["title"]) plan.title = yaml_.scalar(root["title"], "title");
+    note_globs(root, "");
     std::vector<fs::path> files;
     if (root["include"])
       for (const YAML::Node& node : list_of(root, "include"))
@@ -209,7 +213,8 @@ class TestplanFile {
   }
 
   void read_part() {
-    yaml_.require_keys(yaml_.root(), {"features"});
+    yaml_.require_keys(yaml_.root(), {"features", "coverage", "unmet"});
+    note_globs(yaml_.root(), "");
     std::set<std::string> own;
     for (const YAML::Node& node : list_of(yaml_.root(), "features")) {
       const std::string id = name_of(node, "id");
@@ -224,9 +229,27 @@ class TestplanFile {
 
   const std::vector<fs::path>& pages() const { return pages_.found(); }
 
-  void read(const PendingGlob& glob) const {
-    Feature& feature = *feature_named(glob.feature);
-    feature.coverage.push_back({read_glob(glob.node, bins_of(feature)), yaml_.where(glob.node)});
+  void read(const PendingGlob& glob, Testplan& plan) const {
+    const std::string where = yaml_.where(glob.node);
+    if (!glob.feature.empty()) {
+      Feature& feature = *feature_named(glob.feature);
+      feature.coverage.push_back(
+          {read_glob(glob.node, "coverage", bins_of({&feature}), "the feature's"), where});
+      return;
+    }
+    std::vector<const Feature*> all;
+    for (const std::vector<Feature>* const features : {&common_, &included_})
+      for (const Feature& feature : *features) all.push_back(&feature);
+    const std::vector<std::string> bins = bins_of(all);
+    if (!glob.node.IsMap()) {
+      plan.coverage.push_back({read_glob(glob.node, "coverage", bins, "the plan's"), where});
+      return;
+    }
+    yaml_.require_keys(glob.node, {"bins", "reason"});
+    const std::string reason = text_of(glob.node, "reason");
+    if (reason.empty()) yaml_.fail(glob.node["reason"], "'reason' wants a text");
+    if (!glob.node["bins"]) yaml_.fail(glob.node, "'bins' is missing");
+    plan.unmet.push_back({read_glob(glob.node["bins"], "bins", bins, "the plan's"), reason, where});
   }
 
  private:
@@ -291,7 +314,7 @@ class TestplanFile {
     if (!includes_ && !node["checks"] && !node["coverage"])
       yaml_.fail(node, "'checks' is missing, and so is 'coverage': what must its runs show?");
     read_checks(node, feature);
-    note_globs(node, feature);
+    note_globs(node, feature.id);
     return feature;
   }
 
@@ -300,7 +323,7 @@ class TestplanFile {
     if (node["traces"]) read_traces_of(node, feature);
     read_stimuli_of(node, feature);
     read_checks(node, feature);
-    note_globs(node, feature);
+    note_globs(node, feature.id);
   }
 
   void read_traces_of(const YAML::Node& node, Feature& feature) {
@@ -317,10 +340,17 @@ class TestplanFile {
     }
   }
 
-  void note_globs(const YAML::Node& node, const Feature& feature) {
-    if (!node["coverage"]) return;
-    for (const YAML::Node& glob : list_of(node, "coverage"))
-      globs_.push_back({feature.id, glob, &yaml_});
+  void note_globs(const YAML::Node& node, const std::string& feature) {
+    for (const char* const key : {"coverage", "unmet"}) {
+      if (!node[key]) continue;
+      for (const YAML::Node& glob : list_of(node, key)) {
+        if (glob.IsMap() != (key == std::string_view("unmet")))
+          yaml_.fail(glob, fmt::format("'{}' wants {}, got {}", key,
+                                       glob.IsMap() ? "a list of globs" : "maps of bins and reason",
+                                       YamlFile::kind(glob)));
+        globs_.push_back({feature, glob, &yaml_});
+      }
+    }
   }
 
   // Wherever it is looked for, it leads nowhere else.
@@ -383,25 +413,28 @@ class TestplanFile {
     }
   }
 
-  static std::vector<std::string> bins_of(const Feature& feature) {
+  static std::vector<std::string> bins_of(const std::vector<const Feature*>& features) {
     std::set<std::string> engines, bins;
-    for (const Stimulus& stimulus : feature.stimuli) engines.insert(stimulus.configurations.engine);
+    for (const Feature* const feature : features)
+      for (const Stimulus& stimulus : feature->stimuli)
+        engines.insert(stimulus.configurations.engine);
     for (const std::string& engine : engines) bins.merge(coverage_bins(engine));
     return {bins.begin(), bins.end()};
   }
 
-  // Of bins that the engines may have; whether the feature's own runs have them, they show.
-  std::string read_glob(const YAML::Node& node, const std::vector<std::string>& bins) const {
-    std::string glob = yaml_.scalar(node, "coverage");
+  // Of bins that the engines may have; whether the runs have them, they show.
+  std::string read_glob(const YAML::Node& node, std::string_view key,
+                        const std::vector<std::string>& bins, std::string_view whose) const {
+    std::string glob = yaml_.scalar(node, key);
     if (glob.empty() || glob.find_first_of("[]{}!\\") != std::string::npos)
       yaml_.fail(node, fmt::format("'{}' is no glob: * stands for any text, ? for any character, "
                                    "and [, {{, ! and \\ for nothing",
                                    glob));
     if (std::none_of(bins.begin(), bins.end(),
                      [&](const std::string& bin) { return rtl::glob_match(glob, bin); }))
-      yaml_.fail(node, fmt::format("no bin of the feature's engines is called '{}'{} "
+      yaml_.fail(node, fmt::format("no bin of {} engines is called '{}'{} "
                                    "(docs/reference/coverage.md)",
-                                   glob, did_you_mean(near_matches(glob, bins))));
+                                   whose, glob, did_you_mean(near_matches(glob, bins))));
     return glob;
   }
 
@@ -414,6 +447,13 @@ class TestplanFile {
 
 std::uint64_t share_of(std::uint64_t number, std::uint64_t divisor) {
   return (number + divisor - 1) / divisor;
+}
+
+// What runs of random configurations compare differs by more than its mean: of `runs` of them that
+// much is to be had.
+double sure_part(std::uint64_t runs) {
+  constexpr double kSpread = 8;
+  return std::max(0.0, 1 - kSpread / std::sqrt(static_cast<double>(runs)));
 }
 
 }  // namespace
@@ -441,7 +481,7 @@ Testplan read_testplan(const fs::path& file) {
     note_pages(part);
   }
   for (const PendingGlob& glob : globs)
-    TestplanFile(*glob.yaml, common, plan.features, globs).read(glob);
+    TestplanFile(*glob.yaml, common, plan.features, globs).read(glob, plan);
   plan.features.insert(plan.features.end(), std::make_move_iterator(common.begin()),
                        std::make_move_iterator(common.end()));
   const auto require = [&](bool has, const Feature& feature, const char* what) {
@@ -465,10 +505,21 @@ Testplan part_of(Testplan testplan, std::uint64_t divisor) {
   testplan.name += fmt::format("-of-{}", divisor);
   testplan.title += fmt::format(", one seed of {}", divisor);
   for (Feature& feature : testplan.features) {
-    for (Stimulus& stimulus : feature.stimuli) stimulus.seeds = share_of(stimulus.seeds, divisor);
-    for (RequiredCheck& check : feature.checks) check.minimum = share_of(check.minimum, divisor);
+    std::uint64_t runs = 0;
+    bool random = false;
+    for (Stimulus& stimulus : feature.stimuli) {
+      stimulus.seeds = share_of(stimulus.seeds, divisor);
+      runs += sample_bound(stimulus.configurations) * stimulus.seeds;
+      random = random || stimulus.random;
+    }
+    const double sure = random ? sure_part(runs) : 1;
+    for (RequiredCheck& check : feature.checks) {
+      const double share = sure * static_cast<double>(share_of(check.minimum, divisor));
+      check.minimum = std::max(std::uint64_t{1}, static_cast<std::uint64_t>(share));
+    }
     for (RequiredBins& bins : feature.coverage) bins.every = false;
   }
+  for (RequiredBins& bins : testplan.coverage) bins.every = false;
   return testplan;
 }
 

@@ -39,6 +39,11 @@ struct RequiredBins {
   bool every = true;  // else one of them: which ones few seeds meet is chance
 };
 
+// Bins that no run of the plan meets, and why that is so.
+struct UnmetBins {
+  std::string glob, reason, where;
+};
+
 struct Feature {
   std::string id, title;
   std::vector<TracedSentence> traces;
@@ -53,6 +58,8 @@ struct Testplan {
   std::string name, title;
   std::uint64_t divisor = 1;  // of N seeds there are N / divisor
   std::vector<Feature> features;
+  std::vector<RequiredBins> coverage;  // that all runs together must meet, but for these:
+  std::vector<UnmetBins> unmet;
   std::vector<std::filesystem::path> pages;  // that were found
 };
 
@@ -62,11 +69,13 @@ struct Testplan {
 //
 // ConfigError with file and line for everything that cannot be meant: unknown keys and parameters,
 // features and stimuli of one name, sentences that no page has, bins that no engine has. Pages are
-// looked for in the folder of the testplan and in those around it.
+// looked for in the folder of the testplan and in those around it. Every file may have `coverage`
+// and `unmet` of the whole plan.
 Testplan read_testplan(const std::filesystem::path& file);
 
-// Of each configuration one of so many seeds, at least one, as much less of what must be compared,
-// and of each glob one bin: runs that the whole plan has too. Its name says so.
+// Of each configuration one of so many seeds, at least one, as much less of what must be compared
+// (less still of a feature with random configurations), and of each glob one bin: runs that the
+// whole plan has too. Its name says so.
 Testplan part_of(Testplan testplan, std::uint64_t divisor);
 
 }  // namespace deburr::tb

@@ -25,6 +25,12 @@ add_test(NAME coverage COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/coverage_test.py" $<
                                "${PROJECT_SOURCE_DIR}")
 set_tests_properties(coverage PROPERTIES LABELS system TIMEOUT 300
                      ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+foreach(class Unseen Slower Reset Faulty)
+  add_test(NAME disturbed.${class}
+           COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/disturbed_test.py" $<TARGET_FILE:deburr> "${PROJECT_SOURCE_DIR}" ${class})
+  set_tests_properties(disturbed.${class} PROPERTIES LABELS system TIMEOUT 600
+                       ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1")
+endforeach()
 foreach(class Windows Timeline Maps)
   add_test(NAME observers.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/observers_test.py" $<TARGET_FILE:deburr> ${class})

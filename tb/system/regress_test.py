@@ -248,6 +248,86 @@ class Passing(RegressTest):
         self.assertIn("no result of before counts", self.regress("run"))
         self.regress("collect")
 
+    def test_all_runs_together_meet_what_the_plan_demands(self):
+        alone = TESTPLAN[:TESTPLAN.index("  - id: anything")]
+        formats = [f"texture/format/{name}" for name in ("l8", "rgb565", "rgba4444", "srgb8_a8")]
+        demand = "coverage: ['texture/format/*', texture/cache/hit]\n"
+        self.write("plans/small.yaml", alone + demand)
+        said = self.regress("-j2", code=1)
+        self.assertRegex(said, "(?m)^broken      all runs: texture/format/\\*: 4 of 5 bins were not met: " +
+                         ", ".join(formats) + "$")
+        self.assertNotIn("broken      filtering", said)
+        report = self.collected()
+        self.assertEqual([(c["glob"], c["hit"], c["holes"]) for c in report["whole"]["coverage"]],
+                         [("texture/format/*", 1, formats), ("texture/cache/hit", 1, [])])
+        self.assertEqual([report["holds"], report["counts"]["failed_checks"], report["counts"]["holes"]], [False, 1, 4])
+        root = xml.etree.ElementTree.parse(self.path("out/regressions/small-7/junit.xml")).getroot()
+        self.assertEqual([(suite.get("name"), suite.get("failures")) for suite in root], [("filtering", "0"), ("all runs", "1")])
+        with open(self.path("out/regressions/small-7/index.html")) as file:
+            self.assertIn("texture/format/*: 1 of 5 bins, not met:", file.read())
+        # Of a part of the seeds one bin is enough.
+        self.regress("-j2", "--divide", "3")
+        # What is excepted is named with its reason, and nothing else is.
+        unmet = "unmet:\n" + "".join(f"  - {{bins: {name}, reason: No scene has it.}}\n" for name in formats[1:])
+        self.write("plans/small.yaml", alone + demand + unmet)
+        self.assertIn(f"1 of 2 bins were not met: {formats[0]}\n", self.regress(code=1))
+        self.write("plans/small.yaml", alone + demand + unmet + "  - {bins: 'texture/format/*8', reason: No scene has that.}\n")
+        said = self.regress(code=1)
+        self.assertIn("met         texture/format/rgba8, which the testplan excepts: No scene has that.", said)
+        self.assertIn("no run of the plan has a bin 'texture/format/*'", said)
+        self.write("plans/small.yaml", alone + demand + unmet + "  - {bins: texture/format/l8, reason: No scene has that.}\n")
+        self.assertNotIn("met         ", self.regress())
+        report = self.collected()
+        self.assertTrue(report["holds"])
+        self.assertEqual(report["whole"]["coverage"][0]["bins"], 1)
+        self.assertEqual([(u["bin"], u["reason"], u["hits"]) for u in report["whole"]["unmet"]],
+                         [(name, "No scene has it.", 0) for name in formats[1:]] + [(formats[0], "No scene has that.", 0)])
+        with open(self.path("out/regressions/small-7/index.html")) as file:
+            self.assertIn("texture/format/l8: No scene has that.", file.read())
+
+    def test_a_file_of_a_plan_adds_what_all_runs_must_meet(self):
+        start = TESTPLAN.index("  - id: filtering")
+        part = ("features:\n" + TESTPLAN[start:TESTPLAN.index("  - id: anything")] +
+                "coverage: ['texture/format/*']\nunmet: [{bins: texture/format/l8, reason: None.}]\n")
+        self.write("plans/small.yaml", "include: [part.yaml]\n")
+        self.write("plans/part.yaml", part.replace("format/l8", "format/l9"))
+        self.regress("plan", code=2, says="no bin of the plan's engines is called 'texture/format/l9'")
+        self.write("plans/part.yaml", part)
+        self.assertIn("broken      all runs: texture/format/*: 3 of 4 bins", self.regress("-j2", code=1))
+
+    def test_a_night_is_a_line_of_the_trend(self):
+        self.regress("-j2")
+        night, = self.nights()
+        report = self.collected()
+        self.assertEqual([night[key] for key in ("seed", "commit", "holds", "runs", "passed")],
+                         [7, report["commit"], True, POINTS, POINTS])
+        self.assertRegex(night["date"], r"^20\d\d-[01]\d-[0-3]\d$")
+        texture = report["coverage"]["texture"]
+        self.assertEqual([night["bins"], night["met"]], [texture["bins"], texture["hit"]])
+        clocks = 0
+        for path in self.inodes():
+            with open(path) as file:
+                clocks += json.load(file)["cycles"]
+        self.assertEqual(night["clocks"], clocks)
+        self.assertEqual(night["seconds"], report["counts"]["simulated_seconds"])
+        self.regress("collect")
+        self.assertEqual(self.nights(), [night], "one of each seed and commit")
+        with open(self.path("out/regressions/small-7/index.html")) as file:
+            self.assertNotIn("Trend over", file.read())
+        os.remove(min(self.inodes()))
+        self.regress("collect", code=3)
+        self.assertEqual(self.nights(), [night], "of which no run is missing")
+        self.regress("run", seed="8")
+        self.assertEqual([n["seed"] for n in self.nights()], [7, 8])
+        self.regress("run")
+        self.assertEqual([n["seed"] for n in self.nights()], [8, 7], "the last one is at the end")
+        self.write("out/regressions/small.jsonl", '{"date": "2026-11-23"}\n')
+        self.regress("collect", code=5, says="line 1 is no night of this version")
+
+    def nights(self, name="small"):
+        with open(self.path(f"out/regressions/{name}.jsonl")) as file:
+            return [json.loads(line) for line in file]
+
     def test_too_little_is_no_pass(self):
         self.write("plans/small.yaml", TESTPLAN.replace("colours: 1000", "colours: 1000000"))
         self.assertRegex(self.regress(code=1), r"colours: 2,\d\d\d comparisons of 1,000,000")
@@ -270,6 +350,22 @@ class Failing(RegressTest):
         before = self.inodes()
         self.regress("run", code=1)
         self.assertEqual(self.inodes(), before, "neither failures nor waves are made again")
+
+    def test_a_night_that_is_worse_than_the_one_before_says_so(self):
+        self.assertNotIn("fell", self.regress("-j2", seed="6"))
+        self.write("plans/small.yaml", TESTPLAN + FAULT)
+        said = self.regress("-j2", code=1)
+        self.assertRegex(said, r"(?m)^fell        pass rate from 100\.0 % to 75\.0 %$")
+        page = self.page()
+        self.assertIn("Trend over 2 nights", page)
+        rows = re.findall(r"<tr[^>]*><td>20\d\d-.*?</tr>", page)
+        self.assertEqual([re.sub("<.*?>", " ", row).split()[1] for row in rows], ["7", "6"])
+        self.assertIn('class="broken"', rows[0])
+        self.assertIn("pass rate from 100.0 % to 75.0 %", rows[0])
+        self.assertNotIn("broken", rows[1])
+        drawn = json.loads(re.search(r'id="data">(.*?)</script>', page)[1])["trend"]
+        self.assertEqual([night["passed"] for night in drawn], [100, 75])
+        self.assertEqual([night["passed"] for night in self.collected()["trend"]], [POINTS, POINTS])
 
     def test_the_page_has_no_dead_links_and_no_empty_sections(self):
         """A run that cannot read its texture leaves no result, and no coverage."""

@@ -193,21 +193,36 @@ class CommandLines(unittest.TestCase):
     def test_a_part_of_the_nightly_plan_has_the_features_that_are_asked_for(self):
         plan = testplan(SOURCE / "tb/testplan/nightly.yaml")
         names = [feature["id"] for feature in plan["features"]]
-        for arguments, left in ((["large-frames"], ["large-frames"]), ([], names),
-                                (["--but", names[0], names[2]], [names[1], *names[3:]])):
+        self.assertTrue(plan["coverage"])
+        # What all runs must meet together, some of them need not.
+        of_all = {key: value for key, value in plan.items() if key not in ("coverage", "unmet")}
+        for arguments, whole, left, name in (
+                (["large-frames"], of_all, ["large-frames"], "nightly-large-frames"), ([], plan, names, "nightly"),
+                (["--but", names[0], names[2]], of_all, [names[1], *names[3:]], f"nightly-but-{names[0]}-{names[2]}")):
             done, said, calls = self.call("scripts/nightly", *arguments, "--seed", "7")
             self.assertEqual(done, 0, said)
-            part = self.root / "tree/build/nightly/nightly.yaml"
+            part = self.root / f"tree/build/nightly/{name}.yaml"
             self.assertEqual(calls, ["cmake --build build/release --target deburr",
                                      f"deburr regress {part} --divide 100 --out {part.parent} --seed 7"])
             self.assertEqual(yaml.safe_load(part.read_text(encoding="utf-8")),
-                             {**plan, "features": [f for f in plan["features"] if f["id"] in left]})
+                             {**whole, "features": [f for f in plan["features"] if f["id"] in left]})
+
+    def test_of_the_nightly_call_before_its_trend_stays(self):
+        regressions = self.root / "tree/build/nightly/regressions"
+        (regressions / "nightly-of-100-1").mkdir(parents=True)
+        (regressions / "nightly-of-100.jsonl").write_text("{}\n", encoding="utf-8")
+        (regressions.parent / "points").mkdir()
+        self.assertEqual(self.call("scripts/nightly")[0], 0)
+        self.assertEqual(sorted(path.name for path in regressions.rglob("*")), ["nightly-of-100.jsonl"])
+        self.assertEqual((regressions / "nightly-of-100.jsonl").read_text(encoding="utf-8"), "{}\n")
+        self.assertFalse((regressions.parent / "points").exists())
 
     def test_few_configurations_of_the_nightly_plan_are_drawn_by_the_seed(self):
         drawn = set()
         for seed in ("1", "2", "3", "1"):
             self.assertEqual(self.call("scripts/nightly", "--few", "--seed", seed)[0], 0)
-            text = (self.root / "tree/build/nightly/nightly.yaml").read_text(encoding="utf-8")
+            text = (self.root / "tree/build/nightly/nightly-few.yaml").read_text(encoding="utf-8")
+            self.assertNotIn("unmet", yaml.safe_load(text))
             for feature in yaml.safe_load(text)["features"]:
                 # What one value of an axis compares may be less than the plan demands of all of them.
                 self.assertEqual(set(feature["checks"].values()), {100})

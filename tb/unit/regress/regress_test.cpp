@@ -4,21 +4,27 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "spec/error.h"
+#include "tb/base/atomic_file.h"
 #include "tb/regress/failure_message.h"
 #include "tb/regress/junit.h"
 #include "tb/regress/regression_plan.h"
 #include "tb/regress/regression_result.h"
 #include "tb/regress/testplan.h"
+#include "tb/regress/trend.h"
 
 namespace deburr::tb::regress_test {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -114,6 +120,120 @@ TEST(CoverageResult, OfAPartOfAPlanNeedsOneBinOfTheGlob) {
   EXPECT_TRUE(met(part, {"texture/cache/hit"}));
   EXPECT_FALSE(met(part, {"texture/cache/hit", "texture/cache/miss"}));
   EXPECT_FALSE((CoverageResult{part, 0, {}}.met())) << "a glob that names no bin";
+}
+
+TEST(RequiredCheck, OfAPartIsItsShareAndOfFewRandomRunsLess) {
+  const auto minimum = [](bool random, std::uint64_t seeds, std::uint64_t divisor) {
+    Testplan plan;
+    plan.features.resize(1);
+    plan.features[0].stimuli.resize(1);
+    plan.features[0].stimuli[0].seeds = seeds;
+    plan.features[0].stimuli[0].random = random;
+    plan.features[0].checks = {{"pixels", 1'000'000, "plan.yaml:3"}};
+    return part_of(plan, divisor).features[0].checks[0].minimum;
+  };
+  EXPECT_EQ(minimum(true, 25'600, 1), 1'000'000u);
+  EXPECT_EQ(minimum(false, 25'600, 100), 10'000u);
+  EXPECT_EQ(minimum(true, 25'600, 100), 5'000u) << "256 runs: 1 - 8 / 16";
+  EXPECT_EQ(minimum(true, 102'400, 4), 237'500u) << "25600 runs: 1 - 8 / 160";
+  EXPECT_EQ(minimum(true, 6'400, 100), 1u) << "64 runs";
+  EXPECT_EQ(minimum(true, 100, 100), 1u) << "one run";
+}
+
+TEST(CoverageResult, OfAllRunsOfAPartNeedsOneBinOfTheGlob) {
+  Testplan plan;
+  plan.coverage = {{"texture/*", "plan.yaml:3"}};
+  EXPECT_TRUE(part_of(plan, 1).coverage[0].every);
+  EXPECT_FALSE(part_of(plan, 2).coverage[0].every);
+}
+
+TEST(RegressionResult, HoldsOnlyIfAllRunsTogetherMeetWhatThePlanDemands) {
+  RegressionResult result;
+  EXPECT_TRUE(result.holds());
+  result.merged.push_back({{"texture/*", "plan.yaml:3"}, 2, {}});
+  EXPECT_TRUE(result.holds());
+  result.merged.push_back({{"texture/*", "plan.yaml:4"}, 2, {"texture/cache/hit"}});
+  EXPECT_FALSE(result.holds());
+}
+
+Night night(std::uint64_t seed, const std::string& commit = "a") {
+  return {.date = "2026-11-23",
+          .commit = commit,
+          .seed = seed,
+          .holds = true,
+          .runs = 12,
+          .passed = 12,
+          .bins = 81,
+          .met = 80,
+          .clocks = 6'000'000,
+          .seconds = 60};
+}
+
+TEST(Trend, SaysWhatIsWorse) {
+  const Night before = night(1);
+  Night after = before;
+  EXPECT_THAT(falls_between(before, after), testing::IsEmpty());
+  after.passed = 11;
+  EXPECT_THAT(falls_between(before, after), ElementsAre("pass rate from 100.0 % to 91.7 %"));
+  EXPECT_THAT(falls_between(after, before), testing::IsEmpty());
+  after = before;
+  after.runs = after.passed = 6;
+  EXPECT_THAT(falls_between(before, after), testing::IsEmpty()) << "it is a rate";
+  after.met = 79;
+  EXPECT_THAT(falls_between(before, after), ElementsAre("bins met from 80 of 81 to 79 of 81"));
+  after.met = 80;
+  after.bins = 82;
+  EXPECT_THAT(falls_between(before, after), ElementsAre("bins met from 80 of 81 to 80 of 82"));
+}
+
+TEST(Trend, SaysFromAFifthOnThatItIsSlower) {
+  const Night before = night(1);
+  Night after = before;
+  after.clocks = 4'800'000;
+  EXPECT_THAT(falls_between(before, after), testing::IsEmpty());
+  after.clocks = 4'790'000;
+  EXPECT_THAT(falls_between(before, after),
+              ElementsAre("speed from 100 to 80 thousand clocks a second"));
+  after.seconds = 59.9;  // too short
+  after.clocks = 1'000;
+  EXPECT_THAT(falls_between(before, after), testing::IsEmpty());
+  EXPECT_THAT(falls_between(after, before), testing::IsEmpty());
+}
+
+TEST(Trend, HasOneNightOfEachSeedAndCommit) {
+  std::vector<Night> nights = {night(1), night(2), night(2, "b"), night(3)};
+  Night again = night(2);
+  again.passed = 7;
+  nights = with_night(nights, again);
+  std::string order;
+  for (const Night& each : nights) order += std::to_string(each.seed) + each.commit + " ";
+  EXPECT_EQ(order, "1a 2b 3a 2a ");
+  EXPECT_EQ(nights.back().passed, 7u);
+}
+
+TEST(Trend, IsReadAsItWasWritten) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "trend.jsonl";
+  std::filesystem::remove(file);
+  EXPECT_THAT(read_trend(file), testing::IsEmpty());
+  Night second{.date = "2026-11-24",
+               .commit = "0123",
+               .seed = 18446744073709551615u,
+               .holds = false,
+               .runs = 7,
+               .passed = 6,
+               .bins = 5,
+               .met = 4,
+               .clocks = 3,
+               .seconds = 2.5};
+  const std::string text = trend_text({night(1), second});
+  EXPECT_THAT(text,
+              HasSubstr("\"seed\":18446744073709551615,\"holds\":false,\"runs\":7,\"passed\":6,"
+                        "\"bins\":5,\"met\":4,\"clocks\":3,\"seconds\":2.5}\n"));
+  write_file_atomically(file, text);
+  EXPECT_EQ(trend_text(read_trend(file)), text);
+  write_file_atomically(file, text + "{}\n");
+  EXPECT_THAT([&] { read_trend(file); },
+              testing::ThrowsMessage<spec::FileError>(HasSubstr("line 3 is no night")));
 }
 
 TEST(Junit, CountsAndEscapes) {

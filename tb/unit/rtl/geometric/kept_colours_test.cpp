@@ -197,12 +197,6 @@ TEST(ColourStore, ATagIsOneLineOfItsLayout) {
 // ---- the resolve
 
 constexpr std::uint32_t kColours = 0x40000;
-std::uint64_t stalled_by(const rtl::Unit& unit, std::string_view cause) {
-  for (const auto& stall : unit.stalls())
-    if (stall.name == cause) return stall.cycles;
-  ADD_FAILURE() << unit.name() << " has no stall " << cause;
-  return 0;
-}
 Parameters kept(int lines, Layout layout = Layout::kTiled) {
   Parameters p;
   p.colour_lines = lines;
@@ -289,7 +283,7 @@ TEST(KeptColours, StallsWithoutAnEntry) {
       b.run();
       if (b.resolved.size() != 40) return std::string("lost");
       const Cycle clocks = b.at["writes"].back() - b.at["reads"].front();
-      return std::string(stalled_by(b.fetch, "colours") > 0 ? "stalls " : "never ") +
+      return std::string(stalls(b.fetch, "colours") > 0 ? "stalls " : "never ") +
              std::to_string(clocks / 100);
     });
   };

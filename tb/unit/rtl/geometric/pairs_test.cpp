@@ -22,16 +22,6 @@ Parameters split(Lanes lanes = Lanes::kTwo) {
   return p;
 }
 
-// Clocks from the first to the last of what has come out.
-template <class E>
-Cycle spread(const E& ends) {
-  return ends.sink.taken.back().cycle - ends.sink.taken.front().cycle;
-}
-template <class F, class E>
-void finish(F& frame, const E& ends, std::size_t tokens) {
-  ASSERT_TRUE(frame.clock.run_until([&] { return ends.sink.taken.size() == tokens; }, 100'000));
-}
-
 // ---- PairFetch
 
 constexpr std::uint32_t kBoundaries = 0x1000, kOthers = 0x2000, kVertices = 1000;
@@ -76,11 +66,6 @@ struct PairBench : Frame {
                              : std::to_string(each.token.v0) + "-" + std::to_string(each.token.v1) +
                                    (each.token.crease ? "c " : " ");
     return text;
-  }
-  std::uint64_t stalled(const std::string& cause) const {
-    for (const auto& each : unit.stalls())
-      if (each.name == cause) return each.cycles;
-    return ~std::uint64_t{0};
   }
   PairFetch unit;
   Ends<PairNumber, KeptEdge> ends;
@@ -197,21 +182,21 @@ TEST(PairFetch, WhatIsDroppedNeedsNoOutput) {
   EXPECT_EQ(b.unit.invalid_edges.value(), 2u);
   EXPECT_EQ(b.unit.kept_edges.value(), 3u);
   // Taken in from + 1 .. from + 6; the fifth is to leave in from + 7.
-  EXPECT_EQ(b.stalled("downstream"), 50u - 7);
+  EXPECT_EQ(stalls(b.unit, "downstream"), 50u - 7);
   b.clock.run_until([&] { return b.unit.invalid_edges.value() == 3; }, 1000);
   b.clock.run(5);
   EXPECT_EQ(b.taken(), "0-1 6-7 8-9 10-11 ");
   // The link has room from the clock after the sink's first on.
   EXPECT_EQ(b.ends.sink.taken[3].cycle, from + 100 + 2);
-  EXPECT_EQ(b.stalled("downstream"), 101u - 7);
+  EXPECT_EQ(stalls(b.unit, "downstream"), 101u - 7);
 }
 // Clocks in which a line is waited for, and in which no place is free, are told apart.
 TEST(PairFetch, StallsByCause) {
   PairBench b;
   b.latency(b.ends, PairBench::number(3));
   // Stage 2 would have it in the clock after stage 1, and has it M + 6 clocks later.
-  EXPECT_EQ(b.stalled("pairs"), 26u - 1) << "an answer is taken in one of them";
-  EXPECT_EQ(b.stalled("fills"), 0u);
+  EXPECT_EQ(stalls(b.unit, "pairs"), 26u - 1) << "an answer is taken in one of them";
+  EXPECT_EQ(stalls(b.unit, "fills"), 0u);
 }
 // A clock for its tags in the begin of each frame; nothing while there is nothing to fetch.
 TEST(PairFetch, IsIdleButWhereItWorks) {
@@ -237,14 +222,14 @@ TEST(PairFetch, TooFewFillsSetThePace) {
   finish(b, b.ends, 80);
   // Eight lines in M + 8 clocks. What waits for its line is named before what has no place.
   EXPECT_EQ(b.ends.sink.taken[79].cycle - b.ends.sink.taken[7].cycle, 72u / 8 * 28);
-  EXPECT_GT(b.stalled("pairs"), 0u);
+  EXPECT_GT(stalls(b.unit, "pairs"), 0u);
 }
 TEST(PairFetch, TheDefaultFillsCoverTheLatency) {
   PairBench b;
   for (std::uint32_t i = 0; i < 200; ++i) b.ends.source.add(PairBench::number(10 * i));
   finish(b, b.ends, 200);
   EXPECT_EQ(spread(b.ends), 199u);
-  EXPECT_EQ(b.stalled("fills"), 0u);
+  EXPECT_EQ(stalls(b.unit, "fills"), 0u);
 }
 
 // ---- EdgeClassifier, with numbers of pairs

@@ -45,7 +45,7 @@ inline std::string text_of(const rtl::Histogram& histogram) {
   return text;
 }
 
-using unit_bench::Ends, unit_bench::Source;
+using unit_bench::Ends, unit_bench::Source, unit_bench::spread, unit_bench::stalls;
 
 // All that a unit needs around it.
 struct Frame {
@@ -141,5 +141,11 @@ struct Frame {
  private:
   std::deque<rtl::Wire<bool>> wires_;
 };
+
+// Until so many tokens have come out.
+template <class From, class To>
+void finish(Frame& frame, const Ends<From, To>& ends, std::size_t tokens) {
+  ASSERT_TRUE(frame.clock.run_until([&] { return ends.sink.taken.size() == tokens; }, 100'000));
+}
 
 }  // namespace deburr::tb::geometric_rtl

@@ -254,12 +254,6 @@ TEST(Resolve, IntervalOfABlock) {
   EXPECT_EQ(of(Layout::kRaster, 0x2222, true), "8");
 }
 
-std::uint64_t stalled_by(const rtl::Unit& unit, std::string_view cause) {
-  for (const auto& stall : unit.stalls())
-    if (stall.name == cause) return stall.cycles;
-  ADD_FAILURE() << unit.name() << " has no stall " << cause;
-  return 0;
-}
 // What a block costs the Resolver: as many clocks are busy near a memory and far from one. The
 // others wait for lines.
 TEST(Resolve, WaitingIsNotBusy) {
@@ -285,7 +279,7 @@ TEST(Resolve, WaitingIsNotBusy) {
         b.run();
         // The end of the frame is loaded, too.
         const std::uint64_t busy = b.resolver.busy_cycles(), all = kBlocks * block.each + 1;
-        const std::uint64_t waits = stalled_by(b.resolver, "colours");
+        const std::uint64_t waits = stalls(b.resolver, "colours");
         std::string wrong;
         if (busy > all + all / 10 || busy + all / 10 < all)
           wrong = "busy " + std::to_string(busy) + " of " + std::to_string(all);

@@ -21,15 +21,6 @@ Parameters coarse(CoarseLines lines = CoarseLines::k4) {
   return p;
 }
 
-template <class E>
-Cycle spread(const E& ends) {
-  return ends.sink.taken.back().cycle - ends.sink.taken.front().cycle;
-}
-template <class F, class E>
-void finish(F& frame, const E& ends, std::size_t tokens) {
-  ASSERT_TRUE(frame.clock.run_until([&] { return ends.sink.taken.size() == tokens; }, 100'000));
-}
-
 constexpr std::uint32_t kBase = 0x10000;
 
 // A frame of 610 x 512 pixels: 77 x 64 tiles, 10 x 16 lines.
@@ -81,11 +72,6 @@ struct ScreenBench : Frame {
     std::vector<std::uint64_t> all;
     for (const std::uint64_t line : memory.lines_read()) all.push_back((line - kBase) / 64);
     return all;
-  }
-  std::uint64_t stalled(const std::string& cause) const {
-    for (const auto& each : unit.stalls())
-      if (each.name == cause) return each.cycles;
-    return ~std::uint64_t{0};
   }
   DepthScreen unit;
   Ends<CandidateToken, CandidateToken> ends;
@@ -337,15 +323,15 @@ TEST(DepthScreen, CountsWhatIsKeptJustAtTheBound) {
 TEST(DepthScreen, StallsByCause) {
   ScreenBench b;
   b.latency(b.ends, ScreenBench::inside(0, 0));
-  EXPECT_EQ(b.stalled("coarse"), 26u - 1) << "an answer is taken in one of them";
+  EXPECT_EQ(stalls(b.unit, "coarse"), 26u - 1) << "an answer is taken in one of them";
   const Cycle from = b.clock.cycle();
   b.ends.sink.hold_from = from;
   b.ends.sink.hold_to = from + 50;
   for (int i = 0; i < 20; ++i) b.ends.source.add(ScreenBench::inside(0, 0));
   finish(b, b.ends, 21);
-  EXPECT_GT(b.stalled("downstream"), 20u);
+  EXPECT_GT(stalls(b.unit, "downstream"), 20u);
   EXPECT_EQ(b.ends.sink.taken.back().cycle, from + 50 + 19) << "a clock each, from then on";
-  EXPECT_EQ(b.stalled("fills"), 0u);
+  EXPECT_EQ(stalls(b.unit, "fills"), 0u);
 }
 
 // ---- DepthTest after it

@@ -29,12 +29,6 @@ Parameters with_buffer(int places, int fills = 0) {
 std::uint64_t address_of(int bx, int by = 0) {
   return static_cast<std::uint64_t>(64 * (512 * by + bx));
 }
-std::uint64_t stalled_by(const rtl::Unit& unit, std::string_view cause) {
-  for (const auto& stall : unit.stalls())
-    if (stall.name == cause) return stall.cycles;
-  ADD_FAILURE() << unit.name() << " has no stall " << cause;
-  return 0;
-}
 void draw(CombinerBench& b, std::initializer_list<int> columns) {
   for (const int bx : columns) b.source.add(CombinerBench::token(bx, 0));
   b.source.add(CombinerBench::end());
@@ -230,7 +224,7 @@ TEST(WriteBuffer, AHitAClock) {
         }
       // From the source, and into stage 1.
       return std::to_string(clocks) + " " + std::to_string(b.unit.buffer_hits.value()) + " " +
-             std::to_string(stalled_by(b.unit, "spill"));
+             std::to_string(stalls(b.unit, "spill"));
     });
     EXPECT_EQ(got, buffered ? "203 198 0" : "waits");
   }
@@ -246,7 +240,7 @@ TEST(WriteBuffer, ABlockOnItsWayOutIsWaitedFor) {
   // The write of 0, its answer, the read of it; the write of 4, and its answer and the line.
   ASSERT_EQ(port.sent.size(), 4u);
   EXPECT_EQ(port.sent[1], port.got[0] + 1);
-  EXPECT_GT(stalled_by(b.unit, "spill"), 20u);
+  EXPECT_GT(stalls(b.unit, "spill"), 20u);
 }
 
 // The last token is in stage 5 five clocks after its push; then a read of a place in each clock,
@@ -276,7 +270,7 @@ TEST(WriteBuffer, WaitsForTheLinkAtTheEnd) {
   b.clock.run(30);
   const Cycle from = b.clock.cycle();
   b.in.push(from, CombinerBench::end());
-  const std::uint64_t waited = stalled_by(b.unit, "downstream");
+  const std::uint64_t waited = stalls(b.unit, "downstream");
   Port port(b);
   port.before_clock = [&](Cycle now) {
     if (now - from >= 8 && now - from < 11) port.sends().hold_push(now);
@@ -285,7 +279,7 @@ TEST(WriteBuffer, WaitsForTheLinkAtTheEnd) {
   std::vector<Cycle> sent;
   for (const Cycle c : port.sent) sent.push_back(c - from);
   EXPECT_THAT(sent, ElementsAre(7, 11, 12, 13));
-  EXPECT_EQ(stalled_by(b.unit, "downstream") - waited, 3u);
+  EXPECT_EQ(stalls(b.unit, "downstream") - waited, 3u);
   EXPECT_THAT(b.memory.lines_written(),
               ElementsAre(address_of(0), address_of(4), address_of(8), address_of(12)));
 }
@@ -303,7 +297,7 @@ TEST(WriteBuffer, WaitsForTheListAtTheEnd) {
   EXPECT_EQ(port.sent[8], port.got[0] + 1);
   EXPECT_EQ(port.sent[11], port.got[3] + 1);
   // In the clock of an answer the unit is busy.
-  EXPECT_EQ(stalled_by(b.unit, "spill"), port.got[0] - (from + 15));
+  EXPECT_EQ(stalls(b.unit, "spill"), port.got[0] - (from + 15));
 }
 // Without a block in it the buffer costs no clock; nor has a build without it anything of it.
 TEST(WriteBuffer, CostsNothingWhereNothingIsReplaced) {

@@ -33,12 +33,6 @@ std::uint64_t unstalled(const Frame& frame, const Parameters& p) {
          kPipe;
 }
 
-std::uint64_t stalls_of(const rtl::Unit& unit, const std::string& cause) {
-  for (const auto& stall : unit.stalls())
-    if (stall.name == cause) return stall.cycles;
-  return 0;
-}
-
 // So many diagonals of one pixel side by side at the right border: a record every second clock,
 // each extended to the full N.
 Frame packed(int width, int height, int records) {
@@ -226,7 +220,7 @@ TEST_P(NarrowRows, WaitForThePlaceOfTheirPixels) {
   const Frame out = bench.run(in);
   EXPECT_EQ(out.pixel, in.pixel);
   EXPECT_EQ(bench.engine.extractor.record_stalls.value(), 0u);
-  EXPECT_EQ(stalls_of(bench.engine.pixel_store, "rows") != 0, GetParam().rows != 0);
+  EXPECT_EQ(stalls(bench.engine.pixel_store, "rows") != 0, GetParam().rows != 0);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), unstalled(in, p) + GetParam().rows);
 }
 INSTANTIATE_TEST_SUITE_P(Widths, NarrowRows,

@@ -99,24 +99,7 @@ struct Ends {
   Sink<To> sink;
 };
 
-// What a second tick in the clock that has just passed says: a stage less, so that a word is used
-// before it is there.
-inline std::string of_a_stage_less(rtl::Unit& unit, const ClockDomain& clock) {
-  try {
-    unit.tick(clock.cycle() - 1);
-  } catch (const spec::CheckFailed& failure) {
-    return failure.what();
-  }
-  return "nothing";
-}
-
-// Clocks that a unit lost to a cause.
-inline std::uint64_t stalls(const rtl::Unit& unit, std::string_view cause) {
-  for (const rtl::Unit::StallCause& stall : unit.stalls())
-    if (stall.name == cause) return stall.cycles;
-  ADD_FAILURE() << unit.name() << " has no cause " << cause;
-  return 0;
-}
+using unit_bench::of_a_stage_less;
 
 // An engine small enough for single blocks: four rows of reach, no predictor.
 inline constexpr int kReach = 4, kLag = kReach + spec::morphological::kRowLag;

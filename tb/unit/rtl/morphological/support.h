@@ -25,6 +25,7 @@
 #include "spec/morphological/parameters.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/driver.h"
+#include "tb/harness/unit_bench.h"
 #include "tb/stimuli/frames.h"
 
 namespace deburr::tb::morphological_rtl {
@@ -103,6 +104,7 @@ inline Parameters in_memory() {
 }
 
 using platform::lanes_of;
+using unit_bench::stalls;
 inline int reach_of(const Parameters& p) { return p.window_rows / 2 - 1; }
 // Clocks from a slot to its output beat.
 inline constexpr unsigned kPipe = spec::morphological::kPipelineLatency;

@@ -341,10 +341,7 @@ TEST(Stalls, UpstreamAndDownstreamAreSeenAndCostWhatTheyLast) {
   options.driver = {250, 3};
   EngineBench bench(preset(Preset::kDeburrLine), options);
   bench.run(line());
-  const auto& units = bench.engine.sequencer;
-  std::uint64_t upstream = 0;
-  for (const auto& cause : units.stalls())
-    if (cause.name == "upstream") upstream = cause.cycles;
+  const std::uint64_t upstream = stalls(bench.engine.sequencer, "upstream");
   EXPECT_GT(upstream, 5000u);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (150u + 37u) * 200u + kPipe + upstream);
 }
@@ -377,10 +374,7 @@ TEST(MemoryTime, SlowMemoryStallsAndNothingIsLost) {
   EngineBench bench(p, options);
   EXPECT_EQ(hash(bench.run(line())), vector_hash("line_deburr_line"));
   EXPECT_GT(bench.engine.sequencer.frame_cycles.value(), (150u + 37u) * 200u + kPipe + 1000u);
-  std::uint64_t memory = 0;
-  for (const auto& cause : bench.engine.pixel_store.stalls())
-    if (cause.name == "memory") memory = cause.cycles;
-  EXPECT_GT(memory, 1000u);
+  EXPECT_GT(stalls(bench.engine.pixel_store, "memory"), 1000u);
 }
 
 // ---- the way of a record ------------------------------------------------------------------------

@@ -48,21 +48,8 @@ using rtl::Unit;
 
 inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
 
-// What an access says that a memory must not let pass.
-template <class Access>
-std::string rejection(Access&& access) {
-  try {
-    access();
-  } catch (const spec::CheckFailed& failure) {
-    return failure.what();
-  }
-  return "nothing";
-}
-// A second tick in the clock that has just passed: a stage less, so that a word is used before it
-// is there.
-inline std::string of_a_stage_less(Unit& unit, const ClockDomain& clock) {
-  return rejection([&] { unit.tick(clock.cycle() - 1); });
-}
+using unit_bench::of_a_stage_less, unit_bench::rejection;
+
 // A second token in that clock, for a unit that has forgotten the first one.
 template <class T>
 std::string of_a_second_token(Unit& unit, Link<T>& link, const T& token, const ClockDomain& clock) {
@@ -90,7 +77,8 @@ std::string of_one_port_more(sc_core::sc_object& root, const std::string& name) 
   return rejection([&] { Port(*found, "somebody"); });
 }
 
-using unit_bench::clocks_of, unit_bench::Ends, unit_bench::Sink, unit_bench::Source;
+using unit_bench::clocks_of, unit_bench::Ends, unit_bench::Sink, unit_bench::Source,
+    unit_bench::stalls;
 
 // The clock in which the consumer of `link` can take its oldest token for the first time; kNever if
 // that does not happen within `limit` clocks. Proves "not ready at n - 1, ready at n".

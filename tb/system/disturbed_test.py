@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""What must change no picture of any engine: stalls of every link, late memory, noise in what nobody wrote, the order in
+which units are evaluated, the fast path, a reset in mid-frame. Every engine of engines.txt, with the options by which its
+trials.yaml has it watched, or none.
+
+usage: disturbed_test.py DEBURR SOURCE [CLASS]"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+# Clock by clock the same run: all of its result but what the machine took.
+UNSEEN = {"another order of units": ["run.shuffle=true"], "noise": ["run.poison=true"],
+          "no fast path": ["run.fast_path=false"], "no checks of links": ["run.check_links=false"],
+          "all of them": ["run.shuffle=true", "run.poison=true", "run.fast_path=false"]}
+# The same comparisons in other clocks.
+SLOWER = {"stalls": ["run.stalls=0.3"], "dense stalls": ["run.stalls=0.8", "run.poison=true", "run.shuffle=true"]}
+RESETS = (1, 40, 333, 2500)
+
+
+class Disturbed(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="deburr_disturbed_")
+        self.addCleanup(scratch.cleanup)
+        self.out = pathlib.Path(scratch.name)
+
+    def run_of(self, *arguments, code=0):
+        """Its result without what the machine took, and its pictures."""
+        done = subprocess.run([DEBURR, "run", *arguments, "--quiet", "--out", self.out], text=True, capture_output=True,
+                              check=False)
+        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}{done.stderr}")
+        result = json.loads((self.out / "result.json").read_text(encoding="utf-8"))
+        del result["host"]
+        pictures = {path.name: path.read_bytes() for path in self.out.glob("*.png")}
+        self.assertGreater(len(pictures), 0)
+        return result, pictures
+
+    def compare_each(self, disturbances, compare):
+        """Each engine undisturbed, and disturbed in each way."""
+        for engine in engines():
+            for options in trials("watched").get(engine, {"": []}).values():
+                quiet = self.run_of(engine, *options)
+                for name, settings in disturbances.items():
+                    with self.subTest(engine=engine, options=options, disturbed=name):
+                        more = [word for setting in settings for word in ("--set", setting)]
+                        disturbed = self.run_of(engine, *options, *more)
+                        self.assertEqual(disturbed[1].keys(), quiet[1].keys())
+                        self.assertEqual([name for name in quiet[1] if disturbed[1][name] != quiet[1][name]], [])
+                        compare(quiet[0], disturbed[0])
+
+    @staticmethod
+    def compared(result):
+        return {name: (board["comparisons"], board["mismatches"]) for name, board in result["scoreboards"].items()}
+
+
+class Unseen(Disturbed):
+    def test_nothing_changes(self):
+        # Keys alone: a list of all that differs would take minutes.
+        self.compare_each(UNSEEN, lambda quiet, disturbed: self.assertEqual(
+            [key for key in {**quiet, **disturbed} if quiet.get(key) != disturbed.get(key)], []))
+
+
+class Slower(Disturbed):
+    def test_stalls_cost_clocks_and_nothing_else(self):
+        def compare(quiet, disturbed):
+            self.assertEqual(self.compared(disturbed), self.compared(quiet))
+            self.assertGreater(disturbed["cycles"], quiet["cycles"])
+        self.compare_each(SLOWER, compare)
+
+
+class Reset(Disturbed):
+    def test_a_frame_that_begins_again_is_the_same(self):
+        def compare(quiet, disturbed):
+            for name, (comparisons, mismatches) in self.compared(quiet).items():
+                self.assertGreaterEqual(disturbed["scoreboards"][name]["comparisons"], comparisons, name)
+                self.assertEqual(disturbed["scoreboards"][name]["mismatches"], mismatches, name)
+        self.compare_each({f"reset after {clocks} clocks": [f"run.reset_after={clocks}", "run.poison=true"]
+                           for clocks in RESETS}, compare)
+
+
+class Faulty(Disturbed):
+    def test_a_picture_that_differs_is_seen(self):
+        """What the comparisons above would see of a wrong pixel."""
+        for engine, entry in trials("followed").items():
+            quiet, pictures = self.run_of(engine, *entry["run"])
+            result, faulty = self.run_of(engine, *entry["run"], "--fault", entry["fault"], code=1)
+            self.assertNotEqual(faulty, pictures)
+            self.assertNotEqual(self.compared(result), self.compared(quiet))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3 or sys.argv[1] in ("-h", "--help"):
+        print(__doc__)
+        sys.exit(0 if len(sys.argv) >= 2 else 2)
+    DEBURR, SOURCE = pathlib.Path(sys.argv.pop(1)).resolve(), pathlib.Path(sys.argv.pop(1)).resolve()
+    sys.dont_write_bytecode = True
+    sys.path.insert(0, str(SOURCE / "tb/engines"))
+    from engine_list import engines, trials
+    unittest.main()
