@@ -21,7 +21,7 @@ inline constexpr std::array<std::string_view, 4> kVectorImageNames = {"noise", "
 struct FrameResult {
   std::uint64_t hash = 0;
   std::uint64_t edge_pixels = 0, runs = 0, long_runs = 0, z_runs = 0, extended_runs = 0, steps = 0,
-                probes = 0, diagonal_pixels = 0, blended_pixels = 0;
+                probes = 0, diagonal_pixels = 0, blended_pixels = 0, left_pixels = 0;
 
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -35,6 +35,7 @@ struct FrameResult {
     visit("probes", self.probes);
     visit("taken", self.diagonal_pixels);
     visit("blended", self.blended_pixels);
+    visit("left", self.left_pixels);
   }
 };
 
