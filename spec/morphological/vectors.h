@@ -14,9 +14,9 @@ namespace deburr::spec::morphological {
 
 // ---- frames -------------------------------------------------------------------------------------
 
-enum class VectorImage : std::uint8_t { kNoise, kLine, kBlocks, kShades };
-inline constexpr std::array<std::string_view, 4> kVectorImageNames = {"noise", "line", "blocks",
-                                                                      "shades"};
+enum class VectorImage : std::uint8_t { kNoise, kLine, kBlocks, kShades, kText };
+inline constexpr std::array<std::string_view, 5> kVectorImageNames = {"noise", "line", "blocks",
+                                                                      "shades", "text"};
 
 struct FrameResult {
   std::uint64_t hash = 0;
@@ -415,6 +415,122 @@ inline constexpr std::array<FrameVector, 38> kSmaaFrameVectors = {{
      Quality::kUltra,
      "area=table_minimal area_values=published",
      {0xd9bb420a5e15b561, 1808, 1331, 0, 540, 0, 0, 0, 8, 1645}},
+}};
+
+// With the text guard, and one frame of text without it.
+inline constexpr std::array<FrameVector, 10> kGuardFrameVectors = {{
+    {"noise_deburr_guarded",
+     VectorImage::kNoise,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "text_guard=true",
+     {0x152edc7df84db4e3, 4407, 2958, 0, 1390, 10, 10, 7378, 0, 298, 5103}},
+    {"line_deburr_guarded",
+     VectorImage::kLine,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "text_guard=true",
+     {0x2926d233992fd76d, 436, 241, 0, 232, 128, 584, 2832, 0, 491, 0}},
+    {"blocks_deburr_guarded",
+     VectorImage::kBlocks,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "text_guard=true",
+     {0xc26af783bead00f5, 1926, 1217, 1, 549, 193, 738, 5801, 0, 2879, 0}},
+    {"text_deburr",
+     VectorImage::kText,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "",
+     {0x1a6d8d4bf5009ec5, 4479, 1314, 0, 683, 0, 0, 3832, 0, 6453, 0}},
+    {"text_deburr_guarded",
+     VectorImage::kText,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "text_guard=true",
+     {0xfd25fe6c819c0246, 4479, 1314, 0, 683, 0, 0, 3832, 0, 5827, 626}},
+    {"text_small_guarded",
+     VectorImage::kText,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "text_guard=true steps=3 window_rows=10 reach_columns=7",
+     {0x8f0d218f93cd20a6, 4479, 1314, 242, 559, 0, 0, 3088, 0, 5994, 626}},
+    {"text_line_guarded",
+     VectorImage::kText,
+     Preset::kDeburrLine,
+     Quality::kHigh,
+     "text_guard=true",
+     {0x48ea9d562c38aaec, 4479, 1314, 0, 683, 0, 0, 3832, 0, 2225, 294}},
+    {"text_slope_guarded",
+     VectorImage::kText,
+     Preset::kMlaaSlope,
+     Quality::kHigh,
+     "text_guard=true",
+     {0xa6cb6dde5548a423, 4479, 1314, 0, 683, 2, 2, 3837, 0, 2226, 294}},
+    {"text_smaa_guarded",
+     VectorImage::kText,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "text_guard=true",
+     {0x90d2d9362a5ff730, 4479, 1314, 0, 683, 0, 0, 0, 0, 3030, 335}},
+    {"noise_smaa_guarded",
+     VectorImage::kNoise,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "text_guard=true",
+     {0x283955be22ccf2ab, 4407, 4436, 0, 925, 0, 0, 0, 258, 114, 3583}},
+}};
+
+// Which pixels the text guard guards: rows of paper (.), ink (#) and a third colour (x), from
+// above; guarded pixels are g, others -.
+struct GuardVector {
+  std::string_view name, rows, guarded;
+};
+inline constexpr std::array<GuardVector, 8> kGuardVectors = {{
+    {"grid",
+     "######### #...#...# #...#...# #...#...# "
+     "######### #...#...# #...#...# #...#...# "
+     "#########",
+     "-ggg-ggg- ggggggggg ggggggggg ggggggggg "
+     "-ggg-ggg- ggggggggg ggggggggg ggggggggg "
+     "-ggg-ggg-"},
+    {"grid and another colour",
+     "######### #...#...# #...#...# #...#...# "
+     "######### #...#...# #...#...# #...#...# "
+     "########x",
+     "-ggg-ggg- ggggggggg ggggggggg ggg------ "
+     "-gg------ ggg------ ggg------ ggg------ "
+     "-gg------"},
+    {"bars",
+     "#...#...# #...#...# #...#...# #...#...# "
+     "#...#...# #...#...# #...#...# #...#...# "
+     "#...#...#",
+     "--------- --------- --------- --------- "
+     "--------- --------- --------- --------- "
+     "---------"},
+    {"twelve",
+     "....###.... ....###.... ....###.... ....###.... "
+     "####....... ####....... ####....... ........... "
+     "........... ........... ...........",
+     "----------- ----gg----- ----gg----- ----gg----- "
+     "-ggg------- -ggg------- ----------- ----------- "
+     "----------- ----------- -----------"},
+    {"eleven",
+     ".....##.... ....###.... ....###.... ....###.... "
+     "####....... ####....... ####....... ........... "
+     "........... ........... ...........",
+     "----------- ----------- ----------- ----------- "
+     "----------- ----------- ----------- ----------- "
+     "----------- ----------- -----------"},
+    {"long",
+     "....####.... ....####.... ....####.... ....####.... "
+     "####........ ####........ ####........ ............ "
+     "............ ............ ............",
+     "------------ ------------ ------------ ------------ "
+     "------------ ------------ ------------ ------------ "
+     "------------ ------------ ------------"},
+    {"small", "#.# .#. #.# .#.", "ggg ggg ggg ggg"},
+    {"too small", "#.# .#. #.#", "--- --- ---"},
 }};
 
 // ---- runs ---------------------------------------------------------------------------------------

@@ -38,11 +38,13 @@ struct Filter {
   std::function<Image(const Image&)> apply;
 };
 
-Filter preset(std::string name, m::Preset which, m::Quality quality = m::Quality::kHigh) {
-  return {std::move(name), [which, quality](const Image& image) {
+Filter preset(std::string name, m::Preset which, m::Quality quality = m::Quality::kHigh,
+              bool text_guard = false) {
+  return {std::move(name), [which, quality, text_guard](const Image& image) {
             using golden::morphological::MorphologicalGolden;
-            MorphologicalGolden golden(golden::morphological::preset_parameters(which, quality),
-                                       MorphologicalGolden::Detail::kPixels);
+            m::Parameters parameters = golden::morphological::preset_parameters(which, quality);
+            parameters.text_guard = text_guard;
+            MorphologicalGolden golden(parameters, MorphologicalGolden::Detail::kPixels);
             Image out = image;
             out.pixels = golden.process({image.pixels, image.width, image.height});
             return out;
@@ -269,6 +271,65 @@ std::vector<Pair> stand_ins() {
   return all;
 }
 
+// ---- the text guard -----------------------------------------------------------------------------
+
+// Each without the guard and with it.
+constexpr std::array<m::Preset, 4> kGuardedPresets = {m::Preset::kDeburr, m::Preset::kDeburrLine,
+                                                      m::Preset::kMlaa, m::Preset::kSmaa};
+
+std::vector<Filter> guarded_filters() {
+  std::vector<Filter> all;
+  for (const m::Preset which : kGuardedPresets) {
+    const std::string name(m::kPresetNames[static_cast<std::size_t>(which)]);
+    for (const bool on : {false, true}) all.push_back(preset(name, which, m::Quality::kHigh, on));
+  }
+  return all;
+}
+
+double guarded_percent(const Image& image) {
+  const golden::morphological::TextGuard guard({image.pixels, image.width, image.height});
+  int count = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) count += guard.at(x, y).guarded();
+  return 100.0 * count / static_cast<double>(image.pixels.size());
+}
+
+std::vector<std::string> guard_head(const std::string& of_cells) {
+  std::vector<std::string> titles = {"", "guarded, %"};
+  for (const m::Preset which : kGuardedPresets) {
+    const std::string_view name = m::kPresetNames[static_cast<std::size_t>(which)];
+    titles.push_back(fmt::format("{}: {}", name, of_cells));
+    titles.emplace_back("PSNR, dB");
+  }
+  return titles;
+}
+
+std::string of_right_frame_with_guard(const std::string& name, const Image& frame,
+                                      std::span<const Filter> filters) {
+  const std::vector<Figures> figures = measure(frame, frame, smoothed_by(filters, frame));
+  std::vector<std::string> cells = {name, fmt::format("{:.1f}", guarded_percent(frame))};
+  for (std::size_t i = 0; i < figures.size(); i += 2) {
+    cells.push_back(fmt::format("{:.1f} > {:.1f}", figures[i].small, figures[i + 1].small));
+    cells.push_back(fmt::format("{} > {}", decibels(figures[i]), decibels(figures[i + 1])));
+  }
+  return row(cells);
+}
+
+// PSNR over edges and over the frame, with the guard, less that without it.
+std::string of_frame_with_truth(const std::string& name, const Pair& pair,
+                                std::span<const Filter> filters) {
+  const Mask edges = edge_mask(pair.truth, pair.frame);
+  const std::vector<Image> smoothed = smoothed_by(filters, pair.frame);
+  std::vector<std::string> cells = {name, fmt::format("{:.1f}", guarded_percent(pair.frame))};
+  for (std::size_t i = 0; i < smoothed.size(); i += 2) {
+    const double over_edges = psnr(smoothed[i + 1], pair.truth, edges) -
+                              psnr(smoothed[i], pair.truth, edges),
+                 over_frame = psnr(smoothed[i + 1], pair.truth) - psnr(smoothed[i], pair.truth);
+    cells.push_back(fmt::format("{:+.2f} / {:+.2f}", over_edges, over_frame));
+  }
+  return row(cells);
+}
+
 // ---- data ---------------------------------------------------------------------------------------
 
 constexpr std::array<const char*, 3> kPhotos = {"brick", "gravel", "grass"};
@@ -329,6 +390,58 @@ std::string formula_tables() {
       checked("landscape, JPEG 75", compressed(landscape, 75), all)};
   return "\nTextured frames; the figures of `none` are the frame's own:\n\n" + textured_table(all) +
          "\nFrames that are right as they are. " + tables_of_right_frames(all, frames);
+}
+
+std::vector<GuardedText> guarded_text(int width, int height) {
+  const std::vector<Filter> all = guarded_filters();
+  std::vector<GuardedText> pages;
+  for (const Text kind : {Text::kAliased, Text::kSmoothed, Text::kLightOnDark, Text::kBitmapFont}) {
+    const Image page = text_page(kind, width, height);
+    const std::vector<Image> smoothed = smoothed_by(std::span(all).first(2), page);
+    const std::vector<Figures> figures = measure(page, page, smoothed);
+    pages.push_back({kind, figures[0].small, figures[1].small});
+  }
+  return pages;
+}
+
+std::string guard_tables() {
+  const std::vector<Filter> all = guarded_filters();
+  std::string text =
+      "\nFrames that are right as they are: pixels changed by more than 2 codes, %, and PSNR to "
+      "the "
+      "input, without the\nguard > with it:\n\n" +
+      head(guard_head("changed, %"));
+  const auto right = [&](const std::string& name, const Image& frame) {
+    text += of_right_frame_with_guard(name, frame, all);
+  };
+  right("text, aliased", text_page(Text::kAliased, kWidth, kHeight));
+  right("text, light on dark", text_page(Text::kLightOnDark, kWidth, kHeight));
+  right("text, bitmap font", text_page(Text::kBitmapFont, kWidth, kHeight));
+  right("text, smoothed", text_page(Text::kSmoothed, kWidth, kHeight));
+  right("text over a scene", text_over_scene(kWidth, kHeight));
+  for (const int size : {1, 2, 4})
+    right(fmt::format("pixel art x {}", size), pixel_art(size, kWidth, kHeight));
+  right("like a photograph: landscape", landscape_photo(kWidth, kHeight));
+  right("like a photograph: foliage", foliage_photo(kWidth, kHeight));
+  right("smoothed already: the hall", smoothed_hall(kWidth, kHeight));
+  text +=
+      "\nFrames with truth: what the guard adds to the PSNR over edges / over the frame, dB:\n\n";
+  std::vector<std::string> titles = {"", "guarded, %"};
+  for (const m::Preset which : kGuardedPresets)
+    titles.emplace_back(m::kPresetNames[static_cast<std::size_t>(which)]);
+  text += head(titles);
+  for (const SceneName& scene : scene_names())
+    text += of_frame_with_truth(std::string(scene.name),
+                                rendered(make_scene(std::string(scene.name)), 512, 512), all);
+  int number = 0;
+  for (const Pair& pair : stand_ins())
+    text += of_frame_with_truth(fmt::format("stand-in {}", ++number), pair, all);
+  for (int view = 0; view < 3; ++view) {
+    Textured t = textured_frame(view, 2 * kWidth, 2 * kHeight);
+    text += of_frame_with_truth(fmt::format("textured, view {}", view + 1),
+                                {std::move(t.frame), std::move(t.truth)}, all);
+  }
+  return text + "\n";
 }
 
 TruthTables formula_frames_with_truth() {
