@@ -199,9 +199,8 @@ TEST_P(ByHand, ARunOfFourIsNoStroke) {
   GuardBench bench(guarded(GetParam()));
   // Columns three high are strokes down, and the rows' runs are of three, or four and three.
   EXPECT_EQ(bench.run(picture(repeated("aaabbbaaabbb", 3))), repeated("############", 3));
-  // Four of a: nine pixels with H are left in the first window, and strokes down are guarded
-  // where the window has twelve.
-  EXPECT_EQ(bench.run(picture(repeated("aaaabbbaaaabbb", 3))), repeated(".....####.....", 3));
+  // Four of a: only b has H, and four columns of it lie within five of these six.
+  EXPECT_EQ(bench.run(picture(repeated("aaaabbbaaaabbb", 3))), repeated("......######..", 3));
   // Columns four high have V nowhere.
   EXPECT_EQ(bench.run(picture(repeated("aaabbbaaabbb", 4))), repeated("............", 4));
 }
@@ -230,9 +229,10 @@ TEST_P(ByHand, OneColourAndFlatPixelsAreNotGuarded) {
   GuardBench bench(guarded(GetParam()));
   EXPECT_EQ(bench.run(picture(repeated("aaa", 3))), repeated("...", 3));
   EXPECT_EQ(bench.run(picture({"a"})), repeated(".", 1));
-  // Below the checkerboard rows of four, seven columns wide: neither H nor V is theirs.
-  EXPECT_EQ(bench.run(picture({"abababa", "bababab", "aaaaaaa", "aaaaaaa", "aaaaaaa", "aaaaaaa"})),
-            (Rows{"#######", "#######", ".......", ".......", ".......", "......."}));
+  // Twelve with V, for a below b is none; below them runs of eight by four: neither H nor V.
+  EXPECT_EQ(
+      bench.run(picture({"abababab", "babababa", "aaaaaaaa", "aaaaaaaa", "aaaaaaaa", "aaaaaaaa"})),
+      (Rows{"..####..", "..####..", "........", "........", "........", "........"}));
 }
 
 Frame text(int width, int height, std::uint64_t seed) {
