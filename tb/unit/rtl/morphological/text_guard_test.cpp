@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // TextGuard: small pictures by hand, any picture against the contract's sentences, its clocks; and
 // in the engine: what is left, and that nothing waits for it.
+#include <algorithm>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "tb/harness/monitor.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/parts.h"
+#include "tb/unit/rtl/morphological/vectors.h"
 
 namespace deburr::tb::morphological_rtl::text_guard_test {
 namespace {
