@@ -63,11 +63,10 @@ void spread_both_ways(PlaneOf<Value>& plane, Join&& join) {
   for_each_column(plane, [&](int, const PlaneLine<Value>& line) { spread(line, join); });
 }
 
-constexpr std::array<std::string_view, 6> kCauseBins = {"guarded", "one-colour",  "more-colours",
-                                                        "wide",    "few-in-rows", "few-in-columns"};
-constexpr std::array<std::string_view, 3> kStrokeBins = {"row", "column", "both"};
-constexpr std::array<std::string_view, 4> kJustBins = {"12-in-rows", "12-in-columns", "11-in-rows",
-                                                       "11-in-columns"};
+constexpr std::array<std::string_view, 6> kCauseBins = {
+    "guarded", "one-colour", "more-colours", "few-in-rows", "few-in-columns", "few"};
+constexpr std::array<std::string_view, 6> kJustBins = {"3-in-rows", "3-in-columns", "24",
+                                                       "2-in-rows", "2-in-columns", "23"};
 constexpr std::array<std::string_view, 2> kKeptBins = {"by-guard", "by-leave-too"};
 constexpr std::array<std::string_view, 4> kBorderBins = {"top", "left", "right", "bottom"};
 
@@ -78,7 +77,8 @@ int colour_hash(const Rgba8& pixel) {
 }
 
 TextGuard::TextGuard(const ImageView& image) : pixels_(image.width, image.height) {
-  PlaneOf<std::uint8_t> hashes(image.width, image.height), in_row = hashes, in_column = hashes;
+  PlaneOf<std::uint8_t> hashes(image.width, image.height), row_strokes = hashes,
+                                                           column_strokes = hashes;
   PlaneOf<std::uint64_t> colours(image.width, image.height);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -87,12 +87,11 @@ TextGuard::TextGuard(const ImageView& image) : pixels_(image.width, image.height
       colours.row(y)[x] = std::uint64_t{1} << hash;
     }
   for_each_row(hashes, [&](int y, const PlaneLine<std::uint8_t>& line) {
-    mark_strokes(line, {in_row.row(y), 1, line.length});
+    mark_strokes(line, {row_strokes.row(y), 1, line.length});
   });
   for_each_column(hashes, [&](int x, const PlaneLine<std::uint8_t>& line) {
-    mark_strokes(line, {in_column.row(0) + x, in_column.stride(), line.length});
+    mark_strokes(line, {column_strokes.row(0) + x, column_strokes.stride(), line.length});
   });
-  PlaneOf<std::uint8_t> row_strokes = in_row, column_strokes = in_column;
   const auto plus = [](int a, int b) { return a + b; };
   spread_both_ways(row_strokes, plus);
   spread_both_ways(column_strokes, plus);
@@ -100,27 +99,29 @@ TextGuard::TextGuard(const ImageView& image) : pixels_(image.width, image.height
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
       pixels_.row(y)[x] = {static_cast<std::uint8_t>(std::popcount(colours.at(x, y))),
-                           in_row.at(x, y) != 0, in_column.at(x, y) != 0, row_strokes.at(x, y),
-                           column_strokes.at(x, y)};
+                           row_strokes.at(x, y), column_strokes.at(x, y)};
 }
 
 void GuardCoverage::count_pixel(const GuardedPixel& p) {
-  const std::array<bool, 4> holds = {p.two_colours(), p.in_stroke(), p.enough_in_rows(),
-                                     p.enough_in_columns()};
-  const auto failing = std::count(holds.begin(), holds.end(), false);
+  const std::array<bool, 4> holds = {p.two_colours(), p.enough_in_rows(), p.enough_in_columns(),
+                                     p.enough()};
+  const auto missing = std::count(holds.begin(), holds.end(), false);
   if (p.colours == 1) ++causes_[1];
-  if (failing == 0) {
+  const std::array<bool, 3> just = {p.row_strokes == kLeastStrokes,
+                                    p.column_strokes == kLeastStrokes, p.of_both() == kLeastOfBoth};
+  const std::array<bool, 3> just_not = {p.row_strokes == kLeastStrokes - 1,
+                                        p.column_strokes == kLeastStrokes - 1,
+                                        p.of_both() == kLeastOfBoth - 1};
+  if (missing == 0) {
     ++causes_[0];
-    ++strokes_[!p.in_column_stroke ? 0 : !p.in_row_stroke ? 1 : 2];
-    if (p.row_strokes == kLeastStrokes) ++just_[0];
-    if (p.column_strokes == kLeastStrokes) ++just_[1];
-  } else if (failing == 1) {
+    for (std::size_t i = 0; i < just.size(); ++i) just_[i] += just[i];
+  } else if (missing == 1) {
     if (p.colours > 2) ++causes_[2];
-    if (!p.in_stroke()) ++causes_[3];
-    if (!p.enough_in_rows()) ++causes_[4];
-    if (!p.enough_in_columns()) ++causes_[5];
-    if (p.row_strokes == kLeastStrokes - 1) ++just_[2];
-    if (p.column_strokes == kLeastStrokes - 1) ++just_[3];
+    for (std::size_t i = 1; i < holds.size(); ++i)
+      if (!holds[i]) {
+        ++causes_[2 + i];
+        just_[2 + i] += just_not[i - 1];
+      }
   }
 }
 
@@ -144,7 +145,6 @@ std::vector<CoverageBin> GuardCoverage::bins() const {
       result.push_back({std::string(group) + std::string(names[i]), hits[i]});
   };
   add("text/", kCauseBins, causes_);
-  add("text/stroke/", kStrokeBins, strokes_);
   add("text/just/", kJustBins, just_);
   add("text/kept/", kKeptBins, kept_);
   add("text-border/", kBorderBins, borders_);

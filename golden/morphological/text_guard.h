@@ -7,11 +7,11 @@
 //   text/guarded                 all conditions hold
 //   text/one-colour              the window has one colour
 //   text/more-colours            the window has three or more, and all else holds
-//   text/wide                    all holds but that the pixel itself is in a stroke
 //   text/few-in-rows             all holds but the number of strokes in rows
 //   text/few-in-columns          all holds but the number of strokes in columns
-//   text/stroke/<which>          guarded: in a stroke of its row, of its column, of both
-//   text/just/<which>            guarded with 12 in rows, in columns; not guarded for one fewer
+//   text/few                     all holds but the sum of both
+//   text/just/<which>            guarded with the least number in rows, in columns, of both; not
+//                                guarded for one fewer
 //   text/kept/<which>            guarded with a share: by the guard alone, by `leave` as well
 //   text-border/<border>         guarded on the frame's border
 // Every bin can be reached (tb/unit/golden/morphological/text_guard_test.cpp).
@@ -31,23 +31,23 @@ namespace deburr::golden::morphological {
 // Six bits.
 int colour_hash(const spec::morphological::Rgba8& pixel);
 
-inline constexpr int kGuardReach = 5;     // pixels from the middle of a window to its sides
-inline constexpr int kMostStroke = 3;     // pixels
-inline constexpr int kLeastStrokes = 12;  // pixels of a window in strokes, each way
+inline constexpr int kGuardReach = 5;    // pixels from the middle of a window to its sides
+inline constexpr int kMostStroke = 3;    // pixels
+inline constexpr int kLeastStrokes = 3;  // pixels of a window in strokes, each way
+inline constexpr int kLeastOfBoth = 24;  // the sum of both ways
 
-// What decides about a pixel.
+// What decides about a pixel, of its window.
 struct GuardedPixel {
-  std::uint8_t colours = 0;         // of its window
-  bool in_row_stroke = false;       // H
-  bool in_column_stroke = false;    // V
-  std::uint8_t row_strokes = 0;     // pixels of its window with H
-  std::uint8_t column_strokes = 0;  // with V
+  std::uint8_t colours = 0;
+  std::uint8_t row_strokes = 0;     // h
+  std::uint8_t column_strokes = 0;  // v
+  int of_both() const { return row_strokes + column_strokes; }
   bool two_colours() const { return colours == 2; }
-  bool in_stroke() const { return in_row_stroke || in_column_stroke; }
   bool enough_in_rows() const { return row_strokes >= kLeastStrokes; }
   bool enough_in_columns() const { return column_strokes >= kLeastStrokes; }
+  bool enough() const { return of_both() >= kLeastOfBoth; }
   bool guarded() const {
-    return two_colours() && in_stroke() && enough_in_rows() && enough_in_columns();
+    return two_colours() && enough_in_rows() && enough_in_columns() && enough();
   }
   friend bool operator==(const GuardedPixel&, const GuardedPixel&) = default;
 };
@@ -73,8 +73,7 @@ class GuardCoverage {
  private:
   void count_pixel(const GuardedPixel& pixel);
   std::array<std::uint64_t, 6> causes_{};
-  std::array<std::uint64_t, 3> strokes_{};
-  std::array<std::uint64_t, 4> just_{};
+  std::array<std::uint64_t, 6> just_{};
   std::array<std::uint64_t, 2> kept_{};
   std::array<std::uint64_t, 4> borders_{};
 };

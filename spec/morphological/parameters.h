@@ -262,8 +262,8 @@ void describe(Rules& p, Visitor& v) {
       "a marked one's share; masked: marked ones, which make no edge either. Other than none, it "
       "ends the mark.");
   v.boolean("text_guard", p.text_guard,
-            "Pixels of aliased text of two colours take no share: strokes of 1 to 3 pixels among "
-            "others both ways.");
+            "Pixels of aliased text of two colours take no share: those with strokes of 1 to 3 "
+            "pixels around them both ways.");
   v.boolean("linear_light", p.linear_light, "Blend in linear light (sRGB) instead of codes.");
   v.integer(
       "window_rows", p.window_rows, 10, 258, "row",

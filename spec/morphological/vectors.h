@@ -424,7 +424,7 @@ inline constexpr std::array<FrameVector, 10> kGuardFrameVectors = {{
      Preset::kDeburr,
      Quality::kHigh,
      "text_guard=true",
-     {0x152edc7df84db4e3, 4407, 2958, 0, 1390, 10, 10, 7378, 0, 298, 5103}},
+     {0xd0694dc704b1f019, 4407, 2958, 0, 1390, 10, 10, 7378, 0, 0, 5401}},
     {"line_deburr_guarded",
      VectorImage::kLine,
      Preset::kDeburr,
@@ -436,7 +436,7 @@ inline constexpr std::array<FrameVector, 10> kGuardFrameVectors = {{
      Preset::kDeburr,
      Quality::kHigh,
      "text_guard=true",
-     {0xc26af783bead00f5, 1926, 1217, 1, 549, 193, 738, 5801, 0, 2879, 0}},
+     {0xb26e86f6d9f67952, 1926, 1217, 1, 549, 193, 738, 5801, 0, 2848, 31}},
     {"text_deburr",
      VectorImage::kText,
      Preset::kDeburr,
@@ -448,37 +448,37 @@ inline constexpr std::array<FrameVector, 10> kGuardFrameVectors = {{
      Preset::kDeburr,
      Quality::kHigh,
      "text_guard=true",
-     {0xfd25fe6c819c0246, 4479, 1314, 0, 683, 0, 0, 3832, 0, 5827, 626}},
+     {0x573fa0280b4ed8ea, 4479, 1314, 0, 683, 0, 0, 3832, 0, 4622, 1831}},
     {"text_small_guarded",
      VectorImage::kText,
      Preset::kDeburr,
      Quality::kHigh,
      "text_guard=true steps=3 window_rows=10 reach_columns=7",
-     {0x8f0d218f93cd20a6, 4479, 1314, 242, 559, 0, 0, 3088, 0, 5994, 626}},
+     {0xa649bfc23ae27b05, 4479, 1314, 242, 559, 0, 0, 3088, 0, 4783, 1837}},
     {"text_line_guarded",
      VectorImage::kText,
      Preset::kDeburrLine,
      Quality::kHigh,
      "text_guard=true",
-     {0x48ea9d562c38aaec, 4479, 1314, 0, 683, 0, 0, 3832, 0, 2225, 294}},
+     {0xcc8d214cfcd026d5, 4479, 1314, 0, 683, 0, 0, 3832, 0, 1656, 863}},
     {"text_slope_guarded",
      VectorImage::kText,
      Preset::kMlaaSlope,
      Quality::kHigh,
      "text_guard=true",
-     {0xa6cb6dde5548a423, 4479, 1314, 0, 683, 2, 2, 3837, 0, 2226, 294}},
+     {0x40d103d2035f03ba, 4479, 1314, 0, 683, 2, 2, 3837, 0, 1657, 863}},
     {"text_smaa_guarded",
      VectorImage::kText,
      Preset::kSmaa,
      Quality::kHigh,
      "text_guard=true",
-     {0x90d2d9362a5ff730, 4479, 1314, 0, 683, 0, 0, 0, 0, 3030, 335}},
-    {"noise_smaa_guarded",
-     VectorImage::kNoise,
+     {0xbeb553a3335562fb, 4479, 1314, 0, 683, 0, 0, 0, 0, 2310, 1055}},
+    {"blocks_smaa_guarded",
+     VectorImage::kBlocks,
      Preset::kSmaa,
      Quality::kHigh,
      "text_guard=true",
-     {0x283955be22ccf2ab, 4407, 4436, 0, 925, 0, 0, 0, 258, 114, 3583}},
+     {0x03e6d65781efd7f6, 1549, 1127, 0, 452, 0, 0, 0, 4, 1389, 21}},
 }};
 
 // Which pixels the text guard guards: rows of paper (.), ink (#) and a third colour (x), from
@@ -486,21 +486,21 @@ inline constexpr std::array<FrameVector, 10> kGuardFrameVectors = {{
 struct GuardVector {
   std::string_view name, rows, guarded;
 };
-inline constexpr std::array<GuardVector, 8> kGuardVectors = {{
+inline constexpr std::array<GuardVector, 10> kGuardVectors = {{
     {"grid",
      "######### #...#...# #...#...# #...#...# "
      "######### #...#...# #...#...# #...#...# "
      "#########",
-     "-ggg-ggg- ggggggggg ggggggggg ggggggggg "
-     "-ggg-ggg- ggggggggg ggggggggg ggggggggg "
-     "-ggg-ggg-"},
+     "ggggggggg ggggggggg ggggggggg ggggggggg "
+     "ggggggggg ggggggggg ggggggggg ggggggggg "
+     "ggggggggg"},
     {"grid and another colour",
      "######### #...#...# #...#...# #...#...# "
      "######### #...#...# #...#...# #...#...# "
      "########x",
-     "-ggg-ggg- ggggggggg ggggggggg ggg------ "
-     "-gg------ ggg------ ggg------ ggg------ "
-     "-gg------"},
+     "ggggggggg ggggggggg ggggggggg ggg------ "
+     "ggg------ ggg------ ggg------ ggg------ "
+     "ggg------"},
     {"bars",
      "#...#...# #...#...# #...#...# #...#...# "
      "#...#...# #...#...# #...#...# #...#...# "
@@ -508,16 +508,30 @@ inline constexpr std::array<GuardVector, 8> kGuardVectors = {{
      "--------- --------- --------- --------- "
      "--------- --------- --------- --------- "
      "---------"},
-    {"twelve",
+    {"three dots",
+     "######### ....#.... ......... ....#.... "
+     "######### ......... ....#.... ......... "
+     "#########",
+     "--------- ggggggggg ggggggggg ggggggggg "
+     "ggggggggg ggggggggg ggggggggg --------- "
+     "---------"},
+    {"two dots",
+     "######### ....#.... ......... ......... "
+     "######### ......... ....#.... ......... "
+     "#########",
+     "--------- --------- --------- --------- "
+     "--------- --------- --------- --------- "
+     "---------"},
+    {"twenty-four",
      "....###.... ....###.... ....###.... ....###.... "
      "####....... ####....... ####....... ........... "
      "........... ........... ...........",
-     "----------- ----gg----- ----gg----- ----gg----- "
-     "-ggg------- -ggg------- ----------- ----------- "
+     "----------- -ggggg----- -ggggg----- -ggggg----- "
+     "-ggggg----- -ggggg----- ----------- ----------- "
      "----------- ----------- -----------"},
-    {"eleven",
-     ".....##.... ....###.... ....###.... ....###.... "
-     "####....... ####....... ####....... ........... "
+    {"twenty-three",
+     "....###.... ....###.... ....###.... ....###.... "
+     "....###.... ####....... ####....... ........... "
      "........... ........... ...........",
      "----------- ----------- ----------- ----------- "
      "----------- ----------- ----------- ----------- "

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -315,19 +316,35 @@ std::string of_right_frame_with_guard(const std::string& name, const Image& fram
   return row(cells);
 }
 
-// PSNR over edges and over the frame, with the guard, less that without it.
-std::string of_frame_with_truth(const std::string& name, const Pair& pair,
-                                std::span<const Filter> filters) {
-  const Mask edges = edge_mask(pair.truth, pair.frame);
-  const std::vector<Image> smoothed = smoothed_by(filters, pair.frame);
-  std::vector<std::string> cells = {name, fmt::format("{:.1f}", guarded_percent(pair.frame))};
-  for (std::size_t i = 0; i < smoothed.size(); i += 2) {
-    const double over_edges = psnr(smoothed[i + 1], pair.truth, edges) -
-                              psnr(smoothed[i], pair.truth, edges),
-                 over_frame = psnr(smoothed[i + 1], pair.truth) - psnr(smoothed[i], pair.truth);
-    cells.push_back(fmt::format("{:+.2f} / {:+.2f}", over_edges, over_frame));
+// Of frames with truth: PSNR over edges and over the frame with the guard less that without it, of
+// each preset that of the frame that loses most; and the largest share of guarded pixels.
+std::string worst_with_guard(const std::string& name, std::span<const Pair> pairs,
+                             std::span<const Filter> filters) {
+  double guarded = 0;
+  std::vector<std::pair<double, double>> worst(kGuardedPresets.size(), {1000, 1000});
+  for (const Pair& pair : pairs) {
+    guarded = std::max(guarded, guarded_percent(pair.frame));
+    const Mask edges = edge_mask(pair.truth, pair.frame);
+    const std::vector<Image> smoothed = smoothed_by(filters, pair.frame);
+    for (std::size_t i = 0; i < worst.size(); ++i) {
+      const Image &without = smoothed[2 * i], &with = smoothed[2 * i + 1];
+      worst[i].first = std::min(worst[i].first,
+                                psnr(with, pair.truth, edges) - psnr(without, pair.truth, edges));
+      worst[i].second =
+          std::min(worst[i].second, psnr(with, pair.truth) - psnr(without, pair.truth));
+    }
   }
+  std::vector<std::string> cells = {name, fmt::format("{:.2f}", guarded)};
+  for (const auto& [over_edges, over_frame] : worst)
+    cells.push_back(fmt::format("{:.2f} / {:.2f}", over_edges, over_frame));
   return row(cells);
+}
+
+std::string guard_truth_head() {
+  std::vector<std::string> titles = {"", "guarded, %"};
+  for (const m::Preset which : kGuardedPresets)
+    titles.emplace_back(m::kPresetNames[static_cast<std::size_t>(which)]);
+  return head(titles);
 }
 
 // ---- data ---------------------------------------------------------------------------------------
@@ -408,8 +425,7 @@ std::string guard_tables() {
   const std::vector<Filter> all = guarded_filters();
   std::string text =
       "\nFrames that are right as they are: pixels changed by more than 2 codes, %, and PSNR to "
-      "the "
-      "input, without the\nguard > with it:\n\n" +
+      "the input, without\nthe guard > with it:\n\n" +
       head(guard_head("changed, %"));
   const auto right = [&](const std::string& name, const Image& frame) {
     text += of_right_frame_with_guard(name, frame, all);
@@ -424,23 +440,17 @@ std::string guard_tables() {
   right("like a photograph: landscape", landscape_photo(kWidth, kHeight));
   right("like a photograph: foliage", foliage_photo(kWidth, kHeight));
   right("smoothed already: the hall", smoothed_hall(kWidth, kHeight));
-  text +=
-      "\nFrames with truth: what the guard adds to the PSNR over edges / over the frame, dB:\n\n";
-  std::vector<std::string> titles = {"", "guarded, %"};
-  for (const m::Preset which : kGuardedPresets)
-    titles.emplace_back(m::kPresetNames[static_cast<std::size_t>(which)]);
-  text += head(titles);
+  std::vector<Pair> of_scenes, textured;
   for (const SceneName& scene : scene_names())
-    text += of_frame_with_truth(std::string(scene.name),
-                                rendered(make_scene(std::string(scene.name)), 512, 512), all);
-  int number = 0;
-  for (const Pair& pair : stand_ins())
-    text += of_frame_with_truth(fmt::format("stand-in {}", ++number), pair, all);
+    of_scenes.push_back(rendered(make_scene(scene.name), 512, 512));
   for (int view = 0; view < 3; ++view) {
     Textured t = textured_frame(view, 2 * kWidth, 2 * kHeight);
-    text += of_frame_with_truth(fmt::format("textured, view {}", view + 1),
-                                {std::move(t.frame), std::move(t.truth)}, all);
+    textured.push_back({std::move(t.frame), std::move(t.truth)});
   }
+  text += "\nFrames with truth:\n\n" + guard_truth_head();
+  text += worst_with_guard(fmt::format("{} scenes", of_scenes.size()), of_scenes, all);
+  text += worst_with_guard("nine stand-ins", stand_ins(), all);
+  text += worst_with_guard("textured frames, three views", textured, all);
   return text + "\n";
 }
 
@@ -488,6 +498,29 @@ std::string data_tables(const fs::path& data) {
   return "\nPhotographs. " + tables_of_right_frames(all, photos);
 }
 
+namespace {
+
+std::vector<Pair> held_out(const fs::path& data) {
+  std::vector<Pair> all;
+  all.reserve(kHeldOut.size());
+  for (const char* const name : kHeldOut)
+    all.push_back(rendered(import_scene(data / name), 512, 512));
+  return all;
+}
+
+}  // namespace
+
+std::string data_guard_table(const fs::path& data) {
+  require(data);
+  const std::vector<Filter> all = guarded_filters();
+  std::string text = "\n" + guard_truth_head();
+  for (const FramePair& pair : kFrames) {
+    const Pair one = {read_image(data / pair.frame), read_image(data / pair.truth)};
+    text += worst_with_guard(pair.title, {&one, 1}, all);
+  }
+  return text + worst_with_guard("17 held-out meshes", held_out(data), all) + "\n";
+}
+
 std::string data_frames_with_truth(const fs::path& data) {
   require(data);
   std::vector<Column> columns;
@@ -495,9 +528,7 @@ std::string data_frames_with_truth(const fs::path& data) {
   for (const FramePair& pair : kFrames)
     columns.push_back(
         {pair.title, {{read_image(data / pair.frame), read_image(data / pair.truth)}}});
-  columns.push_back({"17 held-out meshes", {}});
-  for (const char* const name : kHeldOut)
-    columns.back().pairs.push_back(rendered(import_scene(data / name), 512, 512));
+  columns.push_back({"17 held-out meshes", held_out(data)});
   return "\n" + perceptual_table(filters(), columns);
 }
 

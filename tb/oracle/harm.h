@@ -35,6 +35,7 @@ struct GuardedText {
 // Of `deburr`, on each kind of page.
 std::vector<GuardedText> guarded_text(int width, int height);
 std::string guard_tables();
+std::string data_guard_table(const std::filesystem::path& data);
 
 // Of the first table of frames that are right the row of a page of aliased text, made of one of
 // this kind: as quick as a test that runs every time should be.

@@ -57,6 +57,14 @@ TEST(MorphologicalHarm, OfTheTextGuard) {
   expect_generated(kPage, "MorphologicalHarm.OfTheTextGuard", harm::guard_tables());
 }
 
+TEST(MorphologicalHarm, OfTheTextGuardOnFramesOfOthers) {
+  if (const std::string missing = harm::missing_data(data_folder()); !missing.empty())
+    GTEST_SKIP() << "no " << missing
+                 << ": set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/";
+  expect_generated(kPage, "MorphologicalHarm.OfTheTextGuardOnFramesOfOthers",
+                   harm::data_guard_table(data_folder()));
+}
+
 // What it is for: of aliased text at most a fifth of the pixels change that changed before.
 // Smoothed text it does not find.
 TEST(MorphologicalHarm, OfTextIsAFifthWithTheGuard) {

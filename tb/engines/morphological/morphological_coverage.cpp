@@ -47,8 +47,8 @@ constexpr std::array kGroups = {
                   "Lines with learned shares, by axis, end and class of what lies beside it."},
     CoverageGroup{"morphological/text",
                   "With text_guard, pixels by what guards them or what alone is missing for it; "
-                  "just: with 12 "
-                  "or 11 strokes; kept: guarded ones that had a share."},
+                  "just: by the number of strokes that decides; kept: guarded ones that had a "
+                  "share."},
     CoverageGroup{"morphological/text-border", "Guarded pixels on the frame's border."}};
 
 }  // namespace
