@@ -11,17 +11,17 @@ namespace {
 
 constexpr std::uint32_t kHashBits = 6;
 constexpr std::uint32_t kHashMask = (1u << kHashBits) - 1;
-constexpr std::int32_t kHashRows = 10;  // above the newest one
-constexpr std::int32_t kStroke = 3;     // pixels of a run, at most
-constexpr std::int32_t kWindow = 5;     // pixels to each side
-constexpr int kEnough = 12;             // pixels with H, and with V
-// Rows that a column counts strokes of, and the row in the middle of them.
-constexpr std::int32_t kCountRows = 11, kMiddle = kGuardRows;
+constexpr std::int32_t kHashRows = 10;   // above the newest one
+constexpr std::int32_t kStroke = 3;      // pixels of a run, at most
+constexpr std::int32_t kWindow = 5;      // pixels to each side
+constexpr int kLeast = 3;                // pixels with H, and with V
+constexpr int kEnough = 24;              // of both
+constexpr std::int32_t kCountRows = 11;  // of a column, whose strokes are counted
 // From the newest row to the one whose column runs it completes.
 constexpr std::int32_t kRunRows = kStroke;
 constexpr std::uint32_t kHBits = kCountRows + kRunRows - 1, kVBits = kCountRows - 1;
 constexpr std::int32_t kColourRows =
-    kMiddle - kWindow;  // that two colours are known before the counts
+    kGuardRows - kWindow;  // that two colours are known before the counts
 // Slots on their way from the SlotSequencer to the Blender, links and stages, at most.
 constexpr std::int32_t kUnderWay = 32;
 
@@ -195,7 +195,6 @@ void TextGuard::read_columns(Cycle cycle, Beat& beat) {
                                               int{find_v(above, beat.hash[lane], beat.row)});
     column.h = static_cast<std::uint8_t>(std::popcount(h >> kRunRows));
     column.v = static_cast<std::uint8_t>(std::popcount(v));
-    column.stroke = ((h >> kMiddle | v >> (kMiddle - kRunRows)) & 1) != 0;
     Word& word = words[lane];
     word.hashes = (above.hashes << kHashBits | beat.hash[lane]) &
                   ((std::uint64_t{1} << kHashRows * kHashBits) - 1);
@@ -207,7 +206,7 @@ void TextGuard::read_columns(Cycle cycle, Beat& beat) {
 
 // The first stage that has the columns to the right.
 void TextGuard::look_around(Beat& beat) {
-  beat.two = beat.strokes = 0;
+  beat.two = beat.enough = 0;
   const auto first = static_cast<std::int32_t>(first_of(beat));
   for (std::int32_t lane = 0; lane < store_.lanes() && is_column(first + lane); ++lane) {
     const std::int32_t x = first + lane;
@@ -221,9 +220,9 @@ void TextGuard::look_around(Beat& beat) {
       v += of.v;
     }
     const bool two = colours.any && !colours.others && colours.least != colours.greatest;
-    const bool strokes = column_at(x).stroke && h >= kEnough && v >= kEnough;
+    const bool enough = h >= kLeast && v >= kLeast && h + v >= kEnough;
     beat.two = static_cast<std::uint8_t>(beat.two | int{two} << lane);
-    beat.strokes = static_cast<std::uint8_t>(beat.strokes | int{strokes} << lane);
+    beat.enough = static_cast<std::uint8_t>(beat.enough | int{enough} << lane);
   }
 }
 
@@ -236,7 +235,7 @@ void TextGuard::deliver(Cycle cycle, Beat& beat) {
   for (std::size_t lane = 0; lane < kLanes && lane < lanes_; ++lane) {
     const std::uint8_t above = two_above_.at(cycle, first + lane);
     const std::uint32_t two = above >> (kColourRows - 1) & 1;
-    token.guarded = static_cast<std::uint8_t>(token.guarded | (two & beat.strokes >> lane) << lane);
+    token.guarded = static_cast<std::uint8_t>(token.guarded | (two & beat.enough >> lane) << lane);
     words[lane] =
         static_cast<std::uint8_t>((above << 1 | (beat.two >> lane & 1)) & ((1 << kColourRows) - 1));
   }
@@ -282,7 +281,7 @@ Datasheet TextGuard::datasheet(const spec::morphological::Parameters& p) {
   const auto clock = [](std::int32_t stage) { return std::to_string(stage + 1); };
   return {
       .unit = "TextGuard",
-      .does = "Says of each pixel whether it belongs to aliased text of two colours.",
+      .does = "Says of each pixel whether it is of aliased text of two colours.",
       .latency = {static_cast<std::uint64_t>(last) + 1,
                   "9 + ceil(3 / lanes) + ceil(5 / lanes), from a row's last beat to the first "
                   "beat of the row eight above"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds aliased text: strokes of 1 to 3 pixels among others both ways, where there are two colours.
+// Finds aliased text: pixels with strokes of 1 to 3 pixels around them both ways, and two colours.
 //
 // Where: beside the pipe, from the SlotSequencer to the Blender's first stage, a bit a pixel. Two
 // sides. In: the hashes of a row are stored as its beats come. Out: as soon as a row is complete,
@@ -64,7 +64,6 @@ class TextGuard final : public Unit {
   struct Column {
     Colours colours;    // about row s - 5
     std::uint8_t h, v;  // pixels that have it, about row s - 8
-    bool stroke;        // pixel of row s - 8
   };
   struct Beat {
     bool valid;  // not a bubble
@@ -73,7 +72,7 @@ class TextGuard final : public Unit {
     Hashes hash;
     std::uint8_t h;  // bit k: lane k, row s
     std::array<Column, kLanes> column;
-    std::uint8_t two, strokes;  // bit k: of row s - 5, of row s - 8
+    std::uint8_t two, enough;  // bit k: colours about row s - 5, strokes about row s - 8
   };
 
   // Of the beat in this stage.
