@@ -249,6 +249,12 @@ Rows split(std::string_view text) {
   }
   return rows;
 }
+Rows transposed(const Rows& rows) {
+  Rows other(rows[0].size());
+  for (const std::string& row : rows)
+    for (std::size_t x = 0; x < row.size(); ++x) other[x] += row[x];
+  return other;
+}
 Frame drawing(const Rows& rows) {
   return draw(static_cast<int>(rows[0].size()), static_cast<int>(rows.size()), [&](int x, int y) {
     const char letter = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
@@ -265,19 +271,27 @@ TEST_P(ByHand, DrawingsOfTheContract) {
       for (char& c : row) c = c == 'g' ? '#' : '.';
     EXPECT_EQ(bench.run(drawing(split(v.rows))), expected) << v.name;
     EXPECT_EQ(by_contract(drawing(split(v.rows))), expected) << v.name;
+    EXPECT_EQ(bench.run(drawing(transposed(split(v.rows)))), transposed(expected)) << v.name;
   }
 }
 
+// Stretches of two colours; at times a third one, or one that passes for the first.
 Frame text(int width, int height, std::uint64_t seed) {
   Random random(seed);
   const std::uint32_t share = random.between(100, 900), other = random.below(3);
+  const auto any = [&] {
+    const std::uint32_t word = random.word();
+    return Rgba8{static_cast<std::uint8_t>(word), static_cast<std::uint8_t>(word >> 8),
+                 static_cast<std::uint8_t>(word >> 16), 255};
+  };
+  const Rgba8 ink = any(), paper = any();
+  Rgba8 third = any();
+  while (other == 1 && hash_of(third) != hash_of(ink)) third = any();
   std::uint32_t word = 0;
   return draw(width, height, [&](int x, int) {
-    // Stretches of one colour; now and then a third one.
     if (x == 0 || random.chance(share)) word = random.word();
-    Rgba8 colour = (word & 1) != 0 ? Rgba8{30, 50, 70, 255} : Rgba8{250, 240, 230, 255};
-    if (other == 0 && random.below(400) == 0) colour[0] = 31;
-    return colour;
+    if (other != 2 && random.below(400) == 0) return third;
+    return (word & 1) != 0 ? ink : paper;
   });
 }
 
@@ -305,7 +319,7 @@ TEST_P(AnyPicture, IsAsTheContractSays) {
   EXPECT_EQ(bench.guard.guarded_pixels.value(), found);
   if (size.width > 6 && size.height > 6) {
     EXPECT_GT(found, pixels / 10);
-    EXPECT_LT(found, pixels * 19 / 20);
+    EXPECT_LT(found, pixels);
   }
   EXPECT_EQ(stalls(bench.guard, "downstream"), 0u);
 }
@@ -329,13 +343,17 @@ TEST(TextGuardBlock, KeepsNothingFromFrameToFrame) {
 TEST(TextGuardBlock, AResetForgetsTheFrameInside) {
   const Frame before = text(20, 20, 5), after = text(21, 15, 6);
   const Rows expected = by_contract(after);
+  // Strokes that are too few, unless some of before count.
+  const Frame few = picture({"aba", "bab", "aba"});
   GuardBench bench(guarded());
   for (Cycle at = 3; at < 600; at += 7) {
-    bench.send(before, bench.clock.cycle());
-    bench.clock.run(at);
-    bench.reset();
-    ASSERT_EQ(bench.run(after), expected) << "after " << at;
-    bench.reset();
+    for (const Frame* const next : {&after, &few}) {
+      bench.send(before, bench.clock.cycle());
+      bench.clock.run(at);
+      bench.reset();
+      ASSERT_EQ(bench.run(*next), next == &after ? expected : repeated("...", 3)) << "after " << at;
+      bench.reset();
+    }
   }
 }
 
@@ -526,9 +544,13 @@ TEST_P(TextGuardEngine, NothingWaitsForItAnyClock) {
       options.sink.stall_permille = sink;
       for (const auto& [width, height] : {std::pair{61, 20}, {1, 25}, {3, 30}, {7, 1}, {16, 12}}) {
         const Frame frame = page(width, height);
+        const int line_pixels = width,
+                  fewest = p.storage == spec::morphological::Storage::kMemory ? 17 : 1;
         const auto clocks = [&](const Parameters& q) {
           return forked_text([&] {
-            EngineBench bench(q, options);
+            Parameters as_wide = q;  // so that the FIFO has no word more
+            as_wide.line_pixels = std::max(line_pixels, fewest);
+            EngineBench bench(as_wide, options);
             const Result result = result_of(bench, frame, q.text_guard);
             if (q.text_guard) {
               EXPECT_EQ(stalls(*bench.engine.text_guard, "downstream"), 0u);
