@@ -136,7 +136,7 @@ def morphological(facts):
                  "PixelStore": (0, 1), "MemoryPort": (1, 1), "DiagonalUnit": (2, 1), "EndpointPredictor": (3, 1),
                  "Blender": (0, 2), "AreaUnit": (2, 2), "LineUnit": (3, 2), "TextGuard": (1, 3)},
                 {"guard_slots": [at(0, 0, 1, .8), at(0, 0, 1.12, .8), at(0, 3, 1.12, .5), at(1, 3, 0)],
-                 "text_guard.guards": [at(1, 3, .25, 0), at(1, 3, .25, -.3), at(0, 2, .75, 1.7), at(0, 2, .75, 1)],
+                 "text_guard.guards": [at(1, 3, .25, 0), at(1, 3, .25, -.3), at(0, 2, .97, 1.7), at(0, 2, .97, 1)],
                  "beats": -.1, "requests": -.18, "responses": .18, "extractor.record_fifo": .1, "sums": .1,
                  "finished": [at(2, 2, 1, .05), at(2, 2, 1.2, .05), at(2, 0, 1.2, 1.2), at(3, 0, .06, 1.2), at(3, 0, .06, 1)],
                  "fetches": [at(3, 0, .15, 1), at(3, 0, .15, 1.4), at(0, 0, .75, 1.4), at(0, 1, .75, 0)],

@@ -283,8 +283,8 @@ Datasheet TextGuard::datasheet(const spec::morphological::Parameters& p) {
       .unit = "TextGuard",
       .does = "Says of each pixel whether it is of aliased text of two colours.",
       .latency = {static_cast<std::uint64_t>(last) + 1,
-                  "9 + ceil(3 / lanes) + ceil(5 / lanes), from a row's last beat to the first "
-                  "beat of the row eight above"},
+                  "17 with one lane, 14 with two, 12 with four: from a row's last beat to the "
+                  "first beat of the row eight above"},
       .stages = {{"1", "hash, stored in guard_row", "6-input xor, SRAM write"},
                  {clock(1), "address of guard_row"},
                  {clock(2) + "-" + clock(row),
