@@ -45,10 +45,12 @@ constexpr std::array kGroups = {
     CoverageGroup{"morphological/half", "Shares that a mark halves."},
     CoverageGroup{"morphological/class",
                   "Lines with learned shares, by axis, end and class of what lies beside it."},
-    CoverageGroup{"morphological/text",
-                  "With text_guard, pixels by what guards them or what alone is missing for it; "
-                  "just: by the number of strokes that decides; kept: guarded ones that had a "
-                  "share."},
+    CoverageGroup{
+        "morphological/text",
+        "With text_guard, pixels by what guards them or what alone is missing for it; "
+        "just: by the number of strokes that decides; kept: guarded ones that had a "
+        "share. In tests alone: those that leave keeps, too, since what geometry marks has "
+        "a colour of its own."},
     CoverageGroup{"morphological/text-border", "Guarded pixels on the frame's border."}};
 
 }  // namespace
