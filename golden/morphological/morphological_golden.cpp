@@ -139,6 +139,10 @@ void MorphologicalGolden::smooth(const ImageView& image) {
   put_runs_in_order(first_vertical);
   if (parameters_.diagonals) process_diagonals();
 
+  if (parameters_.text_guard) {
+    guard_ = TextGuard(image);
+    if (everything_) guard_coverage_.count_frame(guard_, image.width, image.height);
+  }
   memory_errors_ = 0;
   const ImageView source = as_read_back(image);
   for (int y = 0; y < image.height; ++y) blend_row(source, y);
@@ -341,10 +345,14 @@ PixelShares MorphologicalGolden::gather(int x, int y) const {
   return s;
 }
 
-// The rule `leave`, for a pixel that has a share.
+// The text guard and the rule `leave`, for a pixel that has a share.
 spec::morphological::BlendTap MorphologicalGolden::remaining_tap(
     const ImageView& image, int x, int y, const spec::morphological::BlendTap& tap) {
   const Marks marks = marks_of(parameters_.leave, image, x, y);
+  if (parameters_.text_guard && guard_.at(x, y).guarded()) {
+    if (everything_) guard_coverage_.count_kept(is_left(parameters_.leave, marks));
+    return {};
+  }
   if (everything_) leave_coverage_.count_pixel(parameters_.leave, marks, tap, image, x, y);
   return remaining(parameters_.leave, marks, tap);
 }

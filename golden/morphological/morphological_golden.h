@@ -6,9 +6,9 @@
 // docs/reference/morphological/smaa.md, docs/reference/morphological/formats.md; papers 000, 001
 // and 003). The blocks are pure functions: luma.h or colour.h, edges.h, runs.h, predictor.h,
 // line.h, area.h or area_table.h or learned_shares.h, corners.h, diagonals.h, blend.h, leave.h,
-// traffic.h; conversion of other images to codes: convert.h. MorphologicalGolden strings them
-// together over a frame. Edges are found for all pixels, row by row; after that only edges and the
-// pixels beside them cost time.
+// text_guard.h, traffic.h; conversion of other images to codes: convert.h. MorphologicalGolden
+// strings them together over a frame. Edges are found for all pixels, row by row; after that only
+// edges and the pixels beside them cost time.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,7 @@
 #include "golden/morphological/predictor.h"
 #include "golden/morphological/run_coverage.h"
 #include "golden/morphological/smaa_coverage.h"
+#include "golden/morphological/text_guard.h"
 #include "spec/morphological/packets.h"
 #include "spec/morphological/parameters.h"
 
@@ -83,11 +84,13 @@ class MorphologicalGolden {
   const SmaaCoverage& smaa_coverage() const { return smaa_coverage_; }
   const LeaveCoverage& leave_coverage() const { return leave_coverage_; }
   const LearnedCoverage& learned_coverage() const { return learned_coverage_; }
+  const GuardCoverage& guard_coverage() const { return guard_coverage_; }
   void clear_coverage() {
     coverage_ = {};
     leave_coverage_ = {};
     smaa_coverage_ = {};
     learned_coverage_ = {};
+    guard_coverage_ = {};
   }
 
   // storage = memory: line addresses whose reads memory answers with an error; their pixels read as
@@ -138,6 +141,7 @@ class MorphologicalGolden {
   spec::morphological::Parameters parameters_;
   bool everything_;
   EdgePlanes edges_;
+  TextGuard guard_;  // with text_guard
   AxisShares horizontal_, vertical_;
   std::vector<spec::morphological::Rgba8> pixels_, read_back_;
   std::vector<spec::morphological::BlendTap> taps_;
@@ -148,6 +152,7 @@ class MorphologicalGolden {
   SmaaCoverage smaa_coverage_;
   LeaveCoverage leave_coverage_;
   LearnedCoverage learned_coverage_;
+  GuardCoverage guard_coverage_;
   ShareTables tables_;
   LinePredicate error_;
   std::uint32_t pixel_base_ = 0;

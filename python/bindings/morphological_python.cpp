@@ -122,6 +122,7 @@ py::dict coverage_of(const MorphologicalGolden& golden) {
   add_bins(bins, golden.smaa_coverage().bins());
   add_bins(bins, golden.leave_coverage().bins());
   add_bins(bins, golden.learned_coverage().bins());
+  add_bins(bins, golden.guard_coverage().bins());
   return bins;
 }
 

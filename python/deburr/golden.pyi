@@ -144,6 +144,7 @@ def morphological(
     corner_rounding: int = ...,
     blend: typing.Literal['longest', 'strongest'] = ...,
     leave: typing.Literal['none', 'marked', 'beside', 'half', 'masked'] = ...,
+    text_guard: bool = ...,
     linear_light: bool = ...,
     window_rows: int = ...,
     reach_columns: int = ...,

@@ -6,13 +6,12 @@
 namespace deburr::rtl::morphological {
 
 std::vector<Datasheet> datasheets(const spec::morphological::Parameters& p) {
-  std::vector<Datasheet> sheets = {SlotSequencer::datasheet(),
-                                   LumaUnit::datasheet(),
-                                   EdgeDetector::datasheet(),
-                                   RunExtractor::slot_datasheet(),
-                                   RunExtractor::record_datasheet(),
-                                   EndpointPredictor::datasheet(),
-                                   EndpointPredictor::trial_datasheet(p)};
+  std::vector<Datasheet> sheets = {SlotSequencer::datasheet(), LumaUnit::datasheet(),
+                                   EdgeDetector::datasheet()};
+  if (p.text_guard) sheets.push_back(TextGuard::datasheet(p));
+  sheets.insert(sheets.end(),
+                {RunExtractor::slot_datasheet(), RunExtractor::record_datasheet(),
+                 EndpointPredictor::datasheet(), EndpointPredictor::trial_datasheet(p)});
   const bool learned = p.area == spec::morphological::AreaSource::kLearned;
   if (learned) sheets.push_back(EndpointPredictor::class_datasheet(p));
   sheets.push_back(LineUnit::datasheet(p));
@@ -29,13 +28,15 @@ std::vector<Datasheet> datasheets(const spec::morphological::Parameters& p) {
 
 std::vector<Datasheet> datasheets() {
   using spec::morphological::AreaSource;
-  spec::morphological::Parameters line, table, learned;
+  spec::morphological::Parameters line, table, learned, guarded;
   line.area = AreaSource::kAnalytic;
   table.area = AreaSource::kTableFull;
   table.diagonals = true;
   learned.area = AreaSource::kLearned;
-  const std::vector<std::vector<Datasheet>> builds = {datasheets(line), datasheets(learned),
-                                                      datasheets(table)};
+  guarded = line;
+  guarded.text_guard = true;
+  const std::vector<std::vector<Datasheet>> builds = {datasheets(guarded), datasheets(line),
+                                                      datasheets(learned), datasheets(table)};
   return merged(builds);
 }
 

@@ -29,6 +29,9 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
       diagonals(parameters_.diagonals
                     ? std::make_unique<DiagonalUnit>("diagonals", clock, parameters_, store)
                     : nullptr),
+      text_guard(parameters_.text_guard
+                     ? std::make_unique<TextGuard>("text_guard", clock, parameters_, store)
+                     : nullptr),
       pixel_store("pixel_store", clock, parameters_, store),
       blender("blender", clock, store, probe_),
       sums_h_("sums_h", store.lanes(), sums_shape(parameters_)),
@@ -76,6 +79,12 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
     diagonals->columns_in(*columns_);
     (*area.diagonals_in)(diagonals->shares());
     control.show(spec::morphological::reg::kDiagonals, diagonals->diagonal_pixels);
+  }
+  if (text_guard) {
+    guard_slots_ = std::make_unique<Link<GuardSlotToken>>("guard_slots", 2, built_lanes_);
+    (*sequencer.guard_slots_out)(*guard_slots_);
+    text_guard->slots_in(*guard_slots_);
+    (*blender.guards_in)(text_guard->guards());
   }
   if (parameters_.storage == spec::morphological::Storage::kMemory) {
     MemoryPortParameters port;

@@ -18,6 +18,8 @@
 //                    |            DiagonalUnit <------ columns ------+  |          |        |
 //                    |                +------------------ shares -------|----------+        |
 //                    |                                                  |                   |
+//                    +- guard slots --> TextGuard ------- guards -------|-------------------+
+//                    |                                                  |                   |
 //                    +- beats --> PixelStore <-------- fetches ---------+                   |
 //                                   |   +--------------------- pixels ----------------------+
 //      registers (TLM-2.0 target)   |
@@ -26,8 +28,8 @@
 //                       |
 //                       +- words --> tables of the AreaUnit
 //
-// DiagonalUnit, MemoryPort and SharesLoader are there if diagonals, storage = memory and learned
-// shares are built.
+// DiagonalUnit, TextGuard, MemoryPort and SharesLoader are there if diagonals, text_guard, storage
+// = memory and learned shares are built.
 //
 // A frame is a sequence of slots, one a clock at most. Unstalled, beat j popped in clock c is
 // pushed out in clock c + (R + 5) x BPR + kPipelineLatency; one beat (1, 2 or 4 pixels) a clock.
@@ -54,6 +56,7 @@
 #include "rtl_model/morphological/front/edge_detector.h"
 #include "rtl_model/morphological/front/luma_unit.h"
 #include "rtl_model/morphological/front/slot_sequencer.h"
+#include "rtl_model/morphological/front/text_guard.h"
 #include "rtl_model/morphological/runs/edge_rows.h"
 #include "rtl_model/morphological/runs/edge_window.h"
 #include "rtl_model/morphological/runs/endpoint_predictor.h"
@@ -92,6 +95,7 @@ class MorphologicalEngine final : public Engine {
   AreaUnit area;
   std::unique_ptr<SharesLoader> shares_loader;  // only with learned shares
   std::unique_ptr<DiagonalUnit> diagonals;      // only with diagonals
+  std::unique_ptr<TextGuard> text_guard;        // only with text_guard
   PixelStore pixel_store;
   Blender blender;
   std::unique_ptr<MemoryPort> memory_port;  // only with storage = memory
@@ -129,6 +133,7 @@ class MorphologicalEngine final : public Engine {
   LaneLinks<SumsToken> sums_h_, sums_v_;
   LaneLinks<LineToken> lines_h_, lines_v_;
   std::unique_ptr<Link<DiagonalColumnsToken>> columns_;
+  std::unique_ptr<Link<GuardSlotToken>> guard_slots_;
   std::unique_ptr<Link<MemoryRequest>> requests_;
   std::unique_ptr<Link<MemoryResponse>> responses_;
 };

@@ -134,8 +134,10 @@ def morphological(facts):
     page = "docs/reference/morphological/memories.md"
     plan = Plan({"SlotSequencer": (0, 0), "LumaUnit": (1, 0), "EdgeDetector": (2, 0), "RunExtractor": (3, 0),
                  "PixelStore": (0, 1), "MemoryPort": (1, 1), "DiagonalUnit": (2, 1), "EndpointPredictor": (3, 1),
-                 "Blender": (0, 2), "AreaUnit": (2, 2), "LineUnit": (3, 2)},
-                {"beats": -.1, "requests": -.18, "responses": .18, "extractor.record_fifo": .1, "sums": .1,
+                 "Blender": (0, 2), "AreaUnit": (2, 2), "LineUnit": (3, 2), "TextGuard": (1, 3)},
+                {"guard_slots": [at(0, 0, 1, .8), at(0, 0, 1.12, .8), at(0, 3, 1.12, .5), at(1, 3, 0)],
+                 "text_guard.guards": [at(1, 3, .25, 0), at(1, 3, .25, -.3), at(0, 2, .97, 1.7), at(0, 2, .97, 1)],
+                 "beats": -.1, "requests": -.18, "responses": .18, "extractor.record_fifo": .1, "sums": .1,
                  "finished": [at(2, 2, 1, .05), at(2, 2, 1.2, .05), at(2, 0, 1.2, 1.2), at(3, 0, .06, 1.2), at(3, 0, .06, 1)],
                  "fetches": [at(3, 0, .15, 1), at(3, 0, .15, 1.4), at(0, 0, .75, 1.4), at(0, 1, .75, 0)],
                  "diagonal_columns": [at(3, 0, .24, 1), at(3, 0, .24, 1.64), at(2, 0, .5, 1.64), at(2, 1, .5, 0)],
@@ -145,7 +147,7 @@ def morphological(facts):
                  "frames_done": [at(0, 2, 0), (-.62, 4.5), (-.62, .8), (0, .8)]},
                 {"diagonal_columns": (0, -5, "middle"), "fetches": (0, -5, "middle"), "area_slots": (-31, 93, ""),
                  "finished": (6, 52, ""), "frames_done": (6, 57, ""), "diagonals.diagonal_shares": (-7, 4, "end")})
-    picture = draw(facts, page, plan, (4, 3), "Units of the morphological engine and the links between them")
+    picture = draw(facts, page, plan, (4, 4), "Units of the morphological engine and the links between them")
     ports(picture, facts, plan, "docs/reference/morphological/index.md", {
         "pixels_in": ([(-.4, .3), (0, .3)], -16, -8, ""),
         "pixels_out": ([at(0, 2, .5, 1), at(0, 2, .5, 1.45)], 8, -6, "")})

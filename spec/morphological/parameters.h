@@ -151,6 +151,7 @@ struct Rules {
   std::int32_t corner_rounding = 64;
   BlendRule blend = BlendRule::kLongest;
   Leave leave = Leave::kNone;
+  bool text_guard = false;
   bool linear_light = true;
   std::int32_t window_rows = 66;
   std::int32_t reach_columns = 256;
@@ -265,6 +266,9 @@ void describe(Rules& p, Visitor& v) {
       "is 0), or these and the four beside each; half: marked ones, and others take half of "
       "a marked one's share; masked: marked ones, which make no edge either. Other than none, it "
       "ends the mark.");
+  v.boolean("text_guard", p.text_guard,
+            "Pixels of aliased text of two colours take no share: those with strokes of 1 to 3 "
+            "pixels around them both ways.");
   v.boolean("linear_light", p.linear_light, "Blend in linear light (sRGB) instead of codes.");
   v.integer(
       "window_rows", p.window_rows, 10, 258, "row",

@@ -43,7 +43,7 @@ inline constexpr std::uint32_t kLeftPixels = 0x7C;
 inline constexpr std::uint32_t kSharesAddress = 0x80;
 inline constexpr std::uint32_t kSharesData = 0x84;
 inline constexpr std::uint32_t kSharesSum = 0x88;
-inline constexpr std::uint32_t kIdValue = 0xDEB00103;
+inline constexpr std::uint32_t kIdValue = 0xDEB00104;
 
 // Fields, from the lowest bit on. Codes are those of the enumerations of spec/morphological/.
 namespace control {
@@ -88,10 +88,11 @@ inline constexpr Field kLearned{"area_learned", 23, 23,
                                 "1: areas are learned, where the ROMs are built"};
 inline constexpr Field kLeave{"leave", 26, 24, {}, kLeaveNames};
 inline constexpr Field kBorder{"border", 27, 27, "end where clamp is not built", kBorderNames};
+inline constexpr Field kTextGuard{"text_guard", 28, 28, "off where the guard is not built"};
 inline constexpr std::array kFields = {
-    kSource,     kThresholdMode, kDynamicLuma, kLocalContrast, kPredictor, kSteps,
-    kContiguous, kSafe,          kLinearLight, kTrim,          kCrossings, kTable,
-    kDiagonals,  kRoundCorners,  kStrongest,   kLearned,       kLeave,     kBorder};
+    kSource,    kThresholdMode, kDynamicLuma, kLocalContrast, kPredictor, kSteps,     kContiguous,
+    kSafe,      kLinearLight,   kTrim,        kCrossings,     kTable,     kDiagonals, kRoundCorners,
+    kStrongest, kLearned,       kLeave,       kBorder,        kTextGuard};
 }  // namespace rules
 namespace threshold {
 inline constexpr Field kValue{"value", kThresholdBits - 1, 0, "codes, U8.16"};
@@ -180,7 +181,7 @@ inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
     {reg::kDiagonals, "DIAGONALS", Access::kReadOnly, 0,
      "Pixels whose top edge took its shares from a diagonal."},
     {reg::kLeftPixels, "LEFT_PIXELS", Access::kReadOnly, 0,
-     "Pixels that would have taken a share and took none, by the rule leave."},
+     "Pixels that would have taken a share and took none, by the rules leave and text_guard."},
     {reg::kSharesAddress, "SHARES_ADDRESS", Access::kReadWrite, 0,
      "Entry of the learned shares that SHARES_DATA names.", reg::shares_address::kFields},
     {reg::kSharesData, "SHARES_DATA", Access::kReadWrite, 0,
@@ -207,7 +208,8 @@ constexpr std::uint32_t rules_word(const Parameters& p) {
          rules::kCrossings.in(code(p.ends)) | rules::kTable.in(code(table)) |
          rules::kLearned.in(code(learned)) | rules::kDiagonals.in(code(p.diagonals)) |
          rules::kRoundCorners.in(code(p.round_corners)) | rules::kStrongest.in(code(p.blend)) |
-         rules::kLeave.in(code(p.leave)) | rules::kBorder.in(code(p.border));
+         rules::kLeave.in(code(p.leave)) | rules::kBorder.in(code(p.border)) |
+         rules::kTextGuard.in(code(p.text_guard));
 }
 constexpr std::uint32_t smaa_word(const Parameters& p) {
   const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };

@@ -14,14 +14,14 @@ namespace deburr::spec::morphological {
 
 // ---- frames -------------------------------------------------------------------------------------
 
-enum class VectorImage : std::uint8_t { kNoise, kLine, kBlocks, kShades };
-inline constexpr std::array<std::string_view, 4> kVectorImageNames = {"noise", "line", "blocks",
-                                                                      "shades"};
+enum class VectorImage : std::uint8_t { kNoise, kLine, kBlocks, kShades, kText };
+inline constexpr std::array<std::string_view, 5> kVectorImageNames = {"noise", "line", "blocks",
+                                                                      "shades", "text"};
 
 struct FrameResult {
   std::uint64_t hash = 0;
   std::uint64_t edge_pixels = 0, runs = 0, long_runs = 0, z_runs = 0, extended_runs = 0, steps = 0,
-                probes = 0, diagonal_pixels = 0, blended_pixels = 0;
+                probes = 0, diagonal_pixels = 0, blended_pixels = 0, left_pixels = 0;
 
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -35,6 +35,7 @@ struct FrameResult {
     visit("probes", self.probes);
     visit("taken", self.diagonal_pixels);
     visit("blended", self.blended_pixels);
+    visit("left", self.left_pixels);
   }
 };
 
@@ -414,6 +415,136 @@ inline constexpr std::array<FrameVector, 38> kSmaaFrameVectors = {{
      Quality::kUltra,
      "area=table_minimal area_values=published",
      {0xd9bb420a5e15b561, 1808, 1331, 0, 540, 0, 0, 0, 8, 1645}},
+}};
+
+// With the text guard, and one frame of text without it.
+inline constexpr std::array<FrameVector, 10> kGuardFrameVectors = {{
+    {"noise_deburr_guarded",
+     VectorImage::kNoise,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "text_guard=true",
+     {0xd0694dc704b1f019, 4407, 2958, 0, 1390, 10, 10, 7378, 0, 0, 5401}},
+    {"line_deburr_guarded",
+     VectorImage::kLine,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "text_guard=true",
+     {0x2926d233992fd76d, 436, 241, 0, 232, 128, 584, 2832, 0, 491, 0}},
+    {"blocks_deburr_guarded",
+     VectorImage::kBlocks,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "text_guard=true",
+     {0xb26e86f6d9f67952, 1926, 1217, 1, 549, 193, 738, 5801, 0, 2848, 31}},
+    {"text_deburr",
+     VectorImage::kText,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "",
+     {0x1a6d8d4bf5009ec5, 4479, 1314, 0, 683, 0, 0, 3832, 0, 6453, 0}},
+    {"text_deburr_guarded",
+     VectorImage::kText,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "text_guard=true",
+     {0x573fa0280b4ed8ea, 4479, 1314, 0, 683, 0, 0, 3832, 0, 4622, 1831}},
+    {"text_small_guarded",
+     VectorImage::kText,
+     Preset::kDeburr,
+     Quality::kHigh,
+     "text_guard=true steps=3 window_rows=10 reach_columns=7",
+     {0xa649bfc23ae27b05, 4479, 1314, 242, 559, 0, 0, 3088, 0, 4783, 1837}},
+    {"text_line_guarded",
+     VectorImage::kText,
+     Preset::kDeburrLine,
+     Quality::kHigh,
+     "text_guard=true",
+     {0xcc8d214cfcd026d5, 4479, 1314, 0, 683, 0, 0, 3832, 0, 1656, 863}},
+    {"text_slope_guarded",
+     VectorImage::kText,
+     Preset::kMlaaSlope,
+     Quality::kHigh,
+     "text_guard=true",
+     {0x40d103d2035f03ba, 4479, 1314, 0, 683, 2, 2, 3837, 0, 1657, 863}},
+    {"text_smaa_guarded",
+     VectorImage::kText,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "text_guard=true",
+     {0xbeb553a3335562fb, 4479, 1314, 0, 683, 0, 0, 0, 0, 2310, 1055}},
+    {"blocks_smaa_guarded",
+     VectorImage::kBlocks,
+     Preset::kSmaa,
+     Quality::kHigh,
+     "text_guard=true",
+     {0x03e6d65781efd7f6, 1549, 1127, 0, 452, 0, 0, 0, 4, 1389, 21}},
+}};
+
+// Which pixels the text guard guards: rows of paper (.), ink (#) and a third colour (x), from
+// above; guarded pixels are g, others -.
+struct GuardVector {
+  std::string_view name, rows, guarded;
+};
+inline constexpr std::array<GuardVector, 10> kGuardVectors = {{
+    {"grid",
+     "######### #...#...# #...#...# #...#...# "
+     "######### #...#...# #...#...# #...#...# "
+     "#########",
+     "ggggggggg ggggggggg ggggggggg ggggggggg "
+     "ggggggggg ggggggggg ggggggggg ggggggggg "
+     "ggggggggg"},
+    {"grid and another colour",
+     "######### #...#...# #...#...# #...#...# "
+     "######### #...#...# #...#...# #...#...# "
+     "########x",
+     "ggggggggg ggggggggg ggggggggg ggg------ "
+     "ggg------ ggg------ ggg------ ggg------ "
+     "ggg------"},
+    {"bars",
+     "#...#...# #...#...# #...#...# #...#...# "
+     "#...#...# #...#...# #...#...# #...#...# "
+     "#...#...#",
+     "--------- --------- --------- --------- "
+     "--------- --------- --------- --------- "
+     "---------"},
+    {"three dots",
+     "######### ....#.... ......... ....#.... "
+     "######### ......... ....#.... ......... "
+     "#########",
+     "--------- ggggggggg ggggggggg ggggggggg "
+     "ggggggggg ggggggggg ggggggggg --------- "
+     "---------"},
+    {"two dots",
+     "######### ....#.... ......... ......... "
+     "######### ......... ....#.... ......... "
+     "#########",
+     "--------- --------- --------- --------- "
+     "--------- --------- --------- --------- "
+     "---------"},
+    {"twenty-four",
+     "....###.... ....###.... ....###.... ....###.... "
+     "####....... ####....... ####....... ........... "
+     "........... ........... ...........",
+     "----------- -ggggg----- -ggggg----- -ggggg----- "
+     "-ggggg----- -ggggg----- ----------- ----------- "
+     "----------- ----------- -----------"},
+    {"twenty-three",
+     "....###.... ....###.... ....###.... ....###.... "
+     "....###.... ####....... ####....... ........... "
+     "........... ........... ...........",
+     "----------- ----------- ----------- ----------- "
+     "----------- ----------- ----------- ----------- "
+     "----------- ----------- -----------"},
+    {"long",
+     "....####.... ....####.... ....####.... ....####.... "
+     "####........ ####........ ####........ ............ "
+     "............ ............ ............",
+     "------------ ------------ ------------ ------------ "
+     "------------ ------------ ------------ ------------ "
+     "------------ ------------ ------------"},
+    {"small", "#.# .#. #.# .#.", "ggg ggg ggg ggg"},
+    {"too small", "#.# .#. #.#", "--- --- ---"},
 }};
 
 // ---- runs ---------------------------------------------------------------------------------------

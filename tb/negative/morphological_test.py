@@ -577,6 +577,34 @@ class SharesFaults(BlockFaults):
                         says=["frame.mask", "leave = none"])
 
 
+class GuardFaults(BlockFaults):
+    """A text guard that is not there, and what it leaves."""
+    GUARD = ("--set", "morphological.text_guard=true")
+
+    def test_a_guard_that_is_off(self):
+        noise = self.picture("noise.png", noisy_png(48, 40))
+        for preset in ("deburr", "deburr-line", "mlaa", "smaa"):
+            with self.subTest(preset):
+                self.fault("wrong-guard", *noise, "--preset", preset, *self.GUARD)
+        # What has no guarded pixel does not tell.
+        flat = self.picture("flat.png", rgb_png(24, [bytes([255 * (x < 12)] * 3) for _ in range(20) for x in range(24)]))
+        self.run_engine(0, *flat, *self.GUARD, "--fault", "wrong-guard", says="PASS")
+
+    def test_what_is_not_there_cannot_fail(self):
+        self.run_engine(2, *self.SMALL, "--fault", "wrong-guard", says=["wrong-guard", "needs", "text_guard = true"])
+
+    def test_it_leaves_most_of_two_colours_at_random(self):
+        noise = self.picture("noise.png", noisy_png(48, 40))
+        self.run_engine(0, *noise)
+        before = self.result()["work"]
+        self.run_engine(0, *noise, *self.GUARD)
+        work = self.result()["work"]
+        self.assertEqual(before["blender_left_pixels"], 0)
+        self.assertLess(work["blender_blended_pixels"], before["blender_blended_pixels"] / 5)
+        self.assertEqual(work["blender_blended_pixels"] + work["blender_left_pixels"], before["blender_blended_pixels"])
+        self.assertEqual(work["edge_pixels_percent"], before["edge_pixels_percent"])
+
+
 class SmaaFaults(BlockFaults):
     """Faults in SMAA's blocks."""
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -38,11 +39,13 @@ struct Filter {
   std::function<Image(const Image&)> apply;
 };
 
-Filter preset(std::string name, m::Preset which, m::Quality quality = m::Quality::kHigh) {
-  return {std::move(name), [which, quality](const Image& image) {
+Filter preset(std::string name, m::Preset which, m::Quality quality = m::Quality::kHigh,
+              bool text_guard = false) {
+  return {std::move(name), [which, quality, text_guard](const Image& image) {
             using golden::morphological::MorphologicalGolden;
-            MorphologicalGolden golden(golden::morphological::preset_parameters(which, quality),
-                                       MorphologicalGolden::Detail::kPixels);
+            m::Parameters parameters = golden::morphological::preset_parameters(which, quality);
+            parameters.text_guard = text_guard;
+            MorphologicalGolden golden(parameters, MorphologicalGolden::Detail::kPixels);
             Image out = image;
             out.pixels = golden.process({image.pixels, image.width, image.height});
             return out;
@@ -269,6 +272,81 @@ std::vector<Pair> stand_ins() {
   return all;
 }
 
+// ---- the text guard -----------------------------------------------------------------------------
+
+// Each without the guard and with it.
+constexpr std::array<m::Preset, 4> kGuardedPresets = {m::Preset::kDeburr, m::Preset::kDeburrLine,
+                                                      m::Preset::kMlaa, m::Preset::kSmaa};
+
+std::vector<Filter> guarded_filters() {
+  std::vector<Filter> all;
+  for (const m::Preset which : kGuardedPresets) {
+    const std::string name(m::kPresetNames[static_cast<std::size_t>(which)]);
+    for (const bool on : {false, true}) all.push_back(preset(name, which, m::Quality::kHigh, on));
+  }
+  return all;
+}
+
+double guarded_percent(const Image& image) {
+  const golden::morphological::TextGuard guard({image.pixels, image.width, image.height});
+  int count = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) count += guard.at(x, y).guarded();
+  return 100.0 * count / static_cast<double>(image.pixels.size());
+}
+
+std::vector<std::string> guard_head(const std::string& of_cells) {
+  std::vector<std::string> titles = {"", "guarded, %"};
+  for (const m::Preset which : kGuardedPresets) {
+    const std::string_view name = m::kPresetNames[static_cast<std::size_t>(which)];
+    titles.push_back(fmt::format("{}: {}", name, of_cells));
+    titles.emplace_back("PSNR, dB");
+  }
+  return titles;
+}
+
+std::string of_right_frame_with_guard(const std::string& name, const Image& frame,
+                                      std::span<const Filter> filters) {
+  const std::vector<Figures> figures = measure(frame, frame, smoothed_by(filters, frame));
+  std::vector<std::string> cells = {name, fmt::format("{:.1f}", guarded_percent(frame))};
+  for (std::size_t i = 0; i < figures.size(); i += 2) {
+    cells.push_back(fmt::format("{:.1f} > {:.1f}", figures[i].small, figures[i + 1].small));
+    cells.push_back(fmt::format("{} > {}", decibels(figures[i]), decibels(figures[i + 1])));
+  }
+  return row(cells);
+}
+
+// Of frames with truth: PSNR over edges and over the frame with the guard less that without it, of
+// each preset that of the frame that loses most; and the largest share of guarded pixels.
+std::string worst_with_guard(const std::string& name, std::span<const Pair> pairs,
+                             std::span<const Filter> filters) {
+  double guarded = 0;
+  std::vector<std::pair<double, double>> worst(kGuardedPresets.size(), {1000, 1000});
+  for (const Pair& pair : pairs) {
+    guarded = std::max(guarded, guarded_percent(pair.frame));
+    const Mask edges = edge_mask(pair.truth, pair.frame);
+    const std::vector<Image> smoothed = smoothed_by(filters, pair.frame);
+    for (std::size_t i = 0; i < worst.size(); ++i) {
+      const Image &without = smoothed[2 * i], &with = smoothed[2 * i + 1];
+      worst[i].first = std::min(worst[i].first,
+                                psnr(with, pair.truth, edges) - psnr(without, pair.truth, edges));
+      worst[i].second =
+          std::min(worst[i].second, psnr(with, pair.truth) - psnr(without, pair.truth));
+    }
+  }
+  std::vector<std::string> cells = {name, fmt::format("{:.2f}", guarded)};
+  for (const auto& [over_edges, over_frame] : worst)
+    cells.push_back(fmt::format("{:.2f} / {:.2f}", over_edges, over_frame));
+  return row(cells);
+}
+
+std::string guard_truth_head() {
+  std::vector<std::string> titles = {"", "guarded, %"};
+  for (const m::Preset which : kGuardedPresets)
+    titles.emplace_back(m::kPresetNames[static_cast<std::size_t>(which)]);
+  return head(titles);
+}
+
 // ---- data ---------------------------------------------------------------------------------------
 
 constexpr std::array<const char*, 3> kPhotos = {"brick", "gravel", "grass"};
@@ -331,6 +409,51 @@ std::string formula_tables() {
          "\nFrames that are right as they are. " + tables_of_right_frames(all, frames);
 }
 
+std::vector<GuardedText> guarded_text(int width, int height) {
+  const std::vector<Filter> all = guarded_filters();
+  std::vector<GuardedText> pages;
+  for (const Text kind : {Text::kAliased, Text::kSmoothed, Text::kLightOnDark, Text::kBitmapFont}) {
+    const Image page = text_page(kind, width, height);
+    const std::vector<Image> smoothed = smoothed_by(std::span(all).first(2), page);
+    const std::vector<Figures> figures = measure(page, page, smoothed);
+    pages.push_back({kind, figures[0].small, figures[1].small});
+  }
+  return pages;
+}
+
+std::string guard_tables() {
+  const std::vector<Filter> all = guarded_filters();
+  std::string text =
+      "\nFrames that are right as they are: pixels changed by more than 2 codes, %, and PSNR to "
+      "the input, without\nthe guard > with it:\n\n" +
+      head(guard_head("changed, %"));
+  const auto right = [&](const std::string& name, const Image& frame) {
+    text += of_right_frame_with_guard(name, frame, all);
+  };
+  right("text, aliased", text_page(Text::kAliased, kWidth, kHeight));
+  right("text, light on dark", text_page(Text::kLightOnDark, kWidth, kHeight));
+  right("text, bitmap font", text_page(Text::kBitmapFont, kWidth, kHeight));
+  right("text, smoothed", text_page(Text::kSmoothed, kWidth, kHeight));
+  right("text over a scene", text_over_scene(kWidth, kHeight));
+  for (const int size : {1, 2, 4})
+    right(fmt::format("pixel art x {}", size), pixel_art(size, kWidth, kHeight));
+  right("like a photograph: landscape", landscape_photo(kWidth, kHeight));
+  right("like a photograph: foliage", foliage_photo(kWidth, kHeight));
+  right("smoothed already: the hall", smoothed_hall(kWidth, kHeight));
+  std::vector<Pair> of_scenes, textured;
+  for (const SceneName& scene : scene_names())
+    of_scenes.push_back(rendered(make_scene(scene.name), 512, 512));
+  for (int view = 0; view < 3; ++view) {
+    Textured t = textured_frame(view, 2 * kWidth, 2 * kHeight);
+    textured.push_back({std::move(t.frame), std::move(t.truth)});
+  }
+  text += "\nFrames with truth:\n\n" + guard_truth_head();
+  text += worst_with_guard(fmt::format("{} scenes", of_scenes.size()), of_scenes, all);
+  text += worst_with_guard("nine stand-ins", stand_ins(), all);
+  text += worst_with_guard("textured frames, three views", textured, all);
+  return text + "\n";
+}
+
 TruthTables formula_frames_with_truth() {
   std::vector<Column> columns;
   columns.push_back({"five scenes", {}});
@@ -375,6 +498,29 @@ std::string data_tables(const fs::path& data) {
   return "\nPhotographs. " + tables_of_right_frames(all, photos);
 }
 
+namespace {
+
+std::vector<Pair> held_out(const fs::path& data) {
+  std::vector<Pair> all;
+  all.reserve(kHeldOut.size());
+  for (const char* const name : kHeldOut)
+    all.push_back(rendered(import_scene(data / name), 512, 512));
+  return all;
+}
+
+}  // namespace
+
+std::string data_guard_table(const fs::path& data) {
+  require(data);
+  const std::vector<Filter> all = guarded_filters();
+  std::string text = "\n" + guard_truth_head();
+  for (const FramePair& pair : kFrames) {
+    const Pair one = {read_image(data / pair.frame), read_image(data / pair.truth)};
+    text += worst_with_guard(pair.title, {&one, 1}, all);
+  }
+  return text + worst_with_guard("17 held-out meshes", held_out(data), all) + "\n";
+}
+
 std::string data_frames_with_truth(const fs::path& data) {
   require(data);
   std::vector<Column> columns;
@@ -382,9 +528,7 @@ std::string data_frames_with_truth(const fs::path& data) {
   for (const FramePair& pair : kFrames)
     columns.push_back(
         {pair.title, {{read_image(data / pair.frame), read_image(data / pair.truth)}}});
-  columns.push_back({"17 held-out meshes", {}});
-  for (const char* const name : kHeldOut)
-    columns.back().pairs.push_back(rendered(import_scene(data / name), 512, 512));
+  columns.push_back({"17 held-out meshes", held_out(data)});
   return "\n" + perceptual_table(filters(), columns);
 }
 

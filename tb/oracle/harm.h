@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tb/oracle/harm_frames.h"
 
@@ -24,6 +25,17 @@ TruthTables formula_frames_with_truth();
 std::string data_frames_with_truth(const std::filesystem::path& data);
 // What of that is not there; empty: all is.
 std::string missing_data(const std::filesystem::path& data);
+
+// A frame that is right as it is, smoothed by a preset without the text guard and with it: pixels
+// that change by more than 2 codes, %.
+struct GuardedText {
+  Text kind;
+  double without, with;
+};
+// Of `deburr`, on each kind of page.
+std::vector<GuardedText> guarded_text(int width, int height);
+std::string guard_tables();
+std::string data_guard_table(const std::filesystem::path& data);
 
 // Of the first table of frames that are right the row of a page of aliased text, made of one of
 // this kind: as quick as a test that runs every time should be.

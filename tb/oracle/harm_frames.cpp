@@ -470,6 +470,14 @@ Image text_page(Text kind, int width, int height) {
   return page;
 }
 
+Image text_over_scene(int width, int height) {
+  const Image page = text_page(Text::kAliased, width, height);
+  Image frame = landscape_photo(width, height);
+  for (std::size_t i = 0; i < page.pixels.size(); ++i)
+    if (page.pixels[i][0] != 255) frame.pixels[i] = page.pixels[i];
+  return frame;
+}
+
 Image pixel_art(int size, int width, int height) {
   const int columns = width / size, rows = height / size;
   Random random(9);

@@ -34,6 +34,8 @@ enum class Text : std::uint8_t {
   kBitmapFont,   // letters of 5 x 9 dots, a pixel each
 };
 Image text_page(Text kind, int width, int height);
+// The aliased page's letters over the landscape.
+Image text_over_scene(int width, int height);
 
 // Tiles and figures in sixteen colours, each pixel of it `size` pixels wide.
 Image pixel_art(int size, int width, int height);

@@ -53,6 +53,31 @@ TEST(MorphologicalHarm, OfFramesOfOthersWithTruth) {
                    harm::data_frames_with_truth(data_folder()));
 }
 
+TEST(MorphologicalHarm, OfTheTextGuard) {
+  expect_generated(kPage, "MorphologicalHarm.OfTheTextGuard", harm::guard_tables());
+}
+
+TEST(MorphologicalHarm, OfTheTextGuardOnFramesOfOthers) {
+  if (const std::string missing = harm::missing_data(data_folder()); !missing.empty())
+    GTEST_SKIP() << "no " << missing
+                 << ": set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/";
+  expect_generated(kPage, "MorphologicalHarm.OfTheTextGuardOnFramesOfOthers",
+                   harm::data_guard_table(data_folder()));
+}
+
+// What it is for: of aliased text at most a fifth of the pixels change that changed before.
+// Smoothed text it does not find.
+TEST(MorphologicalHarm, OfTextIsAFifthWithTheGuard) {
+  for (const harm::GuardedText& page : harm::guarded_text(240, 180)) {
+    const int kind = static_cast<int>(page.kind);
+    EXPECT_GT(page.without, 20) << kind;
+    if (page.kind == Text::kSmoothed)
+      EXPECT_GT(page.with, page.without * 0.9) << kind;
+    else
+      EXPECT_LE(page.with, page.without / 5) << kind;
+  }
+}
+
 // The last line of a table, and the one above which its rows begin.
 std::pair<std::string, std::string> head_and_last_row(const std::string& table) {
   const std::size_t head = table.find("\n| |"), last = table.rfind("\n| ");
@@ -86,6 +111,18 @@ TEST(HarmFrames, OfTextHaveTwoColoursUnlessSmoothed) {
   const Image aliased = text_page(Text::kAliased, 160, 120);
   for (std::size_t i = 0; i < aliased.pixels.size(); ++i)
     ASSERT_EQ(aliased.pixels[i][0] == 255, smoothed.pixels[i][0] > 138) << i;
+}
+
+TEST(HarmFrames, OfTextOverASceneHaveLettersAndTheScene) {
+  const Image frame = harm::text_over_scene(160, 120), scene = harm::landscape_photo(160, 120),
+              page = text_page(Text::kAliased, 160, 120);
+  int letters = 0;
+  for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
+    const bool ink = page.pixels[i][0] != 255;
+    ASSERT_EQ(frame.pixels[i], (ink ? page : scene).pixels[i]) << i;
+    letters += ink;
+  }
+  EXPECT_GT(letters, 1000);
 }
 
 TEST(HarmFrames, OfPixelArtHaveSixteenColoursAndBlocks) {

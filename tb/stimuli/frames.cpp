@@ -45,6 +45,20 @@ Image shades_image(int width, int height) {
   });
 }
 
+Image text_image(int width, int height) {
+  Sequence s;
+  return draw(width, height, [&](int x, int y) {
+    const std::uint32_t random = s.next();
+    const int k = y < 70 ? 1 : 4, u = x / k, w = y / k, i = u % 6, j = w % 9, a = u / 6, b = w / 9;
+    const bool letter = i < 5 && j < 7 && (i == (a + 2 * b) % 5 || j == (2 * a + b) % 7);
+    Rgba8 pixel = {250, 240, 230, 255};
+    if (x < 96 ? letter : y % 4 == 0) pixel = {30, 50, 70, 255};
+    if (35 <= y && y < 70 && (random >> 20 & 31) == 0)
+      pixel[0] = static_cast<std::uint8_t>(pixel[0] + (random >> 30));
+    return pixel;
+  });
+}
+
 std::uint64_t hash(const Image& image) {
   VectorHash hash;
   for (const Rgba8& pixel : image.pixels)

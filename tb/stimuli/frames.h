@@ -39,6 +39,7 @@ Image noise_image(int width = 97, int height = 61);
 Image line_image(int width = 200, int height = 150);
 Image blocks_image(int width = 90, int height = 80);
 Image shades_image(int width = 90, int height = 80);
+Image text_image(int width = 120, int height = 110);
 
 // R, G, B of all pixels, as the contract adds them up.
 std::uint64_t hash(const Image& image);

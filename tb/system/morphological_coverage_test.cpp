@@ -91,6 +91,7 @@ constexpr std::string_view kSmaa[] = {
     "diagonal", "diagonal-ends", "diagonal-length", "diagonal-beyond", "threshold"};
 constexpr std::string_view kLeave[] = {"left", "leave-border", "half"};
 constexpr std::string_view kShares[] = {"class"};
+constexpr std::string_view kText[] = {"text", "text-border"};
 
 Coverage part_of(const Coverage& all, Groups groups) {
   Coverage part;
@@ -152,7 +153,8 @@ void run(Coverage& coverage, const spec::morphological::Parameters& parameters,
 
 TEST(MorphologicalCoverage, EveryBinIsInOneOfTheParts) {
   std::size_t bins = 0;
-  for (const Groups groups : {Groups(kRuns), Groups(kSmaa), Groups(kLeave), Groups(kShares)})
+  for (const Groups groups :
+       {Groups(kRuns), Groups(kSmaa), Groups(kLeave), Groups(kShares), Groups(kText)})
     bins += part_of(declared(), groups).size();
   EXPECT_EQ(bins, declared().size());
 }
@@ -301,6 +303,44 @@ TEST(LeaveCoverage, WithoutTheRuleNothingIsHit) {
   Coverage all = declared();
   run(all, narrow(), marked_frames());
   const Coverage coverage = part_of(all, kLeave);
+  EXPECT_EQ(coverage.holes().size(), coverage.size());
+}
+
+// ---- the text guard -----------------------------------------------------------------------------
+
+// Marked at random as well, since a pixel may be left for both reasons.
+TEST(TextCoverage, EveryBinIsHit) {
+  Random random(19);
+  std::vector<MorphologicalInput> frames = {
+      {stimuli::text_image(), {}}, {stimuli::transposed(stimuli::text_image()), {}}, flat(9, 9, 3)};
+  for (int i = 0; i < 12; ++i) {
+    const auto bar = [&] { return static_cast<int>(1 + random.below(5)); };
+    MorphologicalInput frame = flat(50, 40, 200);
+    for (int k = 0; k < 70; ++k) {
+      const int w = bar(), h = bar(), x0 = static_cast<int>(random.below(50)),
+                y0 = static_cast<int>(random.below(40));
+      for (int y = y0; y < std::min(40, y0 + h); ++y)
+        for (int x = x0; x < std::min(50, x0 + w); ++x) frame.image.at(x, y) = grey(20);
+    }
+    frames.push_back(std::move(frame));
+  }
+  for (MorphologicalInput& frame : frames)
+    for (Rgba8& pixel : frame.image.pixels) pixel[3] = random.chance(100) ? 254 : 255;
+  Coverage all = declared();
+  spec::morphological::Parameters p = preset(Preset::kDeburr);
+  p.line_pixels = 512;
+  p.leave = spec::morphological::Leave::kMarked;
+  p.text_guard = true;
+  run(all, p, frames);
+  const Coverage coverage = part_of(all, kText);
+  EXPECT_EQ(coverage.size(), 6u + 6 + 2 + 4);
+  EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
+}
+
+TEST(TextCoverage, WithoutTheGuardNothingIsHit) {
+  Coverage all = declared();
+  run(all, preset(Preset::kDeburr), {{stimuli::text_image(), {}}});
+  const Coverage coverage = part_of(all, kText);
   EXPECT_EQ(coverage.holes().size(), coverage.size());
 }
 

@@ -75,6 +75,7 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
       codes_.emplace_back(encode_rom_, at);
     }
   }
+  if (store.has_text_guard()) guards_in.emplace("guards_in");
 }
 
 // Stage 1.
@@ -97,7 +98,10 @@ void Blender::choose(Cycle cycle, const ShareToken& token, const PixelToken& aro
     result.tap[i].edges =
         static_cast<std::uint8_t>((token.left >> i & 1) | (token.top >> i & 1) << 1);
   }
-  if (token.any) choose_axes(cycle, token, around, beat);
+  std::uint32_t guarded = 0;
+  if (rules.text_guard) [[unlikely]]
+    guarded = guards_in->take(cycle).guarded;
+  if (token.any) choose_axes(cycle, token, around, guarded, beat);
 }
 
 // By its own mark, or with `beside` those of its neighbours in the frame.
@@ -117,15 +121,18 @@ bool Blender::is_left(const Slot& slot, const PixelToken& around, std::size_t la
 }
 
 void Blender::choose_axes(Cycle cycle, const ShareToken& token, const PixelToken& around,
-                          Beat& beat) {
+                          std::uint32_t guarded, Beat& beat) {
   const bool strongest = store_.rules().strongest;
   const Leave leave = store_.rules().leave;
+  const bool by_marks = leave != Leave::kNone && leave != Leave::kMasked,
+             leaves = by_marks || guarded != 0;
   const std::size_t count = beat.result.count;
   for (std::size_t i = 0; i < count; ++i) {
     const Shares& s = token.shares[i];
     const int vertical_sum = s.up + s.down, horizontal_sum = s.left + s.right;
     if (vertical_sum + horizontal_sum == 0) continue;
-    if (leave != Leave::kNone && leave != Leave::kMasked && is_left(token.slot, around, i, count)) {
+    if (leaves &&
+        ((guarded >> i & 1) != 0 || (by_marks && is_left(token.slot, around, i, count)))) {
       beat.left = static_cast<std::uint8_t>(beat.left | 1u << i);
       continue;
     }
@@ -235,11 +242,12 @@ void Blender::round(Cycle cycle, Beat& beat) {
 void Blender::deliver(Cycle cycle, const Beat& beat) {
   spec::morphological::BlendedBeat& out = pixels_out.emplace(cycle);
   out = beat.result;
-  if (beat.blend != 0) encode(cycle, beat, out);
-  if (store_.rules().leave != Leave::kNone) {
+  if ((beat.blend | beat.left) != 0) {
+    encode(cycle, beat, out);
     left_pixels += static_cast<std::uint64_t>(std::popcount(beat.left));
-    for (std::size_t i = 0; i < out.count; ++i) out.pixel[i][3] |= 1;
   }
+  if (store_.rules().leave != Leave::kNone)
+    for (std::size_t i = 0; i < out.count; ++i) out.pixel[i][3] |= 1;
   pixels += out.count;
   beat_latency.record(probe_.leaves(cycle));
   if (beat.last) frames_done_out.push(cycle, {beat.slot});
@@ -272,7 +280,8 @@ void Blender::blend(Cycle cycle) {
 }
 
 Activity Blender::tick(Cycle cycle) {
-  const bool arrives = shares_in.can_pop(cycle) && pixels_in.can_pop(cycle);
+  const bool arrives = shares_in.can_pop(cycle) && pixels_in.can_pop(cycle) &&
+                       (!store_.rules().text_guard || guards_in->can_pop(cycle));
   if (!arrives && pipe_.empty()) return kIdle;
   if (pipe_.leaves() &&
       (!pixels_out.can_push(cycle) || (pipe_.at(5)->last && !frames_done_out.can_push(cycle))))
@@ -289,7 +298,8 @@ Datasheet Blender::datasheet() {
           .does = "Decides the axis of each pixel and blends it with its neighbours on that axis.",
           .latency = {6, "6; 5 to its push into the output link"},
           .stages = {{"1",
-                      "sums, spans, axis, neighbours, marks; address of mix_rom, of the chosen sum "
+                      "sums, spans, axis, neighbours, marks, text guard; address of mix_rom, of "
+                      "the chosen sum "
                       "(`strongest`: two maxima, compare, sums of both pairs)"},
                      {"2", "address of linear_rom; word of mix_rom, squares of both shares"},
                      {"3", "linear light, differences; squares x word, rounded",

@@ -5,13 +5,15 @@
 // the longer line; else the larger sum, ties to up and down. Rule `strongest`: the axis of the
 // largest share, ties to up and down; each share w of the pair becomes w^2 / (w1 + w2). Rule
 // `leave`: a pixel that is marked (bit 0 of its alpha is 0), or beside one that is, takes no share;
-// or it takes half of a marked one's. A mask is the EdgeDetector's. The mark ends here. Results are
-// rounded by magnitude. Source: paper 000, section 2 (D sums), SMAA 1x (strongest); the tie rules
-// are ours.
+// or it takes half of a marked one's. A mask is the EdgeDetector's. The mark ends here. Rule
+// `text_guard`: a pixel that is guarded takes no share; its bit is there before its shares are.
+// Results are rounded by magnitude. Source: paper 000, section 2 (D sums), SMAA 1x (strongest); the
+// tie rules are ours.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <systemc>
 #include <vector>
 
@@ -30,6 +32,7 @@ class Blender final : public Unit {
  public:
   In<ShareToken> shares_in{"shares_in"};
   In<PixelToken> pixels_in{"pixels_in"};
+  std::optional<In<GuardToken>> guards_in;  // from the TextGuard, if it is built
   Out<spec::morphological::BlendedBeat> pixels_out{"pixels_out"};
   Out<FrameDoneToken> frames_done_out{"frames_done_out"};
 
@@ -43,7 +46,7 @@ class Blender final : public Unit {
 
   Counter pixels{"pixels", "pixels", "pixels delivered"};
   Counter blended_pixels{"blended_pixels", "pixels", "pixels that took a share of a neighbour"};
-  Counter left_pixels{"left_pixels", "pixels", "pixels that the rule left without a share"};
+  Counter left_pixels{"left_pixels", "pixels", "pixels that a rule left without a share"};
   Histogram beat_latency{"beat_latency", "clk", "from a beat being popped to it being pushed"};
 
   static Datasheet datasheet();
@@ -72,7 +75,8 @@ class Blender final : public Unit {
   inline void deliver(Cycle cycle, const Beat& beat);
   bool is_left(const Slot& slot, const PixelToken& around, std::size_t lane,
                std::size_t count) const;
-  void choose_axes(Cycle cycle, const ShareToken& shares, const PixelToken& around, Beat& beat);
+  void choose_axes(Cycle cycle, const ShareToken& shares, const PixelToken& around,
+                   std::uint32_t guarded, Beat& beat);
   void blend(Cycle cycle);
   void mix(Cycle cycle, Beat& beat);
   void address_light(Cycle cycle, const Beat& beat);

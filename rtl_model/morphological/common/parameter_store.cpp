@@ -73,6 +73,7 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
       std::max(spec::morphological::kMaxCornerRounding - number(reg::smaa::kCornerRounding), 0);
   f.strongest = is_set(field::kStrongest);
   f.leave = choice_of<spec::morphological::Leave>(field::kLeave, rules);
+  f.text_guard = is_set(field::kTextGuard) && p.text_guard;
 
   f.threshold = registers.value(reg::kThreshold);
   f.threshold_on = registers.value(reg::kThresholdOn);

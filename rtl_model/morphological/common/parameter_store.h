@@ -6,11 +6,12 @@
 // beat of a frame. A write while a frame is inside is ignored (CONTROL and STATUS excepted) and
 // sets a sticky bit. Codes of RULES that no choice has count as code 0; steps are limited to
 // window_rows / 2 - 2, those of SMAA's searches to their ranges; what was not built (depth lines
-// with source = luma) reads as 0, and `contiguous`, crossings, clamp, tables, diagonals and corners
-// count as off in an engine that was built without them, and so do learned shares, whose registers
-// read 0 then (else: SharesLoader). A reset gives every register its reset value; SIZE is 0 then
-// and must be written again. Cost: 15 x 32 flip-flops twice (registers, decoded values of the frame
-// inside). Made for 300 MHz; longest path: the least of three 5-bit numbers.
+// with source = luma) reads as 0, and `contiguous`, crossings, clamp, tables, diagonals, corners
+// and the text guard count as off in an engine that was built without them, and so do learned
+// shares, whose registers read 0 then (else: SharesLoader). A reset gives every register its reset
+// value; SIZE is 0 then and must be written again. Cost: 15 x 32 flip-flops twice (registers,
+// decoded values of the frame inside). Made for 300 MHz; longest path: the least of three 5-bit
+// numbers.
 #pragma once
 
 #include <cstdint>
@@ -47,6 +48,7 @@ struct FrameRules {
   std::int32_t corner_loss = 0;         // U9, 256 - corner_rounding
   bool strongest = false;               // blend
   spec::morphological::Leave leave{};
+  bool text_guard = false;
   std::uint32_t pixel_base = 0;  // bytes
 };
 
@@ -79,6 +81,7 @@ class ParameterStore {
 
   int lanes() const { return lanes_; }
   int reach_rows() const { return reach_rows_; }  // R
+  bool has_text_guard() const { return parameters_.text_guard; }
 
  private:
   ControlRegisters& registers_;

@@ -56,6 +56,30 @@ struct BeatToken {
   }
 };
 
+// SlotSequencer -> TextGuard: rows 0..height + kGuardRows - 1 of the frame's slots, the last ones
+// without pixels.
+inline constexpr std::int32_t kGuardRows = 8;  // from a row to the last one that it depends on
+struct GuardSlotToken {
+  std::uint16_t row;   // U14
+  std::uint16_t beat;  // U13
+  std::array<std::array<std::uint8_t, 3>, spec::morphological::kMaxLanes> pixel;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("row", self.row, 14, "U14");
+    visit("beat", self.beat, 13, "U13");
+    visit.lanes("pixel", self.pixel, 8, "U0.8", "rgb");
+  }
+};
+
+// TextGuard -> Blender: a beat, in raster order.
+struct GuardToken {
+  std::uint8_t guarded;  // bit k: lane k
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit.lane_bits("guarded", self.guarded, spec::morphological::kMaxLanes);
+  }
+};
+
 // LumaUnit -> EdgeDetector.
 inline constexpr std::uint32_t kMarkedLuma = 1u << 24;
 struct LumaToken {

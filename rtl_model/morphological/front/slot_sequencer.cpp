@@ -8,7 +8,9 @@ SlotSequencer::SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& c
     : Unit(name, clock),
       store_(store),
       probe_(probe),
-      upstream_(declare_stall("upstream", "inside a frame, and no beat has come")) {}
+      upstream_(declare_stall("upstream", "inside a frame, and no beat has come")) {
+  if (store.has_text_guard()) guard_slots_out.emplace("guard_slots_out");
+}
 
 [[gnu::always_inline]] inline void SlotSequencer::take_beat(Cycle cycle) {
   const FrameRules& rules = store_.rules();
@@ -31,24 +33,44 @@ SlotSequencer::SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& c
   probe_.enters(cycle);
 }
 
+// False: it has no room. A slot that waits for something else is not sent yet.
+bool SlotSequencer::send_to_guard(Cycle cycle) {
+  const std::int32_t height = store_.rules().height;
+  const bool input = next_.row < height;
+  if (next_.row >= height + kGuardRows || !slots_out.can_push(cycle)) return true;
+  if (input && (!pixels_in.can_pop(cycle) || !beats_out.can_push(cycle))) return true;
+  if (!guard_slots_out->can_push(cycle)) return false;
+  GuardSlotToken& guarded = guard_slots_out->emplace(cycle);
+  guarded.row = next_.row;
+  guarded.beat = next_.beat;
+  if (!input) return true;
+  const spec::morphological::PixelBeat& beat = pixels_in.front(cycle);
+  for (std::size_t i = 0; i < guarded.pixel.size(); ++i)
+    guarded.pixel[i] = {beat.pixel[i][0], beat.pixel[i][1], beat.pixel[i][2]};
+  return true;
+}
+
 Activity SlotSequencer::tick(Cycle cycle) {
-  if (!issuing_) [[unlikely]] {
-    if (frames_done_in.can_pop(cycle)) {
-      frames_done_in.pop(cycle);
-      store_.leave();
-      ++frames;
-      // The token was pushed with the last beat; how long it waited here does not count.
-      frame_cycles.reset();
-      frame_cycles += frames_done_in.link().last_push() + 1 - first_cycle_;
+  if (slots_ != Slots::kSome) [[unlikely]] {
+    if (slots_ == Slots::kNone) {
+      if (frames_done_in.can_pop(cycle)) {
+        frames_done_in.pop(cycle);
+        store_.leave();
+        ++frames;
+        // The token was pushed with the last beat; how long it waited here does not count.
+        frame_cycles.reset();
+        frame_cycles += frames_done_in.link().last_push() + 1 - first_cycle_;
+      }
+      if (store_.frame_inside()) return kIdle;  // what is left is on its way out
+      if (!pixels_in.can_pop(cycle) || !store_.enabled()) return kIdle;
+      // The frame is inside from the clock on that takes its first beat.
+      if (!slots_out.can_push(cycle) || !beats_out.can_push(cycle)) return kStalledDownstream;
+      if (!store_.latch()) return kIdle;
+      slots_ = store_.rules().text_guard ? Slots::kGuarded : Slots::kSome;
+      next_ = {};
+      first_cycle_ = cycle;
     }
-    if (store_.frame_inside()) return kIdle;  // what is left is on its way out
-    if (!pixels_in.can_pop(cycle) || !store_.enabled()) return kIdle;
-    // The frame is inside from the clock on that takes its first beat.
-    if (!slots_out.can_push(cycle) || !beats_out.can_push(cycle)) return kStalledDownstream;
-    if (!store_.latch()) return kIdle;
-    issuing_ = true;
-    next_ = {};
-    first_cycle_ = cycle;
+    if (slots_ == Slots::kGuarded && !send_to_guard(cycle)) return kStalledDownstream;
   }
   const FrameRules& rules = store_.rules();
   const bool input = next_.row < rules.height;
@@ -63,7 +85,7 @@ Activity SlotSequencer::tick(Cycle cycle) {
   ++next_.number;
   if (++next_.beat == rules.beats) {
     next_.beat = 0;
-    if (++next_.row == rules.rows) issuing_ = false;
+    if (++next_.row == rules.rows) slots_ = Slots::kNone;
   }
   return kBusy;
 }
@@ -71,7 +93,7 @@ Activity SlotSequencer::tick(Cycle cycle) {
 void SlotSequencer::reset() {
   store_.reset();
   probe_.reset();
-  issuing_ = false;
+  slots_ = Slots::kNone;
   next_ = {};
 }
 

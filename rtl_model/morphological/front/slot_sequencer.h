@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <systemc>
 
 #include "rtl_model/fabric/datasheet.h"
@@ -25,6 +26,7 @@ class SlotSequencer final : public Unit {
   In<FrameDoneToken> frames_done_in{"frames_done_in"};
   Out<SlotToken> slots_out{"slots_out"};
   Out<BeatToken> beats_out{"beats_out"};
+  std::optional<Out<GuardSlotToken>> guard_slots_out;  // for the TextGuard, if it is built
 
   SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& clock, ParameterStore& store,
                 LatencyProbe& probe);
@@ -40,12 +42,16 @@ class SlotSequencer final : public Unit {
   static Datasheet datasheet();
 
  private:
+  // Of the frame inside: none are left, some are, or each goes to the TextGuard, too.
+  enum class Slots : std::uint8_t { kNone, kSome, kGuarded };
+
   void take_beat(Cycle cycle);
+  bool send_to_guard(Cycle cycle);
 
   ParameterStore& store_;
   LatencyProbe& probe_;
   Activity upstream_;
-  bool issuing_ = false;  // slots of the frame inside are left
+  Slots slots_ = Slots::kNone;
   Slot next_{};
   Cycle first_cycle_ = 0;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Functional coverage of the morphological engine: what the golden model met in the frames of a
-// run, in runs and predictions, in SMAA's blocks, in marks and in learned shares.
+// run, in runs and predictions, in SMAA's blocks, in marks, in learned shares and in the text
+// guard.
 #pragma once
 
 #include <span>

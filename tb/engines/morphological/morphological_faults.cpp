@@ -34,6 +34,8 @@ std::vector<PlantedFault> MorphologicalFaults::list() const {
        fmt::format("flip:morphological.edge_bits:{}:left", 2 * row + row / 2)},
       {"wrong-rule", "The engine tries one step less than was ordered.", "",
        setup_.morphological.steps > 0 ? "" : "morphological.steps of at least 1"},
+      {"wrong-guard", "The text guard is off.", "",
+       setup_.morphological.text_guard ? "" : "morphological.text_guard = true"},
       {"stuck-ready", "Holds back the slots of the luma unit from cycle 500 on.",
        "stuck_ready:morphological.slots:500"},
       {"duplicate-fetch", "Sends memory request 20 twice.",
@@ -130,6 +132,7 @@ spec::morphological::Parameters MorphologicalFaults::as_built() const {
   spec::morphological::Parameters p = setup_.morphological;
   // A fault that would change nothing is rejected by what it needs.
   if (planted("wrong-rule")) p.steps = std::max(0, p.steps - 1);
+  if (planted("wrong-guard")) p.text_guard = false;
   if (planted("wrong-threshold")) {
     if (p.threshold_mode == spec::morphological::ThresholdMode::kDynamic)
       p.alpha = std::max(0, p.alpha - 1);

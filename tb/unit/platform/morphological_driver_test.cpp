@@ -78,7 +78,7 @@ Parameters nothing() {
 
 struct Bed {
   explicit Bed(const Parameters& p = nothing()) : driver(registers, p, &memory) {
-    registers.values[reg::kId] = 0xDEB00103;
+    registers.values[reg::kId] = 0xDEB00104;
     registers.values[reg::kStatus] = 1;
   }
   FakeRegisters registers;
@@ -119,6 +119,7 @@ TEST(MorphologicalDriver, WritesEachRuleAsAField) {
   EXPECT_EQ(with([](Parameters& p) { p.leave = static_cast<Leave>(3); }), 3u << 24);
   EXPECT_EQ(with([](Parameters& p) { p.leave = static_cast<Leave>(4); }), 4u << 24);
   EXPECT_EQ(with([](Parameters& p) { p.area = AreaSource::kLearned; }), 1u << 23);
+  EXPECT_EQ(with([](Parameters& p) { p.text_guard = true; }), 1u << 28);
 }
 
 TEST(MorphologicalDriver, WritesRulesAndThresholds) {

@@ -28,6 +28,7 @@ using stimuli::mirrored_y;
 using stimuli::noise_image;
 using stimuli::rendered_like;
 using stimuli::shades_image;
+using stimuli::text_image;
 using stimuli::transposed;
 
 // A picture that the golden model can look at.

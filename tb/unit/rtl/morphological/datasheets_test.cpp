@@ -18,6 +18,7 @@ TEST(MorphologicalDatasheets, AreTheContracts) {
                   {{"SlotSequencer", 1, 1},
                    {"LumaUnit", 2, 1},
                    {"EdgeDetector", 4, 1},
+                   {"TextGuard", 17, 1},
                    {"RunExtractor, slots", 2, 1},
                    {"RunExtractor, records", 6, 1},
                    {"EndpointPredictor, records that are not extended", 2, 1},
@@ -64,6 +65,14 @@ TEST(MorphologicalDatasheets, EveryUnitWithDiagonalsHasOne) {
   const Parameters p = smaa(spec::morphological::Quality::kHigh);
   ASSERT_TRUE(p.diagonals);
   const EngineBench b(p);
+  expect_datasheets(b.engine, rtl::morphological::datasheets(p));
+}
+
+TEST(MorphologicalDatasheets, EveryUnitWithTheTextGuardHasOne) {
+  Parameters p = preset(Preset::kDeburr);
+  p.text_guard = true;
+  const EngineBench b(p);
+  ASSERT_TRUE(b.engine.text_guard);
   expect_datasheets(b.engine, rtl::morphological::datasheets(p));
 }
 

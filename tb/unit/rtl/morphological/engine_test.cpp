@@ -364,6 +364,35 @@ TEST(Accounts, LearnedSharesAddThreeTablesAndABitARecord) {
   }
 }
 
+TEST(Accounts, TheTextGuardAddsLinesOfHashesAndItsBits) {
+  Parameters p = deburr();
+  p.line_pixels = 1920;
+  p.text_guard = true;
+  EngineBench bench(p);
+  std::map<std::string, const rtl::MemoryBase*> all;
+  for (const rtl::MemoryBase* memory : bench.engine.memories()) {
+    all[memory->basename()] = memory;
+    EXPECT_EQ(memory->idealised(), "") << memory->name();
+  }
+  EXPECT_EQ(all["guard_row"]->logical_bits(), 1920u * 6u);
+  EXPECT_EQ(all["guard_columns"]->logical_bits(), 1920u * (10u * 6u + 13u + 10u));
+  EXPECT_EQ(all["guard_colours"]->logical_bits(), 1920u * 3u);
+  EXPECT_EQ(all["guards"]->logical_bits(), 29u * 1920u + 32u);
+  for (const char* const lines : {"guard_row", "guard_columns", "guard_colours"}) {
+    EXPECT_EQ(all[lines]->ports(), "1R1W");
+    EXPECT_EQ(all[lines]->bits_at(960), all[lines]->logical_bits() / 2);
+  }
+}
+
+TEST(Accounts, WithoutTheTextGuardNothingOfItIsBuilt) {
+  EngineBench bench(deburr());
+  EXPECT_EQ(bench.engine.text_guard, nullptr);
+  for (const rtl::MemoryBase* memory : bench.engine.memories())
+    EXPECT_FALSE(std::string(memory->basename()).starts_with("guard")) << memory->name();
+  for (const rtl::LinkBase* link : bench.engine.links())
+    EXPECT_EQ(std::string(link->name()).find("guard"), std::string::npos) << link->name();
+}
+
 // A row of one pixel still has a column beside it.
 TEST(Memories, OfTheNarrowestRowsHaveTheirBanks) {
   Parameters p;

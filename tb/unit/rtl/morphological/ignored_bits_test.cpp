@@ -178,7 +178,8 @@ INSTANTIATE_TEST_SUITE_P(
               "edges.source=predicated edges.threshold_off_depth_edge=16777215 leave=half"},
         Build{spec::morphological::Preset::kSmaa, "lanes=2 leave=marked"},
         Build{spec::morphological::Preset::kSmaaDynamic, "lanes=4 leave=beside"},
-        Build{spec::morphological::Preset::kDeburr, "lanes=4 storage=memory leave=masked"}));
+        Build{spec::morphological::Preset::kDeburr, "lanes=4 storage=memory leave=masked"},
+        Build{spec::morphological::Preset::kDeburr, "lanes=2 text_guard=true"}));
 
 // Padding is written 0 and read back with its line.
 class Padding : public IgnoredBits {};

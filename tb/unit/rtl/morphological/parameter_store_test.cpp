@@ -130,6 +130,7 @@ std::string text_of(const rtl::morphological::FrameRules& f) {
   add("corners", f.corners);
   add("strongest", f.strongest);
   add("leave", f.leave);
+  add("text_guard", f.text_guard);
   add("learned", f.learned);
   return text;
 }
@@ -194,6 +195,8 @@ TEST(FrameRules, EachBitOfRulesIsItsFields) {
                    {0xF0000000, ""}});
   p.border = spec::morphological::Border::kEnd;  // clamp is not built
   expect_rules(p, {{1u << 27 | 3u << 18, "crossings 1, table 1"}});
+  p.text_guard = true;
+  expect_rules(p, {{1u << 28, "text_guard 1"}, {0xE0000000, ""}});
 }
 // Bits of no field count nowhere, whatever holds the registers.
 TEST(FrameRules, OtherBitsAreNotLookedAt) {

@@ -41,6 +41,10 @@ class TimedDriver final : public rtl::Unit {
   rtl::Out<T> beats_out{"beats_out"};
   TimedDriver(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
   void send(Cycle from, const T& beat) { list_.push_back({from, beat}); }
+  // Number `index` and those after it, not before clock `from`.
+  void delay(std::size_t index, Cycle from) {
+    for (; index < list_.size(); ++index) list_[index].first = from;
+  }
   rtl::Activity tick(Cycle cycle) override {
     if (sent_ == list_.size() || list_[sent_].first > cycle) return rtl::kIdle;
     if (!beats_out.can_push(cycle)) return rtl::kStalledDownstream;

@@ -21,6 +21,7 @@ std::string after_noise(std::uint64_t seed) {
   p.lanes = static_cast<spec::morphological::Lanes>(random.below(3));
   p.storage = static_cast<spec::morphological::Storage>(random.below(2));
   p.record_fifo = random.between(2, 9);
+  p.text_guard = random.chance(500);
   EngineBench bench(p);
   const Frame frame = noise(29, 12);
   const auto beats = beats_of(frame, lanes_of(p));

@@ -268,7 +268,13 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{0, spec::morphological::Storage::kLineBuffers, 16, 9, 20, false, true},
         Variant{1, spec::morphological::Storage::kLineBuffers, 8, 9, 20, false, true},
         Variant{2, spec::morphological::Storage::kLineBuffers, 16, 4, 20, false, true},
-        Variant{2, spec::morphological::Storage::kMemory, 5, 9, 21, false, true}));
+        Variant{2, spec::morphological::Storage::kMemory, 5, 9, 21, false, true},
+        Variant{0, spec::morphological::Storage::kLineBuffers, 16, 9, 20, false, false,
+                "text_guard=true"},
+        Variant{1, spec::morphological::Storage::kMemory, 9, 9, 20, false, true,
+                "text_guard=true"},
+        Variant{2, spec::morphological::Storage::kLineBuffers, 16, 4, 20, true, false,
+                "text_guard=true"}));
 
 // Every rule of edges, lines and areas in some build, and every time of a trial.
 INSTANTIATE_TEST_SUITE_P(

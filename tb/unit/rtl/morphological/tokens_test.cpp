@@ -12,10 +12,10 @@ namespace {
 
 TEST(Tokens, FieldsHaveTheBitsOfTheirFormat) {
   const int checked =
-      tb::expect_widths_of_formats<SlotToken, BeatToken, LumaToken, EdgeToken, AreaSlotToken,
-                                   FetchToken, DiagonalColumnsToken, DiagonalSharesToken,
-                                   ShareToken, PixelToken, RunToken, SumsToken, LineToken,
-                                   FinishToken, FrameDoneToken>();
+      tb::expect_widths_of_formats<SlotToken, BeatToken, GuardSlotToken, GuardToken, LumaToken,
+                                   EdgeToken, AreaSlotToken, FetchToken, DiagonalColumnsToken,
+                                   DiagonalSharesToken, ShareToken, PixelToken, RunToken, SumsToken,
+                                   LineToken, FinishToken, FrameDoneToken>();
   EXPECT_GE(checked, 35);
 }
 
@@ -32,12 +32,15 @@ TEST(Tokens, LinksAreThoseOfThePage) {
   ClockDomain clock("clock", tb::morphological_rtl::period());
   spec::morphological::Parameters memory = tb::morphological_rtl::in_memory();
   memory.lanes = spec::morphological::Lanes::kFour;
+  spec::morphological::Parameters guarded = tb::morphological_rtl::deburr();
+  guarded.text_guard = true;
   table.expect_links("deburr-line",
                      MorphologicalEngine("line", clock, tb::morphological_rtl::deburr_line()));
   table.expect_links("deburr",
                      MorphologicalEngine("deburr", clock, tb::morphological_rtl::deburr()));
   table.expect_links("smaa", MorphologicalEngine("smaa", clock, tb::morphological_rtl::smaa()));
   table.expect_links("mlaa, 4 lanes, memory", MorphologicalEngine("memory", clock, memory));
+  table.expect_links("deburr, text guard", MorphologicalEngine("guarded", clock, guarded));
 }
 
 // With all that an engine can be built with: learned shares exclude diagonals.
@@ -46,6 +49,7 @@ TEST(Figures, AreTheModuleTree) {
   spec::morphological::Parameters learned = tb::morphological_rtl::deburr(),
                                   diagonal = tb::morphological_rtl::smaa();
   learned.storage = diagonal.storage = spec::morphological::Storage::kMemory;
+  learned.text_guard = diagonal.text_guard = true;
   const MorphologicalEngine with_learned("learned", clock, learned),
       with_diagonals("diagonal", clock, diagonal);
   ASSERT_TRUE(with_learned.memory_port && with_learned.shares_loader);
@@ -54,7 +58,8 @@ TEST(Figures, AreTheModuleTree) {
   for (const MorphologicalEngine* const engine : {&with_learned, &with_diagonals})
     for (const tb::Figure& figure :
          {tb::Figure::of_header(header), tb::Figure::of_page("reference/morphological/index.md")})
-      for (const char* const unit : {"DiagonalUnit", "SharesLoader", "EdgeRows", "Blender"})
+      for (const char* const unit :
+           {"DiagonalUnit", "SharesLoader", "TextGuard", "EdgeRows", "Blender"})
         tb::expect_figure(figure, *engine, header, unit);
 }
 

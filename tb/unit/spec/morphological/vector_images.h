@@ -31,6 +31,8 @@ inline Image vector_image(spec::morphological::VectorImage image) {
       return stimuli::blocks_image();
     case spec::morphological::VectorImage::kShades:
       return stimuli::shades_image();
+    case spec::morphological::VectorImage::kText:
+      return stimuli::text_image();
   }
   throw std::invalid_argument("no image of the vectors");
 }
@@ -44,6 +46,22 @@ inline Image vector_image(const spec::morphological::PatternVector& pattern) {
   });
 }
 
+inline Image vector_image(const spec::morphological::GuardVector& v) {
+  const std::string_view rows = v.rows;
+  const int width = static_cast<int>(std::min(rows.find(' '), rows.size()));
+  const int height = static_cast<int>(rows.size() + 1) / (width + 1);
+  return stimuli::draw(width, height, [&](int x, int y) -> Rgba8 {
+    switch (rows.at(static_cast<std::size_t>(y * (width + 1) + x))) {
+      case '.':
+        return {250, 240, 230, 255};
+      case '#':
+        return {30, 50, 70, 255};
+      default:
+        return {128, 128, 128, 255};
+    }
+  });
+}
+
 // A Z of its length in row 2 from column 1 on.
 inline Image vector_image(const spec::morphological::LimitVector& limit) {
   return stimuli::draw(limit.length + 2, 4, [&](int x, int y) {
@@ -52,12 +70,14 @@ inline Image vector_image(const spec::morphological::LimitVector& limit) {
   });
 }
 
-// Those of both pages.
+// All.
 inline std::vector<spec::morphological::FrameVector> frame_vectors() {
   std::vector<spec::morphological::FrameVector> all(spec::morphological::kFrameVectors.begin(),
                                                     spec::morphological::kFrameVectors.end());
   all.insert(all.end(), spec::morphological::kSmaaFrameVectors.begin(),
              spec::morphological::kSmaaFrameVectors.end());
+  all.insert(all.end(), spec::morphological::kGuardFrameVectors.begin(),
+             spec::morphological::kGuardFrameVectors.end());
   return all;
 }
 

@@ -66,14 +66,19 @@ std::string runs(std::span<const RunVector> vectors) {
   return table.text();
 }
 
+// Rows of a drawing, each by itself.
+std::string in_rows(std::string_view drawing) {
+  std::string rows;
+  for (const char c : drawing) rows += c == ' ' ? std::string("` `") : std::string(1, c);
+  return fmt::format("`{}`", rows);
+}
+
 std::string patterns(std::span<const PatternVector> vectors) {
   MarkdownTable table({"frame", "quality", "rows", "shares", "taken", "hash"});
   for (const PatternVector& v : vectors) {
-    std::string rows;
-    for (const char c : v.rows) rows += c == ' ' ? std::string("` `") : std::string(1, c);
     table.row({std::string(v.name), std::string(kQualityNames[static_cast<std::size_t>(v.quality)]),
-               fmt::format("`{}`", rows), std::string(v.shares),
-               std::to_string(v.result.diagonal_pixels), hash_text(v.result.hash)});
+               in_rows(v.rows), std::string(v.shares), std::to_string(v.result.diagonal_pixels),
+               hash_text(v.result.hash)});
   }
   return table.text();
 }
@@ -82,6 +87,13 @@ std::string limits(std::span<const LimitVector> vectors) {
   MarkdownTable table({"L", "first/second of each pixel", "hash"});
   for (const LimitVector& v : vectors)
     table.row({std::to_string(v.length), std::string(v.shares), hash_text(v.result.hash)});
+  return table.text();
+}
+
+std::string drawings(std::span<const GuardVector> vectors) {
+  MarkdownTable table({"frame", "rows", "guarded (g)"});
+  for (const GuardVector& v : vectors)
+    table.row({std::string(v.name), in_rows(v.rows), in_rows(v.guarded)});
   return table.text();
 }
 
@@ -111,6 +123,19 @@ TEST(MorphologicalVectorsPage, HasTheFrames) {
 
 TEST(MorphologicalVectorsPage, HasTheFramesOfSmaa) {
   expect_generated(kPage, "MorphologicalVectorsPage.HasTheFramesOfSmaa", frames(kSmaaFrameVectors));
+}
+
+TEST(MorphologicalVectorsPage, HasTheFramesOfTheGuard) {
+  expect_generated(kPage, "MorphologicalVectorsPage.HasTheFramesOfTheGuard",
+                   frames(kGuardFrameVectors));
+}
+
+TEST(MorphologicalVectorsPage, HasTheDrawingsOfTheGuard) {
+  expect_generated(kPage, "MorphologicalVectorsPage.HasTheDrawingsOfTheGuard",
+                   drawings(kGuardVectors));
+  auto changed = kGuardVectors;
+  changed.back().guarded = "--- --g ---";  // the planted fault
+  EXPECT_NE(drawings(changed), drawings(kGuardVectors));
 }
 
 TEST(MorphologicalVectorsPage, HasTheRuns) {
@@ -145,7 +170,7 @@ TEST(MorphologicalVectorsPage, HasTheSharesOfTheTables) {
 TEST(MorphologicalVectors, HaveNamesOfTheirOwn) {
   std::set<std::string_view> names;
   for (const FrameVector& v : frame_vectors()) EXPECT_TRUE(names.insert(v.name).second) << v.name;
-  EXPECT_EQ(names.size(), 60u);
+  EXPECT_EQ(names.size(), 70u);
 }
 
 }  // namespace

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/morphological/front/text_guard.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <string>
+
+namespace deburr::rtl::morphological {
+namespace {
+
+constexpr std::uint32_t kHashBits = 6;
+constexpr std::uint32_t kHashMask = (1u << kHashBits) - 1;
+constexpr std::int32_t kHashRows = 10;   // above the newest one
+constexpr std::int32_t kStroke = 3;      // pixels of a run, at most
+constexpr std::int32_t kWindow = 5;      // pixels to each side
+constexpr int kLeast = 3;                // pixels with H, and with V
+constexpr int kEnough = 24;              // of both
+constexpr std::int32_t kCountRows = 11;  // of a column, whose strokes are counted
+// From the newest row to the one whose column runs it completes.
+constexpr std::int32_t kRunRows = kStroke;
+constexpr std::uint32_t kHBits = kCountRows + kRunRows - 1, kVBits = kCountRows - 1;
+constexpr std::int32_t kColourRows =
+    kGuardRows - kWindow;  // that two colours are known before the counts
+// Slots on their way from the SlotSequencer to the Blender, links and stages, at most.
+constexpr std::int32_t kUnderWay = 32;
+
+constexpr std::uint32_t folded(std::uint32_t code) { return (code & 63) ^ (code >> 6); }
+constexpr std::uint32_t rotated(std::uint32_t value, std::uint32_t by) {
+  return (value << by | value >> (kHashBits - by)) & kHashMask;
+}
+constexpr std::uint8_t hash_of(const std::array<std::uint8_t, 3>& rgb) {
+  return static_cast<std::uint8_t>(folded(rgb[0]) ^ rotated(folded(rgb[1]), 1) ^
+                                   rotated(folded(rgb[2]), 3));
+}
+
+std::int32_t beats_for(std::int32_t pixels, std::int32_t lanes) {
+  return (pixels + lanes - 1) / lanes;
+}
+std::int32_t row_stage_of(std::int32_t lanes) { return 2 + beats_for(kStroke, lanes); }
+std::int32_t column_stage_of(std::int32_t lanes) {
+  return row_stage_of(lanes) + 4 + beats_for(kWindow, lanes);
+}
+std::int32_t last_stage_of(std::int32_t lanes) { return column_stage_of(lanes) + 2; }
+
+std::uint32_t fifo_words(const spec::morphological::Parameters& p, const ParameterStore& store) {
+  const std::int32_t rows = store.reach_rows() + spec::morphological::kRowLag - kGuardRows;
+  return static_cast<std::uint32_t>(rows * beats_for(p.line_pixels, store.lanes()) + kUnderWay);
+}
+MemoryShape row_shape(const spec::morphological::Parameters& p, std::int32_t lanes) {
+  return {.words = static_cast<std::uint64_t>(beats_for(p.line_pixels, lanes)),
+          .word_bits = kHashBits * static_cast<std::uint32_t>(lanes),
+          // The next row takes the place of this one, in the clock of its read at the earliest.
+          .read_during_write = ReadDuringWrite::kOldWord,
+          .content = "hashes of the newest row",
+          .columns = static_cast<std::uint64_t>(p.line_pixels)};
+}
+MemoryShape column_shape(const spec::morphological::Parameters& p, std::int32_t lanes,
+                         std::uint32_t bits, std::string content) {
+  return {.words = static_cast<std::uint64_t>(beats_for(p.line_pixels, lanes) * lanes),
+          .word_bits = bits,
+          // A row of one beat is read as it is written.
+          .read_during_write = ReadDuringWrite::kNewWord,
+          .banks = static_cast<std::uint32_t>(lanes),
+          .span = static_cast<std::uint32_t>(lanes),
+          .content = std::move(content),
+          .columns = static_cast<std::uint64_t>(p.line_pixels)};
+}
+
+}  // namespace
+
+TextGuard::TextGuard(const sc_core::sc_module_name& name, ClockDomain& clock,
+                     const spec::morphological::Parameters& p, const ParameterStore& store)
+    : Unit(name, clock),
+      store_(store),
+      lanes_(static_cast<std::uint32_t>(store.lanes())),
+      row_stage_(row_stage_of(store.lanes())),
+      column_stage_(column_stage_of(store.lanes())),
+      last_stage_(last_stage_of(store.lanes())),
+      row_("guard_row", row_shape(p, store.lanes())),
+      columns_("guard_columns",
+               column_shape(p, store.lanes(), kHashRows * kHashBits + kHBits + kVBits,
+                            "a column of the last rows: hashes, strokes of rows and columns")),
+      colours_("guard_colours", column_shape(p, store.lanes(), kColourRows,
+                                             "a column of the last rows: are there two colours?")),
+      guards_("guards", fifo_words(p, store), PayloadShape{.lanes = lanes_}) {}
+
+// In. Flush rows have no pixels.
+void TextGuard::store(Cycle cycle) {
+  const GuardSlotToken& token = slots_in.take(cycle);
+  const FrameRules& rules = store_.rules();
+  if (token.row == 0 && token.beat == 0) complete_ = next_row_ = next_beat_ = 0;
+  if (token.row < rules.height) {
+    Hashes word{};
+    for (std::size_t lane = 0; lane < lanes_; ++lane) word[lane] = hash_of(token.pixel[lane]);
+    row_in_.write(cycle, token.beat, word);
+  }
+  if (token.beat + 1u == rules.beats) complete_ = token.row + 1;
+}
+
+// Stage 1.
+void TextGuard::enter(Cycle cycle) {
+  Beat& beat = at(1);
+  beat.valid = next_row_ < complete_;
+  if (!beat.valid) return;
+  ++inside_;
+  beat.row = next_row_;
+  beat.beat = next_beat_;
+  if (is_row(beat.row)) row_out_.read(cycle, static_cast<std::uint64_t>(beat.beat));
+  if (static_cast<std::uint32_t>(++next_beat_) != store_.rules().beats) return;
+  next_beat_ = 0;
+  ++next_row_;
+}
+
+// Of a column of the row about the beat in hand.
+inline std::uint8_t TextGuard::hash_at(std::int32_t x) {
+  const std::int32_t lanes = static_cast<std::int32_t>(lanes_), beat = x / lanes;
+  return at(row_stage_ + at(row_stage_).beat - beat).hash[static_cast<std::size_t>(x % lanes)];
+}
+inline const TextGuard::Column& TextGuard::column_at(std::int32_t x) {
+  const std::int32_t lanes = static_cast<std::int32_t>(lanes_), beat = x / lanes;
+  return at(column_stage_ + at(column_stage_).beat - beat)
+      .column[static_cast<std::size_t>(x % lanes)];
+}
+
+// The first stage that has the columns to the right.
+void TextGuard::find_h(Beat& beat) {
+  beat.h = 0;
+  if (!is_row(beat.row)) return;
+  const auto first = static_cast<std::int32_t>(first_of(beat));
+  for (std::int32_t lane = 0; lane < store_.lanes(); ++lane) {
+    const std::int32_t x = first + lane;
+    if (!is_column(x)) break;
+    const std::uint8_t colour = hash_at(x);
+    std::int32_t run = 1;
+    for (std::int32_t dx = 1; dx <= kStroke && is_column(x - dx) && hash_at(x - dx) == colour; ++dx)
+      ++run;
+    for (std::int32_t dx = 1; dx <= kStroke && is_column(x + dx) && hash_at(x + dx) == colour; ++dx)
+      ++run;
+    if (run <= kStroke) beat.h = static_cast<std::uint8_t>(beat.h | 1u << lane);
+  }
+}
+
+// Of the pixel in the middle of seven rows.
+bool TextGuard::find_v(const Word& word, std::uint8_t newest, std::int32_t row) const {
+  const std::int32_t y = row - kRunRows;
+  if (!is_row(y)) return false;
+  const auto hash = [&](std::int32_t above) {  // the newest row
+    return above == 0 ? newest : word.hashes >> (kHashBits * (above - 1)) & kHashMask;
+  };
+  const auto same = [&](std::int32_t above) {
+    return is_row(row - above) && hash(above) == hash(kRunRows);
+  };
+  std::int32_t run = 1;
+  for (std::int32_t dy = 1; dy <= kStroke && same(kRunRows + dy); ++dy) ++run;
+  for (std::int32_t dy = 1; dy <= kStroke && same(kRunRows - dy); ++dy) ++run;
+  return run <= kStroke;
+}
+
+TextGuard::Colours TextGuard::merged(const Colours& a, const Colours& b) {
+  if (!a.any) return b;
+  if (!b.any) return a;
+  Colours both{.least = std::min(a.least, b.least),
+               .greatest = std::max(a.greatest, b.greatest),
+               .others = a.others || b.others,
+               .any = true};
+  for (const std::uint8_t hash : {a.least, a.greatest, b.least, b.greatest})
+    both.others |= hash != both.least && hash != both.greatest;
+  return both;
+}
+
+// `word` is as it is written back.
+TextGuard::Column TextGuard::column_of(const Word& word, const Beat& beat, std::size_t lane) const {
+  Column column{};
+  const auto add = [&](std::uint8_t hash) {
+    column.colours = merged(column.colours, {hash, hash, false, true});
+  };
+  if (is_row(beat.row)) add(beat.hash[lane]);
+  for (std::int32_t above = 1; above <= kHashRows; ++above)
+    if (is_row(beat.row - above))
+      add(static_cast<std::uint8_t>(word.hashes >> (kHashBits * (above - 1)) & kHashMask));
+  return column;
+}
+
+// Words of the columns. The counts are of rows s - 13..s - 3, so each takes in the newest bit.
+void TextGuard::read_columns(Cycle cycle, Beat& beat) {
+  const std::uint64_t first = first_of(beat);
+  std::array<Word, kLanes> words;
+  for (std::size_t lane = 0; lane < lanes_; ++lane) {
+    const Word& read = above_.at(cycle, first + lane);
+    const Word above = beat.row == 0 ? Word{} : read;
+    Column& column = beat.column[lane] = column_of(above, beat, lane);
+    const auto h = static_cast<std::uint32_t>(above.h << 1 | (beat.h >> lane & 1)),
+               v = static_cast<std::uint32_t>(above.v << 1 |
+                                              int{find_v(above, beat.hash[lane], beat.row)});
+    column.h = static_cast<std::uint8_t>(std::popcount(h >> kRunRows));
+    column.v = static_cast<std::uint8_t>(std::popcount(v));
+    Word& word = words[lane];
+    word.hashes = (above.hashes << kHashBits | beat.hash[lane]) &
+                  ((std::uint64_t{1} << kHashRows * kHashBits) - 1);
+    word.h = static_cast<std::uint16_t>(h & ((1u << kHBits) - 1));
+    word.v = static_cast<std::uint16_t>(v & ((1u << kVBits) - 1));
+  }
+  shift_.write(cycle, first, std::span<const Word>(words.data(), lanes_));
+}
+
+// The first stage that has the columns to the right.
+void TextGuard::look_around(Beat& beat) {
+  beat.two = beat.enough = 0;
+  const auto first = static_cast<std::int32_t>(first_of(beat));
+  for (std::int32_t lane = 0; lane < store_.lanes() && is_column(first + lane); ++lane) {
+    const std::int32_t x = first + lane;
+    Colours colours{};
+    int h = 0, v = 0;
+    for (std::int32_t column = x - kWindow; column <= x + kWindow; ++column) {
+      if (!is_column(column)) continue;
+      const Column& of = column_at(column);
+      colours = merged(colours, of.colours);
+      h += of.h;
+      v += of.v;
+    }
+    const bool two = colours.any && !colours.others && colours.least != colours.greatest;
+    const bool enough = h >= kLeast && v >= kLeast && h + v >= kEnough;
+    beat.two = static_cast<std::uint8_t>(beat.two | int{two} << lane);
+    beat.enough = static_cast<std::uint8_t>(beat.enough | int{enough} << lane);
+  }
+}
+
+// Last stage.
+void TextGuard::deliver(Cycle cycle, Beat& beat) {
+  --inside_;
+  const std::uint64_t first = first_of(beat);
+  std::array<std::uint8_t, kLanes> words{};
+  GuardToken token{};
+  for (std::size_t lane = 0; lane < kLanes && lane < lanes_; ++lane) {
+    const std::uint8_t above = two_above_.at(cycle, first + lane);
+    const std::uint32_t two = above >> (kColourRows - 1) & 1;
+    token.guarded = static_cast<std::uint8_t>(token.guarded | (two & beat.enough >> lane) << lane);
+    words[lane] =
+        static_cast<std::uint8_t>((above << 1 | (beat.two >> lane & 1)) & ((1 << kColourRows) - 1));
+  }
+  two_shift_.write(cycle, first, std::span<const std::uint8_t>(words.data(), lanes_));
+  if (beat.row < kGuardRows) return;
+  guarded_pixels += static_cast<std::uint64_t>(std::popcount(token.guarded));
+  guards_.push(cycle, token);
+}
+
+Activity TextGuard::tick(Cycle cycle) {
+  const bool arrives = slots_in.can_pop(cycle);
+  if (!arrives && inside_ == 0 && next_row_ == complete_) return kIdle;
+  const Beat& leaves = at(last_stage_ - 1);
+  if (leaves.valid && leaves.row >= kGuardRows && !guards_.can_push(cycle))
+    return kStalledDownstream;
+  ++newest_;
+  if (Beat& beat = at(last_stage_); beat.valid) deliver(cycle, beat);
+  if (Beat& beat = at(column_stage_ + 1); beat.valid)
+    two_above_.read(cycle, first_of(beat), lanes_);
+  if (Beat& beat = at(column_stage_); beat.valid) look_around(beat);
+  if (Beat& beat = at(row_stage_ + 1); beat.valid) read_columns(cycle, beat);
+  if (Beat& beat = at(2); beat.valid && is_row(beat.row))
+    beat.hash = row_out_.at(cycle, static_cast<std::uint64_t>(beat.beat));
+  if (Beat& beat = at(row_stage_); beat.valid) {
+    find_h(beat);
+    above_.read(cycle, first_of(beat), lanes_);
+  }
+  enter(cycle);
+  if (arrives) store(cycle);
+  return kBusy;
+}
+
+void TextGuard::reset() {
+  for (Beat& beat : beats_) beat.valid = false;
+  inside_ = 0;
+  complete_ = next_row_ = next_beat_ = 0;
+}
+
+Datasheet TextGuard::datasheet(const spec::morphological::Parameters& p) {
+  const std::int32_t lanes = spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)],
+                     row = row_stage_of(lanes), column = column_stage_of(lanes),
+                     last = last_stage_of(lanes);
+  const auto clock = [](std::int32_t stage) { return std::to_string(stage + 1); };
+  return {
+      .unit = "TextGuard",
+      .does = "Says of each pixel whether it is of aliased text of two colours.",
+      .latency = {static_cast<std::uint64_t>(last) + 1,
+                  "17 with one lane, 14 with two, 12 with four: from a row's last beat to the "
+                  "first beat of the row eight above"},
+      .stages = {{"1", "hash, stored in guard_row", "6-input xor, SRAM write"},
+                 {clock(1), "address of guard_row"},
+                 {clock(2) + "-" + clock(row),
+                  "hashes of a row, a beat a clock; H in the last one; address of "
+                  "guard_columns",
+                  "SRAM read, 6-bit compare, choice of a run"},
+                 {clock(row + 1), "words of the columns; V; write back",
+                  "SRAM read, 6-bit compare"},
+                 {clock(row + 2), "least and greatest of 11 hashes, counts of 11 bits",
+                  "four 6-bit compares with their choices"},
+                 {clock(row + 3), "are there others?", "6-bit compare, OR of 11"},
+                 {clock(row + 4) + "-" + clock(column),
+                  "columns, a beat a clock; least and greatest of 11, sums, in the last one",
+                  "four 6-bit compares with their choices"},
+                 {clock(column + 1), "are there others? enough? address of guard_colours",
+                  "6-bit compare, OR of 22"},
+                 {clock(last), "two colours three rows ago, write back, decision", "SRAM read"}},
+      .formats = "hashes U6; counts of a column U4, of a window U7.",
+      .cost =
+          "a lane: the xors of a hash, 6 compares of 6 bits for H and 6 for V, 20 with their "
+          "choices and 22 more for the colours of a column, 20 and 44 for those of a window, "
+          "two counts of 11 bits, two sums of 11 times 4 bits; registers of 11 columns more. "
+          "guard_row holds 6 bits a column, guard_columns 83, guard_colours 3, the FIFO a bit "
+          "a pixel of R - 3 rows and 32 beats."};
+}
+
+}  // namespace deburr::rtl::morphological

@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: MIT
+// Does the text guard leave the pixels that the contract says, and no others? Drawings by hand, the
+// definition once more pixel by pixel, and frames against the golden without the guard.
+#include "golden/morphological/text_guard.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "spec/morphological/vectors.h"
+#include "tb/base/random.h"
+#include "tb/unit/golden/morphological/support.h"
+#include "tb/unit/spec/morphological/vector_images.h"
+
+namespace deburr::text_guard_test {
+namespace {
+
+using golden::morphological::colour_hash;
+using golden::morphological::CoverageBin;
+using golden::morphological::GuardedPixel;
+using golden::morphological::MorphologicalGolden;
+using golden::morphological::preset_parameters;
+using golden::morphological::TextGuard;
+using spec::morphological::BlendTap;
+using spec::morphological::Leave;
+using spec::morphological::Parameters;
+using spec::morphological::Preset;
+using spec::morphological::Rgba8;
+using tb::Random;
+using tb::morphological::Frame;
+using tb::morphological::grey;
+
+// ---- the hash -----------------------------------------------------------------------------------
+
+TEST(ColourHash, IsTheContracts) {
+  EXPECT_EQ(colour_hash({0, 0, 0, 255}), 0);
+  EXPECT_EQ(colour_hash({255, 0, 0, 255}), 60);
+  EXPECT_EQ(colour_hash({0, 255, 0, 255}), 57);
+  EXPECT_EQ(colour_hash({0, 0, 255, 255}), 39);
+  EXPECT_EQ(colour_hash({255, 255, 255, 255}), 34);
+  EXPECT_EQ(colour_hash({1, 1, 1, 255}), 11);
+  EXPECT_EQ(colour_hash({64, 64, 64, 255}), 11);
+  for (int alpha = 0; alpha < 256; ++alpha)
+    EXPECT_EQ(colour_hash({7, 90, 201, static_cast<std::uint8_t>(alpha)}),
+              colour_hash({7, 90, 201, 0}));
+}
+
+// Each bit of a code and the bits of the hash that it turns: bit i of R bit i, of G the next one,
+// of B the third from it; bits 6 and 7 as bits 0 and 1.
+TEST(ColourHash, TurnsItsBits) {
+  Random random(3);
+  constexpr int kTurns[3] = {0, 1, 3};
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    for (int bit = 0; bit < 8; ++bit)
+      for (int i = 0; i < 20; ++i) {
+        Rgba8 pixel = {static_cast<std::uint8_t>(random.below(256)),
+                       static_cast<std::uint8_t>(random.below(256)),
+                       static_cast<std::uint8_t>(random.below(256)), 255};
+        const int before = colour_hash(pixel);
+        pixel[channel] = static_cast<std::uint8_t>(pixel[channel] ^ 1 << bit);
+        EXPECT_EQ(before ^ colour_hash(pixel), 1 << (bit % 6 + kTurns[channel]) % 6);
+      }
+}
+
+TEST(ColourHash, IsInvertedWithTheCodes) {
+  Random random(4);
+  for (int i = 0; i < 1000; ++i) {
+    Rgba8 pixel, inverse;
+    for (std::size_t c = 0; c < 4; ++c) {
+      pixel[c] = static_cast<std::uint8_t>(random.below(256));
+      inverse[c] = static_cast<std::uint8_t>(255 - pixel[c]);
+    }
+    EXPECT_EQ(colour_hash(pixel) ^ colour_hash(inverse), 34);
+  }
+}
+
+// ---- drawings -----------------------------------------------------------------------------------
+
+// Guarded pixels are g, others -.
+std::string drawn(const Frame& frame) {
+  const TextGuard guard(frame.view());
+  std::string text;
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) text += guard.at(x, y).guarded() ? 'g' : '-';
+    if (y + 1 < frame.height) text += ' ';
+  }
+  return text;
+}
+
+std::string turned(const std::string& rows, int width, int height) {
+  std::string text;
+  for (int x = 0; x < width; ++x) {
+    for (int y = 0; y < height; ++y) text += rows[static_cast<std::size_t>(y * (width + 1) + x)];
+    if (x + 1 < width) text += ' ';
+  }
+  return text;
+}
+
+TEST(TextGuard, GuardsWhatIsDrawn) {
+  std::set<char> seen;
+  for (const spec::morphological::GuardVector& v : spec::morphological::kGuardVectors) {
+    const Frame frame = tb::morphological::vector_image(v);
+    const std::string expected(v.guarded);
+    EXPECT_EQ(drawn(frame), expected) << v.name;
+    EXPECT_EQ(drawn(tb::morphological::transposed(frame)),
+              turned(expected, frame.width, frame.height))
+        << v.name;
+    EXPECT_EQ(drawn(tb::morphological::inverted(frame)), expected) << v.name;
+    seen.insert(expected.begin(), expected.end());
+  }
+  EXPECT_EQ(seen, (std::set{'g', '-', ' '}));
+}
+
+// The numbers by which it was decided.
+TEST(TextGuard, CountsStrokesOfItsWindow) {
+  const auto of = [](std::string_view name) {
+    for (const spec::morphological::GuardVector& v : spec::morphological::kGuardVectors)
+      if (v.name == name) return TextGuard(Frame(tb::morphological::vector_image(v)).view());
+    throw std::out_of_range(std::string(name));
+  };
+  const TextGuard enough = of("twenty-four"), fewer = of("twenty-three");
+  for (const auto& [x, y] : {std::pair(4, 1), {3, 5}, {5, 5}})
+    EXPECT_EQ(enough.at(x, y), (GuardedPixel{2, 12, 12}));
+  // The window of (0, 4) ends with column 5, that of (6, 0) with row 5 and begins with column 1.
+  EXPECT_EQ(enough.at(0, 4), (GuardedPixel{2, 8, 12}));
+  EXPECT_EQ(enough.at(6, 0), (GuardedPixel{2, 12, 6}));
+  EXPECT_EQ(enough.at(10, 10), (GuardedPixel{1, 0, 0}));
+  EXPECT_EQ(fewer.at(5, 5), (GuardedPixel{2, 15, 8}));
+  EXPECT_EQ(of("two dots").at(4, 4), (GuardedPixel{2, 2, 81}));
+  EXPECT_EQ(of("three dots").at(4, 4), (GuardedPixel{2, 3, 81}));
+  EXPECT_EQ(of("three dots").at(4, 0), (GuardedPixel{2, 2, 54}));
+}
+
+// A line of one pixel by itself is no text, however steep.
+TEST(TextGuard, GuardsNoThinLine) {
+  for (int rise = -20; rise <= 20; ++rise) {
+    const Frame frame(60, 60, [&](int x, int y) {
+      const bool line = x >= 5 && x < 55 && y == 30 + (2 * (x - 30) * rise + 20) / 40;
+      return grey(line ? 20 : 200);
+    });
+    for (const Frame& each : {frame, Frame(tb::morphological::transposed(frame))})
+      EXPECT_EQ(std::ranges::count(drawn(each), 'g'), 0) << rise;
+  }
+}
+
+// A colour that differs in hash makes three, one of the same hash does not, whatever it looks like.
+TEST(TextGuard, GoesByHashes) {
+  const auto grid = [](const Rgba8& spot) {
+    return Frame(9, 9, [&](int x, int y) {
+      if (x == 2 && y == 2) return spot;
+      return grey(x % 4 == 0 || y % 4 == 0 ? 1 : 255);
+    });
+  };
+  EXPECT_EQ(std::ranges::count(drawn(grid(grey(255))), 'g'), 81);
+  EXPECT_EQ(std::ranges::count(drawn(grid(grey(64))), 'g'), 81);   // the hash of 1
+  EXPECT_EQ(std::ranges::count(drawn(grid(grey(190))), 'g'), 81);  // of 255: 65 from it
+  EXPECT_EQ(colour_hash(grey(190)), colour_hash(grey(255)));
+  EXPECT_EQ(std::ranges::count(drawn(grid(grey(254))), 'g'), 17);  // no window has the spot
+}
+
+// ---- the definition -----------------------------------------------------------------------------
+
+// Pixels of one hash around (x, y) along (dx, dy), it included.
+int run_through(const Frame& frame, int x, int y, int dx, int dy) {
+  int length = 1;
+  for (const int way : {-1, 1})
+    for (int k = 1;; ++k) {
+      const int at_x = x + way * k * dx, at_y = y + way * k * dy;
+      if (at_x < 0 || at_y < 0 || at_x >= frame.width || at_y >= frame.height) break;
+      if (colour_hash(frame.at(at_x, at_y)) != colour_hash(frame.at(x, y))) break;
+      ++length;
+    }
+  return length;
+}
+
+class Definition {
+ public:
+  explicit Definition(const Frame& frame) : frame_(frame) {
+    for (int y = 0; y < frame.height; ++y)
+      for (int x = 0; x < frame.width; ++x) {
+        in_rows_.push_back(run_through(frame, x, y, 1, 0) <= 3);
+        in_columns_.push_back(run_through(frame, x, y, 0, 1) <= 3);
+      }
+  }
+  bool guarded(int x, int y) const {
+    std::set<int> colours;
+    int rows = 0, columns = 0;
+    for (int j = y - 5; j <= y + 5; ++j)
+      for (int i = x - 5; i <= x + 5; ++i) {
+        if (i < 0 || j < 0 || i >= frame_.width || j >= frame_.height) continue;
+        colours.insert(colour_hash(frame_.at(i, j)));
+        rows += in_rows_[index(i, j)];
+        columns += in_columns_[index(i, j)];
+      }
+    return colours.size() == 2 && rows >= 3 && columns >= 3 && rows + columns >= 24;
+  }
+
+ private:
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * frame_.width + x); }
+  const Frame& frame_;
+  std::vector<bool> in_rows_, in_columns_;
+};
+
+// Bars, blocks and letters of two colours and, now and then, of more.
+Frame patches(int width, int height, Random& random, bool more = true) {
+  Frame frame(width, height, [](int, int) { return grey(200); });
+  for (int i = 0; i < 6 + width * height / 30; ++i) {
+    const int w = 1 + static_cast<int>(random.below(5)), h = 1 + static_cast<int>(random.below(5)),
+              x0 = static_cast<int>(random.below(static_cast<std::uint32_t>(width))),
+              y0 = static_cast<int>(random.below(static_cast<std::uint32_t>(height)));
+    const int code = more && random.below(200) == 0 ? 90 : random.below(3) == 0 ? 200 : 20;
+    for (int y = y0; y < std::min(height, y0 + h); ++y)
+      for (int x = x0; x < std::min(width, x0 + w); ++x) frame.at(x, y) = grey(code);
+  }
+  return frame;
+}
+
+TEST(TextGuard, IsItsDefinition) {
+  Random random(11);
+  int guarded = 0, all = 0;
+  for (const auto& [w, h] :
+       {std::pair(40, 30), {1, 40}, {40, 1}, {2, 30}, {30, 3}, {7, 7}, {11, 4}})
+    for (int i = 0; i < 8; ++i) {
+      const Frame frame = patches(w, h, random, i % 2 == 0);
+      const TextGuard guard(frame.view());
+      const Definition definition(frame);
+      for (int y = 0; y < h; ++y)
+        for (int x = 0; x < w; ++x) {
+          ASSERT_EQ(guard.at(x, y).guarded(), definition.guarded(x, y))
+              << w << ' ' << h << ' ' << i << ' ' << x << ' ' << y;
+          guarded += guard.at(x, y).guarded();
+          ++all;
+        }
+    }
+  EXPECT_GT(guarded, all / 20);
+  EXPECT_LT(guarded, all * 19 / 20);
+}
+
+// ---- frames -------------------------------------------------------------------------------------
+
+// The frame without the guard, with the guarded pixels put back.
+void expect_as_put_back(Parameters p, const Frame& frame) {
+  MorphologicalGolden plain(p);
+  plain.process(frame.view());
+  p.text_guard = true;
+  MorphologicalGolden golden(p);
+  golden.process(frame.view());
+  spec::morphological::Work work = plain.work();
+  const TextGuard guard(frame.view());
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      const auto i = static_cast<std::size_t>(y * frame.width + x);
+      const BlendTap before = plain.taps()[i];
+      BlendTap tap = before;
+      Rgba8 pixel = plain.pixels()[i];
+      if (guard.at(x, y).guarded()) {
+        tap = {false, 0, 0, before.edges};
+        pixel = frame.pixels[i];
+        if (p.leave != Leave::kNone) pixel[3] |= 1;
+        if ((before.first | before.second) != 0) {
+          --work.blended_pixels;
+          ++work.left_pixels;
+        }
+      }
+      ASSERT_EQ(golden.pixels()[i], pixel) << x << ' ' << y;
+      ASSERT_EQ(golden.taps()[i], tap) << x << ' ' << y;
+    }
+  EXPECT_EQ(golden.work(), work);
+  EXPECT_EQ(golden.decisions(), plain.decisions());
+  EXPECT_TRUE(golden.edges() == plain.edges());
+}
+
+TEST(TextGuard, PutsBackWhatIsGuarded) {
+  Random random(21);
+  for (const Preset preset : {Preset::kMlaa, Preset::kMlaaSlope, Preset::kSmaa,
+                              Preset::kSmaaDynamic, Preset::kDeburrLine, Preset::kDeburr}) {
+    const Parameters p = preset_parameters(preset);
+    expect_as_put_back(p, tb::morphological::text_image());
+    expect_as_put_back(p, tb::morphological::noise_image());
+    expect_as_put_back(p, patches(70, 40, random));
+    expect_as_put_back(p, patches(3, 40, random));
+    expect_as_put_back(p, patches(40, 2, random));
+  }
+}
+
+// With marks: both rules leave a pixel, and count it once.
+TEST(TextGuard, GoesWithEveryRuleOfMarks) {
+  Random random(22);
+  for (const Leave leave : {Leave::kMarked, Leave::kBeside, Leave::kHalf, Leave::kMasked}) {
+    Parameters p = preset_parameters(Preset::kDeburrLine);
+    p.leave = leave;
+    Frame frame = tb::morphological::text_image();
+    for (Rgba8& pixel : frame.pixels)
+      pixel[3] = static_cast<std::uint8_t>(random.below(128) << 1 | (random.below(6) == 0 ? 0 : 1));
+    p.text_guard = false;
+    MorphologicalGolden plain(p);
+    plain.process(frame.view());
+    p.text_guard = true;
+    MorphologicalGolden golden(p);
+    golden.process(frame.view());
+    EXPECT_GT(golden.work().left_pixels, plain.work().left_pixels + 100);
+    EXPECT_EQ(golden.work().left_pixels + golden.work().blended_pixels,
+              plain.work().left_pixels + plain.work().blended_pixels);
+    const TextGuard guard(frame.view());
+    for (int y = 0; y < frame.height; ++y)
+      for (int x = 0; x < frame.width; ++x) {
+        const auto i = static_cast<std::size_t>(y * frame.width + x);
+        Rgba8 pixel = plain.pixels()[i];
+        if (guard.at(x, y).guarded()) {
+          pixel = frame.pixels[i];
+          pixel[3] |= 1;
+        }
+        ASSERT_EQ(golden.pixels()[i], pixel) << x << ' ' << y;
+      }
+  }
+}
+
+// Alpha and its marks are the frame's.
+TEST(TextGuard, LeavesAlphaAlone) {
+  Parameters p = preset_parameters(Preset::kDeburr);
+  p.text_guard = true;
+  Frame frame = tb::morphological::text_image();
+  Random random(23);
+  for (Rgba8& pixel : frame.pixels) pixel[3] = static_cast<std::uint8_t>(random.below(256));
+  const Frame out = smooth(p, frame);
+  for (std::size_t i = 0; i < frame.pixels.size(); ++i)
+    ASSERT_EQ(out.pixels[i][3], frame.pixels[i][3]);
+}
+
+// Colours come with the beats; what memory does not give back is blended as zeros, and guarded as
+// it came.
+TEST(TextGuard, IsOfPixelsAsTheyCame) {
+  Parameters p = preset_parameters(Preset::kDeburr);
+  p.storage = spec::morphological::Storage::kMemory;
+  p.text_guard = true;
+  const Frame frame = tb::morphological::text_image();  // rows of 512 bytes
+  MorphologicalGolden golden(p), whole(p);
+  golden.set_read_errors([](std::uint32_t address) { return address == 8 * 512; });
+  golden.process(frame.view());
+  whole.process(frame.view());
+  EXPECT_EQ(golden.work(), whole.work());
+  EXPECT_EQ(golden.taps(), whole.taps());
+  EXPECT_NE(golden.pixels(), whole.pixels());
+}
+
+// One golden, frames of other sizes one after the other.
+TEST(TextGuard, KeepsNothingOfTheFrameBefore) {
+  Parameters p = preset_parameters(Preset::kDeburr);
+  p.text_guard = true;
+  MorphologicalGolden golden(p);
+  const Frame text = tb::morphological::text_image(), noise = tb::morphological::noise_image(20, 9);
+  for (const Frame* frame : {&text, &noise, &text})
+    EXPECT_EQ(golden.process(frame->view()), smooth(p, *frame).pixels);
+}
+
+// ---- coverage -----------------------------------------------------------------------------------
+
+std::map<std::string, std::uint64_t> hits_of(const Frame& frame) {
+  golden::morphological::GuardCoverage coverage;
+  coverage.count_frame(TextGuard(frame.view()), frame.width, frame.height);
+  std::map<std::string, std::uint64_t> hits;
+  for (const CoverageBin& bin : coverage.bins())
+    if (bin.hits != 0) hits[bin.name] = bin.hits;
+  return hits;
+}
+
+// By hand, of drawings of which each pixel is known.
+TEST(GuardCoverage, NamesWhatIsMissing) {
+  using Hits = std::map<std::string, std::uint64_t>;
+  const auto of = [](std::string_view name) {
+    for (const spec::morphological::GuardVector& v : spec::morphological::kGuardVectors)
+      if (v.name == name) return hits_of(tb::morphological::vector_image(v));
+    throw std::out_of_range(std::string(name));
+  };
+  EXPECT_EQ(hits_of(Frame(5, 5, [](int, int) { return grey(9); })),
+            (Hits{{"text/one-colour", 25}}));
+  EXPECT_EQ(of("small"), (Hits{{"text/guarded", 12},
+                               {"text/just/24", 12},
+                               {"text-border/top", 3},
+                               {"text-border/bottom", 3},
+                               {"text-border/left", 4},
+                               {"text-border/right", 4}}));
+  EXPECT_EQ(of("too small"), (Hits{{"text/few", 9}}));  // 18
+  EXPECT_EQ(of("bars"), (Hits{{"text/few-in-columns", 81}}));
+  EXPECT_EQ(of("grid and another colour"), (Hits{{"text/guarded", 45},
+                                                 {"text/more-colours", 36},
+                                                 {"text-border/top", 9},
+                                                 {"text-border/left", 9},
+                                                 {"text-border/right", 3},
+                                                 {"text-border/bottom", 3}}));
+  // Rows 0, 7 and 8 see two of the dots.
+  EXPECT_EQ(of("three dots"), (Hits{{"text/guarded", 54},
+                                    {"text/just/3-in-rows", 54},
+                                    {"text/few-in-rows", 27},
+                                    {"text/just/2-in-rows", 27},
+                                    {"text-border/left", 6},
+                                    {"text-border/right", 6}}));
+  const Hits enough = of("twenty-four"), fewer = of("twenty-three");
+  EXPECT_EQ(enough.at("text/guarded"), 25u);
+  EXPECT_EQ(enough.at("text/just/24"), 25u);
+  EXPECT_EQ(fewer.count("text/guarded"), 0u);
+  EXPECT_EQ(fewer.at("text/just/23"), 25u);
+}
+
+TEST(GuardCoverage, EveryBinCanBeReached) {
+  Random random(31);
+  Parameters p = preset_parameters(Preset::kDeburr);
+  p.text_guard = true;
+  p.leave = Leave::kMarked;
+  MorphologicalGolden golden(p);
+  std::vector<Frame> frames = {tb::morphological::text_image()};
+  for (int i = 0; i < 40; ++i) frames.push_back(patches(60, 50, random));
+  for (Frame& frame : frames) {
+    for (Rgba8& pixel : frame.pixels) pixel[3] = random.below(9) == 0 ? 254 : 255;
+    golden.process(frame.view());
+  }
+  std::vector<std::string> holes;
+  for (const CoverageBin& bin : golden.guard_coverage().bins())
+    if (bin.hits == 0) holes.push_back(bin.name);
+  EXPECT_THAT(holes, testing::IsEmpty());
+  EXPECT_EQ(golden.guard_coverage().bins().size(), 6u + 6 + 2 + 4);
+  golden.clear_coverage();
+  for (const CoverageBin& bin : golden.guard_coverage().bins()) EXPECT_EQ(bin.hits, 0u);
+  p.text_guard = false;
+  MorphologicalGolden off(p);
+  off.process(frames.front().view());
+  for (const CoverageBin& bin : off.guard_coverage().bins()) EXPECT_EQ(bin.hits, 0u);
+}
+
+}  // namespace
+}  // namespace deburr::text_guard_test
