@@ -65,6 +65,7 @@ Activity SlotSequencer::tick(Cycle cycle) {
       if (!pixels_in.can_pop(cycle) || !store_.enabled()) return kIdle;
       // The frame is inside from the clock on that takes its first beat.
       if (!slots_out.can_push(cycle) || !beats_out.can_push(cycle)) return kStalledDownstream;
+      if (guard_slots_out && !guard_slots_out->can_push(cycle)) return kStalledDownstream;
       if (!store_.latch()) return kIdle;
       slots_ = store_.rules().text_guard ? Slots::kGuarded : Slots::kSome;
       next_ = {};

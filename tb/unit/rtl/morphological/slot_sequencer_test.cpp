@@ -58,6 +58,24 @@ TEST(FirstBeat, TakesTheFrameInTheClockThatTakesIt) {
   EXPECT_EQ(bench.bus.read(reg::kFrameCycles), (61u + 37u) * 97u + kPipe);
 }
 
+// Nor where the TextGuard has no room for it.
+TEST(FirstBeat, WaitsForTheTextGuardBeforeTheFrameIsInside) {
+  Parameters p = preset(Preset::kDeburrLine);
+  p.text_guard = true;
+  EngineBench bench(p);
+  bench.software.set_size(97, 61);
+  bench.driver.send(beats_of(noise(), 1));
+  for (int i = 0; i < 28; ++i) {
+    bench.engine.sequencer.guard_slots_out->link().hold_push(bench.clock.cycle());
+    bench.clock.run(1);
+  }
+  EXPECT_EQ(bench.in.pops(), 0u);
+  EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle);
+  bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
+                   1'000'000);
+  EXPECT_EQ(bench.bus.read(reg::kFrameCycles), (61u + 37u) * 97u + kPipe);
+}
+
 struct BadSize {
   std::uint32_t width, height;
 };
