@@ -47,8 +47,9 @@ def opaque(red, green, blue):
 
 
 def vector_image(name):
-    """docs/reference/morphological/vectors.md, "Test vectors" and "Frames"."""
-    width, height = {"noise": (97, 61), "line": (200, 150), "blocks": (90, 80), "shades": (90, 80)}[name]
+    """docs/reference/morphological/vectors.md, "Test vectors", "Frames" and "Text guard"."""
+    width, height = {"noise": (97, 61), "line": (200, 150), "blocks": (90, 80), "shades": (90, 80),
+                     "text": (120, 110)}[name]
     y, x = numpy.mgrid[0:height, 0:width]
     s = random_numbers(width * height).reshape(height, width).astype(numpy.int64)
     stripe = (x + 3 * y) % 41 < 9
@@ -61,6 +62,14 @@ def vector_image(name):
         e = x // 23 + 2 * (y // 17) + stripe + numpy.where(s >> 20 & 31, 0, s >> 30)
         v = numpy.array([0, 60, 130, 255])[e % 4]
         return opaque(v, 255 - v, 3 * v % 256)
+    elif name == "text":
+        k = numpy.where(y < 70, 1, 4)
+        u, w = x // k, y // k
+        i, j, a, b = u % 6, w % 9, u // 6, w // 9
+        glyph = (x < 96) & (i < 5) & (j < 7) & ((i == (a + 2 * b) % 5) | (j == (2 * a + b) % 7))
+        ink = glyph | (x >= 96) & (y % 4 == 0)
+        speckle = numpy.where((y >= 35) & (y < 70) & (s >> 20 & 31 == 0), s >> 30, 0)
+        return opaque(numpy.where(ink, 30, 250) + speckle, numpy.where(ink, 50, 240), numpy.where(ink, 70, 230))
     else:
         e = x // 11 + 2 * (y // 9) + stripe
         v = numpy.array([0, 1, 3, 7, 20, 24, 90, 110])[e % 8] + (s >> 31)
