@@ -240,7 +240,7 @@ TEST(KeptColours, LatencyOfABlockThatReadsNothing) {
   b.touch(1, 1, 1u << 7, true, true);
   b.touch(2, 1, 1u << 5);
   b.before_clock = [&b] {
-    if (b.touched.pops() == 1 && b.at["touched"].size() >= 1 &&
+    if (b.touched.pops() == 1 && !b.at["touched"].empty() &&
         b.clock.cycle() < b.at["touched"][0] + 100)
       b.touched.hold_pop(b.clock.cycle());
   };
