@@ -100,8 +100,8 @@ int search_right(const SmaaAxis& axis, int x, int y, int steps) {
 
 SmaaWeights edge_weights(const SmaaAxis& axis, const SmaaSettings& settings, int x, int y) {
   if (!axis.along(x, y)) return {};
-  const int l = search_left(axis, x, y, settings.search_steps);
-  const int r = search_right(axis, x, y, settings.search_steps);
+  const int l = search_left(axis, x, y, settings.search_steps + settings.more_steps[0]);
+  const int r = search_right(axis, x, y, settings.search_steps + settings.more_steps[1]);
   const int start = x - l, end = x + r + 1;
   SmaaWeights weights =
       fetched_area(axis.crossing(start, y), axis.crossing(end, y), l, r, settings.bytes);

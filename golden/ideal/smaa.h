@@ -31,6 +31,7 @@ struct SmaaSettings {
   int diagonal_steps = 8;                     // 0: no diagonals
   std::optional<double> corner_keeps = 0.25;  // share of a weight that stays at a sharp corner
   bool bytes = false;  // areas as the published texture holds them, smaa_area_bytes() / 255
+  std::array<int, 2> more_steps = {};  // of the search to the left (up), to the right (down)
 };
 
 // An entry of the published area texture, subsample offset 0: its first value, which is the second

@@ -98,8 +98,8 @@ inline constexpr int kMaxDiagonalWeight = 255;
 inline constexpr int kMixFractionBits = 4;       // more than U0.8 that strongest's shares have
 inline constexpr int kThresholdBits = 24;        // U8.16 codes; alpha U0.24
 inline constexpr std::int32_t kOneCode = 65536;  // of a threshold
-// Above every step, 255 codes as well: never an edge.
-inline constexpr std::int32_t kNever = (1 << kThresholdBits) - 1;
+// No step reaches it, not even one of 255 codes.
+inline constexpr std::int32_t kMaxThreshold = (1 << kThresholdBits) - 1;
 inline constexpr int kLongZ = 16;  // pixels of a clean Z that keeps its line with area = learned
 inline constexpr int kRowLag = 5;  // rows of delay beyond the reach
 inline constexpr int kLeastDividerLatency = 14;
@@ -165,7 +165,7 @@ struct FollowingRules {
   Preset preset = Preset::kDeburrLine;
   EdgeSource edge_source = EdgeSource::kPredicated;
   std::int32_t threshold_on_depth_edge = 501330;  // U8.16: 0.03 of 255
-  std::int32_t threshold_off_depth_edge = kNever;
+  std::int32_t threshold_off_depth_edge = kMaxThreshold;
   Leave leave = Leave::kMasked;
 };
 
@@ -203,19 +203,18 @@ void describe(Rules& p, Visitor& v) {
   v.choice("edges.dynamic_luma", p.dynamic_luma, kDynamicLumaNames,
            "Luma that alpha multiplies: of the current pixel (paper 003), or the larger, the "
            "smaller or the mean of the pair.");
-  constexpr std::int32_t kMost = kNever;
   v.integer(
-      "edges.threshold", p.threshold, 1, kMost, "code / 65536",
-      "T: the smallest step that is an edge. A share of full scale times 16711680. Below 65536, a "
-      "code, noise makes edges.");
-  v.integer("edges.threshold_on_depth_edge", p.threshold_on_depth_edge, 1, kMost, "code / 65536",
-            "T of source = predicated where depth has an edge.");
-  v.integer("edges.threshold_off_depth_edge", p.threshold_off_depth_edge, 1, kMost, "code / 65536",
-            "T of source = predicated where depth has no edge.");
-  v.integer("edges.alpha", p.alpha, 0, kMost, "1/16777216",
+      "edges.threshold", p.threshold, 1, kMaxThreshold, "code / 65536",
+      "T: the smallest step that is an edge. A share of full scale times 16711680. Where a T or "
+      "edges.floor is below 65536, a code, noise makes edges.");
+  v.integer("edges.threshold_on_depth_edge", p.threshold_on_depth_edge, 1, kMaxThreshold,
+            "code / 65536", "T of source = predicated where depth has an edge.");
+  v.integer("edges.threshold_off_depth_edge", p.threshold_off_depth_edge, 1, kMaxThreshold,
+            "code / 65536", "T of source = predicated where depth has no edge.");
+  v.integer("edges.alpha", p.alpha, 0, kMaxThreshold, "1/16777216",
             "Factor of the dynamic threshold; rounded down, so that a step of exactly alpha times "
             "luma stays an edge.");
-  v.integer("edges.floor", p.floor, 1, kMost, "code / 65536",
+  v.integer("edges.floor", p.floor, 1, kMaxThreshold, "code / 65536",
             "Smallest step that a dynamic threshold lets through.");
   v.integer("edges.depth_threshold", p.depth_threshold, 1, 65535, "1/65536",
             "Relative step of depth that is an edge.");

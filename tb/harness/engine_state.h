@@ -23,8 +23,8 @@ std::vector<std::string> engine_state(const rtl::Engine& engine, platform::Regis
 std::string state_difference(const std::vector<std::string>& was,
                              const std::vector<std::string>& is);
 
-// Resets are tried at every clock of a frame, and under sanitizers, which look for other faults and
-// are ten times slower, at every fifth.
+// Of the clocks at which resets are tried, sanitizers, which look for other faults and are ten
+// times slower, take every fifth.
 inline constexpr int kClocksApart = kSanitized ? 5 : 1;
 
 }  // namespace deburr::tb

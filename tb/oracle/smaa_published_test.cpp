@@ -21,6 +21,7 @@
 #include "golden/morphological/morphological_golden.h"
 #include "tb/oracle/smaa_files.h"
 #include "tb/oracle/smaa_frames.h"
+#include "tb/unit/scene/fixtures.h"
 #include "tb/unit/spec/generated_table.h"
 
 namespace deburr::tb::smaa_published_test {
@@ -42,6 +43,27 @@ using spec::morphological::Quality;
 
 // ---- the published tables -----------------------------------------------------------------------
 
+// The error names the file, its bytes, and what to do.
+TEST(SmaaFiles, OfOtherBytesAreRejected) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "SearchTex.h";
+  const auto error = [&](std::size_t expected) {
+    try {
+      smaa_bytes(path, expected);
+    } catch (const spec::FileError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(error(3),
+            fmt::format("'{}' cannot be read: take the files of SMAA's repository", path.string()));
+  folder.write("SearchTex.h", "bytes[] = { 0x01, 0x02, 0xff };\n");
+  EXPECT_EQ(error(3), "");
+  EXPECT_EQ(error(4), fmt::format("'{}' has 3 bytes between its braces, expected 4: take the files "
+                                  "of SMAA's repository",
+                                  path.string()));
+}
+
 class PublishedTables : public testing::Test {
  protected:
   void SetUp() override {
@@ -51,8 +73,7 @@ class PublishedTables : public testing::Test {
 
 // Of the row for subsample offset 0.
 TEST_F(PublishedTables, HaveTheAreasOfTheOracle) {
-  const std::vector<std::uint8_t> texture = smaa_bytes("AreaTex.h");
-  ASSERT_EQ(texture.size(), std::size_t{2} * kSmaaAreaWidth * kSmaaAreaHeight);
+  const std::vector<std::uint8_t> texture = smaa_bytes(smaa_file("AreaTex.h"), kSmaaAreaBytes);
   const auto expect = [&](int x, int y, const SmaaBytes& entry, const std::string& what) {
     const auto at = static_cast<std::size_t>(2 * (y * kSmaaAreaWidth + x));
     EXPECT_EQ(texture[at], entry.r) << what;
@@ -78,8 +99,7 @@ TEST_F(PublishedTables, HaveTheAreasOfTheOracle) {
 
 // What the tables hold with area_values = published: a byte v is v / 255, to the nearest.
 TEST_F(PublishedTables, HaveTheValuesOfTheTables) {
-  const std::vector<std::uint8_t> texture = smaa_bytes("AreaTex.h");
-  ASSERT_EQ(texture.size(), std::size_t{2} * kSmaaAreaWidth * kSmaaAreaHeight);
+  const std::vector<std::uint8_t> texture = smaa_bytes(smaa_file("AreaTex.h"), kSmaaAreaBytes);
   const auto byte = [&](int x, int y, int channel) {
     return texture[static_cast<std::size_t>(2 * (y * kSmaaAreaWidth + x) + channel)];
   };
@@ -132,8 +152,7 @@ TEST(ExactDiagonals, DifferFromThePublishedOnes) {
 
 // A fetch weighs its four edges with 1, 3, 7 and 21 of 32; the texture is cropped and upside down.
 TEST_F(PublishedTables, HaveTheSearchesOfTheOracle) {
-  const std::vector<std::uint8_t> texture = smaa_bytes("SearchTex.h");
-  ASSERT_EQ(texture.size(), std::size_t{kSmaaSearchWidth} * kSmaaSearchHeight);
+  const std::vector<std::uint8_t> texture = smaa_bytes(smaa_file("SearchTex.h"), kSmaaSearchBytes);
   constexpr std::array<int, 4> kWeights = {1, 3, 7, 21};
   for (int bits = 0; bits < 256; ++bits) {
     std::array<bool, 4> across{}, along{};

@@ -53,8 +53,7 @@ void main() {
 std::string with_changes(std::string text, const SmaaShaderRun& run) {
   for (const auto& [from, to] : run.changes) {
     const std::size_t at = text.find(from);
-    if (at == std::string::npos)
-      throw spec::SimulationError("the published shader has no '" + from + "'");
+    if (at == std::string::npos) reject_smaa_file(smaa_file("SMAA.hlsl"), "has no '" + from + "'");
     text.replace(at, from.size(), to);
   }
   return text;
@@ -142,17 +141,14 @@ std::unique_ptr<SmaaShader> SmaaShader::open(std::string& why) {
   if (context == nullptr) return nullptr;
   const std::string extensions = reinterpret_cast<const char*>(glGetString(GL_EXTENSIONS));
   if (extensions.find("GL_EXT_color_buffer_float") == std::string::npos) {
-    why = "Mesa draws to no target of floats";
+    why = "Mesa draws to no target of floats: install libegl1 and libgl1-mesa-dri of Debian 12";
     return nullptr;
   }
   std::unique_ptr<SmaaShader> shader(new SmaaShader);
   shader->context_ = std::move(context);
-  shader->text_ = smaa_text("SMAA.hlsl");
-  shader->areas_ = smaa_bytes("AreaTex.h");
-  shader->searches_ = smaa_bytes("SearchTex.h");
-  if (shader->areas_.size() != std::size_t{2} * kSmaaAreaWidth * kSmaaAreaHeight ||
-      shader->searches_.size() != std::size_t{kSmaaSearchWidth} * kSmaaSearchHeight)
-    throw spec::SimulationError("AreaTex.h or SearchTex.h has not the bytes that it says");
+  shader->text_ = smaa_text(smaa_file("SMAA.hlsl"));
+  shader->areas_ = smaa_bytes(smaa_file("AreaTex.h"), kSmaaAreaBytes);
+  shader->searches_ = smaa_bytes(smaa_file("SearchTex.h"), kSmaaSearchBytes);
   return shader;
 }
 

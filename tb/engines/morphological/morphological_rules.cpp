@@ -93,13 +93,14 @@ void reject_unused_rules(const ParameterSet& set, const spec::morphological::Par
 namespace {
 
 // Thresholds that are legal and hardly meant: numbers of the time when they were shares of full
-// scale read as 1/255 of what they said.
+// scale read as 1/255 of what they said, alpha as 1/256. Five digits show the largest as below 1.
 std::vector<std::string> threshold_notes(const spec::morphological::Parameters& p) {
   std::vector<std::string> notes;
   const auto below_a_code = [&](std::string_view name, std::int32_t threshold) {
     if (threshold < spec::morphological::kOneCode)
       notes.push_back(fmt::format(
-          "morphological.{} = {} is {:.3f} of a code, so noise makes edges: its unit is code / {}",
+          "morphological.{} = {} is {:.5f} of a code, so noise makes edges: its unit is code / {}; "
+          "multiply a number from before 0.3.0 by 255",
           name, threshold, static_cast<double>(threshold) / spec::morphological::kOneCode,
           spec::morphological::kOneCode));
   };
@@ -114,9 +115,11 @@ std::vector<std::string> threshold_notes(const spec::morphological::Parameters& 
     // 255 alpha below a code; none at all is said by 0.
     if (p.alpha > 0 && std::int64_t{255} * p.alpha < 1 << 24)
       notes.push_back(fmt::format(
-          "morphological.edges.alpha = {} is {:.5f}, below a code even of white, so edges.floor "
-          "alone decides: its unit is 1 / {}",
-          p.alpha, static_cast<double>(p.alpha) / (1 << 24), 1 << 24));
+          "morphological.edges.alpha = {} is {:.5f}, below a code even of white{}: its unit is 1 / "
+          "{}; multiply a number from before 0.3.0 by 256",
+          p.alpha, static_cast<double>(p.alpha) / (1 << 24),
+          p.floor >= spec::morphological::kOneCode ? ", so edges.floor alone decides" : "",
+          1 << 24));
   }
   return notes;
 }
