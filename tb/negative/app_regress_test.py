@@ -136,6 +136,10 @@ class Testplans(CommandTest):
         self.reject(HEAD + "unmet: [{bin: texture/cache/hit, reason: None.}]\n",
                     "t.yaml:9: unknown key 'bin': did you mean 'bins'?")
         self.reject(HEAD + "    unmet: [{bins: texture/cache/hit, reason: None.}]\n", "t.yaml:9: unknown key 'unmet'")
+        self.reject(HEAD + "unmet: [{bins: texture/cache/hit, reason: None.}]\n",
+                    "t.yaml:9: 'unmet' excepts bins of the plan's 'coverage' beside 'features', and there is none")
+        self.reject(HEAD + "    coverage: [texture/cache/hit]\nunmet: [{bins: texture/cache/hit, reason: None.}]\n",
+                    "t.yaml:10: 'unmet' excepts bins of the plan's 'coverage'")
 
     def test_a_scoreboard_that_no_run_has_is_a_check_that_failed(self):
         self.write("t.yaml", HEAD.replace("colours: 1", "colors: 1"))

@@ -449,11 +449,13 @@ std::uint64_t share_of(std::uint64_t number, std::uint64_t divisor) {
   return (number + divisor - 1) / divisor;
 }
 
-// What runs of random configurations compare differs by more than its mean: of `runs` of them that
-// much is to be had.
+// What runs of random configurations compare differs by more than its mean: of `runs` of them so
+// large a part is sure.
 double sure_part(std::uint64_t runs) {
   constexpr double kSpread = 8;
-  return std::max(0.0, 1 - kSpread / std::sqrt(static_cast<double>(runs)));
+  constexpr double kLeast = 0.5;  // what frames of fixed sizes among them compare by themselves
+  if (runs == 0) return 1;
+  return std::max(kLeast, 1 - kSpread / std::sqrt(static_cast<double>(runs)));
 }
 
 }  // namespace
@@ -482,6 +484,10 @@ Testplan read_testplan(const fs::path& file) {
   }
   for (const PendingGlob& glob : globs)
     TestplanFile(*glob.yaml, common, plan.features, globs).read(glob, plan);
+  if (plan.coverage.empty() && !plan.unmet.empty())
+    throw spec::ConfigError(fmt::format(
+        "{}: 'unmet' excepts bins of the plan's 'coverage' beside 'features', and there is none",
+        plan.unmet.front().where));
   plan.features.insert(plan.features.end(), std::make_move_iterator(common.begin()),
                        std::make_move_iterator(common.end()));
   const auto require = [&](bool has, const Feature& feature, const char* what) {
@@ -505,14 +511,12 @@ Testplan part_of(Testplan testplan, std::uint64_t divisor) {
   testplan.name += fmt::format("-of-{}", divisor);
   testplan.title += fmt::format(", one seed of {}", divisor);
   for (Feature& feature : testplan.features) {
-    std::uint64_t runs = 0;
-    bool random = false;
+    std::uint64_t random = 0;
     for (Stimulus& stimulus : feature.stimuli) {
       stimulus.seeds = share_of(stimulus.seeds, divisor);
-      runs += sample_bound(stimulus.configurations) * stimulus.seeds;
-      random = random || stimulus.random;
+      if (stimulus.random) random += sample_bound(stimulus.configurations) * stimulus.seeds;
     }
-    const double sure = random ? sure_part(runs) : 1;
+    const double sure = sure_part(random);
     for (RequiredCheck& check : feature.checks) {
       const double share = sure * static_cast<double>(share_of(check.minimum, divisor));
       check.minimum = std::max(std::uint64_t{1}, static_cast<std::uint64_t>(share));

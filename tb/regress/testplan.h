@@ -74,8 +74,8 @@ struct Testplan {
 Testplan read_testplan(const std::filesystem::path& file);
 
 // Of each configuration one of so many seeds, at least one, as much less of what must be compared
-// (less still of a feature with random configurations), and of each glob one bin: runs that the
-// whole plan has too. Its name says so.
+// (down to half of that of a feature with random configurations), and of each glob one bin: runs
+// that the whole plan has too. Its name says so.
 Testplan part_of(Testplan testplan, std::uint64_t divisor);
 
 }  // namespace deburr::tb

@@ -16,7 +16,7 @@ namespace deburr::tb {
 
 // A regression of which no run is missing.
 struct Night {
-  std::string date, commit;  // "2026-11-23", of the world (UTC)
+  std::string date, commit;  // "2026-11-23", the day in UTC
   std::uint64_t seed = 0;
   bool holds = false;
   std::uint64_t runs = 0, passed = 0;

@@ -65,7 +65,12 @@ std::uint64_t frames_of(const Settings& settings) {
 
 // All figures of a run, but those of the host; what was compared before the reset is counted, too,
 // and the reset takes clocks of its own, in which units are idle.
-Figures run(const std::string& engine, const Settings& settings, std::uint64_t reset_after) {
+struct Run {
+  Figures figures;
+  std::uint64_t compared = 0;
+};
+
+Run run(const std::string& engine, const Settings& settings, std::uint64_t reset_after) {
   const std::filesystem::path directory =
       std::filesystem::temp_directory_path() / ("deburr_reset_" + std::to_string(::getpid()));
   const std::string text = forked_text([&]() -> std::string {
@@ -79,30 +84,36 @@ Figures run(const std::string& engine, const Settings& settings, std::uint64_t r
     return to_json(run_once(bound, context, IfTaken::kWait).result).dump();
   });
   std::filesystem::remove_all(directory);
-  Figures figures;
-  flatten(Json::parse(text), "", figures);
-  std::erase_if(figures, [](const auto& figure) {
+  Run made;
+  flatten(Json::parse(text), "", made.figures);
+  for (const auto& [name, value] : made.figures)
+    if (name.starts_with(".scoreboards.") && name.ends_with(".comparisons"))
+      made.compared += std::stoull(value);
+  std::erase_if(made.figures, [](const auto& figure) {
     return figure.first.starts_with(".host.") || figure.first.starts_with(".meaning.") ||
            figure.first.ends_with("comparisons") ||
            (figure.first.starts_with(".units.") && figure.first.ends_with(".idle"));
   });
-  return figures;
+  return made;
 }
 
 class ResetOfDraws : public testing::TestWithParam<std::string> {};
 
 TEST_P(ResetOfDraws, LeavesNothing) {
   const std::string engine = GetParam();
+  int resets = 0;  // that took place after something was compared, which alone shows them
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const Settings settings = drawn(engine, seed);
-    const Figures whole = run(engine, settings, 0);
+    const auto [whole, compared] = run(engine, settings, 0);
     ASSERT_EQ(whole.at(".verdict"), "\"pass\"") << text_of(settings);
     const std::uint64_t cycles = std::stoull(whole.at(".cycles"));
     Random random(seed, "reset");
     for (int i = 0; i < 3; ++i) {
       const std::uint64_t at =
           1 + random.below(static_cast<std::uint32_t>(cycles / frames_of(settings)));
-      const Figures again = run(engine, settings, at);
+      const auto [again, compared_again] = run(engine, settings, at);
+      EXPECT_GE(compared_again, compared) << text_of(settings);
+      resets += compared_again > compared ? 1 : 0;
       std::string different;
       for (const auto& [name, value] : whole) {
         const auto figure = again.find(name);
@@ -113,6 +124,7 @@ TEST_P(ResetOfDraws, LeavesNothing) {
                                << seed << text_of(settings);
     }
   }
+  EXPECT_GE(resets, 12) << "of 36";
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, ResetOfDraws, testing::ValuesIn([] {

@@ -212,10 +212,14 @@ class CommandLines(unittest.TestCase):
         (regressions / "nightly-of-100-1").mkdir(parents=True)
         (regressions / "nightly-of-100.jsonl").write_text("{}\n", encoding="utf-8")
         (regressions.parent / "points").mkdir()
+        (regressions.parent / "trend.jsonl").touch()
+        node = (regressions / "nightly-of-100.jsonl").stat().st_ino
         self.assertEqual(self.call("scripts/nightly")[0], 0)
         self.assertEqual(sorted(path.name for path in regressions.rglob("*")), ["nightly-of-100.jsonl"])
         self.assertEqual((regressions / "nightly-of-100.jsonl").read_text(encoding="utf-8"), "{}\n")
-        self.assertFalse((regressions.parent / "points").exists())
+        # It was never away, so that an interrupted call loses none.
+        self.assertEqual((regressions / "nightly-of-100.jsonl").stat().st_ino, node)
+        self.assertEqual(sorted(path.name for path in regressions.parent.iterdir()), ["nightly.yaml", "regressions"])
 
     def test_few_configurations_of_the_nightly_plan_are_drawn_by_the_seed(self):
         drawn = set()

@@ -9,7 +9,7 @@ import re
 import sys
 import tempfile
 
-WORD = re.compile(r"\bignore[sd]?\b")
+WORD = re.compile(r"\bignor(e[sd]?|ing)\b", re.IGNORECASE)
 
 
 def entries(source):
@@ -28,30 +28,38 @@ def has_test(source, file, test):
 
 
 def complaints(source):
-    """What is in no list, what of a list is no longer there."""
-    pages, listed, found, met = source / "docs/reference", list(entries(source)), [], set()
+    """What is in no list, what of a list is no longer there, or there more than once: the second may be of something
+    that no test looks at."""
+    pages, listed, found, met = source / "docs/reference", list(entries(source)), [], {}
     for page in sorted(pages.rglob("*.md")):
         name = str(page.relative_to(pages))
         for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
             if not WORD.search(line):
                 continue
             here = {row[:2] for row in listed if row[0] == name and row[1] in line}
-            met |= here
+            for row in here:
+                met.setdefault(row, []).append(number)
             if not here:
                 found.append(f"docs/reference/{name}:{number}: no ignored.txt names a test for this: {line.strip()}")
-    for name, text in sorted({row[:2] for row in listed} - met):
-        found.append(f"docs/reference/{name} ignores nothing as '{text}' any more")
+    for name, text in sorted({row[:2] for row in listed}):
+        lines = met.get((name, text), [])
+        if not lines:
+            found.append(f"docs/reference/{name} ignores nothing as '{text}' any more")
+        elif len(lines) > 1:
+            found.append(f"docs/reference/{name} has '{text}' in lines {', '.join(map(str, lines))}: list more of the "
+                         "line that the test is of, and each other one")
     return found + [f"there is no test {test} in tb/unit/{file}" for _, _, file, test in listed
                     if not has_test(source, file, test)]
 
 
 def planted_mistakes_are_found():
     three, four = "a.md :: bit 3 :: a_test.cpp Bits.Three", "a.md :: bit 4 :: a_test.cpp Bits.Three"
-    lists = {f"{three}\n{four}": 0, three: 1, f"{three}\na.md :: bit 5 :: a_test.cpp Bits.Three": 2,
+    lists = {f"{three}\n{four}": 0, f"{three}\n{four}\n{three}": 0, three: 1,
+             "a.md :: bit :: a_test.cpp Bits.Three": 1, f"{three}\na.md :: bit 5 :: a_test.cpp Bits.Three": 2,
              f"{three}\na.md :: bit 4 :: a_test.cpp Bits.Four\na.md :: bit 4 :: b_test.cpp Bits.Three": 2}
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
-        for name, text in (("docs/reference/a.md", "bit 3 is ignored\nit ignores bit 4\nbit 5\n"),
+        for name, text in (("docs/reference/a.md", "bit 3 is ignored\nIgnoring bit 4\nbit 5\n"),
                            ("tb/unit/a_test.cpp", "TEST(Bits, Three) {}\n")):
             (root / name).parent.mkdir(parents=True)
             (root / name).write_text(text, encoding="utf-8")

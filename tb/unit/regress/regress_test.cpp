@@ -123,10 +123,12 @@ TEST(CoverageResult, OfAPartOfAPlanNeedsOneBinOfTheGlob) {
 }
 
 TEST(RequiredCheck, OfAPartIsItsShareAndOfFewRandomRunsLess) {
-  const auto minimum = [](bool random, std::uint64_t seeds, std::uint64_t divisor) {
+  const auto minimum = [](bool random, std::uint64_t seeds, std::uint64_t divisor,
+                          std::uint64_t chosen = 0) {
     Testplan plan;
     plan.features.resize(1);
-    plan.features[0].stimuli.resize(1);
+    plan.features[0].stimuli.resize(chosen > 0 ? 2 : 1);
+    plan.features[0].stimuli.back().seeds = chosen;
     plan.features[0].stimuli[0].seeds = seeds;
     plan.features[0].stimuli[0].random = random;
     plan.features[0].checks = {{"pixels", 1'000'000, "plan.yaml:3"}};
@@ -134,10 +136,12 @@ TEST(RequiredCheck, OfAPartIsItsShareAndOfFewRandomRunsLess) {
   };
   EXPECT_EQ(minimum(true, 25'600, 1), 1'000'000u);
   EXPECT_EQ(minimum(false, 25'600, 100), 10'000u);
-  EXPECT_EQ(minimum(true, 25'600, 100), 5'000u) << "256 runs: 1 - 8 / 16";
+  EXPECT_EQ(minimum(true, 102'400, 100), 7'500u) << "1024 runs: 1 - 8 / 32";
+  EXPECT_EQ(minimum(true, 102'400, 100, 1'000'000), 7'500u) << "runs that somebody chose";
   EXPECT_EQ(minimum(true, 102'400, 4), 237'500u) << "25600 runs: 1 - 8 / 160";
-  EXPECT_EQ(minimum(true, 6'400, 100), 1u) << "64 runs";
-  EXPECT_EQ(minimum(true, 100, 100), 1u) << "one run";
+  EXPECT_EQ(minimum(true, 25'600, 100), 5'000u) << "256 runs: 1 - 8 / 16";
+  EXPECT_EQ(minimum(true, 6'400, 100), 5'000u) << "64 runs: half, and not 0";
+  EXPECT_EQ(minimum(true, 100, 100), 5'000u) << "one run";
 }
 
 TEST(CoverageResult, OfAllRunsOfAPartNeedsOneBinOfTheGlob) {

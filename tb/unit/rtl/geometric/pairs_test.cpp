@@ -198,7 +198,7 @@ TEST(PairFetch, StallsByCause) {
   EXPECT_EQ(stalls(b.unit, "pairs"), 26u - 1) << "an answer is taken in one of them";
   EXPECT_EQ(stalls(b.unit, "fills"), 0u);
 }
-// A clock for its tags in the begin of each frame; nothing while there is nothing to fetch.
+// A clock for its tags at the beginning of each frame; nothing while there is nothing to fetch.
 TEST(PairFetch, IsIdleButWhereItWorks) {
   PairBench b;
   EXPECT_EQ(b.unit.busy_cycles(), 1u);

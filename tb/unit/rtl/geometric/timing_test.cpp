@@ -21,6 +21,7 @@ namespace {
 using namespace rtl::geometric;  // NOLINT: names of units and tokens
 using spec::geometric::Lanes;
 using spec::geometric::Layout;
+
 // ---- EdgeClassifier, with select = all: what is in range is kept
 struct ClassifierBench : Frame {
   explicit ClassifierBench(const Parameters& p)
