@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-foreach(class Frames Configuration Faults SmaaFaults)
+foreach(class Frames Configuration Faults SharesFaults GuardFaults SmaaFaults)
   add_test(NAME morphological_negative.${class}
            COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/morphological_test.py" -v ${class})
   list(APPEND MORPHOLOGICAL_NEGATIVE_TESTS morphological_negative.${class})

@@ -587,7 +587,7 @@ class SharesFaults(BlockFaults):
 
 
 class GuardFaults(BlockFaults):
-    """A text guard that is not there, and what it leaves."""
+    """A text guard that is not there or errs, and what it leaves."""
     GUARD = ("--set", "morphological.text_guard=true")
 
     def test_a_guard_that_is_off(self):
@@ -599,8 +599,16 @@ class GuardFaults(BlockFaults):
         flat = self.picture("flat.png", rgb_png(24, [bytes([255 * (x < 12)] * 3) for _ in range(20) for x in range(24)]))
         self.run_engine(0, *flat, *self.GUARD, "--fault", "wrong-guard", says="PASS")
 
+    def test_a_bit_of_a_pixel(self):
+        noise = self.picture("noise.png", noisy_png(48, 40))
+        for arguments in (("--preset", "deburr"), ("--preset", "mlaa", "--lanes", "4"), ("--preset", "smaa")):
+            with self.subTest(arguments):
+                self.fault("flip-guard", *noise, *arguments, *self.GUARD, code=3, unchecked=1,
+                           says="changed while it waited")
+
     def test_what_is_not_there_cannot_fail(self):
-        self.run_engine(2, *self.SMALL, "--fault", "wrong-guard", says=["wrong-guard", "needs", "text_guard = true"])
+        for name in ("wrong-guard", "flip-guard"):
+            self.run_engine(2, *self.SMALL, "--fault", name, says=[name, "needs", "text_guard = true"])
 
     def test_it_leaves_most_of_two_colours_at_random(self):
         noise = self.picture("noise.png", noisy_png(48, 40))

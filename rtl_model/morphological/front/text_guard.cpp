@@ -9,8 +9,7 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-constexpr std::uint32_t kHashBits = 6;
-constexpr std::uint32_t kHashMask = (1u << kHashBits) - 1;
+constexpr std::int32_t kHashWidth = 6;
 constexpr std::int32_t kHashRows = 10;   // above the newest one
 constexpr std::int32_t kStroke = 3;      // pixels of a run, at most
 constexpr std::int32_t kWindow = 5;      // pixels to each side
@@ -22,16 +21,29 @@ constexpr std::int32_t kRunRows = kStroke;
 constexpr std::uint32_t kHBits = kCountRows + kRunRows - 1, kVBits = kCountRows - 1;
 constexpr std::int32_t kColourRows =
     kGuardRows - kWindow;  // that two colours are known before the counts
-// Slots on their way from the SlotSequencer to the Blender, links and stages, at most.
+// More than the slots on their way from the SlotSequencer to the Blender: 27, two in each of five
+// links (slots, lumas, edge_bits, area_slots, shares) and one a stage of the four units between.
 constexpr std::int32_t kUnderWay = 32;
+static_assert(kUnderWay >
+              5 * 2 + spec::morphological::kLumaLatency + spec::morphological::kEdgeLatency +
+                  spec::morphological::kExtractorLatency + spec::morphological::kAreaLatency);
 
-constexpr std::uint32_t folded(std::uint32_t code) { return (code & 63) ^ (code >> 6); }
-constexpr std::uint32_t rotated(std::uint32_t value, std::uint32_t by) {
-  return (value << by | value >> (kHashBits - by)) & kHashMask;
-}
+// The contract's folds and rotations are wires: an equation a bit.
 constexpr std::uint8_t hash_of(const std::array<std::uint8_t, 3>& rgb) {
-  return static_cast<std::uint8_t>(folded(rgb[0]) ^ rotated(folded(rgb[1]), 1) ^
-                                   rotated(folded(rgb[2]), 3));
+  const auto r = [&](int bit) { return rgb[0] >> bit & 1; };
+  const auto g = [&](int bit) { return rgb[1] >> bit & 1; };
+  const auto b = [&](int bit) { return rgb[2] >> bit & 1; };
+  const int h0 = r(0) ^ r(6) ^ g(5) ^ b(3);
+  const int h1 = r(1) ^ r(7) ^ g(0) ^ g(6) ^ b(4);
+  const int h2 = r(2) ^ g(1) ^ g(7) ^ b(5);
+  const int h3 = r(3) ^ g(2) ^ b(0) ^ b(6);
+  const int h4 = r(4) ^ g(3) ^ b(1) ^ b(7);
+  const int h5 = r(5) ^ g(4) ^ b(2);
+  return static_cast<std::uint8_t>(h5 << 5 | h4 << 4 | h3 << 3 | h2 << 2 | h1 << 1 | h0);
+}
+// Of a column's word: that of the row `above` the newest one, 1..10.
+constexpr std::uint8_t kept_hash(std::uint64_t hashes, std::int32_t above) {
+  return static_cast<std::uint8_t>(hashes >> ((above - 1) * kHashWidth)) % (1u << kHashWidth);
 }
 
 std::int32_t beats_for(std::int32_t pixels, std::int32_t lanes) {
@@ -49,7 +61,7 @@ std::uint32_t fifo_words(const spec::morphological::Parameters& p, const Paramet
 }
 MemoryShape row_shape(const spec::morphological::Parameters& p, std::int32_t lanes) {
   return {.words = static_cast<std::uint64_t>(beats_for(p.line_pixels, lanes)),
-          .word_bits = kHashBits * static_cast<std::uint32_t>(lanes),
+          .word_bits = static_cast<std::uint32_t>(kHashWidth * lanes),
           // The next row takes the place of this one, in the clock of its read at the earliest.
           .read_during_write = ReadDuringWrite::kOldWord,
           .content = "hashes of the newest row",
@@ -79,7 +91,7 @@ TextGuard::TextGuard(const sc_core::sc_module_name& name, ClockDomain& clock,
       last_stage_(last_stage_of(store.lanes())),
       row_("guard_row", row_shape(p, store.lanes())),
       columns_("guard_columns",
-               column_shape(p, store.lanes(), kHashRows * kHashBits + kHBits + kVBits,
+               column_shape(p, store.lanes(), kHashRows * kHashWidth + kHBits + kVBits,
                             "a column of the last rows: hashes, strokes of rows and columns")),
       colours_("guard_colours", column_shape(p, store.lanes(), kColourRows,
                                              "a column of the last rows: are there two colours?")),
@@ -146,7 +158,7 @@ bool TextGuard::find_v(const Word& word, std::uint8_t newest, std::int32_t row) 
   const std::int32_t y = row - kRunRows;
   if (!is_row(y)) return false;
   const auto hash = [&](std::int32_t above) {  // the newest row
-    return above == 0 ? newest : word.hashes >> (kHashBits * (above - 1)) & kHashMask;
+    return above == 0 ? newest : kept_hash(word.hashes, above);
   };
   const auto same = [&](std::int32_t above) {
     return is_row(row - above) && hash(above) == hash(kRunRows);
@@ -177,8 +189,7 @@ TextGuard::Column TextGuard::column_of(const Word& word, const Beat& beat, std::
   };
   if (is_row(beat.row)) add(beat.hash[lane]);
   for (std::int32_t above = 1; above <= kHashRows; ++above)
-    if (is_row(beat.row - above))
-      add(static_cast<std::uint8_t>(word.hashes >> (kHashBits * (above - 1)) & kHashMask));
+    if (is_row(beat.row - above)) add(kept_hash(word.hashes, above));
   return column;
 }
 
@@ -196,8 +207,8 @@ void TextGuard::read_columns(Cycle cycle, Beat& beat) {
     column.h = static_cast<std::uint8_t>(std::popcount(h >> kRunRows));
     column.v = static_cast<std::uint8_t>(std::popcount(v));
     Word& word = words[lane];
-    word.hashes = (above.hashes << kHashBits | beat.hash[lane]) &
-                  ((std::uint64_t{1} << kHashRows * kHashBits) - 1);
+    word.hashes = (above.hashes << kHashWidth | beat.hash[lane]) &
+                  ((std::uint64_t{1} << kHashRows * kHashWidth) - 1);
     word.h = static_cast<std::uint16_t>(h & ((1u << kHBits) - 1));
     word.v = static_cast<std::uint16_t>(v & ((1u << kVBits) - 1));
   }
@@ -279,36 +290,36 @@ Datasheet TextGuard::datasheet(const spec::morphological::Parameters& p) {
                      row = row_stage_of(lanes), column = column_stage_of(lanes),
                      last = last_stage_of(lanes);
   const auto clock = [](std::int32_t stage) { return std::to_string(stage + 1); };
-  return {
-      .unit = "TextGuard",
-      .does = "Says of each pixel whether it is of aliased text of two colours.",
-      .latency = {static_cast<std::uint64_t>(last) + 1,
-                  "17 with one lane, 14 with two, 12 with four: from a row's last beat to the "
-                  "first beat of the row eight above"},
-      .stages = {{"1", "hash, stored in guard_row", "6-input xor, SRAM write"},
-                 {clock(1), "address of guard_row"},
-                 {clock(2) + "-" + clock(row),
-                  "hashes of a row, a beat a clock; H in the last one; address of "
-                  "guard_columns",
-                  "SRAM read, 6-bit compare, choice of a run"},
-                 {clock(row + 1), "words of the columns; V; write back",
-                  "SRAM read, 6-bit compare"},
-                 {clock(row + 2), "least and greatest of 11 hashes, counts of 11 bits",
-                  "four 6-bit compares with their choices"},
-                 {clock(row + 3), "are there others?", "6-bit compare, OR of 11"},
-                 {clock(row + 4) + "-" + clock(column),
-                  "columns, a beat a clock; least and greatest of 11, sums, in the last one",
-                  "four 6-bit compares with their choices"},
-                 {clock(column + 1), "are there others? enough? address of guard_colours",
-                  "6-bit compare, OR of 22"},
-                 {clock(last), "two colours three rows ago, write back, decision", "SRAM read"}},
-      .formats = "hashes U6; counts of a column U4, of a window U7.",
-      .cost =
-          "a lane: the xors of a hash, 6 compares of 6 bits for H and 6 for V, 20 with their "
-          "choices and 22 more for the colours of a column, 20 and 44 for those of a window, "
-          "two counts of 11 bits, two sums of 11 times 4 bits; registers of 11 columns more. "
-          "guard_row holds 6 bits a column, guard_columns 83, guard_colours 3, the FIFO a bit "
-          "a pixel of R - 3 rows and 32 beats."};
+  return {.unit = "TextGuard",
+          .does = "Says of each pixel whether it is of aliased text of two colours.",
+          .latency = {static_cast<std::uint64_t>(last) + 1,
+                      "17 with one lane, 14 with two, 12 with four: from a row's last beat to the "
+                      "first beat of the row eight above"},
+          .stages = {{"1", "hash, stored in guard_row", "5-input xor, SRAM write"},
+                     {clock(1), "address of guard_row"},
+                     {clock(2) + "-" + clock(row),
+                      "hashes of a row, a beat a clock; H in the last one; address of "
+                      "guard_columns",
+                      "SRAM read, 6-bit compare, choice of a run"},
+                     {clock(row + 1), "words of the columns; V; write back",
+                      "SRAM read with bypass, 6-bit compares, choice of a run, SRAM write"},
+                     {clock(row + 2), "least and greatest of 11 hashes, counts of 11 bits",
+                      "four 6-bit compares with their choices"},
+                     {clock(row + 3), "are there others?", "6-bit compare, OR of 11"},
+                     {clock(row + 4) + "-" + clock(column),
+                      "columns, a beat a clock; least and greatest of 11, sums, in the last one",
+                      "four 6-bit compares with their choices"},
+                     {clock(column + 1), "are there others? enough? address of guard_colours",
+                      "6-bit compare, OR of 33"},
+                     {clock(last), "two colours three rows ago, write back, decision",
+                      "SRAM read with bypass, SRAM write"}},
+          .formats = "hashes U6; counts of a column U4, of a window U7.",
+          .cost =
+              "a lane: the xors of a hash, 6 compares of 6 bits for H and 6 for V, 20 with their "
+              "choices and 22 more for the colours of a column, 20 and 44 for those of a window, "
+              "two counts of 11 bits, two sums of 11 times 4 bits; registers of 11 columns more. "
+              "guard_row holds 6 bits a column, guard_columns 83, guard_colours 3, the FIFO a bit "
+              "a pixel of R - 3 rows and 32 beats."};
 }
 
 }  // namespace deburr::rtl::morphological

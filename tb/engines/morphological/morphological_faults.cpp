@@ -24,6 +24,8 @@ std::vector<PlantedFault> MorphologicalFaults::list() const {
   const std::string memory = setup_.morphological.storage == spec::morphological::Storage::kMemory
                                  ? ""
                                  : "morphological.storage = memory";
+  const std::string guard =
+      setup_.morphological.text_guard ? "" : "morphological.text_guard = true";
   std::vector<PlantedFault> list = {
       {"flip-bit", "Flips a bit of the red channel of output beat 100.",
        "flip:blended:100:pixel.0.r.4"},
@@ -34,8 +36,10 @@ std::vector<PlantedFault> MorphologicalFaults::list() const {
        fmt::format("flip:morphological.edge_bits:{}:left", 2 * row + row / 2)},
       {"wrong-rule", "The engine tries one step less than was ordered.", "",
        setup_.morphological.steps > 0 ? "" : "morphological.steps of at least 1"},
-      {"wrong-guard", "The text guard is off.", "",
-       setup_.morphological.text_guard ? "" : "morphological.text_guard = true"},
+      {"wrong-guard", "The text guard is off.", "", guard},
+      {"flip-guard", "Flips the text guard's bit of a pixel in row 10.",
+       fmt::format("flip:morphological.text_guard.guards_entries:{}:guarded.0", 10 * row + row / 2),
+       guard},
       {"stuck-ready", "Holds back the slots of the luma unit from cycle 500 on.",
        "stuck_ready:morphological.slots:500"},
       {"duplicate-fetch", "Sends memory request 20 twice.",

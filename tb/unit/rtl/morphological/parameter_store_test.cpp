@@ -40,7 +40,7 @@ TEST(ParameterStoreBlock, TrimIsABitOfRulesLatchedWithTheFrame) {
   EXPECT_TRUE(on.store.rules().safe);
   on.store.leave();
   on.bus.write(reg::kRules, ~0u);
-  EXPECT_EQ(on.bus.read(reg::kRules), 0xFFFFFFFu) << "no bits beyond";
+  EXPECT_EQ(on.bus.read(reg::kRules), 0x1FFFFFFFu) << "no bits beyond";
   on.reset();
   EXPECT_EQ(on.bus.read(reg::kRules), reset_value);
 }
@@ -306,7 +306,7 @@ TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
   EXPECT_EQ(bench.bus.read(reg::kPixelBase), 0x12340u);
   EXPECT_EQ(bench.bus.read(reg::kSize), 97u | 61u << 16);
   EXPECT_EQ(bench.bus.read(reg::kThreshold), 1671270u);
-  EXPECT_EQ(bench.bus.read(reg::kRules), 7u << 25 | 1u << 16);
+  EXPECT_EQ(bench.bus.read(reg::kRules), 15u << 25 | 1u << 16);
   ASSERT_FALSE(bench.memory->lines_read().empty());
   EXPECT_EQ(bench.memory->lines_read()[0], 0x12340u);
   EXPECT_EQ(bench.bus.read(reg::kMemoryErrors), 0u);
@@ -830,7 +830,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(RegisterBits, ThatDoNotExistReadAsZero) {
   EngineBench bench(plain());
   const std::map<std::uint32_t, std::uint32_t> bits = {
-      {reg::kSize, 0x3FFF3FFF},      {reg::kRules, 0xFFFFFFF},       {reg::kThreshold, 0xFFFFFF},
+      {reg::kSize, 0x3FFF3FFF},      {reg::kRules, 0x1FFFFFFF},      {reg::kThreshold, 0xFFFFFF},
       {reg::kThresholdOn, 0xFFFFFF}, {reg::kThresholdOff, 0xFFFFFF}, {reg::kAlpha, 0xFFFFFF},
       {reg::kFloor, 0xFFFFFF},       {reg::kDepthThreshold, 0xFFFF}, {reg::kPixelBase, 0xFFFFFFC0},
       {reg::kSmaa, 0x01FF1F7F},      {reg::kSharesAddress, 0},       {reg::kSharesData, 0}};
