@@ -19,6 +19,7 @@ GENERATORS = {"comparison_page": "comparison_page.all_is_current",
               "MorphologicalHarm.OfFramesByFormula": "deburr_test(harm_test",
               "MorphologicalHarm.OfFramesOfOthers": "deburr_test(harm_test",
               "MorphologicalHarm.OfTheTextGuard": "deburr_test(harm_test",
+              "MorphologicalHarm.OfTheTextGuardOnWires": "deburr_test(harm_test",
               "MorphologicalHarm.OfTheTextGuardOnFramesOfOthers": "deburr_test(harm_test",
               "MorphologicalHarm.OfFramesWithTruth": "deburr_test(harm_test",
               "MorphologicalHarm.OfFramesOfOthersWithTruth": "deburr_test(harm_test"}

@@ -316,6 +316,12 @@ std::string of_right_frame_with_guard(const std::string& name, const Image& fram
   return row(cells);
 }
 
+// Without a sign where it is rounded to nothing.
+std::string difference(double decibels) {
+  std::string text = fmt::format("{:.2f}", decibels);
+  return text == "-0.00" ? "0.00" : text;
+}
+
 // Of frames with truth: PSNR over edges and over the frame with the guard less that without it, of
 // each preset that of the frame that loses most; and the largest share of guarded pixels.
 std::string worst_with_guard(const std::string& name, std::span<const Pair> pairs,
@@ -336,7 +342,7 @@ std::string worst_with_guard(const std::string& name, std::span<const Pair> pair
   }
   std::vector<std::string> cells = {name, fmt::format("{:.2f}", guarded)};
   for (const auto& [over_edges, over_frame] : worst)
-    cells.push_back(fmt::format("{:.2f} / {:.2f}", over_edges, over_frame));
+    cells.push_back(fmt::format("{} / {}", difference(over_edges), difference(over_frame)));
   return row(cells);
 }
 
@@ -451,6 +457,31 @@ std::string guard_tables() {
   text += worst_with_guard(fmt::format("{} scenes", of_scenes.size()), of_scenes, all);
   text += worst_with_guard("nine stand-ins", stand_ins(), all);
   text += worst_with_guard("textured frames, three views", textured, all);
+  return text + "\n";
+}
+
+std::string wires_table() {
+  constexpr std::array<double, 5> kThickness = {1, 1.5, 2, 3, 4};
+  constexpr std::array<int, 4> kDegrees = {10, 20, 30, 40};
+  const std::vector<Filter> all = guarded_filters();
+  std::vector<std::string> titles = {"", "guarded, %", "none"};
+  for (const m::Preset which : kGuardedPresets)
+    titles.emplace_back(m::kPresetNames[static_cast<std::size_t>(which)]);
+  std::string text = "\n" + head(titles);
+  for (const double thickness : kThickness)
+    for (const int degrees : kDegrees) {
+      const Textured frames = wires(thickness, degrees, 256, 256);
+      const std::vector<Image> smoothed = smoothed_by(all, frames.frame);
+      const auto of = [&](const Image& image) {
+        return fmt::format("{:.2f}", psnr(image, frames.truth));
+      };
+      std::vector<std::string> cells = {fmt::format("{} px at {}°", thickness, degrees),
+                                        fmt::format("{:.1f}", guarded_percent(frames.frame)),
+                                        of(frames.frame)};
+      for (std::size_t i = 0; i < smoothed.size(); i += 2)
+        cells.push_back(fmt::format("{} > {}", of(smoothed[i]), of(smoothed[i + 1])));
+      text += row(cells);
+    }
   return text + "\n";
 }
 

@@ -35,6 +35,8 @@ struct GuardedText {
 // Of `deburr`, on each kind of page.
 std::vector<GuardedText> guarded_text(int width, int height);
 std::string guard_tables();
+// What the guard takes from thin things that look as text does.
+std::string wires_table();
 std::string data_guard_table(const std::filesystem::path& data);
 
 // Of the first table of frames that are right the row of a page of aliased text, made of one of

@@ -478,6 +478,36 @@ Image text_over_scene(int width, int height) {
   return frame;
 }
 
+Textured wires(double thickness, double degrees, int width, int height) {
+  constexpr double kApart = 40;
+  constexpr int kSide = 8;  // samples
+  constexpr Rgba8 kWire = {40, 44, 52, 255}, kSky = {150, 180, 215, 255};
+  const double angle = degrees * std::numbers::pi / 180, sine = std::sin(angle),
+               cosine = std::cos(angle);
+  const auto on_wire = [&](double x, double y) {
+    return std::abs(std::remainder(y * cosine - x * sine, kApart)) < thickness / 2;
+  };
+  // By the number of samples that a wire takes.
+  std::array<Rgba8, kSide * kSide + 1> mixes{};
+  for (std::size_t samples = 0; samples < mixes.size(); ++samples) {
+    const double share = static_cast<double>(samples) / (kSide * kSide);
+    mixes[samples][3] = 255;
+    for (std::size_t c = 0; c < 3; ++c)
+      mixes[samples][c] =
+          code(255 * linear_to_srgb(std::lerp(srgb_to_linear(kSky[c] / 255.0),
+                                              srgb_to_linear(kWire[c] / 255.0), share)));
+  }
+  Image frame = stimuli::draw(
+      width, height, [&](int x, int y) { return on_wire(x + 0.5, y + 0.5) ? kWire : kSky; });
+  Image truth = stimuli::draw(width, height, [&](int x, int y) {
+    std::size_t samples = 0;
+    for (int k = 0; k < kSide * kSide; ++k)
+      samples += on_wire(x + (k % kSide + 0.5) / kSide, y + (k / kSide + 0.5) / kSide) ? 1 : 0;
+    return mixes[samples];
+  });
+  return {std::move(frame), std::move(truth)};
+}
+
 Image pixel_art(int size, int width, int height) {
   const int columns = width / size, rows = height / size;
   Random random(9);

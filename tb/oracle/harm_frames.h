@@ -13,7 +13,7 @@ namespace deburr::tb::harm {
 
 // A hall whose floor, walls, pillars and crates all have textures; `view` 0..2 is the camera.
 Scene textured_hall(int view);
-// The frame with one sample a pixel, and the same textures with smoothed edges.
+// The frame with one sample a pixel, and the same with smoothed edges.
 struct Textured {
   Image frame, truth;
 };
@@ -36,6 +36,10 @@ enum class Text : std::uint8_t {
 Image text_page(Text kind, int width, int height);
 // The aliased page's letters over the landscape.
 Image text_over_scene(int width, int height);
+
+// Straight wires of two flat colours, 40 pixels apart, one sample a pixel; the truth is the mean of
+// 8 x 8 samples in linear light. `thickness` is in pixels across the wire.
+Textured wires(double thickness, double degrees, int width, int height);
 
 // Tiles and figures in sixteen colours, each pixel of it `size` pixels wide.
 Image pixel_art(int size, int width, int height);

@@ -16,6 +16,7 @@
 #include "tb/harness/test_paths.h"
 #include "tb/oracle/harm_frames.h"
 #include "tb/scene/quality.h"
+#include "tb/scene/textures.h"
 #include "tb/unit/spec/generated_table.h"
 
 namespace deburr::tb::harm_test {
@@ -57,6 +58,10 @@ TEST(MorphologicalHarm, OfTheTextGuard) {
   expect_generated(kPage, "MorphologicalHarm.OfTheTextGuard", harm::guard_tables());
 }
 
+TEST(MorphologicalHarm, OfTheTextGuardOnWires) {
+  expect_generated(kPage, "MorphologicalHarm.OfTheTextGuardOnWires", harm::wires_table());
+}
+
 TEST(MorphologicalHarm, OfTheTextGuardOnFramesOfOthers) {
   if (const std::string missing = harm::missing_data(data_folder()); !missing.empty())
     GTEST_SKIP() << "no " << missing
@@ -65,7 +70,8 @@ TEST(MorphologicalHarm, OfTheTextGuardOnFramesOfOthers) {
                    harm::data_guard_table(data_folder()));
 }
 
-// What it is for: of aliased text at most a fifth of the pixels change that changed before.
+// What it is for: of aliased text at most a fifth of the pixels change that changed before, also on
+// pages smaller than those of the tables.
 // Smoothed text it does not find.
 TEST(MorphologicalHarm, OfTextIsAFifthWithTheGuard) {
   for (const harm::GuardedText& page : harm::guarded_text(240, 180)) {
@@ -123,6 +129,32 @@ TEST(HarmFrames, OfTextOverASceneHaveLettersAndTheScene) {
     letters += ink;
   }
   EXPECT_GT(letters, 1000);
+}
+
+// Both have two colours, and the truth between them what a wire covers of a pixel: its mean is that
+// of the wires' area.
+TEST(HarmFrames, OfWiresAreTheWiresAndTheirCoverage) {
+  const Image upright = harm::wires(2, 90, 80, 40).frame;
+  // Wires at multiples of 40 pixels take the pixel on either side.
+  for (int x = 0; x < 80; ++x)
+    EXPECT_EQ(upright.at(x, 7)[0] == 40, x == 0 || x == 39 || x == 40 || x == 79) << x;
+  for (const double thickness : {1.0, 1.5, 3.0}) {
+    const harm::Textured t = harm::wires(thickness, 30, 256, 256);
+    EXPECT_EQ(colours(t.frame).size(), 2u);
+    EXPECT_GT(colours(t.truth).size(), 30u);
+    double covered = 0, sampled = 0;
+    for (std::size_t i = 0; i < t.truth.pixels.size(); ++i) {
+      const auto light = [](const Image& image, std::size_t at) {
+        return srgb_to_linear(image.pixels[at][0] / 255.0);
+      };
+      const double sky = srgb_to_linear(150 / 255.0), wire = srgb_to_linear(40 / 255.0);
+      covered += (sky - light(t.truth, i)) / (sky - wire);
+      sampled += (sky - light(t.frame, i)) / (sky - wire);
+    }
+    const double pixels = 256 * 256;
+    EXPECT_NEAR(covered / pixels, thickness / 40, 0.002) << thickness;
+    EXPECT_NEAR(sampled / pixels, thickness / 40, 0.002) << thickness;
+  }
 }
 
 TEST(HarmFrames, OfPixelArtHaveSixteenColoursAndBlocks) {

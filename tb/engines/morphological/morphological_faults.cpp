@@ -70,8 +70,8 @@ std::vector<PlantedFault> MorphologicalFaults::shares_faults() const {
        "flip:morphological.lines_v0:20:line.end_class.1", needs},
       {"wrong-code", "Flips a bit of the codes of the ends of a horizontal run.",
        "flip:morphological.lines_h0:20:line.run.shape.0", needs},
-      {"wrong-axis", "The line of a horizontal run that has none counts as the longest one.",
-       "flip:morphological.lines_h0:20:line.span.11", needs},
+      {"wrong-axis", "The line of a share from above counts as the longest one.",
+       "flip:morphological.shares:500:shares.0.span_up.11", needs},
       {"drop-line", "Drops a record after the dividers of horizontal runs.",
        "drop:morphological.lines_h0:20", needs}};
 }

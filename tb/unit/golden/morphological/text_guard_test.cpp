@@ -7,9 +7,14 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "spec/morphological/vectors.h"
@@ -136,16 +141,91 @@ TEST(TextGuard, CountsStrokesOfItsWindow) {
   EXPECT_EQ(of("three dots").at(4, 0), (GuardedPixel{2, 2, 54}));
 }
 
-// A line of one pixel by itself is no text, however steep.
-TEST(TextGuard, GuardsNoThinLine) {
-  for (int rise = -20; rise <= 20; ++rise) {
-    const Frame frame(60, 60, [&](int x, int y) {
-      const bool line = x >= 5 && x < 55 && y == 30 + (2 * (x - 30) * rise + 20) / 40;
-      return grey(line ? 20 : 200);
-    });
-    for (const Frame& each : {frame, Frame(tb::morphological::transposed(frame))})
-      EXPECT_EQ(std::ranges::count(drawn(each), 'g'), 0) << rise;
-  }
+std::int64_t guarded_pixels(const Frame& frame) {
+  const std::string rows = drawn(frame);
+  EXPECT_EQ(std::ranges::count(drawn(tb::morphological::transposed(frame)), 'g'),
+            std::ranges::count(rows, 'g'));
+  return std::ranges::count(rows, 'g');
+}
+
+// A straight line with one pixel a column is no text for a pixel that is eight or more from every
+// border: 22 of 24. It ends there, or goes through the border wherever it likes.
+TEST(TextGuard, GuardsAStraightLineOfOnePixelAColumnOnlyBesideTheBorder) {
+  constexpr int kSide = 60, kFar = 8;
+  std::int64_t beside_border = 0;
+  for (int rise = -20; rise <= 20; ++rise)
+    for (const auto& [first, end, middle] :
+         {std::array{5, 55, 30}, {20, 41, 30}, {0, kSide, 30}, {0, kSide, 3}, {0, kSide, 55}}) {
+      const Frame frame(kSide, kSide, [&](int x, int y) {
+        const bool line =
+            x >= first && x < end && y == middle + (2 * (x - 30) * rise + 820) / 40 - 20;
+        return grey(line ? 20 : 200);
+      });
+      const TextGuard guard(frame.view());
+      for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x)
+          if (guard.at(x, y).guarded()) {
+            ASSERT_LT(std::min({x, y, kSide - 1 - x, kSide - 1 - y}), kFar)
+                << rise << ' ' << middle;
+            ASSERT_TRUE(first == 0) << rise;
+            ++beside_border;
+          }
+      guarded_pixels(frame);
+    }
+  EXPECT_GT(beside_border, 100);
+}
+
+// A frame of 30 x 30 with ink where the drawing says so; (0, 0) of the drawing is (left, top).
+Frame with_drawing(const std::vector<std::string_view>& rows, int left, int top) {
+  return Frame(30, 30, [&](int x, int y) {
+    const int row = y - top, column = x - left;
+    const bool ink = row >= 0 && row < static_cast<int>(rows.size()) && column >= 0 &&
+                     column < static_cast<int>(rows[static_cast<std::size_t>(row)].size()) &&
+                     rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] == '#';
+    return grey(ink ? 20 : 200);
+  });
+}
+
+// What it takes for text besides: counted by hand.
+TEST(TextGuard, GuardsThinLinesThroughTheBorderBentOrWider) {
+  // Nine pixels, both ways; of the columns above them three are gaps, of 1, 2 and 3 pixels: 24. The
+  // windows of 3 x 3 pixels hold all of it.
+  const std::vector<std::string_view> diagonal = {
+      "#", ".#", "..#", "...#", "....#", ".....#", "......#", ".......#", "........#"};
+  EXPECT_EQ(guarded_pixels(with_drawing(diagonal, 10, 0)), 9);
+  EXPECT_EQ(guarded_pixels(with_drawing(diagonal, 10, 10)), 0);
+  // Six pixels, both ways; six gaps of 1, 1, 2, 2, 3 and 3 pixels above them: 24. Windows of 6 x 6.
+  const std::vector<std::string_view> beside = {"##", "..##", "....##"};
+  EXPECT_EQ(guarded_pixels(with_drawing(beside, 10, 1)), 36);
+  EXPECT_EQ(guarded_pixels(with_drawing(beside, 10, 4)), 0);
+  // Eleven pixels, both ways, and gaps of 1 and 3 pixels in two rows: 26. 6 x 3 windows hold all of
+  // it or all but a foot, one below them all but the tip.
+  const std::vector<std::string_view> bent = {".....#.....", "....#.#....", "...#...#...",
+                                              "..#.....#..", ".#.......#.", "#.........#"};
+  EXPECT_EQ(guarded_pixels(with_drawing(bent, 10, 10)), 19);
+  // Two and three pixels a row and a column: 4 x 6 and 6 x 4 strokes. Four pixels a row are none.
+  const std::vector<std::string_view> two = {"##", ".##", "..##", "...##", "....##", ".....##"},
+                                      three = {"###", ".###", "..###", "...###"},
+                                      four = {"####", ".####", "..####", "...####", "....####"};
+  EXPECT_EQ(guarded_pixels(with_drawing(two, 10, 10)), 5 * 6);
+  EXPECT_EQ(guarded_pixels(with_drawing(three, 10, 10)), 6 * 8);
+  EXPECT_EQ(guarded_pixels(with_drawing(four, 10, 10)), 0);
+}
+
+// The figures of the contract's page.
+TEST(TextGuard, GuardsBends) {
+  EXPECT_EQ(guarded_pixels(Frame(60, 60,
+                                 [](int x, int y) {
+                                   const bool v = y >= 15 && y < 40 && std::abs(x - 30) == y - 15;
+                                   return grey(v ? 20 : 200);
+                                 })),
+            53);
+  EXPECT_EQ(guarded_pixels(Frame(60, 60,
+                                 [](int x, int y) {
+                                   const double r = std::hypot(x - 30, y - 30);
+                                   return grey(std::lround(r) == 12 ? 20 : 200);
+                                 })),
+            4);
 }
 
 // A colour that differs in hash makes three, one of the same hash does not, whatever it looks like.
