@@ -271,8 +271,7 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{2, spec::morphological::Storage::kMemory, 5, 9, 21, false, true},
         Variant{0, spec::morphological::Storage::kLineBuffers, 16, 9, 20, false, false,
                 "text_guard=true"},
-        Variant{1, spec::morphological::Storage::kMemory, 9, 9, 20, false, true,
-                "text_guard=true"},
+        Variant{1, spec::morphological::Storage::kMemory, 9, 9, 20, false, true, "text_guard=true"},
         Variant{2, spec::morphological::Storage::kLineBuffers, 16, 4, 20, true, false,
                 "text_guard=true"}));
 
