@@ -47,10 +47,6 @@ endif()
 # a small part of a run: -O1 takes two thirds of the time of -O3, -Og four fifths of that.
 add_library(deburr_light_options INTERFACE)
 set(DEBURR_LIGHT_OPTIONS $<$<CONFIG:Release>:-Og>)
-if(DEBURR_SANITIZE)
-  # A third of the time of -O1, and a third more for what runs.
-  set(DEBURR_LIGHT_OPTIONS -O0)
-endif()
 target_compile_options(deburr_light_options INTERFACE ${DEBURR_LIGHT_OPTIONS})
 
 # GCC collects garbage whenever its heap has doubled, from 128 MiB on: a tenth of its time for a batch of tb/, which

@@ -501,8 +501,9 @@ Textured wires(double thickness, double degrees, int width, int height) {
       width, height, [&](int x, int y) { return on_wire(x + 0.5, y + 0.5) ? kWire : kSky; });
   Image truth = stimuli::draw(width, height, [&](int x, int y) {
     std::size_t samples = 0;
-    for (int k = 0; k < kSide * kSide; ++k)
-      samples += on_wire(x + (k % kSide + 0.5) / kSide, y + (k / kSide + 0.5) / kSide) ? 1 : 0;
+    for (int j = 0; j < kSide; ++j)
+      for (int i = 0; i < kSide; ++i)
+        samples += on_wire(x + (i + 0.5) / kSide, y + (j + 0.5) / kSide) ? 1 : 0;
     return mixes[samples];
   });
   return {std::move(frame), std::move(truth)};
