@@ -152,22 +152,25 @@ std::int64_t guarded_pixels(const Frame& frame) {
 // border: 22 of 24. It ends there, or goes through the border wherever it likes.
 TEST(TextGuard, GuardsAStraightLineOfOnePixelAColumnOnlyBesideTheBorder) {
   constexpr int kSide = 60, kFar = 8;
+  struct Line {
+    int first, end, middle;
+  };
   std::int64_t beside_border = 0;
   for (int rise = -20; rise <= 20; ++rise)
-    for (const auto& [first, end, middle] :
-         {std::array{5, 55, 30}, {20, 41, 30}, {0, kSide, 30}, {0, kSide, 3}, {0, kSide, 55}}) {
+    for (const Line& line :
+         {Line{5, 55, 30}, {20, 41, 30}, {0, kSide, 30}, {0, kSide, 3}, {0, kSide, 55}}) {
       const Frame frame(kSide, kSide, [&](int x, int y) {
-        const bool line =
-            x >= first && x < end && y == middle + (2 * (x - 30) * rise + 820) / 40 - 20;
-        return grey(line ? 20 : 200);
+        const bool ink = x >= line.first && x < line.end &&
+                         y == line.middle + (2 * (x - 30) * rise + 820) / 40 - 20;
+        return grey(ink ? 20 : 200);
       });
       const TextGuard guard(frame.view());
       for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x)
           if (guard.at(x, y).guarded()) {
             ASSERT_LT(std::min({x, y, kSide - 1 - x, kSide - 1 - y}), kFar)
-                << rise << ' ' << middle;
-            ASSERT_TRUE(first == 0) << rise;
+                << rise << ' ' << line.middle;
+            ASSERT_EQ(line.first, 0) << rise;
             ++beside_border;
           }
       guarded_pixels(frame);
