@@ -3,6 +3,7 @@
 // handle come: nothing crashes, and after a reset a job is what it is in a new unit.
 #include "tb/harness/register_noise.h"
 
+#include "tb/harness/engine_state.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::tb::texture_rtl::register_noise_test {
@@ -29,6 +30,8 @@ class Kit {
     std::string trail;
     for (std::size_t i = before; i < bench_.sink.taken.size(); ++i)
       trail += rtl::payload_text(bench_.sink.taken[i].token) + "\n";
+    // Without a reset nothing else would differ: what came in has gone out.
+    for (const std::string& figure : engine_state(bench_.unit, bench_.bus)) trail += figure + "\n";
     return trail;
   }
   void begin() {}
