@@ -366,6 +366,19 @@ TEST(LinkChecker, FindsTwoPopsInAClock) {
               HasSubstr("rogue: cycle 4: 2 beats have gone out, 1 were popped"));
 }
 
+// A pop moves a beat, too.
+TEST(Watchdog, ALinkThatOnlyDrainsMoves) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  Rogue link(clock, [](Rogue& l, Cycle cycle) {
+    if (cycle < 2) l.push(cycle, {});
+    if (cycle == 7 || cycle == 13) l.pop(cycle);
+  });
+  clock.add(static_cast<rtl::LinkBase&>(link));
+  Watchdog watchdog(clock, 8);
+  EXPECT_NO_THROW(clock.run(20));
+  EXPECT_THROW(clock.run(10), spec::DeadlockError);
+}
+
 TEST(Negative, ScoreboardWithTooFewComparisons) {
   Scoreboard<int> board("board", 2);
   board.expect(1);
