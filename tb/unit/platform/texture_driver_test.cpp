@@ -4,8 +4,6 @@
 // unit rejects.
 #include "rtl_model/platform/texture_driver.h"
 
-#include <cmath>
-
 #include "spec/texture/registers.h"
 #include "tb/unit/platform/fakes.h"
 
@@ -74,27 +72,6 @@ TEST(TextureMemory, LaysLevelsOneAfterTheOther) {
   EXPECT_EQ(textures.bytes()[256 + 60], 1);
   EXPECT_EQ(textures.bytes()[384 + 16 + 4 + 3], 8) << "second texel of the second row";
   EXPECT_EQ(textures.bytes()[384 + 8], 0);
-}
-
-TEST(TextureMemory, ChannelsAreRoundedToTheNearestCode) {
-  const auto nearest = [](std::uint32_t code, std::uint32_t most) {
-    return static_cast<std::uint32_t>(std::lround(code * most / 255.0));
-  };
-  for (std::uint32_t code = 0; code < 256; ++code) {
-    const auto c = static_cast<std::uint8_t>(code);
-    EXPECT_EQ(platform::encode_texel(Format::kRgb565, {c, c, c, c}),
-              nearest(code, 31) << 11 | nearest(code, 63) << 5 | nearest(code, 31));
-    EXPECT_EQ(platform::encode_texel(Format::kRgba4444, {c, c, c, c}), nearest(code, 15) * 0x1111);
-  }
-}
-
-TEST(TextureMemory, LevelsEndWithThatOfOneTexel) {
-  const std::vector<Texel> four(4), one(1);
-  platform::TextureMemory textures;
-  const platform::TextureLevel whole[] = {{2, 2, four}, {1, 1, one}},
-                               more[] = {{2, 2, four}, {1, 1, one}, {1, 1, one}};
-  EXPECT_NO_THROW(textures.add(whole, {}));
-  EXPECT_THROW(textures.add(more, {}), spec::ConfigError);
 }
 
 // ---- the driver
