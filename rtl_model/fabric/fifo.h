@@ -9,6 +9,7 @@
 // SRAM two registers of the payload.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <systemc>
@@ -34,8 +35,8 @@ class Fifo final : public MemoryBase {
   void push(Cycle cycle, const T& value) {
     link_.push(cycle, value);
     // A word that is popped in this clock is not free before the next one, whichever came first.
-    const std::uint32_t leaving = link_.last_pop() == cycle ? 1 : 0;
-    if (link_.occupancy() + leaving > high_water_) high_water_ = link_.occupancy() + leaving;
+    const std::uint32_t used = link_.occupancy() + (link_.last_pop() == cycle ? 1 : 0);
+    high_water_ = std::max<std::uint64_t>(high_water_, used);
   }
 
   std::uint32_t occupancy() const { return link_.occupancy(); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The two ends of a test: a Driver feeds a link, a Sink empties one, both with stalls at random.
-// A reset starts both from the beginning, with the same stalls again.
+// A reset starts both from the beginning, with the same stalls again if they are of the seed.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 SOMETIMES = {"tb/oracle/mesa_test.cpp", "tb/oracle/smaa_shader_test.cpp"}  # where EGL's headers are
-HDL = "tb/hdl/"  # with the option DEBURR_HDL
+SOME_BUILDS = ("tb/hdl/", "tb/system/python_")  # with the option DEBURR_HDL, with the Python module
 UNSTABLE = re.compile(r"(?<![0-9])0x[0-9A-Fa-f]+|-byte object|GetParam\(\)|(?<![\w.])/[a-z]+/")
 
 
@@ -39,7 +39,7 @@ def misnamed(listed, source):
     for path in sorted((source / "tb").rglob("*_test.cpp")):
         file = path.relative_to(source).as_posix()
         if files.count(file) != 1 and file not in SOMETIMES and not (
-                file.startswith(HDL) and file not in files):
+                file.startswith(SOME_BUILDS) and file not in files):
             yield f"{file} is in {files.count(file)} test programs"
     for name, file, program in listed:
         path = pathlib.PurePosixPath(file)
@@ -84,7 +84,7 @@ def unregistered(tests, source):
         file = path.relative_to(source).as_posix()
         calls = [command for command in commands if any(word.endswith("/" + file) for word in command)]
         if not calls:
-            if not file.startswith(HDL):
+            if not file.startswith(SOME_BUILDS):
                 yield f"no test runs {file}"
             continue
         methods = test_methods(path.read_text(encoding="utf-8"))
@@ -109,7 +109,7 @@ def classes_without_a_test_are_caught():
             "Faults.test_one Faults.test_two SharesFaults": 0, None: 1}
     with tempfile.TemporaryDirectory() as folder:
         source = pathlib.Path(folder)
-        for file in ("negative/a_test.py", "hdl/b_test.py"):
+        for file in ("negative/a_test.py", "hdl/b_test.py", "system/python_c_test.py"):
             (source / "tb" / file).parent.mkdir(parents=True)
             (source / "tb" / file).write_text(text, encoding="utf-8")
         for words, faults in runs.items():

@@ -4,7 +4,7 @@
 #include "tb/engines/morphological/morphological_checks.h"
 #include "tb/unit/platform/fakes.h"
 
-namespace deburr::tb::morphological_checks_test {
+namespace deburr::tb::checks_test {
 namespace {
 
 spec::morphological::BlendedBeat beat(bool start_of_frame, bool end_of_row) {
@@ -51,4 +51,4 @@ TEST(MorphologicalChecks, MemoryErrorsAreThoseOfAllFrames) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_checks_test
+}  // namespace deburr::tb::checks_test

@@ -8,7 +8,7 @@
 #include "tb/engines/texture/texture_checks.h"
 #include "tb/unit/platform/fakes.h"
 
-namespace deburr::tb::texture_checks_test {
+namespace deburr::tb::checks_test {
 namespace {
 
 namespace reg = spec::texture::reg;
@@ -51,4 +51,4 @@ TEST(TextureChecks, EachCounterIsThatOfItsWork) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_checks_test
+}  // namespace deburr::tb::checks_test
