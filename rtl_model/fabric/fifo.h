@@ -9,6 +9,7 @@
 // SRAM two registers of the payload.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <systemc>
@@ -33,11 +34,14 @@ class Fifo final : public MemoryBase {
   const T& take(Cycle cycle) { return link_.take(cycle); }
   void push(Cycle cycle, const T& value) {
     link_.push(cycle, value);
-    if (link_.occupancy() > high_water_) high_water_ = link_.occupancy();
+    // A word that is popped in this clock is not free before the next one, whichever came first.
+    const std::uint32_t used = link_.occupancy() + (link_.last_pop() == cycle ? 1 : 0);
+    high_water_ = std::max<std::uint64_t>(high_water_, used);
   }
 
   std::uint32_t occupancy() const { return link_.occupancy(); }
   bool empty() const { return link_.empty(); }
+  // Most words in use in a clock, what is popped in it included.
   std::optional<std::uint64_t> high_water() const override { return high_water_; }
   // For a consumer in another unit: bind its port to this.
   Link<T>& link() { return link_; }

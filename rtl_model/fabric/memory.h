@@ -129,7 +129,7 @@ class MemoryBase : public sc_core::sc_object {
 
   // Bookkeeping of the clock only. Contents stay, as in hardware.
   virtual void reset() {}
-  // Most words in use at a time since reset, where that is known: of a FIFO.
+  // Most words in use in a clock since reset, with what leaves in it; of a FIFO alone.
   virtual std::optional<std::uint64_t> high_water() const { return std::nullopt; }
   // Every port that the shape declares is used by somebody; the domain asks at the end of
   // elaboration, since a port that nobody uses is a cost that nobody pays.

@@ -112,7 +112,8 @@ class Tree:
             if done.returncode == 0:
                 break
             if not self.drop(done.stdout):
-                raise Problem(f"the tests do not build\n{done.stdout[-4000:]}")
+                failed = done.stdout.partition("FAILED: ")
+                raise Problem(f"the tests do not build\n{''.join(failed[1:])[:4000] or done.stdout[-4000:]}")
         self.remembered.write_text(json.dumps({
             str(file): [self.numbered(file), sorted(places)]
             for file, places in self.dropped.items() if places}))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The two ends of a test: a Driver feeds a link, a Sink empties one, both with stalls at random.
-// A reset starts both from the beginning, with the same stalls again.
+// A reset starts both from the beginning, with the same stalls again if they are of the seed.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,25 @@ namespace deburr::tb {
 struct EndOptions {
   std::uint32_t stall_permille = 0;
   std::uint64_t seed = 1;
+  // Instead: the cycles in which an end stalls, so that two benches have the same ones.
+  std::function<bool(rtl::Cycle)> stalls_at = {};
+};
+
+// The stalls of an end.
+class EndStalls {
+ public:
+  EndStalls(EndOptions options, const char* name)
+      : options_(std::move(options)), random_(options_.seed, name) {}
+  bool at(rtl::Cycle cycle) {
+    if (options_.stalls_at) [[unlikely]]
+      return options_.stalls_at(cycle);
+    return random_.chance(options_.stall_permille);
+  }
+  void restart(const char* name) { random_ = Random(options_.seed, name); }
+
+ private:
+  EndOptions options_;
+  Random random_;
 };
 
 template <class T>
@@ -30,8 +49,7 @@ class Driver final : public rtl::Unit {
 
   Driver(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, EndOptions options = {})
       : Unit(name, clock),
-        options_(options),
-        random_(options.seed, this->name()),
+        stalls_(std::move(options), this->name()),
         stalled_(declare_stall("random", "stalled on purpose")) {}
 
   // Either a list, which may grow meanwhile, or a generator.
@@ -45,7 +63,7 @@ class Driver final : public rtl::Unit {
 
   rtl::Activity tick(rtl::Cycle cycle) override {
     if (done()) return rtl::kIdle;
-    if (random_.chance(options_.stall_permille)) return stalled_;
+    if (stalls_.at(cycle)) return stalled_;
     if (!beats_out.can_push(cycle)) return rtl::kStalledDownstream;
     T beat{};
     if (!generator_) {
@@ -62,12 +80,11 @@ class Driver final : public rtl::Unit {
   void reset() override {
     sent_ = 0;
     ended_ = false;
-    random_ = Random(options_.seed, name());
+    stalls_.restart(name());
   }
 
  private:
-  EndOptions options_;
-  Random random_;
+  EndStalls stalls_;
   rtl::Activity stalled_;
   std::vector<T> list_;
   Generator generator_;
@@ -82,8 +99,7 @@ class Sink final : public rtl::Unit {
 
   Sink(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, EndOptions options = {})
       : Unit(name, clock),
-        options_(options),
-        random_(options.seed, this->name()),
+        stalls_(std::move(options), this->name()),
         stalled_(declare_stall("random", "stalled on purpose")) {}
 
   std::function<void(rtl::Cycle, const T&)> on_beat;
@@ -95,7 +111,7 @@ class Sink final : public rtl::Unit {
   const std::vector<rtl::Cycle>& cycles() const { return cycles_; }
 
   rtl::Activity tick(rtl::Cycle cycle) override {
-    if (random_.chance(options_.stall_permille)) return stalled_;
+    if (stalls_.at(cycle)) return stalled_;
     if (!beats_in.can_pop(cycle)) return rtl::kIdle;
     const T& beat = beats_in.take(cycle);
     ++received_;
@@ -110,12 +126,11 @@ class Sink final : public rtl::Unit {
     received_ = 0;
     beats_.clear();
     cycles_.clear();
-    random_ = Random(options_.seed, name());
+    stalls_.restart(name());
   }
 
  private:
-  EndOptions options_;
-  Random random_;
+  EndStalls stalls_;
   rtl::Activity stalled_;
   bool keep_ = true;
   std::uint64_t received_ = 0;

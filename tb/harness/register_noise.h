@@ -73,6 +73,39 @@ class RegisterNoise {
   std::uint32_t most_offset_;
 };
 
+// What every engine must do with such a host: crash never, hang never, and after a reset do its
+// work as a new engine does. A Kit is an engine on its bench, as drawn from a Random:
+//
+//   Kit(Random& random);
+//   rtl::ClockDomain& clock();
+//   platform::RegisterHost& bus();
+//   static std::span<const spec::RegisterInfo> registers();
+//   static constexpr std::uint32_t kMostOffset;   // of what the noise accesses
+//   static constexpr int kAccesses;
+//   static constexpr std::uint32_t kClocks;       // between two of them, fewer than these
+//   std::string job();               // a piece of work after a reset, and all that came of it
+//   void begin();                    // the noise begins
+//   void disturb(Random& random);    // after an access: work, starts, whatever comes in
+//   std::string end();               // the noise is over; what is wrong by now
+//   void reset();                    // a reset, and what a driver loads after it for good
+template <class Kit>
+std::string left_by_noise(std::uint64_t seed) {
+  Random random(seed);
+  Kit kit(random);
+  const std::string fresh = kit.job();
+  RegisterNoise noise(random.next(), Kit::registers(), Kit::kMostOffset);
+  kit.begin();
+  for (int i = 0; i < Kit::kAccesses; ++i) {
+    noise.access(kit.bus());
+    kit.disturb(random);
+    kit.clock().run(random.below(Kit::kClocks));
+  }
+  if (std::string wrong = kit.end(); !wrong.empty()) return wrong;
+  kit.reset();
+  const std::string again = kit.job();
+  return again == fresh ? "" : "expected\n" + fresh + "got\n" + again;
+}
+
 // `work` for one seed after another, each in a process of its own, until it says something: at
 // least `seeds`, and on until DEBURR_FUZZ_SECONDS are over where that is set; with DEBURR_FUZZ_SEED
 // for that one alone. Returns the first complaint with its seed; a crash and a hang are complaints.

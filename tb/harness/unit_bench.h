@@ -24,27 +24,38 @@
 
 namespace deburr::tb::unit_bench {
 
-// Pushes its tokens as fast as they are taken.
+// Pushes its tokens as fast as they are taken, each in its clock or, if there is no room, as soon
+// as there is.
 template <class T>
 class Source final : public rtl::Unit {
  public:
   rtl::Out<T> out{"out"};
   Source(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
   rtl::Activity tick(rtl::Cycle cycle) override {
-    if (next_ == tokens_.size()) return rtl::kIdle;
+    if (done() || tokens_[next_].from > cycle) return rtl::kIdle;
     if (!out.can_push(cycle)) return rtl::kStalledDownstream;
-    out.push(cycle, tokens_[next_++]);
+    out.push(cycle, tokens_[next_++].token);
     return rtl::kBusy;
   }
   void reset() override {
     tokens_.clear();
     next_ = 0;
   }
-  void add(const T& token) { tokens_.push_back(token); }
+  void add(const T& token) { add(0, token); }
+  void add(rtl::Cycle from, const T& token) { tokens_.push_back({from, token}); }
+  // Number `index` and those after it, not before clock `from`.
+  void delay(std::size_t index, rtl::Cycle from) {
+    for (; index < tokens_.size(); ++index) tokens_[index].from = from;
+  }
+  std::size_t sent() const { return next_; }
   bool done() const { return next_ == tokens_.size(); }
 
  private:
-  std::vector<T> tokens_;
+  struct Timed {
+    rtl::Cycle from;
+    T token;
+  };
+  std::vector<Timed> tokens_;
   std::size_t next_ = 0;
 };
 
@@ -57,7 +68,8 @@ class Sink final : public rtl::Unit {
     T token;
   };
   rtl::In<T> in{"in"};
-  Sink(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
+  Sink(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, rtl::Cycle opens = 0)
+      : Unit(name, clock), hold_to(opens) {}
   rtl::Activity tick(rtl::Cycle cycle) override {
     if (!in.can_pop(cycle) || (cycle >= hold_from && cycle < hold_to)) return rtl::kIdle;
     taken.push_back({cycle, in.take(cycle)});
@@ -65,7 +77,7 @@ class Sink final : public rtl::Unit {
   }
   void reset() override { taken.clear(); }
   std::vector<Taken> taken;
-  rtl::Cycle hold_from = 0, hold_to = 0;  // takes nothing in [hold_from, hold_to)
+  rtl::Cycle hold_from = 0, hold_to;  // takes nothing in [hold_from, hold_to)
 };
 
 template <class T>
@@ -73,6 +85,13 @@ std::vector<rtl::Cycle> clocks_of(const Sink<T>& sink) {
   std::vector<rtl::Cycle> clocks;
   for (const auto& taken : sink.taken) clocks.push_back(taken.cycle);
   return clocks;
+}
+
+template <class T>
+std::vector<T> tokens_of(const Sink<T>& sink) {
+  std::vector<T> tokens;
+  for (const auto& taken : sink.taken) tokens.push_back(taken.token);
+  return tokens;
 }
 
 // Clocks that a unit lost to a cause. CheckFailed if it knows none of this name.

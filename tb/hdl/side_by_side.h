@@ -16,6 +16,7 @@
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/unit.h"
 #include "tb/base/random.h"
+#include "tb/harness/driver.h"
 
 namespace deburr::tb::hdl {
 
@@ -32,51 +33,19 @@ struct Stalls {
   }
 };
 
+// An end with these stalls.
+inline EndOptions stalled(const Stalls& stalls) {
+  return {.stalls_at = [stalls](rtl::Cycle cycle) { return stalls.at(cycle); }};
+}
+// The beats of a list that is filled anew before each reset; two ends send the same one.
 template <class T>
-class StalledSource final : public rtl::Unit {
- public:
-  rtl::Out<T> beats_out{"beats_out"};
-  StalledSource(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, Stalls stalls,
-                const std::vector<T>& beats)
-      : Unit(name, clock), stalls_(stalls), beats_(beats) {}
-  bool done() const { return next_ == beats_.size(); }
-  std::function<void(rtl::Cycle, const T&)> on_beat;
-  rtl::Activity tick(rtl::Cycle cycle) override {
-    if (done() || stalls_.at(cycle)) return rtl::kIdle;
-    if (!beats_out.can_push(cycle)) return rtl::kStalledDownstream;
-    if (on_beat) on_beat(cycle, beats_[next_]);
-    beats_out.push(cycle, beats_[next_++]);
-    return rtl::kBusy;
-  }
-  void reset() override { next_ = 0; }
-
- private:
-  Stalls stalls_;
-  const std::vector<T>& beats_;
-  std::size_t next_ = 0;
-};
-
-template <class T>
-class StalledSink final : public rtl::Unit {
- public:
-  rtl::In<T> beats_in{"beats_in"};
-  StalledSink(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, Stalls stalls)
-      : Unit(name, clock), stalls_(stalls) {}
-  std::function<void(const T&)> on_beat;
-  std::uint64_t received() const { return received_; }
-  rtl::Activity tick(rtl::Cycle cycle) override {
-    if (stalls_.at(cycle) || !beats_in.can_pop(cycle)) return rtl::kIdle;
-    const T& beat = beats_in.take(cycle);
-    ++received_;
-    if (on_beat) on_beat(beat);
-    return rtl::kBusy;
-  }
-  void reset() override { received_ = 0; }
-
- private:
-  Stalls stalls_;
-  std::uint64_t received_ = 0;
-};
+typename Driver<T>::Generator those_of(const std::vector<T>& beats) {
+  return [&beats](std::uint64_t index, T& beat) {
+    if (index >= beats.size()) return false;
+    beat = beats[index];
+    return true;
+  };
+}
 
 // Counts the clocks in which one of two links had a push or a pop and the other one had not, and
 // the beats that differ. Ticked after the units, so that it sees what they did in this clock.

@@ -41,9 +41,7 @@ namespace deburr::tb::twin_address_unit_test {
 namespace {
 
 namespace gold = golden::texture;
-using hdl::StalledSink;
-using hdl::StalledSource;
-using hdl::Stalls;
+using hdl::stalled;
 using hdl::VerilatedUnit;
 using spec::texture::Quad;
 
@@ -138,13 +136,17 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
   Store store(clock);
   rtl::LatencyProbe probe;
   std::vector<Quad> quads;
-  const Stalls before{permille, seed}, after{permille, seed + 1000};
-  StalledSource<Quad> source_of_model("source_of_model", clock, before, quads),
-      source_of_twin("source_of_twin", clock, before, quads);
+  const EndOptions before = stalled({permille, seed}), after = stalled({permille, seed + 1000});
+  Driver<Quad> source_of_model("source_of_model", clock, before),
+      source_of_twin("source_of_twin", clock, before);
+  for (Driver<Quad>* const source : {&source_of_model, &source_of_twin})
+    source->send(hdl::those_of(quads));
   hw::AddressUnit model("model", clock, parameters, store.control, store.descriptors, probe);
   VerilatedUnit<Model, Quad, hw::TexelToken> twin("twin", clock, seed);
-  StalledSink<hw::TexelToken> sink_of_model("sink_of_model", clock, after),
+  Sink<hw::TexelToken> sink_of_model("sink_of_model", clock, after),
       sink_of_twin("sink_of_twin", clock, after);
+  sink_of_model.keep(false);
+  sink_of_twin.keep(false);
   hdl::LinkComparison<Quad> before_it("before_it", clock, quads_of_model, quads_of_twin);
   hdl::LinkComparison<hw::TexelToken> behind_it("behind_it", clock, texels_of_model, texels_of_twin,
                                                 what_counts);
@@ -168,10 +170,10 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
   Result result;
   std::vector<hw::TexelToken> wanted;
   const rtl::Payload payload = rtl::Payload::of<hw::TexelToken>();
-  sink_of_model.on_beat = [&](const hw::TexelToken& got) {
+  sink_of_model.on_beat = [&](rtl::Cycle, const hw::TexelToken& got) {
     if (got.control.last_of_fragment) probe.leaves(clock.cycle());
   };
-  sink_of_twin.on_beat = [&](const hw::TexelToken& got) {
+  sink_of_twin.on_beat = [&](rtl::Cycle, const hw::TexelToken& got) {
     const std::uint64_t number = sink_of_twin.received() - 1;
     if (number >= wanted.size()) {
       ++result.golden_differ;

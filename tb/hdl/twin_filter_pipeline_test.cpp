@@ -53,14 +53,19 @@ Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed 
       texels_of_twin("texels_of_twin");
   rtl::Link<Colour> colours_of_model("colours_of_model"), colours_of_twin("colours_of_twin");
   rtl::LatencyProbe probe;
-  const hdl::Stalls before{permille, seed}, after{permille, seed + 1000};
+  const EndOptions before = hdl::stalled({permille, seed}),
+                   after = hdl::stalled({permille, seed + 1000});
   std::vector<hw::TexelQuadToken> sent;
-  hdl::StalledSource<hw::TexelQuadToken> source_of_model("source_of_model", clock, before, sent),
-      source_of_twin("source_of_twin", clock, before, sent);
+  Driver<hw::TexelQuadToken> source_of_model("source_of_model", clock, before),
+      source_of_twin("source_of_twin", clock, before);
+  for (Driver<hw::TexelQuadToken>* const source : {&source_of_model, &source_of_twin})
+    source->send(hdl::those_of(sent));
   hw::FilterPipeline model("model", clock, parameters, probe);
   hdl::VerilatedUnit<Model, hw::TexelQuadToken, Colour> twin("twin", clock, seed);
-  hdl::StalledSink<Colour> sink_of_model("sink_of_model", clock, after),
+  Sink<Colour> sink_of_model("sink_of_model", clock, after),
       sink_of_twin("sink_of_twin", clock, after);
+  sink_of_model.keep(false);
+  sink_of_twin.keep(false);
   hdl::LinkComparison<hw::TexelQuadToken> before_it("before_it", clock, texels_of_model,
                                                     texels_of_twin);
   hdl::LinkComparison<Colour> behind_it("behind_it", clock, colours_of_model, colours_of_twin);
@@ -72,12 +77,12 @@ Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed 
   twin.beats_in(texels_of_twin);
   twin.beats_out(colours_of_twin);
   sink_of_twin.beats_in(colours_of_twin);
-  source_of_model.on_beat = [&](rtl::Cycle cycle, const hw::TexelQuadToken& token) {
+  source_of_model.on_send = [&](rtl::Cycle cycle, const hw::TexelQuadToken& token) {
     if (token.control.last_of_fragment) probe.enters(cycle);
   };
 
   Result result;
-  sink_of_twin.on_beat = [&](const Colour& got) {
+  sink_of_twin.on_beat = [&](rtl::Cycle, const Colour& got) {
     const std::uint64_t number = sent.front().ticket.tag + sink_of_twin.received() - 1;
     if (number >= work.colours.size() || !(got == work.colours[number]))
       if (result.golden_differ++ == 0)

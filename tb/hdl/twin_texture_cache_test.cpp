@@ -35,9 +35,7 @@
 namespace deburr::tb::twin_texture_cache_test {
 namespace {
 
-using hdl::StalledSink;
-using hdl::StalledSource;
-using hdl::Stalls;
+using hdl::stalled;
 using hw::TexelQuadToken;
 using hw::TexelToken;
 using spec::texture::Format;
@@ -167,14 +165,18 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
   rtl::Link<rtl::MemoryResponse> responses_of_twin("responses_of_twin", 2,
                                                    hdl::memory_response_shape(parameters));
   std::vector<TexelToken> requests;
-  const Stalls before{permille, seed}, after{permille, seed + 1000};
-  StalledSource<TexelToken> source_of_model("source_of_model", clock, before, requests),
-      source_of_twin("source_of_twin", clock, before, requests);
+  const EndOptions before = stalled({permille, seed}), after = stalled({permille, seed + 1000});
+  Driver<TexelToken> source_of_model("source_of_model", clock, before),
+      source_of_twin("source_of_twin", clock, before);
+  for (Driver<TexelToken>* const source : {&source_of_model, &source_of_twin})
+    source->send(hdl::those_of(requests));
   hw::TextureCache model("model", clock, parameters, store.control);
   hdl::VerilatedCache<Model> twin("twin", clock, seed, parameters);
   rtl::MemoryPort port_of_twin("port_of_twin", clock, hdl::memory_port_of(parameters));
-  StalledSink<TexelQuadToken> sink_of_model("sink_of_model", clock, after),
+  Sink<TexelQuadToken> sink_of_model("sink_of_model", clock, after),
       sink_of_twin("sink_of_twin", clock, after);
+  sink_of_model.keep(false);
+  sink_of_twin.keep(false);
   platform::MemoryModelParameters memory;
   memory.bytes = kBytes;
   memory.latency_min = answers.latency;
@@ -238,7 +240,7 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
            asked.clocks_that_differ() + answered.clocks_that_differ() + inside.clocks_that_differ();
   };
   const rtl::Payload payload = rtl::Payload::of<TexelQuadToken>();
-  sink_of_twin.on_beat = [&](const TexelQuadToken& got) {
+  sink_of_twin.on_beat = [&](rtl::Cycle, const TexelQuadToken& got) {
     const std::uint64_t number = sink_of_twin.received() - 1;
     if (number >= requests.size()) {
       ++result.memory_differs;

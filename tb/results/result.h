@@ -107,7 +107,7 @@ struct MemoryFigures {
   std::uint64_t register_bits = 0;  // flip-flops beside its words
   // Logical bits for frames of the width that this run had, where the size goes with the width.
   std::uint64_t logical_bits_at_frame_width = 0;
-  std::optional<std::uint64_t> high_water;  // words in use at most, of a FIFO
+  std::optional<std::uint64_t> high_water;  // most words in a clock, of a FIFO
   std::string idealised;                    // why no technology offers it; empty: it can be built
 };
 

@@ -106,7 +106,8 @@ void describe(const MemoryFigures& m, Visitor& v) {
             "Flip-flops beside its words: output registers of a FIFO, arrived bits, and of SRAM "
             "that gives the word of the same clock the bypass.");
   if (v.has(m.high_water.has_value()))
-    v.value("high_water", m.high_water.value_or(0), "word", "Most entries at a time; of a FIFO.");
+    v.value("high_water", m.high_water.value_or(0), "word",
+            "Most entries in a clock, with what leaves in it; of a FIFO.");
 }
 
 template <class Visitor>

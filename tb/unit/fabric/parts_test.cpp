@@ -42,6 +42,22 @@ TEST(Fifo, LatencyOneIntervalOneAndHighWater) {
   EXPECT_EQ(fifo.high_water(), 0U);
 }
 
+// A word that is popped in a clock is in use until its end, whichever side is ticked first.
+TEST(Fifo, HighWaterDoesNotDependOnTheOrderOfPushAndPop) {
+  rtl::Fifo<int> push_first("push_first", 5), pop_first("pop_first", 5);
+  for (rtl::Fifo<int>* const fifo : {&push_first, &pop_first})
+    for (Cycle c = 0; c < 3; ++c) fifo->push(c, 0);
+  push_first.push(3, 0);
+  push_first.pop(3);
+  pop_first.pop(3);
+  pop_first.push(3, 0);
+  EXPECT_EQ(push_first.high_water(), 4U);
+  EXPECT_EQ(pop_first.high_water(), 4U);
+  pop_first.pop(4);
+  pop_first.push(5, 0);
+  EXPECT_EQ(pop_first.high_water(), 4U) << "a pop of an earlier clock has left its word free";
+}
+
 // A unit that fills a FIFO and never empties it.
 class Hoarder final : public rtl::Unit {
  public:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A small pipeline with random stalls, a way to run several simulations in one test, and what is
-// said of a rejection.
+// A small pipeline with random stalls, and what is said of a rejection.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -19,21 +17,12 @@
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/unit.h"
-#include "tb/base/forked.h"
 #include "tb/base/random.h"
 #include "tb/harness/driver.h"
+#include "tb/harness/in_child.h"
 #include "tb/harness/statistics.h"
 
 namespace deburr::tb {
-
-// The text that a simulation in a process of its own gives back, its exceptions included.
-inline std::string in_child(const std::function<std::string()>& simulation) {
-  try {
-    return forked_text(simulation);
-  } catch (const std::exception& error) {
-    return std::string("exception: ") + error.what();
-  }
-}
 
 // What the error says that an action ends with.
 template <class Error, class F>

@@ -240,10 +240,10 @@ class Rogue final : public rtl::LinkBase, public rtl::Clocked {
   Acts acts_;
 };
 
-std::string rogue(const Rogue::Acts& acts) {
+std::string rogue(const Rogue::Acts& acts, bool widths = false) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Rogue link(clock, acts);
-  LinkChecker checker(clock);
+  LinkChecker checker(clock, "*", widths);
   try {
     clock.run(20);
   } catch (const spec::SimulationError& error) {
@@ -322,6 +322,26 @@ TEST(LinkChecker, FindsAPushIntoAFullLink) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) { link.push(cycle, {}); }),
               HasSubstr("rogue: cycle 2: a push into a link that was full"));
 }
+// The same of a link whose beats have no follower of their own: this one checks widths, too.
+TEST(LinkChecker, FindsAPushIntoAFullLinkWithWidths) {
+  EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) { link.push(cycle, {}); }, true),
+              HasSubstr("rogue: cycle 2: a push into a link that was full"));
+}
+TEST(LinkChecker, CountsTheBeatsBeforeAReset) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  rtl::Link<Token> link("link");
+  LinkChecker checker(clock);
+  for (Cycle cycle = 0; cycle < 6; ++cycle) {
+    if (cycle == 3) {
+      link.reset();
+      checker.reset();
+    }
+    if (cycle % 3 == 0) link.push(cycle, {});
+    if (cycle % 3 == 1) link.pop(cycle);
+    checker.tick(cycle);
+  }
+  EXPECT_EQ(checker.beats(), 2u);
+}
 // As if its beat had come, or gone, in a clock that is over.
 TEST(LinkChecker, FindsABeatThatAppearsWhileALinkRests) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
@@ -344,6 +364,19 @@ TEST(LinkChecker, FindsTwoPopsInAClock) {
                 link.pop(cycle);
               }),
               HasSubstr("rogue: cycle 4: 2 beats have gone out, 1 were popped"));
+}
+
+// A pop moves a beat, too.
+TEST(Watchdog, ALinkThatOnlyDrainsMoves) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  Rogue link(clock, [](Rogue& l, Cycle cycle) {
+    if (cycle < 2) l.push(cycle, {});
+    if (cycle == 7 || cycle == 13) l.pop(cycle);
+  });
+  clock.add(static_cast<rtl::LinkBase&>(link));
+  Watchdog watchdog(clock, 8);
+  EXPECT_NO_THROW(clock.run(20));
+  EXPECT_THROW(clock.run(10), spec::DeadlockError);
 }
 
 TEST(Negative, ScoreboardWithTooFewComparisons) {

@@ -68,6 +68,18 @@ TEST(Scoreboard, ByKey) {
   EXPECT_NO_THROW(board.check());
 }
 
+// After a reset what was expected will not come, whatever its key.
+TEST(Scoreboard, ByKeyBeginsAgain) {
+  Scoreboard<Token> board("board", 1, {}, [](const Token& t) { return t.number; });
+  board.expect({1, 10});
+  board.expect({2, 20});
+  board.restart();
+  EXPECT_EQ(board.leftovers(), 0u);
+  board.expect({1, 11});
+  board.got({1, 11});
+  EXPECT_NO_THROW(board.check());
+}
+
 struct Run {
   std::vector<Token> beats;
   Cycle cycles;

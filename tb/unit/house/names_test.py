@@ -3,9 +3,11 @@
 """Checks that the names of all tests are the same on every build: no address, no bytes of a value that
 GoogleTest could not print, no path of the machine, and none twice; that every test source is in one
 program, that of its folder, has a namespace of its own, and names its tests as its path:
-tb/unit/fabric/link_test.cpp is fabric_link_test; and that every test has labels, of those that
-cmake/Labels.cmake lists."""
+tb/unit/fabric/link_test.cpp is fabric_link_test; that every class of tests in a tb/**/*_test.py, and
+every method of one of which methods are named, is run by some test; and that every test has labels, of
+those that cmake/Labels.cmake lists."""
 import argparse
+import ast
 import collections
 import json
 import pathlib
@@ -15,7 +17,7 @@ import sys
 import tempfile
 
 SOMETIMES = {"tb/oracle/mesa_test.cpp", "tb/oracle/smaa_shader_test.cpp"}  # where EGL's headers are
-HDL = "tb/hdl/"  # with the option DEBURR_HDL
+SOME_BUILDS = ("tb/hdl/", "tb/system/python_")  # with the option DEBURR_HDL, with the Python module
 UNSTABLE = re.compile(r"(?<![0-9])0x[0-9A-Fa-f]+|-byte object|GetParam\(\)|(?<![\w.])/[a-z]+/")
 
 
@@ -37,7 +39,7 @@ def misnamed(listed, source):
     for path in sorted((source / "tb").rglob("*_test.cpp")):
         file = path.relative_to(source).as_posix()
         if files.count(file) != 1 and file not in SOMETIMES and not (
-                file.startswith(HDL) and file not in files):
+                file.startswith(SOME_BUILDS) and file not in files):
             yield f"{file} is in {files.count(file)} test programs"
     for name, file, program in listed:
         path = pathlib.PurePosixPath(file)
@@ -59,6 +61,64 @@ def mislabelled(tests, known):
                   for label in entry["value"]]
         if not labels or not known.issuperset(labels):
             yield f"labels of {test['name']}: {', '.join(labels) or 'none'}"
+
+
+def test_methods(text):
+    """{class: names of its tests, its bases' included} of a Python file."""
+    classes = {node.name: node for node in ast.parse(text).body if isinstance(node, ast.ClassDef)}
+
+    def of(name):
+        if name not in classes:
+            return set()
+        inherited = [of(base.id) for base in classes[name].bases if isinstance(base, ast.Name)]
+        return {part.name for part in classes[name].body
+                if isinstance(part, ast.FunctionDef) and part.name.startswith("test")}.union(*inherited)
+    return {name: methods for name in classes if (methods := of(name))}
+
+
+def unregistered(tests, source):
+    """Yields what of the Python tests below tb none of these tests of ctest's listing runs. A command
+    that names neither class nor method runs the whole file."""
+    commands = [test.get("command", []) for test in tests]
+    for path in sorted((source / "tb").rglob("*_test.py")):
+        file = path.relative_to(source).as_posix()
+        calls = [command for command in commands if any(word.endswith("/" + file) for word in command)]
+        if not calls:
+            if not file.startswith(SOME_BUILDS):
+                yield f"no test runs {file}"
+            continue
+        methods = test_methods(path.read_text(encoding="utf-8"))
+        named = [[word.partition(".")[::2] for word in command if word.partition(".")[0] in methods]
+                 for command in calls]
+        if not all(named):
+            continue
+        named = {pair for call in named for pair in call}
+        for name, wanted in methods.items():
+            run = {method for of, method in named if of == name}
+            if not run:
+                yield f"no test runs {name} of {file}"
+            elif "" not in run:
+                yield from (f"no test runs {name}.{method} of {file}" for method in sorted(wanted - run))
+
+
+def classes_without_a_test_are_caught():
+    text = ("class Support:\n    def helper(self):\n        pass\n"
+            "class Faults(Support):\n    def test_one(self):\n        pass\n    def test_two(self):\n        pass\n"
+            "class SharesFaults(Faults):\n    pass\n")
+    runs = {"": 0, "Faults SharesFaults": 0, "Faults": 1, "SharesFaults": 1, "Faults.test_two SharesFaults": 1,
+            "Faults.test_one Faults.test_two SharesFaults": 0, None: 1}
+    with tempfile.TemporaryDirectory() as folder:
+        source = pathlib.Path(folder)
+        for file in ("negative/a_test.py", "hdl/b_test.py", "system/python_c_test.py"):
+            (source / "tb" / file).parent.mkdir(parents=True)
+            (source / "tb" / file).write_text(text, encoding="utf-8")
+        for words, faults in runs.items():
+            script = str(source / "tb/negative/a_test.py")
+            one = [{"command": [script, "-v", *words.split()]}] if words is not None else []
+            each = [{"command": ["python3", script, word]} for word in (words or "").split()]
+            if any(len(list(unregistered(tests, source))) != faults for tests in (one, each or one)):
+                return False
+    return True
 
 
 def planted_faults_are_caught():
@@ -106,10 +166,11 @@ def main():
                        (options.source / "cmake/Labels.cmake").read_text(encoding="utf-8"))
     found = [*problems(test["name"] for test in tests),
              *mislabelled(tests, set(labels[1].split())),
+             *unregistered(tests, options.source),
              *misnamed(programs, options.source)]
     for problem in found:
         print(problem)
-    caught = planted_faults_are_caught()
+    caught = planted_faults_are_caught() and classes_without_a_test_are_caught()
     if not caught:
         print("planted faults were not caught")
     sys.exit(0 if caught and not found else 1)

@@ -183,6 +183,8 @@ TEST(GeometricRegions, OfLessTrafficComeLast) {
   EXPECT_EQ(needed[7], (5u + 26) * 64);
   EXPECT_EQ(needed[8], 2u * 64);
   EXPECT_EQ(GeometricRegions::needed(frames[1], p)[7], 64u);
+  EXPECT_EQ(GeometricRegions::needed({61, 45, 300, 200, 49, 41}, p)[7], (5u + 26) * 64)
+      << "of each array whole lines";
   EXPECT_EQ(GeometricRegions::needed(frames[1], p)[8], 460u * 64);
   const GeometricRegions all = GeometricRegions::allocate(frames, p);
   EXPECT_EQ(all.base(Region::kCopy), all.base(Region::kPairs)) << "there is no copy";

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/results/compare.h"
 #include "tb/results/compare_runs.h"
 #include "tb/results/compare_sweeps.h"
 #include "tb/results/comparison_page.h"
@@ -159,6 +160,19 @@ TEST_F(Runs, ListWhatDiffersComparedWithTheFirst) {
   EXPECT_FALSE(compare_runs(paths({"a", "b"}), {})["worse"]);
   EXPECT_TRUE(compare_runs(paths({"a", "b"}), {.memory_percent = 50})["worse"]);
   EXPECT_FALSE(compare_runs(paths({"a", "b"}), {.memory_percent = 100})["worse"]);
+}
+
+TEST(Comparing, ARunThatFailedIsWorseThanOneThatDid) {
+  Result r;
+  r.unit = "texture";
+  r.verdict = Verdict::kPass;
+  const Json passed = to_json(r);
+  r.verdict = Verdict::kFail;
+  const Json failed = to_json(r);
+  EXPECT_FALSE(compare(passed, passed, {}).worse);
+  EXPECT_FALSE(compare(failed, passed, {}).worse);
+  EXPECT_TRUE(compare(passed, failed, {}).worse);
+  EXPECT_TRUE(compare(failed, failed, {}).worse) << "wrong on both sides";
 }
 
 TEST_F(Runs, AnIdenticalPictureIsSaidToBeOne) {

@@ -96,6 +96,13 @@ TEST(PictureMap, AFewLargeValuesDoNotHideTheRest) {
   EXPECT_EQ(picture.at(0, 1), kDark);
 }
 
+// Of a thousand values five are above the knee.
+TEST(PictureMap, BendsAboveAllButFiveOfAThousand) {
+  PictureMap map("m", "M", "", "", 100, 10);
+  for (int i = 0; i < 1000; ++i) map.set(i % 100, i / 100, i < 996 ? i : 100 * i);
+  EXPECT_EQ(scale_of(map).knee, 995);
+}
+
 TEST(PictureMap, IsScaledFromTheLeast) {
   PictureMap map("m", "M", "clk", "", 4, 1);
   for (int x = 0; x < 4; ++x) map.set(x, 0, 6 + x);

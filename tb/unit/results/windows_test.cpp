@@ -46,6 +46,10 @@ TEST(Windows, ALostCycleIsNoticed) {
   wrong["series"]["units"]["filter"]["idle"][1] = 1;
   EXPECT_THAT(complaint(wrong, result()),
               HasSubstr("units.filter accounts for 11 of the 10 cycles of window 1"));
+  Json last = windows();
+  last["cycles"][2] = 6;
+  EXPECT_THAT(complaint(last, result()),
+              HasSubstr("units.filter accounts for 5 of the 6 cycles of window 2"));
 }
 
 TEST(Windows, ASumThatIsNotTheRunsIsNoticed) {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "spec/error.h"
@@ -129,6 +130,62 @@ TEST(GeometricEnvironment, FramesInARowBeginAsTheyWereRendered) {
   EXPECT_EQ(three.traffic, 3 * one.traffic);
   constexpr std::uint64_t kRegisters = 42;
   EXPECT_EQ(three.comparisons - kRegisters, 3 * (one.comparisons - kRegisters));
+}
+
+// MEMORY_ERRORS counts on from frame to frame.
+TEST(GeometricEnvironment, ErrorsOfFramesInARowAreExpected) {
+  const Outcome two = forked<Outcome>([] {
+    const std::vector<geometric::Frame> frames(2, small_frame());
+    GeometricSetup setup = small_setup();
+    setup.memory.error_address = regions_of(frames, setup.geometric).base(Region::kVertices);
+    Simulation simulation({});
+    GeometricEnvironment environment(simulation, frames, setup);
+    simulation.elaborate(environment);
+    bool failed = false;
+    try {
+      simulation.run();
+      environment.check();
+    } catch (const spec::SimulationError&) {
+      failed = true;  // by the memory's errors, which are predicted
+    }
+    Outcome outcome = outcome_of(simulation, environment);
+    if (!failed) outcome.frames = 0;
+    return outcome;
+  });
+  EXPECT_EQ(two.frames, 2u) << "or no error came";
+  EXPECT_EQ(two.mismatches, 0u);
+}
+
+// Of a frame with a copy: each line is a request, and takes a clock of the port at least.
+TEST(GeometricEnvironment, FiguresOfACopyHaveEachLineOnce) {
+  struct Figures {
+    double bound, read, written, bytes_read;
+  };
+  const Figures figures = forked<Figures>([] {
+    const std::vector<geometric::Frame> frames = {small_frame()};
+    GeometricSetup setup = small_setup();
+    setup.geometric.frame_copy = true;
+    Simulation simulation({});
+    GeometricEnvironment environment(simulation, frames, setup);
+    simulation.elaborate(environment);
+    simulation.run();
+    environment.check();
+    Result result;
+    simulation.collect(result);
+    Figures f{0, 0, 0, static_cast<double>(result.bytes_read)};
+    for (const auto& work : result.work) {
+      const auto* whole = std::get_if<std::uint64_t>(&work.value);
+      const auto* real = std::get_if<double>(&work.value);
+      const double value = whole ? static_cast<double>(*whole) : real ? *real : 0;
+      if (work.name == "frame_clocks_bound") f.bound = value;
+      if (work.name.starts_with("lines_read_")) f.read += value;
+      if (work.name.starts_with("lines_written_")) f.written += value;
+    }
+    return f;
+  });
+  EXPECT_GT(figures.written, 0);
+  EXPECT_EQ(64 * figures.read, figures.bytes_read);
+  EXPECT_GE(figures.bound, figures.read + figures.written);
 }
 
 TEST(GeometricEnvironment, WeatherChangesClocksAndNothingElse) {

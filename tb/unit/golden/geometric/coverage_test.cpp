@@ -137,6 +137,29 @@ TEST(Coverage, EveryBinCanBeReached) {
   EXPECT_GT(sum.bins().size(), 170u);
 }
 
+// A test of depth looks up the line of the neighbour only if it is another one than the pixel's.
+TEST(Coverage, TwoDepthsOfOneLineAreOneLookUp) {
+  const auto look_ups_of_eight = [](std::int32_t y) {
+    Parameters p;
+    p.layout = Layout::kTiled;
+    p.coverage = spec::geometric::CoverageRule::kDistance;
+    Drawing d(70, 50);
+    d.vertices = {{16 * 256, y, 1, true}, {24 * 256, y, 1, true}};
+    d.set_facing(0, true);
+    d.edges.push_back({0, 1, 0, 0, spec::geometric::flag::kBoundary});
+    GeometricGolden golden(p);
+    golden.process(d.input());
+    EXPECT_EQ(golden.candidates().size(), 8u);
+    std::uint64_t look_ups = 0;
+    for (const CoverageBin& bin : golden.coverage().bins())
+      if (bin.name.rfind("fetch/depth/", 0) == 0 && bin.name != "fetch/depth/replaced")
+        look_ups += bin.hits;
+    return look_ups;
+  };
+  EXPECT_EQ(look_ups_of_eight(9 * 256 + 64), 8u);   // rows 9 and 8, both of a line
+  EXPECT_EQ(look_ups_of_eight(8 * 256 + 64), 16u);  // rows 8 and 7
+}
+
 TEST(Coverage, BinsCountWhatTheWorkCounts) {
   GeometricGolden golden(Parameters{});
   golden.process(tb::geometric::vector_drawing().input());

@@ -11,6 +11,7 @@
 #include "golden/morphological/convert.h"
 #include "golden/morphological/traffic.h"
 #include "spec/error.h"
+#include "spec/morphological/tables.h"
 #include "tb/base/random.h"
 
 namespace deburr::blend_test {

@@ -363,6 +363,8 @@ TEST(DiagonalShares, AddUpBothDirectionsAndSwapTheFallingOnes) {
   EXPECT_EQ(one.second, a.a);
   EXPECT_EQ(one.first, a.b);
   EXPECT_EQ(one.span, 5);
+  down.d2 = 1;  // the rising one is the longer now
+  EXPECT_EQ(diagonal_shares(up, down).span, 5);
   EXPECT_FALSE(diagonal_shares({}, {}).taken());
 }
 

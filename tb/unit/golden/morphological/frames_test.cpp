@@ -507,6 +507,8 @@ TEST(FrameMemory, NoLineIsReadAfterTheLastRow) {
   golden.set_read_errors([](std::uint32_t) { return true; }, 1024);
   golden.process(frame.view());
   EXPECT_EQ(golden.memory_errors(), 8u * 3);  // 40 pixels: 3 lines a row
+  golden.process(frame.view());
+  EXPECT_EQ(golden.memory_errors(), 8u * 3) << "of each frame by itself";
 }
 
 TEST(FrameViews, ThatAreTooSmallOrOfAnotherSizeAreBugs) {

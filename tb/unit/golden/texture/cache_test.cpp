@@ -125,6 +125,14 @@ TEST(Cache, InvalidationKeepsTheRandomSequenceAndResetRestartsIt) {
   EXPECT_NE(first, second);
 }
 
+// The line that was looked up last is found without a look at its set.
+TEST(Cache, InvalidationForgetsTheLineOfTheLastLookUpToo) {
+  CachePredictor cache(geometry(512, 64, 2));
+  play(cache, {{5, false, "first use"}, {5, true, "the line of the last look-up"}});
+  cache.invalidate();
+  play(cache, {{5, false, "the cache is empty"}});
+}
+
 std::vector<std::uint32_t> request(CachePredictor& cache, std::array<std::uint32_t, 4> lines) {
   std::vector<std::uint32_t> fills;
   cache.request(lines, [&](std::uint32_t line) { fills.push_back(line); });

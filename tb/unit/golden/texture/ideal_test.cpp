@@ -146,6 +146,21 @@ TEST(Ellipse, OfUprightFootprintsIsTheirSides) {
   EXPECT_EQ(ellipse({}).d_max, 0);
 }
 
+// exp2 of the difference of two logarithms may lie above the ratio by a rounding.
+TEST(Level, AWholeRatioIsTheNumberOfSamples) {
+  spec::texture::Parameters parameters;
+  parameters.count = spec::texture::CountRule::kAny;
+  parameters.count_cap = spec::texture::CountCap::kNone;
+  spec::texture::Descriptor descriptor;
+  descriptor.max_anisotropy_log2 = 4;
+  for (int n = 1; n <= 16; ++n)
+    for (const double side : {0.3, 1.0, 1.5, 3.0, 5.0, 7.0}) {
+      if (n * side <= 1) continue;  // within a texel
+      const PixelFootprint f{0, 0, n * side, 0, 0, side};
+      EXPECT_EQ(level_of_detail(parameters, descriptor, f).samples, n) << side;
+    }
+}
+
 TEST(Ellipse, FilteringALinearRampGivesItsCentre) {
   const TextureImage texture = image(ramp(64));
   spec::texture::Descriptor descriptor;
@@ -343,6 +358,7 @@ TEST(Ewa, IsTheSumOfItsDefinition) {
   const TextureImage texture = image(picture);
   for (const EwaOptions& options :
        {EwaOptions{}, EwaOptions{.taper = true}, EwaOptions{.radius = 2.5},
+        EwaOptions{.radius = 2.5, .taper = true},
         EwaOptions{.alpha = 4, .radius = 1.5, .reconstruction = 0.25}}) {
     for (const PixelFootprint& f :
          {PixelFootprint{20.2, 17.9, 9, 4, -2, 3}, PixelFootprint{0.5, 0.5, 0.3, 0, 0, 0.3},

@@ -87,6 +87,15 @@ TEST(PairFetch, LatencyOfTheDatasheetOrWaitsForALine) {
   EXPECT_EQ(b.unit.lines_read.value(), 3u);
   EXPECT_EQ(b.unit.boundary_lines.value(), 2u);
 }
+TEST(PairFetch, LinesAreToldApartByAllTheirBits) {
+  PairBench b;
+  std::string read;
+  for (const std::uint32_t line : {0x123456u, 0x123456u, 0x3456u, 0x103456u}) {
+    b.latency(b.ends, PairBench::number(10 * line));
+    read += std::to_string(b.unit.lines_read.value()) + " ";
+  }
+  EXPECT_EQ(read, "1 1 2 3 ");
+}
 TEST(PairFetch, AnEdgeAClockHitOrMissed) {
   for (const std::uint32_t step : {1u, 3u, 10u}) {
     const std::string got = in_child([step] {

@@ -14,21 +14,12 @@
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/parameter_store.h"
 #include "rtl_model/geometric/frame_sequencer.h"
-#include "tb/base/forked.h"
+#include "tb/harness/in_child.h"
 #include "tb/harness/unit_bench.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/geometric/support.h"
 
 namespace deburr::tb::geometric_rtl {
-
-// The text that a simulation in a process of its own gives back, its exceptions included.
-inline std::string in_child(const std::function<std::string()>& simulation) {
-  try {
-    return forked_text(simulation);
-  } catch (const std::exception& error) {
-    return std::string("exception: ") + error.what();
-  }
-}
 
 // A latency as a simulation in a process of its own says it.
 inline void expect_latency_of(const rtl::Datasheet& sheet, const std::string& measured) {

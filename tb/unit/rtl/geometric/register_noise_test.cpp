@@ -26,29 +26,37 @@ Scene small_scene() {
   return scene;
 }
 
-std::string after_noise(std::uint64_t seed) {
-  Random random(seed);
-  EngineBench b(drawn_parameters(random));
-  const Scene scene = small_scene();
-  b.reset();
-  b.load(scene);
-  b.run();
-  const std::uint64_t pixels = b.pixel_hash(), traffic = b.traffic_hash();
-  RegisterNoise noise(random.next(), spec::geometric::kRegisters, 0x200);
-  for (int i = 0; i < 60; ++i) {
-    noise.access(b.bus);
-    if (random.chance(200)) b.bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart);
-    b.clock.run(random.below(60));
-  }
-  b.reset(2000);  // what memory still answers goes by
-  b.load(scene);
-  b.run();
-  if (b.pixel_hash() != pixels) return "other pixels";
-  if (b.traffic_hash() != traffic) return "other accesses of memory";
-  return "";
-}
+class Kit {
+ public:
+  static constexpr std::uint32_t kMostOffset = 0x200, kClocks = 60;
+  static constexpr int kAccesses = 60;
+  static std::span<const spec::RegisterInfo> registers() { return spec::geometric::kRegisters; }
+  explicit Kit(Random& random) : bench_(drawn_parameters(random)) { bench_.reset(); }
+  ClockDomain& clock() { return bench_.clock; }
+  platform::RegisterHost& bus() { return bench_.bus; }
 
-TEST(RegisterNoise, LeavesNothingAfterAReset) { EXPECT_EQ(first_complaint(60, after_noise), ""); }
+  std::string job() {
+    bench_.load(scene_);
+    bench_.run();
+    return "pixels " + std::to_string(bench_.pixel_hash()) + ", accesses of memory " +
+           std::to_string(bench_.traffic_hash()) + "\n";
+  }
+  void begin() {}
+  void disturb(Random& random) {
+    if (random.chance(200))
+      bench_.bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart);
+  }
+  std::string end() { return ""; }
+  void reset() { bench_.reset(2000); }  // what memory still answers goes by
+
+ private:
+  EngineBench bench_;
+  const Scene scene_ = small_scene();
+};
+
+TEST(RegisterNoise, LeavesNothingAfterAReset) {
+  EXPECT_EQ(first_complaint(60, left_by_noise<Kit>), "");
+}
 
 }  // namespace
 }  // namespace deburr::tb::geometric_rtl::register_noise_test

@@ -1082,6 +1082,45 @@ TEST(WeightCombiner, SecondCandidatesOfAnotherBlockTakeAClock) {
           << vertical << forward;
     }
 }
+// Frames of 8192 pixels have 2048 blocks in a row.
+TEST(WeightCombiner, TheNeighbouringBlockHasElevenBits) {
+  CombinerBench b;
+  WeightToken t = CombinerBench::token(1023, 0);
+  t.vertical = true;
+  t.forward = 1;
+  t.place[0] = 3;
+  t.seconds = 1;
+  t.second[0] = 9;
+  b.source.add(t);
+  push_out(b);
+  EXPECT_EQ(weights_at(b, 4095, 0)[3], 100);
+  EXPECT_EQ(weights_at(b, 4096, 0)[2], 9);
+}
+// A group of two blocks is one group of its line.
+TEST(WeightCombiner, AGroupOfTwoBlocksCountsOnceInTheLatency) {
+  CombinerBench b;
+  b.edge_latency.leave(0, 2);
+  for (int edge = 0; edge < 2; ++edge) {
+    b.edge_latency.decided(true);
+    b.edge_latency.set_up(true);
+    b.edge_latency.walk(true);
+    b.edge_latency.cover(true);
+    b.edge_latency.test(true);
+  }
+  WeightToken t = CombinerBench::token(5, 1);
+  t.vertical = true;
+  t.forward = 1;
+  t.place[0] = 3;
+  t.seconds = 1;
+  t.second[0] = 9;
+  b.source.add(t);
+  b.clock.run(60);
+  b.source.add(CombinerBench::token(5, 1));
+  b.source.add(CombinerBench::end());
+  b.until_drawn();
+  EXPECT_EQ(b.unit.edge_latency.count(), 2u);
+  EXPECT_GE(b.unit.edge_latency.max(), b.unit.edge_latency.min() + 50);
+}
 // The smallest weight of a pixel that is nearer than its neighbour, and the largest of others, in
 // whichever order they come; the second candidate's pixel is nearer where the first one's is
 // farther; with `max` and `last` neither counts.

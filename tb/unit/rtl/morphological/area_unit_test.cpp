@@ -40,27 +40,27 @@ struct Area {
         lines_v("lines_v", lanes),
         shares_gate("shares_gate", clock, shares_open),
         finished_gate("finished_gate", clock, finished_open) {
-    slot_driver.beats_out(slots);
+    slot_driver.out(slots);
     unit.slots_in(slots);
     unit.lines_h_in.bind(lines_h);
     unit.lines_v_in.bind(lines_v);
     const auto add = [&](const char* name, LaneLinks<LineToken>& lines, auto& drivers) {
       for (Link<LineToken>& link : lines.lane) {
-        drivers.push_back(
-            std::make_unique<TimedDriver<LineToken>>(sc_core::sc_gen_unique_name(name), clock));
-        drivers.back()->beats_out(link);
+        drivers.push_back(std::make_unique<unit_bench::Source<LineToken>>(
+            sc_core::sc_gen_unique_name(name), clock));
+        drivers.back()->out(link);
       }
     };
     add("driver_h", lines_h, drivers_h);
     add("driver_v", lines_v, drivers_v);
     unit.shares_out(shares);
-    shares_gate.beats_in(shares);
+    shares_gate.in(shares);
     unit.finished_out(finished);
-    finished_gate.beats_in(finished);
+    finished_gate.in(finished);
     if (!p.diagonals) return;
     diagonals.emplace("diagonals");
     diagonal_driver.emplace("diagonal_driver", clock);
-    diagonal_driver->beats_out(*diagonals);
+    diagonal_driver->out(*diagonals);
     (*unit.diagonals_in)(*diagonals);
   }
   // Slot k at clock `at` + k.
@@ -71,7 +71,7 @@ struct Area {
         AreaSlotToken token{};
         token.slot = {number, static_cast<std::uint16_t>(row), static_cast<std::uint16_t>(beat)};
         token.left = static_cast<std::uint8_t>(number & 1);
-        slot_driver.send(at + number++, token);
+        slot_driver.add(at + number++, token);
       }
   }
   std::uint32_t slots_before(int row) const { return static_cast<std::uint32_t>(row * beats); }
@@ -84,12 +84,12 @@ struct Area {
   LaneLinks<LineToken> lines_h, lines_v;
   Link<ShareToken> shares{"shares"};
   Link<FinishToken> finished{"finished"};
-  TimedDriver<AreaSlotToken> slot_driver{"slot_driver", clock};
-  std::vector<std::unique_ptr<TimedDriver<LineToken>>> drivers_h, drivers_v;
-  Gate<ShareToken> shares_gate;
-  Gate<FinishToken> finished_gate;
+  unit_bench::Source<AreaSlotToken> slot_driver{"slot_driver", clock};
+  std::vector<std::unique_ptr<unit_bench::Source<LineToken>>> drivers_h, drivers_v;
+  unit_bench::Sink<ShareToken> shares_gate;
+  unit_bench::Sink<FinishToken> finished_gate;
   std::optional<Link<DiagonalSharesToken>> diagonals;
-  std::optional<TimedDriver<DiagonalSharesToken>> diagonal_driver;
+  std::optional<unit_bench::Source<DiagonalSharesToken>> diagonal_driver;
 };
 
 // The run of three of the contract's table, its first part on the first side.
@@ -132,18 +132,18 @@ TEST_P(AreaLanes, LatencyAndIntervalOfTheDatasheet) {
   bench.send_slots(0);
   const std::uint32_t first = bench.slots_before(kLag), last = bench.slots_before(kLag + 7);
   bench.clock.run(last + 20);
-  ASSERT_EQ(bench.shares_gate.beats.size(), last - first);
+  ASSERT_EQ(bench.shares_gate.taken.size(), last - first);
   for (std::uint32_t i = 0; i < last - first; ++i) {
     // Sent in k, popped in k + 1.
-    ASSERT_EQ(bench.shares_gate.cycles[i],
+    ASSERT_EQ(bench.shares_gate.taken[i].cycle,
               first + 1 + i * sheet.interval.clocks + sheet.latency.clocks);
-    ASSERT_EQ(bench.shares_gate.beats[i].slot.number, first + i);
-    ASSERT_EQ(bench.shares_gate.beats[i].left, (first + i) & 1);
-    ASSERT_FALSE(bench.shares_gate.beats[i].any);
+    ASSERT_EQ(bench.shares_gate.taken[i].token.slot.number, first + i);
+    ASSERT_EQ(bench.shares_gate.taken[i].token.left, (first + i) & 1);
+    ASSERT_FALSE(bench.shares_gate.taken[i].token.any);
   }
   EXPECT_EQ(bench.unit.busy_cycles(), last + 8);
   EXPECT_EQ(bench.unit.stalled_cycles(), 0u);
-  expect_sum_of_parts(AnalyticShares::datasheet(), bench.shares_gate.cycles[0] - (first + 1));
+  expect_sum_of_parts(AnalyticShares::datasheet(), bench.shares_gate.taken[0].cycle - (first + 1));
 }
 
 // A record of each axis, and one in the corner of the frame: 85, 11 | 11, 85, at its pixels and
@@ -153,18 +153,18 @@ TEST_P(AreaLanes, SharesLieWhereTheRecordLies) {
   bench.send_slots(0);
   const int lanes = bench.lanes;
   // Found in slot row line + R + 2.
-  bench.drivers_h[0]->send(
+  bench.drivers_h[0]->add(
       0, three(Axis::kHorizontal, 3, 3,
                bench.slots_before(3 + kReach + 2) + static_cast<std::uint32_t>(6 / lanes)));
-  bench.drivers_v[0]->send(
+  bench.drivers_v[0]->add(
       0, three(Axis::kVertical, 10, 0,
                bench.slots_before(kReach + 2) + static_cast<std::uint32_t>(10 / lanes)));
-  bench.drivers_v[0]->send(
+  bench.drivers_v[0]->add(
       0, three(Axis::kVertical, 8, 5,
                bench.slots_before(5 + kReach + 2) + static_cast<std::uint32_t>(8 / lanes)));
   bench.clock.run(bench.slots_before(9 + kLag) + 20);
   std::map<std::string, int> found;
-  for (const ShareToken& token : bench.shares_gate.beats) {
+  for (const ShareToken& token : tokens_of(bench.shares_gate)) {
     if (!token.any) continue;
     for (int i = 0; i < lanes; ++i) {
       const int x = token.slot.beat * lanes + i, y = token.slot.row - kLag;
@@ -201,29 +201,30 @@ TEST_P(AreaLanes, ARecordIsFinishedAClockAfterItsPopPastItsSlot) {
   for (int lane = 0; lane < bench.lanes; ++lane) {
     const auto at = static_cast<std::size_t>(lane);
     // Long before the slot; and after it, yet not later than the row behind it: the interlock.
-    bench.drivers_h[at]->send(2, three(Axis::kHorizontal, 0, 2 * lane, even));
-    bench.drivers_v[at]->send(2, three(Axis::kVertical, lane + 1, 0, even));
-    bench.drivers_h[at]->send(odd + 3, three(Axis::kHorizontal, 1, 2 * lane, odd));
+    bench.drivers_h[at]->add(2, three(Axis::kHorizontal, 0, 2 * lane, even));
+    bench.drivers_v[at]->add(2, three(Axis::kVertical, lane + 1, 0, even));
+    bench.drivers_h[at]->add(odd + 3, three(Axis::kHorizontal, 1, 2 * lane, odd));
   }
   bench.clock.run(odd + 40);
   const auto& done = bench.finished_gate;
   // Pairs of columns lie in half as many banks as there are lanes, so that lines wait there once.
   const int banks = std::max(1, bench.lanes / 2), clocks = bench.lanes / banks;
-  ASSERT_EQ(done.beats.size(), static_cast<std::size_t>(2 * clocks));
-  expect_notices_a_clock(
-      RecordStore::datasheet(small(GetParam())), &rtl::Datasheet::latency,
-      [&](const rtl::Datasheet& sheet) { expect_latency(sheet, done.cycles[0] - (even + 2)); });
+  ASSERT_EQ(done.taken.size(), static_cast<std::size_t>(2 * clocks));
+  expect_notices_a_clock(RecordStore::datasheet(small(GetParam())), &rtl::Datasheet::latency,
+                         [&](const rtl::Datasheet& sheet) {
+                           expect_latency(sheet, done.taken[0].cycle - (even + 2));
+                         });
   for (int i = 0; i < clocks; ++i) {
     const auto clock = static_cast<std::size_t>(i), later = static_cast<std::size_t>(clocks + i);
     // Slot k is popped in k + 1 and in its second stage in k + 2, and so is the line popped. It is
     // stored in k + 3, the token taken a clock later.
-    EXPECT_EQ(done.cycles[clock], even + 4 + clock);
-    EXPECT_EQ(done.beats[clock].count[0], banks + (i == 0 ? bench.lanes : 0));
-    EXPECT_EQ(done.beats[clock].count[1], 0);
+    EXPECT_EQ(done.taken[clock].cycle, even + 4 + clock);
+    EXPECT_EQ(done.taken[clock].token.count[0], banks + (i == 0 ? bench.lanes : 0));
+    EXPECT_EQ(done.taken[clock].token.count[1], 0);
     // Sent in odd + 3, popped in odd + 4, stored in odd + 5, taken in odd + 6.
-    EXPECT_EQ(done.cycles[later], odd + 6 + clock);
-    EXPECT_EQ(done.beats[later].count[0], 0);
-    EXPECT_EQ(done.beats[later].count[1], banks);
+    EXPECT_EQ(done.taken[later].cycle, odd + 6 + clock);
+    EXPECT_EQ(done.taken[later].token.count[0], 0);
+    EXPECT_EQ(done.taken[later].token.count[1], banks);
   }
   EXPECT_EQ(bench.unit.bank_conflicts.value(),
             static_cast<std::uint64_t>(2 * (bench.lanes - banks)));
@@ -236,27 +237,27 @@ TEST(AreaUnitBlock, WaitsDownstreamWithItsSlotsAlone) {
   bench.send_slots(0);
   const std::uint32_t first = bench.slots_before(kLag);
   // Shares that nobody takes do not hold up a record.
-  bench.drivers_h[0]->send(150, three(Axis::kHorizontal, 0, 0, 1));
+  bench.drivers_h[0]->add(150, three(Axis::kHorizontal, 0, 0, 1));
   bench.clock.run(260);
   // Two fit into the link, sent in first + 9 and first + 10; the third goes in 201. In between, two
   // clocks are busy with the record.
   EXPECT_EQ(stalls(bench.unit, "downstream"), 201u - (first + 11) - 2);
-  ASSERT_EQ(bench.finished_gate.cycles.size(), 1u);
-  EXPECT_EQ(bench.finished_gate.cycles[0], 153u);
-  ASSERT_EQ(bench.shares_gate.beats.size(), 15u);
+  ASSERT_EQ(bench.finished_gate.taken.size(), 1u);
+  EXPECT_EQ(bench.finished_gate.taken[0].cycle, 153u);
+  ASSERT_EQ(bench.shares_gate.taken.size(), 15u);
   for (std::uint32_t i = 0; i < 15; ++i) {
-    EXPECT_EQ(bench.shares_gate.beats[i].slot.number, first + i);
-    EXPECT_EQ(bench.shares_gate.cycles[i], 200 + i);
+    EXPECT_EQ(bench.shares_gate.taken[i].token.slot.number, first + i);
+    EXPECT_EQ(bench.shares_gate.taken[i].cycle, 200 + i);
   }
 }
 
 TEST(AreaUnitBlock, LinesWaitForRoomForTheirFinish) {
   Area bench(small(), 5, 3, 0, 100);
   bench.send_slots(0);
-  for (int i = 0; i < 4; ++i) bench.drivers_v[0]->send(40, three(Axis::kVertical, i + 1, 0, 3));
+  for (int i = 0; i < 4; ++i) bench.drivers_v[0]->add(40, three(Axis::kVertical, i + 1, 0, 3));
   bench.clock.run(130);
-  ASSERT_EQ(bench.finished_gate.cycles.size(), 4u);
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(bench.finished_gate.cycles[i], 100 + i);
+  ASSERT_EQ(bench.finished_gate.taken.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(bench.finished_gate.taken[i].cycle, 100 + i);
   EXPECT_EQ(bench.unit.records.value(), 4u);
 }
 
@@ -325,17 +326,17 @@ TEST_P(AreaLanes, LearnedSharesLieWhereTheirEdgesLie) {
         token.next_left =
             static_cast<std::uint8_t>(token.next_left | int{left.contains(next)} << i);
       }
-      bench.slot_driver.send(number++, token);
+      bench.slot_driver.add(number++, token);
     }
-  bench.drivers_h[0]->send(0, learned(Axis::kHorizontal, 3, 3, 3, slot_of(3, 6)));
-  bench.drivers_v[0]->send(0, learned(Axis::kVertical, 7, 5, 3, slot_of(5, 7)));
+  bench.drivers_h[0]->add(0, learned(Axis::kHorizontal, 3, 3, 3, slot_of(3, 6)));
+  bench.drivers_v[0]->add(0, learned(Axis::kVertical, 7, 5, 3, slot_of(5, 7)));
   bench.clock.run(bench.slots_before(9 + kLag) + 20);
-  ASSERT_EQ(bench.shares_gate.beats.size(), static_cast<std::size_t>(9 * bench.beats));
+  ASSERT_EQ(bench.shares_gate.taken.size(), static_cast<std::size_t>(9 * bench.beats));
   const std::uint32_t first = bench.slots_before(kLag);
   int seen = 0;
-  for (std::size_t at = 0; at < bench.shares_gate.beats.size(); ++at) {
-    const ShareToken& token = bench.shares_gate.beats[at];
-    ASSERT_EQ(bench.shares_gate.cycles[at], first + at + 1 + latency);
+  for (std::size_t at = 0; at < bench.shares_gate.taken.size(); ++at) {
+    const ShareToken& token = bench.shares_gate.taken[at].token;
+    ASSERT_EQ(bench.shares_gate.taken[at].cycle, first + at + 1 + latency);
     for (int i = 0; i < lanes && token.slot.beat * lanes + i < 11; ++i) {
       const int x = token.slot.beat * lanes + i, y = token.slot.row - kLag;
       const auto of = [](const auto& edges, int ex, int ey, std::size_t side) {
@@ -375,8 +376,8 @@ TEST_P(AreaLanes, EdgesOfALearnedRecordAskByBothOfItsEnds) {
       const auto slot_of = [&](int row, int x) {
         return bench.slots_before(row + kReach + 2) + static_cast<std::uint32_t>(x / bench.lanes);
       };
-      bench.drivers_h[0]->send(0, learned(Axis::kHorizontal, 2, 3, length, slot_of(2, 3 + length)));
-      bench.drivers_v[0]->send(0, learned(Axis::kVertical, 15, 4, length, slot_of(4, 15)));
+      bench.drivers_h[0]->add(0, learned(Axis::kHorizontal, 2, 3, length, slot_of(2, 3 + length)));
+      bench.drivers_v[0]->add(0, learned(Axis::kVertical, 15, 4, length, slot_of(4, 15)));
       for (int k = 0; k < length; ++k) {
         const SharesRom::Query q =
             SharesRom::ask({1 + 4 * 2, 2, 6, RunPart::kWhole}, k, length - 1 - k);
@@ -398,7 +399,7 @@ TEST_P(AreaLanes, BesideANarrowerFrameIsNothing) {
   Area bench(small(GetParam()), kWide, 9);
   bench.send_slots(0);
   for (int x = kNarrow; x < kWide; ++x)
-    bench.drivers_v[0]->send(
+    bench.drivers_v[0]->add(
         0, three(Axis::kVertical, x, 0,
                  bench.slots_before(kReach + 2) + static_cast<std::uint32_t>(x / bench.lanes)));
   // Both of the rows that are left have shares there.
@@ -416,12 +417,12 @@ TEST_P(AreaLanes, BesideANarrowerFrameIsNothing) {
     for (int beat = 0; beat < beats; ++beat, ++number) {
       AreaSlotToken token{};
       token.slot = {number, static_cast<std::uint16_t>(row), static_cast<std::uint16_t>(beat)};
-      bench.slot_driver.send(from + number, token);
+      bench.slot_driver.add(from + number, token);
     }
   bench.clock.run(number + 40);
-  ASSERT_EQ(bench.shares_gate.beats.size(), static_cast<std::size_t>(9 * beats));
+  ASSERT_EQ(bench.shares_gate.taken.size(), static_cast<std::size_t>(9 * beats));
   // Above the first row of a frame are the shares of none.
-  for (const ShareToken& token : bench.shares_gate.beats) EXPECT_FALSE(token.any);
+  for (const ShareToken& token : tokens_of(bench.shares_gate)) EXPECT_FALSE(token.any);
 }
 
 // ---- with SMAA's blocks -------------------------------------------------------------------------
@@ -528,16 +529,17 @@ TEST(AreaUnitCorners, AreDecidedAfterTheCut) {
       token.line.inverse = static_cast<std::uint32_t>(run) << 12;
       token.line.span = length;
       token.slot = bench.slots_before(2 + kReach + 2);
-      bench.drivers_h[0]->send(0, token);
+      bench.drivers_h[0]->add(0, token);
       bench.clock.run(bench.slots_before(kLag + 7) + 40);
       std::string text;
       for (int k = 0; k < row.length; ++k) {
         const Shares& pixel =
-            bench.shares_gate.beats[static_cast<std::size_t>(11 + 3 + k)].shares[0];
-        text += std::to_string(bench.shares_gate.beats[static_cast<std::size_t>(11 + 3 + k)].any
-                                   ? pixel.down
-                                   : 0) +
-                ' ';
+            bench.shares_gate.taken[static_cast<std::size_t>(11 + 3 + k)].token.shares[0];
+        text +=
+            std::to_string(bench.shares_gate.taken[static_cast<std::size_t>(11 + 3 + k)].token.any
+                               ? pixel.down
+                               : 0) +
+            ' ';
       }
       return text;
     });
@@ -554,18 +556,18 @@ TEST_P(AreaLanes, LatencyOfTheDatasheetWithATableToo) {
   bench.send_slots(0);
   // In each row a record, so that the table is read.
   for (int y = 0; y < 7; ++y)
-    bench.drivers_h[0]->send(0, three(Axis::kHorizontal, y, 4, bench.slots_before(y + kReach + 2)));
+    bench.drivers_h[0]->add(0, three(Axis::kHorizontal, y, 4, bench.slots_before(y + kReach + 2)));
   const std::uint32_t first = bench.slots_before(kLag), last = bench.slots_before(kLag + 7);
   bench.clock.run(last + 20);
-  ASSERT_EQ(bench.shares_gate.beats.size(), last - first);
+  ASSERT_EQ(bench.shares_gate.taken.size(), last - first);
   std::size_t any = 0;
   for (std::uint32_t i = 0; i < last - first; ++i) {
-    ASSERT_EQ(bench.shares_gate.cycles[i], first + i + 1 + latency);
-    any += bench.shares_gate.beats[i].any;
+    ASSERT_EQ(bench.shares_gate.taken[i].cycle, first + i + 1 + latency);
+    any += bench.shares_gate.taken[i].token.any;
   }
   EXPECT_GE(any, 7u);
   EXPECT_EQ(bench.unit.stalled_cycles(), 0u);
-  expect_sum_of_parts(TableShares::datasheet(), bench.shares_gate.cycles[0] - (first + 1));
+  expect_sum_of_parts(TableShares::datasheet(), bench.shares_gate.taken[0].cycle - (first + 1));
 }
 
 // What is one clock more than without a table; two banks a lane and axis, so that no line waits.
@@ -575,17 +577,17 @@ TEST_P(AreaLanes, WithATableARecordIsFinishedAClockLater) {
   const std::uint32_t slot = bench.slots_before(6) + 1;
   for (int lane = 0; lane < bench.lanes; ++lane) {
     const auto at = static_cast<std::size_t>(lane);
-    bench.drivers_h[at]->send(2, three(Axis::kHorizontal, 0, lane, slot));
-    bench.drivers_v[at]->send(2, three(Axis::kVertical, lane + 1, 0, slot));
+    bench.drivers_h[at]->add(2, three(Axis::kHorizontal, 0, lane, slot));
+    bench.drivers_v[at]->add(2, three(Axis::kVertical, lane + 1, 0, slot));
   }
   bench.clock.run(slot + 40);
-  ASSERT_EQ(bench.finished_gate.beats.size(), 1u);
+  ASSERT_EQ(bench.finished_gate.taken.size(), 1u);
   // Popped in slot + 2.
   expect_notices_a_clock(RecordStore::datasheet(with_table(AreaSource::kTableMerged, GetParam())),
                          &rtl::Datasheet::latency, [&](const rtl::Datasheet& sheet) {
-                           expect_latency(sheet, bench.finished_gate.cycles[0] - (slot + 2));
+                           expect_latency(sheet, bench.finished_gate.taken[0].cycle - (slot + 2));
                          });
-  EXPECT_EQ(bench.finished_gate.beats[0].count[0], 2 * bench.lanes);
+  EXPECT_EQ(bench.finished_gate.taken[0].token.count[0], 2 * bench.lanes);
   EXPECT_EQ(bench.unit.bank_conflicts.value(), 0u);
 }
 
@@ -603,8 +605,8 @@ TEST_P(DiagonalsOfABeat, AreWaitedForAndTakeThePlaceOfItsShares) {
   const std::uint32_t evaluated = bench.slots_before(kLag - 1), first = bench.slots_before(kLag),
                       last = bench.slots_before(kLag + 7);
   // Top edges of row 2, columns 3 to 5, and left edges of column 4.
-  bench.drivers_h[0]->send(0, three(Axis::kHorizontal, 2, 3, bench.slots_before(2 + kReach + 2)));
-  bench.drivers_v[0]->send(0, three(Axis::kVertical, 4, 1, bench.slots_before(1 + kReach + 2)));
+  bench.drivers_h[0]->add(0, three(Axis::kHorizontal, 2, 3, bench.slots_before(2 + kReach + 2)));
+  bench.drivers_v[0]->add(0, three(Axis::kVertical, 4, 1, bench.slots_before(1 + kReach + 2)));
   for (std::uint32_t i = 0; i < 7u * 11u; ++i) {
     DiagonalSharesToken token{};
     if (i == 2 * 11 + 4) {
@@ -613,15 +615,15 @@ TEST_P(DiagonalsOfABeat, AreWaitedForAndTakeThePlaceOfItsShares) {
       token.second[0] = 200;
       token.span[0] = 9;
     }
-    bench.diagonal_driver->send(evaluated + 7 + late + i, token);
+    bench.diagonal_driver->add(evaluated + 7 + late + i, token);
   }
   bench.clock.run(last + 40);
   EXPECT_EQ(stalls(bench.unit, "diagonals"), late);
-  ASSERT_EQ(bench.shares_gate.beats.size(), last - first);
+  ASSERT_EQ(bench.shares_gate.taken.size(), last - first);
   for (std::uint32_t i = 0; i < last - first; ++i)
-    ASSERT_EQ(bench.shares_gate.cycles[i], first + i + 10 + late);
+    ASSERT_EQ(bench.shares_gate.taken[i].cycle, first + i + 10 + late);
   const auto at = [&](int x, int y) {
-    return bench.shares_gate.beats[static_cast<std::size_t>(y * 11 + x)].shares[0];
+    return bench.shares_gate.taken[static_cast<std::size_t>(y * 11 + x)].token.shares[0];
   };
   EXPECT_EQ(at(4, 1).down, 77);
   EXPECT_EQ(at(4, 1).span_down, 9);
@@ -653,7 +655,7 @@ class AreaTables : public ::testing::TestWithParam<AreaSource> {
   static std::string a_stage_less_in(unsigned stage) {
     Area bench(with_table(GetParam()), 5, 3);
     bench.send_slots(0);
-    bench.drivers_h[0]->send(0, three(Axis::kHorizontal, 0, 0, bench.slots_before(kReach + 2)));
+    bench.drivers_h[0]->add(0, three(Axis::kHorizontal, 0, 0, bench.slots_before(kReach + 2)));
     // Popped a clock after it was sent.
     bench.clock.run(bench.slots_before(kLag - 1) + stage + 1);
     return of_a_stage_less(bench.unit, bench.clock);
@@ -675,7 +677,7 @@ INSTANTIATE_TEST_SUITE_P(Each, AreaTables,
 TEST(AreaUnitMemory, HasNoColumnBeyondTheLongestRow) {
   Area bench(small(), 5, 3);
   bench.send_slots(0);
-  bench.drivers_v[0]->send(20, three(Axis::kVertical, 4000, 0, 1));
+  bench.drivers_v[0]->add(20, three(Axis::kVertical, 4000, 0, 1));
   EXPECT_THAT([&] { bench.clock.run(40); },
               ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("column_marks")));
 }
@@ -701,13 +703,13 @@ TEST(AreaUnitMemory, ABankTakesALineAClock) {
   bench.send_slots(0);
   const std::uint32_t slot = bench.slots_before(3);
   for (int lane = 0; lane < 4; ++lane)
-    bench.drivers_v[static_cast<std::size_t>(lane)]->send(
+    bench.drivers_v[static_cast<std::size_t>(lane)]->add(
         slot + 8, three(Axis::kVertical, 4 * lane + 3, 0, slot));
   bench.clock.run(slot + 30);
-  ASSERT_EQ(bench.finished_gate.beats.size(), 4u);
+  ASSERT_EQ(bench.finished_gate.taken.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(bench.finished_gate.cycles[i], slot + 11 + i);
-    EXPECT_EQ(bench.finished_gate.beats[i].count[1], 1);
+    EXPECT_EQ(bench.finished_gate.taken[i].cycle, slot + 11 + i);
+    EXPECT_EQ(bench.finished_gate.taken[i].token.count[1], 1);
   }
   EXPECT_EQ(bench.unit.bank_conflicts.value(), 3u + 2u + 1u);
 }

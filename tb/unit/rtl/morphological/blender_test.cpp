@@ -412,6 +412,28 @@ TEST(BlenderBlock, ALeftPixelWithoutAShareCountsNowhere) {
   EXPECT_EQ(bench.blender.blended_pixels.value(), 0u);
 }
 
+TEST(BlenderBlock, TheLastBeatOfAFrameAloneWaitsForFramesDone) {
+  constexpr Cycle kOpens = 40;
+  Blending bench(small());
+  bench.done.hold_push(kOpens - 1);
+  for (std::uint16_t beat = 0; beat < 8; ++beat) {
+    ShareToken token{};
+    token.slot.row = 7 + kLag;
+    token.slot.beat = beat;
+    bench.send(token, {});
+  }
+  bench.clock.run(kOpens);
+  const std::vector<Cycle>& cycles = bench.sink.cycles();
+  ASSERT_EQ(cycles.size(), 7u);
+  for (std::size_t i = 1; i < cycles.size(); ++i) EXPECT_EQ(cycles[i], cycles[0] + i);
+  EXPECT_TRUE(bench.done_sink.beats().empty());
+  bench.clock.run(10);
+  ASSERT_EQ(cycles.size(), 8u);
+  // Pushed as it opens, popped a clock later.
+  EXPECT_EQ(cycles[7], kOpens + 1);
+  EXPECT_THAT(bench.done_sink.cycles(), ::testing::ElementsAre(kOpens + 1));
+}
+
 // ---- what a memory does not do ------------------------------------------------------------------
 
 TEST(BlenderMemory, AWordIsNotThereInTheClockOfItsAddress) {

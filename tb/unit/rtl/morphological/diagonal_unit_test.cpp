@@ -58,9 +58,9 @@ struct Diagonals {
         columns("columns", 2, diagonal_columns_shape(p, lanes)),
         unit("diagonals", clock, p, registers.store),
         gate("gate", clock, opens) {
-    driver.beats_out(columns);
+    driver.out(columns);
     unit.columns_in(columns);
-    gate.beats_in(unit.shares());
+    gate.in(unit.shares());
   }
   // Bits [high:low] of a register, of the frames from now on.
   void tell(std::uint32_t offset, int high, int low, std::uint32_t value) {
@@ -92,25 +92,26 @@ struct Diagonals {
     registers.frame(edges.top.width(), edges.top.height());
     Cycle at = clock.cycle();
     for (int y = 0; y < edges.top.height(); ++y, at += gap)
-      for (int beat = 0; beat < beats(edges); ++beat) driver.send(at++, token(edges, y, beat));
+      for (int beat = 0; beat < beats(edges); ++beat) driver.add(at++, token(edges, y, beat));
   }
   // The words of a frame. In rows of fewer beats than a diagonal takes the RunExtractor waits.
   std::vector<DiagonalSharesToken> run(const EdgePlanes& edges) {
-    const std::size_t before = gate.beats.size(), wanted = before + words(edges);
+    const std::size_t before = gate.taken.size(), wanted = before + words(edges);
     send(edges, static_cast<Cycle>(beats(edges)) < delay() ? delay() : 0);
-    clock.run_until([&] { return gate.beats.size() >= wanted; }, 1'000'000);
+    clock.run_until([&] { return gate.taken.size() >= wanted; }, 1'000'000);
     clock.run(delay() + 20);
     registers.store.leave();
-    return {gate.beats.begin() + static_cast<std::ptrdiff_t>(before), gate.beats.end()};
+    const auto tokens = tokens_of(gate);
+    return {tokens.begin() + static_cast<std::ptrdiff_t>(before), tokens.end()};
   }
 
   const int built, lanes, reach;
   ClockDomain clock{"clock", period()};
   Registers registers;
   Link<DiagonalColumnsToken> columns;
-  TimedDriver<DiagonalColumnsToken> driver{"driver", clock};
+  unit_bench::Source<DiagonalColumnsToken> driver{"driver", clock};
   DiagonalUnit unit;
-  Gate<DiagonalSharesToken> gate;
+  unit_bench::Sink<DiagonalSharesToken> gate;
 };
 
 // What golden says of a frame, and what it has read for that.
@@ -380,11 +381,11 @@ TEST_P(DiagonalClocks, AWordHasTheLatencyOfTheDatasheet) {
         edges.top.set(x, y);
       }
     const Cycle begins = bench.clock.cycle();
-    const std::size_t first = bench.gate.cycles.size();
+    const std::size_t first = bench.gate.taken.size();
     ASSERT_EQ(bench.run(edges).size(), bench.words(edges));
     for (std::size_t i = 0; i < bench.words(edges); ++i)
       // Sent in k, popped in k + 1, taken that many clocks later.
-      ASSERT_EQ(bench.gate.cycles[first + i], begins + i + 1 + latency) << i;
+      ASSERT_EQ(bench.gate.taken[first + i].cycle, begins + i + 1 + latency) << i;
     idle = bench.unit.idle_cycles();
     cycles = bench.clock.cycle();
   }
@@ -405,10 +406,10 @@ TEST_P(DiagonalClocks, ARowIsFinishedWithoutTheNext) {
   bench.send(edges, gap);
   const auto beats = static_cast<std::size_t>(bench.beats(edges));
   bench.clock.run(static_cast<Cycle>(bench.words(edges)) + 7 * gap);
-  EXPECT_EQ(differences(bench.gate.beats, expected(edges, p.diagonal_steps, bench.lanes)), 0u);
-  ASSERT_EQ(bench.gate.cycles.size(), bench.words(edges));
+  EXPECT_EQ(differences(tokens_of(bench.gate), expected(edges, p.diagonal_steps, bench.lanes)), 0u);
+  ASSERT_EQ(bench.gate.taken.size(), bench.words(edges));
   for (std::size_t i = 0; i < bench.words(edges); ++i)
-    ASSERT_EQ(bench.gate.cycles[i], i + i / beats * gap + 1 + bench.delay() + kStages) << i;
+    ASSERT_EQ(bench.gate.taken[i].cycle, i + i / beats * gap + 1 + bench.delay() + kStages) << i;
 }
 
 // A gap inside a row holds up what is behind the newest columns, and nothing is lost.
@@ -424,12 +425,12 @@ TEST_P(DiagonalClocks, AGapInARowHoldsItUp) {
     for (int beat = 0; beat < bench.beats(edges); ++beat) {
       at += random.chance(300) ? random.below(30) : 1;
       sent.push_back(at);
-      bench.driver.send(at++, bench.token(edges, y, beat));
+      bench.driver.add(at++, bench.token(edges, y, beat));
     }
   bench.clock.run(at + 2 * bench.delay() + 40);
-  EXPECT_EQ(differences(bench.gate.beats, expected(edges, p.diagonal_steps, bench.lanes)), 0u);
-  for (std::size_t i = 0; i < bench.gate.cycles.size(); ++i) {
-    EXPECT_GE(bench.gate.cycles[i], sent[i] + 1 + bench.delay() + kStages);
+  EXPECT_EQ(differences(tokens_of(bench.gate), expected(edges, p.diagonal_steps, bench.lanes)), 0u);
+  for (std::size_t i = 0; i < bench.gate.taken.size(); ++i) {
+    EXPECT_GE(bench.gate.taken[i].cycle, sent[i] + 1 + bench.delay() + kStages);
   }
 }
 INSTANTIATE_TEST_SUITE_P(Each, DiagonalClocks,
@@ -445,12 +446,12 @@ TEST(DiagonalUnitBlock, WaitsDownstreamBeyondARowAndSixteenBeats) {
   const EdgePlanes edges = random_edges(50, 8, 6);
   bench.send(edges);
   bench.clock.run(kOpens + 450);
-  EXPECT_EQ(differences(bench.gate.beats, expected(edges, 8, 1)), 0u);
+  EXPECT_EQ(differences(tokens_of(bench.gate), expected(edges, 8, 1)), 0u);
   // Word i would be pushed in i + D + 5; word 66 waits until the first one is taken.
   constexpr Cycle kPush = 9 + 5;
   EXPECT_EQ(stalls(bench.unit, "downstream"), kOpens + 1 - (66 + kPush));
-  for (std::size_t i = 0; i < bench.gate.cycles.size(); ++i)
-    ASSERT_EQ(bench.gate.cycles[i], kOpens + i);
+  for (std::size_t i = 0; i < bench.gate.taken.size(); ++i)
+    ASSERT_EQ(bench.gate.taken[i].cycle, kOpens + i);
 }
 
 // In the middle of a row: what comes after the reset is what comes after that of a new unit.
@@ -467,7 +468,7 @@ TEST(DiagonalUnitBlock, AResetLeavesNothing) {
     bench.clock.set_reset_n(true);
     const Cycle begins = bench.clock.cycle();
     EXPECT_EQ(differences(bench.run(after), expected(after, 8, 2)), 0u) << clocks;
-    EXPECT_EQ(bench.gate.cycles.at(0), begins + 1 + bench.delay() + kStages);
+    EXPECT_EQ(bench.gate.taken.at(0).cycle, begins + 1 + bench.delay() + kStages);
   }
 }
 

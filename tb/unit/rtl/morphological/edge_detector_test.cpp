@@ -361,7 +361,7 @@ struct Detecting {
 
 TEST(EdgeDetectorMemory, AWordIsNotThereInTheClockOfItsAddress) {
   Detecting bench;
-  bench.ends.source.send(LumaToken{});
+  bench.ends.source.add(LumaToken{});
   bench.clock.run(2);
   EXPECT_THAT(
       of_a_stage_less(bench.edges, bench.clock),
@@ -372,7 +372,7 @@ TEST(EdgeDetectorMemory, HasNoColumnBeyondTheLongestRow) {
   Detecting bench;
   LumaToken token{};
   token.slot.beat = 64;
-  bench.ends.source.send(token);
+  bench.ends.source.add(token);
   EXPECT_THAT([&] { bench.clock.run(10); },
               ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("luma_lines")));
 }

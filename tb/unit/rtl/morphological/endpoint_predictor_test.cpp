@@ -92,10 +92,10 @@ TEST_P(PredictorAxes, FollowsTheExampleOfTheContract) {
   // long, so that nothing follows. The run begins at column 23, on row 12.
   const auto steps = stair(20, {3, 3, 2, 3}, 10);
   Prediction bench(deburr_without_trim(), GetParam(), 60, 30, steps);
-  bench.ends.source.send(bench.z(12, 23, 3, true));
+  bench.ends.source.add(bench.z(12, 23, 3, true));
   bench.clock.run(80);
-  ASSERT_EQ(bench.ends.sink.beats().size(), 1u);
-  const SumsToken& sums = bench.ends.sink.beats()[0];
+  ASSERT_EQ(bench.ends.sink.taken.size(), 1u);
+  const SumsToken& sums = bench.ends.sink.taken[0].token;
   EXPECT_EQ(sums.left, 1);
   EXPECT_EQ(sums.right, 2);
   EXPECT_EQ(sums.first, -3);
@@ -109,20 +109,20 @@ TEST_P(PredictorAxes, FollowsTheExampleOfTheContract) {
   EXPECT_EQ(bench.predictor.extended_runs.value(), 1u);
   // Pushed in 0, popped in 1; trials begin in 4, 8 and 12, the last one is decided in 16; joined in
   // 18, sent in 19, taken in 20.
-  EXPECT_THAT(bench.ends.sink.cycles(), ::testing::ElementsAre(20));
+  EXPECT_THAT(clocks_of(bench.ends.sink), ::testing::ElementsAre(20));
 }
 
 TEST_P(PredictorAxes, GoesUpAsItGoesDown) {
   // Mirrored: rows fall with the columns; 3, 2, 3, 3 and the run is the third.
   const auto down = stair(20, {3, 2, 3, 3}, 10);
   Prediction bench(deburr_without_trim(), GetParam(), 60, 30, [&](int x) { return 24 - down(x); });
-  bench.ends.source.send(bench.z(24 - 13, 25, 3, false));
+  bench.ends.source.add(bench.z(24 - 13, 25, 3, false));
   bench.clock.run(80);
-  ASSERT_EQ(bench.ends.sink.beats().size(), 1u);
-  EXPECT_EQ(bench.ends.sink.beats()[0].left, 2);
-  EXPECT_EQ(bench.ends.sink.beats()[0].right, 1);
-  EXPECT_EQ(bench.ends.sink.beats()[0].first, -5);
-  EXPECT_EQ(bench.ends.sink.beats()[0].last, 6);
+  ASSERT_EQ(bench.ends.sink.taken.size(), 1u);
+  EXPECT_EQ(bench.ends.sink.taken[0].token.left, 2);
+  EXPECT_EQ(bench.ends.sink.taken[0].token.right, 1);
+  EXPECT_EQ(bench.ends.sink.taken[0].token.first, -5);
+  EXPECT_EQ(bench.ends.sink.taken[0].token.last, 6);
 }
 
 TEST_P(PredictorAxes, StopsWhereBothSidesDifferOneUpOneDown) {
@@ -132,11 +132,11 @@ TEST_P(PredictorAxes, StopsWhereBothSidesDifferOneUpOneDown) {
   Parameters p = deburr_without_trim();
   p.safe = safe;
   Prediction bench(p, GetParam(), 60, 30, steps);
-  bench.ends.source.send(bench.z(12, 22, 3, true));
+  bench.ends.source.add(bench.z(12, 22, 3, true));
   bench.clock.run(80);
-  ASSERT_EQ(bench.ends.sink.beats().size(), 1u);
-  EXPECT_EQ(bench.ends.sink.beats()[0].left, safe ? 0 : 1);
-  EXPECT_EQ(bench.ends.sink.beats()[0].right, safe ? 0 : 1);
+  ASSERT_EQ(bench.ends.sink.taken.size(), 1u);
+  EXPECT_EQ(bench.ends.sink.taken[0].token.left, safe ? 0 : 1);
+  EXPECT_EQ(bench.ends.sink.taken[0].token.right, safe ? 0 : 1);
   EXPECT_EQ(bench.predictor.probes.value(), safe ? 6u : 6u + 4u);
 }
 
@@ -144,21 +144,21 @@ TEST_P(PredictorAxes, RunsOfOnePixelHaveTwoCandidatesAndTheFrameEnds) {
   // A diagonal from corner to corner of a small frame: N = 8 steps, but the frame is 6 long.
   const auto diagonal = [](int x) { return x; };
   Prediction bench(deburr_without_trim(), GetParam(), 7, 7, diagonal);
-  bench.ends.source.send(bench.z(3, 3, 1, true));
+  bench.ends.source.add(bench.z(3, 3, 1, true));
   bench.clock.run(80);
-  ASSERT_EQ(bench.ends.sink.beats().size(), 1u);
-  EXPECT_EQ(bench.ends.sink.beats()[0].right, 2);  // the last corner, (7, 7), has no crossing
-  EXPECT_EQ(bench.ends.sink.beats()[0].left, 2);   // (0, 0) and (1, 1): top(0, 0) is outside
+  ASSERT_EQ(bench.ends.sink.taken.size(), 1u);
+  EXPECT_EQ(bench.ends.sink.taken[0].token.right, 2);  // the last corner, (7, 7), has no crossing
+  EXPECT_EQ(bench.ends.sink.taken[0].token.left, 2);   // (0, 0) and (1, 1): top(0, 0) is outside
   EXPECT_EQ(bench.predictor.probes.value(), 2u * 2u * 3u);
   // The frame's end is not the window's: with trim both sides are lost there.
   bench.store.store.leave();
   bench.store.bus.write(reg::kRules, bench.store.bus.read(reg::kRules) | kTrimBit);
   bench.frame(7, 7, diagonal);
-  bench.ends.source.send(bench.z(3, 3, 1, true));
+  bench.ends.source.add(bench.z(3, 3, 1, true));
   bench.clock.run(80);
-  ASSERT_EQ(bench.ends.sink.beats().size(), 2u);
-  EXPECT_EQ(bench.ends.sink.beats()[1].right, 1);
-  EXPECT_EQ(bench.ends.sink.beats()[1].left, 1);
+  ASSERT_EQ(bench.ends.sink.taken.size(), 2u);
+  EXPECT_EQ(bench.ends.sink.taken[1].token.right, 1);
+  EXPECT_EQ(bench.ends.sink.taken[1].token.left, 1);
   EXPECT_EQ(bench.predictor.probes.value(), 2u * 2u * 2u * 3u);
 }
 
@@ -173,9 +173,9 @@ SumsToken bend(bool safe) {
   Parameters p = deburr_without_trim();
   p.safe = safe;
   Prediction bench(p, Axis::kHorizontal, 70, 30, stair(20, {4, 4, 4, 3, 3, 3, 3}, 5));
-  bench.ends.source.send(bench.z(7, 24, 4, true));
+  bench.ends.source.add(bench.z(7, 24, 4, true));
   bench.clock.run(80);
-  return bench.ends.sink.beats().at(0);
+  return bench.ends.sink.taken.at(0).token;
 }
 TEST(EndpointPredictorBlock, SafeRejectsACornerThatFitsNoLine) {
   const SumsToken sums = bend(true);
@@ -195,25 +195,25 @@ TEST(EndpointPredictorBlock, ARecordHoldsAPredictorForItsIterations) {
   // register a clock goes out: a record a clock.
   Parameters p = preset(spec::morphological::Preset::kMlaa);
   Prediction bench(p, Axis::kHorizontal, 60, 30, stair(20, {3}, 10));
-  for (int i = 0; i < 20; ++i) bench.ends.source.send(bench.z(11, 20, 3, true));
+  for (int i = 0; i < 20; ++i) bench.ends.source.add(bench.z(11, 20, 3, true));
   bench.clock.run(40);
-  ASSERT_EQ(bench.ends.sink.cycles().size(), 20u);
-  expect_clocks(EndpointPredictor::datasheet(), bench.ends.sink.cycles(), 1);
+  ASSERT_EQ(bench.ends.sink.taken.size(), 20u);
+  expect_clocks(EndpointPredictor::datasheet(), clocks_of(bench.ends.sink), 1);
 }
 
 TEST(EndpointPredictorBlock, TrialsOfOneRecordAfterTheOther) {
   // A long stair of steps of two pixels: N = 8 to both sides.
   Prediction bench(preset(spec::morphological::Preset::kDeburrLine), Axis::kHorizontal, 90, 60,
                    stair(10, std::vector<int>(30, 2), 10));
-  for (int i = 0; i < 12; ++i) bench.ends.source.send(bench.z(26, 40, 2, true));
+  for (int i = 0; i < 12; ++i) bench.ends.source.add(bench.z(26, 40, 2, true));
   bench.clock.run(300);
-  ASSERT_EQ(bench.ends.sink.cycles().size(), 12u);
-  EXPECT_EQ(bench.ends.sink.beats()[0].left, 8);
-  EXPECT_EQ(bench.ends.sink.beats()[0].right, 8);
+  ASSERT_EQ(bench.ends.sink.taken.size(), 12u);
+  EXPECT_EQ(bench.ends.sink.taken[0].token.left, 8);
+  EXPECT_EQ(bench.ends.sink.taken[0].token.right, 8);
   // Popped in 1 and 2; first reads in 4 and 6, decided eight trials later, joined two clocks after
   // that, which is when the next record is popped; taken two clocks later: T (N + 1) clocks each.
   for (std::size_t i = 0; i < 12; ++i)
-    EXPECT_EQ(bench.ends.sink.cycles()[i], 4 + 4 * 8 + 4 + i % 2 * 2 + i / 2 * 4 * 9) << i;
+    EXPECT_EQ(bench.ends.sink.taken[i].cycle, 4 + 4 * 8 + 4 + i % 2 * 2 + i / 2 * 4 * 9) << i;
   // From the first pop to the last join.
   EXPECT_EQ(bench.predictor.occupancy.value(), 2u * (5 * 36 + 38) + 1);
 }
@@ -365,12 +365,12 @@ struct Trimming : Prediction {
       return flipped ? kHeight - y : y;
     });
     const Grown from = counts();
-    ends.source.send(z(flipped ? kHeight - kLine : kLine,
-                       mirrored ? kWidth - kStart - s.length : kStart, s.length,
-                       mirrored == flipped));
+    ends.source.add(z(flipped ? kHeight - kLine : kLine,
+                      mirrored ? kWidth - kStart - s.length : kStart, s.length,
+                      mirrored == flipped));
     clock.run(120);
     Grown to = counts();
-    to.sums = ends.sink.beats().back();
+    to.sums = ends.sink.taken.back().token;
     to.probes -= from.probes;
     to.iterations -= from.iterations;
     to.steps -= from.steps;
@@ -528,10 +528,10 @@ struct Predicting {
         edges(p, registers.store),
         unit("predictor", clock, p, registers.store, edges.rows),
         gate("gate", clock, opens) {
-    driver.beats_out(records);
+    driver.out(records);
     unit.records_in[0](records);
     unit.sums_out[0](sums);
-    gate.beats_in(sums);
+    gate.in(sums);
   }
   ClockDomain clock{"clock", period()};
   Parameters p;
@@ -540,8 +540,8 @@ struct Predicting {
   EndpointPredictor unit;
   Link<RunToken> records{"records"};
   Link<SumsToken> sums{"sums"};
-  TimedDriver<RunToken> driver{"driver", clock};
-  Gate<SumsToken> gate;
+  unit_bench::Source<RunToken> driver{"driver", clock};
+  unit_bench::Sink<SumsToken> gate;
 };
 
 class PredictorUnits : public ::testing::TestWithParam<int> {};
@@ -553,7 +553,7 @@ TEST_P(PredictorUnits, WaitDownstream) {
   Parameters p = small();
   p.predictor_units = GetParam();
   Predicting bench(p, kOpens);
-  for (int i = 1; i <= 20; ++i) bench.driver.send(0, run_of(i, 2));
+  for (int i = 1; i <= 20; ++i) bench.driver.add(0, run_of(i, 2));
   bench.clock.run(kOpens);
   const auto held = static_cast<std::uint64_t>(2 + 2 * GetParam());
   EXPECT_EQ(bench.records.pops(), held);
@@ -565,9 +565,9 @@ TEST_P(PredictorUnits, WaitDownstream) {
   EXPECT_EQ(stalls(bench.unit, "downstream"), kOpens - held);
   bench.clock.run(50);
   EXPECT_EQ(stalls(bench.unit, "downstream"), kOpens - held);
-  ASSERT_EQ(bench.gate.beats.size(), 20u);
+  ASSERT_EQ(bench.gate.taken.size(), 20u);
   std::vector<int> lengths;
-  for (const SumsToken& sums : bench.gate.beats) lengths.push_back(sums.run.run.length);
+  for (const SumsToken& sums : tokens_of(bench.gate)) lengths.push_back(sums.run.run.length);
   std::sort(lengths.begin(), lengths.end());
   for (int i = 0; i < 20; ++i) EXPECT_EQ(lengths[static_cast<std::size_t>(i)], i + 1);
 }
@@ -585,7 +585,7 @@ TEST_P(TrialClocks, ARecordWaitsForItsPhaseAndTakesThatLong) {
   std::vector<Cycle> expected;
   for (Cycle i = 0; i < 2 * trial; ++i) {
     const Cycle sent = 20 + i * (3 * trial + 13);
-    bench.driver.send(sent, run_of(3, 20));
+    bench.driver.add(sent, run_of(3, 20));
     // Popped a clock later; the first predictor has phase 0. Nothing is there to be hit: a trial.
     const Cycle first = (sent + 2 + trial - 1) / trial * trial;
     // It has waited from the clock after its pop to the one of its first trial.
@@ -593,7 +593,7 @@ TEST_P(TrialClocks, ARecordWaitsForItsPhaseAndTakesThatLong) {
     expected.push_back(sent + 1 + EndpointPredictor::trial_datasheet(p).latency.clocks + waited);
   }
   bench.clock.run(expected.back() + 10);
-  EXPECT_EQ(bench.gate.cycles, expected);
+  EXPECT_EQ(clocks_of(bench.gate), expected);
   EXPECT_EQ(bench.unit.iterations.value(), 2 * trial);
   EXPECT_EQ(bench.unit.probes.value(), 2 * trial * 6);
 }
@@ -604,10 +604,10 @@ TEST_P(TrialClocks, ARecordWithoutTrialsTakesNone) {
   p.trial_clocks = GetParam();
   p.predictor_units = 1;
   Predicting bench(p);
-  for (int i = 1; i <= 10; ++i) bench.driver.send(20, run_of(i, 2));
+  for (int i = 1; i <= 10; ++i) bench.driver.add(20, run_of(i, 2));
   bench.clock.run(60);
-  ASSERT_EQ(bench.gate.cycles.size(), 10u);
-  for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(bench.gate.cycles[i], 23 + i);
+  ASSERT_EQ(bench.gate.taken.size(), 10u);
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(bench.gate.taken[i].cycle, 23 + i);
   EXPECT_EQ(bench.unit.occupancy.value(), 10u);
 }
 INSTANTIATE_TEST_SUITE_P(Each, TrialClocks, ::testing::Range(1, 9));
@@ -639,21 +639,21 @@ TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {
   for (const bool odd : {false, true}) {
     reset();
     if (odd) {
-      bench.driver.send(0, run_of(1, 2));
+      bench.driver.add(0, run_of(1, 2));
       bench.clock.run(10);
-      ASSERT_EQ(bench.gate.beats.size(), 1u);
+      ASSERT_EQ(bench.gate.taken.size(), 1u);
       reset();
     }
     // The first has one step to the right and then a trial without a hit: two clocks. The second
     // is popped a clock later and has no hit at once.
-    bench.driver.send(0, run_of(3, 20));
-    bench.driver.send(0, run_of(2, 2));
+    bench.driver.add(0, run_of(3, 20));
+    bench.driver.add(0, run_of(2, 2));
     bench.clock.run(20);
-    ASSERT_EQ(bench.gate.beats.size(), 2u);
+    ASSERT_EQ(bench.gate.taken.size(), 2u);
     ASSERT_EQ(bench.unit.iterations.value(), 3u);
-    EXPECT_EQ(bench.gate.beats[0].run.run.length, 3);
-    EXPECT_EQ(bench.gate.beats[1].run.run.length, 2);
-    EXPECT_EQ(bench.gate.cycles[1], bench.gate.cycles[0] + 1);
+    EXPECT_EQ(bench.gate.taken[0].token.run.run.length, 3);
+    EXPECT_EQ(bench.gate.taken[1].token.run.run.length, 2);
+    EXPECT_EQ(bench.gate.taken[1].cycle, bench.gate.taken[0].cycle + 1);
   }
 }
 
@@ -701,9 +701,9 @@ struct Looking {
     return token;
   }
   SumsToken classes(const RunToken& token) {
-    ends.source.send(token);
+    ends.source.add(token);
     clock.run(40);
-    return ends.sink.beats().back();
+    return ends.sink.taken.back().token;
   }
   ClockDomain clock{"clock", period()};
   Axis axis;
@@ -831,9 +831,10 @@ TEST_P(CrossingClasses, AreOfLearnedRecordsOnly) {
 TEST_P(CrossingClasses, TakeTheClocksOfATrialButOne) {
   Looking bench(deburr(), GetParam());
   const RunToken token = bench.record({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
-  for (int i = 0; i < 9; ++i) bench.ends.source.send(token);
+  for (int i = 0; i < 9; ++i) bench.ends.source.add(token);
   bench.clock.run(60);
-  EXPECT_THAT(bench.ends.sink.cycles(), ::testing::ElementsAre(9, 11, 13, 15, 17, 19, 21, 23, 25));
+  EXPECT_THAT(clocks_of(bench.ends.sink),
+              ::testing::ElementsAre(9, 11, 13, 15, 17, 19, 21, 23, 25));
 }
 
 // The least wait of records that come in any clock of the schedule.
@@ -844,12 +845,12 @@ TEST_P(CrossingClasses, HaveTheLatencyOfTheDatasheet) {
   Cycle least = 1000;
   for (int phase = 0; phase < 2 * p.trial_clocks; ++phase) {
     bench.clock.run(29);
-    const std::size_t before = bench.ends.sink.cycles().size();
+    const std::size_t before = bench.ends.sink.taken.size();
     const Cycle pushed = bench.clock.cycle();
-    bench.ends.source.send(token);
+    bench.ends.source.add(token);
     bench.clock.run(30);
-    ASSERT_EQ(bench.ends.sink.cycles().size(), before + 1);
-    least = std::min<Cycle>(least, bench.ends.sink.cycles().back() - (pushed + 1));
+    ASSERT_EQ(bench.ends.sink.taken.size(), before + 1);
+    least = std::min<Cycle>(least, bench.ends.sink.taken.back().cycle - (pushed + 1));
   }
   expect_latency(EndpointPredictor::class_datasheet(p), least);
 }
@@ -863,15 +864,15 @@ TEST_P(CrossingClassesTrialClocks, AreOneRecordEach) {
   p.trial_clocks = GetParam();
   Looking bench(p, Axis::kHorizontal);
   const RunToken token = bench.record({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
-  for (int i = 0; i < 4; ++i) bench.ends.source.send(token);
+  for (int i = 0; i < 4; ++i) bench.ends.source.add(token);
   bench.clock.run(80);
-  ASSERT_EQ(bench.ends.sink.cycles().size(), 4u);
+  ASSERT_EQ(bench.ends.sink.taken.size(), 4u);
   const Cycle each = GetParam() >= 3   ? EndpointPredictor::class_datasheet(p).interval.clocks
                      : GetParam() == 2 ? 4
                                        : 2;
   for (std::size_t i = 1; i < 4; ++i)
-    EXPECT_EQ(bench.ends.sink.cycles()[i] - bench.ends.sink.cycles()[i - 1], each);
-  for (const SumsToken& sums : bench.ends.sink.beats()) EXPECT_EQ(sums.start_class, 0);
+    EXPECT_EQ(bench.ends.sink.taken[i].cycle - bench.ends.sink.taken[i - 1].cycle, each);
+  for (const SumsToken& sums : tokens_of(bench.ends.sink)) EXPECT_EQ(sums.start_class, 0);
 }
 // Two ports: both sides of a predictor read in one clock, and it takes two instead of four.
 TEST(CrossingClassesOfTwoClocks, AreTwoWhereNoSideReadsLater) {
@@ -880,11 +881,11 @@ TEST(CrossingClassesOfTwoClocks, AreTwoWhereNoSideReadsLater) {
   p.trial_clocks = 2;
   Looking bench(p, Axis::kHorizontal);
   const RunToken token = bench.record({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
-  for (int i = 0; i < 8; ++i) bench.ends.source.send(token);
+  for (int i = 0; i < 8; ++i) bench.ends.source.add(token);
   bench.clock.run(80);
-  ASSERT_EQ(bench.ends.sink.cycles().size(), 8u);
+  ASSERT_EQ(bench.ends.sink.taken.size(), 8u);
   for (std::size_t i = 1; i < 8; ++i)
-    EXPECT_EQ(bench.ends.sink.cycles()[i] - bench.ends.sink.cycles()[i - 1], 1u);
+    EXPECT_EQ(bench.ends.sink.taken[i].cycle - bench.ends.sink.taken[i - 1].cycle, 1u);
 }
 INSTANTIATE_TEST_SUITE_P(Clocks, CrossingClassesTrialClocks, ::testing::Range(1, 9));
 

@@ -48,12 +48,12 @@ TEST(LineUnitBlock, FitOfTheContractsTable) {
   Lines bench(preset(spec::morphological::Preset::kDeburrLine));
   const auto& vectors = spec::morphological::kRunVectors;
   for (const spec::morphological::RunVector& v : vectors)
-    bench.ends.source.send(sums_of({v.corners.begin(), v.corners.begin() + v.count}, v.start,
-                                   v.corners[static_cast<std::size_t>(v.start + 1)]));
+    bench.ends.source.add(sums_of({v.corners.begin(), v.corners.begin() + v.count}, v.start,
+                                  v.corners[static_cast<std::size_t>(v.start + 1)]));
   bench.clock.run(60);
-  ASSERT_EQ(bench.ends.sink.beats().size(), vectors.size());
+  ASSERT_EQ(bench.ends.sink.taken.size(), vectors.size());
   for (std::size_t i = 0; i < vectors.size(); ++i) {
-    const spec::morphological::LineRecord& line = bench.ends.sink.beats()[i].line;
+    const spec::morphological::LineRecord& line = bench.ends.sink.taken[i].token.line;
     const spec::morphological::RunResult got = {line.scale,   line.offset, line.slope,
                                                 line.inverse, line.shift,  line.span};
     EXPECT_EQ(differences(vectors[i].result, got), "") << i;
@@ -66,22 +66,22 @@ TEST(LineUnitBlock, FitOfTheContractsTable) {
 
 TEST(LineUnitBlock, ChordAndTheEndsOfALongRun) {
   Lines bench(preset(spec::morphological::Preset::kMlaaSlope, 32, 21));
-  bench.ends.source.send(sums_of({-3, 0, 3, 5, 8}, 1, 3));
+  bench.ends.source.add(sums_of({-3, 0, 3, 5, 8}, 1, 3));
   SumsToken head = sums_of({0, 10}, 0, 10);
   head.run.run.part = RunPart::kHead;
   SumsToken tail = head;
   tail.run.run.part = RunPart::kTail;
-  bench.ends.source.send({head, tail});
+  for (const SumsToken& token : {head, tail}) bench.ends.source.add(token);
   bench.clock.run(60);
-  ASSERT_EQ(bench.ends.sink.beats().size(), 3u);
-  const spec::morphological::LineRecord& chord = bench.ends.sink.beats()[0].line;
+  ASSERT_EQ(bench.ends.sink.taken.size(), 3u);
+  const spec::morphological::LineRecord& chord = bench.ends.sink.taken[0].token.line;
   EXPECT_EQ(chord.scale, 2);
   EXPECT_EQ(chord.offset, 5);
   EXPECT_EQ(chord.slope, 3050403u);  // rdiv(4 x 2^24, 22) = 67108864 / 22 = 3050402.9
   EXPECT_EQ(chord.inverse, 11264u);  // 11 / 4 in U12.12
   for (const int i : {1, 2}) {
     const spec::morphological::LineRecord& line =
-        bench.ends.sink.beats()[static_cast<std::size_t>(i)].line;
+        bench.ends.sink.taken[static_cast<std::size_t>(i)].token.line;
     EXPECT_EQ(line.scale, 2);
     EXPECT_EQ(line.offset, i == 1 ? 21 : 2 * 10 - 21);
     EXPECT_EQ(line.slope, 399458u);  // rdiv(2^24, 42) = 399457.5
@@ -105,7 +105,7 @@ TEST_P(Divider, HasItsLatencyAndInterval) {
   p.divider_latency = time.latency;
   p.divider_interval = time.interval;
   Lines bench(p);
-  for (int i = 0; i < 10; ++i) bench.ends.source.send(sums_of({0, i + 1}, 0, i + 1));
+  for (int i = 0; i < 10; ++i) bench.ends.source.add(sums_of({0, i + 1}, 0, i + 1));
   // Pushed in 0, popped in 1, the quotient is sent in 1 + latency.
   const rtl::Datasheet sheet = LineUnit::datasheet(p);
   const Cycle ready = 1 + sheet.latency.clocks;
@@ -113,10 +113,10 @@ TEST_P(Divider, HasItsLatencyAndInterval) {
   EXPECT_FALSE(bench.ends.out.can_pop(ready - 1));
   EXPECT_TRUE(bench.ends.out.can_pop(ready));
   bench.clock.run(200);
-  ASSERT_EQ(bench.ends.sink.cycles().size(), 10u);
+  ASSERT_EQ(bench.ends.sink.taken.size(), 10u);
   for (std::size_t i = 0; i < 10; ++i) {
-    EXPECT_EQ(bench.ends.sink.cycles()[i], ready + i * sheet.interval.clocks) << i;
-    EXPECT_EQ(bench.ends.sink.beats()[i].line.span, i + 1);
+    EXPECT_EQ(bench.ends.sink.taken[i].cycle, ready + i * sheet.interval.clocks) << i;
+    EXPECT_EQ(bench.ends.sink.taken[i].token.line.span, i + 1);
   }
   EXPECT_EQ(bench.unit.occupancy.value(), 10u * static_cast<unsigned>(time.interval));
 }
@@ -139,10 +139,10 @@ struct Dividing {
         registers(p, 40, 30),
         unit("divider", clock, p, registers.store, Axis::kHorizontal),
         gate("gate", clock, opens) {
-    driver.beats_out(sums);
+    driver.out(sums);
     unit.sums_in[0](sums);
     unit.lines_out[0](lines);
-    gate.beats_in(lines);
+    gate.in(lines);
   }
   static Parameters with(int latency, int interval) {
     Parameters p = small();
@@ -156,8 +156,8 @@ struct Dividing {
   LineUnit unit;
   Link<SumsToken> sums{"sums"};
   Link<LineToken> lines{"lines"};
-  TimedDriver<SumsToken> driver{"driver", clock};
-  Gate<LineToken> gate;
+  unit_bench::Source<SumsToken> driver{"driver", clock};
+  unit_bench::Sink<LineToken> gate;
 };
 
 // A record without a line passes the divider in the clock that pops it, also one that waits for its
@@ -168,16 +168,16 @@ TEST(LineUnitBlock, ALearnedRecordPassesTheDivider) {
   learned.learned = true;
   learned.start_class = 7;
   learned.end_class = 3;
-  bench.driver.send(0, learned);     // popped in 1
-  bench.driver.send(1, sums_of(2));  // begins in 2, goes in 16
-  bench.driver.send(2, learned);     // popped in 3
-  bench.driver.send(15, learned);    // would be popped in 16: a quotient leaves
+  bench.driver.add(0, learned);     // popped in 1
+  bench.driver.add(1, sums_of(2));  // begins in 2, goes in 16
+  bench.driver.add(2, learned);     // popped in 3
+  bench.driver.add(15, learned);    // would be popped in 16: a quotient leaves
   bench.clock.run(60);
-  ASSERT_EQ(bench.gate.cycles.size(), 4u);
-  EXPECT_THAT(bench.gate.cycles, ::testing::ElementsAre(2, 4, 17, 18));
-  expect_latency(LineUnit::learned_datasheet(), bench.gate.cycles[0] - 1);
+  ASSERT_EQ(bench.gate.taken.size(), 4u);
+  EXPECT_THAT(clocks_of(bench.gate), ::testing::ElementsAre(2, 4, 17, 18));
+  expect_latency(LineUnit::learned_datasheet(), bench.gate.taken[0].cycle - 1);
   for (const std::size_t i : {0u, 1u, 3u}) {
-    const spec::morphological::LineRecord& line = bench.gate.beats[i].line;
+    const spec::morphological::LineRecord& line = bench.gate.taken[i].token.line;
     EXPECT_TRUE(line.learned);
     EXPECT_EQ(line.start_class, 7);
     EXPECT_EQ(line.end_class, 3);
@@ -189,18 +189,18 @@ TEST(LineUnitBlock, ALearnedRecordPassesTheDivider) {
     EXPECT_EQ(line.before, spec::morphological::Side::kNone);
     EXPECT_EQ(line.after, spec::morphological::Side::kNone);
   }
-  EXPECT_FALSE(bench.gate.beats[2].line.learned);
+  EXPECT_FALSE(bench.gate.taken[2].token.line.learned);
   EXPECT_EQ(bench.unit.divides.value(), 1u);
 }
 
 TEST(LineUnitBlock, WaitsForTheIntervalOfTheDivider) {
   Dividing bench(14, 20);
-  for (int i = 1; i <= 6; ++i) bench.driver.send(0, sums_of(i));
+  for (int i = 1; i <= 6; ++i) bench.driver.add(0, sums_of(i));
   bench.clock.run(140);
   // One starts in 1, 21, .., 101; its quotient goes 14 clocks later; then five clocks of waiting,
   // but for the last.
-  ASSERT_EQ(bench.gate.cycles.size(), 6u);
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(bench.gate.cycles[i], 16 + 20 * i);
+  ASSERT_EQ(bench.gate.taken.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(bench.gate.taken[i].cycle, 16 + 20 * i);
   EXPECT_EQ(stalls(bench.unit, "interval"), 5u * 5u);
   EXPECT_EQ(stalls(bench.unit, "downstream"), 0u);
   EXPECT_EQ(bench.unit.busy_cycles(), 6u * 15u);
@@ -214,7 +214,7 @@ TEST_P(DividerPlaces, AreThoseOfItsPipe) {
   const auto [latency, interval] = GetParam();
   constexpr Cycle kOpens = 400;
   Dividing bench(latency, interval, kOpens);
-  for (int i = 1; i <= 100; ++i) bench.driver.send(0, sums_of(i));
+  for (int i = 1; i <= 100; ++i) bench.driver.add(0, sums_of(i));
   bench.clock.run(kOpens);
   const int under_way = (latency + interval - 1) / interval;
   EXPECT_EQ(bench.unit.divides.value(), static_cast<std::uint64_t>(under_way + 2));
@@ -223,8 +223,8 @@ TEST_P(DividerPlaces, AreThoseOfItsPipe) {
   const std::uint64_t stalled = stalls(bench.unit, "downstream");
   EXPECT_GT(stalled, kOpens - static_cast<Cycle>((under_way + 2) * interval + latency + 3));
   bench.clock.run(1700);
-  ASSERT_EQ(bench.gate.beats.size(), 100u);
-  for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(bench.gate.beats[i].line.span, i + 1);
+  ASSERT_EQ(bench.gate.taken.size(), 100u);
+  for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(bench.gate.taken[i].token.line.span, i + 1);
 }
 INSTANTIATE_TEST_SUITE_P(Times, DividerPlaces,
                          ::testing::Values(DividerTime{14, 1}, DividerTime{24, 1},
@@ -233,7 +233,7 @@ INSTANTIATE_TEST_SUITE_P(Times, DividerPlaces,
 
 TEST(LineUnitBlock, AResetLetsTheDividerStartAtOnce) {
   Dividing bench(14, 16);
-  bench.driver.send(0, sums_of(3));
+  bench.driver.add(0, sums_of(3));
   bench.clock.run(3);
   bench.clock.set_reset_n(false);
   bench.clock.run(1);
@@ -241,18 +241,18 @@ TEST(LineUnitBlock, AResetLetsTheDividerStartAtOnce) {
   bench.registers.reset();
   bench.registers.frame(40, 30);
   const Cycle begin = bench.clock.cycle();
-  bench.driver.send(begin, sums_of(5));
+  bench.driver.add(begin, sums_of(5));
   bench.clock.run(20);
-  ASSERT_EQ(bench.gate.cycles.size(), 1u);
-  EXPECT_EQ(bench.gate.cycles[0], begin + 2 + 14);
-  EXPECT_EQ(bench.gate.beats[0].line.span, 5);
+  ASSERT_EQ(bench.gate.taken.size(), 1u);
+  EXPECT_EQ(bench.gate.taken[0].cycle, begin + 2 + 14);
+  EXPECT_EQ(bench.gate.taken[0].token.line.span, 5);
 }
 
 // ---- what a memory does not do ------------------------------------------------------------------
 
 TEST(LineUnitMemory, AWordIsNotThereInTheClockOfItsAddress) {
   Lines bench(preset(spec::morphological::Preset::kDeburrLine));
-  bench.ends.source.send(sums_of({0, 3}, 0, 3));
+  bench.ends.source.add(sums_of({0, 3}, 0, 3));
   bench.clock.run(2);
   EXPECT_THAT(
       of_a_stage_less(bench.unit, bench.clock),
@@ -264,7 +264,7 @@ TEST(LineUnitMemory, HasNoWordForMoreCornersThanThereAre) {
   SumsToken sums = sums_of({0, 3}, 0, 3);
   sums.left = sums.right = 17;
   sums.indexed_sum = 10'000;
-  bench.ends.source.send(sums);
+  bench.ends.source.add(sums);
   EXPECT_THAT([&] { bench.clock.run(10); },
               ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("inverse_rom")));
 }

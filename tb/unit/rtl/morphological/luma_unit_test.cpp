@@ -22,7 +22,7 @@ TEST(LumaUnitBlock, AddsTheWeightsExactlyTwoClocksLater) {
   token.pixel[0] = {255, 255, 255, 9};
   token.pixel[1] = {1, 2, 3, 9};
   token.depth = {7, 8, 0, 0};
-  ends.source.send({token, token, token});
+  for (int i = 0; i < 3; ++i) ends.source.add(token);
   clock.run(1);  // pushed in 0
   EXPECT_FALSE(ends.out.can_pop(clock.cycle()));
   clock.run(1);  // popped in 1
@@ -30,16 +30,16 @@ TEST(LumaUnitBlock, AddsTheWeightsExactlyTwoClocksLater) {
   clock.run(1);  // added in 2
   EXPECT_TRUE(ends.out.can_pop(clock.cycle()));
   clock.run(4);
-  ASSERT_EQ(ends.sink.beats().size(), 3u);
+  ASSERT_EQ(ends.sink.taken.size(), 3u);
   // Pushed in 0, popped in 1; a datasheet that is a clock off is noticed.
   const auto check = [&](const rtl::Datasheet& sheet) {
-    expect_clocks(sheet, ends.sink.cycles(), 1);
+    expect_clocks(sheet, clocks_of(ends.sink), 1);
   };
   expect_notices_a_clock(LumaUnit::datasheet(), &rtl::Datasheet::latency, check);
   expect_notices_a_clock(LumaUnit::datasheet(), &rtl::Datasheet::interval, check);
-  EXPECT_EQ(ends.sink.beats()[0].luma[0], 255u * 65536u);
-  EXPECT_EQ(ends.sink.beats()[0].luma[1], 13933u + 2u * 46871u + 3u * 4732u);
-  EXPECT_EQ(ends.sink.beats()[0].depth[1], 8u);
+  EXPECT_EQ(ends.sink.taken[0].token.luma[0], 255u * 65536u);
+  EXPECT_EQ(ends.sink.taken[0].token.luma[1], 13933u + 2u * 46871u + 3u * 4732u);
+  EXPECT_EQ(ends.sink.taken[0].token.depth[1], 8u);
 }
 
 }  // namespace

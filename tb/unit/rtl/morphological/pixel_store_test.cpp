@@ -35,15 +35,15 @@ struct Storing {
         registers(p, f.width, f.height),
         store("pixel_store", clock, p, registers.store),
         pixel_gate("pixel_gate", clock, pixels_open) {
-    beat_driver.beats_out(beats);
+    beat_driver.out(beats);
     store.beats_in(beats);
-    fetch_driver.beats_out(fetches);
+    fetch_driver.out(fetches);
     store.fetches_in(fetches);
     store.pixels_out(pixels);
-    pixel_gate.beats_in(pixels);
+    pixel_gate.in(pixels);
     store.connect(requests, responses);
-    request_gate.beats_in(requests);
-    response_driver.beats_out(responses);
+    request_gate.in(requests);
+    response_driver.out(responses);
   }
   Slot slot(int row, int beat) const {
     return {static_cast<std::uint32_t>(row * beats_a_row + beat), static_cast<std::uint16_t>(row),
@@ -55,9 +55,9 @@ struct Storing {
     token.slot = slot(y, b);
     for (int i = 0; i < lanes && b * lanes + i < frame.width; ++i)
       token.pixel[static_cast<std::size_t>(i)] = frame.at(b * lanes + i, y);
-    beat_driver.send(at, token);
+    beat_driver.add(at, token);
   }
-  void fetch_beat(Cycle at, int y, int b) { fetch_driver.send(at, {slot(y + kLag, b)}); }
+  void fetch_beat(Cycle at, int y, int b) { fetch_driver.add(at, {slot(y + kLag, b)}); }
   // Place among the lines under way, line in its row, row on the chip: as a request's tag has them.
   std::uint32_t tag(std::uint32_t line, bool write) const {
     const auto row_lines = static_cast<std::uint32_t>((frame.width + 15) / 16);
@@ -68,7 +68,7 @@ struct Storing {
     response.tag = tag(line, write);
     response.write = write;
     response.data = data;
-    response_driver.send(at, response);
+    response_driver.add(at, response);
   }
   // Line `number` of the frame as memory has it, in rows of whole lines.
   rtl::Line line(std::uint32_t number) const {
@@ -102,11 +102,11 @@ struct Storing {
   Link<PixelToken> pixels{"pixels"};
   Link<MemoryRequest> requests{"requests"};
   Link<MemoryResponse> responses{"responses"};
-  TimedDriver<BeatToken> beat_driver{"beat_driver", clock};
-  TimedDriver<FetchToken> fetch_driver{"fetch_driver", clock};
-  TimedDriver<MemoryResponse> response_driver{"response_driver", clock};
-  Gate<PixelToken> pixel_gate;
-  Gate<MemoryRequest> request_gate{"request_gate", clock};
+  unit_bench::Source<BeatToken> beat_driver{"beat_driver", clock};
+  unit_bench::Source<FetchToken> fetch_driver{"fetch_driver", clock};
+  unit_bench::Source<MemoryResponse> response_driver{"response_driver", clock};
+  unit_bench::Sink<PixelToken> pixel_gate;
+  unit_bench::Sink<MemoryRequest> request_gate{"request_gate", clock};
 };
 
 Parameters built(spec::morphological::Storage storage, int lanes_code) {
@@ -133,14 +133,14 @@ TEST_P(PixelStoreLanes, LatencyAndIntervalOfTheDatasheet) {
     }
   bench.clock.run(at + 5);
   const std::size_t before = static_cast<std::size_t>(kLag * bench.beats_a_row);
-  ASSERT_EQ(bench.pixel_gate.beats.size(), static_cast<std::size_t>(24 * bench.beats_a_row));
-  for (std::size_t i = 0; i < bench.pixel_gate.beats.size(); ++i) {
+  ASSERT_EQ(bench.pixel_gate.taken.size(), static_cast<std::size_t>(24 * bench.beats_a_row));
+  for (std::size_t i = 0; i < bench.pixel_gate.taken.size(); ++i) {
     // Pushed in i + before + 2, popped and read a clock later.
     const rtl::Datasheet sheet = PixelStore::datasheet();
-    ASSERT_EQ(bench.pixel_gate.cycles[i],
+    ASSERT_EQ(bench.pixel_gate.taken[i].cycle,
               before + 3 + i * sheet.interval.clocks + sheet.latency.clocks);
     const int row = static_cast<int>(i) / bench.beats_a_row;
-    bench.expect_around(bench.pixel_gate.beats[i], row,
+    bench.expect_around(bench.pixel_gate.taken[i].token, row,
                         static_cast<int>(i) - row * bench.beats_a_row);
   }
   EXPECT_EQ(bench.store.stalled_cycles(), 0u);
@@ -171,7 +171,7 @@ TEST(PixelStoreBlock, ABeatWaitsForItsPlaceAndSaysSo) {
   EXPECT_EQ(bench.beats.pops(), static_cast<std::uint64_t>(kRows * kWidth + 1));
   bench.clock.run(100);
   for (std::size_t i = 0; i < static_cast<std::size_t>((kRows + 2) * kWidth); ++i)
-    bench.expect_around(bench.pixel_gate.beats.at(i), static_cast<int>(i) / kWidth,
+    bench.expect_around(bench.pixel_gate.taken.at(i).token, static_cast<int>(i) / kWidth,
                         static_cast<int>(i) % kWidth);
   EXPECT_EQ(stalls(bench.store, "rows"), kAsked - kRows * kWidth);  // then the other side works
 }
@@ -186,10 +186,10 @@ TEST(PixelStoreBlock, WaitsDownstream) {
   bench.clock.run(80);
   // The link takes two, sent in 16 and 17; taken from 50 on, so that the third is sent in 51.
   EXPECT_EQ(stalls(bench.store, "downstream"), 51u - 18u);
-  ASSERT_EQ(bench.pixel_gate.beats.size(), 12u);
+  ASSERT_EQ(bench.pixel_gate.taken.size(), 12u);
   for (std::size_t i = 0; i < 12; ++i) {
-    EXPECT_EQ(bench.pixel_gate.cycles[i], 50 + i);
-    bench.expect_around(bench.pixel_gate.beats[i], static_cast<int>(i) / 6,
+    EXPECT_EQ(bench.pixel_gate.taken[i].cycle, 50 + i);
+    bench.expect_around(bench.pixel_gate.taken[i].token, static_cast<int>(i) / 6,
                         static_cast<int>(i) % 6);
   }
 }
@@ -203,9 +203,9 @@ TEST(PixelStoreMemory, ALineIsSentInTheClockOfItsLastPixel) {
   for (int y = 0; y < 3; ++y)
     for (int b = 0; b < 20; ++b) bench.store_beat(0, y, b);
   bench.clock.run(80);
-  ASSERT_EQ(bench.request_gate.beats.size(), 6u);
+  ASSERT_EQ(bench.request_gate.taken.size(), 6u);
   for (std::size_t line = 0; line < 6; ++line) {
-    const MemoryRequest& request = bench.request_gate.beats[line];
+    const MemoryRequest& request = bench.request_gate.taken[line].token;
     const int y = static_cast<int>(line) / 2, x0 = line % 2 ? 16 : 0;
     EXPECT_TRUE(request.write);
     EXPECT_EQ(request.address, 64 * line);
@@ -217,7 +217,7 @@ TEST(PixelStoreMemory, ALineIsSentInTheClockOfItsLastPixel) {
     }
     // Pixel k is sent in k, popped in k + 1, and so is its line; taken in k + 2.
     const int last = y * 20 + (line % 2 ? 19 : 15);
-    EXPECT_EQ(bench.request_gate.cycles[line], static_cast<Cycle>(last + 2));
+    EXPECT_EQ(bench.request_gate.taken[line].cycle, static_cast<Cycle>(last + 2));
   }
 }
 
@@ -229,13 +229,14 @@ TEST(PixelStoreMemory, ALineIsReadAfterItsWriteAndAllBeforeItWereAnswered) {
   bench.answer(70, 0, true);
   bench.answer(80, 2, true);
   bench.clock.run(120);
-  ASSERT_EQ(bench.request_gate.beats.size(), 6u);
+  ASSERT_EQ(bench.request_gate.taken.size(), 6u);
   // An answer is sent in c, popped in c + 1, and so is the read; taken in c + 2.
   const Cycle taken[] = {72, 73, 82};
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_FALSE(bench.request_gate.beats[3 + i].write);
-    EXPECT_EQ(bench.request_gate.beats[3 + i].tag, bench.tag(static_cast<std::uint32_t>(i), false));
-    EXPECT_EQ(bench.request_gate.cycles[3 + i], taken[i]);
+    EXPECT_FALSE(bench.request_gate.taken[3 + i].token.write);
+    EXPECT_EQ(bench.request_gate.taken[3 + i].token.tag,
+              bench.tag(static_cast<std::uint32_t>(i), false));
+    EXPECT_EQ(bench.request_gate.taken[3 + i].cycle, taken[i]);
   }
 }
 
@@ -257,11 +258,11 @@ TEST(PixelStoreMemory, WritesGoBeforeReads) {
   };
   const Order order[] = {{true, 0, 5},  {true, 1, 9},   {true, 2, 13}, {false, 0, 14},
                          {true, 3, 17}, {false, 1, 18}, {true, 4, 21}, {true, 5, 25}};
-  ASSERT_EQ(bench.request_gate.beats.size(), std::size(order));
+  ASSERT_EQ(bench.request_gate.taken.size(), std::size(order));
   for (std::size_t i = 0; i < std::size(order); ++i) {
-    EXPECT_EQ(bench.request_gate.beats[i].write, order[i].write) << i;
-    EXPECT_EQ(bench.request_gate.beats[i].tag, bench.tag(order[i].line, order[i].write)) << i;
-    EXPECT_EQ(bench.request_gate.cycles[i], order[i].taken) << i;
+    EXPECT_EQ(bench.request_gate.taken[i].token.write, order[i].write) << i;
+    EXPECT_EQ(bench.request_gate.taken[i].token.tag, bench.tag(order[i].line, order[i].write)) << i;
+    EXPECT_EQ(bench.request_gate.taken[i].cycle, order[i].taken) << i;
   }
   EXPECT_EQ(bench.store.lines_written.value(), 6u);
   EXPECT_EQ(bench.store.lines_read.value(), 2u);
@@ -274,12 +275,12 @@ TEST(PixelStoreMemory, AWriteAClockLeavesNoRoomForReads) {
   bench.answer(3, 0, true);
   bench.answer(4, 1, true);
   bench.clock.run(60);
-  ASSERT_EQ(bench.request_gate.beats.size(), 11u);
+  ASSERT_EQ(bench.request_gate.taken.size(), 11u);
   for (std::size_t i = 0; i < 11; ++i) {
-    EXPECT_EQ(bench.request_gate.beats[i].write, i < 9) << i;
-    EXPECT_EQ(bench.request_gate.beats[i].tag,
+    EXPECT_EQ(bench.request_gate.taken[i].token.write, i < 9) << i;
+    EXPECT_EQ(bench.request_gate.taken[i].token.tag,
               bench.tag(static_cast<std::uint32_t>(i < 9 ? i : i - 9), i < 9));
-    EXPECT_EQ(bench.request_gate.cycles[i], i + 2);
+    EXPECT_EQ(bench.request_gate.taken[i].cycle, i + 2);
   }
 }
 
@@ -295,14 +296,14 @@ TEST(PixelStoreMemory, ALineIsReadInTheClockInWhichItsPlaceIsFree) {
   for (int y = 0; y < 2; ++y)
     for (int b = 0; b < 32; ++b) bench.fetch_beat(kAsked, y, b);
   bench.clock.run(330);
-  ASSERT_EQ(bench.request_gate.beats.size(), 12u + 10u);
-  EXPECT_EQ(bench.request_gate.beats[20].tag, bench.tag(8, false));
-  EXPECT_EQ(bench.request_gate.beats[21].tag, bench.tag(9, false));
+  ASSERT_EQ(bench.request_gate.taken.size(), 12u + 10u);
+  EXPECT_EQ(bench.request_gate.taken[20].token.tag, bench.tag(8, false));
+  EXPECT_EQ(bench.request_gate.taken[21].token.tag, bench.tag(9, false));
   // Beat 15 of row 1 is sent in kAsked + 47 and popped a clock later, and so is the read.
-  EXPECT_EQ(bench.request_gate.cycles[20], kAsked + 49);
-  EXPECT_EQ(bench.request_gate.cycles[21], kAsked + 65);
+  EXPECT_EQ(bench.request_gate.taken[20].cycle, kAsked + 49);
+  EXPECT_EQ(bench.request_gate.taken[21].cycle, kAsked + 65);
   for (std::size_t i = 0; i < 64; ++i)
-    bench.expect_around(bench.pixel_gate.beats.at(i), static_cast<int>(i) / 32,
+    bench.expect_around(bench.pixel_gate.taken.at(i).token, static_cast<int>(i) / 32,
                         static_cast<int>(i) % 32);
 }
 
@@ -316,12 +317,12 @@ TEST(PixelStoreMemory, ABeatWaitsForTheLineBelow) {
   bench.answer(200, 3, false, bench.line(3));
   for (int b = 0; b < 32; ++b) bench.fetch_beat(150, 0, b);
   bench.clock.run(240);
-  ASSERT_EQ(bench.pixel_gate.beats.size(), 32u);
+  ASSERT_EQ(bench.pixel_gate.taken.size(), 32u);
   for (std::size_t b = 0; b < 32; ++b) {
     // Sent in 150 + b, popped a clock later, then sent, then taken. Of the answer, eight beats are
     // stored in 201 and in 202.
-    EXPECT_EQ(bench.pixel_gate.cycles[b], b < 16 ? 153 + b : 205 + b - 16);
-    bench.expect_around(bench.pixel_gate.beats[b], 0, static_cast<int>(b));
+    EXPECT_EQ(bench.pixel_gate.taken[b].cycle, b < 16 ? 153 + b : 205 + b - 16);
+    bench.expect_around(bench.pixel_gate.taken[b].token, 0, static_cast<int>(b));
   }
 }
 
@@ -336,11 +337,11 @@ TEST(PixelStoreMemory, ASlotWaitsForItsLine) {
   bench.answer(20, 0, true);
   bench.answer(40, 0, false, bench.line(0));
   bench.clock.run(60);
-  ASSERT_EQ(bench.pixel_gate.beats.size(), 4u);
+  ASSERT_EQ(bench.pixel_gate.taken.size(), 4u);
   for (std::size_t b = 0; b < 4; ++b) {
     // Stored in 41, read in 42, sent in 43, taken in 44.
-    EXPECT_EQ(bench.pixel_gate.cycles[b], 44 + b);
-    bench.expect_around(bench.pixel_gate.beats[b], 0, static_cast<int>(b));
+    EXPECT_EQ(bench.pixel_gate.taken[b].cycle, 44 + b);
+    bench.expect_around(bench.pixel_gate.taken[b].token, 0, static_cast<int>(b));
   }
   // From 11 to 41, but for the clocks of the two answers.
   EXPECT_EQ(stalls(bench.store, "memory"), 31u - 2u);
@@ -358,12 +359,12 @@ TEST(PixelStoreMemory, AWriteWaitsForRoom) {
   // Lines 0, 1, 2 in 4, 8, 12; three beats of line 3 until 15, the fourth waits. The answer is
   // popped in 51, behind the side that stores: line 0 is read in that clock, line 3 goes in 52; the
   // last beat of line 4 waits from 56 on.
-  ASSERT_EQ(bench.request_gate.beats.size(), 5u);
-  EXPECT_EQ(bench.request_gate.cycles[2], 13u);
-  EXPECT_EQ(bench.request_gate.beats[3].write, false);
-  EXPECT_EQ(bench.request_gate.cycles[3], 52u);
-  EXPECT_EQ(bench.request_gate.beats[4].tag, bench.tag(3, true));
-  EXPECT_EQ(bench.request_gate.cycles[4], 53u);
+  ASSERT_EQ(bench.request_gate.taken.size(), 5u);
+  EXPECT_EQ(bench.request_gate.taken[2].cycle, 13u);
+  EXPECT_EQ(bench.request_gate.taken[3].token.write, false);
+  EXPECT_EQ(bench.request_gate.taken[3].cycle, 52u);
+  EXPECT_EQ(bench.request_gate.taken[4].token.tag, bench.tag(3, true));
+  EXPECT_EQ(bench.request_gate.taken[4].cycle, 53u);
   EXPECT_EQ(stalls(bench.store, "memory"), (50u - 15u) + (79u - 55u));
 }
 

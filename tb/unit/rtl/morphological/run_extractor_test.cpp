@@ -305,6 +305,14 @@ void extract(const Extract& e, spec::morphological::Ends ends, bool corners, boo
   for (const auto& [cycle, token] : bench.finisher.tokens) {
     const bool vertical = token.run.axis == Axis::kVertical;
     ASSERT_EQ(token.entry, vertical ? entry.at({token.run.line, token.run.start}) : 0);
+    if (token.run.part != RunPart::kWhole) continue;
+    // Edges go on before its start, after its end.
+    const RunRecord& run = token.run;
+    const auto along = [&planes, &run, vertical](int at) {
+      return vertical ? planes.left_at(run.line, at) : planes.top_at(at, run.line);
+    };
+    ASSERT_EQ(token.beyond,
+              (along(run.start - 1) ? 1 : 0) | (along(run.start + run.length) ? 2 : 0));
   }
   // The row being blended comes out with its edges.
   for (const AreaSlotToken& token : bench.area_sink.beats()) {

@@ -103,9 +103,9 @@ struct GuardBench {
         store(p),
         guard("guard", clock, p, store.store),
         gate("gate", clock, opens) {
-    source.beats_out(slots);
+    source.out(slots);
     guard.slots_in(slots);
-    gate.beats_in(guard.guards());
+    gate.in(guard.guards());
   }
   // The slots of a frame, from a clock on: rows beyond it, too, and noise wherever nothing is read.
   void send(const Frame& frame, Cycle from = 0) {
@@ -126,27 +126,28 @@ struct GuardBench {
             pixel[c] = x < width && y < height ? frame.at(x, y)[c]
                                                : static_cast<std::uint8_t>(random.word());
         }
-        source.send(from, token);
+        source.add(from, token);
       }
     sent += static_cast<std::size_t>(beats * (height + 8));
     wanted += static_cast<std::size_t>(beats * height);
   }
   Rows finish(Cycle limit = 200'000) {
     EXPECT_TRUE(clock.run_until(
-        [&] { return gate.beats.size() == wanted && source.sent() == sent; }, limit));
+        [&] { return gate.taken.size() == wanted && source.sent() == sent; }, limit));
     clock.run(40);
-    EXPECT_EQ(gate.beats.size(), wanted) << "a beat too many";
+    EXPECT_EQ(gate.taken.size(), wanted) << "a beat too many";
     const int beats = (width + lanes - 1) / lanes;
     const std::size_t from = wanted - static_cast<std::size_t>(beats * height);
     Rows rows;
     for (int y = 0; y < height; ++y) {
       rows.emplace_back();
       for (int x = 0; x < width; ++x)
-        rows.back() += gate.beats[from + static_cast<std::size_t>(y * beats + x / lanes)].guarded >>
-                                   (x % lanes) &
-                               1
-                           ? '#'
-                           : '.';
+        rows.back() +=
+            gate.taken[from + static_cast<std::size_t>(y * beats + x / lanes)].token.guarded >>
+                        (x % lanes) &
+                    1
+                ? '#'
+                : '.';
     }
     return rows;
   }
@@ -165,9 +166,9 @@ struct GuardBench {
   ClockDomain clock{"clock", period()};
   Registers store;
   Link<GuardSlotToken> slots{"slots"};
-  TimedDriver<GuardSlotToken> source{"source", clock};
+  unit_bench::Source<GuardSlotToken> source{"source", clock};
   TextGuard guard;
-  Gate<GuardToken> gate;
+  unit_bench::Sink<GuardToken> gate;
   Random random{1, "noise"};
   std::size_t sent = 0, wanted = 0;
 };
@@ -371,7 +372,7 @@ TEST_P(TextGuardClocks, ARowComesEightRowsLater) {
   const auto beats = static_cast<Cycle>(beats_a_row(frame, p));
   // Pushed from 0 on, popped from 1 on.
   const auto check = [&](const rtl::Datasheet& sheet) {
-    expect_clocks(sheet, bench.gate.cycles, 9 * beats);
+    expect_clocks(sheet, clocks_of(bench.gate), 9 * beats);
   };
   expect_notices_a_clock(TextGuard::datasheet(p), &rtl::Datasheet::latency, check);
   expect_notices_a_clock(TextGuard::datasheet(p), &rtl::Datasheet::interval, check);
@@ -394,9 +395,9 @@ TEST_P(TextGuardClocks, ARowWaitsForItsLastBeatAndForNoneAfter) {
     const Cycle first = begin + (held < 9 * beats ? 2001 : 9 * beats) + latency,
                 second = begin + 2000 + 10 * beats - held + latency;
     for (std::size_t beat = 0; beat < beats; ++beat) {
-      ASSERT_EQ(bench.gate.cycles[beat], first + beat) << held;
+      ASSERT_EQ(bench.gate.taken[beat].cycle, first + beat) << held;
       // Of the row after it, whose last beat is late in any case.
-      ASSERT_EQ(bench.gate.cycles[beats + beat], second + beat) << held;
+      ASSERT_EQ(bench.gate.taken[beats + beat].cycle, second + beat) << held;
     }
   }
 }
@@ -409,8 +410,8 @@ TEST_P(TextGuardClocks, WaitsDownstream) {
   bench.send(frame);
   EXPECT_EQ(bench.finish(), by_contract(frame));
   EXPECT_GT(stalls(bench.guard, "downstream"), 100u);
-  for (std::size_t i = 0; i < bench.gate.cycles.size(); ++i)
-    ASSERT_EQ(bench.gate.cycles[i], 3000 + i) << "a beat a clock";
+  for (std::size_t i = 0; i < bench.gate.taken.size(); ++i)
+    ASSERT_EQ(bench.gate.taken[i].cycle, 3000 + i) << "a beat a clock";
 }
 
 // ---- in the engine ------------------------------------------------------------------------------

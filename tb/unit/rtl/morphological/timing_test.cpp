@@ -387,19 +387,19 @@ struct Path {
         predictor("predictor", clock, p, registers.store, edges.rows),
         divider("divider", clock, p, registers.store, Axis::kHorizontal),
         area("area", clock, p, registers.store) {
-    driver.beats_out(records);
+    driver.out(records);
     predictor.records_in[0](records);
     predictor.sums_out[0](sums);
     divider.sums_in[0](sums);
     divider.lines_out[0](lines);
     area.lines_h_in[0](lines);
     area.lines_v_in[0](no_lines);
-    slot_driver.beats_out(slots);
+    slot_driver.out(slots);
     area.slots_in(slots);
     area.shares_out(shares);
-    shares_gate.beats_in(shares);
+    shares_gate.in(shares);
     area.finished_out(finished);
-    finished_gate.beats_in(finished);
+    finished_gate.in(finished);
     clock.add(no_lines);
   }
   ClockDomain clock{"clock", period()};
@@ -414,10 +414,10 @@ struct Path {
   Link<AreaSlotToken> slots{"slots"};
   Link<ShareToken> shares{"shares"};
   Link<FinishToken> finished{"finished"};
-  TimedDriver<RunToken> driver{"driver", clock};
-  TimedDriver<AreaSlotToken> slot_driver{"slot_driver", clock};
-  Gate<ShareToken> shares_gate{"shares_gate", clock};
-  Gate<FinishToken> finished_gate{"finished_gate", clock};
+  unit_bench::Source<RunToken> driver{"driver", clock};
+  unit_bench::Source<AreaSlotToken> slot_driver{"slot_driver", clock};
+  unit_bench::Sink<ShareToken> shares_gate{"shares_gate", clock};
+  unit_bench::Sink<FinishToken> finished_gate{"finished_gate", clock};
 };
 
 class WayOfARecord : public ::testing::TestWithParam<int> {};
@@ -428,14 +428,14 @@ TEST_P(WayOfARecord, TakesTheLatencyOfTheDividerAndFive) {
   Parameters p = small();
   p.divider_latency = GetParam();
   Path bench(p);
-  bench.slot_driver.send(0, {});
+  bench.slot_driver.add(0, {});
   // No trials: a record is let go in the clock of its pop, one behind the other.
   constexpr Cycle kSent = 40, kLetGo = kSent + 1;
-  for (int i = 0; i < 3; ++i) bench.driver.send(kSent, run_of(3, 2));
+  for (int i = 0; i < 3; ++i) bench.driver.add(kSent, run_of(3, 2));
   bench.clock.run(kLetGo + 100);
-  ASSERT_EQ(bench.finished_gate.cycles.size(), 3u);
+  ASSERT_EQ(bench.finished_gate.taken.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i)
-    EXPECT_EQ(bench.finished_gate.cycles[i], kLetGo + i + static_cast<Cycle>(GetParam()) + 5);
+    EXPECT_EQ(bench.finished_gate.taken[i].cycle, kLetGo + i + static_cast<Cycle>(GetParam()) + 5);
 }
 // A learned record passes the divider: 5 clocks, whatever the divider takes.
 TEST_P(WayOfARecord, OfALearnedOneTakesFive) {
@@ -444,15 +444,15 @@ TEST_P(WayOfARecord, OfALearnedOneTakesFive) {
   p.divider_latency = GetParam();
   p.divider_interval = 9;
   Path bench(p);
-  bench.slot_driver.send(0, {});
+  bench.slot_driver.add(0, {});
   // No crossing to look at: let go in the clock of the pop.
   constexpr Cycle kSent = 40, kLetGo = kSent + 1;
   RunToken token = run_of(3, 2);
   token.run.shape = 0;
-  for (int i = 0; i < 3; ++i) bench.driver.send(kSent, token);
+  for (int i = 0; i < 3; ++i) bench.driver.add(kSent, token);
   bench.clock.run(kLetGo + 100);
-  ASSERT_EQ(bench.finished_gate.cycles.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(bench.finished_gate.cycles[i], kLetGo + i + 5);
+  ASSERT_EQ(bench.finished_gate.taken.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(bench.finished_gate.taken[i].cycle, kLetGo + i + 5);
 }
 INSTANTIATE_TEST_SUITE_P(Latencies, WayOfARecord, ::testing::Values(14, 24, 64));
 

@@ -143,6 +143,24 @@ TEST(TextureRtlWalker, AnyCountKeepsAFragmentAClock) {
   }
 }
 
+// While its requests wait, fragments go on until each stage holds one.
+TEST(TextureRtlWalker, StagesFillWhileTheOutputWaits) {
+  ClockDomain clock("clock", period());
+  using spec::texture::CountRule;
+  WalkerBench floor(clock, "floor_", spec::texture::Kernel::kBox, 64),
+      any(clock, "any_", spec::texture::Kernel::kBox, 64, CountRule::kAny);
+  for (WalkerBench* b : {&floor, &any}) {
+    b->ends.sink.hold_to = 1000;
+    b->ends.source.add({ticket(), 0, 0, 0, 0, 15, 0, 0, true});
+  }
+  clock.run(30);
+  for (WalkerBench* b : {&floor, &any})
+    for (std::uint8_t i = 1; i < 6; ++i) b->ends.source.add({ticket(i), 0, 0, 0, 0, 0, 0, 0, true});
+  clock.run(30);
+  EXPECT_EQ(floor.ends.in.pops(), 2u);
+  EXPECT_EQ(any.ends.in.pops(), 3u);
+}
+
 struct DividingBench : WalkerBench {
   explicit DividingBench(ClockDomain& domain)
       : WalkerBench(domain, "", spec::texture::Kernel::kBox, 64, spec::texture::CountRule::kAny) {
