@@ -1082,20 +1082,27 @@ TEST(WeightCombiner, SecondCandidatesOfAnotherBlockTakeAClock) {
           << vertical << forward;
     }
 }
-// Frames of 8192 pixels have 2048 blocks in a row.
-TEST(WeightCombiner, TheNeighbouringBlockHasElevenBits) {
-  CombinerBench b;
-  WeightToken t = CombinerBench::token(1023, 0);
+
+// What has a weight in this block and one in the block after it.
+WeightToken of_two_blocks(int bx, int by) {
+  WeightToken t = CombinerBench::token(bx, by);
   t.vertical = true;
   t.forward = 1;
   t.place[0] = 3;
   t.seconds = 1;
   t.second[0] = 9;
-  b.source.add(t);
+  return t;
+}
+
+// Frames of 8192 pixels have 2048 blocks in a row.
+TEST(WeightCombiner, TheNeighbouringBlockHasElevenBits) {
+  CombinerBench b;
+  b.source.add(of_two_blocks(1023, 0));
   push_out(b);
   EXPECT_EQ(weights_at(b, 4095, 0)[3], 100);
   EXPECT_EQ(weights_at(b, 4096, 0)[2], 9);
 }
+
 // A group of two blocks is one group of its line.
 TEST(WeightCombiner, AGroupOfTwoBlocksCountsOnceInTheLatency) {
   CombinerBench b;
@@ -1107,13 +1114,7 @@ TEST(WeightCombiner, AGroupOfTwoBlocksCountsOnceInTheLatency) {
     b.edge_latency.cover(true);
     b.edge_latency.test(true);
   }
-  WeightToken t = CombinerBench::token(5, 1);
-  t.vertical = true;
-  t.forward = 1;
-  t.place[0] = 3;
-  t.seconds = 1;
-  t.second[0] = 9;
-  b.source.add(t);
+  b.source.add(of_two_blocks(5, 1));
   b.clock.run(60);
   b.source.add(CombinerBench::token(5, 1));
   b.source.add(CombinerBench::end());
