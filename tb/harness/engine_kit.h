@@ -1,30 +1,46 @@
 // SPDX-License-Identifier: MIT
 // A Kit: how the tests of an engine build it, give it work and see what comes of it. An engine
-// declares one, and register_suites<Kit>() gives its test program the suites over it:
-// reset_suite.h, stress_suite.h, register_noise.h, tb/unit/rtl/token_suite.h.
+// declares one, and register_suites<Kit>() (tb/unit/rtl/engine_suites.h) gives its test program the
+// suites over it: reset_suite.h, stress_suite.h, register_noise.h, tb/unit/rtl/token_suite.h.
 //
-//   struct Build;                            // one kind of build, of constants alone
-//   static const std::array<Build, N> kBuilds;
-//   static std::string text_of(const Build&);
-//   explicit Kit(const Build&, const Weather& = {});  // as new: without a reset
-//   explicit Kit(Random&);                   // any build, for register noise
-//   rtl::ClockDomain& clock();
-//   platform::RegisterHost& bus();
-//   rtl::Engine& engine();
-//   Bench& bench();
-//   std::vector<std::uint32_t> more_registers();  // offsets beside those of the engine's table
-//   void start(Job);                         // after a reset, or after a job that is done
-//   bool done();                             // all of it has come out
-//   Came came();                             // of the last job
-//   void expect_enough(Job);                 // it has done what it is there for
-//   void reset(Cycle clocks);
-//
-// reset_suite.h and register_noise.h say what else they need.
+//   class Kit : public EngineKit {           // below: what it may leave out
+//    public:
+//     struct Build;                          // one kind of build, of constants alone
+//     static const std::array<Build, N> kBuilds;
+//     static std::string text_of(const Build&);
+//     explicit Kit(const Build&, const Weather& = {});  // as new: without a reset
+//     explicit Kit(Random&);                 // any build, for register noise
+//     rtl::ClockDomain& clock();
+//     platform::RegisterHost& bus();
+//     rtl::Engine& engine();
+//     Bench& bench();
+//     void start(Job);                       // after a reset, or after a job that is done
+//     bool done();                           // all of it has come out
+//     Came came();                           // of the last job
+//     void expect_enough(Job);               // it has done what it is there for
+//     void reset(rtl::Cycle clocks);
+//     // What sticks is set, everything has counted; registers that are not to be inverted then.
+//     void spoil();
+//     static constexpr std::array kKept;
+//     // Of register noise: accesses, clocks between two of them at most, offsets; what is done
+//     // after one: work, starts, whatever comes in.
+//     static constexpr int kAccesses;
+//     static constexpr std::uint32_t kClocks, kMostOffset;
+//     static constexpr std::uint64_t kNoiseSeeds;
+//     void disturb(Random&);
+//     // Tokens of the links inside; how many of their fields have a number format, at least; a
+//     // header with a figure; builds that pages show (token_suite.h).
+//     using Engine, Tokens = TokenList<...>;
+//     static constexpr int kFormats;
+//     static constexpr const char* kHeader;
+//     static std::vector<Drawn<Parameters>> drawn_builds();
+//   };
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -41,6 +57,30 @@ enum class Job { kWhole, kBroken };
 struct Weather {
   BenchOptions bench = {};
   std::uint32_t scatter = 0;  // answers of memory come up to so many clocks later
+};
+
+// What a kit may leave out.
+struct EngineKit {
+  // Offsets beside those of the engine's table.
+  static std::vector<std::uint32_t> more_registers() { return {}; }
+  // Between the clocks at which resets are tried; after a long reset memory owes nothing.
+  static constexpr rtl::Cycle kStep = 1;
+  static constexpr rtl::Cycle short_reset() { return 1; }
+  static constexpr rtl::Cycle long_reset() { return 1; }
+  // Kinds of jobs that the engine does not take; starts one, runs, expects what is to be seen.
+  static constexpr int kRejected = 0;
+  void reject(int /*kind*/, rtl::Cycle /*clocks*/) {}
+  // These come: their input may wait in front.
+  void queue(std::span<const Job> /*jobs*/) {}
+  // Of register noise; memory has answered all that garbage asked after kNoiseReset.
+  static constexpr rtl::Cycle kNoiseReset = 2000;
+  void noise_begins() {}
+  static std::string noise_ends() { return ""; }  // what is wrong by now
+  void restore() {}  // after a reset: what it leaves as the noise has loaded it
+  // The page with tables of links, wires and memories; the page with the figure, and the headers
+  // of what it draws further in.
+  static constexpr const char *kTables = "", *kFigure = "";
+  static std::vector<std::string> below() { return {}; }
 };
 
 // A list of whatever a job leaves, under a name that a failed comparison says.

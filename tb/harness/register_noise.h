@@ -75,17 +75,8 @@ class RegisterNoise {
 };
 
 // What every engine must do with such a host: crash never, hang never, and after a reset do its
-// work as a new engine does. Its Kit (engine_kit.h), drawn from a Random, says beside the rest:
-//
-//   static constexpr std::uint32_t kMostOffset;  // of what the noise accesses
-//   static constexpr int kAccesses;
-//   static constexpr std::uint32_t kClocks;      // between two of them, fewer than these
-//   static constexpr std::uint64_t kNoiseSeeds;
-//   static constexpr rtl::Cycle kNoiseReset;     // all that memory still answers goes by meanwhile
-//   void noise_begins();
-//   void disturb(Random& random);    // after an access: work, starts, whatever comes in
-//   std::string noise_ends();        // what is wrong by now
-//   void restore();                  // after a reset: what it leaves as the noise has loaded it
+// work as a new engine does. Its Kit (engine_kit.h) is drawn
+// from a Random.
 template <class Kit>
 std::string left_by_noise(std::uint64_t seed) {
   Random random(seed);

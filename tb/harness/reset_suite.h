@@ -2,15 +2,6 @@
 // Reset of an engine, of every build of its Kit (engine_kit.h): what comes after it is, to the bit
 // and to the clock, what comes of a new engine; every register, counter, histogram and account of
 // clocks is as new. And a job after another is what it is by itself.
-//
-//   static constexpr rtl::Cycle kStep;    // between the clocks at which resets are tried
-//   rtl::Cycle short_reset(), long_reset();  // after a long one memory owes nothing
-//   void queue(std::span<const Job>);     // these come: their input may wait in front
-//   static constexpr int kRejected;       // kinds of jobs that the engine does not take
-//   void reject(int kind, rtl::Cycle clocks);  // starts one, runs, expects what is to be seen
-//   void spoil();                         // whatever sticks is set, everything has counted
-//   static constexpr std::array kKept;    // offsets of registers that a reset leaves, or a write
-//   starts
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What links, wires and memories of an engine are, by number format and by the tables of its pages,
 // and whether its figures are its module tree.
-//
-//   using Engine;                          // made of a name, a clock and parameters
-//   using Tokens = TokenList<...>;         // of the links inside
-//   static constexpr int kFormats;         // fields of theirs that have a number format, at least
-//   static constexpr const char* kTables;  // the page with tables of links, wires, memories, or ""
-//   static constexpr const char *kHeader, *kFigure;  // header and page (or "") with a figure
-//   static std::vector<std::string> below();         // headers of what the page draws further in
-//   static std::vector<Drawn<Parameters>> drawn_builds();
 #pragma once
 
 #include <gtest/gtest.h>

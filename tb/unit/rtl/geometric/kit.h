@@ -9,7 +9,7 @@
 
 namespace deburr::tb::geometric_rtl {
 
-class Kit {
+class Kit : public EngineKit {
  public:
   // An engine of the contract's vectors with little room, and what is set beside that.
   struct Build {
@@ -39,7 +39,6 @@ class Kit {
   platform::RegisterHost& bus() { return b_.bus; }
   rtl::Engine& engine() { return b_.engine; }
   Bench& bench() { return *b_.bench; }
-  static std::vector<std::uint32_t> more_registers() { return {}; }
 
   void start(Job job) {
     b_.load(job == Job::kWhole ? whole_ : broken_);
@@ -63,11 +62,10 @@ class Kit {
   }
   void reset(Cycle clocks) { b_.reset(clocks); }
 
-  // --- reset_suite.h: a late write of before would spoil what is loaded next ---
+  // --- resets: a late write of before would spoil what is loaded next ---
   static constexpr Cycle kStep = 3;
   static constexpr Cycle short_reset() { return 40; }
   static constexpr Cycle long_reset() { return 40; }
-  void queue(std::span<const Job>) {}
   static constexpr int kRejected = 1;
   void reject(int, Cycle clocks) {
     b_.load(broken_);
@@ -101,19 +99,15 @@ class Kit {
     EXPECT_EQ(b_.bus.read(reg::kControl), 0u);
   }
 
-  // --- register_noise.h: starts with garbage among it ---
+  // --- register noise: starts with garbage among it ---
   static constexpr std::uint32_t kMostOffset = 0x200, kClocks = 60;
-  static constexpr Cycle kNoiseReset = 2000;
   static constexpr int kAccesses = 60;
   static constexpr std::uint64_t kNoiseSeeds = 60;
-  void noise_begins() {}
   void disturb(Random& random) {
     if (random.chance(200)) b_.bus.write(reg::kControl, reg::kControlEnable | reg::kControlStart);
   }
-  static std::string noise_ends() { return ""; }
-  void restore() {}
 
-  // --- token_suite.h ---
+  // --- tokens ---
   using Engine = rtl::geometric::GeometricEngine;
   using Tokens =
       TokenList<rtl::geometric::EdgeFields, rtl::geometric::EdgeBeat, rtl::geometric::PairNumber,
@@ -126,7 +120,6 @@ class Kit {
   static constexpr const char* kTables = "reference/geometric/memories.md";
   static constexpr const char* kHeader = "rtl_model/geometric/geometric_engine.h";
   static constexpr const char* kFigure = "reference/geometric/hardware.md";
-  static std::vector<std::string> below() { return {}; }
   // The last one: with all that an engine can be built with.
   static std::vector<Drawn<Parameters>> drawn_builds() {
     Parameters one, split, all;

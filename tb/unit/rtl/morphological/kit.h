@@ -2,6 +2,8 @@
 // The morphological engine for the suites of every engine (tb/harness/engine_kit.h).
 #pragma once
 
+#include <fmt/format.h>
+
 #include "tb/harness/engine_kit.h"
 #include "tb/unit/rtl/morphological/support.h"
 #include "tb/unit/rtl/token_suite.h"
@@ -11,7 +13,7 @@ namespace deburr::tb::morphological_rtl {
 
 namespace reg = spec::morphological::reg;
 
-class Kit {
+class Kit : public EngineKit {
  public:
   struct Build {
     int lanes_code;
@@ -25,14 +27,11 @@ class Kit {
   };
   static const std::array<Build, 28> kBuilds;
   static std::string text_of(const Build& build) {
-    return std::to_string(
-               spec::morphological::kLaneCount[static_cast<std::size_t>(build.lanes_code)]) +
-           " lanes, " +
-           std::string(
-               spec::morphological::kStorageNames[static_cast<std::size_t>(build.storage)]) +
-           ", interval " + std::to_string(build.divider_interval) + ", width " +
-           std::to_string(build.width) + (build.smaa ? ", smaa" : "") +
-           (build.learned ? ", learned" : "") + " " + build.settings;
+    return fmt::format("{} lanes, {}, interval {}, width {}{}{} {}",
+                       spec::morphological::kLaneCount[static_cast<std::size_t>(build.lanes_code)],
+                       spec::morphological::kStorageNames[static_cast<std::size_t>(build.storage)],
+                       build.divider_interval, build.width, build.smaa ? ", smaa" : "",
+                       build.learned ? ", learned" : "", build.settings);
   }
   // Small steps, and beside them an edge that is longer than the reach. Neither this frame nor the
   // broken job's ends with a line of memory, so that lines are padded.
@@ -51,7 +50,6 @@ class Kit {
   platform::RegisterHost& bus() { return bench_.bus; }
   rtl::Engine& engine() { return bench_.engine; }
   Bench& bench() { return *bench_.bench; }
-  static std::vector<std::uint32_t> more_registers() { return {}; }
 
   void start(Job job) {
     frame_ = job == Job::kWhole ? &whole_ : &broken_;
@@ -112,9 +110,7 @@ class Kit {
     bench_.clock.set_reset_n(true);
   }
 
-  // --- reset_suite.h ---
-  static constexpr Cycle kStep = 1;
-  static constexpr Cycle short_reset() { return 1; }
+  // --- resets ---
   Cycle long_reset() const { return bench_.memory ? 40 : 1; }
   void queue(std::span<const Job> jobs) {
     for (const Job job : jobs) send(job == Job::kWhole ? whole_ : broken_);
@@ -151,9 +147,8 @@ class Kit {
     EXPECT_EQ(bench_.bus.read(reg::kControl), 0u);
   }
 
-  // --- register_noise.h: while pixels come ---
+  // --- register noise: while pixels come ---
   static constexpr std::uint32_t kMostOffset = 0x200, kClocks = 80;
-  static constexpr Cycle kNoiseReset = 2000;
   static constexpr int kAccesses = 60;
   static constexpr std::uint64_t kNoiseSeeds = 60;
   void noise_begins() {
@@ -167,13 +162,12 @@ class Kit {
     endless_ = true;
   }
   void disturb(Random&) {}
-  static std::string noise_ends() { return ""; }
   // Shares that were learned: the noise may have loaded others.
   void restore() {
     if (!tables_.empty()) bench_.software.load_shares(tables_);
   }
 
-  // --- token_suite.h ---
+  // --- tokens ---
   using Engine = rtl::morphological::MorphologicalEngine;
   using Tokens = TokenList<rtl::morphological::SlotToken, rtl::morphological::BeatToken,
                            rtl::morphological::GuardSlotToken, rtl::morphological::GuardToken,
@@ -188,7 +182,6 @@ class Kit {
   static constexpr const char* kTables = "reference/morphological/memories.md";
   static constexpr const char* kHeader = "rtl_model/morphological/morphological_engine.h";
   static constexpr const char* kFigure = "reference/morphological/index.md";
-  static std::vector<std::string> below() { return {}; }
   // Figures have all that an engine can be built with: learned shares exclude diagonals.
   static std::vector<Drawn<Parameters>> drawn_builds() {
     Parameters memory = in_memory(), guarded = deburr(), learned = deburr(), diagonal = smaa();

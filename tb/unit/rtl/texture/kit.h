@@ -11,7 +11,7 @@ namespace deburr::tb::texture_rtl {
 
 namespace reg = spec::texture::reg;
 
-class Kit {
+class Kit : public EngineKit {
  public:
   // Rules of a preset, and what is set beside them.
   struct Build {
@@ -63,13 +63,10 @@ class Kit {
   void expect_enough(Job) { EXPECT_GT(bench_.bus.read(reg::kLineFills), 20u); }
   void reset(Cycle clocks) { bench_.reset(clocks); }
 
-  // --- reset_suite.h ---
+  // --- resets ---
   static constexpr Cycle kStep = 3;
   static constexpr Cycle short_reset() { return 2; }
   static constexpr Cycle long_reset() { return kLatency + 5; }
-  void queue(std::span<const Job>) {}
-  static constexpr int kRejected = 0;
-  void reject(int, Cycle) {}
   static constexpr std::array kKept = {reg::kControl};
   // Counters, sticky bits, descriptors, tags and their shift register, and last the unit disabled
   // with a quad in front of it.
@@ -111,12 +108,11 @@ class Kit {
     EXPECT_EQ(bench_.bus.read(reg::kControl), 0u);
   }
 
-  // --- register_noise.h: garbage descriptors among it, and quads of any handle ---
+  // --- register noise: garbage descriptors among it, and quads of any handle ---
   static constexpr std::uint32_t kMostOffset = 0x1000, kClocks = 60;
   static constexpr Cycle kNoiseReset = 400;
   static constexpr int kAccesses = 200;
   static constexpr std::uint64_t kNoiseSeeds = 40;
-  void noise_begins() {}
   void disturb(Random& random) {
     if (!random.chance(500)) return;
     spec::texture::Quad q =
@@ -131,9 +127,8 @@ class Kit {
     bench_.bus.try_write(reg::kControl, reg::kControlEnable);
     return bench_.finish() ? "" : "hangs on garbage";
   }
-  void restore() {}
 
-  // --- token_suite.h ---
+  // --- tokens ---
   using Engine = rtl::texture::TextureUnit;
   using Parameters = spec::texture::Parameters;
   using Tokens =

@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Reset, register noise, stress and tokens of the posteriser, by its kit.
-#include <array>
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "rtl_model/platform/register_host.h"
 #include "rtl_model/posteriser/posteriser.h"
 #include "spec/posteriser/registers.h"
@@ -18,7 +11,7 @@ namespace {
 namespace reg = spec::posteriser::reg;
 using spec::posteriser::Tone;
 
-class Kit {
+class Kit : public EngineKit {
  public:
   using Build = spec::posteriser::Rules;
   static constexpr std::array<Build, 3> kBuilds = {{{1, spec::posteriser::Rounding::kTruncate},
@@ -38,7 +31,6 @@ class Kit {
   platform::RegisterHost& bus() { return bus_; }
   rtl::Engine& engine() { return engine_; }
   Bench& bench() { return *bench_; }
-  static std::vector<std::uint32_t> more_registers() { return {}; }
   void start(Job job) {
     begin_ = clock_.cycle();
     before_ = ends_.sink.taken.size();
@@ -60,13 +52,7 @@ class Kit {
     clock_.set_reset_n(true);
   }
 
-  // --- reset_suite.h ---
-  static constexpr rtl::Cycle kStep = 1;
-  static constexpr rtl::Cycle short_reset() { return 1; }
-  static constexpr rtl::Cycle long_reset() { return 1; }
-  void queue(std::span<const Job>) {}
-  static constexpr int kRejected = 0;
-  void reject(int, rtl::Cycle) {}
+  // --- resets ---
   static constexpr std::array kKept = {reg::kControl};
   void spoil() {
     start(Job::kBroken);
@@ -79,26 +65,21 @@ class Kit {
     bus_.write(reg::kControl, 0);
   }
 
-  // --- register_noise.h ---
+  // --- register noise ---
   static constexpr std::uint32_t kMostOffset = 0x20, kClocks = 20;
   static constexpr rtl::Cycle kNoiseReset = 1;
   static constexpr int kAccesses = 60;
   static constexpr std::uint64_t kNoiseSeeds = 20;
-  void noise_begins() {}
   void disturb(Random& random) { add(static_cast<int>(random.below(256))); }
   std::string noise_ends() {
     return clock_.run_until([this] { return done(); }, 2000) ? "" : "hangs";
   }
-  void restore() {}
 
-  // --- token_suite.h ---
+  // --- tokens ---
   using Engine = rtl::posteriser::Posteriser;
   using Tokens = TokenList<Tone>;
   static constexpr int kFormats = 3;
-  static constexpr const char* kTables = "";
   static constexpr const char* kHeader = "tb/system/added_engine/rtl_model/posteriser/posteriser.h";
-  static constexpr const char* kFigure = "";
-  static std::vector<std::string> below() { return {}; }
   static std::vector<Drawn<spec::posteriser::Parameters>> drawn_builds() {
     return {{"", {}, false, false, {"LevelUnit", "registers"}}};
   }
