@@ -35,15 +35,21 @@ bool register_suites(const char* file = __builtin_FILE(), int line = __builtin_L
                           [body]() -> RegisteredTest* { return new RegisteredTest(body); });
   };
   // Of each build.
-  const auto each = [&]<class Suite>(const char* suite, const char* name, void (Suite::*test)()) {
+  const auto each = [&]<class Suite, class... Arguments>(const char* suite, const char* name,
+                                                         void (Suite::*test)(Arguments...),
+                                                         Arguments... arguments) {
     for (std::size_t i = 0; i < Kit::kBuilds.size(); ++i) {
       const auto& build = Kit::kBuilds[i];
       add(suite, name + ("/" + std::to_string(i)), Kit::text_of(build).c_str(),
-          [&build, test] { (Suite(build).*test)(); });
+          [&build, test, arguments...] { (Suite(build).*test)(arguments...); });
     }
   };
   using Reset = ResetSuite<Kit>;
-  each("Reset", "AnyClockOfAJobMayBeTheLast", &Reset::any_clock_of_a_job_may_be_the_last);
+  each("Reset", "AnyClockOfAJobMayBeTheLast", &Reset::any_clock_of_a_job_may_be_the_last,
+       rtl::Cycle{0});
+  // The other half, of which no clock is next to one of those: label long.
+  each("Reset", "AnyClockBetweenThoseMayBeTheLast", &Reset::any_clock_of_a_job_may_be_the_last,
+       rtl::Cycle{1});
   if constexpr (Kit::kRejected > 0)
     each("Reset", "ARejectedJobMayBeTheLast", &Reset::a_rejected_job_may_be_the_last);
   each("Reset", "AJobAfterAnotherIsWhatItIsByItself",
