@@ -70,7 +70,10 @@ class Kit : public EngineKit {
   static constexpr rtl::Cycle kNoiseReset = 1;
   static constexpr int kAccesses = 60;
   static constexpr std::uint64_t kNoiseSeeds = 20;
-  void disturb(Random& random) { add(static_cast<int>(random.below(256))); }
+  void disturb(Random& random) {
+    for (std::uint32_t more = random.below(30); more > 0; --more)
+      add(static_cast<int>(random.below(256)));
+  }
   std::string noise_ends() {
     return clock_.run_until([this] { return done(); }, 2000) ? "" : "hangs";
   }
