@@ -164,7 +164,9 @@ class Kit : public EngineKit {
   void disturb(Random&) {}
   // Shares that were learned: the noise may have loaded others.
   void restore() {
-    if (!tables_.empty()) bench_.software.load_shares(tables_);
+    if (tables_.empty()) return;
+    bench_.software.load_shares(tables_);
+    bench_.bus.write(reg::kSharesAddress, 0);
   }
 
   // --- tokens ---
