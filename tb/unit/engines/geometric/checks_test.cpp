@@ -9,7 +9,7 @@
 #include "tb/engines/geometric/geometric_checks.h"
 #include "tb/system/geometric_runs.h"
 
-namespace deburr::tb::geometric_checks_test {
+namespace deburr::tb::checks_test {
 namespace {
 
 using geometric::Frame;
@@ -125,4 +125,4 @@ TEST(GeometricChecks, WithoutGoldenNothingIsCompared) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::geometric_checks_test
+}  // namespace deburr::tb::checks_test

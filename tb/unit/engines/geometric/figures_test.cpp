@@ -9,7 +9,7 @@
 #include "tb/system/geometric_runs.h"
 #include "tb/unit/engines/run_figures.h"
 
-namespace deburr::tb::geometric_figures_test {
+namespace deburr::tb::figures_test {
 namespace {
 
 using geometric::Frame;
@@ -403,4 +403,4 @@ TEST(GeometricFigures, InvalidEdgesOfOneFrameOfThreeAreExpected) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::geometric_figures_test
+}  // namespace deburr::tb::figures_test

@@ -6,7 +6,7 @@
 #include "tb/system/morphological_runs.h"
 #include "tb/unit/engines/run_figures.h"
 
-namespace deburr::tb::morphological_figures_test {
+namespace deburr::tb::figures_test {
 namespace {
 
 using spec::morphological::Lanes;
@@ -361,4 +361,4 @@ TEST(MorphologicalFigures, ErrorsOfOneFrameOfThreeAreExpected) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_figures_test
+}  // namespace deburr::tb::figures_test

@@ -10,7 +10,7 @@
 #include "tb/system/texture_runs.h"
 #include "tb/unit/engines/run_figures.h"
 
-namespace deburr::tb::texture_figures_test {
+namespace deburr::tb::figures_test {
 namespace {
 
 // No square, and more fragments than pixels.
@@ -213,4 +213,4 @@ TEST(TextureFigures, ErrorsOfLinesAreExpected) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_figures_test
+}  // namespace deburr::tb::figures_test
