@@ -84,13 +84,15 @@ Activity RunExtractor::work(Cycle cycle) {
     unfinished_[0] -= token.count[0];
     unfinished_[1] -= token.count[1];
   }
-  if (h_.count) drain(h_, cycle);
-  if (v_.count) drain(v_, cycle);
   const bool arrives = edges_in.can_pop(cycle);
-  // Records without room in their FIFOs hold all that is behind them.
-  if (std::max(h_.count, v_.count) > spare_) {
-    if (arrives) ++record_stalls;
-    return records_;
+  if ((h_.count | v_.count) != 0) {
+    drain(h_, cycle);
+    drain(v_, cycle);
+    // Records without room in their FIFOs hold all that is behind them.
+    if (std::max(h_.count, v_.count) > spare_) {
+      if (arrives) ++record_stalls;
+      return records_;
+    }
   }
   ++step_;
   bool did = false;
