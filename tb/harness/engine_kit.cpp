@@ -38,20 +38,20 @@ std::string NamedWords::difference(const NamedWords& was, const NamedWords& is) 
   return fmt::format("{}: word {} was {:#x}, is {:#x}\n", was.name_, at, *a, *b);
 }
 
-std::string difference(const Came& was, const Came& is, Compared what) {
+std::string difference(const Outcome& was, const Outcome& is, Compared what) {
   std::string text = difference(was.data, is.data);
   if (what != Compared::kData) text += difference(was.counted, is.counted);
   if (what == Compared::kAll) text += difference(was.clocks, is.clocks);
   return text;
 }
 
-std::string text_of(const Came& came, Compared what) {
+std::string text_of(const Outcome& outcome, Compared what) {
   std::string text;
-  for (const NamedWords& words : came.data) text += words.text();
+  for (const NamedWords& words : outcome.data) text += words.text();
   if (what == Compared::kData) return text;
-  for (const NamedWords& words : came.counted) text += words.text();
+  for (const NamedWords& words : outcome.counted) text += words.text();
   if (what == Compared::kAll)
-    for (const NamedWords& words : came.clocks) text += words.text();
+    for (const NamedWords& words : outcome.clocks) text += words.text();
   return text;
 }
 

@@ -8,7 +8,7 @@
 //     struct Build;                          // one kind of build, of constants alone
 //     static const std::array<Build, N> kBuilds;
 //     static std::string text_of(const Build&);
-//     explicit Kit(const Build&, const Weather& = {});  // as new: without a reset
+//     explicit Kit(const Build&, const Disturbance& = {});  // as new: without a reset
 //     explicit Kit(Random&);                 // any build, for register noise
 //     rtl::ClockDomain& clock();
 //     platform::RegisterHost& bus();
@@ -16,7 +16,7 @@
 //     Bench& bench();
 //     void start(Job);                       // after a reset, or after a job that is done
 //     bool done();                           // all of it has come out
-//     Came came();                           // of the last job
+//     Outcome outcome();                     // of the last job
 //     void expect_enough(Job);               // it has done what it is there for
 //     void reset(rtl::Cycle clocks);
 //     // What sticks is set, everything has counted; registers that are not to be inverted then.
@@ -54,7 +54,7 @@ namespace deburr::tb {
 enum class Job { kWhole, kBroken };
 
 // What a bench has around the engine.
-struct Weather {
+struct Disturbance {
   BenchOptions bench = {};
   std::uint32_t scatter = 0;  // answers of memory come up to so many clocks later
 };
@@ -131,7 +131,7 @@ class NamedWords {
 };
 
 // What came of a job.
-struct Came {
+struct Outcome {
   std::vector<NamedWords> data;     // whatever was before it, and however slow things were
   std::vector<NamedWords> counted;  // the same after any reset: sums since then, and what caches do
   std::vector<NamedWords> clocks;   // when, from its start on, with nothing left of before
@@ -140,8 +140,8 @@ struct Came {
 enum class Compared { kData, kCounted, kAll };
 
 // What differs up to there; empty if nothing does.
-std::string difference(const Came& was, const Came& is, Compared what);
-std::string text_of(const Came& came, Compared what);
+std::string difference(const Outcome& was, const Outcome& is, Compared what);
+std::string text_of(const Outcome& outcome, Compared what);
 
 template <class Kit>
 std::vector<std::string> state_of(Kit& kit) {
@@ -150,10 +150,10 @@ std::vector<std::string> state_of(Kit& kit) {
 
 // A job from its start to its end.
 template <class Kit>
-Came run_job(Kit& kit, Job job) {
+Outcome run_job(Kit& kit, Job job) {
   kit.start(job);
   kit.bench().run([&] { return kit.done(); }, 200'000);
-  return kit.came();
+  return kit.outcome();
 }
 
 }  // namespace deburr::tb

@@ -75,8 +75,7 @@ class RegisterNoise {
 };
 
 // What every engine must do with such a host: crash never, hang never, and after a reset do its
-// work as a new engine does. Its Kit (engine_kit.h) is drawn
-// from a Random.
+// work as a new engine does. Its Kit (engine_kit.h) is drawn from a Random.
 template <class Kit>
 std::string left_by_noise(std::uint64_t seed) {
   Random random(seed);

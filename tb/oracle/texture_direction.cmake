@@ -8,6 +8,6 @@ deburr_test(texture_direction_test LABELS oracle TIMEOUT 600
   SOURCE "${CMAKE_CURRENT_LIST_DIR}/texture_direction_test.cpp"
   LINK deburr::turned_photo)
 deburr_test(texture_flicker_test LABELS oracle TIMEOUT 600
-  LONG TextureFlickerOnPhotographs
+  LONG TextureFlickerOnPhotographs[.].*/[gr]
   SOURCE "${CMAKE_CURRENT_LIST_DIR}/texture_flicker_test.cpp"
   LINK deburr::ideal deburr::texture_environment)

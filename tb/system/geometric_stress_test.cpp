@@ -79,6 +79,17 @@ TEST_P(GeometricStress, NothingOutsideChangesThePicture) {
   });
 }
 
+TEST_P(GeometricStress, SameSeedGivesTheSameClocks) {
+  GeometricRunOptions options = calm();
+  options.stall_permille = 150;
+  options.memory.latency_max = 80;
+  options.seed = 5;
+  const GeometricOutcome first = run(options), second = run(options);
+  EXPECT_EQ(first.cycles, second.cycles);
+  options.seed = 6;
+  EXPECT_NE(run(options).cycles, first.cycles);
+}
+
 TEST_P(GeometricStress, ARunThatIsResetBeginsAgain) {
   const GeometricOutcome quiet = run(calm());
   for (const rtl::Cycle at : {3u, 40u, 150u, 900u, 4001u}) {

@@ -87,6 +87,16 @@ TEST_P(MorphologicalStress, ResetInMidFrameBeginsAgain) {
   }
 }
 
+TEST_P(MorphologicalStress, SameSeedGivesTheSameCycles) {
+  MorphologicalRunOptions options = calm();
+  options.stall_permille = 150;
+  options.poison = true;
+  options.memory.latency_max = 200;
+  const MorphologicalOutcome a = run(options), b = run(options);
+  expect_same_data(a, b);
+  EXPECT_EQ(a.cycles, b.cycles);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     EachVariant, MorphologicalStress,
     testing::Values(Variant{Lanes::kOne, Storage::kLineBuffers},

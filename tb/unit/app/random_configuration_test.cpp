@@ -20,11 +20,17 @@ namespace {
 
 class RandomConfiguration : public testing::TestWithParam<std::string> {};
 
+// Every setting is taken, and the engine resolves all of them together.
+void take(BoundEngine& bound, const std::string& engine, std::uint64_t seed) {
+  for (const auto& [name, value] : random_configuration(engine, seed))
+    bound.set.set(name, value, std::to_string(seed));
+  ASSERT_NO_THROW(bound.resolve()) << engine << ", seed " << seed;
+}
+
 // Each renders what its engine is given, which takes long: no more than it takes until every
 // parameter has varied. Sanitizers, which take ten times as long, do without that.
 constexpr std::uint64_t kLeastSeeds = kSanitized ? 20 : 100, kMostSeeds = kSanitized ? 20 : 500;
 
-// Accepted: every setting is taken, and the engine resolves all of them together.
 TEST_P(RandomConfiguration, IsAcceptedAndVariesEveryParameterThatIsNotFixed) {
   const std::string engine = GetParam();
   std::map<std::string, std::set<std::string>> values;
@@ -39,9 +45,7 @@ TEST_P(RandomConfiguration, IsAcceptedAndVariesEveryParameterThatIsNotFixed) {
   for (; seed < kLeastSeeds || (seed < kMostSeeds && !constant().empty()); ++seed) {
     const std::unique_ptr<Engine> made = engine_named(engine);
     BoundEngine bound(*made);
-    for (const auto& [name, value] : random_configuration(engine, seed))
-      bound.set.set(name, value, std::to_string(seed));
-    ASSERT_NO_THROW(bound.resolve()) << engine << ", seed " << seed;
+    ASSERT_NO_FATAL_FAILURE(take(bound, engine, seed));
     for (const Parameter& parameter : bound.set.all())
       values[parameter.name].insert(parameter.text());
     const auto& all = bound.set.all();
@@ -60,6 +64,15 @@ TEST_P(RandomConfiguration, IsAcceptedAndVariesEveryParameterThatIsNotFixed) {
     }
   if (!kSanitized) {  // whose seeds are too few
     EXPECT_THAT(constant(), testing::IsEmpty()) << seed << " seeds";
+  }
+}
+
+// Label long.
+TEST_P(RandomConfiguration, IsAcceptedByManySeeds) {
+  for (std::uint64_t seed = 0; seed < kMostSeeds; ++seed) {
+    const std::unique_ptr<Engine> made = engine_named(GetParam());
+    BoundEngine bound(*made);
+    ASSERT_NO_FATAL_FAILURE(take(bound, GetParam(), seed));
   }
 }
 

@@ -47,7 +47,7 @@ bool register_suites(const char* file = __builtin_FILE(), int line = __builtin_L
   using Reset = ResetSuite<Kit>;
   each("Reset", "AnyClockOfAJobMayBeTheLast", &Reset::any_clock_of_a_job_may_be_the_last,
        rtl::Cycle{0});
-  // The other half, of which no clock is next to one of those: label long.
+  // The other half: label long.
   each("Reset", "AnyClockBetweenThoseMayBeTheLast", &Reset::any_clock_of_a_job_may_be_the_last,
        rtl::Cycle{1});
   if constexpr (Kit::kRejected > 0)

@@ -30,8 +30,8 @@ class Kit : public EngineKit {
     apply_settings(p, build.settings);
     return p;
   }
-  explicit Kit(const Build& build, const Weather& weather = {})
-      : Kit(parameters(build), weather, small_scene(build.right + 37, 26, 30, build.right),
+  explicit Kit(const Build& build, const Disturbance& disturbance = {})
+      : Kit(parameters(build), disturbance, small_scene(build.right + 37, 26, 30, build.right),
             small_scene(build.right + 41, 37, 60, build.right)) {}
   explicit Kit(Random& random) : Kit(drawn(random), {}, noise_scene(), noise_scene()) {}
 
@@ -47,10 +47,10 @@ class Kit : public EngineKit {
     b_.start();
   }
   bool done() const { return b_.engine.idle(); }
-  Came came() {
-    Came came = came_of(b_);
-    came.clocks.emplace_back("clocks", std::array{b_.clock.cycle() - begin_});
-    return came;
+  Outcome outcome() {
+    Outcome outcome = came_of(b_);
+    outcome.clocks.emplace_back("clocks", std::array{b_.clock.cycle() - begin_});
+    return outcome;
   }
   void expect_enough(Job job) {
     if (job == Job::kBroken) {
@@ -139,8 +139,8 @@ class Kit : public EngineKit {
   }
 
  private:
-  Kit(const Parameters& p, const Weather& weather, Scene whole, Scene broken)
-      : b_(p, {.scatter = weather.scatter, .bench = weather.bench}),
+  Kit(const Parameters& p, const Disturbance& disturbance, Scene whole, Scene broken)
+      : b_(p, {.scatter = disturbance.scatter, .bench = disturbance.bench}),
         whole_(std::move(whole)),
         broken_(std::move(broken)) {}
   static Parameters drawn(Random& random) {

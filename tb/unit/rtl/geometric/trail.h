@@ -33,32 +33,32 @@ inline Scene small_scene(int width, int height, std::size_t edges, int right = 0
 
 // Of the last run: what the frame is, accesses of each region in order among it; and how regions
 // interleave.
-inline Came came_of(EngineBench& b) {
-  Came came = {{{"lines", b.lines},
-                {"candidates", b.candidates},
-                {"blocks", b.blocks},
-                {"pixels", b.driver.picture()}},
-               {},
-               {{"reads", b.memory.lines_read()}, {"writes", b.memory.lines_written()}}};
+inline Outcome came_of(EngineBench& b) {
+  Outcome outcome = {{{"lines", b.lines},
+                      {"candidates", b.candidates},
+                      {"blocks", b.blocks},
+                      {"pixels", b.driver.picture()}},
+                     {},
+                     {{"reads", b.memory.lines_read()}, {"writes", b.memory.lines_written()}}};
   for (const std::uint32_t base :
        {b.bases.faces, b.bases.edges, b.bases.vertices, b.bases.depth, b.bases.weights,
         b.bases.colour, b.bases.copy, b.bases.pairs, b.bases.coarse}) {
-    came.data.emplace_back("reads of the region at " + std::to_string(base), b.reads(base));
-    came.data.emplace_back("writes of the region at " + std::to_string(base), b.writes(base));
+    outcome.data.emplace_back("reads of the region at " + std::to_string(base), b.reads(base));
+    outcome.data.emplace_back("writes of the region at " + std::to_string(base), b.writes(base));
   }
-  return came;
+  return outcome;
 }
 // With whatever was counted since the last reset.
 struct Trail {
-  Came came;
+  Outcome outcome;
   std::vector<std::string> state;
 };
 inline Trail trail_of(EngineBench& b) { return {came_of(b), engine_state(b.engine, b.bus)}; }
 inline std::string frame_difference(const Trail& a, const Trail& b) {
-  return difference(a.came, b.came, Compared::kData);
+  return difference(a.outcome, b.outcome, Compared::kData);
 }
 inline std::string trail_difference(const Trail& a, const Trail& b) {
-  return difference(a.came, b.came, Compared::kAll) + state_difference(a.state, b.state);
+  return difference(a.outcome, b.outcome, Compared::kAll) + state_difference(a.state, b.state);
 }
 
 }  // namespace deburr::tb::geometric_rtl

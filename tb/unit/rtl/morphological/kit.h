@@ -35,8 +35,8 @@ class Kit : public EngineKit {
   }
   // Small steps, and beside them an edge that is longer than the reach. Neither this frame nor the
   // broken job's ends with a line of memory, so that lines are padded.
-  explicit Kit(const Build& build, const Weather& weather = {})
-      : Kit(parameters(build), build.memory_latency, weather,
+  explicit Kit(const Build& build, const Disturbance& disturbance = {})
+      : Kit(parameters(build), build.memory_latency, disturbance,
             draw(build.width, 11, [&](int x, int y) {
               return grey(x < build.width - 2 ? (y + x) / 3 % 2 * 255
                                               : (x - build.width + 2) * 255);
@@ -70,7 +70,7 @@ class Kit : public EngineKit {
     return bench_.sink.received() == bench_.wanted &&
            (bench_.bus.read(reg::kStatus) & reg::kStatusIdle) != 0;
   }
-  Came came() {
+  Outcome outcome() {
     NamedWords beats_out("beats"), cycles("clocks of beats"), work("work");
     for (std::size_t i = bench_.sink.beats().size() - beats(); i < bench_.sink.beats().size();
          ++i) {
@@ -79,16 +79,16 @@ class Kit : public EngineKit {
     }
     const spec::morphological::Work done = bench_.engine.work();
     for (const auto& row : spec::morphological::kWorkCounts) work.add(done.*row.count);
-    Came came = {
+    Outcome outcome = {
         {beats_out, {"runs", runs_}}, {work}, {cycles, {"lines as they are stored", lines_}}};
     if (bench_.memory) {
-      came.data.emplace_back(
+      outcome.data.emplace_back(
           "memory", bench_.memory->dump(0, static_cast<std::uint64_t>(64 * frame_->height)));
       const auto& store = bench_.engine.pixel_store;
-      came.counted.emplace_back("lines moved",
-                                std::array{store.lines_written.value(), store.lines_read.value()});
+      outcome.counted.emplace_back(
+          "lines moved", std::array{store.lines_written.value(), store.lines_read.value()});
     }
-    return came;
+    return outcome;
   }
   // Steps that narrow keep no line where shares are learned.
   void expect_enough(Job job) {
@@ -202,18 +202,19 @@ class Kit : public EngineKit {
   }
 
  private:
-  Kit(const Parameters& p, std::uint32_t latency, const Weather& weather, const Frame& whole)
-      : bench_(p, options(latency, weather)), whole_(marked(whole)) {
+  Kit(const Parameters& p, std::uint32_t latency, const Disturbance& disturbance,
+      const Frame& whole)
+      : bench_(p, options(latency, disturbance)), whole_(marked(whole)) {
     bench_.engine.observe_runs(
         [this](const spec::morphological::RunRecord& run) { runs_.push_back(run); });
     bench_.engine.observe_lines(
         [this](const spec::morphological::LineRecord& line) { lines_.push_back(line); });
   }
-  static EngineBench::Options options(std::uint32_t latency, const Weather& weather) {
+  static EngineBench::Options options(std::uint32_t latency, const Disturbance& disturbance) {
     EngineBench::Options options;
-    options.bench = weather.bench;
+    options.bench = disturbance.bench;
     options.memory_latency = latency;
-    options.memory_scatter = weather.scatter;
+    options.memory_scatter = disturbance.scatter;
     return options;
   }
   static Parameters parameters(const Build& build) {

@@ -23,7 +23,8 @@ class Kit : public EngineKit {
     return std::string(spec::texture::kPresetNames[static_cast<std::size_t>(build.preset)]) + " " +
            build.settings;
   }
-  explicit Kit(const Build& build, const Weather& weather = {}) : Kit(parameters(build), weather) {}
+  explicit Kit(const Build& build, const Disturbance& disturbance = {})
+      : Kit(parameters(build), disturbance) {}
   explicit Kit(Random& random) : Kit(drawn(random), {}) {}
 
   ClockDomain& clock() { return bench_.clock; }
@@ -52,7 +53,7 @@ class Kit : public EngineKit {
       for (std::int32_t i = 0; i < 50; ++i) add(quad(i * 13, i * 9, 3, 1 + i % 3, i));
   }
   bool done() const { return bench_.source.done() && bench_.unit.idle() && bench_.colours.empty(); }
-  Came came() {
+  Outcome outcome() {
     NamedWords colours("colours"), cycles("clocks of colours");
     for (std::size_t i = before_; i < bench_.sink.taken.size(); ++i) {
       colours.add(bench_.sink.taken[i].token);
@@ -143,27 +144,28 @@ class Kit : public EngineKit {
   static std::vector<std::string> below() {
     return {"rtl_model/texture/address_unit.h", "rtl_model/texture/texture_cache.h"};
   }
-  // An AxisUnit stands in the place of the FootprintUnit where axes are eight.
+  // An AxisUnit stands in the place of the FootprintUnit but for the axes of the paper.
   static std::vector<Drawn<Parameters>> drawn_builds() {
-    Parameters paper = paper_rules(), deburr, largest, stored, eight;
-    for (Parameters* p : {&paper, &deburr, &largest, &stored, &eight}) p->cache_fifo_depth = 107;
+    Parameters paper = paper_rules(), deburr, largest, stored, two;
+    for (Parameters* p : {&paper, &deburr, &largest, &stored, &two}) p->cache_fifo_depth = 107;
     largest.cache_line_bytes = 128;
     largest.cache_bytes = rtl::texture::TagStore::kMostLines * largest.cache_line_bytes;
     largest.cache_outstanding = 256;
     stored.log2 = spec::texture::Log2Rule::kExact;
     stored.srgb_output = spec::texture::SrgbOutput::kEncoded;
-    eight.axes = spec::texture::Axes::kEight;
+    two.axes = spec::texture::Axes::kTwo;
     const std::vector<std::string> units = {"TextureCache", "FilterPipeline"};
     return {{"paper", paper},
             {"deburr", deburr, true, false, units},
             {"largest cache", largest},
             {"", stored, false, true},
-            {"", eight, false, false, units}};
+            {"", two, false, false, units}};
   }
 
  private:
-  Kit(const spec::texture::Parameters& parameters, const Weather& weather)
-      : bench_(parameters, kLatency, weather.scatter), checks_(bench_.clock, weather.bench) {}
+  Kit(const spec::texture::Parameters& parameters, const Disturbance& disturbance)
+      : bench_(parameters, kLatency, disturbance.scatter),
+        checks_(bench_.clock, disturbance.bench) {}
   static spec::texture::Parameters parameters(const Build& build) {
     spec::texture::Parameters p = preset_parameters(build.preset);
     apply_settings(p, "cache.bytes=512 cache.outstanding=4 cache.fifo_depth=8");

@@ -18,12 +18,12 @@ class Kit : public EngineKit {
                                                     {3, spec::posteriser::Rounding::kNearest},
                                                     {8, spec::posteriser::Rounding::kNearest}}};
   static std::string text_of(const Build& build) { return std::to_string(build.bits) + " bits"; }
-  explicit Kit(const Build& build, const Weather& weather = {})
+  explicit Kit(const Build& build, const Disturbance& disturbance = {})
       : engine_("engine", clock_, {build, {}}) {
     engine_.tones_in(ends_.in);
     engine_.tones_out(ends_.out);
     bus_.bus.bind(engine_.registers);
-    bench_ = std::make_unique<Bench>(clock_, weather.bench);
+    bench_ = std::make_unique<Bench>(clock_, disturbance.bench);
   }
   explicit Kit(Random& random) : Kit(kBuilds[random.below(3)]) {}
 
@@ -37,7 +37,7 @@ class Kit : public EngineKit {
     for (int i = 0; i < (job == Job::kWhole ? 40 : 60); ++i) add(9 * i);
   }
   bool done() const { return ends_.source.done() && engine_.idle() && ends_.out.empty(); }
-  Came came() {
+  Outcome outcome() {
     NamedWords tones("tones"), clocks("clocks of tones");
     for (std::size_t i = before_; i < ends_.sink.taken.size(); ++i) {
       tones.add(ends_.sink.taken[i].token);
