@@ -444,8 +444,8 @@ TEST(Memory, AnIdealisedAccessMeetsItself) {
   Memory<int> memory("memory", {.words = 12,
                                 .word_bits = 4,
                                 .banks = 2,
-                                .separate_banks = true,
                                 .span = 3,
+                                .separate_banks = true,
                                 .idealised = "more words an access than banks"});
   ReadPort<int> read(memory, "read");
   WritePort<int> write(memory, "write");
