@@ -48,7 +48,7 @@ class ResetSuite {
   void a_rejected_job_may_be_the_last() {
     const Outcome fresh = first();
     for (int kind = 0; kind < Kit::kRejected; ++kind)
-      for (const rtl::Cycle at : {0, 1, 2, 3, 9, 20}) {
+      for (const rtl::Cycle at : {0u, 1u, 2u, 3u, 9u, 20u}) {
         SCOPED_TRACE("reset " + std::to_string(at) + " clocks after a job of kind " +
                      std::to_string(kind));
         kit_.reset(kit_.short_reset());
