@@ -110,4 +110,23 @@ inline void expect_sums(const Json& run, const std::vector<Json>& alone,
   EXPECT_EQ(count, 0) << "latencies";
 }
 
+// The history of a pixel, whatever came before its frame.
+inline Json without_clocks(Json pixel) {
+  for (Json& step : pixel["steps"]) step.erase("clock");
+  return pixel;
+}
+
+// Maps of a run of several frames show the last; those of one frame must come to what was counted.
+inline void expect_maps_of_the_last(const Json& run, const Json& alone, int width, int height) {
+  for (const auto& [name, map] : alone["maps"].items()) {
+    const Json& same = run["maps"][name];
+    EXPECT_EQ(same["width"], width) << name;
+    EXPECT_EQ(same["height"], height) << name;
+    EXPECT_EQ(same["values"], map["values"]) << name;
+    EXPECT_EQ(map["account"], true) << name;
+    EXPECT_EQ(map["agrees"], true) << name;
+    EXPECT_EQ(same["account"], false) << name;
+  }
+}
+
 }  // namespace deburr::tb

@@ -290,11 +290,6 @@ TEST(GeometricFigures, OfOneFrameThreeTimesAreThoseOfTheFrame) {
     }
 }
 
-Json without_clocks(Json pixel) {
-  for (Json& step : pixel["steps"]) step.erase("clock");
-  return pixel;
-}
-
 // One frame's maps must come to what was counted; those of several show the last.
 TEST(GeometricFigures, MapsAndHistoryAreThoseOfTheLastFrame) {
   Options options;
@@ -305,15 +300,7 @@ TEST(GeometricFigures, MapsAndHistoryAreThoseOfTheLastFrame) {
     const Json alone = run({several.back()}, plain(), options),
                all = run(several, plain(), options);
     ASSERT_EQ(alone["maps"].size(), 4u);
-    for (const auto& [name, map] : alone["maps"].items()) {
-      const Json& same = all["maps"][name];
-      EXPECT_EQ(same["width"], several.back().image.width) << name;
-      EXPECT_EQ(same["height"], several.back().image.height) << name;
-      EXPECT_EQ(same["values"], map["values"]) << name;
-      EXPECT_EQ(map["account"], true) << name;
-      EXPECT_EQ(map["agrees"], true) << name;
-      EXPECT_EQ(same["account"], false) << name;
-    }
+    expect_maps_of_the_last(all, alone, several.back().image.width, several.back().image.height);
     EXPECT_EQ(without_clocks(all["pixel"]), without_clocks(alone["pixel"]));
   }
 }
