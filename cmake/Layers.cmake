@@ -78,7 +78,7 @@ endfunction()
 
 # deburr_library(<name> LAYER <layer> [SOURCES ...] [NOT_SIMULATED ...] LINK ...): a static library of one
 # layer; linking it makes its layer's headers visible, and those of what it links publicly. Sources that run
-# beside a simulation, and not in each of its clocks, are NOT_SIMULATED: they are compiled faster.
+# beside a simulation, or cost little in it, are NOT_SIMULATED: they are compiled faster.
 function(deburr_library name)
   cmake_parse_arguments(ARG "" "LAYER" "SOURCES;NOT_SIMULATED;LINK;PRIVATE_LINK" ${ARGN})
   deburr_layer_root(root ${ARG_LAYER})

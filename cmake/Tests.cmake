@@ -100,6 +100,32 @@ function(deburr_list_tests)
   file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/test_programs.txt" CONTENT "${lines}" @ONLY)
 endfunction()
 
+# deburr_script_test(<name> [FILE <stem>] [LABELS ...] [TIMEOUT s] [CLASSES ...] [ENVIRONMENT ...] [ARGUMENTS ...]):
+# <name>_test.py (or <stem>_test.py) of this folder, label system, 300 s. With classes an entry of ctest each,
+# <name>.Class, so that they run side by side.
+function(deburr_script_test name)
+  cmake_parse_arguments(ARG "" "FILE;TIMEOUT" "LABELS;CLASSES;ENVIRONMENT;ARGUMENTS" ${ARGN})
+  foreach(default "FILE ${name}" "TIMEOUT 300" "LABELS system" "CLASSES ,")
+    string(REPLACE " " ";" default ${default})
+    list(GET default 0 option)
+    if(NOT ARG_${option})
+      list(GET default 1 ARG_${option})
+    endif()
+  endforeach()
+  list(APPEND ARG_ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
+  foreach(class IN LISTS ARG_CLASSES)
+    set(entry ${name}.${class})
+    if(class STREQUAL ",")
+      set(entry ${name})
+      set(class "")
+    endif()
+    add_test(NAME ${entry}
+             COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/${ARG_FILE}_test.py" ${ARG_ARGUMENTS} ${class})
+    set_tests_properties(${entry} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
+                         ENVIRONMENT "${ARG_ENVIRONMENT}")
+  endforeach()
+endfunction()
+
 # deburr_noise_for_minutes(<engine>): its register noise with new seeds for two minutes, label fuzz.
 function(deburr_noise_for_minutes engine)
   add_test(NAME fuzz_registers_${engine} COMMAND rtl_${engine}_tests --gtest_filter=RegisterNoise.*)

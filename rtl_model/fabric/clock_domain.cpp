@@ -289,12 +289,12 @@ bool ClockDomain::may_run_on() {
                   "the domain's offset, so its time is wrong: use ClockDomain::notify() or "
                   "offset(), or switch off the fast path",
                   name(), std::max(block_start_, cycle_ - std::min(cycle_, kBlock)), cycle_ - 1));
-  if (pending <= next || cycle_ * period_value_ >= horizon_ ||
+  if (pending <= next || cycle_ >= horizon_ ||
       sc_core::sc_get_curr_simcontext()->sim_status() != sc_core::SC_SIM_OK)
     return false;
   // Edges strictly before what is pending, and strictly before the horizon.
-  block_end_ = std::min({cycle_ + kBlock, block_start_ + (pending - 1) / period_value_ + 1,
-                         (horizon_ - 1) / period_value_ + 1});
+  block_end_ =
+      std::min({cycle_ + kBlock, block_start_ + (pending - 1) / period_value_ + 1, horizon_});
   return true;
 }
 
@@ -341,7 +341,7 @@ void ClockDomain::start(Cycle end, std::uint64_t horizon) {
   if (domains_.empty()) for_each<ClockDomain>([&](ClockDomain& d) { domains_.push_back(&d); });
   for (ClockDomain* domain : domains_) {
     domain->in_run_ = true;
-    domain->horizon_ = horizon;
+    domain->horizon_ = (horizon - 1) / domain->period_value_ + 1;
   }
   const auto finish = [&] {
     for (ClockDomain* domain : domains_) {

@@ -133,8 +133,8 @@ class ClockDomain final : public sc_core::sc_module {
 
   static constexpr Cycle kBlock = 256;
   Cycle cycle_ = 0, block_start_ = 0, reset_cycle_ = 0;
-  Cycle block_end_ = 0;        // edges before this one may be evaluated without asking the kernel
-  std::uint64_t horizon_ = 0;  // sc_time value up to which the current run will certainly go
+  Cycle block_end_ = 0;  // edges before this one may be evaluated without asking the kernel
+  Cycle horizon_ = 0;    // edges before this one the current run will certainly reach
   std::uint64_t activations_ = 0;
   std::uint64_t shuffle_state_ = 0;
   Phase phase_ = Phase::kEdge;

@@ -174,7 +174,7 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
       words_(words()),
       span_(this->shape().span),
       latency_(this->shape().latency),
-      any_word_(forbids(this->shape()) ? 0 : kNever),
+      guarded_(forbids(this->shape())),
       read_banks_(read_banks_used_),
       write_banks_(this->shape().shared_ports ? read_banks_used_ : write_banks_used_) {
   const MemoryShape& s = this->shape();
@@ -192,14 +192,19 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
     read_banks_used_.assign(s.banks, kNever);
     write_banks_used_.assign(s.banks, kNever);
   }
-  const bool plain = !s.separate_banks;
-  const bool one_bank =
-      s.separate_banks && s.order == BankOrder::kInterleaved && std::has_single_bit(s.banks);
+  const bool interleaved = s.order == BankOrder::kInterleaved,
+             apart = s.span == 1 || (interleaved && s.span <= s.banks);  // words of an access
   for (Port& port : ports_) {
     port.latency = latency_;
-    const bool shared = port.side == Side::kShared;
-    port.plain = plain && !shared ? words_ : 0;
-    port.one_bank = one_bank && !shared ? words_ : 0;
+    const bool alone =  // nobody else takes a bank of those that it takes
+        apart && s.shared_ports == 0 &&
+        (port.side == Side::kRead ? s.read_ports : s.write_ports) == 1;
+    if (port.side != Side::kShared) {
+      if (alone || !s.separate_banks)
+        (guarded_ ? port.guarded : port.plain) = words_;
+      else if (interleaved && std::has_single_bit(s.banks))
+        port.one_bank = words_;
+    }
     port.bank_mask = s.banks - 1;
     port.banks = read_banks_.data();
     // As many reads as can be under way, and the one whose word is on the output register.
@@ -259,7 +264,7 @@ void PortedMemory::reset() {
   }
   std::fill(read_banks_used_.begin(), read_banks_used_.end(), kNever);
   std::fill(write_banks_used_.begin(), write_banks_used_.end(), kNever);
-  written_ = read_ = written_guard_ = kNever;
+  written_ = read_ = kNever;
 }
 
 std::uint64_t PortedMemory::reads() const {
@@ -298,7 +303,7 @@ void PortedMemory::check_read(const Port& port, Cycle cycle, std::uint64_t addre
                               std::uint64_t count) {
   if (port.side == Side::kShared && port.written == cycle) fail_twice(port, cycle, address);
   if (shape().separate_banks) use_banks(read_banks_, port, cycle, address, count);
-  if (!forbids(shape())) return;
+  if (!guarded_) return;
   for (const Port* writer : writers_)
     if (writer->written == cycle &&
         overlap(address, count, writer->write_address, writer->write_count))
@@ -318,7 +323,7 @@ void PortedMemory::check_write(const Port& port, Cycle cycle, std::uint64_t addr
       fail(port, cycle,
            fmt::format("write of address {}, which {} writes in this clock too", address,
                        writer->user));
-  if (!forbids(shape())) return;
+  if (!guarded_) return;
   for (const Port* reader : readers_) {
     const Read& read = *reader->newest;
     if (read.due == cycle + latency_ && overlap(address, count, read.address, read.count))

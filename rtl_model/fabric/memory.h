@@ -191,10 +191,11 @@ class PortedMemory : public MemoryBase {
   // What an access looks at comes first, copies of the memory's among it.
   struct Port {
     Read* newest = nullptr;  // of the last reads
-    // Most ports have nothing to check beyond issue(): `plain` is the number of words. Of others it
-    // is 0, and `one_bank` is it where a read of a word takes a bank and that is all, which the low
-    // bits of the address say.
-    std::uint64_t plain = 0, one_bank = 0, bank_mask = 0;
+    // What is to be checked beyond issue(). One of these is the number of words, the others are 0:
+    // `plain`, nothing; `guarded`, that no read meets a write; `one_bank`, the same where it is
+    // forbidden, and that a read of a word has its bank alone, which the low bits of the address
+    // say. Where there is more to it all three are 0.
+    std::uint64_t plain = 0, guarded = 0, one_bank = 0, bank_mask = 0;
     Cycle* banks = nullptr;  // by bank, when it was last read
     std::uint32_t latency = 0;
     Side side = Side::kRead;
@@ -231,9 +232,11 @@ class PortedMemory : public MemoryBase {
     read.address = address;
     read.count = count;
     ++port.reads;
-    read_ = cycle | any_word_;
-    if (written_guard_ != cycle) [[likely]] {
-      if (address < port.plain) [[likely]]
+    if (address < port.plain) [[likely]]
+      return;
+    read_ = cycle;
+    if (written_ != cycle || !guarded_) [[likely]] {
+      if (address < port.guarded) [[likely]]
         return;
       if (address < port.one_bank && count == 1) [[likely]] {
         Cycle& used = port.banks[address & port.bank_mask];
@@ -251,12 +254,15 @@ class PortedMemory : public MemoryBase {
     issue(port, cycle, address, count, port.written == cycle);
     const bool meets = written_ == cycle;
     port.written = written_ = cycle;
-    written_guard_ = cycle | any_word_;
     port.write_address = address;
     port.write_count = count;
     ++port.writes;
-    if (address < port.plain && !meets && read_ != cycle) [[likely]]
-      return;
+    if (!meets) [[likely]] {
+      if (address < port.plain) [[likely]]
+        return;
+      if (address < port.guarded && read_ != cycle) [[likely]]
+        return;
+    }
     if (address >= words_) [[unlikely]]
       fail_address(port, cycle, address, count);
     check_write(port, cycle, address, count);
@@ -295,10 +301,9 @@ class PortedMemory : public MemoryBase {
 
   const std::uint64_t words_;
   const std::uint32_t span_, latency_;
+  const bool guarded_;      // no read may meet a write of its clock
   Cycle written_ = kNever;  // the last write through any port
-  // Where a read may not meet a write: the last read and write. Elsewhere kNever, by any_word_.
-  Cycle read_ = kNever, written_guard_ = kNever;
-  const Cycle any_word_;
+  Cycle read_ = kNever;     // the last read, of a port that is not `plain`
   std::vector<Port> ports_;
   std::vector<Port*> readers_, writers_;  // shared ports are among both
 

@@ -212,16 +212,17 @@ void MemoryPort::send(Transaction& t, Cycle cycle) {
   if (status == tlm::TLM_ACCEPTED) return;
   // The target answers at once: it ended the request, or the request and began the response, or
   // all.
-  const sc_core::sc_time when = sc_core::sc_time_stamp() + delay;
+  const sc_core::sc_time& now = sc_core::sc_time_stamp();
+  const sc_core::sc_time when = now + delay;
   if (requesting_ == &t) {
     requesting_ = nullptr;
     channel_free_ = when;
   }
   if (status == tlm::TLM_COMPLETED) {
-    arrived(t, when);
+    arrived(t, now, when);
   } else if (phase == tlm::BEGIN_RESP) {
     t.acquire();
-    arrived(t, when);
+    arrived(t, now, when);
     phase = tlm::END_RESP;
     memory->nb_transport_fw(t, phase, delay);
     t.release();
@@ -231,7 +232,8 @@ void MemoryPort::send(Transaction& t, Cycle cycle) {
 tlm::tlm_sync_enum MemoryPort::nb_transport_bw(tlm::tlm_generic_payload& payload,
                                                tlm::tlm_phase& phase, sc_core::sc_time& delay) {
   auto& t = static_cast<Transaction&>(payload);
-  const sc_core::sc_time when = sc_core::sc_time_stamp() + delay;
+  const sc_core::sc_time& now = sc_core::sc_time_stamp();
+  const sc_core::sc_time when = now + delay;
   const bool begins = phase == tlm::BEGIN_RESP;
   if (!begins && phase != tlm::END_REQ) {
     if (phase == tlm::BEGIN_REQ || phase == tlm::END_RESP)
@@ -260,7 +262,7 @@ tlm::tlm_sync_enum MemoryPort::nb_transport_bw(tlm::tlm_generic_payload& payload
     responding_ = &t;
     end_response_.notify(delay);
   }
-  arrived(t, when);
+  arrived(t, now, when);
   switch (response_end) {
     case ResponseEnd::kUpdated:
       phase = tlm::END_RESP;
@@ -281,7 +283,8 @@ void MemoryPort::send_end_response() {
   t.release();
 }
 
-void MemoryPort::arrived(Transaction& t, const sc_core::sc_time& when) {
+void MemoryPort::arrived(Transaction& t, const sc_core::sc_time& now,
+                         const sc_core::sc_time& when) {
   t.arrived = true;
   t.when = when;
   if (t.epoch != epoch_) {  // asked for before a reset
@@ -291,7 +294,7 @@ void MemoryPort::arrived(Transaction& t, const sc_core::sc_time& when) {
   const std::uint64_t period = clock().period().value();
   t.visible = when.value() / period + 1;
   t.come = (when.value() + period - 1) / period;
-  if (when > sc_core::sc_time_stamp()) {
+  if (when > now) {
     put_in_order(coming_, t);
     next_comes_ = coming_.front()->come;
   } else {
@@ -302,12 +305,14 @@ void MemoryPort::arrived(Transaction& t, const sc_core::sc_time& when) {
 
 // By their arrival; most are the last.
 void MemoryPort::put_in_order(std::deque<Transaction*>& list, Transaction& t) {
-  const auto earlier = [](const Transaction* a, const Transaction* b) { return a->when < b->when; };
-  Transaction* const newest = &t;
-  if (list.empty() || !earlier(newest, list.back()))
-    list.push_back(newest);
+  if (list.empty() || t.when >= list.back()->when) [[likely]]
+    list.push_back(&t);
   else
-    list.insert(std::upper_bound(list.begin(), list.end(), newest, earlier), newest);
+    put_before(list, t);
+}
+void MemoryPort::put_before(std::deque<Transaction*>& list, Transaction& t) {
+  const auto earlier = [](const Transaction* a, const Transaction* b) { return a->when < b->when; };
+  list.insert(std::upper_bound(list.begin(), list.end(), &t, earlier), &t);
 }
 
 void MemoryPort::count(Transaction& t) {

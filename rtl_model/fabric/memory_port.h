@@ -151,10 +151,12 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   void free(tlm::tlm_generic_payload* payload) override;
   Transaction& allocate();
   void send(Transaction& transaction, Cycle cycle);
-  void arrived(Transaction& transaction, const sc_core::sc_time& when);
+  void arrived(Transaction& transaction, const sc_core::sc_time& now, const sc_core::sc_time& when);
   void send_end_response();
   void count(Transaction& transaction);
   static void put_in_order(std::deque<Transaction*>& list, Transaction& transaction);
+  [[gnu::noinline]] static void put_before(std::deque<Transaction*>& list,
+                                           Transaction& transaction);
   void take_coming(Cycle cycle);
   void take_lines(Cycle cycle);
   [[gnu::noinline]] Activity work(Cycle cycle);

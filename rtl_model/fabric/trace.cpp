@@ -185,9 +185,10 @@ void Trace::collect(Cycle cycle) {
 
 void Trace::write_header() {
   // Neighbours in the hierarchy must be neighbours in the file.
-  std::stable_sort(signals_.begin(), signals_.end(), [](const Signal& a, const Signal& b) {
-    return split(a.name).first < split(b.name).first;
-  });
+  std::multimap<std::vector<std::string>, Signal> by_path;
+  for (Signal& signal : signals_) by_path.emplace(split(signal.name).first, std::move(signal));
+  signals_.clear();
+  for (auto& [path, signal] : by_path) signals_.push_back(std::move(signal));
   file_ << "$comment deburr $end\n$timescale " << sc_core::sc_get_time_resolution().to_string()
         << " $end\n";
   clock_id_ = short_name(signals_.size());

@@ -213,23 +213,22 @@ tlm::tlm_sync_enum MemoryModel::nb_transport_fw(int port, tlm::tlm_generic_paylo
     held_.push_back(port);
     wake_for_held();
   } else {
-    begin(port, payload, true, delay);
+    begin(port, payload, true, time, delay);
   }
   return tlm::TLM_ACCEPTED;
 }
 
-// A request enters `delay` from now, and is ended.
+// A request enters at `time`, which is `delay` from now, and is ended.
 void MemoryModel::begin(int port, tlm::tlm_generic_payload& payload, bool counted,
-                        const sc_core::sc_time& delay) {
-  const sc_core::sc_time& now = sc_core::sc_time_stamp();
+                        std::uint64_t time, const sc_core::sc_time& delay) {
   const std::optional<std::uint64_t> response =
-      accept({&payload, port, 0, false, false, counted}, (now + delay).value());
+      accept({&payload, port, 0, false, false, counted}, time);
   tlm::tlm_phase phase = tlm::END_REQ;
   sc_core::sc_time when = delay;
   ports[port]->nb_transport_bw(payload, phase, when);
   if (!response) return;
   ahead_.push_back(*response);
-  send_response(port, payload, sc_core::sc_time::from_value(*response) - now);
+  send_response(port, payload, delay + sc_core::sc_time::from_value(*response - time));
 }
 
 std::optional<std::uint64_t> MemoryModel::accept(Request request, std::uint64_t time) {
@@ -360,7 +359,7 @@ void MemoryModel::finished() {
   tlm::tlm_generic_payload* payload = std::exchange(port_at(port).held, nullptr);
   const bool counted = uncounted_ == 0;
   if (!counted) --uncounted_;
-  begin(port, *payload, counted, sc_core::SC_ZERO_TIME);
+  begin(port, *payload, counted, sc_core::sc_time_stamp().value(), sc_core::SC_ZERO_TIME);
 }
 
 // No event tells when a response that was sent ahead makes room.

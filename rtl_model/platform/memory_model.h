@@ -122,7 +122,7 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   unsigned transport_dbg(int port, tlm::tlm_generic_payload& payload);
 
   void serve();
-  void begin(int port, tlm::tlm_generic_payload& payload, bool counted,
+  void begin(int port, tlm::tlm_generic_payload& payload, bool counted, std::uint64_t time,
              const sc_core::sc_time& delay);
   // The time of its response, if that may be sent ahead.
   std::optional<std::uint64_t> accept(Request request, std::uint64_t time);

@@ -43,7 +43,7 @@ def texture_fifo(f):
             for depth in (2, 8, 16, 32, 64, 96, 128, 160, 256, 512)]
 
 
-@recipe("frame-object")
+@recipe("frame-object", long=True)
 def frame_object(f):
     """The texture unit's picture smoothed, by both presets of the unit."""
     for texture in ("deburr", "paper"):

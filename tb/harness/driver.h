@@ -55,7 +55,11 @@ class Driver final : public rtl::Unit {
   // Either a list, which may grow meanwhile, or a generator.
   void send(const T& beat) { list_.push_back(beat); }
   void send(const std::vector<T>& beats) { list_.insert(list_.end(), beats.begin(), beats.end()); }
-  void send(Generator generator) { generator_ = std::move(generator); }
+  // One after another that has ended goes on with the next index.
+  void send(Generator generator) {
+    generator_ = std::move(generator);
+    ended_ = false;
+  }
 
   bool done() const { return ended_ || (!generator_ && sent_ == list_.size()); }
   std::uint64_t sent() const { return sent_; }

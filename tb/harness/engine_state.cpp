@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "rtl_model/fabric/wire.h"
+
 namespace deburr::tb {
 namespace {
 
@@ -15,7 +17,7 @@ std::string inner_name(const rtl::Engine& engine, const sc_core::sc_object& obje
 
 }  // namespace
 
-std::vector<std::string> engine_state(const rtl::Engine& engine, platform::RegisterHost& host,
+std::vector<std::string> engine_state(rtl::Engine& engine, platform::RegisterHost& host,
                                       const std::vector<std::uint32_t>& more_registers) {
   std::vector<std::string> state;
   const auto add = [&](const std::string& name, std::uint64_t value) {
@@ -43,6 +45,15 @@ std::vector<std::string> engine_state(const rtl::Engine& engine, platform::Regis
     for (const rtl::Unit::StallCause& cause : unit->stalls())
       add(name + "." + cause.name, cause.cycles);
   }
+  for (const rtl::LinkBase* link : engine.links()) {
+    add(inner_name(engine, *link) + ".pushes", link->pushes());
+    add(inner_name(engine, *link) + ".pops", link->pops());
+  }
+  rtl::for_each<rtl::WireBase>(engine, [&](const rtl::WireBase& wire) {
+    add(inner_name(engine, wire) + ".changes", wire.changes());
+    add(inner_name(engine, wire) + ".high",
+        wire.high_clocks(engine.units().front()->clock().cycle()));
+  });
   for (const rtl::MemoryBase* memory : engine.memories())
     if (const auto high_water = memory->high_water())
       add(inner_name(engine, *memory) + ".high_water", *high_water);

@@ -20,6 +20,7 @@
 #include "spec/registers.h"
 #include "tb/base/forked.h"
 #include "tb/base/random.h"
+#include "tb/harness/engine_kit.h"
 
 namespace deburr::tb {
 
@@ -74,35 +75,29 @@ class RegisterNoise {
 };
 
 // What every engine must do with such a host: crash never, hang never, and after a reset do its
-// work as a new engine does. A Kit is an engine on its bench, as drawn from a Random:
-//
-//   Kit(Random& random);
-//   rtl::ClockDomain& clock();
-//   platform::RegisterHost& bus();
-//   static std::span<const spec::RegisterInfo> registers();
-//   static constexpr std::uint32_t kMostOffset;   // of what the noise accesses
-//   static constexpr int kAccesses;
-//   static constexpr std::uint32_t kClocks;       // between two of them, fewer than these
-//   std::string job();               // a piece of work after a reset, and all that came of it
-//   void begin();                    // the noise begins
-//   void disturb(Random& random);    // after an access: work, starts, whatever comes in
-//   std::string end();               // the noise is over; what is wrong by now
-//   void reset();                    // a reset, and what a driver loads after it for good
+// work as a new engine does. Its Kit (engine_kit.h) is drawn from a Random.
 template <class Kit>
 std::string left_by_noise(std::uint64_t seed) {
   Random random(seed);
   Kit kit(random);
-  const std::string fresh = kit.job();
-  RegisterNoise noise(random.next(), Kit::registers(), Kit::kMostOffset);
-  kit.begin();
+  const auto job = [&] {
+    std::string text = text_of(run_job(kit, Job::kWhole), Compared::kAll);
+    for (const std::string& line : state_of(kit)) text += line + "\n";
+    return text;
+  };
+  kit.reset(Kit::kNoiseReset);
+  const std::string fresh = job();
+  RegisterNoise noise(random.next(), kit.engine().control.registers.table(), Kit::kMostOffset);
+  kit.noise_begins();
   for (int i = 0; i < Kit::kAccesses; ++i) {
     noise.access(kit.bus());
     kit.disturb(random);
     kit.clock().run(random.below(Kit::kClocks));
   }
-  if (std::string wrong = kit.end(); !wrong.empty()) return wrong;
-  kit.reset();
-  const std::string again = kit.job();
+  if (std::string wrong = kit.noise_ends(); !wrong.empty()) return wrong;
+  kit.reset(Kit::kNoiseReset);
+  kit.restore();
+  const std::string again = job();
   return again == fresh ? "" : "expected\n" + fresh + "got\n" + again;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -158,19 +159,14 @@ void Timeline::reset() {
 // ---- the file -----------------------------------------------------------------------------------
 
 std::string Timeline::json() const {
-  struct Event {
-    rtl::Cycle at;
-    int order;  // at the same time: ends before begins
-    std::string text;
-  };
-  std::vector<Event> events;
-  events.reserve(slices_.size() + 2 * kept_.size() + samples_.size());
+  // By time; at the same time ends before begins.
+  std::multimap<std::pair<rtl::Cycle, int>, std::string> events;
   for (const Slice& s : slices_)
-    events.push_back({s.from, 1,
-                      fmt::format(R"({{"ph":"X","name":{},"cat":{},"pid":{},"tid":{},"ts":{},)"
-                                  R"("dur":{}}})",
-                                  quoted(s.name), quoted(s.category), kProcess, s.track + 1, s.from,
-                                  s.to - s.from)});
+    events.emplace(std::pair(s.from, 1),
+                   fmt::format(R"({{"ph":"X","name":{},"cat":{},"pid":{},"tid":{},"ts":{},)"
+                               R"("dur":{}}})",
+                               quoted(s.name), quoted(s.category), kProcess, s.track + 1, s.from,
+                               s.to - s.from));
   for (const Transaction& t : kept_) {
     const std::string port = quoted(ports_[t.port].name);
     const std::string name = quoted(t.request.write ? "write" : "read");
@@ -180,26 +176,22 @@ std::string Timeline::json() const {
                          R"("args":{{{}}}}})",
                          phase, name, port, t.id, kProcess, at, arguments);
     };
-    events.push_back(
-        {from, 2,
-         event('b', from,
-               fmt::format(R"("address":"{:#x}","lines":{},"tag":{},"since":{})", t.request.address,
-                           t.request.lines, t.request.tag, t.from))});
-    events.push_back(
-        {to, 0,
-         event('e', to, fmt::format(R"("answered":{})", t.answered && t.to <= options_.to))});
+    events.emplace(std::pair(from, 2),
+                   event('b', from,
+                         fmt::format(R"("address":"{:#x}","lines":{},"tag":{},"since":{})",
+                                     t.request.address, t.request.lines, t.request.tag, t.from)));
+    events.emplace(
+        std::pair(to, 0),
+        event('e', to, fmt::format(R"("answered":{})", t.answered && t.to <= options_.to)));
   }
   for (const Sample& s : samples_) {
     const Level& level = levels_[s.level];
-    events.push_back({s.at, 3,
-                      fmt::format(R"({{"ph":"C","name":{},"cat":{},"pid":{},"tid":0,"ts":{},)"
-                                  R"("args":{{{}:{}}}}})",
-                                  quoted(level.name), quoted(level.category), kProcess, s.at,
-                                  quoted(level.unit), s.value)});
+    events.emplace(std::pair(s.at, 3),
+                   fmt::format(R"({{"ph":"C","name":{},"cat":{},"pid":{},"tid":0,"ts":{},)"
+                               R"("args":{{{}:{}}}}})",
+                               quoted(level.name), quoted(level.category), kProcess, s.at,
+                               quoted(level.unit), s.value));
   }
-  std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
-    return std::pair(a.at, a.order) < std::pair(b.at, b.order);
-  });
   std::string text = fmt::format(
       "{{\"displayTimeUnit\":\"ns\",\n\"otherData\":{{\"time\":\"a microsecond is a clock\","
       "\"from\":{},\"to\":{}}},\n\"traceEvents\":[\n"
@@ -213,7 +205,7 @@ std::string Timeline::json() const {
         R"({{"ph":"M","name":"thread_sort_index","pid":{0},"tid":{1},"args":{{"sort_index":{1}}}}})",
         kProcess, i + 1, quoted(tracks_[i].name));
   }
-  for (const Event& event : events) text += ",\n" + event.text;
+  for (const auto& [at, event] : events) text += ",\n" + event;
   return text + "\n]}\n";
 }
 

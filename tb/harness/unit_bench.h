@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A queue of tokens at each end of a unit that a test looks at alone: without stalls, so that what
-// its sink notes are the unit's own clocks. (driver.h has ends for whole runs, with random stalls.)
+// What a test of one unit needs: a Source and a Sink, which stall when the test says so and note
+// clocks (driver.h has ends for whole runs, with random stalls); both as Ends with their links; and
+// what is asked of units: stalls by cause, what a memory rejects.
 //
 //   unit_bench::Ends<Token, Result> ends(clock);   // source -> in -> [unit] -> out -> sink
 //   halver.tokens_in(ends.in);
@@ -24,8 +25,10 @@
 
 namespace deburr::tb::unit_bench {
 
-// Pushes its tokens as fast as they are taken, each in its clock or, if there is no room, as soon
-// as there is.
+// The clock of tests that ask for clocks alone.
+inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
+
+// Pushes its tokens in order, each in its clock, or as soon as there is room.
 template <class T>
 class Source final : public rtl::Unit {
  public:
@@ -43,7 +46,7 @@ class Source final : public rtl::Unit {
   }
   void add(const T& token) { add(0, token); }
   void add(rtl::Cycle from, const T& token) { tokens_.push_back({from, token}); }
-  // Number `index` and those after it, not before clock `from`.
+  // Number `index` and those after it, in clock `from`.
   void delay(std::size_t index, rtl::Cycle from) {
     for (; index < tokens_.size(); ++index) tokens_[index].from = from;
   }

@@ -427,6 +427,12 @@ std::vector<GuardedText> guarded_text(int width, int height) {
   return pages;
 }
 
+std::string guarded_text_table(Text kind) {
+  return "\n" + head(guard_head("changed, %")) +
+         of_right_frame_with_guard("text, aliased", text_page(kind, kWidth, kHeight),
+                                   guarded_filters());
+}
+
 std::string guard_tables() {
   const std::vector<Filter> all = guarded_filters();
   std::string text =

@@ -42,5 +42,7 @@ std::string data_guard_table(const std::filesystem::path& data);
 // Of the first table of frames that are right the row of a page of aliased text, made of one of
 // this kind: as quick as a test that runs every time should be.
 std::string text_table(Text kind);
+// The same of the first of guard_tables().
+std::string guarded_text_table(Text kind);
 
 }  // namespace deburr::tb::harm

@@ -27,6 +27,7 @@ using harm::Text;
 constexpr const char *kPage = "measurements/morphological_harm.md",
                      *kQualityPage = "measurements/morphological_quality.md",
                      *kFormula = "MorphologicalHarm.OfFramesByFormula",
+                     *kGuard = "MorphologicalHarm.OfTheTextGuard",
                      *kData = "MorphologicalHarm.OfFramesOfOthers";
 
 TEST(MorphologicalHarm, OfFramesByFormula) {
@@ -54,9 +55,7 @@ TEST(MorphologicalHarm, OfFramesOfOthersWithTruth) {
                    harm::data_frames_with_truth(data_folder()));
 }
 
-TEST(MorphologicalHarm, OfTheTextGuard) {
-  expect_generated(kPage, "MorphologicalHarm.OfTheTextGuard", harm::guard_tables());
-}
+TEST(MorphologicalHarm, OfTheTextGuard) { expect_generated(kPage, kGuard, harm::guard_tables()); }
 
 TEST(MorphologicalHarm, OfTheTextGuardOnWires) {
   expect_generated(kPage, "MorphologicalHarm.OfTheTextGuardOnWires", harm::wires_table());
@@ -91,19 +90,23 @@ std::pair<std::string, std::string> head_and_last_row(const std::string& table) 
           table.substr(last + 1, table.find('\n', last + 1) - last)};
 }
 
-// One row of the large table, which takes seconds.
-TEST(MorphologicalHarm, OfAliasedText) {
+// One row of a large table, which takes seconds.
+void expect_row(const char* generated, std::string (*table)(Text)) {
   std::ifstream file(source_folder() / "docs" / kPage, std::ios::binary);
   const std::string part =
-      GeneratedPart({std::istreambuf_iterator<char>(file), {}}, kFormula).part();
-  const auto [head, row] = head_and_last_row(harm::text_table(Text::kAliased));
+      GeneratedPart({std::istreambuf_iterator<char>(file), {}}, generated).part();
+  const auto [head, row] = head_and_last_row(table(Text::kAliased));
   EXPECT_NE(part.find(head), std::string::npos) << head;
   EXPECT_NE(part.find(row), std::string::npos) << row;
   // The planted fault: another page gives another row, even under the same name.
-  const auto [other_head, other_row] = head_and_last_row(harm::text_table(Text::kBitmapFont));
+  const auto [other_head, other_row] = head_and_last_row(table(Text::kBitmapFont));
   EXPECT_EQ(other_head, head);
   EXPECT_EQ(part.find(other_row), std::string::npos) << other_row;
 }
+
+TEST(MorphologicalHarm, OfAliasedText) { expect_row(kFormula, harm::text_table); }
+
+TEST(MorphologicalHarm, OfAliasedTextWithTheGuard) { expect_row(kGuard, harm::guarded_text_table); }
 
 std::set<Rgba8> colours(const Image& image) { return {image.pixels.begin(), image.pixels.end()}; }
 

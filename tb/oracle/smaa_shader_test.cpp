@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -94,6 +95,8 @@ class PublishedShader : public testing::Test {
     if (shader_ == nullptr) GTEST_SKIP() << "Mesa is absent: " << why;
     fmt::print("{}\n", shader_->name());
   }
+
+  void expect_weights_at_other_sizes(std::span<const Quality> qualities);
 
   std::unique_ptr<SmaaShader> shader_;
 };
@@ -353,13 +356,13 @@ TEST_F(PublishedShader, HasTheseWeightsWhereSinglePrecisionIsExact) {
 }
 
 // At other sizes the rounding of coordinates decides whether a search makes a step more.
-TEST_F(PublishedShader, HasTheseWeightsAtOtherSizes) {
+void PublishedShader::expect_weights_at_other_sizes(std::span<const Quality> qualities) {
   std::vector<Image> frames = smaa_frames();
   frames.push_back(stimuli::rendered_like(1280, 720, 400));
   // At most, per thousand edges by quality: twice what is measured.
   constexpr std::array<int, 4> kLastSteps = {94, 27, 12, 5};
   for (const bool colour : {false, true})
-    for (const Quality quality : kSmaaQualities) {
+    for (const Quality quality : qualities) {
       const Comparison found =
           compared(*shader_, whole_texels(run_of(quality, colour)), quality, frames, kRounded);
       print(fmt::format("{}, {}", colour ? "colour" : "luma", name_of(quality)), found);
@@ -368,6 +371,15 @@ TEST_F(PublishedShader, HasTheseWeightsAtOtherSizes) {
                 kLastSteps[static_cast<std::size_t>(quality)] * found.edges);
       expect_published(found);
     }
+}
+
+TEST_F(PublishedShader, HasTheseWeightsAtOtherSizes) {
+  expect_weights_at_other_sizes(std::array{Quality::kHigh});
+}
+
+// Label long.
+TEST_F(PublishedShader, HasTheseWeightsAtOtherSizesByEveryQuality) {
+  expect_weights_at_other_sizes(kSmaaQualities);
 }
 
 // ---- planted faults -----------------------------------------------------------------------------

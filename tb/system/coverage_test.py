@@ -41,9 +41,10 @@ def declared(engine):
     """The names on the page of an engine, but for those that only tests meet."""
     with open(os.path.join(SOURCE, "docs/reference/coverage.md"), encoding="utf-8") as file:
         rows = re.findall(r"^\| `(\w+/[^`]*)` \| ([^|]*) \|", file.read(), re.M)
+    directed = trials("directed").get(engine, [])
     return {prefix + name for prefix, names in rows for name in re.findall("`([^`]+)`", names)
             if prefix.startswith(engine + "/") and name != "invalid" and
-            prefix not in trials("directed").get(engine, [])}
+            prefix not in directed}
 
 
 def total(bins, group):

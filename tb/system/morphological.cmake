@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: MIT
+# Of the presets two have full frames of 1080 lines every time, all of them those of 720.
+set(LONG_system "Morphological/RenderedFrame[.].*/(mlaa_1|mlaa_slope_3|smaa_dynamic_7|deburr_line_9)")
 foreach(suite system stress coverage records shares)
   if(suite STREQUAL stress)
     set(label stress)
@@ -7,7 +9,7 @@ foreach(suite system stress coverage records shares)
   else()
     set(label system)
   endif()
-  deburr_test(morphological_${suite}_test PROGRAM system_morphological_tests LABELS ${label}
+  deburr_test(morphological_${suite}_test PROGRAM system_morphological_tests LABELS ${label} LONG ${LONG_${suite}}
               SOURCE morphological_${suite}_test.cpp
               LINK deburr::morphological_environment TIMEOUT 300)
 endforeach()

@@ -384,6 +384,15 @@ class Screen:
                 self.column += 1
 
 
+def pieces(terminal):
+    """What comes to a terminal until its other end is closed."""
+    try:
+        while data := os.read(terminal, 65536):
+            yield data
+    except OSError:
+        pass
+
+
 class Bar(Many):
     """Progress stays in one row of a terminal, however narrow."""
 
@@ -399,13 +408,7 @@ class Bar(Many):
                                    stdin=its, stdout=subprocess.DEVNULL, stderr=its)
         os.close(its)
         parts = []
-        while True:
-            try:
-                data = os.read(mine, 65536)
-            except OSError:  # the other end is closed
-                break
-            if not data:
-                break
+        for data in pieces(mine):
             parts.append(data.decode())
             if resized and len(parts) == 1:
                 self.resize(mine, resized)
@@ -512,18 +515,10 @@ class Lines(Many):
         process = subprocess.Popen(command, cwd=self.directory, stdin=subprocess.DEVNULL, stdout=its,
                                    stderr=subprocess.DEVNULL)
         os.close(its)
-        parts = []
-        while True:
-            try:
-                data = os.read(mine, 65536)
-            except OSError:  # the other end is closed
-                break
-            if not data:
-                break
-            parts.append(data)
+        text = b"".join(pieces(mine)).decode()
         os.close(mine)
         self.assertIn(process.wait(timeout=300), codes, arguments)
-        return b"".join(parts).decode().replace("\r\n", "\n")
+        return text.replace("\r\n", "\n")
 
     def check(self, *arguments, codes=(0,), table=False):
         """`table`: a row may become several, with names of columns in each."""

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rtl_model/fabric/memory.h"
@@ -66,7 +67,10 @@ class FillStore {
   bool can_reserve(Cycle cycle) const {
     return reserved_ - (released_ - (released_at_ == cycle)) < places_;
   }
-  std::uint32_t reserve() { return static_cast<std::uint32_t>(reserved_++ % places_); }
+  std::uint32_t reserve() {
+    ++reserved_;
+    return std::exchange(next_, after(next_));
+  }
   void fill(Cycle cycle, std::uint32_t place, const Word& word) {
     DEBURR_CHECK(
         place < places_ && arrived_[place] == kNever,
@@ -77,35 +81,38 @@ class FillStore {
 
   // --- Who uses them: the oldest only ---
   bool ready(Cycle cycle) const { return read_ != released_ && read_at_ < cycle; }
-  const Word& line(Cycle cycle) const { return read_port_.at(cycle, oldest(), read_at_); }
+  const Word& line(Cycle cycle) const { return read_port_.at(cycle, oldest_, read_at_); }
   void release(Cycle cycle) {
-    arrived_[oldest()] = kNever;
+    arrived_[oldest_] = kNever;
+    oldest_ = after(oldest_);
     ++released_;
     released_at_ = cycle;
   }
   // In every clock, after anything else.
   void read_ahead(Cycle cycle) {
-    if (read_ != released_ || arrived_[oldest()] >= cycle) return;
-    read_port_.read(cycle, oldest());
+    if (read_ != released_ || arrived_[oldest_] >= cycle) return;
+    read_port_.read(cycle, oldest_);
     ++read_;
     read_at_ = cycle;
   }
 
   bool empty() const { return reserved_ == released_; }
   void reset() {
+    next_ = oldest_ = 0;
     reserved_ = released_ = read_ = 0;
     released_at_ = read_at_ = kNever;
     std::fill(arrived_.begin(), arrived_.end(), kNever);
   }
 
  private:
-  std::uint32_t oldest() const { return static_cast<std::uint32_t>(released_ % places_); }
+  std::uint32_t after(std::uint32_t place) const { return place + 1 == places_ ? 0 : place + 1; }
 
   const std::uint32_t places_;
   Memory<Word> memory_;
   ReadPort<Word> read_port_{memory_, "oldest"};
   WritePort<Word> write_{memory_, "responses"};
-  std::vector<Cycle> arrived_;  // since when the bit is set; kNever: it is not
+  std::vector<Cycle> arrived_;           // since when the bit is set; kNever: it is not
+  std::uint32_t next_ = 0, oldest_ = 0;  // places: of the next reservation, of the oldest line
   std::uint64_t reserved_ = 0, released_ = 0, read_ = 0;
   Cycle released_at_ = kNever, read_at_ = kNever;
 };

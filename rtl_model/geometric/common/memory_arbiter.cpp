@@ -83,9 +83,11 @@ Activity MemoryArbiter::tick(Cycle cycle) {
       did = true;
     }
   }
-  std::uint64_t waiting = 0;
-  for (std::size_t i = 0; i < sides_.size(); ++i)
-    waiting |= std::uint64_t{sides_[i]->requests_in.can_pop(cycle)} << i;
+  std::uint64_t waiting = 0, client_bit = 1;
+  for (const std::unique_ptr<Side>& side : sides_) {
+    if (side->requests_in.can_pop(cycle)) waiting |= client_bit;
+    client_bit <<= 1;
+  }
   if (waiting == 0) return did ? kBusy : kIdle;
   if (!requests_out.can_push(cycle)) return did ? kBusy : kStalledDownstream;
   const int chosen = round_robin_.choose(waiting);

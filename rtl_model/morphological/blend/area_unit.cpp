@@ -37,6 +37,7 @@ void AreaUnit::enter(Cycle cycle, const AreaSlotToken& token, Beat& beat) {
   beat.next_top = token.next_top;
   beat.shares = {};
   record_walk_.address<kSmaa>(cycle, token.slot, beat.walk);
+  beat.takes_diagonals = kSmaa && beat.walk.evaluates && store_.rules().diagonal_steps != 0;
 }
 
 // Stage 3: the edges of the beat go to the units of their shares.
@@ -102,7 +103,7 @@ Activity AreaUnit::work(Cycle cycle) {
   bool did = false, blocked = false, waits = false;
   const bool arrives = slots_in.can_pop(cycle);
   if (arrives || !pipe_.empty()) {
-    if (pipe_.leaves() && pipe_.at(8)->slot.row >= lag_ && !shares_out.can_push(cycle)) {
+    if (!shares_out.can_push(cycle) && pipe_.leaves() && pipe_.at(8)->slot.row >= lag_) {
       blocked = true;
     } else if (kSmaa && waits_for_diagonals(cycle)) {
       waits = true;
@@ -111,7 +112,7 @@ Activity AreaUnit::work(Cycle cycle) {
       did = true;
       if (const Beat* beat = pipe_.at(9)) send(cycle, *beat);
       if (Beat* beat = pipe_.at(8)) {
-        if (kSmaa && takes_diagonals(*beat)) take_diagonals(cycle, *beat);
+        if (kSmaa && beat->takes_diagonals) take_diagonals(cycle, *beat);
         if (beat->works()) share_rows_.read(cycle, beat->walk.x);
       }
       // Stages 4 to 8 are those of the units of shares.

@@ -80,6 +80,7 @@ class AreaUnit final : public Unit {
   struct Beat {
     Slot slot;
     std::uint8_t left, top, next_left, next_top;
+    bool takes_diagonals;
     RecordWalk::Beat walk;
     BeatShares shares;
 
@@ -98,13 +99,10 @@ class AreaUnit final : public Unit {
   template <bool kSmaa, bool kLearned>
   inline void ask_edge(Beat& beat, std::size_t number, const StoredRecord& record,
                        const RecordWalk::Edge& edge);
-  bool takes_diagonals(const Beat& beat) const {
-    return diagonals_in && beat.walk.evaluates && store_.rules().diagonal_steps != 0;
-  }
   // The next move brings a beat to stage 8 whose diagonals are not there.
   bool waits_for_diagonals(Cycle cycle) {
-    const Beat* const beat = diagonals_in ? pipe_.at(7) : nullptr;
-    return beat && takes_diagonals(*beat) && !diagonals_in->can_pop(cycle);
+    const Beat* const beat = pipe_.at(7);
+    return beat && beat->takes_diagonals && !diagonals_in->can_pop(cycle);
   }
   void take_diagonals(Cycle cycle, Beat& beat);
   // Of the beat in this stage, for a unit inside; nullptr: a bubble.

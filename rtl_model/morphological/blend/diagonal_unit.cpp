@@ -184,25 +184,24 @@ void DiagonalUnit::deliver(Cycle cycle, const Beat& beat) {
 Activity DiagonalUnit::tick(Cycle cycle) {
   const bool arrives = columns_in.can_pop(cycle);
   if (!arrives && drains_ == 0 && pipe_.empty()) return kIdle;
-  if (pipe_.leaves() && pipe_.at(kStages - 1)->valid && !shares_.can_push(cycle))
+  if (!shares_.can_push(cycle) && pipe_.leaves() && pipe_.at(kStages - 1)->valid)
     return kStalledDownstream;
   pipe_.move();
   if (const Beat* beat = pipe_.at(5); beat && beat->valid) deliver(cycle, *beat);
   if (const Beat* beat = pipe_.at(4); beat && beat->valid && beat->searched != 0)
     address(cycle, *beat);
-  if (arrives) {
-    const DiagonalColumnsToken& token = columns_in.take(cycle);
-    if (token.slot.row == store_.reach_rows() + spec::morphological::kRowLag - 2 &&
-        token.slot.beat == 0)
+  if (!arrives && drains_ == 0) return kBusy;
+  const DiagonalColumnsToken* const token = arrives ? &columns_in.take(cycle) : nullptr;
+  if (token) {
+    if (token->slot.row == store_.reach_rows() + spec::morphological::kRowLag - 2 &&
+        token->slot.beat == 0)
       for (Column& column : window_) column.valid = false;
-    shift(cycle, &token);
-    drains_ = token.slot.beat + 1u == store_.rules().beats ? delay_ : 0;
-    search(cycle, pipe_.enter());
-  } else if (drains_ != 0) {
-    shift(cycle, nullptr);
+    drains_ = token->slot.beat + 1u == store_.rules().beats ? delay_ : 0;
+  } else {
     --drains_;
-    search(cycle, pipe_.enter());
   }
+  shift(cycle, token);
+  search(cycle, pipe_.enter());
   return kBusy;
 }
 

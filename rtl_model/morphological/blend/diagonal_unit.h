@@ -94,11 +94,12 @@ class DiagonalUnit final : public Unit {
   std::uint64_t beyond(std::uint64_t Column::*plane, std::uint8_t row, bool before) const {
     return store_.rules().clamp ? (before ? first_ : last_)[row & 1].*plane : 0;
   }
-  void shift(Cycle cycle, const DiagonalColumnsToken* token);
-  std::uint64_t repeat_rows(std::uint64_t rows, std::int32_t row) const;
-  void search(Cycle cycle, Beat& beat);
+  // Once a clock each, from one place: inline.
+  inline void shift(Cycle cycle, const DiagonalColumnsToken* token);
+  inline void search(Cycle cycle, Beat& beat);
+  inline void deliver(Cycle cycle, const Beat& beat);
   void address(Cycle cycle, const Beat& beat);
-  void deliver(Cycle cycle, const Beat& beat);
+  std::uint64_t repeat_rows(std::uint64_t rows, std::int32_t row) const;
   template <class Good>  // bool good(i), of step i
   End first_gap(Good&& good) const;
   Diagonal rising(const Around& at) const;

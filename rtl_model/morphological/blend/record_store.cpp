@@ -141,15 +141,12 @@ bool RecordStore::enter(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisRecord
 }
 
 // With a table: t(0) is there, the ends follow.
-bool RecordStore::measure_lines() {
-  bool did = false;
+void RecordStore::measure_lines() {
   for (Lines* lines : {&row_lines_, &column_lines_}) {
-    did |= lines->entered_count != 0;
     std::copy_n(lines->entered.begin(), lines->entered_count, lines->measured.begin());
     lines->measured_count = lines->entered_count;
     lines->entered_count = 0;
   }
-  return did;
 }
 
 // The last of their stages.

@@ -101,7 +101,10 @@ class RecordStore final : public sc_core::sc_module {
       if (!store_lines(cycle, finished)) return false;
       did = true;
     }
-    if (ends_) did |= measure_lines();
+    if (ends_ && row_lines_.entered_count + column_lines_.entered_count != 0) {
+      measure_lines();
+      did = true;
+    }
     if (horizontal.any_arrives(cycle, lanes_)) did |= enter(cycle, horizontal, row_, row_lines_);
     if (vertical.any_arrives(cycle, lanes_)) did |= enter(cycle, vertical, column_, column_lines_);
     return did;
@@ -146,7 +149,7 @@ class RecordStore final : public sc_core::sc_module {
   };
 
   bool enter(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisRecords& axis, Lines& under_way);
-  bool measure_lines();
+  void measure_lines();
   bool store_lines(Cycle cycle, Out<FinishToken>& finished);
   void store(Cycle cycle, AxisRecords& axis, const LineToken& token);
   std::size_t place(const AxisRecords& axis, const LineToken& token) const;

@@ -69,20 +69,18 @@ EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clo
 }
 
 // Those that are large enough, of `count` pixels of row y, where there is a neighbour at all. By
-// the plain rules, a fixed threshold for luma or colour, no mask; by the others.
-template <class Distance>
+// the plain rules, luma or colour alone, no mask: `large(pixel, neighbour)`; by the others.
+template <class Large>
 inline EdgeDetector::Edges EdgeDetector::plain_steps(std::int32_t first, std::int32_t count,
-                                                     std::int32_t y, Distance&& distance) const {
+                                                     std::int32_t y, Large&& large) const {
   const std::uint32_t *const here = luma_.row(y) + first, *const above = luma_.row(y - 1) + first;
-  const std::uint32_t threshold = store_.rules().threshold;
   std::uint32_t before = first == 0 ? 0 : here[-1];
   // With one lane the loop costs as much as its pixel.
-  if (count == 1)
-    return {distance(*here, before) >= threshold, distance(*here, *above) >= threshold};
+  if (count == 1) return {large(*here, before), large(*here, *above)};
   Edges edges;
   for (std::int32_t i = 0; i < count; ++i) {
-    edges.left |= std::uint32_t{distance(here[i], before) >= threshold} << i;
-    edges.top |= std::uint32_t{distance(here[i], above[i]) >= threshold} << i;
+    edges.left |= std::uint32_t{large(here[i], before)} << i;
+    edges.top |= std::uint32_t{large(here[i], above[i])} << i;
     before = here[i];
   }
   return edges;
@@ -92,12 +90,22 @@ inline EdgeDetector::Edges EdgeDetector::plain_steps(std::int32_t first, std::in
   const FrameRules& rules = store_.rules();
   const bool colour = rules.source == spec::morphological::EdgeSource::kColour;
   const bool plain = (rules.source == spec::morphological::EdgeSource::kLuma || colour) &&
-                     !rules.dynamic && rules.leave != spec::morphological::Leave::kMasked;
+                     rules.leave != spec::morphological::Leave::kMasked;
   const std::int32_t y = out.slot.row - 1, first = out.slot.beat * store_.lanes();
   const std::int32_t count = std::min(store_.lanes(), rules.width - first);
-  Edges edges = !plain   ? steps(first, count, y)
-                : colour ? plain_steps(first, count, y, colour_distance)
-                         : plain_steps(first, count, y, distance);
+  const auto fixed = [&](std::uint32_t a, std::uint32_t b) {
+    return distance(a, b) >= rules.threshold;
+  };
+  const auto fixed_colour = [&](std::uint32_t a, std::uint32_t b) {
+    return colour_distance(a, b) >= rules.threshold;
+  };
+  const auto dynamic = [&](std::uint32_t a, std::uint32_t b) {
+    return is_dynamic_edge(distance(a, b), a, b);
+  };
+  Edges edges = !plain          ? steps(first, count, y)
+                : colour        ? plain_steps(first, count, y, fixed_colour)
+                : rules.dynamic ? plain_steps(first, count, y, dynamic)
+                                : plain_steps(first, count, y, fixed);
   if (first == 0) edges.left &= ~1u;
   if (y == 0) edges.top = 0;
   if ((edges.left | edges.top) == 0) return;
@@ -166,14 +174,19 @@ bool EdgeDetector::is_edge(Position p, Position q) const {
     case spec::morphological::EdgeSource::kColour:
       if (!rules.dynamic) return c >= rules.threshold;
   }
-  // U9.40: both sides are products with U0.24, of twice the luma.
-  return (std::uint64_t{c} << 25) > std::uint64_t{rules.alpha} * doubled_luma(p, q) &&
-         c >= rules.floor;
+  return is_dynamic_edge(c, luma_[p], luma_[q]);
+}
+
+// U9.40: both sides are products with U0.24, of twice the luma.
+bool EdgeDetector::is_dynamic_edge(std::uint32_t c, std::uint32_t here,
+                                   std::uint32_t across) const {
+  const FrameRules& rules = store_.rules();
+  return c >= rules.floor &&
+         (std::uint64_t{c} << 25) > std::uint64_t{rules.alpha} * doubled_luma(here, across);
 }
 
 // Twice the luma that alpha multiplies, U9.16: the mean is exact.
-std::uint32_t EdgeDetector::doubled_luma(Position p, Position q) const {
-  const std::uint32_t here = luma_[p], across = luma_[q];
+std::uint32_t EdgeDetector::doubled_luma(std::uint32_t here, std::uint32_t across) const {
   switch (store_.rules().dynamic_luma) {
     case spec::morphological::DynamicLuma::kMax:
       return 2 * std::max(here, across);

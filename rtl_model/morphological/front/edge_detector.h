@@ -77,18 +77,21 @@ class EdgeDetector final : public Unit {
   };
 
   void decide(EdgeToken& out);
-  template <class Distance>
-  Edges plain_steps(std::int32_t first, std::int32_t count, std::int32_t y,
-                    Distance&& distance) const;
+  template <class Large>
+  Edges plain_steps(std::int32_t first, std::int32_t count, std::int32_t y, Large&& large) const;
   Edges steps(std::int32_t first, std::int32_t count, std::int32_t y) const;
   void keep_strong(Edges& edges, std::int32_t first, std::int32_t y) const;
   bool is_edge(Position p, Position q) const;
-  std::uint32_t doubled_luma(Position p, Position q) const;
+  bool is_dynamic_edge(std::uint32_t c, std::uint32_t here, std::uint32_t across) const;
+  std::uint32_t doubled_luma(std::uint32_t here, std::uint32_t across) const;
   bool depth_edge(Position p, Position q) const;
   bool survives(Position p, Position across, Position along) const;
 
   bool inside(Position p) const {
-    return p.x >= 0 && p.y >= 0 && p.x < store_.rules().width && p.y < store_.rules().height;
+    const auto below = [](std::int32_t at, std::int32_t end) {  // and not negative
+      return static_cast<std::uint32_t>(at) < static_cast<std::uint32_t>(end);
+    };
+    return below(p.x, store_.rules().width) && below(p.y, store_.rules().height);
   }
   // c of two pixels, U8.16: their step of luma or colour; 0 if one is masked.
   std::uint32_t contrast(Position p, Position q) const;

@@ -90,7 +90,7 @@ Activity EndpointPredictor::work(Cycle cycle) {
       const bool takes = predictor.free() && !taken;
       if (takes) {
         taken = did = true;
-        predictor.take(cycle, reset_, in.take(cycle));
+        predictor.take(cycle, clock().cycles_since_reset(), in.take(cycle));
         ++held_;
         join();
       }
@@ -108,7 +108,6 @@ void EndpointPredictor::reset() {
   }
   std::fill(turn_.begin(), turn_.end(), 0);
   held_ = full_ = 0;
-  reset_ = kNever;
 }
 
 Datasheet EndpointPredictor::datasheet() {

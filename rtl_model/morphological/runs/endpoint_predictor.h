@@ -39,8 +39,6 @@ class EndpointPredictor final : public Unit {
                     const spec::morphological::Parameters& parameters, const ParameterStore& store,
                     EdgeWindow& window);
   Activity tick(Cycle cycle) override {
-    if (reset_ == kNever) [[unlikely]]
-      reset_ = cycle;
     return held_ == 0 && !records_in.any_arrives(cycle, lanes_) ? kIdle : work(cycle);
   }
   void reset() override;
@@ -75,7 +73,6 @@ class EndpointPredictor final : public Unit {
   std::vector<std::size_t> turn_;  // of each lane: the predictor whose result is sent next
   std::uint32_t held_ = 0;         // records and results inside
   std::uint32_t full_ = 0;         // result registers
-  Cycle reset_ = kNever;           // the first clock after the reset: phase 0 of the schedule
 };
 
 }  // namespace deburr::rtl::morphological

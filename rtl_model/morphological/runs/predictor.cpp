@@ -30,7 +30,7 @@ Predictor::Predictor(const ParameterStore& store, const PortSchedule& schedule, 
       right_{right, true},
       left_{left, false} {}
 
-void Predictor::take(Cycle cycle, Cycle reset, const RunToken& token) {
+void Predictor::take(Cycle cycle, Cycle since_reset, const RunToken& token) {
   const spec::morphological::RunRecord& run = token.run;
   run_ = token;
   length_ = run.length;
@@ -56,7 +56,7 @@ void Predictor::take(Cycle cycle, Cycle reset, const RunToken& token) {
   }
   if (extends) state_ = State::kTrials;
   if (state_ == State::kJoins) return;
-  trial_at_ = cycle + 1 + schedule_.wait(cycle + 1 - reset, phase_);
+  trial_at_ = cycle + 1 + schedule_.wait(since_reset + 1, phase_);
   if (!extends) {
     right_.open = left_.open = false;
     return;

@@ -54,9 +54,9 @@ class Predictor {
 
   // Holds no record.
   bool free() const { return state_ == State::kFree; }
-  // Takes a record in this clock; `reset`: the first one after the reset, where the schedule
-  // begins.
-  void take(Cycle cycle, Cycle reset, const RunToken& run);
+  // Takes a record in this clock; `since_reset`: from the first one after the reset, where the
+  // schedule begins.
+  void take(Cycle cycle, Cycle since_reset, const RunToken& run);
   // The clocks of the record's trials.
   void tick(Cycle cycle) {
     if (state_ == State::kTrials && cycle >= trial_at_) run_trial(cycle);

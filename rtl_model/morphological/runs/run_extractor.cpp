@@ -37,10 +37,10 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
       smaa_(crossings_ || corners_ || p.diagonals),
       spare_(crossings_ || corners_ || p.area == spec::morphological::AreaSource::kLearned ? 1 : 0),
       diagonal_delay_(static_cast<Cycle>(diagonal_delay(p.diagonal_steps, store.lanes()))),
-      diagonal_rows_(p.diagonal_steps),
       records_(declare_stall("records",
                              "a record FIFO is full, or records of two slot rows before are not "
-                             "finished")) {
+                             "finished")),
+      about_(p.diagonals ? static_cast<std::size_t>(2 * p.diagonal_steps + 1) : 0) {
   if (p.diagonals) {
     columns_out.emplace("columns_out");
     diagonals_ =
@@ -84,13 +84,15 @@ Activity RunExtractor::work(Cycle cycle) {
     unfinished_[0] -= token.count[0];
     unfinished_[1] -= token.count[1];
   }
-  if (h_.count) drain(h_, cycle);
-  if (v_.count) drain(v_, cycle);
   const bool arrives = edges_in.can_pop(cycle);
-  // Records without room in their FIFOs hold all that is behind them.
-  if (std::max(h_.count, v_.count) > spare_) {
-    if (arrives) ++record_stalls;
-    return records_;
+  if ((h_.count | v_.count) != 0) {
+    drain(h_, cycle);
+    drain(v_, cycle);
+    // Records without room in their FIFOs hold all that is behind them.
+    if (std::max(h_.count, v_.count) > spare_) {
+      if (arrives) ++record_stalls;
+      return records_;
+    }
   }
   ++step_;
   bool did = false;
@@ -126,6 +128,11 @@ void RunExtractor::begin_row() {
   };
   ahead_ = in_frame(row_ + rows_.ahead());
   searched_ = in_frame(row_);
+  const std::int32_t most = static_cast<std::int32_t>(about_.size() / 2), row = row_ - 1;
+  sends_columns_ = store_.rules().diagonal_steps != 0 && row >= 0 && row < store_.rules().height;
+  if (!sends_columns_) return;
+  for (std::int32_t k = 0; k <= 2 * most; ++k)
+    about_[static_cast<std::size_t>(k)] = window_.beats(row + k - most);
 }
 
 // The words of the slot's columns are here.
@@ -150,7 +157,7 @@ template <bool kSmaa>
   out.next_top = next.top;
   if constexpr (kSmaa) {
     passed_ = cycle;
-    if (rules.diagonal_steps != 0) send_columns(cycle);
+    if (sends_columns_) send_columns(cycle);
   }
   if (ahead_ != nullptr) {
     const EdgeBits bits = ahead_[slot.beat];
@@ -178,13 +185,11 @@ template <bool kSmaa>
 
 // Row y - 1 and the rows about it.
 void RunExtractor::send_columns(Cycle cycle) {
-  const std::int32_t row = row_ - 1, most = diagonal_rows_;
-  if (row < 0 || row >= store_.rules().height) return;
   DiagonalColumnsToken& token = columns_out->emplace(cycle);
   token.slot = token_.slot;
   token.left = token.top = {};
-  for (std::int32_t k = 0; k <= 2 * most; ++k) {
-    const EdgeBits bits = window_.beat(token_.slot.beat, row + k - most);
+  for (std::size_t k = 0; k < about_.size(); ++k) {
+    const EdgeBits bits = about_[k][token_.slot.beat];
     if ((bits.left | bits.top) == 0) continue;
     for (unsigned lanes = bits.left; lanes != 0; lanes &= lanes - 1)
       token.left[static_cast<std::size_t>(std::countr_zero(lanes))] |= std::uint64_t{1} << k;

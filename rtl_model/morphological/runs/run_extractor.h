@@ -31,6 +31,7 @@
 #include <functional>
 #include <optional>
 #include <systemc>
+#include <vector>
 
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
@@ -140,8 +141,7 @@ class RunExtractor final : public Unit {
   // Rows of a frame whose diagonals take more clocks to come than a row has beats begin when those
   // of the row before are there.
   const Cycle diagonal_delay_;
-  const std::int32_t diagonal_rows_;  // M
-  Cycle passed_ = 0;                  // the last slot in clock 1
+  Cycle passed_ = 0;  // the last slot in clock 1
   Activity records_;
   std::optional<Activity> diagonals_;
   AxisSide h_, v_;
@@ -159,6 +159,10 @@ class RunExtractor final : public Unit {
   // Of the words of the window: the row that is blended, the one below, the one for EdgeRows and
   // row y; the latter two nullptr outside the frame.
   const EdgeBits *blended_ = nullptr, *shared_ = nullptr, *ahead_ = nullptr, *searched_ = nullptr;
+  // The rows from y - 1 - M to y - 1 + M, whose columns go to the DiagonalUnit while y - 1 is in
+  // the frame.
+  std::vector<const EdgeBits*> about_;
+  bool sends_columns_ = false;
   EdgeBits here_;      // of row y in the beat
   bool open_ = false;  // a horizontal run
   std::int32_t start_ = 0;

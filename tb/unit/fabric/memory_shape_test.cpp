@@ -439,6 +439,22 @@ TEST(Memory, SharedPortReadsOrWrites) {
   EXPECT_EQ(mixed.ports(), "2R1W3RW");
 }
 
+// The only port that reads takes a bank twice where an access has more words than there are banks.
+TEST(Memory, AnIdealisedAccessMeetsItself) {
+  Memory<int> memory("memory", {.words = 12,
+                                .word_bits = 4,
+                                .banks = 2,
+                                .span = 3,
+                                .separate_banks = true,
+                                .idealised = "more words an access than banks"});
+  ReadPort<int> read(memory, "read");
+  WritePort<int> write(memory, "write");
+  read.read(0, 4, 2);
+  EXPECT_THAT(rejection([&] { read.read(1, 4, 3); }), HasSubstr("bank"));
+  write.write(2, 5, std::array{1, 2});
+  EXPECT_THAT(rejection([&] { write.write(3, 5, std::array{1, 2, 3}); }), HasSubstr("bank"));
+}
+
 TEST(Memory, OneAccessGivesNeighboursInDifferentBanks) {
   Memory<int> memory("memory", {.words = 10,
                                 .word_bits = 4,

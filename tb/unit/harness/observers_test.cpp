@@ -4,12 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <string>
 #include <vector>
 
+#include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/platform/memory_model.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/timeline.h"
 #include "tb/harness/window_recorder.h"
@@ -124,6 +127,203 @@ TEST(WindowRecorder, AResetForgetsAllWindows) {
   EXPECT_THAT(recorder.from(), ElementsAre(kRun + 2, kRun + 12, kRun + 22));
   EXPECT_THAT(recorder.clocks(), ElementsAre(10, 10, 5));
   EXPECT_EQ(sum(series(recorder).at("units.first.idle")), w.p.adders[0]->idle_cycles());
+}
+
+// What was seen of links before a reset is forgotten, and each window's most is its own.
+TEST(WindowRecorder, AResetForgetsWhatLinksHeld) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  rtl::Link<Token> deep("deep", 8), other("other", 4);
+  clock.add(deep);
+  clock.add(other);
+  WindowRecorder recorder(clock, {4, 1024, {}});
+  recorder.see("first", deep);
+  recorder.see("second", other);
+  const auto push = [&](rtl::Link<Token>& link, int beats) {
+    for (int i = 0; i < beats; ++i) {
+      link.push(clock.cycle(), Token{});
+      clock.run(1);
+    }
+  };
+  push(deep, 3);  // 1, 2, 3 inside
+  deep.pop(clock.cycle());
+  clock.run(1);  // 2
+  deep.pop(clock.cycle());
+  clock.run(4);  // 1, four times
+  push(other, 2);
+  recorder.finish();
+  auto all = series(recorder);
+  EXPECT_THAT(all.at("links.first.beats"), ElementsAre(3, 0, 0));
+  EXPECT_THAT(all.at("links.first.occupancy"), ElementsAre(8, 4, 2));
+  EXPECT_THAT(all.at("links.first.most"), ElementsAre(3, 1, 1));
+  EXPECT_THAT(all.at("links.second.beats"), ElementsAre(0, 0, 2));
+  EXPECT_THAT(all.at("links.second.occupancy"), ElementsAre(0, 0, 3));
+  EXPECT_THAT(all.at("links.second.most"), ElementsAre(0, 0, 2));
+  ASSERT_EQ(recorder.occupancy().size(), 2U);
+  EXPECT_THAT(recorder.occupancy()[0].clocks, ElementsAre(0, 7, 2, 1, 0, 0, 0, 0, 0));
+  EXPECT_THAT(recorder.occupancy()[1].clocks, ElementsAre(8, 1, 1, 0, 0));
+  EXPECT_EQ(recorder.occupancy()[0].name, "first");
+  EXPECT_EQ(recorder.occupancy()[0].full_name, "deep");
+  EXPECT_EQ(recorder.occupancy()[0].beats, 3U);
+  EXPECT_EQ(recorder.occupancy()[1].beats, 2U);
+
+  clock.set_reset_n(false);
+  clock.run(2);
+  clock.set_reset_n(true);
+  push(deep, 1);
+  recorder.finish();
+  all = series(recorder);
+  EXPECT_THAT(all.at("links.first.beats"), ElementsAre(1));
+  EXPECT_THAT(all.at("links.first.occupancy"), ElementsAre(1));
+  EXPECT_THAT(all.at("links.first.most"), ElementsAre(1));
+  EXPECT_THAT(all.at("links.second.most"), ElementsAre(0));
+  EXPECT_THAT(recorder.occupancy()[0].clocks, ElementsAre(0, 1, 0, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(recorder.occupancy()[1].clocks, ElementsAre(1, 0, 0, 0, 0));
+}
+
+// Codes that count as the same are one series; each part has its own.
+TEST(WindowRecorder, AddsCodesThatCountAsTheSame) {
+  Watched w;
+  WindowRecorder recorder(w.p.clock, {100, 1024, {}});
+  recorder.see("joined", *w.p.adders[1], {"idle", "busy", "idle"});
+  recorder.see("apart", *w.p.adders[0], kActivities);
+  recorder.see({"Beats", "beats", "beat/clk", 0.5});
+  w.p.clock.run(kRun);
+  recorder.finish();
+  const auto all = series(recorder);
+  const rtl::Unit& unit = *w.p.adders[1];
+  EXPECT_EQ(sum(all.at("units.joined.idle")),
+            unit.idle_cycles() + unit.cycles_of(rtl::kStalledDownstream));
+  EXPECT_GT(unit.cycles_of(rtl::kStalledDownstream), 0U);
+  EXPECT_EQ(sum(all.at("units.joined.busy")), unit.busy_cycles());
+  EXPECT_EQ(all.count("units.joined.stalls.downstream"), 0U);
+  EXPECT_EQ(sum(all.at("units.apart.busy")), w.p.adders[0]->busy_cycles());
+  EXPECT_NE(unit.busy_cycles(), w.p.adders[0]->busy_cycles());
+  const auto json = recorder.json();
+  EXPECT_EQ(json["asked_cycles"], 100);
+  EXPECT_EQ(json["window_cycles"], 100);
+  EXPECT_EQ(json["windows"], 10);
+  EXPECT_EQ(json["from"].size(), 10U);
+  EXPECT_EQ(json["units"]["units.joined.idle"], "clk");
+  EXPECT_EQ(json["series"]["units"]["joined"]["idle"], all.at("units.joined.idle"));
+  EXPECT_EQ(json["throughput"],
+            nlohmann::ordered_json::parse(
+                R"([{"label":"Beats","key":"work.beats","unit":"beat/clk","bound":0.5}])"));
+}
+
+// Requests in flight of two ports, whose memories answer after 20 and after 7 clocks.
+struct Ports {
+  struct One {
+    Driver<rtl::MemoryRequest> driver;
+    rtl::MemoryPort port;
+    Sink<rtl::MemoryResponse> sink;
+    rtl::Link<rtl::MemoryRequest> requests;
+    rtl::Link<rtl::MemoryResponse> responses;
+    platform::MemoryModel memory;
+    One(const std::string& name, rtl::ClockDomain& clock, std::uint32_t latency)
+        : driver((name + "_driver").c_str(), clock),
+          port((name + "_port").c_str(), clock),
+          sink((name + "_sink").c_str(), clock),
+          requests((name + "_requests").c_str()),
+          responses((name + "_responses").c_str()),
+          memory((name + "_memory").c_str(), clock.period(), timing(latency)) {
+      driver.beats_out(requests);
+      port.requests_in(requests);
+      port.responses_out(responses);
+      sink.beats_in(responses);
+      port.memory.bind(memory.ports);
+    }
+    static platform::MemoryModelParameters timing(std::uint32_t latency) {
+      platform::MemoryModelParameters m;
+      m.latency_min = m.latency_max = latency;
+      return m;
+    }
+    void ask(std::uint64_t address, std::uint32_t tag) {
+      rtl::MemoryRequest request;
+      request.address = address;
+      request.tag = tag;
+      driver.send(request);
+    }
+  };
+  rtl::ClockDomain clock{"clock", sc_core::sc_time(10, sc_core::SC_NS)};
+  One slow{"slow", clock, 20}, quick{"quick", clock, 7};
+  Ports() {
+    for (std::uint32_t i = 0; i < 3; ++i) slow.ask(64 * i, i);
+    quick.ask(640, 9);
+  }
+};
+
+TEST(WindowRecorder, CountsWhatWaitsForEachMemory) {
+  Ports p;
+  WindowRecorder recorder(p.clock, {10, 1024, {}});
+  recorder.see("slow", p.slow.port);
+  recorder.see("quick", p.quick.port);
+  std::vector<std::uint64_t> slow(5), quick(5), most(5);
+  for (std::size_t i = 0; i < 50; ++i) {
+    p.clock.run(1);
+    slow[i / 10] += p.slow.port.in_flight();
+    quick[i / 10] += p.quick.port.in_flight();
+    most[i / 10] = std::max<std::uint64_t>(most[i / 10], p.slow.port.in_flight());
+  }
+  recorder.finish();
+  const auto all = series(recorder);
+  EXPECT_EQ(all.at("ports.slow.outstanding"), slow);
+  EXPECT_EQ(all.at("ports.quick.outstanding"), quick);
+  EXPECT_EQ(all.at("ports.slow.most"), most);
+  EXPECT_THAT(all.at("ports.slow.most"), ElementsAre(3, 3, testing::_, 0, 0));
+  EXPECT_GT(sum(slow), sum(quick));
+  EXPECT_GT(sum(quick), 0U);
+}
+
+// Every transaction begins and ends once, at its clocks, on its port; what is under way at the end
+// is not answered.
+TEST(Timeline, FollowsEveryTransaction) {
+  struct Seen {
+    Cycle from = 0, to = 0;
+    std::string address, port;
+    bool answered = false;
+  };
+  const auto seen = [](Cycle from, Cycle to) {
+    return in_child([&] {
+      Ports p;
+      Timeline timeline(p.clock, {from, to});
+      timeline.see("S", p.slow.port);
+      timeline.see("Q", p.quick.port);
+      p.clock.run(40);
+      timeline.finish();
+      const auto json = nlohmann::json::parse(timeline.json());
+      std::map<int, Seen> all;
+      std::string levels;
+      for (const auto& event : json["traceEvents"]) {
+        if (event["ph"] == "b") {
+          Seen& one = all[event["id"]];
+          one.from = event["ts"];
+          one.address = event["args"]["address"];
+          one.port = event["cat"];
+        }
+        if (event["ph"] == "e") {
+          all[event["id"]].to = event["ts"];
+          all[event["id"]].answered = event["args"]["answered"];
+        }
+        if (event["ph"] == "C")
+          levels += fmt::format("{}@{}={} ", event["name"].get<std::string>().substr(0, 1),
+                                event["ts"].get<int>(), event["args"]["transactions"].get<int>());
+      }
+      std::string text;
+      for (const auto& [id, one] : all)
+        text += fmt::format("{}{} {}..{}{};", one.port, one.address, one.from, one.to,
+                            one.answered ? "" : " open");
+      return text + levels;
+    });
+  };
+  // Asked in clock 1 and later; a line takes the latency and a clock of the bus.
+  EXPECT_EQ(seen(0, 100),
+            "S0x0 1..22;Q0x280 1..9;S0x40 2..23;S0x80 3..24;"
+            "S@0=0 Q@0=0 S@1=1 Q@1=1 S@2=2 S@3=3 Q@9=0 S@22=2 S@23=1 S@24=0 ");
+  // Of a part of the run: what is under way when it begins, and what is when it ends.
+  EXPECT_EQ(seen(3, 12),
+            "S0x0 3..12 open;Q0x280 3..9;S0x40 3..12 open;S0x80 3..12 open;"
+            "S@3=3 Q@3=1 Q@9=0 ");
+  EXPECT_EQ(seen(9, 100), "S0x0 9..22;S0x40 9..23;S0x80 9..24;S@9=3 Q@9=0 S@22=2 S@23=1 S@24=0 ");
 }
 
 TEST(WindowRecorder, LeavesOutWhatIsNoSum) {

@@ -190,6 +190,15 @@ class CommandLines(unittest.TestCase):
                              if "apt-get install" in call]
                 self.assertEqual(installed, [packages] if packages else [])
 
+    def test_clang_tidy_is_asked_of_what_changed_unless_it_is_asked_for(self):
+        (self.root / "tree/scripts/tidy").write_text(SAYS, encoding="utf-8")
+        for arguments, asked in (([], ["tidy --changed --build build/release"]), (["-L", "smoke"], []),
+                                 (["--tidy"], ["tidy --build build/release"]),
+                                 (["--tidy", "-L", "smoke"], ["tidy --build build/release"])):
+            with self.subTest(arguments=arguments):
+                calls = self.call("scripts/test", *arguments)[2]
+                self.assertEqual([call for call in calls if call.startswith("tidy")], asked)
+
     def test_a_part_of_the_nightly_plan_has_the_features_that_are_asked_for(self):
         plan = testplan(SOURCE / "tb/testplan/nightly.yaml")
         names = [feature["id"] for feature in plan["features"]]

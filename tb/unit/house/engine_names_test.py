@@ -9,11 +9,11 @@ whatever engines there are, and gives them to C and Python. Not looked at: docum
 tests, whose words are those of the code.
 
 usage: engine_names_test.py SOURCE"""
-import argparse
 import pathlib
 import re
-import sys
 import tempfile
+
+from house_main import house_main
 
 LIST = "tb/engines/engines.txt"
 LEFT_OUT = re.compile(r"docs/|README\.md|CHANGELOG\.md|LICENSES?|tb/mutation/|tb/unit/house/engine_names_test\.py|"
@@ -238,18 +238,5 @@ def planted_faults_are_caught():
     return missed
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("root", type=pathlib.Path, help="the checkout")
-    root = parser.parse_args().root
-    missed = planted_faults_are_caught()
-    for fault in missed:
-        print(f"planted fault not caught: {fault}")
-    found = [*complaints(root, NAMED), *not_made(root, MADE)]
-    for complaint in found:
-        print(complaint)
-    sys.exit(1 if found or missed else 0)
-
-
 if __name__ == "__main__":
-    main()
+    house_main(__doc__, planted_faults_are_caught(), lambda root: [*complaints(root, NAMED), *not_made(root, MADE)])

@@ -5,11 +5,11 @@
 The build's include roots already keep golden and rtl_model apart; this test also catches relative
 paths, forbidden words, missing licence lines, and says which line breaks which rule.
 """
-import argparse
 import pathlib
 import re
-import sys
 import tempfile
+
+from house_main import house_main
 
 # layer -> layers whose headers it may include
 ALLOWED = {
@@ -266,18 +266,5 @@ def planted_faults_are_caught():
     return missed
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("root", type=pathlib.Path, help="the checkout")
-    root = parser.parse_args().root
-    missed = planted_faults_are_caught()
-    for fault in missed:
-        print(f"planted fault not caught: {fault}")
-    found = list(violations(root))
-    for violation in found:
-        print(violation)
-    sys.exit(1 if found or missed else 0)
-
-
 if __name__ == "__main__":
-    main()
+    house_main(__doc__, planted_faults_are_caught(), violations)

@@ -59,12 +59,12 @@ class Tree:
     @functools.lru_cache(maxsize=None)
     def has_name(self, name):
         """It stands in a source like that, or a source declares its scope and has its last part."""
-        if any(re.search(rf"\b{name}\b", text) for text in self.texts):
+        if any(name in text and re.search(rf"\b{name}\b", text) for text in self.texts):
             return True
         scope, _, last = name.rpartition("::")
         declared = re.compile(rf"\b(?:class|struct|enum)\s+{scope.rpartition('::')[2]}\b"
                               rf"|\bnamespace\s+(?:\w+::)*{scope}\s*{{")
-        return bool(scope) and any(declared.search(text) and re.search(rf"\b{last}\b", text)
+        return bool(scope) and any(last in text and declared.search(text) and re.search(rf"\b{last}\b", text)
                                    for text in self.texts)
 
 

@@ -8,11 +8,11 @@ that is set from outside, and none asks by a function what a wire would tell (ob
 nothing, are for checks). What a module, or a class that a module is made of, does hold by reference is in
 the list SHARED. Handles of a memory's ports and of the sides of places for lines are values.
 """
-import argparse
 import pathlib
 import re
-import sys
 import tempfile
+
+from house_main import house_main
 
 # Rooms of rtl_model that are no engine.
 NO_ENGINES = {"fabric", "platform"}
@@ -181,18 +181,5 @@ def planted_faults_are_caught():
     return missed
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("root", type=pathlib.Path, help="the checkout")
-    root = parser.parse_args().root
-    missed = planted_faults_are_caught()
-    for fault in missed:
-        print(f"planted fault not caught, or said of what is fine: {fault}")
-    found = [*violations(root), *not_shared(root)]
-    for violation in found:
-        print(violation)
-    sys.exit(1 if found or missed else 0)
-
-
 if __name__ == "__main__":
-    main()
+    house_main(__doc__, planted_faults_are_caught(), lambda root: [*violations(root), *not_shared(root)])

@@ -100,6 +100,43 @@ class Tidy(unittest.TestCase):
                                 ("golden/c.cpp", 2), ("scripts", 2)):
             self.assertEqual(self.tidy(self.root / place)[0], expected, place)
 
+    def git(self, *words):
+        subprocess.run(["git", "-c", "user.name=A", "-c", "user.email=a@b", "-C", self.root, *words],
+                       check=True, capture_output=True)
+
+    def test_looks_at_what_differs_from_the_upstream_branch(self):
+        self.assertIn("2 of 2 files looked at", self.tidy("--changed")[2], "without history: every file")
+        shutil.rmtree(self.root / "build/tidy")
+        (self.root / ".gitignore").write_text("/build/\n", encoding="utf-8")
+        self.git("init", "-q", "-b", "main")
+        self.git("add", ".")
+        self.git("commit", "-q", "-m", "first")
+        self.assertIn("2 of 2 files looked at", self.tidy("--changed")[2], "without another branch: every file")
+        self.git("branch", "upstream")
+        self.git("branch", "-q", "--set-upstream-to=upstream")
+        self.assertIn("0 of 0 files looked at", self.tidy("--changed")[2])
+        self.header(CLEAN + "// longer\n")
+        self.assertIn("1 of 1 files looked at", self.tidy("--changed")[2], "the file that includes it")
+        self.git("commit", "-q", "-a", "-m", "second")
+        self.header(PLANTED)
+        self.git("commit", "-q", "-a", "-m", "third")
+        code, _, text = self.tidy("--changed")
+        self.assertEqual((code, text.count("[modernize-use-nullptr")), (1, 1), "commits that upstream has not")
+        self.git("branch", "-q", "-f", "upstream", "HEAD~2")
+        self.git("update-ref", "refs/remotes/origin/HEAD", "HEAD")
+        self.assertIn("0 of 0 files looked at", self.tidy("--changed")[2], "the branch of the clone comes first")
+        self.git("update-ref", "-d", "refs/remotes/origin/HEAD")
+        self.git("branch", "-q", "-f", "upstream")
+        self.assertIn("0 of 0 files looked at", self.tidy("--changed")[2])
+        (self.root / "golden/c.h").write_text("// new\n", encoding="utf-8")
+        (self.root / "golden/b.cpp").write_text('#include "golden/c.h"\nint b() { return 1; }\n', encoding="utf-8")
+        self.git("commit", "-q", "-a", "-m", "fourth")
+        self.git("branch", "-q", "-f", "upstream")
+        self.assertIn("1 of 1 files looked at", self.tidy("--changed")[2], "a header that git does not know yet")
+        rules = self.root / ".clang-tidy"
+        rules.write_text(rules.read_text(encoding="utf-8") + "# longer\n", encoding="utf-8")
+        self.assertIn("2 of 2 files looked at", self.tidy("--changed")[2], "other rules: every file")
+
     def test_says_what_is_missing(self):
         database = self.root / "build/release/compile_commands.json"
         listed = json.loads(database.read_text(encoding="utf-8"))

@@ -68,6 +68,92 @@ TEST(Check, ByTheValuesOwnDirectionAndTolerance) {
   EXPECT_EQ(change_of("quality.psnr_db", 30, 31.5), "+1.50 dB");
 }
 
+// Each key just within its own tolerance and just beyond it, both ways.
+TEST(Check, EachRuleHasItsDirectionAndItsTolerance) {
+  Tolerances t;
+  t.cycles_percent = 10;
+  t.throughput_percent = 20;
+  t.psnr_db = 0.5;
+  t.flip = 0.25;
+  t.ssim = 0.125;
+  t.memory_percent = 30;
+  struct Rule {
+    const char* key;
+    double fewer, more;  // from 1 up to 2, still equal
+    bool less_is_better;
+  };
+  const Rule rules[] = {{"cycles", 0.9, 1.1, true},
+                        {"latency.p50", 0.9, 1.1, true},
+                        {"latency.p95", 0.9, 1.1, true},
+                        {"latency.p99", 0.9, 1.1, true},
+                        {"memory.bytes_read", 0.9, 1.1, true},
+                        {"memory.bytes_written", 0.9, 1.1, true},
+                        {"memory_bits.sram.logical", 0.7, 1.3, true},
+                        {"memory_bits.links.physical", 0.7, 1.3, true},
+                        {"throughput.value", 0.8, 1.2, false},
+                        {"quality.psnr_db", 0.5, 1.5, false},
+                        {"quality.psnr_edge_db", 0.5, 1.5, false},
+                        {"quality.psnr_silhouette_db", 0.5, 1.5, false},
+                        {"quality.flip", 0.75, 1.25, true},
+                        {"quality.ssim", 0.875, 1.125, false}};
+  for (const Rule& rule : rules) {
+    const auto of = [&](double b) { return check(rule.key, 1, b, t); };
+    EXPECT_EQ(of(rule.fewer + 1e-6), Trend::kEqual) << rule.key;
+    EXPECT_EQ(of(rule.more - 1e-6), Trend::kEqual) << rule.key;
+    EXPECT_EQ(of(rule.fewer - 1e-6), rule.less_is_better ? Trend::kBetter : Trend::kWorse)
+        << rule.key;
+    EXPECT_EQ(of(rule.more + 1e-6), rule.less_is_better ? Trend::kWorse : Trend::kBetter)
+        << rule.key;
+    EXPECT_EQ(
+        check(rule.key, 1, std::nullopt, t),
+        std::string_view(rule.key).starts_with("memory_bits") ? Trend::kBetter : Trend::kWorse)
+        << rule.key;
+    EXPECT_EQ(in_decibels(rule.key), std::string_view(rule.key).ends_with("_db")) << rule.key;
+    EXPECT_TRUE(counts(rule.key, t)) << rule.key;
+  }
+  for (const char* const key : {"checks.mismatches", "checks.traffic_mismatches"}) {
+    EXPECT_EQ(check(key, 0, 1, t), Trend::kWorse) << key;
+    EXPECT_EQ(check(key, 2, 0, t), Trend::kBetter) << key;
+    EXPECT_EQ(check(key, 3, 2, t), Trend::kWorse) << key;
+  }
+  for (const char* const key :
+       {"checks.comparisons", "latency.min", "latency.max", "memory.lines_filled",
+        "memory_bits.sram.memories", "quality.psnr_before_db", "throughput.bound", "clock_mhz"}) {
+    EXPECT_EQ(check(key, 1, 2, t), Trend::kNone) << key;
+    EXPECT_EQ(check(key, 1, std::nullopt, t), Trend::kNone) << key;
+  }
+}
+
+TEST(Comparing, TextOfAChange) {
+  EXPECT_EQ(change_of("cycles", 100, 103.2), "+3.20 %");
+  EXPECT_EQ(change_of("cycles", -4, -5), "-25.00 %") << "of its size";
+  EXPECT_EQ(change_of("cycles", 4, 4), "");
+  EXPECT_EQ(change_of("cycles", 0, 4), "");
+  EXPECT_EQ(change_of("cycles", std::nullopt, 4), "");
+  EXPECT_EQ(change_of("cycles", 4, std::nullopt), "");
+  EXPECT_EQ(change_of("quality.psnr_edge_db", 0, -0.25), "-0.25 dB");
+  EXPECT_EQ(change_of("quality.psnr_db", kInfinity, 30), "");
+  EXPECT_EQ(change_of("quality.psnr_db", 30, kInfinity), "");
+  EXPECT_EQ(value_text(Json(1234567)), "1234567");
+  EXPECT_EQ(value_text(Json(0.1234567)), "0.123457");
+  EXPECT_EQ(value_text(Json(kInfinity)), "identical");
+  EXPECT_EQ(value_text(Json("text")), "text");
+  EXPECT_EQ(value_text(Json()), "-");
+  EXPECT_EQ(value_text(Json(true)), "true");
+}
+
+// Parts of a key may have dots, and the first of several ways may lead nowhere.
+TEST(Comparing, ValueUnderADottedKey) {
+  const Json result = {
+      {"a", {{"b", 1}, {"c", nullptr}}}, {"a.b", {{"c", 2}}}, {"a.b.d", 3}, {"list", {1, 2}}};
+  EXPECT_EQ(value_at(result, "a.b"), Json({{"c", 2}})) << "the whole name first";
+  EXPECT_EQ(value_at(result, "a.b.c"), 2);
+  EXPECT_EQ(value_at(result, "a.b.d"), 3);
+  EXPECT_TRUE(value_at(result, "a.c").is_null());
+  EXPECT_TRUE(value_at(result, "a.x").is_null());
+  EXPECT_TRUE(value_at(result, "list.0").is_null());
+}
+
 class Directory : public testing::Test {
  protected:
   Directory()

@@ -66,6 +66,39 @@ TEST(Windows, ASumThatIsNotTheRunsIsNoticed) {
   EXPECT_THAT(complaint(wrong, result()), HasSubstr("units.filter.busy sums up to 19"));
 }
 
+// Whichever series, window and unit it is in: every value counts, but for those of windows alone.
+TEST(Windows, EveryValueOfEverySeriesCounts) {
+  Json two = windows(), run = result();
+  two["series"]["units"]["address"] = {
+      {"busy", {10, 0, 5}}, {"idle", {0, 9, 0}}, {"stalls", {{"wait", {0, 1, 0}}}}};
+  run["units"]["address"] = {{"busy", 15}, {"idle", 9}, {"stalls", {{"wait", 1}}}};
+  two["series"]["work"]["fills"] = {0, 0, 2};
+  run["work"]["fills"] = 2;
+  ASSERT_EQ(complaint(two, run), "");
+  const Json flat = two["series"].flatten();
+  int alone = 0;
+  for (const auto& [key, value] : flat.items()) {
+    Json wrong = two;
+    Json& changed = wrong["series"][Json::json_pointer(key)];
+    changed = value.get<int>() + 1;
+    if (key.starts_with("/ports/") || key.find("/most/") != std::string::npos) {
+      EXPECT_EQ(complaint(wrong, run), "") << key;
+      ++alone;
+    } else {
+      EXPECT_NE(complaint(wrong, run), "") << key;
+    }
+  }
+  EXPECT_EQ(alone, 3 + 6);
+  // Totals count as well: of each kind one that is one off.
+  for (const char* const key : {"/units/filter/idle", "/units/address/stalls/wait", "/work/fills",
+                                "/links/texels/beats", "/links/texels/occupancy"}) {
+    Json wrong = run;
+    Json& total = wrong[Json::json_pointer(key)];
+    total = total.get<int>() + 1;
+    EXPECT_THAT(complaint(two, wrong), HasSubstr("over all windows, but the run counted")) << key;
+  }
+}
+
 TEST(Windows, AMissingWindowIsNoticed) {
   Json wrong = windows();
   wrong["series"]["work"]["misses"] = {1, 5};

@@ -141,6 +141,56 @@ TEST_F(Lines, OfLookUpsHaveTheClockOfTheLookUp) {
             "102 hit 0x000000c0 64 1\n# end 4\n");
 }
 
+// Of several ports each has its number and its line; in a clock they stand by number, whichever
+// came first.
+TEST_F(Lines, OfTwoPortsAreInOrder) {
+  struct One {
+    Driver<MemoryRequest> driver;
+    rtl::MemoryPort port;
+    Sink<rtl::MemoryResponse> sink;
+    rtl::Link<MemoryRequest> requests;
+    rtl::Link<rtl::MemoryResponse> responses;
+    platform::MemoryModel memory;
+    One(const std::string& name, rtl::ClockDomain& clock, const rtl::MemoryPortParameters& p)
+        : driver((name + "_driver").c_str(), clock),
+          port((name + "_port").c_str(), clock, p),
+          sink((name + "_sink").c_str(), clock),
+          requests((name + "_requests").c_str(), 2, rtl::request_shape(p, 64, 32)),
+          responses((name + "_responses").c_str(), 2, rtl::response_shape(p, 64, 32)),
+          memory((name + "_memory").c_str(), kPeriod) {
+      driver.beats_out(requests);
+      port.requests_in(requests);
+      port.responses_out(responses);
+      sink.beats_in(responses);
+      port.memory.bind(memory.ports);
+    }
+    void ask(std::uint64_t address, bool write = false) {
+      MemoryRequest request;
+      request.address = address;
+      request.write = write;
+      request.byte_mask = write ? ~std::uint64_t{0} : 0;
+      driver.send(request);
+    }
+  };
+  rtl::ClockDomain clock("clock", kPeriod);
+  One a("a", clock, {}), b("b", clock, {});
+  clock.shuffle(3);
+  a.ask(0x40);
+  a.ask(0x80, true);
+  b.ask(0x100);
+  b.ask(0x140);
+  b.ask(0x180);
+  LineTrace trace(file_, {"two", 100, TraceFormat::kText, false});
+  clock.run(100);
+  trace.finish();
+  EXPECT_EQ(trace.records(), 5u);
+  EXPECT_EQ(bytes(),
+            "# deburr-lines 1\n# engine two\n# clock_mhz 100\n# port 0 memory 64 a_port\n"
+            "# port 1 memory 64 b_port\n# clock event address bytes port\n"
+            "1 read 0x00000040 64 0\n1 read 0x00000100 64 1\n2 write 0x00000080 64 0\n"
+            "2 read 0x00000140 64 1\n3 read 0x00000180 64 1\n# end 5\n");
+}
+
 TEST_F(Lines, OfNobodyAreRejected) {
   EXPECT_THROW(LineTrace(file_, {}), spec::ConfigError);
   EXPECT_FALSE(fs::exists(file_));

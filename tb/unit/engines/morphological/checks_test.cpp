@@ -30,6 +30,104 @@ TEST(MorphologicalChecks, AFrameStartsWithItsFirstPixelAlone) {
   EXPECT_EQ(checks.pixels.mismatches(), 2u);
 }
 
+spec::morphological::BlendedBeat beat_of(int count, bool start_of_frame, bool end_of_row) {
+  spec::morphological::BlendedBeat result = beat(start_of_frame, end_of_row);
+  result.count = static_cast<std::uint8_t>(count);
+  return result;
+}
+
+// Rows of 10 in beats of 4, 4 and 2: which pixel is said to be wrong; empty: none.
+TEST(MorphologicalChecks, EachBeatHasItsPixelsAndItsSignals) {
+  MorphologicalSetup setup;
+  setup.morphological.lanes = spec::morphological::Lanes::kFour;
+  const MorphologicalInput frame{Image(10, 3), {}};
+  const auto wrong = [&](std::size_t position, std::size_t left,
+                         const spec::morphological::BlendedBeat& came) {
+    MorphologicalChecks checks(setup, true);
+    checks.begin(frame);
+    checks.got_frame(7, position, left, came);
+    EXPECT_EQ(checks.pixels.mismatches(), checks.pixels.differences().size());
+    return checks.pixels.differences().empty() ? "" : checks.pixels.differences()[0].item;
+  };
+  EXPECT_EQ(wrong(0, 10, beat_of(4, true, false)), "");
+  EXPECT_EQ(wrong(14, 6, beat_of(4, false, false)), "");
+  EXPECT_EQ(wrong(28, 2, beat_of(2, false, true)), "");
+  EXPECT_EQ(wrong(14, 6, beat_of(3, false, false)), "pixel (4, 1)") << "one too few";
+  EXPECT_EQ(wrong(18, 2, beat_of(3, false, false)), "pixel (8, 1)") << "one too many";
+  EXPECT_EQ(wrong(10, 10, beat_of(4, true, false)), "pixel (0, 1)") << "no first pixel";
+  EXPECT_EQ(wrong(0, 10, beat_of(4, false, false)), "pixel (0, 0)") << "not said to be the first";
+  EXPECT_EQ(wrong(14, 6, beat_of(4, false, true)), "pixel (8, 1)") << "the row lacks it";
+  EXPECT_EQ(wrong(10, 10, beat_of(4, false, true)), "pixel (0, 1)") << "it has come twice";
+  EXPECT_EQ(wrong(11, 9, beat_of(4, false, true)), "pixel (5, 1)") << "a half is lacking";
+  EXPECT_EQ(wrong(18, 2, beat_of(2, false, false)), "pixel (9, 1)") << "its row should end";
+}
+
+TEST(MorphologicalChecks, NameThePixelOfAFrameThatIsNotSquare) {
+  MorphologicalSetup setup;
+  MorphologicalChecks checks(setup, true);
+  const MorphologicalInput frame{Image(5, 3), {}};
+  checks.begin(frame);
+  for (std::size_t i = 0; i < 15; ++i) {
+    spec::morphological::Rgba8 pixel = checks.golden_model().pixels()[i];
+    spec::morphological::BlendTap tap = checks.golden_model().taps()[i];
+    if (i == 13) pixel[3] ^= 1;
+    if (i == 7) tap.first ^= 1;
+    checks.got(pixel, tap, 4);
+  }
+  ASSERT_EQ(checks.taps.mismatches(), 1u);
+  EXPECT_EQ(checks.taps.differences()[0].item, "pixel (2, 1)");
+  ASSERT_EQ(checks.pixels.mismatches(), 1u);
+  EXPECT_EQ(checks.pixels.differences()[0].item, "pixel (3, 2)");
+}
+
+// A run in which little was compared is no pass: as much is needed as all frames have.
+TEST(MorphologicalChecks, NeedWhatAllFramesHave) {
+  MorphologicalSetup setup;
+  setup.morphological.storage = spec::morphological::Storage::kMemory;
+  setup.records = true;
+  MorphologicalChecks checks(setup, true);
+  const std::vector<MorphologicalInput> frames = {{Image(16, 4), {}}, {Image(20, 3), {}}};
+  spec::morphological::Work work;
+  work.horizontal_runs = 3;
+  work.vertical_runs = 4;
+  work.z_runs = 5;
+  FakeRegisters registers;
+  checks.finish(frames, work, 0, registers);
+  const auto needed = [](const ScoreboardBase& board) {
+    return error_of<spec::Error>([&] { board.check(); });
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(needed(checks.pixels), HasSubstr("at least 124 are needed"));
+  EXPECT_THAT(needed(checks.taps), HasSubstr("at least 124 are needed"));
+  EXPECT_THAT(needed(checks.traffic), HasSubstr("at least 20 are needed"));
+  EXPECT_THAT(needed(checks.runs), HasSubstr("at least 7 are needed"));
+  EXPECT_THAT(needed(checks.lines), HasSubstr("at least 5 are needed"));
+}
+
+// Each count of the work of all frames against its own register, clocks and errors too.
+TEST(MorphologicalChecks, EachCounterIsThatOfItsWork) {
+  MorphologicalSetup setup;
+  const std::vector<MorphologicalInput> frames(1, {Image(8, 4), {}});
+  const auto mismatches = [&](std::uint32_t wrong) {
+    MorphologicalChecks checks(setup, true);
+    checks.begin(frames[0]);
+    checks.end(0, 0);
+    FakeRegisters registers;
+    registers.values[spec::morphological::reg::kFrameCycles] = 1234;
+    for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
+      registers.values[each.offset] =
+          static_cast<std::uint32_t>(checks.golden_model().work().*each.count);
+    if (wrong != 0) ++registers.values[wrong];
+    checks.finish(frames, {}, 1234, registers);
+    return checks.registers.board().mismatches();
+  };
+  EXPECT_EQ(mismatches(0), 0u);
+  for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
+    EXPECT_EQ(mismatches(each.offset), 1u) << each.offset;
+  EXPECT_EQ(mismatches(spec::morphological::reg::kFrameCycles), 1u);
+  EXPECT_EQ(mismatches(spec::morphological::reg::kMemoryErrors), 1u);
+}
+
 // MEMORY_ERRORS counts on from frame to frame: a line that cannot be read could not be written.
 TEST(MorphologicalChecks, MemoryErrorsAreThoseOfAllFrames) {
   const auto mismatches = [](std::uint32_t memory_errors) {

@@ -50,5 +50,24 @@ TEST(TextureChecks, EachCounterIsThatOfItsWork) {
   }
 }
 
+// A run in which little was compared is no pass.
+TEST(TextureChecks, NeedEveryFragmentAndALine) {
+  SceneParameters parameters;
+  parameters.width = parameters.height = 2;
+  parameters.texture_size = 4;
+  const TextureScene scene = TextureScene::without_fragments(parameters, {}, 1, 2, 2);
+  const TextureSetup setup;
+  const SentQuads sent;
+  const platform::MemoryModel memory("memory", sc_core::sc_time(10, sc_core::SC_NS));
+  TextureChecks checks(scene, setup, sent, true);
+  FakeRegisters registers;
+  checks.finish(37, memory, registers);
+  const auto needed = [](const ScoreboardBase& board) {
+    return error_of<spec::Error>([&] { board.check(); });
+  };
+  EXPECT_THAT(needed(checks.colours), testing::HasSubstr("at least 37 are needed"));
+  EXPECT_THAT(needed(checks.fills), testing::HasSubstr("at least 1 are needed"));
+}
+
 }  // namespace
 }  // namespace deburr::tb::checks_test

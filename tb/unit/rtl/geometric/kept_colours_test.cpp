@@ -4,6 +4,7 @@
 #include <deque>
 #include <set>
 
+#include "tb/base/fnv.h"
 #include "tb/base/random.h"
 #include "tb/unit/rtl/geometric/resolve_bench.h"
 
@@ -377,12 +378,12 @@ std::string random_blocks(int lines, Layout layout, std::uint64_t seed) {
       if (b.fetch.lines_kept.value() != hits) text += "hits ";
       if (b.fetch.lines_read.value() != wanted.size()) text += "misses ";
       if (kept_lines > 1 && hits == 0) text += "nothing was hit ";
-      std::uint64_t hash = 14695981039346656037u;
+      FnvHash hash;
       for (const auto& block : b.resolved)
         for (std::size_t i = 0; i < 16; ++i)
           for (const std::uint8_t byte : block.pixels[i])
-            if (block.blended >> i & 1) hash = (hash ^ byte) * 1099511628211u;
-      return text + std::to_string(hash) + " " + std::to_string(b.resolved.size());
+            if (block.blended >> i & 1) hash.byte(byte);
+      return text + std::to_string(hash.value()) + " " + std::to_string(b.resolved.size());
     });
   };
   const std::string without = frame(0, false), with = frame(lines, true);

@@ -59,26 +59,6 @@ INSTANTIATE_TEST_SUITE_P(
         Trouble{'u', 0, 1, 0, 1, true, true}, Trouble{'w', 300, 2, 90, 5, true, true},
         Trouble{'z', 150, 40, 20, 6, true, true}, Trouble{'c', 250, 40, 100, 4, true, false}));
 
-// Evaluated in another order, every clock is the same.
-TEST(Evaluation, OrderDoesNotMatter) {
-  std::vector<std::uint64_t> clocks;
-  const auto run = [&](std::optional<std::uint64_t> seed) {
-    EngineOptions options;
-    options.scatter = 30;
-    options.bench.shuffle = seed;
-    Parameters p = configuration('c').p;
-    apply_settings(p, "records=split coarse_lines=4");
-    EngineBench b(p, options);
-    b.load(contract_scene());
-    b.run();
-    return std::to_string(b.bus.read(reg::kEdgeCycles)) + " " +
-           std::to_string(b.bus.read(reg::kResolveCycles));
-  };
-  const std::string in_order = in_child([&] { return run(std::nullopt); });
-  for (std::uint64_t seed = 1; seed <= 4; ++seed)
-    EXPECT_EQ(in_child([&] { return run(seed); }), in_order);
-}
-
 struct Builds {
   Lanes edge_lanes, walkers, resolve_lanes;
   CacheLines vertices, depths, blocks;

@@ -27,6 +27,7 @@
 #include "spec/geometric/registers.h"
 #include "spec/geometric/vectors.h"
 #include "tb/harness/bench.h"
+#include "tb/harness/unit_bench.h"
 #include "tb/stimuli/vector_hash.h"
 #include "tb/unit/spec/geometric/vector_frame.h"
 #include "tb/unit/spec/vectors.h"
@@ -38,7 +39,7 @@ using rtl::Cycle;
 using spec::geometric::Parameters;
 namespace reg = spec::geometric::reg;
 
-inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
+using unit_bench::period;
 
 constexpr std::uint32_t vector_base(spec::geometric::Region region) {
   return spec::geometric::kVectorBases[static_cast<std::size_t>(region)];
@@ -162,12 +163,16 @@ class EngineBench {
   }
   // One that is started in another way.
   Cycle run(const std::function<void()>& starts, Cycle limit = 2'000'000) {
+    forget();
+    starts();
+    return bench->run([this] { return engine.idle(); }, limit);
+  }
+  // What was recorded of the frames before.
+  void forget() {
     lines.clear();
     candidates.clear();
     blocks.clear();
     memory.clear_statistics();
-    starts();
-    return bench->run([this] { return engine.idle(); }, limit);
   }
   void reset(Cycle cycles = 2) {
     clock.set_reset_n(false);

@@ -3,11 +3,10 @@
 // are small enough to be drawn a thousand times.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "tb/harness/statistics.h"
+#include "tb/harness/engine_kit.h"
 #include "tb/unit/rtl/geometric/support.h"
 
 namespace deburr::tb::geometric_rtl {
@@ -32,58 +31,34 @@ inline Scene small_scene(int width, int height, std::size_t edges, int right = 0
   return scene;
 }
 
-inline std::string registers_of(EngineBench& b) {
-  std::string text;
-  for (const spec::RegisterInfo& info : spec::geometric::kRegisters)
-    text += std::string(info.name) + "=" + std::to_string(b.bus.read(info.offset)) + " ";
-  return text;
-}
-
-struct Trail {
-  // What the frame is; accesses by region, reads and writes each in order.
-  std::vector<spec::geometric::LineRecord> lines;
-  std::vector<spec::geometric::Candidate> candidates;
-  std::vector<spec::geometric::BlockRecord> blocks;
-  std::vector<std::vector<std::uint64_t>> traffic;
-  std::uint64_t pixels = 0;
-  // How regions interleave, in how many clocks, and whatever was counted since the last reset.
-  std::vector<std::uint64_t> reads, writes;
-  std::string statistics, registers;
-};
-// Of the last run.
-inline Trail trail_of(EngineBench& b) {
-  Trail trail = {b.lines,
-                 b.candidates,
-                 b.blocks,
-                 {},
-                 b.pixel_hash(),
-                 b.memory.lines_read(),
-                 b.memory.lines_written(),
-                 statistics(b.clock).dump(),
-                 registers_of(b)};
+// Of the last run: what the frame is, accesses of each region in order among it; and how regions
+// interleave.
+inline Outcome came_of(EngineBench& b) {
+  Outcome outcome = {{{"lines", b.lines},
+                      {"candidates", b.candidates},
+                      {"blocks", b.blocks},
+                      {"pixels", b.driver.picture()}},
+                     {},
+                     {{"reads", b.memory.lines_read()}, {"writes", b.memory.lines_written()}}};
   for (const std::uint32_t base :
        {b.bases.faces, b.bases.edges, b.bases.vertices, b.bases.depth, b.bases.weights,
         b.bases.colour, b.bases.copy, b.bases.pairs, b.bases.coarse}) {
-    trail.traffic.push_back(b.reads(base));
-    trail.traffic.push_back(b.writes(base));
+    outcome.data.emplace_back("reads of the region at " + std::to_string(base), b.reads(base));
+    outcome.data.emplace_back("writes of the region at " + std::to_string(base), b.writes(base));
   }
-  return trail;
+  return outcome;
 }
-// The first kind of thing that differs; empty if nothing does.
+// With whatever was counted since the last reset.
+struct Trail {
+  Outcome outcome;
+  std::vector<std::string> state;
+};
+inline Trail trail_of(EngineBench& b) { return {came_of(b), engine_state(b.engine, b.bus)}; }
 inline std::string frame_difference(const Trail& a, const Trail& b) {
-  if (a.lines != b.lines) return "lines";
-  if (a.candidates != b.candidates) return "candidates";
-  if (a.blocks != b.blocks) return "blocks";
-  if (a.traffic != b.traffic) return "accesses of a region";
-  if (a.pixels != b.pixels) return "pixels";
-  return "";
+  return difference(a.outcome, b.outcome, Compared::kData);
 }
 inline std::string trail_difference(const Trail& a, const Trail& b) {
-  if (std::string frame = frame_difference(a, b); !frame.empty()) return frame;
-  if (a.reads != b.reads || a.writes != b.writes) return "order of accesses";
-  if (a.registers != b.registers) return "registers: " + a.registers + "; " + b.registers;
-  if (a.statistics != b.statistics) return "statistics: " + a.statistics + "; " + b.statistics;
-  return "";
+  return difference(a.outcome, b.outcome, Compared::kAll) + state_difference(a.state, b.state);
 }
 
 }  // namespace deburr::tb::geometric_rtl

@@ -36,8 +36,6 @@ using rtl::Link;
 using spec::morphological::Parameters;
 using spec::morphological::Rgba8;
 
-inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
-
 struct Frame {
   int width = 0, height = 0;
   std::vector<Rgba8> pixel;
@@ -104,7 +102,7 @@ inline Parameters in_memory() {
 }
 
 using platform::lanes_of;
-using unit_bench::stalls;
+using unit_bench::period, unit_bench::stalls;
 inline int reach_of(const Parameters& p) { return p.window_rows / 2 - 1; }
 // Clocks from a slot to its output beat.
 inline constexpr unsigned kPipe = spec::morphological::kPipelineLatency;

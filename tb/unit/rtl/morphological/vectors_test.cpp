@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "tb/base/sanitized.h"
 #include "tb/unit/rtl/morphological/support.h"
 
 namespace deburr::tb::morphological_rtl::vectors_test {
@@ -70,7 +71,8 @@ std::string name_of(const ::testing::TestParamInfo<FrameVector>& test) {
   return std::string(test.param.name);
 }
 
-INSTANTIATE_TEST_SUITE_P(Contract, Vectors, ::testing::ValuesIn(morphological::frame_vectors()),
+INSTANTIATE_TEST_SUITE_P(Contract, Vectors,
+                         ::testing::ValuesIn(third_if_sanitized(morphological::frame_vectors())),
                          name_of);
 
 TEST(FrameVectors, EachValueIsCompared) {
@@ -95,8 +97,9 @@ TEST_P(SmaaVectors, MinimalTable) {
   check(p, {});
 }
 
-INSTANTIATE_TEST_SUITE_P(Contract, SmaaVectors,
-                         ::testing::ValuesIn(spec::morphological::kSmaaFrameVectors), name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Contract, SmaaVectors,
+    ::testing::ValuesIn(third_if_sanitized(spec::morphological::kSmaaFrameVectors)), name_of);
 
 // ---- SMAA: patterns, and the limit of the searches ----------------------------------------------
 

@@ -46,9 +46,7 @@ using rtl::Link;
 using rtl::Out;
 using rtl::Unit;
 
-inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
-
-using unit_bench::of_a_stage_less, unit_bench::rejection;
+using unit_bench::of_a_stage_less, unit_bench::period, unit_bench::rejection;
 
 // A second token in that clock, for a unit that has forgotten the first one.
 template <class T>

@@ -1,56 +1,18 @@
 // SPDX-License-Identifier: MIT
-// What links carry, by number format and by the tables of the page; and the figures of the engine.
+// What tokens and tags are for some builds; and the figures of units that have units.
 #include "rtl_model/texture/tokens.h"
 
 #include "tb/unit/rtl/figure.h"
-#include "tb/unit/rtl/formats.h"
-#include "tb/unit/rtl/page_table.h"
 #include "tb/unit/rtl/texture/support.h"
 
 namespace deburr::rtl::texture::tokens_test {
 namespace {
 
-TEST(TextureRtlTokens, FieldsHaveTheBitsOfTheirFormat) {
-  const int checked = tb::expect_widths_of_formats<DerivativeToken, FootprintToken, Log2Token,
-                                                   LevelToken, SampleToken, TexelToken, MissToken,
-                                                   CacheToken, TexelQuadToken>();
-  EXPECT_GE(checked, 33);
-}
-
-TEST(TextureRtlTokens, LinksAreThoseOfThePage) {
-  const tb::EnginePage table("reference/texture/hardware.md", "link");
+// Of the units that have units, in both builds: an AxisUnit stands in the place of the
+// FootprintUnit.
+TEST(TextureFigures, OfAUnitAreItsModuleTree) {
   ClockDomain clock("clock", tb::texture_rtl::period());
-  spec::texture::Parameters paper = tb::paper_rules(), deburr, largest;
-  paper.cache_fifo_depth = deburr.cache_fifo_depth = largest.cache_fifo_depth = 107;
-  largest.cache_line_bytes = 128;
-  largest.cache_bytes = TagStore::kMostLines * largest.cache_line_bytes;
-  largest.cache_outstanding = 256;
-  table.expect_links("paper", TextureUnit("paper", clock, paper));
-  table.expect_links("deburr", TextureUnit("deburr", clock, deburr));
-  table.expect_links("largest cache", TextureUnit("largest", clock, largest));
-}
-
-TEST(TextureRtlTokens, WiresAreThoseOfThePage) {
-  ClockDomain clock("clock", tb::texture_rtl::period());
-  TextureUnit unit("unit", clock, {});
-  tb::EnginePage("reference/texture/hardware.md", "wire").expect_wires(unit);
-}
-
-TEST(TextureRtlTokens, MemoriesAreThoseOfThePage) {
-  ClockDomain clock("clock", tb::texture_rtl::period());
-  spec::texture::Parameters p;
-  p.cache_fifo_depth = 107;
-  p.log2 = spec::texture::Log2Rule::kExact;
-  p.srgb_output = spec::texture::SrgbOutput::kEncoded;
-  tb::EnginePage("reference/texture/hardware.md", "memory")
-      .expect_memories(TextureUnit("unit", clock, p));
-}
-
-// In both builds: an AxisUnit stands in the place of the FootprintUnit.
-TEST(TextureFigures, AreTheModuleTree) {
-  ClockDomain clock("clock", tb::texture_rtl::period());
-  const std::string header = "rtl_model/texture/texture_unit.h",
-                    address = "rtl_model/texture/address_unit.h",
+  const std::string address = "rtl_model/texture/address_unit.h",
                     cache = "rtl_model/texture/texture_cache.h";
   for (const auto& [name, axes] : {std::pair{"two", spec::texture::Axes::kTwo},
                                    std::pair{"eight", spec::texture::Axes::kEight}}) {
@@ -58,9 +20,6 @@ TEST(TextureFigures, AreTheModuleTree) {
     p.cache_fifo_depth = 107;
     p.axes = axes;
     const TextureUnit unit(name, clock, p);
-    tb::expect_figure(tb::Figure::of_header(header), unit, header, "TextureCache");
-    tb::expect_figure(tb::Figure::of_page("reference/texture/index.md"), unit, header,
-                      "FilterPipeline", {address, cache});
     tb::expect_figure(tb::Figure::of_header(address), unit.address, address, "AxisUnit");
     tb::expect_figure(tb::Figure::of_header(cache), unit.cache, cache, "MissQueue");
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/posteriser/posteriser.h"
 
+#include <algorithm>
+
 #include "spec/posteriser/check_build.h"
 #include "spec/posteriser/registers.h"
 
@@ -27,7 +29,8 @@ std::uint32_t nearest(std::uint32_t value, std::uint32_t steps) {
 Activity LevelUnit::tick(Cycle cycle) {
   if (!tones_in.can_pop(cycle)) return kIdle;
   if (!tones_out.can_push(cycle)) return kStalledDownstream;
-  const std::uint32_t rules = control_.value(reg::kRules), bits = reg::rules::kBits.of(rules);
+  const std::uint32_t rules = control_.value(reg::kRules),
+                      bits = std::clamp(reg::rules::kBits.of(rules), 1u, 8u);
   const std::uint32_t steps = (1u << bits) - 1;
   spec::posteriser::Tone tone = tones_in.take(cycle);
   const spec::posteriser::Tone before = tone;

@@ -2,6 +2,7 @@
 // The posteriser: registers and one unit that takes a pixel a clock.
 //
 //   tones_in -> LevelUnit -> tones_out
+//                   └ registers, which show a Counter each of pixels and of changes
 //
 // Latency 1 to the output link, initiation interval 1. Stalls: `downstream`.
 #pragma once

@@ -30,7 +30,7 @@ inline constexpr Field kWrittenWhileBusy{"written_while_busy", 1, 1,
 inline constexpr std::array kFields = {kIdle, kWrittenWhileBusy};
 }  // namespace status
 namespace rules {
-inline constexpr Field kBits{"bits", 3, 0, {}};
+inline constexpr Field kBits{"bits", 3, 0, "0 as 1, 9 and more as 8"};
 inline constexpr Field kRounding{"rounding", 4, 4, {}, kRoundingNames};
 inline constexpr std::array kFields = {kBits, kRounding};
 }  // namespace rules

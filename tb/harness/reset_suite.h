@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// Reset of an engine, of every build of its Kit (engine_kit.h): what comes after it is, to the bit
+// and to the clock, what comes of a new engine; every register, counter, histogram and account of
+// clocks is as new. And a job after another is what it is by itself.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "tb/harness/engine_kit.h"
+
+namespace deburr::tb {
+
+template <class Kit>
+class ResetSuite {
+ public:
+  explicit ResetSuite(const typename Kit::Build& build) : kit_(build) {}
+
+  // A reset in half of the clocks that are tried, odd and even ones; `half`, 0 or 1, says in which.
+  void any_clock_of_a_job_may_be_the_last(rtl::Cycle half) {
+    const Outcome fresh = first();
+    kit_.expect_enough(Job::kWhole);
+    kit_.reset(kit_.short_reset());
+    const rtl::Cycle begin = kit_.clock().cycle();
+    run_job(kit_, Job::kBroken);
+    kit_.expect_enough(Job::kBroken);
+    const rtl::Cycle last = kit_.clock().cycle() - begin;
+    bool long_reset = true;
+    for (rtl::Cycle tried = 0, at = 0; at < last; at = ++tried * Kit::kStep * kClocksApart) {
+      if (((tried + 1) / 2 + half) % 2 != 0) continue;
+      SCOPED_TRACE("reset " + std::to_string(at) + " clocks into a job");
+      kit_.reset(kit_.short_reset());
+      kit_.start(Job::kBroken);
+      kit_.clock().run(at);
+      if (at > 0) {
+        ASSERT_FALSE(kit_.done());
+      }
+      expect_as_fresh(fresh, long_reset);
+      long_reset = !long_reset;
+      if (::testing::Test::HasFatalFailure()) return;
+    }
+  }
+
+  void a_rejected_job_may_be_the_last() {
+    const Outcome fresh = first();
+    for (int kind = 0; kind < Kit::kRejected; ++kind)
+      for (const rtl::Cycle at : {0u, 1u, 2u, 3u, 9u, 20u}) {
+        SCOPED_TRACE("reset " + std::to_string(at) + " clocks after a job of kind " +
+                     std::to_string(kind));
+        kit_.reset(kit_.short_reset());
+        kit_.reject(kind, at);
+        expect_as_fresh(fresh, true);
+        if (::testing::Test::HasFatalFailure()) return;
+      }
+  }
+
+  void a_job_after_another_is_what_it_is_by_itself() {
+    const Outcome whole = first();
+    kit_.reset(kit_.long_reset());
+    const Outcome broken = run_job(kit_, Job::kBroken);
+    kit_.reset(kit_.long_reset());
+    constexpr std::array kJobs = {Job::kBroken, Job::kWhole, Job::kWhole, Job::kBroken};
+    kit_.queue(kJobs);
+    for (const Job job : kJobs) {
+      kit_.start(job);
+      ASSERT_TRUE(kit_.clock().run_until([&] { return kit_.done(); }, 200'000));
+      EXPECT_EQ(difference(job == Job::kWhole ? whole : broken, kit_.outcome(), Compared::kData),
+                "");
+    }
+  }
+
+  void everything_reads_as_in_a_new_engine() {
+    kit_.clock().run(5);
+    const std::vector<std::string> fresh = state_of(kit_);
+    spoil();
+    EXPECT_NE(state_difference(fresh, state_of(kit_)), "") << "there is something to forget";
+    kit_.reset(kit_.long_reset());
+    kit_.clock().run(5);
+    EXPECT_EQ(state_difference(fresh, state_of(kit_)), "");
+  }
+
+  void the_next_job_is_that_of_a_new_engine() {
+    const Outcome fresh = run_job(kit_, Job::kWhole);
+    const std::vector<std::string> state = state_of(kit_);
+    kit_.reset(kit_.long_reset());
+    spoil();
+    kit_.reset(kit_.long_reset());
+    EXPECT_EQ(difference(fresh, run_job(kit_, Job::kWhole), Compared::kAll), "");
+    EXPECT_EQ(state_difference(state, state_of(kit_)), "");
+  }
+
+ private:
+  // A whole job behind a reset, and the states before and after it.
+  Outcome first() {
+    kit_.reset(kit_.long_reset());
+    at_reset_ = state_of(kit_);
+    const Outcome fresh = run_job(kit_, Job::kWhole);
+    EXPECT_FALSE(fresh.data.front().empty());
+    after_ = state_of(kit_);
+    return fresh;
+  }
+  void expect_as_fresh(const Outcome& fresh, bool long_reset) {
+    kit_.reset(long_reset ? kit_.long_reset() : kit_.short_reset());
+    ASSERT_TRUE(kit_.engine().idle());
+    ASSERT_EQ(state_difference(at_reset_, state_of(kit_)), "");
+    const Outcome again = run_job(kit_, Job::kWhole);
+    // What memory still owes takes its data bus for a while.
+    const bool all = long_reset || kit_.long_reset() == kit_.short_reset();
+    ASSERT_EQ(difference(fresh, again, all ? Compared::kAll : Compared::kCounted), "");
+    if (all) {
+      ASSERT_EQ(state_difference(after_, state_of(kit_)), "");
+    }
+  }
+  // Every writable register has another value, too.
+  void spoil() {
+    kit_.spoil();
+    for (const spec::RegisterInfo& info : kit_.engine().control.registers.table())
+      if (info.access == spec::Access::kReadWrite &&
+          std::find(Kit::kKept.begin(), Kit::kKept.end(), info.offset) == Kit::kKept.end())
+        kit_.bus().write(info.offset, ~kit_.bus().read(info.offset));
+  }
+
+  Kit kit_;
+  std::vector<std::string> at_reset_, after_;
+};
+
+}  // namespace deburr::tb

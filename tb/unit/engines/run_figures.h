@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Figures of a run by their keys in result.json ("/work/edge_cycles"), and what runs of several
+// frames must make of those of their frames.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tb/base/forked.h"
+#include "tb/env/environment.h"
+#include "tb/results/picture_map.h"
+#include "tb/results/result.h"
+
+namespace deburr::tb {
+
+using Json = nlohmann::ordered_json;
+
+// Everything that does not hang on the host.
+inline Json json_of(const Simulation& simulation) {
+  Result result;
+  simulation.collect(result);
+  Json json = to_json(result);
+  json.erase("host");
+  json.erase("meaning");
+  return json;
+}
+
+// Maps of the run: values, and what they were to come to.
+inline Json json_of(const std::vector<PictureMap>& maps) {
+  Json all = Json::object();
+  for (const PictureMap& map : maps) {
+    const bool agrees = !map.account || std::abs(map.account->counted - map.account->mapped) <=
+                                            1e-4 * map.account->counted;
+    Json& one = all[map.name] = {{"width", map.width},
+                                 {"height", map.height},
+                                 {"values", Json::array()},
+                                 {"account", map.account.has_value()},
+                                 {"agrees", agrees}};
+    for (const float value : map.values)
+      one["values"].push_back(std::isnan(value) ? Json() : Json(value));
+  }
+  return all;
+}
+
+inline double number_at(const Json& run, const std::string& key) {
+  const Json::json_pointer at(key);
+  EXPECT_TRUE(run.contains(at) && run[at].is_number()) << key;
+  return run.contains(at) && run[at].is_number() ? run[at].get<double>() : 0;
+}
+inline double work(const Json& run, const std::string& name) {
+  return number_at(run, "/work/" + name);
+}
+inline double sum_of(const std::vector<Json>& runs, const std::string& key) {
+  double sum = 0;
+  for (const Json& run : runs) sum += number_at(run, key);
+  return sum;
+}
+
+// What a run of several frames counted against what each of them counts alone, the last one last.
+// Clocks of a frame may differ by `clocks`.
+struct SeveralFrames {
+  std::set<std::string> of_the_last{}, largest{};  // figures of `work`; all other counts are sums
+  std::set<std::string> by_formula{};              // ratios, which the test works out itself
+};
+inline void expect_sums(const Json& run, const std::vector<Json>& alone,
+                        const SeveralFrames& figures, double clocks = 0) {
+  const double in_all = clocks * static_cast<double>(alone.size());
+  EXPECT_NEAR(number_at(run, "/cycles"), sum_of(alone, "/cycles"), in_all);
+  for (const char* const key : {"/memory/bytes_read", "/memory/bytes_written",
+                                "/memory/lines_filled", "/checks/traffic_comparisons"})
+    EXPECT_EQ(number_at(run, key), sum_of(alone, key)) << key;
+  EXPECT_EQ(number_at(run, "/checks/mismatches"), 0);
+  for (const auto& [name, board] : run["scoreboards"].items()) {
+    if (name == "status registers") continue;  // at the end alone
+    EXPECT_EQ(board["comparisons"], sum_of(alone, "/scoreboards/" + name + "/comparisons")) << name;
+  }
+  for (const auto& [name, value] : run["work"].items()) {
+    const std::string key = "/work/" + name;
+    if (figures.of_the_last.contains(name)) {
+      EXPECT_NEAR(value.get<double>(), number_at(alone.back(), key), clocks) << name;
+    } else if (figures.largest.contains(name)) {
+      double most = 0;
+      for (const Json& one : alone) most = std::max(most, number_at(one, key));
+      EXPECT_EQ(value, most) << name;
+    } else if (!figures.by_formula.contains(name)) {
+      EXPECT_TRUE(value.is_number_unsigned()) << name << " is no count";
+      EXPECT_EQ(value, sum_of(alone, key)) << name;
+    }
+  }
+  for (const auto& [name, unit] : run["units"].items()) {
+    EXPECT_NEAR(unit["busy"].get<double>(), sum_of(alone, "/units/" + name + "/busy"), 2 * in_all)
+        << name;
+    for (const auto& [cause, stalled] : unit["stalls"].items())
+      EXPECT_NEAR(stalled.get<double>(), sum_of(alone, "/units/" + name + "/stalls/" + cause),
+                  2 * in_all)
+          << name << cause;
+  }
+  double count = 0;
+  for (const Json& bin : run["latency"]["histogram"]) count += bin["count"].get<double>();
+  for (const Json& one : alone)
+    for (const Json& bin : one["latency"]["histogram"]) count -= bin["count"].get<double>();
+  EXPECT_EQ(count, 0) << "latencies";
+}
+
+// The history of a pixel, whatever came before its frame.
+inline Json without_clocks(Json pixel) {
+  for (Json& step : pixel["steps"]) step.erase("clock");
+  return pixel;
+}
+
+// Maps of a run of several frames show the last; those of one frame must come to what was counted.
+inline void expect_maps_of_the_last(const Json& run, const Json& alone, int width, int height) {
+  for (const auto& [name, map] : alone["maps"].items()) {
+    const Json& same = run["maps"][name];
+    EXPECT_EQ(same["width"], width) << name;
+    EXPECT_EQ(same["height"], height) << name;
+    EXPECT_EQ(same["values"], map["values"]) << name;
+    EXPECT_EQ(map["account"], true) << name;
+    EXPECT_EQ(map["agrees"], true) << name;
+    EXPECT_EQ(same["account"], false) << name;
+  }
+}
+
+}  // namespace deburr::tb
