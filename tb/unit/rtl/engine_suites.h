@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "tb/base/sanitized.h"
 #include "tb/harness/register_noise.h"
 #include "tb/harness/reset_suite.h"
 #include "tb/harness/stress_suite.h"
@@ -34,11 +35,15 @@ bool register_suites(const char* file = __builtin_FILE(), int line = __builtin_L
     testing::RegisterTest(suite, name.c_str(), nullptr, value, file, line,
                           [body]() -> RegisteredTest* { return new RegisteredTest(body); });
   };
-  // Of each build.
+  // Of each build. With sanitizers, which look for other faults and are ten times slower, a third
+  // of them, another one for each test: every build has its tests.
+  constexpr std::size_t kApart = kSanitized ? 3 : 1;
+  static_assert(Kit::kBuilds.size() >= kApart);
+  std::size_t begin = 0;
   const auto each = [&]<class Suite, class... Arguments>(const char* suite, const char* name,
                                                          void (Suite::*test)(Arguments...),
                                                          Arguments... arguments) {
-    for (std::size_t i = 0; i < Kit::kBuilds.size(); ++i) {
+    for (std::size_t i = begin++ % kApart; i < Kit::kBuilds.size(); i += kApart) {
       const auto& build = Kit::kBuilds[i];
       add(suite, name + ("/" + std::to_string(i)), Kit::text_of(build).c_str(),
           [&build, test, arguments...] { (Suite(build).*test)(arguments...); });
