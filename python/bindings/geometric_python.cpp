@@ -116,9 +116,10 @@ golden::geometric::Bases bases_of(const py::object& given) {
   return bases;
 }
 
-GeometricFrame smooth(const py::object& pixels, const py::object& depth, const py::object& vertices,
-                      const py::object& edges, const py::object& facing, const py::object& bases,
-                      bool detail, const py::object& lines, const py::dict& parameters) {
+GeometricFrame smooth_geometric(const py::object& pixels, const py::object& depth,
+                                const py::object& vertices, const py::object& edges,
+                                const py::object& facing, const py::object& bases, bool detail,
+                                const py::object& lines, const py::dict& parameters) {
   auto texts = golden::c::geometric_texts();
   set_all(texts, parameters);
   const FramePixels frame = frame_pixels(pixels);
@@ -233,7 +234,7 @@ void add_geometric(py::module_& module) {
           },
           "Bins of functional coverage and how often each was met; with detail.")
       .def_property_readonly("detail", [](const GeometricFrame& frame) { return frame.detail; });
-  module.def("geometric", &smooth);
+  module.def("geometric", &smooth_geometric);
   module.def("geometric_parameters", [] { return parameter_rows(spec::geometric::Parameters{}); });
   module.attr("VERTEX") = dtype_of<Vertex>();
   module.attr("EDGE") = dtype_of<Edge>();

@@ -53,9 +53,9 @@ struct MorphologicalFrame {
   }
 };
 
-MorphologicalFrame smooth(const py::object& pixels, const py::object& depth,
-                          const py::object& edges, bool detail, const py::object& lines,
-                          const py::dict& parameters) {
+MorphologicalFrame smooth_morphological(const py::object& pixels, const py::object& depth,
+                                        const py::object& edges, bool detail,
+                                        const py::object& lines, const py::dict& parameters) {
   auto texts = golden::c::morphological_texts();
   set_all(texts, parameters);
   const FramePixels frame = frame_pixels(pixels);
@@ -192,7 +192,7 @@ void add_morphological(py::module_& module) {
           "Bins of functional coverage and how often each was met; with detail.")
       .def_property_readonly("detail",
                              [](const MorphologicalFrame& frame) { return frame.detail; });
-  module.def("morphological", &smooth);
+  module.def("morphological", &smooth_morphological);
   module.def("morphological_parameters",
              [] { return parameter_rows(spec::morphological::Parameters{}); });
   module.attr("RUN") = dtype_of<golden::morphological::PredictedRun>();

@@ -45,7 +45,7 @@ struct Method {
   std::optional<MorphologicalRules> morphological;
 };
 
-std::vector<Method> engines() {
+std::vector<Method> compared_methods() {
   namespace m = spec::morphological;
   namespace g = spec::geometric;
   std::vector<Method> all;
@@ -237,7 +237,7 @@ std::vector<ComparisonRow> compare_methods(const std::string& scene) {
   add("MSAA 4x", checker.msaa);
   for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
     add(reference.name, reference.filter(checker.frame.image, true));
-  for (const Method& method : engines())
+  for (const Method& method : compared_methods())
     add(method.name, picture_of(method, checker.frame)).cost = cost_of(method, checker.frame);
   add("supersampled, 256 samples", checker.truth);
   std::vector<const Image*> tests;
@@ -343,7 +343,8 @@ Image comparison_sheet() {
     add("MSAA 4x", checker.msaa);
     for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
       add(reference.name, reference.filter(checker.frame.image, true));
-    for (const Method& method : engines()) add(method.label, picture_of(method, checker.frame));
+    for (const Method& method : compared_methods())
+      add(method.label, picture_of(method, checker.frame));
     add("truth", checker.truth);
     // The next place begins a row.
     while (cells.size() % kAcross != 0)

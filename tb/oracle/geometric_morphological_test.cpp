@@ -300,8 +300,8 @@ struct Gains {
 
 std::map<std::string, Gains> gains_of_followers(tb::Half half, const std::filesystem::path& data) {
   std::map<std::string, Gains> gains;
-  const std::vector<tb::View> views = tb::views(half, data);
-  for (const tb::View& view : views) {
+  const std::vector<tb::MeasuredView> views = tb::views(half, data);
+  for (const tb::MeasuredView& view : views) {
     const Checker checker(view.scene, kWidth, kHeight, 8, nullptr, {.crossings = true});
     const auto figures = [&](const Image& image) {
       return std::array{checker.edge_psnr(image), checker.silhouette_psnr(image)};

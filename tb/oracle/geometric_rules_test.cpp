@@ -283,7 +283,7 @@ void check_presets(const char* which, const std::vector<Presets>& all, double si
 
 void check_views(const char* which, tb::Half half) {
   std::vector<Presets> scenes, others;
-  for (const tb::View& view : tb::views(half, tb::data_folder()))
+  for (const tb::MeasuredView& view : tb::views(half, tb::data_folder()))
     (view.group == "scenes" ? scenes : others).push_back(measure_presets(view.scene, view.name));
   check_presets(fmt::format("{}, scenes", which).c_str(), scenes, 2.9);
   check_presets(fmt::format("{}, other meshes", which).c_str(), others, 2);

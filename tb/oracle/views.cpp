@@ -278,9 +278,9 @@ Scene inside_a_cube(double degrees) {
   return scene;
 }
 
-std::vector<View> views(Half half, const std::filesystem::path& data) {
+std::vector<MeasuredView> views(Half half, const std::filesystem::path& data) {
   const bool chosen_by = half == Half::kChosenBy;
-  std::vector<View> all;
+  std::vector<MeasuredView> all;
   const auto add = [&](const char* group, std::string name, Scene scene) {
     all.push_back({group, std::move(name), std::move(scene)});
   };

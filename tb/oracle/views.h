@@ -14,14 +14,14 @@
 
 namespace deburr::tb {
 
-struct View {
+struct MeasuredView {
   std::string group, name;  // group: scenes, solids, meshes
   Scene scene;
 };
 
 enum class Half { kChosenBy, kHeldOut };
 // Meshes of others come from the data folder, and are left out without it.
-std::vector<View> views(Half half, const std::filesystem::path& data);
+std::vector<MeasuredView> views(Half half, const std::filesystem::path& data);
 
 // A mesh of one kind; another seed is another one, from elsewhere. Throws std::out_of_range for a
 // name that there is not. solids.h has more of them.

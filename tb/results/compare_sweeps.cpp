@@ -29,7 +29,7 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 using MetricValues = std::vector<std::optional<double>>;  // one a metric in common
 using At = std::vector<std::string>;                      // one a matching parameter
 
-struct Point {
+struct ComparedPoint {
   std::string state;
   std::string failure;
   MetricValues values;
@@ -40,7 +40,7 @@ struct Sweep {
   fs::path path;
   Json json;
   Settings base;
-  std::map<At, Point> points;
+  std::map<At, ComparedPoint> points;
 };
 
 struct MetricInfo {
@@ -194,7 +194,7 @@ class SweepComparison {
       const std::map<std::string, std::string> settings = settings_of(sweep, json["at"]);
       At at;
       for (const std::string& axis : axes_) at.push_back(said(sweep, settings, axis));
-      Point point{
+      ComparedPoint point{
           json.value("state", ""), json.value("failure", ""), {}, json.value("front", false)};
       for (const MetricInfo& metric : metrics_)
         point.values.push_back(value_in(sweep.json, json, metric.columns[index]));
@@ -305,7 +305,7 @@ class SweepComparison {
   }
 
   void match(Json& json) {
-    std::map<At, std::vector<const Point*>> all;
+    std::map<At, std::vector<const ComparedPoint*>> all;
     for (std::size_t i = 0; i < sweeps_.size(); ++i)
       for (const auto& [at, point] : sweeps_[i].points) {
         auto& row = all[at];
@@ -318,13 +318,14 @@ class SweepComparison {
     for (const auto& [at, row] : all) {
       for (std::size_t i = 0; i < row.size(); ++i)
         if (row[i] && row[i]->state == "done") joint.push_back({i, &row[i]->values});
-      const bool everywhere = std::all_of(row.begin(), row.end(), [](const Point* p) { return p; });
-      const bool done = everywhere && std::all_of(row.begin(), row.end(), [](const Point* p) {
-                          return p->state == "done";
-                        });
+      const bool everywhere =
+          std::all_of(row.begin(), row.end(), [](const ComparedPoint* p) { return p; });
+      const bool done =
+          everywhere && std::all_of(row.begin(), row.end(),
+                                    [](const ComparedPoint* p) { return p->state == "done"; });
       Json entry = {{"at", at}};
       entry["values"] = entry["identical"] = entry["front"] = Json::array();
-      for (const Point* point : row) {
+      for (const ComparedPoint* point : row) {
         const bool has = point && point->state == "done";
         entry["values"].push_back(has ? numbers(point->values) : Json());
         entry["identical"].push_back(has ? identical(point->values) : Json::array());
@@ -337,7 +338,7 @@ class SweepComparison {
       }
       entry["states"] = Json::array();
       bool lost = false;
-      for (const Point* point : row) {
+      for (const ComparedPoint* point : row) {
         entry["states"].push_back(!point                   ? "none"
                                   : point->state == "done" ? "done"
                                   : point->failure.empty() ? point->state
@@ -351,7 +352,7 @@ class SweepComparison {
     count_joint_front(joint, json);
   }
 
-  void check_point(const std::vector<const Point*>& row, Json& entry) {
+  void check_point(const std::vector<const ComparedPoint*>& row, Json& entry) {
     bool worse = false;
     entry["judgements"] = Json::array();
     for (std::size_t i = 1; i < row.size(); ++i) {

@@ -47,7 +47,7 @@ Rgba8 colour_of(double part) {
 
 constexpr double kKneePart = 1 - 1.0 / static_cast<double>(kColours.size() - 1);
 
-void paste(Image& on, const Image& what, int left, int top) {
+void paste_within(Image& on, const Image& what, int left, int top) {
   for (int y = 0; y < what.height; ++y)
     for (int x = 0; x < what.width; ++x)
       if (left + x >= 0 && left + x < on.width) on.at(left + x, top + y) = what.at(x, y);
@@ -167,14 +167,14 @@ Image picture_of(const PictureMap& map) {
       picture.at(x, y) = colour_of(static_cast<double>(x - kGap) / (right - kGap - 1));
   const Image low = label(scale_text(scale.least), 1),
               high = label(scale_text(scale.most) + " " + map.unit, 1);
-  paste(picture, low, kGap, top + kBar + kGap);
-  paste(picture, high, right - high.width, top + kBar + kGap);
+  paste_within(picture, low, kGap, top + kBar + kGap);
+  paste_within(picture, high, right - high.width, top + kBar + kGap);
   if (scale.bent()) {
     const int knee = kGap + static_cast<int>(std::lround(kKneePart * (right - kGap - 1)));
     for (int y = top; y < top + kBar; ++y) picture.at(knee, y) = kInk;
     const Image text = label(scale_text(scale.knee), 1);
-    paste(picture, text, std::min(knee, right - high.width - kText) - text.width,
-          top + kBar + kGap);
+    paste_within(picture, text, std::min(knee, right - high.width - kText) - text.width,
+                 top + kBar + kGap);
   }
   return picture;
 }

@@ -299,7 +299,8 @@ Image make_texture(std::string_view name, int width, int height, std::uint32_t s
 }
 
 std::vector<Image> mip_chain(const Image& base, MipSpace space) {
-  std::vector<Image> levels{base};
+  std::vector<Image> levels;
+  levels.push_back(base);  // and no list of one, which would be copied again
   while (levels.back().width > 1 || levels.back().height > 1)
     levels.push_back(half_size(levels.back(), space));
   return levels;

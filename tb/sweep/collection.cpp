@@ -32,7 +32,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kUnitOfThroughput = "see throughput.unit";  // statistics()
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-std::string_view name_of(PointState state) {
+std::string_view state_name(PointState state) {
   constexpr std::string_view kNames[] = {"missing", "running", "done", "failed"};
   return kNames[static_cast<std::size_t>(state)];
 }
@@ -104,7 +104,7 @@ Expression::Lookup lookup_in(const SweepDefinition& sweep, const std::vector<dou
   };
 }
 
-nlohmann::json result_in(const fs::path& directory) {
+nlohmann::json complete_result_in(const fs::path& directory) {
   const fs::path file = directory / "result.json";
   auto result = try_parse_sorted_json(read_file(file, kMaxResultBytes));
   if (!result.is_object() || result.value("schema", 0) != kResultSchema)
@@ -163,7 +163,7 @@ class Collector {
   }
 
   void read(const fs::path& directory, CollectedPoint& point) {
-    const nlohmann::json result = result_in(directory);
+    const nlohmann::json result = complete_result_in(directory);
     if (result.value("verdict", "") == "fail") {
       point.state = PointState::kFailed;
       point.failure = result.value("reason", "");
@@ -333,7 +333,7 @@ std::string csv_of(const SweepDefinition& sweep, const SweepPlace& place, const 
   for (const MetricInfo& metric : all.metrics) text += fmt::format(",{}", csv_cell(metric.name));
   text += sweep.limits.empty() ? ",front,failure,directory\n" : ",front,beyond,failure,directory\n";
   for (const CollectedPoint& point : all.points) {
-    text += fmt::format("{},{}", point.name, name_of(point.state));
+    text += fmt::format("{},{}", point.name, state_name(point.state));
     for (const std::string& label : point.sample) text += fmt::format(",{}", csv_cell(label));
     for (const double value : point.values) text += fmt::format(",{}", csv_number(value));
     text += fmt::format(",{}", point.front ? 1 : 0);
@@ -411,7 +411,7 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
     Json values = Json::array();
     for (const double value : point.values) values.push_back(json_number(value));
     Json entry = {{"name", point.name},
-                  {"state", name_of(point.state)},
+                  {"state", state_name(point.state)},
                   {"at", point.sample},
                   {"values", values}};
     for (std::size_t i = 0; i < point.values.size(); ++i)
@@ -550,7 +550,7 @@ Collection collect(const SweepDefinition& sweep, const SweepPlace& place) {
 }
 
 std::vector<double> values_of(const SweepDefinition& sweep, const fs::path& directory) {
-  const nlohmann::json result = result_in(directory);
+  const nlohmann::json result = complete_result_in(directory);
   std::vector<double> values;
   if (result.value("verdict", "") == "fail") return values;
   for (const Metric& metric : sweep.metrics) values.push_back(measured(result, metric).value);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "tb/base/forked.h"
 #include "tb/system/geometric_runs.h"
@@ -23,9 +24,10 @@ class GeometricStress : public testing::TestWithParam<Preset> {
     return options;
   }
   static GeometricOutcome run(const GeometricRunOptions& options) {
-    return forked<GeometricOutcome>([&] {
-      return simulate({scene_frame("object", 120, 90), random_frame(77, 50, 4)}, options);
-    });
+    // Drawn before the first run, so that no process draws them again.
+    static const std::vector<Frame> kFrames = {scene_frame("object", 120, 90),
+                                               random_frame(77, 50, 4)};
+    return forked<GeometricOutcome>([&] { return simulate(kFrames, options); });
   }
 };
 

@@ -69,7 +69,7 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
   }
   plant_in(memory_, setup.memory);
   fetch_again_ = faults_.fetches_again();
-  driver_.load(faults_.contents(scene.memory()));
+  faults_.load(driver_, scene.memory());
 
   quad_driver_.send([this](std::uint64_t, spec::texture::Quad& quad) {
     if (!source_(quad_)) return false;

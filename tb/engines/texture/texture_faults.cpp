@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tb/engines/texture/texture_faults.h"
 
+#include <cstdint>
 #include <utility>
 
 namespace deburr::tb {
@@ -36,11 +37,12 @@ spec::texture::Parameters TextureFaults::as_built() const {
   return p;
 }
 
-std::vector<std::uint8_t> TextureFaults::contents(const platform::TextureMemory& textures) const {
+void TextureFaults::load(platform::TextureDriver& driver,
+                         const platform::TextureMemory& textures) const {
+  if (!planted("wrong-texel")) return driver.load(textures.bytes());
   std::vector<std::uint8_t> bytes = textures.bytes();
-  if (planted("wrong-texel"))
-    for (std::uint8_t& byte : bytes) byte ^= 0x10;
-  return bytes;
+  for (std::uint8_t& byte : bytes) byte ^= 0x10;
+  driver.load(bytes);
 }
 
 }  // namespace deburr::tb

@@ -3,11 +3,11 @@
 // on its way there.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "rtl_model/platform/texture_driver.h"
 #include "rtl_model/platform/texture_memory.h"
 #include "spec/texture/parameters.h"
 #include "tb/engines/texture/texture_setup.h"
@@ -24,8 +24,8 @@ class TextureFaults : public EngineFaults {
   static std::vector<PlantedFault> list();
   // What the unit is built with; the golden model always gets what was ordered.
   spec::texture::Parameters as_built() const;
-  // The textures as they go to memory.
-  std::vector<std::uint8_t> contents(const platform::TextureMemory& textures) const;
+  // The textures, as they go to memory.
+  void load(platform::TextureDriver& driver, const platform::TextureMemory& textures) const;
   bool fetches_again() const { return planted("duplicate-fetch"); }
 
  private:
