@@ -267,6 +267,23 @@ TEST(GeometricFigures, BinsOfTheHardwareAreWhatItsUnitsCount) {
   for (const GeometricSetup& setup : all) expect_bins(run(frames(), setup), setup);
 }
 
+// A buffer in which every block of a frame has a place is full where it has no place more.
+TEST(GeometricFigures, AWriteBufferIsFullAtTheEndWithoutAPlaceLeft) {
+  const Frame& frame = frames()[2];
+  const auto bin = [&](int blocks, const std::string& name) {
+    GeometricSetup setup = saving();
+    setup.geometric.write_buffer = blocks;
+    return hits(run({frame}, setup), "geometric/write-buffer/" + name);
+  };
+  const auto all = static_cast<int>(bin(spec::geometric::kMaxWriteBuffer, "empty"));
+  ASSERT_GT(all, 1);
+  ASSERT_LT(all, spec::geometric::kMaxWriteBuffer);
+  for (const int more : {0, 1}) {
+    EXPECT_EQ(bin(all + more, "full-at-end"), more == 0 ? 1 : 0);
+    EXPECT_EQ(bin(all + more, "not-full-at-end"), more);
+  }
+}
+
 // What the units count, against the addresses that the golden model asked for.
 TEST(GeometricFigures, LinesOfEachRegionAreThoseThatGoldenAskedFor) {
   for (const GeometricSetup& setup : setups())
