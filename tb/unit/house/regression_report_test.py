@@ -29,7 +29,8 @@ COLLECTED = {
          "coverage": [{"bins": 1000, "hit": 900}, {"bins": 100, "hit": 100}]},
         {"title": "B", "runs": 50, "passed": 50, "checks": [], "coverage": []},
         {"title": "C", "runs": 0, "passed": 0, "checks": [MET], "coverage": [{"bins": 2, "hit": 0}]}],
-    "buckets": [{"runs": 1999, "engine": "texture", "kind": "mismatch", "message": "a | b", "example": {"name": "A/x/1"}}],
+    "buckets": [{"runs": 1999, "engine": "texture", "kind": "mismatch", "message": "a | b",
+                 "example": {"name": "A/x/1"}}],
     "coverage": {"texture": {"bins": 16, "hit": 2, "holes": [f"texture/h{i}" for i in range(14)]},
                  "frame": {"bins": 12, "hit": 12, "holes": []}},
 }
@@ -87,7 +88,8 @@ class Report(Folder):
         self.assertEqual(self.page_of(COLLECTED), PAGE)
 
     def test_a_whole_plan_without_failures_and_coverage(self):
-        page = self.page_of({**COLLECTED, "testplan": "night", "divisor": 1, "holds": True, "buckets": [], "coverage": {}})
+        page = self.page_of({**COLLECTED, "testplan": "night", "divisor": 1, "holds": True, "buckets": [],
+                             "coverage": {}})
         self.assertIn("tb/testplan/night.yaml\n--seed 7`; do not", page)
         self.assertIn("The testplan holds.", page)
         self.assertIn("## Failures\n\nNone.\n", page)
@@ -99,11 +101,13 @@ class Testplan(Folder):
         """docs/reference/regression.md: a file of each engine, in their order, then a file by its name."""
         for name in engines():
             self.write(f"{name}.yaml", yaml.safe_dump({
-                "features": [{"id": name, "stimuli": [1]}, {"id": "own", "stimuli": [name], "checks": {name: 1}}],
+                "features": [{"id": name, "stimuli": [1]},
+                             {"id": "own", "stimuli": [name], "checks": {name: 1}}],
                 "coverage": [f"{name}/*"]}))
         self.write("more.yaml", "features: [{id: late, traces: [t]}, {id: late, traces: [u], coverage: [c]}]\n"
                    "unmet: [a]\ncoverage: [last]\n")
-        plan = testplan(self.write("plan.yml", "title: T\ninclude: ['*.yaml', more.yaml]\nunmet: [b]\ncoverage: [first]\n"
+        plan = testplan(self.write("plan.yml", "title: T\ninclude: ['*.yaml', more.yaml]\nunmet: [b]\n"
+                                   "coverage: [first]\n"
                                    "features: [{id: own, traces: [x], checks: {mine: 3}}]\n"))
         self.assertEqual(plan, {
             "title": "T", "unmet": ["b", "a"], "coverage": ["first", *[f"{name}/*" for name in engines()], "last"],
