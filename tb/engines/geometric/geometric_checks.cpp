@@ -94,6 +94,7 @@ void GeometricChecks::restart() {
   candidates.restart();
   blocks.restart();
   traffic.restart();
+  golden_.clear_coverage();  // the frame that begins again is the first
 }
 
 void GeometricChecks::got(const LineRecord& line, rtl::Cycle cycle) {

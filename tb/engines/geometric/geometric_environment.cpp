@@ -121,6 +121,7 @@ bool GeometricEnvironment::begin(std::size_t piece) {
   if (maps_) maps_->begin(current().image.width, current().image.height);
   if (history_) history_->begin();
   watch();
+  error_lines_ = error_lines();
   memory_.forget_lines();
   load();
   checks_.begin(current());
@@ -159,6 +160,7 @@ void GeometricEnvironment::restart() {
   // composition frames begin by themselves, so it has seen to that during reset.
   if (name().empty()) drain_memory();
   memory_.clear_statistics();
+  error_lines_ = {};
   checks_.restart();
   begin(current_);
 }
@@ -215,17 +217,25 @@ Image GeometricEnvironment::frame() const {
 
 // ---- results ------------------------------------------------------------------------------------
 
-Coverage GeometricEnvironment::coverage() const {
-  Coverage coverage = geometric_coverage(engine_, golden_model().coverage(), setup_.geometric);
+GeometricEnvironment::LinesByRegion GeometricEnvironment::error_lines() const {
+  LinesByRegion all = error_lines_;
   if (const auto range = error_range(setup_.memory))
     for (const auto* const lines : {&memory_.lines_read(), &memory_.lines_written()})
       for (const std::uint64_t line : *lines)
-        if (range->touches(line, spec::geometric::kLineBytes)) {
-          const std::string bin = fmt::format(
-              "geometric/error/{}", spec::geometric::kRegionNames[regions_.region_of(line)]);
-          coverage.declare(bin);
-          coverage.hit(bin);
-        }
+        if (range->touches(line, spec::geometric::kLineBytes)) ++all[regions_.region_of(line)];
+  return all;
+}
+
+Coverage GeometricEnvironment::coverage() const {
+  Coverage coverage = geometric_coverage(engine_, golden_model().coverage(), setup_.geometric);
+  const LinesByRegion errors = error_lines();
+  for (std::size_t region = 0; region < errors.size(); ++region)
+    if (errors[region] > 0) {
+      const std::string bin =
+          fmt::format("geometric/error/{}", spec::geometric::kRegionNames[region]);
+      coverage.declare(bin);
+      coverage.hit(bin, errors[region]);
+    }
   return coverage;
 }
 

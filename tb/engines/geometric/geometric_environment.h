@@ -11,6 +11,7 @@
 // frame is done, every pixel in memory.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -101,6 +102,9 @@ class GeometricEnvironment final : public Environment {
   const geometric::Frame& current() const { return frames_[current_]; }
   void observe();
   void load();
+  using LinesByRegion = std::array<std::uint64_t, platform::GeometricRegions::kCount>;
+  // That memory answered with an error, of all frames.
+  LinesByRegion error_lines() const;
 
   std::span<const geometric::Frame> frames_;
   GeometricSetup setup_;
@@ -119,7 +123,8 @@ class GeometricEnvironment final : public Environment {
   OutputHash hash_;
   std::optional<GeometricMaps> maps_;
   std::optional<GeometricHistory> history_;
-  bool ended_ = false;  // the current frame
+  bool ended_ = false;           // the current frame
+  LinesByRegion error_lines_{};  // of the frames before it
 };
 
 }  // namespace deburr::tb

@@ -58,6 +58,18 @@ inline double number_at(const Json& run, const std::string& key) {
 inline double work(const Json& run, const std::string& name) {
   return number_at(run, "/work/" + name);
 }
+// Hits of a bin of coverage; of a group that ends in '/', of all its bins.
+inline double hits(const Json& run, const std::string& name) {
+  double all = 0;
+  bool any = false;
+  for (const auto& [bin, count] : run["coverage"]["bins"].items())
+    if (name.ends_with('/') ? bin.starts_with(name) : bin == name) {
+      all += count.get<double>();
+      any = true;
+    }
+  EXPECT_TRUE(any) << name;
+  return all;
+}
 inline double sum_of(const std::vector<Json>& runs, const std::string& key) {
   double sum = 0;
   for (const Json& run : runs) sum += number_at(run, key);
@@ -102,6 +114,17 @@ inline void expect_sums(const Json& run, const std::vector<Json>& alone,
       EXPECT_NEAR(stalled.get<double>(), sum_of(alone, "/units/" + name + "/stalls/" + cause),
                   2 * in_all)
           << name << cause;
+  }
+  // A merge of runs is a sum; bins of stalls are clocks. A run names what it met of bins of tests.
+  std::set<std::string> bins;
+  for (const Json& one : alone)
+    for (const auto& [bin, hits] : one["coverage"]["bins"].items()) bins.insert(bin);
+  EXPECT_EQ(run["coverage"]["bins"].size(), bins.size());
+  for (const std::string& bin : bins) {
+    double hits = 0;
+    for (const Json& one : alone) hits += one["coverage"]["bins"].value(bin, 0.0);
+    const bool in_clocks = bin.find("/stall/") != std::string::npos || bin.ends_with("/waited-for");
+    EXPECT_NEAR(run["coverage"]["bins"].value(bin, 0.0), hits, in_clocks ? 2 * in_all : 0) << bin;
   }
   double count = 0;
   for (const Json& bin : run["latency"]["histogram"]) count += bin["count"].get<double>();

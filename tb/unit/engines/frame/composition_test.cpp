@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "spec/error.h"
 #include "tb/base/forked.h"
 #include "tb/engines/frame/frame_composition.h"
+#include "tb/unit/engines/run_figures.h"
 
 namespace deburr::tb::composition_test {
 namespace {
@@ -146,6 +148,62 @@ TEST(FrameComposition, WhoSmoothsRowsFollowsWhoSmoothsAlongEdges) {
   constexpr std::uint64_t kRows = 32, kWidth = 48, kReach = 32;
   EXPECT_GT(both.cycles, first.cycles + (kRows + kReach + 5) * kWidth);
   EXPECT_LT(both.cycles, first.cycles + (kRows + kReach + 5) * kWidth + 400);
+}
+
+Json figures_of(const Given& given) {
+  return Json::parse(forked_text([&] {
+    const Resolved resolved(given);
+    const std::shared_ptr<const DrawnScene> scene = resolved.scene();
+    Simulation simulation({});
+    FrameComposition frame(simulation, *scene, resolved.roles);
+    simulation.elaborate(frame);
+    simulation.run();
+    frame.check();
+    Json json = json_of(simulation);
+    json["fragments"] = scene->stream().counts.fragments;
+    json["bound_of_colours"] = frame.drawing().clocks_bound();
+    const MeshStage* const mesh = std::as_const(frame).mesh();
+    const RowStage* const rows = std::as_const(frame).rows();
+    json["bound_of_edges"] = mesh ? mesh->clocks_bound(48, 32) : 0;
+    json["bound_of_rows"] = rows ? rows->clocks_bound(48, 32) : 0;
+    json["doing"] = resolved.roles.drawer().words().doing;
+    return json.dump();
+  }));
+}
+
+// Four bytes a fragment written and a pixel read; one after the other, or rows beside the drawing.
+TEST(FrameComposition, FiguresAreOfTheWholeFrame) {
+  constexpr double kPixels = 48 * 32;
+  for (const Kind kind : kAll) {
+    const Json r = figures_of({kind});
+    const bool mesh = kind != Kind::kRows, rows = kind != Kind::kMesh;
+    const double cycles = number_at(r, "/cycles"), colours = number_at(r, "/bound_of_colours"),
+                 edges = number_at(r, "/bound_of_edges"), smooth = number_at(r, "/bound_of_rows");
+    EXPECT_EQ(work(r, "frame_buffer_bytes"), 4 * kPixels);
+    EXPECT_EQ(work(r, "frame_buffer_bytes_written"), 4 * number_at(r, "/fragments"));
+    EXPECT_EQ(work(r, "frame_buffer_bytes_read"), rows ? 4 * kPixels : 0);
+    EXPECT_DOUBLE_EQ(number_at(r, "/throughput/value"), kPixels / cycles);
+    const double bound = mesh ? colours + edges + smooth : std::max(colours, smooth);
+    EXPECT_EQ(work(r, mesh ? "engine_clocks_bound" : "slower_engine_clocks"), bound);
+    EXPECT_DOUBLE_EQ(number_at(r, "/throughput/bound"), kPixels / bound);
+    EXPECT_LE(bound, cycles);
+    const double drawn = work(r, r["doing"].get<std::string>() + "_clocks");
+    EXPECT_GE(drawn, colours);
+    double all = drawn;
+    if (mesh) {
+      EXPECT_GE(work(r, "drawing_clocks"), edges);
+      all += work(r, "drawing_clocks");
+    }
+    if (rows) {
+      EXPECT_EQ(work(r, "smoothing_clocks_by_formula"), smooth);
+      EXPECT_GE(work(r, "smoothing_clocks"), smooth);
+      all += work(r, "smoothing_clocks");
+    }
+    if (mesh)
+      EXPECT_NEAR(all, cycles, 20) << "one after the other";
+    else
+      EXPECT_EQ(work(r, "overlapped_clocks"), all - cycles);
+  }
 }
 
 TEST(FrameComposition, NoiseInUnwrittenFieldsChangesNothing) {

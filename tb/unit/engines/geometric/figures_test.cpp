@@ -64,7 +64,10 @@ const std::vector<GeometricSetup>& setups() {
 double clocks_of_turns(const GeometricSetup& setup) { return setup.geometric.frame_copy ? 2 : 0; }
 
 struct Options : SimulationOptions {
-  Options() { clock_mhz = kMhz; }
+  Options() {
+    clock_mhz = kMhz;
+    coverage = true;
+  }
 };
 
 // Figures, maps, and what the environment says of itself.
@@ -189,6 +192,95 @@ TEST(GeometricFigures, OfThreeFramesAreSumsRatiosOfSumsOrOfTheLast) {
                             work(all, "weight_combiner_blocks_read")));
       EXPECT_EQ(work(all, "dropped_early"), work(all, "depth_screen_dropped"));
     }
+  }
+}
+
+// docs/reference/coverage.md: bins of the hardware are what its units count, and none of a part
+// that is not there is hit.
+void expect_bins(const Json& r, const GeometricSetup& setup) {
+  const auto w = [&](const std::string& name) {
+    return r["work"].contains(name) ? work(r, name) : 0;
+  };
+  const auto bin = [&](const std::string& name) { return hits(r, "geometric/" + name); };
+  const auto expect_look_ups = [&](const std::string& cache, double lookups, double misses) {
+    EXPECT_EQ(bin(cache + "/hit"), lookups - misses) << cache;
+    EXPECT_EQ(bin(cache + "/miss"), misses) << cache;
+  };
+  const double weights = w("weight_combiner_lookups"), missed = w("weight_combiner_misses"),
+               read_back = w("weight_combiner_blocks_read");
+  expect_look_ups("look-up/vertex", w("vertex_fetch_lookups"), w("vertex_fetch_misses"));
+  expect_look_ups("look-up/depth", w("depth_test_lookups"), w("depth_test_misses"));
+  expect_look_ups("look-up/weight", weights, missed);
+  const double boundaries = w("pair_fetch_boundary_lookups"),
+               boundary_lines = w("pair_fetch_boundary_lines");
+  expect_look_ups("pair-look-up/boundary", boundaries, boundary_lines);
+  expect_look_ups("pair-look-up/other", w("pair_fetch_lookups") - boundaries,
+                  w("pair_fetch_lines_read") - boundary_lines);
+  EXPECT_EQ(bin("block/fresh"), missed - read_back);
+  EXPECT_EQ(bin("block/cached"), weights - missed);
+  EXPECT_EQ(bin("block/replaced"), w("weight_combiner_blocks_written"));
+  EXPECT_EQ(bin("block/read-back"), read_back);
+  EXPECT_EQ(bin("block/waited-for"), r["units"]["weight_combiner"]["stalls"]["spill"]);
+  // Each frame ends with the buffer full or not; what came to an empty place is there or has left.
+  const bool buffered = setup.geometric.write_buffer > 0;
+  EXPECT_EQ(bin("write-buffer/hit"), w("weight_combiner_buffer_hits"));
+  EXPECT_EQ(bin("write-buffer/empty") + bin("write-buffer/leaves"),
+            buffered ? w("weight_combiner_blocks_written") : 0);
+  EXPECT_EQ(bin("write-buffer/full-at-end") + bin("write-buffer/not-full-at-end"),
+            buffered ? frames().size() : 0);
+  EXPECT_GE(bin("write-buffer/empty"),
+            setup.geometric.write_buffer * bin("write-buffer/full-at-end"));
+  const bool kept = setup.geometric.colour_lines > 0;
+  EXPECT_EQ(bin("colour/hit"), kept ? w("block_fetch_lines_kept") : 0);
+  EXPECT_EQ(bin("colour/free") + bin("colour/replaces"), kept ? w("block_fetch_lines_read") : 0);
+  EXPECT_EQ(bin("colour/replaces"), kept ? w("block_fetch_lines_replaced") : 0);
+  double groups = 0, lines = 0;
+  for (int n = 1; n <= 2; ++n) {
+    groups += bin("group-lines/tiled/" + std::to_string(n));
+    lines += n * bin("group-lines/tiled/" + std::to_string(n));
+  }
+  EXPECT_EQ(lines, w("depth_test_lookups"));
+  EXPECT_GT(groups, 0);
+  EXPECT_EQ(bin("group-lines/raster/"), 0);
+  // The hardware's screen drops what golden's does.
+  constexpr std::pair<const char*, const char*> kScreens[] = {
+      {"dropped-up", "top/dropped"},        {"dropped-down", "bottom/dropped"},
+      {"dropped-left", "left/dropped"},     {"dropped-right", "right/dropped"},
+      {"kept-at-bound", "equal"},           {"own-tile-lesser", "lesser/own"},
+      {"other-tile-lesser", "lesser/other"}};
+  for (const auto& [hardware, golden] : kScreens)
+    EXPECT_EQ(bin(std::string("screen/") + hardware), bin(std::string("coarse/") + golden))
+        << golden;
+  for (const auto& [unit, figures] : r["units"].items())
+    for (const auto& [cause, clocks] : figures["stalls"].items()) {
+      if (clocks == 0) continue;
+      EXPECT_EQ(bin("stall/" + unit + '/' + cause), clocks) << unit << cause;
+    }
+}
+
+TEST(GeometricFigures, BinsOfTheHardwareAreWhatItsUnitsCount) {
+  std::vector<GeometricSetup> all = setups();
+  for (const int blocks : {2, 128}) {
+    all.push_back(saving());
+    all.back().geometric.write_buffer = blocks;
+  }
+  for (const GeometricSetup& setup : all) expect_bins(run(frames(), setup), setup);
+}
+
+// A buffer in which every block of a frame has a place is full where it has no place more.
+TEST(GeometricFigures, AWriteBufferIsFullAtTheEndWithoutAPlaceLeft) {
+  const Frame& frame = frames()[2];
+  const auto bin = [&](int blocks, const std::string& name) {
+    GeometricSetup setup = saving();
+    setup.geometric.write_buffer = blocks;
+    return hits(run({frame}, setup), "geometric/write-buffer/" + name);
+  };
+  const auto all = static_cast<int>(bin(spec::geometric::kMaxWriteBuffer, "empty"));
+  ASSERT_GT(all, 1);
+  ASSERT_LT(all, spec::geometric::kMaxWriteBuffer);
+  for (const int more : {0, 1}) {
+    EXPECT_EQ(bin(all + more, "full-at-end"), more == 0 ? 1 : 0);
+    EXPECT_EQ(bin(all + more, "not-full-at-end"), more);
   }
 }
 
@@ -343,6 +435,10 @@ std::uint64_t errors_of(const std::vector<Frame>& of, GeometricSetup setup, std:
   const std::string error = r["error"];
   EXPECT_TRUE(error.empty() || error.starts_with("memory answered ")) << error;
   EXPECT_EQ(work(r, "memory_arbiter_memory_errors"), work(r, "memory_port_errors"));
+  const double errors = work(r, "memory_port_errors");
+  if (errors > 0) {
+    EXPECT_EQ(hits(r, "geometric/error/depth"), errors);
+  }
   return error.empty() ? 0 : std::stoull(error.substr(sizeof "memory answered " - 1));
 }
 

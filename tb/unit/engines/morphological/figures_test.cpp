@@ -52,7 +52,10 @@ const std::vector<MorphologicalSetup>& setups() {
 }
 
 struct Options : SimulationOptions {
-  Options() { clock_mhz = kMhz; }
+  Options() {
+    clock_mhz = kMhz;
+    coverage = true;
+  }
 };
 
 Json run(const std::vector<MorphologicalInput>& of, const MorphologicalSetup& setup,

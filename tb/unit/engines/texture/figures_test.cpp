@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Figures, maps and expectations of runs of the texture unit, also of one that was reset.
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
 #include <set>
 #include <span>
@@ -57,18 +59,30 @@ Json run(const TextureScene& of, const TextureSetup& setup, const SimulationOpti
     Json& golden = json["golden"] = Json::array();
     for (const Rgba8& pixel : environment.golden_frame().pixels) golden.push_back(pixel);
     json["came"] = environment.came();
+    json["magnified"] = environment.golden_work().magnified;
     json["by_samples"] = environment.golden_work().by_samples;
     return json.dump();
   }));
 }
 
+// One that has several fragments, in another than the first lane.
+PixelAddress busy_pixel() {
+  const FragmentStream& stream = scene().stream();
+  std::map<std::pair<int, int>, int> fragments;
+  for (const spec::texture::Quad& quad : stream.quads)
+    for (int lane = 0; lane < 4; ++lane)
+      if (quad.coverage >> lane & 1) {
+        const auto at = stream.pixel(quad.tag, lane);
+        if (++fragments[{at.x, at.y}] > 1 && lane == 3) return {at.x, at.y};
+      }
+  ADD_FAILURE() << "no pixel has two";
+  return {};
+}
+
 SimulationOptions watched() {
   SimulationOptions options;
   options.maps = options.coverage = true;
-  const FragmentStream& stream = scene().stream();
-  const spec::texture::Quad& quad = stream.quads[stream.quads.size() / 2];
-  const auto pixel = stream.pixel(quad.tag, std::countr_zero(quad.coverage));
-  options.pixel = PixelAddress{pixel.x, pixel.y};
+  options.pixel = busy_pixel();
   return options;
 }
 
@@ -176,6 +190,183 @@ TEST(TextureFigures, MapsAreOfThePixelsThatWereDrawn) {
   EXPECT_EQ(samples, work(r, "walker_samples"));
   EXPECT_GT(r["pixel"]["steps"].size(), 10u);
   for (const Json& step : r["pixel"]["steps"]) EXPECT_EQ(step["differs"], false) << step.dump();
+}
+
+// A step of one fragment as golden decides it: part, step, item, value.
+using Decided = std::array<std::string, 4>;
+
+// Numbers with so many fraction bits, beside each other.
+std::string numbers(int fraction_bits, std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values)
+    text += (text.empty() ? "" : ", ") + fmt::format("{}", std::ldexp(value, -fraction_bits));
+  return text;
+}
+
+// Of one pixel of the scene, from golden alone.
+std::vector<Decided> decided(const PixelAddress& pixel, const spec::texture::Parameters& p) {
+  using golden::texture::TextureGolden;
+  TextureGolden golden = make_golden(scene(), p, TextureGolden::Traffic::kPredict);
+  const bool two = p.axes == spec::texture::Axes::kTwo;
+  std::vector<Decided> all;
+  int number = 0;
+  const FragmentStream& stream = scene().stream();
+  for (std::size_t q = 0; q < stream.quads.size(); ++q) {
+    const spec::texture::Quad& quad = stream.quads[q];
+    int lane = 3;
+    const auto is_it = [&] {
+      const auto at = stream.pixel(quad.tag, lane);
+      return (quad.coverage >> lane & 1) != 0 && at.x == pixel.x && at.y == pixel.y;
+    };
+    while (lane >= 0 && !is_it()) --lane;
+    if (lane < 0) {
+      golden.process(quad);
+      continue;
+    }
+    const auto add = [&](const std::string& step, const std::string& item, std::string value) {
+      all.push_back({"fragment " + std::to_string(number), step, item, std::move(value)});
+    };
+    const auto l = static_cast<std::size_t>(lane);
+    const auto a = golden.analyse(quad, lane);
+    std::vector<golden::texture::BilinearRequest> requests;
+    const auto colours = golden.process(quad, lane, requests);
+    add("quad", "tag, lane, texture", fmt::format("{}, {}, {}", quad.tag, lane, quad.texture));
+    if (!(stream.visible[q] >> lane & 1))
+      add("quad", "seen", "no: another fragment of the pixel is");
+    const auto real = [](std::int64_t n) { return static_cast<double>(n); };
+    const auto size = [](std::int64_t n) { return std::abs(static_cast<double>(n)); };
+    add("coordinates", "s, t", numbers(24, {real(quad.s[l]), real(quad.t[l])}));
+    add("derivatives", "along the row, texels", numbers(16, {size(a.p_x.s), size(a.p_x.t)}));
+    add("derivatives", "along the column, texels", numbers(16, {size(a.p_y.s), size(a.p_y.t)}));
+    add("footprint", "major axis, texels", numbers(16, {real(a.footprint.d_max)}));
+    add("footprint", two ? "minor axis, texels" : "area, texels",
+        numbers(16, {two ? real(a.footprint.d_min) : static_cast<double>(a.footprint.area)}));
+    add("footprint", "axis, coordinates", numbers(24, {real(a.axis.s), real(a.axis.t)}));
+    add("footprint", "lb of the major axis", numbers(12, {real(a.lod.lb_d_max)}));
+    add("level", "samples N", std::to_string(a.lod.samples));
+    add("level", "level and 256ths of the next",
+        numbers(0, {real(a.lod.level), real(a.lod.fraction)}));
+    add("level", "filter", a.lod.linear ? "linear" : "nearest");
+    for (const auto& request : requests) {
+      const std::string step = fmt::format("sample {} level {}", request.sample, request.level);
+      add(step, "s, t", numbers(24, {real(request.s), real(request.t)}));
+      std::string texels;
+      std::vector<std::uint32_t> lines;
+      for (const std::uint32_t address : request.addresses) {
+        texels += fmt::format("{}{:#x}", texels.empty() ? "" : ", ", address);
+        const auto line = address / static_cast<std::uint32_t>(p.cache_line_bytes);
+        if (std::count(lines.begin(), lines.end(), line) == 0) lines.push_back(line);
+      }
+      add(step, "texels at", texels);
+      for (const std::uint32_t line : lines) {
+        const bool miss = std::count(request.misses.begin(), request.misses.end(), line) > 0;
+        add(step, "line",
+            fmt::format("{:#x} {}", line * static_cast<std::uint32_t>(p.cache_line_bytes),
+                        miss ? "miss" : "hit"));
+      }
+    }
+    for (const spec::texture::Colour& colour : colours)
+      if (colour.lane == lane)
+        add("colour", "RGBA",
+            fmt::format("{}, {}, {}, {}", colour.rgba[0], colour.rgba[1], colour.rgba[2],
+                        colour.rgba[3]));
+    ++number;
+  }
+  EXPECT_GT(number, 1);
+  return all;
+}
+
+// docs/reference/run.md, "One pixel": all that golden decides is there, in order, and the hardware
+// has it all.
+TEST(TextureFigures, AHistoryHasEveryStepOfEveryFragmentOfThePixel) {
+  const SimulationOptions options = watched();
+  for (const auto axes : {spec::texture::Axes::kTwo, spec::texture::Axes::kEight})
+    for (const int line : {64, 128}) {
+      TextureSetup setup = small_setup();
+      setup.texture.axes = axes;
+      setup.texture.cache_line_bytes = line;
+      const Json r = run(scene(), setup, options);
+      std::vector<Decided> steps;
+      for (const Json& step : r["pixel"]["steps"]) {
+        EXPECT_EQ(step["differs"], false) << step.dump();
+        if (step["golden"] != "")
+          steps.push_back({step["part"], step["step"], step["item"], step["golden"]});
+        if (step["step"] != "quad") {
+          EXPECT_NE(step["hardware"], "") << step.dump();
+        }
+      }
+      EXPECT_EQ(steps, decided(*options.pixel, setup.texture));
+    }
+}
+
+// docs/reference/coverage.md: each fragment once in each group that it belongs to.
+TEST(TextureFigures, BinsAreOfEveryFragment) {
+  using namespace spec::texture;
+  SimulationOptions options;
+  options.coverage = true;
+  struct Case {
+    const char* source;
+    SamplerParameters sampler;
+    Axes axes;
+    Kernel kernel;
+    SrgbOutput output;
+  };
+  SamplerParameters plain, nearest;
+  nearest.mode = MinFilter::kNearest;
+  nearest.magnification = MagFilter::kNearest;
+  nearest.layout = Layout::kLinear;
+  nearest.wrap = WrapChoice::kMirroredRepeat;
+  nearest.format = Format::kSrgb8A8;
+  for (const Case& c : {Case{"object", plain, Axes::kTwo, Kernel::kBox, SrgbOutput::kEncoded},
+                        {"road", nearest, Axes::kEight, Kernel::kTent, SrgbOutput::kLinear},
+                        {"quad", nearest, Axes::kTwo, Kernel::kTent, SrgbOutput::kEncoded}}) {
+    SceneParameters p;
+    p.source = c.source;
+    p.width = 40;
+    p.height = 26;
+    p.texture_size = 32;
+    const TextureScene of(p, c.sampler, 1);
+    TextureSetup setup = small_setup();
+    setup.texture.axes = c.axes;
+    setup.texture.kernel = c.kernel;
+    setup.texture.srgb_output = c.output;
+    setup.texture.cache_outstanding = 4;
+    const Json r = run(of, setup, options);
+    const auto bin = [&](const std::string& name) { return hits(r, "texture/" + name); };
+    const auto name = [](const auto& names, auto value) {
+      return std::string(names[static_cast<std::size_t>(value)]);
+    };
+    const auto fragments = static_cast<double>(of.stream().counts.fragments),
+               magnified = r["magnified"].get<double>();
+    const Descriptor& texture = of.memory().descriptors().front();
+    const std::string mode = "mode/" + name(kMinFilterNames, texture.min_filter) + '/',
+                      layout = '/' + name(kLayoutNames, texture.layout);
+    for (const Wrap wrap : {texture.wrap_s, texture.wrap_t})
+      EXPECT_EQ(bin(mode + name(kWrapNames, wrap) + layout), fragments - magnified) << c.source;
+    EXPECT_EQ(bin("mode/"), (fragments - magnified) * (texture.wrap_s == texture.wrap_t ? 1 : 2));
+    EXPECT_EQ(bin("magnified/" + name(kMagFilterNames, texture.mag_filter)), magnified);
+    EXPECT_EQ(bin("magnified/"), magnified);
+    EXPECT_EQ(bin("format/" + name(kFormatNames, texture.format)), fragments);
+    EXPECT_EQ(bin("format/"), fragments);
+    const bool srgb = texture.format == Format::kSrgb8A8;
+    EXPECT_EQ(bin("output/" + name(kSrgbOutputNames, c.output)), srgb ? fragments : 0);
+    EXPECT_EQ(bin("output/"), srgb ? fragments : 0);
+    double narrow = 0, wide = 0;
+    for (std::size_t n = 1; n < r["by_samples"].size(); ++n) {
+      const auto count = r["by_samples"][n].get<double>();
+      EXPECT_EQ(bin("samples/" + std::to_string(n)), count) << c.source << n;
+      (n < 4 ? narrow : wide) += count;
+    }
+    const bool tent = c.kernel == Kernel::kTent;
+    EXPECT_EQ(bin("tent/narrow"), tent ? narrow : 0);
+    EXPECT_EQ(bin("tent/wide"), tent ? wide : 0);
+    EXPECT_EQ(bin(c.axes == Axes::kTwo ? "major/2/" : "major/8/"), fragments);
+    EXPECT_EQ(bin("major/"), fragments);
+    EXPECT_EQ(bin("cache/hit"), work(r, "tag_stage_hits"));
+    EXPECT_EQ(bin("cache/miss"), work(r, "tag_stage_misses"));
+    EXPECT_EQ(bin("cache/merged"), work(r, "tag_stage_merged"));
+    EXPECT_EQ(bin("cache/queue_full"), r["units"]["tag_stage"]["stalls"]["miss_queue_full"]);
+  }
 }
 
 // Each line that the range has a byte of fails as often as it is read.
