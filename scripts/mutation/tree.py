@@ -103,7 +103,7 @@ class Tree:
         for file in self.sources:
             self.put(file)
         self.run("cmake", "-S", self.copy, "-B", self.build, "-G", "Ninja",
-                 "-DCMAKE_BUILD_TYPE=None", "-DDEBURR_UNITY=OFF",
+                 "-DCMAKE_BUILD_TYPE=None",
                  f"-DCMAKE_CXX_FLAGS={FLAGS} -include {header}",
                  needed=True)
         self.choose()
