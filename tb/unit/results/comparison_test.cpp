@@ -18,6 +18,7 @@
 #include "tb/results/comparison_page.h"
 #include "tb/results/result.h"
 #include "tb/scene/image_io.h"
+#include "tb/unit/results/page_words.h"
 
 namespace deburr::tb::comparison_test {
 namespace {
@@ -305,6 +306,124 @@ TEST_F(Runs, ThePageIsSelfContainedAndEscapes) {
     EXPECT_THAT(page, Not(HasSubstr(reference)));
 }
 
+// Three runs whose rows have one of each kind of cell, word by word.
+TEST_F(Runs, AreOnAPageInTheirForms) {
+  const auto cell = [](const Json& value, const char* change, const char* judgement,
+                       bool worse = false) {
+    return Json{{"value", value},
+                {"text", value_text(value)},
+                {"change", change},
+                {"judgement", judgement},
+                {"worse", worse}};
+  };
+  const auto run = [&](const char* name, const Json& images) {
+    return Json{{"name", name},
+                {"path", std::string("out/") + name + "run"},
+                {"verdict", "pass"},
+                {"title", std::string("Title ") + name},
+                {"summary", "of it"},
+                {"command", std::string("deburr run ") + name},
+                {"folder", path_.string()},
+                {"images", images}};
+  };
+  const auto image = [](const char* role, const char* title) {
+    return Json{
+        {"file", std::string(role) + ".png"}, {"role", role}, {"title", title}, {"caption", "c"}};
+  };
+  for (const char* name : {"before.png", "after.png"}) write_image(path_ / name, Image(2, 2));
+  Json same = cell(nullptr, "", "better");
+  same["identical"] = true;
+  same["text"] = "identical";
+  const Json all = {
+      {"kind", "runs"},
+      {"engine", "texture"},
+      {"worse", true},
+      {"warnings", {"Look."}},
+      {"runs",
+       {run("A", Json::array({image("before", "Before"), image("after", "After")})),
+        run("B", Json::array({image("after", "Later")})), run("C", nullptr)}},
+      {"parameters",
+       {{{"name", "ways"}, {"unit", "way"}, {"meaning", "Ways."}, {"values", {"2", "4", "2"}}}}},
+      {"figures",
+       {{{"key", "cycles"},
+         {"label", "Cycles"},
+         {"unit", "clk"},
+         {"meaning", "All."},
+         {"cells",
+          {cell(1000, "", ""), cell(800, "-20.00 %", "better"),
+           cell(1250, "+25.00 %", "worse", true)}}},
+        {{"key", "quality.psnr_db"},
+         {"label", "PSNR"},
+         {"unit", "dB"},
+         {"meaning", "Peak."},
+         {"cells", {cell(30.5, "", ""), same, cell(20.25, "-10.25 dB", "worse")}}},
+        {{"key", "work.rate"},
+         {"label", "Rate"},
+         {"unit", ""},
+         {"meaning", "R."},
+         {"cells", {cell(-2.5, "", ""), cell(nullptr, "", ""), cell(1234.567, "", "equal")}}}}},
+      {"values",
+       {{{"key", "work.rate"},
+         {"unit", "u"},
+         {"meaning", "R."},
+         {"cells", {cell("a", "", ""), cell(true, "", ""), cell(12345, "x", "")}}}}}};
+  EXPECT_EQ(words(comparison_page(all)), R"page(
+Deburr &middot;
+comparison of runs &middot;
+texture
+Arun, Brun, Crun|badge fail|worse
+Look.
+Parameters|Figures|Pictures|Values|Commands
+Directory|What it is
+A|out/Arun|(what the others are compared with)|Title A|of it
+B|out/Brun|Title B|of it
+C|out/Crun|Title C|of it
+--columns: 2
+B against A
+better|Better:|Cycles -20.00 %, PSNR
+worse|Worse:|nothing
+C against A
+better|Better:|nothing
+worse|Worse:|Cycles +25.00 %, PSNR -10.25 dB
+Parameters that differ
+Parameter|A|B|C|Unit|Meaning
+ways|2|other|4|2|way|Ways.
+Figures
+Figure|A|B|C|Unit|Meaning
+Cycles|1,000|width: 80.0%|better|800|-20.00 %|width: 64.0%|worse fails|1,250|+25.00 %|width: 100.0%|clk|All.
+PSNR|30.5|better|identical|worse|20.25|-10.25 dB|dB|Peak.
+Rate|-2.5|width: 0.2%|-|equal|1,234.6|width: 100.0%|R.
+Green is better and red is worse than A by more than the tolerance, bold where it fails the comparison;
+bars are shares of the row's largest value.
+Pictures
+Show|Later|Before
+difference from A, 8 times
+Wheel:
+zoom all at one place.
+Double click:
+whole picture.
+Later
+A|c
+B|c
+C|has no such picture.
+Before
+A|c
+B|has no such picture.
+C|has no such picture.
+Every value that differs
+1 values
+Value|A|B|C|Unit|Meaning
+work.rate|a|true|12,345|x|u|R.
+Commands
+A
+deburr run A
+B
+deburr run B
+C
+deburr run C
+)page");
+}
+
 TEST_F(Runs, ThatAreNotWholeAreRejected) {
   Json manifest = leave("a", 1000, "2");
   const auto rejected = [&](const char* name, const char* says) {
@@ -429,6 +548,53 @@ TEST_F(Sweeps, PointsAreMatchedByTheirConfiguration) {
   EXPECT_EQ(all["metrics"][1]["maximise"], true);
   EXPECT_FALSE(compared({"a", "a"})["worse"]);
   EXPECT_THAT(comparison_page(all), HasSubstr("1 on the front of all together"));
+}
+
+TEST_F(Sweeps, AreOnAPageInTheirForms) {
+  leave("a",
+        sweep(Json::array({Json{"latency", "100"}}), Json::array({axis("bytes"), axis("ways")}),
+              Json::array({point({"1024", "1"}, {1000, 30.0, 50}, true),
+                           point({"2048", "1"}, {900, 31.0, 40}),
+                           point({"4096", "1"}, {800, 31.0, 0})})));
+  leave("b",
+        sweep(Json::array({Json{"latency", "200"}}), Json::array({axis("bytes"), axis("ways")}),
+              Json::array({point({"1024", "1"}, {1100, 30.0, 60}, true),
+                           point({"2048", "1"}, {450, 31.5, 40}),
+                           point({"4096", "1"}, {808, 30.25, 7}),
+                           point({"8192", "1"}, {1, 1.0, 1})})));
+  Json all = compared({"a", "b"});
+  for (Json& each : all["sweeps"]) each["path"] = "out/" + each["name"].get<std::string>();
+  EXPECT_EQ(words(comparison_page(all)), R"page(
+Deburr &middot;
+comparison of sweeps &middot;
+texture
+A, B|badge fail|worse
+Parameters|Points in all|Fronts|Matched points|Points not in all
+Directory|What it is
+A|out/A|(what the others are compared with)|Cache|3 points, 3 done, 1 on its front, 1 on the front of all together
+B|out/B|Cache|4 points, 4 done, 1 on its front, 1 on the front of all together
+Parameters that differ, besides the axes
+Parameter|A|B
+latency|100|other|200
+Points in all of them: 3
+Matched by bytes, ways.
+1 points are not done in every sweep.
+Metric|Better|Equal|Worse|Mean change|Least|Most|Unit|Meaning
+B|cycles|1|1|worse|1|-13.00 %|-50.00 %|+10.00 %|clk|m
+B|psnr|1|1|worse|1|-0.08 dB|-0.75 dB|+0.50 dB|dB|m
+B|lines|0|1|worse|2|+10.00 %|+0.00 %|+20.00 %|line|m
+Fronts
+Across
+Up
+fronts only
+Large points are on their sweep's front;
+a line joins those that nothing of the same sweep beats in these two metrics.
+Matched points
+Show|all|those that are worse|those that differ|those on a front
+Points that are not done in every sweep: 1
+The points and the picture of the fronts need JavaScript;
+deburr compare --json has them all.
+)page");
 }
 
 // Nobody is better than an identical picture, and one that is lost is worse.
