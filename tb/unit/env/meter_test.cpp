@@ -70,7 +70,7 @@ TEST(Meter, NamesFiguresAfterItsEnvironment) {
                                              .latency = 2,
                                              .content = "lines of the picture"});
   rtl::Counter hits("hits", "line", "lines that were there");
-  hits.add(7);
+  hits += 7;
   Result alone, within;
   All("").add(alone, "hits", hits);
   All("texture").add(within, "hits", hits);

@@ -113,10 +113,13 @@ TEST(Camera, IsChosenForItsFrame) {
 // What is not given is the scene's own; its near plane is for its own eye.
 TEST(Camera, TakesThePlaceOfTheScenes) {
   Scene scene;
+  const auto camera = [](const char* eye, const char* target) {
+    return CameraParameters{eye, target};
+  };
   scene.camera = {{1, 2, 3}, {4, 5, 6}, {0, 1, 0}, 0.7, 0.025};
   look(scene, {});
   EXPECT_EQ(scene.camera.near_plane, 0.025);
-  look(scene, {.target = "-1.5,2e1,.5"});
+  look(scene, camera("", "-1.5,2e1,.5"));
   EXPECT_EQ(scene.camera.target, Imath::V3d(-1.5, 20, 0.5));
   EXPECT_EQ(scene.camera.eye, Imath::V3d(1, 2, 3));
   EXPECT_EQ(scene.camera.near_plane, 0.025);
@@ -128,10 +131,10 @@ TEST(Camera, TakesThePlaceOfTheScenes) {
   EXPECT_NEAR(scene.camera.up.x, 1, 1e-12);
   for (const char* wrong :
        {"1,2", "1,2,3,4", "1,2,3 ", "1;2;3", "a,b,c", "1,2,nan", "1,,3", "1,2,", "1,2,inf"}) {
-    EXPECT_THROW(look(scene, {.eye = wrong}), spec::ConfigError) << wrong;
-    EXPECT_THROW(look(scene, {.target = wrong}), spec::ConfigError) << wrong;
+    EXPECT_THROW(look(scene, camera(wrong, "")), spec::ConfigError) << wrong;
+    EXPECT_THROW(look(scene, camera("", wrong)), spec::ConfigError) << wrong;
   }
-  EXPECT_THROW(look(scene, {.eye = "1,2,3", .target = "1,2,3"}), spec::ConfigError);
+  EXPECT_THROW(look(scene, camera("1,2,3", "1,2,3")), spec::ConfigError);
 }
 
 }  // namespace
