@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -247,6 +248,81 @@ TEST_F(Runs, ListWhatDiffersComparedWithTheFirst) {
   EXPECT_FALSE(compare_runs(paths({"a", "b"}), {})["worse"]);
   EXPECT_TRUE(compare_runs(paths({"a", "b"}), {.memory_percent = 50})["worse"]);
   EXPECT_FALSE(compare_runs(paths({"a", "b"}), {.memory_percent = 100})["worse"]);
+}
+
+// What a reader is told beside the figures.
+TEST_F(Runs, SayWhatTheyAreAndWhatIsDoubtful) {
+  const auto changed = [&](const char* name, const std::function<void(Json&, Json&)>& change) {
+    Json manifest = leave(name, 1000, "2");
+    Json result = Json::parse(std::ifstream(path_ / name / "result.json"));
+    change(result, manifest);
+    put(fs::path(name) / "result.json", result.dump());
+    put(fs::path(name) / "manifest.json", manifest.dump());
+  };
+  changed("a", [](Json&, Json& manifest) {
+    manifest["parameters"].push_back({{"name", "only.a"}, {"value", "1"}});
+  });
+  changed("b", [](Json& result, Json& manifest) {
+    result["interrupted"] = true;
+    result["idealised"] = {{"cache", "nine ports"}};
+    manifest["commit"] = "abc";
+  });
+  changed("c", [](Json&, Json& manifest) {
+    for (Json& parameter : manifest["parameters"])
+      if (parameter["name"] == "scene.width") parameter["work"] = "setting";
+    manifest["configuration"]["scene.width"] = 9;
+  });
+  leave("d", 1000, "2");
+  fs::remove(path_ / "d/manifest.json");
+  const Json all = compare_runs(paths({"a", "b", "c", "d/result.json"}), {});
+  EXPECT_EQ(all["warnings"], (Json{"B cannot be built: idealised memory cache (nine ports)",
+                                   "B was interrupted: its figures cover what was done until then",
+                                   "scene.width differs: A 8, B 9 (B is C here)"}));
+  EXPECT_EQ(all["runs"][1],
+            (Json{{"name", "B"},
+                  {"path", (path_ / "b").string()},
+                  {"verdict", "pass"},
+                  {"interrupted", true},
+                  {"title", "b"},
+                  {"summary", "s"},
+                  {"command", "deburr run texture"},
+                  {"commit", "abc"},
+                  {"images",
+                   Json::array({{{"file", "after.png"}, {"role", "after"}, {"title", "After"}}})},
+                  {"folder", (path_ / "b").string()}}));
+  EXPECT_EQ(all["runs"][3], (Json{{"name", "D"},
+                                  {"path", (path_ / "d/result.json").string()},
+                                  {"verdict", "pass"},
+                                  {"interrupted", false},
+                                  {"title", nullptr},
+                                  {"summary", nullptr},
+                                  {"command", nullptr},
+                                  {"commit", nullptr},
+                                  {"images", nullptr},
+                                  {"folder", (path_ / "d").string()}}));
+  ASSERT_EQ(all["parameters"].size(), 1u) << "nothing is known of D";
+  EXPECT_EQ(all["parameters"][0], (Json{{"name", "only.a"},
+                                        {"kind", ""},
+                                        {"unit", ""},
+                                        {"meaning", ""},
+                                        {"values", {"1", "-", "-", "?"}}}));
+  std::vector<std::string> figures;
+  for (const Json& figure : all["figures"])
+    figures.push_back(figure["label"].get<std::string>() + " " + figure["key"].get<std::string>());
+  EXPECT_THAT(figures,
+              ElementsAre("Verdict verdict", "Cycles cycles", "Throughput throughput.value",
+                          "Latency p50 latency.p50", "Latency p99 latency.p99",
+                          "Bytes read memory.bytes_read", "Bytes written memory.bytes_written",
+                          "Memory, physical memory_bits.total.physical", "Hits work.hits"));
+  EXPECT_EQ(all["kind"], "runs");
+  EXPECT_EQ(all["engine"], "texture");
+  try {
+    changed("b", [](Json& result, Json&) { result["unit"] = "frame"; });
+    compare_runs(paths({"a", "b"}), {});
+    ADD_FAILURE();
+  } catch (const spec::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("A is a run of 'texture', B of 'frame'"));
+  }
 }
 
 TEST(Comparing, ARunThatFailedIsWorseThanOneThatDid) {
@@ -617,6 +693,38 @@ TEST_F(Sweeps, AnIdenticalPictureIsTheBestOfAll) {
   const Json missing = compared({"a", "c"});
   EXPECT_EQ(missing["points"][1]["judgements"][0][1], "worse") << "null without flag is no value";
   EXPECT_EQ(missing["points"][1]["identical"], (Json{{"psnr"}, Json::array()}));
+}
+
+// Of the third sweep the words say B, and which one that is.
+TEST_F(Sweeps, ThatReadOtherFilesAreTold) {
+  const auto with = [&](const char* name, const char* hash) {
+    Json one = sweep(Json::array(), Json::array({axis("bytes")}),
+                     Json::array({point({"1"}, {1, 1.0, 1})}));
+    one["inputs"] = Json::array({{{"file", "x.png"}, {"sha256", hash}}});
+    leave(name, one);
+  };
+  with("a", "1111111111");
+  with("b", "2222222222");
+  with("c", "3333333333");
+  const Json all = compared({"a", "b", "c"});
+  EXPECT_EQ(
+      all["warnings"],
+      (Json{
+          "the inputs differ: A reads x.png (11111111), B reads x.png (22222222)",
+          "the inputs differ: A reads x.png (11111111), B reads x.png (33333333) (B is C here)"}));
+  EXPECT_EQ(all["objectives"], (Json{"cycles", "lines"}));
+  EXPECT_EQ(all["metrics"][2], (Json{{"name", "lines"},
+                                     {"key", "/work/lines"},
+                                     {"unit", "line"},
+                                     {"meaning", "m"},
+                                     {"maximise", false},
+                                     {"counts", true}}));
+  EXPECT_EQ(all["sweeps"][2]["name"], "C");
+  EXPECT_EQ(all["sweeps"][2]["path"], (path_ / "c").string());
+  EXPECT_EQ(all["sweeps"][2]["title"], "Cache");
+  EXPECT_EQ(all["sweeps"][2]["commit"], "abc");
+  EXPECT_EQ(all["summary"].size(), 2u);
+  EXPECT_EQ(all["points"][0]["judgements"].size(), 2u);
 }
 
 TEST_F(Sweeps, NamedChoicesAreTheirValues) {
