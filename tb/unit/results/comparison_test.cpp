@@ -602,6 +602,7 @@ TEST_F(Sweeps, PointsAreMatchedByTheirConfiguration) {
   EXPECT_EQ(all["points"][0]["values"], (Json{{100, 30, 5}, {50, 30, 6}}));
   EXPECT_EQ(all["points"][0]["judgements"][0], (Json{"better", "equal", "worse"}));
   EXPECT_EQ(all["points"][0]["front"], (Json{true, true}));
+  EXPECT_EQ(all["points"][1]["front"], (Json{false, false}));
   EXPECT_EQ(all["points"][1]["judgements"][0], (Json{"worse", "equal", "equal"}));
   EXPECT_EQ(all["points"][2]["judgements"][0], (Json{"equal", "equal", "worse"})) << "lost";
   EXPECT_TRUE(all["points"][2]["values"][0][1].is_null());

@@ -416,6 +416,8 @@ TEST_F(Pages, HaveTilesOfWhatThereIs) {
   EXPECT_THAT(tiles(), HasSubstr("tile good|Mismatches|0|of 1 comparisons\n"));
   result_["checks"]["traffic_comparisons"] = 0u;
   EXPECT_THAT(tiles(), HasSubstr("tile|Mismatches|-|not checked against the golden model\n"));
+  result_["figures"].push_back(figure("Off", "work.on"));
+  EXPECT_THAT(tiles(), HasSubstr("--columns: 5\n")) << "of nine";
   EXPECT_THAT(words(page_of(result_, Json::object())),
               HasSubstr("At 100.00 MHz this is 150.0 Mpixel/s."));
 }

@@ -231,6 +231,17 @@ TEST(Obj, BoxesAreProjectedAlongTheirFaces) {
   }
 }
 
+// Of the whole mesh, those triangles too that have coordinates of their own.
+TEST(Obj, ABoxIsAroundEverything) {
+  const TemporaryFolder folder;
+  const Mesh mesh = import_mesh(folder.write(
+      "a.obj",
+      "v -4 0 0\nv 12 0 0\nv 0 0 1\nvt 0 0\nf 1/1 2/1 3/1\nv 0 0 0\nv 0 0 8\nv 8 0 0\nf 4 5 6\n"));
+  EXPECT_EQ(corner(mesh, 1, 0).uv, V2d(1, 0));
+  EXPECT_EQ(corner(mesh, 1, 1).uv, V2d(1, 2));
+  EXPECT_EQ(corner(mesh, 1, 2).uv, V2d(3, 0));
+}
+
 TEST(Obj, WhatIsLeftOutIsNoted) {
   const TemporaryFolder folder;
   const Mesh mesh = import_mesh(
