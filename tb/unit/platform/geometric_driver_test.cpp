@@ -395,9 +395,12 @@ TEST(GeometricDriver, ARejectedStartSaysWhy) {
   b.registers.values[reg::kRefusal] = 4;
   EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.require_accepted(); }),
             "the geometric engine rejected the start: touched_words");
-  b.registers.values[reg::kRefusal] = 15;
-  EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.require_accepted(); }),
-            "the geometric engine rejected the start: ?");
+  // The first code without a name, and the last.
+  for (const std::uint32_t code : {9u, 15u}) {
+    b.registers.values[reg::kRefusal] = code;
+    EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.require_accepted(); }),
+              "the geometric engine rejected the start: ?");
+  }
 }
 
 std::string rejection(Bed& b, const GeometricFrame& frame) {
