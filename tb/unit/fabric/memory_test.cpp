@@ -252,6 +252,31 @@ TEST(MemoryModel, WhatIsAnsweredIsThereInMidRun) {
   EXPECT_EQ(look.seen, 0xEE);
 }
 
+TEST(MemoryModel, ClearsAllThatItHasCounted) {
+  System s({}, with_latency(5));
+  s.memory.fail_range(9 * 64, 10 * 64);
+  const auto counted = [&] {
+    return std::array<std::uint64_t, 8>{s.memory.reads(),
+                                        s.memory.writes(),
+                                        s.memory.bytes_read(),
+                                        s.memory.bytes_written(),
+                                        s.memory.errors(),
+                                        s.memory.most_outstanding(),
+                                        s.memory.lines_read().size(),
+                                        s.memory.lines_written().size()};
+  };
+  MemoryRequest write = read_of(3);
+  write.write = true;
+  write.byte_mask = ~std::uint64_t{0};
+  for (const MemoryRequest& request : {read_of(1), read_of(2), write, read_of(9)})
+    s.driver.send(request);
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 4; }, 1000));
+  s.clock.run(10);
+  EXPECT_THAT(counted(), ::testing::ElementsAre(3, 1, 192, 64, 1, 4, 3, 0));
+  s.memory.clear_statistics();
+  EXPECT_THAT(counted(), ::testing::Each(0u));
+}
+
 TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
   System s({}, with_latency(5));
   s.driver.send(read_of(3));

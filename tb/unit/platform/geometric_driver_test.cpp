@@ -396,8 +396,8 @@ TEST(GeometricDriver, ARejectedStartSaysWhy) {
   EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.require_accepted(); }),
             "the geometric engine rejected the start: touched_words");
   // The first code without a name, and the last.
-  for (const std::uint32_t code : {9u, 15u}) {
-    b.registers.values[reg::kRefusal] = code;
+  for (const std::size_t code : {spec::geometric::kRefusalNames.size(), std::size_t{15}}) {
+    b.registers.values[reg::kRefusal] = static_cast<std::uint32_t>(code);
     EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.require_accepted(); }),
               "the geometric engine rejected the start: ?");
   }
