@@ -85,22 +85,23 @@ class Checker:
             raise Problem("the tests fail without any fault; mend them first: "
                           + ", ".join(failed[:8]))
 
-    def ordered(self, file, names):
-        """First what found the last mutants of the file, then the file's own tests, then by what a
-        test takes for what it finds."""
+    def ordered(self, file, names, kind):
+        """First tests of resets for a reset, then what found the last mutants of the file, then the file's own
+        tests, then by what a test takes for what it finds."""
         stem = file.stem
         kills, last = self.kills[file], self.last[file]
 
         def order(name):
             source = self.tests[name].source
-            return (last.index(name) if name in last else 9, not source.endswith(f"_{stem}_test"),
+            return (kind == "reset" and "reset" not in name.lower(),
+                    last.index(name) if name in last else 9, not source.endswith(f"_{stem}_test"),
                     self.seconds[name] / (1 + kills[name]), name)
 
         return sorted(names, key=order)
 
-    def checked_by(self, file, names, **environment):
+    def checked_by(self, file, place, names, **environment):
         spent = 0
-        for name in self.ordered(file, names):
+        for name in self.ordered(file, names, self.tree.mutants[file][place].kind):
             seconds = self.seconds[name]
             if spent and spent + seconds > self.budget:
                 continue
@@ -121,7 +122,7 @@ class Checker:
             return Verdict("invalid", "")
         if number not in self.reach:
             return None
-        return self.checked_by(file, self.reach[number], DEBURR_MUTANT=str(number))
+        return self.checked_by(file, place, self.reach[number], DEBURR_MUTANT=str(number))
 
     def alone(self, file, place):
         """The verdict on a mutant that is compiled as it stands."""
@@ -140,8 +141,7 @@ class Checker:
                 if tree.run("ninja", "-C", tree.build, "-j", tree.jobs,
                             *sorted(programs)).returncode != 0:
                     return Verdict("invalid", "")
-                verdict = self.checked_by(file, {n for n in names
-                                                if (self.tests[n].program in own)
+                verdict = self.checked_by(file, place, {n for n in names if (self.tests[n].program in own)
                                                 == (programs is own)})
                 if verdict.verdict == "killed":
                     return verdict
