@@ -159,6 +159,12 @@ TEST(Criterion, RoundsTheLevelAsGlDoesAndStopsAtTheLastOne) {
   EXPECT_FALSE(high.reachable(along_u(0.4, std::exp2(0.6)), grey(100), 1.0));
   EXPECT_TRUE(high.reachable(along_u(0.4, 1000.0), grey(0), 1.0));
   EXPECT_FALSE(high.reachable(along_u(0.4, 1000.0), grey(250), 1.0));
+  // l = 1/2 exactly: level 0 alone.
+  Sampler half = s;
+  half.min_lod = half.max_lod = 0.5;
+  const Criterion tie(texture, half, kPrecisionHigh);
+  EXPECT_TRUE(tie.reachable(near_base, grey(100), 1.0));
+  EXPECT_FALSE(tie.reachable(near_base, grey(250), 1.0));
 }
 
 TEST(Criterion, BoundsTheLevelFraction) {

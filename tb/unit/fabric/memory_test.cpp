@@ -56,6 +56,18 @@ TEST(MemoryPort, LatencyIsExact) {
     }
 }
 
+// All latencies of the range are drawn, both ends among them.
+TEST(MemoryPort, LatenciesAreDrawnFromTheWholeRange) {
+  MemoryPortParameters parameters;
+  parameters.outstanding = 1;  // none waits for another
+  System s(parameters, with_latency(5, 8));
+  for (std::uint32_t i = 0; i < 200; ++i) s.driver.send(read_of(i));
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 200; }, 10'000));
+  EXPECT_EQ(s.port.latency.min(), 6U);
+  EXPECT_EQ(s.port.latency.max(), 9U);
+  EXPECT_GT(s.port.latency.percentile(60), s.port.latency.percentile(40));
+}
+
 TEST(MemoryPort, OneRequestAClockWhenEnoughMayBeOutstanding) {
   MemoryPortParameters parameters;
   parameters.outstanding = 32;
