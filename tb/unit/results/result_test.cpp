@@ -1011,7 +1011,7 @@ TEST(Bottleneck, IsTheDeepestCauseOfTheLoss) {
        {unit("luma", 610, {{"memory", 390}}), unit("store_v", 700, {{"memory", 300}})},
        "store_v",
        "memory"},
-      {"one that waits for those behind it is held up by another",
+      {"one that waits for the next is held up by another",
        {unit("sequencer", 600, {{"downstream", 400}}), unit("extractor", 700, {{"records", 300}}),
         unit("blender", 600)},
        "extractor",

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace deburr::tb::morphological {
+namespace deburr::tb::morphological::discs_test {
 namespace {
 
 // Of all pixels that a straight line crosses, over all its directions and places: the root of the
@@ -34,4 +34,4 @@ TEST(Discs, AreHeldAgainstTheExactShare) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological
+}  // namespace deburr::tb::morphological::discs_test
