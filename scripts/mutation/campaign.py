@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Many mutants of many files: which of them, in which order, and what became of them."""
 import collections
-import concurrent.futures
-import contextlib
 import hashlib
 import json
 import os
@@ -15,20 +13,11 @@ import threading
 
 import yaml
 
+from mutation.check import threads
 from mutation.mutants import shown
 from mutation.tree import Problem, digest
 
 PROFILE = ("conf", "partition", "time", "memory", "cpus", "tasks", "options", "setup")
-
-
-@contextlib.contextmanager
-def threads(jobs):
-    """A pool in which nothing more is begun once its user gives up (Ctrl-C, a Problem)."""
-    pool = concurrent.futures.ThreadPoolExecutor(jobs)
-    try:
-        yield pool
-    finally:
-        pool.shutdown(cancel_futures=True)
 
 
 def sample(mutants, count, seed):

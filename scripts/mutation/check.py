@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Which test finds which mutant."""
 import collections
+import concurrent.futures
+import contextlib
 import hashlib
 import json
 import uuid
@@ -9,6 +11,16 @@ from mutation.tree import MOST_SWITCHES, Problem, passes
 
 REACHED, NO_SUCH_OPERATOR = 1, 2
 Verdict = collections.namedtuple("Verdict", "verdict by")
+
+
+@contextlib.contextmanager
+def threads(jobs):
+    """A pool in which nothing more is begun once its user gives up (Ctrl-C, a Problem)."""
+    pool = concurrent.futures.ThreadPoolExecutor(jobs)
+    try:
+        yield pool
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 class Checker:
@@ -29,7 +41,6 @@ class Checker:
                 kept[entry["test"]] = entry
         self.tests, self.seconds, self.reach = tests, {}, collections.defaultdict(list)
         self.impossible, failed = set(), []
-        asked = self.tree.work / f"reached_{uuid.uuid4().hex}"
         programs = {path.name: hashlib.sha256(path.read_bytes()).hexdigest()[:16]
                     for path in self.tree.build.rglob("*") if path.name in self.tree.targets}
         everything = hashlib.sha256(json.dumps(programs, sort_keys=True).encode()).hexdigest()[:16]
@@ -37,54 +48,60 @@ class Checker:
         def built_of(test):
             return programs.get(test.program, everything)
 
-        with known.open("a", encoding="utf-8") as out:
-            for number, test in enumerate(tests.values()):
-                built = built_of(test)
-                entry = kept.get(test.name)
-                if not entry or entry["built"] != built:
-                    asked.write_bytes(bytes(MOST_SWITCHES))
-                    passed, took, _ = passes(test, test.limit * 4,
-                                             DEBURR_MUTANTS_REACHED=str(asked))
-                    answers = asked.read_bytes()
-                    entry = {"test": test.name, "built": built, "passed": passed,
-                             "seconds": round(took, 4),
-                             "reached": spans(n for n, a in enumerate(answers) if a & REACHED),
-                             "impossible": spans(n for n, a in enumerate(answers)
-                                                 if a == NO_SUCH_OPERATOR)}
-                    out.write(json.dumps(entry) + "\n")
-                    out.flush()
-                    if say and number % 100 == 0:
-                        say(f"baseline: {number} of {len(tests)} tests")
-                if not entry["passed"]:
-                    failed.append(test.name)
-                self.seconds[test.name] = entry["seconds"]
-                for begin, end in entry["reached"]:
-                    for n in range(begin, end):
-                        self.reach[n].append(test.name)
-                self.impossible |= {n for begin, end in entry["impossible"]
-                                    for n in range(begin, end)}
-        asked.unlink(missing_ok=True)
+        def measured(test):
+            asked = self.tree.work / f"reached_{uuid.uuid4().hex}"
+            asked.write_bytes(bytes(MOST_SWITCHES))
+            try:
+                passed, took, _ = passes(test, test.limit * 4, DEBURR_MUTANTS_REACHED=str(asked))
+                answers = asked.read_bytes()
+            finally:
+                asked.unlink()
+            return {"test": test.name, "built": built_of(test), "passed": passed, "seconds": round(took, 4),
+                    "reached": spans(n for n, a in enumerate(answers) if a & REACHED),
+                    "impossible": spans(n for n, a in enumerate(answers) if a == NO_SUCH_OPERATOR)}
+
+        wanted = [test for test in tests.values()
+                  if kept.get(test.name, {}).get("built") != built_of(test)]
+        with known.open("a", encoding="utf-8") as out, threads(self.tree.jobs) as pool:
+            futures = [pool.submit(measured, test) for test in wanted]
+            for number, future in enumerate(concurrent.futures.as_completed(futures)):
+                entry = future.result()
+                kept[entry["test"]] = entry
+                out.write(json.dumps(entry) + "\n")
+                out.flush()
+                if say and number % 100 == 0:
+                    say(f"baseline: {number} of {len(wanted)} tests")
+        for name in tests:
+            entry = kept[name]
+            if not entry["passed"]:
+                failed.append(name)
+            self.seconds[name] = entry["seconds"]
+            for begin, end in entry["reached"]:
+                for n in range(begin, end):
+                    self.reach[n].append(name)
+            self.impossible |= {n for begin, end in entry["impossible"] for n in range(begin, end)}
         self.impossible -= set(self.reach)
         if failed:
             raise Problem("the tests fail without any fault; mend them first: "
                           + ", ".join(failed[:8]))
 
-    def ordered(self, file, names):
-        """First what found the last mutants of the file, then the file's own tests, then by what a
-        test takes for what it finds."""
+    def ordered(self, file, names, kind):
+        """First tests of resets for a reset, then what found the last mutants of the file, then the file's own
+        tests, then by what a test takes for what it finds."""
         stem = file.stem
         kills, last = self.kills[file], self.last[file]
 
         def order(name):
             source = self.tests[name].source
-            return (last.index(name) if name in last else 9, not source.endswith(f"_{stem}_test"),
+            return (kind == "reset" and "reset" not in name.lower(),
+                    last.index(name) if name in last else 9, not source.endswith(f"_{stem}_test"),
                     self.seconds[name] / (1 + kills[name]), name)
 
         return sorted(names, key=order)
 
-    def checked_by(self, file, names, **environment):
+    def checked_by(self, file, place, names, **environment):
         spent = 0
-        for name in self.ordered(file, names):
+        for name in self.ordered(file, names, self.tree.mutants[file][place].kind):
             seconds = self.seconds[name]
             if spent and spent + seconds > self.budget:
                 continue
@@ -105,7 +122,7 @@ class Checker:
             return Verdict("invalid", "")
         if number not in self.reach:
             return None
-        return self.checked_by(file, self.reach[number], DEBURR_MUTANT=str(number))
+        return self.checked_by(file, place, self.reach[number], DEBURR_MUTANT=str(number))
 
     def alone(self, file, place):
         """The verdict on a mutant that is compiled as it stands."""
@@ -124,8 +141,7 @@ class Checker:
                 if tree.run("ninja", "-C", tree.build, "-j", tree.jobs,
                             *sorted(programs)).returncode != 0:
                     return Verdict("invalid", "")
-                verdict = self.checked_by(file, {n for n in names
-                                                if (self.tests[n].program in own)
+                verdict = self.checked_by(file, place, {n for n in names if (self.tests[n].program in own)
                                                 == (programs is own)})
                 if verdict.verdict == "killed":
                     return verdict

@@ -159,6 +159,12 @@ TEST(Criterion, RoundsTheLevelAsGlDoesAndStopsAtTheLastOne) {
   EXPECT_FALSE(high.reachable(along_u(0.4, std::exp2(0.6)), grey(100), 1.0));
   EXPECT_TRUE(high.reachable(along_u(0.4, 1000.0), grey(0), 1.0));
   EXPECT_FALSE(high.reachable(along_u(0.4, 1000.0), grey(250), 1.0));
+  // l = 1/2 exactly: level 0 alone.
+  Sampler half = s;
+  half.min_lod = half.max_lod = 0.5;
+  const Criterion tie(texture, half, kPrecisionHigh);
+  EXPECT_TRUE(tie.reachable(near_base, grey(100), 1.0));
+  EXPECT_FALSE(tie.reachable(near_base, grey(250), 1.0));
 }
 
 TEST(Criterion, BoundsTheLevelFraction) {
@@ -173,6 +179,51 @@ TEST(Criterion, BoundsTheLevelFraction) {
   EXPECT_NEAR(high.deviation(f, grey(70)), 10 - 200.0 / 64, 0.02);
   EXPECT_NEAR(high.deviation(f, grey(130)), 0.0, 0.02);
   EXPECT_NEAR(high.deviation(f, grey(190)), 10 - 200.0 / 64, 0.02);
+}
+
+// Only one channel differs, along only one of the five weights: whatever that is, the search halves
+// it, so that the one legal colour is found at the end of an interval, where no box's middle lies.
+TEST(Criterion, SearchesEveryWeightByEveryChannel) {
+  using spec::texture::MagFilter, spec::texture::MinFilter;
+  const auto level = [](int size, const auto& value) {
+    golden::ideal::Level l{size, size, {}};
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) l.texels.push_back(value(x, y));
+    return l;
+  };
+  const auto flat = [](int, int) { return grey(100); };
+  for (std::size_t channel = 0; channel < 4; ++channel)
+    for (std::size_t weight = 0; weight < 5; ++weight) {
+      const auto ramp = [&](int x, int y) {
+        Rgba colour = grey(100);
+        const int along = weight % 2 == 0 ? x : y;
+        colour[channel] += weight == 4 ? 64 : 64 * along;
+        return colour;
+      };
+      Texture texture;
+      texture.levels.push_back(weight < 2 ? level(4, ramp) : level(4, flat));
+      texture.levels.push_back(weight >= 2 ? level(2, ramp) : level(2, flat));
+      texture.levels.push_back(level(1, flat));
+      Sampler s = sampler(MinFilter::kLinearMipmapLinear, MagFilter::kLinear);
+      const bool fine = weight < 2, coarse = weight == 2 || weight == 3;
+      // Level 0 alone, half of level 1, or from half to three quarters of it.
+      s.min_lod = fine ? 0.0 : 0.5;
+      s.max_lod = fine ? 0.0 : coarse ? 0.5 : 0.75;
+      const Criterion low(texture, s, kPrecisionLow);
+      const Fragment f{0.4, 0.4, fine ? 0.1 : std::exp2(0.4) / 4, 0, 0, 0};
+      // The most that is legal: 1/16 of a texel further on, or the whole three quarters.
+      const double position = (fine ? 1.6 - 0.5 : 0.8 - 0.5) + 1.0 / 16;
+      Rgba most = grey(100);
+      most[channel] += fine     ? 64 * (position + 0.4 * std::ldexp(4.0, -20))
+                       : coarse ? 32 * (position + 0.4 * std::ldexp(2.0, -20))
+                                : 48;
+      SCOPED_TRACE("channel " + std::to_string(channel) + ", weight " + std::to_string(weight));
+      EXPECT_TRUE(low.reachable(f, most, 1e-4));
+      EXPECT_EQ(low.undecided(), 0);
+      most[channel] += 0.01;
+      EXPECT_FALSE(low.reachable(f, most, 1e-4));
+      EXPECT_EQ(low.undecided(), 0);
+    }
 }
 
 // Random textures, fragments and sampler states; the level's fraction and both levels' weights are

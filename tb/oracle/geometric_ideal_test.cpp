@@ -101,6 +101,36 @@ TEST(Ideal, BorderAndCentreAreThePapersCorrected) {
   EXPECT_NEAR(slanted[0].distance, 0.2 + 0.75 * 0.5 - 0.5, 1e-12);
 }
 
+// Against the farther of a pixel, in row 2, and its neighbour above it: up to the bias behind it a
+// line is seen, a crease if that lies no more than so far behind the crease; both at equality.
+TEST(Ideal, DepthsDecideWhatIsSeen) {
+  struct Row {
+    double own, other, line;
+    bool crease, seen;
+  };
+  GpaaOptions options;
+  options.depth_bias = 0.5;
+  options.crease_depth = 0.25;
+  for (const Row& row : {Row{1, 1, 0.5, false, true}, Row{1, 1, 0.49, false, false},
+                         Row{1, 0.5, 0.25, false, true}, Row{1, 0.5, 0.24, false, false},
+                         Row{0.5, 1, 0.25, false, true}, Row{0.5, 1, 0.24, false, false},
+                         Row{0.75, 0.75, 1, true, true}, Row{0.75, 0.74, 1, true, false},
+                         Row{0.74, 0.75, 1, true, false}, Row{0.74, 0.74, 1, false, true},
+                         Row{1, 1, 0.5, true, true}, Row{1, 1, 0.49, true, false}}) {
+    std::vector<double> depth(16, 1.0);
+    for (std::size_t x = 0; x < 4; ++x) {
+      depth[8 + x] = row.own;
+      depth[4 + x] = row.other;
+    }
+    const ScreenLine line{{1, 2.25, row.line}, {3, 2.25, row.line}, row.crease};
+    const std::vector<SideWeights> weights =
+        golden::ideal::side_weights({&line, 1}, depth, 4, 4, options);
+    std::vector<SideWeights> expected(16);
+    if (row.seen) expected[9] = expected[10] = {0.25, 0, 0, 0};
+    EXPECT_EQ(weights, expected) << row.own << ' ' << row.other << ' ' << row.line << row.crease;
+  }
+}
+
 // ---- golden against ideal -----------------------------------------------------------------------
 
 struct Compared {

@@ -248,6 +248,40 @@ TEST(Smaa, HasTheWeightsOfThePublishedOne) {
   }
 }
 
+// Two steps of two pixels see no crossing six pixels away, a step more does: to the left of pixel
+// 10, or to its right, where the step is made.
+TEST(Smaa, MakesAStepMoreToTheSideThatHasIt) {
+  SmaaSettings ideal;
+  ideal.search_steps = 2;
+  ideal.diagonal_steps = 0;
+  ideal.corner_keeps.reset();
+  for (const bool top : {true, false})
+    for (const std::size_t side : {0u, 1u}) {
+      SmaaEdges edges(top ? 32 : 9, top ? 9 : 32);
+      const auto along = [&](int i) {
+        top ? edges.set_top(i, 5, true) : edges.set_left(5, i, true);
+      };
+      const auto across = [&](int i) {
+        top ? edges.set_left(i, 5, true) : edges.set_top(5, i, true);
+      };
+      for (int i = 0; i < 32; ++i) along(i);
+      across(side == 0 ? 5 : 17);
+      across(side == 0 ? 12 : 9);
+      const auto weights = [&](std::array<int, 2> more) {
+        ideal.more_steps = more;
+        const SmaaPixelWeights all =
+            top ? smaa_weights(edges, ideal, 10, 5) : smaa_weights(edges, ideal, 5, 10);
+        const SmaaWeights& of = top ? all.top : all.left;
+        return std::pair(of.first, of.second);
+      };
+      const auto plain = weights({0, 0});
+      std::array<int, 2> more{}, other{};
+      more[side] = other[1 - side] = 1;
+      EXPECT_NE(weights(more), plain) << top << side;
+      EXPECT_EQ(weights(other), plain) << top << side;
+    }
+}
+
 // The comparison sees a step of a search, a step of a diagonal, the corners and the border.
 TEST(Smaa, DiffersFromAnyOtherSetting) {
   const auto wrong = [](void (*change)(SmaaSettings&)) {

@@ -174,7 +174,8 @@ class ComparisonPage {
         // A share of decibels says nothing.
         data.set("has_bar",
                  bars && !in_decibels(key) && value && most > 0 && std::isfinite(*value));
-        if (value && most > 0) data.set("percent", fmt::format("{:.1f}", 100 * *value / most));
+        if (value && most > 0)
+          data.set("percent", fmt::format("{:.1f}", 100 * std::fabs(*value) / most));
         cells << data;
       }
       row.set("cells", cells);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/app/input_rules.h"
 #include "tb/app/run_once.h"
 #include "tb/base/forked.h"
 #include "tb/engines/geometric/geometric_environment.h"
@@ -88,6 +89,170 @@ TEST(FailedRun, SaysWhyEvenIfItsPicturesFailToo) {
       EXPECT_THAT(error, Not(HasSubstr("no pictures")));
     }
   }
+}
+
+// ---- what parameters make of a simulation
+// --------------------------------------------------------
+
+SimulationOptions options_of(const RunParameters& run, const ParameterSet& set = {}) {
+  return simulation_options(run, RunContext("out", set, "", 1));
+}
+
+TEST(SimulationOptions, AreThoseOfTheRun) {
+  RunParameters run;
+  SimulationOptions o = options_of(run);
+  EXPECT_TRUE(o.golden && o.fast_path && o.check_links);
+  EXPECT_FALSE(o.shuffle || o.poison || o.maps || o.coverage || o.timeline || o.pixel);
+  EXPECT_TRUE(o.faults.empty() && o.trace_scope.empty());
+  run.clock_mhz = 123.5;
+  run.seed = 8;
+  run.stall_seed = 9;
+  run.stalls = 0.2506;
+  run.max_cycles = 11;
+  run.watchdog_cycles = 112;
+  run.reset_after = 13;
+  run.shuffle = run.poison = run.maps = run.coverage = run.timeline = true;
+  run.fast_path = run.check_links = false;
+  run.trace = "a*";
+  run.trace_from = 14;
+  run.trace_to = 15;
+  run.window_cycles = 16;
+  run.pixel = "17,18";
+  run.timeline_from = 19;
+  run.timeline_to = 20;
+  o = options_of(run);
+  EXPECT_EQ(o.clock_mhz, 123.5);
+  EXPECT_EQ(o.seed, 9u) << "that of what must change nothing";
+  EXPECT_EQ(o.stall_permille, 251u);
+  EXPECT_EQ(o.max_cycles, 11u);
+  EXPECT_EQ(o.patience, 112u);
+  EXPECT_EQ(o.reset_after, 13u);
+  EXPECT_TRUE(o.shuffle && o.poison && o.maps && o.coverage);
+  EXPECT_FALSE(o.fast_path || o.check_links);
+  EXPECT_EQ(o.trace_scope, "a*");
+  EXPECT_THAT(o.trace_file, testing::EndsWith("trace.vcd"));
+  EXPECT_EQ(o.trace_from, 14u);
+  EXPECT_EQ(o.trace_to, 15u);
+  EXPECT_EQ(o.window_cycles, 16u);
+  EXPECT_EQ(o.pixel, (PixelAddress{17, 18}));
+  EXPECT_EQ(o.timeline->from, 19u);
+  EXPECT_EQ(o.timeline->to, 20u);
+  run.check = CheckMode::kNone;
+  EXPECT_THROW(options_of(run), spec::ConfigError) << "coverage is the golden model's";
+  run.coverage = false;
+  EXPECT_FALSE(options_of(run).golden);
+}
+
+// Checkers of links look away from a planted fault, unless they were asked for.
+TEST(SimulationOptions, OfAFaultAskForNoCheckersOfLinks) {
+  RunParameters run;
+  ParameterSet set;
+  set.add("run", ParameterKind::kRun, run);
+  run.fault = "flip-bit";
+  EXPECT_FALSE(options_of(run, set).check_links);
+  EXPECT_THAT(options_of(run, set).faults, testing::ElementsAre("flip-bit"));
+  set.set("run.check_links", "true", "test");
+  EXPECT_TRUE(options_of(run, set).check_links);
+}
+
+TEST(FromRepository, IsThePathThatUsersKnow) {
+  EXPECT_EQ(from_repository("/a/layers/tb/tb/app/x.cpp:7: y"), "tb/app/x.cpp:7: y");
+  EXPECT_EQ(from_repository("/a/layers/rtl_model/rtl_model/x.h:7"), "rtl_model/x.h:7");
+  EXPECT_EQ(from_repository("/a/layers/golden/golden/x.h"), "golden/x.h");
+  EXPECT_EQ(from_repository("/a/layers/spec/spec/x.h"), "spec/x.h");
+  EXPECT_EQ(from_repository("elsewhere/x.h"), "elsewhere/x.h");
+}
+
+// ---- rules of what goes in
+// ------------------------------------------------------------------------
+
+std::string rejection(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const spec::ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(InputRules, ASceneDrawsSomething) {
+  Scene scene;
+  scene.name = "s";
+  scene.mesh.vertices = {{{1, -2, 3}, {}, {}}, {{-1.5, 4, 0}, {}, {}}};
+  scene.mesh.triangles.resize(3);
+  DepthImage depth(3, 2);
+  EXPECT_EQ(rejection([&] { reject_nothing_drawn(scene, depth); }),
+            "the scene 's' draws nothing: none of its 3 triangles, from (-1.5, -2, 0) to (1, 4, "
+            "3), covers the centre of one of 3 x 2 "
+            "pixels: look at the camera (scene.eye, scene.target, scene.fov) and at the size of "
+            "the mesh");
+  EXPECT_EQ(rejection([&] { reject_nothing_drawn(depth, "m.obj"); }),
+            "the scene 'm.obj' draws nothing: none of its triangles covers the centre of one of 3 "
+            "x 2 pixels: look at the size of the mesh");
+  depth.at(2, 1) = 0.001f;
+  EXPECT_EQ(rejection([&] { reject_nothing_drawn(scene, depth); }), "");
+  EXPECT_EQ(rejection([&] { reject_nothing_drawn(depth, "m.obj"); }), "");
+}
+
+TEST(InputRules, AMemoryIsFasterThanTheWatchdog) {
+  RunParameters run;
+  run.watchdog_cycles = 1000;
+  ParameterSet set;
+  set.add("run", ParameterKind::kRun, run);
+  MemoryParameters memory;
+  const auto said = [&](std::int32_t latency, std::int32_t most, std::int32_t busy) {
+    memory.latency = latency;
+    memory.latency_max = most;
+    memory.bank_busy = busy;
+    return rejection([&] { reject_slow_memory(set, "memory", memory); });
+  };
+  EXPECT_EQ(said(999, 0, 0), "");
+  EXPECT_EQ(said(900, 999, 0), "");
+  EXPECT_EQ(said(900, 0, 99), "");
+  const std::string rest =
+      " is not below run.watchdog_cycles = 1000, after which a run without progress counts as "
+      "dead: raise that (--set "
+      "run.watchdog_cycles=";
+  EXPECT_EQ(said(1000, 0, 0), "memory.latency = 1000" + rest + "2000), or make the memory faster");
+  EXPECT_EQ(said(10, 1001, 0),
+            "memory.latency_max = 1001" + rest + "2002), or make the memory faster");
+  EXPECT_EQ(said(900, 20, 100), "memory.latency = 900 and memory.bank_busy = 100" + rest +
+                                    "2000), or make the memory faster");
+}
+
+TEST(InputRules, WhatAMemoryDoesNotUseIsRejected) {
+  MemoryParameters memory;
+  const auto said = [&](const std::vector<std::pair<std::string, std::string>>& given) {
+    memory = {};
+    ParameterSet set;
+    add_memory(set, "memory", memory);
+    for (const auto& [name, value] : given) set.set("memory." + name, value, "--set");
+    return rejection([&] { reject_unused_memory(set, "memory", memory); });
+  };
+  EXPECT_EQ(said({{"latency_max", "101"},
+                  {"banks", "2"},
+                  {"interleave_bytes", "128"},
+                  {"error_address", "0"},
+                  {"error_bytes", "1"}}),
+            "");
+  EXPECT_THAT(said({{"latency_max", "100"}}),
+              HasSubstr("has no effect: it is not above memory.latency = 100"));
+  EXPECT_THAT(said({{"interleave_bytes", "128"}}), HasSubstr("has no effect: memory.banks = 1"));
+  EXPECT_THAT(said({{"error_bytes", "1"}}),
+              HasSubstr("has no effect: memory.error_address names no address"));
+}
+
+TEST(InputRules, ALabelSaysWhatAPresetWouldHaveMadeOtherwise) {
+  MemoryParameters memory;
+  ParameterSet set;
+  add_memory(set, "memory", memory);
+  EXPECT_EQ(with_changes("fast", set, "memory."), "fast");
+  for (const char* name : {"memory.latency", "memory.banks", "memory.outstanding"}) {
+    set.set(name, "7", "--set");
+    set.imply(name, name == std::string("memory.banks") ? "7" : "9", "preset");
+  }
+  EXPECT_EQ(with_changes("fast", set, "memory."), "fast, changed: latency, outstanding");
+  EXPECT_EQ(with_changes("fast", set, "other."), "fast");
 }
 
 }  // namespace

@@ -50,6 +50,20 @@ TEST_F(Sequence, APatternThatMatchesNothingIsAnError) {
   EXPECT_THROW(listed_files("frame.source", path("h*.png")), spec::ConfigError);
 }
 
+TEST_F(Sequence, NumbersAreOrderedByTheirValue) {
+  for (const char* name : {"n1a10", "n01b", "n1a9", "n", "n007", "n2", "m9", "n1a"})
+    std::ofstream(folder_ / name) << name;
+  EXPECT_THAT(listed_files("frame.source", path("[mn]*")),
+              ElementsAre(path("m9"), path("n"), path("n1a"), path("n1a9"), path("n1a10"),
+                          path("n01b"), path("n2"), path("n007")));
+}
+
+TEST(Listed, BlanksAreNoneOfAnEntry) {
+  EXPECT_THAT(listed(" a b \t;\tc;;d "), ElementsAre("a b", "c", "", "d"));
+  EXPECT_THAT(listed(""), ElementsAre(""));
+  EXPECT_THAT(listed(";"), ElementsAre("", ""));
+}
+
 TEST(FrameLists, GiveEachFrameItsEntryOrTheOnlyOne) {
   FrameLists lists;
   lists.add("scene.source", {"object"});
@@ -66,6 +80,61 @@ TEST(FrameLists, AreEquallyLongAndWithoutHoles) {
   lists.add("scene.source", {"a.obj", "b.obj"});
   EXPECT_THROW(lists.add("scene.eye", {"0,0,1", "0,0,2", "0,0,3"}), spec::ConfigError);
   EXPECT_THROW(lists.add("scene.eye", {"0,0,1", ""}), spec::ConfigError);
+}
+
+TEST(FrameLists, SayWhichListsAreNotEquallyLong) {
+  FrameLists lists;
+  lists.add("scene.source", {"a.obj", "b.obj"});
+  lists.add("scene.target", {"0,0,0"});
+  try {
+    lists.add("scene.eye", {"0,0,1", "0,0,2", "0,0,3"});
+    ADD_FAILURE();
+  } catch (const spec::ConfigError& error) {
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("scene.source lists 2 frames, and scene.eye lists 3"));
+  }
+  EXPECT_EQ(lists.frames(), 2);
+  lists.add("scene.eye", {"0,0,1", "0,0,2"});
+  EXPECT_EQ(lists.longest(), "scene.eye");
+  EXPECT_EQ(lists.at("scene.eye", 1), "0,0,2");
+  EXPECT_THROW(lists.at("scene.roll", 0), spec::CheckFailed);
+}
+
+TEST(Camera, IsChosenForItsFrame) {
+  CameraParameters camera{"0,0,1;0,0,2", " 5,5,5 "};
+  FrameLists lists;
+  add_camera(lists, camera);
+  EXPECT_EQ(lists.frames(), 2);
+  choose_camera(camera, lists, 1);
+  EXPECT_EQ(camera.eye, "0,0,2");
+  EXPECT_EQ(camera.target, "5,5,5");
+}
+
+// What is not given is the scene's own; its near plane is for its own eye.
+TEST(Camera, TakesThePlaceOfTheScenes) {
+  Scene scene;
+  const auto camera = [](const char* eye, const char* target) {
+    return CameraParameters{eye, target};
+  };
+  scene.camera = {{1, 2, 3}, {4, 5, 6}, {0, 1, 0}, 0.7, 0.025};
+  look(scene, {});
+  EXPECT_EQ(scene.camera.near_plane, 0.025);
+  look(scene, camera("", "-1.5,2e1,.5"));
+  EXPECT_EQ(scene.camera.target, Imath::V3d(-1.5, 20, 0.5));
+  EXPECT_EQ(scene.camera.eye, Imath::V3d(1, 2, 3));
+  EXPECT_EQ(scene.camera.near_plane, 0.025);
+  EXPECT_EQ(scene.camera.fov_y, 0.7);
+  look(scene, {.eye = "0,0,8", .target = "0,0,0", .fov = 0.9, .roll = 90});
+  EXPECT_EQ(scene.camera.eye, Imath::V3d(0, 0, 8));
+  EXPECT_EQ(scene.camera.near_plane, Camera{}.near_plane);
+  EXPECT_EQ(scene.camera.fov_y, 0.9);
+  EXPECT_NEAR(scene.camera.up.x, 1, 1e-12);
+  for (const char* wrong :
+       {"1,2", "1,2,3,4", "1,2,3 ", "1;2;3", "a,b,c", "1,2,nan", "1,,3", "1,2,", "1,2,inf"}) {
+    EXPECT_THROW(look(scene, camera(wrong, "")), spec::ConfigError) << wrong;
+    EXPECT_THROW(look(scene, camera("", wrong)), spec::ConfigError) << wrong;
+  }
+  EXPECT_THROW(look(scene, camera("1,2,3", "1,2,3")), spec::ConfigError);
 }
 
 }  // namespace

@@ -56,6 +56,18 @@ TEST(MemoryPort, LatencyIsExact) {
     }
 }
 
+// All latencies of the range are drawn, both ends among them.
+TEST(MemoryPort, LatenciesAreDrawnFromTheWholeRange) {
+  MemoryPortParameters parameters;
+  parameters.outstanding = 1;  // none waits for another
+  System s(parameters, with_latency(5, 8));
+  for (std::uint32_t i = 0; i < 200; ++i) s.driver.send(read_of(i));
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 200; }, 10'000));
+  EXPECT_EQ(s.port.latency.min(), 6U);
+  EXPECT_EQ(s.port.latency.max(), 9U);
+  EXPECT_GT(s.port.latency.percentile(60), s.port.latency.percentile(40));
+}
+
 TEST(MemoryPort, OneRequestAClockWhenEnoughMayBeOutstanding) {
   MemoryPortParameters parameters;
   parameters.outstanding = 32;
@@ -252,6 +264,31 @@ TEST(MemoryModel, WhatIsAnsweredIsThereInMidRun) {
   EXPECT_EQ(look.seen, 0xEE);
 }
 
+TEST(MemoryModel, ClearsAllThatItHasCounted) {
+  System s({}, with_latency(5));
+  s.memory.fail_range(9 * 64, 10 * 64);
+  const auto counted = [&] {
+    return std::array<std::uint64_t, 8>{s.memory.reads(),
+                                        s.memory.writes(),
+                                        s.memory.bytes_read(),
+                                        s.memory.bytes_written(),
+                                        s.memory.errors(),
+                                        s.memory.most_outstanding(),
+                                        s.memory.lines_read().size(),
+                                        s.memory.lines_written().size()};
+  };
+  MemoryRequest write = read_of(3);
+  write.write = true;
+  write.byte_mask = ~std::uint64_t{0};
+  for (const MemoryRequest& request : {read_of(1), read_of(2), write, read_of(9)})
+    s.driver.send(request);
+  ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 4; }, 1000));
+  s.clock.run(10);
+  EXPECT_THAT(counted(), ::testing::ElementsAre(3, 1, 192, 64, 1, 4, 3, 0));
+  s.memory.clear_statistics();
+  EXPECT_THAT(counted(), ::testing::Each(0u));
+}
+
 TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
   System s({}, with_latency(5));
   s.driver.send(read_of(3));
@@ -358,6 +395,7 @@ struct Relocator : sc_core::sc_module {
   static constexpr std::uint64_t kBase = 0x1000;
   tlm_utils::simple_target_socket<Relocator> in{"in"};
   tlm_utils::simple_initiator_socket<Relocator> out{"out"};
+  std::set<const tlm::tlm_generic_payload*> payloads;
   explicit Relocator(const sc_core::sc_module_name& name) : sc_module(name) {
     in.register_nb_transport_fw(this, &Relocator::forward);
     out.register_nb_transport_bw(this, &Relocator::backward);
@@ -365,6 +403,7 @@ struct Relocator : sc_core::sc_module {
   tlm::tlm_sync_enum forward(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
                              sc_core::sc_time& delay) {
     if (phase == tlm::BEGIN_REQ) payload.set_address(payload.get_address() + kBase);
+    payloads.insert(&payload);
     return out->nb_transport_fw(payload, phase, delay);
   }
   tlm::tlm_sync_enum backward(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
@@ -394,6 +433,13 @@ TEST(MemoryModel, AWriteAnsweredAheadGoesWhereAnInterconnectSentIt) {
   ASSERT_TRUE(side.clock.run_until([&] { return side.sink.received() == 2; }, 1000));
   EXPECT_EQ(memory.dump(3 * 64, 1)[0], 0);
   EXPECT_EQ(memory.dump(Relocator::kBase + 3 * 64, 1)[0], 0xEE);
+  // What is written is given back: one after the other, they need a payload or two.
+  for (std::uint32_t i = 0; i < 9; ++i) {
+    side.driver.send(write_of(i));
+    ASSERT_TRUE(side.clock.run_until([&] { return side.sink.received() == 3 + i; }, 1000));
+    side.clock.run(10);
+  }
+  EXPECT_LE(between.payloads.size(), 2u);
 }
 
 // A write that was answered ahead is there for whoever looks after its time, however.
@@ -517,6 +563,53 @@ TEST(MemoryPort, BurstsHaveUpTo64Lines) {
   }
   for (const std::uint32_t lines : {0u, 65u})
     EXPECT_THROW(rtl::MemoryPort("port", clock, {.max_burst_lines = lines}), spec::CheckFailed);
+}
+
+struct Initiator : sc_core::sc_module {
+  tlm_utils::simple_initiator_socket<Initiator> out{"out"};
+  explicit Initiator(const sc_core::sc_module_name& name) : sc_module(name) {}
+};
+
+// Byte enables are repeated, the last time as far as the data go.
+TEST(MemoryModel, ByteEnablesAreRepeatedOverTheData) {
+  platform::MemoryModel memory("memory", kPeriod, with_latency(5));
+  Initiator initiator("initiator");
+  initiator.out.bind(memory.ports);
+  sc_core::sc_start(sc_core::SC_ZERO_TIME);
+  fill(memory, 64);
+  // Nothing counts that lies behind the four of them.
+  std::array<std::uint8_t, 12> enables{};
+  enables.fill(TLM_BYTE_ENABLED);
+  enables[1] = enables[2] = TLM_BYTE_DISABLED;
+  std::array<std::uint8_t, 10> data{};
+  const auto access = [&](tlm::tlm_command command) {
+    tlm::tlm_generic_payload payload;
+    payload.set_command(command);
+    payload.set_address(4);
+    payload.set_data_ptr(data.data());
+    payload.set_data_length(10);
+    payload.set_streaming_width(10);
+    payload.set_byte_enable_ptr(enables.data());
+    payload.set_byte_enable_length(4);
+    sc_core::sc_time delay;
+    initiator.out->b_transport(payload, delay);
+    return payload.get_response_status();
+  };
+  // Which bytes are the initiator's, and which the memory's.
+  const auto owners = [](const auto& bytes) {
+    std::string text;
+    for (std::size_t i = 0; i < 10; ++i)
+      text += bytes[i] == 0xEE ? 'i' : bytes[i] == pattern(4 + i) ? 'm' : '?';
+    return text;
+  };
+  data.fill(0xEE);
+  EXPECT_EQ(access(tlm::TLM_READ_COMMAND), tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(owners(data), "miimmiimmi");
+  data.fill(0xEE);
+  EXPECT_EQ(access(tlm::TLM_WRITE_COMMAND), tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(owners(memory.dump(4, 10)), "immiimmiim");
+  EXPECT_EQ(memory.dump(14, 1)[0], pattern(14));
+  EXPECT_EQ(memory.bytes_written(), 5u);
 }
 
 // The mask is of the first line of a burst: a byte of it that is left out stays, and the first byte

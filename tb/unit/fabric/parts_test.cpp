@@ -290,6 +290,11 @@ TEST(Histogram, PercentilesAreExact) {
   EXPECT_EQ(histogram.percentile(100), 1000U);
   EXPECT_EQ(histogram.sum(), 500'500U);
   EXPECT_THROW(histogram.percentile(101), spec::CheckFailed);
+  rtl::Histogram repeated("repeated", "clk", "test");
+  for (int i = 0; i < 3; ++i) repeated.record(7);
+  for (int i = 0; i < 2; ++i) repeated.record(1'000'000);
+  EXPECT_EQ(repeated.sum(), 2'000'021U);
+  EXPECT_EQ(repeated.count(), 5U);
   rtl::Histogram zeros("zeros", "clk", "test");
   zeros.record(0);
   EXPECT_EQ(zeros.max(), 0U);

@@ -131,9 +131,11 @@ TEST(Negative, FaultThatIsNeverReachedIsNoResult) {
 
 TEST(Negative, FaultsThatDoNotExist) {
   Pipeline p(10);
-  for (const char* text : {"melt:link_0:1", "drop:link_0", "drop:link_0:x", "flip:link_0:1",
-                           "flip:link_0:1:64", "flip:link_0:1:value.32", "flip:link_0:1:valu",
-                           "flip:link_0:1:-1", "drop:link_9:1", "", ":::"})
+  for (const char* text :
+       {"melt:link_0:1", "drop:link_0", "drop:link_0:x", "flip:link_0:1", "flip:link_0:1:64",
+        "flip:link_0:1:value.32", "flip:link_0:1:valu", "flip:link_0:1:-1", "drop:link_9:1", "",
+        ":::", "drop:link_0:1:2", "duplicate:link_0:1:2", "flip:link_0:1:value.3:4",
+        "stuck_ready:link_0:1:2"})
     EXPECT_THROW(FaultInjector(p.clock, {Fault::parse(text)}), spec::ConfigError) << text;
 }
 

@@ -104,6 +104,28 @@ TEST(WindowRecorder, KeepsAsManyWindowsAsItMay) {
   EXPECT_THAT(series(recorder).at("links.link.most"), testing::Each(2));
 }
 
+// Of two windows that become one the larger most stays, wherever it was.
+TEST(WindowRecorder, MergedWindowsHaveTheLargestOfBoth) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  rtl::Link<Token> link("link", 8);
+  clock.add(link);
+  WindowRecorder recorder(clock, {2, 4, {}});
+  recorder.see("link", link);
+  clock.run(2);  // 0
+  for (int i = 0; i < 3; ++i) {
+    link.push(clock.cycle(), Token{});
+    clock.run(1);
+  }
+  clock.run(1);  // 2 (behind a clock of 1), then 3 twice
+  for (int i = 0; i < 3; ++i) {
+    link.pop(clock.cycle());
+    clock.run(1);
+  }
+  recorder.finish();
+  EXPECT_THAT(recorder.from(), ElementsAre(0, 4, 8));
+  EXPECT_THAT(series(recorder).at("links.link.most"), ElementsAre(2, 3, 0));
+}
+
 TEST(WindowRecorder, CanForgetAWindow) {
   Watched w;
   WindowRecorder recorder(w.p.clock, {300, 1024, 2});

@@ -395,9 +395,12 @@ TEST(GeometricDriver, ARejectedStartSaysWhy) {
   b.registers.values[reg::kRefusal] = 4;
   EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.require_accepted(); }),
             "the geometric engine rejected the start: touched_words");
-  b.registers.values[reg::kRefusal] = 15;
-  EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.require_accepted(); }),
-            "the geometric engine rejected the start: ?");
+  // The first code without a name, and the last.
+  for (const std::size_t code : {spec::geometric::kRefusalNames.size(), std::size_t{15}}) {
+    b.registers.values[reg::kRefusal] = static_cast<std::uint32_t>(code);
+    EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.require_accepted(); }),
+              "the geometric engine rejected the start: ?");
+  }
 }
 
 std::string rejection(Bed& b, const GeometricFrame& frame) {

@@ -56,6 +56,50 @@ TEST(TexelLayout, TilesLieInMortonOrder) {
   EXPECT_EQ(TexelLayout(Layout::kTiled, Format::kRgba8, 17, 9).bytes(), 64u * 8 * 4);
 }
 
+// The code whose channel is the nearest to a byte: 255 c / top, of 4, 5 and 6 bits.
+TEST(EncodeTexel, NarrowChannelsAreTheNearestCodes) {
+  for (std::uint32_t byte = 0; byte < 256; ++byte) {
+    const auto channel = static_cast<std::uint8_t>(byte);
+    const auto nearest = [&](std::uint32_t top) {
+      std::uint32_t code = 0;
+      while (code < top && 510 * code + 255 < 2 * byte * top) ++code;
+      return code;
+    };
+    const auto code = [&](Format format, std::size_t which) {
+      Texel texel{};
+      texel[which] = channel;
+      return platform::encode_texel(format, texel);
+    };
+    ASSERT_EQ(code(Format::kRgb565, 0), nearest(31) << 11) << byte;
+    ASSERT_EQ(code(Format::kRgb565, 1), nearest(63) << 5) << byte;
+    ASSERT_EQ(code(Format::kRgb565, 2), nearest(31)) << byte;
+    ASSERT_EQ(code(Format::kRgb565, 3), 0u) << byte;
+    for (std::size_t which = 0; which < 4; ++which)
+      ASSERT_EQ(code(Format::kRgba4444, which), nearest(15) << (12 - 4 * which)) << byte;
+  }
+}
+// L is 0.299 R + 0.587 G + 0.114 B in 1/256, rounded.
+TEST(EncodeTexel, LuminanceIsWeighted) {
+  const auto code = [](std::uint8_t r, std::uint8_t g, std::uint8_t b) {
+    return platform::encode_texel(Format::kL8, {r, g, b, 77});
+  };
+  for (int grey = 0; grey < 256; ++grey) {
+    const auto v = static_cast<std::uint8_t>(grey);
+    EXPECT_EQ(code(v, v, v), v) << "grey stays grey";
+  }
+  EXPECT_EQ(code(255, 0, 0), 77u) << "76.7";
+  EXPECT_EQ(code(0, 255, 0), 149u) << "149.4";
+  EXPECT_EQ(code(0, 0, 255), 29u) << "28.9";
+  EXPECT_EQ(code(0, 1, 0), 1u) << "0.59";
+  EXPECT_EQ(code(1, 0, 0), 0u) << "0.3";
+  EXPECT_EQ(code(0, 64, 0), 38u) << "37.5 in 1/256";
+  EXPECT_EQ(code(1, 43, 0), 25u) << "25.496 in 1/256";
+}
+TEST(EncodeTexel, WholeBytesStandInTheirOrder) {
+  for (const Format format : {Format::kRgba8, Format::kSrgb8A8})
+    EXPECT_EQ(platform::encode_texel(format, {1, 2, 3, 4}), 0x04030201u);
+}
+
 TEST(TextureMemory, LaysLevelsOneAfterTheOther) {
   const std::vector<Texel> large(16, Texel{1, 2, 3, 4}), small(4, Texel{5, 6, 7, 8});
   const platform::TextureLevel levels[] = {{4, 4, large}, {2, 2, small}};
@@ -72,6 +116,27 @@ TEST(TextureMemory, LaysLevelsOneAfterTheOther) {
   EXPECT_EQ(textures.bytes()[256 + 60], 1);
   EXPECT_EQ(textures.bytes()[384 + 16 + 4 + 3], 8) << "second texel of the second row";
   EXPECT_EQ(textures.bytes()[384 + 8], 0);
+}
+
+// A level ends at the next multiple of 128 bytes; one that ends there leaves no gap.
+TEST(TextureMemory, ALevelBeginsAtTheFirstMultipleOf128Bytes) {
+  const std::vector<Texel> texels(64, Texel{1, 2, 3, 4});
+  const auto level = [&](int width, int height) {
+    return platform::TextureLevel{
+        width, height, std::span(texels).first(static_cast<std::size_t>(width * height))};
+  };
+  // 256, 64 and 64 bytes; 64 bytes of L8.
+  const platform::TextureLevel large[] = {level(8, 8), level(4, 4), level(2, 2)},
+                               small[] = {level(8, 8)};
+  platform::TextureMemory textures;
+  textures.add(large, {});
+  EXPECT_EQ(textures.bytes().size(), 512u);
+  Descriptor bytes;
+  bytes.format = Format::kL8;
+  textures.add(small, bytes);
+  EXPECT_THAT(std::span(textures.descriptors()[0].base).first(3), ElementsAre(0u, 256u, 384u));
+  EXPECT_EQ(textures.descriptors()[1].base[0], 512u);
+  EXPECT_EQ(textures.bytes().size(), 640u);
 }
 
 // ---- the driver

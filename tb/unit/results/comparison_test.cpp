@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -18,6 +19,7 @@
 #include "tb/results/comparison_page.h"
 #include "tb/results/result.h"
 #include "tb/scene/image_io.h"
+#include "tb/unit/results/page_words.h"
 
 namespace deburr::tb::comparison_test {
 namespace {
@@ -248,6 +250,81 @@ TEST_F(Runs, ListWhatDiffersComparedWithTheFirst) {
   EXPECT_FALSE(compare_runs(paths({"a", "b"}), {.memory_percent = 100})["worse"]);
 }
 
+// What a reader is told beside the figures.
+TEST_F(Runs, SayWhatTheyAreAndWhatIsDoubtful) {
+  const auto changed = [&](const char* name, const std::function<void(Json&, Json&)>& change) {
+    Json manifest = leave(name, 1000, "2");
+    Json result = Json::parse(std::ifstream(path_ / name / "result.json"));
+    change(result, manifest);
+    put(fs::path(name) / "result.json", result.dump());
+    put(fs::path(name) / "manifest.json", manifest.dump());
+  };
+  changed("a", [](Json&, Json& manifest) {
+    manifest["parameters"].push_back({{"name", "only.a"}, {"value", "1"}});
+  });
+  changed("b", [](Json& result, Json& manifest) {
+    result["interrupted"] = true;
+    result["idealised"] = {{"cache", "nine ports"}};
+    manifest["commit"] = "abc";
+  });
+  changed("c", [](Json&, Json& manifest) {
+    for (Json& parameter : manifest["parameters"])
+      if (parameter["name"] == "scene.width") parameter["work"] = "setting";
+    manifest["configuration"]["scene.width"] = 9;
+  });
+  leave("d", 1000, "2");
+  fs::remove(path_ / "d/manifest.json");
+  const Json all = compare_runs(paths({"a", "b", "c", "d/result.json"}), {});
+  EXPECT_EQ(all["warnings"], (Json{"B cannot be built: idealised memory cache (nine ports)",
+                                   "B was interrupted: its figures cover what was done until then",
+                                   "scene.width differs: A 8, B 9 (B is C here)"}));
+  EXPECT_EQ(all["runs"][1],
+            (Json{{"name", "B"},
+                  {"path", (path_ / "b").string()},
+                  {"verdict", "pass"},
+                  {"interrupted", true},
+                  {"title", "b"},
+                  {"summary", "s"},
+                  {"command", "deburr run texture"},
+                  {"commit", "abc"},
+                  {"images",
+                   Json::array({{{"file", "after.png"}, {"role", "after"}, {"title", "After"}}})},
+                  {"folder", (path_ / "b").string()}}));
+  EXPECT_EQ(all["runs"][3], (Json{{"name", "D"},
+                                  {"path", (path_ / "d/result.json").string()},
+                                  {"verdict", "pass"},
+                                  {"interrupted", false},
+                                  {"title", nullptr},
+                                  {"summary", nullptr},
+                                  {"command", nullptr},
+                                  {"commit", nullptr},
+                                  {"images", nullptr},
+                                  {"folder", (path_ / "d").string()}}));
+  ASSERT_EQ(all["parameters"].size(), 1u) << "nothing is known of D";
+  EXPECT_EQ(all["parameters"][0], (Json{{"name", "only.a"},
+                                        {"kind", ""},
+                                        {"unit", ""},
+                                        {"meaning", ""},
+                                        {"values", {"1", "-", "-", "?"}}}));
+  std::vector<std::string> figures;
+  for (const Json& figure : all["figures"])
+    figures.push_back(figure["label"].get<std::string>() + " " + figure["key"].get<std::string>());
+  EXPECT_THAT(figures,
+              ElementsAre("Verdict verdict", "Cycles cycles", "Throughput throughput.value",
+                          "Latency p50 latency.p50", "Latency p99 latency.p99",
+                          "Bytes read memory.bytes_read", "Bytes written memory.bytes_written",
+                          "Memory, physical memory_bits.total.physical", "Hits work.hits"));
+  EXPECT_EQ(all["kind"], "runs");
+  EXPECT_EQ(all["engine"], "texture");
+  try {
+    changed("b", [](Json& result, Json&) { result["unit"] = "frame"; });
+    compare_runs(paths({"a", "b"}), {});
+    ADD_FAILURE();
+  } catch (const spec::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("A is a run of 'texture', B of 'frame'"));
+  }
+}
+
 TEST(Comparing, ARunThatFailedIsWorseThanOneThatDid) {
   Result r;
   r.unit = "texture";
@@ -303,6 +380,124 @@ TEST_F(Runs, ThePageIsSelfContainedAndEscapes) {
   EXPECT_THAT(page, Not(HasSubstr("{{")));
   for (const char* reference : {"src=\"http", "href=\"http", "@import", "<link"})
     EXPECT_THAT(page, Not(HasSubstr(reference)));
+}
+
+// Three runs whose rows have one of each kind of cell, word by word.
+TEST_F(Runs, AreOnAPageInTheirForms) {
+  const auto cell = [](const Json& value, const char* change, const char* judgement,
+                       bool worse = false) {
+    return Json{{"value", value},
+                {"text", value_text(value)},
+                {"change", change},
+                {"judgement", judgement},
+                {"worse", worse}};
+  };
+  const auto run = [&](const char* name, const Json& images) {
+    return Json{{"name", name},
+                {"path", std::string("out/") + name + "run"},
+                {"verdict", "pass"},
+                {"title", std::string("Title ") + name},
+                {"summary", "of it"},
+                {"command", std::string("deburr run ") + name},
+                {"folder", path_.string()},
+                {"images", images}};
+  };
+  const auto image = [](const char* role, const char* title) {
+    return Json{
+        {"file", std::string(role) + ".png"}, {"role", role}, {"title", title}, {"caption", "c"}};
+  };
+  for (const char* name : {"before.png", "after.png"}) write_image(path_ / name, Image(2, 2));
+  Json same = cell(nullptr, "", "better");
+  same["identical"] = true;
+  same["text"] = "identical";
+  const Json all = {
+      {"kind", "runs"},
+      {"engine", "texture"},
+      {"worse", true},
+      {"warnings", {"Look."}},
+      {"runs",
+       {run("A", Json::array({image("before", "Before"), image("after", "After")})),
+        run("B", Json::array({image("after", "Later")})), run("C", nullptr)}},
+      {"parameters",
+       {{{"name", "ways"}, {"unit", "way"}, {"meaning", "Ways."}, {"values", {"2", "4", "2"}}}}},
+      {"figures",
+       {{{"key", "cycles"},
+         {"label", "Cycles"},
+         {"unit", "clk"},
+         {"meaning", "All."},
+         {"cells",
+          {cell(1000, "", ""), cell(800, "-20.00 %", "better"),
+           cell(1250, "+25.00 %", "worse", true)}}},
+        {{"key", "quality.psnr_db"},
+         {"label", "PSNR"},
+         {"unit", "dB"},
+         {"meaning", "Peak."},
+         {"cells", {cell(30.5, "", ""), same, cell(20.25, "-10.25 dB", "worse")}}},
+        {{"key", "work.rate"},
+         {"label", "Rate"},
+         {"unit", ""},
+         {"meaning", "R."},
+         {"cells", {cell(-2.5, "", ""), cell(nullptr, "", ""), cell(1234.567, "", "equal")}}}}},
+      {"values",
+       {{{"key", "work.rate"},
+         {"unit", "u"},
+         {"meaning", "R."},
+         {"cells", {cell("a", "", ""), cell(true, "", ""), cell(12345, "x", "")}}}}}};
+  EXPECT_EQ(words(comparison_page(all)), R"page(
+Deburr &middot;
+comparison of runs &middot;
+texture
+Arun, Brun, Crun|badge fail|worse
+Look.
+Parameters|Figures|Pictures|Values|Commands
+Directory|What it is
+A|out/Arun|(what the others are compared with)|Title A|of it
+B|out/Brun|Title B|of it
+C|out/Crun|Title C|of it
+--columns: 2
+B against A
+better|Better:|Cycles -20.00 %, PSNR
+worse|Worse:|nothing
+C against A
+better|Better:|nothing
+worse|Worse:|Cycles +25.00 %, PSNR -10.25 dB
+Parameters that differ
+Parameter|A|B|C|Unit|Meaning
+ways|2|other|4|2|way|Ways.
+Figures
+Figure|A|B|C|Unit|Meaning
+Cycles|1,000|width: 80.0%|better|800|-20.00 %|width: 64.0%|worse fails|1,250|+25.00 %|width: 100.0%|clk|All.
+PSNR|30.5|better|identical|worse|20.25|-10.25 dB|dB|Peak.
+Rate|-2.5|width: 0.2%|-|equal|1,234.6|width: 100.0%|R.
+Green is better and red is worse than A by more than the tolerance, bold where it fails the comparison;
+bars are shares of the row's largest value.
+Pictures
+Show|Later|Before
+difference from A, 8 times
+Wheel:
+zoom all at one place.
+Double click:
+whole picture.
+Later
+A|c
+B|c
+C|has no such picture.
+Before
+A|c
+B|has no such picture.
+C|has no such picture.
+Every value that differs
+1 values
+Value|A|B|C|Unit|Meaning
+work.rate|a|true|12,345|x|u|R.
+Commands
+A
+deburr run A
+B
+deburr run B
+C
+deburr run C
+)page");
 }
 
 TEST_F(Runs, ThatAreNotWholeAreRejected) {
@@ -407,6 +602,7 @@ TEST_F(Sweeps, PointsAreMatchedByTheirConfiguration) {
   EXPECT_EQ(all["points"][0]["values"], (Json{{100, 30, 5}, {50, 30, 6}}));
   EXPECT_EQ(all["points"][0]["judgements"][0], (Json{"better", "equal", "worse"}));
   EXPECT_EQ(all["points"][0]["front"], (Json{true, true}));
+  EXPECT_EQ(all["points"][1]["front"], (Json{false, false}));
   EXPECT_EQ(all["points"][1]["judgements"][0], (Json{"worse", "equal", "equal"}));
   EXPECT_EQ(all["points"][2]["judgements"][0], (Json{"equal", "equal", "worse"})) << "lost";
   EXPECT_TRUE(all["points"][2]["values"][0][1].is_null());
@@ -431,6 +627,53 @@ TEST_F(Sweeps, PointsAreMatchedByTheirConfiguration) {
   EXPECT_THAT(comparison_page(all), HasSubstr("1 on the front of all together"));
 }
 
+TEST_F(Sweeps, AreOnAPageInTheirForms) {
+  leave("a",
+        sweep(Json::array({Json{"latency", "100"}}), Json::array({axis("bytes"), axis("ways")}),
+              Json::array({point({"1024", "1"}, {1000, 30.0, 50}, true),
+                           point({"2048", "1"}, {900, 31.0, 40}),
+                           point({"4096", "1"}, {800, 31.0, 0})})));
+  leave("b",
+        sweep(Json::array({Json{"latency", "200"}}), Json::array({axis("bytes"), axis("ways")}),
+              Json::array({point({"1024", "1"}, {1100, 30.0, 60}, true),
+                           point({"2048", "1"}, {450, 31.5, 40}),
+                           point({"4096", "1"}, {808, 30.25, 7}),
+                           point({"8192", "1"}, {1, 1.0, 1})})));
+  Json all = compared({"a", "b"});
+  for (Json& each : all["sweeps"]) each["path"] = "out/" + each["name"].get<std::string>();
+  EXPECT_EQ(words(comparison_page(all)), R"page(
+Deburr &middot;
+comparison of sweeps &middot;
+texture
+A, B|badge fail|worse
+Parameters|Points in all|Fronts|Matched points|Points not in all
+Directory|What it is
+A|out/A|(what the others are compared with)|Cache|3 points, 3 done, 1 on its front, 1 on the front of all together
+B|out/B|Cache|4 points, 4 done, 1 on its front, 1 on the front of all together
+Parameters that differ, besides the axes
+Parameter|A|B
+latency|100|other|200
+Points in all of them: 3
+Matched by bytes, ways.
+1 points are not done in every sweep.
+Metric|Better|Equal|Worse|Mean change|Least|Most|Unit|Meaning
+B|cycles|1|1|worse|1|-13.00 %|-50.00 %|+10.00 %|clk|m
+B|psnr|1|1|worse|1|-0.08 dB|-0.75 dB|+0.50 dB|dB|m
+B|lines|0|1|worse|2|+10.00 %|+0.00 %|+20.00 %|line|m
+Fronts
+Across
+Up
+fronts only
+Large points are on their sweep's front;
+a line joins those that nothing of the same sweep beats in these two metrics.
+Matched points
+Show|all|those that are worse|those that differ|those on a front
+Points that are not done in every sweep: 1
+The points and the picture of the fronts need JavaScript;
+deburr compare --json has them all.
+)page");
+}
+
 // Nobody is better than an identical picture, and one that is lost is worse.
 TEST_F(Sweeps, AnIdenticalPictureIsTheBestOfAll) {
   const auto with = [](Json first, Json second) {
@@ -451,6 +694,38 @@ TEST_F(Sweeps, AnIdenticalPictureIsTheBestOfAll) {
   const Json missing = compared({"a", "c"});
   EXPECT_EQ(missing["points"][1]["judgements"][0][1], "worse") << "null without flag is no value";
   EXPECT_EQ(missing["points"][1]["identical"], (Json{{"psnr"}, Json::array()}));
+}
+
+// Of the third sweep the words say B, and which one that is.
+TEST_F(Sweeps, ThatReadOtherFilesAreTold) {
+  const auto with = [&](const char* name, const char* hash) {
+    Json one = sweep(Json::array(), Json::array({axis("bytes")}),
+                     Json::array({point({"1"}, {1, 1.0, 1})}));
+    one["inputs"] = Json::array({{{"file", "x.png"}, {"sha256", hash}}});
+    leave(name, one);
+  };
+  with("a", "1111111111");
+  with("b", "2222222222");
+  with("c", "3333333333");
+  const Json all = compared({"a", "b", "c"});
+  EXPECT_EQ(
+      all["warnings"],
+      (Json{
+          "the inputs differ: A reads x.png (11111111), B reads x.png (22222222)",
+          "the inputs differ: A reads x.png (11111111), B reads x.png (33333333) (B is C here)"}));
+  EXPECT_EQ(all["objectives"], (Json{"cycles", "lines"}));
+  EXPECT_EQ(all["metrics"][2], (Json{{"name", "lines"},
+                                     {"key", "/work/lines"},
+                                     {"unit", "line"},
+                                     {"meaning", "m"},
+                                     {"maximise", false},
+                                     {"counts", true}}));
+  EXPECT_EQ(all["sweeps"][2]["name"], "C");
+  EXPECT_EQ(all["sweeps"][2]["path"], (path_ / "c").string());
+  EXPECT_EQ(all["sweeps"][2]["title"], "Cache");
+  EXPECT_EQ(all["sweeps"][2]["commit"], "abc");
+  EXPECT_EQ(all["summary"].size(), 2u);
+  EXPECT_EQ(all["points"][0]["judgements"].size(), 2u);
 }
 
 TEST_F(Sweeps, NamedChoicesAreTheirValues) {

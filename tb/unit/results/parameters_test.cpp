@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "spec/error.h"
@@ -256,6 +257,94 @@ TEST_F(Parameters, EveryDefaultOfTheTextureUnitIsWithinItsRange) {
     EXPECT_FALSE(p.meaning.empty()) << p.name;
     EXPECT_EQ(p.meaning.back(), '.') << p.name;
   }
+}
+
+TEST_F(Parameters, ASwitchHasThreeWordsForEachPosition) {
+  for (const char* word : {"true", "on", "yes"}) {
+    values_.shuffle = false;
+    set_.set("unit.shuffle", word, "test");
+    EXPECT_TRUE(values_.shuffle) << word;
+  }
+  for (const char* word : {"false", "off", "no"}) {
+    values_.shuffle = true;
+    set_.set("unit.shuffle", word, "test");
+    EXPECT_FALSE(values_.shuffle) << word;
+  }
+  for (const char* word : {"True", "1", "0", "", "yes "})
+    EXPECT_THAT(complaint([&] { set_.set("unit.shuffle", word, "test"); }),
+                HasSubstr("wants true or false"));
+}
+
+// The whole of what a run resolves to, as text and typed.
+TEST_F(Parameters, AreTextAndJson) {
+  set_.imply("unit.colour", "red", "preset small");
+  set_.set("unit.stalls", "0.25", "test");
+  set_.set("unit.source", "a\"b", "test");
+  EXPECT_EQ(set_.yaml(),
+            "unit.cache.ways: 2  # Associativity.\nunit.cycles: 0  # Limit.\n"
+            "# unit.colour: \"red\"  # By preset small. Colour.\nunit.shuffle: false  # Order.\n"
+            "unit.stalls: 0.25  # Stalls.\nunit.source: \"a\\\"b\"  # Scene.\n");
+  EXPECT_EQ(
+      set_.resolved().dump(),
+      R"({"unit.cache.ways":2,"unit.cycles":0,"unit.colour":"red","unit.shuffle":false,"unit.stalls":0.25,"unit.source":"a\"b"})");
+  const Parameter& ways = *set_.find("unit.cache.ways");
+  EXPECT_EQ(ways.range + "|" + ways.unit + "|" + ways.meaning + "|" + ways.default_value,
+            "1..16|way|Associativity.|2");
+  EXPECT_EQ(set_.find("unit.colour")->range, "red | green");
+  EXPECT_EQ(set_.find("unit.shuffle")->range, "true | false");
+  EXPECT_EQ(set_.find("unit.stalls")->range, "0..0.9");
+  EXPECT_EQ(set_.find("unit.cycles")->range, "0..1099511627776");
+  EXPECT_EQ(set_.origin(*set_.find("unit.cycles")), "default");
+  EXPECT_EQ(set_.origin(*set_.find("unit.colour")), "preset small");
+  EXPECT_EQ(set_.origin(*set_.find("unit.stalls")), "given");
+}
+
+// The ends of a range are in it.
+TEST_F(Parameters, RangesHaveTheirEnds) {
+  for (const auto& [name, low, below, high, above] :
+       {std::tuple("unit.cache.ways", "1", "0", "16", "17"),
+        std::tuple("unit.cycles", "0", "-1", "1099511627776", "1099511627777"),
+        std::tuple("unit.stalls", "0", "-0.0001", "0.9", "0.9001")}) {
+    EXPECT_NO_THROW(set_.set(name, low, "test"));
+    EXPECT_NO_THROW(set_.set(name, high, "test"));
+    for (const char* wrong : {below, above})
+      EXPECT_THAT(complaint([&] { set_.set(name, wrong, "test"); }), HasSubstr("is outside"));
+  }
+}
+
+TEST_F(Parameters, MapsMayBeNestedSixteenDeep) {
+  const auto nested = [](int depth) {
+    std::string yaml;
+    for (int i = 0; i < depth; ++i) yaml += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
+    return yaml + std::string(static_cast<std::size_t>(depth), ' ') + "b: 1\n";
+  };
+  EXPECT_THAT(rejected(nested(16)), HasSubstr("unknown parameter"));
+  EXPECT_THAT(rejected(nested(17)), HasSubstr("nested too deeply"));
+}
+
+// What a run was given is given again; what followed from that follows again, but for a default
+// that was another one.
+TEST_F(Parameters, OfAManifestAreThoseOfItsRun) {
+  const std::string manifest =
+      R"({"schema": 3, "unit": "unit", "working_directory": "/elsewhere",
+          "configuration": {"unit.cache.ways": 8, "unit.cycles": 7, "unit.colour": "red", "unit.shuffle": false, "unit.stalls": 0.5,
+                            "unit.source": "in/x.png"},
+          "inputs": [{"file": "in/x.png"}, {"file": "c.yaml", "role": "configuration"}],
+          "parameters": [{"name": "unit.cache.ways", "from": "given"}, {"name": "unit.cycles", "from": "default"},
+                         {"name": "unit.colour", "from": "preset small"}, {"name": "unit.shuffle", "from": "default"},
+                         {"name": "unit.source", "from": "given"}]})";
+  set_.load("manifest.json", manifest, "unit");
+  EXPECT_EQ(values_.ways, 8);
+  EXPECT_EQ(values_.cycles, 7) << "the default was another one";
+  EXPECT_EQ(values_.colour, Colour::kGreen) << "a preset makes it again, if it is chosen again";
+  EXPECT_EQ(values_.stalls, 0.5) << "nothing is said about it";
+  EXPECT_EQ(values_.source, "/elsewhere/in/x.png");
+  EXPECT_TRUE(set_.given("unit.cache.ways"));
+  EXPECT_TRUE(set_.given("unit.cycles"));
+  EXPECT_FALSE(set_.given("unit.colour"));
+  EXPECT_FALSE(set_.given("unit.shuffle")) << "as it is by default";
+  EXPECT_THAT(complaint([&] { set_.load("manifest.json", manifest, "frame"); }),
+              HasSubstr("this manifest is of a run of 'unit', and not of 'frame'"));
 }
 
 struct Misnamed : Sample {};

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "spec/error.h"
+#include "tb/scene/label.h"
 
 namespace deburr::tb::picture_map_test {
 namespace {
@@ -94,6 +95,62 @@ TEST(PictureMap, AFewLargeValuesDoNotHideTheRest) {
   EXPECT_EQ(picture.at(0, 0), kBright);
   EXPECT_EQ(picture.at(9, 0), map_colours()[7]);
   EXPECT_EQ(picture.at(0, 1), kDark);
+}
+
+// Between two colours their mean; the ends as printed below the bar, and the knee where it bends.
+TEST(PictureMap, PrintsItsScale) {
+  PictureMap map("m", "M", "clk", "", 3, 2);
+  map.set(0, 0, 1000);
+  map.set(1, 0, 1000 + 32);
+  map.set(2, 0, 1000 + 2);
+  map.set(2, 1, 1000 + 3);  // in a sixteenth of the way two colours meet half-way
+  const Image picture = picture_of(map);
+  EXPECT_EQ(picture.width, 200);
+  EXPECT_EQ(picture.height, 2 + 4 + 8 + 4 + 9 + 4);
+  EXPECT_EQ(picture.at(1, 0), kBright);
+  EXPECT_EQ(picture.at(2, 0), (Rgba8{70, 23, 103, 255}));
+  EXPECT_EQ(picture.at(2, 1), (Rgba8{70, 33, 113, 255})) << "three quarters";
+  EXPECT_EQ(picture.at(0, 1), kGrey);
+  const Rgba8 white = {255, 255, 255, 255};
+  EXPECT_EQ(picture.at(3, 0), white);
+  for (int y = 0; y < 8; ++y) {
+    EXPECT_EQ(picture.at(3, 6 + y), white);
+    EXPECT_EQ(picture.at(4, 6 + y), kDark);
+    EXPECT_EQ(picture.at(195, 6 + y), kBright);
+    EXPECT_EQ(picture.at(196, 6 + y), white);
+  }
+  EXPECT_EQ(picture.at(100, 5), white);
+  EXPECT_EQ(picture.at(100, 14), white);
+  const auto has = [&](const std::string& text, int left) {
+    const Image expected = label(text, 1);
+    for (int y = 0; y < expected.height; ++y)
+      for (int x = 0; x < expected.width; ++x)
+        if (picture.at(left + x, 18 + y) != expected.at(x, y)) return false;
+    return true;
+  };
+  EXPECT_TRUE(has("1,000", 4));
+  EXPECT_TRUE(has("1,032 clk", 196 - 9 * 6));
+}
+
+TEST(PictureMap, MarksTheKneeOfABentScale) {
+  PictureMap map("m", "M", "", "", 10, 100);
+  for (int i = 0; i < 1000; ++i) map.set(i % 10, i / 10, i % 8);
+  map.set(0, 0, 900);
+  const Image picture = picture_of(map);
+  // Seven eighths of 4..195: 4 + 0.875 x 191 = 171.1.
+  const Rgba8 ink = {0, 0, 0, 255};
+  for (int y = 104; y < 112; ++y) {
+    EXPECT_EQ(picture.at(171, y), ink);
+    EXPECT_NE(picture.at(170, y), ink);
+    EXPECT_NE(picture.at(172, y), ink);
+  }
+  EXPECT_NE(picture.at(171, 103), ink);
+  EXPECT_NE(picture.at(171, 112), ink);
+  // Its value ends there, or where that of the most begins, 900 with a blank: 5 letters.
+  const Image seven = label("7", 1);
+  const int left = std::min(171, 196 - 4 * 6 - 9) - 6;
+  for (int y = 0; y < 9; ++y)
+    for (int x = 0; x < 6; ++x) EXPECT_EQ(picture.at(left + x, 116 + y), seven.at(x, y));
 }
 
 // Of a thousand values five are above the knee.

@@ -140,6 +140,45 @@ TEST(PixelHistory, AsTextLeavesDetailsOutButWhatDiffers) {
   EXPECT_NE(text.find("1 more steps: out/report.html#pixel"), std::string::npos) << text;
 }
 
+TEST(PixelHistory, AsTextIsATable) {
+  PixelHistory history{{3, 14}, "one fragment"};
+  history.steps = {
+      {.part = "fragment 0",
+       .step = "level",
+       .item = "of it",
+       .golden = "4",
+       .hardware = "2.25",
+       .clock = 812,
+       .differs = true},
+      {.part = "fragment 0", .step = "colour", .item = "r", .golden = "", .hardware = "7"},
+      {.part = "out",
+       .step = "end",
+       .item = "x",
+       .golden = "123456789",
+       .hardware = "",
+       .clock = 1200,
+       .detail = true},
+      {.part = "out", .step = "end", .item = "y", .golden = "9", .hardware = "9", .clock = 3}};
+  EXPECT_EQ(text_of(history, "r.html"),
+            "pixel       (3, 14): 4 steps, 1 of them differ from the golden model: one fragment\n"
+            "  step         golden  hardware      clock\n"
+            "  fragment 0\n"
+            "! level of it  4       2.25            812\n"
+            "  colour r     -       7                 -\n"
+            "  out\n"
+            "  end y        9       9                 3\n"
+            "  1 more steps: r.html#pixel\n");
+  EXPECT_EQ(text_of(PixelHistory{{0, 1}}, "r.html"),
+            "pixel       (0, 1): 0 steps, 0 of them differ from the golden model\n");
+  // Forty rows at most: of thirty-nine that differ one more stands beside them.
+  PixelHistory many{{0, 0}};
+  for (int i = 0; i < 3; ++i) many.compare(step("right", "1", "1"));
+  for (int i = 0; i < 39; ++i) many.compare(step("wrong", "1", "2"));
+  const std::string text = text_of(many, "r");
+  EXPECT_EQ(std::count(text.begin(), text.end(), '!'), 39);
+  EXPECT_NE(text.find("  2 more steps: r#pixel"), std::string::npos) << text;
+}
+
 // The last of many rows is the wrong one.
 TEST(PixelHistory, AsTextIsShortAndHasWhatDiffers) {
   PixelHistory history{{3, 4}};

@@ -699,6 +699,179 @@ TEST_F(Directory, AManifestCannotPullInFilesFromElsewhere) {
   EXPECT_THROW(build_report(path_), spec::FileError);
 }
 
+struct Inputs {
+  std::int32_t width = 8;
+  std::int64_t error_address = -1;
+};
+template <class Visitor>
+void describe(Inputs& p, Visitor& v) {
+  v.integer("width", p.width, 1, 99, "pixel", "Columns.");
+  v.is_work("width", GivenWork::kSetting);
+  v.integer("error_address", p.error_address, -1, 99, "byte", "Fails.");
+}
+struct One {
+  std::int32_t value = 1;
+};
+template <class Visitor>
+void describe(One& p, Visitor& v) {
+  v.integer("value", p.value, 0, 99, "", "One.");
+}
+struct OfRun {
+  bool images = true, maps = false;
+  std::int64_t window_cycles = 0;
+};
+template <class Visitor>
+void describe(OfRun& p, Visitor& v) {
+  v.boolean("images", p.images, "Pictures.");
+  v.boolean("maps", p.maps, "Maps.");
+  v.integer("window_cycles", p.window_cycles, 0, 99, "clk", "Windows.");
+}
+
+// A run with a parameter of each kind.
+class Manifests : public Directory {
+ protected:
+  Manifests() {
+    set_.add("scene", ParameterKind::kInput, inputs_);
+    set_.add("rule", ParameterKind::kRule, rule_);
+    set_.add("build", ParameterKind::kBuild, build_);
+    set_.add("run", ParameterKind::kRun, run_);
+  }
+  Json manifest(std::uint64_t seed = 5, const std::function<void(RunContext&)>& more = {}) {
+    RunContext context(path_ / "out", set_, "deburr run x", seed);
+    context.set_quiet(true);
+    context.set_title("Title", "Summary");
+    context.set_leaves({{"after"}, {"level"}, true});
+    context.claim();
+    if (more) more(context);
+    Result result;
+    result.unit = "x";
+    result.host_seconds = 2;
+    result.cycles = 3'000'000;
+    context.finish(result);
+    return Json::parse(read_file(path_ / "out/manifest.json", 1 << 20));
+  }
+  Inputs inputs_;
+  One rule_, build_;
+  OfRun run_;
+  ParameterSet set_;
+};
+
+TEST_F(Manifests, SayWhatARunWas) {
+  set_.set("scene.width", "9", "--set");
+  Json json = manifest(5, [](RunContext& context) {
+    context.add_note("of the test");
+    context.add_image("after", Image(2, 1), "After", "Came out.");
+    context.add_map(PictureMap("level", "Level", "level", "Levels.", 2, 2));
+    context.add_record("timeline", kTimelineFile, "{}");
+  });
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : json.items()) keys.push_back(key);
+  EXPECT_THAT(keys,
+              testing::ElementsAre("schema", "state", "unit", "title", "summary", "command",
+                                   "working_directory", "seed", "version", "commit", "model",
+                                   "compiler", "build_type", "systemc", "started", "configuration",
+                                   "rules", "build", "golden", "inputs", "host", "images",
+                                   "pixel_history", "records", "parameters", "files"));
+  const auto entry = [](const char* name, const char* kind, const char* value, const char* from,
+                        const char* usual, const char* range, const char* unit,
+                        const char* meaning) {
+    return Json{{"name", name},     {"kind", kind},   {"value", value}, {"from", from},
+                {"default", usual}, {"range", range}, {"unit", unit},   {"meaning", meaning}};
+  };
+  Json width = entry("scene.width", "input", "9", "given", "8", "1..99", "pixel", "Columns.");
+  width["work"] = "setting";
+  EXPECT_EQ(
+      json["parameters"],
+      (Json{
+          width,
+          entry("scene.error_address", "input", "-1", "default", "-1", "-1..99", "byte", "Fails."),
+          entry("rule.value", "rule", "1", "default", "1", "0..99", "", "One."),
+          entry("build.value", "build", "1", "default", "1", "0..99", "", "One."),
+          entry("run.images", "run", "true", "default", "true", "true | false", "", "Pictures."),
+          entry("run.maps", "run", "false", "default", "false", "true | false", "", "Maps."),
+          entry("run.window_cycles", "run", "0", "default", "0", "0..99", "clk", "Windows.")}));
+  EXPECT_EQ(json["configuration"], set_.resolved());
+  EXPECT_EQ(json["rules"], (Json{{"rule.value", 1}}));
+  EXPECT_EQ(json["build"], (Json{{"build.value", 1}}));
+  EXPECT_EQ(json["host"], (Json{{"seconds", 2.0}, {"mcycles_per_s", 1.5}}));
+  EXPECT_EQ(json["records"], (Json{{"timeline", "timeline.json"}}));
+  EXPECT_EQ(
+      json["images"],
+      (Json{
+          {{"file", "after.png"}, {"role", "after"}, {"title", "After"}, {"caption", "Came out."}},
+          {{"file", "map_level.png"},
+           {"role", "map_level"},
+           {"title", "Map: Level"},
+           {"caption", "Levels. Values in map_level.pfm."}}}));
+  EXPECT_EQ(json["files"], (Json{"after.png", "map_level.pfm", "map_level.png", "report.html",
+                                 "timeline.json", "result.json"}));
+  EXPECT_EQ(json["title"], "Title");
+  EXPECT_EQ(json["summary"], "Summary");
+  EXPECT_EQ(json["command"], "deburr run x");
+  EXPECT_EQ(json["seed"], 5);
+  EXPECT_EQ(json["state"], "complete");
+  EXPECT_EQ(json["unit"], "x");
+  EXPECT_EQ(json["working_directory"], std::filesystem::current_path().string());
+  EXPECT_EQ(read_result(path_ / "out")["notes"], Json{"of the test"});
+}
+
+// Two runs with the same key have the same golden result.
+TEST_F(Manifests, HaveTheKeyOfTheirGoldenResult) {
+  std::set<std::string> keys;
+  const auto golden = [&](std::uint64_t seed = 5, const char* text = nullptr) {
+    return manifest(seed,
+                    [&](RunContext& context) {
+                      if (!text) return;
+                      std::ofstream(path_ / "in.png") << text;
+                      context.add_inputs({path_ / "in.png"});
+                      context.add_configuration(path_ / "c.yaml", text);
+                    })["golden"]
+        .get<std::string>();
+  };
+  const std::string first = golden();
+  keys.insert(first);
+  const auto is_new = [&](const std::string& key) { return keys.insert(key).second; };
+  build_.value = 2;
+  run_.maps = true;
+  EXPECT_EQ(golden(), first) << "what changes no pixel";
+  build_.value = 1;
+  EXPECT_TRUE(is_new(golden(6)));
+  EXPECT_TRUE(is_new(golden(5, "one")));
+  EXPECT_TRUE(is_new(golden(5, "two")));
+  inputs_.width = 7;
+  EXPECT_TRUE(is_new(golden()));
+  rule_.value = 3;
+  EXPECT_TRUE(is_new(golden()));
+  inputs_.error_address = 64;  // what fails depends on what is built
+  EXPECT_TRUE(is_new(golden()));
+  build_.value = 2;
+  EXPECT_TRUE(is_new(golden()));
+  const Json key = golden_dependencies(set_, 9, {"build.value"});
+  EXPECT_EQ(key, (Json{{"seed", 9},
+                       {"scene.width", 7},
+                       {"scene.error_address", 64},
+                       {"rule.value", 3},
+                       {"build.value", 2}}));
+}
+
+// Nothing that somebody else left is replaced, whatever parameter asks for a file of that name.
+TEST_F(Manifests, AreOfRunsThatReplaceNothing) {
+  run_.window_cycles = 10;
+  run_.maps = true;
+  for (const char* name : {"result.json", "report.html", "manifest.json", "windows.json",
+                           "map_level.png", "map_level.pfm", "after.png"}) {
+    std::filesystem::create_directories(path_ / "out");
+    std::ofstream(path_ / "out" / name) << "mine";
+    EXPECT_THROW(manifest(), spec::ConfigError) << name;
+    std::filesystem::remove_all(path_ / "out");
+  }
+  run_.images = false;
+  const Json json =
+      manifest(5, [](RunContext& context) { context.add_image("after", Image(1, 1), "", ""); });
+  EXPECT_TRUE(json["images"].empty());
+  EXPECT_FALSE(json.contains("records"));
+}
+
 TEST_F(Directory, Sha256IsThatOfTheContent) {
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   std::ofstream(path_ / "x") << "abc";
@@ -714,6 +887,27 @@ TEST(Progress, SaysRateAndTimeLeft) {
   EXPECT_EQ(Progress::line("x", "y", 100, 4000, 10), "x    2 %  10 y/s  6 min 30 s left");
   EXPECT_EQ(Progress::line("x", "y", 10, 10, 1), "x  100 %  10 y/s");
   EXPECT_EQ(Progress::line("x", "y", 0, 10, 0), "x    0 %  0 y/s");
+}
+
+TEST(Progress, SaysTimesInTwoUnits) {
+  const auto left = [](double seconds) {  // of a second hundredth
+    return Progress::line("x", "y", 1, 101, seconds / 100);
+  };
+  EXPECT_EQ(left(59.4), "x    0 %  2 y/s  59 s left");
+  EXPECT_EQ(left(59.6), "x    0 %  2 y/s  1 min 00 s left");
+  EXPECT_EQ(left(3599.4), "x    0 %  0 y/s  59 min 59 s left");
+  EXPECT_EQ(left(3600), "x    0 %  0 y/s  1 h 00 min left");
+  EXPECT_EQ(left(7 * 3600 + 5 * 60 + 59), "x    0 %  0 y/s  7 h 05 min left");
+  EXPECT_EQ(Progress::line("x", "y", 999, 1000, 1), "x   99 %  999 y/s  0 s left")
+      << "not before all are done";
+  EXPECT_EQ(Progress::line("x", "y", 1000, 1000, 1), "x  100 %  1.0 ky/s");
+  EXPECT_EQ(Progress::line("x", "y", 2345678, 0, 2), "x  100 %  1.17 My/s");
+  EXPECT_EQ(Progress::fitted(60, "x", "y", 3, 4, 1, ""),
+            "[##################......] x   75 %  3 y/s  0 s left");
+  EXPECT_EQ(out_of_cycles(12345, 678, 9000, "pixel"),
+            "not done after 12,345 cycles, which is all that --max-cycles (run.max_cycles) allows: "
+            "678 of 9,000 pixels are done; "
+            "raise it, or set it to 0 for no limit");
 }
 
 TEST(Progress, FitsEveryTerminal) {
@@ -816,6 +1010,11 @@ TEST(Bottleneck, IsTheDeepestCauseOfTheLoss) {
       {"and one of them past it",
        {unit("luma", 610, {{"memory", 390}}), unit("store_v", 700, {{"memory", 300}})},
        "store_v",
+       "memory"},
+      {"one further down that waits for the next is held up by another",
+       {unit("luma", 600, {{"downstream", 390}}), unit("pixel_store", 610, {{"memory", 390}}),
+        unit("area", 600, {{"downstream", 400}}), unit("blender", 600)},
+       "pixel_store",
        "memory"},
       {"no input",
        {unit("sequencer", 610, {{"upstream", 390}}), unit("blender", 610)},

@@ -181,6 +181,25 @@ TEST_F(Life, OnlyOneRunHasTheDirectory) {
   EXPECT_EQ(fs::exists(second.draft()), true);
 }
 
+TEST_F(Life, SaysWhoseItIs) {
+  RunDirectory first(path_), second(path_);
+  first.claim("deburr run x --seed 3", kNames, IfTaken::kReject);
+  const nlohmann::json claim =
+      nlohmann::json::parse(read_file(path_ / ".deburr_run/claim.json", 1 << 16));
+  char host[256] = {};
+  ::gethostname(host, sizeof host - 1);
+  EXPECT_EQ(claim.at("state"), "running");
+  EXPECT_EQ(claim.at("process"), ::getpid());
+  EXPECT_EQ(claim.at("host"), host);
+  EXPECT_EQ(claim.at("command"), "deburr run x --seed 3");
+  EXPECT_THAT(claim.at("started").get<std::string>(),
+              testing::MatchesRegex("....-..-..T..:..:..Z"));
+  EXPECT_EQ(claim.size(), 5u);
+  EXPECT_THAT(text_of<spec::FileError>([&] { this->claim(second); }),
+              HasSubstr("process " + std::to_string(::getpid()) + " on " + host + " since " +
+                        claim.at("started").get<std::string>() + " (deburr run x --seed 3)"));
+}
+
 TEST_F(Life, ARunThatWaitsGetsItAfterwards) {
   auto first = std::make_unique<RunDirectory>(path_);
   claim(*first);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
@@ -73,6 +74,23 @@ struct Contract {
   std::string title;
   rtl::Cycle latency, interval;
 };
+// "4", "5-17", "18, 19", "4 = 0'", which is 4: a stage begins behind the first clock of the one
+// before, and not later than the clock behind its last one.
+inline void expect_stages_in_order(const rtl::Datasheet& sheet) {
+  int first = -1, last = 0;
+  for (const rtl::Stage& stage : sheet.stages) {
+    // "-", "from 3", "last": of no fixed clock, and so is what comes behind it.
+    if (!std::isdigit(static_cast<unsigned char>(stage.clock.front()))) return;
+    const int begin = std::stoi(stage.clock);
+    EXPECT_GT(begin, first) << title(sheet) << ", stage " << stage.clock;
+    EXPECT_LE(begin, last + 1) << title(sheet) << ", stage " << stage.clock;
+    const std::size_t behind = stage.clock.find_first_of("-,");
+    first = begin;
+    last = behind == std::string::npos ? begin : std::stoi(stage.clock.substr(behind + 1));
+    EXPECT_GE(last, first) << title(sheet) << ", stage " << stage.clock;
+  }
+}
+
 inline void expect_contract(const std::vector<rtl::Datasheet>& sheets,
                             const std::vector<Contract>& contract) {
   for (const rtl::Datasheet& sheet : sheets) {
@@ -84,6 +102,7 @@ inline void expect_contract(const std::vector<rtl::Datasheet>& sheets,
     }
     EXPECT_EQ(sheet.latency.clocks, row->latency) << row->title;
     EXPECT_EQ(sheet.interval.clocks, row->interval) << row->title;
+    expect_stages_in_order(sheet);
   }
   EXPECT_EQ(sheets.size(), contract.size());
 }

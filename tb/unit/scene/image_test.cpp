@@ -68,12 +68,15 @@ TEST(ImageIo, PngKeepsEveryBitWithAndWithoutAlpha) {
   Image image = noise(37, 21, 5);
   write_image(folder / "opaque.png", image);
   EXPECT_EQ(read_image(folder / "opaque.png"), image);
+  image.pixels[5][3] = 254;  // alpha is kept though nothing is transparent
+  write_image(folder / "nearly.png", image);
+  EXPECT_EQ(read_image(folder / "nearly.png"), image);
   // Transparent pixels keep their colour: nothing is multiplied by alpha.
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     image.pixels[i][3] = static_cast<std::uint8_t>(i % 256);
   write_image(folder / "alpha.png", image);
   EXPECT_EQ(read_image(folder / "alpha.png"), image);
-  EXPECT_EQ(folder.files(), 2u);
+  EXPECT_EQ(folder.files(), 3u);
 }
 
 TEST(ImageIo, PngOfEveryShapeIsReadByOthers) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/unit/scene/fixtures.h"
 
 namespace deburr::tb::label_test {
 namespace {
@@ -38,6 +39,12 @@ TEST(Label, PutsLettersSideBySideAtAnyScale) {
     EXPECT_EQ(one.at(6, y), kInk);
     EXPECT_EQ(one.at(11, y), kPaper);
   }
+}
+
+TEST(Label, HasTheDotsThatWereDrawn) {
+  EXPECT_EQ(test::fnv(label("abcdefghijklmnopqrstuvwxyzABMS0123456789.,-+ ", 1, kInk, kPaper)),
+            0x5E31BCB3990285BDu);
+  EXPECT_EQ(label("", 2).width, 2);
 }
 
 TEST(Label, RejectsWhatItHasNoLetterFor) {

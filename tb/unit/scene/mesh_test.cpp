@@ -204,6 +204,94 @@ TEST(Obj, DamagedBytesNeverCrash) {
   EXPECT_GT(rejected, 200);
 }
 
+TEST(Obj, BoxesAreProjectedAlongTheirFaces) {
+  struct Side {
+    const char* corners;  // a triangle of the box 0..8, 0..4, 0..2
+    std::array<V2d, 3> uv;
+  };
+  // A scale of half a repeat a unit, from the lowest corner of the box.
+  const Side sides[] = {
+      {"v 0 4 2\nv 8 4 2\nv 8 4 0\n", {V2d(0, 1), V2d(4, 1), V2d(4, 0)}},     // up
+      {"v 0 0 0\nv 8 0 0\nv 8 0 2\n", {V2d(0, 0), V2d(4, 0), V2d(4, 1)}},     // down
+      {"v 8 0 2\nv 8 0 0\nv 8 4 0\n", {V2d(-1, 0), V2d(0, 0), V2d(0, -2)}},   // right
+      {"v 0 0 0\nv 0 0 2\nv 0 4 2\n", {V2d(0, 0), V2d(1, 0), V2d(1, -2)}},    // left
+      {"v 0 0 2\nv 8 0 2\nv 8 4 2\n", {V2d(0, 0), V2d(4, 0), V2d(4, -2)}},    // front
+      {"v 8 0 0\nv 0 0 0\nv 0 4 0\n", {V2d(-4, 0), V2d(0, 0), V2d(0, -2)}}};  // back
+  const TemporaryFolder folder;
+  for (const Side& side : sides) {
+    const Mesh mesh = import_mesh(
+        folder.write("b.obj", std::string(side.corners) +
+                                  "v 0 0 0\nv 8 4 2\nv 0 4 2\nvn 0 0 2\nf 1//1 2//1 3\nf 4 5 6\n"));
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(corner(mesh, 0, k).uv, side.uv[k]) << side.corners << k;
+    EXPECT_EQ(corner(mesh, 0, 0).normal, V3d(0, 0, 1)) << "one unit long";
+    EXPECT_THAT(mesh.notes,
+                ElementsAre("2 triangles without texture coordinates got a box projection",
+                            "4 corners without a normal got their face's"));
+  }
+}
+
+// Of the whole mesh, those triangles too that have coordinates of their own.
+TEST(Obj, ABoxIsAroundEverything) {
+  const TemporaryFolder folder;
+  const Mesh mesh = import_mesh(folder.write(
+      "a.obj",
+      "v -4 0 0\nv 12 0 0\nv 0 0 1\nvt 0 0\nf 1/1 2/1 3/1\nv 0 0 0\nv 0 0 8\nv 8 0 0\nf 4 5 6\n"));
+  EXPECT_EQ(corner(mesh, 1, 0).uv, V2d(1, 0));
+  EXPECT_EQ(corner(mesh, 1, 1).uv, V2d(1, 2));
+  EXPECT_EQ(corner(mesh, 1, 2).uv, V2d(3, 0));
+}
+
+TEST(Obj, WhatIsLeftOutIsNoted) {
+  const TemporaryFolder folder;
+  const Mesh mesh = import_mesh(
+      folder.write("n.obj", std::string("v 9 9 +9\nl 1 2\n") + "usemtl none\n" + kSquare));
+  EXPECT_THAT(mesh.notes, Contains("points and lines were left out"));
+  EXPECT_EQ(mesh.materials[0].colour, V3d(0.8, 0.8, 0.8));
+  EXPECT_EQ(mesh.materials[0].name, "default");
+  write_image(folder / "t.png", noise(8, 8));
+  folder.write("m.mtl", "newmtl a\nKd 0.5 0.25 0.125\nmap_Kd .\\t.png\n");
+  const Mesh named =
+      import_mesh(folder.write("m.obj", std::string("mtllib m.mtl\nusemtl a\n") + kSquare));
+  EXPECT_EQ(named.textures.at(0).image, noise(8, 8));
+  EXPECT_EQ(named.materials.at(0).colour, V3d(0.5, 0.25, 0.125));
+}
+
+// Seventeen colours: the last one begins a second row of cells of four by four texels.
+TEST(Palette, HasACellForEachPlainMaterial) {
+  Mesh mesh;
+  for (int i = 0; i < 17; ++i) {
+    mesh.materials.push_back({"m", V3d(i / 16.0, 0.5, 2), -1});
+    for (int k = 0; k < 3; ++k) mesh.vertices.push_back({V3d(k, i, 0), V3d(0, 0, 1), V2d(k, k)});
+    const auto first = static_cast<std::uint32_t>(3 * i);
+    mesh.triangles.push_back({{first, first + 1, first + 2}, static_cast<std::uint32_t>(i)});
+  }
+  Mesh textured = mesh;
+  const Texture wood{"wood", noise(4, 4)};
+  texture_everything(textured, &wood);
+  ASSERT_EQ(textured.textures.size(), 1u);
+  EXPECT_EQ(textured.textures[0].name, "wood");
+  EXPECT_EQ(textured.materials[16].texture, 0);
+  EXPECT_EQ(textured.materials[16].colour, V3d(1, 0.5, 2)) << "and not in a palette";
+  texture_everything(mesh, nullptr);
+  ASSERT_EQ(mesh.textures.size(), 1u);
+  const Image& palette = mesh.textures[0].image;
+  EXPECT_EQ(palette.width, 64);
+  EXPECT_EQ(palette.height, 8);
+  for (int i = 0; i < 17; ++i) {
+    const int left = i % 16 * 4, top = i / 16 * 4;
+    const auto red = static_cast<std::uint8_t>(std::lround(255 * std::pow(i / 16.0, 1 / 2.2)));
+    for (const auto& [x, y] : {std::pair(0, 0), {3, 0}, {0, 3}, {3, 3}})
+      EXPECT_EQ(palette.at(left + x, top + y), (Rgba8{red, 186, 255, 255})) << i;
+    EXPECT_EQ(mesh.materials[static_cast<std::size_t>(i)].colour, V3d(1, 1, 1));
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(corner(mesh, static_cast<std::size_t>(i), k).uv,
+                V2d((left + 2) / 64.0, (top + 2) / 8.0));
+  }
+  EXPECT_EQ(palette.at(4, 4), (Rgba8{255, 255, 255, 255})) << "nobody's";
+  EXPECT_EQ(mesh.vertices.size(), 2u * 51);
+}
+
 // ---- files --------------------------------------------------------------------------------------
 
 // Of the import, from the folder on, which has to be the list that is had without it.
@@ -514,6 +602,61 @@ TEST(Gltf, StripsAndFans) {
   file.primitive = R"({"attributes":{"POSITION":0},"indices":2,"mode":6})";
   const Mesh fan = import_mesh(folder.write("f.glb", file.glb()));
   EXPECT_EQ(corner(fan, 1, 1).position, V3d(0, 1, 0));  // 0 2 0
+}
+
+// Numbers of every width, as shares and apart from each other; what is left out is noted.
+TEST(Gltf, QuantisedNumbersAndWhatIsLeftOut) {
+  const TemporaryFolder folder;
+  write_image(folder / "wood.png", noise(4, 4));
+  GltfFile bytes;
+  bytes.binary.clear();
+  bytes.append<std::int16_t>(
+      {0, 0, 0, 9, 32767, 0, 0, 9, 0, -32768, 0, 9});  // 24 bytes, eight a vertex
+  bytes.append<std::int8_t>({0, 0, 127, 9, 0, 0, 127, 9, 0, 0, 127, 9});  // 12
+  bytes.append<std::uint16_t>({0, 0, 65535, 0, 0, 13107});                // 12: 13107 is a fifth
+  bytes.append<std::uint8_t>({2, 1, 0, 51, 102, 255, 0, 0});              // 8
+  folder.write("q.bin", bytes.binary);
+  const auto gltf = [&](const std::string& uv) {
+    return R"({"asset":{"version":"2.0"},"nodes":[{"children":[1]},{"mesh":0,"translation":[0,0,5]}],"skins":[{"joints":[0]}],
+      "extensionsRequired":["KHR_mesh_quantization"],"extensionsUsed":["KHR_mesh_quantization"],
+      "meshes":[{"primitives":[{"mode":0,"attributes":{"POSITION":0}},
+        {"attributes":{"POSITION":0,"NORMAL":1,"COLOR_0":1,"TEXCOORD_1":)" +
+           uv + R"(},"indices":3,"material":0}, {"attributes":{"POSITION":0},"indices":3}]}],
+      "materials":[{"name":"m","pbrMetallicRoughness":{"baseColorFactor":[0.25,0.5,0.75,1],
+        "baseColorTexture":{"index":0,"texCoord":1}}}],
+      "textures":[{"source":0}],"images":[{"uri":"wood.png"}],
+      "accessors":[{"bufferView":0,"componentType":5122,"normalized":true,"count":3,"type":"VEC3"},
+        {"bufferView":1,"componentType":5120,"normalized":true,"count":3,"type":"VEC3"},
+        {"bufferView":2,"componentType":5123,"normalized":true,"count":3,"type":"VEC2"},
+        {"bufferView":3,"componentType":5121,"count":3,"type":"SCALAR"},
+        {"bufferView":3,"componentType":5121,"normalized":true,"byteOffset":2,"count":3,"type":"VEC2"}],
+      "bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":24,"byteStride":8},
+        {"buffer":0,"byteOffset":24,"byteLength":12,"byteStride":4},{"buffer":0,"byteOffset":36,"byteLength":12},
+        {"buffer":0,"byteOffset":48,"byteLength":8}],
+      "buffers":[{"byteLength":56,"uri":"q.bin"}]})";
+  };
+  const Mesh mesh = import_mesh(folder.write("q.gltf", gltf("2")));
+  ASSERT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_EQ(corner(mesh, 0, 0).position, V3d(0, -1, 5));
+  EXPECT_EQ(corner(mesh, 0, 1).position, V3d(1, 0, 5));
+  EXPECT_EQ(corner(mesh, 0, 2).position, V3d(0, 0, 5));
+  EXPECT_EQ(corner(mesh, 0, 0).normal, V3d(0, 0, 1));
+  EXPECT_NEAR(corner(mesh, 0, 0).uv.y, 0.2, 1e-12);
+  EXPECT_EQ(corner(mesh, 0, 1).uv, V2d(1, 0));
+  ASSERT_EQ(mesh.materials.size(), 2u);
+  EXPECT_EQ(mesh.materials[0].colour, V3d(0.25, 0.5, 0.75));
+  EXPECT_EQ(mesh.materials[mesh.triangles[1].material].name, "default");
+  EXPECT_EQ(mesh.materials[mesh.triangles[1].material].colour, V3d(0.8, 0.8, 0.8));
+  EXPECT_EQ(mesh.textures.at(0).wrap_s, spec::texture::Wrap::kRepeat);
+  EXPECT_THAT(mesh.notes,
+              ElementsAre("points and lines were left out", "vertex colours were left out",
+                          "skins were left out: the bind pose is drawn",
+                          "1 triangles without texture coordinates got a box projection",
+                          "3 corners without a normal got their face's"));
+  const Mesh other = import_mesh(folder.write("o.gltf", gltf("4")));  // bytes 50 and on
+  EXPECT_NEAR(corner(other, 0, 2).uv.y, 0.2, 1e-12);
+  EXPECT_NEAR(corner(other, 0, 1).uv.x, 0.4, 1e-12);
+  EXPECT_EQ(corner(other, 0, 1).uv.y, 1);
 }
 
 TEST(Gltf, DamagedBytesNeverCrash) {

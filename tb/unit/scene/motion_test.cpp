@@ -46,6 +46,15 @@ TEST(Motion, StepsAreThoseOfTheContract) {
   EXPECT_NEAR(std::acos(before.dot(after)), 8 * 0.7 / 400, 1e-9);
 }
 
+TEST(Motion, APanTurnsToTheRight) {
+  const Camera c{V3d(0, 0, 2), V3d(0, 0, 0), V3d(0, 1, 0), 0.8, 0.1};
+  const Camera panned = moved(c, Motion::kPan, 50);  // 0.1 radian, two units away
+  EXPECT_NEAR(panned.target.x, 2 * std::tan(0.1), 1e-12);
+  EXPECT_NEAR(panned.target.y, 0, 1e-12);
+  EXPECT_EQ(panned.eye, c.eye);
+  EXPECT_EQ(panned.fov_y, c.fov_y);
+}
+
 TEST(Flicker, IsWhatChangesMoreOrLessThanTheTruth) {
   const Image dark(2, 1, {10, 10, 10, 255}), bright(2, 1, {40, 40, 40, 255});
   Image half = bright;

@@ -6,9 +6,12 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "spec/error.h"
 #include "tb/scene/compose.h"
+#include "tb/scene/depth_codes.h"
 
 namespace deburr::tb::quality_test {
 namespace {
@@ -58,6 +61,23 @@ TEST(Quality, EdgesAndSilhouettes) {
   const float infinity = std::numeric_limits<float>::infinity();
   depth.pixels = {1.0f, 0.0f, infinity, 0.0f, 0.5f};
   EXPECT_EQ(silhouette_mask(edges, depth).pixels, (std::vector<std::uint8_t>{0, 0, 0, 0, 1}));
+}
+
+// A step to any of the four neighbours, and none across the picture's border.
+TEST(Quality, SilhouettesLookAtFourNeighbours) {
+  Mask edges(4, 3, 1);
+  DepthImage depth(4, 3, 1.0f);
+  depth.at(2, 1) = 0.5f;
+  EXPECT_EQ(silhouette_mask(edges, depth).pixels,
+            (std::vector<std::uint8_t>{0, 0, 1, 0, 0, 1, 1, 1, 0, 0, 1, 0}));
+  edges.at(2, 0) = edges.at(3, 1) = 0;
+  EXPECT_EQ(silhouette_mask(edges, depth).pixels,
+            (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0}));
+  depth = DepthImage(4, 3, 1.0f);
+  depth.at(0, 2) = 1.05f;  // just no step of 5 % and just one
+  EXPECT_EQ(count(silhouette_mask(edges, depth, 0.051)), 0);
+  EXPECT_EQ(count(silhouette_mask(edges, depth, 0.049)), 3);
+  EXPECT_THROW(silhouette_mask(edges, DepthImage(3, 4)), spec::ConfigError);
 }
 
 // docs/reference/run.md#several-frames, by hand.
@@ -130,6 +150,52 @@ TEST(Compose, DifferenceCropZoomAndSheet) {
   draw_frame(framed, 1, 0, 2, 2, red);
   EXPECT_EQ(framed.at(1, 0), red);
   EXPECT_EQ(framed.at(3, 0), a.at(3, 0));
+}
+
+// Pixel by pixel: "#" is drawn, a digit is the red of what was there.
+TEST(Compose, PicturesByThePixel) {
+  const auto text = [](const Image& image) {
+    std::string all;
+    for (int y = 0; y < image.height; ++y, all += '|')
+      for (int x = 0; x < image.width; ++x)
+        all += image.at(x, y)[0] == 255 ? '#' : static_cast<char>('0' + image.at(x, y)[0]);
+    return all;
+  };
+  const auto numbered = [](int width, int height) {
+    Image image(width, height);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+      image.pixels[i] = {static_cast<std::uint8_t>(i), 0, 0, 255};
+    return image;
+  };
+  const Rgba8 ink{255, 0, 0, 255};
+  const auto framed = [&](int x, int y, int width, int height) {
+    Image image(5, 4, {0, 0, 0, 255});
+    draw_frame(image, x, y, width, height, ink);
+    return text(image);
+  };
+  EXPECT_EQ(framed(1, 0, 3, 4), "0###0|0#0#0|0#0#0|0###0|");
+  EXPECT_EQ(framed(-1, 2, 4, 9), "00000|00000|###00|00#00|");
+  EXPECT_EQ(framed(3, -3, 9, 5), "000#0|000##|00000|00000|");
+  EXPECT_EQ(framed(2, 1, 1, 1), "00000|00#00|00000|00000|");
+  EXPECT_EQ(text(crop(numbered(4, 3), 1, 1, 2, 2)), "56|9:|");
+  EXPECT_EQ(text(crop(numbered(4, 3), 3, 2, 2, 2)), "67|:;|");
+  EXPECT_EQ(text(crop(numbered(4, 3), -1, -1, 9, 1)), "0123|");
+  EXPECT_EQ(text(zoom(numbered(2, 2), 2)), "0011|0011|2233|2233|");
+  EXPECT_EQ(text(zoom(numbered(2, 1), 0)), "01|");
+  EXPECT_EQ(text(sheet({numbered(2, 1), numbered(1, 2), numbered(1, 1)}, 2, 1, ink)),
+            "01#0#|###1#|#####|0####|#####|");
+  EXPECT_EQ(text(sheet({numbered(1, 1), numbered(1, 1)}, 9, 2, ink)), "0##0|");
+  EXPECT_EQ(sheet({}, 2, 1, ink).width, 0);
+  Image onto = numbered(3, 3);
+  paste(onto, Image(2, 1, ink), 1, 2);
+  EXPECT_EQ(text(onto), "012|345|6##|");
+}
+
+TEST(DepthCodes, AreRoundedTo24Bits) {
+  DepthImage depth(8, 1);
+  depth.pixels = {0.0f, 1.0f, 0.5f, -1.0f, 2.0f, std::nanf(""), 1.4f / 0xFFFFFF, 1.6f / 0xFFFFFF};
+  EXPECT_EQ(depth_codes(depth),
+            (std::vector<std::uint32_t>{0, 0xFFFFFF, 0x800000, 0, 0xFFFFFF, 0, 1, 2}));
 }
 
 }  // namespace

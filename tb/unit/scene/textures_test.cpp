@@ -35,6 +35,21 @@ TEST(Textures, BytesAreRecorded) {
   EXPECT_EQ(fnv(make_texture("noise", 256, 256)), 0x12F83692F78AA84u);
 }
 
+TEST(Textures, StonesAreRecorded) {
+  EXPECT_EQ(fnv(make_texture("stones", 256, 256)), 0x2BE620F5D8625DB1u);
+  EXPECT_NE(make_texture("stones", 64, 64, 1), make_texture("stones", 64, 64, 2));
+}
+
+TEST(Textures, AGradientGoesFromSideToSide) {
+  const Image image = gradient(6, 4);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 6; ++x)
+      EXPECT_EQ(image.at(x, y),
+                (Rgba8{static_cast<std::uint8_t>(51 * x), static_cast<std::uint8_t>(85 * y),
+                       static_cast<std::uint8_t>(255 - 51 * x), 255}));
+  EXPECT_EQ(gradient(1, 1).at(0, 0), (Rgba8{0, 0, 255, 255}));
+}
+
 TEST(Textures, UnknownNameListsTheKnown) {
   try {
     make_texture("chequer", 64, 64);

@@ -205,6 +205,123 @@ TEST(Truth, PicturesAreRecorded) {
   }
 }
 
+// A square at one unit from the eye that faces it. The pixel right below the middle is seen half a
+// pixel of eight aside, both ways.
+class LitSquare : public testing::Test {
+ protected:
+  LitSquare() {
+    screen_.rectangle(2, 2, 14, 14);
+    Scene& scene = screen_.scene();
+    scene.mesh.materials[0].colour = {0.5, 0.25, 0.0625};
+    scene.lighting = {.key_direction = {0, 0, 2},
+                      .fill_direction = {0, 3, 4},
+                      .key = 0.5,
+                      .fill = 0.25,
+                      .ambient = 0.125,
+                      .specular = 0.25};
+    scene.sky_top = {0, 100, 200, 255};
+    scene.sky_bottom = {160, 100, 40, 255};
+  }
+  Image picture(Shading shading) const {
+    return render(scene_of(), {.width = 16,
+                               .height = 16,
+                               .samples = 1,
+                               .shading = shading,
+                               .averaging = Averaging::kLinear});
+  }
+  const Scene& scene_of() const { return const_cast<FlatScreen&>(screen_).scene(); }
+  static Rgba8 coded(double red, double green, double blue) {
+    Rgba8 colour = {0, 0, 0, 255};
+    std::size_t c = 0;
+    for (const double light : {red, green, blue})
+      colour[c++] = static_cast<std::uint8_t>(std::lround(255 * std::pow(light, 1 / 2.2)));
+    return colour;
+  }
+  // All of the key light, 0.8 of the other one.
+  static constexpr double kDiffuse = 0.125 + 0.5 + 0.25 * 0.8;
+  FlatScreen screen_{16};
+};
+
+TEST_F(LitSquare, HasTheLightOfBothLamps) {
+  const Rgba8 expected = coded(0.5 * kDiffuse, 0.25 * kDiffuse, 0.0625 * kDiffuse);
+  const Image image = picture(Shading::kLit);
+  EXPECT_EQ(image.at(8, 8), expected);
+  EXPECT_EQ(image.at(2, 2), expected);
+  // Row by row from one colour to the other: (y + 0.5) / 16 of the way.
+  EXPECT_EQ(image.at(0, 0), (Rgba8{5, 100, 195, 255}));
+  EXPECT_EQ(image.at(15, 7), (Rgba8{75, 100, 125, 255}));
+  EXPECT_EQ(image.at(1, 15), (Rgba8{155, 100, 45, 255}));
+  // Its other side is lit as well: the normals turn to the eye.
+  for (Vertex& vertex : screen_.scene().mesh.vertices) vertex.normal = {0, 0, -1};
+  EXPECT_EQ(picture(Shading::kLit).at(8, 8), expected);
+  for (Triangle& triangle : screen_.scene().mesh.triangles)
+    std::swap(triangle.vertex[0], triangle.vertex[1]);
+  EXPECT_EQ(picture(Shading::kLit).at(8, 8), expected);
+  // Normals of the vertices count where the scene is smooth.
+  for (Vertex& vertex : screen_.scene().mesh.vertices) vertex.normal = {0.6, 0, -0.8};
+  screen_.scene().lighting.smooth = false;
+  EXPECT_EQ(picture(Shading::kLit).at(8, 8), expected);
+  screen_.scene().lighting.smooth = true;
+  const double tilted = 0.125 + 0.5 * 0.8 + 0.25 * 0.64;
+  EXPECT_EQ(picture(Shading::kLit).at(8, 8), coded(0.5 * tilted, 0.25 * tilted, 0.0625 * tilted));
+}
+
+TEST_F(LitSquare, ShinesByPhong) {
+  const auto shines = [](double x, double y) {  // towards the eye from there
+    const double length = std::sqrt(x * x + y * y + 1), key = 1 / length,
+                 fill = (-0.6 * y + 0.8) / length;
+    return 0.25 * (0.5 * std::pow(key, 32) + 0.25 * std::pow(fill, 32));
+  };
+  const auto expected = [&](double x, double y) {
+    const double s = shines(x, y);
+    return coded(0.5 * kDiffuse + s, 0.25 * kDiffuse + s, 0.0625 * kDiffuse + s);
+  };
+  const Image image = picture(Shading::kPhong);
+  EXPECT_EQ(image.at(8, 8), expected(-0.0625, 0.0625));
+  EXPECT_EQ(image.at(10, 11), expected(-0.3125, 0.4375));
+  EXPECT_EQ(image.at(3, 3), expected(0.5625, -0.5625));
+  const GBuffer buffer = render_gbuffer(scene_of(), 16, 16);
+  EXPECT_EQ(buffer.normal.at(5, 9), (std::array<float, 3>{0, 0, 1}));
+  EXPECT_EQ(buffer.albedo.at(5, 9), (std::array<float, 4>{0.5F, 0.25F, 0.0625F, 1}));
+  EXPECT_EQ(buffer.depth.at(5, 9), 0.01F);
+  EXPECT_EQ(buffer.depth.at(1, 9), 0.0F);
+  EXPECT_EQ(light(scene_of(), buffer), image);
+}
+
+TEST(Truth, DeferredLightIsThatOfTheFrame) {
+  const Scene scene = make_scene("object", {.texture_size = 64});
+  const Image image = render(scene, {.width = 97,
+                                     .height = 61,
+                                     .samples = 1,
+                                     .shading = Shading::kPhong,
+                                     .averaging = Averaging::kLinear});
+  EXPECT_EQ(light(scene, render_gbuffer(scene, 97, 61)), image);
+  EXPECT_EQ(render_covered(scene, 97, 61, 1, Shading::kPhong), image);
+  const LitFrames frames = render_lit_frames(scene, 33, 31, 3, {}, Shading::kPhong);
+  EXPECT_EQ(frames.truth, render(scene, {.width = 33,
+                                         .height = 31,
+                                         .samples = 3,
+                                         .shading = Shading::kPhong,
+                                         .averaging = Averaging::kLinear}));
+  EXPECT_EQ(frames.noaa, render_covered(scene, 33, 31, 1, Shading::kPhong));
+}
+
+// Samples of coverage stand at the middles of equal parts of the pixel.
+TEST(Covered, CountsItsSamples) {
+  for (const int samples : {1, 2, 3, 8}) {
+    FlatScreen screen(16);
+    const double at = 5 + 1.0 / 3;
+    screen.rectangle(at, -1, 40, 40);
+    screen.scene().lighting = {.key = 0, .fill = 0, .ambient = 1};
+    int inside = 0;
+    for (int i = 0; i < samples; ++i) inside += (2 * i + 1.0) / (2 * samples) > 1.0 / 3 ? 1 : 0;
+    EXPECT_EQ(render_covered(screen.scene(), 16, 16, samples).at(5, 8)[0],
+              std::lround(255 * std::pow(inside / double(samples), 1 / 2.2)))
+        << samples;
+  }
+  EXPECT_THROW(render_covered(FlatScreen(16).scene(), 16, 16, 0), spec::ConfigError);
+}
+
 TEST(Truth, RejectsImpossibleRequests) {
   const Scene scene = make_scene("quad", {.texture_size = 16});
   EXPECT_THROW(render(scene, texture_options(16, 0)), spec::ConfigError);

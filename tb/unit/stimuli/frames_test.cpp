@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "spec/error.h"
 
 namespace deburr::tb::stimuli::frames_test {
@@ -45,6 +47,40 @@ TEST(Frames, TurnedTwiceAreThemselves) {
   EXPECT_EQ(inverted(inverted(image)), image);
   EXPECT_EQ(transposed(image).at(3, 7), image.at(7, 3));
   EXPECT_NE(mirrored_x(image), image);
+}
+
+// White is "#".
+std::string drawn(const Image& image) {
+  std::string text;
+  for (int y = 0; y < image.height; ++y, text += '|')
+    for (int x = 0; x < image.width; ++x) text += image.at(x, y)[0] == 255 ? '#' : '.';
+  return text;
+}
+
+TEST(Frames, AreDrawnByTheirFormulas) {
+  EXPECT_EQ(drawn(checkerboard(3, 2)), ".#.|#.#|");
+  EXPECT_EQ(drawn(diagonals(5, 2, 2)), "..##.|.##..|");
+  EXPECT_EQ(drawn(long_step(2)), "....|...#|.###|####|");
+  EXPECT_EQ(drawn(long_bar(2)), "....|.##.|####|");
+  EXPECT_EQ(drawn(mirrored_x(long_step(2))), "....|#...|###.|####|");
+  EXPECT_EQ(drawn(mirrored_y(long_step(2))), "####|.###|...#|....|");
+  EXPECT_EQ(drawn(transposed(long_bar(2))), "..#|.##|.##|..#|");
+  Image colour(1, 1, {10, 20, 30, 40});
+  EXPECT_EQ(inverted(colour).at(0, 0), (Rgba8{245, 235, 225, 40}));
+  EXPECT_EQ(hash(colour), hash(Image(1, 1, {10, 20, 30, 0}))) << "no alpha";
+  EXPECT_NE(hash(colour), hash(Image(1, 1, {10, 20, 31, 40})));
+}
+
+// Three rows alike, of dark and bright greys in turn; a last one may be lower.
+TEST(Frames, BandsAreThreeRowsHigh) {
+  Random random(3);
+  const Image image = bands(40, 8, random);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 40; ++x) {
+      const int code = image.at(x, y)[0] - (y / 3 % 2 == 0 ? 0 : 135);
+      EXPECT_TRUE(code == 0 || code == 40 || code == 80) << x << ", " << y;
+      EXPECT_EQ(image.at(x, y), image.at(x, y / 3 * 3));
+    }
 }
 
 }  // namespace

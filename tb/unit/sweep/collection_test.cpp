@@ -303,5 +303,31 @@ TEST_F(SweepCollection, TheStatusCountsStatesAndShowsTheFirstFailures) {
   EXPECT_EQ(status.time_left, "") << "nobody is at it";
 }
 
+// ---- what it was made from ----------------------------------------------------------------------
+
+TEST_F(SweepCollection, APlanIsOfItsFileWhatThatIncludesAndWhatPointsRead) {
+  const std::filesystem::path file = write("all.yaml", "all"), part = write("part.yaml", "part"),
+                              picture = write("picture.png", "picture");
+  std::filesystem::create_directories(place().directory);
+  Plan made;
+  made.file = file.string();
+  made.parts = {{part.string(), sha256_of_file(part)}};
+  made.files = {{picture.string(), sha256_of_file(picture)}};
+  write_plan(made, place());
+  const auto changes = [&] { return changes_since(read_plan(place().directory), file); };
+  EXPECT_THAT(changes(), testing::IsEmpty());
+  for (const std::filesystem::path& each : {file, part, picture}) {
+    const std::string before = read(each);
+    write(each.filename(), before + "!");
+    EXPECT_THAT(changes(), testing::ElementsAre("'" + each.string() + "'"));
+    write(each.filename(), before);
+  }
+  std::filesystem::remove(part);
+  EXPECT_THAT(changes(), testing::ElementsAre("'" + part.string() + "'"));
+  made.model = "another";
+  EXPECT_THAT(changes_since(made, file),
+              testing::ElementsAre("the model", "'" + part.string() + "'"));
+}
+
 }  // namespace
 }  // namespace deburr::tb::collection_test

@@ -22,28 +22,6 @@
 namespace deburr::tb::scene_test {
 namespace {
 
-TEST(EncodeTexel, RoundsEachChannelToTheNearestCode) {
-  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kRgba8, {1, 2, 3, 4}), 0x04030201u);
-  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kSrgb8A8, {1, 2, 3, 4}), 0x04030201u);
-  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kRgb565, {255, 255, 255, 0}), 0xFFFFu);
-  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kRgb565, {255, 0, 0, 255}), 0xF800u);
-  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kRgba4444, {255, 0, 0, 255}), 0xF00Fu);
-  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kRgba4444, {8, 9, 255, 0}), 0x01F0u)
-      << "17 is the step";
-  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kL8, {255, 255, 255, 255}), 255u);
-  EXPECT_EQ(platform::encode_texel(spec::texture::Format::kL8, {200, 200, 200, 0}), 200u)
-      << "grey stays grey";
-  // Every 8-bit value goes to the nearest of the 32 values that the format can stand for.
-  for (int v = 0; v < 256; ++v) {
-    const auto code =
-        static_cast<int>(platform::encode_texel(spec::texture::Format::kRgb565,
-                                                {static_cast<std::uint8_t>(v), 0, 0, 0}) >>
-                         11);
-    const auto error = [&](int c) { return std::abs(v * 31 - c * 255); };
-    for (int other = 0; other < 32; ++other) EXPECT_LE(error(code), error(other)) << v;
-  }
-}
-
 TEST(TextureMemory, EveryTexelIsWhereItsFormatAndLayoutSay) {
   const Image image = noise(37, 21, 3);
   const std::vector<Image> levels = mip_chain(image);

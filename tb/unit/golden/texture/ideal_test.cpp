@@ -161,6 +161,22 @@ TEST(Level, AWholeRatioIsTheNumberOfSamples) {
     }
 }
 
+// A cap of texels is that of the count: with any count the length itself, else whole levels of it.
+TEST(Level, TheCapOfTexelsIsOfTheCount) {
+  spec::texture::Parameters parameters;
+  parameters.count_cap = spec::texture::CountCap::kTexel;
+  spec::texture::Descriptor descriptor;
+  descriptor.max_anisotropy_log2 = 4;
+  const PixelFootprint f{0, 0, std::exp2(1.5), 0, 0, 1.0 / 8};
+  const auto sampled = [&](spec::texture::CountRule count) {
+    parameters.count = count;
+    return level_of_detail(parameters, descriptor, f).sampled;
+  };
+  EXPECT_NEAR(sampled(spec::texture::CountRule::kAny), 1.5, 1e-12);
+  EXPECT_EQ(sampled(spec::texture::CountRule::kFloor), 2);
+  EXPECT_EQ(sampled(spec::texture::CountRule::kCeil), 2);
+}
+
 TEST(Ellipse, FilteringALinearRampGivesItsCentre) {
   const TextureImage texture = image(ramp(64));
   spec::texture::Descriptor descriptor;
@@ -362,7 +378,8 @@ TEST(Ewa, IsTheSumOfItsDefinition) {
         EwaOptions{.alpha = 4, .radius = 1.5, .reconstruction = 0.25}}) {
     for (const PixelFootprint& f :
          {PixelFootprint{20.2, 17.9, 9, 4, -2, 3}, PixelFootprint{0.5, 0.5, 0.3, 0, 0, 0.3},
-          PixelFootprint{30, 3, 25, -20, 1, 1}, PixelFootprint{10.73, 11.1, 0, 12, 12, 0}}) {
+          PixelFootprint{30, 3, 25, -20, 1, 1}, PixelFootprint{10.73, 11.1, 0, 12, 12, 0},
+          PixelFootprint{20.2, 17.9, 1, 2, -1, 14}}) {
       EXPECT_LT(largest_difference(ewa(texture, f, options), brute_force_ewa(picture, f, options)),
                 1e-6)
           << options.alpha << " " << options.radius << " at " << f.s;

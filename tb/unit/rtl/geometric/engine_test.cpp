@@ -273,13 +273,14 @@ TEST(Memories, OfKeptColoursAndTheWriteBuffer) {
   for (const rtl::MemoryBase* memory : b.engine.memories())
     built[std::string(memory->name()).substr(std::string("engine.").size())] =
         std::string(rtl::name_of(memory->memory_kind())) + " " + std::to_string(memory->words()) +
-        " x " + std::to_string(memory->word_bits()) + " " + memory->ports();
-  EXPECT_EQ(built["kept_colours"], "sram 100 x 512 1R1W");
-  EXPECT_EQ(built["kept_tags"], "flops 100 x 23 100R1W");
-  EXPECT_EQ(built["colour_order"], "sram 108 x 9 1R1W");
-  EXPECT_EQ(built["weight_combiner.write_buffer"], "sram 40 x 512 1R1W");
-  EXPECT_EQ(built["weight_combiner.write_tags"], "flops 40 x 23 40R1W");
-  EXPECT_EQ(built["weight_combiner.latency_fifo"], "sram 128 x 177 1R1W");
+        " x " + std::to_string(memory->word_bits()) + " " + memory->ports() + " in " +
+        std::to_string(memory->shape().latency);
+  EXPECT_EQ(built["kept_colours"], "sram 100 x 512 1R1W in 1");
+  EXPECT_EQ(built["kept_tags"], "flops 100 x 23 100R1W in 0");
+  EXPECT_EQ(built["colour_order"], "sram 108 x 9 1R1W in 1");
+  EXPECT_EQ(built["weight_combiner.write_buffer"], "sram 40 x 512 1R1W in 1");
+  EXPECT_EQ(built["weight_combiner.write_tags"], "flops 40 x 23 40R1W in 0");
+  EXPECT_EQ(built["weight_combiner.latency_fifo"], "sram 128 x 177 1R1W in 1");
 }
 // What the page's formulas say of other builds: rows of any length are rounded up.
 TEST(Memories, RowsOfAnyLengthFit) {

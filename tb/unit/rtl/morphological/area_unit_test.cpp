@@ -549,6 +549,22 @@ TEST(AreaUnitCorners, AreDecidedAfterTheCut) {
   }
 }
 
+// A mark stays in its column until another one takes its place; 4096 rows further down, where the
+// low twelve bits of the row are those of its own again, its record has no edge.
+TEST_P(AreaLanes, ARecordHasItsRowsOnceInAFrameOf4096AndMore) {
+  for (const Parameters& p : {small(GetParam()), with_table(AreaSource::kTableFull, GetParam())})
+    EXPECT_EQ(forked_text([&] {
+                Area bench(p, 11, 4096 + 8);
+                bench.send_slots(0);
+                bench.drivers_v[0]->add(0, three(Axis::kVertical, 8, 2,
+                                                 bench.slots_before(2 + kReach + 2) +
+                                                     static_cast<std::uint32_t>(8 / bench.lanes)));
+                bench.clock.run(bench.slots_before(bench.height + kLag) + 20);
+                return std::to_string(bench.unit.vertical_edges.value());
+              }),
+              "3");
+}
+
 TEST_P(AreaLanes, LatencyOfTheDatasheetWithATableToo) {
   const Cycle latency =
       AreaUnit::datasheet(with_table(AreaSource::kTableFull, GetParam())).latency.clocks;

@@ -598,6 +598,24 @@ TEST_P(TrialClocks, ARecordWaitsForItsPhaseAndTakesThatLong) {
   EXPECT_EQ(bench.unit.probes.value(), 2 * trial * 6);
 }
 
+// One predictor, whose next record is there in time: from one of one trial to the next.
+TEST_P(TrialClocks, OnePredictorTakesARecordAnIntervalOfTheDatasheet) {
+  Parameters p = preset(spec::morphological::Preset::kDeburrLine);
+  p.line_pixels = 64;
+  p.trial_clocks = GetParam();
+  p.predictor_units = 1;
+  Predicting bench(p);
+  for (int i = 0; i < 6; ++i) bench.driver.add(20, run_of(3, 20));
+  bench.clock.run(200);
+  const std::vector<Cycle> clocks = clocks_of(bench.gate);
+  ASSERT_EQ(clocks.size(), 6u);
+  EXPECT_EQ(bench.unit.iterations.value(), 6u);
+  for (std::size_t i = 2; i < clocks.size(); ++i)
+    expect_notices_a_clock(
+        EndpointPredictor::trial_datasheet(p), &rtl::Datasheet::interval,
+        [&](const rtl::Datasheet& sheet) { expect_interval(sheet, clocks[i] - clocks[i - 1]); });
+}
+
 // A record that is not extended takes a clock, whatever a trial takes.
 TEST_P(TrialClocks, ARecordWithoutTrialsTakesNone) {
   Parameters p = small();

@@ -60,6 +60,42 @@ RomHashes rom_hashes(AreaValues values) {
   return {{tiles[0].value(), tiles[1].value()}, roots.value(), mix.value(), diagonals.value()};
 }
 
+// By the table of docs/reference/morphological/smaa_hardware.md, of one lane and of two.
+TEST(SmaaTables, RomsAreThoseOfThePage) {
+  struct Owner : sc_core::sc_module {
+    Owner(const sc_core::sc_module_name& name, AreaSource layout, int lanes)
+        : sc_module(name), table(layout, AreaValues::kExact, lanes) {}
+    AreaTable table;
+  };
+  struct Row {
+    AreaSource layout;
+    int lanes;
+    std::string area, roots;
+  };
+  int number = 0;
+  for (const Row& row :
+       {Row{AreaSource::kTableFull, 1, "1024 x 16 2R 16384", "225 x 12 4R 5400"},
+        Row{AreaSource::kTableMerged, 1, "512 x 16 2R 8192", "225 x 12 4R 5400"},
+        Row{AreaSource::kTableMinimal, 1, "128 x 8 4R 2048", "225 x 12 4R 5400"},
+        Row{AreaSource::kTableFull, 2, "1024 x 16 4R 32768", "225 x 12 8R 10800"},
+        Row{AreaSource::kTableMinimal, 2, "128 x 8 8R 4096", "225 x 12 8R 10800"}}) {
+    const std::string name = "table" + std::to_string(number++);
+    const Owner owner(name.c_str(), row.layout, row.lanes);
+    std::vector<std::string> found;
+    rtl::for_each<rtl::MemoryBase>([&](rtl::MemoryBase& memory) {
+      if (std::string(memory.name()).starts_with(name + "."))
+        found.push_back(std::string(memory.basename()) + " " + std::to_string(memory.words()) +
+                        " x " + std::to_string(memory.word_bits()) + " " + memory.ports() + " " +
+                        std::to_string(memory.physical_bits()));
+    });
+    EXPECT_THAT(found,
+                ::testing::UnorderedElementsAre("sqrt_rom " + row.roots, "area_rom0 " + row.area,
+                                                "area_rom1 " + row.area, "area_rom2 " + row.area,
+                                                "area_rom3 " + row.area))
+        << name;
+  }
+}
+
 TEST(SmaaTables, WordsHaveTheContractsHashes) {
   const RomHashes exact = rom_hashes(AreaValues::kExact),
                   published = rom_hashes(AreaValues::kPublished);

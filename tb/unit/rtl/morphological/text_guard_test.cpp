@@ -377,6 +377,7 @@ TEST_P(TextGuardClocks, ARowComesEightRowsLater) {
   };
   expect_notices_a_clock(TextGuard::datasheet(p), &rtl::Datasheet::latency, check);
   expect_notices_a_clock(TextGuard::datasheet(p), &rtl::Datasheet::interval, check);
+  expect_stages_in_order(TextGuard::datasheet(p));
 }
 
 // A row whose last beat comes later is later by as much, and one that has begun is not: its last

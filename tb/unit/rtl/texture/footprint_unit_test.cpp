@@ -116,6 +116,10 @@ TEST(TextureRtlFootprint, LatencyAndIntervalOfTheDatasheet) {
     const auto check = [&](const rtl::Datasheet& sheet) { expect_clocks(sheet, seen, 1); };
     expect_notices_a_clock(sheet_of(rule), &rtl::Datasheet::latency, check);
     expect_notices_a_clock(sheet_of(rule), &rtl::Datasheet::interval, check);
+    // From the first token's clock to that of the last one's last stage, and not beyond.
+    const Cycle busy = 39 + sheet_of(rule).latency.clocks;
+    EXPECT_EQ(bench->unit.busy_cycles(), busy);
+    EXPECT_EQ(bench->unit.idle_cycles(), 100 - busy);
   }
 }
 

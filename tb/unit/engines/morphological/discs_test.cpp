@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Discs: what is measured where nothing is smoothed, and of all radii together.
+#include "tb/stimuli/discs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace deburr::tb::morphological::discs_test {
+namespace {
+
+// Of all pixels that a straight line crosses, over all its directions and places: the root of the
+// mean square of (share on its side - whether the middle is), and of (1 - share). A circle is
+// nearly straight.
+constexpr double kSampled = 246.9, kUncovered = 608.0;  // x 1000
+
+TEST(Discs, AllRadiiCountAlike) {
+  const auto none = [](const Image& image) { return image; };
+  const DiscFigures f = measure_discs(none, {.pixels = 600, .seeds = 2});
+  double squares = 0;
+  for (const double figure : f.by_radius) {
+    EXPECT_NEAR(figure, kSampled, 6);
+    squares += figure * figure;
+  }
+  EXPECT_NEAR(f.all, std::sqrt(squares / 6), 1e-9);
+}
+
+TEST(Discs, AreHeldAgainstTheExactShare) {
+  const auto white = [](const Image& image) {
+    return Image(image.width, image.height, {255, 255, 255, 255});
+  };
+  for (const double figure : measure_discs(white, {.pixels = 600, .seeds = 2}).by_radius)
+    EXPECT_NEAR(figure, kUncovered, 25);
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological::discs_test

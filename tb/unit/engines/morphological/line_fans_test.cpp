@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Fans of lines: what is measured of a picture that nobody smooths, and what a limit says.
+#include "tb/stimuli/line_fans.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace deburr::tb::morphological::line_fans_test {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+FanFigures figures(double by, double undulation, double jump) {
+  FanFigures f;
+  for (std::size_t c = 0; c < f.by_class.size(); ++c)
+    f.by_class[c] = by * static_cast<double>(c + 1);
+  f.undulation = undulation;
+  f.jump = jump;
+  return f;
+}
+
+TEST(Fans, WithoutSmoothingAreThoseOfTheContract) {
+  FanOptions options;
+  options.lines = 12;
+  options.seeds = 1;
+  const Smoothing none = smoothing_of(fan_rows()[0]);
+  const FanFigures f = measure_fans(none, options);
+  for (std::size_t c = 0; c < f.by_class.size(); ++c)
+    EXPECT_NEAR(f.by_class[c], contract_figures()[0].figures.by_class[c], 6) << kSlopeClasses[c];
+  // The error of a column is a sawtooth of height 1, which falls by 1 in a share s of all columns,
+  // the line's slope, and rises by s from column to column: of jumps the mean square is s (1 - s).
+  double squares = 0;
+  for (int n = 2; n <= 20; ++n)
+    for (int i = 0; i < options.lines; ++i) {
+      const double slope = 1 / (n + 0.05 + 0.9 * (i + 0.5) / options.lines);
+      squares += slope * (1 - slope) / (19 * options.lines);
+    }
+  EXPECT_NEAR(f.undulation, 1000 / std::sqrt(12.0), 6);
+  EXPECT_NEAR(f.jump, 1000 * std::sqrt(squares), 6);
+  options.lines = 2;
+  const FanFigures few = measure_fans(none, options);
+  options.transposed = true;
+  const FanFigures turned = measure_fans(none, options);
+  EXPECT_EQ(turned.by_class, few.by_class);
+  EXPECT_EQ(turned.undulation, few.undulation);
+  EXPECT_EQ(turned.jump, few.jump);
+  // All of it white: off by what the line leaves uncovered, in a column by half of its crossing at
+  // least.
+  const FanFigures white = measure_fans(
+      [](const Image& image) {
+        return Image(image.width, image.height, {255, 255, 255, 255});
+      },
+      options);
+  EXPECT_GT(white.by_class[0], 500);
+  EXPECT_GT(white.undulation, 1000);
+  EXPECT_GT(white.jump, 10);
+}
+
+TEST(Fans, ExceedEachLimitThatIsGiven) {
+  const FanLimit limit{"x", figures(10, 5, 0)};
+  EXPECT_THAT(exceeded(limit, figures(10, 5, 100)), IsEmpty());
+  EXPECT_THAT(exceeded(limit, figures(10.9, 5.4, 0), 0.1), IsEmpty());
+  EXPECT_THAT(
+      exceeded(limit, figures(11.1, 5.6, 0), 0.1),
+      ElementsAre("n = 1", "n = 2", "n = 3-5", "n = 6-10", "n = 11-20", "n = 2-20", "undulation"));
+  FanFigures one = figures(10, 5, 0);
+  one.by_class[5] = 60.1;
+  EXPECT_THAT(exceeded(limit, one), ElementsAre("n = 2-20"));
+  EXPECT_THAT(exceeded({"x", figures(0, 0, 3)}, figures(10, 5, 3.1)), ElementsAre("jump"));
+  EXPECT_EQ(asked_of_ours().name, "fit N = 4");
+}
+
+TEST(Fans, AreALineOfATable) {
+  EXPECT_EQ(to_text("fit N = 4", figures(10.06, 5, 123.45)),
+            "fit N = 4         10.1    20.1    30.2    40.2    50.3    60.4         5.0   123.5");
+}
+
+TEST(Fans, HaveTheRowsOfTheContract) {
+  std::vector<std::string> names;
+  for (const FanRow& row : fan_rows()) {
+    names.push_back(row.name + "|" + std::to_string(row.parameters.steps));
+    EXPECT_EQ(row.smoothed, row.name != "none");
+    EXPECT_FALSE(row.parameters.linear_light) << row.name;
+  }
+  EXPECT_THAT(names, ElementsAre("none|0", "mlaa|0", "chord N = 1|1", "chord N = 2|2",
+                                 "chord N = 4|4", "chord N = 8|8", "fit N = 2|2", "fit N = 4|4",
+                                 "deburr-line|8", "deburr|8", "fit N = 16|16"));
+}
+
+}  // namespace
+}  // namespace deburr::tb::morphological::line_fans_test
