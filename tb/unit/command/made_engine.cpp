@@ -2,6 +2,7 @@
 #include "tb/unit/command/made_engine.h"
 
 #include <array>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -12,8 +13,9 @@
 namespace deburr::tb {
 namespace {
 
-enum class Filter : std::uint8_t { kNear, kLinear, kWide };
-constexpr std::array<std::string_view, 3> kFilterNames = {"near", "linear", "wide"};
+enum class Filter : std::uint8_t { kNear, kLinear, kWide, kOther };
+constexpr std::array<std::string_view, 4> kFilterNames = {"near", "linear", "wide",
+                                                          "another-one-with-a-very-long-name"};
 
 struct MadeRules {
   Filter filter = Filter::kLinear;
@@ -50,6 +52,9 @@ std::span<const spec::BuildRule<MadeParameters>> build_rules(const MadeParameter
   return kBuildRules;
 }
 
+constexpr std::array<CoverageGroup, 2> kGroups = {
+    {{"made/lanes", "How many."}, {"made/never", "What never is."}}};
+
 struct MadeInput {
   std::string in;
   std::int32_t width = 6, height = 5;
@@ -85,10 +90,13 @@ class MadeEngine : public Engine {
   std::vector<std::string_view> examples() const override { return {"--size 64x32", "--lanes 8"}; }
   void check(const RunParameters& run, RunContext& context) override {
     Result none;
-    made_run()(run, context, none);
+    if (made_run()) made_run()(run, context, none);
   }
   void run(const RunParameters& run, RunContext& context, Result& result) override {
-    made_run()(run, context, result);
+    if (made_run())
+      made_run()(run, context, result);
+    else
+      measure(run, context, result);
   }
   std::vector<std::filesystem::path> input_files(MeshFiles& /*meshes*/) const override {
     if (input_.in.empty()) return {};
@@ -101,7 +109,33 @@ class MadeEngine : public Engine {
   std::string_view pixel_history() const override { return name_ == "made" ? "Its steps" : ""; }
   LongRun long_run() const override { return {}; }
 
+  CoverageSection coverage() const override {
+    CoverageSection section{"Made", {}, kGroups};
+    for (const char* const bin : {"lanes/few", "lanes/many", "never/met"})
+      section.bins.declare(name_ + "/" + bin);
+    return section;
+  }
+
  private:
+  void measure(const RunParameters& run, const RunContext& context, Result& result) const {
+    if (!run.trace.empty())
+      std::ofstream(context.trace_file()) << run.trace_from << ".." << run.trace_to << "\n";
+    if (input_.gain == 1.5) throw spec::ConfigError("a gain of 1.5 is none");
+    result.cycles = static_cast<std::uint64_t>(1200 / values_.lanes);
+    if (input_.gain == 2) throw spec::DeadlockError("nothing moves, cycle 812");
+    result.throughput = values_.lanes;
+    result.throughput_unit = "pixel/clk";
+    result.comparisons = 9;
+    result.mismatches = values_.lanes == 3 ? 1 : 0;
+    result.scoreboards = {{"colours", 9, result.mismatches}};
+    if (result.mismatches > 0)
+      result.first_mismatches = {{"colours", "cycle 812", "pixel (3, 4)", "red", "1", "2"}};
+    if (!run.coverage) return;
+    const std::uint64_t many = values_.lanes > 2 ? 1 : 0;
+    result.coverage = {
+        {name_ + "/lanes/few", 1 - many}, {name_ + "/lanes/many", many}, {name_ + "/never/met", 0}};
+  }
+
   std::string name_;
   MadeParameters values_;
   MadeInput input_;

@@ -46,6 +46,21 @@ features:
     checks: {colours: 1, pixels: 5}
 )";
 
+constexpr const char* kNightly = R"(
+title: With faults
+coverage: [made/*]
+unmet: [{bins: made/never/*, reason: It is made so.}, {bins: made/lanes/many, reason: So few.}]
+features:
+  - id: lanes
+    title: Lanes
+    traces: [{page: docs/unit.md, says: It is so.}]
+    stimuli:
+      - {name: some, engine: made, axes: {made.lanes: [2, 3, 4]}}
+      - {name: deadlock, engine: made, base: {frame.gain: 2}}
+    checks: {colours: 19}
+    coverage: [made/never/*, made/lanes/*]
+)";
+
 class PointCommands : public Transcript {
  protected:
   PointCommands() {
@@ -58,12 +73,35 @@ class PointCommands : public Transcript {
           "engine: made\naxes: {made.depth: {from: 4, to: 15}}\n"
           "metrics: {clocks: cycles, rate: throughput.value, bits: memory_bits.total.physical}\n"
           "objectives: {minimise: [clocks], maximise: [rate]}\n");
-    made_run() = [](const RunParameters& /*run*/, RunContext& /*context*/, Result& /*result*/) {};
+    write("real.yaml",
+          "engine: made\naxes: {made.lanes: [2, 3], frame.gain: [0.5, 1.5, 2]}\n"
+          "metrics: {clocks: cycles, rate: throughput.value}\n"
+          "objectives: {minimise: [clocks], maximise: [rate], for_each: [frame.gain]}\n");
+    write("nightly.yaml", kNightly);
+    steps_["a planned fault is mended"] = [] {
+      std::string text = kNightly;
+      text.replace(text.find("[2, 3, 4]"), 9, "[2, 4]");
+      write("nightly.yaml", text);
+    };
     write("docs/unit.md", "# Unit\n\nIt is so. It is.\n");
     write("night.yaml", kTestplan);
     steps_["the sweep's points are named"] = [this] { name_points("out/sweeps/first"); };
     steps_["the regression's points are named"] = [this] {
       name_points("out/regressions/night-7");
+    };
+    steps_["points of real are named"] = [this] { name_points("out/sweeps/real"); };
+    steps_["points of nightly are named"] = [this] { name_points("out/regressions/nightly-5"); };
+    steps_["a run that passed is gone"] = [this] {
+      fs::remove_all(folder_of("lanes/some/made.lanes=2/0"));
+    };
+    steps_["waves are around the failures"] = [] {
+      const fs::path place = "out/regressions/nightly-5";
+      const Json collected = Json::parse(read(place / "collected.json"));
+      ASSERT_EQ(collected["buckets"].size(), 2u);
+      for (const Json& bucket : collected["buckets"]) {
+        EXPECT_EQ(read(place / bucket["waves"]["file"].get<std::string>()), "412..912\n");
+        EXPECT_TRUE(fs::exists(place / bucket["waves"]["report"].get<std::string>()));
+      }
     };
     steps_["2 near is done"] = [this] { keep("2 near", 100, 1, 50); };
     steps_["2 wide failed"] = [this] { fail("2 wide", {"mismatch", "1 of 2\ndiffers", false}); };
@@ -155,6 +193,9 @@ class PointCommands : public Transcript {
 };
 
 TEST_F(PointCommands, OfASweepAndASearch) { expect("sweep.txt"); }
+
+// Their points are run by Ninja and this program.
+TEST_F(PointCommands, OfPointsThatAreRun) { expect("points.txt"); }
 
 TEST_F(PointCommands, OfARegression) { expect("regress.txt"); }
 
