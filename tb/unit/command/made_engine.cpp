@@ -109,6 +109,11 @@ class MadeEngine : public Engine {
   std::string_view pixel_history() const override { return name_ == "made" ? "Its steps" : ""; }
   LongRun long_run() const override { return {}; }
 
+  RandomDraws random_draws() const override {
+    RandomDraws draws;
+    draws.fixed = {"frame.in"};
+    return draws;
+  }
   CoverageSection coverage() const override {
     CoverageSection section{"Made", {}, kGroups};
     for (const char* const bin : {"lanes/few", "lanes/many", "never/met"})

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // `deburr sweep`, `search` and `regress` of points whose results a test has made, so that none is
 // run: plans, how far they are, what is collected and how it ends.
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -103,6 +105,14 @@ class PointCommands : public Transcript {
         EXPECT_TRUE(fs::exists(place / bucket["waves"]["report"].get<std::string>()));
       }
     };
+    write("docs/more.md",
+          "# A heading\n\n* An item of it\n  goes on.\n- Another item (with it)\n12. numbered\n\n"
+          "| a cell | another cell. |\n|---|---|\n\n```\nIn code.\n```\n\nIt ends so:\n\n"
+          "It is e.g. so. Then this (it is). Wrapped\n  anywhere it\nis. Is it? Yes! It **is**.\n"
+          "Without an end\n");
+    steps_["points of v are listed"] = [this] { list_points("out/sweeps/v"); };
+    steps_["the plan is printed"] = [this] { list_points("out/regressions/t-of-2-3"); };
+    steps_["the plan of seed 4 is printed"] = [this] { list_points("out/regressions/t-4"); };
     steps_["2 near is done"] = [this] { keep("2 near", 100, 1, 50); };
     steps_["2 wide failed"] = [this] { fail("2 wide", {"mismatch", "1 of 2\ndiffers", false}); };
     steps_["the others are done"] = [this] {
@@ -160,6 +170,18 @@ class PointCommands : public Transcript {
       replaced_[point_directory("points", point.name).string()] = "points/<" + name + ">";
     });
   }
+  // Their samples and settings, as lines of what is printed.
+  void list_points(const fs::path& directory) {
+    const Plan plan = read_plan(directory);
+    for_each_point(points_file(directory), [&](const PlannedPoint& point) {
+      std::string line = fmt::format("{} {} {}", point.input, point.golden, plan.engine_of(point));
+      for (const std::string& label : point.sample) line += " [" + label + "]";
+      for (const Setting& setting : plan.settings_of(point))
+        line += fmt::format(" {}={} ({})", setting.name, setting.value, setting.where);
+      said(line);
+    });
+    for (const std::string& line : plan.left_out) said("left out " + line);
+  }
   fs::path folder_of(const std::string& name) const {
     return point_directory("out/points", points_.at(name));
   }
@@ -196,6 +218,10 @@ TEST_F(PointCommands, OfASweepAndASearch) { expect("sweep.txt"); }
 
 // Their points are run by Ninja and this program.
 TEST_F(PointCommands, OfPointsThatAreRun) { expect("points.txt"); }
+
+TEST_F(PointCommands, OfDefinitions) { expect("definitions.txt"); }
+
+TEST_F(PointCommands, OfTestplans) { expect("testplans.txt"); }
 
 TEST_F(PointCommands, OfARegression) { expect("regress.txt"); }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "tb/base/file.h"
 #include "tb/command/commands.h"
@@ -131,19 +132,31 @@ Said Transcript::deburr(std::vector<std::string> words) {
 void Transcript::expect(const std::string& file) {
   const fs::path expected_file = source_folder() / "tb/unit/command" / file;
   const std::string expected = read(expected_file);
-  constexpr std::string_view kCommand = "$ deburr", kGrep = " | grep ", kStep = "% ";
-  std::string now;
+  constexpr std::string_view kCommand = "$ deburr", kGrep = " | grep ", kStep = "% ", kText = "> ";
+  std::string now, written;
   std::istringstream lines(expected);
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with(now.empty() ? "# " : kStep)) now += line + "\n";
-    if (line.starts_with(kStep)) steps_.at(line.substr(kStep.size()))();
+    if (line.starts_with("# ") && now.empty()) now += line + "\n";
+    if (line.starts_with(kStep)) {
+      const std::string what = line.substr(kStep.size());
+      if (const auto step = steps_.find(what); step != steps_.end())
+        step->second();
+      else
+        write(written = what, "");
+      now += line + "\n" + std::exchange(said_, "");
+    }
+    if (line.starts_with(kText) && !written.empty()) {
+      std::ofstream(written, std::ios::app) << line.substr(kText.size()) << "\n";
+      now += line + "\n";
+    }
     if (!line.starts_with(kCommand)) continue;
     const std::size_t pipe = line.find(kGrep);
     Said said = deburr(words_of(line.substr(kCommand.size(), pipe - kCommand.size())));
     for (std::string* const text : {&said.out, &said.errors})
       for (const auto& [what, by] : replaced_) replace_all(*text, what, by);
     if (pipe != std::string::npos)
-      said.out = lines_with(line.substr(pipe + kGrep.size()), said.out);
+      for (std::string* const text : {&said.out, &said.errors})
+        *text = lines_with(line.substr(pipe + kGrep.size()), *text);
     now += line + "\n" + said.out + with_mark(said.errors, "! ");
     if (said.code != 0) now += fmt::format("= {}\n", said.code);
   }

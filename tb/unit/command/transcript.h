@@ -25,10 +25,13 @@ class Transcript : public testing::Test {
 
   static Said deburr(std::vector<std::string> words);
   // Runs the command lines of a file beside this one, those behind "$ ", and expects what it says
-  // that they print: lines of standard output (behind "| grep TEXT" those with the text), lines of
-  // the error stream behind "! ", and the exit code behind "= " where that is not 0. Lines behind
-  // "% " are steps of the test. What is printed now is left beside the folder.
+  // that they print: lines of standard output, lines of the error stream behind "! " (behind
+  // "| grep TEXT" those with the text), and the exit code behind "= " where that is not 0. Lines
+  // behind "% " are steps of the test, or files of the lines behind "> " below them. What is
+  // printed now is left beside the folder.
   void expect(const std::string& file);
+  // Within a step: a line of what is printed.
+  void said(const std::string& line) { said_ += line + "\n"; }
   static void write(const std::filesystem::path& file, const std::string& text);
   static std::string read(const std::filesystem::path& file);
 
@@ -38,6 +41,7 @@ class Transcript : public testing::Test {
 
  private:
   std::filesystem::path before_, folder_;
+  std::string said_;
 };
 
 }  // namespace deburr::tb
