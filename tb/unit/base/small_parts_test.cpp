@@ -110,10 +110,10 @@ TEST(NearMatches, AreTheBestThree) {
                                           "scene.width", "scene.height"};
   for (const auto& [name, found] : std::vector<std::pair<std::string, std::vector<std::string>>>{
            {"ways", {"texture.cache.ways", "frame.ways"}},
-           {"scene.widht", {"scene.width"}},
+           {"scene.widht", {"scene.width", "scene.height"}},
            {"scene.wi", {"scene.width"}},
            {"texture.ways", {"texture.cache.ways", "frame.ways"}},
-           {"SCENE.HEIGHT", {"scene.height"}},
+           {"SCENE.HEIGHT", {"scene.height", "scene.width"}},
            {"", {}},
            {"unlike", {}},
            {std::string(101, 'a'), {}}})
@@ -260,7 +260,7 @@ TEST_F(Files, OfYamlAreAskedForValues) {
             "g.yaml: holds more than one YAML document, or begins with what belongs to none, such "
             "as ','; one is expected"},
            {[&] { YamlFile("g.yaml", std::string("a: [1")); },
-            "g.yaml:1:6: not valid YAML: end of sequence flow not found"},
+            "g.yaml:1:1: not valid YAML: end of sequence flow not found"},
            {[&] { YamlFile(put("long.yaml", "a: 123"), 5); },
             "cannot read '" + (folder_ / "long.yaml").string() + "': it is larger than 5 bytes"}})
     EXPECT_EQ(error_of(work), said);

@@ -96,6 +96,9 @@ class PointCommands : public Transcript {
     steps_["a run that passed is gone"] = [this] {
       fs::remove_all(folder_of("lanes/some/made.lanes=2/0"));
     };
+    steps_["a failure says something else"] = [this] {
+      write_failure(folder_of("2 2"), {"deadlock", "as it was", false});
+    };
     steps_["waves are around the failures"] = [] {
       const fs::path place = "out/regressions/nightly-5";
       const Json collected = Json::parse(read(place / "collected.json"));

@@ -359,10 +359,11 @@ TEST_F(FragmentTrace, OfBytesIsAcceptedOrSaysWhatIsWrong) {
       {binary({{64, 255}, {65, 255}, {66, 255}, {67, 255}}),
        "'F', record 0: place (4294967295, 4) is outside of the picture of 8 x 6 pixels"},
       {binary({{86, 0xF0}, {87, 0x7F}}),
-       "'F', record 0: s0 = inf: coordinates are numbers from -128 to below 128; subtract whole "},
+       "'F', record 0: s0 = inf: coordinates are numbers from -128 to below 128; subtract whole"
+       " repeats of the texture, or leave the fragment out"},
       {binary({{86, 0xF8}, {87, 0x7F}}),
-       "'F', record 0: s0 = nan: coordinates are numbers from -128 to below 128; subtract whole "
-       "repeats of the texture, or leave the fragment out"}};
+       "'F', record 0: s0 = nan: coordinates are numbers from -128 to below 128; subtract whole"
+       " repeats of the texture, or leave the fragment out"}};
   for (const auto& [bytes, said] : rows) EXPECT_EQ(verdict_on(file_, bytes), said);
 }
 
@@ -389,6 +390,7 @@ TEST_F(FragmentTrace, HasItsFieldsWhereTheyAreDocumented) {
     writer.finish();
     const std::string text =
         "deburr-fragments 1\nsize 8 6\n"
+        "# quad texture coverage visible clamped x y s0 t0 s1 t1 s2 t2 s3 t3\n"
         "quad 1 7 3 5 2 4 0 0.125 0.25 0.375 0.5 0.625 0.75 0.875\n"
         "quad 1 7 3 5 - - 0 0.125 0.25 0.375 0.5 0.625 0.75 0.875\nend 2\n";
     EXPECT_EQ(bytes(), format == TraceFormat::kText
