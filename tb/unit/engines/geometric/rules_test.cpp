@@ -62,7 +62,7 @@ TEST(GeometricRules, WhatHasNoEffectIsRejectedWithItsReason) {
            {{{"crease", "off"}, {"crease_depth", "3"}}, "geometric.crease = off has no creases"},
            {{{"depth_test", "off"}, {"depth_bias", "1"}, {"combine", "max"}}, depth},
            {{{"depth_test", "off"}, {"crease_depth", "1"}, {"combine", "max"}}, depth},
-           {{{"depth_test", "off"}, {"depth_lines", "8"}, {"combine", "max"}}, depth},
+           {{{"depth_test", "off"}, {"depth_lines", "16"}, {"combine", "max"}}, depth},
            {{{"depth_test", "off"}, {"combine", "outermost"}}, outermost},
            {{{"depth_test", "farther"}, {"combine", "outermost"}}, ""},
            {{{"frame_copy", "false"}, {"copy_lines", "8"}},

@@ -63,7 +63,7 @@ TEST(MorphologicalRules, WhatHasNoEffectIsRejectedWithItsReason) {
             dynamic},
            {{{"edges.source", "luma"},
              {"edges.threshold_mode", "fixed"},
-             {"edges.dynamic_luma", "true"}},
+             {"edges.dynamic_luma", "max"}},
             dynamic},
            {{{"edges.source", "luma"}, {"edges.threshold_mode", "fixed"}, {"edges.threshold", "5"}},
             ""},
