@@ -13,7 +13,7 @@
 #include "tb/engines/geometric/geometric_rules.h"
 #include "tb/results/parameter_set.h"
 
-namespace deburr::tb::geometric_rules_test {
+namespace deburr::tb::rules_test {
 namespace {
 
 using testing::ElementsAre;
@@ -144,4 +144,4 @@ TEST(GeometricRules, ALatencyFifoBelowTheFillsIsNoted) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::geometric_rules_test
+}  // namespace deburr::tb::rules_test

@@ -13,7 +13,7 @@
 #include "tb/engines/morphological/morphological_rules.h"
 #include "tb/results/parameter_set.h"
 
-namespace deburr::tb::morphological_rules_test {
+namespace deburr::tb::rules_test {
 namespace {
 
 using spec::morphological::EdgeSource;
@@ -154,4 +154,4 @@ TEST(MorphologicalRules, ThresholdsBelowACodeAreNoted) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_rules_test
+}  // namespace deburr::tb::rules_test
