@@ -222,7 +222,7 @@ TEST_F(Files, AreWrittenWholeOrNotAtAll) {
 TEST_F(Files, OfYamlAreAskedForValues) {
   const YamlFile yaml("f.yaml",
                       std::string("a: 1\nlist: [1, -2, 1e3, x]\nmap: {b: true, c: False}\n"
-                                  "none:\nempty: []\nno: {}\ntwice: {b: 1, b: 2}\n"));
+                                  "none:\nempty: []\nno: {}\ntwice: {b: 1, b: 2}\nzero: 0\n"));
   const YAML::Node& root = yaml.root();
   EXPECT_EQ(yaml.where(root["list"]), "f.yaml:2");
   for (const auto& [key, kind] :
@@ -237,10 +237,12 @@ TEST_F(Files, OfYamlAreAskedForValues) {
   EXPECT_EQ(yaml.number<std::int64_t>(root["list"][1], "x"), -2);
   EXPECT_TRUE(yaml.boolean(root["map"]["b"], "b"));
   EXPECT_EQ(yaml.count(root["a"], "a", 1), 1u);
-  const std::vector<std::string> keys = {"a", "list", "map", "none", "empty", "no", "twice"};
+  const std::vector<std::string> keys = {"a",     "list", "map",   "none",
+                                         "empty", "no",   "twice", "zero"};
   EXPECT_EQ(error_of([&] { yaml.require_keys(root, keys); }), "none");
   for (const auto& [work, said] : std::vector<std::pair<std::function<void()>, std::string>>{
            {[&] { yaml.count(root["a"], "a", 0); }, "f.yaml:1: 'a' = '1' is outside 1..0"},
+           {[&] { yaml.count(root["zero"], "z", 9); }, "f.yaml:8: 'z' = '0' is outside 1..9"},
            {[&] { yaml.count(root["list"][1], "n", 9); }, "f.yaml:2: 'n' = '-2' is outside 1..9"},
            {[&] { yaml.number<std::int64_t>(root["list"][2], "n"); },
             "f.yaml:2: 'n' = '1e3' wants a number"},
