@@ -96,6 +96,18 @@ TEST(Ideal, BorderAndCentreAreThePapersCorrected) {
   EXPECT_EQ(at(3.5)[0].direction, 0);
   EXPECT_EQ(at(3.75)[0].coverage, 0.25);
   EXPECT_EQ(at(3.75)[0].direction, 1);
+  // A line through a centre goes on with the pixel below only where it is flat and falls: of a
+  // steep one the pixel to the left has the half.
+  const auto through = [](ScreenPoint p, ScreenPoint q) {
+    std::vector<int> directions;
+    for (const CutPixel& cut : cut_pixels({p, q}, 8, 8))
+      if (cut.distance == 0) directions.push_back(cut.direction);
+    return directions;
+  };
+  EXPECT_EQ(through({2, 3.25, 1}, {5, 4.75, 1}), (std::vector{1, 1}));
+  EXPECT_EQ(through({2, 4.75, 1}, {5, 3.25, 1}), (std::vector{0, 0}));
+  EXPECT_EQ(through({3.25, 2, 1}, {4.75, 5, 1}), (std::vector{2, 2}));
+  EXPECT_EQ(through({4.75, 2, 1}, {3.25, 5, 1}), (std::vector{2, 2}));
   // The distance runs along the axis, not across the line.
   const auto slanted = cut_pixels({{0, 0.2, 1}, {8, 6.2, 1}}, 8, 8);
   EXPECT_NEAR(slanted[0].distance, 0.2 + 0.75 * 0.5 - 0.5, 1e-12);

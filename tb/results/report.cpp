@@ -859,7 +859,8 @@ std::string build_report(const fs::path& pictures, Json result, Json manifest) {
 }
 
 std::string build_report(const fs::path& directory) {
-  return build_report(directory, read_result(directory), read_manifest(directory));
+  Json result = read_result(directory);
+  return build_report(directory, std::move(result), read_manifest(directory));
 }
 
 void write_report(const fs::path& directory) {

@@ -76,6 +76,10 @@ TEST(Change, CountsPixelsByCodesAndOfTheRightOnes) {
   change = measure_change(before, after, &truth);
   EXPECT_DOUBLE_EQ(*change.right_small_percent, 100 * 2.0 / 19);
   EXPECT_DOUBLE_EQ(*change.right_large_percent, 0);
+  after.at(6, 0)[0] = 120;  // 20, and it was right
+  change = measure_change(before, after, &truth);
+  EXPECT_DOUBLE_EQ(*change.right_small_percent, 100 * 3.0 / 19);
+  EXPECT_DOUBLE_EQ(*change.right_large_percent, 100 * 1.0 / 19);
   const Image wrong(10, 2, {0, 0, 0, 255});
   EXPECT_FALSE(measure_change(before, after, &wrong).right_small_percent) << "nothing was right";
   EXPECT_EQ(measure_change(before, before, nullptr).psnr_db,

@@ -186,6 +186,9 @@ TEST(GeometricRegions, OfLessTrafficComeLast) {
   EXPECT_EQ(GeometricRegions::needed({61, 45, 300, 200, 49, 41}, p)[7], (5u + 26) * 64)
       << "of each array whole lines";
   EXPECT_EQ(GeometricRegions::needed(frames[1], p)[8], 460u * 64);
+  for (const auto& [faces, bytes] :
+       {std::pair{0u, 0u}, {1u, 64u}, {7u, 64u}, {512u, 64u}, {513u, 128u}})
+    EXPECT_EQ(GeometricRegions::needed({61, 45, 300, 200, faces}, p)[0], bytes) << faces;
   const GeometricRegions all = GeometricRegions::allocate(frames, p);
   EXPECT_EQ(all.base(Region::kCopy), all.base(Region::kPairs)) << "there is no copy";
   EXPECT_EQ(all.region_of(all.base(Region::kPairs)), 7u);

@@ -19,6 +19,9 @@ TEST(Amount, OneFormForEveryNumber) {
   EXPECT_EQ(amount(12345.67, 5), "12,346");
   EXPECT_EQ(amount(1234.567, 5), "1,234.6");
   EXPECT_EQ(amount(-9999.96, 5), "-10,000");
+  EXPECT_EQ(amount(1000.5), "1,001") << "all digits are whole ones";
+  EXPECT_EQ(amount(999.25), "999.2");
+  EXPECT_EQ(amount(9999.5, 4), "10,000");
   EXPECT_EQ(amount(2e18), "2e+18");
 }
 

@@ -308,7 +308,8 @@ TEST_F(Parameters, RangesHaveTheirEnds) {
     EXPECT_NO_THROW(set_.set(name, low, "test"));
     EXPECT_NO_THROW(set_.set(name, high, "test"));
     for (const char* wrong : {below, above})
-      EXPECT_THAT(complaint([&] { set_.set(name, wrong, "test"); }), HasSubstr("is outside"));
+      EXPECT_THAT(complaint([this, at = name, wrong] { set_.set(at, wrong, "test"); }),
+                  HasSubstr("is outside"));
   }
 }
 

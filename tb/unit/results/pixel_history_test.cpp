@@ -107,6 +107,8 @@ TEST(PixelHistory, ALostRecordSpoilsNoOther) {
   EXPECT_EQ(paired("ABC", "BC", both), "A-! BB CC ");
   EXPECT_EQ(paired("ABC", "AC", cut), "AA B-! CC ");
   EXPECT_EQ(paired("ABC", "AABC", both), "AA -A! BB CC ");
+  EXPECT_EQ(paired("AB", "BA", both), "A-! BB -A! ") << "as near both ways: it lacks one";
+  EXPECT_EQ(paired("ABC", "CAB", both), "-C! AA BB C-! ") << "one added is nearer";
   EXPECT_EQ(paired("ABC", "A", both), "AA B-! C-! ");
   EXPECT_EQ(paired("ABC", "A", cut), "AA B- C- ");
   EXPECT_EQ(paired("", "A", alone), "-A ");

@@ -319,6 +319,27 @@ TEST(Coordinates, MoreRepeatsThanTheFormatHolds) {
   EXPECT_LT(compare(reference, 64).worst, 4.0);
 }
 
+// Mirrored: whole pairs of repeats.
+TEST(Coordinates, AnEvenNumberOfRepeatsIsTakenOffAFarQuad) {
+  Scene scene =
+      make_scene("quad", {.texture_size = 16, .wrap = spec::texture::Wrap::kMirroredRepeat});
+  for (Vertex& vertex : scene.mesh.vertices) vertex.uv *= 3000.0;
+  const FragmentStream stream = rasterise(scene, options(64, 64));
+  const RayReference rays(scene.camera, 64, 64);
+  int moved = 0;
+  for (const spec::texture::Quad& quad : stream.quads) {
+    const std::size_t lane = 0;
+    const V3d at =
+        rays.coordinates(scene.mesh, scene.mesh.triangles[0], quad.x + 0.5, quad.y + 0.5);
+    for (int k = 0; k < 2; ++k) {
+      const double off = (at[k] - (k == 0 ? quad.s : quad.t)[lane] / kOne) / 2;
+      EXPECT_NEAR(off, std::round(off), 0.3) << quad.x << ", " << quad.y;
+      moved += std::abs(off) > 0.5;
+    }
+  }
+  EXPECT_GT(moved, 1000);
+}
+
 TEST(Coordinates, SnappingIsDefinedForEveryDouble) {
   struct Row {
     double value;

@@ -2,6 +2,7 @@
 // Traces of fragments: what is written is read back to the bit, single fragments become the quads
 // that their derivatives say, and files that were spoiled anywhere are rejected or read, never
 // more.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -166,6 +167,236 @@ TEST_F(FragmentTrace, ASingleFragmentGetsTheQuadAroundIt) {
   EXPECT_EQ(quads[2].quad.coverage, 1);
   EXPECT_FALSE(quads[2].shows(0));
   EXPECT_EQ(quads[2].quad.s, quads[0].quad.s);
+}
+
+// What a file is: how many quads, or what is wrong, without the file's name.
+constexpr const char* kBegin = "deburr-fragments 1\nsize 8 6\n";
+constexpr const char* kValues = " 0 0 0 0 0 0 0 0\n";
+
+std::string verdict_on(const fs::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+  try {
+    const FragmentSummary summary = examine_fragments(file, 2);
+    return fmt::format("{} quads, {} fragments of {} x {}", summary.quads, summary.fragments,
+                       summary.width, summary.height);
+  } catch (const spec::FileError& error) {
+    std::string text = error.what();
+    for (std::size_t at = text.find(file.string()); at != std::string::npos;
+         at = text.find(file.string()))
+      text.replace(at, file.string().size(), "F");
+    return text;
+  }
+}
+
+TEST_F(FragmentTrace, OfTextIsAcceptedOrSaysWhatIsWrong) {
+  const std::string begin = kBegin, values = kValues, quad = "quad 0 f f 0 2 4" + values;
+  const std::string long_line = "#" + std::string(999, 'x') + "\n";
+  const std::pair<std::string, std::string> rows[] = {
+      {"",
+       "F:1: the file is empty: a trace of fragments begins with 'deburr-fragments 1' as text, or "
+       "with the bytes 'DEBURRFT' (docs/reference/traces.md)"},
+      {"deburr-fragment 1\n",
+       "F:1: this is something else: a trace of fragments begins with 'deburr-fragments 1' as "
+       "text, or with the bytes 'DEBURRFT' (docs/reference/traces.md)"},
+      {"deburr-fragments 1\n",
+       "F:2: the file ends after its title: it was cut short; make it again"},
+      {"deburr-fragments\n", "F:1: 1 fields, expected 2: deburr-fragments VERSION"},
+      {"deburr-fragments 2\n",
+       "F:1: version 2, and this program reads version 1: write the trace anew"},
+      {"deburr-fragments x\n", "F:1: version = 'x': expected a whole number, 0 to 1000000"},
+      {"deburr-fragments 1\nend 0\n", "0 quads, 0 fragments of 0 x 0"},
+      {begin + "end 0\n", "0 quads, 0 fragments of 8 x 6"},
+      {begin + "end 0",
+       "F:3: the file ends in the middle of a line: it was cut short; make it again"},
+      {begin + "end 1\n",
+       "F:3: 'end 1' after 0 records: some were lost or added; make the file again"},
+      {begin + "end\n", "F:3: 1 fields, expected 2: end RECORDS"},
+      {begin + "end 0\n# more\n\nend 0\n", "F:6: more after the line 'end'"},
+      {begin + "end 0\n # more\n \t\r\n", "0 quads, 0 fragments of 8 x 6"},
+      {begin + quad,
+       "F:4: no line 'end 1' after the last record: the file was cut short; make it again, or add "
+       "that line if this is all of it"},
+      {begin + quad + quad + "end 2\n", "2 quads, 8 fragments of 8 x 6"},
+      {"deburr-fragments 1\nsize 0 6\nend 0\n",
+       "F:2: a picture of 0 x 6 pixels: each side must be 1 to 8192"},
+      {"deburr-fragments 1\nsize 8 0\nend 0\n",
+       "F:2: a picture of 8 x 0 pixels: each side must be 1 to 8192"},
+      {"deburr-fragments 1\nsize 8192 8192\nend 0\n", "0 quads, 0 fragments of 8192 x 8192"},
+      {"deburr-fragments 1\nsize 8193 1\nend 0\n",
+       "F:2: a picture of 8193 x 1 pixels: each side must be 1 to 8192"},
+      {"deburr-fragments 1\nsize 1 8193\nend 0\n",
+       "F:2: a picture of 1 x 8193 pixels: each side must be 1 to 8192"},
+      {"deburr-fragments 1\nsize 8\nend 0\n", "F:2: 2 fields, expected 3: size WIDTH HEIGHT"},
+      {begin + "size 8 6\nend 0\n", "F:3: 'size': expected 'quad', 'fragment' or 'end'"},
+      {begin + "quad 0\n",
+       "F:3: 2 fields, expected 15: quad TEXTURE COVERAGE VISIBLE CLAMPED X Y s0 t0 s1 t1 s2 t2 s3 "
+       "t3"},
+      {begin + "fragment 0 - - 0 0 0 0 0\n",
+       "F:3: 9 fields, expected 10: fragment TEXTURE X Y s t ds/dx dt/dx ds/dy dt/dy"},
+      {begin + "quad 2 f f 0 - -" + values,
+       "F:3: texture 2, and the unit is given 2: 0 to 1; name a scene that has as many (--in "
+       "FILE.gltf), or change the handle"},
+      {begin + "quad 1 0 f 0 - -" + values + "end 1\n", "1 quads, 0 fragments of 8 x 6"},
+      {begin + "quad 256 f f 0 - -" + values,
+       "F:3: texture = '256': expected a whole number, 0 to 255"},
+      {begin + "quad 0 10 f 0 - -" + values,
+       "F:3: coverage = '10': expected a mask of lanes, 0 to f in hexadecimal"},
+      {begin + "quad 0 f 10 0 - -" + values,
+       "F:3: visible = '10': expected a mask of lanes, 0 to f in hexadecimal"},
+      {begin + "quad 0 f f g - -" + values,
+       "F:3: clamped = 'g': expected a mask of lanes, 0 to f in hexadecimal"},
+      {begin + "quad 0 f f 0 2 -" + values, "F:3: y = '-': expected a whole number, 0 to 1000000"},
+      {begin + "quad 0 f f 0 - 2" + values, "F:3: x = '-': expected a whole number, 0 to 1000000"},
+      {begin + "quad 0 f f 0 1 2" + values, "F:3: a quad at (1, 2): lane 0 stands at even x and y"},
+      {begin + "quad 0 f f 0 2 1" + values, "F:3: a quad at (2, 1): lane 0 stands at even x and y"},
+      {begin + "quad 0 f f 0 6 4" + values + "end 1\n", "1 quads, 4 fragments of 8 x 6"},
+      {begin + "quad 0 f f 0 8 4" + values,
+       "F:3: place (8, 4) is outside of the picture of 8 x 6 pixels"},
+      {begin + "quad 0 f f 0 6 6" + values,
+       "F:3: place (6, 6) is outside of the picture of 8 x 6 pixels"},
+      {"deburr-fragments 1\nquad 0 f f 0 0 0" + values,
+       "F:2: a place in a picture whose size is not said: begin with 'size WIDTH HEIGHT' (or the "
+       "header's fields), or leave out x and y"},
+      {"deburr-fragments 1\nquad 0 f f 0 - -" + values + "end 1\n",
+       "1 quads, 4 fragments of 0 x 0"},
+      {"deburr-fragments 1\nsize 7 5\nquad 0 2 f 0 6 4" + values,
+       "F:3: lane 1 of the quad at (6, 4) is covered and outside of the picture of 7 x 5 pixels"},
+      {"deburr-fragments 1\nsize 7 5\nquad 0 4 f 0 6 4" + values,
+       "F:3: lane 2 of the quad at (6, 4) is covered and outside of the picture of 7 x 5 pixels"},
+      {"deburr-fragments 1\nsize 7 5\nquad 0 1 f 0 6 4" + values + "end 1\n",
+       "1 quads, 1 fragments of 7 x 5"},
+      {begin + "quad 0 f f 0 - - 128 0 0 0 0 0 0 0\n",
+       "F:3: s0 = 128: coordinates are numbers from -128 to below 128; subtract whole repeats of "
+       "the texture, or leave the fragment out"},
+      {begin + "quad 0 f f 0 - - 0 0 0 0 0 0 0 -129\n",
+       "F:3: t3 = -129: coordinates are numbers from -128 to below 128; subtract whole repeats of "
+       "the texture, or leave the fragment out"},
+      {begin + "quad 0 f f 0 - - -128 127.999 0 0 0 0 0 0\nend 1\n",
+       "1 quads, 4 fragments of 8 x 6"},
+      {begin + "quad 0 f f 0 - - 0 0 1e999 0 0 0 0 0\n",
+       "F:3: s1 = inf: coordinates are numbers from -128 to below 128; subtract whole repeats of "
+       "the texture, or leave the fragment out"},
+      {begin + "quad 0 f f 0 - - 0 0 0 0 0 x 0 0\n",
+       "F:3: t2 = 'x': expected a number, such as 0.25 or -1e-3"},
+      {begin + "fragment 0 7 5 0 0 0 0 0 0\nend 1\n", "1 quads, 1 fragments of 8 x 6"},
+      {begin + "fragment 0 8 5 0 0 0 0 0 0\n",
+       "F:3: place (8, 5) is outside of the picture of 8 x 6 pixels"},
+      {begin + "fragment 0 - - 0 0 0 0 0 130\n",
+       "F:3: dt/dy = 130: coordinates are numbers from -128 to below 128; subtract whole repeats "
+       "of the texture, or leave the fragment out"},
+      {begin + "fragment 0 - - 127 0 1 0 0 0\n",
+       "F:3: s of a neighbour by the derivatives = 128: coordinates are numbers from -128 to below "
+       "128; subtract whole repeats of the texture, or leave the fragment out"},
+      {begin + "fragment 0 1 1 0 -127 0 2 0 0\n",
+       "F:3: t of a neighbour by the derivatives = -129: coordinates are numbers from -128 to "
+       "below 128; subtract whole repeats of the texture, or leave the fragment out"},
+      {begin + long_line + "end 0\n", "0 quads, 0 fragments of 8 x 6"},
+      {begin + "#" + long_line + "end 0\n",
+       "F:3: a line of more than 1000 characters: is this a trace of fragments?"}};
+  for (const auto& [text, said] : rows) EXPECT_EQ(verdict_on(file_, text), said) << text;
+}
+
+// The header and a record of the binary format, with some bytes changed.
+std::string binary(std::initializer_list<std::pair<std::size_t, int>> changes,
+                   std::size_t records = 1) {
+  std::string bytes(kFragmentTraceMagic);
+  for (const std::uint32_t word : {1u, 64u, 80u, 8u, 6u, 0u}) put_little_endian(bytes, word);
+  put_little_endian(bytes, std::uint64_t{records});
+  bytes.resize(64, '\0');
+  for (std::size_t i = 0; i < records; ++i) {
+    for (const std::uint32_t word : {2u, 4u}) put_little_endian(bytes, word);
+    bytes += std::string({'\0', '\1', '\xf', '\xf', '\0', '\0', '\0', '\0'});
+    for (int value = 0; value < 8; ++value) put_double(bytes, 0.125 * value);
+  }
+  for (const auto& [at, value] : changes) bytes[at] = static_cast<char>(value);
+  return bytes;
+}
+
+TEST_F(FragmentTrace, OfBytesIsAcceptedOrSaysWhatIsWrong) {
+  const std::pair<std::string, std::string> rows[] = {
+      {binary({}), "1 quads, 4 fragments of 8 x 6"},
+      {binary({}, 3), "3 quads, 12 fragments of 8 x 6"},
+      {binary({{8, 2}}), "'F': version 2, and this program reads version 1: write the trace anew"},
+      {binary({{12, 65}}), "'F': a header of 65 bytes and records of 80, expected 64 and 80"},
+      {binary({{16, 81}}), "'F': a header of 64 bytes and records of 81, expected 64 and 80"},
+      {binary({{20, 0}}), "'F', record 0: a picture of 0 x 6 pixels: each side must be 1 to 8192"},
+      {binary({{20, 0}, {24, 0}}),
+       "'F', record 0: a place in a picture whose size is not said: begin with 'size WIDTH HEIGHT' "
+       "(or the header's fields), or leave out x and y"},
+      {binary({{32, 2}}),
+       "'F': 144 bytes, and a header with 2 records says 224: the file was cut short; make it "
+       "again"},
+      {binary({{32, 0}}),
+       "'F': 144 bytes, and a header with 0 records says 64: the file is too long; make it again"},
+      {binary({{36, 1}}),
+       "'F': 4294967297 records, and 4294967295 is the most: cut it into several runs"},
+      {binary({}).substr(0, 63),
+       "'F': the file ends within its header of 64 bytes: it was cut short; make it again"},
+      {binary({{72, 2}}), "'F', record 0: kind 2: expected 0 (quad) or 1 (fragment)"},
+      {binary({{72, 1}}), "1 quads, 1 fragments of 8 x 6"},
+      {binary({{73, 2}}),
+       "'F', record 0: texture 2, and the unit is given 2: 0 to 1; name a scene that has as many "
+       "(--in FILE.gltf), or change the handle"},
+      {binary({{74, 16}}), "'F', record 0: coverage = 0x10: a mask of four lanes is at most 0xf"},
+      {binary({{75, 16}}), "'F', record 0: visible = 0x10: a mask of four lanes is at most 0xf"},
+      {binary({{76, 16}}), "'F', record 0: clamped = 0x10: a mask of four lanes is at most 0xf"},
+      {binary({{74, 3}, {75, 1}, {76, 15}}), "1 quads, 2 fragments of 8 x 6"},
+      {binary({{77, 1}}), "'F', record 0: bytes 13 to 15 must be 0"},
+      {binary({{78, 1}}), "'F', record 0: bytes 13 to 15 must be 0"},
+      {binary({{79, 1}}), "'F', record 0: bytes 13 to 15 must be 0"},
+      {binary({{64, 3}}), "'F', record 0: a quad at (3, 4): lane 0 stands at even x and y"},
+      {binary({{144 + 4, 6}}, 2),
+       "'F', record 1: place (2, 6) is outside of the picture of 8 x 6 pixels"},
+      {binary({{64, 255},
+               {65, 255},
+               {66, 255},
+               {67, 255},
+               {68, 255},
+               {69, 255},
+               {70, 255},
+               {71, 255}}),
+       "1 quads, 4 fragments of 8 x 6"},
+      {binary({{64, 255}, {65, 255}, {66, 255}, {67, 255}}),
+       "'F', record 0: place (4294967295, 4) is outside of the picture of 8 x 6 pixels"},
+      {binary({{86, 0xF0}, {87, 0x7F}}),
+       "'F', record 0: s0 = inf: coordinates are numbers from -128 to below 128; subtract whole"
+       " repeats of the texture, or leave the fragment out"},
+      {binary({{86, 0xF8}, {87, 0x7F}}),
+       "'F', record 0: s0 = nan: coordinates are numbers from -128 to below 128; subtract whole"
+       " repeats of the texture, or leave the fragment out"}};
+  for (const auto& [bytes, said] : rows) EXPECT_EQ(verdict_on(file_, bytes), said);
+}
+
+TEST_F(FragmentTrace, HasItsFieldsWhereTheyAreDocumented) {
+  constexpr int kEighth = spec::texture::kCoordinateOne / 8;
+  put(binary({{72, 0}, {73, 1}, {74, 7}, {75, 3}, {76, 5}}));
+  const std::vector<TracedQuad> quads = read();
+  ASSERT_EQ(quads.size(), 1u);
+  EXPECT_THAT(quads[0].quad.s, testing::ElementsAre(0, 2 * kEighth, 4 * kEighth, 6 * kEighth));
+  EXPECT_THAT(quads[0].quad.t,
+              testing::ElementsAre(kEighth, 3 * kEighth, 5 * kEighth, 7 * kEighth));
+  EXPECT_EQ(quads[0].quad.texture, 1);
+  EXPECT_EQ(quads[0].quad.coverage, 7);
+  EXPECT_EQ(quads[0].visible, 3);
+  EXPECT_EQ(quads[0].quad.clamped, 5);
+  EXPECT_EQ(quads[0].quad.x, 2);
+  EXPECT_EQ(quads[0].quad.y, 4);
+  TracedQuad unplaced = quads[0];
+  unplaced.placed = false;
+  for (const TraceFormat format : {TraceFormat::kText, TraceFormat::kBinary}) {
+    FragmentWriter writer(file_, format, 8, 6);
+    writer.put(quads[0]);
+    if (format == TraceFormat::kText) writer.put(unplaced);
+    writer.finish();
+    const std::string text =
+        "deburr-fragments 1\nsize 8 6\n"
+        "# quad texture coverage visible clamped x y s0 t0 s1 t1 s2 t2 s3 t3\n"
+        "quad 1 7 3 5 2 4 0 0.125 0.25 0.375 0.5 0.625 0.75 0.875\n"
+        "quad 1 7 3 5 - - 0 0.125 0.25 0.375 0.5 0.625 0.75 0.875\nend 2\n";
+    EXPECT_EQ(bytes(), format == TraceFormat::kText
+                           ? text
+                           : binary({{72, 0}, {73, 1}, {74, 7}, {75, 3}, {76, 5}}));
+  }
 }
 
 }  // namespace

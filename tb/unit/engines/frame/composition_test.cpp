@@ -206,6 +206,18 @@ TEST(FrameComposition, FiguresAreOfTheWholeFrame) {
   }
 }
 
+// What is behind others is written, too.
+TEST(FrameComposition, BytesAreOfHiddenFragmentsToo) {
+  for (const Kind kind : kAll) {
+    const Json seen = figures_of({kind}),
+               all = figures_of({kind, {{"scene.visibility", "overdraw"}}});
+    EXPECT_GT(number_at(all, "/fragments"), number_at(seen, "/fragments"));
+    EXPECT_EQ(work(all, "frame_buffer_bytes_written"), 4 * number_at(all, "/fragments"));
+    EXPECT_EQ(work(all, "frame_buffer_bytes_read"), work(seen, "frame_buffer_bytes_read"));
+    EXPECT_EQ(number_at(all, "/checks/mismatches"), 0);
+  }
+}
+
 TEST(FrameComposition, NoiseInUnwrittenFieldsChangesNothing) {
   SimulationOptions poisoned;
   poisoned.poison = true;

@@ -205,8 +205,9 @@ TEST(Morphological, DepthAndEdgesOfSomeoneElseAreTakenAsTheyAreGiven) {
   DEBURR_EXPECT_TAKEN(stream, deburr_frame_process(stream.get()));
   expect_same(stream.get(), golden);
 
-  // Edges that another found, until another frame is begun.
-  std::vector<std::uint8_t> edges(image.pixels.size());
+  // Edges that another found, of rows with gaps, until another frame is begun.
+  constexpr int kStride = 83;
+  std::vector<std::uint8_t> edges(std::size_t{kStride} * 50, 0);
   golden::morphological::EdgePlanes planes;
   planes.left.resize(80, 50);
   planes.top.resize(80, 50);
@@ -215,14 +216,14 @@ TEST(Morphological, DepthAndEdgesOfSomeoneElseAreTakenAsTheyAreGiven) {
       const bool left = x > 0 && random.chance(200), top = y > 0 && random.chance(200);
       if (left) planes.left.set(x, y);
       if (top) planes.top.set(x, y);
-      edges[static_cast<std::size_t>(80 * y + x)] =
+      edges[static_cast<std::size_t>(kStride * y + x)] =
           static_cast<std::uint8_t>((left ? 1 : 0) + (top ? 2 : 0));
     }
   }
   MorphologicalGolden other(parameters);
   other.process(view, planes);
-  DEBURR_EXPECT_TAKEN(handle,
-                      deburr_morphological_edges(handle.get(), edges.data(), edges.size(), 0));
+  DEBURR_EXPECT_TAKEN(
+      handle, deburr_morphological_edges(handle.get(), edges.data(), edges.size(), kStride));
   DEBURR_EXPECT_TAKEN(handle, deburr_frame_process(handle.get()));
   expect_same(handle.get(), other);
   give(handle.get(), image, 0);

@@ -161,6 +161,18 @@ TEST(Level, AWholeRatioIsTheNumberOfSamples) {
     }
 }
 
+TEST(Level, ABrokenRatioTakesTheNextWholeNumber) {
+  spec::texture::Parameters parameters;
+  parameters.count = spec::texture::CountRule::kAny;
+  parameters.count_cap = spec::texture::CountCap::kNone;
+  spec::texture::Descriptor descriptor;
+  descriptor.max_anisotropy_log2 = 4;
+  for (int n = 2; n <= 16; ++n) {
+    const PixelFootprint f{0, 0, n - 0.75, 0, 0, 1};
+    EXPECT_EQ(level_of_detail(parameters, descriptor, f).samples, n);
+  }
+}
+
 // A cap of texels is that of the count: with any count the length itself, else whole levels of it.
 TEST(Level, TheCapOfTexelsIsOfTheCount) {
   spec::texture::Parameters parameters;
