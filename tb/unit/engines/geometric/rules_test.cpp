@@ -6,12 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "spec/error.h"
 #include "tb/engines/geometric/geometric_rules.h"
 #include "tb/results/parameter_set.h"
+#include "tb/unit/engines/complaint.h"
 
 namespace deburr::tb::rules_test {
 namespace {
@@ -19,21 +19,11 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
-// The first complaint about these, or nothing.
 std::string complaint(const Settings& settings) {
-  spec::geometric::Parameters values;
-  ParameterSet set;
-  set.add_engine("geometric", values);
-  for (const auto& [name, value] : settings) set.set("geometric." + name, value, "--set");
-  try {
-    reject_unused_rules(set, values);
-  } catch (const spec::ConfigError& error) {
-    const std::string text = error.what();
-    return text.substr(text.find("has no effect: ") + 15);
-  }
-  return "";
+  return tb::complaint<spec::geometric::Parameters>(
+      "geometric", settings, [](const ParameterSet& set, const auto& values) {
+        reject_unused_rules(set, values);
+      });
 }
 
 TEST(GeometricRules, WhatHasNoEffectIsRejectedWithItsReason) {

@@ -6,12 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "spec/error.h"
 #include "tb/engines/morphological/morphological_rules.h"
 #include "tb/results/parameter_set.h"
+#include "tb/unit/engines/complaint.h"
 
 namespace deburr::tb::rules_test {
 namespace {
@@ -22,20 +22,11 @@ using spec::morphological::ThresholdMode;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
 std::string complaint(const Settings& settings) {
-  spec::morphological::Parameters values;
-  ParameterSet set;
-  set.add_engine("morphological", values);
-  for (const auto& [name, value] : settings) set.set("morphological." + name, value, "--set");
-  try {
-    reject_unused_rules(set, values, "memory");
-  } catch (const spec::ConfigError& error) {
-    const std::string text = error.what();
-    return text.substr(text.find("has no effect: ") + 15);
-  }
-  return "";
+  return tb::complaint<spec::morphological::Parameters>(
+      "morphological", settings, [](const ParameterSet& set, const auto& values) {
+        reject_unused_rules(set, values, "memory");
+      });
 }
 
 TEST(MorphologicalRules, WhatHasNoEffectIsRejectedWithItsReason) {

@@ -146,30 +146,30 @@ TEST(Ellipse, OfUprightFootprintsIsTheirSides) {
   EXPECT_EQ(ellipse({}).d_max, 0);
 }
 
-// exp2 of the difference of two logarithms may lie above the ratio by a rounding.
-TEST(Level, AWholeRatioIsTheNumberOfSamples) {
+// As many as the footprint wants, up to 16.
+int samples_of_any_count(const PixelFootprint& f) {
   spec::texture::Parameters parameters;
   parameters.count = spec::texture::CountRule::kAny;
   parameters.count_cap = spec::texture::CountCap::kNone;
   spec::texture::Descriptor descriptor;
   descriptor.max_anisotropy_log2 = 4;
+  return level_of_detail(parameters, descriptor, f).samples;
+}
+
+// exp2 of the difference of two logarithms may lie above the ratio by a rounding.
+TEST(Level, AWholeRatioIsTheNumberOfSamples) {
   for (int n = 1; n <= 16; ++n)
     for (const double side : {0.3, 1.0, 1.5, 3.0, 5.0, 7.0}) {
       if (n * side <= 1) continue;  // within a texel
       const PixelFootprint f{0, 0, n * side, 0, 0, side};
-      EXPECT_EQ(level_of_detail(parameters, descriptor, f).samples, n) << side;
+      EXPECT_EQ(samples_of_any_count(f), n) << side;
     }
 }
 
 TEST(Level, ABrokenRatioTakesTheNextWholeNumber) {
-  spec::texture::Parameters parameters;
-  parameters.count = spec::texture::CountRule::kAny;
-  parameters.count_cap = spec::texture::CountCap::kNone;
-  spec::texture::Descriptor descriptor;
-  descriptor.max_anisotropy_log2 = 4;
   for (int n = 2; n <= 16; ++n) {
     const PixelFootprint f{0, 0, n - 0.75, 0, 0, 1};
-    EXPECT_EQ(level_of_detail(parameters, descriptor, f).samples, n);
+    EXPECT_EQ(samples_of_any_count(f), n);
   }
 }
 

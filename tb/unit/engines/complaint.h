@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What an engine says of parameters without an effect.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/results/parameter_set.h"
+
+namespace deburr::tb {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;  // names without the engine's
+
+// The reason of the first complaint about these, or nothing; `reject` is called with the set and
+// the values of an engine's parameters.
+template <class Parameters, class Reject>
+std::string complaint(const std::string& engine, const Settings& settings, Reject&& reject) {
+  static constexpr std::string_view kBefore = "has no effect: ";
+  Parameters values;
+  ParameterSet set;
+  set.add_engine(engine, values);
+  for (const auto& [name, value] : settings) set.set(engine + "." + name, value, "--set");
+  try {
+    reject(set, values);
+  } catch (const spec::ConfigError& error) {
+    const std::string text = error.what();
+    return text.substr(text.find(kBefore) + kBefore.size());
+  }
+  return "";
+}
+
+}  // namespace deburr::tb
