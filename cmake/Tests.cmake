@@ -4,7 +4,8 @@
 # deburr_test(<name> SOURCE <file> LABELS ... LINK ... [PROGRAM <program>]
 #             [TIMING regex ...] [LONG regex ...] [TIMEOUT s]):
 # a source with GoogleTests. Every TEST becomes an entry of ctest, `<name>.Suite.Case`, and so a process
-# of its own: SystemC elaborates once a process. Tests whose name matches a regex of TIMING or LONG have
+# of its own: SystemC elaborates once a process. Under sanitizers, where a process takes longer to start than
+# most tests, a suite of a program without SystemC is one entry, `<name>.Suite`. Tests whose name matches a regex of TIMING or LONG have
 # the label `timing` or `long` too; a regex that matches none is an error of the build.
 #
 # The sources of a folder are one program, named after it: rtl_texture_tests of tb/unit/rtl/texture;
@@ -86,7 +87,9 @@ function(deburr_finish_tests program)
   set(discover "${PROJECT_SOURCE_DIR}/cmake/discover_tests.py")
   set_property(TARGET ${program} PROPERTY LINK_DEPENDS "${stem}.json" "${discover}")
   add_custom_command(TARGET ${program} POST_BUILD
-    COMMAND "${discover}" "${stem}.json" $<TARGET_FILE:${program}> "${stem}.cmake")
+    COMMAND "${discover}" "${stem}.json" $<TARGET_FILE:${program}> "${stem}.cmake"
+            $<$<BOOL:${DEBURR_SANITIZE}>:--suites>
+    COMMAND_EXPAND_LISTS)
   get_target_property(not_built ${program} DEBURR_NOT_BUILT)
   file(CONFIGURE OUTPUT "${stem}_include.cmake" CONTENT
        "if(EXISTS [=[${stem}.cmake]=])\n  include([=[${stem}.cmake]=])\nelse()\n${not_built}endif()\n" @ONLY)

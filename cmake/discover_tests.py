@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Writes the ctest entries of a test program: a TEST each, named after the source that it stands in
 (deburr_test in Tests.cmake). An error is a source without tests, a test of no source, two tests of one
-name, a test that is disabled, and a regular expression of TIMING or LONG that matches no test.
-usage: discover_tests.py LIST PROGRAM OUTPUT"""
+name, a test that is disabled, and a regular expression of TIMING or LONG that matches no test. With
+--suites the tests of a suite that have the same labels are one entry, if the program has no SystemC.
+usage: discover_tests.py LIST PROGRAM OUTPUT [--suites]"""
 import collections
 import json
 import pathlib
@@ -53,16 +54,31 @@ def entries(sources, tests):
     return found, wrong
 
 
+def entries_of_tests(found):
+    return [(entry, [name], source, labels) for entry, name, source, labels in found]
+
+
+def entries_of_suites(found):
+    """What has labels beside those of its source is an entry of its own."""
+    together = {}
+    for entry, name, source, labels in found:
+        more = [label for label in labels if label not in source["labels"]]
+        suite = ".".join([entry.rpartition(".")[0], *more])
+        together.setdefault(suite, (suite, [], source, labels))[1].append(name)
+    return together.values()
+
+
 def main():
-    listing, program, output = map(pathlib.Path, sys.argv[1:])
+    listing, program, output = map(pathlib.Path, sys.argv[1:4])
+    one_each = sys.argv[4:] != ["--suites"] or b"libsystemc" in program.read_bytes()
     found, wrong = entries(json.loads(listing.read_text(encoding="utf-8")), listed(program))
     output.unlink(missing_ok=True)
     if wrong:
         sys.exit("\n".join(f"{program.name}: {text}" for text in wrong))
     text = ""
-    for entry, name, source, labels in found:
-        text += (f"add_test([=[{entry}]=] [=[{program}]=] [=[--gtest_filter={name}]=])\n"
-                 f"set_tests_properties([=[{entry}]=] PROPERTIES TIMEOUT {source['timeout']} "
+    for entry, names, source, labels in entries_of_tests(found) if one_each else entries_of_suites(found):
+        text += (f"add_test([=[{entry}]=] [=[{program}]=] [=[--gtest_filter={':'.join(names)}]=])\n"
+                 f"set_tests_properties([=[{entry}]=] PROPERTIES TIMEOUT {source['timeout'] * len(names)} "
                  f"WORKING_DIRECTORY [=[{program.parent}]=] LABELS \"{';'.join(labels)}\")\n")
     output.write_text(text, encoding="utf-8")
 

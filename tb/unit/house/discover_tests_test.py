@@ -28,7 +28,7 @@ class DiscoverTests(unittest.TestCase):
         self.root = tiny_tree(self, {"program": PROGRAM})
         (self.root / "program").chmod(0o755)
 
-    def discover(self, sources, tests):
+    def discover(self, sources, tests, *more):
         """Exit code, what was said, and the entries; `tests`: (suite, case, file) each."""
         suites = {}
         for suite, case, file in tests:
@@ -39,7 +39,7 @@ class DiscoverTests(unittest.TestCase):
         output = self.root / "out.cmake"
         output.write_text("of the last build", encoding="utf-8")
         done = subprocess.run([SOURCE / "cmake/discover_tests.py", self.root / "list.json",
-                               self.root / "program", output], capture_output=True, text=True, check=False)
+                               self.root / "program", output, *more], capture_output=True, text=True, check=False)
         return done.returncode, done.stderr, output.read_text(encoding="utf-8") if output.exists() else ""
 
     def test_entries_have_the_names_of_their_sources_and_the_labels_of_their_expressions(self):
@@ -62,6 +62,23 @@ class DiscoverTests(unittest.TestCase):
             self.assertIn(f'set_tests_properties([=[{entry}]=] PROPERTIES TIMEOUT {timeout} WORKING_DIRECTORY '
                           f'[=[{self.root}]=] LABELS "{labels}")\n', text)
         self.assertEqual(text.count("add_test"), 5)
+
+    def test_suites_without_systemc_are_one_entry_where_asked(self):
+        tests = [(suite, case, "tb/unit/rtl/a_test.cpp") for suite, case in (
+            ("Suite", "Fast"), ("Suite", "One"), ("Suite", "Two"), ("Way/Each/Suite", "Any/0"))]
+        sources = [source("a", timing=["Suite.Fast"], timeout=7)]
+        code, said, text = self.discover(sources, tests, "--suites")
+        self.assertEqual((code, said), (0, ""))
+        for entry, names, labels, timeout in (
+                ("Suite.timing", "Suite.Fast", "unit;timing", 7), ("Suite", "Suite.One:Suite.Two", "unit", 14),
+                ("Way/Each/Suite", "Way/Each/Suite.Any/0", "unit", 7)):
+            self.assertIn(f"add_test([=[rtl_a_test.{entry}]=] [=[{self.root / 'program'}]=] [=[--gtest_filter={names}]=])\n"
+                          f"set_tests_properties([=[rtl_a_test.{entry}]=] PROPERTIES TIMEOUT {timeout} WORKING_DIRECTORY "
+                          f'[=[{self.root}]=] LABELS "{labels}")\n', text)
+        self.assertEqual(text.count("add_test"), 3)
+        with (self.root / "program").open("a", encoding="utf-8") as out:
+            out.write("# libsystemc-2.3.4.so\n")
+        self.assertEqual(self.discover(sources, tests, "--suites")[2].count("add_test"), 4)
 
     def test_what_would_be_lost_or_mixed_up_is_an_error_and_leaves_no_entries(self):
         one, two = ("Suite", "One", "tb/unit/rtl/a_test.cpp"), ("Suite", "Two", "tb/unit/rtl/b_test.cpp")
