@@ -109,6 +109,7 @@ std::string with_contents(std::string page, Contents contents) {
       units.back().push_back(link);  // a second heading of one name is no place to link to
     }
   }
+  if (sections.empty()) return page;  // of engines without registers, say
   if (contents == Contents::kSections) units.clear();
   std::string lines = units.empty() ? joined("*", sections) : "Units:\n\n";
   for (std::size_t i = 0; i < units.size(); ++i)

@@ -99,5 +99,13 @@ TEST(RegisterHeader, ReadBackIsTheFieldRows) {
   EXPECT_NE(read_back(changed), expected);
 }
 
+// A program may have engines without any.
+TEST(RegistersPage, OfNoEnginesHasNoSections) {
+  const std::string page = registers_page({});
+  EXPECT_TRUE(page.starts_with("# Registers\n"));
+  EXPECT_EQ(page.find("\n## "), std::string::npos);
+  EXPECT_TRUE(coverage_page({}).starts_with("# Coverage\n"));
+}
+
 }  // namespace
 }  // namespace deburr::tb::register_header_test
