@@ -13,10 +13,11 @@ import threading
 
 import yaml
 
-from mutation.check import threads
+from mutation.check import Verdict, threads
 from mutation.mutants import shown
 from mutation.tree import Problem, digest
 
+LEFT = Verdict("left", "")
 PROFILE = ("conf", "partition", "time", "memory", "cpus", "tasks", "options", "setup")
 
 
@@ -27,17 +28,17 @@ def sample(mutants, count, seed):
     return places[:count] if count else places
 
 
-def drawn(mutants, count, each, seed):
-    """(file, place) of `count` of all mutants (0: all), drawn at random over all files, in the order of
-    the draw, and then of as many more as every file needs to have `each`. The number by which a mutant
-    stands in the draw depends on nothing but the mutant and the seed, so that a larger sample begins with
-    a smaller one."""
+def drawn(mutants, count, each, seed, left=frozenset()):
+    """(file, place) of `count` of all mutants (0: all) that are not `left` out, drawn at random over all
+    files, in the order of the draw, and then of as many more as every file needs to have `each`. The
+    number by which a mutant stands in the draw depends on nothing but the mutant and the seed, so that a
+    larger sample begins with a smaller one."""
     def number(file, mutant):
         text = f"{seed} {file} {mutant.begin} {mutant.kind} {mutant.text}"
         return hashlib.sha256(text.encode()).digest()
 
     order = sorted((number(file, mutant), file, place) for file, all_of in mutants.items()
-                   for place, mutant in enumerate(all_of))
+                   for place, mutant in enumerate(all_of) if (file, place) not in left)
     order = [(file, place) for _, file, place in order]
     chosen, rest = (order[:count], order[count:]) if count else (order, [])
     of_file = collections.Counter(file for file, _ in chosen)
@@ -50,11 +51,15 @@ def drawn(mutants, count, each, seed):
 
 class Campaign:
     """Results are lines of JSON in `work`/results, a file for each who writes: what is there is not
-    done again, and a file that has changed begins anew."""
+    done again, and a file that has changed begins anew. Without `alone`, what must be compiled is left
+    out, and others are drawn in its place."""
 
-    def __init__(self, tree, checker, count, each, seed, say):
-        self.tree, self.checker, self.say = tree, checker, say
-        self.chosen = drawn(tree.mutants, count, each, seed)
+    def __init__(self, tree, checker, count, each, seed, say, alone=True):
+        self.tree, self.checker, self.say, self.alone = tree, checker, say, alone
+        self.left = frozenset() if alone else frozenset(
+            (file, place) for file, all_of in tree.mutants.items() for place in range(len(all_of))
+            if checker.needs_a_build(file, place))
+        self.chosen = drawn(tree.mutants, count, each, seed, self.left)
         self.lock = threading.Lock()
 
     def key(self, file, place):
@@ -68,16 +73,17 @@ class Campaign:
                 for place, mutant in enumerate(all_of)
                 if (str(file), *shown(self.tree.sources[file], mutant)[1:]) in explanations]
 
-    def run(self, jobs, alone, again, explained=(), name="local", part=0, parts=1):
+    def run(self, jobs, again, explained=(), name="local", part=0, parts=1):
         """Checks what has no verdict yet, or if `again` survived and is not `explained`: behind
-        switches first, then, if `alone`, one by one what must be compiled. `part` of `parts` of
+        switches first, then, if not left out, one by one what must be compiled. `part` of `parts` of
         them all. What is explained is checked whether it was drawn or not, since an explanation is of
         a survivor."""
         drawn_ones = set(self.chosen)
         self.chosen += [item for item in self.explained(explained) if item not in drawn_ones]
-        done = {key_of(entry) for entry in read_results(self.tree.work)
-                if not again or entry["verdict"] != "survived"
-                or (entry["file"], entry["was"], entry["is"]) in explained}
+        known = read_results(self.tree.work)
+        done = {key_of(entry) for entry in known if entry["verdict"] != "left" and
+                (not again or entry["verdict"] != "survived"
+                 or (entry["file"], entry["was"], entry["is"]) in explained)}
         wanted = [item for n, item in enumerate(self.chosen)
                   if n % parts == part and self.key(*item) not in done]
         folder = self.tree.work / "results"
@@ -87,8 +93,13 @@ class Campaign:
             # The last line may be half of one, of a writer that was killed.
             if out.tell():
                 out.write("\n")
+            told = {key_of(entry) for entry in known}
+            for item in sorted(self.left) if part == 0 else ():
+                if self.key(*item) not in told:
+                    self.put(out, item, LEFT, "")
+
             def checked(number, item):
-                verdict = self.checker.by_switch(*item)
+                verdict = None if self.checker.needs_a_build(*item) else self.checker.by_switch(*item)
                 if verdict is None:
                     later.append(item)
                 else:
@@ -101,7 +112,7 @@ class Campaign:
                     future.result()
             # A header costs a build of nearly everything.
             later.sort(key=lambda item: (item[0].suffix == ".h", wanted.index(item)))
-            for number, item in enumerate(later if alone else ()):
+            for number, item in enumerate(later if self.alone else ()):
                 self.put(out, item, self.checker.alone(*item), "alone")
                 self.say(f"{number + 1} of {len(later)} mutants compiled alone")
 
@@ -111,6 +122,7 @@ class Campaign:
         keys = dict(zip(("file", "hash", "begin", "kind", "text"), self.key(file, place)))
         with self.lock:
             out.write(json.dumps({**keys, "line": line, "was": before, "is": after, "way": way,
+                                  "budget": self.checker.budget,
                                   **verdict._asdict()}) + "\n")
             out.flush()
 

@@ -26,8 +26,8 @@ def threads(jobs):
 class Checker:
     """Runs the tests of a tree once without any mutant, and then those that can find one."""
 
-    def __init__(self, tree, budget):
-        self.tree, self.budget = tree, budget
+    def __init__(self, tree, budget, longest_first=False):
+        self.tree, self.budget, self.longest_first = tree, budget, longest_first
         self.kills = collections.defaultdict(collections.Counter)
         self.last = collections.defaultdict(list)
 
@@ -87,12 +87,15 @@ class Checker:
 
     def ordered(self, file, names, kind):
         """First tests of resets for a reset, then what found the last mutants of the file, then the file's own
-        tests, then by what a test takes for what it finds."""
+        tests, then by what a test takes for what it finds. The longest first for
+        what these let pass."""
         stem = file.stem
         kills, last = self.kills[file], self.last[file]
 
         def order(name):
             source = self.tests[name].source
+            if self.longest_first:
+                return (-self.seconds[name], name)
             return (kind == "reset" and "reset" not in name.lower(),
                     last.index(name) if name in last else 9, not source.endswith(f"_{stem}_test"),
                     self.seconds[name] / (1 + kills[name]), name)
@@ -103,7 +106,7 @@ class Checker:
         spent = 0
         for name in self.ordered(file, names, self.tree.mutants[file][place].kind):
             seconds = self.seconds[name]
-            if spent and spent + seconds > self.budget:
+            if (spent or self.longest_first) and spent + seconds > self.budget:
                 continue
             spent += seconds
             passed, took, _ = passes(self.tests[name], 1 + 10 * seconds, **environment)
@@ -113,15 +116,16 @@ class Checker:
                 return Verdict("killed", name)
         return Verdict("survived", "")
 
-    def by_switch(self, file, place):
-        """The verdict on a mutant that is behind a switch; None where it must be compiled alone."""
+    def needs_a_build(self, file, place):
+        """Whether a mutant must be compiled alone: no switch can be there, or no test meets it."""
         number = self.tree.first[file] + place
-        if place in self.tree.dropped[file]:
-            return None
+        return place in self.tree.dropped[file] or number not in self.impossible and number not in self.reach
+
+    def by_switch(self, file, place):
+        """The verdict on a mutant that is behind a switch."""
+        number = self.tree.first[file] + place
         if number in self.impossible:
             return Verdict("invalid", "")
-        if number not in self.reach:
-            return None
         return self.checked_by(file, place, self.reach[number], DEBURR_MUTANT=str(number))
 
     def alone(self, file, place):

@@ -15,6 +15,7 @@ SURVIVORS = pathlib.Path("tb/mutation/survivors.json")
 PAGE = pathlib.Path("docs/measurements/mutation.md")
 VERDICTS = ("killed", "survived", "invalid")
 GOAL = 95
+EACH = 40  # verdicts that a file must have, or all of its mutants
 Z = 1.959964  # of a confidence of 95 %
 HEAD = ("Made by `scripts/mutate --report` from `tb/mutation/record.json`, campaigns{at}, and "
         "`tb/mutation/survivors.json`; do not edit. What a mutant is: [how](../reference/tests.md#mutants), "
@@ -34,9 +35,10 @@ def record_of(results, sources, commit=""):
         of_kind = collections.Counter(m.kind for m in all_of)
         verdicts = collections.Counter((r["kind"], r["verdict"]) for r in own)
         record[str(file)] = {
-            **({"commit": commit} if commit and own else {}), "hash": content, "mutants": len(known),
+            **({"commit": commit} if commit and own else {}),
+            **({"budget": max(budgets)} if (budgets := [r["budget"] for r in own if "budget" in r]) else {}), "hash": content, "mutants": len(known),
             "alone": sum(r["way"] == "alone" for r in own),
-            "killed": counts["killed"], "invalid": counts["invalid"],
+            "left": counts["left"], "killed": counts["killed"], "invalid": counts["invalid"],
             "kinds": {kind: [of_kind[kind]] + [verdicts[kind, verdict] for verdict in VERDICTS]
                       for kind in mutants.KINDS if of_kind[kind]},
             "survived": sorted([r["was"], r["is"]] for r in own if r["verdict"] == "survived")}
@@ -45,8 +47,7 @@ def record_of(results, sources, commit=""):
 
 def joined(old, new):
     """The new record, with what the old one knows of the files that the new one has no verdict on."""
-    nothing = set(without_verdict(new))
-    return {file: old.get(file, entry) if file in nothing else entry for file, entry in new.items()}
+    return {file: entry if tried(entry) else old.get(file, entry) for file, entry in new.items()}
 
 
 def read(path):
@@ -86,8 +87,8 @@ def checked(record, explained):
         row = rows[folder_of(file)]
         row["files"] += 1
         row["mutants"] += entry["mutants"]
-        for name in ("killed", "invalid", "alone"):
-            row[name] += entry[name]
+        for name in ("killed", "invalid", "alone", "left"):
+            row[name] += entry.get(name, 0)
         for was, becomes in entry["survived"]:
             row["explained" if (file, was, becomes) in explained else "survived"] += 1
     return dict(sorted(rows.items()))
@@ -169,26 +170,33 @@ def page_of(root, record):
             f"| {percent(row['killed'], run_of(row))} "
             f"| {percent(row['killed'], row['killed'] + row['survived'])} |")
     old = [file for file, entry in record.items() if "kinds" not in entry]
-    tried = run_of(total) + total["invalid"]
+    done = run_of(total) + total["invalid"]
     text = "# Mutants of both models\n\n" + wrapped(HEAD.format(at=commits_of(record))) + "\n\n" + wrapped(
         f"Of {total['mutants']} mutants {run_of(total)} have a verdict: {total['killed']} killed, "
-        f"{total['explained']} survived and explained, {total['survived']} survived and open. The goal is {GOAL} % of those that are not explained. " + goal_of(rows, not old)) + "\n\n"
+        f"{percent(total['killed'], run_of(total))} %, {total['explained']} survived and explained, {total['survived']} "
+        f"survived and open. The goal is {GOAL} % of those that are not explained. " + goal_of(rows, not old)) + "\n\n"
+    budgets = sorted({entry["budget"] for entry in record.values() if "budget" in entry})
+    if budgets:
+        text += wrapped(f"Tests of at most {' or '.join(f'{budget:g}' for budget in budgets)} seconds a mutant were run "
+                        f"for {sum('budget' in entry for entry in record.values())} of the files: some of the open "
+                        "survivors would be killed by longer ones.") + "\n\n"
     text += wrapped("In brackets: the rate of all mutants, with a confidence of 95 % (Wilson's interval), if those with a "
                     "verdict are a random sample.") + "\n\n"
     text += "\n".join(lines) + "\n\n"
     text += wrapped(
         f"{total['invalid']} mutants did not compile and count nowhere; {total['alone']} were compiled alone. "
-        f"{total['mutants'] - tried} were not tried: they were not drawn, the campaign ended before them, or they "
-        "need a build each, as what the compiler works out does.") + "\n\n"
+        f"{total['mutants'] - done} were not tried: {total['left']} of them would need a build each, as what the compiler "
+        "works out does and what no test of the campaign runs; the others were not drawn.") + "\n\n"
     if old:
         text += wrapped(
             f"The record of {len(old)} of {len(record)} files is older than the kinds "
             + ", ".join(mutants.KINDS[mutants.KINDS.index("shift"):]) + ", and its mutants were not drawn at random: "
             "the table has none of these kinds, and intervals say too much where whole files were left out.") + "\n\n"
     text += kinds_of(record)
-    nothing = without_verdict(record)
-    if nothing:
-        text += wrapped(f"{len(nothing)} files have mutants and no verdict (`scripts/mutate --check` names them).") + "\n\n"
+    few = with_few(record)
+    if few:
+        text += wrapped(f"{len(few)} files have fewer than {EACH} verdicts and untried mutants (`scripts/mutate --check` "
+                        "names them).") + "\n\n"
     text += wrapped(f"`tb/mutation/survivors.json` has {len(explained)} explanations, by file, line and reason: the program "
                     "does the same, or the difference is in no contract.") + "\n\n"
     text += "## Open survivors\n\n"
@@ -202,17 +210,29 @@ def page_of(root, record):
     return text
 
 
-def without_verdict(record):
-    """Files of the record that have mutants, and none that was checked."""
-    return sorted(file for file, entry in record.items()
-                  if entry["mutants"] and not entry["killed"] + entry["invalid"] + len(entry["survived"]))
+def tried(entry):
+    return entry["killed"] + entry["invalid"] + len(entry["survived"])
+
+
+def needed(entry):
+    return min(EACH, entry["mutants"] - entry.get("left", 0))
+
+
+def with_few(record):
+    """Files of the record with fewer verdicts than a file must have."""
+    return sorted(file for file, entry in record.items() if tried(entry) < needed(entry))
 
 
 def untried(root, record, files):
-    """The same of the files of today, which may be newer than the record."""
-    new = [str(file) for file in files if str(file) not in record
-           and mutants.mutants_of((root / file).read_text(encoding="utf-8"))]
-    return sorted(new + [file for file in without_verdict(record) if (root / file).exists()])
+    """What is wrong with the files of today, which may be newer than the record: too few verdicts."""
+    found = {file: (tried(record[file]), record[file]["mutants"], needed(record[file]))
+             for file in with_few(record) if (root / file).exists()}
+    for file in map(str, files):
+        if file not in record:
+            number = len(mutants.mutants_of((root / file).read_text(encoding="utf-8")))
+            found.update({file: (0, number, min(EACH, number))} if number else {})
+    return [f"{file}: {of} of {number} mutants have a verdict, a file needs {least}: scripts/mutate --all --count 1 "
+            f"--each {EACH} --switched --files '{file}' --work ../mutants" for file, (of, number, least) in sorted(found.items())]
 
 
 def wrapped(text):
