@@ -21,9 +21,8 @@ using testing::IsEmpty;
 
 std::string complaint(const Settings& settings) {
   return tb::complaint<spec::geometric::Parameters>(
-      "geometric", settings, [](const ParameterSet& set, const auto& values) {
-        reject_unused_rules(set, values);
-      });
+      "geometric", settings,
+      [](const ParameterSet& set, const auto& values) { reject_unused_rules(set, values); });
 }
 
 TEST(GeometricRules, WhatHasNoEffectIsRejectedWithItsReason) {
