@@ -282,6 +282,23 @@ TEST(Memories, OfKeptColoursAndTheWriteBuffer) {
   EXPECT_EQ(built["weight_combiner.write_tags"], "flops 40 x 23 40R1W in 0");
   EXPECT_EQ(built["weight_combiner.latency_fifo"], "sram 128 x 177 1R1W in 1");
 }
+// The page's copy_buffer: sram above 16 384 bits.
+TEST(Memories, AFewLinesOfACopyAreFlipFlops) {
+  for (const auto& [lines, kind] : {std::pair{32, "flops"}, {33, "sram"}}) {
+    const std::string got = in_child([lines = lines] {
+      Parameters p;
+      p.frame_copy = true;
+      p.copy_lines = lines;
+      EngineBench b(p);
+      std::string found;
+      for (const rtl::MemoryBase* memory : b.engine.memories())
+        if (std::string(memory->basename()) == "copy_buffer")
+          found += rtl::name_of(memory->memory_kind());
+      return found;
+    });
+    EXPECT_EQ(got, kind) << lines;
+  }
+}
 // What the page's formulas say of other builds: rows of any length are rounded up.
 TEST(Memories, RowsOfAnyLengthFit) {
   for (const auto& [pixels, above, originals] : {std::tuple{64, 1u, 16u},
@@ -514,9 +531,8 @@ TEST(Accounts, OfAFrameWithoutEdges) {
       {"memory_port", "busy 2, memory 20, idle 173"}};
   EXPECT_EQ(accounts_of(b), wanted);
 }
-// The same line among edges of every other kind: none of them is counted.
-TEST(Accounts, LatencyIsThatOfLinesWithAPixelThatPasses) {
-  EngineBench b;
+// The same line among edges of every other kind.
+Scene lines_among_others() {
   Scene scene = blank(16, 8);
   const auto add = [&](int y, std::uint32_t depth) {
     add_line(scene, 0, y, 8 * 256, y);
@@ -532,7 +548,12 @@ TEST(Accounts, LatencyIsThatOfLinesWithAPixelThatPasses) {
   add(512 + 100, 10);                                    // behind
   add(20 * 256, 2000);                                   // empty
   add(3 * 256 + 180, 2000);
-  b.load(scene);
+  return scene;
+}
+// None of the others is counted.
+TEST(Accounts, LatencyIsThatOfLinesWithAPixelThatPasses) {
+  EngineBench b;
+  b.load(lines_among_others());
   b.run();
   EXPECT_EQ(b.engine.work().kept_edges, 6u);
   EXPECT_EQ(b.engine.work().lines, 4u);
@@ -541,6 +562,30 @@ TEST(Accounts, LatencyIsThatOfLinesWithAPixelThatPasses) {
   EXPECT_EQ(b.engine.edge_latency.count(), 2u);
   EXPECT_EQ(b.engine.edge_latency.min(), 101u);
   EXPECT_EQ(b.engine.edge_latency.max(), 103u);
+}
+// Nor with split records, where the flat edge is dropped before its vertices are known, and the
+// invalid one after that. One edge a clock: no two leave together.
+TEST(Accounts, LatencyWithSplitRecordsIsThatOfTheSameLines) {
+  using spec::geometric::RecordsLayout;
+  const auto latencies = [](RecordsLayout records) {
+    return forked<std::array<Cycle, 3>>([&] {
+      Parameters p;
+      p.edge_lanes = spec::geometric::Lanes::kOne;
+      p.records = records;
+      EngineBench b(p);
+      b.load(lines_among_others());
+      b.run();
+      EXPECT_EQ(b.engine.work().kept_edges, 6u);
+      const rtl::Histogram& latency = b.engine.edge_latency;
+      return std::array<Cycle, 3>{latency.count(), latency.min(), latency.max()};
+    });
+  };
+  const std::array<Cycle, 3> joined = latencies(RecordsLayout::kJoined);
+  EXPECT_EQ(joined[0], 2u);
+  // A unit more on their way, which waits for its line as that of the vertices does.
+  const Cycle more = rtl::geometric::PairFetch::datasheet().latency.clocks + 26;
+  EXPECT_EQ(latencies(RecordsLayout::kSplit),
+            (std::array<Cycle, 3>{2, joined[1] + more, joined[2] + more}));
 }
 // Few places everywhere and a single divider, so that units wait for each other, for every cause
 // that there is but `fills`, and `downstream` of the Resolver.

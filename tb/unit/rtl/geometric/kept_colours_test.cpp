@@ -180,7 +180,7 @@ TEST(ColourStore, AFrameAndAResetBeginWithNothingKept) {
 TEST(ColourStore, ATagIsOneLineOfItsLayout) {
   std::set<std::uint32_t> tags;
   for (const std::uint32_t u : {0u, 1u, 511u})
-    for (const std::uint32_t v : {0u, 1u, 511u, 2047u, 8191u}) {
+    for (const std::uint32_t v : {0u, 1u, 511u, 2047u, 4095u, 8191u}) {
       const std::uint32_t raster = ColourStore::Filler::tag_of(false, u, v);
       EXPECT_TRUE(tags.insert(raster).second);
       EXPECT_NE(raster, 0u);
@@ -188,7 +188,7 @@ TEST(ColourStore, ATagIsOneLineOfItsLayout) {
     }
   tags.clear();
   for (const std::uint32_t u : {0u, 1u, 511u, 1024u, 2047u})
-    for (const std::uint32_t v : {0u, 1u, 511u, 2047u}) {
+    for (const std::uint32_t v : {0u, 1u, 511u, 1023u, 2047u}) {
       const std::uint32_t tiled = ColourStore::Filler::tag_of(true, u, v);
       EXPECT_TRUE(tags.insert(tiled).second);
       EXPECT_LT(tiled, 1u << 23);

@@ -178,7 +178,8 @@ struct OriginalsBench : ResolveBench {
     return -1;
   }
 };
-constexpr std::uint16_t kLeftColumn = 0x1111, kRightColumn = 0x8888;
+constexpr std::uint16_t kLeftColumn = 0x1111, kRightColumn = 0x8888, kFirstRow = 0x000F,
+                        kLastRow = 0xF000;
 
 // The last column of the block before stands for the left neighbours of the block beside it, and
 // of no other one: not of that in the row below, which comes next where nothing else is touched.
@@ -214,6 +215,32 @@ TEST(Resolve, OriginalsEndWithTheirFrame) {
   b.run();
   for (int y = 8; y < 12; ++y)
     EXPECT_EQ(b.blended(16, y), half_of_both(red(16 + kMoved, y), red(15 + kMoved, y))) << y;
+}
+
+// It is of no account whether a line is read before or after the write of a neighbour in it: of the
+// block to the left, or of that above.
+TEST(Resolve, OriginalsStandForWhatIsWrittenBeforeItIsRead) {
+  for (const bool vertical : {true, false}) {
+    const std::string got = in_child([vertical] {
+      OriginalsBench b;
+      b.touch(3, 2, vertical ? kRightColumn : kLastRow, vertical);
+      b.touch(vertical ? 4 : 3, vertical ? 2 : 3, vertical ? kLeftColumn : kFirstRow, vertical);
+      // The second block comes when the write of the first one is answered.
+      b.before_clock = [&b] {
+        if (b.touched.pops() == 1 && b.resolver.memory.responses_in.link().pops() == 0)
+          b.touched.hold_pop(b.clock.cycle());
+      };
+      b.run();
+      std::string wrong;
+      for (int i = 0; i < 4; ++i) {
+        const int x = vertical ? 16 : 12 + i, y = vertical ? 8 + i : 12;
+        const int other = vertical ? red(x - 1, y) : red(x, y - 1);
+        if (b.blended(x, y) != half_of_both(red(x, y), other)) wrong += "blended ";
+      }
+      return wrong;
+    });
+    EXPECT_EQ(got, "") << vertical;
+  }
 }
 
 // Clocks a block, of many: one is max(lines, beats, lines to write) in the Resolver, and lines +

@@ -314,10 +314,10 @@ TEST(DepthScreen, EachLaneByItself) {
 TEST(DepthScreen, CountsWhatIsKeptJustAtTheBound) {
   ScreenBench b;
   b.set(0, 0, 16);  // 4096 - 256
-  for (const std::uint32_t depth : {3839u, 3840u, 3841u, 3840u})
+  for (const std::uint32_t depth : {3839u, 3840u, 3841u, 3840u, 3840u})
     b.ends.source.add(ScreenBench::pixel(1, 1, ScreenBench::kUp, depth));
-  finish(b, b.ends, 4);
-  EXPECT_EQ(b.unit.kept_at_bound.value(), 2u);
+  finish(b, b.ends, 5);
+  EXPECT_EQ(b.unit.kept_at_bound.value(), 3u);
   EXPECT_EQ(b.unit.dropped.value(), 1u);
 }
 TEST(DepthScreen, StallsByCause) {
