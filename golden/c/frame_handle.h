@@ -71,16 +71,16 @@ class FrameModel {
   // Calls work(golden) with a model of these parameters.
   template <class Work>
   void process(const Parameters& parameters, bool everything, Work&& work) {
-    if (!model_ || stale_) {
-      auto fresh =
-          std::make_unique<Golden>(parameters, everything ? Detail::kEverything : Detail::kPixels);
-      work(*fresh);
-      model_ = std::move(fresh);
-      stale_ = false;
-      everything_ = everything;
-      return;
-    }
     try {
+      if (!model_ || stale_) {
+        auto fresh = std::make_unique<Golden>(parameters,
+                                              everything ? Detail::kEverything : Detail::kPixels);
+        work(*fresh);
+        model_ = std::move(fresh);
+        stale_ = false;
+        everything_ = everything;
+        return;
+      }
       work(*model_);
     } catch (const spec::ConfigError&) {
       throw;  // said before anything was done

@@ -15,6 +15,7 @@ namespace {
 using golden::ideal::Criterion;
 using golden::ideal::Fragment;
 using golden::ideal::Interval;
+using golden::ideal::kPrecisionGles2;
 using golden::ideal::kPrecisionHigh;
 using golden::ideal::kPrecisionLow;
 using golden::ideal::Rgba;
@@ -55,6 +56,10 @@ TEST(LegalLod, HoldsEveryFootprintBetweenTheLongestComponentAndTheirWeightedSum)
   EXPECT_NEAR(high.high, std::log2(6.0 * std::sqrt(2.0)) + 1.0 / 64, 1e-4);
   const Interval low = legal_lod(texture, s, fragment, kPrecisionLow);
   EXPECT_NEAR(low.low, 2.0 - 1.0 / 16, 1e-4);
+  // Derivatives of seven bits count.
+  const Interval coarse = legal_lod(texture, s, fragment, kPrecisionGles2);
+  EXPECT_NEAR(coarse.low, std::log2(4.0 * (1 - 1.0 / 128)) - 1.0 / 16, 1e-9);
+  EXPECT_NEAR(coarse.high, std::log2(6.0 * std::sqrt(2.0) * (1 + 1.0 / 128)) + 1.0 / 16, 1e-9);
 }
 
 TEST(LegalLod, AddsTheBiasAndThenClamps) {
@@ -103,6 +108,28 @@ TEST(Criterion, NearestTakesOnlyTexelsThatTheCoordinateErrorReaches) {
   EXPECT_TRUE(high.reachable(along_u(0.25, 0.5), grey(0), 1.0));
   EXPECT_TRUE(high.reachable(along_u(0.25, 0.5), grey(100), 1.0));
   EXPECT_FALSE(high.reachable(along_u(0.25, 0.5), grey(50), 1.0));
+}
+
+TEST(Criterion, NearestTakesTheRowOfItsCoordinate) {
+  Texture texture;
+  texture.levels.push_back({1, 4, {grey(0), grey(100), grey(200), grey(40)}});
+  const Sampler s = sampler(spec::texture::MinFilter::kNearest, spec::texture::MagFilter::kNearest);
+  for (std::size_t row = 0; row < 4; ++row) {
+    const Fragment f{0.5, (static_cast<double>(row) + 0.3) / 4, 0.5, 0, 0, 0};
+    EXPECT_EQ(exact_colour(texture, s, f), texture.levels[0].texels[row]) << row;
+  }
+}
+
+TEST(Criterion, ATolerancesEndIsWithinIt) {
+  const Texture texture = ramp();
+  const Sampler s = sampler(spec::texture::MinFilter::kNearest, spec::texture::MagFilter::kNearest);
+  const Criterion high(texture, s, kPrecisionHigh);
+  const Fragment f = along_u(0.3, 0.5);  // 100
+  EXPECT_TRUE(high.reachable(f, grey(100), 0.0));
+  EXPECT_TRUE(high.reachable(f, grey(99), 1.0));
+  EXPECT_TRUE(high.reachable(f, grey(101), 1.0));
+  EXPECT_FALSE(high.reachable(f, grey(98.99), 1.0));
+  EXPECT_FALSE(high.reachable(f, grey(101.01), 1.0));
 }
 
 TEST(Criterion, WrapsNegativeAndMirroredCoordinates) {
@@ -224,6 +251,29 @@ TEST(Criterion, SearchesEveryWeightByEveryChannel) {
       EXPECT_FALSE(low.reachable(f, most, 1e-4));
       EXPECT_EQ(low.undecided(), 0);
     }
+}
+
+// All colours lie on the line R = G, whatever the five weights are. One beside it is seen to be out
+// of reach as a whole: boxes alone would have to be as small as it is near.
+TEST(Criterion, SeparatesAColourFromThoseOfAllWeights) {
+  Texture texture;
+  for (int size = 4; size > 0; size /= 2) {
+    golden::ideal::Level level{size, size, {}};
+    for (int i = 0; i < size * size; ++i) {
+      const double v = 120.0 * (i % size % 2 + i / size % 2);
+      level.texels.push_back({v, v, 0, 0});
+    }
+    texture.levels.push_back(std::move(level));
+  }
+  const Sampler s =
+      sampler(spec::texture::MinFilter::kLinearMipmapLinear, spec::texture::MagFilter::kLinear);
+  const Criterion low(texture, s, kPrecisionLow);
+  const Fragment f{0.4, 0.4, std::exp2(0.4) / 4, 0, 0, 0};  // l from 0.4 to 0.9
+  // Level 0 gives 216, level 1 gives 72; not where the middles of all intervals are.
+  const double v = 141.7;
+  EXPECT_TRUE(low.reachable(f, {v + 0.9, v - 0.9, 0, 0}, 1.0));
+  EXPECT_FALSE(low.reachable(f, {v + 1.1, v - 1.1, 0, 0}, 1.0));
+  EXPECT_EQ(low.undecided(), 0);
 }
 
 // Random textures, fragments and sampler states; the level's fraction and both levels' weights are

@@ -113,6 +113,34 @@ TEST(Ideal, BorderAndCentreAreThePapersCorrected) {
   EXPECT_NEAR(slanted[0].distance, 0.2 + 0.75 * 0.5 - 0.5, 1e-12);
 }
 
+TEST(Ideal, LinesOfOnePixelCutIt) {
+  const auto cuts = [](ScreenPoint p, ScreenPoint q) { return cut_pixels({p, q}, 8, 8).size(); };
+  EXPECT_EQ(cuts({3.25, 2, 1}, {3.25, 3, 1}), 1u);
+  EXPECT_EQ(cuts({2, 3.25, 1}, {3, 3.25, 1}), 1u);
+  EXPECT_EQ(cuts({2.5, 3.25, 1}, {2.5, 3.25, 1}), 0u);
+}
+
+// In each corner of the frame, where a pixel has two neighbours: the heavier one gives its share,
+// and the axis of rows if both weigh the same.
+TEST(Ideal, PixelsTakeFromTheNeighboursOfTheirHeavierAxis) {
+  const std::vector<Light> frame = {{0, 10, 20}, {40, 50, 60}, {80, 90, 100}, {120, 200, 240}};
+  for (std::size_t pixel = 0; pixel < 4; ++pixel) {
+    const std::size_t beside = pixel ^ 1, across = pixel ^ 2;
+    const std::size_t to_side = pixel % 2 == 0 ? 3 : 2, to_row = pixel < 2 ? 1 : 0;
+    for (const auto& [side, row] : {std::pair(0.5, 0.25), {0.25, 0.5}, {0.5, 0.5}}) {
+      std::vector<SideWeights> weights(4);
+      weights[pixel][to_side] = side;
+      weights[pixel][to_row] = row;
+      const std::size_t neighbour = side > row ? beside : across;
+      std::vector<Light> expected = frame;
+      for (std::size_t c = 0; c < 3; ++c)
+        expected[pixel][c] = (frame[pixel][c] + frame[neighbour][c]) / 2;
+      EXPECT_EQ(golden::ideal::blended(frame, weights, 2, 2), expected)
+          << pixel << ' ' << side << ' ' << row;
+    }
+  }
+}
+
 // Against the farther of a pixel, in row 2, and its neighbour above it: up to the bias behind it a
 // line is seen, a crease if that lies no more than so far behind the crease; both at equality.
 TEST(Ideal, DepthsDecideWhatIsSeen) {

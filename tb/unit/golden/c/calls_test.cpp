@@ -279,6 +279,7 @@ TEST(Calls, UnknownNamesGetTheListOfThoseThatThereAre) {
     char text[64];
     for (std::uint32_t i = 0; i < counters; ++i) {
       DEBURR_EXPECT_TAKEN(handle, deburr_counter_name(handle.get(), i, text, sizeof text));
+      EXPECT_THAT(text, testing::MatchesRegex("[a-z_]+"));
       EXPECT_EQ(tb::c::counter_of(handle.get(), text), 0u) << text;
     }
     DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT, "is outside 0..",

@@ -10,11 +10,14 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <new>
 #include <string>
 #include <vector>
 
+#include "golden/c/frame_handle.h"
 #include "golden/geometric/geometric_golden.h"
 #include "golden/morphological/morphological_golden.h"
+#include "spec/error.h"
 #include "tb/base/random.h"
 #include "tb/unit/golden/c/support.h"
 #include "tb/unit/spec/geometric/vector_frame.h"
@@ -436,6 +439,42 @@ TEST(Frames, MayBeAsLargeAsTheEngineTakesThem) {
     const Handle handle(make());
     DEBURR_EXPECT_TAKEN(handle, deburr_frame_begin(handle.get(), 8192, 1));
     DEBURR_EXPECT_TAKEN(handle, deburr_frame_begin(handle.get(), 1, 8192));
+  }
+}
+
+// What the interface asks of a model.
+struct CountedGolden {
+  enum class Detail { kPixels, kEverything };
+  static inline int made = 0;
+  CountedGolden(int, Detail) { ++made; }
+};
+using CountedModel = golden::c::FrameModel<CountedGolden, int>;
+
+TEST(FrameModel, IsMadeAnewAfterAChangeOnly) {
+  CountedModel model;
+  int frames = 0;
+  const auto process = [&] { model.process(0, false, [&](CountedGolden&) { ++frames; }); };
+  const int before = CountedGolden::made;
+  for (int i = 0; i < 3; ++i) process();
+  EXPECT_EQ(CountedGolden::made, before + 1);
+  model.mark_stale();
+  for (int i = 0; i < 3; ++i) process();
+  EXPECT_EQ(CountedGolden::made, before + 2);
+  EXPECT_EQ(frames, 6);
+}
+
+// As the page of the interface says of errors: changed parameters make no difference.
+TEST(FrameModel, LosesTheLastFrameByAFaultButNotByAFrameThatIsRejected) {
+  for (const bool changed : {false, true}) {
+    CountedModel model;
+    model.process(0, false, [](CountedGolden&) {});
+    if (changed) model.mark_stale();
+    const auto rejected = [](CountedGolden&) { throw spec::ConfigError("too large"); };
+    EXPECT_THROW(model.process(0, false, rejected), spec::ConfigError);
+    EXPECT_NE(model.get(), nullptr) << changed;
+    const auto no_memory = [](CountedGolden&) { throw std::bad_alloc(); };
+    EXPECT_THROW(model.process(0, false, no_memory), std::bad_alloc);
+    EXPECT_EQ(model.get(), nullptr) << changed;
   }
 }
 

@@ -269,6 +269,16 @@ std::uint8_t red(deburr_golden* golden) {
   return rgba[0];
 }
 
+TEST(Quads, AreSixteenBytes) {
+  const Handle handle = white_texture();
+  std::array<std::uint8_t, 20> rgba;
+  constexpr std::uint8_t kGuard = 0xA5;
+  rgba.fill(kGuard);
+  DEBURR_EXPECT_TAKEN(
+      handle, deburr_texture_quad(handle.get(), 0, 0, 0, kZero.data(), kZero.data(), rgba.data()));
+  for (std::size_t i = 0; i < rgba.size(); ++i) EXPECT_EQ(rgba[i], i < 16 ? 0 : kGuard) << i;
+}
+
 TEST(State, TexturesAndMemoryOutliveNewParametersAndCountersDoNot) {
   const Handle handle = white_texture();
   EXPECT_EQ(red(handle.get()), 255);

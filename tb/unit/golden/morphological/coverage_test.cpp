@@ -204,6 +204,22 @@ TEST(SmaaCoverage, ListsEveryBinOfEveryGroup) {
   EXPECT_EQ(groups_of(SmaaCoverage().bins()), expected);
 }
 
+TEST(MorphologicalGolden, ForgetsCoverageWhenItIsCleared) {
+  const Frame noise(tb::morphological::noise_image());
+  for (const auto& [preset, bins] :
+       {std::pair(
+            Preset::kDeburr,
+            +[](const MorphologicalGolden& g) { return g.learned_coverage().bins(); }),
+        {Preset::kSmaa, +[](const MorphologicalGolden& g) { return g.smaa_coverage().bins(); }},
+        {Preset::kMlaa, +[](const MorphologicalGolden& g) { return g.coverage().bins(); }}}) {
+    MorphologicalGolden golden(preset_parameters(preset));
+    golden.process(noise.view());
+    EXPECT_THAT(hits_of(bins(golden)), testing::Not(testing::IsEmpty()));
+    golden.clear_coverage();
+    EXPECT_THAT(hits_of(bins(golden)), testing::IsEmpty());
+  }
+}
+
 // ---- what each bin counts, one thing at a time --------------------------------------------------
 
 using Hits = std::map<std::string, std::uint64_t>;

@@ -455,11 +455,12 @@ std::map<std::string, std::uint64_t> hits_of(const Frame& frame) {
 // By hand, of drawings of which each pixel is known.
 TEST(GuardCoverage, NamesWhatIsMissing) {
   using Hits = std::map<std::string, std::uint64_t>;
-  const auto of = [](std::string_view name) {
+  const auto drawing = [](std::string_view name) {
     for (const spec::morphological::GuardVector& v : spec::morphological::kGuardVectors)
-      if (v.name == name) return hits_of(tb::morphological::vector_image(v));
+      if (v.name == name) return Frame(tb::morphological::vector_image(v));
     throw std::out_of_range(std::string(name));
   };
+  const auto of = [&](std::string_view name) { return hits_of(drawing(name)); };
   EXPECT_EQ(hits_of(Frame(5, 5, [](int, int) { return grey(9); })),
             (Hits{{"text/one-colour", 25}}));
   EXPECT_EQ(of("small"), (Hits{{"text/guarded", 12},
@@ -476,13 +477,18 @@ TEST(GuardCoverage, NamesWhatIsMissing) {
                                                  {"text-border/left", 9},
                                                  {"text-border/right", 3},
                                                  {"text-border/bottom", 3}}));
-  // Rows 0, 7 and 8 see two of the dots.
-  EXPECT_EQ(of("three dots"), (Hits{{"text/guarded", 54},
-                                    {"text/just/3-in-rows", 54},
-                                    {"text/few-in-rows", 27},
-                                    {"text/just/2-in-rows", 27},
-                                    {"text-border/left", 6},
-                                    {"text-border/right", 6}}));
+  // Rows 0, 7 and 8 see two of the dots; upside down rows 0, 1 and 8, on its side columns.
+  const Frame dots = drawing("three dots"), upside_down = tb::morphological::mirrored_y(dots);
+  const Hits in_rows = {{"text/guarded", 54},     {"text/just/3-in-rows", 54},
+                        {"text/few-in-rows", 27}, {"text/just/2-in-rows", 27},
+                        {"text-border/left", 6},  {"text-border/right", 6}},
+             in_columns = {{"text/guarded", 54},        {"text/just/3-in-columns", 54},
+                           {"text/few-in-columns", 27}, {"text/just/2-in-columns", 27},
+                           {"text-border/top", 6},      {"text-border/bottom", 6}};
+  for (const Frame& frame : {dots, upside_down}) {
+    EXPECT_EQ(hits_of(frame), in_rows);
+    EXPECT_EQ(hits_of(tb::morphological::transposed(frame)), in_columns);
+  }
   const Hits enough = of("twenty-four"), fewer = of("twenty-three");
   EXPECT_EQ(enough.at("text/guarded"), 25u);
   EXPECT_EQ(enough.at("text/just/24"), 25u);

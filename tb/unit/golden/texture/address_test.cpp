@@ -148,6 +148,22 @@ TEST(Address, TilesFollowTheMortonCurve) {
   EXPECT_EQ(level_bytes(odd, 0), 32u * 64u);
 }
 
+TEST(Address, OfALevelAreThoseOfItsTexelsAndNoMore) {
+  for (const Layout layout : {Layout::kLinear, Layout::kTiled}) {
+    const auto d = descriptor(21, 10, Format::kRgba8, layout);
+    for (int k = 0; k < d.levels; ++k) {
+      const LevelAddresses all = level_addresses(d, k);
+      const int width = level_size(d.width, k), height = level_size(d.height, k);
+      ASSERT_EQ(all.column.size(), static_cast<std::size_t>(width)) << k;
+      ASSERT_EQ(all.row.size(), static_cast<std::size_t>(height)) << k;
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+          EXPECT_EQ(all.column[static_cast<std::size_t>(x)] + all.row[static_cast<std::size_t>(y)],
+                    texel_address(d, k, x, y));
+    }
+  }
+}
+
 TEST(Address, WrapsAt32Bits) {
   auto d = descriptor(64, 64, Format::kRgba8, Layout::kLinear);
   d.base[0] = 0xFFFFFFC0;

@@ -147,6 +147,11 @@ TEST(Cache, ARequestLooksUpEachDistinctLineOnceInOrderOfFirstUse) {
   EXPECT_EQ(request(cache, {3, 2, 1, 0}), (Lines{3, 2, 1, 0}));
   EXPECT_EQ(request(cache, {3, 5, 1, 7}), (Lines{}));
   EXPECT_EQ(request(cache, {3, 9, 3, 9}), (Lines{9}));
+  // One of four that is another.
+  EXPECT_EQ(request(cache, {20, 21, 20, 20}), (Lines{20, 21}));
+  EXPECT_EQ(request(cache, {30, 30, 31, 30}), (Lines{30, 31}));
+  EXPECT_EQ(request(cache, {40, 40, 40, 41}), (Lines{40, 41}));
+  EXPECT_EQ(request(cache, {50, 50, 51, 51}), (Lines{50, 51}));
 }
 
 // Four lines of one set in two ways: the third evicts the first within the request, which the next

@@ -481,9 +481,19 @@ TEST(IdealTexture, LevelsAreExactAreaMeans) {
   const std::uint8_t bytes[8] = {};
   EXPECT_EQ(TextureImage(2, 1, bytes).levels(), 2);
   EXPECT_EQ(TextureImage(1, 2, bytes).levels(), 2);
-  double mean = 0;
-  for (const auto& texel : picture.levels.front().texels) mean += texel[1];
-  EXPECT_NEAR(texture.level(2).texels[0].g, mean / 35, 1e-3);
+  std::array<double, 4> mean{};
+  for (const auto& texel : picture.levels.front().texels)
+    for (std::size_t c = 0; c < 4; ++c) mean[c] += texel[c] / 35.0;
+  for (int k = 1; k < 3; ++k) {
+    const auto& texels = texture.level(k).texels;
+    std::array<double, 4> of_level{};
+    for (const TextureImage::Texel& texel : texels) {
+      const std::array<double, 4> channels = {texel.r, texel.g, texel.b, texel.a};
+      for (std::size_t c = 0; c < 4; ++c)
+        of_level[c] += channels[c] / static_cast<double>(texels.size());
+    }
+    for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(of_level[c], mean[c], 1e-3) << k << ' ' << c;
+  }
 }
 
 TEST(IdealTexture, SrgbIsDecodedToLinearLight) {

@@ -129,6 +129,19 @@ int gl_wrap(Wrap wrap, std::int64_t i, int size) {
   return static_cast<int>(std::clamp<std::int64_t>(i, 0, size - 1));
 }
 
+// As of so many texels as a coordinate has steps; what is clamped is clamped later, by the texel.
+TEST(Wrap, OfACoordinateIsThatOfItsSteps) {
+  for (std::int64_t whole = -4; whole <= 4; ++whole) {
+    for (std::int64_t step = -2; step <= 2; ++step) {
+      const std::int64_t p = whole * kOne + step;
+      for (const Wrap wrap : {Wrap::kRepeat, Wrap::kMirroredRepeat})
+        EXPECT_EQ(wrap_coordinate(wrap, p), gl_wrap(wrap, p, static_cast<int>(kOne)))
+            << whole << ' ' << step;
+      EXPECT_EQ(wrap_coordinate(Wrap::kClampToEdge, p), p);
+    }
+  }
+}
+
 using Position = std::function<TexelPosition(Wrap, std::int64_t, std::int32_t)>;
 
 std::int64_t floor_divide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
