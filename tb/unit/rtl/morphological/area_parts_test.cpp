@@ -72,6 +72,40 @@ TEST(RecordWalkBlock, HasTheLatencyOfItsDatasheet) {
       [&](const rtl::Datasheet& sheet) { expect_latency(sheet, match + visit + 1); });
 }
 
+// A line that meets an edge at one of its ends cuts off a trapezoid of it, not two triangles of
+// which one is nothing: at the middle of 254 pixels they round apart.
+TEST(AnalyticSharesBlock, AnEdgeThatBeginsOrEndsOnTheLineHasATrapezoid) {
+  StoredRecord record;
+  record.growth = 66052;          // 2^24 / 254
+  record.inverse = 254u * 4096u;  // U12.12
+  record.span = 254;
+  record.before = spec::morphological::Side::kSecond;
+  record.after = spec::morphological::Side::kFirst;
+  const auto shares = [&](std::int64_t t) {
+    record.t = t;
+    const EdgeShares found = AnalyticShares::of(record, 0);
+    return std::array<int, 2>{found.first, found.second};
+  };
+  // q0 = 0, q1 = 16, or the other way round: (16 + 16) >> 5, where the triangle is
+  // (16 x 16 x inverse + 2^28) >> 29 = 0.
+  EXPECT_THAT(shares(0), ::testing::ElementsAre(1, 0));
+  EXPECT_THAT(shares(-66052), ::testing::ElementsAre(0, 1));
+  // Off its ends.
+  EXPECT_THAT(shares(-1), ::testing::ElementsAre(0, 0));
+  EXPECT_THAT(shares(-66051), ::testing::ElementsAre(0, 0));
+}
+
+// A share of 7 at one sharp corner of two, corner_rounding = 73: 7 x 329 is 255 above 4 x 512, a
+// half less one, and rounds down.
+TEST(CornerShares, AreRoundedToNearest) {
+  FrameRules rules;
+  rules.corners = true;
+  rules.corner_loss = 256 - 73;
+  const EdgeShares shares = at_corners(rules, {7, 7, 5}, 0b0001, 2);
+  EXPECT_EQ(shares.first, 4);
+  EXPECT_EQ(shares.second, 7) << "no corner on that side";
+}
+
 // Asked in one clock, it has the edge in the next; a beat of shares may be asked for in each.
 TEST(LearnedSharesBlock, HaveTheLatencyAndIntervalOfTheirDatasheet) {
   LearnedShares unit("learned", 1);

@@ -586,6 +586,48 @@ TEST_P(AreaLanes, LatencyOfTheDatasheetWithATableToo) {
   expect_sum_of_parts(TableShares::datasheet(), bench.shares_gate.taken[0].cycle - (first + 1));
 }
 
+// With two records a column, too: the first slot row clears the marks of all of them.
+TEST_P(AreaLanes, AFrameHasNoRecordOfTheOneBefore) {
+  constexpr int kWidth = 16;
+  Area bench(with_table(AreaSource::kTableFull, GetParam()), kWidth, 9);
+  bench.send_slots(0);
+  for (int x = 0; x < kWidth; ++x)
+    bench.drivers_v[0]->add(
+        0, three(Axis::kVertical, x, 0,
+                 bench.slots_before(kReach + 2) + static_cast<std::uint32_t>(x / bench.lanes)));
+  bench.clock.run(bench.slots_before(9 + kLag) + 40);
+  EXPECT_EQ(bench.unit.records.value(), static_cast<std::uint64_t>(kWidth));
+  EXPECT_GT(bench.unit.vertical_edges.value(), 0u);
+  bench.clock.set_reset_n(false);
+  bench.clock.run(1);
+  bench.clock.set_reset_n(true);
+  bench.registers.reset();
+  bench.registers.frame(kWidth, 9);
+  bench.send_slots(bench.clock.cycle() + 1);
+  bench.clock.run(bench.slots_before(9 + kLag) + 40);
+  EXPECT_EQ(bench.shares_gate.taken.size(), static_cast<std::size_t>(9 * bench.beats));
+  EXPECT_EQ(bench.unit.vertical_edges.value(), 0u);
+}
+
+// A line of either axis behind the last slot: popped, with a table its ends, stored.
+TEST_P(AreaLanes, IsBusyInEachClockOfALine) {
+  for (const bool table : {false, true})
+    EXPECT_EQ(forked_text([&] {
+                Area bench(
+                    table ? with_table(AreaSource::kTableFull, GetParam()) : small(GetParam()), 11,
+                    7);
+                bench.send_slots(0);
+                bench.clock.run(bench.slots_before(bench.height + kLag) + 40);
+                const std::uint64_t before = bench.unit.busy_cycles();
+                bench.drivers_h[0]->add(0, three(Axis::kHorizontal, 0, 4, bench.slots_before(6)));
+                bench.clock.run(20);
+                bench.drivers_v[0]->add(0, three(Axis::kVertical, 4, 0, bench.slots_before(6)));
+                bench.clock.run(20);
+                return std::to_string(bench.unit.busy_cycles() - before);
+              }),
+              table ? "6" : "4");
+}
+
 // What is one clock more than without a table; two banks a lane and axis, so that no line waits.
 TEST_P(AreaLanes, WithATableARecordIsFinishedAClockLater) {
   Area bench(with_table(AreaSource::kTableMerged, GetParam()), 11, 7);

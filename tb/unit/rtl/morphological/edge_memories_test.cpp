@@ -198,6 +198,7 @@ TEST(EdgeMemory, IsBuiltFromOneCopyAReadPort) {
     EXPECT_EQ(rows.ports(), "1R1W of 4 words");
     EXPECT_EQ(rows.logical_bits(), 18u * 30u * 128u);
     EXPECT_EQ(rows.physical_bits(), rows.logical_bits());
+    EXPECT_EQ(rows.bits_at(960), rows.logical_bits() / 2);
     EXPECT_EQ(rows.banks(), 4u);  // 130 columns may lie in four words
   }
 }
@@ -312,23 +313,83 @@ TEST(EdgeMemory, NoStepGoesAlongTheRightBorder) {
     }
 }
 
-// A port shows as many words as the longest step can lie in, and a class with them: 65 columns from
-// the last one of a word on.
+// A port shows as many words as the longest step can lie in, and a class with it: of 125 columns a
+// side steps of 62 and 63, with the corner's own column 65, from the last one of a word on; of 126
+// no more; of 127 steps of 63 and 64.
 TEST(EdgeMemory, TheLongestStepLiesInTheWordsOfAPort) {
-  for (const bool right : {false, true}) {
-    Parameters p = built(true, 32, 125);
-    p.line_pixels = 256;
-    Shown shown(p, 256, 70, 30, 1000);
-    EdgeRows& rows = shown.memories.rows;
-    // A side of 125 columns, its steps of 62 and 63: with the corner's own column 65.
-    for (int from = 62 + 65; from < 62 + 65 + 64; ++from) {
-      Trial trial{31, right ? from - 62 : from, 62, 63, right, 3, 3};
-      const Cycle cycle = (Cycle{1} << 50) + 2 * static_cast<Cycle>(from) + (right ? 1000 : 0);
-      rows.read(cycle, 0, trial);
-      EXPECT_NO_THROW(rows.hits(cycle + 1, 0, trial)) << from;
-      EXPECT_LE(trial.last - trial.first + 1, 65);
+  struct Longest {
+    int reach;
+    bool learned;
+  };
+  for (const auto [reach, learned] :
+       {Longest{125, false}, Longest{126, false}, Longest{127, false}, Longest{127, true}})
+    for (const bool right : {false, true}) {
+      Parameters p = learned ? preset(Preset::kDeburr, 32, reach) : built(true, 32, reach);
+      p.contiguous = !learned;
+      p.line_pixels = 256;
+      Shown shown(p, 256, 70, 30, 1000);
+      EdgeRows& rows = shown.memories.rows;
+      const int length = reach / 2, room = reach - length;
+      for (int from = 62 + 65; from < 62 + 65 + 64; ++from) {
+        Trial trial{31, right ? from - 62 : from, length, room, right, 3, 3};
+        trial.classes = learned;
+        const Cycle cycle = (Cycle{1} << 50) + 2 * static_cast<Cycle>(from) + (right ? 1000 : 0);
+        EXPECT_NO_THROW(rows.read(cycle, 0, trial)) << reach << ' ' << from;
+        EXPECT_NO_THROW(rows.hits(cycle + 1, 0, trial)) << reach << ' ' << from;
+        EXPECT_LE(trial.last - trial.first + 1, (reach + 1) / 2 + 2);
+      }
     }
+}
+
+// Where the edges of a step need not be all set: the corners of its three candidates, which are
+// four columns.
+TEST(EdgeMemory, AStepShowsTheFourColumnsAtItsEnd) {
+  Shown shown(built(false), 150, 70, 30, 500);
+  Cycle cycle = 0;
+  for (const bool right : {false, true})
+    for (const int length : {1, 2, 3, 40}) {
+      Trial trial{31, 75, length, 60, right, 3, 3};
+      shown.memories.rows.read(++cycle, 0, trial);
+      const int from = right ? 75 + length - 2 : 75 - length - 2;
+      EXPECT_EQ(trial.first, from) << length;
+      EXPECT_EQ(trial.last, from + 3) << length;
+    }
+}
+
+// Three edges to the border of the frame and a crossing that does not go on: class 2 + 3, whatever
+// word the port has shown behind it before.
+TEST(EdgeMemory, AClassEndsWithTheFrame) {
+  constexpr int kWidth = 128, kFrom = kWidth - 3;
+  Shown shown(preset(Preset::kDeburr), kWidth, 70, 30, 0);
+  EdgeRows& rows = shown.memories.rows;
+  shown.memories.show(
+      30, [](int, int) { return false; },
+      [](int x, int y) { return y == 31 && (x == 64 || x >= kFrom); });
+  Cycle cycle = 0;
+  for (int i = 0; i < 8; ++i) {
+    Trial both{31, 60, 3, 20, true, 3, 3};
+    both.classes = true;
+    rows.read(++cycle, 0, both);  // words 0 and 1
+    ASSERT_TRUE(both.first < 64 && both.last >= 64);
   }
+  Trial last{31, kFrom, 3, 20, true, 3, 3};
+  last.tries = false;
+  last.crossing = kFirstBit;
+  last.classes = true;
+  last.looks = kMostLooks;
+  rows.read(++cycle, 0, last);
+  EXPECT_EQ(rows.crossing_class(cycle + 1, 0, last), 2 + 3);
+}
+
+// All edges of a step that ends in the newest row are in the rows above it.
+TEST(EdgeMemory, AStepMayEndInTheNewestRow) {
+  constexpr int kNewest = 30 + 8 + 1;
+  constexpr std::uint8_t kAll = kBeforeBit | kAfterBit | kFirstBit | kSecondBit;
+  Shown shown(built(true, 8, 60), 150, 70, 30, 1000);
+  // Steps of two and of three; one more is beyond the reach.
+  Trial trial{40, kNewest - 3, 3, 3, true, kAll, kAll};
+  shown.memories.window.read(1, 0, trial);
+  EXPECT_EQ(shown.memories.window.hits(2, 0, trial), kShorter | kEqual);
 }
 
 TEST(EdgeMemory, ABeatIsWrittenAClockAfterItWasReadAndNotBefore) {

@@ -162,6 +162,63 @@ TEST_P(PredictorAxes, RunsOfOnePixelHaveTwoCandidatesAndTheFrameEnds) {
   EXPECT_EQ(bench.predictor.probes.value(), 2u * 2u * 2u * 3u);
 }
 
+// From its pop to the clock in which its sums are sent, whether it makes trials or not.
+TEST_P(PredictorAxes, IsBusyWithARecordAndIdleWithout) {
+  Prediction bench(deburr_without_trim(), GetParam(), 60, 30, stair(20, {3, 3, 2, 3}, 10));
+  bench.ends.source.add(bench.z(12, 23, 3, true));
+  bench.clock.run(80);
+  // Popped in 1, sent in 19.
+  EXPECT_EQ(bench.predictor.busy_cycles(), 19u);
+  RunToken tail = bench.z(12, 23, 3, true);
+  tail.run.part = RunPart::kTail;
+  bench.ends.source.add(tail);
+  bench.clock.run(20);
+  EXPECT_EQ(bench.predictor.busy_cycles(), 19u + 2u);
+  EXPECT_EQ(bench.predictor.idle_cycles(), 100u - 21u);
+}
+
+// Rows that are farther down than the frame is wide, columns that are farther right than it is
+// high.
+TEST_P(PredictorAxes, LinesCountAcrossTheAxis) {
+  Prediction bench(deburr_without_trim(), GetParam(), 45, 80, stair(20, {3, 3, 2, 3}, 58));
+  bench.ends.source.add(bench.z(60, 23, 3, true));
+  bench.clock.run(80);
+  ASSERT_EQ(bench.ends.sink.taken.size(), 1u);
+  EXPECT_EQ(bench.ends.sink.taken[0].token.left, 1);
+  EXPECT_EQ(bench.ends.sink.taken[0].token.right, 2);
+}
+
+// Runs that crossings end: edges go on before each start (bit 0), behind each end (bit 1), both or
+// none. What goes on otherwise than at the run's own ends is no step.
+TEST_P(PredictorAxes, EdgesThatGoOnAreOfTheCorners) {
+  const bool vertical = GetParam() == Axis::kVertical;
+  Prediction bench(deburr_without_trim(), GetParam(), 90, 60, [](int) { return 30; });
+  // Row 26 + k from column 40 + 3 k on.
+  const auto show = [&](int there) {
+    const auto along = [=](int p, int line) {
+      const int start = 40 + 3 * (line - 26);
+      return p >= start - (there & 1) && p < start + 3 + (there >> 1);
+    };
+    const auto across = [](int p, int line) { return p == 40 + 3 * (line - 25); };
+    bench.edges.show(
+        vertical ? 40 : 26, [&](int x, int y) { return vertical ? along(y, x) : across(x, y); },
+        [&](int x, int y) { return vertical ? across(y, x) : along(x, y); });
+  };
+  for (int there = 0; there < 4; ++there)
+    for (int beyond = 0; beyond < 4; ++beyond) {
+      RunToken token = bench.z(26, 40, 3, true);
+      show(there);
+      token.beyond = static_cast<std::uint8_t>(beyond);
+      const std::size_t before = bench.ends.sink.taken.size();
+      bench.ends.source.add(token);
+      bench.clock.run(80);
+      ASSERT_EQ(bench.ends.sink.taken.size(), before + 1);
+      const SumsToken& sums = bench.ends.sink.taken.back().token;
+      const int steps = there == beyond ? 8 : 0;
+      EXPECT_EQ(sums.left, steps) << there << ' ' << beyond;
+      EXPECT_EQ(sums.right, steps) << there << ' ' << beyond;
+    }
+}
 INSTANTIATE_TEST_SUITE_P(Both, PredictorAxes, ::testing::Values(Axis::kHorizontal, Axis::kVertical),
                          [](const auto& param) {
                            return param.param == Axis::kHorizontal ? "horizontal" : "vertical";

@@ -191,6 +191,8 @@ TEST(LineUnitBlock, ALearnedRecordPassesTheDivider) {
   }
   EXPECT_FALSE(bench.gate.taken[2].token.line.learned);
   EXPECT_EQ(bench.unit.divides.value(), 1u);
+  // In each clock that passes one, and while it divides: 1 to 17.
+  EXPECT_EQ(bench.unit.busy_cycles(), 17u);
 }
 
 TEST(LineUnitBlock, WaitsForTheIntervalOfTheDivider) {

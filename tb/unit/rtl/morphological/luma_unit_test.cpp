@@ -37,6 +37,9 @@ TEST(LumaUnitBlock, AddsTheWeightsExactlyTwoClocksLater) {
   };
   expect_notices_a_clock(LumaUnit::datasheet(), &rtl::Datasheet::latency, check);
   expect_notices_a_clock(LumaUnit::datasheet(), &rtl::Datasheet::interval, check);
+  // From the first pop to the last push.
+  EXPECT_EQ(luma.busy_cycles(), 4u);
+  EXPECT_EQ(luma.idle_cycles(), 7u - 4u);
   EXPECT_EQ(ends.sink.taken[0].token.luma[0], 255u * 65536u);
   EXPECT_EQ(ends.sink.taken[0].token.luma[1], 13933u + 2u * 46871u + 3u * 4732u);
   EXPECT_EQ(ends.sink.taken[0].token.depth[1], 8u);

@@ -3,6 +3,7 @@
 // does: as much as the parameter of the same name, to the pixel. An engine that is told by its
 // registers is compared with one that was built like that; and each counter register shows its
 // counter.
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <map>
@@ -101,6 +102,17 @@ TEST(ParameterStoreBlock, DiagonalStepsAreAtMostTheReach) {
   store.bus.write(reg::kSmaa, 4u | 31u << 8);
   store.frame(8, 8);
   EXPECT_EQ(store.store.rules().diagonal_steps, 4);
+}
+
+TEST(ParameterStoreBlock, StepsAreAtMostWhatTheWindowAllows) {
+  for (const int window_rows : {10, 12, 34, 66}) {
+    Parameters p = preset(Preset::kDeburrLine);
+    p.window_rows = window_rows;
+    Registers store(p);
+    store.bus.write(reg::kRules, 1u << 7 | 31u << 9);
+    store.frame(8, 8);
+    EXPECT_EQ(store.store.rules().steps, std::min(16, window_rows / 2 - 2)) << window_rows;
+  }
 }
 
 // ---- what is decoded, bit by bit

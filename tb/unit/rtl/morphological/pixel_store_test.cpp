@@ -148,6 +148,22 @@ TEST_P(PixelStoreLanes, LatencyAndIntervalOfTheDatasheet) {
 }
 INSTANTIATE_TEST_SUITE_P(Each, PixelStoreLanes, ::testing::Values(0, 1, 2));
 
+// Of three rows each beat reads its own, those above it but in the first, below it but in the last.
+TEST(PixelStoreBlock, ReadsNoRowBeyondTheFrame) {
+  Storing bench(built(spec::morphological::Storage::kLineBuffers, 0), colours(6, 3));
+  for (int y = 0; y < 3; ++y)
+    for (int b = 0; b < 6; ++b) {
+      bench.store_beat(0, y, b);
+      bench.fetch_beat(30, y, b);
+    }
+  bench.clock.run(60);
+  ASSERT_EQ(bench.pixel_gate.taken.size(), 3u * 6u);
+  std::uint64_t reads = 0;
+  rtl::for_each<rtl::PortedMemory>(
+      bench.store, [&](const rtl::PortedMemory& memory) { reads += memory.reads(); });
+  EXPECT_EQ(reads, 6u * (3 + 2 + 2));
+}
+
 // R + 7 rows, in fours: the first beat of the row behind them needs the place of row 0, which the
 // first beat of row 1 asks for last, in slot row R + 6.
 TEST(PixelStoreBlock, ABeatWaitsForItsPlaceAndSaysSo) {
@@ -366,6 +382,68 @@ TEST(PixelStoreMemory, AWriteWaitsForRoom) {
   EXPECT_EQ(bench.request_gate.taken[4].token.tag, bench.tag(3, true));
   EXPECT_EQ(bench.request_gate.taken[4].cycle, 53u);
   EXPECT_EQ(stalls(bench.store, "memory"), (50u - 15u) + (79u - 55u));
+}
+
+// Each of the things that a clock may have alone: an answer before its turn, a turn that comes
+// behind such an answer, a read that has waited for the link.
+TEST(PixelStoreMemory, IsBusyInTheClocksOfItsLinesAndInNoOther) {
+  Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(48, 1));
+  for (int b = 0; b < 48; ++b) bench.store_beat(0, 0, b);  // stored in 1 to 48
+  bench.answer(60, 1, true);
+  bench.answer(70, 0, true);
+  bench.answer(80, 2, true);
+  // A line is stored in two clocks with one lane.
+  bench.answer(90, 1, false, bench.line(1));
+  bench.answer(100, 0, false, bench.line(0));
+  bench.answer(110, 2, false, bench.line(2));
+  bench.clock.run(71);
+  for (int i = 0; i < 2; ++i) {
+    bench.requests.hold_push(bench.clock.cycle());
+    bench.clock.run(1);
+  }
+  bench.clock.run(120 - 73);
+  // The writes of lines 1 and 0 are answered in 61 and 71, the turn of line 1 is in 72; both are
+  // read when the link has room, in 73 and 74; line 2 in 81, with its answer. Of what is read line
+  // 1 comes in 91 and 92, line 0 in 101 and 102, the turn of line 1 is in 103; line 2 in 111, 112.
+  ASSERT_EQ(bench.request_gate.taken.size(), 6u);
+  EXPECT_EQ(bench.request_gate.taken[3].cycle, 74u);
+  EXPECT_EQ(bench.request_gate.taken[4].cycle, 75u);
+  EXPECT_EQ(bench.store.busy_cycles(), 48u + 6u + 7u);
+  EXPECT_EQ(bench.store.idle_cycles(), 120u - 48u - 6u - 7u);
+}
+
+// Rows 4 and 5 wait for the places of rows 0 and 1, of which none has been asked for: no work.
+TEST(PixelStoreMemory, IsIdleWhileReadsWaitForAPlace) {
+  Storing bench(built(spec::morphological::Storage::kMemory, 2), colours(16, 6));
+  for (int y = 0; y < 6; ++y)
+    for (int b = 0; b < 4; ++b) bench.store_beat(0, y, b);
+  for (std::uint32_t line = 0; line < 6; ++line) bench.answer(40, line, true);
+  for (std::uint32_t line = 0; line < 4; ++line) bench.answer(60, line, false, bench.line(line));
+  bench.clock.run(100);
+  EXPECT_EQ(bench.store.lines_read.value(), 4u);
+  EXPECT_EQ(bench.store.busy_cycles(), 24u + 6u + 4u);
+  EXPECT_EQ(bench.store.idle_cycles(), 100u - 24u - 6u - 4u);
+}
+
+// Line 1 is written and may be read when a reset comes, but one read is under way and there is room
+// for no other.
+TEST(PixelStoreMemory, AResetForgetsTheLinesThatWaitToBeRead) {
+  Parameters p = built(spec::morphological::Storage::kMemory, 2);
+  p.memory_outstanding = 1;
+  Storing bench(p, colours(16, 3));
+  for (int y = 0; y < 3; ++y)
+    for (int b = 0; b < 4; ++b) bench.store_beat(0, y, b);
+  bench.answer(10, 0, true);
+  bench.answer(20, 1, true);
+  bench.clock.run(30);
+  EXPECT_EQ(bench.store.lines_written.value(), 3u);
+  EXPECT_EQ(bench.store.lines_read.value(), 1u);
+  bench.clock.set_reset_n(false);
+  bench.clock.run(1);
+  bench.clock.set_reset_n(true);
+  bench.clock.run(20);
+  EXPECT_EQ(bench.store.lines_read.value(), 0u);
+  EXPECT_EQ(bench.store.busy_cycles(), 0u);
 }
 
 // ---- errors of memory ---------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <string>
 #include <tuple>
 
 #include "tb/base/random.h"
@@ -173,7 +174,7 @@ struct Extraction {
     }
     extractor.observer = [this](const RunRecord& run) { runs.push_back(run); };
   }
-  void run(const Planes& planes) {
+  void send(const Planes& planes) {
     store.software.set_size(planes.width, planes.height);
     ASSERT_TRUE(store.store.latch());
     const FrameRules rules = store.store.rules();
@@ -191,6 +192,9 @@ struct Extraction {
         driver.send(token);
         ++slots;
       }
+  }
+  void run(const Planes& planes) {
+    send(planes);
     ASSERT_TRUE(clock.run_until([&] { return area_sink.received() == slots; }, 2'000'000));
     clock.run(100);
   }
@@ -352,6 +356,26 @@ TEST(RunExtractorBlock, SlotsAndRecordsHaveTheLatenciesOfTheDatasheet) {
     expect_latency(RunExtractor::slot_datasheet(),
                    bench.area_sink.cycles()[token.slot] - (token.slot + 1));
   }
+}
+
+// A slot behind which none comes: taken, its words a clock later, its run known three clocks after
+// that. Then there is nothing to do.
+TEST(RunExtractorBlock, IsBusyUntilARunIsKnownAndThenIdle) {
+  Extraction bench(preset(spec::morphological::Preset::kMlaa, 4, 8));
+  Planes planes(30, 12);
+  for (int x = 5; x < 9; ++x) planes.top[static_cast<std::size_t>(3 * 30 + x)] = true;
+  bench.send(planes);
+  // Row 3 in slot row 3 + 4 + 2, closed by column 9; sent in the clock of its number.
+  bench.clock.run(9 * 30 + 9 + 1);
+  std::string busy;
+  for (int i = 0; i < 20; ++i) {
+    bench.edges.hold_push(bench.clock.cycle());
+    const std::uint64_t before = bench.extractor.busy_cycles();
+    EXPECT_EQ(bench.runs.size(), i < 5 ? 0u : 1u) << i;
+    bench.clock.run(1);
+    busy += bench.extractor.busy_cycles() != before ? 'b' : '.';
+  }
+  EXPECT_EQ(busy, std::string(5, 'b') + std::string(15, '.'));
 }
 
 TEST(RunExtractorBlock, AHorizontalRunOfOneMoreThanTheReachGivesHeadAndTailWithoutAStall) {

@@ -56,6 +56,7 @@ TEST(FirstBeat, TakesTheFrameInTheClockThatTakesIt) {
   EXPECT_EQ(hash(bench.last(97, 61)), vector_hash("noise_slope"));
   EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusFrameDone);
   EXPECT_EQ(bench.bus.read(reg::kFrameCycles), (61u + 37u) * 97u + kPipe);
+  EXPECT_EQ(bench.engine.sequencer.frames.value(), 1u);
 }
 
 // Nor where the TextGuard has no room for it.
@@ -74,6 +75,38 @@ TEST(FirstBeat, WaitsForTheTextGuardBeforeTheFrameIsInside) {
   bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
                    1'000'000);
   EXPECT_EQ(bench.bus.read(reg::kFrameCycles), (61u + 37u) * 97u + kPipe);
+}
+
+// A frame whose slots go to the TextGuard, too, waits as any other: for a beat that has not come,
+// and for room; and each slot goes to it once.
+class GuardedFrame : public ::testing::Test {
+ protected:
+  static Parameters parameters() {
+    Parameters p = preset(Preset::kDeburrLine);
+    p.text_guard = true;
+    return p;
+  }
+};
+TEST_F(GuardedFrame, WaitsUpstreamForItsBeats) {
+  EngineBench::Options options;
+  options.driver = {250, 3};
+  EngineBench bench(parameters(), options);
+  bench.run(noise());
+  const std::uint64_t upstream = stalls(bench.engine.sequencer, "upstream");
+  EXPECT_GT(upstream, 1000u);
+  EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (61u + 37u) * 97u + kPipe + upstream);
+}
+TEST_F(GuardedFrame, SendsEachSlotToTheTextGuardOnce) {
+  EngineBench bench(parameters());
+  bench.software.set_size(97, 61);
+  bench.driver.send(beats_of(noise(), 1));
+  for (int i = 0; i < 3000; ++i) {
+    if (i % 3 == 0) bench.engine.sequencer.beats_out.link().hold_push(bench.clock.cycle());
+    bench.clock.run(1);
+  }
+  bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
+                   1'000'000);
+  EXPECT_EQ(bench.engine.sequencer.guard_slots_out->link().pushes(), 97u * (61u + 8u));
 }
 
 struct BadSize {

@@ -332,6 +332,29 @@ INSTANTIATE_TEST_SUITE_P(
                                          Size{64, 20}, Size{kSanitized ? 320 : 1920, 14}),
                        ::testing::Range(0, 3)));
 
+// On black every colour of one bit is another one, and those of two bits but where both bits are
+// the same one of the hash.
+TEST(TextGuardBlock, EachBitOfAColourIsInItsHash) {
+  GuardBench bench(guarded(2));
+  const Rows board = {"abab", "baba", "abab"};
+  int guarded_boards = 0;
+  for (unsigned first = 0; first < 24; ++first)
+    for (unsigned second = first; second < 24; ++second) {
+      const std::uint32_t bits = 1u << first | 1u << second;
+      const Rgba8 ink = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8),
+                         static_cast<std::uint8_t>(bits >> 16), 255};
+      const Frame frame = draw(4, 3, [&](int x, int y) {
+        return board[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] == 'a' ? grey(0)
+                                                                                      : ink;
+      });
+      const bool differs = hash_of(ink) != hash_of(grey(0));
+      guarded_boards += differs;
+      EXPECT_EQ(bench.run(frame), repeated(differs ? "####" : "....", 3)) << first << ' ' << second;
+    }
+  // In the bits of a hash are 4, 5, 4, 4, 4 and 3 of the colour's: so many pairs cancel.
+  EXPECT_EQ(guarded_boards, 24 + 276 - (6 + 10 + 6 + 6 + 6 + 3));
+}
+
 // Frames of other sizes and pictures behind each other; nothing is left of the one before.
 TEST(TextGuardBlock, KeepsNothingFromFrameToFrame) {
   GuardBench bench(guarded(1));
