@@ -290,7 +290,7 @@ TEST(Wire, HasOneDriverOfOneClockAndNoLoosePort) {
               HasSubstr("wire joins two clock domains"));
 }
 
-TEST(Wire, APortIsBoundOnce) {
+TEST(Wire, APortIsBoundOnceAndHasOneDriverInside) {
   Wire<int> wire("wire", 0), other("other", 0);
   WireIn<int> outer("outer"), a("a"), b("b");
   const auto rejected = [](auto& port, auto& to) {
@@ -302,6 +302,11 @@ TEST(Wire, APortIsBoundOnce) {
   b(outer);  // which has no wire yet
   EXPECT_THAT(rejected(b, wire), HasSubstr("b is bound twice"));
   EXPECT_THAT(rejected(b, outer), HasSubstr("b is bound twice"));
+  WireOut<int> around("around"), c("c"), d("d");
+  around(wire);
+  c(around);
+  EXPECT_THAT(rejected(d, around), HasSubstr("around already has a driver inside: c"));
+  EXPECT_EQ(wire.driver(), "c");
 }
 
 // Registers that nothing ticks: a write between edges is a pulse in the clock that comes; the unit
