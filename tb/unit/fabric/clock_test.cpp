@@ -522,6 +522,8 @@ TEST(Unit, HasAsManyCausesAsItCanCount) {
   constexpr int kMost = rtl::kActivities - 3;
   Many many("many", clock, kMost);
   EXPECT_THROW(many.declare_stall("one_more", "a cause"), spec::CheckFailed);
+  Many one("one", clock, 1);
+  EXPECT_THROW(one.declare_stall("cause_0", "the same"), spec::CheckFailed);
   clock.run(7);
   EXPECT_EQ(many.stalled_cycles(), 7U);
   EXPECT_EQ(many.stalls().back().name, "cause_" + std::to_string(kMost - 1));

@@ -231,6 +231,12 @@ TEST(Engine, ClearResetsEveryCounterAndNothingElse) {
   EXPECT_EQ(bed.engine.a.waits.count(), 10U);
 }
 
+TEST(Engine, AHostIsToldOfARegisterThatThereIsNot) {
+  Bed bed(true);
+  EXPECT_THAT(text_of<spec::SimulationError>([&] { bed.host.read(0x28); }),
+              HasSubstr("read of register 0x28 was rejected"));
+}
+
 TEST(Engine, WritesAreMaskedAndDecoded) {
   Bed bed(true);
   EXPECT_EQ(bed.host.read(kSize), 640U);

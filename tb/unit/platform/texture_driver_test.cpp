@@ -247,6 +247,7 @@ TEST(TextureDriver, WhatTheUnitDoesNotTakeIsRejected) {
   EXPECT_THAT(rejection(valid(), -1), HasSubstr("got -1"));
   EXPECT_THAT(with([](Descriptor& d) { d.width = 0; }),
               HasSubstr("width of a texture: expected 1..4096, got 0"));
+  EXPECT_THAT(with([](Descriptor& d) { d.height = 0; }), HasSubstr("height of a texture"));
   EXPECT_THAT(with([](Descriptor& d) { d.height = 4097; }), HasSubstr("height of a texture"));
   EXPECT_THAT(with([](Descriptor& d) { d.levels = 0; }),
               HasSubstr("levels of a texture: expected 1..5, got 0"));
