@@ -438,17 +438,19 @@ TEST(ClockDomain, ResetFromInsideABlockActsOnTheNextEdge) {
   expect_same([](bool fast) {
     Pipeline p(300);
     p.clock.set_fast_path(fast);
-    bool pulled = false;
-    p.adders[2]->raise = [&](Cycle, const Token& token) {
-      if (token.number == 50 && !pulled) {
-        pulled = true;
-        p.clock.set_reset_n(false);
-      }
+    Cycle pulled = 0;
+    std::string resets;  // behind it
+    p.adders[2]->raise = [&](Cycle cycle, const Token& token) {
+      if (token.number != 50 || pulled) return;
+      pulled = cycle;
+      p.clock.set_reset_n(false);
     };
-    p.clock.run_until([&] { return pulled; }, 1000);
-    p.clock.run(5);
-    p.clock.set_reset_n(true);
+    p.clock.on_reset([&] {
+      resets += fmt::format("{} ", p.clock.cycle() - pulled);
+      p.clock.set_reset_n(resets.size() == 10);
+    });
     p.clock.run(1000);
+    if (resets != "1 2 3 4 5 ") return resets;
     return p.fingerprint();
   });
 }
@@ -520,6 +522,8 @@ TEST(Unit, HasAsManyCausesAsItCanCount) {
   constexpr int kMost = rtl::kActivities - 3;
   Many many("many", clock, kMost);
   EXPECT_THROW(many.declare_stall("one_more", "a cause"), spec::CheckFailed);
+  Many one("one", clock, 1);
+  EXPECT_THROW(one.declare_stall("cause_0", "the same"), spec::CheckFailed);
   clock.run(7);
   EXPECT_EQ(many.stalled_cycles(), 7U);
   EXPECT_EQ(many.stalls().back().name, "cause_" + std::to_string(kMost - 1));

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rtl_model/fabric/memory_port.h"
@@ -90,6 +92,27 @@ Latency: 2; initiation interval: a token a clock. For 300 MHz.
 
 Cost: a shifter.
 )");
+}
+
+// Only variants of one unit share a heading and what they have in common, and only those that are
+// shown.
+TEST(Datasheets, EachUnitSaysItsOwn) {
+  const Datasheet halves = {.unit = "Halver", .variant = "a", .cost = "a shifter."},
+                  too = {.unit = "Halver", .variant = "b", .cost = "a shifter."},
+                  doubles = {.unit = "Doubler", .cost = "a shifter."};
+  const auto counted = [](std::span<const Datasheet> sheets) {
+    const std::string page = rtl::datasheets_markdown(sheets);
+    const auto count = [&](const std::string& of) {
+      int found = 0;
+      for (std::size_t at = page.find(of); at != std::string::npos; at = page.find(of, at + 1))
+        ++found;
+      return found;
+    };
+    return std::pair{count("\n### "), count("\nCost: ")};
+  };
+  const std::vector<Datasheet> sheets = {doubles, halves, too};
+  EXPECT_EQ(counted(sheets), (std::pair{2, 2}));
+  EXPECT_EQ(counted(std::span(sheets).first(2)), (std::pair{2, 2}));
 }
 
 TEST(Datasheets, OfTheMemoryPortIsTheContracts) {

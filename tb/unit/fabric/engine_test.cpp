@@ -64,6 +64,16 @@ class Counting final : public rtl::Unit {
   void reset() override {}
 };
 
+rtl::ControlLayout layout(bool ignores) {
+  return {.control = kControl,
+          .status = kStatus,
+          .enable = 1,
+          .clear_counters = 2,
+          .idle = 1,
+          .written_while_busy = 4,
+          .busy_ignores_writes = ignores};
+}
+
 class Engine final : public rtl::Engine {
  public:
   Counting a, b;
@@ -73,16 +83,7 @@ class Engine final : public rtl::Engine {
 
   Engine(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, bool ignores,
          bool with_memory = false)
-      : rtl::Engine(name, clock, kTable,
-                    {.control = kControl,
-                     .status = kStatus,
-                     .enable = 1,
-                     .clear_counters = 2,
-                     .idle = 1,
-                     .written_while_busy = 4,
-                     .busy_ignores_writes = ignores}),
-        a("a", clock),
-        b("b", clock) {
+      : rtl::Engine(name, clock, kTable, layout(ignores)), a("a", clock), b("b", clock) {
     control.set_mask(kSize, 0x3FFF);
     control.set_reset(kSize, 640);
     control.show(kTokens, a.tokens);
@@ -170,6 +171,47 @@ TEST(Engine, AReplacedUnitStandsStill) {
   EXPECT_THROW(bed.clock.replace(bed.engine.a), spec::CheckFailed);  // in mid-run
 }
 
+class Relay final : public rtl::Unit {
+ public:
+  rtl::In<std::uint16_t> words_in{"words_in"};
+  rtl::Out<std::uint16_t> words_out{"words_out"};
+  Relay(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, rtl::Link<std::uint16_t>& in,
+        rtl::Link<std::uint16_t>& out)
+      : Unit(name, clock) {
+    words_in(in);
+    words_out(out);
+  }
+  rtl::Activity tick(Cycle) override { return rtl::kIdle; }
+  void reset() override {}
+};
+class Chain final : public rtl::Engine {
+ public:
+  rtl::Link<std::uint16_t> in{"in"}, ab{"ab"}, bc{"bc"}, out{"out"};
+  Relay a, b, c;
+  Chain(const sc_core::sc_module_name& name, rtl::ClockDomain& clock)
+      : rtl::Engine(name, clock, kTable, layout(true)),
+        a("a", clock, in, ab),
+        b("b", clock, ab, bc),
+        c("c", clock, bc, out) {}
+  bool idle() const override { return true; }
+};
+
+// What does the work of two units has the links to their neighbours, and between them its own.
+TEST(Engine, ALinkBetweenReplacedUnitsIsNotUsed) {
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  Chain chain("chain", clock);
+  const auto links = [&] {
+    std::string text;
+    for (const rtl::LinkBase* link : chain.links()) text += std::string(link->basename()) + " ";
+    return text;
+  };
+  EXPECT_EQ(links(), "in ab bc out ");
+  clock.replace(chain.b);
+  EXPECT_EQ(links(), "in ab bc out ");
+  clock.replace(chain.c);
+  EXPECT_EQ(links(), "in ab out ");
+}
+
 TEST(Engine, HasItsMemorySocketIfItIsBuiltWithOne) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Engine engine("engine", clock, true, true);
@@ -187,6 +229,12 @@ TEST(Engine, ClearResetsEveryCounterAndNothingElse) {
   EXPECT_EQ(bed.host.read(kControl), 1U);  // the command reads 0
   EXPECT_EQ(bed.engine.a.busy_cycles(), 10U);
   EXPECT_EQ(bed.engine.a.waits.count(), 10U);
+}
+
+TEST(Engine, AHostIsToldOfARegisterThatThereIsNot) {
+  Bed bed(true);
+  EXPECT_THAT(text_of<spec::SimulationError>([&] { bed.host.read(0x28); }),
+              HasSubstr("read of register 0x28 was rejected"));
 }
 
 TEST(Engine, WritesAreMaskedAndDecoded) {
@@ -220,6 +268,21 @@ TEST(Engine, ABusyEngineIgnoresWritesOrTakesThem) {
     });
     EXPECT_EQ(result, ignores ? "4 640 0 1 1 false" : "4 100 0 1 1 false");
   }
+}
+
+// Before the first edge, too.
+TEST(Engine, IsEnabledAsTheResetValueOfControlSays) {
+  auto table = kTable;
+  table[1].reset = 0;
+  const rtl::ControlRegisters on("on", kTable, layout(true)), off("off", table, layout(true));
+  EXPECT_TRUE(on.enabled());
+  EXPECT_FALSE(off.enabled());
+}
+
+TEST(Engine, AskedForARegisterThatItDoesNotHaveSaysSo) {
+  const rtl::ControlRegisters control("control", kTable, layout(true));
+  EXPECT_THAT(text_of<spec::CheckFailed>([&] { control.value(0x28); }),
+              HasSubstr("control has no register at 0x28"));
 }
 
 TEST(Engine, ResetGivesEveryRegisterItsResetValue) {

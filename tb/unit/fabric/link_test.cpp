@@ -210,6 +210,13 @@ TEST(Link, ADuplicateIsTheNewestBeatOnceMore) {
   std::vector<int> beats;
   for (Cycle c = 6; c < 10; ++c) beats.push_back(link.take(c));
   EXPECT_EQ(beats, (std::vector<int>{1, 2, 3, 3}));
+  // Its slot is not free before it has left.
+  Link<int> both("both", 2);
+  both.push(0, 1);
+  ASSERT_TRUE(both.duplicate_newest(1));
+  both.pop(2);
+  both.push(3, 2);
+  EXPECT_FALSE(both.can_push(4));
   // One alone is there in its clock.
   link.push(10, 9);
   link.pop(11);
@@ -272,6 +279,12 @@ TEST(Ports, TwoProducersOrTwoBindingsAreRejected) {
   inner(outer);
   EXPECT_THROW(inner(third), spec::CheckFailed);
   EXPECT_THROW(inner(a), spec::CheckFailed);
+  // A port has one port inside, with a link or without.
+  Out<int> second("second");
+  EXPECT_THROW(second(outer), spec::CheckFailed);
+  outer(third);
+  EXPECT_THROW(second(outer), spec::CheckFailed);
+  EXPECT_EQ(third.producer(), "inner");
 }
 
 TEST(Ports, ASecondOwnerIsNamedAsWhatItIs) {

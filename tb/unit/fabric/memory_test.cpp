@@ -326,6 +326,31 @@ TEST(MemoryModel, AReadAfterAWriteIsARace) {
   }
 }
 
+// The first read that sees it begins at the time of its last byte, whenever the answer is sent.
+TEST(MemoryModel, AWriteIsThereFromTheTimeOfItsLastByteOn) {
+  for (const bool ahead : {true, false}) {
+    const std::string text = in_child([&] {
+      platform::MemoryModelParameters parameters = with_latency(10);
+      parameters.answer_ahead = ahead;
+      System s({.outstanding = 32}, parameters);
+      s.driver.send(read_of(0));
+      s.clock.run(40);
+      MemoryRequest write = read_of(3);
+      write.write = true;
+      write.byte_mask = ~std::uint64_t{0};
+      write.data.fill(0xEE);
+      s.driver.send(write);
+      for (int i = 0; i < 12; ++i) s.driver.send(read_of(3));  // a clock later each
+      s.clock.run(60);
+      std::string said;
+      for (const MemoryResponse& response : s.sink.beats())
+        said += response.write ? 'w' : right(response) ? 'o' : response.data[0] == 0xEE ? 'n' : '?';
+      return said;
+    });
+    EXPECT_EQ(text, "owooooooooonnn");
+  }
+}
+
 // Nobody can tell a response that was sent ahead from one that is sent at its time: with any bus,
 // limits, errors, writes between the reads and a reset, every beat, clock and count is the same,
 // and so are the contents whenever and however they are looked at.
@@ -474,6 +499,66 @@ TEST(MemoryModel, AWriteAnsweredAheadIsThereForEveryLook) {
         << look;
 }
 
+// An access by b_transport at the time of its last byte gets it, and none before that.
+TEST(MemoryModel, AWriteAnsweredAheadIsThereAtItsTimeNotEarlier) {
+  constexpr std::uint64_t kAt = 3 * 64;
+  System s({}, with_latency(10));
+  platform::MemoryHost host("host", s.memory.size());
+  host.bus.bind(s.memory.ports);
+  s.driver.send(read_of(0));
+  s.clock.run(20);
+  s.driver.send(write_of(3));
+  ASSERT_TRUE(s.clock.run_until([&] { return s.memory.writes() == 1; }, 20));
+  s.clock.run(8);  // the edge that comes is the ninth after that of the request
+  EXPECT_EQ(host.read(kAt, 1)[0], pattern(kAt));
+  s.clock.run(1);
+  EXPECT_EQ(host.read(kAt, 1)[0], 0xEE);
+}
+
+// Two writes whose last bytes come within a picosecond, of which the first one has been answered:
+// the second one is not there for a look.
+TEST(MemoryModel, AWriteAnsweredAheadIsNotThereBeforeItsAnswer) {
+  struct Writer final : sc_core::sc_module, tlm::tlm_mm_interface {
+    tlm_utils::simple_initiator_socket<Writer> out{"out"};
+    explicit Writer(const sc_core::sc_module_name& name) : sc_module(name) {
+      out.register_nb_transport_bw(this, &Writer::backward);
+    }
+    tlm::tlm_sync_enum backward(tlm::tlm_generic_payload&, tlm::tlm_phase& phase,
+                                sc_core::sc_time&) {
+      return phase == tlm::BEGIN_RESP ? tlm::TLM_COMPLETED : tlm::TLM_ACCEPTED;
+    }
+    void free(tlm::tlm_generic_payload*) override {}
+    void write(tlm::tlm_generic_payload& payload, std::uint64_t address, sc_core::sc_time delay) {
+      payload.set_mm(this);
+      payload.acquire();
+      payload.set_command(tlm::TLM_WRITE_COMMAND);
+      payload.set_address(address);
+      payload.set_data_ptr(&byte);
+      payload.set_data_length(1);
+      payload.set_streaming_width(1);
+      tlm::tlm_phase phase = tlm::BEGIN_REQ;
+      out->nb_transport_fw(payload, phase, delay);
+    }
+    std::uint8_t byte = 0xEE;
+  };
+  platform::MemoryModelParameters parameters = with_latency(10);
+  parameters.bytes_per_clock = 0;
+  platform::MemoryModel memory("memory", kPeriod, parameters);
+  Writer writer("writer");
+  writer.out.bind(memory.ports);
+  sc_core::sc_start(sc_core::SC_ZERO_TIME);
+  tlm::tlm_generic_payload before, first, second;
+  writer.write(before, 9, sc_core::SC_ZERO_TIME);
+  sc_core::sc_start(20 * kPeriod);
+  writer.write(first, 1, sc_core::SC_ZERO_TIME);
+  writer.write(second, 2, sc_core::sc_time::from_value(1));
+  EXPECT_EQ(memory.dump(1, 2), (std::vector<std::uint8_t>{0, 0}));
+  first.release();
+  EXPECT_EQ(memory.dump(1, 2), (std::vector<std::uint8_t>{0xEE, 0}));
+  second.release();
+  EXPECT_EQ(memory.dump(1, 2), (std::vector<std::uint8_t>{0xEE, 0xEE}));
+}
+
 // Every beat of a read fits the links as they are built for narrow lines; a mask that does not is
 // noticed.
 TEST(MemoryPort, NarrowLinesHaveNarrowBeats) {
@@ -582,7 +667,7 @@ TEST(MemoryModel, ByteEnablesAreRepeatedOverTheData) {
   enables.fill(TLM_BYTE_ENABLED);
   enables[1] = enables[2] = TLM_BYTE_DISABLED;
   std::array<std::uint8_t, 10> data{};
-  const auto access = [&](tlm::tlm_command command) {
+  const auto access = [&](tlm::tlm_command command, unsigned length) {
     tlm::tlm_generic_payload payload;
     payload.set_command(command);
     payload.set_address(4);
@@ -590,7 +675,7 @@ TEST(MemoryModel, ByteEnablesAreRepeatedOverTheData) {
     payload.set_data_length(10);
     payload.set_streaming_width(10);
     payload.set_byte_enable_ptr(enables.data());
-    payload.set_byte_enable_length(4);
+    payload.set_byte_enable_length(length);
     sc_core::sc_time delay;
     initiator.out->b_transport(payload, delay);
     return payload.get_response_status();
@@ -603,12 +688,17 @@ TEST(MemoryModel, ByteEnablesAreRepeatedOverTheData) {
     return text;
   };
   data.fill(0xEE);
-  EXPECT_EQ(access(tlm::TLM_READ_COMMAND), tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(access(tlm::TLM_READ_COMMAND, 4), tlm::TLM_OK_RESPONSE);
   EXPECT_EQ(owners(data), "miimmiimmi");
+  data.fill(0xDD);
+  ASSERT_EQ(access(tlm::TLM_READ_COMMAND, 1), tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(owners(data), "mmmmmmmmmm");
   data.fill(0xEE);
-  EXPECT_EQ(access(tlm::TLM_WRITE_COMMAND), tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(access(tlm::TLM_WRITE_COMMAND, 4), tlm::TLM_OK_RESPONSE);
   EXPECT_EQ(owners(memory.dump(4, 10)), "immiimmiim");
   EXPECT_EQ(memory.dump(14, 1)[0], pattern(14));
+  EXPECT_EQ(memory.bytes_written(), 5u);
+  EXPECT_EQ(access(tlm::TLM_WRITE_COMMAND, 0), tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
   EXPECT_EQ(memory.bytes_written(), 5u);
 }
 

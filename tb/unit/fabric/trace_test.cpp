@@ -430,6 +430,8 @@ TEST(Glob, Matches) {
   EXPECT_FALSE(rtl::glob_match("a*c", "abbb"));
   EXPECT_FALSE(rtl::glob_match("", "a"));
   EXPECT_FALSE(rtl::glob_match("?", ""));
+  EXPECT_FALSE(rtl::glob_match("a*bc", "abxc"));
+  EXPECT_FALSE(rtl::glob_match("ab*ba*", "abac"));  // a character is for one of the pattern
 }
 
 }  // namespace

@@ -73,7 +73,9 @@ TEST(Wire, WithoutAResetValueItIsUndrivenUntilItIsDriven) {
   EXPECT_THAT(rejected(0), HasSubstr("wire: cycle 0: read before it was driven"));
   wire.drive(9, 1);
   EXPECT_THAT(rejected(9), HasSubstr("cycle 9"));
+  EXPECT_EQ(wire.seen(9), nullptr);
   EXPECT_EQ(wire.read(10), 1);
+  EXPECT_EQ(wire.seen(10), reinterpret_cast<const std::byte*>(&wire.read(10)));
   wire.drive(10, 2);
   EXPECT_EQ(wire.read(10), 1);
   wire.reset();
@@ -286,6 +288,25 @@ TEST(Wire, HasOneDriverOfOneClockAndNoLoosePort) {
                 return std::string("ran");
               }),
               HasSubstr("wire joins two clock domains"));
+}
+
+TEST(Wire, APortIsBoundOnceAndHasOneDriverInside) {
+  Wire<int> wire("wire", 0), other("other", 0);
+  WireIn<int> outer("outer"), a("a"), b("b");
+  const auto rejected = [](auto& port, auto& to) {
+    return text_of<spec::CheckFailed>([&] { port(to); });
+  };
+  a(wire);
+  EXPECT_THAT(rejected(a, other), HasSubstr("a is bound twice"));
+  EXPECT_THAT(rejected(a, outer), HasSubstr("a is bound twice"));
+  b(outer);  // which has no wire yet
+  EXPECT_THAT(rejected(b, wire), HasSubstr("b is bound twice"));
+  EXPECT_THAT(rejected(b, outer), HasSubstr("b is bound twice"));
+  WireOut<int> around("around"), c("c"), d("d");
+  around(wire);
+  c(around);
+  EXPECT_THAT(rejected(d, around), HasSubstr("around already has a driver inside: c"));
+  EXPECT_EQ(wire.driver(), "c");
 }
 
 // Registers that nothing ticks: a write between edges is a pulse in the clock that comes; the unit

@@ -3,6 +3,9 @@
 // docs/reference/geometric/memory.md by hand, and what it rejects.
 #include "rtl_model/platform/geometric_driver.h"
 
+#include <cstdlib>
+#include <memory>
+
 #include "tb/unit/platform/fakes.h"
 
 namespace deburr::tb::geometric_driver_test {
@@ -45,6 +48,9 @@ TEST(GeometricRecords, SplitFacesAreSixBytes) {
   const std::uint8_t second[] = {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x13};
   std::copy_n(second, 6, &expected[6]);
   EXPECT_EQ(two, expected);
+  edges.resize(10);
+  EXPECT_EQ(platform::face_records(edges).size(), 64u);
+  EXPECT_EQ(platform::pair_records(edges, false).size(), 64u);
   edges.resize(11);
   edges[10] = {0, 0, 7, 0, 0};
   const Bytes eleven = platform::face_records(edges);
@@ -94,6 +100,12 @@ TEST(GeometricRecords, CoarseDepthIsTheLeastOfATile) {
   EXPECT_EQ(entry(64), 0x7777);
   EXPECT_EQ(entry(128), 0);
   EXPECT_EQ(entry(192), 0x0302);
+  // Of 64 pixels a row there is one line, and no more.
+  const Bytes narrow =
+      platform::coarse_depth(64, 33, std::vector<std::uint32_t>(std::size_t{64} * 33, 0x4200));
+  ASSERT_EQ(narrow.size(), 128u);
+  EXPECT_EQ(narrow[62] | narrow[63] << 8, 0x0042);  // tile (7, 3)
+  EXPECT_EQ(narrow[64] | narrow[65] << 8, 0x0042);  // tile (0, 4)
 }
 
 TEST(GeometricRecords, AVertexIsFourWords) {
@@ -170,6 +182,7 @@ TEST(GeometricRegions, FollowEachOtherAtPages) {
   EXPECT_EQ(copied.region_of(98304), GeometricRegions::kCount);
   EXPECT_EQ(copied.end_of(8192), 16384u);
   EXPECT_EQ(copied.end_of(86016), 98304u);
+  EXPECT_EQ(GeometricRegions::needed(frames[1], p)[4], 64u * 4 * 2) << "16 x 8 pixels, no more";
 }
 
 // Behind the copy: pairs of both arrays, whole lines each; 32 tiles of 8 x 8 pixels a line.
@@ -261,6 +274,12 @@ TEST(GeometricDriver, WhatAFrameDoesNotGiveStays) {
   EXPECT_EQ(b.memory.contents[0x6000], 0xEE);
   b.driver.load_depths(std::vector<std::uint32_t>(34, 5));
   EXPECT_EQ(b.memory.contents[0x4000], 5);
+  GeometricFrame frame = b.frame();
+  b.facing = {1, 2, 3, 4};
+  frame.facing = b.facing;
+  frame.faces = 14;
+  b.driver.load(frame);
+  EXPECT_THAT(b.memory.read(0x1000, 3), ElementsAre(1, 2, 0xEE)) << "there is no face 16";
 }
 
 TEST(GeometricDriver, ProgramsSizesAndBasesThenStarts) {
@@ -434,6 +453,19 @@ TEST(GeometricDriver, SizesOutOfRangeAreRejected) {
               HasSubstr("33 depths for a frame of 17 x 2 pixels"));
   EXPECT_THAT(with([](GeometricFrame& f) { f.height = 3; }),
               HasSubstr("34 depths for a frame of 17 x 3 pixels"));
+  // Zeros that nobody has touched, so that they take no room.
+  constexpr std::size_t kMany = (1 << 24) + 1;
+  const std::unique_ptr<void, decltype(&std::free)> zeros(std::calloc(kMany, sizeof(Edge)),
+                                                          &std::free);
+  static_assert(sizeof(Vertex) <= sizeof(Edge));
+  EXPECT_THAT(with([&](GeometricFrame& f) {
+                f.edges = {static_cast<Edge*>(zeros.get()), kMany};
+              }),
+              HasSubstr("edges: expected 0..16777216, got 16777217"));
+  EXPECT_THAT(with([&](GeometricFrame& f) {
+                f.vertices = {static_cast<Vertex*>(zeros.get()), kMany};
+              }),
+              HasSubstr("vertices: expected 0..16777216, got 16777217"));
   EXPECT_EQ(b.memory.contents, Bytes(1 << 20, 0xEE)) << "nothing was written";
   EXPECT_EQ(with([](GeometricFrame&) {}), "");
   EXPECT_THAT(error_of<spec::ConfigError>([&] { b.driver.load_colours({}); }),

@@ -33,8 +33,10 @@ TEST(MemoryHost, WritesAndReadsLineByLine) {
   EXPECT_EQ(b.memory.dump(59, 1), std::vector<std::uint8_t>{0});
   EXPECT_EQ(b.memory.dump(210, 1), std::vector<std::uint8_t>{0});
   EXPECT_EQ(b.memory.writes(), 4u) << "60..63, two whole lines, 192..209";
+  EXPECT_EQ(b.memory.bytes_written(), 150u);
   EXPECT_EQ(b.host.read(60, 150), data);
   EXPECT_EQ(b.memory.reads(), 4u);
+  EXPECT_EQ(b.memory.bytes_read(), 150u);
   EXPECT_EQ(b.host.size(), 1000u);
   b.host.write(5, {});
   EXPECT_EQ(b.memory.writes(), 4u);

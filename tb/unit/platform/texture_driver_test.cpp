@@ -139,6 +139,21 @@ TEST(TextureMemory, ALevelBeginsAtTheFirstMultipleOf128Bytes) {
   EXPECT_EQ(textures.bytes().size(), 640u);
 }
 
+TEST(TextureMemory, EachSideHasATexelAndNotTooMany) {
+  const std::vector<Texel> texels(4097);
+  const auto rejection = [&](int width, int height) {
+    const platform::TextureLevel level[] = {
+        {width, height, std::span(texels).first(static_cast<std::size_t>(width * height))}};
+    platform::TextureMemory textures;
+    return error_of<spec::ConfigError>([&] { textures.add(level, {}); });
+  };
+  EXPECT_EQ(rejection(0, 4), "texture of 0 x 4 texels: each side must be 1 to 4096");
+  EXPECT_EQ(rejection(4, 0), "texture of 4 x 0 texels: each side must be 1 to 4096");
+  EXPECT_EQ(rejection(4097, 1), "texture of 4097 x 1 texels: each side must be 1 to 4096");
+  EXPECT_EQ(rejection(4096, 1), "");
+  EXPECT_EQ(rejection(1, 1), "");
+}
+
 // ---- the driver
 
 struct Bed {
@@ -232,6 +247,7 @@ TEST(TextureDriver, WhatTheUnitDoesNotTakeIsRejected) {
   EXPECT_THAT(rejection(valid(), -1), HasSubstr("got -1"));
   EXPECT_THAT(with([](Descriptor& d) { d.width = 0; }),
               HasSubstr("width of a texture: expected 1..4096, got 0"));
+  EXPECT_THAT(with([](Descriptor& d) { d.height = 0; }), HasSubstr("height of a texture"));
   EXPECT_THAT(with([](Descriptor& d) { d.height = 4097; }), HasSubstr("height of a texture"));
   EXPECT_THAT(with([](Descriptor& d) { d.levels = 0; }),
               HasSubstr("levels of a texture: expected 1..5, got 0"));
@@ -245,6 +261,7 @@ TEST(TextureDriver, WhatTheUnitDoesNotTakeIsRejected) {
               HasSubstr("region level 0 (0xe40 to 0x103f) ends past the memory of 4096 bytes"));
   EXPECT_EQ(with([](Descriptor& d) { d.base[0] = 3584; }), "");
   EXPECT_EQ(with([](Descriptor& d) { d.base[2] = 7; }), "") << "there is no such level";
+  EXPECT_EQ(with([](Descriptor& d) { d.width = d.height = d.levels = 1; }), "");
 }
 
 TEST(TextureDriver, ATextureLargerThanTheMemoryIsRejected) {

@@ -45,6 +45,11 @@ TEST(TextureRtlFillBuffer, OneBeatAClock) {
   buffer.reserve(2);
   buffer.fill(10, 0, 0, kBeat, true);
   EXPECT_THROW(buffer.fill(10, 1, 0, kBeat, true), spec::CheckFailed);
+  // Whether it completes its line or not.
+  FillBuffer wide("wide", 4, 128);
+  wide.reserve(1);
+  wide.fill(10, 0, 0, kBeat, false);
+  EXPECT_THROW(wide.fill(10, 0, 64, kBeat, false), spec::CheckFailed);
 }
 
 // A beat that names a half of a line which has none, as a broken response may, is rejected.
@@ -101,6 +106,24 @@ TEST(TextureRtlFillBuffer, TheLineBeforeInTheSameEntryIsStale) {
   lines.read_ahead(21);
   EXPECT_THAT(rejection([&] { lines.line(21); }), Rejects("buffer", kEarly));
   EXPECT_EQ(rejection([&] { lines.line(22); }), "nothing");
+}
+
+// Each beat is written, each line is read once, and its bit is set once and cleared once.
+TEST(TextureRtlFillBuffer, AccessesAreThoseOfBeatsAndLines) {
+  FillBuffer buffer("buffer", 4, 128);
+  FillBuffer::Reader lines = buffer.reader();
+  buffer.reserve(1);
+  buffer.fill(10, 0, 0, kBeat, false);
+  buffer.fill(11, 0, 64, kBeat, true);
+  lines.read_ahead(12);
+  lines.line(13);
+  lines.release(13);
+  std::string accesses;
+  rtl::for_each<rtl::PortedMemory>([&](const rtl::PortedMemory& memory) {
+    accesses += std::string(memory.name()) + " " + std::to_string(memory.reads()) + "R" +
+                std::to_string(memory.writes()) + "W ";
+  });
+  EXPECT_EQ(accesses, "buffer 1R2W buffer_arrived 1R2W ");
 }
 
 // Flip-flops up to 16 kbit, SRAM above; a line of two beats needs a write mask of one.
