@@ -47,7 +47,10 @@ def record_of(results, sources, commit=""):
 
 def joined(old, new):
     """The new record, with what the old one knows of the files that the new one has no verdict on."""
-    return {file: entry if tried(entry) else old.get(file, entry) for file, entry in new.items()}
+    def counts(file, entry):
+        return tried(entry) or entry.get("left") and not tried(old.get(file, entry))
+
+    return {file: entry if counts(file, entry) else old.get(file, entry) for file, entry in new.items()}
 
 
 def read(path):
