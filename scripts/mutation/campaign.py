@@ -51,14 +51,14 @@ def drawn(mutants, count, each, seed, left=frozenset()):
 
 class Campaign:
     """Results are lines of JSON in `work`/results, a file for each who writes: what is there is not
-    done again, and a file that has changed begins anew. Without `alone`, what must be compiled is left
-    out, and others are drawn in its place."""
+    done again, and a file that has changed begins anew. If `switched`, what needs a build is left out,
+    and others are drawn in its place."""
 
-    def __init__(self, tree, checker, count, each, seed, say, alone=True):
-        self.tree, self.checker, self.say, self.alone = tree, checker, say, alone
-        self.left = frozenset() if alone else frozenset(
+    def __init__(self, tree, checker, count, each, seed, say, switched=False):
+        self.tree, self.checker, self.say = tree, checker, say
+        self.left = frozenset(
             (file, place) for file, all_of in tree.mutants.items() for place in range(len(all_of))
-            if checker.needs_a_build(file, place))
+            if switched and checker.needs_a_build(file, place))
         self.chosen = drawn(tree.mutants, count, each, seed, self.left)
         self.lock = threading.Lock()
 
@@ -75,9 +75,9 @@ class Campaign:
 
     def run(self, jobs, again, explained=(), name="local", part=0, parts=1):
         """Checks what has no verdict yet, or if `again` survived and is not `explained`: behind
-        switches first, then, if not left out, one by one what must be compiled. `part` of `parts` of
-        them all. What is explained is checked whether it was drawn or not, since an explanation is of
-        a survivor."""
+        switches first, then, unless this is one of several parts, one by one what must be compiled.
+        `part` of `parts` of them all. What is explained is checked whether it was drawn or not, since
+        an explanation is of a survivor."""
         drawn_ones = set(self.chosen)
         self.chosen += [item for item in self.explained(explained) if item not in drawn_ones]
         known = read_results(self.tree.work)
@@ -88,16 +88,13 @@ class Campaign:
                   if n % parts == part and self.key(*item) not in done]
         folder = self.tree.work / "results"
         folder.mkdir(exist_ok=True)
+        if self.left and part == 0:
+            self.tell_what_is_left(folder / "left.jsonl")
         later = []
         with (folder / f"{name}.jsonl").open("a+", encoding="utf-8") as out:
             # The last line may be half of one, of a writer that was killed.
             if out.tell():
                 out.write("\n")
-            told = {key_of(entry) for entry in known}
-            for item in sorted(self.left) if part == 0 else ():
-                if self.key(*item) not in told:
-                    self.put(out, item, LEFT, "")
-
             def checked(number, item):
                 verdict = None if self.checker.needs_a_build(*item) else self.checker.by_switch(*item)
                 if verdict is None:
@@ -112,9 +109,18 @@ class Campaign:
                     future.result()
             # A header costs a build of nearly everything.
             later.sort(key=lambda item: (item[0].suffix == ".h", wanted.index(item)))
-            for number, item in enumerate(later if self.alone else ()):
+            for number, item in enumerate(later if parts == 1 else ()):
                 self.put(out, item, self.checker.alone(*item), "alone")
                 self.say(f"{number + 1} of {len(later)} mutants compiled alone")
+
+    def tell_what_is_left(self, path):
+        """In the place of what was left before: tests that are new may run it."""
+        own = {str(file) for file in self.tree.mutants}
+        others = [line for line in lines_of(path) if line["file"] not in own]
+        with path.open("w", encoding="utf-8") as out:
+            out.writelines(json.dumps(line) + "\n" for line in others)
+            for item in sorted(self.left):
+                self.put(out, item, LEFT, "")
 
     def put(self, out, item, verdict, way):
         file, place = item
@@ -131,17 +137,23 @@ def key_of(entry):
     return tuple(entry[name] for name in ("file", "hash", "begin", "kind", "text"))
 
 
+def lines_of(path):
+    """Every whole line."""
+    for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else ():
+        try:
+            yield json.loads(line)
+        except ValueError:  # its writer was killed
+            continue
+
+
 def read_results(work):
-    """Every whole line of every writer; what a test has killed once is killed."""
+    """Of every writer; what a test has killed once is killed, and what has a verdict was not left out."""
     found = {}
     for path in sorted((work / "results").glob("*.jsonl")):
-        for line in path.read_text(encoding="utf-8").splitlines():
-            try:
-                entry = json.loads(line)
-                if found.get(key_of(entry), {}).get("verdict") != "killed":
-                    found[key_of(entry)] = entry
-            except ValueError:  # its writer was killed
-                continue
+        for entry in lines_of(path):
+            before = found.get(key_of(entry), LEFT._asdict())["verdict"]
+            if before == "left" or before != "killed" and entry["verdict"] != "left":
+                found[key_of(entry)] = entry
     return list(found.values())
 
 

@@ -104,9 +104,11 @@ class Checker:
 
     def checked_by(self, file, place, names, **environment):
         spent = 0
+        shortest = min((self.seconds[name] for name in names), default=0)
         for name in self.ordered(file, names, self.tree.mutants[file][place].kind):
             seconds = self.seconds[name]
-            if (spent or self.longest_first) and spent + seconds > self.budget:
+            # One is asked whatever it takes: the first, or of the longest first the last.
+            if spent + seconds > self.budget and (spent or self.longest_first and seconds > shortest):
                 continue
             spent += seconds
             passed, took, _ = passes(self.tests[name], 1 + 10 * seconds, **environment)

@@ -32,11 +32,13 @@ def record_of(results, sources, commit=""):
         own = [r for r in results if r["file"] == str(file) and r["hash"] == content
                and (r["begin"], r["kind"], r["text"]) in known]
         counts = collections.Counter(r["verdict"] for r in own)
+        judged = [r for r in own if r["verdict"] in VERDICTS]
+        budgets = [r["budget"] for r in judged if "budget" in r]
         of_kind = collections.Counter(m.kind for m in all_of)
         verdicts = collections.Counter((r["kind"], r["verdict"]) for r in own)
         record[str(file)] = {
-            **({"commit": commit} if commit and own else {}),
-            **({"budget": max(budgets)} if (budgets := [r["budget"] for r in own if "budget" in r]) else {}), "hash": content, "mutants": len(known),
+            **({"commit": commit} if commit and judged else {}),
+            **({"budget": max(budgets)} if budgets else {}), "hash": content, "mutants": len(known),
             "alone": sum(r["way"] == "alone" for r in own),
             "left": counts["left"], "killed": counts["killed"], "invalid": counts["invalid"],
             "kinds": {kind: [of_kind[kind]] + [verdicts[kind, verdict] for verdict in VERDICTS]
@@ -46,11 +48,13 @@ def record_of(results, sources, commit=""):
 
 
 def joined(old, new):
-    """The new record, with what the old one knows of the files that the new one has no verdict on."""
-    def counts(file, entry):
-        return tried(entry) or entry.get("left") and not tried(old.get(file, entry))
+    """The new record, with what the old one knows of the files that the new one has no verdict on, or fewer
+    than that, and than a file must have, on the same contents."""
+    def better(entry, before):
+        least = min(tried(before), needed(before)) if before["hash"] == entry["hash"] else 1
+        return tried(entry) >= least if tried(before) else entry["left"] >= before.get("left", 0)
 
-    return {file: entry if counts(file, entry) else old.get(file, entry) for file, entry in new.items()}
+    return {file: entry if better(entry, old.get(file, entry)) else old[file] for file, entry in new.items()}
 
 
 def read(path):
@@ -97,65 +101,79 @@ def checked(record, explained):
     return dict(sorted(rows.items()))
 
 
+def strata_of(record, explained=()):
+    """By folder, (mutants that could be judged, killed, judged but those that are explained) of each file."""
+    strata = collections.defaultdict(list)
+    for file, entry in record.items():
+        survived = sum((file, was, becomes) not in explained for was, becomes in entry["survived"])
+        strata[folder_of(file)].append(
+            (entry["mutants"] - entry.get("left", 0), entry["killed"], entry["killed"] + survived))
+    return {**strata, "all": sum(strata.values(), [])}
+
+
 def explanations(root):
     entries = read(root / SURVIVORS) or []
     return {(e["file"], e["was"], e["is"]): e["reason"] for e in entries}
 
 
-def interval(part, whole):
-    """Wilson's, in tenths of a percent, rounded away from the rate."""
-    if not whole:
-        return 0, 1000
-    rate, square = part / whole, Z * Z
-    centre = rate + square / (2 * whole)
-    reach = Z * math.sqrt(rate * (1 - rate) / whole + square / (4 * whole * whole))
-    low, high = ((centre + sign * reach) / (1 + square / whole) * 1000 for sign in (-1, 1))
+def estimate(strata):
+    """Of (mutants, killed, judged) of each file: the rate of all mutants of these files in tenths of a
+    percent, and its interval, rounded away from it. Files count by their mutants, not by how many of
+    them were judged. None if nothing was judged."""
+    strata = [(of, killed, judged) for of, killed, judged in strata if judged]
+    if not strata:
+        return None
+    whole = sum(of for of, _, _ in strata)
+    rate = sum(of * killed / judged for of, killed, judged in strata) / whole
+
+    def variance(of, killed, judged):
+        # One more of each kind, so that a file of which all were killed has one too; none where all were judged.
+        likely = (killed + 1) / (judged + 2)
+        return likely * (1 - likely) / judged * max(0, 1 - judged / of)
+
+    reach = Z * math.sqrt(sum((of / whole) ** 2 * variance(of, killed, judged) for of, killed, judged in strata))
     # What is whole stays so, whatever the arithmetic leaves behind the point.
-    return (math.floor(low + 1e-9) if part else 0), (math.ceil(high - 1e-9) if part < whole else 1000)
+    return (math.floor(rate * 1000 + 1e-9), max(0, math.floor((rate - reach) * 1000 + 1e-9)),
+            min(1000, math.ceil((rate + reach) * 1000 - 1e-9)))
 
 
-def percent(part, whole):
-    """A rate and its interval."""
-    if not whole:
-        return "-"
-    low, high = interval(part, whole)
-    # Rounded down, so that nothing looks whole that is not.
-    return f"{part * 1000 // whole / 10:.1f} ({low / 10:.1f} to {high / 10:.1f})"
+def percent(strata):
+    """A rate and its interval; the rate is rounded down, so that nothing looks whole that is not."""
+    found = estimate(strata)
+    return "{:.1f} ({:.1f} to {:.1f})".format(*(value / 10 for value in found)) if found else "-"
 
 
 def run_of(row):
     return row["killed"] + row["explained"] + row["survived"]
 
 
-def goal_of(rows, drawn):
+def goal_of(strata, drawn):
     """The folders by what is known of the goal, which is said of all if those with a verdict were `drawn` of all."""
     lists = {"reached": [], "open": [], "missed": []}
-    for name, row in rows.items():
-        counted = row["killed"] + row["survived"]
-        if not run_of(row):
-            continue
-        reached = row["killed"] * 100 >= GOAL * counted
-        sure = drawn and interval(row["killed"], counted)[0] >= GOAL * 10
-        lists["missed" if not reached else "reached" if sure else "open"].append(f"`{name}`")
+    found = {name: estimate(files) for name, files in sorted(strata.items()) if name != "all"}
+    for name, (rate, low, _) in ((name, each) for name, each in found.items() if each):
+        sure = drawn and low >= GOAL * 10
+        lists["missed" if rate < GOAL * 10 else "reached" if sure else "open"].append(f"`{name}`")
     texts = {"reached": "Of all mutants, with that confidence, it is reached by",
              "open": "Of those with a verdict, which do not say it of all, it is reached by",
              "missed": "It is missed by"}
-    return " ".join(f"{texts[name]} {'every folder' if len(found) == len(rows) > 1 else ', '.join(found)}."
-                    for name, found in lists.items() if found)
+    return " ".join(f"{texts[name]} {'every folder' if len(names) == len(found) > 1 else ', '.join(names)}."
+                    for name, names in lists.items() if names)
 
 
 def kinds_of(record):
     """The table by kinds, of the files whose record knows them."""
-    totals = {kind: [0] * (1 + len(VERDICTS)) for kind in mutants.KINDS}
+    files = {kind: [] for kind in mutants.KINDS}
     for entry in record.values():
         for kind, counts in entry.get("kinds", {}).items():
-            totals[kind] = [a + b for a, b in zip(totals[kind], counts)]
+            files[kind].append(counts)
     lines = ["| kind | mutants | with verdict | not compiled | killed | killed % |",
              "|---|---|---|---|---|---|"]
-    for kind, (all_of, killed, survived, invalid) in totals.items():
-        if all_of:
-            lines.append(f"| {kind} | {all_of} | {killed + survived} | {invalid} | {killed} "
-                         f"| {percent(killed, killed + survived)} |")
+    for kind, counts in files.items():
+        if counts:
+            all_of, killed, survived, invalid = map(sum, zip(*counts))
+            strata = [(of, killed, killed + survived) for of, killed, survived, _ in counts]
+            lines.append(f"| {kind} | {all_of} | {killed + survived} | {invalid} | {killed} | {percent(strata)} |")
     return "\n".join(lines) + "\n\n" if len(lines) > 2 else ""
 
 
@@ -163,6 +181,7 @@ def page_of(root, record):
     explained = explanations(root)
     rows = checked(record, explained)
     total = sum(rows.values(), collections.Counter())
+    strata, unexplained = strata_of(record), strata_of(record, explained)
     lines = ["| folder | files | mutants | with verdict | not compiled | killed | survived: explained "
              "| survived: open | killed % | of those not explained % |",
              "|---|---|---|---|---|---|---|---|---|---|"]
@@ -170,26 +189,28 @@ def page_of(root, record):
         lines.append(
             f"| `{name}` | {row['files']} | {row['mutants']} | {run_of(row)} | {row['invalid']} "
             f"| {row['killed']} | {row['explained']} | {row['survived']} "
-            f"| {percent(row['killed'], run_of(row))} "
-            f"| {percent(row['killed'], row['killed'] + row['survived'])} |")
+            f"| {percent(strata[name])} | {percent(unexplained[name])} |")
     old = [file for file, entry in record.items() if "kinds" not in entry]
     done = run_of(total) + total["invalid"]
     text = "# Mutants of both models\n\n" + wrapped(HEAD.format(at=commits_of(record))) + "\n\n" + wrapped(
-        f"Of {total['mutants']} mutants {run_of(total)} have a verdict: {total['killed']} killed, "
-        f"{percent(total['killed'], run_of(total))} %, {total['explained']} survived and explained, {total['survived']} "
-        f"survived and open. The goal is {GOAL} % of those that are not explained. " + goal_of(rows, not old)) + "\n\n"
+        f"Of {total['mutants']} mutants {run_of(total)} have a verdict: {total['killed']} killed, {total['explained']} "
+        f"survived and explained, {total['survived']} survived and open. Of all that a switch can plant and a test of the "
+        f"campaign runs, {percent(strata['all'])} % would be killed; the goal is {GOAL} % of those that are not explained, "
+        f"{percent(unexplained['all'])} %. " + goal_of(unexplained, not old)) + "\n\n"
     budgets = sorted({entry["budget"] for entry in record.values() if "budget" in entry})
     if budgets:
         text += wrapped(f"Tests of at most {' or '.join(f'{budget:g}' for budget in budgets)} seconds a mutant were run "
                         f"for {sum('budget' in entry for entry in record.values())} of the files: some of the open "
                         "survivors would be killed by longer ones.") + "\n\n"
-    text += wrapped("In brackets: the rate of all mutants, with a confidence of 95 % (Wilson's interval), if those with a "
-                    "verdict are a random sample.") + "\n\n"
+    text += wrapped("Rates are of all such mutants of the folder: each file counts by how many it has, not by how many of "
+                    "them were judged. In brackets: with a confidence of 95 %, if those with a verdict were drawn at "
+                    "random.") + "\n\n"
     text += "\n".join(lines) + "\n\n"
     text += wrapped(
         f"{total['invalid']} mutants did not compile and count nowhere; {total['alone']} were compiled alone. "
-        f"{total['mutants'] - done} were not tried: {total['left']} of them would need a build each, as what the compiler "
-        "works out does and what no test of the campaign runs; the others were not drawn.") + "\n\n"
+        f"{total['mutants'] - done} were not tried: {total['left']} of them would need a build each, and no rate knows of "
+        "them: most are worked out by the compiler, such as sizes of arrays, and the rest no test of the campaign runs. "
+        "The others were not drawn.") + "\n\n"
     if old:
         text += wrapped(
             f"The record of {len(old)} of {len(record)} files is older than the kinds "
@@ -198,8 +219,8 @@ def page_of(root, record):
     text += kinds_of(record)
     few = with_few(record)
     if few:
-        text += wrapped(f"{len(few)} files have fewer than {EACH} verdicts and untried mutants (`scripts/mutate --check` "
-                        "names them).") + "\n\n"
+        text += wrapped(f"{len(few)} files have fewer than {EACH} verdicts, and mutants that a switch can plant "
+                        "(`scripts/mutate --check` names them).") + "\n\n"
     text += wrapped(f"`tb/mutation/survivors.json` has {len(explained)} explanations, by file, line and reason: the program "
                     "does the same, or the difference is in no contract.") + "\n\n"
     text += "## Open survivors\n\n"
@@ -235,7 +256,8 @@ def untried(root, record, files):
             number = len(mutants.mutants_of((root / file).read_text(encoding="utf-8")))
             found.update({file: (0, number, min(EACH, number))} if number else {})
     return [f"{file}: {of} of {number} mutants have a verdict, a file needs {least}: scripts/mutate --all --count 1 "
-            f"--each {EACH} --switched --files '{file}' --work ../mutants" for file, (of, number, least) in sorted(found.items())]
+            f"--each {EACH} --switched --files '{file}' --work ../mutants"
+            for file, (of, number, least) in sorted(found.items())]
 
 
 def wrapped(text):

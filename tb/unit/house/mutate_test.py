@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """scripts/mutate on a tree of one file: what the test looks at is killed, what it does not look at
 survives, and the tree itself stays as it was. usage: mutate_test.py SOURCE [unittest options]"""
+import collections
 import json
 import pathlib
 import re
@@ -9,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 sys.dont_write_bytecode = True
 from tiny_tree import tiny_tree  # noqa: E402
@@ -120,10 +122,10 @@ class Mutate(unittest.TestCase):
         self.assertEqual((len(again), set(again)), (7 + 4, set(lines)))
 
         page = (self.root / "docs/measurements/mutation.md").read_text(encoding="utf-8")
-        self.assertIn("| `rtl_model/tiny` | 1 | 7 | 7 | 0 | 3 | 0 | 4 | 42.8 (15.8 to 75.0) | 42.8 (15.8 to 75.0) |",
+        self.assertIn("| `rtl_model/tiny` | 1 | 7 | 7 | 0 | 3 | 0 | 4 | 42.8 (42.8 to 42.9) | 42.8 (42.8 to 42.9) |",
                       page)
         self.assertIn("It is missed by `rtl_model/tiny`.", page)
-        self.assertIn("| comparison | 2 | 2 | 0 | 1 | 50.0 (9.4 to 90.6) |", page)
+        self.assertIn("| comparison | 2 | 2 | 0 | 1 | 50.0 (50.0 to 50.0) |", page)
         self.assertEqual(self.mutate("--check").returncode, 0)
         (self.root / "docs/measurements/mutation.md").write_text("", encoding="utf-8")
         self.assertIn("is not made from the record", self.mutate("--check").stderr)
@@ -132,8 +134,20 @@ class Mutate(unittest.TestCase):
         new = self.root / "golden/new.cpp"
         new.parent.mkdir()
         new.write_text("int f() { return 1; }\n", encoding="utf-8")
-        self.assertIn("1 files have mutants and no verdict: golden/new.cpp", self.mutate("--check").stdout)
+        done = self.mutate("--check")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("golden/new.cpp: 0 of 2 mutants have a verdict, a file needs 2: scripts/mutate", done.stderr)
         new.unlink()
+        record = self.root / "tb/mutation/record.json"
+        whole_record = json.loads(record.read_text(encoding="utf-8"))
+        few = json.loads(record.read_text(encoding="utf-8"))
+        few["rtl_model/tiny/tiny.h"]["killed"] -= 1
+        record.write_text(json.dumps(few), encoding="utf-8")
+        self.assertIn("tiny.h: 6 of 7 mutants have a verdict, a file needs 7", self.mutate("--check").stderr)
+        few["rtl_model/tiny/tiny.h"].update(mutants=100, killed=36)
+        record.write_text(json.dumps(few), encoding="utf-8")
+        self.assertNotIn("a file needs", self.mutate("--check").stderr)
+        record.write_text(json.dumps(whole_record), encoding="utf-8")
 
         survivors = [entry for entry in map(json.loads, lines) if entry["verdict"] == "survived"]
         explained = [{"file": e["file"], "was": e["was"], "is": e["is"], "reason": "tiny"}
@@ -182,6 +196,59 @@ class Mutate(unittest.TestCase):
         self.assertEqual(len(found[1][other]["survived"]), 1)
         self.assertEqual(self.campaign("--files", "none.*").returncode, 2)
         self.assertEqual(self.campaign("--files", "(").returncode, 2)
+
+    def test_what_needs_a_build_is_left_out_for_others(self):
+        scratch = tempfile.TemporaryDirectory(prefix="deburr_tiny_work_")
+        self.addCleanup(scratch.cleanup)
+        self.work = pathlib.Path(scratch.name)
+        for file, text in (("tested", "inline int two(int a) { return a + 2; }\n"),
+                           ("fixed", "constexpr int kTwo = 1 + 1;\ninline int three(int a) { return a + 3; }\n")):
+            (self.root / f"rtl_model/tiny/{file}.h").write_text(text, encoding="utf-8")
+        (self.root / "tiny_test.cpp").write_text("""#include "rtl_model/tiny/fixed.h"
+#include "rtl_model/tiny/tested.h"
+int main() { return two(kTwo) == 4 && three(1) == 4 ? 0 : 1; }
+""", encoding="utf-8")
+        (self.root / "docs/measurements").mkdir(parents=True)
+        words = ["--all", "--work", self.work, "--tests", "tiny_test", "--files"]
+        self.mutate(*words, ".*/(tested|fixed).h", "--budget", "7", "--count", "1", "--each", "3", "--switched")
+        record = json.loads((self.root / "tb/mutation/record.json").read_text(encoding="utf-8"))
+        for file, (of, left) in {"tested": (3, 0), "fixed": (8, 5)}.items():
+            entry = record[f"rtl_model/tiny/{file}.h"]
+            self.assertEqual([entry[name] for name in ("mutants", "left", "killed")], [of, left, 3], file)
+        page = (self.root / "docs/measurements/mutation.md").read_text(encoding="utf-8").replace("\n", " ")
+        self.assertIn("5 of them would need a build each", page)
+        self.assertIn("Tests of at most 7 seconds a mutant were run for 2 of the files", page)
+        self.assertNotIn("fixed.h: ", self.mutate("--check").stderr, "it has all that it needs")
+
+        self.mutate(*words, ".*/fixed.h")
+        record = json.loads((self.root / "tb/mutation/record.json").read_text(encoding="utf-8"))
+        self.assertEqual([record["rtl_model/tiny/fixed.h"][name] for name in ("left", "killed")], [0, 8], "none is left")
+
+    def test_the_longest_tests_come_first_where_asked(self):
+        module = self.module()
+
+        class Test:
+            source = "a_test"
+
+        for longest, wanted in ((False, ["a", "b", "c"]), (True, ["c", "b", "a"])):
+            checker = module.Checker(None, 3, longest)
+            checker.tests, checker.seconds = dict.fromkeys("abc", Test), {"a": 1, "b": 2, "c": 4}
+            self.assertEqual(checker.ordered(pathlib.PurePath("f.cpp"), "bca", "call"), wanted)
+
+    def test_a_mutant_has_its_budget_and_one_test_at_least(self):
+        module = self.module()
+        check = sys.modules[module.Checker.__module__]
+        test = collections.namedtuple("Test", "name source")
+        file = pathlib.PurePath("f.cpp")
+        tree = collections.namedtuple("Tree", "mutants")({file: module.mutants.mutants_of("a - 1")})
+        for longest, budget, wanted in ((False, 3, "ab"), (False, 0.5, "a"), (True, 5, "ca"), (True, 3, "ba"), (True, 0.5, "a")):
+            checker = module.Checker(tree, budget, longest)
+            checker.tests = {name: test(name, "a_test") for name in "abc"}
+            checker.seconds = {"a": 1, "b": 2, "c": 4}
+            asked = []
+            with unittest.mock.patch.object(check, "passes", lambda each, *_: asked.append(each.name) or (True, 0, "")):
+                self.assertEqual(checker.checked_by(file, 0, "abc").verdict, "survived")
+            self.assertEqual("".join(asked), wanted, (longest, budget))
 
     def test_a_switch_does_what_the_text_would(self):
         """Every mutant of functions over small numbers, behind its switch and as it stands."""
@@ -404,13 +471,36 @@ inline int early(int a) { if (a < 1) return 5; try { if (a == 2) throw a; } catc
             self.assertEqual((len(of_a), len(set(of_a))), (max(wanted, sum(file == a for file, _ in some)),) * 2)
         self.assertEqual([file for file, _ in drawn(all_of, 42, 45, 1)].count(b), 45)
 
-    def test_intervals(self):
-        """Wilson's of 95 %, in tenths of a percent, against values computed apart."""
-        interval = self.module().report.interval
-        for (part, whole), (low, high) in (((54, 54), (933, 1000)), ((36, 37), (861, 996)), ((0, 10), (0, 278)),
-                                           ((5, 10), (236, 764)), ((6028, 6353), (943, 954)), ((0, 0), (0, 1000)),
-                                           ((1, 1), (206, 1000))):
-            self.assertEqual(interval(part, whole), (low, high), (part, whole))
+    def test_estimates(self):
+        """In tenths of a percent, by files, with what 95 % of such samples would say, against values worked out apart."""
+        estimate = self.module().report.estimate
+        for files, wanted in (([(100, 50, 100)], (500, 500, 500)), ([(1000, 36, 40)], (900, 801, 999)),
+                              ([(100, 10, 10), (300, 10, 20)], (625, 461, 789)), ([(10, 0, 10), (5, 0, 0)], (0, 0, 0)),
+                              ([(7, 3, 7)], (428, 428, 429)), ([(5, 0, 0)], None)):
+            self.assertEqual(estimate(files), wanted, files)
+
+    def test_a_record_keeps_what_a_new_one_does_not_know_better(self):
+        joined = self.module().report.joined
+
+        def entry(killed, content="a", left=0):
+            return {"hash": content, "mutants": 100, "left": left, "killed": killed, "invalid": 0, "survived": []}
+
+        for old, new, kept in ((entry(40), entry(1), "old"), (entry(40), entry(1, "b"), "new"), (entry(40), entry(0, "b"), "old"),
+                               (entry(60), entry(40), "new"), (entry(0), entry(0, left=3), "new"),
+                               (entry(0, left=3), entry(0), "old"), (entry(5), entry(0, left=100), "old")):
+            self.assertIs(joined({"f": old}, {"f": new})["f"], old if kept == "old" else new, (old, new))
+        self.assertEqual(list(joined({"gone": entry(1)}, {"f": entry(0)})), ["f"])
+
+    def test_a_verdict_is_not_left_out_by_another_writer(self):
+        campaign = self.module().campaign
+        folder = self.root / "results"
+        folder.mkdir()
+        for name, begins in (("left", ("left", "left", "left")), ("local", ("killed", "survived", "left")),
+                             ("part_0", ("survived", "invalid", "left")), ("zeta", ("left", "left", "left"))):
+            (folder / f"{name}.jsonl").write_text("".join(
+                json.dumps({"file": "f", "hash": "a", "begin": n, "kind": "call", "text": ";", "verdict": verdict}) + "\n"
+                for n, verdict in enumerate(begins)) + '{"half', encoding="utf-8")
+        self.assertEqual([entry["verdict"] for entry in campaign.read_results(self.root)], ["killed", "invalid", "left"])
 
 
 if __name__ == "__main__":
