@@ -102,7 +102,7 @@ def checked(record, explained):
 
 
 def strata_of(record, explained=()):
-    """By folder, (mutants that could be judged, killed, judged but those that are explained) of each file."""
+    """By folder, (mutants that could be checked, killed, checked but those that are explained) of each file."""
     strata = collections.defaultdict(list)
     for file, entry in record.items():
         survived = sum((file, was, becomes) not in explained for was, becomes in entry["survived"])
@@ -117,9 +117,9 @@ def explanations(root):
 
 
 def estimate(strata):
-    """Of (mutants, killed, judged) of each file: the rate of all mutants of these files in tenths of a
+    """Of (mutants, killed, checked) of each file: the rate of all mutants of these files in tenths of a
     percent, and its interval, rounded away from it. Files count by their mutants, not by how many of
-    them were judged. None if nothing was judged."""
+    them were checked. None if nothing was."""
     strata = [(of, killed, judged) for of, killed, judged in strata if judged]
     if not strata:
         return None
@@ -127,7 +127,7 @@ def estimate(strata):
     rate = sum(of * killed / judged for of, killed, judged in strata) / whole
 
     def variance(of, killed, judged):
-        # One more of each kind, so that a file of which all were killed has one too; none where all were judged.
+        # One more of each kind, so that a file of which all were killed has one too; none where all were checked.
         likely = (killed + 1) / (judged + 2)
         return likely * (1 - likely) / judged * max(0, 1 - judged / of)
 
@@ -203,13 +203,13 @@ def page_of(root, record):
                         f"for {sum('budget' in entry for entry in record.values())} of the files: some of the open "
                         "survivors would be killed by longer ones.") + "\n\n"
     text += wrapped("Rates are of all such mutants of the folder: each file counts by how many it has, not by how many of "
-                    "them were judged. In brackets: with a confidence of 95 %, if those with a verdict were drawn at "
+                    "them were checked. In brackets: with a confidence of 95 %, if those with a verdict were drawn at "
                     "random.") + "\n\n"
     text += "\n".join(lines) + "\n\n"
     text += wrapped(
         f"{total['invalid']} mutants did not compile and count nowhere; {total['alone']} were compiled alone. "
-        f"{total['mutants'] - done} were not tried: {total['left']} of them would need a build each, and no rate knows of "
-        "them: most are worked out by the compiler, such as sizes of arrays, and the rest no test of the campaign runs. "
+        f"{total['mutants'] - done} were not tried: {total['left']} of them would need a build each, and no rate has "
+        "them in it: most are worked out by the compiler, such as sizes of arrays, and the rest no test of the campaign runs. "
         "The others were not drawn.") + "\n\n"
     if old:
         text += wrapped(
