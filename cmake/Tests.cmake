@@ -5,8 +5,9 @@
 #             [TIMING regex ...] [LONG regex ...] [TIMEOUT s]):
 # a source with GoogleTests. Every TEST becomes an entry of ctest, `<name>.Suite.Case`, and so a process
 # of its own: SystemC elaborates once a process. Under sanitizers, where a process takes longer to start than
-# most tests, a suite of a program without SystemC is one entry, `<name>.Suite`. Tests whose name matches a regex of TIMING or LONG have
-# the label `timing` or `long` too; a regex that matches none is an error of the build.
+# most tests, a suite of a program without SystemC is one entry, `<name>.Suite`. Tests whose name matches a
+# regex of TIMING or LONG have the label `timing` or `long` too; a regex that matches none is an error of the
+# build.
 #
 # The sources of a folder are one program, named after it: rtl_texture_tests of tb/unit/rtl/texture;
 # there what is no unit test has a program of its own, by its first label: harness_negative_tests. PROGRAM

@@ -87,8 +87,7 @@ class Checker:
 
     def ordered(self, file, names, kind):
         """First tests of resets for a reset, then what found the last mutants of the file, then the file's own
-        tests, then by what a test takes for what it finds. The longest first for
-        what these let pass."""
+        tests, then by what a test takes for what it finds. For what these let pass, the longest first."""
         stem = file.stem
         kills, last = self.kills[file], self.last[file]
 
