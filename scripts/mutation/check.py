@@ -42,7 +42,8 @@ class Checker:
         self.tests, self.seconds, self.reach = tests, {}, collections.defaultdict(list)
         self.impossible, failed = set(), []
         programs = {path.name: hashlib.sha256(path.read_bytes()).hexdigest()[:16]
-                    for path in self.tree.build.rglob("*") if path.name in self.tree.targets}
+                    for path in self.tree.build.rglob("*")
+                    if path.name in self.tree.targets and path.is_file()}
         everything = hashlib.sha256(json.dumps(programs, sort_keys=True).encode()).hexdigest()[:16]
 
         def built_of(test):

@@ -96,6 +96,7 @@ TEST(Ideal, BorderAndCentreAreThePapersCorrected) {
   EXPECT_EQ(at(3.5)[0].direction, 0);
   EXPECT_EQ(at(3.75)[0].coverage, 0.25);
   EXPECT_EQ(at(3.75)[0].direction, 1);
+  EXPECT_EQ(at(8.25).size(), 0u);  // below the last row
   // A line through a centre goes on with the pixel below only where it is flat and falls: of a
   // steep one the pixel to the left has the half.
   const auto through = [](ScreenPoint p, ScreenPoint q) {

@@ -181,6 +181,7 @@ TEST(IdealCoverage, OfHalfPlanesWorkedOutByHand) {
   EXPECT_DOUBLE_EQ(coverage({1, -2, 0}, 0, 0), 0.25);
   EXPECT_DOUBLE_EQ(coverage({0, 0, 1}, 3, 4), 1);
   EXPECT_DOUBLE_EQ(coverage({0, 0, -1}, 3, 4), 0);
+  EXPECT_DOUBLE_EQ(coverage({0, 0, 0}, 3, 4), 0);  // the border itself is outside
   EXPECT_NEAR(coverage({1, -8192, 0}, 8190, 0), 8190.5 / 8192, 1e-12);  // far out
 }
 

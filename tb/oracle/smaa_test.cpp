@@ -267,7 +267,8 @@ TEST(Smaa, MakesAStepMoreToTheSideThatHasIt) {
       for (int i = 0; i < 32; ++i) along(i);
       across(side == 0 ? 5 : 17);
       across(side == 0 ? 12 : 9);
-      const auto weights = [&](std::array<int, 2> more) {
+      const auto weights = [&](std::array<int, 2> more, int steps = 2) {
+        ideal.search_steps = steps;
         ideal.more_steps = more;
         const SmaaPixelWeights all =
             top ? smaa_weights(edges, ideal, 10, 5) : smaa_weights(edges, ideal, 5, 10);
@@ -278,6 +279,8 @@ TEST(Smaa, MakesAStepMoreToTheSideThatHasIt) {
       std::array<int, 2> more{}, other{};
       more[side] = other[1 - side] = 1;
       EXPECT_NE(weights(more), plain) << top << side;
+      // The other side ends within two steps.
+      EXPECT_EQ(weights(more), weights({0, 0}, 3)) << top << side;
       EXPECT_EQ(weights(other), plain) << top << side;
     }
 }

@@ -555,8 +555,10 @@ TEST(MemoryModel, AWriteAnsweredAheadIsNotThereBeforeItsAnswer) {
   EXPECT_EQ(memory.dump(1, 2), (std::vector<std::uint8_t>{0, 0}));
   first.release();
   EXPECT_EQ(memory.dump(1, 2), (std::vector<std::uint8_t>{0xEE, 0}));
+  EXPECT_EQ(first.get_ref_count(), 0) << "the memory keeps what it has written";
   second.release();
   EXPECT_EQ(memory.dump(1, 2), (std::vector<std::uint8_t>{0xEE, 0xEE}));
+  EXPECT_EQ(second.get_ref_count(), 0) << "the memory keeps what it has written";
 }
 
 // Every beat of a read fits the links as they are built for narrow lines; a mask that does not is

@@ -577,11 +577,13 @@ TEST(Coverage, EnumerationsHaveABinEach) {
     EXPECT_EQ(after([&](EdgeCoverage& c) { c.count_buffered(static_cast<Buffered>(i)); }),
               once("fetch/write-buffer/" + buffered[i]));
   const std::array<std::string, 4> borders = {"top", "bottom", "left", "right"};
-  for (std::size_t i = 0; i < borders.size(); ++i)
-    EXPECT_EQ(after([&](EdgeCoverage& c) {
-                c.count_dropped(static_cast<spec::geometric::Direction>(i));
-              }),
+  for (std::size_t i = 0; i < borders.size(); ++i) {
+    const auto direction = static_cast<spec::geometric::Direction>(i);
+    EXPECT_EQ(after([&](EdgeCoverage& c) { c.count_dropped(direction); }),
               once("coarse/" + borders[i] + "/dropped"));
+    EXPECT_EQ(after([&](EdgeCoverage& c) { c.count_outside(direction); }),
+              once("border/" + borders[i]));
+  }
   EXPECT_EQ(after([](EdgeCoverage& c) { c.count_coarse_equal(); }), once("coarse/equal"));
   EXPECT_EQ(after([](EdgeCoverage& c) { c.count_two_tiles(TwoTiles::kOwnLess); }),
             once("coarse/lesser/own"));

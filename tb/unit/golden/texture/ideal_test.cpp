@@ -513,7 +513,9 @@ TEST(IdealTexture, WrongSizesAreConfigErrors) {
   EXPECT_THROW(TextureImage(0, 4, {}), spec::ConfigError);
   EXPECT_THROW(TextureImage(4, 0, {}), spec::ConfigError);
   EXPECT_EQ(TextureImage(2, 2, bytes).level(0).texels.size(), 4u);
-  EXPECT_THROW(psnr(std::vector<Colour>(3), bytes), spec::ConfigError);
+  EXPECT_THAT(
+      [&] { psnr(std::vector<Colour>(3), bytes); },
+      ::testing::ThrowsMessage<spec::ConfigError>("pictures of 3 and 4 pixels cannot be compared"));
 }
 
 TEST(Psnr, OfOneLevelOffEverywhere) {

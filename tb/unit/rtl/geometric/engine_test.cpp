@@ -122,6 +122,10 @@ TEST(Registers, FrameCyclesCountFromStartToIdle) {
   b.load(contract_scene());
   const Cycle clocks = b.run();
   EXPECT_EQ(b.bus.read(reg::kFrameCycles), clocks);
+  b.load(contract_scene());
+  const Cycle again = b.run();
+  EXPECT_EQ(b.bus.read(reg::kFrameCycles), again) << "of the last frame alone";
+  EXPECT_EQ(b.bus.read(reg::kEdgeCycles) + b.bus.read(reg::kResolveCycles), again);
 }
 TEST(Registers, CodesThatNoChoiceHasCountAsTheFirst) {
   EngineBench b(configuration('g').p);
@@ -281,6 +285,7 @@ TEST(Memories, OfKeptColoursAndTheWriteBuffer) {
   EXPECT_EQ(built["weight_combiner.write_buffer"], "sram 40 x 512 1R1W in 1");
   EXPECT_EQ(built["weight_combiner.write_tags"], "flops 40 x 23 40R1W in 0");
   EXPECT_EQ(built["weight_combiner.latency_fifo"], "sram 128 x 177 1R1W in 1");
+  EXPECT_EQ(built["weight_combiner.spill"], "flops 108 x 23 108R2W in 0");
 }
 // The page's copy_buffer: sram above 16 384 bits.
 TEST(Memories, AFewLinesOfACopyAreFlipFlops) {

@@ -254,6 +254,19 @@ TEST(EdgeLatency, AResetForgetsWhatIsOnTheWay) {
     l.edges.end();
     EXPECT_THAT(l.all(), ElementsAre(5)) << stage;
   }
+  // One that is a boundary but for its pair, which has not come.
+  Latencies l;
+  l.edges.leave(1, 1);
+  l.edges.decided(true, true);
+  l.edges.reset();
+  l.edges.leave(10, 1);
+  l.edges.decided(true, true);
+  l.edges.paired(true);
+  l.edges.set_up(true);
+  l.group(true);
+  l.edges.write(15);
+  l.edges.end();
+  EXPECT_THAT(l.all(), ElementsAre(5));
 }
 TEST(EdgeLatency, AFrameAfterAnotherBeginsAnew) {
   Latencies l;

@@ -434,6 +434,27 @@ Parameters with_table(AreaSource layout, int lanes_code = 0) {
   return p;
 }
 
+// A line of which the product of its ends is known, and the ends are not yet.
+TEST(TableEnds, AResetForgetsALineThatIsMeasured) {
+  // What of a line that is popped in clock 41 is stored and finished.
+  const auto kept = [](bool reset, Cycle at) {
+    return forked_text([=] {
+      Area bench(with_table(AreaSource::kTableFull), 5, 3);
+      bench.send_slots(0);
+      bench.drivers_v[0]->add(40, three(Axis::kVertical, 1, 0, 3));
+      bench.clock.run(at);
+      bench.clock.set_reset_n(!reset);
+      bench.clock.run(1);
+      bench.clock.set_reset_n(true);
+      bench.clock.run(30);
+      return std::to_string(bench.unit.records.value()) + " stored, " +
+             std::to_string(bench.finished_gate.taken.size()) + " finished";
+    });
+  };
+  EXPECT_EQ(kept(false, 42), "1 stored, 1 finished");
+  for (const Cycle at : {42, 43}) EXPECT_EQ(kept(true, at), "0 stored, 0 finished") << at;
+}
+
 // Where the ends of a line lie, by the formulas of docs/reference/morphological/formats.md: S13,
 // and a tie goes up, which is a pixel further to the left for the start.
 TEST(TableEnds, AreRoundedToPixelsOf13Bits) {

@@ -3,6 +3,9 @@
 // and those of the pipe add up to what the specification says of it.
 #include "rtl_model/morphological/datasheets.h"
 
+#include <set>
+#include <string_view>
+
 #include "rtl_model/morphological/morphological_engine.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/support.h"
@@ -37,6 +40,19 @@ TEST(MorphologicalDatasheets, AreTheContracts) {
                    {"DiagonalUnit", 9 + 5, 1},
                    {"PixelStore", 2, 1},
                    {"Blender", 6, 1}});
+}
+
+TEST(MorphologicalDatasheets, SayWhatTheirClocksAreMadeFor) {
+  const std::set<std::string_view> fast = {"SlotSequencer", "LumaUnit", "PixelStore"};
+  for (const rtl::Datasheet& sheet : rtl::morphological::datasheets())
+    EXPECT_EQ(sheet.megahertz, fast.contains(sheet.unit) ? 300 : 250) << sheet.unit;
+}
+
+TEST(MorphologicalDatasheets, ARecordStoreHasAStageAClock) {
+  for (const Parameters& p : {preset(Preset::kDeburr), smaa(spec::morphological::Quality::kHigh)}) {
+    const rtl::Datasheet sheet = RecordStore::datasheet(p);
+    EXPECT_EQ(sheet.stages.size(), sheet.latency.clocks);
+  }
 }
 
 // From a slot to the push of its output beat, which the next one can pop a clock later.

@@ -71,9 +71,10 @@ TEST(LineUnitBlock, ChordAndTheEndsOfALongRun) {
   head.run.run.part = RunPart::kHead;
   SumsToken tail = head;
   tail.run.run.part = RunPart::kTail;
-  for (const SumsToken& token : {head, tail}) bench.ends.source.add(token);
+  for (const SumsToken& token : {head, tail, sums_of({-4, 0, 4, 7}, 1, 4)})
+    bench.ends.source.add(token);
   bench.clock.run(60);
-  ASSERT_EQ(bench.ends.sink.taken.size(), 3u);
+  ASSERT_EQ(bench.ends.sink.taken.size(), 4u);
   const spec::morphological::LineRecord& chord = bench.ends.sink.taken[0].token.line;
   EXPECT_EQ(chord.scale, 2);
   EXPECT_EQ(chord.offset, 5);
@@ -89,6 +90,7 @@ TEST(LineUnitBlock, ChordAndTheEndsOfALongRun) {
     EXPECT_EQ(line.shift, 0);
     EXPECT_EQ(line.span, 22);
   }
+  EXPECT_EQ(bench.ends.sink.taken[3].token.line.inverse, 15019u);  // 11 / 3 = 15018.67 / 2^12
 }
 
 struct DividerTime {
