@@ -292,6 +292,8 @@ std::string extension_of(std::string_view bytes) {
   if (starts("BM")) return ".bmp";
   if (starts("GIF8")) return ".gif";
   if (starts("II*") || starts("MM")) return ".tif";
+  if (starts("DDS ")) return ".dds";
+  if (bytes.size() > 1 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') return ".ppm";
   return "";
 }
 
@@ -346,7 +348,10 @@ Image read_image(const fs::path& path, ReadReport* report) {
 Image read_image_memory(const std::string& name, std::string_view bytes, ReadReport* report) {
   const SilentLibraries silent;
   if (bytes.empty()) fail_read(name, "the image is empty (0 bytes)");
-  return decode_memory(name, extension_of(bytes), bytes, report);
+  const std::string extension = extension_of(bytes);
+  if (extension.empty())  // every reader there is would try
+    fail_read(name, "its first bytes are of no format that is read from memory; use PNG or JPEG");
+  return decode_memory(name, extension, bytes, report);
 }
 
 FloatImage read_float_image(const fs::path& path) {

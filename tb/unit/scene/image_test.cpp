@@ -219,6 +219,8 @@ TEST(ImageIo, BadFilesAreNamed) {
               HasSubstr("truncated"));
   EXPECT_THAT(file_error([&] { read_image_memory("inside", good.substr(0, good.size() / 2)); }),
               HasSubstr("inside"));
+  EXPECT_THAT(file_error([&] { read_image_memory("inside", "hello, I am no picture"); }),
+              AllOf(HasSubstr("inside"), HasSubstr("use PNG or JPEG")));
 }
 
 TEST(ImageIo, BadTargetsAreNamedAndNothingIsLeft) {

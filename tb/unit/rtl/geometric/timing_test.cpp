@@ -865,44 +865,44 @@ TEST(DepthTest, ACreaseIsLimitedInDepth) {
   using spec::geometric::DepthTest;
   constexpr std::uint32_t kDepth = 11'000'007;
   for (const DepthTest rule : {DepthTest::kFarther, DepthTest::kOwn, DepthTest::kOff})
-    for (int limit = 0; limit <= 24; ++limit)
-      for (const int beside : {-1, 0, 1}) {
-        const std::string got = in_child([&] {
-          Parameters p;
-          p.depth_test = rule;
-          p.crease_depth = limit;
-          DepthBench b(p);
-          const std::uint32_t least = limit == 0 ? 1000 : kDepth - (kDepth >> limit),
-                              depth = static_cast<std::uint32_t>(static_cast<int>(least) + beside);
-          // Of the block, rows 0, 2 have this depth and 1, 3 are nearer.
+    for (int limit = 0; limit <= 24; ++limit) {
+      const std::string got = in_child([&] {
+        Parameters p;
+        p.depth_test = rule;
+        p.crease_depth = limit;
+        DepthBench b(p);
+        const std::uint32_t least = limit == 0 ? 1000 : kDepth - (kDepth >> limit);
+        std::string text;
+        b.unit.observer = [&](const spec::geometric::Candidate& c) {
+          text += c.passed ? '1' : '0';
+        };
+        for (int block = 0; block < 3; ++block) {
+          // Of the block, rows 0, 2 have the least depth, or one beside it, and 1, 3 are nearer.
           std::vector<std::uint8_t> line;
           for (int i = 0; i < 16; ++i)
             for (int byte = 0; byte < 4; ++byte)
-              line.push_back(
-                  static_cast<std::uint8_t>((i / 4 % 2 ? kDepth + 5 : depth) >> (8 * byte)));
-          b.memory.preload(0, line);
-          std::string text;
-          b.unit.observer = [&](const spec::geometric::Candidate& c) {
-            text += c.passed ? '1' : '0';
-          };
+              line.push_back(static_cast<std::uint8_t>(
+                  (i / 4 % 2 ? kDepth + 5 : least - 1 + block) >> (8 * byte)));
+          b.memory.preload(64 * block, line);
           for (const bool crease : {true, false})
             for (const int place : {9, 5}) {  // takes from above: rows 2 and 1
-              CandidateToken token = DepthBench::pixel(0, 0, kDepth);
+              CandidateToken token = DepthBench::pixel(block % 2, block / 2, kDepth);
               token.vertical = false;
               token.crease = crease;
               token.place[0] = static_cast<std::uint8_t>(place);
               b.ends.source.add(token);
             }
-          b.clock.run(100);
-          return text;
-        });
-        // The pixel of place 5 is nearer, and has the other above it.
-        const bool limited = limit != 0 && rule != DepthTest::kOff && beside < 0;
-        const char first = limited ? '0' : '1',
-                   second = limited && rule == DepthTest::kFarther ? '0' : '1';
-        EXPECT_EQ(got, std::string(1, first) + second + "11")
-            << "limit " << limit << ", rule " << static_cast<int>(rule) << ", " << beside;
-      }
+        }
+        b.clock.run(200);
+        return text;
+      });
+      // The pixel of place 5 is nearer, and has the other above it.
+      const bool limited = limit != 0 && rule != DepthTest::kOff;
+      const char first = limited ? '0' : '1',
+                 second = limited && rule == DepthTest::kFarther ? '0' : '1';
+      EXPECT_EQ(got, std::string(1, first) + second + "11" + "1111" + "1111")
+          << "limit " << limit << ", rule " << static_cast<int>(rule);
+    }
 }
 
 // Which of both is nearer, for each lane; equal depths are neither. Only `farther` reads both.
