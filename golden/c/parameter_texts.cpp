@@ -58,9 +58,10 @@ std::size_t code_of(std::string_view name, std::string_view text,
 }
 
 bool switch_of(std::string_view name, std::string_view text) {
-  if (text == "true" || text == "on" || text == "yes") return true;
-  if (text == "false" || text == "off" || text == "no") return false;
-  reject_value(name, text, "wants true or false");
+  const bool on = text == "true" || text == "on" || text == "yes",
+             off = text == "false" || text == "off" || text == "no";
+  if (!on && !off) reject_value(name, text, "wants true or false");
+  return on;
 }
 
 }  // namespace deburr::golden::c

@@ -3,6 +3,7 @@
 // preset first, then what was set by name, as the command does it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
@@ -112,9 +113,9 @@ class ParameterTexts {
     std::string_view rest = name;
     if (rest.starts_with(engine_) && rest.substr(engine_.size()).starts_with('.'))
       rest.remove_prefix(engine_.size() + 1);
-    for (const std::string& known : names_)
-      if (known == rest) return known;
-    reject_name("parameter", name, names_);
+    const auto known = std::find(names_.begin(), names_.end(), rest);
+    if (known == names_.end()) reject_name("parameter", name, names_);
+    return *known;
   }
 
   std::string_view engine_;

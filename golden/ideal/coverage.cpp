@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace deburr::golden::ideal {
 namespace {
@@ -19,11 +20,12 @@ struct PolygonPoint {
 // pixel, so nothing cancels far from the origin.
 double coverage(const HalfPlane& h, double x, double y) {
   const HalfPlane local{h.a, h.b, h.at(x, y)};
-  constexpr std::array<PolygonPoint, 4> kSquare = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  constexpr std::array<PolygonPoint, 4> kCorners = {{{1, 0}, {1, 1}, {0, 1}, {0, 0}}};
   std::array<PolygonPoint, 8> polygon{};
   std::size_t count = 0;
-  for (std::size_t i = 0; i < kSquare.size(); ++i) {
-    const PolygonPoint p = kSquare[i], q = kSquare[(i + 1) % kSquare.size()];
+  PolygonPoint corner = kCorners.back();
+  for (const PolygonPoint q : kCorners) {
+    const PolygonPoint p = std::exchange(corner, q);
     const double at_p = local.at(p.x, p.y), at_q = local.at(q.x, q.y);
     if (at_p > 0) polygon[count++] = p;
     if ((at_p > 0) != (at_q > 0)) {
@@ -65,8 +67,9 @@ double disc_coverage(const Disc& disc, double x, double y) {
     if (b <= a) continue;
     const double middle = (a + b) / 2, height = std::sqrt(std::max(0.0, r * r - middle * middle));
     const double under_arc = area(b) - area(a);
-    const double top = height < high ? under_arc : high * (b - a);
-    const double bottom = -height > low ? -under_arc : low * (b - a);
+    // In the middle of the circle it may touch a side that it does not cross.
+    const double top = height <= high ? under_arc : high * (b - a);
+    const double bottom = -height >= low ? -under_arc : low * (b - a);
     if (height > low && -height < high) sum += top - bottom;
   }
   return std::clamp(sum, 0.0, 1.0);

@@ -80,8 +80,7 @@ class ByteSteps {
   void fill(int y) {
     auto& across = across_[slot(y)];
     auto& down = down_[slot(y)];
-    if (y >= image_.height) {
-      std::fill(across.begin(), across.end(), Byte{0});
+    if (y >= image_.height) {  // of which nobody asks for steps across
       std::fill(down.begin(), down.end(), Byte{0});
       return;
     }

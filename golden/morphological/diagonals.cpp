@@ -83,7 +83,7 @@ std::uint64_t samples_counted_below(Point p1, Point p2, int x, int y) {
   return count;
 }
 
-// The areas of one pixel between its lines, to the nearest.
+// The areas of one pixel between its lines, to the nearest: a little more than half of it at most.
 DiagonalAreas exact_areas(std::span<const Line> lines, int d1, int d2) {
   const int n = d1 + d2 + 1;
   const std::uint64_t all = kAll * lines.size();
@@ -94,7 +94,7 @@ DiagonalAreas exact_areas(std::span<const Line> lines, int d1, int d2) {
     below += samples_below(line.from, to, 1 + d1, 1 + d1);
   }
   const auto area = [&](std::uint64_t samples) {
-    return static_cast<std::uint8_t>(std::min<std::uint64_t>(255, rdiv(256 * samples, all)));
+    return static_cast<std::uint8_t>(rdiv(256 * samples, all));
   };
   return {area(above), area(below)};
 }
@@ -113,7 +113,7 @@ DiagonalAreas published_areas(std::span<const Line> lines, int d1, int d2) {
   }
   const auto area = [&](double sum) {
     const auto byte = static_cast<std::uint64_t>(255 * (sum / static_cast<double>(lines.size())));
-    return static_cast<std::uint8_t>(std::min<std::uint64_t>(255, rdiv(256 * byte, 255)));
+    return static_cast<std::uint8_t>(rdiv(256 * byte, 255));
   };
   return {area(above), area(below)};
 }

@@ -46,12 +46,13 @@ ShareIndices indices(const SeenEnd& near, const SeenEnd& far, int length_class) 
           static_cast<std::uint16_t>((far.appearance * 8 + far.distance) * 4 + length_class)};
 }
 
+// Those of whole runs. Parts of long ones and the edges between them name no others: an end out of
+// sight is as one without a crossing that is far away.
 ReachableEntries find_reachable() {
   ReachableEntries result;
   LineRecord record;
   const auto visit = [&] {
-    const bool line = record.run.part == RunPart::kWhole &&
-                      record.run.length >= spec::morphological::kLongZ &&
+    const bool line = record.run.length >= spec::morphological::kLongZ &&
                       spec::morphological::kRunShapes[record.run.shape].clean_z;
     if (line) return;
     const LearnedEnds ends(record, Side::kFirst);
@@ -62,28 +63,20 @@ ReachableEntries find_reachable() {
       result.of_far[i.far] = true;
     }
   };
-  for (const RunPart part : {RunPart::kWhole, RunPart::kHead, RunPart::kTail}) {
-    record.run.part = part;
-    for (int length = 1; length <= 40; ++length) {
-      record.run.length = static_cast<std::uint16_t>(length);
-      for (int codes = 0; codes < 16; ++codes) {
-        record.run.shape = static_cast<std::uint8_t>(part == RunPart::kHead   ? codes & 3
-                                                     : part == RunPart::kTail ? codes & 12
-                                                                              : codes);
-        const auto classes = [](int code) { return code == 1 || code == 2 ? kClasses : 1; };
-        for (int start = 0; start < classes(record.run.shape & 3); ++start) {
-          for (int end = 0; end < classes(record.run.shape >> 2); ++end) {
-            record.start_class = static_cast<std::uint8_t>(start);
-            record.end_class = static_cast<std::uint8_t>(end);
-            visit();
-          }
+  for (int length = 1; length <= 40; ++length) {
+    record.run.length = static_cast<std::uint16_t>(length);
+    for (int shape = 0; shape < 16; ++shape) {
+      record.run.shape = static_cast<std::uint8_t>(shape);
+      const auto classes = [](int code) { return code == 1 || code == 2 ? kClasses : 1; };
+      for (int start = 0; start < classes(record.run.shape & 3); ++start) {
+        for (int end = 0; end < classes(record.run.shape >> 2); ++end) {
+          record.start_class = static_cast<std::uint8_t>(start);
+          record.end_class = static_cast<std::uint8_t>(end);
+          visit();
         }
       }
     }
   }
-  result.of_codes[kGapIndices.codes] = true;
-  result.of_near[kGapIndices.near] = true;
-  result.of_far[kGapIndices.far] = true;
   return result;
 }
 

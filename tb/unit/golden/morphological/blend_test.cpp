@@ -125,6 +125,9 @@ TEST(Blender, RoundsTheMagnitude) {
       }
     }
   }
+  // Weights that are mixed are no multiples of 16.
+  EXPECT_EQ(blend_channel(false, 0, 1, 0, {2047, 0}), 0);
+  EXPECT_EQ(blend_channel(false, 1, 0, 0, {2047, 0}), 1);
 }
 
 TEST(Blender, InvertsWithItsInputsInGammaSpaceOnly) {

@@ -12,6 +12,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tb/base/random.h"
@@ -541,8 +542,8 @@ TEST(SmaaCoverage, EdgesOfAFrameAreOfTheFloorOrAlpha) {
   using spec::morphological::AreaSource;
   using spec::morphological::DynamicLuma;
   const auto code = [](int i) { return grey(i == 0 ? 0 : i == 1 ? 150 : 220); };
-  const Frame across(3, 1, [&](int x, int) { return code(x); });
-  const Frame down(1, 3, [&](int, int y) { return code(y); });
+  const Frame across(4, 1, [&](int x, int) { return code(x); });
+  const Frame down(1, 4, [&](int, int y) { return code(y); });
   const auto hits = [](const spec::morphological::Parameters& p, const Frame& frame) {
     MorphologicalGolden golden(p);
     golden.process(frame.view());
@@ -568,6 +569,45 @@ TEST(SmaaCoverage, EdgesOfAFrameAreOfTheFloorOrAlpha) {
       for (const Frame& frame : {across, down})
         EXPECT_EQ(hits(p, frame), (counted ? Hits{{"threshold/fixed", 2}} : Hits{}));
     }
+  }
+}
+
+// A step of a row, 24 columns wide.
+TEST(SmaaCoverage, EachEdgeOfAFrameIsAPixelOfTheTable) {
+  const Frame step(24, 9, [](int x, int y) { return grey(y < (x < 12 ? 4 : 5) ? 230 : 20); });
+  MorphologicalGolden golden(preset_parameters(Preset::kSmaa));
+  golden.process(step.view());
+  std::uint64_t pixels = 0;
+  for (const auto& [name, hits] : hits_of(golden.smaa_coverage().bins()))
+    if (name.starts_with("table/")) pixels += hits;
+  EXPECT_EQ(golden.edges().top.count() + golden.edges().left.count(), 25u);
+  EXPECT_EQ(pixels, 25u);
+}
+
+// Falling diagonals that end a pixel beyond the last row, or the last column, by a top edge alone:
+// the border repeats it.
+TEST(SmaaCoverage, DiagonalsAreBeyondTheFrameFromItsBorderOn) {
+  struct Case {
+    int width, height;
+    std::vector<std::pair<int, int>> top, left;
+  };
+  for (const Case& c : {Case{12,
+                             6,
+                             {{2, 1}, {3, 2}, {4, 3}, {5, 4}, {6, 5}, {7, 5}},
+                             {{3, 1}, {4, 2}, {5, 3}, {6, 4}, {7, 5}}},
+                        Case{7,
+                             12,
+                             {{2, 1}, {3, 2}, {4, 3}, {5, 4}, {6, 5}, {6, 6}},
+                             {{3, 1}, {4, 2}, {5, 3}, {6, 4}, {6, 5}}}}) {
+    golden::morphological::EdgePlanes edges{{c.width, c.height}, {c.width, c.height}};
+    for (const auto& [x, y] : c.top) edges.top.set(x, y);
+    for (const auto& [x, y] : c.left) edges.left.set(x, y);
+    const Frame frame(c.width, c.height, [](int, int) { return grey(9); });
+    MorphologicalGolden golden(preset_parameters(Preset::kSmaa));
+    golden.process(frame.view(), edges);
+    Hits hits = hits_of(golden.smaa_coverage().bins());
+    std::erase_if(hits, [](const auto& bin) { return !bin.first.starts_with("diagonal-beyond/"); });
+    EXPECT_EQ(hits, (Hits{{"diagonal-beyond/falling", 5}})) << c.width;
   }
 }
 

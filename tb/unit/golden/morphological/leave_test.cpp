@@ -197,6 +197,7 @@ TEST(Leave, HalvesBeforeSquares) {
   EXPECT_EQ(mixed_by_squares(remaining(Leave::kHalf, kUp, vertical)),
             (golden::morphological::Weights{111, 1231}));
   EXPECT_EQ(remaining(Leave::kHalf, kRight, BlendTap{true, 0, 1, 0}), BlendTap{});
+  EXPECT_EQ(remaining(Leave::kMarked, kUp, vertical), vertical);
 
   // In a frame: SMAA's diagonals give pixels two shares.
   Parameters p = preset_parameters(Preset::kSmaa);

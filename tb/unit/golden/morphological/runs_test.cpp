@@ -499,6 +499,7 @@ TEST(Trim, GivesBackTheLastStepOfALostSide) {
     const PredictedRun whole = run_at(frame, trimmed(preset, false), 18);
     EXPECT_EQ(kept(whole), (Kept{3, 2}));
     EXPECT_EQ(whole.left_end, SideEnd::kNoHit);
+    EXPECT_EQ(whole.iterations, 4);
     const PredictedRun cut = run_at(frame, trimmed(preset, true), 18);
     EXPECT_EQ(kept(cut), (Kept{2, 1}));
     EXPECT_EQ(cut.far_left, -6);

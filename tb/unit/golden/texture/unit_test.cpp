@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -333,6 +334,35 @@ TEST(TextureGolden, FillsOfATrilinearSampleAreLevelThenNextLevel) {
   EXPECT_TRUE(golden.fills().empty());
   golden.process(quad);
   EXPECT_EQ(golden.work().line_fills, 8u);  // the texture stayed
+}
+
+// A sample of two levels: which texels of which, where it lies, and the lines that each misses.
+TEST(TextureGolden, TellsWhatALaneAsksFor) {
+  const EncodedTexture texture(tb::texture::noise(64, 64, 1), {});
+  TextureGolden golden(preset_parameters(spec::texture::Preset::kPaper), texture.memory);
+  golden.set_texture(0, texture.descriptor);
+  golden.record_fills(true);
+  spec::texture::Quad quad = flat_quad(0.3, 0.6, 1.5 / 64, 1.5 / 64);
+  quad.coverage = 0b1001;
+  std::vector<BilinearRequest> requests;
+  golden.process(quad, 3, requests);
+  const PlainResult expected =
+      plain(golden.parameters(), texture.descriptor, texture.memory, quad, 3);
+  ASSERT_EQ(expected.requests.size(), 2u);
+  ASSERT_EQ(requests.size(), 2u);
+  std::vector<std::uint32_t> misses;
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(requests[i].sample, 0);
+    EXPECT_EQ(requests[i].level, static_cast<int>(i));
+    EXPECT_EQ(requests[i].s, quad.s[3]);
+    EXPECT_EQ(requests[i].t, quad.t[3]);
+    EXPECT_EQ(requests[i].addresses, expected.requests[i]);
+    misses.insert(misses.end(), requests[i].misses.begin(), requests[i].misses.end());
+  }
+  // Of lane 0 are those before.
+  ASSERT_FALSE(misses.empty());
+  ASSERT_GE(golden.fills().size(), misses.size());
+  EXPECT_TRUE(std::equal(misses.rbegin(), misses.rend(), golden.fills().rbegin()));
 }
 
 TEST(TextureGolden, CoverageTagsAndLast) {
