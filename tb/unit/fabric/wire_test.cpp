@@ -214,6 +214,22 @@ TEST(Wire, CombinationalKeepsItsUnitsInOrder) {
     EXPECT_EQ(got, "1 2 3 1 2 3 ") << shuffle;
   }
 }
+TEST(Wire, CombinationalKeepsAPairInOrder) {
+  for (std::uint64_t shuffle = 1; shuffle <= 20; ++shuffle)
+    EXPECT_EQ(in_child([shuffle] {
+                ClockDomain clock("clock", kPeriod);
+                DriverNow driver("driver", clock);
+                ReaderNow reader("reader", clock);
+                CombinationalWire<std::uint8_t> wire("wire");
+                driver.count_out(wire);
+                reader.count_in(wire);
+                clock.shuffle(shuffle);
+                clock.run(3);
+                return reader.text;
+              }),
+              "1 2 3 ")
+        << shuffle;
+}
 TEST(Wire, CombinationalNeedsItsDriverFirst) {
   EXPECT_THAT(in_child([] {
                 ClockDomain clock("clock", kPeriod);
