@@ -302,7 +302,7 @@ void ClockDomain::reset_all() {
   for (const Slot& slot : slots_) slot.clocked->reset();
   for (Unit* unit : units_) unit->activity_.fill(0);
   for (LinkBase* link : links_) link->reset();
-  for (WireBase* wire : wires_) wire->reset();
+  for (WireBase* wire : wires_) wire->reset_at(cycle_);
   for (MemoryBase* memory : memories_) memory->reset();
   for (Counter* counter : counters_) counter->reset();
   for (Histogram* histogram : histograms_) histogram->reset();

@@ -452,6 +452,21 @@ TEST(Wire, CountsChangesAndClocksHigh) {
   EXPECT_EQ(moves.changes(), 2u);
   EXPECT_EQ(moves.high_clocks(99), 3u);
 }
+TEST(Wire, CountsClocksHighFromItsResetOn) {
+  ClockDomain clock("clock", kPeriod);
+  Driver driver("driver", clock);
+  Wire<std::uint8_t> wire("wire", 100);
+  driver.count_out(wire);
+  driver.asleep = true;
+  clock.run(5);
+  EXPECT_EQ(wire.high_clocks(clock.cycle()), 5u);
+  clock.set_reset_n(false);
+  clock.run(2);
+  EXPECT_EQ(wire.high_clocks(clock.cycle()), 0u);
+  clock.set_reset_n(true);
+  clock.run(3);
+  EXPECT_EQ(wire.high_clocks(clock.cycle()), 3u);
+}
 TEST(Wire, StandsInTheStatistics) {
   EXPECT_EQ(in_child([] {
               ClockDomain clock("clock", kPeriod);
