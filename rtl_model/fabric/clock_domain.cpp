@@ -161,6 +161,8 @@ void ClockDomain::keep_order(const std::vector<const Clocked*>& members) {
     places.push_back(i);
     in_order[static_cast<std::size_t>(member - members.begin())] = slots_[i];
   }
+  // One that something else replaces has no place.
+  std::erase_if(in_order, [](const Slot& slot) { return slot.clocked == nullptr; });
   for (std::size_t i = 0; i < places.size(); ++i) slots_[places[i]] = in_order[i];
 }
 

@@ -230,6 +230,33 @@ TEST(Wire, CombinationalKeepsAPairInOrder) {
               "1 2 3 ")
         << shuffle;
 }
+// What does the work of the driver drives before all units.
+TEST(Wire, CombinationalKeepsTheOrderOfWhatIsLeftOfItsUnits) {
+  struct Instead final : rtl::Clocked {
+    CombinationalWire<std::uint8_t>& wire;
+    explicit Instead(CombinationalWire<std::uint8_t>& of) : wire(of) {}
+    Activity tick(Cycle cycle) override {
+      wire.drive(cycle, static_cast<std::uint8_t>(cycle + 5));
+      return rtl::kIdle;
+    }
+    void reset() override {}
+  };
+  EXPECT_EQ(in_child([] {
+              ClockDomain clock("clock", kPeriod);
+              DriverNow driver("driver", clock);
+              ReaderNow reader("reader", clock);
+              CombinationalWire<std::uint8_t> wire("wire");
+              driver.count_out(wire);
+              reader.count_in(wire);
+              Instead instead(wire);
+              clock.add_before(instead);
+              clock.replace(driver);
+              clock.shuffle(1);
+              clock.run(3);
+              return reader.text;
+            }),
+            "5 6 7 ");
+}
 TEST(Wire, CombinationalNeedsItsDriverFirst) {
   EXPECT_THAT(in_child([] {
                 ClockDomain clock("clock", kPeriod);
