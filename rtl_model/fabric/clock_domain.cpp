@@ -161,6 +161,8 @@ void ClockDomain::keep_order(const std::vector<const Clocked*>& members) {
     places.push_back(i);
     in_order[static_cast<std::size_t>(member - members.begin())] = slots_[i];
   }
+  // One that something else replaces has no place.
+  std::erase_if(in_order, [](const Slot& slot) { return slot.clocked == nullptr; });
   for (std::size_t i = 0; i < places.size(); ++i) slots_[places[i]] = in_order[i];
 }
 
@@ -302,7 +304,7 @@ void ClockDomain::reset_all() {
   for (const Slot& slot : slots_) slot.clocked->reset();
   for (Unit* unit : units_) unit->activity_.fill(0);
   for (LinkBase* link : links_) link->reset();
-  for (WireBase* wire : wires_) wire->reset();
+  for (WireBase* wire : wires_) wire->reset_at(cycle_);
   for (MemoryBase* memory : memories_) memory->reset();
   for (Counter* counter : counters_) counter->reset();
   for (Histogram* histogram : histograms_) histogram->reset();

@@ -52,6 +52,11 @@ class WireBase : public sc_core::sc_object {
   // What readers see in this clock; nullptr: nothing was driven.
   virtual const std::byte* seen(Cycle cycle) const = 0;
   virtual void reset() = 0;
+  // The same at this edge: what is counted is counted from the next clock on.
+  void reset_at(Cycle edge) {
+    reset();
+    since_ = edge + 1;
+  }
 
   // Since reset: how often the driven value changed, and in how many clocks before `now` readers
   // saw another value than zero.
@@ -82,7 +87,6 @@ class WireBase : public sc_core::sc_object {
   void forget(bool level) {
     changes_ = high_ = 0;
     level_ = level;
-    since_ = 0;
   }
   // Throws CheckFailed.
   [[noreturn, gnu::cold, gnu::noinline]] void fail(const char* what, Cycle cycle) const;

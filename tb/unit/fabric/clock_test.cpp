@@ -479,7 +479,20 @@ TEST(ClockDomain, ErrorsKeepTheirType) {
     if (token.number == 20) throw spec::DeadlockError("found by a unit");
   };
   EXPECT_THROW(p.clock.run(1000), spec::DeadlockError);
+  const sc_time failed = sc_core::sc_time_stamp();
   EXPECT_THROW(p.clock.run(1), spec::DeadlockError);  // it stays failed
+  EXPECT_EQ(sc_core::sc_time_stamp(), failed);
+}
+
+TEST(ClockDomain, OutsideOfItsEdgesItIsNotAheadOfTime) {
+  Pipeline p(300);
+  p.clock.run(100);
+  EXPECT_EQ(p.clock.offset(), sc_core::SC_ZERO_TIME);
+  p.adders[0]->raise = [](Cycle, const Token& token) {
+    if (token.number == 200) throw spec::DeadlockError("found by a unit");
+  };
+  EXPECT_THROW(p.clock.run(1000), spec::DeadlockError);
+  EXPECT_EQ(p.clock.offset(), sc_core::SC_ZERO_TIME);
 }
 
 TEST(ClockDomain, EveryCycleIsClassifiedOnce) {

@@ -229,6 +229,33 @@ TEST(MemoryPort, WorksWithABlockingTarget) {
   for (const ResponseEnd end : kEnds) EXPECT_EQ(run(end, true), slow);
 }
 
+// Leaves an extension in each payload, which goes with its transaction.
+struct MarkingTarget : sc_core::sc_module {
+  struct Mark final : tlm::tlm_extension<Mark> {
+    tlm::tlm_extension_base* clone() const override { return new Mark; }
+    void copy_from(const tlm::tlm_extension_base&) override {}
+  };
+  tlm_utils::simple_target_socket<MarkingTarget> socket{"socket"};
+  std::string marked;
+  explicit MarkingTarget(const sc_core::sc_module_name& name) : sc_module(name) {
+    socket.register_b_transport(this, &MarkingTarget::transport);
+  }
+  void transport(tlm::tlm_generic_payload& payload, sc_time&) {
+    marked += payload.get_extension<Mark>() ? 'x' : '-';
+    payload.set_auto_extension(new Mark);
+    payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  }
+};
+
+TEST(MemoryPort, APayloadComesWithoutTheExtensionsOfItsLastUse) {
+  Side side({.outstanding = 1});
+  MarkingTarget target("target");
+  side.port.memory.bind(target.socket);
+  for (std::uint32_t i = 0; i < 8; ++i) side.driver.send(read_of(i));
+  ASSERT_TRUE(side.clock.run_until([&] { return side.sink.received() == 8; }, 1000));
+  EXPECT_EQ(target.marked, "--------");
+}
+
 // What interconnects and memories may do to a payload, or forget to do.
 struct OddTarget : sc_core::sc_module {
   enum class What { kMovesAddress, kLeavesIncomplete, kRejectsEnables };

@@ -132,6 +132,12 @@ TEST(Memory, FlipFlopsAnswerInTheirClockWithWhatWasThereBefore) {
   EXPECT_EQ(p.read.now(7, 0), 9);
 }
 
+TEST(Memory, OnlyFlipFlopsAreClearedAtOnce) {
+  Ported p(1);
+  EXPECT_THAT(rejection([&] { p.memory.clear(9); }), HasSubstr("memory: only flip-flops"));
+  EXPECT_EQ(p.memory.backdoor(3), 103);
+}
+
 TEST(Memory, RuleOfReadDuringWriteHoldsInAnyOrder) {
   for (const bool read_first : {true, false}) {
     const auto both = [&](Ported& p, Cycle c, int word) {
@@ -395,6 +401,7 @@ TEST(Memory, AddressesThatAreNotThere) {
   Ported p(1);
   EXPECT_THAT(rejection([&] { p.read.read(0, 16); }), HasSubstr("16 words"));
   EXPECT_THAT(rejection([&] { p.write.write(0, ~std::uint64_t{0}, 1); }), HasSubstr("16 words"));
+  EXPECT_THAT(rejection([&] { p.write.write(1, 16, 1); }), HasSubstr("16 words"));
   EXPECT_THAT(rejection([&] { p.read.read(1, 3, 2); }), HasSubstr("at most 1"));
   EXPECT_THAT(rejection([&] { p.read.read(2, 3, 0); }), HasSubstr("0 words from address 3"));
   EXPECT_THAT(rejection([&] { p.write.write(2, 3, std::span<const int>{}); }),

@@ -884,6 +884,30 @@ TEST(MemoryPort, ResetWithAnswersThatWaitForTheirTurn) {
   }
 }
 
+// Once its answer has come, whether that was sent ahead or not.
+TEST(MemoryPort, ATransactionOfBeforeAResetIsUsedAgain) {
+  for (const bool ahead : {true, false})
+    EXPECT_EQ(in_child([ahead] {
+                platform::MemoryModelParameters parameters = with_latency(30);
+                parameters.answer_ahead = ahead;
+                System s({}, parameters);
+                std::set<const tlm::tlm_generic_payload*> payloads;
+                s.port.observer = [&](Cycle, const tlm::tlm_generic_payload& payload) {
+                  payloads.insert(&payload);
+                };
+                s.driver.send({read_of(1), read_of(2), read_of(3)});  // again after each reset
+                for (int round = 0; round < 10; ++round) {
+                  s.clock.run(10);  // sent, and not answered
+                  s.clock.set_reset_n(false);
+                  s.clock.run(40);
+                  s.clock.set_reset_n(true);
+                }
+                return fmt::format("{} for {}", payloads.size(), s.memory.reads());
+              }),
+              "3 for 30")
+        << ahead;
+}
+
 // One read: a clock to send it, and one to push its answer, after the memory has had its time.
 TEST(MemoryPort, AccountsForEveryClockOfARead) {
   System s({}, with_latency(10));
@@ -1016,6 +1040,25 @@ TEST(MemoryPort, WaitsForTheBeatsOfABurst) {
   EXPECT_EQ(s.port.busy_cycles(), 1U);
   EXPECT_EQ(s.port.idle_cycles(), 1U);
   EXPECT_EQ(s.port.stalled_cycles(), 19U);
+}
+
+TEST(MemoryPort, OfABurstThatAResetCutsNothingIsLeft) {
+  MemoryPortParameters parameters;
+  parameters.max_burst_lines = parameters.max_write_lines = 2;
+  System s(parameters, with_latency(10));
+  MemoryRequest first = read_of(0);
+  first.write = true;
+  first.lines = 2;
+  first.byte_mask = ~std::uint64_t{0};
+  s.driver.send(first);
+  s.clock.run(20);
+  EXPECT_EQ(s.port.in_flight(), 1U);
+  s.clock.set_reset_n(false);
+  s.clock.run(1);
+  EXPECT_EQ(s.port.in_flight(), 0U);
+  s.clock.set_reset_n(true);
+  s.clock.run(20);  // the first beat comes again, and is no second one
+  EXPECT_EQ(s.memory.writes(), 0U);
 }
 
 TEST(MemoryPort, DebugAccessTakesNoTime) {

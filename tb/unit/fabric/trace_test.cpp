@@ -13,6 +13,7 @@
 
 #include "rtl_model/fabric/glob.h"
 #include "rtl_model/fabric/register_block.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/platform/memory_model.h"
 #include "rtl_model/platform/register_host.h"
 #include "tb/unit/fabric/support.h"
@@ -303,6 +304,19 @@ TEST(Trace, AWindowBeginsWithItsOwnClock) {
         << from;
 }
 
+TEST(Trace, AttachedInMidRunItShowsNothingOfBefore) {
+  const std::string file = testing::TempDir() + "attached.vcd";
+  Pipeline p(3, 0);
+  p.clock.run(50);
+  ASSERT_EQ(p.adders[1]->busy_cycles(), 3U);
+  {
+    const rtl::Trace trace(p.clock, {.file = file, .scopes = {"adder_1"}});
+    p.clock.run(2);
+  }
+  const Vcd vcd(file);
+  EXPECT_EQ(vcd.value("deburr.adder_1.activity", 50 * 10'000), "idle");
+}
+
 // By VCD's own rules: a range for what has more than one bit, and no two signals of one name.
 TEST(Trace, DeclaresEachSignalWithItsWidthAndAnIdentifierOfItsOwn) {
   static constexpr spec::RegisterInfo kTable[] = {
@@ -399,6 +413,29 @@ TEST(Trace, ShowsRegistersByTheNamesThatAScopeCanChoose) {
   const Vcd vcd(file);
   EXPECT_EQ(number(vcd.value("deburr.block.MODE", 10'000)), 5U);
   EXPECT_EQ(number(vcd.value("deburr.block.MODE", 20'000)), 9U);
+}
+
+TEST(Trace, ShowsCounters) {
+  const std::string file = testing::TempDir() + "counters.vcd";
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  rtl::Counter counter("counter", "lines", "lines fetched");
+  {
+    const rtl::Trace trace(clock, {.file = file, .scopes = {"counter"}});
+    clock.run(1);
+    counter += 5;
+    clock.run(1);
+  }
+  const Vcd vcd(file);
+  EXPECT_EQ(vcd.widths.at("deburr.counter"), "wire 64 [63:0]");
+  EXPECT_EQ(number(vcd.value("deburr.counter", 0)), 0U);
+  EXPECT_EQ(number(vcd.value("deburr.counter", 10'000)), 5U);
+}
+
+TEST(Trace, NamesEveryKindThatAScopeCanChoose) {
+  const Pipeline p(1);
+  const rtl::Wire<bool> wire("wire", false);
+  const rtl::Counter counter("counter", "lines", "lines fetched");
+  EXPECT_THAT(rtl::Trace::names(), testing::IsSupersetOf({"link_0", "wire", "adder_0", "counter"}));
 }
 
 TEST(Trace, UnwritableFileIsAnError) {

@@ -214,6 +214,49 @@ TEST(Wire, CombinationalKeepsItsUnitsInOrder) {
     EXPECT_EQ(got, "1 2 3 1 2 3 ") << shuffle;
   }
 }
+TEST(Wire, CombinationalKeepsAPairInOrder) {
+  for (std::uint64_t shuffle = 1; shuffle <= 20; ++shuffle)
+    EXPECT_EQ(in_child([shuffle] {
+                ClockDomain clock("clock", kPeriod);
+                DriverNow driver("driver", clock);
+                ReaderNow reader("reader", clock);
+                CombinationalWire<std::uint8_t> wire("wire");
+                driver.count_out(wire);
+                reader.count_in(wire);
+                clock.shuffle(shuffle);
+                clock.run(3);
+                return reader.text;
+              }),
+              "1 2 3 ")
+        << shuffle;
+}
+// What does the work of the driver drives before all units.
+TEST(Wire, CombinationalKeepsTheOrderOfWhatIsLeftOfItsUnits) {
+  struct Instead final : rtl::Clocked {
+    CombinationalWire<std::uint8_t>& wire;
+    explicit Instead(CombinationalWire<std::uint8_t>& of) : wire(of) {}
+    Activity tick(Cycle cycle) override {
+      wire.drive(cycle, static_cast<std::uint8_t>(cycle + 5));
+      return rtl::kIdle;
+    }
+    void reset() override {}
+  };
+  EXPECT_EQ(in_child([] {
+              ClockDomain clock("clock", kPeriod);
+              DriverNow driver("driver", clock);
+              ReaderNow reader("reader", clock);
+              CombinationalWire<std::uint8_t> wire("wire");
+              driver.count_out(wire);
+              reader.count_in(wire);
+              Instead instead(wire);
+              clock.add_before(instead);
+              clock.replace(driver);
+              clock.shuffle(1);
+              clock.run(3);
+              return reader.text;
+            }),
+            "5 6 7 ");
+}
 TEST(Wire, CombinationalNeedsItsDriverFirst) {
   EXPECT_THAT(in_child([] {
                 ClockDomain clock("clock", kPeriod);
@@ -435,6 +478,21 @@ TEST(Wire, CountsChangesAndClocksHigh) {
   for (const bool value : {true, true, false, true}) moves.drive(cycle++, value);
   EXPECT_EQ(moves.changes(), 2u);
   EXPECT_EQ(moves.high_clocks(99), 3u);
+}
+TEST(Wire, CountsClocksHighFromItsResetOn) {
+  ClockDomain clock("clock", kPeriod);
+  Driver driver("driver", clock);
+  Wire<std::uint8_t> wire("wire", 100);
+  driver.count_out(wire);
+  driver.asleep = true;
+  clock.run(5);
+  EXPECT_EQ(wire.high_clocks(clock.cycle()), 5u);
+  clock.set_reset_n(false);
+  clock.run(2);
+  EXPECT_EQ(wire.high_clocks(clock.cycle()), 0u);
+  clock.set_reset_n(true);
+  clock.run(3);
+  EXPECT_EQ(wire.high_clocks(clock.cycle()), 3u);
 }
 TEST(Wire, StandsInTheStatistics) {
   EXPECT_EQ(in_child([] {
