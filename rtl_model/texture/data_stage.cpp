@@ -75,9 +75,7 @@ Activity DataStage::work(Cycle cycle) {
   }
   if (!requests_in.can_pop(cycle)) return waits ? kBusy : kIdle;
   const CacheToken& request = requests_in.front(cycle);
-  if (!request.ticket.valid)
-    waiting_.texel = {};
-  else if (request.fills != 0 || started_ || !read_at_once(cycle, request))
+  if (request.ticket.valid && (request.fills != 0 || started_ || !read_at_once(cycle, request)))
     return advance(cycle, request);
   finish(cycle, request);
   return kBusy;
@@ -180,7 +178,7 @@ void DataStage::write_fill(Cycle cycle, const CacheToken& request) {
   ++fills_done_;
 }
 
-// The request goes on to stage 2.
+// The request goes on to stage 2; without a texture its texels are 0.
 inline void DataStage::finish(Cycle cycle, const CacheToken& request) {
   const std::uint32_t mask = request.ticket.valid ? texel_mask(request.control) : 0;
   waiting_.ticket = request.ticket;

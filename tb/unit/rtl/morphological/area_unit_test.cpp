@@ -255,7 +255,12 @@ TEST(AreaUnitBlock, LinesWaitForRoomForTheirFinish) {
   Area bench(small(), 5, 3, 0, 100);
   bench.send_slots(0);
   for (int i = 0; i < 4; ++i) bench.drivers_v[0]->add(40, three(Axis::kVertical, i + 1, 0, 3));
-  bench.clock.run(130);
+  bench.clock.run(80);
+  // The last slot has left: to wait is no work.
+  const std::uint64_t busy = bench.unit.busy_cycles();
+  bench.clock.run(15);
+  EXPECT_EQ(bench.unit.busy_cycles(), busy);
+  bench.clock.run(35);
   ASSERT_EQ(bench.finished_gate.taken.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(bench.finished_gate.taken[i].cycle, 100 + i);
   EXPECT_EQ(bench.unit.records.value(), 4u);

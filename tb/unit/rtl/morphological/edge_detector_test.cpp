@@ -368,6 +368,23 @@ TEST(EdgeDetectorMemory, AWordIsNotThereInTheClockOfItsAddress) {
       ::testing::AllOf(::testing::HasSubstr("luma_lines"), ::testing::HasSubstr("is used")));
 }
 
+TEST(EdgeDetectorMemory, EachBeatIsReadOnceAndWrittenBackOnce) {
+  Detecting bench;
+  for (std::uint16_t beat = 0; beat < 5; ++beat) {
+    LumaToken token{};
+    token.slot.beat = beat;
+    bench.ends.source.add(token);
+  }
+  bench.clock.run(20);
+  int found = 0;
+  rtl::for_each<rtl::PortedMemory>(bench.edges, [&](const rtl::PortedMemory& memory) {
+    EXPECT_EQ(memory.reads(), 5u) << memory.name();
+    EXPECT_EQ(memory.writes(), 5u) << memory.name();
+    ++found;
+  });
+  EXPECT_EQ(found, 1);
+}
+
 TEST(EdgeDetectorMemory, HasNoColumnBeyondTheLongestRow) {
   Detecting bench;
   LumaToken token{};

@@ -140,6 +140,28 @@ INSTANTIATE_TEST_SUITE_P(Builds, EdgeMemoriesShow,
                                            Look{2, 8, 17, true}, Look{0, 4, 4, true},
                                            Look{0, 32, 256, false}, Look{2, 60, 128, false}));
 
+// Records of a row are under way until the next one has been found, and with it one more row
+// written: all that the last of their seven steps looks at is still there.
+TEST(EdgeMemory, TheNextRowLeavesWhatTheRecordsOfThisOneLookAt) {
+  constexpr int kWidth = 150, kRow = 30, kSteps = 7;
+  Shown shown(built(false, kSteps + 1, 60), kWidth, 70, kRow, 500);
+  EdgeRows& rows = shown.memories.rows;
+  Cycle cycle = Cycle{1} << 50;
+  for (const int row : {kRow, kRow + 1})
+    for (int x = 0; x < kWidth; ++x) {
+      const int y = row + rows.ahead();
+      rows.write(cycle++, y, x, shown.edge(false, x, y), shown.edge(true, x, y));
+    }
+  for (const int line : {kRow - kSteps, kRow + kSteps}) {
+    const Planes planes{shown, false, line};
+    for (int x = 0; x < kWidth - 4; ++x) {
+      Trial trial{line, x, 3, 20, true, planes.code(x), planes.code(x + 3)};
+      rows.read(++cycle, 0, trial);
+      EXPECT_EQ(rows.hits(++cycle, 0, trial), hits_of(trial, planes, false)) << line << ' ' << x;
+    }
+  }
+}
+
 struct Sharing {
   int trial_clocks, units, lanes_code, ports;
 };

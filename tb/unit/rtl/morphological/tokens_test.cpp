@@ -14,5 +14,12 @@ TEST(DiagonalTokens, ColumnsHaveABitOfEachRow) {
   EXPECT_EQ(columns.find("top.0")->bits, 33u);
 }
 
+TEST(LaneLinks, AreOneALane) {
+  for (const int lanes : {1, 2, 4}) {
+    const LaneLinks<FinishToken> links("links", lanes);
+    EXPECT_EQ(links.lane.size(), static_cast<std::size_t>(lanes));
+  }
+}
+
 }  // namespace
 }  // namespace deburr::rtl::morphological::tokens_test

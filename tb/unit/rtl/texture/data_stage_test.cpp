@@ -106,6 +106,16 @@ TEST(TextureRtlDataStage, TurnedRowsDoNotMeetInLinesOf32) { check_turned_rows(32
 TEST(TextureRtlDataStage, TurnedRowsDoNotMeetInLinesOf64) { check_turned_rows(64); }
 TEST(TextureRtlDataStage, TurnedRowsDoNotMeetInLinesOf128) { check_turned_rows(128); }
 
+// Whatever the fragment before it had.
+TEST(TextureRtlDataStage, AFragmentWithoutATextureHasNoTexels) {
+  CacheBench b;
+  TexelToken token = in_line(0);
+  b.time_of(token);
+  token.ticket.valid = false;
+  b.time_of(token);
+  EXPECT_THAT(b.ends.sink.taken.back().token.texel, ElementsAre(0, 0, 0, 0));
+}
+
 // Two texels of one bank that hit, in lines which the two misses of the same request replace: the
 // second line has to wait for the second pass.
 TEST(TextureRtlDataStage, PassesBeforeFills) {
@@ -192,6 +202,8 @@ Clocks clocks_of(const CacheToken& token) {
   // Lines are written one a clock at the end of a request: the wire is high for so many clocks.
   EXPECT_EQ(line_used.high_clocks(clock.cycle()), token.fills);
   EXPECT_EQ(line_used.changes(), token.fills == 0 ? 0u : 2u);
+  rtl::for_each<rtl::PortedMemory>(
+      stage, [&](const rtl::PortedMemory& banks) { EXPECT_EQ(banks.writes(), token.fills); });
   return {ready - 1 - (pushed + 1), stalls[1].cycles, stalls[2].cycles, stalls[3].cycles};
 }
 

@@ -123,6 +123,17 @@ TEST(TextureRtlFootprint, LatencyAndIntervalOfTheDatasheet) {
   }
 }
 
+TEST(TextureRtlFootprint, DatasheetsHaveStagesFormatsAndCost) {
+  using spec::texture::FootprintRule;
+  for (const FootprintRule rule : {FootprintRule::kHalf, FootprintRule::kExact}) {
+    const rtl::Datasheet sheet = sheet_of(rule);
+    ASSERT_FALSE(sheet.stages.empty()) << title(sheet);
+    EXPECT_EQ(sheet.stages.back().clock, std::to_string(sheet.latency.clocks)) << title(sheet);
+    EXPECT_NE(sheet.formats, "") << title(sheet);
+    EXPECT_NE(sheet.cost, "") << title(sheet);
+  }
+}
+
 TEST(TextureRtlFootprint, RootIsTheIntegerSquareRoot) {
   ClockDomain clock("clock", period());
   FootprintBench b(clock, "", spec::texture::FootprintRule::kExact);

@@ -142,7 +142,8 @@ TEST(TextureRtlLevel, AnyCountWithTexelCap) {
                spec::texture::CountRule::kAny, spec::texture::CountCap::kTexel);
 }
 
-// Fragments between two levels, and those that are magnified.
+// Fragments between two levels, and those that are magnified; without a texture a fragment is
+// neither, and has one sample of level 0.
 TEST(TextureRtlLevel, CountsWhatItDecides) {
   ClockDomain clock("clock", period());
   Store store(clock);
@@ -160,11 +161,23 @@ TEST(TextureRtlLevel, CountsWhatItDecides) {
   // l = 0, 1/256, 1, 1 + 1/256, 1.5, 2, 5, 9: three of them lie between two levels.
   for (const int lb : {0, 16, 4096, 4112, 6144, 8192, 20480, 36864})
     ends.source.add({ticket(), 0, 0, 0, 0, lb, lb});
+  Ticket without = ticket();
+  without.valid = false;
+  for (const int lb : {0, 6144}) ends.source.add({without, 0, 0, 0, 0, lb, lb - 8192});
   clock.run(20);
-  EXPECT_EQ(ends.sink.taken.size(), 8u);
+  ASSERT_EQ(ends.sink.taken.size(), 10u);
   expect_clocks(LevelUnit::datasheet(), clocks_of(ends.sink), 1);
+  // From the first fragment's clock to that of the last one's last stage, and not beyond.
+  const Cycle busy = 9 + LevelUnit::datasheet().latency.clocks;
+  EXPECT_EQ(unit.busy_cycles(), busy);
+  EXPECT_EQ(unit.idle_cycles(), 20 - busy);
   EXPECT_EQ(unit.two_levels.value(), 3u);
   EXPECT_EQ(unit.magnified.value(), 1u);
+  const LevelToken& last = ends.sink.taken.back().token;
+  EXPECT_EQ(last.last_index, 0);
+  EXPECT_EQ(last.level, 0);
+  EXPECT_EQ(last.fraction, 0);
+  EXPECT_FALSE(last.linear);
 }
 
 // Beside the major axis the area: d_max = 8, area 16, so the minor axis is 2.

@@ -84,10 +84,15 @@ TEST(TextureRtlLog2, LatencyAndIntervalOfTheDatasheet) {
     p.log2 = static_cast<Log2Rule>(rule);
     const rtl::Datasheet sheet = Log2Unit::datasheet(p);
     expect_latency(sheet, taken[0].cycle - 1);
-    if (rule == 3)
+    if (rule == 3) {
       EXPECT_EQ(taken[1].cycle, 9u);
-    else
+    } else {
       expect_interval(sheet, taken[1].cycle - taken[0].cycle);
+      // From the first fragment's clock to that of the last one's last stage, and not beyond.
+      const Cycle busy = 2 + sheet.latency.clocks;
+      EXPECT_EQ(benches[rule]->unit.busy_cycles(), busy);
+      EXPECT_EQ(benches[rule]->unit.idle_cycles(), 20 - busy);
+    }
     const auto log2 = [&](std::uint32_t d) {
       return Log2Unit::log2(static_cast<Log2Rule>(rule), d);
     };

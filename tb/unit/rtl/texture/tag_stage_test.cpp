@@ -151,6 +151,20 @@ TEST(TextureRtlTagStage, AnyOfTheTexelsMayShareALine) {
   EXPECT_EQ(b.memory.lines_read().size(), lines);
 }
 
+// Numbers of lines are compared, not only the bits that are set in both: lines 1 and 2.
+TEST(TextureRtlTagStage, OneTexelMayLieInALineWithoutACommonBit) {
+  CacheBench b;
+  std::vector<TexelToken> asked;
+  for (std::size_t i = 1; i < 4; ++i) {
+    std::array<std::uint32_t, 4> address = {64, 68, 72, 76};
+    address[i] = 128;
+    asked.push_back(request(address));
+  }
+  for (const auto& t : asked) b.time_of(t);
+  b.check_data(asked);
+  EXPECT_EQ(b.cache.tag_stage.misses.value(), 2u);
+}
+
 // A hit passes the tag stage while the miss queue is full.
 TEST(TextureRtlTagStage, HitsGoOnWhileTheMissQueueIsFull) {
   CacheBench b(small_cache(), 200);
