@@ -193,10 +193,10 @@ def page_of(root, record):
     old = [file for file, entry in record.items() if "kinds" not in entry]
     done = run_of(total) + total["invalid"]
     text = "# Mutants of both models\n\n" + wrapped(HEAD.format(at=commits_of(record))) + "\n\n" + wrapped(
-        f"Of {total['mutants']} mutants {run_of(total)} have a verdict: {total['killed']} killed, {total['explained']} "
-        f"survived and explained, {total['survived']} survived and open. Of all that a switch can plant and a test of the "
-        f"campaign runs, {percent(strata['all'])} % would be killed; the goal is {GOAL} % of those that are not explained, "
-        f"{percent(unexplained['all'])} %. " + goal_of(unexplained, not old)) + "\n\n"
+        f"Of {total['mutants']} mutants {run_of(total)} have a verdict ({total['killed']} killed, {total['explained']} "
+        f"survived and explained, {total['survived']} survived and open), so that of all that a switch can plant and a test "
+        f"of the campaign runs {percent(strata['all'])} % would be killed, and {percent(unexplained['all'])} % of those that "
+        f"are not explained, where {GOAL} % are the goal. " + goal_of(unexplained, not old)) + "\n\n"
     budgets = sorted({entry["budget"] for entry in record.values() if "budget" in entry})
     if budgets:
         text += wrapped(f"Tests of at most {' or '.join(f'{budget:g}' for budget in budgets)} seconds a mutant were run "
@@ -204,7 +204,8 @@ def page_of(root, record):
                         "survivors would be killed by longer ones.") + "\n\n"
     text += wrapped("Rates are of all such mutants of the folder: each file counts by how many it has, not by how many of "
                     "them were checked. In brackets: with a confidence of 95 %, if those with a verdict were drawn at "
-                    "random.") + "\n\n"
+                    f"random, which they were a file at a time ({EACH} of each, or all). Tests were then written for what "
+                    "survived: [a draw for which none were](tests.md#held-out-mutants).") + "\n\n"
     text += "\n".join(lines) + "\n\n"
     text += wrapped(
         f"{total['invalid']} mutants did not compile and count nowhere; {total['alone']} were compiled alone. "
@@ -217,6 +218,9 @@ def page_of(root, record):
             + ", ".join(mutants.KINDS[mutants.KINDS.index("shift"):]) + ", and its mutants were not drawn at random: "
             "the table has none of these kinds, and intervals say too much where whole files were left out.") + "\n\n"
     text += kinds_of(record)
+    none = [f"`{file}`" for file, entry in record.items() if entry["mutants"] and not tried(entry)]
+    if none:
+        text += wrapped(f"{len(none)} files have no verdict, for each of their mutants needs a build: {', '.join(none)}.") + "\n\n"
     few = with_few(record)
     if few:
         text += wrapped(f"{len(few)} files have fewer than {EACH} verdicts, and mutants that a switch can plant "
@@ -264,6 +268,11 @@ def wrapped(text):
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False)
 
 
+def stands_in(source, statement):
+    """Whether it is a line of it, or several."""
+    return statement in (source if "\n" in statement else {line.strip() for line in source.splitlines()})
+
+
 def complaints(root, record):
     """What is wrong with the explanations: each must be of a survivor that still is one."""
     survived = {(file, was, becomes) for file, entry in record.items()
@@ -275,8 +284,7 @@ def complaints(root, record):
             found.append(f"{file}: `{becomes}` is explained by nothing")
         if (file, was, becomes) not in survived:
             found.append(f"{file}: `{becomes}` is explained, but is killed or was not tried")
-        elif not path.exists() or was not in {
-                line.strip() for line in path.read_text(encoding="utf-8").splitlines()}:
+        elif not path.exists() or not stands_in(path.read_text(encoding="utf-8"), was):
             found.append(f"{file}: `{becomes}` is explained, but its line is gone: `{was}`")
     return found
 

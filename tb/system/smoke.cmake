@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Does every engine run with defaults on a small scene?
+# Does every engine run with defaults on a small scene, and do whole testplans hold?
 add_dependencies(deburr_smoke_tests deburr)
 foreach(engine ${DEBURR_ENGINES})
   add_test(NAME smoke_${engine}
@@ -7,7 +7,11 @@ foreach(engine ${DEBURR_ENGINES})
   set_tests_properties(smoke_${engine} PROPERTIES LABELS smoke TIMEOUT 60
                        PASS_REGULAR_EXPRESSION "RESULT: PASS" FAIL_REGULAR_EXPRESSION " 0 cycles")
 endforeach()
-add_test(NAME smoke_testplan
-         COMMAND deburr regress tb/testplan/smoke.yaml run --seed 1 --out ${CMAKE_CURRENT_BINARY_DIR}/smoke_testplan
-         WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-set_tests_properties(smoke_testplan PROPERTIES LABELS smoke TIMEOUT 600)
+# smoke.yaml in every ctest, and coverage.yaml, which takes a minute, with what takes long.
+foreach(plan IN ITEMS smoke coverage)
+  add_test(NAME ${plan}_testplan
+           COMMAND deburr regress tb/testplan/${plan}.yaml run --seed 1 --out ${CMAKE_CURRENT_BINARY_DIR}/${plan}_testplan
+           WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties(${plan}_testplan PROPERTIES LABELS smoke TIMEOUT 600)
+endforeach()
+set_tests_properties(coverage_testplan PROPERTIES LABELS long)

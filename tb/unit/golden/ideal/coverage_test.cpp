@@ -10,7 +10,7 @@
 
 #include "tb/base/random.h"
 
-namespace deburr::ideal_coverage_test {
+namespace deburr::coverage_test {
 namespace {
 
 using golden::ideal::coverage;
@@ -98,4 +98,4 @@ TEST(IdealCoverage, OfTheLineIsTheAreaThatItCutsOff) {
 }
 
 }  // namespace
-}  // namespace deburr::ideal_coverage_test
+}  // namespace deburr::coverage_test
