@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The clock domain: running on while nothing is pending must be invisible. Each test runs the same
 // simulation with and without it and compares every beat, cycle and counter.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -194,6 +195,8 @@ TEST(ClockDomain, ObserverOnItsEdgeGetsEveryCycle) {
     p.clock.set_fast_path(fast);
     p.clock.run(1000);
     if (p.clock.activations() != 1000) return std::string("did not go cycle by cycle");
+    if (std::count(observer.seen.begin(), observer.seen.end(), ' ') != 1000)
+      return std::string("missed");
     return observer.seen + p.fingerprint();
   });
 }
@@ -373,6 +376,13 @@ TEST(ClockDomain, RunUntilStopsAfterTheEdgeAndTheTimeIsRight) {
     if (p.clock.run_until([] { return false; }, 17)) return std::string("never true");
     return seen + p.fingerprint();
   });
+}
+
+TEST(ClockDomain, DoesNotRunWithinARun) {
+  Pipeline p(300);
+  p.adders[0]->raise = [&](Cycle, const Token&) { p.clock.run(1); };
+  EXPECT_THAT([&] { p.clock.run(1000); },
+              testing::ThrowsMessage<spec::CheckFailed>(testing::HasSubstr("run() within run()")));
 }
 
 TEST(ClockDomain, StopOnRequest) {

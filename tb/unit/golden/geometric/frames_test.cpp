@@ -224,6 +224,12 @@ TEST(Frame, CreasesAreLimitedInDepthAndOtherEdgesAreNot) {
 TEST(Frame, WithoutCullingEdgesThatAreTurnedAwayAreClassified) {
   Drawing d = one_line(0, 8 * 256 - 64, 16 * 256, 8 * 256 - 64);
   d.set_facing(0, false);
+  const auto turned_away = [](const GeometricGolden& golden) {
+    std::string names;
+    for (const auto& bin : golden.coverage().bins())
+      if (bin.hits != 0 && bin.name.starts_with("turned-away/")) names += bin.name.substr(12);
+    return names;
+  };
   for (const auto& [flags, kept] :
        {std::pair{std::uint8_t{0}, false}, {spec::geometric::flag::kSeam, true}}) {
     d.edges[0].flags = flags;
@@ -232,12 +238,14 @@ TEST(Frame, WithoutCullingEdgesThatAreTurnedAwayAreClassified) {
     culled.process(d.input());
     EXPECT_EQ(culled.work().back_edges, 1u);
     EXPECT_EQ(culled.work().kept_edges, 0u);
+    EXPECT_EQ(turned_away(culled), "back/back");
     p.cull = spec::geometric::Cull::kNone;
     GeometricGolden golden(p);
     golden.process(d.input());
     EXPECT_EQ(golden.work().back_edges, 0u);
     EXPECT_EQ(golden.work().crease_edges, kept ? 1u : 0u);
     EXPECT_EQ(golden.work().flat_edges, kept ? 0u : 1u);
+    EXPECT_EQ(turned_away(golden), kept ? "none/crease" : "none/flat");
     EXPECT_EQ(golden.work().passed, kept ? 16u : 0u);
   }
 }
