@@ -200,8 +200,9 @@ def page_of(root, record):
     budgets = sorted({entry["budget"] for entry in record.values() if "budget" in entry})
     if budgets:
         text += wrapped(f"Tests of at most {' or '.join(f'{budget:g}' for budget in budgets)} seconds a mutant were run "
-                        f"for {sum('budget' in entry for entry in record.values())} of the files: some of the open "
-                        "survivors would be killed by longer ones.") + "\n\n"
+                        f"for {sum('budget' in entry for entry in record.values())} of the files"
+                        + (": some of the open survivors would be killed by longer ones." if total["survived"] else ".")
+                        ) + "\n\n"
     text += wrapped("Rates are of all such mutants of the folder: each file counts by how many it has, not by how many of "
                     "them were checked. In brackets: with a confidence of 95 %, if those with a verdict were drawn at "
                     f"random, which they were a file at a time ({EACH} of each, or all). Tests were then written for what "
@@ -228,7 +229,7 @@ def page_of(root, record):
     text += wrapped(f"`tb/mutation/survivors.json` has {len(explained)} explanations, by file, line and reason: the program "
                     "does the same, or the difference is in no contract.") + "\n\n"
     text += "## Open survivors\n\n"
-    text += wrapped("Gaps in the tests, or not explained yet.") + "\n\n"
+    text += wrapped("Gaps in the tests, or not explained yet." if total["survived"] else "None.") + "\n\n"
     for file, entry in sorted(record.items()):
         open_ones = [(was, becomes) for was, becomes in entry["survived"]
                      if (file, was, becomes) not in explained]
