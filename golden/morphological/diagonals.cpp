@@ -83,7 +83,7 @@ std::uint64_t samples_counted_below(Point p1, Point p2, int x, int y) {
   return count;
 }
 
-// The areas of one pixel between its lines, to the nearest: a little more than half of it at most.
+// The areas of one pixel between its lines, to the nearest: three quarters of it at most.
 DiagonalAreas exact_areas(std::span<const Line> lines, int d1, int d2) {
   const int n = d1 + d2 + 1;
   const std::uint64_t all = kAll * lines.size();

@@ -147,18 +147,14 @@ def run_of(row):
     return row["killed"] + row["explained"] + row["survived"]
 
 
-def goal_of(strata, drawn):
-    """The folders by what is known of the goal, which is said of all if those with a verdict were `drawn` of all."""
-    lists = {"reached": [], "open": [], "missed": []}
+def goal_of(strata):
+    """The folders by whether those of their mutants that have a verdict reach the goal."""
+    lists = {"reached": [], "missed": []}
     found = {name: estimate(files) for name, files in sorted(strata.items()) if name != "all"}
-    for name, (rate, low, _) in ((name, each) for name, each in found.items() if each):
-        sure = drawn and low >= GOAL * 10
-        lists["missed" if rate < GOAL * 10 else "reached" if sure else "open"].append(f"`{name}`")
-    texts = {"reached": "Of all mutants, with that confidence, it is reached by",
-             "open": "Of those with a verdict, which do not say it of all, it is reached by",
-             "missed": "It is missed by"}
-    return " ".join(f"{texts[name]} {'every folder' if len(names) == len(found) > 1 else ', '.join(names)}."
-                    for name, names in lists.items() if names)
+    for name, (rate, _, _) in ((name, each) for name, each in found.items() if each):
+        lists["missed" if rate < GOAL * 10 else "reached"].append(f"`{name}`")
+    return " ".join(f"It is {how} by {'every folder' if len(names) == len(found) > 1 else ', '.join(names)}."
+                    for how, names in lists.items() if names)
 
 
 def kinds_of(record):
@@ -194,23 +190,26 @@ def page_of(root, record):
     done = run_of(total) + total["invalid"]
     text = "# Mutants of both models\n\n" + wrapped(HEAD.format(at=commits_of(record))) + "\n\n" + wrapped(
         f"Of {total['mutants']} mutants {run_of(total)} have a verdict ({total['killed']} killed, {total['explained']} "
-        f"survived and explained, {total['survived']} survived and open), so that of all that a switch can plant and a test "
-        f"of the campaign runs {percent(strata['all'])} % would be killed, and {percent(unexplained['all'])} % of those that "
-        f"are not explained, where {GOAL} % are the goal. " + goal_of(unexplained, not old)) + "\n\n"
+        f"survived and explained, {total['survived']} survived and open): {percent(strata['all'])} % killed, and "
+        f"{percent(unexplained['all'])} % of those that are not explained, where {GOAL} % are the goal. "
+        + goal_of(unexplained) + " Tests were written for what had survived, so this says less of other mutants than "
+        "[a draw for which none were](tests.md#held-out-mutants).") + "\n\n"
     budgets = sorted({entry["budget"] for entry in record.values() if "budget" in entry})
     if budgets:
         text += wrapped(f"Tests of at most {' or '.join(f'{budget:g}' for budget in budgets)} seconds a mutant were run "
-                        f"for {sum('budget' in entry for entry in record.values())} of the files: some of the open "
-                        "survivors would be killed by longer ones.") + "\n\n"
-    text += wrapped("Rates are of all such mutants of the folder: each file counts by how many it has, not by how many of "
-                    "them were checked. In brackets: with a confidence of 95 %, if those with a verdict were drawn at "
-                    f"random, which they were a file at a time ({EACH} of each, or all). Tests were then written for what "
-                    "survived: [a draw for which none were](tests.md#held-out-mutants).") + "\n\n"
+                        f"for {sum('budget' in entry for entry in record.values())} of the files"
+                        + (": some of the open survivors would be killed by longer ones." if total["survived"] else ".")
+                        ) + "\n\n"
+    text += wrapped("Rates are of all mutants of the folder that a switch can plant and a test of the campaign runs: each "
+                    "file counts by how many it has, not by how many of them were checked. In brackets: with a confidence "
+                    f"of 95 %, if those with a verdict were drawn at random, which they were a file at a time ({EACH} of "
+                    "each, or all), but for what is explained, which is asked drawn or not.") + "\n\n"
     text += "\n".join(lines) + "\n\n"
     text += wrapped(
         f"{total['invalid']} mutants did not compile and count nowhere; {total['alone']} were compiled alone. "
         f"{total['mutants'] - done} were not tried: {total['left']} of them would need a build each, and no rate has "
-        "them in it: most are worked out by the compiler, such as sizes of arrays, and the rest no test of the campaign runs. "
+        "them in it: most are worked out by the compiler, such as sizes of arrays, and the rest no test of the campaign runs "
+        "(few [lines](tests.md#lines)). "
         "The others were not drawn.") + "\n\n"
     if old:
         text += wrapped(
@@ -218,9 +217,10 @@ def page_of(root, record):
             + ", ".join(mutants.KINDS[mutants.KINDS.index("shift"):]) + ", and its mutants were not drawn at random: "
             "the table has none of these kinds, and intervals say too much where whole files were left out.") + "\n\n"
     text += kinds_of(record)
-    none = [f"`{file}`" for file, entry in record.items() if entry["mutants"] and not tried(entry)]
+    none = [f"`{file}`" for file, entry in record.items() if entry["mutants"] and not needed(entry)]
     if none:
-        text += wrapped(f"{len(none)} files have no verdict, for each of their mutants needs a build: {', '.join(none)}.") + "\n\n"
+        text += wrapped(f"Files without a verdict, since each of their mutants needs a build, or no test runs it: "
+                        f"{', '.join(none)}.") + "\n\n"
     few = with_few(record)
     if few:
         text += wrapped(f"{len(few)} files have fewer than {EACH} verdicts, and mutants that a switch can plant "
@@ -228,7 +228,7 @@ def page_of(root, record):
     text += wrapped(f"`tb/mutation/survivors.json` has {len(explained)} explanations, by file, line and reason: the program "
                     "does the same, or the difference is in no contract.") + "\n\n"
     text += "## Open survivors\n\n"
-    text += wrapped("Gaps in the tests, or not explained yet.") + "\n\n"
+    text += wrapped("Gaps in the tests, or not explained yet." if total["survived"] else "None.") + "\n\n"
     for file, entry in sorted(record.items()):
         open_ones = [(was, becomes) for was, becomes in entry["survived"]
                      if (file, was, becomes) not in explained]

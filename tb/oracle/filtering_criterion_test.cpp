@@ -379,5 +379,16 @@ TEST(Checker, OneWrongColourIsEnough) {
   EXPECT_EQ(checker.fragments(), 102);
 }
 
+TEST(Checker, KeepsTheLargestDeviationWhateverComesAfterIt) {
+  const Texture texture = ramp();
+  const Sampler s = sampler(spec::texture::MinFilter::kLinear, spec::texture::MagFilter::kLinear);
+  golden::ideal::Checker checker(texture, s);
+  checker.add(along_u(1.0 / 4, 0.5), grey(50));
+  EXPECT_EQ(checker.deviation(), 0.5) << "finer ones are rounding";
+  checker.add(along_u(1.0 / 4, 0.5), grey(60));
+  checker.add(along_u(1.0 / 4, 0.5), grey(50));
+  EXPECT_NEAR(checker.deviation(), 10 - 100.0 / 128, 0.02);
+}
+
 }  // namespace
 }  // namespace deburr::filtering_criterion_test

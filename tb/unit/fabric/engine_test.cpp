@@ -279,6 +279,13 @@ TEST(Engine, IsEnabledAsTheResetValueOfControlSays) {
   EXPECT_FALSE(off.enabled());
 }
 
+TEST(Engine, BusyBeforeTheFirstEdgeItKeepsResetValues) {
+  rtl::ControlRegisters control("control", kTable, layout(true));
+  control.on_busy([] { return true; });
+  control.write(kLimit, 6);
+  EXPECT_EQ(control.value(kLimit), 70U);
+}
+
 TEST(Engine, AskedForARegisterThatItDoesNotHaveSaysSo) {
   const rtl::ControlRegisters control("control", kTable, layout(true));
   EXPECT_THAT(text_of<spec::CheckFailed>([&] { control.value(0x28); }),

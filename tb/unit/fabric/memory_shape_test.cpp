@@ -746,6 +746,14 @@ TEST(Memory, ResetClearsTheBookkeepingAndNotTheWords) {
   EXPECT_EQ(p.memory.reads(), 1U);
 }
 
+TEST(Memory, AWriteOfBeforeAResetIsNoneOfItsClock) {
+  Ported p(1);
+  p.write.write(5, 3, 7);
+  p.memory.reset();
+  EXPECT_NO_THROW(p.write.write(5, 3, 8));
+  EXPECT_EQ(p.memory.writes(), 1U);
+}
+
 // The domain looks after memories inside units and beside them.
 class Holder final : public rtl::Unit {
  public:

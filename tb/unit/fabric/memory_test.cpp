@@ -289,6 +289,19 @@ TEST(MemoryModel, ClearsAllThatItHasCounted) {
   EXPECT_THAT(counted(), ::testing::Each(0u));
 }
 
+// A response that was sent ahead is over at its time, though no request has come since.
+TEST(MemoryModel, WhatWasAnsweredAheadIsNotOutstandingWhenItIsCleared) {
+  System s({}, with_latency(5));
+  for (std::uint64_t number = 1; number <= 2; ++number) {  // the first one is not sent ahead
+    s.driver.send(read_of(3));
+    ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == number; }, 1000));
+  }
+  s.clock.run(10);
+  ASSERT_EQ(s.memory.most_outstanding(), 1U);
+  s.memory.clear_statistics();
+  EXPECT_EQ(s.memory.most_outstanding(), 0U);
+}
+
 TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
   System s({}, with_latency(5));
   s.driver.send(read_of(3));
@@ -515,32 +528,33 @@ TEST(MemoryModel, AWriteAnsweredAheadIsThereAtItsTimeNotEarlier) {
   EXPECT_EQ(host.read(kAt, 1)[0], 0xEE);
 }
 
+// Writes a byte, and ends each response at once.
+struct Writer final : sc_core::sc_module, tlm::tlm_mm_interface {
+  tlm_utils::simple_initiator_socket<Writer> out{"out"};
+  explicit Writer(const sc_core::sc_module_name& name) : sc_module(name) {
+    out.register_nb_transport_bw(this, &Writer::backward);
+  }
+  tlm::tlm_sync_enum backward(tlm::tlm_generic_payload&, tlm::tlm_phase& phase, sc_core::sc_time&) {
+    return phase == tlm::BEGIN_RESP ? tlm::TLM_COMPLETED : tlm::TLM_ACCEPTED;
+  }
+  void free(tlm::tlm_generic_payload*) override {}
+  void write(tlm::tlm_generic_payload& payload, std::uint64_t address, sc_core::sc_time delay) {
+    payload.set_mm(this);
+    payload.acquire();
+    payload.set_command(tlm::TLM_WRITE_COMMAND);
+    payload.set_address(address);
+    payload.set_data_ptr(&byte);
+    payload.set_data_length(1);
+    payload.set_streaming_width(1);
+    tlm::tlm_phase phase = tlm::BEGIN_REQ;
+    out->nb_transport_fw(payload, phase, delay);
+  }
+  std::uint8_t byte = 0xEE;
+};
+
 // Two writes whose last bytes come within a picosecond, of which the first one has been answered:
 // the second one is not there for a look.
 TEST(MemoryModel, AWriteAnsweredAheadIsNotThereBeforeItsAnswer) {
-  struct Writer final : sc_core::sc_module, tlm::tlm_mm_interface {
-    tlm_utils::simple_initiator_socket<Writer> out{"out"};
-    explicit Writer(const sc_core::sc_module_name& name) : sc_module(name) {
-      out.register_nb_transport_bw(this, &Writer::backward);
-    }
-    tlm::tlm_sync_enum backward(tlm::tlm_generic_payload&, tlm::tlm_phase& phase,
-                                sc_core::sc_time&) {
-      return phase == tlm::BEGIN_RESP ? tlm::TLM_COMPLETED : tlm::TLM_ACCEPTED;
-    }
-    void free(tlm::tlm_generic_payload*) override {}
-    void write(tlm::tlm_generic_payload& payload, std::uint64_t address, sc_core::sc_time delay) {
-      payload.set_mm(this);
-      payload.acquire();
-      payload.set_command(tlm::TLM_WRITE_COMMAND);
-      payload.set_address(address);
-      payload.set_data_ptr(&byte);
-      payload.set_data_length(1);
-      payload.set_streaming_width(1);
-      tlm::tlm_phase phase = tlm::BEGIN_REQ;
-      out->nb_transport_fw(payload, phase, delay);
-    }
-    std::uint8_t byte = 0xEE;
-  };
   platform::MemoryModelParameters parameters = with_latency(10);
   parameters.bytes_per_clock = 0;
   platform::MemoryModel memory("memory", kPeriod, parameters);
@@ -559,6 +573,23 @@ TEST(MemoryModel, AWriteAnsweredAheadIsNotThereBeforeItsAnswer) {
   second.release();
   EXPECT_EQ(memory.dump(1, 2), (std::vector<std::uint8_t>{0xEE, 0xEE}));
   EXPECT_EQ(second.get_ref_count(), 0) << "the memory keeps what it has written";
+}
+
+// A request comes when the last byte of a write does, a picosecond before that of the next one.
+TEST(MemoryModel, ARequestLetsInWhatWasWrittenByItsTime) {
+  platform::MemoryModelParameters parameters = with_latency(10);
+  parameters.bytes_per_clock = 0;
+  platform::MemoryModel memory("memory", kPeriod, parameters);
+  Writer writer("writer");
+  writer.out.bind(memory.ports);
+  sc_core::sc_start(sc_core::SC_ZERO_TIME);
+  tlm::tlm_generic_payload before, first, second, third;
+  writer.write(before, 9, sc_core::SC_ZERO_TIME);
+  sc_core::sc_start(20 * kPeriod);
+  writer.write(first, 1, sc_core::SC_ZERO_TIME);
+  writer.write(second, 2, sc_core::sc_time::from_value(1));
+  writer.write(third, 3, 10 * kPeriod);
+  EXPECT_EQ(memory.dump(1, 3), (std::vector<std::uint8_t>{0xEE, 0, 0}));
 }
 
 // Every beat of a read fits the links as they are built for narrow lines; a mask that does not is

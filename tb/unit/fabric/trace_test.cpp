@@ -166,6 +166,7 @@ struct Triple {
     visit("slope", self.slope, 11, "S0.10");
     visit("last", self.last);
   }
+  friend bool operator==(const Triple&, const Triple&) = default;
 };
 
 TEST(Trace, ShowsEveryFieldAsItIsBuilt) {
@@ -191,6 +192,27 @@ TEST(Trace, ShowsEveryFieldAsItIsBuilt) {
   EXPECT_EQ(vcd.value("deburr.link.pixel_0_b", 20'000), "10001");
   EXPECT_EQ(vcd.value("deburr.link.slope", 20'000), "11111111110");
   EXPECT_EQ(vcd.value("deburr.link.last", 20'000), "0");
+}
+
+TEST(Trace, ShowsEveryFieldOfAWire) {
+  const std::string file = testing::TempDir() + "fields_of_a_wire.vcd";
+  rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
+  Triple triple;
+  triple.pixel[1] = {1, 30, 17};
+  triple.slope = -2;
+  const rtl::Wire<Triple> wire("wire", triple);
+  {
+    rtl::Trace trace(clock, {file, {"*"}});
+    clock.run(2);
+  }
+  const Vcd vcd(file);
+  for (const auto& [field, value] : std::map<std::string, std::string>{{"pixel_0_g", "00000"},
+                                                                       {"pixel_1_r", "00001"},
+                                                                       {"pixel_1_g", "11110"},
+                                                                       {"slope", "11111111110"}}) {
+    ASSERT_TRUE(vcd.ids.contains("deburr.wire." + field)) << field;
+    EXPECT_EQ(vcd.value("deburr.wire." + field, 10'000), value) << field;
+  }
 }
 
 struct Extremes {

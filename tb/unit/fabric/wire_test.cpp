@@ -231,7 +231,7 @@ TEST(Wire, CombinationalKeepsAPairInOrder) {
         << shuffle;
 }
 // What does the work of the driver drives before all units.
-TEST(Wire, CombinationalKeepsTheOrderOfWhatIsLeftOfItsUnits) {
+TEST(Wire, AReplacedUnitHasNoPlaceInAShuffledOrder) {
   struct Instead final : rtl::Clocked {
     CombinationalWire<std::uint8_t>& wire;
     explicit Instead(CombinationalWire<std::uint8_t>& of) : wire(of) {}

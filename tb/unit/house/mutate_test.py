@@ -125,7 +125,7 @@ class Mutate(unittest.TestCase):
         self.assertIn("| `rtl_model/tiny` | 1 | 7 | 7 | 0 | 3 | 0 | 4 | 42.8 (42.8 to 42.9) | 42.8 (42.8 to 42.9) |",
                       page)
         self.assertIn("It is missed by `rtl_model/tiny`.", page)
-        self.assertRegex(page.replace("\n", " "), r"Of 7 mutants 7 have a verdict [^.]* 42\.8 \(42\.8 to 42\.9\) % would be killed")
+        self.assertRegex(page.replace("\n", " "), r"Of 7 mutants 7 have a verdict [^.]*: 42\.8 \(42\.8 to 42\.9\) % killed")
         self.assertIn("| comparison | 2 | 2 | 0 | 1 | 50.0 (50.0 to 50.0) |", page)
         self.assertEqual(self.mutate("--check").returncode, 0)
         (self.root / "docs/measurements/mutation.md").write_text("", encoding="utf-8")
@@ -495,9 +495,9 @@ inline int early(int a) { if (a < 1) return 5; try { if (a == 2) throw a; } catc
     def test_a_page_names_files_without_a_verdict(self):
         entry = {"hash": "a", "mutants": 5, "left": 5, "killed": 0, "invalid": 0, "alone": 0, "survived": []}
         record = {"golden/a/all_left.h": entry, "golden/a/killed.h": {**entry, "left": 4, "killed": 1},
-                  "golden/a/nothing.h": {**entry, "mutants": 0, "left": 0}}
+                  "golden/a/nothing.h": {**entry, "mutants": 0, "left": 0}, "golden/a/not_drawn.h": {**entry, "left": 4}}
         page = self.module().report.page_of(self.root, record).replace("\n", " ")
-        self.assertIn("1 files have no verdict, for each of their mutants needs a build: `golden/a/all_left.h`.", page)
+        self.assertIn("each of their mutants needs a build, or no test runs it: `golden/a/all_left.h`.", page)
 
     def test_a_statement_of_several_lines_stands_in_its_file(self):
         stands_in = self.module().report.stands_in

@@ -421,6 +421,25 @@ TEST(Coverage, TiesAreOfTheAxisAndTheSlope) {
   for (const int slope : {-1, 0, 1}) EXPECT_EQ(tie(Axis::kVertical, slope), once("tie/vertical"));
 }
 
+TEST(Coverage, AColumnIsATieWhereItsLineMeetsAPixelsCentre) {
+  const auto ties = [](std::int32_t y) {
+    Drawing d(16, 16);
+    d.vertices = {{0, y, 0xFFFFFF, true}, {16 * 256, y, 0xFFFFFF, true}};
+    d.set_facing(0, true);
+    d.edges = {{0, 1, 0, 0, spec::geometric::flag::kBoundary}};
+    const Parameters p;
+    GeometricGolden golden(p);
+    golden.process(d.input());
+    EXPECT_EQ(golden.candidates().size(), 16u);
+    auto hits = hits_of(golden.coverage());
+    std::erase_if(hits, [](const auto& bin) { return !bin.first.starts_with("tie/"); });
+    return hits;
+  };
+  EXPECT_EQ(ties(8 * 256 + 128),
+            (std::map<std::string, std::uint64_t>{{"tie/horizontal-level", 16}}));
+  EXPECT_TRUE(ties(8 * 256 + 129).empty());
+}
+
 TEST(Coverage, DepthIsThatOfTheFartherPixel) {
   const auto depth = [](std::uint32_t own, std::uint32_t other, bool passed) {
     EdgeCoverage coverage;

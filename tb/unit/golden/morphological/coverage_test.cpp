@@ -584,6 +584,22 @@ TEST(SmaaCoverage, EachEdgeOfAFrameIsAPixelOfTheTable) {
   EXPECT_EQ(pixels, 25u);
 }
 
+// The one corner of a rectangle: both runs that meet there have a far bit.
+TEST(SmaaCoverage, EachEdgeOfAFrameThatLeadsToACornerIsCounted) {
+  const Frame corner(24, 9, [](int x, int y) { return grey(x < 12 && y < 4 ? 230 : 20); });
+  MorphologicalGolden golden(preset_parameters(Preset::kSmaa));
+  golden.process(corner.view());
+  EXPECT_EQ(golden.edges().top.count(), 12u);
+  EXPECT_EQ(golden.edges().left.count(), 4u);
+  std::uint64_t across = 0, down = 0;
+  for (const auto& [name, hits] : hits_of(golden.smaa_coverage().bins())) {
+    if (name.starts_with(std::string("corner/") + kAxisNames[0])) across += hits;
+    if (name.starts_with(std::string("corner/") + kAxisNames[1])) down += hits;
+  }
+  EXPECT_EQ(across, 12u);
+  EXPECT_EQ(down, 4u);
+}
+
 // Falling diagonals that end a pixel beyond the last row, or the last column, by a top edge alone:
 // the border repeats it.
 TEST(SmaaCoverage, DiagonalsAreBeyondTheFrameFromItsBorderOn) {

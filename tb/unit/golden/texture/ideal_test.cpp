@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The real-arithmetic references themselves: EWA against a brute-force sum, the box against areas
 // known in closed form, and the drivers over quads.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

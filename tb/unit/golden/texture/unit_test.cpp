@@ -365,6 +365,18 @@ TEST(TextureGolden, TellsWhatALaneAsksFor) {
   EXPECT_TRUE(std::equal(misses.rbegin(), misses.rend(), golden.fills().rbegin()));
 }
 
+TEST(TextureGolden, TellsSamplesInTheirOrder) {
+  spec::texture::Descriptor sampler;
+  sampler.max_anisotropy_log2 = 4;
+  const EncodedTexture texture(tb::texture::checkerboard(1024, 8), sampler);
+  TextureGolden golden(preset_parameters(spec::texture::Preset::kPaper), texture.memory);
+  golden.set_texture(0, texture.descriptor);
+  std::vector<BilinearRequest> requests;
+  golden.process(flat_quad(0, 0, 8.0 / 1024, 1.0 / 1024), 0, requests);  // N = 8, one level
+  ASSERT_EQ(requests.size(), 8u);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(requests[i].sample, static_cast<int>(i));
+}
+
 TEST(TextureGolden, CoverageTagsAndLast) {
   const EncodedTexture texture(tb::texture::noise(8, 8, 1), {});
   TextureGolden golden({}, texture.memory);

@@ -106,6 +106,15 @@ TEST(CornerShares, AreRoundedToNearest) {
   EXPECT_EQ(shares.second, 7) << "no corner on that side";
 }
 
+TEST(CornerShares, StayWhereCornersAreNotRounded) {
+  FrameRules rules;
+  rules.corners = false;
+  rules.corner_loss = 256;
+  const EdgeShares shares = at_corners(rules, {7, 9, 5}, 0b1111, 2);
+  EXPECT_EQ(shares.first, 7);
+  EXPECT_EQ(shares.second, 9);
+}
+
 // Asked in one clock, it has the edge in the next; a beat of shares may be asked for in each.
 TEST(LearnedSharesBlock, HaveTheLatencyAndIntervalOfTheirDatasheet) {
   LearnedShares unit("learned", 1);
