@@ -1056,16 +1056,24 @@ TEST(MemoryPort, WhatOnlyReadsIsNotWritten) {
               testing::HasSubstr("a write of 0xc0 through a port that only reads"));
 }
 
-// The first beat of a burst that writes is taken, and waits inside for the others.
+// Of a burst that writes two lines the first beat is taken, and waits inside for the other.
+struct HalfABurst : System {
+  HalfABurst() : System(of_two_lines(), with_latency(10)) {
+    MemoryRequest request = read_of(0);
+    request.write = true;
+    request.lines = 2;
+    request.byte_mask = ~std::uint64_t{0};
+    driver.send(request);
+  }
+  static MemoryPortParameters of_two_lines() {
+    MemoryPortParameters parameters;
+    parameters.max_burst_lines = parameters.max_write_lines = 2;
+    return parameters;
+  }
+};
+
 TEST(MemoryPort, WaitsForTheBeatsOfABurst) {
-  MemoryPortParameters parameters;
-  parameters.max_burst_lines = parameters.max_write_lines = 2;
-  System s(parameters, with_latency(10));
-  MemoryRequest request = read_of(0);
-  request.write = true;
-  request.lines = 2;
-  request.byte_mask = ~std::uint64_t{0};
-  s.driver.send(request);
+  HalfABurst s;
   s.clock.run(21);
   EXPECT_EQ(s.port.in_flight(), 1U);
   EXPECT_EQ(s.port.busy_cycles(), 1U);
@@ -1074,14 +1082,7 @@ TEST(MemoryPort, WaitsForTheBeatsOfABurst) {
 }
 
 TEST(MemoryPort, OfABurstThatAResetCutsNothingIsLeft) {
-  MemoryPortParameters parameters;
-  parameters.max_burst_lines = parameters.max_write_lines = 2;
-  System s(parameters, with_latency(10));
-  MemoryRequest first = read_of(0);
-  first.write = true;
-  first.lines = 2;
-  first.byte_mask = ~std::uint64_t{0};
-  s.driver.send(first);
+  HalfABurst s;
   s.clock.run(20);
   EXPECT_EQ(s.port.in_flight(), 1U);
   s.clock.set_reset_n(false);

@@ -214,22 +214,31 @@ TEST(Wire, CombinationalKeepsItsUnitsInOrder) {
     EXPECT_EQ(got, "1 2 3 1 2 3 ") << shuffle;
   }
 }
+
+// A driver and a reader of its clock, ticked in this order.
+struct Joined {
+  ClockDomain clock{"clock", kPeriod};
+  DriverNow driver{"driver", clock};
+  ReaderNow reader{"reader", clock};
+  CombinationalWire<std::uint8_t> wire{"wire"};
+  Joined() {
+    driver.count_out(wire);
+    reader.count_in(wire);
+  }
+};
+
 TEST(Wire, CombinationalKeepsAPairInOrder) {
   for (std::uint64_t shuffle = 1; shuffle <= 20; ++shuffle)
     EXPECT_EQ(in_child([shuffle] {
-                ClockDomain clock("clock", kPeriod);
-                DriverNow driver("driver", clock);
-                ReaderNow reader("reader", clock);
-                CombinationalWire<std::uint8_t> wire("wire");
-                driver.count_out(wire);
-                reader.count_in(wire);
-                clock.shuffle(shuffle);
-                clock.run(3);
-                return reader.text;
+                Joined joined;
+                joined.clock.shuffle(shuffle);
+                joined.clock.run(3);
+                return joined.reader.text;
               }),
               "1 2 3 ")
         << shuffle;
 }
+
 // What does the work of the driver drives before all units.
 TEST(Wire, AReplacedUnitHasNoPlaceInAShuffledOrder) {
   struct Instead final : rtl::Clocked {
@@ -242,21 +251,17 @@ TEST(Wire, AReplacedUnitHasNoPlaceInAShuffledOrder) {
     void reset() override {}
   };
   EXPECT_EQ(in_child([] {
-              ClockDomain clock("clock", kPeriod);
-              DriverNow driver("driver", clock);
-              ReaderNow reader("reader", clock);
-              CombinationalWire<std::uint8_t> wire("wire");
-              driver.count_out(wire);
-              reader.count_in(wire);
-              Instead instead(wire);
-              clock.add_before(instead);
-              clock.replace(driver);
-              clock.shuffle(1);
-              clock.run(3);
-              return reader.text;
+              Joined joined;
+              Instead instead(joined.wire);
+              joined.clock.add_before(instead);
+              joined.clock.replace(joined.driver);
+              joined.clock.shuffle(1);
+              joined.clock.run(3);
+              return joined.reader.text;
             }),
             "5 6 7 ");
 }
+
 TEST(Wire, CombinationalNeedsItsDriverFirst) {
   EXPECT_THAT(in_child([] {
                 ClockDomain clock("clock", kPeriod);
@@ -274,15 +279,10 @@ TEST(Wire, CombinationalNeedsItsDriverFirst) {
 // The driver stops: its readers get no old value.
 TEST(Wire, ADriverThatLeavesAClockOutIsFound) {
   EXPECT_THAT(in_child([] {
-                ClockDomain clock("clock", kPeriod);
-                DriverNow driver("driver", clock);
-                ReaderNow reader("reader", clock);
-                CombinationalWire<std::uint8_t> wire("wire");
-                driver.count_out(wire);
-                reader.count_in(wire);
-                clock.run(2);
-                driver.asleep = true;
-                clock.run(1);
+                Joined joined;
+                joined.clock.run(2);
+                joined.driver.asleep = true;
+                joined.clock.run(1);
                 return std::string("ran");
               }),
               HasSubstr("wire: cycle 2: read before it was driven in this clock (combinational "
