@@ -3,7 +3,7 @@
 """Writes the ctest entries of a test program: a TEST each, named after the source that it stands in
 (deburr_test in Tests.cmake). An error is a source without tests, a test of no source, two tests of one
 name, a test that is disabled, and a regular expression of TIMING or LONG that matches no test. With
---suites the tests of a suite that have the same labels are one entry, if the program has no SystemC.
+--suites the tests of a suite that have the same labels are one entry.
 usage: discover_tests.py LIST PROGRAM OUTPUT [--suites]"""
 import collections
 import json
@@ -70,7 +70,7 @@ def entries_of_suites(found):
 
 def main():
     listing, program, output = map(pathlib.Path, sys.argv[1:4])
-    one_each = sys.argv[4:] != ["--suites"] or b"libsystemc" in program.read_bytes()
+    one_each = sys.argv[4:] != ["--suites"]
     found, wrong = entries(json.loads(listing.read_text(encoding="utf-8")), listed(program))
     output.unlink(missing_ok=True)
     if wrong:
