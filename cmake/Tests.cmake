@@ -3,8 +3,8 @@
 
 # deburr_test(<name> SOURCE <file> LABELS ... LINK ... [PROGRAM <program>]
 #             [TIMING regex ...] [LONG regex ...] [TIMEOUT s]):
-# a source with GoogleTests. Every TEST becomes an entry of ctest, `<name>.Suite.Case`, and so a process
-# of its own: SystemC elaborates once a process. Under sanitizers, where a process takes longer to start than
+# a source with GoogleTests. Without sanitizers every TEST is an entry of ctest, `<name>.Suite.Case`, and so a
+# process of its own: SystemC elaborates once a process. With them, where a process takes longer to start than
 # most tests, a suite is one entry, `<name>.Suite` (tb/harness/own_simulation.cpp). Tests whose name matches a
 # regex of TIMING or LONG have the label `timing` or `long` too; a regex that matches none is an error of the
 # build.
