@@ -3,9 +3,9 @@
 
 # deburr_test(<name> SOURCE <file> LABELS ... LINK ... [PROGRAM <program>]
 #             [TIMING regex ...] [LONG regex ...] [TIMEOUT s]):
-# a source with GoogleTests. Every TEST becomes an entry of ctest, `<name>.Suite.Case`, and so a process
-# of its own: SystemC elaborates once a process. Under sanitizers, where a process takes longer to start than
-# most tests, a suite of a program without SystemC is one entry, `<name>.Suite`. Tests whose name matches a
+# a source with GoogleTests. Without sanitizers every TEST is an entry of ctest, `<name>.Suite.Case`, and so a
+# process of its own: SystemC elaborates once a process. With them, where a process takes longer to start than
+# most tests, a suite is one entry, `<name>.Suite` (tb/harness/own_simulation.cpp). Tests whose name matches a
 # regex of TIMING or LONG have the label `timing` or `long` too; a regex that matches none is an error of the
 # build.
 #
@@ -74,11 +74,7 @@ function(deburr_finish_tests program)
   get_target_property(kinds ${program} DEBURR_KINDS)
   list(REMOVE_DUPLICATES kinds)
   if("unit" IN_LIST kinds)
-    target_link_libraries(${program} PRIVATE deburr_light_options)
-    if(DEBURR_SANITIZE)
-      # A third of the time of -O1. What they run, and what starts it, stays at that: it would take four times as long.
-      target_compile_options(${program} PRIVATE -O0)
-    endif()
+    target_link_libraries(${program} PRIVATE deburr_lightest_options)
   endif()
   deburr_batches(${program})
   set(stem "${CMAKE_CURRENT_BINARY_DIR}/${program}")

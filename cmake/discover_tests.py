@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Writes the ctest entries of a test program: a TEST each, named after the source that it stands in
-(deburr_test in Tests.cmake). An error is a source without tests, a test of no source, two tests of one
+"""Writes the ctest entries of a test program, of a TEST or, with --suites, a suite each, named after the
+source that it stands in (deburr_test in Tests.cmake). An error is a source without tests, a test of no source, two tests of one
 name, a test that is disabled, and a regular expression of TIMING or LONG that matches no test. With
---suites the tests of a suite that have the same labels are one entry, if the program has no SystemC.
+--suites those of a suite that have the label `timing` or `long` are an entry of their own.
 usage: discover_tests.py LIST PROGRAM OUTPUT [--suites]"""
 import collections
 import json
@@ -12,6 +12,9 @@ import re
 import subprocess
 import sys
 import tempfile
+
+
+LONGEST = 600  # seconds of a suite, unless one of its tests may take longer
 
 
 def listed(program):
@@ -70,15 +73,16 @@ def entries_of_suites(found):
 
 def main():
     listing, program, output = map(pathlib.Path, sys.argv[1:4])
-    one_each = sys.argv[4:] != ["--suites"] or b"libsystemc" in program.read_bytes()
+    one_each = sys.argv[4:] != ["--suites"]
     found, wrong = entries(json.loads(listing.read_text(encoding="utf-8")), listed(program))
     output.unlink(missing_ok=True)
     if wrong:
         sys.exit("\n".join(f"{program.name}: {text}" for text in wrong))
     text = ""
     for entry, names, source, labels in entries_of_tests(found) if one_each else entries_of_suites(found):
+        seconds = min(source["timeout"] * len(names), max(source["timeout"], LONGEST))
         text += (f"add_test([=[{entry}]=] [=[{program}]=] [=[--gtest_filter={':'.join(names)}]=])\n"
-                 f"set_tests_properties([=[{entry}]=] PROPERTIES TIMEOUT {source['timeout'] * len(names)} "
+                 f"set_tests_properties([=[{entry}]=] PROPERTIES TIMEOUT {seconds} "
                  f"WORKING_DIRECTORY [=[{program.parent}]=] LABELS \"{';'.join(labels)}\")\n")
     output.write_text(text, encoding="utf-8")
 
