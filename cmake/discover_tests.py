@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Writes the ctest entries of a test program, of a TEST or, with --suites, a suite each, named after the
-source that it stands in (deburr_test in Tests.cmake). An error is a source without tests, a test of no source, two tests of one
-name, a test that is disabled, and a regular expression of TIMING or LONG that matches no test. With
---suites those of a suite that have the label `timing` or `long` are an entry of their own.
+source that it stands in (deburr_test in Tests.cmake). With --suites those of a suite that have the label
+`timing` or `long` are an entry of their own. An error is a source without tests, a test of no source,
+two tests of one name, a test that is disabled, and a regular expression of TIMING or LONG that matches
+no test.
 usage: discover_tests.py LIST PROGRAM OUTPUT [--suites]"""
 import collections
 import json
