@@ -7,6 +7,7 @@
 #include "spec/depth_check.h"
 
 namespace deburr::tb {
+
 std::vector<std::uint32_t> depth_codes(const DepthImage& depth) {
   std::vector<std::uint32_t> codes;
   codes.reserve(depth.pixels.size());

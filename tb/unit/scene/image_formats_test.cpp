@@ -234,7 +234,7 @@ std::string animated_webp(unsigned height) {
 TEST(ImageFormats, ColoursAreStraightInEveryFormatWithAlpha) {
   const TemporaryFolder folder;
   for (const char* const extension :
-       {"bmp", "dpx", "ico", "iff", "png", "rla", "sgi", "tga", "tif"})
+       {"bmp", "dpx", "fits", "ico", "iff", "png", "rla", "sgi", "tga", "tif"})
     EXPECT_EQ(read_image(write(folder / (std::string("of.") + extension), {}, values_of(kStraight)))
                   .pixels,
               kStraight)
