@@ -21,14 +21,15 @@ class ImageDecoder {
     int width = 0, height = 0, channels = 0;  // of the pixels that are stored
     // The picture that they are a part of (the display window of an EXR), and where in it they lie.
     int full_width = 0, full_height = 0, x = 0, y = 0;
-    int alpha = -1;            // the channel that is alpha
-    bool alpha_named = false;  // the file says that it is
-    int depth = -1;            // the channel that the file says is a distance
-    bool associated = false;   // colours are stored multiplied by alpha
-    bool cmyk = false;         // made RGB by the decoder
-    bool flat = true;          // neither a volume nor a deep image
-    std::string file_format;   // "png", "jpeg", ...
-    std::string value_format;  // "uint8", "uint16", "half", "float", ...
+    int alpha = -1;             // the channel that is alpha
+    bool alpha_named = false;   // the file says that it is
+    int depth = -1;             // the channel that the file says is a distance
+    bool associated = false;    // colours are stored multiplied by alpha
+    bool cmyk = false;          // made RGB by the decoder
+    std::string other_colours;  // "CIELAB", ...: what the decoder gives as R, G and B unchanged
+    bool flat = true;           // neither a volume nor a deep image
+    std::string file_format;    // "png", "jpeg", ...
+    std::string value_format;   // "uint8", "uint16", "half", "float", ...
     bool floating_point = false;
     std::string colour_space;  // as the file names it, or as its format implies
     int orientation = 1;

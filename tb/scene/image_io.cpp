@@ -99,6 +99,10 @@ void check_header(const std::string& name, const Header& header) {
     fail_read(name,
               "it is a part of a picture, which OpenImageIO misplaces in this format; write "
               "the whole picture, or an EXR");
+  if (!header.other_colours.empty())
+    fail_read(name, fmt::format("its colours are of the kind '{}', which is not converted; save it "
+                                "as RGB",
+                                header.other_colours));
   if (!header.flat) fail_read(name, "it is a volume or a deep image; flatten it to two dimensions");
 }
 
@@ -449,6 +453,9 @@ DepthImage read_depth(const fs::path& path, ReadReport* report) {
     note_window(header, "infinitely far", *report);
   }
   DepthImage depth(header.width, header.height);
+  // Colours that a file or its decoder has made others are no codes any more.
+  const bool divided = header.value_format == kBytes && header.associated;
+  const bool changed = header.cmyk || header.file_format == "jpeg" || header.file_format == "heif";
   if (header.channels == 1 && header.floating_point) {
     depth.pixels = read_pixels<float>(name, *decoder, 1);
     check_depths(name, header, depth.pixels, report);
@@ -461,7 +468,7 @@ DepthImage read_depth(const fs::path& path, ReadReport* report) {
     if (report != nullptr)
       report->conversions.push_back(
           "16 bits of grey taken as near / w: 0 infinitely far, 65535 at the near plane");
-  } else if (header.channels >= 3 && header.value_format == kBytes && !header.associated) {
+  } else if (header.channels >= 3 && header.value_format == kBytes && !divided && !changed) {
     const auto bytes = read_pixels<std::uint8_t>(name, *decoder, header.channels >= 4 ? 4 : 3);
     const std::size_t step = header.channels >= 4 ? 4 : 3;
     for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
@@ -475,7 +482,9 @@ DepthImage read_depth(const fs::path& path, ReadReport* report) {
                         "or one float channel; this one has {} channel{} of {}{}. Write the depth "
                         "alone, as one of these",
                         header.channels, header.channels == 1 ? "" : "s", header.value_format,
-                        header.associated ? ", multiplied by alpha" : ""));
+                        divided   ? ", multiplied by alpha"
+                        : changed ? ", changed by compression or conversion"
+                                  : ""));
   }
   return placed(std::move(depth), header, 0.0f);
 }

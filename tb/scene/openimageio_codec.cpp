@@ -104,8 +104,11 @@ ImageDecoder::Header header_of(OIIO::ImageInput& input, Io& io) {
     header.associated = is_associated(spec, format, io);
   else if (format != "openexr" && (spec.nchannels == 2 || spec.nchannels > 3))
     header.alpha = spec.nchannels == 2 ? 1 : 3;
-  for (const char* const name : {"tiff:ColorSpace", "jpeg:ColorSpace", "psd:ColorMode"})
+  for (const char* const name : {"tiff:ColorSpace", "jpeg:ColorSpace"})
     header.cmyk = header.cmyk || OIIO::Strutil::icontains(spec.get_string_attribute(name), "CMYK");
+  const std::string colours = spec.get_string_attribute("tiff:ColorSpace");
+  for (const char* const name : {"CIELAB", "ICCLAB", "ITULAB", "LOGL", "LOGLUV", "color separated"})
+    if (colours == name) header.other_colours = colours;
   header.flat = spec.depth <= 1 && !spec.deep;
   header.value_format = spec.format.c_str();
   header.floating_point = spec.format.is_floating_point();

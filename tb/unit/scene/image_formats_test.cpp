@@ -95,7 +95,8 @@ std::string of_pixels(const Pixels& pixels, std::array<std::size_t, 4> order) {
 }
 
 // A TIFF of one row. `extra` is the value of ExtraSamples; below 0 there is no such tag.
-std::string tiff(int extra, int samples, int bits, const std::vector<unsigned>& values) {
+std::string tiff(int extra, int samples, int bits, const std::vector<unsigned>& values,
+                 unsigned colours = 2) {
   const auto bytes = static_cast<unsigned>(bits) / 8;
   const std::size_t width = values.size() / static_cast<std::size_t>(samples);
   const auto wide = static_cast<unsigned>(samples);
@@ -104,7 +105,7 @@ std::string tiff(int extra, int samples, int bits, const std::vector<unsigned>& 
       {257, 1, 1},
       {258, 0, wide},
       {259, 1, 1},
-      {262, samples < 3 ? 1u : 2u, 1},
+      {262, samples < 3 ? 1u : colours, 1},
       {273, 0, 1},
       {277, wide, 1},
       {278, 1, 1},
@@ -234,7 +235,7 @@ std::string animated_webp(unsigned height) {
 TEST(ImageFormats, ColoursAreStraightInEveryFormatWithAlpha) {
   const TemporaryFolder folder;
   for (const char* const extension :
-       {"bmp", "dpx", "fits", "ico", "iff", "png", "rla", "sgi", "tga", "tif"})
+       {"bmp", "dpx", "ico", "iff", "png", "rla", "sgi", "tga", "tif"})
     EXPECT_EQ(read_image(write(folder / (std::string("of.") + extension), {}, values_of(kStraight)))
                   .pixels,
               kStraight)
@@ -329,6 +330,12 @@ TEST(ImageFormats, FormatsWithoutAlphaKeepTheirColours) {
         read_image(write(folder / (std::string("of.") + extension), {2, 1, 3}, colours));
     EXPECT_EQ(image.pixels, pixels) << extension;
   }
+  for (const char* const extension : {"fits", "pgm"})
+    EXPECT_EQ(
+        read_image(write(folder / (std::string("grey.") + extension), {2, 1, 1}, Bytes{77, 9}))
+            .pixels,
+        (Pixels{{77, 77, 77, 255}, {9, 9, 9, 255}}))
+        << extension;
   const Image jpeg = read_image(write(folder / "of.jpg", {16, 16, 3}, [] {
     Bytes flat;
     for (int i = 0; i < 256; ++i) flat.insert(flat.end(), {204, 199, 230});
@@ -392,6 +399,21 @@ TEST(ImageFormats, PaletteAndAnimationsAreReadAsStraightColours) {
   EXPECT_EQ(read_image_memory("inside", raw_dds(kStraight)).pixels, kStraight);
   EXPECT_EQ(read_image_memory("inside", tiff(1, kMultiplied)).pixels, kDivided);
   EXPECT_EQ(read_image_memory("inside", block_dds("DXT2", 8)).pixels[0], (Rgba8{154, 0, 0, 136}));
+}
+
+TEST(ImageFormats, ColoursThatAreNotRgbAreNamed) {
+  const TemporaryFolder folder;
+  ReadReport report;
+  const std::string cmyk = tiff(-1, 4, 8, {10, 20, 30, 40}, 5);
+  // (255 - 10) (255 - 40) / 255 = 206.6, 198.1, 189.7
+  EXPECT_EQ(read_image(folder.write("cmyk.tif", cmyk), &report).pixels,
+            (Pixels{{207, 198, 190, 255}}));
+  EXPECT_THAT(report.conversions, Contains(HasSubstr("CMYK made RGB")));
+  EXPECT_THAT(file_error([&] { read_depth(folder / "cmyk.tif"); }), HasSubstr("changed by"));
+  EXPECT_THAT(file_error([&] {
+                read_image(folder.write("lab.tif", tiff(-1, 3, 8, {50, 9, 9}, 8)));
+              }),
+              HasSubstr("its colours are of the kind 'CIELAB'"));
 }
 
 TEST(ImageFormats, TruncatedFilesAreNamed) {
@@ -525,6 +547,8 @@ TEST(ImageFormats, PicturesThatAreNoDepthAreNamed) {
               HasSubstr("this one has 2 channels of uint16"));
   EXPECT_THAT(error(folder.write("multiplied.tif", tiff(1, kMultiplied))),
               HasSubstr("4 channels of uint8, multiplied by alpha"));
+  EXPECT_THAT(error(write(folder / "lossy.jpg", {1, 1, 3}, Bytes{1, 2, 3})),
+              HasSubstr("3 channels of uint8, changed by compression or conversion"));
   EXPECT_EQ(read_depth(folder.write("of.webp", webp())).pixels[0],
             static_cast<float>((204 * 65536 + 199 * 256 + 230) / 16777215.0));
 }
