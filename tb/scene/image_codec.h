@@ -19,6 +19,7 @@ class ImageDecoder {
  public:
   struct Header {
     int width = 0, height = 0, channels = 0;  // of the pixels that are stored
+    int other_layers = 0;                     // channels of an EXR after its first layer
     // The picture that they are a part of (the display window of an EXR), and where in it they lie.
     int full_width = 0, full_height = 0, x = 0, y = 0;
     int alpha = -1;             // the channel that is alpha

@@ -256,6 +256,8 @@ void describe_conversions(const Header& header, const Channels& channels, bool l
   if (header.cmyk) note("CMYK made RGB without its colour profile");
   if (channels.colour[0] == channels.colour[2]) note("grey copied to R, G and B");
   if (header.channels > 4) note(fmt::format("channels 5 to {} left out", header.channels));
+  if (header.other_layers > 0)
+    note(fmt::format("the first layer; {} channels of others left out", header.other_layers));
   if (header.associated) note("colours are stored multiplied by alpha: divided by it");
   if (header.alpha >= 0 && !header.alpha_named && header.file_format == "tiff")
     note(
@@ -347,11 +349,10 @@ Image decode(const std::string& name, ImageDecoder& decoder, ReadReport* report)
 }
 
 // What is no number is at no distance, and silhouettes would be found around it.
-void check_depths(const std::string& name, const Header& header, const std::vector<float>& depths,
-                  ReadReport* report) {
+void check_depths(const std::string& name, const DepthImage& depths, ReadReport* report) {
   spec::DepthCheck check;
-  for (const float depth : depths) check.add_binary32(std::bit_cast<std::uint32_t>(depth));
-  const auto width = static_cast<std::size_t>(header.width);
+  for (const float depth : depths.pixels) check.add_binary32(std::bit_cast<std::uint32_t>(depth));
+  const auto width = static_cast<std::size_t>(depths.width);
   if (const std::string error = check.error(width); !error.empty()) fail_read(name, error);
   if (const std::string note = check.note(width); !note.empty() && report != nullptr)
     report->conversions.push_back(note);
@@ -458,7 +459,6 @@ DepthImage read_depth(const fs::path& path, ReadReport* report) {
   const bool changed = header.cmyk || header.file_format == "jpeg" || header.file_format == "heif";
   if (header.channels == 1 && header.floating_point) {
     depth.pixels = read_pixels<float>(name, *decoder, 1);
-    check_depths(name, header, depth.pixels, report);
   } else if (header.channels == 1 && header.value_format == kWords) {
     const std::vector<float> values = read_pixels<float>(name, *decoder, 1);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -486,7 +486,9 @@ DepthImage read_depth(const fs::path& path, ReadReport* report) {
                         : changed ? ", changed by compression or conversion"
                                   : ""));
   }
-  return placed(std::move(depth), header, 0.0f);
+  depth = placed(std::move(depth), header, 0.0f);
+  check_depths(name, depth, report);
+  return depth;
 }
 
 void write_image(const fs::path& path, const Image& image) {

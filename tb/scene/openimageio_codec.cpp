@@ -81,6 +81,18 @@ bool is_associated(const OIIO::ImageSpec& spec, const std::string& format, Io& i
   return false;
 }
 
+// Channels of the first layer of an EXR, which stand together; of other formats all.
+int channels_of_first_layer(const OIIO::ImageSpec& spec, const std::string& format) {
+  if (format != "openexr") return spec.nchannels;
+  const auto layer = [&](int channel) {
+    const std::string& name = spec.channelnames[static_cast<std::size_t>(channel)];
+    return name.substr(0, name.rfind('.') == std::string::npos ? 0 : name.rfind('.'));
+  };
+  int channels = 1;
+  while (channels < spec.nchannels && layer(channels) == layer(0)) ++channels;
+  return channels;
+}
+
 ImageDecoder::Header header_of(OIIO::ImageInput& input, Io& io) {
   const OIIO::ImageSpec spec = input.spec();
   ImageDecoder::Header header;
@@ -88,17 +100,23 @@ ImageDecoder::Header header_of(OIIO::ImageInput& input, Io& io) {
   const std::string& format = header.file_format;
   header.width = header.full_width = spec.width;
   header.height = header.full_height = spec.height;
-  header.channels = spec.nchannels;
+  header.channels = channels_of_first_layer(spec, format);
+  header.other_layers = spec.nchannels - header.channels;
   // In other formats OpenImageIO's windows mean something else, or are wrong.
   if (format == "openexr" || format == "tiff" || format == "dpx" || format == "rla" ||
       format == "iff") {
     header.full_width = spec.full_width;
     header.full_height = spec.full_height;
-    header.x = spec.x - spec.full_x;
-    header.y = spec.y - spec.full_y;
+    const auto difference = [](std::int64_t a, std::int64_t b) {
+      constexpr std::int64_t kFar = 1 << 30;  // from every picture
+      return static_cast<int>(std::clamp(a - b, -kFar, kFar));
+    };
+    header.x = difference(spec.x, spec.full_x);
+    header.y = difference(spec.y, spec.full_y);
   }
-  if (spec.alpha_channel < spec.nchannels && spec.nchannels > 1) header.alpha = spec.alpha_channel;
-  if (spec.z_channel < spec.nchannels) header.depth = spec.z_channel;
+  if (spec.alpha_channel < header.channels && header.channels > 1)
+    header.alpha = spec.alpha_channel;
+  if (spec.z_channel < header.channels) header.depth = spec.z_channel;
   header.alpha_named = header.alpha >= 0;
   if (header.alpha_named)
     header.associated = is_associated(spec, format, io);

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -372,6 +373,11 @@ TEST(ImageFormats, ChannelsOfAnExrAreTakenByTheirNames) {
   EXPECT_EQ(pixel({"Y", "Z"}, {0.5f, 90}), (Rgba8{188, 188, 188, 255}));
   EXPECT_EQ(pixel({"a.R", "a.G", "a.B", "a.A", "b.R"}, {0.25f, 0, 0.5f, 0.5f, 1}),
             (Rgba8{188, 0, 255, 128}));
+  EXPECT_EQ(pixel({"R", "G", "B", "mask.A"}, {0.5f, 0, 0.5f, 0.25f}), (Rgba8{188, 0, 188, 255}));
+  EXPECT_EQ(pixel({"a.Y", "b.R", "b.G"}, {0.5f, 0, 1}), (Rgba8{188, 188, 188, 255}));
+  ReadReport report;
+  read_image(path, &report);
+  EXPECT_THAT(report.conversions, Contains("the first layer; 2 channels of others left out"));
   EXPECT_EQ(pixel({"A", "B", "G", "R", "Z"}, {0.5f, 0, 0.25f, 0.5f, 7}), (Rgba8{255, 188, 0, 128}));
   for (const auto& names : {std::vector<std::string>{"R", "G", "A"}, {"u", "v"}})
     EXPECT_THAT(file_error([&] { pixel(names, std::vector<float>(names.size())); }),
@@ -513,6 +519,17 @@ TEST(ImageFormats, DepthIsInfinitelyFarWhereAPartOfAPictureIsNot) {
   EXPECT_EQ(depth.width, 4);
   EXPECT_EQ(depth.pixels, (std::vector<float>{0, 0.5f, 0.75f, 0}));
   EXPECT_THAT(report.conversions, ElementsAre(HasSubstr("infinitely far where there are none")));
+  // NaN that is cut is none.
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(
+      read_depth(write(folder / "cut.exr", {2, 1, 1, -1, 0, 1, 1}, std::vector<float>{nan, 0.25f}))
+          .pixels,
+      (std::vector<float>{0.25f}));
+  EXPECT_THAT(
+      file_error([&] {
+        read_depth(write(folder / "nan.exr", {2, 1, 1, 1, 1, 4, 3}, std::vector<float>{0, nan}));
+      }),
+      HasSubstr("1 of 12 values are NaN, which is no depth, the first at (2, 1)"));
   EXPECT_EQ(
       read_depth(write(folder / "over.exr", {3, 1, 1, -1, 0, 1, 1}, std::vector<float>{1, 0.5f, 1}))
           .pixels,
