@@ -5,14 +5,14 @@ from measurement import geometric, guides, morphological, results, synthesis  # 
 # Pages whose every table is measured, or says that it is not.
 MEASURED = ("measurements/results", "measurements/comparison", "measurements/geometric_quality",
             "measurements/morphological_quality", "measurements/filtering_conformance",
-            "measurements/regression_report", "measurements/mutation", "reference/coverage",
+            "measurements/regression_report", "reference/coverage",
             "measurements/morphological_predictor", "measurements/search", "measurements/texture_cache",
             "measurements/texture_design", "measurements/texture_filter", "measurements/tests",
             "measurements/morphological_harm", "measurements/geometric_morphological",
             "measurements/morphological_peers", "measurements/geometric_traffic",
             "measurements/morphological_training")
 # Of these, what a program writes as a whole, and the test that says whether it is what it writes.
-HELD = {"measurements/mutation": "mutation_record", "reference/coverage": "app_pages"}
+HELD = {"reference/coverage": "app_pages"}
 # Blocks that a program writes between its two marks, and the test that says the same of them.
 GENERATORS = {"comparison_page": "comparison_page.all_is_current",
               "conformance_page": "conformance_page.is_current",

@@ -5,8 +5,7 @@
 An engine's own files have its name in their path. What else names it, in an identifier too, stands here with the
 reason; what names it because a command makes it of the declarations (MADE) is no edit. Texture and frame are words of
 every page too, so of all engines the rooms are looked at that name none: what runs, sweeps, reports, traces and builds
-whatever engines there are, and gives them to C and Python. Not looked at: documentation, and the record of mutation
-tests, whose words are those of the code.
+whatever engines there are, and gives them to C and Python. Not looked at: documentation.
 
 usage: engine_names_test.py SOURCE"""
 import pathlib
@@ -16,7 +15,7 @@ import tempfile
 from house_main import house_main
 
 LIST = "tb/engines/engines.txt"
-LEFT_OUT = re.compile(r"docs/|README\.md|CHANGELOG\.md|LICENSES?|tb/mutation/|tb/unit/house/engine_names_test\.py|"
+LEFT_OUT = re.compile(r"docs/|README\.md|CHANGELOG\.md|LICENSES?|tb/unit/house/engine_names_test\.py|"
                       r"build/|out/|\.git/|\.ci/")
 PAGE = re.compile(r"(?<!\")docs/reference/\w+/\w+\.md")  # of an engine, where a comment says what the contract is
 # The engine that tests add to those of the list: all of it, and the test that adds it.
@@ -89,7 +88,7 @@ NAMED = {
             "tb/negative/app_regress_test.py", "tb/negative/app_sweep_test.py", "tb/negative/app_traces_test.py", "tb/negative/app_train_test.py",
             "tb/system/coverage_test.py", "tb/system/figures_test.py", "tb/system/observers_test.py", "tb/system/printed_test.py", "tb/system/shared_golden_test.cpp",
             "tb/system/inputs_test.py", "tb/system/sweep_test.py", "tb/system/terminal_test.py", "tb/unit/env/planted_faults_test.cpp",
-            "tb/unit/house/mutate_test.py", "tb/unit/results/result_test.cpp"],
+            "tb/unit/results/result_test.cpp"],
         "an example of an engine, in what is built from installed files": [
             "examples/c/draw.c", "examples/installed_test.py", "examples/platform/expected.cpp",
             "examples/platform/expected.h", "examples/platform/main.cpp", "examples/platform/painter.cpp",
