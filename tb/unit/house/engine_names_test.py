@@ -37,7 +37,7 @@ MADE = {
 NAMED = {
     "geometric": {
         "its units and its lines are drawn for its pages": [
-            "scripts/drawing/pipelines.py", "scripts/drawing/walks.py", "scripts/figures", "tb/unit/house/drawings_test.py"],
+            "scripts/drawing/pipelines.py", "scripts/drawing/walks.py", "scripts/figures"],
         "which engine to take is drawn": ["scripts/drawing/guides.py"],
         "the rule `leave` is about what it has marked": [
             "golden/morphological/configuration.cpp", "golden/morphological/configuration.h",
@@ -61,8 +61,7 @@ NAMED = {
     },
     "morphological": {
         "its units and the shapes of its runs are drawn for its pages": [
-            "scripts/drawing/facts.py", "scripts/drawing/patterns.py", "scripts/drawing/pipelines.py", "scripts/figures",
-            "tb/unit/house/drawings_test.py"],
+            "scripts/drawing/facts.py", "scripts/drawing/patterns.py", "scripts/drawing/pipelines.py", "scripts/figures",],
         "which engine to take is drawn, and the example of a platform": ["scripts/drawing/guides.py"],
         "it blends in the same light, by the same tables": [
             "golden/geometric/geometric_golden.cpp", "golden/geometric/geometric_golden.h",
