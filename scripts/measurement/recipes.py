@@ -4,13 +4,9 @@ from measurement import geometric, guides, morphological, results, synthesis  # 
 
 # Pages whose every table is measured, or says that it is not.
 MEASURED = ("measurements/results", "measurements/comparison", "measurements/geometric_quality",
-            "measurements/morphological_quality", "measurements/filtering_conformance",
-            "measurements/regression_report", "reference/coverage",
-            "measurements/morphological_predictor", "measurements/search", "measurements/texture_cache",
-            "measurements/texture_design", "measurements/texture_filter", "measurements/tests",
-            "measurements/morphological_harm", "measurements/geometric_morphological",
-            "measurements/morphological_peers", "measurements/geometric_traffic",
-            "measurements/morphological_training")
+            "measurements/morphological_quality", "measurements/filtering_conformance", "reference/coverage",
+            "measurements/tests", "measurements/morphological_harm", "measurements/geometric_morphological",
+            "measurements/morphological_peers", "measurements/morphological_training")
 # Of these, what a program writes as a whole, and the test that says whether it is what it writes.
 HELD = {"reference/coverage": "app_pages"}
 # Blocks that a program writes between its two marks, and the test that says the same of them.
