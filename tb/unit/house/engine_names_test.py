@@ -54,8 +54,7 @@ NAMED = {
         "Python has its equations in real numbers, and tests call its functions of the module": [
             "python/bindings/ideal_python.cpp", "tb/system/python_golden_test.py"],
         "tables of pages are measured, its own among them": [
-            "scripts/measurement/guides.py", "scripts/measurement/recipes.py",
-            "scripts/measurement/results.py"],
+            "scripts/reports/guides.py", "scripts/reports/results.py"],
         "an example of files, in what a script says of itself": ["scripts/mutate"],
         "it alone leaves pictures of a frame that it could not begin": ["tb/unit/app/simulate_test.cpp"],
     },
@@ -102,8 +101,7 @@ NAMED = {
             "tb/unit/golden/c/threads_test.cpp"],
         "registers of the C header are held by hand": ["tb/unit/app/c_header_test.py"],
         "tables of pages are measured, its own among them": [
-            "scripts/measurement/guides.py", "scripts/measurement/recipes.py",
-            "scripts/measurement/results.py"],
+            "scripts/report", "scripts/reports/guides.py", "scripts/reports/results.py"],
     },
 }
 

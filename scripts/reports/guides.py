@@ -2,7 +2,7 @@
 """Tables of the tutorial and of the how-tos: small runs, and figures of measured pages that they repeat."""
 import re
 
-from measurement.sources import Problem, recipe, spaced
+from reports.sources import Problem, recipe, spaced
 
 
 def roof(f):
@@ -24,7 +24,7 @@ def cache_hits(f):
         yield [f"`work.{key}`"] + [f"{run['work'][key]:.2f}" for run in runs]
 
 
-@recipe("lanes-of-2160p", long=True)
+@recipe("lanes-of-2160p")
 def lanes(f):
     for count in (1, 2, 4):
         run = f.run("morphological --scene cylinders --size 3840x2160 --check none --set frame.truth_samples=0"
