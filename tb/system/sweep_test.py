@@ -18,7 +18,6 @@ import tempfile
 import time
 import unittest
 
-FINDINGS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../scripts/findings")
 POINTS = 12
 SWEEP = """
 engine: texture
@@ -356,19 +355,6 @@ objectives: {maximise: [psnr], minimise: [bits]}
                       self.run_compare(flat, chess, *loose, code=1) + ";")
         # The edges, that it has no more, are missed; the picture is not.
         self.assertIn("worse: quality.psnr_edge_db,", self.run_compare(chess, flat, *loose, code=1))
-
-    def test_pages_and_scripts_know_identical_pictures(self):
-        self.identical_pictures()
-        self.run_sweep("picture.yaml", "run")
-        self.run_sweep("picture.yaml", "collect")
-        done = subprocess.run([FINDINGS, "out/sweeps/picture/collected.json", "--out", "pages"],
-                              cwd=self.directory, text=True, capture_output=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        with open(os.path.join(self.directory, "pages/picture.md")) as file:
-            page = file.read()
-        front = page[page.index("## Pareto front"):]
-        self.assertRegex(front, r"`flat.pgm` .* identical ")
-        self.assertNotIn("chess", front)
 
     def test_it_says_where_a_metric_has_no_value_and_why(self):
         self.identical_pictures()

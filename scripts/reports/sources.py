@@ -17,27 +17,12 @@ class Problem(Exception):
     """A figure that cannot be had; the text says why."""
 
 
-class Recipe:
-    def __init__(self, name, rows, long):
-        self.name, self.rows, self.long = name, rows, long
-
-
-def recipe(name, long=False):
-    """The function below yields the rows of a table, each as a list of cells, or absent(first cell)
-    where a row needs data that is not here. `long`: not in the default run of the tests."""
+def recipe(name):
+    """The function below yields the rows of a table, each as a list of cells."""
     def add(function):
-        RECIPES[name] = Recipe(name, function, long)
+        RECIPES[name] = function
         return function
     return add
-
-
-class Absent:
-    def __init__(self, key):
-        self.key = key
-
-
-def absent(key):
-    return Absent(key)
 
 
 # ---- how figures are written --------------------------------------------------------------------
@@ -67,18 +52,18 @@ def write_png(path, width, height, grey):
 class Sources:
     """Each command runs once, however many tables ask for it."""
 
-    def __init__(self, root, build, say=lambda command: None):
-        self.root, self.build, self.say = root, build, say
+    def __init__(self, root, build):
+        self.root, self.build = root, build
         self.data = pathlib.Path(os.environ.get("DEBURR_DATA", root / "../shared/data"))
         if not self.data.is_dir():
             self.data = None
-        self._scratch = tempfile.TemporaryDirectory(prefix="deburr_measured_")
+        self._scratch = tempfile.TemporaryDirectory(prefix="deburr_report_")
         self.scratch = pathlib.Path(self._scratch.name)
         self._known = {}
 
     def _once(self, key, make):
         if key not in self._known:
-            self.say(key)
+            print(f"  {key}", file=sys.stderr, flush=True)
             self._known[key] = make()
         return self._known[key]
 
@@ -122,10 +107,8 @@ class Sources:
         return found[0]
 
     def program(self, program, *words):
+        """What a program below tb/ of the build says."""
         def make():
-            return self._call(" ".join([program, *words]), [self.build / program, *words])
+            return self._call(" ".join([program, *words]), [self.build / "tb" / program, *words])
         return self._once(" ".join([program, *words]), make)
 
-
-def note(text):
-    print(text, file=sys.stderr, flush=True)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Tables of docs/measurements/results.md that are made of runs, and of papers' figures."""
+"""Tables of docs/measurements/ and docs/reference/ that are made of runs, of papers' figures and by a bench."""
 import json
 
-from measurement.sources import recipe, spaced, write_png
+from reports.sources import recipe, spaced, write_png
 
 SCENES = ("plane", "quad", "tunnel")
 # What an estimate in real arithmetic gave: bilinears, texels, misses.
@@ -22,7 +22,7 @@ def texture_rates(f):
                spaced(near["cycles"]), spaced(far["cycles"])]
 
 
-@recipe("texture-presets", long=True)
+@recipe("texture-presets")
 def texture_presets(f):
     for scene, name in (("plane", "plane"),
                         ("plane --roll 45", "plane, camera rolled by 45 degrees (`--roll 45`)"),
@@ -34,7 +34,7 @@ def texture_presets(f):
             lambda r: spaced(r["cycles"]), lambda r: f"{r['quality']['psnr_db']:.1f}")]
 
 
-@recipe("texture-fifo", long=True)
+@recipe("texture-fifo")
 def texture_fifo(f):
     for scene in SCENES:
         yield [scene] + [
@@ -43,22 +43,7 @@ def texture_fifo(f):
             for depth in (2, 8, 16, 32, 64, 96, 128, 160, 256, 512)]
 
 
-@recipe("frame-object", long=True)
-def frame_object(f):
-    """The texture unit's picture smoothed, by both presets of the unit."""
-    for texture in ("deburr", "paper"):
-        before = None
-        for preset in ("mlaa", "deburr-line", "deburr"):
-            quality = f.run(f"frame --scene object --size 512x512 --truth --preset {preset}"
-                            f" --set texture.preset={texture}")["quality"]
-            keys = ("psnr_edge", "psnr_silhouette", "psnr")
-            if before is None:
-                before = [f"{quality[key + '_before_db']:.2f}" for key in keys]
-                yield [f"`{texture}`", "none"] + before
-            yield [f"`{texture}`", f"`{preset}`"] + [f"{quality[key + '_db']:.2f}" for key in keys]
-
-
-@recipe("frames-1080p", long=True)
+@recipe("frames-1080p")
 def frames_1080p(f):
     for line in ("texture --scene plane --preset paper", "texture --scene plane --preset deburr",
                  "morphological --scene tunnel --preset deburr-line",
@@ -74,7 +59,7 @@ def frames_1080p(f):
                spaced(bits["logical"]), spaced(bits["physical"])]
 
 
-@recipe("geometric-banks", long=True)
+@recipe("geometric-banks")
 def geometric_banks(f):
     """A memory that takes a request every clock, and one of banks."""
     line = "geometric --scene object --size 1920x1080 --preset deburr"
@@ -88,7 +73,7 @@ def geometric_banks(f):
                "`{unit}`: {cause}".format(**result["bottleneck"])]
 
 
-@recipe("morphological-diagonals", long=True)
+@recipe("morphological-diagonals")
 def diagonals(f):
     """Bands along the diagonal, d pixels wide."""
     gaps = (18, 16, 10, 8, 6, 5, 4, 3, 2)
@@ -102,7 +87,7 @@ def diagonals(f):
     yield ["d / 18"] + [f"{gap / 18:.3f}" for gap in gaps]
 
 
-@recipe("texture-kernels", long=True)
+@recipe("texture-kernels")
 def texture_kernels(f):
     keys = ("footprint", "log2", "count", "kernel", "spread")
     rows = {tuple(row[key] for key in keys): row for row in f.paper_table("004", "Picture quality")}
@@ -119,10 +104,16 @@ def texture_kernels(f):
             row[column] for column in ("box dB", "EWA whole dB", "EWA tapered dB", "EWA cut dB")]
 
 
-@recipe("speed-record")
-def speed_record(f):
-    """What tb/speed compares with."""
-    record = json.loads((f.root / "tb/baselines/speed.json").read_text(encoding="utf-8"))
-    for name, instructions in record.items():
-        if name != "compiler":
-            yield [f"`{name}`", spaced(round(instructions))]
+@recipe("geometric-dividers")
+def dividers(f):
+    """The frame of 33 000 edges, far from a memory and near one."""
+    for setup, *figures in json.loads(f.program("bench/geometric_rtl_bench", "--dividers")):
+        yield [setup, *map(spaced, figures)]
+
+
+@recipe("smaa-lines")
+def smaa_lines(f):
+    for row in f.paper_table("003", "Quality matrix: lines and discs"):
+        cells = list(row.values())[:-1]
+        if not cells[0].startswith("deburr-line +") and cells[0] not in ("smaa-dynamic 0.05", "smaa-dynamic 0.2"):
+            yield cells
