@@ -28,8 +28,6 @@ COMPOSITION = re.compile(r"tb/engines/frame/[^/]*\.(yaml|json)$|tb/(system|negat
 MADE = {
     "golden/c/systemverilog/deburr_golden_dpi.c": "tb/unit/golden/c/systemverilog_test.py --write",
     "golden/c/systemverilog/deburr_golden_pkg.sv": "tb/unit/golden/c/systemverilog_test.py --write",
-    "python/deburr/__init__.pyi": "tb/system/python_stubs_test.py --write",
-    "python/deburr/golden.pyi": "tb/system/python_stubs_test.py --write",
     "tb/baselines/speed.json": "tb/speed --record",
     "tb/unit/app/stable.txt": "tb/unit/app/stable_test.py --update",
 }
