@@ -35,9 +35,6 @@ MADE = {
 # engine -> why files name it -> which. A CMake list names what the sources beside it do.
 NAMED = {
     "geometric": {
-        "its units and its lines are drawn for its pages": [
-            "scripts/drawing/pipelines.py", "scripts/drawing/walks.py", "scripts/figures", "tb/unit/house/drawings_test.py"],
-        "which engine to take is drawn": ["scripts/drawing/guides.py"],
         "the rule `leave` is about what it has marked": [
             "golden/morphological/configuration.cpp", "golden/morphological/configuration.h",
             "golden/morphological/leave.h", "rtl_model/morphological/blend/blender.cpp",
@@ -59,10 +56,6 @@ NAMED = {
         "it alone leaves pictures of a frame that it could not begin": ["tb/unit/app/simulate_test.cpp"],
     },
     "morphological": {
-        "its units and the shapes of its runs are drawn for its pages": [
-            "scripts/drawing/facts.py", "scripts/drawing/patterns.py", "scripts/drawing/pipelines.py", "scripts/figures",
-            "tb/unit/house/drawings_test.py"],
-        "which engine to take is drawn, and the example of a platform": ["scripts/drawing/guides.py"],
         "it blends in the same light, by the same tables": [
             "golden/geometric/geometric_golden.cpp", "golden/geometric/geometric_golden.h",
             "golden/geometric/resolve.cpp", "golden/geometric/resolve.h", "spec/geometric/tables.h",
