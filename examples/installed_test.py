@@ -572,6 +572,9 @@ class Python(Scratch):
         self.assertTrue(all(pathlib.Path(file).is_relative_to(PREFIX) for file in said[:3]), said)
         self.assertEqual(said[3:], pkg_config("--modversion", "deburr-golden"))
         self.assertTrue((PYTHON / "deburr/py.typed").exists())
+        if pathlib.Path("/usr/bin/stubgen").exists():
+            self.assertTrue({"golden.pyi", "ideal.pyi", "_golden/__init__.pyi", "_golden/ideal.pyi"}
+                            <= {str(file.relative_to(PYTHON / "deburr")) for file in PYTHON.rglob("*.pyi")})
         self.assertEqual(sorted(file.name for file in PYTHON.rglob("*.py*") if file.is_symlink()), [])
 
     def test_the_page_says_where_it_is_installed(self):

@@ -480,7 +480,7 @@ class Searched(SweepTest):
         # A search of all points finds the whole front; one of less stays on its own points.
         everything = self.rows("wide")
         self.assertIn("48 points, 48 done (0 in this run)",
-                      self.search("wide.yaml", "--runs", "90", "--no-guess", "--population", "8"))
+                      self.search("wide.yaml", "--runs", "90", "--population", "8"))
 
         def front(rows):
             return {row["point"] for row in rows if row["front"] == "1"}

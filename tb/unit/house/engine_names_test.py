@@ -27,8 +27,6 @@ COMPOSITION = re.compile(r"tb/engines/frame/[^/]*\.(yaml|json)$|tb/(system|negat
 MADE = {
     "golden/c/systemverilog/deburr_golden_dpi.c": "tb/unit/golden/c/systemverilog_test.py --write",
     "golden/c/systemverilog/deburr_golden_pkg.sv": "tb/unit/golden/c/systemverilog_test.py --write",
-    "python/deburr/__init__.pyi": "tb/system/python_stubs_test.py --write",
-    "python/deburr/golden.pyi": "tb/system/python_stubs_test.py --write",
     "tb/baselines/speed.json": "tb/speed --record",
     "tb/unit/app/stable.txt": "tb/unit/app/stable_test.py --update",
 }
@@ -36,9 +34,6 @@ MADE = {
 # engine -> why files name it -> which. A CMake list names what the sources beside it do.
 NAMED = {
     "geometric": {
-        "its units and its lines are drawn for its pages": [
-            "scripts/drawing/pipelines.py", "scripts/drawing/walks.py", "scripts/figures"],
-        "which engine to take is drawn": ["scripts/drawing/guides.py"],
         "the rule `leave` is about what it has marked": [
             "golden/morphological/configuration.cpp", "golden/morphological/configuration.h",
             "golden/morphological/leave.h", "rtl_model/morphological/blend/blender.cpp",
@@ -59,9 +54,6 @@ NAMED = {
         "it alone leaves pictures of a frame that it could not begin": ["tb/unit/app/simulate_test.cpp"],
     },
     "morphological": {
-        "its units and the shapes of its runs are drawn for its pages": [
-            "scripts/drawing/facts.py", "scripts/drawing/patterns.py", "scripts/drawing/pipelines.py", "scripts/figures",],
-        "which engine to take is drawn, and the example of a platform": ["scripts/drawing/guides.py"],
         "it blends in the same light, by the same tables": [
             "golden/geometric/geometric_golden.cpp", "golden/geometric/geometric_golden.h",
             "golden/geometric/resolve.cpp", "golden/geometric/resolve.h", "spec/geometric/tables.h",
