@@ -224,8 +224,8 @@ TEST(EdgeTable, OfAnImportedMesh) {
 
 // ---- the frame ----------------------------------------------------------------------------------
 
-// An L of six corners, two units high, one corner in the middle of a side of its caps: nineteen and
-// more creases, and diagonals without a flag.
+// An L of six corners, two units high, one more corner in the middle of a side of its caps: creases
+// around it, and diagonals without a flag.
 TEST(EdgeTable, DiagonalsOfAConcaveFaceAreNotSeen) {
   const test::TemporaryFolder folder;
   std::string text;
