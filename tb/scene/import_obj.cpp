@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -24,11 +25,13 @@ using Imath::V2d;
 using Imath::V3d;
 using spec::texture::Wrap;
 
+// Each line of the text once.
 std::string one_line(const std::string& text) {
   std::string line;
+  std::set<std::string> seen{""};
   std::istringstream lines(text);
   for (std::string each; std::getline(lines, each);)
-    if (!each.empty()) line += (line.empty() ? "" : "; ") + each;
+    if (seen.insert(each).second) line += (line.empty() ? "" : "; ") + each;
   return line;
 }
 
