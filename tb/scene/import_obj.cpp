@@ -87,11 +87,12 @@ class FaceAdder {
   void add(const PolygonCorners& face, std::uint32_t line, std::uint32_t material) {
     const auto triangle = [&](const Corner& a, const Corner& b, const Corner& c) {
       builder_.add_triangle({a, b, c}, material);
+      any_ = true;
     };
     if (face.size() == 3) {
       triangle(face[0], face[1], face[2]);
       if (!(area_vector(face).length2() > 0.0)) without_area_.add(line);
-    } else if (face.size() == 4 && is_convex(face)) {
+    } else if (face.size() == 4 && is_strictly_convex(face)) {
       // Along the shorter diagonal, in single precision as tinyobjloader does it.
       if (squared_distance(face[0], face[2]) < squared_distance(face[1], face[3])) {
         triangle(face[0], face[1], face[2]);
@@ -112,7 +113,11 @@ class FaceAdder {
     }
   }
 
-  void add_notes() const {
+  void finish() const {
+    if (!any_ && without_area_.count > 0)
+      fail_mesh(path_, fmt::format("line {}: a face has no area, and no other face has one; repair "
+                                   "the vertices",
+                                   without_area_.first));
     without_area_.note(builder_, "faces without an area are not seen");
     crossing_.note(builder_, "faces that cross or touch themselves were filled");
   }
@@ -138,6 +143,7 @@ class FaceAdder {
   MeshBuilder& builder_;
   PolygonSplitter splitter_;
   Faces without_area_, crossing_;
+  bool any_ = false;  // has become a triangle
 };
 
 class ObjImporter final : public Importer {
@@ -279,7 +285,7 @@ class ObjImporter final : public Importer {
         adder.add(corners, next->line, known ? static_cast<std::uint32_t>(material) : plain);
       }
     }
-    adder.add_notes();
+    adder.finish();
   }
 
   std::string text_;

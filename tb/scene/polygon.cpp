@@ -140,14 +140,14 @@ V3d area_vector(const PolygonCorners& polygon) {
   return sum;
 }
 
-bool is_convex(const PolygonCorners& polygon) {
+bool is_strictly_convex(const PolygonCorners& polygon) {
   const V3d along = area_vector(polygon);
   if (!(along.length2() > 0.0)) return false;
   const std::size_t size = polygon.size();
   for (std::size_t k = 0; k < size; ++k) {
     const V3d &a = polygon[k].position, &b = polygon[(k + 1) % size].position,
               &c = polygon[(k + 2) % size].position;
-    if ((b - a).cross(c - b).dot(along) < 0.0) return false;
+    if (!((b - a).cross(c - b).dot(along) > 0.0)) return false;
   }
   return true;
 }

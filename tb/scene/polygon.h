@@ -17,8 +17,8 @@ using PolygonCorners = std::vector<MeshBuilder::Corner>;
 // Twice the area of a polygon along each axis, positive where it is counter-clockwise (Newell).
 Imath::V3d area_vector(const PolygonCorners& polygon);
 
-// It has an area, and no corner turns against the others.
-bool is_convex(const PolygonCorners& polygon);
+// Every corner turns the same way: none is on a line with its neighbours.
+bool is_strictly_convex(const PolygonCorners& polygon);
 
 // The tessellator's time grows with the square of corners, and with crossings times corners.
 inline constexpr std::size_t kMaxPolygonCorners = 1 << 15;

@@ -314,9 +314,12 @@ TEST(ObjPolygon, FacesWithoutAreaAreNamedAndTheOthersDrawn) {
         << face;
     EXPECT_EQ(doubled_area(mesh).z, 2.0) << face;
   }
+  EXPECT_THAT(file_error([&] { import_mesh(folder.write("a.obj", vertices + "f 1 2 3 4\n")); }),
+              HasSubstr("line 6: a face has no area, and no other face has one"));
   // A corner that is there twice takes nothing away.
   for (const std::string face : {"1 2 5 5", "1 2 2 5 5", "1 1 2 2 5"}) {
     const Mesh mesh = import_mesh(folder.write("a.obj", vertices + "f " + face + "\n"));
+    ASSERT_EQ(mesh.triangles.size(), 1u) << face;
     EXPECT_EQ(doubled_area(mesh).z, 1.0) << face;
     EXPECT_THAT(mesh.notes, Each(Not(HasSubstr("first in line")))) << face;
   }
@@ -338,6 +341,17 @@ TEST(ObjPolygon, ConvexQuadIsCutAlongItsShorterDiagonal) {
   EXPECT_EQ(order("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"), "00 10 01 10 11 01 ") << "both equal";
   EXPECT_EQ(order("v 0 0 1\nv 1 0 0\nv 1 1 1\nv 0 1 0\n"), "00 10 01 10 11 01 ") << "not plane";
   EXPECT_EQ(order("v 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 0 0\n"), "01 11 00 11 10 00 ") << "clockwise";
+}
+
+// Along the shorter diagonal one triangle would be in the side with three corners.
+TEST(ObjPolygon, QuadWithThreeCornersOnALineIsCutAtTheMiddleOne) {
+  for (std::size_t first = 0; first < 4; ++first) {
+    Outline kite = {{0, 0}, {1, 0}, {2, 0}, {1, 9}};
+    std::rotate(kite.begin(), kite.begin() + static_cast<std::ptrdiff_t>(first), kite.end());
+    const Mesh mesh = import_outline(kite);
+    EXPECT_EQ(doubled_area(mesh).z, 18.0);
+    EXPECT_EQ(sides_that_do_not_fit(mesh, 4), "") << first;
+  }
 }
 
 TEST(ObjPolygon, AnArrowOfFourCornersIsCutInside) {
