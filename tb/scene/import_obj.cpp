@@ -119,7 +119,7 @@ class FaceAdder {
                                    "the vertices",
                                    without_area_.first));
     without_area_.note(builder_, "faces without an area are not seen");
-    crossing_.note(builder_, "faces that cross or touch themselves were filled");
+    crossing_.note(builder_, "faces that cross themselves were filled");
   }
 
  private:

@@ -263,7 +263,6 @@ class MaterialParser {
     if (keyword == "newmtl") {
       finish();
       material_.name = trimmed(line);
-      material_.colour = V3d(0, 0, 0);
       return;
     }
     double value = 0.0;
