@@ -20,7 +20,6 @@
 #include "tb/command/point_options.h"
 #include "tb/results/amount.h"
 #include "tb/results/progress.h"
-#include "tb/results/report.h"
 #include "tb/sweep/collection.h"
 #include "tb/sweep/definition.h"
 #include "tb/sweep/local_engine.h"

@@ -17,6 +17,7 @@
 #include "tb/regress/junit.h"
 #include "tb/regress/regression_result.h"
 #include "tb/regress/trend.h"
+#include "tb/results/amount.h"
 #include "tb/results/build_info.h"
 #include "tb/results/embedded.h"
 #include "tb/results/page_template.h"

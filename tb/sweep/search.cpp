@@ -12,7 +12,7 @@
 #include "spec/error.h"
 #include "tb/base/file.h"
 #include "tb/base/interrupt.h"
-#include "tb/results/report.h"
+#include "tb/results/amount.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/truth.h"
 #include "tb/sweep/collection.h"
