@@ -164,7 +164,7 @@ class Files(Scratch):
     """What there is, and that it stands alone."""
 
     def test_everything_is_there(self):
-        for pattern in ("bin/deburr", "libexec/deburr/deburr", "libexec/deburr/deburr_papers",
+        for pattern in ("bin/deburr", "libexec/deburr/deburr", "libexec/deburr/deburr_papers", "libexec/deburr/deburr_train",
                         "libexec/deburr/libdeburr_images.so", "libexec/deburr/libdeburr_evolution.so",
                         "lib*/**/libdeburr-golden.*[ao]", "lib*/**/libdeburr-models.*[ao]",
                         "include/deburr/deburr_registers.h", "include/deburr/deburr_golden.h",

@@ -22,9 +22,9 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/mesh.h"
 #include "tb/scene/png.h"
+#include "tb/stimuli/share_file.h"
 #include "tb/traces/fragment_reader.h"
 #include "tb/traces/fragment_writer.h"
-#include "tb/training/share_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -131,11 +131,10 @@ void configurations(std::string_view bytes) {
 void shares(std::string_view bytes) {
   taken_or_rejected([&] {
     // What was taken is written as what is taken again.
-    const auto read = training::parse_share_file("input", bytes);
-    const std::string text = training::share_file_text(read, {});
-    const auto again = training::parse_share_file("again", text);
-    require(training::entries_of(again) == training::entries_of(read),
-            "other shares than were written");
+    const auto read = parse_share_file("input", bytes);
+    const std::string text = share_file_text(read, {});
+    const auto again = parse_share_file("again", text);
+    require(entries_of(again) == entries_of(read), "other shares than were written");
   });
 }
 
@@ -237,7 +236,7 @@ std::vector<std::string> configurations_seeds() {
 }
 
 std::vector<std::string> shares_seeds() {
-  return {training::share_file_text({}, {}), training::share_file_text({}, {"a note"})};
+  return {share_file_text({}, {}), share_file_text({}, {"a note"})};
 }
 
 constexpr std::array<FuzzTarget, 9> kTargets{

@@ -67,11 +67,11 @@ NAMED = {
         "papers whose methods it has": ["tb/papers/papers_000.cpp", "tb/papers/papers_003.cpp"],
         "lines and discs that its shares are measured and learned by": [
             "scripts/train-shares", "tb/stimuli/discs.cpp", "tb/stimuli/discs.h", "tb/stimuli/line_fans.cpp",
-            "tb/stimuli/line_fans.h", "tb/training/recipe.cpp", "tb/training/recipe.h", "tb/training/share_file.cpp",
-            "tb/training/share_file.h", "tb/training/share_samples.cpp", "tb/training/share_samples.h",
+            "tb/stimuli/line_fans.h", "tb/training/recipe.cpp", "tb/training/recipe.h", "tb/stimuli/share_file.cpp",
+            "tb/stimuli/share_file.h", "tb/training/share_samples.cpp", "tb/training/share_samples.h",
             "tb/training/share_trainer.cpp", "tb/training/share_trainer.h", "tb/training/title_shares.cpp",
             "tb/training/title_shares.h", "tb/training/train_shares.cpp", "tb/unit/training/recipe_test.cpp",
-            "tb/unit/training/share_file_test.cpp", "tb/unit/training/share_trainer_test.cpp"],
+            "tb/unit/stimuli/share_file_test.cpp", "tb/unit/training/share_trainer_test.cpp"],
         "values of its tables that its contract takes from doubles": ["tb/unit/house/layers_test.py"],
         "an example of an engine, in tests of what every engine has": [
             "tb/negative/app_bad_input_test.py", "tb/negative/app_faults_test.py", "tb/negative/app_images_test.py",

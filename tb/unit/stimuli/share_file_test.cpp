@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Are shares read back as they were written, and is everything else rejected with its line?
-#include "tb/training/share_file.h"
+#include "tb/stimuli/share_file.h"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 #include "spec/error.h"
 #include "spec/morphological/learned_shares.h"
 
-namespace deburr::tb::training::share_file_test {
+namespace deburr::tb::share_file_test {
 namespace {
 
 using golden::morphological::ShareTables;
@@ -94,4 +94,4 @@ TEST(ShareFile, SaysWhatIsWrongAndWhere) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::training::share_file_test
+}  // namespace deburr::tb::share_file_test
