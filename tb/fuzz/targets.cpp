@@ -201,10 +201,12 @@ std::vector<std::string> gltf_seeds() {
       put_little_endian(glb, static_cast<std::uint32_t>(value));
     };
     put(2);
-    put(20 + json.size());
+    put(28 + json.size());
     put(json.size());
     glb += "JSON";
     glb += json;
+    put(0);
+    glb += std::string_view("BIN\0", 4);
   }
   return seeds;
 }

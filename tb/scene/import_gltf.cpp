@@ -198,7 +198,7 @@ class GltfImporter final : public Importer {
   }
 
   void parse() {
-    const std::string bytes = read_mesh();
+    std::string bytes = read_mesh();
     tinygltf::TinyGLTF loader;
     loader.SetFsCallbacks({&file_exists, &expand_name, &read_whole_file, nullptr, this});
     loader.SetImageLoader(&keep_encoded, this);
@@ -208,6 +208,7 @@ class GltfImporter final : public Importer {
     try {
       const bool binary = bytes.compare(0, 4, "glTF") == 0;
       check_length(bytes, binary);
+      if (binary) drop_chunk(bytes);
       good = binary
                  ? loader.LoadBinaryFromMemory(&model_, &errors, &warnings,
                                                reinterpret_cast<const unsigned char*>(bytes.data()),
@@ -323,6 +324,20 @@ class GltfImporter final : public Importer {
     if (bytes.size() < 12 || stated > bytes.size())
       fail(fmt::format("its header says {} bytes, the file has {}: it is truncated; copy it again",
                        stated, bytes.size()));
+  }
+
+  // The chunk after the JSON, if it is empty or of an unknown type, both of which tinygltf rejects.
+  static void drop_chunk(std::string& bytes) {
+    std::uint32_t json = 0, length = 0;
+    if (bytes.size() < 20) return;
+    std::memcpy(&json, bytes.data() + 12, 4);
+    const std::size_t end = std::size_t{20} + json;
+    if (bytes.size() < end + 8) return;
+    std::memcpy(&length, bytes.data() + end, 4);
+    if (length > 0 && bytes.compare(end + 4, 4, "BIN\0", 4) == 0) return;
+    bytes.resize(end);
+    const auto whole = static_cast<std::uint32_t>(end);
+    std::memcpy(bytes.data() + 8, &whole, 4);
   }
 
   // ---- materials ----

@@ -436,10 +436,9 @@ struct GltfFile {
              {"buffer":0,"byteOffset":60,"byteLength":12}],"buffers":[{"byteLength":)" +
            length + (uri.empty() ? "" : R"(,"uri":")" + uri + "\"") + "}]" + extra + "}";
   }
-  std::string glb() const {
-    std::string text = json("");
+  std::string glb() const { return glb_of(json(""), std::string("BIN\0", 4), binary); }
+  static std::string glb_of(std::string text, const std::string& type, std::string data) {
     while (text.size() % 4 != 0) text += ' ';
-    std::string data = binary;
     while (data.size() % 4 != 0) data += '\0';
     auto word = [](std::size_t value) {
       std::string bytes(4, '\0');
@@ -447,7 +446,7 @@ struct GltfFile {
       return bytes;
     };
     return "glTF" + word(2) + word(28 + text.size() + data.size()) + word(text.size()) + "JSON" +
-           text + word(data.size()) + std::string("BIN\0", 4) + data;
+           text + word(data.size()) + type + data;
   }
 };
 
@@ -871,6 +870,19 @@ TEST(Gltf, PlusSignOfAUriIsNotABlank) {
   write_image(folder / "a b.png", noise(4, 4));
   file.image = R"({"uri":"a%20b.png"})";
   EXPECT_EQ(import_mesh(folder.write("p.glb", file.glb())).textures.at(0).image, noise(4, 4));
+}
+
+TEST(Gltf, EmptyOrUnknownChunkAfterTheJsonIsIgnored) {
+  const TemporaryFolder folder;
+  write_image(folder / "wood.png", noise(4, 4));
+  const GltfFile file;
+  folder.write("t.bin", file.binary);
+  const std::string text = file.json("t.bin"), type("BIN\0", 4);
+  for (const std::string& bytes :
+       {GltfFile::glb_of(text, type, ""), GltfFile::glb_of(text, "ACME", "1234")})
+    EXPECT_EQ(import_mesh(folder.write("t.glb", bytes)).triangles.size(), 1u);
+  EXPECT_THAT(import_error(folder.write("e.glb", GltfFile::glb_of(file.json(""), type, ""))),
+              HasSubstr("empty BIN chunk"));
 }
 
 TEST(Gltf, FlattenedNodeGetsNormalsOfItsFaces) {
