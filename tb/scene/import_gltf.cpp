@@ -352,7 +352,7 @@ class GltfImporter final : public Importer {
       int index = base.baseColorTexture.index;
       MaterialUse use = material_use(base.baseColorTexture.texCoord,
                                      extension_of(base.baseColorTexture.extensions, kTransform));
-      if (material.extensions.contains(kSpecularGlossiness)) {  // instead of the other, it says
+      if (material.extensions.contains(kSpecularGlossiness)) {  // it replaces the other
         const tinygltf::Value& diffuse = extension_of(material.extensions, kSpecularGlossiness);
         ours.colour = colour_of(diffuse, "diffuseFactor");
         const tinygltf::Value& info = member(diffuse, "diffuseTexture");
@@ -404,8 +404,8 @@ class GltfImporter final : public Importer {
     const auto key = std::tuple(source, ours.wrap_s, ours.wrap_t);
     if (const auto found = textures_.find(key); found != textures_.end()) return found->second;
     const tinygltf::Image& image = item(model_.images, source, "image");
-    const bool file = !image.uri.empty() && !image.uri.starts_with("data:");
-    ours.name = file ? image.uri : !image.name.empty() ? image.name : "embedded";
+    const bool is_file = !image.uri.empty() && !image.uri.starts_with("data:");
+    ours.name = is_file ? image.uri : !image.name.empty() ? image.name : "embedded";
     const auto encoded = encoded_.find(source);
     if (encoded == encoded_.end())
       fail(fmt::format(
@@ -492,8 +492,8 @@ class GltfImporter final : public Importer {
       const std::size_t own = item(model_.accessors, accessor, "accessor").count;
       if (count.value_or(own) != own || own > kMaxVisits)
         fail(
-            fmt::format("the attributes of instances have {} and {} elements, where at most {} and "
-                        "equally many are read; export it again",
+            fmt::format("the attributes of instances have {} and {} elements; the same number in "
+                        "each and at most {} are read",
                         count.value_or(own), own, kMaxVisits));
       count = own;
     }
@@ -525,7 +525,7 @@ class GltfImporter final : public Importer {
     V2d two(std::size_t i) const { return {at(i, 0), at(i, 1)}; }
   };
 
-  // Numbers as an accessor describes them, of `from` their place.
+  // Where and how the elements of an accessor are stored.
   struct Layout {
     int buffer_view = -1;
     std::size_t byte_offset = 0, components = 1, count = 0;
@@ -668,7 +668,6 @@ class GltfImporter final : public Importer {
     }
   }
 
-  // The corners' vertices; no indices: in their order.
   Numbers read_indices(int index) const {
     const tinygltf::Accessor& accessor = item(model_.accessors, index, "accessor");
     if (accessor.type != TINYGLTF_TYPE_SCALAR ||
