@@ -157,6 +157,29 @@ constexpr std::string_view kGltf =
     R"({"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],"accessors":[)"
     R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},)"
     R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}]})";
+// A morph target whose values are sparse, instances, zeros, a hidden node, images of every kind.
+constexpr std::string_view kGltfExtensions =
+    R"({"asset":{"version":"2.0"},"extensionsUsed":["EXT_mesh_gpu_instancing","ACME"],)"
+    R"("nodes":[{"mesh":0,"weights":[0.5],"extensions":{"EXT_mesh_gpu_instancing":{)"
+    R"("attributes":{"TRANSLATION":0,"ROTATION":4,"SCALE":0}}}},{"mesh":0,"extensions":{)"
+    R"("KHR_node_visibility":{"visible":false}}}],"meshes":[{"weights":[1],"primitives":[)"
+    R"({"attributes":{"POSITION":0,"TEXCOORD_1":3},"indices":1,"material":0,"targets":[)"
+    R"({"POSITION":2}]}]}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,)"
+    R"("extensions":{"KHR_texture_transform":{"offset":[0,1],"rotation":1.5,"scale":[0.5,2],)"
+    R"("texCoord":1}}}}},{"extensions":{"KHR_materials_pbrSpecularGlossiness":{)"
+    R"("diffuseFactor":[1,0,0,1],"diffuseTexture":{"index":1}}}}],"textures":[{"extensions":{)"
+    R"("EXT_texture_webp":{"source":0}}},{"source":1}],"images":[{"uri":"data:image/webp;base64,)"
+    R"(UklGRh4AAABXRUJQVlA4TBEAAAAvAQAAAA8Q87//8x8OMqL/AQA="},{"bufferView":3}],)"
+    R"("buffers":[{"byteLength":74,"uri":"data:application/octet-stream;base64,)"
+    R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAAAAAAAAAAAAAAAAEABAAAAUDYK)"
+    R"(MSAxCjI1NQphYmM="}],)"
+    R"("bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6},)"
+    R"({"buffer":0,"byteOffset":44,"byteLength":16},{"buffer":0,"byteOffset":60,"byteLength":14}],)"
+    R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+    R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"},{"componentType":5126,)"
+    R"("count":3,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":2,"byteOffset":12,)"
+    R"("componentType":5121},"values":{"bufferView":2}}},{"componentType":5126,"count":3,)"
+    R"("type":"VEC2"},{"componentType":5126,"count":3,"type":"VEC4"}]})";
 constexpr std::string_view kTrace =
     "deburr-fragments 1\nsize 640 480\n# comment\n"
     "quad 0 f f 0 10 20 0.5 0.25 0.51 0.25 0.5 0.26 0.51 0.26\n"
@@ -183,19 +206,24 @@ std::vector<std::string> obj_seeds() {
 
 // The same as .gltf and as .glb.
 std::vector<std::string> gltf_seeds() {
-  std::string json = made_of(kGltf);
-  const std::string text = json;
-  while (json.size() % 4 != 0) json += ' ';
-  std::string glb = "glTF";
-  const auto put = [&glb](std::size_t value) {
-    put_little_endian(glb, static_cast<std::uint32_t>(value));
-  };
-  put(2);
-  put(20 + json.size());
-  put(json.size());
-  glb += "JSON";
-  glb += json;
-  return {text, glb};
+  std::vector<std::string> seeds;
+  for (const std::string_view text : {kGltf, kGltfExtensions}) {
+    std::string json = made_of(text);
+    seeds.push_back(json);
+    while (json.size() % 4 != 0) json += ' ';
+    std::string& glb = seeds.emplace_back("glTF");
+    const auto put = [&glb](std::size_t value) {
+      put_little_endian(glb, static_cast<std::uint32_t>(value));
+    };
+    put(2);
+    put(28 + json.size());
+    put(json.size());
+    glb += "JSON";
+    glb += json;
+    put(0);
+    glb += std::string_view("BIN\0", 4);
+  }
+  return seeds;
 }
 
 std::vector<std::string> traces_seeds() {
