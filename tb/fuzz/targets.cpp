@@ -22,9 +22,9 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/mesh.h"
 #include "tb/scene/png.h"
+#include "tb/stimuli/share_file.h"
 #include "tb/traces/fragment_reader.h"
 #include "tb/traces/fragment_writer.h"
-#include "tb/training/share_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -84,16 +84,23 @@ void depths(std::string_view bytes) {
   });
 }
 
-void mesh(std::string_view bytes, std::string_view extension) {
+void mesh(std::string_view bytes, std::string_view extension, const ImportOptions& options = {}) {
   const InputFile file(bytes, extension);
   taken_or_rejected([&] {
-    const Mesh read = import_mesh(file.path());
+    const Mesh read = import_mesh(file.path(), options);
     for (const Triangle& triangle : read.triangles)
       for (const std::uint32_t corner : triangle.vertex)
         require(corner < read.vertices.size(), "a triangle of a vertex that is not there");
   });
 }
-void obj(std::string_view bytes) { mesh(bytes, ".obj"); }
+// As a mesh, and as the materials of one; images that they name are not read.
+void obj(std::string_view bytes) {
+  mesh(bytes, ".obj");
+  const InputFile materials(bytes, ".mtl");
+  mesh("mtllib " + materials.path().filename().string() +
+           "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 1\nusemtl a\nf 1/1 2/2 3/1\n",
+       ".obj", {.textures = false});
+}
 void gltf(std::string_view bytes) { mesh(bytes, bytes.starts_with("glTF") ? ".glb" : ".gltf"); }
 
 void traces(std::string_view bytes) {
@@ -124,11 +131,10 @@ void configurations(std::string_view bytes) {
 void shares(std::string_view bytes) {
   taken_or_rejected([&] {
     // What was taken is written as what is taken again.
-    const auto read = training::parse_share_file("input", bytes);
-    const std::string text = training::share_file_text(read, {});
-    const auto again = training::parse_share_file("again", text);
-    require(training::entries_of(again) == training::entries_of(read),
-            "other shares than were written");
+    const auto read = parse_share_file("input", bytes);
+    const std::string text = share_file_text(read, {});
+    const auto again = parse_share_file("again", text);
+    require(entries_of(again) == entries_of(read), "other shares than were written");
   });
 }
 
@@ -136,6 +142,13 @@ constexpr std::string_view kPpm = "P3\n2 1\n255\n255 0 0 0 255 0\n";
 constexpr std::string_view kObj =
     "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
     "f 1/1/1 2/2/1 3/1/1\nf 2//1 4//1 3//1\n";
+// A byte order mark, a C, a bow tie, a hole with its bridge, a face without area, colours, a curve.
+constexpr std::string_view kPolygons =
+    "\xEF\xBB\xBFv 0 0 0\nv 3 0 0 1 0 0\nv 3 1 0\nv 1 1 0\nv 1 2 0\nv 3 2 0\nv 3 3 0\nv 0 3 0\n"
+    "f 1 2 3 4 5 6 7 8 # C\nf 1 7 2 8\nf 1 2 7 8 1 4 5 \\\n6 3 4\nf 1 2 2 1 1\ncurv 0 1 1 2\n";
+constexpr std::string_view kMaterials =
+    "\xEF\xBB\xBFnewmtl a\nKd 0.5\nmap_Kd -s 2 3 -o 0.5 -clamp on -mm 0 2 -cc on a b.png\nd 0.5\n"
+    "newmtl b\nKd spectral a.rfl\nmap_d -bm 1 a.png\n";
 constexpr std::string_view kGltf =
     R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,)"
     R"("scale":[1,2,3]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,)"
@@ -144,6 +157,29 @@ constexpr std::string_view kGltf =
     R"({"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],"accessors":[)"
     R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},)"
     R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}]})";
+// A morph target whose values are sparse, instances, zeros, a hidden node, images of every kind.
+constexpr std::string_view kGltfExtensions =
+    R"({"asset":{"version":"2.0"},"extensionsUsed":["EXT_mesh_gpu_instancing","ACME"],)"
+    R"("nodes":[{"mesh":0,"weights":[0.5],"extensions":{"EXT_mesh_gpu_instancing":{)"
+    R"("attributes":{"TRANSLATION":0,"ROTATION":4,"SCALE":0}}}},{"mesh":0,"extensions":{)"
+    R"("KHR_node_visibility":{"visible":false}}}],"meshes":[{"weights":[1],"primitives":[)"
+    R"({"attributes":{"POSITION":0,"TEXCOORD_1":3},"indices":1,"material":0,"targets":[)"
+    R"({"POSITION":2}]}]}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,)"
+    R"("extensions":{"KHR_texture_transform":{"offset":[0,1],"rotation":1.5,"scale":[0.5,2],)"
+    R"("texCoord":1}}}}},{"extensions":{"KHR_materials_pbrSpecularGlossiness":{)"
+    R"("diffuseFactor":[1,0,0,1],"diffuseTexture":{"index":1}}}}],"textures":[{"extensions":{)"
+    R"("EXT_texture_webp":{"source":0}}},{"source":1}],"images":[{"uri":"data:image/webp;base64,)"
+    R"(UklGRh4AAABXRUJQVlA4TBEAAAAvAQAAAA8Q87//8x8OMqL/AQA="},{"bufferView":3}],)"
+    R"("buffers":[{"byteLength":74,"uri":"data:application/octet-stream;base64,)"
+    R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAAAAAAAAAAAAAAAAEABAAAAUDYK)"
+    R"(MSAxCjI1NQphYmM="}],)"
+    R"("bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6},)"
+    R"({"buffer":0,"byteOffset":44,"byteLength":16},{"buffer":0,"byteOffset":60,"byteLength":14}],)"
+    R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+    R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"},{"componentType":5126,)"
+    R"("count":3,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":2,"byteOffset":12,)"
+    R"("componentType":5121},"values":{"bufferView":2}}},{"componentType":5126,"count":3,)"
+    R"("type":"VEC2"},{"componentType":5126,"count":3,"type":"VEC4"}]})";
 constexpr std::string_view kTrace =
     "deburr-fragments 1\nsize 640 480\n# comment\n"
     "quad 0 f f 0 10 20 0.5 0.25 0.51 0.25 0.5 0.26 0.51 0.26\n"
@@ -208,23 +244,30 @@ std::vector<std::string> pictures_seeds() {
 std::vector<std::string> depths_seeds() {
   return {encode_png(small_picture(5, 3, 255)), of_hex(kDepthPng), of_hex(kExr)};
 }
-std::vector<std::string> obj_seeds() { return {made_of(kObj)}; }
+std::vector<std::string> obj_seeds() {
+  return {made_of(kObj), made_of(kPolygons), made_of(kMaterials)};
+}
 
 // The same as .gltf and as .glb.
 std::vector<std::string> gltf_seeds() {
-  std::string json = made_of(kGltf);
-  const std::string text = json;
-  while (json.size() % 4 != 0) json += ' ';
-  std::string glb = "glTF";
-  const auto put = [&glb](std::size_t value) {
-    put_little_endian(glb, static_cast<std::uint32_t>(value));
-  };
-  put(2);
-  put(20 + json.size());
-  put(json.size());
-  glb += "JSON";
-  glb += json;
-  return {text, glb};
+  std::vector<std::string> seeds;
+  for (const std::string_view text : {kGltf, kGltfExtensions}) {
+    std::string json = made_of(text);
+    seeds.push_back(json);
+    while (json.size() % 4 != 0) json += ' ';
+    std::string& glb = seeds.emplace_back("glTF");
+    const auto put = [&glb](std::size_t value) {
+      put_little_endian(glb, static_cast<std::uint32_t>(value));
+    };
+    put(2);
+    put(28 + json.size());
+    put(json.size());
+    glb += "JSON";
+    glb += json;
+    put(0);
+    glb += std::string_view("BIN\0", 4);
+  }
+  return seeds;
 }
 
 std::vector<std::string> traces_seeds() {
@@ -265,7 +308,7 @@ std::vector<std::string> configurations_seeds() {
 }
 
 std::vector<std::string> shares_seeds() {
-  return {training::share_file_text({}, {}), training::share_file_text({}, {"a note"})};
+  return {share_file_text({}, {}), share_file_text({}, {"a note"})};
 }
 
 constexpr std::array<FuzzTarget, 9> kTargets{

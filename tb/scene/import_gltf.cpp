@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <Imath/ImathMatrix.h>
 #include <Imath/ImathQuat.h>
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>
@@ -12,7 +12,11 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
+#include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "spec/error.h"
 #include "tb/scene/exact_math.h"
@@ -28,10 +32,20 @@ using Imath::M44d;
 using Imath::V2d;
 using Imath::V3d;
 
-// Extensions that a file may require and that this import either obeys or may ignore.
-bool is_supported(const std::string& extension) {
-  return extension == "KHR_texture_transform" || extension == "KHR_mesh_quantization" ||
-         extension.rfind("KHR_materials_", 0) == 0;
+constexpr const char *kTransform = "KHR_texture_transform", *kWebp = "EXT_texture_webp",
+                     *kDds = "MSFT_texture_dds", *kInstances = "EXT_mesh_gpu_instancing",
+                     *kVisibility = "KHR_node_visibility",
+                     *kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+
+bool is_applied(const std::string& extension) {
+  return extension == kTransform || extension == kWebp || extension == kDds ||
+         extension == kInstances || extension == kVisibility || extension == kSpecularGlossiness ||
+         extension == "KHR_mesh_quantization";
+}
+
+// A file may also require these: neither changes geometry nor base colour.
+bool is_harmless(const std::string& extension) {
+  return extension == "KHR_materials_unlit" || extension == "KHR_materials_variants";
 }
 
 spec::texture::Wrap wrap_of(int gl) {
@@ -40,7 +54,8 @@ spec::texture::Wrap wrap_of(int gl) {
   return spec::texture::Wrap::kRepeat;
 }
 
-// KHR_texture_transform: scale, then rotation, then offset.
+// KHR_texture_transform: scale, then rotation, then offset. The rotation is that of the extension's
+// example and of other readers; its GLSL listing turns the other way.
 struct TextureTransform {
   V2d offset{0, 0}, scale{1, 1};
   double rotation = 0.0;
@@ -48,8 +63,8 @@ struct TextureTransform {
   V2d apply(const V2d& uv) const {
     const SinCos turn = sin_cos(rotation);
     const V2d scaled(uv.x * scale.x, uv.y * scale.y);
-    return {offset.x + turn.cos * scaled.x - turn.sin * scaled.y,
-            offset.y + turn.sin * scaled.x + turn.cos * scaled.y};
+    return {offset.x + turn.cos * scaled.x + turn.sin * scaled.y,
+            offset.y - turn.sin * scaled.x + turn.cos * scaled.y};
   }
 };
 
@@ -58,6 +73,34 @@ V2d pair_of(const tinygltf::Value& value, const char* key, const V2d& otherwise)
   const tinygltf::Value& array = value.Get(key);
   if (!array.IsArray() || array.ArrayLen() != 2) return otherwise;
   return {array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble()};
+}
+
+// A member of an object, or a value that has no members.
+const tinygltf::Value& member(const tinygltf::Value& value, const char* key) {
+  static const tinygltf::Value none;
+  return value.Has(key) ? value.Get(key) : none;
+}
+
+V3d colour_of(const tinygltf::Value& value, const char* key) {
+  const tinygltf::Value& array = member(value, key);
+  if (array.ArrayLen() < 3) return V3d(1, 1, 1);
+  return {array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble(),
+          array.Get(2).GetNumberAsDouble()};
+}
+
+int integer_of(const tinygltf::Value& value, const char* key, int otherwise) {
+  return value.Has(key) && value.Get(key).IsInt() ? value.Get(key).GetNumberAsInt() : otherwise;
+}
+
+// An object's extension, or a value that has no members.
+const tinygltf::Value& extension_of(const tinygltf::ExtensionMap& extensions, const char* name) {
+  static const tinygltf::Value none;
+  const auto found = extensions.find(name);
+  return found == extensions.end() ? none : found->second;
+}
+
+std::string listed(const std::set<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 struct MaterialUse {
@@ -74,15 +117,11 @@ class GltfImporter final : public Importer {
   void open() override { parse(); }
 
   Mesh build() override {
-    for (const std::string& extension : model_.extensionsRequired)
-      if (!is_supported(extension))
-        fail(fmt::format("it requires the extension {}, which is not supported; export without it",
-                         extension));
     import_materials();
     visit_scene();
-    if (skipped_primitives_) builder_.note("points and lines were left out");
-    if (vertex_colours_) builder_.note("vertex colours were left out");
-    if (!model_.skins.empty()) builder_.note("skins were left out: the bind pose is drawn");
+    if (!drawn_ && hidden_nodes_)
+      fail("all nodes with triangles are hidden (KHR_node_visibility); make one visible");
+    add_notes();
     return builder_.finish();
   }
 
@@ -97,26 +136,79 @@ class GltfImporter final : public Importer {
     return container[static_cast<std::size_t>(index)];
   }
 
+  // Of extensions those that this import does not apply.
+  std::set<std::string> unread_extensions() const {
+    std::set<std::string> names;
+    const auto add = [&names](const std::string& name) {
+      if (!is_applied(name)) names.insert(name);
+    };
+    const auto add_of = [&add](const auto& objects) {
+      for (const auto& object : objects)
+        for (const auto& [name, value] : object.extensions) add(name);
+    };
+    for (const std::string& name : model_.extensionsUsed) add(name);
+    add_of(model_.nodes);
+    add_of(model_.materials);
+    add_of(model_.textures);
+    for (const tinygltf::Mesh& mesh : model_.meshes) add_of(mesh.primitives);
+    return names;
+  }
+
+  // What of materials has no counterpart here: the base colour alone is read.
+  std::set<std::string> unread_of_materials() const {
+    std::set<std::string> names;
+    for (const tinygltf::Material& material : model_.materials) {
+      if (material.alphaMode == "MASK" || material.alphaMode == "BLEND")
+        names.insert("alpha mode " + material.alphaMode);
+      const auto& factor = material.emissiveFactor;
+      if (std::any_of(factor.begin(), factor.end(), [](double part) { return part != 0.0; }))
+        names.insert("emission");
+      if (material.normalTexture.index >= 0) names.insert("normal maps");
+      if (material.occlusionTexture.index >= 0) names.insert("occlusion maps");
+      if (material.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0)
+        names.insert("metallic-roughness maps");
+    }
+    return names;
+  }
+
+  void add_notes() {
+    if (skipped_primitives_) builder_.note("points and lines were left out");
+    if (vertex_colours_) builder_.note("vertex colours were left out");
+    if (!model_.skins.empty()) builder_.note("skins were left out: the bind pose is drawn");
+    if (!model_.animations.empty())
+      builder_.note("animations were left out: nodes and weights are as stored");
+    if (!model_.cameras.empty()) builder_.note("cameras were left out");
+    if (model_.scenes.size() > 1)
+      builder_.note(fmt::format("scene {} of {} (from 0) is drawn, the others were left out",
+                                scene_number(), model_.scenes.size()));
+    if (hidden_nodes_) builder_.note("hidden nodes and those below them were left out");
+    if (incomplete_corners_ > 0)
+      builder_.note(
+          fmt::format("{} corners after the last whole triangle of a primitive were left "
+                      "out; the file is damaged, export it again",
+                      incomplete_corners_));
+    if (!zeros_.empty())
+      builder_.note(fmt::format("accessors without a buffer view, which are all zeros: {}",
+                                fmt::join(zeros_, ", ")));
+    if (const auto names = unread_of_materials(); !names.empty())
+      builder_.note(
+          fmt::format("of materials the base colour is read: {} left out", listed(names)));
+    if (const auto names = unread_extensions(); !names.empty())
+      builder_.note(fmt::format("extensions that are not read: {}", listed(names)));
+  }
+
   void parse() {
-    const std::string bytes = read_mesh();
+    std::string bytes = read_mesh();
     tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks({&file_exists, [](const std::string& name, void*) { return name; },
-                           &read_whole_file, nullptr, this});
-    // Keep encoded images as they are: only those that a material uses are decoded, by OpenImageIO.
-    loader.SetImageLoader(
-        [](tinygltf::Image*, const int index, std::string*, std::string*, int, int,
-           const unsigned char* data, int size, void* self) {
-          static_cast<GltfImporter*>(self)->encoded_[index].assign(
-              reinterpret_cast<const char*>(data), static_cast<std::size_t>(size));
-          return true;
-        },
-        this);
+    loader.SetFsCallbacks({&file_exists, &expand_name, &read_whole_file, nullptr, this});
+    loader.SetImageLoader(&keep_encoded, this);
     const std::string folder = this->folder().string();
     std::string errors, warnings;
     bool good = false;
     try {
       const bool binary = bytes.compare(0, 4, "glTF") == 0;
       check_length(bytes, binary);
+      if (binary) drop_chunk(bytes);
       good = binary
                  ? loader.LoadBinaryFromMemory(&model_, &errors, &warnings,
                                                reinterpret_cast<const unsigned char*>(bytes.data()),
@@ -129,20 +221,80 @@ class GltfImporter final : public Importer {
       errors += error.what();
     }
     if (!unreadable_.empty()) throw spec::FileError(unreadable_);
-    if (!good) {
-      for (char& c : errors) c = c == '\n' ? ' ' : c;
-      fail(fmt::format("{}; the file is truncated or damaged, export it again",
-                       errors.empty() ? "no glTF could be read" : errors));
+    // Before what tinygltf says: data that an extension holds are gaps without it.
+    for (const std::string& extension : model_.extensionsRequired)
+      if (!is_applied(extension) && !is_harmless(extension))
+        fail(fmt::format("it requires the extension {}, which is not supported; export without it",
+                         extension));
+    while (errors.ends_with('\n')) errors.pop_back();
+    for (char& c : errors) c = c == '\n' ? ' ' : c;
+    // tinygltf drops a primitive without attributes; what else it says of a file that it takes is
+    // not always an error.
+    if (!good || errors.find("'attributes'") != std::string::npos) {
+      const std::set<std::string> unread = unread_extensions();
+      fail(fmt::format(
+          "{}; {}the file is truncated or damaged, export it again",
+          errors.empty() ? "no glTF could be read" : errors,
+          unread.empty() ? "" : fmt::format("without {}, which is not read, ", listed(unread))));
     }
     if (!model_.asset.version.starts_with("2."))
       fail(fmt::format("it is glTF {}, and glTF 2 is read; export it as that",
                        model_.asset.version.empty() ? "of no version" : model_.asset.version));
+    if (const std::string& least = model_.asset.minVersion; !least.empty() && least != "2.0")
+      fail(fmt::format("it needs a reader of glTF {}, and 2.0 is read; export it as that", least));
+  }
+
+  // Encoded images stay as they are: those that a material uses are decoded, by OpenImageIO.
+  // tinygltf does not check that the buffer view lies in its buffer.
+  static bool keep_encoded(tinygltf::Image* image, const int index, std::string* errors,
+                           std::string*, int, int, const unsigned char* data, int size,
+                           void* self) {
+    auto& importer = *static_cast<GltfImporter*>(self);
+    auto bytes = static_cast<std::size_t>(size);
+    if (image->bufferView >= 0) {
+      const auto& view = importer.model_.bufferViews[static_cast<std::size_t>(image->bufferView)];
+      const auto& all = importer.model_.buffers[static_cast<std::size_t>(view.buffer)].data;
+      if (view.byteOffset > all.size() || view.byteLength > all.size() - view.byteOffset) {
+        *errors += fmt::format("image {} reaches beyond its buffer", index);
+        return false;
+      }
+      bytes = view.byteLength;
+    }
+    importer.encoded_[index].assign(reinterpret_cast<const char*>(data), bytes);
+    return true;
+  }
+
+  // tinygltf decodes data URIs of some types; those of others come as a name in a folder.
+  static std::size_t start_of_data(const std::string& name) {
+    constexpr std::string_view kEncoded = ";base64,";
+    const std::size_t uri = name.find("data:"), data = name.find(kEncoded);
+    if (uri == std::string::npos || data == std::string::npos || data < uri ||
+        (uri > 0 && name[uri - 1] != '/'))
+      return std::string::npos;
+    return data + kEncoded.size();
+  }
+
+  // tinygltf makes a blank of every plus sign of a URI, where only %20 is one.
+  static std::string expand_name(const std::string& name, void* self) {
+    auto& importer = *static_cast<GltfImporter*>(self);
+    const std::string folder = importer.folder().string();
+    const std::size_t from = name.starts_with(folder) ? folder.size() : 0;
+    std::error_code error;
+    if (name.find(' ', from) == std::string::npos || start_of_data(name) != std::string::npos ||
+        fs::exists(name, error))
+      return name;
+    std::string plus = name;
+    std::replace(plus.begin() + static_cast<std::ptrdiff_t>(from), plus.end(), ' ', '+');
+    if (fs::exists(plus, error)) return plus;
+    importer.add_file(plus);
+    return name;
   }
 
   // What tinygltf asks of files, which no exception may leave. It looks in the mesh's folder first,
   // and in the current one where that has no such file.
   static bool file_exists(const std::string& name, void* self) {
     if (name.ends_with('/')) return false;  // an empty name
+    if (start_of_data(name) != std::string::npos) return true;
     static_cast<GltfImporter*>(self)->add_file(name);
     std::error_code error;
     return fs::status(name, error).type() != fs::file_type::not_found;
@@ -150,6 +302,11 @@ class GltfImporter final : public Importer {
   static bool read_whole_file(std::vector<unsigned char>* bytes, std::string*,
                               const std::string& name, void* self) {
     auto& importer = *static_cast<GltfImporter*>(self);
+    if (const std::size_t data = start_of_data(name); data != std::string::npos) {
+      std::string encoded = name.substr(data), type;
+      std::replace(encoded.begin(), encoded.end(), ' ', '+');
+      return tinygltf::DecodeDataURI(bytes, type, "data:text/plain;base64," + encoded, 0, false);
+    }
     try {
       const std::optional<std::string> text = importer.read_named(name);
       if (text) bytes->assign(text->begin(), text->end());
@@ -169,6 +326,20 @@ class GltfImporter final : public Importer {
                        stated, bytes.size()));
   }
 
+  // The chunk after the JSON, if it is empty or of an unknown type, both of which tinygltf rejects.
+  static void drop_chunk(std::string& bytes) {
+    std::uint32_t json = 0, length = 0;
+    if (bytes.size() < 20) return;
+    std::memcpy(&json, bytes.data() + 12, 4);
+    const std::size_t end = std::size_t{20} + json;
+    if (bytes.size() < end + 8) return;
+    std::memcpy(&length, bytes.data() + end, 4);
+    if (length > 0 && bytes.compare(end + 4, 4, "BIN\0", 4) == 0) return;
+    bytes.resize(end);
+    const auto whole = static_cast<std::uint32_t>(end);
+    std::memcpy(bytes.data() + 8, &whole, 4);
+  }
+
   // ---- materials ----
 
   void import_materials() {
@@ -178,11 +349,18 @@ class GltfImporter final : public Importer {
       const auto& base = material.pbrMetallicRoughness;
       if (base.baseColorFactor.size() >= 3)
         ours.colour = {base.baseColorFactor[0], base.baseColorFactor[1], base.baseColorFactor[2]};
-      MaterialUse use;
-      if (base.baseColorTexture.index >= 0) {
-        use = material_use(base.baseColorTexture);
-        if (options().textures) ours.texture = texture(base.baseColorTexture.index);
+      int index = base.baseColorTexture.index;
+      MaterialUse use = material_use(base.baseColorTexture.texCoord,
+                                     extension_of(base.baseColorTexture.extensions, kTransform));
+      if (material.extensions.contains(kSpecularGlossiness)) {  // it replaces the other
+        const tinygltf::Value& diffuse = extension_of(material.extensions, kSpecularGlossiness);
+        ours.colour = colour_of(diffuse, "diffuseFactor");
+        const tinygltf::Value& info = member(diffuse, "diffuseTexture");
+        index = integer_of(info, "index", -1);
+        use = material_use(integer_of(info, "texCoord", 0),
+                           member(member(info, "extensions"), kTransform));
       }
+      if (index >= 0 && options().textures) ours.texture = texture(index);
       uses_.push_back(use);
       builder_.add_material(ours);
     }
@@ -190,17 +368,28 @@ class GltfImporter final : public Importer {
     builder_.add_material({"default", V3d(0.8, 0.8, 0.8), -1});
   }
 
-  static MaterialUse material_use(const tinygltf::TextureInfo& info) {
+  static MaterialUse material_use(int texcoord, const tinygltf::Value& transform) {
     MaterialUse use;
-    use.texcoord = info.texCoord;
-    const auto found = info.extensions.find("KHR_texture_transform");
-    if (found == info.extensions.end()) return use;
-    const tinygltf::Value& value = found->second;
-    use.transform.offset = pair_of(value, "offset", V2d(0, 0));
-    use.transform.scale = pair_of(value, "scale", V2d(1, 1));
-    if (value.Has("rotation")) use.transform.rotation = value.Get("rotation").GetNumberAsDouble();
-    if (value.Has("texCoord")) use.texcoord = value.Get("texCoord").GetNumberAsInt();
+    use.transform.offset = pair_of(transform, "offset", V2d(0, 0));
+    use.transform.scale = pair_of(transform, "scale", V2d(1, 1));
+    use.transform.rotation = member(transform, "rotation").GetNumberAsDouble();
+    use.texcoord = integer_of(transform, "texCoord", texcoord);
     return use;
+  }
+
+  // WebP before the fallback, DDS where there is none.
+  int image_of(int index, const tinygltf::Texture& texture) const {
+    const int webp = integer_of(extension_of(texture.extensions, kWebp), "source", -1);
+    const int dds = integer_of(extension_of(texture.extensions, kDds), "source", -1);
+    const int source = webp >= 0 ? webp : texture.source >= 0 ? texture.source : dds;
+    if (source >= 0) return source;
+    std::set<std::string> names;
+    for (const auto& [name, value] : texture.extensions) names.insert(name);
+    fail(names.empty()
+             ? fmt::format("texture {} has no image; export it again", index)
+             : fmt::format("texture {} has its image in {} only, which is not read; export "
+                           "it as PNG, JPEG or WebP",
+                           index, listed(names)));
   }
 
   int texture(int index) {
@@ -211,11 +400,13 @@ class GltfImporter final : public Importer {
       ours.wrap_s = wrap_of(sampler.wrapS);
       ours.wrap_t = wrap_of(sampler.wrapT);
     }
-    const auto key = std::tuple(from.source, ours.wrap_s, ours.wrap_t);
+    const int source = image_of(index, from);
+    const auto key = std::tuple(source, ours.wrap_s, ours.wrap_t);
     if (const auto found = textures_.find(key); found != textures_.end()) return found->second;
-    const tinygltf::Image& image = item(model_.images, from.source, "image");
-    ours.name = !image.uri.empty() ? image.uri : !image.name.empty() ? image.name : "embedded";
-    const auto encoded = encoded_.find(from.source);
+    const tinygltf::Image& image = item(model_.images, source, "image");
+    const bool is_file = !image.uri.empty() && !image.uri.starts_with("data:");
+    ours.name = is_file ? image.uri : !image.name.empty() ? image.name : "embedded";
+    const auto encoded = encoded_.find(source);
     if (encoded == encoded_.end())
       fail(fmt::format(
           "its texture '{}' is missing; put it beside the file or give a texture of your own",
@@ -241,87 +432,186 @@ class GltfImporter final : public Importer {
         if (!child[i]) visit_node(static_cast<int>(i), M44d(), 0);
       return;
     }
-    const int scene = model_.defaultScene >= 0 ? model_.defaultScene : 0;
-    for (int node : item(model_.scenes, scene, "scene").nodes) visit_node(node, M44d(), 0);
+    for (int node : item(model_.scenes, scene_number(), "scene").nodes) visit_node(node, M44d(), 0);
   }
+  int scene_number() const { return std::max(model_.defaultScene, 0); }
 
   void visit_node(int index, const M44d& parent, int depth) {
-    constexpr int kMaxDepth = 128, kMaxVisits = 1'000'000;
+    constexpr int kMaxDepth = 128;
     if (depth > kMaxDepth || ++visits_ > kMaxVisits)
       fail("its nodes form a cycle or are nested too deeply; the file is damaged");
     const tinygltf::Node& node = item(model_.nodes, index, "node");
+    const tinygltf::Value& visible = member(extension_of(node.extensions, kVisibility), "visible");
+    if (visible.IsBool() && !visible.Get<bool>()) {
+      hidden_nodes_ = true;
+      return;
+    }
     const M44d matrix = local_matrix(node) * parent;
-    if (node.mesh >= 0)
-      for (const tinygltf::Primitive& primitive : item(model_.meshes, node.mesh, "mesh").primitives)
-        import_primitive(primitive, matrix);
+    if (node.mesh >= 0) {
+      const tinygltf::Mesh& mesh = item(model_.meshes, node.mesh, "mesh");
+      const std::vector<M44d> places = places_of(node, matrix);
+      for (const tinygltf::Primitive& primitive : mesh.primitives)
+        import_primitive(primitive, node.weights.empty() ? mesh.weights : node.weights, places);
+    }
     for (int child : node.children) visit_node(child, matrix, depth + 1);
+  }
+
+  static M44d transform_of(const V3d& scale, const Imath::Quatd& rotation, const V3d& translation) {
+    M44d matrix, move;
+    matrix.setScale(scale);
+    move.setTranslation(translation);
+    return matrix * rotation.normalized().toMatrix44() * move;
   }
 
   // glTF stores columns one after the other; Imath multiplies row vectors from the left, so the
   // same sixteen numbers in the same order are Imath's matrix.
   static M44d local_matrix(const tinygltf::Node& node) {
-    M44d matrix;
     if (node.matrix.size() == 16) {
+      M44d matrix;
       for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
       return matrix;
     }
-    if (node.scale.size() == 3) matrix.setScale(V3d(node.scale[0], node.scale[1], node.scale[2]));
+    V3d scale(1, 1, 1), translation(0, 0, 0);
+    Imath::Quatd rotation;
+    if (node.scale.size() == 3) scale = V3d(node.scale[0], node.scale[1], node.scale[2]);
     if (node.rotation.size() == 4)
-      matrix *= Imath::Quatd(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2])
-                    .normalized()
-                    .toMatrix44();
-    if (node.translation.size() == 3) {
-      M44d move;
-      move.setTranslation(V3d(node.translation[0], node.translation[1], node.translation[2]));
-      matrix *= move;
+      rotation = {node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]};
+    if (node.translation.size() == 3)
+      translation = V3d(node.translation[0], node.translation[1], node.translation[2]);
+    return transform_of(scale, rotation, translation);
+  }
+
+  // Where a node's mesh is drawn: once, or once per instance of EXT_mesh_gpu_instancing.
+  std::vector<M44d> places_of(const tinygltf::Node& node, const M44d& matrix) const {
+    if (!node.extensions.contains(kInstances)) return {matrix};
+    const tinygltf::Value& attributes =
+        member(extension_of(node.extensions, kInstances), "attributes");
+    std::optional<std::size_t> count;
+    for (const std::string& name : attributes.Keys()) {
+      const int accessor = integer_of(attributes, name.c_str(), -1);
+      const std::size_t own = item(model_.accessors, accessor, "accessor").count;
+      if (count.value_or(own) != own || own > kMaxVisits)
+        fail(
+            fmt::format("the attributes of instances have {} and {} elements; the same number in "
+                        "each and at most {} are read",
+                        count.value_or(own), own, kMaxVisits));
+      count = own;
     }
-    return matrix;
+    if (!count) fail("a node with EXT_mesh_gpu_instancing has no attributes; the file is damaged");
+    const auto attribute = [&](const char* name, std::size_t needed) {
+      return attributes.Has(name) ? read(integer_of(attributes, name, -1), needed) : Numbers();
+    };
+    const Numbers translations = attribute("TRANSLATION", 3), rotations = attribute("ROTATION", 4),
+                  scales = attribute("SCALE", 3);
+    std::vector<M44d> places(*count);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      Imath::Quatd rotation;
+      if (rotations.count > 0)
+        rotation = {rotations.at(i, 3), rotations.at(i, 0), rotations.at(i, 1), rotations.at(i, 2)};
+      places[i] = transform_of(scales.count > 0 ? scales.three(i) : V3d(1, 1, 1), rotation,
+                               translations.count > 0 ? translations.three(i) : V3d(0, 0, 0)) *
+                  matrix;
+    }
+    return places;
   }
 
   struct Numbers {
     std::vector<double> values;
     std::size_t components = 0, count = 0;
-    V3d three(std::size_t i) const {
-      return {values[i * components], values[i * components + 1], values[i * components + 2]};
+    double at(std::size_t i, std::size_t component) const {
+      return values[i * components + component];
     }
-    V2d two(std::size_t i) const { return {values[i * components], values[i * components + 1]}; }
+    V3d three(std::size_t i) const { return {at(i, 0), at(i, 1), at(i, 2)}; }
+    V2d two(std::size_t i) const { return {at(i, 0), at(i, 1)}; }
   };
 
-  Numbers read(int index, std::size_t needed) const {
-    const tinygltf::Accessor& accessor = item(model_.accessors, index, "accessor");
-    if (accessor.sparse.isSparse) fail("it has sparse accessors; export without them");
-    const tinygltf::BufferView& view = item(model_.bufferViews, accessor.bufferView, "buffer view");
+  // Where and how the elements of an accessor are stored.
+  struct Layout {
+    int buffer_view = -1;
+    std::size_t byte_offset = 0, components = 1, count = 0;
+    int component_type = 0;
+    bool normalized = false;
+  };
+
+  std::vector<double> numbers(const Layout& layout, int accessor) const {
+    const tinygltf::BufferView& view = item(model_.bufferViews, layout.buffer_view, "buffer view");
     const tinygltf::Buffer& buffer = item(model_.buffers, view.buffer, "buffer");
     const int component_bytes =
-        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
-    const int components =
-        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
-    if (component_bytes <= 0 || components <= 0 || static_cast<std::size_t>(components) < needed)
-      fail(fmt::format("accessor {} has the wrong type; the file is damaged", index));
-    const std::size_t element =
-        static_cast<std::size_t>(component_bytes) * static_cast<std::size_t>(components);
+        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(layout.component_type));
+    if (component_bytes <= 0) fail_type(accessor);
+    const auto each = static_cast<std::size_t>(component_bytes);
+    const std::size_t element = each * layout.components;
     const std::size_t stride = view.byteStride != 0 ? view.byteStride : element;
     const std::size_t most = buffer.data.size();
     // Each term is bounded by the buffer before it is added or multiplied, so nothing can wrap.
     const bool fits = view.byteOffset <= most && view.byteLength <= most - view.byteOffset &&
-                      accessor.byteOffset <= view.byteLength && stride >= element &&
-                      stride <= 252 && accessor.count <= most &&
-                      (accessor.count == 0 || (accessor.count - 1) * stride + element <=
-                                                  view.byteLength - accessor.byteOffset);
+                      layout.byte_offset <= view.byteLength && stride >= element && stride <= 252 &&
+                      layout.count <= most &&
+                      (layout.count == 0 || (layout.count - 1) * stride + element <=
+                                                view.byteLength - layout.byte_offset);
     if (!fits)
       fail(fmt::format("accessor {} reaches beyond its buffer; the file is truncated or damaged",
-                       index));
-    Numbers numbers;
-    numbers.components = static_cast<std::size_t>(components);
-    numbers.count = accessor.count;
-    numbers.values.reserve(numbers.count * numbers.components);
-    const unsigned char* base = buffer.data.data() + view.byteOffset + accessor.byteOffset;
-    for (std::size_t i = 0; i < numbers.count; ++i)
-      for (std::size_t c = 0; c < numbers.components; ++c)
-        numbers.values.push_back(
-            number(base + i * stride + c * static_cast<std::size_t>(component_bytes),
-                   accessor.componentType, accessor.normalized));
-    return numbers;
+                       accessor));
+    std::vector<double> values;
+    values.reserve(layout.count * layout.components);
+    const unsigned char* base = buffer.data.data() + view.byteOffset + layout.byte_offset;
+    for (std::size_t i = 0; i < layout.count; ++i)
+      for (std::size_t c = 0; c < layout.components; ++c)
+        values.push_back(
+            number(base + i * stride + c * each, layout.component_type, layout.normalized));
+    return values;
+  }
+
+  [[noreturn]] void fail_type(int accessor) const {
+    fail(fmt::format("accessor {} has the wrong type; the file is damaged", accessor));
+  }
+
+  // Without a buffer view an accessor is all zeros; sparse values replace some elements.
+  Numbers read(int index, std::size_t needed) const {
+    const tinygltf::Accessor& accessor = item(model_.accessors, index, "accessor");
+    const int components =
+        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
+    if (components <= 0 || static_cast<std::size_t>(components) < needed) fail_type(index);
+    Numbers result;
+    result.components = static_cast<std::size_t>(components);
+    result.count = accessor.count;
+    const Layout layout{accessor.bufferView, accessor.byteOffset,    result.components,
+                        result.count,        accessor.componentType, accessor.normalized};
+    if (accessor.bufferView != -1) {
+      result.values = numbers(layout, index);
+    } else {
+      if (result.count > kMaxTriangles)
+        fail(fmt::format("accessor {} has {} elements without a buffer view, the limit is {}",
+                         index, result.count, kMaxTriangles));
+      result.values.assign(result.count * result.components, 0.0);
+      if (!accessor.sparse.isSparse) zeros_.insert(index);
+    }
+    if (accessor.sparse.isSparse) add_sparse(index, accessor, layout, result);
+    return result;
+  }
+
+  void add_sparse(int index, const tinygltf::Accessor& accessor, Layout layout,
+                  Numbers& result) const {
+    const auto& sparse = accessor.sparse;
+    layout.count = static_cast<std::size_t>(sparse.count);
+    layout.buffer_view = sparse.values.bufferView;
+    layout.byte_offset = static_cast<std::size_t>(sparse.values.byteOffset);
+    const std::vector<double> values = numbers(layout, index);
+    const std::vector<double> places =
+        numbers({sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset), 1,
+                 layout.count, sparse.indices.componentType, false},
+                index);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (!(places[i] >= 0.0 && places[i] < static_cast<double>(result.count)))
+        fail(
+            fmt::format("accessor {} has {} elements and a sparse one with number {}; the file is "
+                        "damaged",
+                        index, result.count, places[i]));
+      std::copy_n(
+          values.begin() + static_cast<std::ptrdiff_t>(i * result.components), result.components,
+          result.values.begin() +
+              static_cast<std::ptrdiff_t>(static_cast<std::size_t>(places[i]) * result.components));
+    }
   }
 
   template <class Value>
@@ -360,61 +650,116 @@ class GltfImporter final : public Importer {
     return {3 * t, 3 * t + 1, 3 * t + 2};
   }
 
-  void import_primitive(const tinygltf::Primitive& primitive, const M44d& matrix) {
-    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+  // Moves an attribute by the weighted deltas of the primitive's morph targets.
+  void morph(const tinygltf::Primitive& primitive, const std::vector<double>& weights,
+             const std::string& name, Numbers& base) const {
+    for (std::size_t t = 0; t < std::min(primitive.targets.size(), weights.size()); ++t) {
+      const auto found = primitive.targets[t].find(name);
+      if (weights[t] == 0.0 || found == primitive.targets[t].end()) continue;
+      const Numbers delta = read(found->second, base.components);
+      if (delta.count != base.count)
+        fail(
+            fmt::format("morph target {} has {} elements for {}, its primitive {}; the file is "
+                        "damaged",
+                        t, delta.count, name, base.count));
+      for (std::size_t i = 0; i < base.count; ++i)
+        for (std::size_t c = 0; c < base.components; ++c)
+          base.values[i * base.components + c] += weights[t] * delta.at(i, c);
+    }
+  }
+
+  Numbers read_indices(int index) const {
+    const tinygltf::Accessor& accessor = item(model_.accessors, index, "accessor");
+    if (accessor.type != TINYGLTF_TYPE_SCALAR ||
+        (accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+         accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+         accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT))
+      fail_type(index);
+    return read(index, 1);
+  }
+
+  void import_primitive(const tinygltf::Primitive& primitive, const std::vector<double>& weights,
+                        const std::vector<M44d>& places) {
+    const int mode = primitive.mode;
+    if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN)
+      fail(fmt::format("a primitive has mode {}, which glTF does not have; export it again", mode));
     if (mode < TINYGLTF_MODE_TRIANGLES) {
       skipped_primitives_ = true;
       return;
     }
-    auto attribute = [&](const std::string& name) {
+    const auto attribute = [&](const std::string& name, std::size_t needed) {
       const auto found = primitive.attributes.find(name);
-      return found == primitive.attributes.end() ? -1 : found->second;
+      if (found == primitive.attributes.end()) return Numbers();
+      Numbers numbers = read(found->second, needed);
+      morph(primitive, weights, name, numbers);
+      return numbers;
     };
-    if (attribute("POSITION") < 0) fail("a primitive has no positions; the file is damaged");
-    const auto material = primitive.material < 0
-                              ? static_cast<std::uint32_t>(model_.materials.size())
-                              : static_cast<std::uint32_t>(primitive.material);
-    if (material >= uses_.size()) fail(fmt::format("material {} does not exist", material));
+    const auto position = primitive.attributes.find("POSITION");
+    if (position == primitive.attributes.end())
+      fail("a primitive has no positions; the file is damaged");
+    const tinygltf::Accessor& accessor = item(model_.accessors, position->second, "accessor");
+    if (accessor.bufferView == -1 && !accessor.sparse.isSparse && !primitive.extensions.empty()) {
+      std::set<std::string> names;
+      for (const auto& [name, value] : primitive.extensions) names.insert(name);
+      fail(
+          fmt::format("a primitive has its positions in {} only, which is not read; export "
+                      "without it",
+                      listed(names)));
+    }
+    if (primitive.material >= 0) item(model_.materials, primitive.material, "material");
+    const std::size_t material = primitive.material < 0
+                                     ? model_.materials.size()
+                                     : static_cast<std::size_t>(primitive.material);
     const MaterialUse& use = uses_[material];
-    vertex_colours_ = vertex_colours_ || attribute("COLOR_0") >= 0;
+    vertex_colours_ = vertex_colours_ || primitive.attributes.contains("COLOR_0");
 
-    const Numbers positions = read(attribute("POSITION"), 3);
-    Numbers normals, coordinates, indices;
-    if (attribute("NORMAL") >= 0) normals = read(attribute("NORMAL"), 3);
-    if (const int accessor = attribute(fmt::format("TEXCOORD_{}", use.texcoord)); accessor >= 0)
-      coordinates = read(accessor, 2);
-    if (primitive.indices >= 0) indices = read(primitive.indices, 1);
+    const Numbers positions = attribute("POSITION", 3), normals = attribute("NORMAL", 3),
+                  coordinates = attribute(fmt::format("TEXCOORD_{}", use.texcoord), 2);
+    Numbers indices;
+    if (primitive.indices >= 0) indices = read_indices(primitive.indices);
 
     const std::size_t corners = primitive.indices >= 0 ? indices.count : positions.count;
     const std::size_t triangles = mode == TINYGLTF_MODE_TRIANGLES ? corners / 3
                                   : corners >= 3                  ? corners - 2
                                                                   : 0;
-    const bool mirrored = matrix.determinant() < 0.0;
-    const M44d normal_matrix = matrix.inverse().transposed();
-    auto corner_at = [&](std::size_t k) {
+    incomplete_corners_ += mode == TINYGLTF_MODE_TRIANGLES ? corners % 3
+                           : corners < 3                   ? corners
+                                                           : 0;
+    drawn_ = drawn_ || (triangles > 0 && !places.empty());
+    const auto vertex_of = [&](std::size_t corner) {
       const double index =
-          primitive.indices >= 0 ? indices.values[k * indices.components] : static_cast<double>(k);
+          primitive.indices >= 0 ? indices.values[corner] : static_cast<double>(corner);
       if (!(index >= 0.0 && index < static_cast<double>(positions.count)))
         fail(fmt::format("vertex {} is used, but there are {}; the file is damaged", index,
                          positions.count));
-      const auto i = static_cast<std::size_t>(index);
-      MeshBuilder::Corner corner;
-      corner.position = positions.three(i) * matrix;
-      if (i < normals.count) {
-        V3d normal;
-        normal_matrix.multDirMatrix(normals.three(i), normal);
-        corner.normal = normal;
-      }
-      if (i < coordinates.count) corner.uv = use.transform.apply(coordinates.two(i));
-      return corner;
+      return static_cast<std::size_t>(index);
     };
-    for (std::size_t t = 0; t < triangles; ++t) {
-      std::array<std::size_t, 3> k = corners_of(mode, t);
-      if (mirrored) std::swap(k[1], k[2]);
-      builder_.add_triangle({corner_at(k[0]), corner_at(k[1]), corner_at(k[2])}, material);
+    for (const M44d& matrix : places) {
+      // A matrix that flattens has no inverse: the normals are the faces'.
+      const double determinant = matrix.determinant();
+      const M44d normal_matrix = matrix.inverse().transposed();
+      const auto corner_at = [&](std::size_t k) {
+        const std::size_t i = vertex_of(k);
+        MeshBuilder::Corner corner;
+        corner.position = positions.three(i) * matrix;
+        if (i < normals.count && determinant != 0.0) {
+          V3d normal;
+          normal_matrix.multDirMatrix(normals.three(i), normal);
+          corner.normal = normal;
+        }
+        if (i < coordinates.count) corner.uv = use.transform.apply(coordinates.two(i));
+        return corner;
+      };
+      for (std::size_t t = 0; t < triangles; ++t) {
+        std::array<std::size_t, 3> k = corners_of(mode, t);
+        if (determinant < 0.0) std::swap(k[1], k[2]);
+        builder_.add_triangle({corner_at(k[0]), corner_at(k[1]), corner_at(k[2])},
+                              static_cast<std::uint32_t>(material));
+      }
     }
   }
 
+  static constexpr int kMaxVisits = 1'000'000;
   MeshBuilder builder_;
   tinygltf::Model model_;
   std::map<int, std::string> encoded_;
@@ -422,7 +767,9 @@ class GltfImporter final : public Importer {
   std::vector<MaterialUse> uses_;  // by material, the default material last
   std::map<std::tuple<int, spec::texture::Wrap, spec::texture::Wrap>, int> textures_;
   int visits_ = 0;
-  bool skipped_primitives_ = false, vertex_colours_ = false;
+  std::size_t incomplete_corners_ = 0;
+  mutable std::set<int> zeros_;  // accessors without data
+  bool skipped_primitives_ = false, vertex_colours_ = false, hidden_nodes_ = false, drawn_ = false;
 };
 
 }  // namespace

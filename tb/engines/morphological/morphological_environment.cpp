@@ -9,7 +9,7 @@
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
 #include "spec/morphological/registers.h"
-#include "tb/training/share_file.h"
+#include "tb/stimuli/share_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -117,7 +117,7 @@ std::unique_ptr<platform::MemoryModel> MorphologicalEnvironment::memory_for(
 
 void MorphologicalEnvironment::configure() {
   driver_.identify();
-  if (setup_.shares) driver_.load_shares(training::entries_of(*setup_.shares));
+  if (setup_.shares) driver_.load_shares(entries_of(*setup_.shares));
   checks_.clear_counters();
 }
 
