@@ -36,6 +36,11 @@ void require_pixel(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::u
 
 }  // namespace
 
+void require_depths(const spec::DepthCheck& check, std::size_t width) {
+  if (const std::string error = check.error(width); !error.empty())
+    throw ArgumentError("depth: " + error);
+}
+
 void require_frame(const FrameHandle& handle) {
   require(handle.width != 0, "no frame was begun: call deburr_frame_begin before");
 }
@@ -46,6 +51,7 @@ using deburr::golden::c::array_of;
 using deburr::golden::c::call_of;
 using deburr::golden::c::FrameHandle;
 using deburr::golden::c::require;
+using deburr::golden::c::require_depths;
 using deburr::golden::c::require_frame;
 using deburr::golden::c::require_pointer;
 using deburr::golden::c::row_distance;
@@ -89,9 +95,12 @@ int deburr_frame_depth(deburr_golden* golden, const uint32_t* depth, size_t dept
     require_frame(h);
     const auto given = array_of(depth, depth_size, "depth");
     const std::size_t distance = row_distance("depth", depth_size, h.width, h.height, stride);
+    deburr::spec::DepthCheck check;
     for (std::uint32_t y = 0; y < h.height; ++y)
-      for (std::uint32_t x = 0; x < h.width; ++x)
-        h.depth[h.index(x, y)] = given[y * distance + x] & 0xFFFFFF;
+      for (std::uint32_t x = 0; x < h.width; ++x) check.add_code(given[y * distance + x]);
+    require_depths(check, h.width);
+    for (std::uint32_t y = 0; y < h.height; ++y)
+      for (std::uint32_t x = 0; x < h.width; ++x) h.depth[h.index(x, y)] = given[y * distance + x];
     h.has_depth = true;
   });
 }
@@ -100,9 +109,11 @@ int deburr_frame_put(deburr_golden* golden, uint32_t x, uint32_t y, uint32_t rgb
   return call_of<FrameHandle>(golden, __func__, [&](FrameHandle& h) {
     require_frame(h);
     deburr::golden::c::require_pixel(x, y, h.width, h.height);
+    deburr::golden::c::require_below(depth, std::uint64_t{deburr::spec::kLargestDepth} + 1,
+                                     "depth");
     for (std::size_t i = 0; i < 4; ++i)
       h.pixels[h.index(x, y)][i] = static_cast<std::uint8_t>(rgba >> (8 * i));
-    h.depth[h.index(x, y)] = depth & 0xFFFFFF;
+    h.depth[h.index(x, y)] = depth;
     h.has_depth = true;
   });
 }

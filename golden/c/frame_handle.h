@@ -15,6 +15,7 @@
 
 #include "golden/c/handle.h"
 #include "golden/c/parameter_texts.h"
+#include "spec/depth_check.h"
 #include "spec/error.h"
 
 namespace deburr::golden::c {
@@ -61,6 +62,8 @@ struct FrameHandle : deburr_golden {
   bool has_depth = false;
 };
 
+// ArgumentError for depths that are none.
+void require_depths(const spec::DepthCheck& check, std::size_t width);
 // ArgumentError without a frame that was begun.
 void require_frame(const FrameHandle& handle);
 

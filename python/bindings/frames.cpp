@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "python/bindings/frames.h"
 
+#include <algorithm>
 #include <bit>
 
+#include "golden/c/frame_handle.h"
 #include "golden/morphological/convert.h"
 
 namespace deburr::python {
@@ -36,6 +38,24 @@ FramePixels frame_pixels(const py::handle& given) {
   return {array, {pixels, static_cast<int>(width), static_cast<int>(height), stride}};
 }
 
+void check_depths(const py::array& depths) {
+  const auto size = static_cast<std::size_t>(depths.size());
+  const auto width = static_cast<std::size_t>(depths.shape(1));
+  spec::DepthCheck check;
+  if (depths.dtype().equal(py::dtype::of<float>())) {
+    const auto* const values = static_cast<const float*>(depths.data());
+    for (std::size_t i = 0; i < size; ++i)
+      check.add_binary32(std::bit_cast<std::uint32_t>(values[i]));
+  } else {
+    const auto* const values = static_cast<const std::uint32_t*>(depths.data());
+    for (std::size_t i = 0; i < size; ++i) check.add_code(values[i]);
+  }
+  golden::c::require_depths(check, width);
+  if (const std::string note = check.note(width);
+      !note.empty() && PyErr_WarnEx(PyExc_UserWarning, ("depth: " + note).c_str(), 2) != 0)
+    throw py::error_already_set();
+}
+
 FrameDepth frame_depth(const py::handle& given, int width, int height) {
   FrameDepth depth;
   if (given.is_none()) return depth;
@@ -50,6 +70,7 @@ FrameDepth frame_depth(const py::handle& given, int width, int height) {
         "depth",
         "the size of the pixels, (" + std::to_string(height) + ", " + std::to_string(width) + "),",
         given);
+  check_depths(array);
   const auto size = static_cast<std::size_t>(array.size());
   depth.codes.resize(size);
   if (is_float) {
@@ -59,7 +80,7 @@ FrameDepth frame_depth(const py::handle& given, int width, int height) {
           golden::morphological::depth_from_binary32(std::bit_cast<std::uint32_t>(values[i]));
   } else {
     const auto* const values = static_cast<const std::uint32_t*>(array.data());
-    for (std::size_t i = 0; i < size; ++i) depth.codes[i] = values[i] & 0xFFFFFF;
+    std::copy_n(values, size, depth.codes.begin());
   }
   depth.view = {depth.codes, width, height};
   return depth;

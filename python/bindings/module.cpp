@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "golden/c/handle.h"
+#include "python/bindings/frames.h"
 #include "spec/error.h"
 
 namespace deburr::python {
@@ -75,6 +76,9 @@ PYBIND11_MODULE(_golden, module) {
   module.doc() = "The golden models of deburr.golden and deburr.ideal.";
   module.attr("version") = DEBURR_VERSION;
   py::register_exception_translator(translate);
+  module.def("check_depths", [](const py::array& depths) {
+    check_depths(py::array::ensure(depths, py::array::c_style));
+  });
   add_engines(module);
   add_ideal(module);
 }

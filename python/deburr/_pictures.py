@@ -5,6 +5,8 @@ import zlib
 
 import numpy
 
+from deburr import _golden
+
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _CHANNELS = {0: 1, 2: 3, 6: 4}  # by PNG's colour type
 _NONE, _UP = 0, 2
@@ -13,8 +15,10 @@ _NONE, _UP = 0, 2
 def png_of(array):
     """A picture of uint8, (height, width), (height, width, 3) or (height, width, 4); or depths of (height, width),
     float32, 0..1, or uint32, U24, as 24 bits in R, G, B, which the command reads as such."""
+    if array.ndim == 2 and array.dtype in (numpy.float32, numpy.uint32):
+        _golden.check_depths(array)
     if array.ndim == 2 and array.dtype == numpy.float32:
-        scaled = numpy.floor(numpy.clip(numpy.nan_to_num(array.astype(numpy.float64)), 0, 1) * 0xFFFFFF + 0.5)
+        scaled = numpy.floor(numpy.clip(array.astype(numpy.float64), 0, 1) * 0xFFFFFF + 0.5)
         return png_of(scaled.astype(numpy.uint32))
     if array.ndim == 2 and array.dtype == numpy.uint32:
         array = numpy.stack([array >> 16 & 255, array >> 8 & 255, array & 255], axis=2).astype(numpy.uint8)

@@ -134,6 +134,14 @@ class Frames(Base):
             self.run_engine(0, "--size", "16x16", *edges)
             self.run_engine(0, "--size", "16x16", *edges, engine="frame")
 
+    def test_depth_of_16_bits_of_grey(self):
+        done = self.frame(0, "a.png", noisy_png(16, 16), *DEPTH_EDGES, "--depth",
+                          self.write("d.png", png(16, 16, bits=16, channels=1)), says="PASS")
+        self.assertIn("'%s': 16 bits of grey taken as near / w" % self.path("d.png"), done.stderr)
+        self.assertNotIn("looks like a picture", done.stderr)
+        self.frame(5, "a.png", png(16, 16), *DEPTH_EDGES, "--depth", self.write("c.png", png(16, 16, bits=16)),
+                   says=["c.png", "this one has 3 channels of uint16"])
+
     def test_depth_that_is_a_picture_is_noted(self):
         picture = [bytes((x * 5 % 256, x * 5 % 256 // 2 + y, x * 5 % 256)) for y in range(32) for x in range(48)]
         depth = [(9_000_000 + 70_001 * x + 30_011 * y).to_bytes(3, "big") for y in range(32) for x in range(48)]

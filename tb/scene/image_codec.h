@@ -18,10 +18,19 @@ namespace deburr::tb {
 class ImageDecoder {
  public:
   struct Header {
-    int width = 0, height = 0, channels = 0;
-    bool flat = true;          // neither a volume nor a deep image
-    std::string file_format;   // "png", "jpeg", ...
-    std::string value_format;  // "uint8", "uint16", "half", "float", ...
+    int width = 0, height = 0, channels = 0;  // of the pixels that are stored
+    int other_layers = 0;                     // channels of an EXR after its first layer
+    // The picture that they are a part of (the display window of an EXR), and where in it they lie.
+    int full_width = 0, full_height = 0, x = 0, y = 0;
+    int alpha = -1;             // the channel that is alpha
+    bool alpha_named = false;   // the file says that it is
+    int depth = -1;             // the channel that the file says is a distance
+    bool associated = false;    // colours are stored multiplied by alpha
+    bool cmyk = false;          // made RGB by the decoder
+    std::string other_colours;  // "CIELAB", ...: what the decoder gives as R, G and B unchanged
+    bool flat = true;           // neither a volume nor a deep image
+    std::string file_format;    // "png", "jpeg", ...
+    std::string value_format;   // "uint8", "uint16", "half", "float", ...
     bool floating_point = false;
     std::string colour_space;  // as the file names it, or as its format implies
     int orientation = 1;
@@ -30,8 +39,8 @@ class ImageDecoder {
 
   virtual ~ImageDecoder() = default;
   virtual const Header& header() const = 0;
-  // The first `channels` channels of all pixels, rows from the top, alpha not multiplied in;
-  // integers as floats are divided by their maximum. False: error() says why.
+  // The first `channels` channels of all pixels as they are stored, rows from the top; integers as
+  // floats are divided by their maximum. False: error() says why.
   virtual bool read(int channels, std::uint8_t* values) = 0;
   virtual bool read(int channels, float* values) = 0;
   virtual std::string error() = 0;  // on one line
@@ -45,9 +54,8 @@ class ImageCodec {
   };
   struct Pixels {
     int width = 0, height = 0, channels = 0;
-    bool floating_point = false;  // else 8 bits
-    const void* values = nullptr;
-    std::size_t pixel_bytes = 0;  // from one pixel to the next
+    const void* values = nullptr;  // 8 bits
+    std::size_t pixel_bytes = 0;   // from one pixel to the next
   };
   struct Encoded {
     bool writable = false;  // the name's extension is one of a format that can be written to memory

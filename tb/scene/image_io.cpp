@@ -6,13 +6,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <optional>
 
+#include "spec/depth_check.h"
 #include "spec/error.h"
 #include "tb/base/atomic_file.h"
 #include "tb/scene/image_codec.h"
@@ -73,16 +77,32 @@ DecoderPointer open_file(const fs::path& path) {
   return std::move(source.decoder);
 }
 
+// Whether the stored pixels are not the picture, but lie somewhere in it or reach beyond.
+bool is_window(const Header& header) {
+  return header.x != 0 || header.y != 0 || header.width != header.full_width ||
+         header.height != header.full_height;
+}
+
 void check_header(const std::string& name, const Header& header) {
   if (header.width < 1 || header.height < 1 || header.channels < 1)
     fail_read(name,
               fmt::format("its header says {} x {} pixels of {} channels; the file is damaged",
                           header.width, header.height, header.channels));
-  if (header.width > kMaxImageSide || header.height > kMaxImageSide)
+  for (const auto& [width, height] :
+       {std::pair(header.width, header.height), std::pair(header.full_width, header.full_height)})
+    if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide)
+      fail_read(name,
+                fmt::format("its header says {} x {} pixels, the limit is {} x {}; scale it down "
+                            "or cut it",
+                            width, height, kMaxImageSide, kMaxImageSide));
+  if ((header.file_format == "rla" || header.file_format == "iff") && is_window(header))
     fail_read(name,
-              fmt::format("its header says {} x {} pixels, the limit is {} x {}; scale it down "
-                          "or cut it",
-                          header.width, header.height, kMaxImageSide, kMaxImageSide));
+              "it is a part of a picture, which OpenImageIO misplaces in this format; write "
+              "the whole picture, or an EXR");
+  if (!header.other_colours.empty())
+    fail_read(name, fmt::format("its colours are of the kind '{}', which is not converted; save it "
+                                "as RGB",
+                                header.other_colours));
   if (!header.flat) fail_read(name, "it is a volume or a deep image; flatten it to two dimensions");
 }
 
@@ -150,36 +170,46 @@ std::vector<Value> read_pixels(const std::string& name, ImageDecoder& decoder, i
   return values;
 }
 
-// Spreads 1 to 4 stored channels over R, G, B, A.
-template <class Pixel, class Value>
-ImageOf<Pixel> expand(const std::vector<Value>& values, int width, int height, int channels,
-                      Value opaque) {
-  ImageOf<Pixel> image(width, height);
-  const auto step = static_cast<std::size_t>(channels);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const Value* from = &values[i * step];
-    if (channels <= 2)
-      image.pixels[i] = {from[0], from[0], from[0], channels == 2 ? from[1] : opaque};
-    else
-      image.pixels[i] = {from[0], from[1], from[2], channels >= 4 ? from[3] : opaque};
+// Which stored channels become R, G, B and A.
+struct Channels {
+  int read = 0;  // as many of the first
+  std::array<std::size_t, 3> colour{};
+  std::optional<std::size_t> alpha;  // none: opaque
+};
+
+Channels channels_of(const std::string& name, const Header& header) {
+  Channels channels;
+  std::vector<std::size_t> colours;
+  for (int c = 0; c < header.channels && colours.size() < 3; ++c)
+    if (c != header.alpha && (c != header.depth || header.channels == 1))
+      colours.push_back(static_cast<std::size_t>(c));
+  if (colours.empty() || colours.size() == 2)
+    fail_read(name, fmt::format("it has {} channels of colour; a picture has one (grey) or three",
+                                colours.size()));
+  for (std::size_t c = 0; c < 3; ++c) channels.colour[c] = colours[colours.size() == 3 ? c : 0];
+  channels.read = static_cast<int>(colours.back()) + 1;
+  if (header.alpha >= 0) {
+    channels.alpha = static_cast<std::size_t>(header.alpha);
+    channels.read = std::max(channels.read, header.alpha + 1);
   }
+  return channels;
+}
+
+// The picture that the stored pixels lie in; `around` where there are none.
+template <class Pixel>
+ImageOf<Pixel> placed(ImageOf<Pixel> stored, const Header& header, const Pixel& around) {
+  if (!is_window(header)) return stored;
+  ImageOf<Pixel> image(header.full_width, header.full_height, around);
+  for (int y = std::max(header.y, 0); y < std::min(header.y + header.height, image.height); ++y)
+    for (int x = std::max(header.x, 0); x < std::min(header.x + header.width, image.width); ++x)
+      image.at(x, y) = stored.at(x - header.x, y - header.y);
   return image;
 }
 
-// How many of some numbers there are, and which is the first.
-struct Found {
-  std::size_t number = 0, first = 0;
-  void add(std::size_t index) {
-    if (number++ == 0) first = index;
-  }
-};
-
-// "12 of 300 values ..., the first at (3, 4)"
-std::string in_words(const Found& found, const Header& header, std::size_t values,
-                     std::size_t channels, std::string_view what) {
-  const std::size_t pixel = found.first / channels, width = static_cast<std::size_t>(header.width);
-  return fmt::format("{} of {} values {}, the first at ({}, {})", found.number, values, what,
-                     pixel % width, pixel / width);
+// A colour of integers that was multiplied by alpha: 255 colour / alpha, rounded half up.
+std::uint8_t straight_code(std::uint64_t colour, std::uint64_t alpha) {
+  return static_cast<std::uint8_t>(
+      std::min<std::uint64_t>((510 * colour + alpha) / (2 * alpha), 255));
 }
 
 // Clamped to [0, 1], NaN to 0; rounded half up.
@@ -190,7 +220,8 @@ std::uint8_t code_of(float value, bool linear) {
       std::floor(255 * (linear ? linear_to_srgb(clamped) : clamped) + 0.5));
 }
 
-constexpr const char* kBytes = "uint8";
+constexpr const char *kBytes = "uint8", *kWords = "uint16";
+constexpr float kLargestWord = 65535.0f;
 
 // By the name that OpenImageIO gives the file's colour space: "Linear" (every EXR), "linear" (HDR),
 // "lin_srgb", "scene_linear". Integers are codes, whatever the file says.
@@ -202,7 +233,17 @@ bool declares_linear_light(const Header& header) {
   return space.rfind("lin", 0) == 0 || space.rfind("scene_linear", 0) == 0;
 }
 
-void describe_conversions(const Header& header, bool linear, ReadReport& report) {
+void note_window(const Header& header, std::string_view around, ReadReport& report) {
+  if (is_window(header))
+    report.conversions.push_back(
+        fmt::format("{} x {} stored pixels placed at ({}, {}) of a picture of {} x {}: {} where "
+                    "there are none, cut where they reach beyond",
+                    header.width, header.height, header.x, header.y, header.full_width,
+                    header.full_height, around));
+}
+
+void describe_conversions(const Header& header, const Channels& channels, bool linear,
+                          ReadReport& report) {
   report.channels = header.channels;
   report.format = header.value_format;
   report.conversions.clear();
@@ -212,65 +253,114 @@ void describe_conversions(const Header& header, bool linear, ReadReport& report)
   if (linear) note("linear light encoded with the sRGB curve");
   if (!linear && header.floating_point)
     note("the file does not say that it is linear light: taken as encoded");
-  if (header.channels <= 2) note("grey copied to R, G and B");
+  if (header.cmyk) note("CMYK made RGB without its colour profile");
+  if (channels.colour[0] == channels.colour[2]) note("grey copied to R, G and B");
   if (header.channels > 4) note(fmt::format("channels 5 to {} left out", header.channels));
+  if (header.other_layers > 0)
+    note(fmt::format("the first layer; {} channels of others left out", header.other_layers));
+  if (header.associated) note("colours are stored multiplied by alpha: divided by it");
+  if (header.alpha >= 0 && !header.alpha_named && header.file_format == "tiff")
+    note(
+        fmt::format("the file does not say what channel {} is: taken as alpha, colours left as "
+                    "they are",
+                    header.alpha + 1));
+  note_window(header, "black with alpha 0", report);
   if (header.orientation != 1) note("orientation tag ignored");
   if (header.several) note("the first of several pictures");
 }
 
 void describe_values(const Header& header, const std::vector<float>& values, std::size_t channels,
                      ReadReport& report) {
-  Found outside, nan;
+  spec::Found outside, nan;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isnan(values[i]))
       nan.add(i);
     else if (values[i] < 0.0f || values[i] > 1.0f)
       outside.add(i);
   }
-  const auto note = [&](const Found& found, std::string_view what) {
+  const auto note = [&](const spec::Found& found, std::string_view what) {
     if (found.number > 0)
-      report.conversions.push_back(in_words(found, header, values.size(), channels, what));
+      report.conversions.push_back(spec::Found{found.number, found.first / channels}.in_words(
+          values.size(), static_cast<std::size_t>(header.width), what));
   };
   note(outside, "clamped to [0, 1]");
   note(nan, "NaN made 0");
 }
 
-Image decode(const std::string& name, ImageDecoder& decoder, ReadReport* report) {
-  const Header& header = decoder.header();
-  const int channels = std::min(header.channels, 4);
-  const bool linear = declares_linear_light(header);
-  if (report != nullptr) describe_conversions(header, linear, *report);
-  if (header.value_format == kBytes)
-    return expand<Rgba8>(read_pixels<std::uint8_t>(name, decoder, channels), header.width,
-                         header.height, channels, std::uint8_t{255});
-  const std::vector<float> stored = read_pixels<float>(name, decoder, channels);
-  if (report != nullptr)
-    describe_values(header, stored, static_cast<std::size_t>(channels), *report);
-  const FloatImage values = expand<Rgbaf>(stored, header.width, header.height, channels, 1.0f);
+Image of_bytes(const std::vector<std::uint8_t>& values, const Header& header,
+               const Channels& channels) {
   Image image(header.width, header.height);
-  for (std::size_t i = 0; i < values.pixels.size(); ++i)
-    for (std::size_t c = 0; c < 4; ++c)
-      image.pixels[i][c] = code_of(values.pixels[i][c], linear && c < 3);
+  const auto step = static_cast<std::size_t>(channels.read);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const std::uint8_t* const from = &values[i * step];
+    const std::uint8_t alpha = channels.alpha ? from[*channels.alpha] : std::uint8_t{255};
+    const bool divide = header.associated && alpha != 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint8_t colour = from[channels.colour[c]];
+      image.pixels[i][c] = divide ? straight_code(colour, alpha) : colour;
+    }
+    image.pixels[i][3] = alpha;
+  }
   return image;
 }
 
-// What is no number is at no distance, and silhouettes would be found around it.
-void check_depths(const std::string& name, const Header& header, const std::vector<float>& depths,
-                  ReadReport* report) {
-  Found nan, outside;
-  for (std::size_t i = 0; i < depths.size(); ++i) {
-    if (std::isnan(depths[i]))
-      nan.add(i);
-    else if (depths[i] < 0.0f || depths[i] > 1.0f)
-      outside.add(i);
+Image of_floats(std::vector<float>& values, const Header& header, const Channels& channels,
+                bool linear, ReadReport* report) {
+  const auto step = static_cast<std::size_t>(channels.read);
+  const bool divide = header.associated && channels.alpha;
+  const bool exact = header.value_format == kWords;  // divided as integers
+  Image image(header.width, header.height);
+  for (std::size_t i = 0; i < image.pixels.size() && divide && !exact; ++i) {
+    float* const pixel = &values[i * step];
+    const float alpha = pixel[*channels.alpha];
+    for (std::size_t c = 0; c < step && alpha > 0.0f; ++c)
+      if (c != *channels.alpha) pixel[c] /= alpha;
   }
-  if (nan.number > 0)
-    fail_read(name, in_words(nan, header, depths.size(), 1, "are NaN, which is no depth") +
-                        ": write 0, infinitely far, where nothing is, and render the rest again");
-  if (outside.number > 0 && report != nullptr)
-    report->conversions.push_back(
-        in_words(outside, header, depths.size(), 1, "lie outside [0, 1]") +
-        ": edges from depth use them clamped, so steps among them are lost");
+  if (report != nullptr) describe_values(header, values, step, *report);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const float* const from = &values[i * step];
+    const float alpha = channels.alpha ? from[*channels.alpha] : 1.0f;
+    const auto integer = [](float value) {
+      return static_cast<std::uint64_t>(std::lround(value * kLargestWord));
+    };
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float colour = from[channels.colour[c]];
+      image.pixels[i][c] = divide && exact && alpha > 0.0f
+                               ? straight_code(integer(colour), integer(alpha))
+                               : code_of(colour, linear);
+    }
+    image.pixels[i][3] = code_of(alpha, false);
+  }
+  return image;
+}
+
+Image decode(const std::string& name, ImageDecoder& decoder, ReadReport* report) {
+  const Header& header = decoder.header();
+  const Channels channels = channels_of(name, header);
+  const bool linear = declares_linear_light(header);
+  if (report != nullptr) describe_conversions(header, channels, linear, *report);
+  constexpr Rgba8 kNothing = {0, 0, 0, 0};
+  if (header.value_format == kBytes)
+    return placed(
+        of_bytes(read_pixels<std::uint8_t>(name, decoder, channels.read), header, channels), header,
+        kNothing);
+  std::vector<float> values = read_pixels<float>(name, decoder, channels.read);
+  return placed(of_floats(values, header, channels, linear, report), header, kNothing);
+}
+
+// What is no number is at no distance, and silhouettes would be found around it.
+void check_depths(const std::string& name, const DepthImage& depths, ReadReport* report) {
+  spec::DepthCheck check;
+  for (const float depth : depths.pixels) check.add_binary32(std::bit_cast<std::uint32_t>(depth));
+  const auto width = static_cast<std::size_t>(depths.width);
+  if (const std::string error = check.error(width); !error.empty()) fail_read(name, error);
+  if (const std::string note = check.note(width); !note.empty() && report != nullptr)
+    report->conversions.push_back(note);
+}
+
+// The codes of a depth, as the reals that depth_codes() makes the same codes of.
+float depth_of_code(std::uint64_t code) {
+  return static_cast<float>(static_cast<double>(code) / spec::kLargestDepth);
 }
 
 DecoderPointer open_checked(const fs::path& path) {
@@ -354,39 +444,50 @@ Image read_image_memory(const std::string& name, std::string_view bytes, ReadRep
   return decode_memory(name, extension, bytes, report);
 }
 
-FloatImage read_float_image(const fs::path& path) {
-  const SilentLibraries silent;
-  const DecoderPointer decoder = open_checked(path);
-  const Header& header = decoder->header();
-  const int channels = std::min(header.channels, 4);
-  return expand<Rgbaf>(read_pixels<float>(path.string(), *decoder, channels), header.width,
-                       header.height, channels, 1.0f);
-}
-
 DepthImage read_depth(const fs::path& path, ReadReport* report) {
   const SilentLibraries silent;
   const DecoderPointer decoder = open_checked(path);
   const Header& header = decoder->header();
-  if (report != nullptr) report->conversions.clear();
+  const std::string name = path.string();
+  if (report != nullptr) {
+    *report = {header.channels, header.value_format, {}};
+    note_window(header, "infinitely far", *report);
+  }
   DepthImage depth(header.width, header.height);
+  // Colours that a file or its decoder has made others are no codes any more.
+  const bool divided = header.value_format == kBytes && header.associated;
+  const bool changed = header.cmyk || header.file_format == "jpeg" || header.file_format == "heif";
   if (header.channels == 1 && header.floating_point) {
-    depth.pixels = read_pixels<float>(path.string(), *decoder, 1);
-    check_depths(path.string(), header, depth.pixels, report);
-    return depth;
+    depth.pixels = read_pixels<float>(name, *decoder, 1);
+  } else if (header.channels == 1 && header.value_format == kWords) {
+    const std::vector<float> values = read_pixels<float>(name, *decoder, 1);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto value = static_cast<std::uint64_t>(std::lround(values[i] * kLargestWord));
+      depth.pixels[i] = depth_of_code((2 * spec::kLargestDepth * value + 65535) / (2 * 65535));
+    }
+    if (report != nullptr)
+      report->conversions.push_back(
+          "16 bits of grey taken as near / w: 0 infinitely far, 65535 at the near plane");
+  } else if (header.channels >= 3 && header.value_format == kBytes && !divided && !changed) {
+    const auto bytes = read_pixels<std::uint8_t>(name, *decoder, header.channels >= 4 ? 4 : 3);
+    const std::size_t step = header.channels >= 4 ? 4 : 3;
+    for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
+      const std::uint8_t* const from = &bytes[step * i];
+      depth.pixels[i] = depth_of_code(static_cast<std::uint64_t>(from[0]) << 16 |
+                                      static_cast<std::uint64_t>(from[1]) << 8 | from[2]);
+    }
+  } else {
+    fail_read(name, fmt::format(
+                        "a depth picture has 24 bits in R, G and B (8 bits each), 16 bits of grey, "
+                        "or one float channel; this one has {} channel{} of {}{}. Write the depth "
+                        "alone, as one of these",
+                        header.channels, header.channels == 1 ? "" : "s", header.value_format,
+                        divided   ? ", multiplied by alpha"
+                        : changed ? ", changed by compression or conversion"
+                                  : ""));
   }
-  if (header.channels < 3 || header.value_format != kBytes)
-    fail_read(
-        path.string(),
-        fmt::format("a depth picture has 24 bits in R, G and B or one float channel, this one has "
-                    "{} channels of {}",
-                    header.channels, header.value_format));
-  const auto bytes = read_pixels<std::uint8_t>(path.string(), *decoder, 3);
-  for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
-    const std::uint32_t value = static_cast<std::uint32_t>(bytes[3 * i]) << 16 |
-                                static_cast<std::uint32_t>(bytes[3 * i + 1]) << 8 |
-                                bytes[3 * i + 2];
-    depth.pixels[i] = static_cast<float>(value / 16777215.0);
-  }
+  depth = placed(std::move(depth), header, 0.0f);
+  check_depths(name, depth, report);
   return depth;
 }
 
@@ -399,32 +500,12 @@ void write_image(const fs::path& path, const Image& image) {
   const SilentLibraries silent;
   const bool opaque = std::all_of(image.pixels.begin(), image.pixels.end(),
                                   [](const Rgba8& pixel) { return pixel[3] == 255; });
-  const auto bytes = encode(
-      path, {image.width, image.height, opaque ? 3 : 4, false, image.pixels.data(), sizeof(Rgba8)});
+  const auto bytes =
+      encode(path, {image.width, image.height, opaque ? 3 : 4, image.pixels.data(), sizeof(Rgba8)});
   const Image back = decode_memory(path.string(), path.extension().string(), view(bytes), nullptr);
   if (back.width != image.width || back.height != image.height ||
-      (!is_lossy(path) && back.pixels != image.pixels))
+      ((!opaque || !is_lossy(path)) && back.pixels != image.pixels))
     fail_write(path, "the format does not keep these pixels as they are; use .png");
-  write_file_atomically(path, view(bytes));
-}
-
-void write_image(const fs::path& path, const FloatImage& image) {
-  check_not_empty(path, image.width, image.height);
-  const SilentLibraries silent;
-  const auto bytes =
-      encode(path, {image.width, image.height, 4, true, image.pixels.data(), sizeof(Rgbaf)});
-  const ImageCodec::Source source =
-      image_codec().open_memory(path.filename().string(), view(bytes));
-  if (!source.decoder) fail_write(path, "what was encoded cannot be decoded: " + source.error);
-  const Header& got = source.decoder->header();
-  bool same = got.width == image.width && got.height == image.height && got.channels == 4 &&
-              got.value_format == "float";
-  if (same) {
-    const auto values = read_pixels<float>(path.string(), *source.decoder, 4);
-    // Bits, not values: a NaN must come back too.
-    same = std::memcmp(values.data(), image.pixels.data(), values.size() * sizeof(float)) == 0;
-  }
-  if (!same) fail_write(path, "the format does not keep floats as they are; use .exr");
   write_file_atomically(path, view(bytes));
 }
 

@@ -25,6 +25,7 @@ struct ReadReport {
 };
 
 // Reads any format that OpenImageIO knows, as RGBA8 with alpha not premultiplied.
+//   colour times alpha         divided by alpha, before what follows; as it is where alpha is 0
 //   16-bit and other integers  v * 255 / max, rounded half up
 //   half, float                NaN -> 0, clamped to [0, 1]; where the file says that it is linear
 //                              light (EXR, HDR), R, G and B go through the sRGB curve, else it is
@@ -33,7 +34,9 @@ struct ReadReport {
 //   one channel                copied to R, G and B; alpha 255
 //   two channels               grey and alpha
 //   three channels             alpha 255
-//   more than four             the first four
+//   more than four             the first three of colour, and alpha
+//   a part of a picture        (an EXR's data window) in its place, 0 around; what is outside is
+//   cut
 // Only the first sub-image and level 0 are read. Throws FileError: missing, not a regular file,
 // empty, unknown format, truncated or corrupt, side over kMaxImageSide, volume or deep image.
 Image read_image(const std::filesystem::path& path, ReadReport* report = nullptr);
@@ -41,11 +44,9 @@ Image read_image(const std::filesystem::path& path, ReadReport* report = nullptr
 Image read_image_memory(const std::string& name, std::string_view bytes,
                         ReadReport* report = nullptr);
 
-// Reads without quantising and without a transfer curve; integers are divided by their maximum.
-FloatImage read_float_image(const std::filesystem::path& path);
-
-// A depth picture: either 24 bits in R, G, B (most significant first; 8-bit file with three or more
-// channels) as value / (2^24 - 1), or one float channel as it is. Throws FileError for anything
+// A depth picture: 24 bits in R, G, B (most significant first; 8-bit file with three or more
+// channels) as value / (2^24 - 1); 16 bits of grey as value / (2^16 - 1), rounded to 24 bits; or
+// one float channel as it is. 0 where a part of a picture is not. Throws FileError for anything
 // else, and for a NaN. Values that become others where they are made 24 bits are reported.
 DepthImage read_depth(const std::filesystem::path& path, ReadReport* report = nullptr);
 
@@ -53,7 +54,6 @@ DepthImage read_depth(const std::filesystem::path& path, ReadReport* report = nu
 // atomically. What OpenImageIO encoded is decoded first and compared pixel by pixel (lossy formats:
 // size only).
 void write_image(const std::filesystem::path& path, const Image& image);
-void write_image(const std::filesystem::path& path, const FloatImage& image);
 // 24-bit depth in R, G, B, as read_depth reads it: round(depth * (2^24 - 1)).
 void write_depth24(const std::filesystem::path& path, const DepthImage& depth);
 void write_mask(const std::filesystem::path& path, const Mask& mask);  // 0 and 255

@@ -2,7 +2,9 @@
 // The module libdeburr_images.so: the only part of the program that is linked with OpenImageIO.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
 
+#include <algorithm>
 #include <cctype>
 
 #include "tb/scene/image_codec.h"
@@ -16,14 +18,116 @@ std::string on_one_line(std::string text) {
   return text.empty() ? "no reason given" : text;
 }
 
-ImageDecoder::Header header_of(OIIO::ImageInput& input) {
+using Io = OIIO::Filesystem::IOProxy;
+
+// Bytes of the file, for what OpenImageIO does not tell; zeros after its end.
+std::string bytes_at(Io& io, std::uint64_t at, std::size_t size) {
+  std::string bytes(size, '\0');
+  if (at < io.size()) io.pread(bytes.data(), size, static_cast<std::int64_t>(at));
+  return bytes;
+}
+
+std::uint64_t number_of(std::string_view bytes, bool little_endian) {
+  std::uint64_t number = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    number =
+        number << 8 | static_cast<unsigned char>(bytes[little_endian ? bytes.size() - 1 - i : i]);
+  return number;
+}
+
+// Whether a TIFF has a tag ExtraSamples. Without one nothing says what its alpha is.
+bool has_extra_samples(Io& io) {
+  const bool little = bytes_at(io, 0, 1) == "I";
+  const auto number = [&](std::uint64_t at, std::size_t size) {
+    return number_of(bytes_at(io, at, size), little);
+  };
+  const bool big = number(2, 2) == 43;
+  const std::size_t word = big ? 8 : 4;
+  const std::uint64_t directory = number(word, word), entry = 4 + 2 * word;
+  const std::uint64_t entries = std::min<std::uint64_t>(number(directory, big ? 8 : 2), 0xFFFF);
+  for (std::uint64_t e = 0; e < entries; ++e)
+    if (number(directory + (big ? 8 : 2) + e * entry, 2) == 338) return true;
+  return false;
+}
+
+// DXT2, DXT4, or the alpha mode "premultiplied" of a header of DirectX 10.
+bool is_premultiplied_dds(Io& io) {
+  const std::string code = bytes_at(io, 84, 4);
+  return code == "DXT2" || code == "DXT4" ||
+         (code == "DX10" && (number_of(bytes_at(io, 144, 4), true) & 7) == 2);
+}
+
+// A channel of the kind "premultiplied opacity" in the box of channel definitions of a JPEG 2000.
+bool is_premultiplied_jpeg2000(Io& io) {
+  const std::string head = bytes_at(io, 0, std::min<std::size_t>(io.size(), 1 << 16));
+  const std::size_t box = head.substr(0, head.find("jp2c")).find("cdef");
+  if (box == std::string::npos) return false;
+  const std::uint64_t channels = number_of(bytes_at(io, box + 4, 2), false);
+  for (std::uint64_t c = 0; c < std::min<std::uint64_t>(channels, 64); ++c)
+    if (number_of(bytes_at(io, box + 6 + 6 * c + 2, 2), false) == 2) return true;
+  return false;
+}
+
+// OpenImageIO is asked for colours as they are stored. What multiplies them by alpha says so, or is
+// of a format that always does; formats that say nothing are taken as not multiplied.
+bool is_associated(const OIIO::ImageSpec& spec, const std::string& format, Io& io) {
+  if (spec.get_int_attribute("oiio:UnassociatedAlpha") != 0) return false;
+  constexpr int kTargaPremultiplied = 4;
+  if (format == "openexr" || format == "heif") return true;
+  if (format == "tiff") return has_extra_samples(io);
+  if (format == "targa") return spec.get_int_attribute("targa:alpha_type") == kTargaPremultiplied;
+  if (format == "dds") return is_premultiplied_dds(io);
+  if (format == "jpeg2000") return is_premultiplied_jpeg2000(io);
+  return false;
+}
+
+// Channels of the first layer of an EXR, which stand together; of other formats all.
+int channels_of_first_layer(const OIIO::ImageSpec& spec, const std::string& format) {
+  if (format != "openexr") return spec.nchannels;
+  const auto layer = [&](int channel) {
+    const std::string& name = spec.channelnames[static_cast<std::size_t>(channel)];
+    return name.substr(0, name.rfind('.') == std::string::npos ? 0 : name.rfind('.'));
+  };
+  int channels = 1;
+  while (channels < spec.nchannels && layer(channels) == layer(0)) ++channels;
+  return channels;
+}
+
+ImageDecoder::Header header_of(OIIO::ImageInput& input, Io& io) {
   const OIIO::ImageSpec spec = input.spec();
   ImageDecoder::Header header;
-  header.width = spec.width;
-  header.height = spec.height;
-  header.channels = spec.nchannels;
-  header.flat = spec.depth <= 1 && !spec.deep;
   header.file_format = input.format_name();
+  const std::string& format = header.file_format;
+  header.width = header.full_width = spec.width;
+  header.height = header.full_height = spec.height;
+  header.channels = channels_of_first_layer(spec, format);
+  header.other_layers = spec.nchannels - header.channels;
+  // In other formats OpenImageIO's windows mean something else, or are wrong.
+  if (format == "openexr" || format == "tiff" || format == "dpx" || format == "rla" ||
+      format == "iff") {
+    header.full_width = spec.full_width;
+    header.full_height = spec.full_height;
+    const auto difference = [](std::int64_t a, std::int64_t b) {
+      constexpr std::int64_t kFar = 1 << 30;  // from every picture
+      return static_cast<int>(std::clamp(a - b, -kFar, kFar));
+    };
+    header.x = difference(spec.x, spec.full_x);
+    header.y = difference(spec.y, spec.full_y);
+  }
+  if (spec.alpha_channel < header.channels && header.channels > 1)
+    header.alpha = spec.alpha_channel;
+  if (spec.z_channel < header.channels) header.depth = spec.z_channel;
+  header.alpha_named = header.alpha >= 0;
+  if (header.alpha_named)
+    header.associated = is_associated(spec, format, io);
+  else if (format != "openexr" && (spec.nchannels == 2 || spec.nchannels > 3))
+    header.alpha = spec.nchannels == 2 ? 1 : 3;
+  for (const char* const name : {"tiff:ColorSpace", "jpeg:ColorSpace"})
+    header.cmyk = header.cmyk || OIIO::Strutil::icontains(spec.get_string_attribute(name), "CMYK");
+  const std::string colours = spec.get_string_attribute("tiff:ColorSpace");
+  for (const char* const name : {"CIELAB", "ICCLAB", "ITULAB", "LOGL", "LOGLUV", "color separated"})
+    if (colours == name) header.other_colours = colours;
+  header.flat = spec.depth <= 1 && !spec.deep;
   header.value_format = spec.format.c_str();
   header.floating_point = spec.format.is_floating_point();
   header.colour_space = spec.get_string_attribute("oiio:ColorSpace");
@@ -34,54 +138,134 @@ ImageDecoder::Header header_of(OIIO::ImageInput& input) {
   return header;
 }
 
-class Decoder final : public ImageDecoder {
- public:
-  using Reader = std::unique_ptr<OIIO::Filesystem::IOMemReader>;
-  Decoder(std::unique_ptr<OIIO::ImageInput> input, Reader reader)
-      : reader_(std::move(reader)), input_(std::move(input)), header_(header_of(*input_)) {}
-
-  const Header& header() const override { return header_; }
-  bool read(int channels, std::uint8_t* values) override {
-    return input_->read_image(0, 0, 0, channels, OIIO::TypeUInt8, values);
-  }
-  bool read(int channels, float* values) override {
-    return input_->read_image(0, 0, 0, channels, OIIO::TypeFloat, values);
-  }
-  std::string error() override {
-    return on_one_line(input_->has_error() ? input_->geterror() : OIIO::geterror());
-  }
-
- private:
-  Reader reader_;  // null for a file; the input reads from it
-  std::unique_ptr<OIIO::ImageInput> input_;
-  Header header_;
-};
-
-OIIO::ImageSpec read_hints() {
+OIIO::ImageSpec read_hints(Io* io = nullptr) {
   OIIO::ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
+  if (io != nullptr) hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &io);
   return hints;
 }
 
-ImageCodec::Source source(std::unique_ptr<OIIO::ImageInput> input, Decoder::Reader reader) {
+// Opened once: ImageInput::open() opens it twice, and some readers go on where they were.
+std::unique_ptr<OIIO::ImageInput> open_bytes(const std::string& name, Io& bytes) {
+  const OIIO::ImageSpec hints = read_hints(&bytes);
+  return OIIO::ImageInput::create(name, true, &hints, &bytes);
+}
+
+// A file in memory that was changed so that OpenImageIO gives colours as they are stored.
+class ChangedFile {
+ public:
+  ChangedFile(std::string bytes, const std::string& name)
+      : bytes_(std::move(bytes)),
+        reader_(bytes_.data(), bytes_.size()),
+        input_(open_bytes(name, reader_)) {}
+  ChangedFile(const ChangedFile&) = delete;
+  ChangedFile& operator=(const ChangedFile&) = delete;
+  OIIO::ImageInput* input() { return input_.get(); }
+
+ private:
+  std::string bytes_;
+  OIIO::Filesystem::IOMemReader reader_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+};
+
+// OpenImageIO multiplies the colours of a WebP by alpha, whatever it is asked for. Of the same file
+// without its mark of alpha it reads colours alone.
+std::string without_alpha(std::string webp) {
+  constexpr std::size_t kFlags = 20, kLossless = 24;
+  const std::string chunk = webp.substr(12, 4);
+  if (chunk == "VP8X") webp[kFlags] = static_cast<char>(webp[kFlags] & ~0x10);
+  if (chunk == "VP8L") webp[kLossless] = static_cast<char>(webp[kLossless] & ~0x10);
+  return webp;
+}
+
+// It divides the colours of DXT2 and DXT4 by alpha in bytes that overflow, and by 0. Blocks of DXT3
+// and DXT5 are the same but for what they mean.
+std::string as_straight(std::string dds) {
+  dds[87] = static_cast<char>(dds[87] + 1);
+  return dds;
+}
+
+// Of an animated WebP whose first frame is smaller than the picture OpenImageIO makes up the rest.
+bool is_partial_webp(Io& io) {
+  const auto number = [&](std::uint64_t at) { return number_of(bytes_at(io, at, 3), true); };
+  if (bytes_at(io, 12, 4) != "VP8X") return false;
+  constexpr std::uint64_t kWidth = 24, kHeight = 27;
+  std::uint64_t at = 30;
+  while (at < io.size() && bytes_at(io, at, 4) != "ANMF")
+    at += 8 + (number_of(bytes_at(io, at + 4, 4), true) + 1) / 2 * 2;
+  return at < io.size() &&
+         (number(at + 14) != number(kWidth) || number(at + 17) != number(kHeight));
+}
+
+class Decoder final : public ImageDecoder {
+ public:
+  Decoder(std::unique_ptr<OIIO::ImageInput> input, std::unique_ptr<Io> io)
+      : io_(std::move(io)), input_(std::move(input)), header_(header_of(*input_, *io_)) {
+    const auto bytes = [&] { return bytes_at(*io_, 0, io_->size()); };
+    if (header_.file_format == "dds" && bytes_at(*io_, 84, 3) == "DXT" && header_.associated)
+      changed_ = std::make_unique<ChangedFile>(as_straight(bytes()), "memory.dds");
+    if (header_.file_format == "webp" && header_.alpha_named)
+      changed_ = std::make_unique<ChangedFile>(without_alpha(bytes()), "memory.webp");
+  }
+
+  const Header& header() const override { return header_; }
+  bool read(int channels, std::uint8_t* values) override {
+    return read(channels, OIIO::TypeUInt8, values);
+  }
+  bool read(int channels, float* values) override {
+    return read(channels, OIIO::TypeFloat, values);
+  }
+  std::string error() override {
+    OIIO::ImageInput* const input =
+        changed_ && changed_->input() ? changed_->input() : input_.get();
+    return on_one_line(input->has_error() ? input->geterror() : OIIO::geterror());
+  }
+
+ private:
+  bool read(int channels, OIIO::TypeDesc type, void* values) {
+    if (!changed_) return input_->read_image(0, 0, 0, channels, type, values) && !lost_an_error();
+    OIIO::ImageInput* const changed = changed_->input();
+    if (changed == nullptr) return false;
+    // Colours over those that were multiplied by alpha.
+    const int colours = std::min(channels, changed->spec().nchannels);
+    return (colours == channels || input_->read_image(0, 0, 0, channels, type, values)) &&
+           changed->read_image(
+               0, 0, 0, colours, type, values,
+               static_cast<OIIO::stride_t>(channels) * static_cast<OIIO::stride_t>(type.size())) &&
+           !lost_an_error();
+  }
+
+  // These readers give zeros for what a truncated file lacks, and say that all went well.
+  bool lost_an_error() const {
+    const OIIO::ImageInput& input = changed_ ? *changed_->input() : *input_;
+    return (header_.file_format == "dds" || header_.file_format == "iff") && input.has_error();
+  }
+
+  std::unique_ptr<Io> io_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+  Header header_;
+  std::unique_ptr<ChangedFile> changed_;  // null: `input_` gives colours as they are stored
+};
+
+ImageCodec::Source source(std::unique_ptr<OIIO::ImageInput> input, std::unique_ptr<Io> io) {
   if (!input) return {nullptr, on_one_line(OIIO::geterror())};
-  return {std::make_unique<Decoder>(std::move(input), std::move(reader)), ""};
+  if (std::string_view(input->format_name()) == "webp" && is_partial_webp(*io))
+    return {nullptr, "the first frame of the animation does not fill the picture"};
+  return {std::make_unique<Decoder>(std::move(input), std::move(io)), ""};
 }
 
 class Codec final : public ImageCodec {
  public:
   Source open_file(const std::string& path) const override {
     const OIIO::ImageSpec hints = read_hints();
-    return source(OIIO::ImageInput::open(path, &hints), nullptr);
+    return source(OIIO::ImageInput::open(path, &hints),
+                  std::make_unique<OIIO::Filesystem::IOFile>(path, Io::Read));
   }
 
   Source open_memory(const std::string& name, std::string_view bytes) const override {
     auto reader = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<char*>(bytes.data()),
                                                                   bytes.size());
-    OIIO::ImageSpec hints = read_hints();
-    OIIO::Filesystem::IOProxy* proxy = reader.get();
-    hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    auto input = OIIO::ImageInput::open(name, &hints, reader.get());
+    auto input = open_bytes(name, *reader);
     return source(std::move(input), std::move(reader));
   }
 
@@ -93,8 +277,7 @@ class Codec final : public ImageCodec {
       encoded.error = on_one_line(OIIO::geterror());
       return encoded;
     }
-    OIIO::ImageSpec spec(pixels.width, pixels.height, pixels.channels,
-                         pixels.floating_point ? OIIO::TypeFloat : OIIO::TypeUInt8);
+    OIIO::ImageSpec spec(pixels.width, pixels.height, pixels.channels, OIIO::TypeUInt8);
     spec.attribute("oiio:UnassociatedAlpha", 1);
     OIIO::Filesystem::IOVecOutput proxy(encoded.bytes);
     if (!output->set_ioproxy(&proxy) || !output->open(path, spec) ||

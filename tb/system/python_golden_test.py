@@ -165,6 +165,11 @@ class Vectors(unittest.TestCase):
         self.assertGreater(frames[0].work.edge_pixels, 30)
         self.assertTrue((frames[0].edges == frames[1].edges).all())
         self.assertEqual(golden.morphological(image).work.edge_pixels, 0)
+        depth[2, 1] = 1.5
+        with self.assertWarnsRegex(UserWarning, r"depth: 1 of 2400 values lie outside \[0, 1\], the first at \(1, 2\)"):
+            clamped = golden.morphological(image, depth, edges_source="depth")
+        depth[2, 1] = 1
+        self.assertTrue((clamped.edges == golden.morphological(image, depth, edges_source="depth").edges).all())
 
     @staticmethod
     def random_edges():
@@ -190,12 +195,12 @@ class Vectors(unittest.TestCase):
 
     @staticmethod
     def special_cases():
-        """The same page, "Special cases"; of the bits that are ignored those that an array can have are 1."""
+        """The same page, "Special cases", but for bits that memory ignores and an array has not."""
         random = (int(r) for r in random_numbers(2 * 61 * 45 + 600 + 50 + 2000))
         r = numpy.array([next(random) for _ in range(61 * 45)]).reshape(45, 61)
         pixels = numpy.stack([r >> 24, r >> 16 & 255, r >> 8 & 255, r & 255], axis=2).astype(numpy.uint8)
         depths = (0, 4000000, 8000000, 8015655, 12000000, 12800000, 16000000, 16777215)
-        depth = numpy.array([depths[next(random) >> 29] | 0xFF000000 for _ in range(61 * 45)],
+        depth = numpy.array([depths[next(random) >> 29] for _ in range(61 * 45)],
                             dtype=numpy.uint32).reshape(45, 61)
         vertices = numpy.zeros(200, dtype=golden.VERTEX)
         for i in range(100):
@@ -460,6 +465,14 @@ class BadCalls(unittest.TestCase):
         for depth in (numpy.zeros((61, 97)), numpy.zeros((61, 97, 1), numpy.float32), numpy.zeros((97, 61), numpy.float32),
                       numpy.zeros(61 * 97, numpy.uint32), [0.0]):
             rejected("depth: ", golden.morphological, image, depth)
+        depth = numpy.full((61, 97), 0.5, numpy.float32)
+        depth[3, 5:7] = numpy.nan
+        rejected("depth: 2 of 5917 values are NaN, which is no depth, the first at (5, 3): write 0, infinitely far",
+                 golden.morphological, image, depth)
+        depth = numpy.ones((61, 97), numpy.uint32)
+        depth[4, 6] = 1 << 24
+        rejected("depth: 1 of 5917 values lie outside 0..16777215, the first at (6, 4): a depth has 24 bits",
+                 golden.morphological, image, depth)
         rejected("nobody", golden.morphological, image, nobody=1)
         for name, value, words in (("preset", "mlab", "'preset' = 'mlab' wants one of mlaa, mlaa-slope, smaa"),
                                    ("steps", 99, "'steps' = '99' is outside 0..16"), ("steps", None, "'steps' = 'None'"),

@@ -143,7 +143,7 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
       note(p.depth);
       require_size("depth", p.depth, frame.depth->width, frame.depth->height, image);
       add_once(frame.inputs, p.depth);
-      if (looks_like_a_picture(*frame.depth))
+      if (report.channels > 1 && looks_like_a_picture(*frame.depth))
         frame.conversions.push_back(fmt::format(
             "'{}' looks like a picture, not like depth of 24 bits in R, G, B: its channels change "
             "alike",

@@ -37,7 +37,9 @@ void describe(FrameParameters& p, Visitor& v) {
          "An image file, or a scene (plane, quad, tunnel, object, road, cylinders, or a mesh file) "
          "rendered without anti-aliasing; one a frame: a list or a pattern, as of all files here.");
   v.text("depth", p.depth, "file or list",
-         "Depth of an image: 24 bits in R, G, B, or one float channel; grows towards the eye.");
+         "Depth of an image: 24 bits in R, G, B, 16 bits of grey, or one float channel; grows "
+         "towards the "
+         "eye.");
   v.text("truth", p.truth, "file or list", "Anti-aliased picture that an image is compared with.");
   v.text("mask", p.mask, "file or list",
          "Pixels to leave as they are, where red is 128 or more: bit 0 of their alpha becomes 0, "

@@ -97,15 +97,11 @@ void give(deburr_golden* golden, const Image& image, std::uint32_t gap) {
 
 std::vector<std::uint32_t> random_depth(const Image& image, tb::Random& random) {
   std::vector<std::uint32_t> depth(image.pixels.size());
-  // The upper byte counts for nothing, the lowest bit does where it is alone.
+  // The lowest bit counts where it is alone.
   for (std::uint32_t& d : depth)
-    d = random.chance(500) ? 0x12345678 : random.chance(500) ? random.word() : 0x77000001;
-  std::fill_n(depth.begin(), depth.size() / 8, 0x55000000u);
+    d = random.chance(500) ? 0x345678 : random.chance(500) ? random.word() >> 8 : 1;
+  std::fill_n(depth.begin(), depth.size() / 8, 0u);
   for (std::size_t i = 0; i < depth.size() / 8; ++i) depth[i] += random.below(2);
-  return depth;
-}
-std::vector<std::uint32_t> of_24_bits(std::vector<std::uint32_t> depth) {
-  for (std::uint32_t& d : depth) d &= 0xFFFFFF;
   return depth;
 }
 
@@ -179,17 +175,16 @@ TEST(Morphological, DepthAndEdgesOfSomeoneElseAreTakenAsTheyAreGiven) {
   parameters.edge_source = spec::morphological::EdgeSource::kDepth;
   MorphologicalGolden golden(parameters);
   const golden::morphological::ImageView view(image.pixels, image.width, image.height);
-  const auto expected_depth = of_24_bits(depth);
-  golden.process(view, {expected_depth, image.width, image.height});
+  golden.process(view, {depth, image.width, image.height});
   EXPECT_GT(golden.work().edge_pixels, 100u);
 
   give(handle.get(), image, 0);
-  // With gaps of two.
+  // With gaps of two, which may hold anything.
   std::vector<std::uint32_t> rows;
   for (std::size_t y = 0; y < 50; ++y) {
     rows.insert(rows.end(), depth.begin() + static_cast<std::ptrdiff_t>(80 * y),
                 depth.begin() + static_cast<std::ptrdiff_t>(80 * y + 80));
-    rows.insert(rows.end(), 2, 0);
+    rows.insert(rows.end(), 2, 0xFFFFFFFF);
   }
   DEBURR_EXPECT_TAKEN(handle, deburr_frame_depth(handle.get(), rows.data(), rows.size() - 2, 82));
   DEBURR_EXPECT_TAKEN(handle, deburr_frame_process(handle.get()));
@@ -383,6 +378,14 @@ TEST(BadCalls, GiveAnErrorAndChangeNothing) {
                            deburr_frame_put(golden, 4, 0, 0, 0));
     DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "y 4 is outside 0..3",
                            deburr_frame_put(golden, 0, 4, 0, 0));
+    std::vector<std::uint32_t> wide(words);
+    wide[6] = wide[9] = 1u << 24;  // one more than the largest depth
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT,
+                           "depth: 2 of 16 values lie outside 0..16777215, the first at (2, 1): "
+                           "a depth has 24 bits",
+                           deburr_frame_depth(golden, wide.data(), 16, 0));
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "depth 16777216 is outside 0..16777215",
+                           deburr_frame_put(golden, 0, 0, 0, 1u << 24));
     DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "everything is 2; 0 or 1 are meant",
                            deburr_frame_detail(golden, 2));
     // Of all that was rejected nothing was kept: the frame is black, and opaque.
