@@ -28,8 +28,8 @@
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
 #include "tb/scene/quality.h"
-#include "tb/training/recipe.h"
 #include "tb/stimuli/share_file.h"
+#include "tb/training/recipe.h"
 #include "tb/training/share_trainer.h"
 #include "tb/training/training_frames.h"
 
