@@ -113,13 +113,23 @@ class CommandTest(unittest.TestCase):
         told = [self.expect(2, *command, *more).stdout.splitlines()[-1] for more in ((), ("--show-config",))]
         self.assertEqual(told[0], told[1])
 
-    def checked(self, engine):
+    def faults(self, engine, kind):
         done = self.expect(2, "run", engine, "--fault", "gremlin")
         line = next(line for line in done.stderr.splitlines() if "no fault 'gremlin'" in line)
-        return [word.strip(",") for word in line.split() if "miscount-" in word]
+        return [word.strip(",") for word in line.split() if f"{kind}-" in word]
+
+    def misdecode(self, engine, runs):
+        """Each field that is decoded wrongly is seen by outputs or traffic in the run that `runs` has of it."""
+        self.assertEqual([fault.split("misdecode-")[1] for fault in self.faults(engine, "misdecode")], list(runs))
+        for fields, run in runs.items():
+            with self.subTest(fields):
+                self.expect(1, "run", engine, "--out", self.path("out"), "--fault", f"misdecode-{fields}", *run,
+                            says="FAIL mismatch: ")
+                checks = self.result()["checks"]
+                self.assertGreater(checks["mismatches"] + checks["traffic_mismatches"], 0)
 
     def miscount(self, engine, expected):
-        faults = self.checked(engine)
+        faults = self.faults(engine, "miscount")
         self.assertEqual([fault.split("miscount-")[1] for fault in faults], expected)
         for fault in faults:
             name = fault.split("miscount-")[1].upper().replace("-", "_")
