@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: MIT
 # The program, installed as it is built: what it starts and loads stands beside it, in a folder of its own that
 # bin/deburr leads to. Below share/deburr what it reads has the paths of the repository: ready sweeps, testplans
-# and the pages that they quote (tb/base/ready_file.h).
+# and the pages that they name (tb/base/ready_file.h).
 set(DEBURR_PROGRAM_FOLDER "${CMAKE_INSTALL_LIBEXECDIR}/deburr")
 set(DEBURR_DATA_FOLDER "${CMAKE_INSTALL_DATADIR}/deburr")
 add_dependencies(deburr_installed deburr_complete)
 if(TARGET deburr_python)
   add_dependencies(deburr_installed deburr_python)
+  if(TARGET deburr_python_stubs)
+    add_dependencies(deburr_installed deburr_python_stubs)
+  endif()
 endif()
 
-set_target_properties(deburr deburr_papers PROPERTIES INSTALL_RPATH "$ORIGIN")
-install(TARGETS deburr deburr_papers RUNTIME DESTINATION "${DEBURR_PROGRAM_FOLDER}" COMPONENT program)
+set_target_properties(deburr deburr_papers deburr_train PROPERTIES INSTALL_RPATH "$ORIGIN")
+install(TARGETS deburr deburr_papers deburr_train RUNTIME DESTINATION "${DEBURR_PROGRAM_FOLDER}" COMPONENT program)
 foreach(module deburr_images deburr_evolution)
   if(TARGET ${module})
     install(TARGETS ${module} LIBRARY DESTINATION "${DEBURR_PROGRAM_FOLDER}" COMPONENT program)

@@ -27,7 +27,7 @@ macro(deburr_find_package name package)
   endif()
 endmacro()
 
-# deburr_find(<program|path|file> <variable> <Debian package> <argument of find_program and its like>...)
+# deburr_find(<program|path|file|library> <variable> <Debian package> <argument of find_program and its like>...)
 macro(deburr_find kind variable package)
   cmake_language(CALL find_${kind} ${variable} ${ARGN})
   if(NOT ${variable})

@@ -164,7 +164,7 @@ class Files(Scratch):
     """What there is, and that it stands alone."""
 
     def test_everything_is_there(self):
-        for pattern in ("bin/deburr", "libexec/deburr/deburr", "libexec/deburr/deburr_papers",
+        for pattern in ("bin/deburr", "libexec/deburr/deburr", "libexec/deburr/deburr_papers", "libexec/deburr/deburr_train",
                         "libexec/deburr/libdeburr_images.so", "libexec/deburr/libdeburr_evolution.so",
                         "lib*/**/libdeburr-golden.*[ao]", "lib*/**/libdeburr-models.*[ao]",
                         "include/deburr/deburr_registers.h", "include/deburr/deburr_golden.h",
@@ -572,6 +572,9 @@ class Python(Scratch):
         self.assertTrue(all(pathlib.Path(file).is_relative_to(PREFIX) for file in said[:3]), said)
         self.assertEqual(said[3:], pkg_config("--modversion", "deburr-golden"))
         self.assertTrue((PYTHON / "deburr/py.typed").exists())
+        if pathlib.Path("/usr/bin/stubgen").exists():
+            self.assertTrue({"golden.pyi", "ideal.pyi", "_golden/__init__.pyi", "_golden/ideal.pyi"}
+                            <= {str(file.relative_to(PYTHON / "deburr")) for file in PYTHON.rglob("*.pyi")})
         self.assertEqual(sorted(file.name for file in PYTHON.rglob("*.py*") if file.is_symlink()), [])
 
     def test_the_page_says_where_it_is_installed(self):

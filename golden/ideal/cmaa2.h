@@ -2,7 +2,7 @@
 // Conservative morphological anti-aliasing 2 in real numbers: edges between pixels, a small blend
 // of every corner, and long steps blended between the middles of their two arms.
 //
-// For comparison with the engine's presets (docs/measurements/morphological_peers.md); nothing is
+// For comparison with the engine's presets (docs/measurements/morphological_quality.md); nothing is
 // built from it. Written from the published descriptions (F. Strugar and A. Lake, Conservative
 // Morphological Anti-Aliasing 2.0, Intel, 2018, and the patent application US 2015/0093026), not
 // from the code that came with them. What they leave open is chosen here, for the best figures: the

@@ -2,7 +2,7 @@
 // FXAA 3.11, quality variant, in whole lumas: every pixel looks for the ends of its own edge and is
 // moved towards the other side of it.
 //
-// For comparison with the engine's presets (docs/measurements/morphological_peers.md); nothing is
+// For comparison with the engine's presets (docs/measurements/morphological_quality.md); nothing is
 // built from it. Written from the published description (T. Lottes, FXAA, NVIDIA white paper, 2009,
 // and the notes that came with 3.11: tests, step lists, sub-pixel term). Of two sides of the same
 // step the upper and the left one are taken, and of two axes the horizontal one, as published: only

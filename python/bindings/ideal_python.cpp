@@ -310,7 +310,7 @@ void add_filters(py::module_& module) {
   module.def("fxaa", &fxaa,
              "FXAA 3.11, quality variant, of uint8 pixels of (height, width, 4). `steps` is the "
              "number of the published preset: 12, 29, 39.",
-             py::arg("pixels"), py::kw_only(), py::arg("threshold") = f.threshold,
+             py::arg("pixels"), py::arg("threshold") = f.threshold,
              py::arg("least_threshold") = f.least_threshold, py::arg("subpixel") = f.subpixel,
              py::arg("steps") = 29, py::arg("linear_light") = f.linear_light);
   const ideal::Cmaa2Settings m;
@@ -324,7 +324,7 @@ void add_filters(py::module_& module) {
             pixels, [&](const ideal::ColourFrame& frame) { return ideal::cmaa2(frame, settings); });
       },
       "Conservative morphological anti-aliasing 2 of uint8 pixels of (height, width, 4).",
-      py::arg("pixels"), py::kw_only(), py::arg("threshold") = m.threshold,
+      py::arg("pixels"), py::arg("threshold") = m.threshold,
       py::arg("contrast_adaptation") = m.contrast_adaptation, py::arg("symmetry") = m.symmetry,
       py::arg("linear_light") = m.linear_light);
   const ideal::SmaaSettings s;
@@ -335,7 +335,7 @@ void add_filters(py::module_& module) {
   module.def("smaa_weights", &smaa_weights,
              "SMAA's weights of every edge: float64 of (height, width, 4), of the upper edge what "
              "the upper pixel and what this one takes, of the left edge likewise.",
-             py::arg("edges"), py::kw_only(), py::arg("search_steps") = s.search_steps,
+             py::arg("edges"), py::arg("search_steps") = s.search_steps,
              py::arg("diagonal_steps") = s.diagonal_steps,
              py::arg("corner_keeps") = s.corner_keeps);
 }
@@ -361,8 +361,8 @@ void add_textures(py::module_& module) {
   py::class_<TextureImage>(module, "TextureImage",
                            "A texture in real numbers, of uint8 texels of (height, width, 4).")
       .def(py::init<const py::object&, const std::string&, const std::string&, bool>(),
-           py::arg("texels"), py::kw_only(), py::arg("wrap_s") = "repeat",
-           py::arg("wrap_t") = "repeat", py::arg("srgb") = false)
+           py::arg("texels"), py::arg("wrap_s") = "repeat", py::arg("wrap_t") = "repeat",
+           py::arg("srgb") = false)
       .def_property_readonly("width", [](const TextureImage& t) { return t.image.width(); })
       .def_property_readonly("height", [](const TextureImage& t) { return t.image.height(); });
   module.def("pixel_footprints", &pixel_footprints,
@@ -380,8 +380,7 @@ void add_textures(py::module_& module) {
       },
       "Each footprint's parallelogram averaged with equal weights over n x n points: float64 of "
       "(n, 4), 0..255.",
-      py::arg("texture"), py::arg("footprints"), py::kw_only(), py::arg("n") = 32,
-      py::arg("bilinear") = true);
+      py::arg("texture"), py::arg("footprints"), py::arg("n") = 32, py::arg("bilinear") = true);
   const ideal::EwaOptions e;
   module.def(
       "ewa",
@@ -395,9 +394,9 @@ void add_textures(py::module_& module) {
         });
       },
       "Elliptical weighted average with a Gaussian: float64 of (n, 4), 0..255.", py::arg("texture"),
-      py::arg("footprints"), py::kw_only(), py::arg("alpha") = e.alpha,
-      py::arg("radius") = e.radius, py::arg("taper") = e.taper,
-      py::arg("reconstruction") = e.reconstruction, py::arg("most_texels") = e.most_texels);
+      py::arg("footprints"), py::arg("alpha") = e.alpha, py::arg("radius") = e.radius,
+      py::arg("taper") = e.taper, py::arg("reconstruction") = e.reconstruction,
+      py::arg("most_texels") = e.most_texels);
   module.def("psnr", &psnr,
              "Peak signal-to-noise ratio in dB over R, G and B of float64 colours of (n, 4) and "
              "uint8 pixels of (n, 4); infinite where they are equal.",
@@ -420,7 +419,7 @@ void add_equations(py::module_& module) {
       },
       "Weights of the neighbours up, down, left and right of each pixel after all lines: "
       "float64 of (height, width, 4).",
-      py::arg("lines"), py::arg("depth"), py::kw_only(), py::arg("last_wins") = g.last_wins,
+      py::arg("lines"), py::arg("depth"), py::arg("last_wins") = g.last_wins,
       py::arg("outermost") = g.outermost, py::arg("area") = g.area,
       py::arg("depth_bias") = g.depth_bias, py::arg("crease_depth") = g.crease_depth);
   module.def("line_blend", &geometric_blend,

@@ -41,11 +41,11 @@ void ParameterRows::add(std::string_view name, const py::object& value, const st
   rows.append(row);
 }
 
-py::object figures(const py::dict& values) {
-  return py::module_::import("deburr._figures").attr("Figures")(values);
+Figures figures(const py::dict& values) {
+  return Figures(py::module_::import("deburr._figures").attr("Figures")(values));
 }
 
-py::object figures(std::span<const golden::c::Counter> counters) {
+Figures figures(std::span<const golden::c::Counter> counters) {
   py::dict values;
   for (const golden::c::Counter& counter : counters) values[py::str(counter.name)] = counter.value;
   return figures(values);

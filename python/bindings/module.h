@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "golden/c/parameter_texts.h"
@@ -61,9 +62,13 @@ py::list parameter_rows(Parameters parameters) {
   return visitor.rows;
 }
 
-// A dictionary whose keys are attributes too (deburr/_figures.py).
-py::object figures(const py::dict& values);
-py::object figures(std::span<const golden::c::Counter> counters);
+// A dictionary whose keys are attributes too (deburr/_figures.py). A type of its own, so that
+// signatures name it.
+struct Figures : py::object {
+  explicit Figures(py::object figures) : py::object(std::move(figures)) {}
+};
+Figures figures(const py::dict& values);
+Figures figures(std::span<const golden::c::Counter> counters);
 template <class Bins>
 void add_bins(py::dict& all, const Bins& bins) {
   for (const auto& bin : bins) all[py::str(bin.name)] = bin.hits;
@@ -74,3 +79,8 @@ void add_engines(py::module_& module);
 void add_ideal(py::module_& module);
 
 }  // namespace deburr::python
+
+template <>
+struct pybind11::detail::handle_type_name<deburr::python::Figures> {
+  static constexpr auto name = const_name("deburr._figures.Figures");
+};

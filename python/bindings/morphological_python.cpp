@@ -161,7 +161,7 @@ void add_morphological(py::module_& module) {
             of(self).require_detail("taps");
             return view(of(self).golden->taps(), of(self).shape(), self);
           },
-          "How each pixel was mixed: records of (height, width); with detail.")
+          "How each pixel was mixed, records of (height, width); with detail.")
       .def_property_readonly(
           "decisions",
           [of](const py::object& self) {

@@ -153,7 +153,7 @@ class TextureUnit {
                             : std::vector<std::uint32_t>{});
     });
   }
-  py::object work() {
+  Figures work() {
     return turn([](c::TextureHandle& h) {
       py::dict values;
       for (const c::Counter& counter : h.counters()) values[py::str(counter.name)] = counter.value;

@@ -1,6 +1,13 @@
 # SPDX-License-Identifier: MIT
 """What functions of the golden models are given."""
+from __future__ import annotations
+
+import typing
+
 import numpy
+import numpy.typing
+
+Array = numpy.typing.NDArray[typing.Any]
 
 
 def rgba(pixels):

@@ -1,23 +1,20 @@
 # SPDX-License-Identifier: MIT
 """The geometric engine's part of deburr.golden."""
+from __future__ import annotations
+
+import typing
+
 from deburr import _golden
 from deburr._declared import declare
-from deburr._given import rgba
+from deburr._given import Array, rgba
 from deburr._golden import EDGE, EDGE_CLASSES, VERTEX, GeometricFrame
 
 __all__ = ["EDGE", "EDGE_CLASSES", "VERTEX", "GeometricFrame", "geometric"]
 
-# What a type checker is told, beside arrays (tb/system/python_stubs_test.py).
-TYPES = {"geometric": "GeometricFrame", ".depth": "_Array | None", ".detail": "bool", ".error_lines": "_Array | None",
-         ".bases": "dict[str, int] | None", "GeometricFrame.traffic": "dict[str, dict[str, _Array]]",
-         "GeometricFrame.work": "Figures",
-         "GeometricFrame.memory_errors": "int",
-         "GeometricFrame.detail": "bool",
-         "GeometricFrame.coverage": "dict[str, int]"}
 
-
-def geometric(pixels, depth=None, *, vertices, edges, facing, bases=None, detail=False, error_lines=None,
-              **parameters):
+def geometric(pixels: Array, depth: Array | None = None, *, vertices: Array, edges: Array, facing: Array,
+              bases: dict[str, int] | None = None, detail: bool = False, error_lines: Array | None = None,
+              **parameters: typing.Any) -> GeometricFrame:
     """Smooths a frame with the geometric engine's golden model: a GeometricFrame.
 
     vertices, edges and facing say what the frame was drawn from: arrays of VERTEX (x and y in 1/256 pixel, depth U24,

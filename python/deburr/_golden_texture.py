@@ -1,21 +1,18 @@
 # SPDX-License-Identifier: MIT
 """The texture unit's part of deburr.golden."""
+from __future__ import annotations
+
+import typing
+
 import numpy
 
 from deburr import _golden
 from deburr._declared import declare
-from deburr._given import described, rgba
+from deburr._figures import Figures
+from deburr._given import Array, described, rgba
 from deburr._golden import COLOUR, QUAD
 
 __all__ = ["COLOUR", "QUAD", "TextureUnit", "image_of", "mip_levels", "quads_of", "texture"]
-
-# What a type checker is told, beside arrays (tb/system/python_stubs_test.py).
-TYPES = {"texture": "tuple[_Array, TextureUnit]", "mip_levels": "list[_Array]", "quads_of": "_Array", "image_of": "_Array",
-         "texture.fields": "dict[str, typing.Any] | None", ".levels": "_Array | list[_Array]", ".covered": "_Array | None",
-         ".texture": "int", ".shape": "tuple[int, int]", ".memory": "int", ".address": "int", ".size": "int",
-         ".lines": "_Array | None", ".fields": "typing.Any", "TextureUnit.parameters": "dict[str, str]",
-         "TextureUnit.work": "Figures", "TextureUnit.describe": "dict[str, typing.Any]", "TextureUnit.read": "_Array",
-         "TextureUnit.filter": "_Array", "TextureUnit.analyse": "_Array"}
 
 _ONE = 1 << 24  # S7.24
 
@@ -26,21 +23,21 @@ class TextureUnit:
     memory is its size in bytes; load() makes it larger where that is needed. A unit belongs to one thread at a time: a
     call from another one meanwhile is a RuntimeError and changes nothing."""
 
-    def __init__(self, memory=0, **parameters):
+    def __init__(self, memory: int = 0, **parameters: typing.Any) -> None:
         self._unit = _golden.TextureUnit(memory, parameters)
         self._end = 0
 
-    def set(self, **parameters):
+    def set(self, **parameters: typing.Any) -> None:
         """Parameters, from the next quad on; all of them or, if one is rejected, none. The cache is empty then, and
         counters begin again."""
         self._unit.set(parameters)
 
     @property
-    def parameters(self):
+    def parameters(self) -> dict[str, str]:
         """Every parameter as text."""
         return self._unit.parameters()
 
-    def load(self, levels, texture=0, **fields):
+    def load(self, levels: Array | list[Array], texture: int = 0, **fields: typing.Any) -> None:
         """Puts a texture after those that are there: its mip levels, the largest first, each uint8 of (height, width,
         4), or of (height, width, bytes of a texel) in the format that `format` says. Fields are those of the
         descriptor's registers; width, height, levels and max_lod follow from the arrays unless they are given."""
@@ -76,54 +73,55 @@ class TextureUnit:
                 raise ValueError(f"level {number}: uint8 of {wanted} is wanted; {described(level)} was given")
         return self._unit.place(texture, self._end)
 
-    def set_fields(self, texture=0, **fields):
+    def set_fields(self, texture: int = 0, **fields: typing.Any) -> None:
         """Fields of a texture's registers by name: wrap_s="clamp_to_edge", bias=-128. All of them or none."""
         self._unit.set_fields(texture, fields)
 
-    def describe(self, texture=0):
+    def describe(self, texture: int = 0) -> dict[str, typing.Any]:
         """Size, levels, bases and fault (None: quads may name it) of a texture."""
         return self._unit.describe(texture)
 
-    def write(self, address, values):
+    def write(self, address: int, values: Array) -> None:
         """Bytes to memory. A line that the cache holds stays predicted as it is: invalidate() it, as software must."""
         self._unit.write(address, values)
 
-    def read(self, address, size):
+    def read(self, address: int, size: int) -> Array:
         """Bytes of memory."""
         return self._unit.read(address, size)
 
-    def filter(self, quads):
+    def filter(self, quads: Array) -> Array:
         """Filters an array of QUAD: an array of COLOUR, one for each covered lane, in order."""
         return self._unit.filter(quads)
 
-    def analyse(self, quads):
+    def analyse(self, quads: Array) -> Array:
         """What is decided about each lane of quads before its first texel is read: records of (n, 4)."""
         return self._unit.analyse(quads)
 
     @property
-    def fills(self):
+    def fills(self) -> Array:
         """Lines of memory that the last filter() fetched, in order: address / cache_line_bytes."""
         return self._unit.fills()
 
     @property
-    def work(self):
+    def work(self) -> Figures:
         """Counters since the unit was made or reset, with histograms by samples and by level."""
         return self._unit.work()
 
-    def set_error_lines(self, lines):
+    def set_error_lines(self, lines: Array | None) -> None:
         """Numbers of lines that memory answers with an error, uint32; None: none."""
         self._unit.fail_lines(lines)
 
-    def invalidate(self):
+    def invalidate(self) -> None:
         """Empties the cache."""
         self._unit.invalidate()
 
-    def reset(self):
+    def reset(self) -> None:
         """As a reset of the hardware: counters 0, cache empty. Textures and memory stay."""
         self._unit.reset()
 
 
-def texture(quads, levels, *, fields=None, **parameters):
+def texture(quads: Array, levels: Array | list[Array], *, fields: dict[str, typing.Any] | None = None,
+            **parameters: typing.Any) -> tuple[Array, TextureUnit]:
     """Filters an array of QUAD with a texture unit of its own: (colours, unit), the unit for its work and fills.
 
     levels are the mip levels of texture 0 and fields those of its registers, as TextureUnit.load() takes them."""
@@ -132,7 +130,7 @@ def texture(quads, levels, *, fields=None, **parameters):
     return unit.filter(quads), unit
 
 
-def mip_levels(texels):
+def mip_levels(texels: Array) -> list[Array]:
     """The mip chain of a picture whose sides are powers of two: means of two by two, rounded."""
     level = rgba(texels)
     if not isinstance(level, numpy.ndarray) or level.dtype != numpy.uint8 or level.ndim != 3:
@@ -151,7 +149,7 @@ def mip_levels(texels):
     return levels
 
 
-def quads_of(s, t, covered=None, texture=0):
+def quads_of(s: Array, t: Array, covered: Array | None = None, texture: int = 0) -> Array:
     """Quads of a picture from the texture coordinates of its pixels, float64 or int32 (S7.24) of (height, width), both
     sides even, in the order of rows. covered is a bool a pixel. Coordinates beyond [-128, 128) are clamped."""
     s, t = numpy.asarray(s), numpy.asarray(t)
@@ -192,7 +190,7 @@ def quads_of(s, t, covered=None, texture=0):
     return quads
 
 
-def image_of(quads, colours, shape):
+def image_of(quads: Array, colours: Array, shape: tuple[int, int]) -> Array:
     """The picture of (height, width) that colours of such quads make: uint8 of (height, width, 4), 0 where there is
     none."""
     picture = numpy.zeros((*shape, 4), dtype=numpy.uint8)

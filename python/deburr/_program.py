@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The command `deburr`: where it is, what it can, and how it is called."""
+from __future__ import annotations
+
 import functools
 import json
 import os
@@ -8,11 +10,15 @@ import shutil
 import signal
 import subprocess
 import tempfile
+import typing
 
 import numpy
 
 from deburr import _build, _golden, _pictures
 from deburr._declared import argument
+
+if typing.TYPE_CHECKING:
+    from deburr._run import Run
 
 _INTERRUPTED = 130
 _USAGE, _FILE = 2, 5
@@ -22,7 +28,7 @@ class RunError(RuntimeError):
     """A run that failed: `code` is the command's exit code (1 mismatch, 3 simulation error, 4 deadlock), `result` what
     was measured until then, or None."""
 
-    def __init__(self, text, code, result=None):
+    def __init__(self, text: str, code: int, result: Run | None = None) -> None:
         super().__init__(text)
         self.code, self.result = code, result
 
@@ -95,12 +101,12 @@ def _declared():
     return answer["parameters"], answer["options"]
 
 
-def engines():
+def engines() -> list[str]:
     """Names of the engines that run() takes."""
     return list(dict.fromkeys(row["engine"] for row in _declared()[0]))
 
 
-def parameters(engine):
+def parameters(engine: str) -> list[dict[str, typing.Any]]:
     """Every parameter of an engine's runs: dictionaries of name, kind, default, range, unit and meaning."""
     if engine not in engines():
         call("run", str(engine))  # whose words say what is known

@@ -1,15 +1,21 @@
 # SPDX-License-Identifier: MIT
 """One run of a cycle-accurate model, in a process of its own: SystemC elaborates once a process."""
+from __future__ import annotations
+
+import collections.abc
 import json
+import os
 import pathlib
 import shutil
 import tempfile
+import typing
 import weakref
 
 import numpy
 
 from deburr import _pictures
 from deburr._figures import Figures
+from deburr._given import Array
 from deburr._program import RunError, call, settings
 
 
@@ -21,7 +27,7 @@ class _Scratch:
         weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
 
 
-class _Files:
+class _Files(collections.abc.Mapping[str, Array]):
     """Arrays of the files of a directory that a run left, read when they are asked for: a mapping by name."""
 
     def __init__(self, directory, pattern, prefix, read):
@@ -29,19 +35,16 @@ class _Files:
                        if file.stem.startswith(prefix)}
         self._read = read
 
-    def keys(self):
-        return self._files.keys()
-
-    def __iter__(self):
+    def __iter__(self) -> collections.abc.Iterator[str]:
         return iter(self._files)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._files)
 
-    def __contains__(self, name):
+    def __contains__(self, name: object) -> bool:
         return name in self._files
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> Array:
         if name not in self._files:
             raise KeyError(f"the run left no '{name}'; there are {', '.join(self._files) or 'none'}")
         return self._read(self._files[name])
@@ -66,6 +69,12 @@ class Run(Figures):
     pictures and maps are arrays by name, windows an array a series by key, directory is where the files are, which
     are gone with this object unless run() was told where to leave them."""
 
+    directory: pathlib.Path
+    meaning: dict[str, dict[str, str]]
+    windows: Figures
+    maps: _Files
+    pictures: _Files
+
     def __init__(self, result, directory, kept):
         histogram = result.get("latency", {}).get("histogram")
         if histogram:
@@ -88,7 +97,7 @@ class Run(Figures):
         rate = self.throughput
         return f"<Run {self.unit}: {self.verdict}, {self.cycles} cycles, {rate.value:.3f} {rate.unit}>"
 
-    def explain(self, key):
+    def explain(self, key: str) -> str:
         """Unit and meaning of a figure, by its key."""
         entry = self.meaning.get(key)
         if entry is None:
@@ -96,7 +105,8 @@ class Run(Figures):
         return f"{entry['meaning']} [{entry['unit']}]" if entry.get("unit") else entry["meaning"]
 
 
-def run(engine, *, out=None, config=None, progress=False, **parameters):
+def run(engine: str, *, out: str | os.PathLike[str] | None = None, config: str | os.PathLike[str] | None = None,
+        progress: bool = False, **parameters: typing.Any) -> Run:
     """Runs a cycle-accurate model against its golden model: a Run.
 
     engine is one of engines(). Parameters have the names of `deburr params ENGINE` with '_' for '.'

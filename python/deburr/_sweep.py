@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Many runs over axes of parameters, as a table."""
+from __future__ import annotations
+
 import json
 import math
 import os
 import pathlib
 import tempfile
+import typing
 import warnings
 
 from deburr._declared import argument
@@ -79,8 +82,12 @@ def _table(rows):
     return pandas.DataFrame(rows)
 
 
-def sweep(what, axes=None, *, metrics=None, minimise=None, maximise=None, for_each=None, constraints=None, sample=None,
-          refused=None, out=None, jobs=None, progress=False, **parameters):
+def sweep(what: str | os.PathLike[str], axes: dict[str, typing.Any] | None = None, *,
+          metrics: list[str] | dict[str, str] | None = None, minimise: str | list[str] | None = None,
+          maximise: str | list[str] | None = None, for_each: str | list[str] | None = None,
+          constraints: list[str] | None = None, sample: str | dict[str, int] | None = None, refused: str | None = None,
+          out: str | os.PathLike[str] | None = None, jobs: int | None = None, progress: bool = False,
+          **parameters: typing.Any) -> typing.Any:
     """Runs an engine at many points, each checked against its golden model: a table with a row a point.
 
     what is the name of an engine, or a file of a sweep, which says all but out and jobs itself. axes are parameters and

@@ -26,8 +26,8 @@ def threads(jobs):
 class Checker:
     """Runs the tests of a tree once without any mutant, and then those that can find one."""
 
-    def __init__(self, tree, budget, longest_first=False):
-        self.tree, self.budget, self.longest_first = tree, budget, longest_first
+    def __init__(self, tree, budget):
+        self.tree, self.budget = tree, budget
         self.kills = collections.defaultdict(collections.Counter)
         self.last = collections.defaultdict(list)
 
@@ -88,14 +88,12 @@ class Checker:
 
     def ordered(self, file, names, kind):
         """First tests of resets for a reset, then what found the last mutants of the file, then the file's own
-        tests, then by what a test takes for what it finds. For what these let pass, the longest first."""
+        tests, then by what a test takes for what it finds."""
         stem = file.stem
         kills, last = self.kills[file], self.last[file]
 
         def order(name):
             source = self.tests[name].source
-            if self.longest_first:
-                return (-self.seconds[name], name)
             return (kind == "reset" and "reset" not in name.lower(),
                     last.index(name) if name in last else 9, not source.endswith(f"_{stem}_test"),
                     self.seconds[name] / (1 + kills[name]), name)
@@ -104,11 +102,9 @@ class Checker:
 
     def checked_by(self, file, place, names, **environment):
         spent = 0
-        shortest = min((self.seconds[name] for name in names), default=0)
         for name in self.ordered(file, names, self.tree.mutants[file][place].kind):
             seconds = self.seconds[name]
-            # One is asked whatever it takes: the first, or of the longest first the last.
-            if spent + seconds > self.budget and (spent or self.longest_first and seconds > shortest):
+            if spent and spent + seconds > self.budget:  # the first is asked whatever it takes
                 continue
             spent += seconds
             passed, took, _ = passes(self.tests[name], 1 + 10 * seconds, **environment)

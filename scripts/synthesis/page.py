@@ -4,6 +4,9 @@ import textwrap
 
 from .flows import NOT_MAPPED, NOT_RUN
 
+# Settings of configurations that a preset builds, as they stand there. Their rows are there.
+PRESETS = {"deburr": [], "paper": ["axes=two", "footprint=half", "log2=mitchell", "count=floor"]}
+
 
 def number(value, digits=0):
     """With spaces between thousands."""
@@ -22,8 +25,13 @@ def shown(unit):
     return " ".join(f"`{name}={value}`" for name, value in unit["parameters"].items()) or "-"
 
 
-def gates(cost):
-    for unit in cost["units"]:
+def units_of_presets(cost):
+    names = {one["name"] for one in cost["configurations"] if one["settings"] in PRESETS.values()}
+    return [unit for unit in cost["units"] if names.intersection(unit["configurations"])]
+
+
+def gates(units):
+    for unit in units:
         row = unit["osu018"]
         start = [f"`{unit['unit']}`", shown(unit)]
         if isinstance(row, str):
@@ -34,8 +42,8 @@ def gates(cost):
                        number(row["ns"], 2), number(row["ratio"], 2), to if to == "-" or to == "a memory" else f"`{to}`"]
 
 
-def fpga(cost):
-    for unit in cost["units"]:
+def fpga(units):
+    for unit in units:
         cells = []
         for technology in ("xc7", "ecp5"):
             row = unit[technology]
@@ -49,11 +57,11 @@ def fpga(cost):
 
 
 def paragraphs(cost):
-    tools, yard = cost["tools"], cost["yardstick"]
+    tools, yard, units = cost["tools"], cost["yardstick"], units_of_presets(cost)
     yield ("Made by `scripts/synthesise`; do not edit. What the units of `hdl/` cost, mapped by yosys to three "
-           "technologies. The same figures for programs: `docs/measurements/cost.json`.")
-    yield ("[How to read it](#how-to-read-it), [configurations](#configurations), [standard cells](#standard-cells), "
-           "[FPGAs](#fpgas).")
+           "technologies. Rows are those of the presets `paper` and `deburr`; those of all configurations that are compared "
+           "with the model (`tb/hdl/configurations.txt`) are in `docs/measurements/cost.json`.")
+    yield "[How to read it](#how-to-read-it), [standard cells](#standard-cells), [FPGAs](#fpgas)."
     yield "## How to read it"
     yield (f"{cost['date']}, yosys {tools['yosys']}, berkeley-abc {tools['abc']}, qflow-tech-osu018 {tools['osu018']}. "
            "Nothing is placed or routed.")
@@ -72,25 +80,20 @@ def paragraphs(cost):
         "tags, the queue of lines and the descriptors are flip-flops.",
         f"**{NOT_MAPPED}**: yosys and abc did not end in {number(cost['seconds'])} s of processor time. There is no guess."
         + (f" **{NOT_RUN}**: `scripts/synthesise` maps it." if any(
-            unit[technology] == NOT_RUN for unit in cost["units"] for technology in ("osu018", "xc7", "ecp5")) else ""),
+            unit[technology] == NOT_RUN for unit in units for technology in ("osu018", "xc7", "ecp5")) else ""),
         "**`address_unit`, `texture_cache`** are the sum of their units and links: no path goes through a link, so their "
         "ns are those of the longest part. A few gates between the parts are not in it.",
     ]
     yield ("A row is a module with a clock and the parameters on which it depends, as some configuration builds it. "
            "Modules without one are in the unit that has them. `in_data` stands where other settings make a token wider.")
     yield "Not covered: units that are not in `hdl/`, the memory port, wires, clock trees, energy."
-    yield "## Configurations"
-    yield "From `tb/hdl/configurations.txt`, where each is compared with the model ([how](../explanation/hdl.md))."
-    yield table(["configuration", "module", "settings"],
-                [[f"`{one['name']}`", f"`{one['unit']}`", " ".join(f"`{s}`" for s in one["settings"]) or "defaults"]
-                 for one in cost["configurations"]], 3)
     yield "## Standard cells"
     yield "Technology: osu018, 180 nm."
     yield table(["unit", "parameters", "gates", "flip-flops", "memory, bits", "ns (osu018)", "ratio", "ends in"],
-                gates(cost))
+                gates(units))
     yield "## FPGAs"
     yield "Technologies: xc7 (Xilinx 7), ECP5 (Lattice)."
-    yield table(["unit", "parameters", "xc7 LUT", "FF", "DSP", "BRAM", "ECP5 LUT", "FF", "DSP", "BRAM"], fpga(cost))
+    yield table(["unit", "parameters", "xc7 LUT", "FF", "DSP", "BRAM", "ECP5 LUT", "FF", "DSP", "BRAM"], fpga(units))
 
 
 def page(cost):

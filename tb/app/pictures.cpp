@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "tb/results/report.h"
+#include "tb/results/amount.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/flip.h"
 #include "tb/scene/quality.h"

@@ -69,15 +69,7 @@ std::string build_rules_of(const ParameterSet& set, const std::string& group) {
 }
 
 std::string link_to(std::string_view heading) {
-  std::string anchor;
-  for (const char c : heading) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) || c == '-' || c == '_')
-      anchor += static_cast<char>(std::tolower(byte));
-    else if (c == ' ')
-      anchor += '-';
-  }
-  return fmt::format("[{}](#{})", heading, anchor);
+  return fmt::format("[{}](#{})", heading, anchor_of(heading));
 }
 
 // In lines as the pages have them.
@@ -118,6 +110,19 @@ std::string with_contents(std::string page, Contents contents) {
 }
 
 }  // namespace
+
+std::string anchor_of(std::string_view heading) {
+  const std::size_t from = std::min(heading.find_first_not_of(" \t\r"), heading.size());
+  std::string anchor;
+  for (const char c : heading.substr(from, heading.find_last_not_of(" \t\r") + 1 - from)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) || c == '-' || c == '_' || byte >= 0x80)
+      anchor += static_cast<char>(std::tolower(byte));
+    else if (c == ' ')
+      anchor += '-';
+  }
+  return anchor;
+}
 
 std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines) {
   std::string page =

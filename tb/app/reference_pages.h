@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rtl_model/fabric/register_section.h"
@@ -13,6 +14,8 @@
 
 namespace deburr::tb {
 
+// The anchor that GitHub gives a heading of a page, if no heading before has the same text.
+std::string anchor_of(std::string_view heading);
 std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // Elaborates every engine's model: at most once a process, and not in one that simulates.
 std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines);

@@ -64,6 +64,7 @@ void add_words(Words& words, const CLI::App& command, const std::string& place) 
   for (const CLI::App* sub : commands) here += sub->get_name() + " ";
   int position = 0;
   for (const CLI::Option* option : command.get_options()) {
+    if (option->get_group().empty()) continue;  // gone: kept for its message alone
     const std::string values = values_of(*option);
     for (const std::string& name : option->get_lnames()) {
       here += "--" + name + " ";

@@ -23,7 +23,7 @@
 #include "tb/regress/regression_plan.h"
 #include "tb/regress/regression_result.h"
 #include "tb/regress/testplan.h"
-#include "tb/results/report.h"
+#include "tb/results/amount.h"
 #include "tb/sweep/local_engine.h"
 #include "tb/sweep/slurm.h"
 #include "tb/sweep/status.h"

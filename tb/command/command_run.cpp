@@ -23,7 +23,7 @@
 #include "tb/base/shell.h"
 #include "tb/base/terminal.h"
 #include "tb/command/commands.h"
-#include "tb/results/report.h"
+#include "tb/results/amount.h"
 
 namespace deburr::tb {
 namespace {

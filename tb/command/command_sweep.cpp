@@ -20,7 +20,6 @@
 #include "tb/command/point_options.h"
 #include "tb/results/amount.h"
 #include "tb/results/progress.h"
-#include "tb/results/report.h"
 #include "tb/sweep/collection.h"
 #include "tb/sweep/definition.h"
 #include "tb/sweep/local_engine.h"
@@ -242,8 +241,15 @@ void add_sweep(CLI::App& app, CommandLine& line) {
                    : fmt::format("'{}' is no multiple of {} in {}..4096", text, Evolution::kGroup,
                                  Evolution::kLeast);
       });
-  searching->add_flag("!--no-guess", sought->search.guess,
-                      "Evaluate every generation of NSGA-II, instead of guessing most of them");
+  searching
+      ->add_flag_callback(
+          "--no-guess",
+          [] {
+            throw CLI::ValidationError(
+                "--no-guess",
+                "gone since 0.4.0: a search always runs every generation; leave it out");
+          })
+      ->group("");
   add_seed(*searching, "The same one asks for the same points (1)",
            [seed = &sought->search.seed](std::uint64_t given) { *seed = given; });
   add_point_options(*searching, *sought, line);

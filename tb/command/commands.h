@@ -5,6 +5,7 @@
 
 #include "tb/command/command_line.h"
 #include "tb/command/command_papers.h"
+#include "tb/command/command_train.h"
 
 namespace deburr::tb {
 
@@ -12,7 +13,6 @@ void add_run(CLI::App& app, CommandLine& line);
 void add_params(CLI::App& app, CommandLine& line);
 void add_compare(CLI::App& app, CommandLine& line);
 void add_report(CLI::App& app, CommandLine& line);
-void add_train(CLI::App& app, CommandLine& line);
 void add_sweep(CLI::App& app, CommandLine& line);
 void add_regress(CLI::App& app, CommandLine& line);
 void add_completion(CLI::App& app, CommandLine& line);

@@ -17,7 +17,7 @@
 #include "tb/base/interrupt.h"
 #include "tb/base/json_text.h"
 #include "tb/base/terminal.h"
-#include "tb/results/report.h"
+#include "tb/results/amount.h"
 #include "tb/sweep/slurm.h"
 #include "tb/sweep/status.h"
 

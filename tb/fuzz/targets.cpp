@@ -22,9 +22,9 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/mesh.h"
 #include "tb/scene/png.h"
+#include "tb/stimuli/share_file.h"
 #include "tb/traces/fragment_reader.h"
 #include "tb/traces/fragment_writer.h"
-#include "tb/training/share_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -84,16 +84,23 @@ void depths(std::string_view bytes) {
   });
 }
 
-void mesh(std::string_view bytes, std::string_view extension) {
+void mesh(std::string_view bytes, std::string_view extension, const ImportOptions& options = {}) {
   const InputFile file(bytes, extension);
   taken_or_rejected([&] {
-    const Mesh read = import_mesh(file.path());
+    const Mesh read = import_mesh(file.path(), options);
     for (const Triangle& triangle : read.triangles)
       for (const std::uint32_t corner : triangle.vertex)
         require(corner < read.vertices.size(), "a triangle of a vertex that is not there");
   });
 }
-void obj(std::string_view bytes) { mesh(bytes, ".obj"); }
+// As a mesh, and as the materials of one; images that they name are not read.
+void obj(std::string_view bytes) {
+  mesh(bytes, ".obj");
+  const InputFile materials(bytes, ".mtl");
+  mesh("mtllib " + materials.path().filename().string() +
+           "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 1\nusemtl a\nf 1/1 2/2 3/1\n",
+       ".obj", {.textures = false});
+}
 void gltf(std::string_view bytes) { mesh(bytes, bytes.starts_with("glTF") ? ".glb" : ".gltf"); }
 
 void traces(std::string_view bytes) {
@@ -124,11 +131,10 @@ void configurations(std::string_view bytes) {
 void shares(std::string_view bytes) {
   taken_or_rejected([&] {
     // What was taken is written as what is taken again.
-    const auto read = training::parse_share_file("input", bytes);
-    const std::string text = training::share_file_text(read, {});
-    const auto again = training::parse_share_file("again", text);
-    require(training::entries_of(again) == training::entries_of(read),
-            "other shares than were written");
+    const auto read = parse_share_file("input", bytes);
+    const std::string text = share_file_text(read, {});
+    const auto again = parse_share_file("again", text);
+    require(entries_of(again) == entries_of(read), "other shares than were written");
   });
 }
 
@@ -136,6 +142,13 @@ constexpr std::string_view kPpm = "P3\n2 1\n255\n255 0 0 0 255 0\n";
 constexpr std::string_view kObj =
     "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
     "f 1/1/1 2/2/1 3/1/1\nf 2//1 4//1 3//1\n";
+// A byte order mark, a C, a bow tie, a hole with its bridge, a face without area, colours, a curve.
+constexpr std::string_view kPolygons =
+    "\xEF\xBB\xBFv 0 0 0\nv 3 0 0 1 0 0\nv 3 1 0\nv 1 1 0\nv 1 2 0\nv 3 2 0\nv 3 3 0\nv 0 3 0\n"
+    "f 1 2 3 4 5 6 7 8 # C\nf 1 7 2 8\nf 1 2 7 8 1 4 5 \\\n6 3 4\nf 1 2 2 1 1\ncurv 0 1 1 2\n";
+constexpr std::string_view kMaterials =
+    "\xEF\xBB\xBFnewmtl a\nKd 0.5\nmap_Kd -s 2 3 -o 0.5 -clamp on -mm 0 2 -cc on a b.png\nd 0.5\n"
+    "newmtl b\nKd spectral a.rfl\nmap_d -bm 1 a.png\n";
 constexpr std::string_view kGltf =
     R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,)"
     R"("scale":[1,2,3]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,)"
@@ -164,7 +177,9 @@ std::vector<std::string> pictures_seeds() {
   return {made_of(kPpm), encode_png(small_picture(5, 3, 255)), encode_png(small_picture(2, 7, 9))};
 }
 std::vector<std::string> depths_seeds() { return {encode_png(small_picture(5, 3, 255))}; }
-std::vector<std::string> obj_seeds() { return {made_of(kObj)}; }
+std::vector<std::string> obj_seeds() {
+  return {made_of(kObj), made_of(kPolygons), made_of(kMaterials)};
+}
 
 // The same as .gltf and as .glb.
 std::vector<std::string> gltf_seeds() {
@@ -221,7 +236,7 @@ std::vector<std::string> configurations_seeds() {
 }
 
 std::vector<std::string> shares_seeds() {
-  return {training::share_file_text({}, {}), training::share_file_text({}, {"a note"})};
+  return {share_file_text({}, {}), share_file_text({}, {"a note"})};
 }
 
 constexpr std::array<FuzzTarget, 9> kTargets{

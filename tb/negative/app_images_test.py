@@ -58,17 +58,20 @@ class Images(CommandTest):
         picture = self.write("in.png", png(32, 24))
         self.expect(0, "run", "morphological", "--in", picture, program=program)
 
-    def test_a_copy_alone_says_what_searches_and_papers_need(self):
+    def test_a_copy_alone_says_what_searches_papers_and_trainings_need(self):
         program = self.alone()
         self.write("s.yaml", "engine: texture\nbase: {scene: {width: 16, height: 16}, run.images: false}\n"
                    "axes: {memory.latency: [1, 9, 50, 200], texture.cache.ways: [1, 2, 4]}\n"
                    "objectives: {minimise: [cycles, memory_bits]}\n")
         self.expect(5, "search", "s.yaml", "--population", "8", "--out", self.path("found"), program=program,
-                    says=("libdeburr_evolution.so", "beside the program", "scripts/demo --complete"))
+                    says=("libdeburr_evolution.so", "beside the program", "libpagmo-dev", "scripts/demo --complete"))
         self.assertFalse(os.path.exists(self.path("found/points")))
         self.expect(5, "papers", "--quick", "--out", self.path("papers"), program=program,
                     says=("deburr_papers", "No such file", "scripts/demo --complete"))
         self.assertFalse(os.path.exists(self.path("papers")))
+        picture = self.write("in.png", png(32, 24))
+        self.expect(5, "train", "--in", picture, "--truth", picture, "--out", self.path("t.shares"), program=program,
+                    says=("deburr_train", "No such file", "scripts/demo --complete"))
 
     def test_another_library_of_that_name_is_rejected(self):
         program = self.alone()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which way of joining the geometric and the morphological engine smooths best? Every way on every
 // scene from its own camera and from others that nothing was tuned on, against supersampling
-// (docs/measurements/geometric_morphological.md).
+// (docs/measurements/geometric_quality.md, "Both engines").
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 

@@ -136,24 +136,16 @@ Checked checked(std::string name, const Image& frame, std::span<const Filter> fi
   return {std::move(name), measure(frame, frame, smoothed_by(filters, frame))};
 }
 
-std::string table(const std::string& title, std::span<const Filter> filters,
-                  std::span<const Checked> frames, std::string (*cell)(const Figures&)) {
+std::string changed_table(std::span<const Filter> filters, std::span<const Checked> frames) {
   std::vector<std::string> titles = {""};
   for (const Filter& filter : filters) titles.push_back(filter.name);
-  std::string text = title + ":\n\n" + head(titles);
+  std::string text = "Pixels changed by more than 2 / 16 codes, %:\n\n" + head(titles);
   for (const Checked& frame : frames) {
     std::vector<std::string> cells = {frame.name};
-    for (const Figures& figures : frame.figures) cells.push_back(cell(figures));
+    for (const Figures& figures : frame.figures) cells.push_back(percents(figures));
     text += row(cells);
   }
   return text + "\n";
-}
-
-std::string tables_of_right_frames(std::span<const Filter> filters,
-                                   std::span<const Checked> frames) {
-  return table("Pixels changed by more than 2 / 16 codes, %", filters, frames, percents) +
-         table("PSNR to the input, dB", filters, frames, decibels) +
-         table("FLIP / SSIM to the input", filters, frames, both);
 }
 
 std::string textured_table(std::span<const Filter> filters) {
@@ -222,43 +214,6 @@ std::string perceptual_table(std::span<const Filter> filters, std::span<const Co
   std::string text = head(titles);
   for (const auto& cells : rows) text += row(cells);
   return text + "\n";
-}
-
-// Frames of `columns` that were compressed before a filter sees them. The last filter is the one
-// that others are compared with.
-std::string compressed_table(std::span<const Filter> filters, std::span<const Column> columns) {
-  constexpr std::array<int, 4> kQualities = {100, 90, 75, 50};
-  std::vector<std::string> titles = {""};
-  std::vector<std::vector<std::string>> rows(filters.size() + 1);
-  rows[0] = {"none"};
-  for (std::size_t i = 0; i < filters.size(); ++i) rows[i + 1] = {filters[i].name};
-  for (const int quality : kQualities) {
-    std::vector<double> mean(rows.size());
-    std::vector<int> ahead(rows.size());
-    std::size_t frames = 0;
-    for (const Column& column : columns) frames += column.pairs.size();
-    for (const Column& column : columns) {
-      for (const Pair& pair : column.pairs) {
-        const Mask edges = edge_mask(pair.truth, pair.frame);
-        const Image frame = quality == 100 ? pair.frame : compressed(pair.frame, quality);
-        std::vector<Image> images = smoothed_by(filters, frame);
-        images.insert(images.begin(), frame);
-        const double last = psnr(images.back(), pair.truth, edges);
-        for (std::size_t i = 0; i < images.size(); ++i) {
-          const double value = psnr(images[i], pair.truth, edges);
-          mean[i] += value / static_cast<double>(frames);
-          ahead[i] += value > last;
-        }
-      }
-    }
-    titles.push_back(quality == 100 ? "as rendered" : fmt::format("JPEG {}", quality));
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      rows[i].push_back(i + 1 == rows.size() ? fmt::format("{:.2f}", mean[i])
-                                             : fmt::format("{:.2f}; {}", mean[i], ahead[i]));
-  }
-  std::string text = head(titles);
-  for (const auto& cells : rows) text += row(cells);
-  return text;
 }
 
 std::vector<Pair> stand_ins() {
@@ -391,7 +346,7 @@ fs::path photo_file(const fs::path& data, const char* name) {
 std::string text_table(Text kind) {
   const std::vector<Filter> all = filters();
   const Checked page = checked("text, aliased", text_page(kind, kWidth, kHeight), all);
-  return table("Pixels changed by more than 2 / 16 codes, %", all, {&page, 1}, percents);
+  return changed_table(all, {&page, 1});
 }
 
 std::string formula_tables() {
@@ -412,7 +367,7 @@ std::string formula_tables() {
       checked("smoothed hall, JPEG 50", compressed(hall, 50), all),
       checked("landscape, JPEG 75", compressed(landscape, 75), all)};
   return "\nTextured frames; the figures of `none` are the frame's own:\n\n" + textured_table(all) +
-         "\nFrames that are right as they are. " + tables_of_right_frames(all, frames);
+         "\nFrames that are right as they are. " + changed_table(all, frames);
 }
 
 std::vector<GuardedText> guarded_text(int width, int height) {
@@ -467,7 +422,7 @@ std::string guard_tables() {
 }
 
 std::string wires_table() {
-  constexpr std::array<double, 5> kThickness = {1, 1.5, 2, 3, 4};
+  constexpr std::array<double, 3> kThickness = {1.5, 2, 4};
   constexpr std::array<int, 4> kDegrees = {10, 20, 30, 40};
   const std::vector<Filter> all = guarded_filters();
   std::vector<std::string> titles = {"", "guarded, %", "none"};
@@ -491,14 +446,13 @@ std::string wires_table() {
   return text + "\n";
 }
 
-TruthTables formula_frames_with_truth() {
+std::string formula_frames_with_truth() {
   std::vector<Column> columns;
   columns.push_back({"five scenes", {}});
   for (const char* const scene : {"cylinders", "object", "road", "quad", "tunnel"})
     columns.back().pairs.push_back(rendered(make_scene(scene), 512, 512));
   columns.push_back({"nine stand-ins", stand_ins()});
-  const std::vector<Filter> all = filters();
-  return {"\n" + perceptual_table(all, columns), "\n" + compressed_table(all, columns) + "\n"};
+  return "\n" + perceptual_table(filters(), columns);
 }
 
 std::string missing_data(const fs::path& data) {
@@ -532,7 +486,7 @@ std::string data_tables(const fs::path& data) {
   for (const char* const name : kPhotos)
     photos.push_back(
         checked(fmt::format("photograph: {}", name), read_image(photo_file(data, name)), all));
-  return "\nPhotographs. " + tables_of_right_frames(all, photos);
+  return "\nPhotographs. " + changed_table(all, photos);
 }
 
 namespace {

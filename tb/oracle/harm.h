@@ -17,11 +17,8 @@ std::string formula_tables();
 // FileError where the folder has not what they need.
 std::string data_tables(const std::filesystem::path& data);
 
-struct TruthTables {
-  std::string perceptual;  // PSNR, FLIP and SSIM over the frame
-  std::string compressed;  // PSNR over edges of frames that were compressed first
-};
-TruthTables formula_frames_with_truth();
+// PSNR, FLIP and SSIM over the frame.
+std::string formula_frames_with_truth();
 std::string data_frames_with_truth(const std::filesystem::path& data);
 // What of that is not there; empty: all is.
 std::string missing_data(const std::filesystem::path& data);
@@ -39,7 +36,7 @@ std::string guard_tables();
 std::string wires_table();
 std::string data_guard_table(const std::filesystem::path& data);
 
-// Of the first table of frames that are right the row of a page of aliased text, made of one of
+// Of the table of frames that are right the row of a page of aliased text, made of one of
 // this kind: as quick as a test that runs every time should be.
 std::string text_table(Text kind);
 // The same of the first of guard_tables().

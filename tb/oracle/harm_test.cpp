@@ -42,9 +42,8 @@ TEST(MorphologicalHarm, OfFramesOfOthers) {
 }
 
 TEST(MorphologicalHarm, OfFramesWithTruth) {
-  const harm::TruthTables tables = harm::formula_frames_with_truth();
-  expect_generated(kQualityPage, "MorphologicalHarm.OfFramesWithTruth", tables.perceptual);
-  expect_generated(kPage, "MorphologicalHarm.OfFramesWithTruth", tables.compressed);
+  expect_generated(kQualityPage, "MorphologicalHarm.OfFramesWithTruth",
+                   harm::formula_frames_with_truth());
 }
 
 TEST(MorphologicalHarm, OfFramesOfOthersWithTruth) {

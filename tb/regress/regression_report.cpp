@@ -17,6 +17,7 @@
 #include "tb/regress/junit.h"
 #include "tb/regress/regression_result.h"
 #include "tb/regress/trend.h"
+#include "tb/results/amount.h"
 #include "tb/results/build_info.h"
 #include "tb/results/embedded.h"
 #include "tb/results/page_template.h"
@@ -30,7 +31,7 @@ namespace mustache = kainjow::mustache;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kCollectedFile = "collected.json";
-constexpr int kReportSchema = 1;
+constexpr int kReportSchema = 2;
 constexpr std::size_t kMaxReportBytes = 256u << 20;
 constexpr std::size_t kMostNights = 30, kCommitDigits = 12;  // in a table
 
@@ -65,12 +66,10 @@ Json to_json(const CoverageResult& covered) {
 
 Json to_json(const FeatureResult& result) {
   const Feature& feature = *result.feature;
-  Json json = {{"id", feature.id},          {"title", feature.title},  {"holds", result.holds()},
-               {"runs", result.runs()},     {"passed", result.passed}, {"failed", result.failed},
-               {"missing", result.missing}, {"traces", Json::array()}, {"checks", Json::array()},
+  Json json = {{"id", feature.id},          {"title", feature.title},   {"holds", result.holds()},
+               {"runs", result.runs()},     {"passed", result.passed},  {"failed", result.failed},
+               {"missing", result.missing}, {"traces", feature.traces}, {"checks", Json::array()},
                {"coverage", Json::array()}};
-  for (const TracedSentence& trace : feature.traces)
-    json["traces"].push_back({{"page", trace.page.string()}, {"says", trace.says}});
   for (const CheckResult& check : result.checks)
     json["checks"].push_back(with_unknown({{"scoreboard", check.required.scoreboard},
                                            {"minimum", check.required.minimum},
@@ -301,12 +300,7 @@ mustache::data row_of(const Json& feature) {
     }
   row.set("checks_met", fmt::format("{} of {}", met, all_checks));
   mustache::data traces{mustache::data::type::list}, checks{mustache::data::type::list};
-  for (const Json& trace : feature.at("traces")) {
-    mustache::data entry;
-    entry.set("page", trace.at("page").get<std::string>());
-    entry.set("says", trace.at("says").get<std::string>());
-    traces << entry;
-  }
+  for (const Json& trace : feature.at("traces")) traces << trace.get<std::string>();
   for (const Json& check : feature.at("checks")) {
     mustache::data entry;
     entry.set("scoreboard", check.at("scoreboard").get<std::string>());

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <deque>
 #include <iterator>
@@ -36,120 +35,26 @@ constexpr std::size_t kMaxPageBytes = 16u << 20;
 constexpr std::uint64_t kMostSeeds = 100'000;
 constexpr std::uint64_t kMostComparisons = std::uint64_t{1} << 60;
 
-// Lines may be wrapped anywhere.
-std::string with_single_blanks(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    const bool blank = std::isspace(static_cast<unsigned char>(c)) != 0;
-    if (!blank)
-      out += c;
-    else if (!out.empty() && out.back() != ' ')
-      out += ' ';
+// Anchors of a page's headings. Code has none.
+std::vector<std::string> anchors_in(const std::string& markdown) {
+  std::vector<std::string> anchors;
+  bool in_code = false;
+  std::istringstream lines(markdown);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) in_code = !in_code;
+    const std::size_t marks = line.find_first_not_of('#');
+    if (in_code || marks == 0 || marks == std::string::npos || line[marks] != ' ') continue;
+    anchors.push_back(anchor_of(line.substr(marks)));
   }
-  if (!out.empty() && out.back() == ' ') out.pop_back();
-  return out;
+  return anchors;
 }
-
-// What a page of Markdown says: sentences, in paragraphs, items of lists and tables. Headings and
-// code say nothing.
-class Page {
- public:
-  explicit Page(const std::string& markdown) {
-    std::istringstream lines(markdown);
-    for (std::string line; std::getline(lines, line);) read(with_single_blanks(line));
-    end_block();
-  }
-
-  // Whole sentences of one block, or all of an item or row.
-  bool says(const std::string& text) const {
-    return any_of_places(text, [&](const Block& block, std::size_t from) {
-      return begins_at(block.text, from) && ends_at(block, from + text.size());
-    });
-  }
-  bool has(const std::string& text) const {
-    return any_of_places(text, [](const Block&, std::size_t) { return true; });
-  }
-
- private:
-  struct Block {
-    std::string text;
-    bool whole;  // its end is one of a sentence, whatever it ends with
-  };
-
-  void read(const std::string& line) {
-    if (line.starts_with("```")) in_code_ = !in_code_;
-    if (in_code_ || line.empty() || line.starts_with("```") || line.starts_with("#")) {
-      end_block();
-    } else if (line.starts_with("|")) {
-      end_block();
-      read_row(line);
-    } else if (const std::size_t marker = list_marker(line); marker > 0) {
-      end_block();
-      open_ = {line.substr(marker), true};
-    } else {
-      open_.text += (open_.text.empty() ? "" : " ") + line;
-    }
-  }
-
-  void read_row(const std::string& row) {
-    blocks_.push_back({row, true});
-    std::istringstream cells(row);
-    for (std::string cell; std::getline(cells, cell, '|');) {
-      open_ = {with_single_blanks(cell), false};
-      end_block();
-    }
-  }
-
-  void end_block() {
-    if (!open_.text.empty()) blocks_.push_back(std::move(open_));
-    open_ = {"", false};
-  }
-
-  // "* ", "- ", "12. "
-  static std::size_t list_marker(const std::string& line) {
-    const std::size_t digits = line.find_first_not_of("0123456789");
-    if (digits == std::string::npos) return 0;
-    const bool numbered = digits > 0 && line.substr(digits, 2) == ". ";
-    const bool plain = line.starts_with("* ") || line.starts_with("- ");
-    return numbered ? digits + 2 : plain ? 2 : 0;
-  }
-
-  // Behind a full stop, and what closes behind it.
-  static bool is_over_at(const std::string& text, std::size_t at) {
-    while (at > 0 && std::string_view(")]*_`'\"").find(text[at - 1]) != std::string_view::npos)
-      --at;
-    return at > 0 && std::string_view(".?!").find(text[at - 1]) != std::string_view::npos;
-  }
-  // "e.g. this" is no beginning.
-  static bool begins_at(const std::string& text, std::size_t at) {
-    return at == 0 || (text[at - 1] == ' ' && is_over_at(text, at - 1) &&
-                       std::islower(static_cast<unsigned char>(text[at])) == 0);
-  }
-  static bool ends_at(const Block& block, std::size_t at) {
-    if (at < block.text.size()) return block.text[at] == ' ' && begins_at(block.text, at + 1);
-    return block.whole || block.text.back() == ':' || is_over_at(block.text, at);
-  }
-
-  template <class Fits>
-  bool any_of_places(const std::string& text, Fits fits) const {
-    for (const Block& block : blocks_)
-      for (std::size_t at = block.text.find(text); at != std::string::npos;
-           at = block.text.find(text, at + 1))
-        if (fits(block, at)) return true;
-    return false;
-  }
-
-  std::vector<Block> blocks_;
-  Block open_{"", false};
-  bool in_code_ = false;
-};
 
 class Pages {
  public:
   explicit Pages(const fs::path& testplan) : folder_(fs::absolute(testplan).parent_path()) {}
 
-  // nullptr where there is no such page.
-  const Page* find(const fs::path& page) {
+  // The anchors of a page, or nullptr where there is no such page.
+  const std::vector<std::string>* find(const fs::path& page) {
     const auto [entry, is_new] = pages_.try_emplace(page.string());
     if (is_new) entry->second = read(page);
     return entry->second ? &*entry->second : nullptr;
@@ -157,19 +62,19 @@ class Pages {
   const std::vector<fs::path>& found() const { return found_; }
 
  private:
-  std::optional<Page> read(const fs::path& page) {
+  std::optional<std::vector<std::string>> read(const fs::path& page) {
     for (fs::path folder = folder_;; folder = folder.parent_path()) {
       std::error_code error;
       if (fs::is_regular_file(folder / page, error)) {
         found_.push_back(folder / page);
-        return Page(read_file(found_.back(), kMaxPageBytes));
+        return anchors_in(read_file(found_.back(), kMaxPageBytes));
       }
       if (folder == folder.parent_path()) return std::nullopt;
     }
   }
 
   fs::path folder_;
-  std::map<std::string, std::optional<Page>> pages_;
+  std::map<std::string, std::optional<std::vector<std::string>>> pages_;
   std::vector<fs::path> found_;
 };
 
@@ -327,7 +232,8 @@ class TestplanFile {
   }
 
   void read_traces_of(const YAML::Node& node, Feature& feature) {
-    for (const YAML::Node& trace : list_of(node, "traces")) feature.traces.push_back(read(trace));
+    for (const YAML::Node& trace : list_of(node, "traces"))
+      feature.traces.push_back(read_trace(trace));
   }
 
   void read_stimuli_of(const YAML::Node& node, Feature& feature) const {
@@ -359,28 +265,35 @@ class TestplanFile {
            std::find(page.begin(), page.end(), "..") == page.end();
   }
 
-  TracedSentence read(const YAML::Node& node) {
-    yaml_.require_keys(node, {"page", "says"});
-    TracedSentence trace{text_of(node, "page"), with_single_blanks(text_of(node, "says"))};
-    if (!is_in_docs(trace.page))
-      yaml_.fail(node["page"],
-                 fmt::format("'page' = '{}' wants a page of the documentation, docs/....md",
-                             trace.page.string()));
-    const Page* page = pages_.find(trace.page);
-    if (!page)
-      yaml_.fail(node["page"], fmt::format("there is no page '{}' in the folders around this file",
-                                           trace.page.string()));
-    if (trace.says.empty()) yaml_.fail(node["says"], "'says' wants a sentence of the page");
-    if (!page->says(trace.says))
-      yaml_.fail(
-          node["says"],
-          page->has(trace.says)
-              ? fmt::format("'{}' is no whole sentence of '{}': quote it from its beginning to its "
-                            "full stop, or a whole item of a list or row of a table",
-                            trace.says, trace.page.string())
-              : fmt::format("'{}' does not say '{}': if the page has changed, look whether the "
-                            "feature is still checked, and quote what it says now",
-                            trace.page.string(), trace.says));
+  // "docs/reference/texture/index.md#presets"
+  std::string read_trace(const YAML::Node& node) {
+    if (node.IsMap())  // as quoted sentences were, until 0.4.0
+      yaml_.fail(node,
+                 "'traces' no longer takes 'page' and 'says': name the heading above the sentence, "
+                 "as docs/PAGE.md#HEADING");
+    std::string trace = yaml_.scalar(node, "traces");
+    const std::size_t mark = std::min(trace.find('#'), trace.size());
+    const fs::path page = trace.substr(0, mark);
+    if (!is_in_docs(page))
+      yaml_.fail(node, fmt::format("'traces' = '{}' wants a heading of a page of the "
+                                   "documentation, docs/PAGE.md#HEADING",
+                                   trace));
+    const std::vector<std::string>* const anchors = pages_.find(page);
+    if (!anchors)
+      yaml_.fail(node, fmt::format("there is no page '{}' in the folders around this file",
+                                   page.string()));
+    const std::string anchor = trace.substr(std::min(mark + 1, trace.size()));
+    if (anchor.empty())
+      yaml_.fail(node, fmt::format("'traces' = '{}' names no heading: append #HEADING, with - for "
+                                   "blanks and without punctuation",
+                                   trace));
+    if (std::find(anchors->begin(), anchors->end(), anchor) == anchors->end()) {
+      const std::vector<std::string> near = near_matches(anchor, *anchors);
+      yaml_.fail(node, fmt::format("'{}' has no heading '#{}'{}", page.string(), anchor,
+                                   near.empty() ? ": check that the feature is still tested, and "
+                                                  "name the heading that describes it now"
+                                                : did_you_mean(near)));
+    }
     return trace;
   }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a testplan's YAML file says (docs/reference/regression.md): features, the sentences of the
-// pages that each of them is about, what is run for it, and what these runs must have checked and
-// covered.
+// Reads the YAML file of a testplan (docs/reference/regression.md): features, the headings of pages
+// that each of them tests, the runs for it, and what these runs must check and cover.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +11,6 @@
 #include "tb/sweep/definition.h"
 
 namespace deburr::tb {
-
-// What a page says that a feature is traced to: whole sentences, or an item or row.
-struct TracedSentence {
-  std::filesystem::path page;  // as the testplan names it
-  std::string says;
-};
 
 // Configurations of one engine, each with so many seeds; or so many random configurations.
 struct Stimulus {
@@ -46,7 +39,7 @@ struct UnmetBins {
 
 struct Feature {
   std::string id, title;
-  std::vector<TracedSentence> traces;
+  std::vector<std::string> traces;  // "docs/reference/texture/index.md#presets"
   std::vector<Stimulus> stimuli;
   std::vector<RequiredCheck> checks;
   std::vector<RequiredBins> coverage;
@@ -68,7 +61,7 @@ struct Testplan {
 // is already adds to it.
 //
 // ConfigError with file and line for everything that cannot be meant: unknown keys and parameters,
-// features and stimuli of one name, sentences that no page has, bins that no engine has. Pages are
+// features and stimuli of one name, headings that no page has, bins that no engine has. Pages are
 // looked for in the folder of the testplan and in those around it. Every file may have `coverage`
 // and `unmet` of the whole plan.
 Testplan read_testplan(const std::filesystem::path& file);

@@ -6,9 +6,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tb/results/report.h"
-
 namespace deburr::tb {
+
+std::string grouped(std::uint64_t value) {
+  const std::string digits = std::to_string(value);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
+}
 
 std::string amount(double value, int digits) {
   constexpr double kMost = 1e15;  // beyond it no digit of a double is a whole number's

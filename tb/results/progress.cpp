@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "tb/base/terminal.h"
-#include "tb/results/report.h"
+#include "tb/results/amount.h"
 
 namespace deburr::tb {
 namespace {

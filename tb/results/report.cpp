@@ -831,16 +831,6 @@ std::string json_for_script(const Json& json) {
   return text;
 }
 
-std::string grouped(std::uint64_t value) {
-  const std::string digits = std::to_string(value);
-  std::string text;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
-    text += digits[i];
-  }
-  return text;
-}
-
 std::string data_uri(const fs::path& image_file) {
   return png_uri(read_file(image_file, kMaxImageBytes));
 }

@@ -28,7 +28,5 @@ std::string png_uri(const std::string& png);
 
 // JSON that is safe inside a <script> element: no '<' in it.
 std::string json_for_script(const nlohmann::ordered_json& json);
-// 1234567 -> "1,234,567".
-std::string grouped(std::uint64_t value);
 
 }  // namespace deburr::tb

@@ -3,18 +3,19 @@
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 
 #include "spec/error.h"
 #include "tb/scene/import.h"
 #include "tb/scene/mesh_builder.h"
+#include "tb/scene/obj_text.h"
+#include "tb/scene/polygon.h"
 
 namespace deburr::tb {
 namespace {
@@ -22,167 +23,16 @@ namespace {
 namespace fs = std::filesystem;
 using Imath::V2d;
 using Imath::V3d;
+using spec::texture::Wrap;
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
-std::string_view next_word(std::string_view& line) {
-  std::size_t begin = 0;
-  while (begin < line.size() && is_space(line[begin])) ++begin;
-  std::size_t end = begin;
-  while (end < line.size() && !is_space(line[end])) ++end;
-  const std::string_view word = line.substr(begin, end - begin);
-  line.remove_prefix(end);
-  return word;
-}
-
-// tinyobjloader reads "nan", "1e999" and "12x" as some number without a word, and does not check
-// face indices. This pass over the text finds them first, with the line to look at, and the lines
-// that name materials.
-class ObjChecker {
- public:
-  ObjChecker(const fs::path& path, std::string_view text) : path_(path) {
-    while (!text.empty()) {
-      ++line_;
-      // tinyobjloader takes a carriage return for the end of a line, whatever comes behind it.
-      const std::size_t end = text.find_first_of("\r\n");
-      check_line(text.substr(0, end));
-      if (end == std::string_view::npos) {
-        no_final_newline_ = true;
-        break;
-      }
-      text.remove_prefix(end + (text.substr(end).starts_with("\r\n") ? 2 : 1));
-    }
-    check_highest(highest_[0], count_[0], "vertex");
-    check_highest(highest_[1], count_[1], "texture coordinate");
-    check_highest(highest_[2], count_[2], "normal");
-  }
-  bool no_final_newline() const { return no_final_newline_; }
-  bool has_lines() const { return lines_; }
-  const std::string& material_lines() const { return material_lines_; }
-
- private:
-  struct Highest {
-    std::int64_t index = 0;
-    std::uint64_t line = 0;
-  };
-
-  [[noreturn]] void fail(const std::string& reason) const {
-    fail_mesh(path_, fmt::format("line {}: {}; the file is truncated or damaged, export it again",
-                                 line_, reason));
-  }
-
-  void check_line(std::string_view line) {
-    const std::string_view whole = line, keyword = next_word(line);
-    if (keyword == "v") check_numbers(line, 0, 3, "vertex");
-    if (keyword == "vt") check_numbers(line, 1, 1, "texture coordinate");
-    if (keyword == "vn") check_numbers(line, 2, 3, "normal");
-    if (keyword == "f") check_face(line);
-    if (keyword == "l" || keyword == "p") lines_ = true;
-    if (keyword == "mtllib") material_lines_.append(whole).append("\n");
-  }
-
-  void check_numbers(std::string_view line, std::size_t kind, int needed, const char* what) {
-    int found = 0;
-    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), ++found) {
-      if (word[0] == '#') break;
-      if (word[0] == '+') word.remove_prefix(1);
-      double value = 0.0;
-      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-      if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-        fail(fmt::format("'{}' in a {} is not a finite number", word, what));
-      if (std::abs(value) > 1e30)
-        fail(fmt::format("'{}' in a {} is beyond 1e30, the largest number that is taken", word,
-                         what));
-    }
-    if (found < needed) fail(fmt::format("a {} has {} numbers instead of {}", what, found, needed));
-    ++count_[kind];
-  }
-
-  void check_face(std::string_view line) {
-    int corners = 0;
-    for (std::string_view word = next_word(line); !word.empty();
-         word = next_word(line), ++corners) {
-      if (word[0] == '#') break;
-      check_corner(word);
-    }
-    if (corners < 3) fail(fmt::format("a face has {} corners", corners));
-  }
-
-  // v, v/vt, v//vn or v/vt/vn, each counted from 1 or backwards from -1.
-  void check_corner(std::string_view word) {
-    std::string_view rest = word;
-    for (std::size_t kind = 0; kind < 3; ++kind) {
-      const std::size_t slash = rest.find('/');
-      const std::string_view digits = rest.substr(0, slash);
-      const bool may_be_empty = kind == 1 && slash != std::string_view::npos;
-      if (!digits.empty()) {
-        std::int64_t index = 0;
-        const auto [end, error] =
-            std::from_chars(digits.data(), digits.data() + digits.size(), index);
-        if (error != std::errc() || end != digits.data() + digits.size() || index == 0)
-          fail(fmt::format("'{}' is not a face corner", word));
-        if (index < 0 && -index > count_[kind])
-          fail(fmt::format("index {} in '{}' is out of range", index, word));
-        if (index > highest_[kind].index) highest_[kind] = {index, line_};
-      } else if (!may_be_empty) {
-        fail(fmt::format("'{}' is not a face corner", word));
-      }
-      if (slash == std::string_view::npos) return;
-      rest.remove_prefix(slash + 1);
-    }
-    fail(fmt::format("'{}' is not a face corner", word));
-  }
-
-  void check_highest(const Highest& highest, std::int64_t count, const char* what) {
-    if (highest.index <= count) return;
-    line_ = highest.line;
-    fail(fmt::format("a face uses {} {}, but there are {}", what, highest.index, count));
-  }
-
-  const fs::path& path_;
-  std::uint64_t line_ = 0;
-  std::array<std::int64_t, 3> count_{};
-  std::array<Highest, 3> highest_{};
-  bool no_final_newline_ = false, lines_ = false;
-  std::string material_lines_;
-};
-
+// Each line of the text once.
 std::string one_line(const std::string& text) {
   std::string line;
+  std::set<std::string> seen{""};
   std::istringstream lines(text);
   for (std::string each; std::getline(lines, each);)
-    if (!each.empty()) line += (line.empty() ? "" : "; ") + each;
+    if (seen.insert(each).second) line += (line.empty() ? "" : "; ") + each;
   return line;
-}
-
-// A line of numbers that ends with a backslash goes on in the next one, which tinyobjloader does
-// not know. Empty lines behind it keep the numbers of those that follow.
-std::string with_whole_lines(const std::string& text) {
-  if (text.find("\\\n") == std::string::npos && text.find("\\\r\n") == std::string::npos)
-    return text;
-  std::string whole, owed;
-  bool numbers = false;  // it is such a line
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    std::string_view line = std::string_view(text).substr(at, end - at);
-    at = end + 1;
-    if (owed.empty()) {
-      std::string_view rest = line;
-      const std::string_view keyword = next_word(rest);
-      numbers = keyword == "v" || keyword == "vt" || keyword == "vn" || keyword == "f";
-    }
-    std::string_view bare = line;
-    if (bare.ends_with('\r')) bare.remove_suffix(1);
-    if (numbers && bare.ends_with('\\') && end < text.size()) {
-      whole += bare.substr(0, bare.size() - 1);
-      owed += '\n';
-      continue;
-    }
-    whole += line;
-    if (end < text.size()) whole += '\n';
-    whole += std::exchange(owed, "");
-  }
-  return whole;
 }
 
 // tinyobjloader's numbers are flat arrays; -1 is "not given".
@@ -191,13 +41,16 @@ class Attributes {
   Attributes(const fs::path& path, const tinyobj::attrib_t& attributes)
       : path_(path), attributes_(attributes) {}
 
-  MeshBuilder::Corner corner(const tinyobj::index_t& index) const {
+  MeshBuilder::Corner corner(const tinyobj::index_t& index, const ObjMaterial& material) const {
     MeshBuilder::Corner corner;
     corner.position = three(attributes_.vertices, index.vertex_index);
     if (index.normal_index >= 0) corner.normal = three(attributes_.normals, index.normal_index);
     if (index.texcoord_index >= 0) {
       const std::size_t at = place(attributes_.texcoords, index.texcoord_index, 2);
-      corner.uv = V2d(attributes_.texcoords[at], 1.0 - double{attributes_.texcoords[at + 1]});
+      const V2d mapped =
+          V2d(attributes_.texcoords[at], attributes_.texcoords[at + 1]) * material.scale +
+          material.offset;
+      corner.uv = V2d(mapped.x, 1.0 - mapped.y);
     }
     return corner;
   }
@@ -223,8 +76,74 @@ class Attributes {
 struct TinyObj {
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
-  std::vector<tinyobj::material_t> materials;
   std::string warnings;
+};
+
+// Makes triangles of faces, and notes of those that are not as they should be.
+class FaceAdder {
+ public:
+  FaceAdder(const fs::path& path, MeshBuilder& builder) : path_(path), builder_(builder) {}
+
+  void add(const PolygonCorners& face, std::uint32_t line, std::uint32_t material) {
+    const auto triangle = [&](const Corner& a, const Corner& b, const Corner& c) {
+      builder_.add_triangle({a, b, c}, material);
+      any_ = true;
+    };
+    if (face.size() == 3) {
+      triangle(face[0], face[1], face[2]);
+      if (!(area_vector(face).length2() > 0.0)) without_area_.add(line);
+    } else if (face.size() == 4 && is_strictly_convex(face)) {
+      // Along the shorter diagonal, in single precision as tinyobjloader does it.
+      if (squared_distance(face[0], face[2]) < squared_distance(face[1], face[3])) {
+        triangle(face[0], face[1], face[2]);
+        triangle(face[0], face[2], face[3]);
+      } else {
+        triangle(face[0], face[1], face[3]);
+        triangle(face[1], face[2], face[3]);
+      }
+    } else {
+      if (const std::string reason = too_complex(face); !reason.empty())
+        fail_mesh(path_, fmt::format("line {}: a face {}", line, reason));
+      const auto& triangles = splitter_.split(face);
+      for (const auto& [a, b, c] : triangles) triangle(*a, *b, *c);
+      if (triangles.empty())
+        without_area_.add(line);
+      else if (splitter_.crosses_itself())
+        crossing_.add(line);
+    }
+  }
+
+  void finish() const {
+    if (!any_ && without_area_.count > 0)
+      fail_mesh(path_, fmt::format("line {}: a face has no area, and no other face has one; repair "
+                                   "the vertices",
+                                   without_area_.first));
+    without_area_.note(builder_, "faces without an area are not seen");
+    crossing_.note(builder_, "faces that cross themselves were filled");
+  }
+
+ private:
+  using Corner = MeshBuilder::Corner;
+  struct Faces {
+    std::uint64_t count = 0;
+    std::uint32_t first = 0;  // its line
+    void add(std::uint32_t line) {
+      if (count++ == 0) first = line;
+    }
+    void note(MeshBuilder& builder, std::string_view what) const {
+      if (count > 0) builder.note(fmt::format("{}: {}, the first in line {}", what, count, first));
+    }
+  };
+
+  static float squared_distance(const Corner& a, const Corner& b) {
+    return Imath::V3f(Imath::V3f(b.position) - Imath::V3f(a.position)).length2();
+  }
+
+  const fs::path& path_;
+  MeshBuilder& builder_;
+  PolygonSplitter splitter_;
+  Faces without_area_, crossing_;
+  bool any_ = false;  // has become a triangle
 };
 
 class ObjImporter final : public Importer {
@@ -234,79 +153,97 @@ class ObjImporter final : public Importer {
   // The lines that name materials, by themselves, make tinyobjloader ask for the same files in the
   // same order as all of them do.
   void open() override {
-    text_ = with_whole_lines(read_mesh());
+    text_ = with_whole_lines(plain_text(read_mesh(), path().string()));
     checked_.emplace(path(), text_);
-    materials_ = load(checked_->material_lines(), [this](const std::string& name) {
-                   return material_texts_[name] = read_material_file(name);
-                 }).materials;
+    load(checked_->material_lines(), [this](const std::string& name) {
+      const ObjMaterials* const read = read_material_file(name);
+      if (read != nullptr)
+        materials_.insert(materials_.end(), read->materials.begin(), read->materials.end());
+      return read;
+    });
     if (!options().textures) return;
-    for (const tinyobj::material_t& material : materials_)
-      if (!material.diffuse_texname.empty()) add_file(texture_path(material));
+    for (const ObjMaterial& material : materials_)
+      if (!material.map.empty()) add_file(texture_path(material));
   }
 
   Mesh build() override {
     const TinyObj loaded = load(text_, [this](const std::string& name) {
-      const auto found = material_texts_.find(name);
-      DEBURR_CHECK(found != material_texts_.end(), "nobody has opened the materials " + name);
-      return found->second;
+      const auto found = material_files_.find(name);
+      DEBURR_CHECK(found != material_files_.end(), "nobody has opened the materials " + name);
+      return found->second ? &*found->second : nullptr;
     });
     MeshBuilder builder(path());
     add_notes(loaded, builder);
-    for (const tinyobj::material_t& material : materials_) {
+    for (const ObjMaterial& material : materials_) {
       Material ours;
       ours.name = material.name;
-      ours.colour = {material.diffuse[0], material.diffuse[1], material.diffuse[2]};
-      if (options().textures && !material.diffuse_texname.empty())
-        ours.texture = builder.texture_from_file(texture_path(material));
+      ours.colour = material.colour;
+      if (options().textures && !material.map.empty())
+        ours.texture = builder.texture_from_file(
+            texture_path(material), material.clamp ? Wrap::kClampToEdge : Wrap::kRepeat);
       builder.add_material(ours);
     }
-    add_triangles(loaded, builder);
+    add_faces(loaded, builder);
     return builder.finish();
   }
 
  private:
-  using MaterialText = std::function<std::optional<std::string>(const std::string& name)>;
+  using MaterialFile = std::function<const ObjMaterials*(const std::string& name)>;
 
-  // Gives tinyobjloader materials from `text`, which says what stands in them.
+  // Numbers tinyobjloader's materials as `file` gives them; what they say is read from ours.
   class Materials final : public tinyobj::MaterialReader {
    public:
-    explicit Materials(const MaterialText& text) : text_(text) {}
+    explicit Materials(const MaterialFile& file) : file_(file) {}
     bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
                     std::map<std::string, int>* indices, std::string* warnings,
-                    std::string* errors) override {
-      const std::optional<std::string> text = text_(name);
-      if (!text) {
+                    std::string* /*errors*/) override {
+      const ObjMaterials* const file = file_(name);
+      if (file == nullptr) {
         *warnings += fmt::format("the materials '{}' are not there\n", name);
         return false;
       }
-      std::istringstream stream(*text);
-      tinyobj::LoadMtl(indices, materials, &stream, warnings, errors);
+      for (const ObjMaterial& material : file->materials) {
+        indices->try_emplace(material.name, static_cast<int>(materials->size()));
+        materials->emplace_back();
+      }
       return true;
     }
 
    private:
-    const MaterialText& text_;
+    const MaterialFile& file_;
   };
 
-  TinyObj load(const std::string& text, const MaterialText& material_text) const {
+  TinyObj load(const std::string& text, const MaterialFile& material_file) const {
     TinyObj loaded;
-    Materials materials(material_text);
+    Materials reader(material_file);
     std::istringstream stream(text);
     std::string errors;
-    if (!tinyobj::LoadObj(&loaded.attributes, &loaded.shapes, &loaded.materials, &loaded.warnings,
-                          &errors, &stream, &materials, /*triangulate=*/true,
+    std::vector<tinyobj::material_t> materials;
+    if (!tinyobj::LoadObj(&loaded.attributes, &loaded.shapes, &materials, &loaded.warnings, &errors,
+                          &stream, &reader, /*triangulate=*/false,
                           /*default_vcols_fallback=*/false))
       fail_mesh(path(), one_line(errors) + "; export it again");
     return loaded;
   }
 
-  // A blank at the end of the line is an empty name.
-  std::optional<std::string> read_material_file(const std::string& name) {
-    return name.empty() ? std::nullopt : read_named(folder() / name);
+  std::string plain_text(std::string text, const std::string& file) const {
+    bool is_utf16 = false;
+    text = without_byte_order_mark(std::move(text), is_utf16);
+    if (is_utf16)
+      fail_mesh(path(), fmt::format("'{}' is written in UTF-16; save it as UTF-8", file));
+    return text;
   }
 
-  fs::path texture_path(const tinyobj::material_t& material) const {
-    std::string name = material.diffuse_texname;
+  // A blank at the end of the line is an empty name.
+  const ObjMaterials* read_material_file(const std::string& name) {
+    std::optional<ObjMaterials>& file = material_files_[name];
+    if (std::optional<std::string> text = name.empty() ? std::nullopt : read_named(folder() / name))
+      file = parse_materials(plain_text(std::move(*text), name));
+    return file ? &*file : nullptr;
+  }
+
+  fs::path texture_path(const ObjMaterial& material) const {
+    std::string name = material.map;
     std::replace(name.begin(), name.end(), '\\', '/');
     return folder() / name;
   }
@@ -316,29 +253,45 @@ class ObjImporter final : public Importer {
     if (checked_->no_final_newline())
       builder.note("the last line has no end; the file may have been truncated there");
     if (checked_->has_lines()) builder.note("points and lines were left out");
+    if (checked_->has_colours()) builder.note("vertex colours were left out");
+    if (const std::string text = checked_->not_read().text(); !text.empty())
+      builder.note("statements that were left out: " + text);
+    for (const auto& [name, file] : material_files_)
+      if (const std::string text = file ? file->not_read.text() : ""; !text.empty())
+        builder.note(fmt::format("'{}': left out: {}", name, text));
   }
 
-  void add_triangles(const TinyObj& loaded, MeshBuilder& builder) const {
+  void add_faces(const TinyObj& loaded, MeshBuilder& builder) const {
     // Faces before the first usemtl, or of a material that no .mtl describes.
     const auto plain = static_cast<std::uint32_t>(materials_.size());
     builder.add_material({"default", V3d(0.8, 0.8, 0.8), -1});
-    const Attributes corners(path(), loaded.attributes);
+    const ObjMaterial none;
+    const Attributes attributes(path(), loaded.attributes);
+    FaceAdder adder(path(), builder);
+    // tinyobjloader keeps the order of the file, and the last eight bits of a face's corners.
+    auto next = checked_->faces().begin();
+    PolygonCorners corners;
     for (const tinyobj::shape_t& shape : loaded.shapes) {
-      const tinyobj::mesh_t& mesh = shape.mesh;
-      for (std::size_t face = 0; 3 * face + 2 < mesh.indices.size(); ++face) {
-        const int material = face < mesh.material_ids.size() ? mesh.material_ids[face] : -1;
-        builder.add_triangle(
-            {corners.corner(mesh.indices[3 * face]), corners.corner(mesh.indices[3 * face + 1]),
-             corners.corner(mesh.indices[3 * face + 2])},
-            material < 0 ? plain : static_cast<std::uint32_t>(material));
+      auto index = shape.mesh.indices.begin();
+      for (std::size_t face = 0; face < shape.mesh.num_face_vertices.size(); ++face, ++next) {
+        if (next == checked_->faces().end() || shape.mesh.indices.end() - index < next->corners)
+          fail_mesh(path(), "its faces cannot be told apart; the file is damaged, export it again");
+        const int material = shape.mesh.material_ids[face];
+        const bool known = material >= 0;
+        corners.clear();
+        for (std::uint32_t k = 0; k < next->corners; ++k, ++index)
+          corners.push_back(attributes.corner(
+              *index, known ? materials_[static_cast<std::size_t>(material)] : none));
+        adder.add(corners, next->line, known ? static_cast<std::uint32_t>(material) : plain);
       }
     }
+    adder.finish();
   }
 
   std::string text_;
   std::optional<ObjChecker> checked_;
-  std::vector<tinyobj::material_t> materials_;
-  std::map<std::string, std::optional<std::string>> material_texts_;  // by the name in the mesh
+  std::vector<ObjMaterial> materials_;  // of all files, in the order in which they are named
+  std::map<std::string, std::optional<ObjMaterials>> material_files_;  // by the name in the mesh
 };
 
 }  // namespace

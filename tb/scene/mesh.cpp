@@ -308,10 +308,11 @@ int MeshBuilder::add_texture(Texture texture) {
   return static_cast<int>(mesh_.textures.size()) - 1;
 }
 
-int MeshBuilder::texture_from_file(const fs::path& file) {
-  if (const auto found = texture_files_.find(file); found != texture_files_.end())
+int MeshBuilder::texture_from_file(const fs::path& file, spec::texture::Wrap wrap) {
+  if (const auto found = texture_files_.find({file, wrap}); found != texture_files_.end())
     return found->second;
   Texture texture;
+  texture.wrap_s = texture.wrap_t = wrap;
   texture.name = file.filename().string();
   try {
     ReadReport report;
@@ -324,7 +325,7 @@ int MeshBuilder::texture_from_file(const fs::path& file) {
                           "of your own",
                           error.what()));
   }
-  return texture_files_[file] = add_texture(std::move(texture));
+  return texture_files_[{file, wrap}] = add_texture(std::move(texture));
 }
 
 // Materials and textures that no triangle uses: a texture unit has sixteen descriptors only.

@@ -66,13 +66,13 @@ inline constexpr std::uint64_t kMaxMeshFileBytes = std::uint64_t{1} << 30;
 inline constexpr std::uint64_t kMaxTriangles = 4'000'000;
 
 // Reads .obj (with its .mtl and textures), .gltf or .glb (all nodes of the default scene with their
-// transforms; embedded and external textures). Polygons become triangles; lines and points are left
-// out with a note. Where a triangle has no texture coordinates it gets a box projection: (s, t) are
-// the two coordinates across the largest component of its face normal, one repeat to a quarter of
-// the mesh's longest side. Where it has no normals it gets its face normal. OBJ's v axis is flipped
-// to t = 1 - v. Throws FileError that names the file and what to do: missing, empty, truncated,
-// malformed, a number that is not finite, an index out of range, no triangles, too large, texture
-// missing or unreadable.
+// transforms; embedded and external textures). Polygons become triangles, also concave ones; what
+// is left out is noted. Where a triangle has no texture coordinates it gets a box projection: (s,
+// t) are the two coordinates across the largest component of its face normal, one repeat to a
+// quarter of the mesh's longest side. Where it has no normals it gets its face normal. OBJ's v axis
+// is flipped to t = 1 - v. Throws FileError that names the file and what to do: missing, empty,
+// truncated, malformed, a number that is not finite, an index out of range, no triangles, too
+// large, texture missing or unreadable.
 struct ImportOptions {
   bool textures = true;  // false: leave the file's textures unread (someone else's replaces them)
 };

@@ -30,8 +30,9 @@ class MeshBuilder {
   void add_triangle(const std::array<Corner, 3>& corners, std::uint32_t material);
   void note(const std::string& text) { mesh_.notes.push_back(text); }
 
-  // Reads a texture file once, however many materials name it. Throws FileError.
-  int texture_from_file(const std::filesystem::path& file);
+  // Reads a texture file once, however many materials name it, for each way to wrap it. Throws
+  // FileError.
+  int texture_from_file(const std::filesystem::path& file, spec::texture::Wrap wrap);
   int add_texture(Texture texture);
   void add_material(Material material) { mesh_.materials.push_back(std::move(material)); }
 
@@ -51,7 +52,7 @@ class MeshBuilder {
   std::filesystem::path path_;
   Mesh mesh_;
   std::unordered_map<Vertex, std::uint32_t, Hash, Equal> indices_;
-  std::map<std::filesystem::path, int> texture_files_;
+  std::map<std::pair<std::filesystem::path, spec::texture::Wrap>, int> texture_files_;
   std::vector<std::array<Corner, 3>> unmapped_;  // triangles that wait for the mesh's size
   std::vector<std::uint32_t> unmapped_triangle_;
   std::uint64_t without_normals_ = 0;

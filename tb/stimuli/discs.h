@@ -4,7 +4,7 @@
 // Straight lines reward every extension of a run; on a curve most extensions are wrong. Discs of a
 // radius, centres at random within a pixel, white on black, sampled at pixel centres, smoothed, and
 // compared with the exact share of every pixel that the circle crosses: RMS error x 1000 of full
-// scale (docs/measurements/morphological_quality.md, "Curves").
+// scale (docs/measurements/morphological_quality.md, "Straight lines").
 #pragma once
 
 #include <array>

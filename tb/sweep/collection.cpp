@@ -15,6 +15,7 @@
 #include "tb/base/file.h"
 #include "tb/base/json_text.h"
 #include "tb/base/near_matches.h"
+#include "tb/results/amount.h"
 #include "tb/results/build_info.h"
 #include "tb/results/compare_sweeps.h"
 #include "tb/results/embedded.h"

@@ -17,9 +17,9 @@ Evolution* load() {
   void* const symbol = module != nullptr ? ::dlsym(module, kEvolutionModuleEntry) : nullptr;
   if (symbol == nullptr)
     throw spec::FileError(fmt::format(
-        "nothing can be searched: the module {0} cannot be loaded ({1}); put the {0} of the same "
-        "build beside the program, and install pagmo (in the repository: scripts/demo "
-        "--complete)",
+        "nothing can be searched: the module {0} cannot be loaded ({1}); install pagmo (Debian's "
+        "libpagmo-dev; in the repository: scripts/demo --complete), and put the {0} of the same "
+        "build beside the program",
         kEvolutionModule, ::dlerror()));
   return reinterpret_cast<Entry>(symbol)();
 }

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tb/sweep/pareto_search.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <unordered_set>
 #include <utility>
 
@@ -15,12 +12,8 @@
 namespace deburr::tb {
 namespace {
 
-constexpr std::size_t kTriesOfAChild = 32;    // mutations until it is new
+constexpr int kTriesToBreed = 32;             // generations until enough points are new
 constexpr std::size_t kTriesAtRandom = 1000;  // draws until one is new
-constexpr std::size_t kGuessedPopulation = 64;
-constexpr int kGuessedGenerations = 20;
-constexpr std::size_t kMostKnown = 1000;  // that a guess is made from: the best ones
-constexpr double kNoPoint = 1e3;          // guessed cost of what is no point
 
 class Search {
  public:
@@ -28,21 +21,24 @@ class Search {
       : space_(space),
         settings_(settings),
         evaluate_(evaluate),
-        random_(settings.seed, "pareto search") {
-    for (const SearchAxis& axis : space.axes) sizes_.push_back(axis.size);
-  }
+        random_(settings.seed, "pareto search") {}
 
   std::vector<Individual> run() {
     if (ask(drawn()) == 0) return {};
     while (all_.size() < settings_.runs)
-      if (ask(settings_.guess ? guessed() : bred()) == 0 && ask(drawn()) == 0) break;
+      if (ask(bred()) == 0 && ask(drawn()) == 0) break;
     return std::move(all_);
   }
 
  private:
+  bool full(const std::vector<Candidate>& generation) const {
+    return generation.size() >= settings_.population ||
+           all_.size() + generation.size() >= settings_.runs;
+  }
+
   // Takes it if it is a point, and a new one.
   bool take(std::vector<Candidate>& generation, Genes genes) {
-    if (all_.size() + generation.size() >= settings_.runs) return false;
+    if (full(generation)) return false;
     std::optional<std::string> name = space_.name(genes);
     if (!name || !names_.insert(*name).second) return false;
     generation.push_back({*std::move(name), std::move(genes)});
@@ -52,55 +48,19 @@ class Search {
   std::vector<Candidate> drawn() {
     std::vector<Candidate> generation;
     std::size_t vain = 0;
-    while (generation.size() < settings_.population && vain < kTriesAtRandom) {
+    while (!full(generation) && vain < kTriesAtRandom) {
       Genes genes;
-      for (const std::uint32_t size : sizes_) genes.push_back(random_.below(size));
+      for (const std::uint32_t size : space_.sizes) genes.push_back(random_.below(size));
       vain = take(generation, std::move(genes)) ? 0 : vain + 1;
     }
     return generation;
   }
 
   std::vector<Candidate> bred() {
+    const std::vector<Individual> parents = best();
     std::vector<Candidate> generation;
-    for (Genes genes : children_of(best(all_, settings_.population))) {
-      bool taken = take(generation, genes);
-      for (std::size_t i = 0; i < kTriesOfAChild && !taken; ++i) {
-        mutate(genes);
-        taken = take(generation, genes);
-      }
-    }
-    return generation;
-  }
-
-  std::vector<Candidate> guessed() {
-    const std::vector<Individual> known = best(all_, kMostKnown);
-    const Surrogate surrogate(space_.axes, known);
-    std::vector<Individual> pool = known;
-    for (std::size_t i = 0; i < known.size(); ++i) pool[i].costs = surrogate.known()[i];
-    std::set<Genes> seen;
-    for (const Individual& each : all_) seen.insert(each.genes);
-    std::vector<Individual> parents = best(pool, kGuessedPopulation);
-    for (int i = 0; i < kGuessedGenerations; ++i) {
-      for (const Genes& genes : children_of(parents)) {
-        if (!seen.insert(genes).second) continue;
-        const std::optional<std::string> name = space_.name(genes);
-        Individual child{genes, Costs(known.front().costs.size(), kNoPoint)};
-        if (name && !names_.contains(*name)) child.costs = surrogate.predict(genes);
-        parents.push_back(child);
-        pool.push_back(std::move(child));
-      }
-      parents = best(parents, kGuessedPopulation);
-    }
-    // Those that nobody has evaluated come behind `known` in the pool.
-    std::vector<Candidate> generation;
-    for (std::size_t number = settings_.population; generation.size() < settings_.population;
-         number *= 2) {
-      for (const std::size_t i : evolution().best(costs_of(pool), number))
-        if (generation.size() < settings_.population && i >= known.size() &&
-            pool[i].costs.front() < kNoPoint)
-          take(generation, pool[i].genes);
-      if (number >= pool.size()) break;
-    }
+    for (int i = 0; i < kTriesToBreed && !full(generation); ++i)
+      for (Genes& genes : children_of(parents)) take(generation, std::move(genes));
     return generation;
   }
 
@@ -109,41 +69,22 @@ class Search {
     for (std::size_t i = 0;
          parents.size() < Evolution::kLeast || parents.size() % Evolution::kGroup != 0; ++i)
       parents.push_back(Individual(parents[i]));
-    std::vector<Genes> children =
-        evolution().children(parents, sizes_, static_cast<std::uint32_t>(random_.next() >> 32));
+    std::vector<Genes> children = evolution().children(
+        parents, space_.sizes, static_cast<std::uint32_t>(random_.next() >> 32));
     if (children.empty()) throw spec::ConfigError("pagmo: " + evolution().error());
     return children;
   }
 
-  static std::vector<Costs> costs_of(const std::vector<Individual>& all) {
+  std::vector<Individual> best() const {
+    if (settings_.population >= all_.size()) return all_;
     std::vector<Costs> costs;
-    costs.reserve(all.size());
-    for (const Individual& each : all) costs.push_back(each.costs);
-    return costs;
-  }
-
-  static std::vector<Individual> best(const std::vector<Individual>& all, std::size_t number) {
-    if (number >= all.size()) return all;
+    costs.reserve(all_.size());
+    for (const Individual& each : all_) costs.push_back(each.costs);
     std::vector<Individual> chosen;
-    for (const std::size_t i : evolution().best(costs_of(all), number)) chosen.push_back(all[i]);
+    for (const std::size_t i : evolution().best(costs, settings_.population))
+      chosen.push_back(all_[i]);
     if (chosen.empty()) throw spec::ConfigError("pagmo: " + evolution().error());
     return chosen;
-  }
-
-  // One axis: a step where its values are ordered, any other value where not.
-  void mutate(Genes& genes) {
-    const std::uint32_t axis = random_.below(static_cast<std::uint32_t>(genes.size()));
-    const std::uint32_t size = sizes_[axis];
-    if (size < 2) return;
-    std::uint32_t& gene = genes[axis];
-    if (!space_.axes[axis].ordered)
-      gene = (gene + 1 + random_.below(size - 1)) % size;
-    else if (gene == 0)
-      gene = 1;
-    else if (gene + 1 == size)
-      gene -= 1;
-    else
-      gene = random_.below(2) == 0 ? gene - 1 : gene + 1;
   }
 
   // Returns how many there were.
@@ -159,7 +100,6 @@ class Search {
   const SearchSettings& settings_;
   const Evaluate& evaluate_;
   Random random_;
-  std::vector<std::uint32_t> sizes_;
   std::vector<Individual> all_;
   std::unordered_set<std::string> names_;
 };

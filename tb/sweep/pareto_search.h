@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Multi-objective search with a budget of evaluations: which points of a discrete space are asked
-// for next. It knows nothing of what a point is.
-//
-// After a first generation drawn at random, NSGA-II breeds on a guess of the costs (surrogate.h)
-// for many generations, from the best of all points so far; of what it comes upon the best points
-// that are new are evaluated, and the guess is made again. Without the guess each generation of
-// NSGA-II is evaluated, and what it breeds again is mutated until it is new, since asking twice
-// tells nothing.
+// Multi-objective search with a budget of evaluations: chooses the next points of a discrete space.
+// It does not know what a point is. After a first generation drawn at random, NSGA-II breeds each
+// generation from the best of all points so far, again until enough of them are new, since asking
+// twice tells nothing.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +13,11 @@
 #include <vector>
 
 #include "tb/sweep/evolution.h"
-#include "tb/sweep/surrogate.h"
 
 namespace deburr::tb {
 
 struct SearchSpace {
-  std::vector<SearchAxis> axes;
+  std::vector<std::uint32_t> sizes;  // how many choices each axis has
   // What a point is called; none: it is no point (a constraint). Points of one name are the same.
   std::function<std::optional<std::string>(const Genes&)> name;
 };
@@ -31,7 +26,6 @@ struct SearchSettings {
   std::uint64_t runs = 100;     // points that are evaluated, at most
   std::size_t population = 12;  // points that are evaluated at a time
   std::uint64_t seed = 1;
-  bool guess = true;
 };
 
 struct Candidate {

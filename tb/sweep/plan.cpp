@@ -20,9 +20,9 @@
 #include "tb/base/file.h"
 #include "tb/base/headline.h"
 #include "tb/base/json_text.h"
+#include "tb/results/amount.h"
 #include "tb/results/build_info.h"
 #include "tb/results/progress.h"
-#include "tb/results/report.h"
 
 namespace deburr::tb {
 namespace {

@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <system_error>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -14,7 +12,7 @@
 #include "spec/error.h"
 #include "tb/base/file.h"
 #include "tb/base/interrupt.h"
-#include "tb/results/report.h"
+#include "tb/results/amount.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/truth.h"
 #include "tb/sweep/collection.h"
@@ -32,12 +30,6 @@ constexpr double kWorst = 1e30;  // of a point that failed or lacks the metric
 // Of a point beyond the limits, in each objective, and more the further it is: worse than all that
 // are within, so that the search first looks for its way there.
 constexpr double kBeyond = 1e20;
-
-bool is_number(const std::string& text) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size();
-}
 
 void reject_what_cannot_be_searched(const SweepDefinition& sweep) {
   const std::string file = sweep.file.string();
@@ -124,20 +116,15 @@ class SweepSearch {
 
   void search(const Sample& front, std::uint64_t runs, std::uint64_t seed) {
     SearchSpace space;
-    for (const std::size_t axis : searched_) {
-      const std::vector<Choice>& choices = sweep_.axes[axis].choices;
-      space.axes.push_back({static_cast<std::uint32_t>(choices.size()),
-                            std::all_of(choices.begin(), choices.end(), [](const Choice& choice) {
-                              return is_number(choice.label);
-                            })});
-    }
+    for (const std::size_t axis : searched_)
+      space.sizes.push_back(static_cast<std::uint32_t>(sweep_.axes[axis].choices.size()));
     space.name = [&](const Genes& genes) -> std::optional<std::string> {
       const auto [known, is_new] = named_.try_emplace(sample_of(front, genes));
       if (is_new) known->second = check_.check(sample_of(front, genes));
       if (!known->second) return std::nullopt;
       return known->second->name;
     };
-    search_pareto(space, {runs, settings_.population, seed, settings_.guess},
+    search_pareto(space, {runs, settings_.population, seed},
                   [&](const std::vector<Candidate>& generation) {
                     std::vector<PlannedPoint> points;
                     points.reserve(generation.size());

@@ -29,7 +29,7 @@
 #include "tb/base/json_text.h"
 #include "tb/base/shell.h"
 #include "tb/base/yaml_file.h"
-#include "tb/results/report.h"
+#include "tb/results/amount.h"
 
 namespace deburr::tb {
 namespace {

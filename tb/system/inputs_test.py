@@ -252,10 +252,10 @@ class Replaced(InputsTest):
 
     def test_regressions(self):
         self.write_obj()
-        self.write("docs/p.md", "Stalls change nothing.\n")
+        self.write("docs/p.md", "# Stalls\n")
         base = self.base("frame", "meshes/m.obj").split("\n")[1]
         self.write("t.yaml", "features:\n  - id: a\n    title: A\n"
-                   "    traces: [{page: docs/p.md, says: Stalls change nothing.}]\n"
+                   "    traces: [docs/p.md#stalls]\n"
                    f"    stimuli: [{{name: s, engine: frame, seeds: 2, {base}}}]\n"
                    "    checks: {colours: 1}\n")
 
@@ -517,9 +517,9 @@ class Traced(InputsTest):
         shutil.rmtree(self.path("out/points"))
         self.check_points("search", "s.yaml", "out/searches/s/collected.json", least=6)
         shutil.rmtree(self.path("out/points"))
-        self.write("docs/p.md", "Stalls change nothing.\n")
+        self.write("docs/p.md", "# Stalls\n")
         self.write("plans/t.yaml", "features:\n  - id: a\n    title: A\n"
-                   "    traces: [{page: docs/p.md, says: Stalls change nothing.}]\n"
+                   "    traces: [docs/p.md#stalls]\n"
                    f"    stimuli: [{{name: s, engine: texture, base: {base}, {axes.strip()}}}]\n"
                    "    checks: {colours: 1}\n")
         self.check_points("regress", "plans/t.yaml", "out/regressions/t-7/collected.json", least=7)

@@ -19,15 +19,16 @@ import xml.etree.ElementTree
 
 PAGE = """# The unit
 
-It gives every pixel once,
-in order. Stalls change nothing.
+It gives every pixel once, in order.
+
+## Stalls
 """
 TESTPLAN = """
 title: Small
 features:
   - id: filtering
     title: Filtering
-    traces: [{page: docs/unit.md, says: "It gives every pixel once, in order."}]
+    traces: [docs/unit.md#the-unit]
     stimuli:
       - name: scenes
         engine: texture
@@ -38,14 +39,14 @@ features:
     coverage: [texture/cache/hit, texture/cache/miss]
   - id: anything
     title: Random configurations
-    traces: [{page: docs/unit.md, says: Stalls change nothing.}]
+    traces: [docs/unit.md#stalls]
     stimuli: [{name: texture, engine: texture, random: true, seeds: 3}]
     checks: {colours: 1}
 """
 POINTS = 9
 FAULT = """  - id: broken
     title: A planted fault
-    traces: [{page: docs/unit.md, says: Stalls change nothing.}]
+    traces: [docs/unit.md#stalls]
     stimuli:
       - name: fault
         engine: texture
@@ -167,7 +168,7 @@ class Passing(RegressTest):
         self.assertEqual(bins["hit"], bins["bins"] - len(bins["holes"]))
         with open(self.path("out/regressions/small-7/index.html")) as file:
             page = file.read()
-        self.assertIn("It gives every pixel once, in order.", page)
+        self.assertIn("docs/unit.md#the-unit", page)
         self.assertIn(">PASSED</span>", page)
         self.assertIn("9 of 9 runs passed; 0 of 5 checks failed; 0 bins of their coverage were not met.", page)
         self.assertNotRegex(page, r"(src|href)=\"http")
@@ -372,7 +373,7 @@ class Failing(RegressTest):
         self.write("bad.png", "no picture")
         unread = """  - id: unread
     title: A texture that cannot be read
-    traces: [{page: docs/unit.md, says: Stalls change nothing.}]
+    traces: [docs/unit.md#stalls]
     stimuli: [{name: bad, engine: texture, base: {scene: {width: 24, height: 16, texture: bad.png}}}]
     checks: {colours: 1}
 """

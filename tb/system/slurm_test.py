@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Sweeps on a Slurm of two nodes that this test starts on this machine and stops again: an array, a
-killed task, a killed node, resume, and errors; a regression; and mutants as an array. Needs root,
+killed task, a killed node, resume, and errors; and a regression. Needs root,
 Debian's slurm-wlm and munge; no systemd.
 
 usage: slurm_test.py DEBURR
@@ -20,7 +20,7 @@ import unittest
 import regress_test
 import sweep_test
 
-PROGRAMS = ("munged", "mungekey", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol", "ninja")
+PROGRAMS = ("munged", "mungekey", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol")
 POINTS = 16
 SWEEP = """
 engine: texture
@@ -33,21 +33,6 @@ axes:
   memory.latency: [50, 100]
 chunk: 2
 """
-TINY = {
-    "CMakeLists.txt": """cmake_minimum_required(VERSION 3.25)
-project(tiny LANGUAGES CXX)
-enable_testing()
-add_executable(tiny_test tiny_test.cpp)
-add_test(NAME tiny_test.all COMMAND tiny_test)
-""",
-    "docs/index.md": "",
-    "rtl_model/tiny/tiny.h": """inline bool tested(int a) { return a < 7; }
-constexpr int kSize = 5;
-""",
-    "tiny_test.cpp": """#include "rtl_model/tiny/tiny.h"
-int main() { return tested(6) && !tested(7) && kSize == 5 ? 0 : 1; }
-""",
-}
 PORT = 17000 + os.getpid() % 900 * 10
 
 
@@ -299,39 +284,6 @@ class Slurm(OnCluster, unittest.TestCase):
             with open(os.path.join(self.directory, out, "searches/sweep/points.jsonl")) as file:
                 asked.append(file.read())
         self.assertEqual(*asked)
-
-    def test_mutants(self):
-        """Both nodes check mutants of a tree of one file; nothing of it is checked again here."""
-        for name, text in TINY.items():
-            os.makedirs(os.path.dirname(os.path.join(self.directory, "tree", name)), exist_ok=True)
-            self.write(f"tree/{name}", text)
-        mutate = [os.path.join(SOURCE, "scripts/mutate"), "--all", "--count", "0", "--tests",
-                  "tiny_test", "--root", "tree", "--work", "work"]
-
-        def run(*more):
-            return subprocess.run(mutate + list(more), cwd=self.directory, text=True,
-                                  capture_output=True, timeout=300)
-
-        self.profile(tasks=2)
-        done = run("--slurm", "profile.yaml")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.wait_until_over(done.stderr.split("job ")[1].split(":")[0])
-
-        def results(name):
-            with open(os.path.join(self.directory, f"work/results/{name}.jsonl")) as file:
-                return [json.loads(line) for line in file if line.strip()]
-
-        parts = results("part_0") + results("part_1")
-        self.assertEqual(sorted(entry["is"].split("return ")[1] for entry in parts),
-                         ["a < 6; }", "a < 8; }", "a <= 7; }"])
-        self.assertEqual({entry["verdict"] for entry in parts}, {"killed"})
-        done = run()
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertEqual([entry["way"] for entry in results("local")], ["alone"] * 2)
-        self.profile(tasks=2, partition="nowhere")
-        done = run("--slurm", "profile.yaml")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("sbatch rejects", done.stderr)
 
     def test_wrong_profile(self):
         def rejected(*says, code=2, **settings):

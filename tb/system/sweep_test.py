@@ -18,7 +18,6 @@ import tempfile
 import time
 import unittest
 
-FINDINGS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../scripts/findings")
 POINTS = 12
 SWEEP = """
 engine: texture
@@ -357,19 +356,6 @@ objectives: {maximise: [psnr], minimise: [bits]}
         # The edges, that it has no more, are missed; the picture is not.
         self.assertIn("worse: quality.psnr_edge_db,", self.run_compare(chess, flat, *loose, code=1))
 
-    def test_pages_and_scripts_know_identical_pictures(self):
-        self.identical_pictures()
-        self.run_sweep("picture.yaml", "run")
-        self.run_sweep("picture.yaml", "collect")
-        done = subprocess.run([FINDINGS, "out/sweeps/picture/collected.json", "--out", "pages"],
-                              cwd=self.directory, text=True, capture_output=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        with open(os.path.join(self.directory, "pages/picture.md")) as file:
-            page = file.read()
-        front = page[page.index("## Pareto front"):]
-        self.assertRegex(front, r"`flat.pgm` .* identical ")
-        self.assertNotIn("chess", front)
-
     def test_it_says_where_a_metric_has_no_value_and_why(self):
         self.identical_pictures()
         self.write("none.yaml", """
@@ -494,7 +480,7 @@ class Searched(SweepTest):
         # A search of all points finds the whole front; one of less stays on its own points.
         everything = self.rows("wide")
         self.assertIn("48 points, 48 done (0 in this run)",
-                      self.search("wide.yaml", "--runs", "90", "--no-guess", "--population", "8"))
+                      self.search("wide.yaml", "--runs", "90", "--population", "8"))
 
         def front(rows):
             return {row["point"] for row in rows if row["front"] == "1"}

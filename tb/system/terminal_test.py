@@ -39,7 +39,7 @@ title: Small
 features:
   - id: filtering
     title: Filtering
-    traces: [{page: docs/unit.md, says: It gives every pixel once.}]
+    traces: [docs/unit.md#the-unit]
     stimuli:
       - name: scenes
         engine: texture

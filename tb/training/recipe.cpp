@@ -10,7 +10,7 @@
 #include "golden/morphological/morphological_golden.h"
 #include "spec/error.h"
 #include "tb/base/fnv.h"
-#include "tb/training/share_file.h"
+#include "tb/stimuli/share_file.h"
 
 namespace deburr::tb::training {
 namespace {

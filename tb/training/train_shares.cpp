@@ -29,7 +29,7 @@
 #include "tb/base/file.h"
 #include "tb/scene/quality.h"
 #include "tb/training/recipe.h"
-#include "tb/training/share_file.h"
+#include "tb/stimuli/share_file.h"
 #include "tb/training/share_trainer.h"
 #include "tb/training/training_frames.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "tb/env/collect.h"
-#include "tb/results/report.h"
+#include "tb/results/amount.h"
 
 namespace deburr::tb {
 

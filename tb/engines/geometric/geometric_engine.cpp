@@ -25,8 +25,8 @@
 #include "tb/engines/geometric/geometric_pictures.h"
 #include "tb/engines/geometric/geometric_role.h"
 #include "tb/engines/geometric/geometric_rules.h"
+#include "tb/results/amount.h"
 #include "tb/results/progress.h"
-#include "tb/results/report.h"
 
 namespace deburr::tb {
 namespace {

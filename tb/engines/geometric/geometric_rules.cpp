@@ -12,7 +12,7 @@
 #include "spec/geometric/records.h"
 #include "tb/app/input_rules.h"
 #include "tb/app/preset_help.h"
-#include "tb/results/report.h"
+#include "tb/results/amount.h"
 
 namespace deburr::tb {
 namespace {

@@ -11,7 +11,7 @@
 #include "spec/error.h"
 #include "spec/morphological/registers.h"
 #include "tb/engines/morphological/morphological_unprogrammed.h"
-#include "tb/training/share_file.h"
+#include "tb/stimuli/share_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -129,7 +129,7 @@ spec::morphological::Parameters MorphologicalEnvironment::as_built() const {
 void MorphologicalEnvironment::configure() {
   driver_.identify();
   if (programs()) driver_.set_rules(faults_.as_built());
-  if (setup_.shares) driver_.load_shares(training::entries_of(*setup_.shares));
+  if (setup_.shares) driver_.load_shares(entries_of(*setup_.shares));
   checks_.clear_counters();
 }
 

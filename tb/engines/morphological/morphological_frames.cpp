@@ -17,7 +17,7 @@
 #include "tb/scene/motion.h"
 #include "tb/scene/scenes.h"
 #include "tb/scene/truth.h"
-#include "tb/training/share_file.h"
+#include "tb/stimuli/share_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -160,7 +160,7 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
   if (frame.depth) frame.input.depth = depth_codes(*frame.depth);
   if (!p.mask.empty()) apply_mask(p.mask, frame);
   if (!p.shares.empty()) {
-    frame.shares = training::read_share_file(p.shares);
+    frame.shares = read_share_file(p.shares);
     add_once(frame.inputs, p.shares);
   }
   return frame;

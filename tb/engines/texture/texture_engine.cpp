@@ -31,7 +31,7 @@
 #include "tb/engines/texture/texture_traces.h"
 #include "tb/engines/texture/texture_truth.h"
 #include "tb/engines/texture/texture_twins.h"
-#include "tb/results/report.h"
+#include "tb/results/amount.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/textures.h"

@@ -14,7 +14,6 @@
 
 #include "spec/error.h"
 #include "tb/base/file.h"
-#include "tb/results/report.h"
 #include "tb/scene/flip.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/ssim.h"

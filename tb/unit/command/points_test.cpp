@@ -37,13 +37,13 @@ title: Nightly
 features:
   - id: first
     title: The first
-    traces: [{page: docs/unit.md, says: It is so.}]
+    traces: [docs/unit.md#unit]
     stimuli:
       - {name: runs, engine: made, axes: {made.lanes: [2, 4]}, seeds: 2}
     checks: {colours: 30}
   - id: second
     title: The second
-    traces: [{page: docs/unit.md, says: It is so.}]
+    traces: [docs/unit.md#unit]
     stimuli: [{name: one, engine: other, base: {other.lanes: 3}}]
     checks: {colours: 1, pixels: 5}
 )";
@@ -55,7 +55,7 @@ unmet: [{bins: made/never/*, reason: It is made so.}, {bins: made/lanes/many, re
 features:
   - id: lanes
     title: Lanes
-    traces: [{page: docs/unit.md, says: It is so.}]
+    traces: [docs/unit.md#unit]
     stimuli:
       - {name: some, engine: made, axes: {made.lanes: [2, 3, 4]}}
       - {name: deadlock, engine: made, base: {frame.gain: 2}}
@@ -109,10 +109,7 @@ class PointCommands : public Transcript {
       }
     };
     write("docs/more.md",
-          "# A heading\n\n* An item of it\n  goes on.\n- Another item (with it)\n12. numbered\n\n"
-          "| a cell | another cell. |\n|---|---|\n\n```\nIn code.\n```\n\nIt ends so:\n\n"
-          "It is e.g. so. Then this (it is). Wrapped\n  anywhere it\nis. Is it? Yes! It **is**.\n"
-          "Without an end\n");
+          "# A heading\n\n## Errors (`kin`), 1 + 2_3 \n\n```\n# In code\n```\n\n#None\n");
     steps_["points of v are listed"] = [this] { list_points("out/sweeps/v"); };
     steps_["the plan is printed"] = [this] { list_points("out/regressions/t-of-2-3"); };
     steps_["the plan of seed 4 is printed"] = [this] { list_points("out/regressions/t-4"); };

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 void add_all_commands(CLI::App& app, CommandLine& line) {
   add_run(app, line);
   add_papers(app, line, start_papers);
-  add_train(app, line);
+  add_train(app, line, start_train);
   add_params(app, line);
   add_compare(app, line);
   add_report(app, line);

@@ -5,8 +5,7 @@
 An engine's own files have its name in their path. What else names it, in an identifier too, stands here with the
 reason; what names it because a command makes it of the declarations (MADE) is no edit. Texture and frame are words of
 every page too, so of all engines the rooms are looked at that name none: what runs, sweeps, reports, traces and builds
-whatever engines there are, and gives them to C and Python. Not looked at: documentation, and the record of mutation
-tests, whose words are those of the code.
+whatever engines there are, and gives them to C and Python. Not looked at: documentation.
 
 usage: engine_names_test.py SOURCE"""
 import pathlib
@@ -16,7 +15,7 @@ import tempfile
 from house_main import house_main
 
 LIST = "tb/engines/engines.txt"
-LEFT_OUT = re.compile(r"docs/|README\.md|CHANGELOG\.md|LICENSES?|tb/mutation/|tb/unit/house/engine_names_test\.py|"
+LEFT_OUT = re.compile(r"docs/|README\.md|CHANGELOG\.md|LICENSES?|tb/unit/house/engine_names_test\.py|"
                       r"build/|out/|\.git/|\.ci/")
 PAGE = re.compile(r"(?<!\")docs/reference/\w+/\w+\.md")  # of an engine, where a comment says what the contract is
 # The engine that tests add to those of the list: all of it, and the test that adds it.
@@ -28,8 +27,6 @@ COMPOSITION = re.compile(r"tb/engines/frame/[^/]*\.(yaml|json)$|tb/(system|negat
 MADE = {
     "golden/c/systemverilog/deburr_golden_dpi.c": "tb/unit/golden/c/systemverilog_test.py --write",
     "golden/c/systemverilog/deburr_golden_pkg.sv": "tb/unit/golden/c/systemverilog_test.py --write",
-    "python/deburr/__init__.pyi": "tb/system/python_stubs_test.py --write",
-    "python/deburr/golden.pyi": "tb/system/python_stubs_test.py --write",
     "tb/baselines/speed.json": "tb/speed --record",
     "tb/unit/app/stable.txt": "tb/unit/app/stable_test.py --update",
 }
@@ -37,9 +34,6 @@ MADE = {
 # engine -> why files name it -> which. A CMake list names what the sources beside it do.
 NAMED = {
     "geometric": {
-        "its units and its lines are drawn for its pages": [
-            "scripts/drawing/pipelines.py", "scripts/drawing/walks.py", "scripts/figures", "tb/unit/house/drawings_test.py"],
-        "which engine to take is drawn": ["scripts/drawing/guides.py"],
         "the rule `leave` is about what it has marked": [
             "golden/morphological/configuration.cpp", "golden/morphological/configuration.h",
             "golden/morphological/leave.h", "rtl_model/morphological/blend/blender.cpp",
@@ -55,16 +49,11 @@ NAMED = {
         "Python has its equations in real numbers, and tests call its functions of the module": [
             "python/bindings/ideal_python.cpp", "tb/system/python_golden_test.py"],
         "tables of pages are measured, its own among them": [
-            "scripts/measurement/guides.py", "scripts/measurement/recipes.py",
-            "scripts/measurement/results.py"],
+            "scripts/reports/guides.py", "scripts/reports/results.py"],
         "an example of files, in what a script says of itself": ["scripts/mutate"],
         "it alone leaves pictures of a frame that it could not begin": ["tb/unit/app/simulate_test.cpp"],
     },
     "morphological": {
-        "its units and the shapes of its runs are drawn for its pages": [
-            "scripts/drawing/facts.py", "scripts/drawing/patterns.py", "scripts/drawing/pipelines.py", "scripts/figures",
-            "tb/unit/house/drawings_test.py"],
-        "which engine to take is drawn, and the example of a platform": ["scripts/drawing/guides.py"],
         "it blends in the same light, by the same tables": [
             "golden/geometric/geometric_golden.cpp", "golden/geometric/geometric_golden.h",
             "golden/geometric/resolve.cpp", "golden/geometric/resolve.h", "spec/geometric/tables.h",
@@ -78,18 +67,18 @@ NAMED = {
         "papers whose methods it has": ["tb/papers/papers_000.cpp", "tb/papers/papers_003.cpp"],
         "lines and discs that its shares are measured and learned by": [
             "scripts/train-shares", "tb/stimuli/discs.cpp", "tb/stimuli/discs.h", "tb/stimuli/line_fans.cpp",
-            "tb/stimuli/line_fans.h", "tb/training/recipe.cpp", "tb/training/recipe.h", "tb/training/share_file.cpp",
-            "tb/training/share_file.h", "tb/training/share_samples.cpp", "tb/training/share_samples.h",
+            "tb/stimuli/line_fans.h", "tb/training/recipe.cpp", "tb/training/recipe.h", "tb/stimuli/share_file.cpp",
+            "tb/stimuli/share_file.h", "tb/training/share_samples.cpp", "tb/training/share_samples.h",
             "tb/training/share_trainer.cpp", "tb/training/share_trainer.h", "tb/training/title_shares.cpp",
             "tb/training/title_shares.h", "tb/training/train_shares.cpp", "tb/unit/training/recipe_test.cpp",
-            "tb/unit/training/share_file_test.cpp", "tb/unit/training/share_trainer_test.cpp"],
+            "tb/unit/stimuli/share_file_test.cpp", "tb/unit/training/share_trainer_test.cpp"],
         "values of its tables that its contract takes from doubles": ["tb/unit/house/layers_test.py"],
         "an example of an engine, in tests of what every engine has": [
             "tb/negative/app_bad_input_test.py", "tb/negative/app_faults_test.py", "tb/negative/app_images_test.py",
             "tb/negative/app_regress_test.py", "tb/negative/app_sweep_test.py", "tb/negative/app_traces_test.py", "tb/negative/app_train_test.py",
             "tb/system/coverage_test.py", "tb/system/figures_test.py", "tb/system/observers_test.py", "tb/system/printed_test.py", "tb/system/shared_golden_test.cpp",
             "tb/system/inputs_test.py", "tb/system/sweep_test.py", "tb/system/terminal_test.py", "tb/unit/env/planted_faults_test.cpp",
-            "tb/unit/house/mutate_test.py", "tb/unit/results/result_test.cpp"],
+            "tb/unit/results/result_test.cpp"],
         "an example of an engine, in what is built from installed files": [
             "examples/c/draw.c", "examples/installed_test.py", "examples/platform/expected.cpp",
             "examples/platform/expected.h", "examples/platform/main.cpp", "examples/platform/painter.cpp",
@@ -104,8 +93,7 @@ NAMED = {
             "tb/unit/golden/c/threads_test.cpp"],
         "registers of the C header are held by hand": ["tb/unit/app/c_header_test.py"],
         "tables of pages are measured, its own among them": [
-            "scripts/measurement/guides.py", "scripts/measurement/recipes.py",
-            "scripts/measurement/results.py"],
+            "scripts/report", "scripts/reports/guides.py", "scripts/reports/results.py"],
     },
 }
 

@@ -25,8 +25,8 @@ TESTS_ALONE = {"unit", "system", "oracle", "negative", "bench", "baselines", "hd
 # knows it.
 PLATFORM_MAY_INCLUDE = {"platform", "fabric"}
 # Rooms of tb from below: a room includes itself and what stands before it. Tests and benchmarks stand above all.
-ROOMS = ["base", "scene", "stimuli", "harness", "results", "traces", "env", "training", "app", "engines", "sweep",
-         "regress", "command", "papers", "soak"]
+ROOMS = ["base", "scene", "stimuli", "harness", "results", "traces", "env", "app", "engines", "sweep", "regress",
+         "command", "training", "papers", "soak"]
 # Rooms that stand beside the simulation: no header on their way is SystemC's, which takes longer to compile than
 # all of theirs. Nor is json.hpp in a header, where json_fwd.hpp does.
 WITHOUT_SYSTEMC = {"base", "scene", "stimuli", "results", "training", "sweep", "regress", "command", "soak"}

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Checks that every link of the pages in the root and in docs/ leads to a file and to a heading in it, that
-every page is linked from somewhere, that no template placeholder was left standing, that
-paths and C++ names which are set as code there, and paths in scripts/, are those of the
-tree, and that pages which comments of sources name, with a heading in quotes, are there.
-NAME in a path stands for any."""
+links lead from docs/index.md to every page below docs/, and from README.md to that, that no template
+placeholder was left standing, that paths and C++ names which are set as code there, and paths in scripts/,
+are those of the tree, that pages which comments of sources name, with a heading in quotes, are there, and
+that pages, CHANGELOG.md and CITATION.cff have the version of CMakeLists.txt. NAME in a path stands for any."""
 import argparse
 import functools
 import pathlib
@@ -14,6 +14,8 @@ import tempfile
 
 LINK = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)")
 HEADING = re.compile(r"#+\s+(.*)")
+VERSION = re.compile(r"^project\(deburr VERSION (\d+\.\d+\.\d+) ", re.M)
+SAID = re.compile(r"(?:(takes no)|find_package\(deburr|Deburr|\(today) (\d+\.\d+(?:\.\d+)?)")
 PLACEHOLDER = re.compile(r"@[A-Z_]{3,}@")
 CODE = re.compile(r"`([^`]+)`")
 FOLDERS = ("cmake", "docs", "examples", "golden", "hdl", "python", "rtl_model", "scripts", "spec", "tb")
@@ -105,6 +107,35 @@ def comment_problems(root):
                     yield f"{where}: {page} has no heading '{heading}'"
 
 
+def version_problems(root, pages):
+    """Versions of ours, whole or the first two numbers; stability.md names the next one."""
+    version = VERSION.search((root / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
+    major, minor, _ = version.split(".")
+    for page in pages:
+        for says_next, said in SAID.findall(page.read_text(encoding="utf-8")):
+            if said not in ([f"{major}.{int(minor) + 1}"] if says_next else [version, f"{major}.{minor}"]):
+                yield f"{page.relative_to(root)}:1: version {said} where CMakeLists.txt has {version}"
+    for file, line in (("CHANGELOG.md", f"## {version}"), ("CITATION.cff", f"version: {version}")):
+        first = re.search(rf"^{line.split()[0]} .*", (root / file).read_text(encoding="utf-8"), re.M)
+        if not first or first[0] != line:
+            yield f"{file}:1: begins with {first and first[0]}, expected {line}"
+
+
+def unreachable(root, pages, links):
+    """`links` has the targets of each page."""
+    index = (root / "docs/index.md").resolve()
+    reached, to_see = {index}, [index]
+    while to_see:
+        found = links.get(to_see.pop(), set()) - reached
+        reached |= found
+        to_see += found
+    for page in pages:
+        if page.is_relative_to(root / "docs") and page.resolve() not in reached:
+            yield f"{page.relative_to(root)}:1: no links lead to it from docs/index.md"
+    if index not in links.get((root / "README.md").resolve(), ()):
+        yield "README.md:1: no link to docs/index.md"
+
+
 def problems(root):
     """Yields 'file:line: what' for every problem below root."""
     tree = Tree(root)
@@ -113,9 +144,10 @@ def problems(root):
     # The change log may speak of what was.
     pages = [page for page in [*sorted(root.glob("*.md")), *sorted((root / "docs").rglob("*.md"))]
              if page.name != "CHANGELOG.md"]
-    linked = set()
+    yield from version_problems(root, pages)
+    links = {}
     for page in pages:
-        fenced = False
+        fenced, linked = False, links.setdefault(page.resolve(), set())
         for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
             where = f"{page.relative_to(root)}:{number}"
             fenced ^= line.startswith("```")
@@ -134,14 +166,12 @@ def problems(root):
                     yield f"{where}: link to {target}#{anchor}, a heading that does not exist"
             if PLACEHOLDER.search(line):
                 yield f"{where}: a placeholder was left standing"
-    for page in pages:
-        if page.name != "README.md" and page.resolve() not in linked:
-            yield f"{page.relative_to(root)}:1: no page links to it"
+    yield from unreachable(root, pages, links)
 
 
 def planted_faults_are_caught():
-    """True if a dead link, a dead anchor, an orphan, a placeholder, paths and names that are not
-    there, and pages and headings that a comment names are each found, and nothing else."""
+    """True if a dead link, a dead anchor, orphans, a placeholder, paths and names that are not there, other
+    versions, and pages and headings that a comment names are each found, and nothing else."""
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         for name in ("docs", "scripts", "spec/engine"):
@@ -155,13 +185,19 @@ def planted_faults_are_caught():
             "`spec::engine::PixelBeat` `PixelBeat::count` `kLanes` `std::array` `Plain` `[](int)`\n"
             "`spec/packets.h` `spec::PixelBeat` `engine/none.h` `hdl/none.sv` `PixelBeat::none` `EdgeBeat` `kNone`\n"
             "```\nscripts/none --count 3\n```\n", encoding="utf-8")
-        (root / "docs/orphan.md").write_text("alone\n", encoding="utf-8")
+        (root / "docs/index.md").write_text("[a](a.md)\n", encoding="utf-8")
+        (root / "docs/orphan.md").write_text("Deburr 1.3, Deburr 1.2, takes no 1.3, takes no 1.4: [c](circle.md)\n",
+                                             encoding="utf-8")
+        (root / "docs/circle.md").write_text("[orphan](orphan.md)\n", encoding="utf-8")
+        (root / "CMakeLists.txt").write_text("project(deburr VERSION 1.2.0 LANGUAGES CXX)\n", encoding="utf-8")
+        (root / "CHANGELOG.md").write_text("## 1.1.0\n\n## 1.2.0\n", encoding="utf-8")
+        (root / "CITATION.cff").write_text("cff-version: 1.2.0\nversion: 1.1.0\n", encoding="utf-8")
         (root / "scripts/test").write_text("# spec/engine/packets.h spec/none.h\n", encoding="utf-8")
         (root / "spec/engine/packets.h").write_text(
             "// docs/a.md, \"A\n// heading\"; docs/a.md. (docs/gone.md)\n"
             "namespace deburr::spec::engine {\nstruct PixelBeat {\n  std::array<int, kLanes> count;\n};\n}\n"
             "// docs/a.md, \"None\"; docs/a.md (\"No\")\nconst auto page = \"docs/away.md\";\n", encoding="utf-8")
-        return len(list(problems(root))) == 17
+        return len(list(problems(root))) == 23
 
 
 def main():

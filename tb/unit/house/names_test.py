@@ -4,21 +4,57 @@
 GoogleTest could not print, no path of the machine, and none twice; that every test source is in one
 program, that of its folder, has a namespace of its own, and names its tests as its path:
 tb/unit/fabric/link_test.cpp is fabric_link_test; that every class of tests in a tb/**/*_test.py, and
-every method of one of which methods are named, is run by some test; and that every test has labels, of
-those that cmake/Labels.cmake lists."""
+every method of one of which methods are named, is run by some test; that every test has labels, of those
+that cmake/Labels.cmake lists; and that scripts/everything, and so CI, runs every test in one part."""
 import argparse
 import ast
 import collections
+import importlib.machinery
 import json
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 import tempfile
 
+sys.dont_write_bytecode = True
 SOMETIMES = {"tb/oracle/mesa_test.cpp", "tb/oracle/smaa_shader_test.cpp"}  # where EGL's headers are
 SOME_BUILDS = ("tb/hdl/", "tb/system/python_")  # with the option DEBURR_HDL, with the Python module
 UNSTABLE = re.compile(r"(?<![0-9])0x[0-9A-Fa-f]+|-byte object|GetParam\(\)|(?<![\w.])/[a-z]+/")
+
+
+def labels_of(test):
+    return [label for entry in test.get("properties", []) if entry["name"] == "LABELS" for label in entry["value"]]
+
+
+def takes(command, name, labels):
+    """Whether this call of scripts/test runs a test, as ctest chooses."""
+    words = shlex.split(command)
+    rules = {"-L": lambda regex: any(re.search(regex, label) for label in labels),
+             "-LE": lambda regex: not any(re.search(regex, label) for label in labels),
+             "-R": lambda regex: re.search(regex, name), "-E": lambda regex: not re.search(regex, name)}
+    return words[0] == "scripts/test" and all(
+        rules[word](following) for word, following in zip(words, words[1:]) if word in rules)
+
+
+def not_in_one_part(tests, parts):
+    """Yields each of these tests of ctest's listing that not one of the parts (name: command) runs; what is long
+    has a label besides, and another part by that. The part with sanitizers runs unit tests again."""
+    for test in tests:
+        name, labels = test["name"], labels_of(test)
+        found = [part for part, command in parts.items() if part != "sanitizers" and takes(command, name, labels)]
+        if len(found) != (2 if {"unit", "long"} <= set(labels) else 1):
+            yield f"{name} is in the parts {found} of scripts/everything"
+
+
+def another_ci(source, parts):
+    """Yields the difference if CI does not run the first two parts and the one whose turn it is."""
+    text = (source / ".ci/run").read_text(encoding="utf-8")
+    commands = [line for line in text.splitlines() if line.startswith("scripts/")]
+    wanted = [parts["tests"], "scripts/everything --turn", parts["sanitizers"]]
+    if commands != wanted:
+        yield f".ci/run runs {commands}, expected {wanted}"
 
 
 def problems(listed):
@@ -57,8 +93,7 @@ def misnamed(listed, source):
 def mislabelled(tests, known):
     """Yields what is wrong with the labels of each of these tests of ctest's listing."""
     for test in tests:
-        labels = [label for entry in test.get("properties", []) if entry["name"] == "LABELS"
-                  for label in entry["value"]]
+        labels = labels_of(test)
         if not labels or not known.issuperset(labels):
             yield f"labels of {test['name']}: {', '.join(labels) or 'none'}"
 
@@ -126,6 +161,10 @@ def planted_faults_are_caught():
                 for name, value in (("a", ["unit"]), ("b", ["long", "unit"]), ("c", ["units"]), ("d", []))]
     if len(list(mislabelled([*labelled, {"name": "e"}], {"unit", "long"}))) != 3:
         return False
+    parts = {"tests": "scripts/test --tidy -LE '^(unit|long)$'", "a": "scripts/test -L '^unit$' -R '^a'",
+             "b": "scripts/test -L '^long$'", "sanitizers": "scripts/test -L '^unit$'", "tidy": "scripts/tidy"}
+    if [text.split()[0] for text in not_in_one_part(labelled, parts)] != ["b"]:
+        return False
     good = ["a_test.Suite.Name/rgba8", "a_test.Each/Suite.Name/3"]
     bad = ["a_test.Suite.Name/0x55d0", "a_test.Suite/8-byte object <01-00>",
            "Suite/0  # GetParam() = 4", "smoke /tmp/x", "a_test.Suite.Name/rgba8"]
@@ -164,7 +203,10 @@ def main():
                 (options.build / "test_programs.txt").read_text(encoding="utf-8").splitlines()]
     labels = re.search(r"set\(DEBURR_LABELS ([^)]*)\)",
                        (options.source / "cmake/Labels.cmake").read_text(encoding="utf-8"))
+    everything = importlib.machinery.SourceFileLoader("everything", str(options.source / "scripts/everything"))
+    parts = everything.load_module().PARTS
     found = [*problems(test["name"] for test in tests),
+             *not_in_one_part(tests, parts), *another_ci(options.source, parts),
              *mislabelled(tests, set(labels[1].split())),
              *unregistered(tests, options.source),
              *misnamed(programs, options.source)]

@@ -40,7 +40,7 @@ class RegressionReport : public KeptPoints {
     Feature &first = plan_.features[0], &second = plan_.features[1];
     first.id = "first";
     first.title = "First <i>";
-    first.traces = {{"docs/a.md", "It is so & so."}};
+    first.traces = {"docs/a.md#first", "docs/b & c.md#second"};
     first.checks = {{"colours", 30, "plan:1"}, {"a/b", 3, "plan:2"}, {"colour", 1, "plan:3"}};
     first.coverage = {{"texture/cache/*", "plan:4"}, {"frame/*", "plan:5"}};
     second.id = "second";
@@ -157,6 +157,8 @@ TEST_F(RegressionReport, TheJsonHasTheCounts) {
                                  {"failed_checks", 4},
                                  {"holes", 2},
                                  {"simulated_seconds", 8.875}}));
+  EXPECT_EQ(all["schema"], 2);
+  EXPECT_EQ(all["features"][0]["traces"], Json({"docs/a.md#first", "docs/b & c.md#second"}));
   EXPECT_EQ(all["base_seed"], kSeed);
   EXPECT_EQ(all["holds"], false);
   EXPECT_EQ(all["coverage"]["texture"],
@@ -195,7 +197,7 @@ TEST_F(RegressionReport, ThePageAndJunitSayTheSame) {
                       "1" + n + "1" + n + "50.0 %" + n + "2 of 5" + n + "2 of 3</td>");
   expect_in(page, "Second <span class=\"muted\">second</span>" + n + "4" + n + "1" + n + "3" + n +
                       "0" + n + "25.0 %" + n + "1 of 2" + n + "1 of 2</td>");
-  expect_in(page, "<blockquote>It is so &amp; so. <span class=\"muted\">docs/a.md</span>");
+  expect_in(page, "<p class=\"muted\">docs/a.md#first docs/b &amp; c.md#second </p>");
   expect_in(page, "<li>a/b: 2 comparisons, 3 wanted: <b>too few</b></li>");
   expect_in(page, "<li>colours: 30 comparisons, 30 wanted</li>");
   expect_in(page, "<h3>2 &times; texture: deadlock: at N</h3>");

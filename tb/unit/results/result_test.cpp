@@ -21,6 +21,7 @@
 #include "spec/error.h"
 #include "tb/base/file.h"
 #include "tb/base/headline.h"
+#include "tb/results/amount.h"
 #include "tb/results/compare.h"
 #include "tb/results/progress.h"
 #include "tb/results/report.h"

@@ -685,7 +685,7 @@ TEST(Data, EveryMeshOfTheDataFolderLoads) {
     const std::string extension = entry.path().extension().string();
     if (extension != ".obj" && extension != ".glb") continue;
     const Mesh mesh = import_mesh(entry.path());
-    EXPECT_GT(mesh.triangles.size(), 10u) << entry.path();
+    EXPECT_FALSE(mesh.triangles.empty()) << entry.path();
     EXPECT_LE(mesh.textures.size(), 16u) << entry.path();
     ++meshes;
   }

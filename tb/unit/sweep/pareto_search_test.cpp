@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The search's layer that knows nothing of points: budgets, constraints, repetition, and how much
-// of a front that is known it finds.
+// The part of a search that does not know points: budget, constraints, repetition, and how much it
+// finds of a front that is known.
 #include "tb/sweep/pareto_search.h"
 
 #include <gmock/gmock.h>
@@ -67,7 +67,7 @@ class Searched {
   std::vector<Genes> genes;
 
   Searched() {
-    space.axes = {{5, true}, {5, true}, {5, true}, {4, false}};
+    space.sizes = {5, 5, 5, 4};
     space.name = [](const Genes& g) -> std::optional<std::string> { return text_of(g); };
   }
 
@@ -107,13 +107,10 @@ double percent_found(const std::set<Costs>& front, const std::set<Costs>& found)
   return 100.0 * static_cast<double>(hits) / static_cast<double>(front.size());
 }
 
-class Ways : public testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(Guess, Ways, testing::Bool());
-
-TEST_P(Ways, AskForEachPointOnceAndForAsManyAsTheBudgetHas) {
+TEST(ParetoSearch, AsksForEachPointOnceAndSpendsTheBudget) {
   for (const std::uint64_t runs : {8u, 21u, 100u}) {
     Searched search;
-    search.run({runs, 8, 3, GetParam()});
+    search.run({runs, 8, 3});
     EXPECT_THAT(search.asked, SizeIs(runs));
     EXPECT_THAT(std::set<std::string>(search.asked.begin(), search.asked.end()), SizeIs(runs));
     EXPECT_THAT(search.generations, Each(Le(8u)));
@@ -121,51 +118,51 @@ TEST_P(Ways, AskForEachPointOnceAndForAsManyAsTheBudgetHas) {
   }
 }
 
-TEST_P(Ways, AskForTheSameByTheSameSeed) {
+TEST(ParetoSearch, SameSeedAsksForTheSamePoints) {
   Searched first, second, other;
-  first.run({60, 12, 5, GetParam()});
-  second.run({60, 12, 5, GetParam()});
-  other.run({60, 12, 6, GetParam()});
+  first.run({60, 12, 5});
+  second.run({60, 12, 5});
+  other.run({60, 12, 6});
   EXPECT_EQ(first.asked, second.asked);
   EXPECT_NE(first.asked, other.asked);
 }
 
-TEST_P(Ways, TakeWhatIsNoPointForNone) {
+TEST(ParetoSearch, LeavesOutCombinationsThatAreNotPoints) {
   Searched search;
   search.space.name = [](const Genes& g) -> std::optional<std::string> {
     if (g[0] + g[2] > 5) return std::nullopt;
     return text_of(g);
   };
-  search.run({120, 12, 1, GetParam()});
+  search.run({120, 12, 1});
   EXPECT_THAT(search.asked, SizeIs(120));
   for (const Genes& g : search.genes) EXPECT_LE(g[0] + g[2], 5u);
 }
 
-TEST_P(Ways, CountPointsOfOneNameOnce) {
+TEST(ParetoSearch, CountsPointsOfOneNameOnce) {
   Searched search;  // the last axis has no effect where the first is 0
   search.space.name = [](const Genes& g) -> std::optional<std::string> {
     return text_of(g[0] == 0 ? Genes{0, g[1], g[2]} : g);
   };
-  search.run({425, 12, 1, GetParam()});
+  search.run({425, 12, 1});
   EXPECT_THAT(std::set<std::string>(search.asked.begin(), search.asked.end()),
               SizeIs(search.asked.size()));
 }
 
-TEST_P(Ways, EndWhereTheSpaceHasNoMore) {
+TEST(ParetoSearch, EndsWhereTheSpaceIsExhausted) {
   Searched search;
-  search.space.axes = {{2, true}, {3, true}, {1, true}, {2, false}};
-  search.run({1000, 8, 1, GetParam()});
+  search.space.sizes = {2, 3, 1, 2};
+  search.run({1000, 8, 1});
   EXPECT_THAT(search.asked, SizeIs(12));
 }
 
-TEST_P(Ways, EndAtOnceWhereNothingIsAPoint) {
+TEST(ParetoSearch, EndsAtOnceWithoutAnyPoint) {
   Searched search;
   search.space.name = [](const Genes&) { return std::optional<std::string>(); };
-  search.run({100, 8, 1, GetParam()});
+  search.run({100, 8, 1});
   EXPECT_TRUE(search.asked.empty());
 }
 
-TEST_P(Ways, FindMoreOfAFrontThanChance) {
+TEST(ParetoSearch, FindsMoreOfAFrontThanChance) {
   const std::set<Costs> all = Searched::everything();
   const std::set<Costs> front = front_of(all);
   ASSERT_GT(front.size(), 20u);
@@ -174,7 +171,7 @@ TEST_P(Ways, FindMoreOfAFrontThanChance) {
   constexpr int kSeeds = 8;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     Searched search;
-    searched += percent_found(front, search.run({100, 12, seed, GetParam()})) / kSeeds;
+    searched += percent_found(front, search.run({100, 12, seed})) / kSeeds;
     std::set<Costs> random;
     std::set<std::uint32_t> points;
     for (Random noise(seed); points.size() < 100;) points.insert(noise.below(500));
@@ -186,46 +183,17 @@ TEST_P(Ways, FindMoreOfAFrontThanChance) {
   RecordProperty("searched", static_cast<int>(searched));
   RecordProperty("drawn", static_cast<int>(drawn));
   EXPECT_LT(drawn, 30);
-  EXPECT_GT(searched, GetParam() ? 60 : 45);
+  EXPECT_GT(searched, 45);
 }
 
-// Without a guess that tells points apart, the search still spends its budget.
-TEST_P(Ways, BearCostsThatAreAllTheSame) {
+TEST(ParetoSearch, SpendsTheBudgetOnEqualCosts) {
   Searched search;
   std::size_t asked = 0;
-  search_pareto(search.space, {50, 8, 1, GetParam()}, [&](const std::vector<Candidate>& points) {
+  search_pareto(search.space, {50, 8, 1}, [&](const std::vector<Candidate>& points) {
     asked += points.size();
     return std::vector<Costs>(points.size(), Costs{1e30, 1e30});
   });
   EXPECT_EQ(asked, 50u);
-}
-
-TEST(Surrogate, KeepsWhatItWasToldAndOrdersTheRest) {
-  const std::vector<SearchAxis> axes = {{5, true}, {5, true}, {5, true}, {4, false}};
-  std::vector<Individual> known;
-  std::set<Genes> told;
-  for (Random noise(1); told.size() < 100;) {
-    const Genes genes = {noise.below(5), noise.below(5), noise.below(5), noise.below(4)};
-    if (told.insert(genes).second) known.push_back({genes, costs_of(genes)});
-  }
-  const Surrogate surrogate(axes, known);
-  for (std::size_t i = 0; i < known.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      EXPECT_NEAR(surrogate.predict(known[i].genes)[k], surrogate.known()[i][k], 0.05);
-  int right = 0, pairs = 0;
-  for (Random noise(2); pairs < 1000;) {
-    const Genes a = {noise.below(5), noise.below(5), noise.below(5), noise.below(4)};
-    const Genes b = {noise.below(5), noise.below(5), noise.below(5), noise.below(4)};
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (costs_of(a)[k] == costs_of(b)[k]) continue;
-      ++pairs;
-      right +=
-          (surrogate.predict(a)[k] < surrogate.predict(b)[k]) == (costs_of(a)[k] < costs_of(b)[k])
-              ? 1
-              : 0;
-    }
-  }
-  EXPECT_GT(right, pairs * 85 / 100);
 }
 
 TEST(Population, SuitsNsga2) {

@@ -15,8 +15,8 @@
 #include "spec/error.h"
 #include "tb/base/fnv.h"
 #include "tb/scene/quality.h"
+#include "tb/stimuli/share_file.h"
 #include "tb/training/recipe.h"
-#include "tb/training/share_file.h"
 #include "tb/training/title_shares.h"
 #include "tb/training/training_frames.h"
 

@@ -11,7 +11,7 @@
 #include "spec/error.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/truth.h"
-#include "tb/training/share_file.h"
+#include "tb/stimuli/share_file.h"
 #include "tb/training/training_frames.h"
 
 namespace deburr::tb::training::title_shares_test {

@@ -224,6 +224,28 @@ TEST(EdgeTable, OfAnImportedMesh) {
 
 // ---- the frame ----------------------------------------------------------------------------------
 
+// An L of six corners, two units high, one more corner in the middle of a side of its caps: creases
+// around it, and diagonals without a flag.
+TEST(EdgeTable, DiagonalsOfAConcaveFaceAreNotSeen) {
+  const test::TemporaryFolder folder;
+  std::string text;
+  for (const char* z : {"0", "2"})
+    for (const char* at : {"0 0", "1 0", "2 0", "2 1", "1 1", "1 2", "0 2"})
+      text += fmt::format("v {} {}\n", at, z);
+  text += "f 7 6 5 4 3 2 1\nf 8 9 10 11 12 13 14\n";
+  for (int k = 1; k <= 7; ++k)
+    text += fmt::format("f {} {} {} {}\n", k, k % 7 + 1, k % 7 + 8, k + 7);
+  const EdgeTable table = build_edge_table(import_mesh(folder.write("l.obj", text)));
+  EXPECT_EQ(table.faces(), 2u * 5 + 7 * 2);
+  EXPECT_EQ(table.edges.size(), 36u);  // every face has three, and shares each
+  EXPECT_EQ(table.faces_without_area, 0u);
+  EXPECT_EQ(table.boundaries, 0u);
+  std::size_t plain = 0;
+  for (const Edge& edge : table.edges) plain += edge.flags == 0 ? 1 : 0;
+  // Four diagonals of either cap, one of each side, and the line where two sides are in one plane.
+  EXPECT_EQ(plain, 2u * 4 + 7 + 1);
+}
+
 TEST(ScreenEdges, FacingIsEquationOne) {
   const EdgeTable table = build_edge_table(flat_mesh(cube_points(), cube_faces()));
   const Camera camera{V3d(3, 2.5, 5), V3d(0, 0, 0)};

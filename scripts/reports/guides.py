@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: MIT
+"""Tables of the tutorial and of the how-tos: small runs, and figures of measured pages that they repeat."""
+import re
+
+from reports.sources import Problem, recipe, spaced
+
+
+def roof(f):
+    """The mesh that the tutorial prints, as a file for runs."""
+    text = (f.root / "docs/tutorial/first_run.md").read_text(encoding="utf-8")
+    mesh = re.search(r"`(\w+\.obj)`:\n\n```\n(.*?)```", text, re.S)
+    if not mesh:
+        raise Problem("docs/tutorial/first_run.md prints no mesh")
+    (f.scratch / mesh[1]).write_text(mesh[2], encoding="utf-8")
+    return mesh[1]
+
+
+@recipe("cache-hits")
+def cache_hits(f):
+    mesh = roof(f)
+    runs = [f.run(f"texture --in {mesh} --texture brick --size 320x320 --set memory.latency=200 --set"
+                  f" texture.cache.bytes={kib * 1024} --set texture.cache.ways=2") for kib in (1, 2, 32)]
+    for key in ("texel_hits_percent", "look_up_hits_percent"):
+        yield [f"`work.{key}`"] + [f"{run['work'][key]:.2f}" for run in runs]
+
+
+@recipe("lanes-of-2160p")
+def lanes(f):
+    for count in (1, 2, 4):
+        run = f.run("morphological --scene cylinders --size 3840x2160 --check none --set frame.truth_samples=0"
+                    f" --lanes {count}")
+        clocks = run["work"]["frame_clocks"]
+        yield [str(count), spaced(clocks), f"{60 * clocks / 1e6:.1f}",
+               spaced(run["memory_bits"]["total"]["physical"])]
+
+
+@recipe("samples-at-most")
+def samples_at_most(f):
+    for most in (1, 2, 4, 8, 16):
+        run = f.run(f"texture --scene tunnel --size 128x128 --aniso {most} --truth")
+        yield [str(most), f"{run['quality']['psnr_db']:.2f}", f"{run['work']['bilinears_per_fragment']:.2f}",
+               spaced(run["cycles"]), spaced(run["memory"]["bytes_read"])]
+
+
+@recipe("preset-of-frames")
+def preset_of_frames(f):
+    for preset in ("mlaa", "mlaa-slope", "smaa", "smaa-dynamic", "deburr-line", "deburr"):
+        runs = [f.run(f"morphological --scene {scene} --size 320x180 --preset {preset}")
+                for scene in ("cylinders", "road")]
+        yield [f"`{preset}`", spaced(runs[0]["memory_bits"]["total"]["physical"]), spaced(runs[0]["cycles"])] + [
+            f"{run['quality']['psnr_edge_db']:.2f}; {run['change']['right_over_2_percent']:.2f}" for run in runs]
+
+
+@recipe("methods-of-the-comparison")
+def methods(f):
+    """Of what docs/measurements/comparison.md has, which a test of its own holds: means, and the scene with most cycles."""
+    text = (f.root / "docs/measurements/comparison.md").read_text(encoding="utf-8")
+    scenes = {}
+    for title, section in re.findall(r"^### (.*?)\n(.*?)(?=^###|\Z)", text, re.M | re.S):
+        head, _, *rows = [[cell.strip().replace("**", "") for cell in line.strip("|").split("|")]
+                          for line in section.splitlines() if line.startswith("|")]
+        scenes[title] = {row[0]: dict(zip(head, row)) for row in rows}
+    means, hardest, clocks = scenes["Mean of all scenes"], scenes["object"], "clocks, M = 100"
+    ours = "`deburr`, geometric"
+    for name, needs in (("none", ""), ("`mlaa`", "the picture"), ("`smaa`", "the picture"),
+                        ("`deburr`, morphological", "the picture"), (ours, "picture, depth, mesh"),
+                        ("geometric, then morphological", "picture, depth, mesh")):
+        if name not in means:
+            raise Problem(f"docs/measurements/comparison.md has no mean of {name}")
+        mean = means[name]
+        yield [name, needs, mean["edges, dB"], hardest[name]["blended pixels"], hardest[name][clocks],
+               mean["blended pixels"], mean[clocks], mean["memory, bits"]]

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: MIT
+"""Tables of docs/measurements/ and docs/reference/ that are made of runs, of papers' figures and by a bench."""
+import json
+
+from reports.sources import recipe, spaced, write_png
+
+SCENES = ("plane", "quad", "tunnel")
+# What an estimate in real arithmetic gave: bilinears, texels, misses.
+ESTIMATES = {"plane": ("7.8", "9.0", "1.81"), "quad": ("2.1", "3.7", "2.76"),
+             "tunnel": ("5.0", "10.5", "3.28")}
+
+
+@recipe("texture-rates")
+def texture_rates(f):
+    for scene in SCENES:
+        near, far = (f.run(f"texture --scene {scene} --preset paper --set memory.latency={latency}")
+                     for latency in (1, 100))
+        work, estimate = far["work"], ESTIMATES[scene]
+        yield [scene, f"{work['bilinears_per_fragment']:.2f} ({estimate[0]})",
+               f"{work['texels_fetched_per_fragment']:.2f} ({estimate[1]})",
+               f"{100 * work['misses_per_texel']:.2f} % ({estimate[2]})",
+               spaced(near["cycles"]), spaced(far["cycles"])]
+
+
+@recipe("texture-presets")
+def texture_presets(f):
+    for scene, name in (("plane", "plane"),
+                        ("plane --roll 45", "plane, camera rolled by 45 degrees (`--roll 45`)"),
+                        ("quad", "quad"), ("tunnel", "tunnel")):
+        paper, ours = (f.run(f"texture --scene {scene} --preset {preset} --truth")
+                       for preset in ("paper", "deburr"))
+        yield [name] + [" / ".join(shown(run) for run in (paper, ours)) for shown in (
+            lambda r: f"{r['work']['bilinears_per_fragment']:.2f}",
+            lambda r: spaced(r["cycles"]), lambda r: f"{r['quality']['psnr_db']:.1f}")]
+
+
+@recipe("texture-fifo")
+def texture_fifo(f):
+    for scene in SCENES:
+        yield [scene] + [
+            "{:.3f}".format(f.run(f"texture --scene {scene} --preset paper --set "
+                                  f"texture.cache.fifo_depth={depth}")["throughput"]["value"])
+            for depth in (2, 8, 16, 32, 64, 96, 128, 160, 256, 512)]
+
+
+@recipe("frames-1080p")
+def frames_1080p(f):
+    for line in ("texture --scene plane --preset paper", "texture --scene plane --preset deburr",
+                 "morphological --scene tunnel --preset deburr-line",
+                 "morphological --scene tunnel --preset deburr",
+                 "morphological --scene tunnel --preset smaa",
+                 "geometric --scene object --preset gpaa-optimised",
+                 "geometric --scene object --preset deburr"):
+        result = f.run(line + " --size 1920x1080")
+        bits = result["memory_bits"]["total"]
+        blended = next((spaced(value) for name, value in result["work"].items()
+                        if name.endswith("_blended_pixels")), "-")
+        yield [f"`{line}`", blended, spaced(result["cycles"]), spaced(result["latency"]["p50"]),
+               spaced(bits["logical"]), spaced(bits["physical"])]
+
+
+@recipe("geometric-banks")
+def geometric_banks(f):
+    """A memory that takes a request every clock, and one of banks."""
+    line = "geometric --scene object --size 1920x1080 --preset deburr"
+    for memory, given in (("takes a line a clock", ""),
+                          ("16 banks, each busy for 12 clocks",
+                           " --set memory.banks=16 --set memory.bank_busy=12")):
+        result = f.run(line + given)
+        work = result["work"]
+        yield [memory, spaced(work["resolver_blended_pixels"]), spaced(work["edge_cycles"]),
+               spaced(work["resolve_cycles"]), spaced(result["cycles"]),
+               "`{unit}`: {cause}".format(**result["bottleneck"])]
+
+
+@recipe("morphological-diagonals")
+def diagonals(f):
+    """Bands along the diagonal, d pixels wide."""
+    gaps = (18, 16, 10, 8, 6, 5, 4, 3, 2)
+    results = []
+    for gap in gaps:
+        name = f"bands_{gap}.png"
+        write_png(f.scratch / name, 1920, 1080, lambda x, y, d=gap: 255 * ((x + y) // d % 2))
+        results.append(f.run(f"morphological --in {name}"))
+    yield ["edge pixels"] + [f"{r['work']['edge_pixels_percent']:.1f} %" for r in results]
+    yield ["pixels a clock"] + [f"{r['throughput']['value']:.3f}" for r in results]
+    yield ["d / 18"] + [f"{gap / 18:.3f}" for gap in gaps]
+
+
+@recipe("texture-kernels")
+def texture_kernels(f):
+    keys = ("footprint", "log2", "count", "kernel", "spread")
+    rows = {tuple(row[key] for key in keys): row for row in f.paper_table("004", "Picture quality")}
+    paper = "`half`, n + y"
+    for name, rules, key in (
+            (paper + " (the paper)", "floor, box, 1", ("half", "mitchell", "floor", "box", "1.00")),
+            (paper, "ceil, box, 1", ("half", "mitchell", "ceil", "box", "1.00")),
+            (paper, "ceil, tent, 1.6", ("half", "mitchell", "ceil", "tent", "1.59")),
+            (paper, "ceil, tent, 1.75", ("half", "mitchell", "ceil", "tent", "1.75")),
+            (paper, "ceil, tent, 2", ("half", "mitchell", "ceil", "tent", "2.00")),
+            ("`exact`, exact", "floor, box, 1", ("exact", "exact", "floor", "box", "1.00"))):
+        row = rows[key]
+        yield [name, rules, row["samples a fragment"]] + [
+            row[column] for column in ("box dB", "EWA whole dB", "EWA tapered dB", "EWA cut dB")]
+
+
+@recipe("geometric-dividers")
+def dividers(f):
+    """The frame of 33 000 edges, far from a memory and near one."""
+    for setup, *figures in json.loads(f.program("bench/geometric_rtl_bench", "--dividers")):
+        yield [setup, *map(spaced, figures)]
+
+
+@recipe("smaa-lines")
+def smaa_lines(f):
+    for row in f.paper_table("003", "Quality matrix: lines and discs"):
+        cells = list(row.values())[:-1]
+        if not cells[0].startswith("deburr-line +") and cells[0] not in ("smaa-dynamic 0.05", "smaa-dynamic 0.2"):
+            yield cells
