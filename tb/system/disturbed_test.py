@@ -20,7 +20,7 @@ UNSEEN = {"another order of units": ["run.shuffle=true"], "noise": ["run.poison=
           "all of them": ["run.shuffle=true", "run.poison=true", "run.fast_path=false"]}
 # The same comparisons in other clocks.
 SLOWER = {"stalls": ["run.stalls=0.3"], "dense stalls": ["run.stalls=0.8", "run.poison=true", "run.shuffle=true"]}
-# A clock for a clock the same whether rules are written or built.
+# Clock by clock the same run, whether rules are written to registers or are reset values.
 PROGRAMMED = {"nothing": [], "stalls": ["run.stalls=0.2", "run.poison=true", "run.shuffle=true"],
               "no fast path": ["run.fast_path=false"],
               "a reset": ["run.reset_after=333", "run.poison=true", "run.shuffle=true"]}
@@ -97,7 +97,7 @@ class Reset(Disturbed):
 
 
 class Programmed(Disturbed):
-    def test_written_rules_are_those_that_were_built(self):
+    def test_written_rules_give_the_same_run_as_reset_values(self):
         runs = [(engine, list(itertools.chain(*zip(options, values))))
                 for engine, options in trials("programmed").items() for values in itertools.product(*options.values())]
         self.assertGreater(len(runs), 0)
