@@ -116,6 +116,23 @@ void describe(RunParameters& p, Visitor& v) {
   v.boolean("images", p.images, "Leave pictures, and show them in the report.");
 }
 
+// Of an engine whose rules are registers.
+enum class Program : std::uint8_t { kRegisters, kReset };
+inline constexpr std::array<std::string_view, 2> kProgramNames = {"registers", "reset"};
+
+struct ProgramParameters {
+  Program program = Program::kRegisters;
+};
+
+template <class Visitor>
+void describe(ProgramParameters& p, Visitor& v) {
+  v.choice(
+      "program", p.program, kProgramNames,
+      "registers: after each reset the driver writes the rules to an engine whose reset values "
+      "are others. reset: the engine is built with the rules as reset values. Must change "
+      "nothing.");
+}
+
 // A command line option that stands for a parameter, or for two that are given as AxB. Without a
 // value it sets a switch to `given`.
 struct Shorthand {

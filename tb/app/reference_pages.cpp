@@ -148,21 +148,23 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
     RunParameters run = engine->run_parameters();
     set.add("run", ParameterKind::kRun, run);
     engine->add_parameters(set);
-    std::string group;
-    for (const Parameter& p : set.all()) {
-      if (group_of(p.name) != group) {
-        page += build_rules_of(set, group);
-        group = group_of(p.name);
-        page += fmt::format(
-            "\n### {}\n\n| name | kind | default | range | unit | meaning "
-            "|\n|---|---|---|---|---|---|\n",
-            group);
-      }
-      page += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.name, kind_name(p),
-                          p.default_value.empty() ? "" : "`" + p.default_value + "`", cell(p.range),
-                          cell(p.unit), cell(p.meaning));
+    std::vector<std::string> groups;  // in the order of their first parameters
+    for (const Parameter& p : set.all())
+      if (const std::string group = group_of(p.name);
+          std::find(groups.begin(), groups.end(), group) == groups.end())
+        groups.push_back(group);
+    for (const std::string& group : groups) {
+      page += fmt::format(
+          "\n### {}\n\n| name | kind | default | range | unit | meaning "
+          "|\n|---|---|---|---|---|---|\n",
+          group);
+      for (const Parameter& p : set.all())
+        if (group_of(p.name) == group)
+          page += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.name, kind_name(p),
+                              p.default_value.empty() ? "" : "`" + p.default_value + "`",
+                              cell(p.range), cell(p.unit), cell(p.meaning));
+      page += build_rules_of(set, group);
     }
-    page += build_rules_of(set, group);
   }
   return with_contents(page, Contents::kSections);
 }

@@ -30,6 +30,8 @@ SimulationOptions simulation_options(const RunParameters& run, const RunContext&
   o.fast_path = run.fast_path;
   o.check_links = run.check_links;
   o.poison = run.poison;
+  if (const Parameter* const program = context.parameters().find("run.program"))
+    o.program = program->text() != kProgramNames[static_cast<std::size_t>(Program::kReset)];
   o.max_cycles = static_cast<rtl::Cycle>(run.max_cycles);
   o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
   if (!run.fault.empty()) o.faults = {run.fault};

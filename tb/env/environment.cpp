@@ -5,10 +5,29 @@
 
 #include <algorithm>
 #include <cctype>
+#include <memory>
 
 #include "spec/error.h"
 
 namespace deburr::tb {
+namespace {
+
+std::string fault_name(std::string_view kind, std::string_view what) {
+  std::string name = fmt::format("{}-{}", kind, what);
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
+    return std::isalnum(c) ? static_cast<char>(std::tolower(c)) : '-';
+  });
+  return name;
+}
+
+std::uint32_t misdecoded(const spec::Field& field, std::uint32_t word) {
+  const std::uint32_t value = field.of(word);
+  std::uint32_t wrong = value == 0 ? ~std::uint32_t{0} : value / 2;
+  if (!field.codes.empty()) wrong = (value + 1) % static_cast<std::uint32_t>(field.codes.size());
+  return (word & ~field.mask()) | field.in(wrong);
+}
+
+}  // namespace
 
 void Environment::check() const {
   if (!golden()) return;
@@ -34,8 +53,7 @@ void Environment::plant_in(platform::MemoryModel& memory,
 void Environment::let_blind(std::initializer_list<ScoreboardBase*> boards) {
   std::vector<PlantedFault> faults;
   for (ScoreboardBase* board : boards) {
-    std::string name = "blind-" + board->name();
-    std::replace(name.begin(), name.end(), ' ', '-');
+    std::string name = fault_name("blind", board->name());
     if (planted(name)) board->look_away();
     faults.push_back({std::move(name), fmt::format("Compares nothing of: {}.", board->name())});
   }
@@ -45,12 +63,34 @@ void Environment::let_blind(std::initializer_list<ScoreboardBase*> boards) {
 void Environment::let_miscount(RegisterScoreboard& board, std::span<const std::uint32_t> offsets) {
   std::vector<PlantedFault> faults;
   for (const std::uint32_t offset : offsets) {
-    std::string name = fmt::format("miscount-{}", board.name_of(offset));
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
-      return c == '_' ? '-' : static_cast<char>(std::tolower(c));
-    });
+    std::string name = fault_name("miscount", board.name_of(offset));
     if (planted(name)) board.misread(offset);
     faults.push_back({std::move(name), fmt::format("{} is wrong by one.", board.name_of(offset))});
+  }
+  know(std::move(faults));
+}
+
+void Environment::let_misdecode(rtl::ControlRegisters& control,
+                                std::span<const std::uint32_t> offsets, const std::string& needs) {
+  std::vector<PlantedFault> faults;
+  for (const spec::RegisterInfo& info : control.registers.table()) {
+    if (std::find(offsets.begin(), offsets.end(), info.offset) == offsets.end()) continue;
+    for (const spec::Field& field : info.fields) {
+      std::string name = fault_name("misdecode", fmt::format("{}-{}", info.name, field.name));
+      if (planted(name)) {
+        const auto written = std::make_shared<std::uint32_t>(control.value(info.offset));
+        control.on_read(info.offset, [written] { return *written; });
+        control.on_taken(info.offset,
+                         [&control, offset = info.offset, field, written](std::uint32_t word) {
+                           *written = word;
+                           control.set(offset, misdecoded(field, word));
+                         });
+      }
+      faults.push_back({std::move(name),
+                        fmt::format("{} of {} is decoded as another value than software wrote.",
+                                    field.name, info.name),
+                        "", needs});
+    }
   }
   know(std::move(faults));
 }

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "rtl_model/fabric/control_registers.h"
 #include "rtl_model/platform/host.h"
 #include "rtl_model/platform/memory_model.h"
 #include "spec/registers.h"
@@ -105,6 +106,7 @@ class Environment {
   // is loaded next.
   void drain_memory() const;
   bool golden() const { return simulation_.options().golden; }
+  bool programs() const { return simulation_.options().program; }
 
   // ---- faults
   void know(std::vector<PlantedFault> faults) {
@@ -117,6 +119,11 @@ class Environment {
   void let_blind(std::initializer_list<ScoreboardBase*> boards);
   // `miscount-NAME` for each register that is checked: the engine counted one too many or too few.
   void let_miscount(RegisterScoreboard& board, std::span<const std::uint32_t> offsets);
+  // `misdecode-REGISTER-FIELD` for each field of these registers: of what software writes there the
+  // hardware takes a choice for the next one, a number for its half, and 0 for all ones. It reads
+  // back as it was written. `needs`: why none can be planted in this run.
+  void let_misdecode(rtl::ControlRegisters& control, std::span<const std::uint32_t> offsets,
+                     const std::string& needs);
   static void reject_untouched(const platform::MemoryModel& memory,
                                const MemoryParameters& parameters);
 

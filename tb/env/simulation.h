@@ -37,7 +37,10 @@ struct SimulationOptions {
   bool shuffle = false;
   bool fast_path = true;
   bool check_links = true;
-  bool poison = false;        // fields that nobody wrote hold noise
+  bool poison = false;  // fields that nobody wrote hold noise
+  // Rules are written to registers after each reset, over others that the engine is built with;
+  // else they are its reset values.
+  bool program = true;
   rtl::Cycle max_cycles = 0;  // 0: no limit
   rtl::Cycle patience = 20000;
   // Names that an environment knows, or faults of the harness (fault_injector.h).

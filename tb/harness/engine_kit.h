@@ -57,10 +57,15 @@ enum class Job { kWhole, kBroken };
 struct Disturbance {
   BenchOptions bench = {};
   std::uint32_t scatter = 0;  // answers of memory come up to so many clocks later
+  // The driver writes the rules after each reset to an engine that is built with others
+  // (other_rules.h); else they are its reset values.
+  bool program = false;
 };
 
 // What a kit may leave out.
 struct EngineKit {
+  // Its rules are registers, which Disturbance::program writes.
+  static constexpr bool kPrograms = false;
   // Offsets beside those of the engine's table.
   static std::vector<std::uint32_t> more_registers() { return {}; }
   // Between the clocks at which resets are tried; after a long reset memory owes nothing.

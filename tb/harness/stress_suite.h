@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What must not change a bit of what an engine does, of every build of its Kit (engine_kit.h):
 // stalls on every link, memory that answers late and in any order, the order of evaluation, the
-// fast path, checkers, noise in what nobody wrote. A simulation each, in a process of its own.
+// fast path, checkers, noise in what nobody wrote, whether rules are reset values or written after
+// a reset. A simulation each, in a process of its own.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -47,6 +48,17 @@ class StressSuite {
       expect_same("checkers", [](BenchOptions& bench) { bench.check_links = false; });
       expect_same("widths", [](BenchOptions& bench) { bench.check_widths = true; });
       expect_same("noise", [](BenchOptions& bench) { bench.poison = true; });
+    }
+  }
+
+  void written_rules_give_the_same_run_as_reset_values() {
+    for (const std::uint32_t permille : {0u, 200u}) {
+      Disturbance disturbance = disturbed(permille, 7, permille != 0);
+      const std::string built = see(disturbance).all;
+      disturbance.program = true;
+      EXPECT_EQ(see(disturbance).all, built) << "stalls in " << permille << " of 1000";
+      disturbance.bench.fast_path = false;
+      EXPECT_EQ(see(disturbance).all, built) << "fast path, stalls in " << permille << " of 1000";
     }
   }
 

@@ -175,6 +175,18 @@ class Registers(CommandTest):
         self.miscount("morphological", self.MORPHOLOGICAL)
 
 
+class Fields(CommandTest):
+    """A field of a texture descriptor that the hardware decodes as another value than software wrote."""
+
+    def test_texture(self):
+        small, large = ("--size", "48x32"), ("--size", "48x32", "--scene", "quad", "--set", "scene.texture_size=8")
+        runs = {f"texture0-{field}": small for field in (
+            "size-width", "size-height", "mode-format", "mode-layout", "mode-wrap-s", "mode-wrap-t", "mode-min-filter",
+            "mode-mag-filter", "mode-levels", "mode-max-count-log2", "lod-bias-bias", "lod-clamp-min-lod",
+            "lod-clamp-max-lod")}
+        self.misdecode("texture", {**runs, "texture0-mode-mag-filter": large})
+
+
 class Blind(CommandTest):
     """A scoreboard that compares nothing, although everything else of the run is right, is no pass."""
     TEXTURE = ("colours", "line-fills", "status-registers")

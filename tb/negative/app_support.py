@@ -113,13 +113,30 @@ class CommandTest(unittest.TestCase):
         told = [self.expect(2, *command, *more).stdout.splitlines()[-1] for more in ((), ("--show-config",))]
         self.assertEqual(told[0], told[1])
 
-    def checked(self, engine):
+    def faults(self, engine, kind):
         done = self.expect(2, "run", engine, "--fault", "gremlin")
         line = next(line for line in done.stderr.splitlines() if "no fault 'gremlin'" in line)
-        return [word.strip(",") for word in line.split() if "miscount-" in word]
+        return [word.strip(",") for word in line.split() if f"{kind}-" in word]
+
+    def misdecode(self, engine, runs):
+        """Outputs or traffic show each field that is decoded wrongly, in the run that `runs` has of it."""
+        self.assertEqual([fault.split("misdecode-")[1] for fault in self.faults(engine, "misdecode")], list(runs))
+        out = ("--out", self.path("out"))
+        for run in {tuple(run) for run in runs.values()}:
+            self.expect(0, "run", engine, *out, *run)  # without it all is well
+        for field, run in runs.items():
+            with self.subTest(field):
+                self.expect(1, "run", engine, *out, *run, "--fault", f"misdecode-{field}", says="FAIL mismatch: ")
+                checks = self.result()["checks"]
+                self.assertGreater(checks["mismatches"] + checks["traffic_mismatches"], 0)
+
+    def decode_as_built(self, engine):
+        """Nobody writes a field of a rule that is a reset value."""
+        self.expect(2, "run", engine, "--out", self.path("out"), "--set", "run.program=reset", "--fault",
+                    "misdecode-rules-linear-light", says="needs run.program = registers")
 
     def miscount(self, engine, expected):
-        faults = self.checked(engine)
+        faults = self.faults(engine, "miscount")
         self.assertEqual([fault.split("miscount-")[1] for fault in faults], expected)
         for fault in faults:
             name = fault.split("miscount-")[1].upper().replace("-", "_")

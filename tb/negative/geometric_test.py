@@ -346,6 +346,19 @@ class Registers(Base):
         self.miscount("geometric", self.CHECKED)
 
 
+class Fields(Base):
+    """A field of the rules that the hardware decodes as another value than software wrote."""
+
+    def test_each(self):
+        small, gpaa = ("--size", "96x64"), ("--size", "48x32", "--preset", "gpaa")
+        runs = {f"rules-{field}": small for field in ("select", "crease", "depth-test", "combine", "depth-bias", "mark",
+                                                      "layout", "frame-copy", "coverage", "cull", "crease-depth",
+                                                      "linear-light")}
+        # What is copied where there is no room for a copy ends in an error of memory.
+        self.misdecode("geometric", {**runs, "rules-frame-copy": gpaa})
+        self.decode_as_built("geometric")
+
+
 class Blind(Base):
     """A scoreboard that compares nothing, although everything else of the run is right, is no pass."""
     BOARDS = ("lines", "candidates", "blocks", "pixels", "memory-lines", "status-registers")

@@ -642,6 +642,40 @@ class GuardFaults(BlockFaults):
         self.assertEqual(work["edge_pixels_percent"], before["edge_pixels_percent"])
 
 
+class Fields(BlockFaults):
+    """A field of the rules that the hardware decodes as another value than software wrote."""
+
+    def test_each(self):
+        bits = random.Random(1)
+        grain, grey, dark = (self.picture(name, rgb_png(48, [bytes(code() for _ in range(3)) if colours else
+                                                            bytes([code()] * 3) for _ in range(48 * 32)]))
+                             for name, colours, code in (("grain.png", True, lambda: 7 * bits.randrange(36)),
+                                                         ("grey.png", False, lambda: bits.randrange(90, 140)),
+                                                         ("dark.png", False, lambda: bits.randrange(8))))
+        noise = self.picture("noise.png", noisy_png(48, 40))
+        mask = self.write("mask.png", rgb_png(48, [bytes([255 * (x // 8 % 2)] * 3) for _ in range(32) for x in range(48)]))
+        depth = ("--depth", grain[1])
+        scene, line, smaa = (("--size", "48x32", "--preset", preset)
+                                      for preset in ("mlaa-slope", "deburr-line", "smaa"))
+        predicated = (*grey, *depth, *self.rules(edges__source="predicated", edges__threshold_on_depth_edge=1310720,
+                                                 edges__threshold_off_depth_edge=1310720))
+        self.misdecode("morphological", {
+            "rules-edges-source": scene, "rules-threshold-mode": scene,
+            "rules-dynamic-luma": (*grey, "--preset", "smaa-dynamic"), "rules-local-contrast": smaa,
+            "rules-predictor": scene, "rules-steps": scene, "rules-contiguous": (*grain, "--preset", "deburr-line"),
+            "rules-safe": line, "rules-linear-light": scene, "rules-trim": line, "rules-ends": smaa,
+            "rules-area-table": smaa, "rules-diagonals": smaa, "rules-round-corners": smaa, "rules-blend": smaa,
+            "rules-area-learned": ("--size", "48x32"), "rules-leave": (*grain, "--mask", mask),
+            "rules-border": (*grain, "--preset", "smaa"), "rules-text-guard": (*noise, *self.rules(text_guard="true")),
+            "threshold-value": (*grey, "--preset", "mlaa"), "threshold-on-value": predicated,
+            "threshold-off-value": predicated, "alpha-value": (*grey, "--preset", "smaa-dynamic"),
+            "floor-value": (*dark, "--preset", "smaa-dynamic"),
+            "depth-threshold-value": (*grain, *depth, *self.rules(edges__source="depth")),
+            "smaa-search-steps": (*smaa, *self.rules(search_steps=2)), "smaa-diagonal-steps": smaa,
+            "smaa-corner-rounding": smaa})
+        self.decode_as_built("morphological")
+
+
 class SmaaFaults(BlockFaults):
     """Faults in SMAA's blocks."""
 

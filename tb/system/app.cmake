@@ -12,7 +12,7 @@ deburr_script_test(terminal TIMEOUT 600 ARGUMENTS ${command}
 deburr_script_test(figures ARGUMENTS ${command})
 deburr_script_test(pixel_history ARGUMENTS ${command})
 deburr_script_test(coverage ARGUMENTS ${command} "${PROJECT_SOURCE_DIR}")
-deburr_script_test(disturbed TIMEOUT 600 ARGUMENTS ${command} "${PROJECT_SOURCE_DIR}" CLASSES Unseen Slower Reset Faulty)
+deburr_script_test(disturbed TIMEOUT 600 ARGUMENTS ${command} "${PROJECT_SOURCE_DIR}" CLASSES Unseen Slower Reset Programmed Faulty)
 deburr_script_test(observers TIMEOUT 600 ARGUMENTS ${command} CLASSES Windows Timeline Maps)
 deburr_script_test(report_pages TIMEOUT 600 ARGUMENTS ${command} CLASSES Runs Sweeps Regressions)
 deburr_script_test(sequence ARGUMENTS ${command} CLASSES Images Meshes)

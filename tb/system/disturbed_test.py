@@ -1,10 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """What must change no picture of any engine: stalls of every link, late memory, noise in what nobody wrote, the order
-in which units are evaluated, the fast path, a reset in mid-frame. Every engine of engines.txt, with the options by
-which its trials.yaml has it watched, or none.
+in which units are evaluated, the fast path, a reset in mid-frame, whether rules are registers that software writes
+or reset values. Every engine of engines.txt, with the options by which its trials.yaml has it watched or programmed, or
+none.
 
 usage: disturbed_test.py DEBURR SOURCE [CLASS]"""
+import itertools
 import json
 import pathlib
 import subprocess
@@ -18,6 +20,10 @@ UNSEEN = {"another order of units": ["run.shuffle=true"], "noise": ["run.poison=
           "all of them": ["run.shuffle=true", "run.poison=true", "run.fast_path=false"]}
 # The same comparisons in other clocks.
 SLOWER = {"stalls": ["run.stalls=0.3"], "dense stalls": ["run.stalls=0.8", "run.poison=true", "run.shuffle=true"]}
+# Clock by clock the same run, whether rules are written to registers or are reset values.
+PROGRAMMED = {"nothing": [], "stalls": ["run.stalls=0.2", "run.poison=true", "run.shuffle=true"],
+              "no fast path": ["run.fast_path=false"],
+              "a reset": ["run.reset_after=333", "run.poison=true", "run.shuffle=true"]}
 # The first beats of some come late, frames of others are over early.
 RESETS = (1, 40, 333, 2500, 5000)
 
@@ -88,6 +94,24 @@ class Reset(Disturbed):
         while more:
             self.assertGreater(sum(more[:len(RESETS)]), 0, "no reset took place")
             del more[:len(RESETS)]
+
+
+class Programmed(Disturbed):
+    def test_written_rules_give_the_same_run_as_reset_values(self):
+        runs = [(engine, list(itertools.chain(*zip(options, values))))
+                for engine, options in trials("programmed").items() for values in itertools.product(*options.values())]
+        self.assertGreater(len(runs), 0)
+        for (engine, options), (name, settings) in itertools.product(runs, PROGRAMMED.items()):
+            with self.subTest(engine=engine, options=options, disturbed=name):
+                more = [word for setting in settings for word in ("--set", setting)]
+                written, built = ((*self.run_of(engine, *options, "--size", "48x32", *more, "--set", f"run.program={how}"),
+                                   self.configuration()) for how in ("registers", "reset"))
+                self.assertEqual([key for key in {**written[0], **built[0]} if written[0].get(key) != built[0].get(key)], [])
+                self.assertEqual(written[1], built[1])
+                self.assertEqual([key for key, value in written[2].items() if built[2][key] != value], ["run.program"])
+
+    def configuration(self):
+        return json.loads((self.out / "manifest.json").read_text(encoding="utf-8"))["configuration"]
 
 
 class Faulty(Disturbed):

@@ -104,10 +104,12 @@ class Smoothing(unittest.TestCase):
                      says="geometric_memory.latency = 20000")
 
     def test_faults_of_either_engine_are_caught(self):
+        unmarked = ("wrong-rule", "misdecode-rules-linear-light")
         for fault, code in (("geometric.drop-line", 1), ("geometric.flip-weight", 1), ("wrong-rule", 1),
-                            ("geometric.memory-error", 3)):
-            # Of the edges that are left no run is extended here, which a wrong rule would change.
-            marks = ("--set", "morphological.leave=none") if fault == "wrong-rule" else ()
+                            ("geometric.memory-error", 3), ("geometric.misdecode-rules-layout", 1),
+                            ("morphological.misdecode-rules-linear-light", 1), ("misdecode-texture0-mode-layout", 1)):
+            # Of the edges that are left no run is extended or blended here, which a wrong rule would change.
+            marks = ("--set", "morphological.leave=none") if fault.split(".")[-1] in unmarked else ()
             self.command(code, "--smoothing", "geometric-morphological", "--fault", fault, *marks)
 
 

@@ -26,7 +26,10 @@ class FrameCommand final : public Engine {
     return "A scene that is drawn into a frame buffer, and smoothed by one engine or two";
   }
 
-  void add_parameters(ParameterSet& set) override { roles().add_parameters(set); }
+  void add_parameters(ParameterSet& set) override {
+    roles().add_parameters(set);
+    set.add("run", ParameterKind::kRun, program_);
+  }
   void resolve(ParameterSet& set) override { roles().resolve(set); }
 
   std::vector<std::string_view> examples() const override {
@@ -189,6 +192,7 @@ class FrameCommand final : public Engine {
     if (frame.mesh()) frame.mesh()->add_pictures(context, before, frame.rows() != nullptr);
   }
 
+  ProgramParameters program_;  // of the engines that smooth
   mutable std::unique_ptr<FrameRoles> roles_;
   mutable std::string two_;  // an example
 };

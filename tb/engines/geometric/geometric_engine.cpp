@@ -46,6 +46,7 @@ class GeometricCommand final : public Engine {
     set.add("sequence", ParameterKind::kInput, sequence_);
     set.add_engine("geometric", parameters_);
     add_memory(set, "memory", memory_);
+    set.add("run", ParameterKind::kRun, program_);
   }
 
   void resolve(ParameterSet& set) override {
@@ -240,6 +241,7 @@ class GeometricCommand final : public Engine {
   int frames_ = 1;
   spec::geometric::Parameters parameters_;
   MemoryParameters memory_;
+  ProgramParameters program_;
   std::string preset_label_;
 };
 

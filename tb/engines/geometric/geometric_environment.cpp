@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "golden/geometric/configuration.h"
@@ -11,6 +12,7 @@
 #include "spec/geometric/registers.h"
 #include "tb/base/random.h"
 #include "tb/engines/geometric/geometric_coverage.h"
+#include "tb/engines/geometric/geometric_unprogrammed.h"
 
 namespace deburr::tb {
 namespace {
@@ -51,11 +53,11 @@ GeometricEnvironment::GeometricEnvironment(Simulation& simulation,
       setup_(setup),
       faults_(simulation.faults(), this->name(), frames, setup_),
       regions_(regions_of(frames, setup.geometric)),
-      engine_("geometric", simulation.clock(), faults_.as_built(), memory_clocks(setup_)),
+      engine_("geometric", simulation.clock(), as_built(), memory_clocks(setup_)),
       memory_(memory_name().c_str(), simulation.clock().period(),
               memory_of(setup, regions_, simulation.options().seed)),
       host_("geometric_host"),
-      driver_(host_, memory_, setup.geometric),
+      driver_(host_, memory_, as_built()),
       meter_(this->name(), engine_, memory_, frames, setup_),
       checks_(setup_, regions_, golden()) {
   for (const geometric::Frame& frame : frames)
@@ -64,6 +66,8 @@ GeometricEnvironment::GeometricEnvironment(Simulation& simulation,
                           frame.screen.vertices.size(), frame.screen.faces});
   know(faults_.list());
   faults_.plant(engine_);
+  let_misdecode(engine_.control, std::array{spec::geometric::reg::kRules},
+                programs() ? "" : "run.program = registers");
   driver_.place(regions_);
   let_blind({&checks_.lines, &checks_.candidates, &checks_.blocks, &checks_.pixels,
              &checks_.traffic, &checks_.registers.board()});
@@ -81,6 +85,11 @@ GeometricEnvironment::GeometricEnvironment(Simulation& simulation,
     history_.emplace(*pixel);
   }
   observe();
+}
+
+spec::geometric::Parameters GeometricEnvironment::as_built() const {
+  const spec::geometric::Parameters run = faults_.as_built();
+  return programs() ? unprogrammed(run) : run;
 }
 
 void GeometricEnvironment::observe() {
@@ -108,6 +117,7 @@ void GeometricEnvironment::observe() {
 
 void GeometricEnvironment::configure() {
   driver_.identify();
+  if (programs()) driver_.set_rules(faults_.as_built());
   checks_.clear_counters();
 }
 

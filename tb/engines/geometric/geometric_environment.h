@@ -100,6 +100,7 @@ class GeometricEnvironment final : public Environment {
     return name().empty() ? "memory" : std::string(kGeometricMemory);
   }
   const geometric::Frame& current() const { return frames_[current_]; }
+  spec::geometric::Parameters as_built() const;
   void observe();
   void load();
   using LinesByRegion = std::array<std::uint64_t, platform::GeometricRegions::kCount>;

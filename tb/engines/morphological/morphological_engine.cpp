@@ -49,6 +49,7 @@ class MorphologicalCommand final : public Engine {
     set.add("sequence", ParameterKind::kInput, sequence_);
     set.add_engine("morphological", parameters_);
     add_memory(set, "memory", memory_);
+    set.add("run", ParameterKind::kRun, program_);
   }
 
   void resolve(ParameterSet& set) override {
@@ -299,6 +300,7 @@ class MorphologicalCommand final : public Engine {
   int frames_ = 1;
   spec::morphological::Parameters parameters_;
   MemoryParameters memory_;
+  ProgramParameters program_;
   std::string preset_label_;
 };
 

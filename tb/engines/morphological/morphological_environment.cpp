@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "golden/morphological/configuration.h"
 #include "spec/error.h"
 #include "spec/morphological/registers.h"
+#include "tb/engines/morphological/morphological_unprogrammed.h"
 #include "tb/stimuli/share_file.h"
 
 namespace deburr::tb {
@@ -47,7 +49,7 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
       source_(this->name().empty()
                   ? std::make_unique<FrameSource>("source", simulation.clock(), lanes())
                   : nullptr),
-      engine_("morphological", simulation.clock(), faults_.as_built()),
+      engine_("morphological", simulation.clock(), as_built()),
       sink_("sink", simulation.clock()),
       memory_(memory_for(frames)),
       host_("morphological_host"),
@@ -56,6 +58,10 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
       checks_(setup_, golden()) {
   know(faults_.list());
   faults_.plant(engine_);
+  let_misdecode(engine_.control,
+                std::array{reg::kRules, reg::kThreshold, reg::kThresholdOn, reg::kThresholdOff,
+                           reg::kAlpha, reg::kFloor, reg::kDepthThreshold, reg::kSmaa},
+                programs() ? "" : "run.program = registers");
   progress_.source = source_.get();
   progress_.memory = memory_.get();
   let_blind({&checks_.pixels, &checks_.taps, &checks_.registers.board()});
@@ -113,10 +119,16 @@ std::unique_ptr<platform::MemoryModel> MorphologicalEnvironment::memory_for(
                                                  simulation().clock().period(), m);
 }
 
+spec::morphological::Parameters MorphologicalEnvironment::as_built() const {
+  const spec::morphological::Parameters run = faults_.as_built();
+  return programs() ? unprogrammed(run) : run;
+}
+
 // ---- running ------------------------------------------------------------------------------------
 
 void MorphologicalEnvironment::configure() {
   driver_.identify();
+  if (programs()) driver_.set_rules(faults_.as_built());
   if (setup_.shares) driver_.load_shares(entries_of(*setup_.shares));
   checks_.clear_counters();
 }

@@ -104,6 +104,7 @@ class MorphologicalEnvironment final : public Environment {
   }
   std::unique_ptr<platform::MemoryModel> memory_for(
       std::span<const MorphologicalInput> frames) const;
+  spec::morphological::Parameters as_built() const;
   void start();
   void check_output(rtl::Cycle cycle, const spec::morphological::BlendedBeat& beat);
 

@@ -41,6 +41,11 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
   let_miscount(checks_.registers,
                std::array{reg::kFragments, reg::kBilinears, reg::kLineFills, reg::kClamped,
                           reg::kSaturated, reg::kMemoryErrors, reg::kInvalidFragments});
+  const auto of_first = [](std::uint32_t offset) { return reg::kTextureBase + offset; };
+  let_misdecode(unit_.control,
+                std::array{of_first(reg::kSize), of_first(reg::kMode), of_first(reg::kLodBias),
+                           of_first(reg::kLodClamp)},
+                "");
   quad_driver_.beats_out(quads_);
   unit_.quads_in(quads_);
   unit_.colours_out(colours);

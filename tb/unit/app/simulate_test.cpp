@@ -155,6 +155,15 @@ TEST(SimulationOptions, OfAFaultAskForNoCheckersOfLinks) {
   EXPECT_TRUE(options_of(run, set).check_links);
 }
 
+TEST(SimulationOptions, ProgramRulesUnlessTheyAreResetValues) {
+  ProgramParameters program;
+  ParameterSet set;
+  set.add("run", ParameterKind::kRun, program);
+  EXPECT_TRUE(options_of({}, set).program);
+  set.set("run.program", "reset", "test");
+  EXPECT_FALSE(options_of({}, set).program);
+}
+
 TEST(FromRepository, IsThePathThatUsersKnow) {
   EXPECT_EQ(from_repository("/a/layers/tb/tb/app/x.cpp:7: y"), "tb/app/x.cpp:7: y");
   EXPECT_EQ(from_repository("/a/layers/rtl_model/rtl_model/x.h:7"), "rtl_model/x.h:7");

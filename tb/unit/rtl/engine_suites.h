@@ -66,6 +66,9 @@ bool register_suites(const char* file = __builtin_FILE(), int line = __builtin_L
   each("Stress", "OrderFastPathCheckersAndNoiseAreInvisible",
        &Stress::order_fast_path_checkers_and_noise_are_invisible);
   each("Stress", "TheSameSeedGivesTheSameClocks", &Stress::the_same_seed_gives_the_same_clocks);
+  if constexpr (Kit::kPrograms)
+    each("Stress", "WrittenRulesGiveTheSameRunAsResetValues",
+         &Stress::written_rules_give_the_same_run_as_reset_values);
   add("RegisterNoise", "LeavesNothingAfterAReset", nullptr,
       [] { EXPECT_EQ(first_complaint(Kit::kNoiseSeeds, left_by_noise<Kit>), ""); });
   using Tokens = TokenSuite<Kit>;

@@ -9,7 +9,10 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "spec/geometric/check_build.h"
+#include "spec/geometric/registers.h"
 #include "tb/engines/geometric/geometric_rules.h"
+#include "tb/engines/geometric/geometric_unprogrammed.h"
 #include "tb/results/parameter_set.h"
 #include "tb/unit/engines/complaint.h"
 
@@ -130,6 +133,22 @@ TEST(GeometricRules, ALatencyFifoBelowTheFillsIsNoted) {
               ElementsAre("geometric.latency_fifo = 7 is below geometric.fills = 8: "
                           "look-ups wait before all lines that may be on their way "
                           "are asked for"));
+}
+
+// So that a run shows each field that is not programmed.
+TEST(UnprogrammedGeometricEngine, HasAnotherValueInEveryField) {
+  using namespace spec::geometric;  // NOLINT: parameters and registers
+  for (const PresetRow& preset : kPresets)
+    for (const DepthTest test : {DepthTest::kOff, DepthTest::kOwn, DepthTest::kFarther})
+      for (const CoarseLines coarse : {CoarseLines::kNone, CoarseLines::k4}) {
+        Parameters p = preset_parameters(preset.preset);
+        p.depth_test = test;
+        p.coarse_lines = test == DepthTest::kOff ? CoarseLines::kNone : coarse;
+        const Parameters other = unprogrammed(p);
+        EXPECT_NO_THROW(check_build(other));
+        for (const spec::Field& field : reg::rules::kFields)
+          EXPECT_NE(field.of(rules_word(p)), field.of(rules_word(other))) << field.name;
+      }
 }
 
 }  // namespace

@@ -5,11 +5,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "spec/error.h"
+#include "spec/morphological/check_build.h"
+#include "spec/morphological/registers.h"
 #include "tb/engines/morphological/morphological_rules.h"
+#include "tb/engines/morphological/morphological_unprogrammed.h"
 #include "tb/results/parameter_set.h"
 #include "tb/unit/engines/complaint.h"
 
@@ -142,6 +147,45 @@ TEST(MorphologicalRules, ThresholdsBelowACodeAreNoted) {
               ElementsAre("morphological.trial_clocks = 3: steps of a trial share a clock, so the "
                           "engine is not made for 250 MHz "
                           "(docs/reference/morphological/throughput.md, Trials)"));
+}
+
+// Fields with the same value in both words.
+std::vector<std::string> same_fields(std::span<const spec::Field> fields, std::uint32_t one,
+                                     std::uint32_t other) {
+  std::vector<std::string> names;
+  for (const spec::Field& field : fields)
+    if (field.of(one) == field.of(other)) names.emplace_back(field.name);
+  return names;
+}
+
+// So that a run shows each field that is not programmed. Those that say what is built stay.
+TEST(UnprogrammedMorphologicalEngine, HasAnotherValueInEveryFieldThatIsNotBuilt) {
+  using namespace spec::morphological;  // NOLINT: parameters and registers
+  for (const PresetRow& preset : kPresets)
+    for (const QualityRow& quality : kQualities)
+      for (const EdgeSource source :
+           {EdgeSource::kLuma, EdgeSource::kDepth, EdgeSource::kPredicated, EdgeSource::kColour}) {
+        Parameters p = preset_parameters(preset.preset, quality.quality);
+        p.edge_source = source;
+        const bool no_luma = source == EdgeSource::kPredicated || source == EdgeSource::kColour;
+        if (no_luma) p.threshold_mode = ThresholdMode::kFixed;
+        const Parameters other = unprogrammed(p);
+        EXPECT_NO_THROW(check_build(other));
+        std::vector<std::string> built = {"contiguous", "ends",          "area_table",
+                                          "diagonals",  "round_corners", "area_learned",
+                                          "border",     "text_guard"};
+        // From luma or depth to a source without a dynamic threshold.
+        if (!no_luma && p.threshold_mode == ThresholdMode::kFixed)
+          built.insert(built.begin(), "threshold_mode");
+        EXPECT_THAT(same_fields(reg::rules::kFields, rules_word(p), rules_word(other)),
+                    testing::ElementsAreArray(built));
+        EXPECT_THAT(same_fields(reg::smaa::kFields, smaa_word(p), smaa_word(other)),
+                    ElementsAre("diagonal_steps"));
+        for (const auto threshold :
+             {&Rules::threshold, &Rules::threshold_on_depth_edge, &Rules::threshold_off_depth_edge,
+              &Rules::alpha, &Rules::floor, &Rules::depth_threshold})
+          EXPECT_NE(p.*threshold, other.*threshold);
+      }
 }
 
 }  // namespace

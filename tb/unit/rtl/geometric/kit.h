@@ -60,6 +60,7 @@ class Kit : public EngineKit {
       EXPECT_GT(b_.writes(b_.bases.weights).size(), 5u);
     }
   }
+  static constexpr bool kPrograms = true;
   void reset(Cycle clocks) { b_.reset(clocks); }
 
   // --- resets: a late write of before would spoil what is loaded next ---
@@ -140,7 +141,9 @@ class Kit : public EngineKit {
 
  private:
   Kit(const Parameters& p, const Disturbance& disturbance, Scene whole, Scene broken)
-      : b_(p, {.scatter = disturbance.scatter, .bench = disturbance.bench}),
+      : b_(p, {.scatter = disturbance.scatter,
+               .bench = disturbance.bench,
+               .program = disturbance.program}),
         whole_(std::move(whole)),
         broken_(std::move(broken)) {}
   static Parameters drawn(Random& random) {

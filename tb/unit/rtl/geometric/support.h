@@ -26,6 +26,7 @@
 #include "spec/geometric/records.h"
 #include "spec/geometric/registers.h"
 #include "spec/geometric/vectors.h"
+#include "tb/engines/geometric/geometric_unprogrammed.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/unit_bench.h"
 #include "tb/stimuli/vector_hash.h"
@@ -94,6 +95,7 @@ struct EngineOptions {
   std::uint32_t latency = 20, scatter = 0;
   std::uint32_t memory_bytes = 1u << 20;
   BenchOptions bench = {};
+  bool program = false;  // rules are written after each reset(), over others
 };
 
 // The engine with memory, host and checkers.
@@ -111,9 +113,10 @@ class EngineBench {
 
   explicit EngineBench(const Parameters& parameters = {}, const EngineOptions& options = {})
       : p(parameters),
-        engine("engine", clock, parameters),
+        engine("engine", clock, options.program ? unprogrammed(parameters) : parameters),
         memory("memory", period(), memory_parameters(options)),
-        driver(bus, memory, parameters) {
+        driver(bus, memory, options.program ? unprogrammed(parameters) : parameters),
+        program(options.program) {
     engine.memory()->bind(memory.ports);
     bus.bus.bind(engine.registers);
     engine.line_setup.observer = [this](const spec::geometric::LineRecord& l) {
@@ -178,6 +181,7 @@ class EngineBench {
     clock.set_reset_n(false);
     clock.run(cycles);
     clock.set_reset_n(true);
+    if (program) driver.set_rules(p);
   }
 
   // --- What the contract hashes ---
@@ -268,6 +272,7 @@ class EngineBench {
   platform::MemoryModel memory;
   platform::RegisterHost bus{"bus"};
   platform::GeometricDriver driver;
+  bool program;
   std::unique_ptr<Bench> bench;
   std::vector<spec::geometric::LineRecord> lines;
   std::vector<spec::geometric::Candidate> candidates;

@@ -101,13 +101,12 @@ class Kit : public EngineKit {
       EXPECT_EQ(bench_.engine.work().diagonal_pixels != 0, smaa_);
     }
   }
+  static constexpr bool kPrograms = true;
   void reset(Cycle clocks) {
-    bench_.clock.set_reset_n(false);
     beats_.clear();
     queued_ = endless_ = false;
     bench_.wanted = 0;
-    bench_.clock.run(clocks);
-    bench_.clock.set_reset_n(true);
+    bench_.reset(clocks);
   }
 
   // --- resets ---
@@ -215,6 +214,7 @@ class Kit : public EngineKit {
     options.bench = disturbance.bench;
     options.memory_latency = latency;
     options.memory_scatter = disturbance.scatter;
+    options.program = disturbance.program;
     return options;
   }
   static Parameters parameters(const Build& build) {

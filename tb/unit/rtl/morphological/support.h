@@ -23,6 +23,7 @@
 #include "rtl_model/platform/register_host.h"
 #include "spec/morphological/packets.h"
 #include "spec/morphological/parameters.h"
+#include "tb/engines/morphological/morphological_unprogrammed.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/driver.h"
 #include "tb/harness/unit_bench.h"
@@ -121,13 +122,16 @@ struct EngineBench {
     EndOptions driver, sink;
     std::uint32_t memory_latency = 20, memory_scatter = 0;
     platform::MemoryModelParameters memory;
+    bool program = false;  // rules are written after each reset(), over others
   };
   explicit EngineBench(const Parameters& p) : EngineBench(p, Options{}) {}
   EngineBench(const Parameters& p, Options options)
       : driver("driver", clock, options.driver),
-        engine("engine", clock, p),
+        engine("engine", clock, options.program ? unprogrammed(p) : p),
         sink("sink", clock, options.sink),
-        software(bus, p) {
+        software(bus, p),
+        rules(p),
+        program(options.program) {
     driver.beats_out(in);
     engine.pixels_in(in);
     engine.pixels_out(out);
@@ -144,6 +148,13 @@ struct EngineBench {
     driver.on_send = [this](Cycle cycle, const spec::morphological::PixelBeat&) {
       sent.push_back(cycle);
     };
+  }
+
+  void reset(Cycle cycles) {
+    clock.set_reset_n(false);
+    clock.run(cycles);
+    clock.set_reset_n(true);
+    if (program) software.set_rules(rules);
   }
 
   // Runs one frame after another that was added; the frames come back in order.
@@ -173,6 +184,8 @@ struct EngineBench {
   Sink<spec::morphological::BlendedBeat> sink;
   platform::RegisterHost bus{"bus"};
   platform::MorphologicalDriver software;
+  Parameters rules;
+  bool program;
   std::unique_ptr<platform::MemoryModel> memory;
   std::unique_ptr<Bench> bench;
   std::vector<Cycle> sent;  // when each beat was pushed into the engine's link

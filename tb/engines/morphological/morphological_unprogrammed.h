@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "spec/morphological/parameters.h"
+#include "tb/harness/other_rules.h"
+
+namespace deburr::tb {
+
+// The same hardware with other rules as reset values, of which software must write each. Rules that
+// say which blocks and memories are built stay.
+inline spec::morphological::Parameters unprogrammed(spec::morphological::Parameters p) {
+  using spec::morphological::EdgeSource, spec::morphological::ThresholdMode;
+  constexpr std::array<std::string_view, 13> kBuilt = {
+      "edges.source", "edges.threshold_mode", "ends",         "border",         "contiguous",
+      "area",         "area_values",          "diagonals",    "diagonal_steps", "round_corners",
+      "text_guard",   "window_rows",          "reach_columns"};
+  OtherRules other(kBuilt);
+  describe(static_cast<spec::morphological::Rules&>(p), other);
+  // Luma and colour are built alike, so are depth and predicated; the first of each has a dynamic
+  // threshold.
+  const bool fixed = p.threshold_mode == ThresholdMode::kFixed;
+  switch (p.edge_source) {
+    case EdgeSource::kLuma:
+      p.edge_source = EdgeSource::kColour;
+      break;
+    case EdgeSource::kColour:
+      p.edge_source = EdgeSource::kLuma;
+      break;
+    case EdgeSource::kDepth:
+      p.edge_source = EdgeSource::kPredicated;
+      break;
+    case EdgeSource::kPredicated:
+      p.edge_source = EdgeSource::kDepth;
+      break;
+  }
+  const bool dynamic_goes =
+      p.edge_source == EdgeSource::kLuma || p.edge_source == EdgeSource::kDepth;
+  p.threshold_mode = fixed && dynamic_goes ? ThresholdMode::kDynamic : ThresholdMode::kFixed;
+  return p;
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Other rules than those of a run: an engine whose rules are to be programmed is built with them,
+// so that a rule shows that software does not write, or that a unit takes from its constructor.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace deburr::tb {
+
+// A visitor of describe() (spec/parameters.h): every parameter gets another value of its range, but
+// those in `kept`, by their names.
+class OtherRules {
+ public:
+  explicit OtherRules(std::span<const std::string_view> kept = {}) : kept_(kept) {}
+
+  void integer(std::string_view name, std::int32_t& value, std::int32_t min, std::int32_t /*max*/,
+               std::string_view /*unit*/, std::string_view /*meaning*/) {
+    if (changes(name)) value = value == min ? min + 1 : min;
+  }
+  template <class Enum, std::size_t N>
+  void choice(std::string_view name, Enum& value, const std::array<std::string_view, N>& /*names*/,
+              std::string_view /*meaning*/) {
+    if (changes(name)) value = static_cast<Enum>((static_cast<std::size_t>(value) + 1) % N);
+  }
+  void boolean(std::string_view name, bool& value, std::string_view /*meaning*/) {
+    if (changes(name)) value = !value;
+  }
+
+ private:
+  bool changes(std::string_view name) const {
+    return std::find(kept_.begin(), kept_.end(), name) == kept_.end();
+  }
+  std::span<const std::string_view> kept_;
+};
+
+}  // namespace deburr::tb
