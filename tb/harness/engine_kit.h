@@ -47,6 +47,7 @@
 #include "rtl_model/fabric/payload.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/engine_state.h"
+#include "tb/harness/unit_bench.h"
 
 namespace deburr::tb {
 
@@ -57,6 +58,7 @@ enum class Job { kWhole, kBroken };
 struct Disturbance {
   BenchOptions bench = {};
   std::uint32_t scatter = 0;  // answers of memory come up to so many clocks later
+  sc_core::sc_time period = unit_bench::period();
 };
 
 // What a kit may leave out.
