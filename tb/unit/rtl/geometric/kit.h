@@ -140,7 +140,9 @@ class Kit : public EngineKit {
 
  private:
   Kit(const Parameters& p, const Disturbance& disturbance, Scene whole, Scene broken)
-      : b_(p, {.scatter = disturbance.scatter, .bench = disturbance.bench}),
+      : b_(p, {.scatter = disturbance.scatter,
+               .bench = disturbance.bench,
+               .period = disturbance.period}),
         whole_(std::move(whole)),
         broken_(std::move(broken)) {}
   static Parameters drawn(Random& random) {

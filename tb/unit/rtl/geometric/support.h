@@ -94,6 +94,7 @@ struct EngineOptions {
   std::uint32_t latency = 20, scatter = 0;
   std::uint32_t memory_bytes = 1u << 20;
   BenchOptions bench = {};
+  sc_core::sc_time period = unit_bench::period();
 };
 
 // The engine with memory, host and checkers.
@@ -111,8 +112,9 @@ class EngineBench {
 
   explicit EngineBench(const Parameters& parameters = {}, const EngineOptions& options = {})
       : p(parameters),
+        clock("clock", options.period),
         engine("engine", clock, parameters),
-        memory("memory", period(), memory_parameters(options)),
+        memory("memory", options.period, memory_parameters(options)),
         driver(bus, memory, parameters) {
     engine.memory()->bind(memory.ports);
     bus.bus.bind(engine.registers);
@@ -263,7 +265,7 @@ class EngineBench {
   const Parameters p;
   Bases bases;
   int width = 0, height = 0;
-  ClockDomain clock{"clock", period()};
+  ClockDomain clock;
   rtl::geometric::GeometricEngine engine;
   platform::MemoryModel memory;
   platform::RegisterHost bus{"bus"};

@@ -121,10 +121,12 @@ struct EngineBench {
     EndOptions driver, sink;
     std::uint32_t memory_latency = 20, memory_scatter = 0;
     platform::MemoryModelParameters memory;
+    sc_core::sc_time period = unit_bench::period();
   };
   explicit EngineBench(const Parameters& p) : EngineBench(p, Options{}) {}
   EngineBench(const Parameters& p, Options options)
-      : driver("driver", clock, options.driver),
+      : clock("clock", options.period),
+        driver("driver", clock, options.driver),
         engine("engine", clock, p),
         sink("sink", clock, options.sink),
         software(bus, p) {
@@ -137,7 +139,7 @@ struct EngineBench {
       options.memory.bytes = 1u << 20;
       options.memory.latency_min = options.memory_latency;
       options.memory.latency_max = options.memory_latency + options.memory_scatter;
-      memory = std::make_unique<platform::MemoryModel>("memory", period(), options.memory);
+      memory = std::make_unique<platform::MemoryModel>("memory", options.period, options.memory);
       engine.memory()->bind(memory->ports);
     }
     bench = std::make_unique<Bench>(clock, options.bench);
@@ -165,7 +167,7 @@ struct EngineBench {
     return frame;
   }
 
-  ClockDomain clock{"clock", period()};
+  ClockDomain clock;
   Link<spec::morphological::PixelBeat> in{"in"};
   Link<spec::morphological::BlendedBeat> out{"out"};
   Driver<spec::morphological::PixelBeat> driver;
