@@ -37,6 +37,7 @@ MADE = {
 # engine -> why files name it -> which. A CMake list names what the sources beside it do.
 NAMED = {
     "geometric": {
+        "each pair of engines is tested in clock domains of its own": ["tb/unit/platform/engine_domains_test.cpp"],
         "its units and its lines are drawn for its pages": [
             "scripts/drawing/pipelines.py", "scripts/drawing/walks.py", "scripts/figures", "tb/unit/house/drawings_test.py"],
         "which engine to take is drawn": ["scripts/drawing/guides.py"],
@@ -61,6 +62,7 @@ NAMED = {
         "it alone leaves pictures of a frame that it could not begin": ["tb/unit/app/simulate_test.cpp"],
     },
     "morphological": {
+        "each pair of engines is tested in clock domains of its own": ["tb/unit/platform/engine_domains_test.cpp"],
         "its units and the shapes of its runs are drawn for its pages": [
             "scripts/drawing/facts.py", "scripts/drawing/patterns.py", "scripts/drawing/pipelines.py", "scripts/figures",
             "tb/unit/house/drawings_test.py"],
