@@ -292,7 +292,7 @@ bool ClockDomain::stops_now() const {
   });
 }
 
-void ClockDomain::evaluate_edge() {
+inline void ClockDomain::evaluate_edge() {
   DEBURR_CHECK(sc_core::sc_time_stamp() == time_of(cycle_),
                fmt::format("{}: edge {} came at the wrong time", name(), cycle_));
   block_start_ = cycle_;

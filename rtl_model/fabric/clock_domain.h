@@ -118,7 +118,7 @@ class ClockDomain final : public sc_core::sc_module {
   bool stops_now() const;
   void find_domains();
   void rethrow_failure() const;
-  void evaluate_edge();
+  [[gnu::always_inline]] void evaluate_edge();
   void evaluate();
   void evaluate_block();
   void reset_all();

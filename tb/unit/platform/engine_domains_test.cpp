@@ -294,7 +294,7 @@ TEST(DomainFaults, FaultInOneIsNotSeenInTheOther) {
   expect_seen(with_fault(true), wrong, "the faulty one");
 }
 
-// Both on link "in", of either domain: a fault names a link of its own domain.
+// A fault acts in the cycles of its bench's domain.
 TEST(DomainFaults, LinkOfAnotherDomainIsRejected) {
   const auto other = place(kTexture, "watched", at_period(kPeriods[0]));
   Disturbance disturbance = at_period(kPeriods[1]);
