@@ -11,10 +11,21 @@
 #include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/ownership.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
 
 namespace deburr::rtl {
+namespace {
+
+// What a domain resets, beside its units.
+bool is_collected(const sc_core::sc_object& object) {
+  return dynamic_cast<const LinkBase*>(&object) || dynamic_cast<const WireBase*>(&object) ||
+         dynamic_cast<const MemoryBase*>(&object) || dynamic_cast<const Counter*>(&object) ||
+         dynamic_cast<const Histogram*>(&object);
+}
+
+}  // namespace
 
 ClockDomain::ClockDomain(const sc_core::sc_module_name& name, const sc_core::sc_time& period)
     : sc_module(name), period_(period), period_value_(period.value()) {
@@ -29,7 +40,18 @@ void ClockDomain::add(Unit& unit) {
 void ClockDomain::add(Clocked& clocked) { slots_.push_back({&clocked, ignored_}); }
 void ClockDomain::add_before(Clocked& clocked) { before_.push_back(&clocked); }
 void ClockDomain::add_after(Clocked& clocked) { after_.push_back(&clocked); }
-void ClockDomain::add(LinkBase& link) { claim(link); }
+void ClockDomain::add(LinkBase& link) {
+  adopt(link);
+  claim(link);
+}
+void ClockDomain::adopt(const sc_core::sc_object& object) {
+  const Ownership ownership;
+  const ClockDomain* const other = ownership.given(object);
+  DEBURR_CHECK(!other || other == this,
+               fmt::format("{} is given to two clock domains ({} and {})", object.name(),
+                           other ? other->name() : "", name()));
+  if (!other) adopted_.push_back(&object);
+}
 
 void ClockDomain::replace(Unit& unit, std::vector<const Counter*> counted) {
   DEBURR_CHECK(cycle_ == 0 && !unit.replaced_,
@@ -97,39 +119,46 @@ void ClockDomain::join_combinational() {
 }
 
 void ClockDomain::end_of_elaboration() {
-  std::set<sc_core::sc_object*> seen;  // units may nest
-  // A memory that several units access may stand beside them.
-  for_each<MemoryBase>([&](MemoryBase& memory) {
-    memory.check_ports();
-    const sc_core::sc_object* around = memory.get_parent_object();
-    while (around && !dynamic_cast<const Unit*>(around)) around = around->get_parent_object();
-    if (!around) memories_.push_back(&memory);
-  });
+  find_domains();
   for_each<WirePortBase>([](const WirePortBase& port) {
     DEBURR_CHECK(port.bound(), fmt::format("{} is not bound to a wire", port.name()));
   });
+  const Ownership ownership;
+  std::set<sc_core::sc_object*> seen;  // units may nest
+  const auto collect_own = [&](sc_core::sc_object& object) {
+    if (!is_collected(object) || !seen.insert(&object).second) return;
+    if (ownership.of(object) == this) collect(object);
+  };
+  // What units hold first, in the order of the units.
   for (Unit* unit : units_) {
     unit->check_ports();
     walk(*unit, [&](sc_core::sc_object& object) {
-      if (!seen.insert(&object).second) return;
       if (auto* port = dynamic_cast<PortBase*>(&object)) {
-        if (port->link_base()) claim(*port->link_base());
-      } else if (auto* link = dynamic_cast<LinkBase*>(&object)) {
-        claim(*link);
+        if (port->link_base()) collect_own(*port->link_base());
       } else if (auto* wire_port = dynamic_cast<WirePortBase*>(&object)) {
-        if (wire_port->wire_base()) claim(*wire_port->wire_base());
-      } else if (auto* wire = dynamic_cast<WireBase*>(&object)) {
-        claim(*wire);
-      } else if (auto* memory = dynamic_cast<MemoryBase*>(&object)) {
-        memories_.push_back(memory);
-      } else if (auto* counter = dynamic_cast<Counter*>(&object)) {
-        counters_.push_back(counter);
-      } else if (auto* histogram = dynamic_cast<Histogram*>(&object)) {
-        histograms_.push_back(histogram);
+        if (wire_port->wire_base()) collect_own(*wire_port->wire_base());
+      } else {
+        collect_own(object);
       }
     });
   }
+  walk_all(collect_own);
   join_combinational();
+}
+
+void ClockDomain::collect(sc_core::sc_object& object) {
+  if (auto* link = dynamic_cast<LinkBase*>(&object)) {
+    claim(*link);
+  } else if (auto* wire = dynamic_cast<WireBase*>(&object)) {
+    claim(*wire);
+  } else if (auto* memory = dynamic_cast<MemoryBase*>(&object)) {
+    memory->check_ports();
+    memories_.push_back(memory);
+  } else if (auto* counter = dynamic_cast<Counter*>(&object)) {
+    counters_.push_back(counter);
+  } else if (auto* histogram = dynamic_cast<Histogram*>(&object)) {
+    histograms_.push_back(histogram);
+  }
 }
 
 void ClockDomain::shuffle(std::optional<std::uint64_t> seed) {
@@ -199,33 +228,77 @@ void ClockDomain::activate() {
   if (phase_ == Phase::kStop) {
     // The time has caught up with the cycles that were run: this is where sc_start() may return.
     phase_ = Phase::kEdge;
+    stopped_in_ = sc_core::sc_delta_count();
     sc_core::sc_pause();
     next_trigger(SC_ZERO_TIME);
     return;
   }
-  DEBURR_CHECK(sc_core::sc_time_stamp() == time_of(cycle_),
-               fmt::format("{}: edge {} came at the wrong time", name(), cycle_));
-  ++activations_;
-  block_start_ = cycle_;
-  evaluating_ = true;
-  try {
-    block_end_ = 0;
-    evaluate();
-    while (may_run_on()) evaluate_block();
-  } catch (...) {
-    evaluating_ = false;
-    if (!in_run_) throw;  // the kernel turns it into a report
-    failure_ = std::current_exception();
-    sc_core::sc_pause();
-    return;
+  if (domains_.size() > 1 && !edge_done_) {
+    if (stops_now()) {
+      deferred_ = true;
+      next_trigger(SC_ZERO_TIME);
+      return;
+    }
+    for (ClockDomain* domain : domains_)
+      if (domain->is_due() && !domain->attempt([domain] { domain->evaluate_edge(); })) return;
   }
-  evaluating_ = false;
+  ++activations_;
+  const bool good = attempt([this] {
+    if (!edge_done_) evaluate_edge();
+    edge_done_ = false;
+    while (may_run_on()) evaluate_block();
+  });
+  if (!good) return;
   if (observed_) edge_.notify(SC_ZERO_TIME);
   if (stop_requested_ || done_reached_) {
     stop_requested_ = false;
     phase_ = Phase::kStop;
   }
   next_trigger(time_of(cycle_ - block_start_));
+}
+
+// Gives false, and ends the run, after an error.
+template <class Action>
+bool ClockDomain::attempt(const Action& action) {
+  evaluating_ = true;
+  try {
+    action();
+  } catch (...) {
+    evaluating_ = false;
+    if (!in_run_) throw;  // the kernel turns it into a report
+    failure_ = std::current_exception();
+    sc_core::sc_pause();
+    return false;
+  }
+  evaluating_ = false;
+  return true;
+}
+
+// Edges of several domains at one time: the first process that the kernel calls evaluates all of
+// them, in the order of construction. In which order it calls them depends on how long their last
+// blocks were.
+bool ClockDomain::is_due() const {
+  return phase_ == Phase::kEdge && !edge_done_ && !failure_ &&
+         sc_core::sc_time_stamp() == time_of(cycle_);
+}
+
+// Does a domain end the run at this time? Then none evaluates an edge of this time before the next
+// run.
+bool ClockDomain::stops_now() const {
+  return std::any_of(domains_.begin(), domains_.end(), [](const ClockDomain* domain) {
+    return domain->stopped_in_ == sc_core::sc_delta_count() ||
+           (domain->phase_ == Phase::kStop &&
+            sc_core::sc_time_stamp() == domain->time_of(domain->cycle_));
+  });
+}
+
+inline void ClockDomain::evaluate_edge() {
+  DEBURR_CHECK(sc_core::sc_time_stamp() == time_of(cycle_),
+               fmt::format("{}: edge {} came at the wrong time", name(), cycle_));
+  block_start_ = cycle_;
+  block_end_ = 0;
+  evaluate();
+  edge_done_ = true;
 }
 
 void ClockDomain::evaluate() {
@@ -339,8 +412,8 @@ void ClockDomain::run_free() { start(kNever, sc_core::sc_max_time().value()); }
 // before `horizon`, unless one of them asks for it.
 void ClockDomain::start(Cycle end, std::uint64_t horizon) {
   DEBURR_CHECK(!in_run_, fmt::format("{}: run() within run()", name()));
-  if (failure_) std::rethrow_exception(failure_);
-  if (domains_.empty()) for_each<ClockDomain>([&](ClockDomain& d) { domains_.push_back(&d); });
+  find_domains();
+  rethrow_failure();
   for (ClockDomain* domain : domains_) {
     domain->in_run_ = true;
     domain->horizon_ = (horizon - 1) / domain->period_value_ + 1;
@@ -364,9 +437,18 @@ void ClockDomain::start(Cycle end, std::uint64_t horizon) {
     throw;
   }
   finish();
-  for (ClockDomain* domain : domains_)
-    if (domain->failure_) std::rethrow_exception(domain->failure_);
+  rethrow_failure();
   check_accounting();
+}
+
+void ClockDomain::find_domains() {
+  if (domains_.empty()) for_each<ClockDomain>([&](ClockDomain& d) { domains_.push_back(&d); });
+}
+
+// An error in one domain is one of the simulation.
+void ClockDomain::rethrow_failure() const {
+  for (const ClockDomain* domain : domains_)
+    if (domain->failure_) std::rethrow_exception(domain->failure_);
 }
 
 void ClockDomain::check_accounting() const {

@@ -9,6 +9,7 @@
 // time_of(cycle)), and they raise events and call TLM targets with the offset of the domain added
 // (notify(), offset()). The first rule cannot be checked, the second is checked. It also makes the
 // domain cheap: only after such a call, and every kBlock cycles, does it ask the kernel again.
+// Edges of several domains at one time are evaluated in the order in which these were constructed.
 // Running on needs to know where sc_start() will end, so it happens inside run(), run_until() and
 // run_free() only; a bare sc_start() gives the same results cycle by cycle.
 #pragma once
@@ -26,6 +27,7 @@
 
 namespace deburr::rtl {
 
+class Ownership;
 class Unit;
 class WireBase;
 
@@ -40,6 +42,10 @@ class ClockDomain final : public sc_core::sc_module {
   void add_before(Clocked& clocked);  // ticked before all units (stalls, faults)
   void add_after(Clocked& clocked);   // ticked after all units (checkers, traces)
   void add(LinkBase& link);  // only for a link that no Unit's port is bound to: reset with the rest
+  // The object belongs to this domain, and what stands in it, but for units of other domains and
+  // what belongs to these: for a module that is not a Unit, and a memory, counter or histogram
+  // that stands in no unit (ownership.h has the rules).
+  void adopt(const sc_core::sc_object& object);
 
   // From now on something else does the work of a unit, at the unit's ports, and counts these of
   // its counters: the unit is neither ticked nor reset. Its links and counters are reset as before.
@@ -96,6 +102,7 @@ class ClockDomain final : public sc_core::sc_module {
   void check_accounting() const;
 
  private:
+  friend Ownership;
   struct Slot {
     Clocked* clocked;
     std::uint64_t* activity;  // kActivities counters
@@ -103,7 +110,15 @@ class ClockDomain final : public sc_core::sc_module {
   enum class Phase { kEdge, kStop };  // what the next activation is for
   SC_HAS_PROCESS(ClockDomain);
   void end_of_elaboration() override;
+  void collect(sc_core::sc_object& object);
   void activate();
+  template <class Action>
+  bool attempt(const Action& action);
+  bool is_due() const;
+  bool stops_now() const;
+  void find_domains();
+  void rethrow_failure() const;
+  [[gnu::always_inline]] void evaluate_edge();
   void evaluate();
   void evaluate_block();
   void reset_all();
@@ -128,6 +143,7 @@ class ClockDomain final : public sc_core::sc_module {
   std::vector<class Counter*> counters_;
   std::vector<class Histogram*> histograms_;
   std::vector<std::function<void()>> on_reset_;
+  std::vector<const sc_core::sc_object*> adopted_;
   std::vector<ClockDomain*> domains_;  // all of the simulation, this one included
   std::uint64_t ignored_[kActivities] = {};
 
@@ -141,6 +157,8 @@ class ClockDomain final : public sc_core::sc_module {
   bool shuffled_ = false, fast_path_ = true, cycle_by_cycle_ = false, reset_n_ = true;
   bool deferred_ = false, stop_requested_ = false, in_run_ = false, evaluating_ = false;
   bool observed_ = false;
+  bool edge_done_ = false;                        // of this time, by the process of another domain
+  std::uint64_t stopped_in_ = ~std::uint64_t{0};  // the delta cycle of the last stop
   const std::function<bool()>* done_ = nullptr;
   bool done_reached_ = false;
   sc_core::sc_event edge_{"edge"};

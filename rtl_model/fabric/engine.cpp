@@ -45,6 +45,7 @@ std::vector<const T*> below(const sc_core::sc_object& root) {
 Engine::Engine(const sc_core::sc_module_name& name, ClockDomain& clock,
                std::span<const spec::RegisterInfo> table, const ControlLayout& layout)
     : sc_module(name), control("registers", table, layout) {
+  clock.adopt(*this);
   control.on_busy([this] { return !idle(); });
   control.on_clear_counters([this] { clear_counters(); });
   clock.on_reset([this] { control.reset(); });

@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <systemc>
+#include <vector>
 
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/memory.h"
@@ -45,6 +47,12 @@ class Fifo final : public MemoryBase {
   std::optional<std::uint64_t> high_water() const override { return high_water_; }
   // For a consumer in another unit: bind its port to this.
   Link<T>& link() { return link_; }
+  std::vector<const sc_core::sc_object*> port_holders() const override {
+    std::vector<const sc_core::sc_object*> holders;
+    for (const std::string& port : {link_.producer(), link_.consumer()})
+      if (const auto* holder = sc_core::sc_find_object(port.c_str())) holders.push_back(holder);
+    return holders;
+  }
   void reset() override {
     link_.reset();
     high_water_ = 0;
@@ -53,7 +61,9 @@ class Fifo final : public MemoryBase {
  private:
   Fifo(const char* name, std::uint32_t depth, std::uint32_t bits, const PayloadShape& shape)
       : MemoryBase(name, memory_shape(depth, bits)),
-        link_(inner_name("entries").c_str(), depth, shape) {}
+        link_(inner_name("entries").c_str(), depth, shape) {
+    link_.set_memory(*this);
+  }
   static MemoryShape memory_shape(std::uint32_t depth, std::uint32_t bits) {
     const MemoryKind kind =
         depth > kMostFlopWords ? MemoryKind::kSram : kind_for(std::uint64_t{depth} * bits);

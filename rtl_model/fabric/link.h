@@ -74,6 +74,10 @@ class LinkBase : public sc_core::sc_object {
   const std::string& producer() const { return producer_; }
   const std::string& consumer() const { return consumer_; }
 
+  // The memory that the link is a part of (a FIFO): they belong to one clock domain.
+  void set_memory(const sc_core::sc_object& memory) { memory_ = &memory; }
+  const sc_core::sc_object* memory() const { return memory_; }
+
  protected:
   // The head of a slot; the payload follows it. Beat n is in slot n modulo depth.
   struct Stamps {
@@ -134,6 +138,7 @@ class LinkBase : public sc_core::sc_object {
   Stamps* first_ = nullptr;
   std::byte* payloads_ = nullptr;
   const void* clock_ = nullptr;  // the domain that both ends belong to
+  const sc_core::sc_object* memory_ = nullptr;
   std::string producer_, consumer_;
 };
 

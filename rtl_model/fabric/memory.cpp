@@ -242,6 +242,7 @@ PortedMemory::Port& PortedMemory::claim(Side side, const std::string& user) {
   for (Port& port : ports_)
     if (port.side == side && port.user.empty()) {
       port.user = user.empty() ? "a unit" : user;
+      port.holder = sc_core::sc_get_curr_simcontext()->hierarchy_curr();
       return port;
     }
   throw spec::CheckFailed(fmt::format(
@@ -254,6 +255,13 @@ void PortedMemory::check_ports() const {
   for (const Port& port : ports_)
     DEBURR_CHECK(!port.user.empty(),
                  fmt::format("{}: one of its ports {} is used by nobody", name(), ports()));
+}
+
+std::vector<const sc_core::sc_object*> PortedMemory::port_holders() const {
+  std::vector<const sc_core::sc_object*> holders;
+  for (const Port& port : ports_)
+    if (port.holder) holders.push_back(port.holder);
+  return holders;
 }
 
 void PortedMemory::reset() {

@@ -134,6 +134,8 @@ class MemoryBase : public sc_core::sc_object {
   // Every port that the shape declares is used by somebody; the domain asks at the end of
   // elaboration, since a port that nobody uses is a cost that nobody pays.
   virtual void check_ports() const {}
+  // The modules that hold its ports: those that were being constructed when a port was made.
+  virtual std::vector<const sc_core::sc_object*> port_holders() const { return {}; }
 
   // The kind for a small memory that may be either: flip-flops as long as they are allowed.
   static MemoryKind kind_for(std::uint64_t bits) {
@@ -163,6 +165,7 @@ class PortedMemory : public MemoryBase {
   ~PortedMemory() override;
   void reset() override;
   void check_ports() const override;
+  std::vector<const sc_core::sc_object*> port_holders() const override;
   // Accesses since reset, of all ports.
   std::uint64_t reads() const;
   std::uint64_t writes() const;
@@ -205,7 +208,8 @@ class PortedMemory : public MemoryBase {
     std::uint64_t write_address = 0, write_count = 0;
     std::uint32_t writer = 0;  // its number among those that write
     std::array<Read, kMostLatency + 1> read;
-    std::string user;  // of the first handle; empty: nobody yet
+    std::string user;                            // of the first handle; empty: nobody yet
+    const sc_core::sc_object* holder = nullptr;  // the module that made it
   };
 
   // Can it hold so many words from the beginning, and does this one of them fit?

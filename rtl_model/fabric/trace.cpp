@@ -13,6 +13,7 @@
 
 #include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/glob.h"
+#include "rtl_model/fabric/ownership.h"
 #include "rtl_model/fabric/register_block.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
@@ -54,7 +55,7 @@ Trace::Trace(ClockDomain& clock, const TraceOptions& options) : clock_(clock), o
   check_file();
   clock_.require_cycle_by_cycle();
   clock_.add_after(*this);
-  for_each<Unit>([&](Unit& unit) { initial_[&unit] = unit.counts(); });
+  for_each_of<Unit>(clock, [&](Unit& unit) { initial_[&unit] = unit.counts(); });
 }
 
 Trace::~Trace() {
@@ -83,14 +84,14 @@ bool Trace::wanted(const std::string& name) const {
                      [&](const std::string& scope) { return glob_match(scope, name); });
 }
 
-std::vector<std::string> Trace::names() {
+std::vector<std::string> Trace::names(const ClockDomain& clock) {
   std::vector<std::string> names;
   const auto add = [&](const sc_core::sc_object& object) { names.emplace_back(object.name()); };
-  for_each<LinkBase>(add);
-  for_each<WireBase>(add);
-  for_each<Unit>(add);
-  for_each<Counter>(add);
-  for_each<RegisterBlock>([&](const RegisterBlock& block) {
+  for_each_of<LinkBase>(clock, add);
+  for_each_of<WireBase>(clock, add);
+  for_each_of<Unit>(clock, add);
+  for_each_of<Counter>(clock, add);
+  for_each_of<RegisterBlock>(clock, [&](const RegisterBlock& block) {
     for (const spec::RegisterInfo& r : block.table())
       names.push_back(fmt::format("{}.{}", block.name(), r.name));
   });
@@ -107,7 +108,7 @@ void Trace::add(const std::string& name, int bits, std::function<std::uint64_t()
 }
 
 void Trace::collect(Cycle cycle) {
-  for_each<LinkBase>([&](LinkBase& link) {
+  for_each_of<LinkBase>(clock_, [&](LinkBase& link) {
     const std::string name = link.name();
     if (!wanted(name)) return;
     const auto number = [&](const char* what, int bits, auto sample) {
@@ -136,7 +137,7 @@ void Trace::collect(Cycle cycle) {
                           {}});
     }
   });
-  for_each<WireBase>([&](const WireBase& wire) {
+  for_each_of<WireBase>(clock_, [&](const WireBase& wire) {
     const std::string name = wire.name();
     if (!wanted(name)) return;
     const std::vector<Field>& fields = wire.payload().fields();
@@ -154,7 +155,7 @@ void Trace::collect(Cycle cycle) {
                           {}});
     }
   });
-  for_each<Unit>([&](Unit& unit) {
+  for_each_of<Unit>(clock_, [&](Unit& unit) {
     if (!wanted(unit.name())) return;
     // The counter that went up since the last sample is what the unit did.
     const bool early = cycle < options_.from;
@@ -174,9 +175,10 @@ void Trace::collect(Cycle cycle) {
                         {},
                         {}});
   });
-  for_each<Counter>(
-      [&](Counter& counter) { add(counter.name(), 64, [&counter] { return counter.value(); }); });
-  for_each<RegisterBlock>([&](RegisterBlock& block) {
+  for_each_of<Counter>(clock_, [&](Counter& counter) {
+    add(counter.name(), 64, [&counter] { return counter.value(); });
+  });
+  for_each_of<RegisterBlock>(clock_, [&](RegisterBlock& block) {
     for (std::size_t i = 0; i < block.table().size(); ++i)
       add(fmt::format("{}.{}", block.name(), block.table()[i].name), 32,
           [&block, i]() -> std::uint64_t { return block.get(i); });

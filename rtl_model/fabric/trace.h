@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// VCD waves of links, wires, units and counters, chosen by scope and cycle window.
+// VCD waves of links, wires, units and counters of a clock domain, chosen by scope and cycle
+// window.
 //
 // One scope holds all: the clock, the number of its cycle, and the hierarchy. Of each link, in a
 // scope of its own: occupancy, push, pop, and every field of the beat at its head (pixel.0.r is
@@ -48,8 +49,8 @@ class Trace final : public Clocked {
   void flush();
   void reset() override {}
   std::size_t signals() const { return signals_.size(); }
-  // Everything in the simulation that a scope can choose.
-  static std::vector<std::string> names();
+  // Everything of the domain that a scope can choose.
+  static std::vector<std::string> names(const ClockDomain& clock);
 
  private:
   struct Signal {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/glob.h"
 #include "rtl_model/fabric/link.h"
+#include "rtl_model/fabric/ownership.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
 #include "spec/error.h"
@@ -17,8 +17,8 @@ namespace deburr::tb {
 namespace {
 
 // A scope that chooses nothing is a misspelt one: the wave would come out empty.
-void check_scopes(const rtl::TraceOptions& trace) {
-  const std::vector<std::string> names = rtl::Trace::names();
+void check_scopes(const rtl::ClockDomain& clock, const rtl::TraceOptions& trace) {
+  const std::vector<std::string> names = rtl::Trace::names(clock);
   for (const std::string& scope : trace.scopes) {
     if (std::any_of(names.begin(), names.end(),
                     [&](const std::string& name) { return rtl::glob_match(scope, name); }))
@@ -27,9 +27,9 @@ void check_scopes(const rtl::TraceOptions& trace) {
     const auto add = [&](const sc_core::sc_object& object) {
       known += std::string("\n  ") + object.name();
     };
-    rtl::for_each<rtl::LinkBase>(add);
-    rtl::for_each<rtl::WireBase>(add);
-    rtl::for_each<rtl::Unit>(add);
+    rtl::for_each_of<rtl::LinkBase>(clock, add);
+    rtl::for_each_of<rtl::WireBase>(clock, add);
+    rtl::for_each_of<rtl::Unit>(clock, add);
     throw spec::ConfigError(fmt::format(
         "trace: no link, wire, unit, counter or register matches {} (* stands for any text, "
         "? for a letter); links, wires and units are:{}",
@@ -41,7 +41,7 @@ void check_scopes(const rtl::TraceOptions& trace) {
 
 Bench::Bench(rtl::ClockDomain& clock, const BenchOptions& options)
     : clock_(clock), at_limit_(options.at_limit) {
-  if (options.trace) check_scopes(*options.trace);
+  if (options.trace) check_scopes(clock, *options.trace);
   clock.set_fast_path(options.fast_path);
   if (options.shuffle) clock.shuffle(options.shuffle);
   if (options.poison) poison_ = std::make_unique<Poison>(clock, options.seed);

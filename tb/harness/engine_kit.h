@@ -47,6 +47,7 @@
 #include "rtl_model/fabric/payload.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/engine_state.h"
+#include "tb/harness/unit_bench.h"
 
 namespace deburr::tb {
 
@@ -60,6 +61,7 @@ struct Disturbance {
   // The driver writes the rules after each reset to an engine that is built with others
   // (other_rules.h); else they are its reset values.
   bool program = false;
+  sc_core::sc_time period = unit_bench::period();
 };
 
 // What a kit may leave out.

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "rtl_model/fabric/counters.h"
+#include "rtl_model/fabric/ownership.h"
 #include "spec/error.h"
 
 namespace deburr::tb {
@@ -58,13 +58,13 @@ FaultInjector::FaultInjector(rtl::ClockDomain& clock, const std::vector<Fault>& 
   for (const Fault& fault : faults) {
     rtl::LinkBase* found = nullptr;
     std::string known;
-    rtl::for_each<rtl::LinkBase>([&](rtl::LinkBase& link) {
+    rtl::for_each_of<rtl::LinkBase>(clock, [&](rtl::LinkBase& link) {
       known += std::string("\n  ") + link.name();
       if (fault.link == link.name()) found = &link;
     });
     if (!found)
-      throw spec::ConfigError(
-          fmt::format("fault: no link is named {}; there are:{}", fault.link, known));
+      throw spec::ConfigError(fmt::format("fault: no link of {} is named {}; there are:{}",
+                                          clock.name(), fault.link, known));
     rtl::Payload::Bit bit{};
     if (fault.kind == Fault::Kind::kFlip) {
       try {

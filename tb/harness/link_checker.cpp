@@ -9,8 +9,8 @@
 #include <numeric>
 #include <utility>
 
-#include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/glob.h"
+#include "rtl_model/fabric/ownership.h"
 #include "spec/error.h"
 
 namespace deburr::tb {
@@ -46,7 +46,7 @@ constexpr std::size_t kLargest = 128;  // bytes of the beats that have a followe
 }  // namespace
 
 LinkChecker::LinkChecker(rtl::ClockDomain& clock, const std::string& glob, bool widths) {
-  rtl::for_each<rtl::LinkBase>([&](rtl::LinkBase& link) {
+  rtl::for_each_of<rtl::LinkBase>(clock, [&](rtl::LinkBase& link) {
     if (!rtl::glob_match(glob, link.name())) return;
     Watched watched;
     watched.link = &link;

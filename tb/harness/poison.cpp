@@ -3,19 +3,20 @@
 
 #include <fmt/format.h>
 
-#include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/glob.h"
+#include "rtl_model/fabric/ownership.h"
 #include "spec/error.h"
 
 namespace deburr::tb {
 
 Poison::Poison(rtl::ClockDomain& clock, std::uint64_t seed, const std::string& glob) : seed_(seed) {
-  rtl::for_each<rtl::LinkBase>([&](rtl::LinkBase& link) {
+  rtl::for_each_of<rtl::LinkBase>(clock, [&](rtl::LinkBase& link) {
     if (!rtl::glob_match(glob, link.name())) return;
     poisoned_.push_back({&link, Random(seed, link.name()), link.pops()});
     fill_empty(poisoned_.back());
   });
-  if (poisoned_.empty()) throw spec::ConfigError(fmt::format("poison: no link matches {}", glob));
+  if (poisoned_.empty())
+    throw spec::ConfigError(fmt::format("poison: no link of {} matches {}", clock.name(), glob));
   clock.add_before(*this);
 }
 

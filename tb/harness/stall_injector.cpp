@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/glob.h"
+#include "rtl_model/fabric/ownership.h"
 #include "spec/error.h"
 
 namespace deburr::tb {
@@ -14,12 +14,13 @@ StallInjector::StallInjector(rtl::ClockDomain& clock, const Options& options) : 
     throw spec::ConfigError(fmt::format(
         "random stalls in {} and {} of 1000 cycles: must be below 1000, or nothing ever moves",
         options.push_permille, options.pop_permille));
-  rtl::for_each<rtl::LinkBase>([&](rtl::LinkBase& link) {
+  rtl::for_each_of<rtl::LinkBase>(clock, [&](rtl::LinkBase& link) {
     if (rtl::glob_match(options.glob, link.name()))
       stalled_.push_back({&link, Random(options.seed, link.name())});
   });
   if (stalled_.empty())
-    throw spec::ConfigError(fmt::format("random stalls: no link matches {}", options.glob));
+    throw spec::ConfigError(
+        fmt::format("random stalls: no link of {} matches {}", clock.name(), options.glob));
   clock.add_before(*this);
 }
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/ownership.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
 
@@ -48,24 +48,27 @@ Json statistics(const rtl::ClockDomain& clock, const std::string& prefix) {
     for (const rtl::Unit::StallCause& cause : unit->stalls())
       entry["stalls"][cause.name] = cause.cycles;
   }
+  const rtl::Ownership ownership;
+  const auto own = [&](const auto* part) { return part && ownership.of(*part) == &clock; };
   rtl::walk_all([&](sc_core::sc_object& object) {
     const auto name = short_name(object.name());
     if (!name) return;
-    if (const auto* counter = dynamic_cast<const rtl::Counter*>(&object)) {
+    if (const auto* counter = dynamic_cast<const rtl::Counter*>(&object); own(counter)) {
       json["counters"][*name] = {
           {"value", counter->value()}, {"unit", counter->unit()}, {"meaning", counter->meaning()}};
-    } else if (const auto* histogram = dynamic_cast<const rtl::Histogram*>(&object)) {
+    } else if (const auto* histogram = dynamic_cast<const rtl::Histogram*>(&object);
+               own(histogram)) {
       json["histograms"][*name] = to_json(*histogram);
-    } else if (const auto* memory = dynamic_cast<const rtl::MemoryBase*>(&object)) {
+    } else if (const auto* memory = dynamic_cast<const rtl::MemoryBase*>(&object); own(memory)) {
       json["memories"][*name] = {{"kind", rtl::name_of(memory->memory_kind())},
                                  {"ports", memory->ports()},
                                  {"logical_bits", memory->logical_bits()},
                                  {"physical_bits", memory->physical_bits()}};
-    } else if (const auto* link = dynamic_cast<const rtl::LinkBase*>(&object)) {
+    } else if (const auto* link = dynamic_cast<const rtl::LinkBase*>(&object); own(link)) {
       json["links"][*name] = {{"depth", link->depth()},
                               {"payload_bits", link->payload_bits()},
                               {"beats", link->pops()}};
-    } else if (const auto* wire = dynamic_cast<const rtl::WireBase*>(&object)) {
+    } else if (const auto* wire = dynamic_cast<const rtl::WireBase*>(&object); own(wire)) {
       json["wires"][*name] = {{"bits", wire->bits()},
                               {"changes", wire->changes()},
                               {"high", wire->high_clocks(clock.cycle())}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything that a design measures, as JSON, from one walk through its hierarchy: nothing is
-// listed twice.
+// Everything that a clock domain of a design measures, as JSON, from one walk through its
+// hierarchy: nothing is listed twice.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "rtl_model/fabric/ownership.h"
 #include "tb/base/json_text.h"
 
 namespace deburr::tb {
@@ -20,22 +21,26 @@ std::string quoted(const std::string& text) { return json_text(nlohmann::ordered
 
 }  // namespace
 
-Timeline::Timeline(rtl::ClockDomain& clock, const TimelineOptions& options) : options_(options) {
+Timeline::Timeline(rtl::ClockDomain& clock, const TimelineOptions& options)
+    : clock_(clock), options_(options) {
   clock.add_after(*this);
 }
 
 void Timeline::see(const std::string& name, const rtl::Unit& unit,
                    const std::vector<std::string>& activities) {
+  rtl::check_owned(clock_, unit);
   tracks_.push_back({name, &unit, activities, {}, {}, 0});
 }
 
 void Timeline::see(const std::string& name, const rtl::LinkBase& link) {
+  rtl::check_owned(clock_, link);
   if (link.depth() <= kSkidDepth) return;
   levels_.push_back({fmt::format("{}, of {}", name, link.depth()), "fifo", "beats",
                      [&link] { return static_cast<std::uint32_t>(link.occupancy()); }});
 }
 
 void Timeline::see(const std::string& name, const rtl::MemoryPort& port) {
+  rtl::check_owned(clock_, port);
   ports_.push_back({name, &port, {}, 0});
   levels_.push_back({fmt::format("{}, in flight", name), "port", "transactions",
                      [&port] { return static_cast<std::uint32_t>(port.in_flight()); }});

@@ -93,6 +93,7 @@ class Timeline final : public rtl::Clocked, public Observer {
   void look_at(Port& port, std::size_t number, rtl::Cycle cycle);
   void keep(Transaction transaction);
 
+  const rtl::ClockDomain& clock_;
   TimelineOptions options_;
   rtl::Cycle end_ = 0;
   std::uint64_t transactions_ = 0;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "rtl_model/fabric/ownership.h"
 #include "spec/error.h"
 
 namespace deburr::tb {
@@ -29,7 +30,7 @@ void put(Json& root, const std::string& key, Json value) {
 }  // namespace
 
 WindowRecorder::WindowRecorder(rtl::ClockDomain& clock, const WindowOptions& options)
-    : options_(options), window_(options.cycles) {
+    : clock_(clock), options_(options), window_(options.cycles) {
   DEBURR_CHECK(options.cycles > 0 && options.most >= 2 && options.most % 2 == 0,
                "windows of no length, or an odd number of them");
   clock.add_after(*this);
@@ -47,6 +48,7 @@ void WindowRecorder::add_largest(std::string key, std::string unit, std::uint64_
 
 void WindowRecorder::see(const std::string& name, const rtl::Unit& unit,
                          const std::vector<std::string>& activities) {
+  rtl::check_owned(clock_, unit);
   // Several codes may count as the same.
   std::vector<std::string> keys;
   for (const std::string& key : activities)
@@ -64,11 +66,13 @@ void WindowRecorder::see(const std::string& name, const rtl::Unit& unit,
 }
 
 void WindowRecorder::see(const std::string& name, const rtl::Counter& counter) {
+  rtl::check_owned(clock_, counter);
   add(fmt::format("work.{}", name), counter.unit(), [&counter] { return counter.value(); });
   counted_.back().counter = &counter;
 }
 
 void WindowRecorder::see(const std::string& name, const rtl::LinkBase& link) {
+  rtl::check_owned(clock_, link);
   WatchedLink& watched = *links_.emplace_back(std::make_unique<WatchedLink>());
   watched.link = &link;
   watched.name = name;
@@ -80,6 +84,7 @@ void WindowRecorder::see(const std::string& name, const rtl::LinkBase& link) {
 }
 
 void WindowRecorder::see(const std::string& name, const rtl::MemoryPort& port) {
+  rtl::check_owned(clock_, port);
   WatchedPort& watched = *ports_.emplace_back(std::make_unique<WatchedPort>());
   watched.port = &port;
   add(fmt::format("ports.{}.outstanding", name), "transaction x clk",

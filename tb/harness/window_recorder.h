@@ -100,6 +100,7 @@ class WindowRecorder final : public rtl::Clocked, public Observer {
   void close();
   void merge();
 
+  const rtl::ClockDomain& clock_;
   WindowOptions options_;
   rtl::Cycle window_, begin_ = 0, end_ = 0;  // of the window that is being counted
   bool begun_ = false;

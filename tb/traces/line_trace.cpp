@@ -40,7 +40,14 @@ LineTrace::LineTrace(const std::filesystem::path& file, const LineTraceOptions& 
 LineTrace::~LineTrace() { detach(); }
 
 void LineTrace::attach_ports() {
-  rtl::for_each<rtl::MemoryPort>([this](rtl::MemoryPort& port) {
+  const rtl::ClockDomain* clock = nullptr;
+  rtl::for_each<rtl::MemoryPort>([&](rtl::MemoryPort& port) {
+    if (clock && clock != &port.clock())
+      throw spec::ConfigError(fmt::format(
+          "run.line_trace: its cycles are of one clock, but {} belongs to {} and {} to {}: trace "
+          "engines of one clock domain",
+          ports_.front().name, clock->name(), port.name(), port.clock().name()));
+    clock = &port.clock();
     const std::uint32_t line_bytes = port.parameters().line_bytes;
     const auto number = static_cast<std::uint8_t>(ports_.size());
     ports_.push_back({port.name(), line_bytes, false});

@@ -14,7 +14,10 @@
 #include <vector>
 
 #include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/fifo.h"
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/trace.h"
+#include "rtl_model/fabric/wire.h"
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb::clock_test {
@@ -566,6 +569,332 @@ TEST(ClockDomain, UnitTickedTwiceIsCaught) {
   Pipeline p(300);
   p.clock.add(*p.adders[1]);
   EXPECT_THROW(p.clock.run(3), spec::CheckFailed);
+}
+
+// ---- several domains ----------------------------------------------------------------------------
+
+// Two or three of them act on each other whenever they can, also where edges fall on the same time,
+// with the last key that each of them was given.
+std::string acting_on_each_other(const std::vector<std::uint64_t>& periods, bool fast) {
+  std::vector<std::unique_ptr<Pipeline>> all;
+  for (std::size_t i = 0; i < periods.size(); ++i)
+    all.push_back(std::make_unique<Pipeline>(300, 150, ns(periods[i]), fmt::format("p{}_", i)));
+  std::string order;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i]->clock.set_fast_path(fast);
+    all[i]->adders[0]->raise = [&all, &order, i](Cycle, const Token& token) {
+      order += fmt::format("{}:{} ", i, token.number);
+      for (const auto& other : all)
+        if (other != all[i]) other->adders[1]->set_key(token.number);
+    };
+  }
+  for (const Cycle cycles : {1u, 70u, 3u, 500u}) all.front()->clock.run(cycles);
+  all.back()->clock.run_until([&all] { return all.back()->sink.received() == 250; }, 2000);
+  for (const auto& each : all) {
+    const std::uint64_t now = sc_core::sc_time_stamp().value(),
+                        period = each->clock.period().value();
+    if (each->clock.cycle() != (now + period - 1) / period)
+      return fmt::format("{} is in cycle {} at {}", each->clock.name(), each->clock.cycle(), now);
+  }
+  for (const auto& each : all) order += each->fingerprint();
+  return order;
+}
+
+TEST(ClockDomains, RunningOnKeepsTheOrderOfTheirEdges) {
+  const std::vector<std::vector<std::uint64_t>> all = {{10, 15},    {10, 10},      {7, 11, 13},
+                                                       {10, 10, 5}, {15, 10, 6},   {6, 10, 15},
+                                                       {1, 100},    {100, 1, 100}, {12, 8, 10}};
+  for (const auto& periods : all) {
+    SCOPED_TRACE(testing::PrintToString(periods));
+    expect_same([&](bool fast) { return acting_on_each_other(periods, fast); });
+  }
+}
+
+// A domain that runs on stops before the next edge of another one: as few activations as that
+// takes.
+TEST(ClockDomains, RunOnBetweenEdgesOfOthers) {
+  Pipeline quick(300, 200, ns(1), "quick_"), slow(300, 200, ns(100), "slow_");
+  quick.clock.run(10'000);
+  EXPECT_EQ(quick.clock.cycle(), 10'000U);
+  EXPECT_EQ(slow.clock.cycle(), 100U);
+  EXPECT_LE(quick.clock.activations(), 300U);
+  EXPECT_GE(quick.clock.activations(), 100U);
+}
+
+TEST(ClockDomains, EdgesAtTheSameTimeComeInTheOrderOfConstruction) {
+  for (const bool fast : {false, true})
+    EXPECT_EQ(in_child([fast] {
+                struct Log final : rtl::Clocked {
+                  std::string& log;
+                  char name;
+                  Log(std::string& text, char own) : log(text), name(own) {}
+                  rtl::Activity tick(Cycle cycle) override {
+                    log += fmt::format("{}{} ", name, cycle);
+                    return rtl::kIdle;
+                  }
+                  void reset() override {}
+                };
+                rtl::ClockDomain a("a", ns(4)), b("b", ns(6)), c("c", ns(3));
+                std::string log;
+                Log in_a(log, 'a'), in_b(log, 'b'), in_c(log, 'c');
+                a.add(in_a);
+                b.add(in_b);
+                c.add(in_c);
+                for (rtl::ClockDomain* clock : {&a, &b, &c}) clock->set_fast_path(fast);
+                b.run(3);
+                c.run(3);
+                return log;
+              }),
+              "a0 b0 c0 c1 a1 b1 c2 a2 c3 a3 b2 c4 c5 a4 b3 c6 a5 c7 a6 b4 c8 ");
+}
+
+// ---- what belongs to a domain -------------------------------------------------------------------
+
+// A lookup table that a unit reads in every clock, each word a clock after it was asked for.
+using Table = rtl::Memory<std::uint8_t>;
+constexpr std::array<std::uint8_t, 4> kContent = {1, 2, 3, 4};
+rtl::MemoryShape table_shape() {
+  return {.words = 4,
+          .word_bits = 8,
+          .kind = rtl::MemoryKind::kRom,
+          .write_ports = 0,
+          .content = "a table"};
+}
+class Lookup final : public rtl::Unit {
+ public:
+  Lookup(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, Table& table)
+      : Unit(name, clock), words_(table, "words") {}
+  rtl::Activity tick(Cycle cycle) override {
+    if (asked_) sum += words_.word(cycle);
+    words_.read(cycle, cycle % 4);
+    asked_ = true;
+    return rtl::kBusy;
+  }
+  void reset() override {
+    asked_ = false;
+    sum = 0;
+  }
+  std::uint64_t sum = 0;
+
+ private:
+  rtl::ReadPort<std::uint8_t> words_;
+  bool asked_ = false;
+};
+// It holds no port: an empty domain would be no reason for an error.
+struct Idle final : rtl::Unit {
+  Idle(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
+  rtl::Activity tick(Cycle) override { return rtl::kIdle; }
+  void reset() override {}
+};
+// A module that is not a unit, with everything that a domain resets.
+struct Parts : sc_core::sc_module {
+  explicit Parts(const sc_core::sc_module_name& name) : sc_module(name) {}
+  Table table{"table", table_shape(), kContent};
+  rtl::ReadPort<std::uint8_t> words{table, "words"};
+  rtl::Fifo<Token> fifo{"fifo", 4};
+  rtl::Counter counter{"counter", "things", "things that were counted"};
+  rtl::Histogram histogram{"histogram", "things", "things that were recorded"};
+  rtl::Wire<bool> wire{"wire", false};
+  rtl::Link<Token> link{"link"};
+
+  void use(Cycle cycle) {
+    words.read(cycle, 0);
+    fifo.push(cycle, {});
+    ++counter;
+    histogram.record(7);
+    wire.drive(cycle, true);
+    link.push(cycle, {});
+  }
+  std::string used() const {
+    return fmt::format("{} {} {} {} {} {}", table.reads(), fifo.occupancy(), counter.value(),
+                       histogram.count(), wire.changes(), link.pushes());
+  }
+};
+void reset(rtl::ClockDomain& clock) {
+  clock.set_reset_n(false);
+  clock.run(2);
+  clock.set_reset_n(true);
+  clock.run(1);
+}
+
+TEST(ClockDomains, ResetLeavesAMemoryBesideTheUnitsOfAnother) {
+  for (const bool in_module : {false, true})
+    EXPECT_EQ(in_child([in_module] {
+                rtl::ClockDomain mine("mine", ns(10)), other("other", ns(7));
+                struct Module : sc_core::sc_module {
+                  Table table{"table", table_shape(), kContent};
+                  Lookup lookup;
+                  Module(const sc_core::sc_module_name& name, rtl::ClockDomain& clock)
+                      : sc_module(name), lookup("lookup", clock, table) {}
+                };
+                std::unique_ptr<Module> module;
+                std::unique_ptr<Table> table;
+                std::unique_ptr<Lookup> alone;
+                if (in_module) {
+                  module = std::make_unique<Module>("module", mine);
+                } else {
+                  table = std::make_unique<Table>("table", table_shape(), kContent);
+                  alone = std::make_unique<Lookup>("lookup", mine, *table);
+                }
+                const Idle idle("idle", other);
+                const Table& read = in_module ? module->table : *table;
+                mine.run(5);
+                reset(other);
+                mine.run(20 - mine.cycle());
+                std::string text = fmt::format("{} reads, ", read.reads());
+                reset(mine);
+                text += fmt::format("{} after its own reset, ", read.reads());
+                return text + fmt::format("sum {}", in_module ? module->lookup.sum : alone->sum);
+              }),
+              "20 reads, 1 after its own reset, sum 0")
+        << in_module;
+}
+
+// The module belongs to the domain whose units stand in it, or that adopts it.
+TEST(ClockDomains, ResetActsOnEveryPartOfAModuleOfItsOwnAlone) {
+  for (const bool adopted : {false, true})
+    EXPECT_EQ(in_child([adopted] {
+                rtl::ClockDomain mine("mine", ns(10)), other("other", ns(7));
+                struct Module : Parts {
+                  std::unique_ptr<Idle> idle;
+                  Module(const sc_core::sc_module_name& name, rtl::ClockDomain* clock)
+                      : Parts(name),
+                        idle(clock ? std::make_unique<Idle>("idle", *clock) : nullptr) {}
+                };
+                Module module("module", adopted ? nullptr : &mine);
+                if (adopted) mine.adopt(module);
+                mine.run(3);
+                module.use(3);
+                std::string text = module.used();
+                reset(other);
+                text += " | " + module.used();
+                reset(mine);
+                return text + " | " + module.used();
+              }),
+              "1 1 1 1 1 1 | 1 1 1 1 1 1 | 0 0 0 0 0 0")
+        << adopted;
+}
+
+// A unit of one domain in a unit of another: each has its own.
+TEST(ClockDomains, AUnitWithinAUnitOfAnotherKeepsItsParts) {
+  struct Inner final : rtl::Unit {
+    rtl::Counter counter{"counter", "cycles", "cycles seen"};
+    Inner(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
+    rtl::Activity tick(Cycle) override {
+      ++counter;
+      return rtl::kBusy;
+    }
+    void reset() override {}
+  };
+  struct Outer final : rtl::Unit {
+    Inner inner;
+    Outer(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, rtl::ClockDomain& other)
+        : Unit(name, clock), inner("inner", other) {}
+    rtl::Activity tick(Cycle) override { return rtl::kIdle; }
+    void reset() override {}
+  };
+  rtl::ClockDomain clock("clock", ns(10)), other("other", ns(10));
+  Outer outer("outer", clock, other);
+  clock.run(5);
+  reset(clock);
+  EXPECT_EQ(outer.inner.counter.value(), 8U);
+  reset(other);
+  EXPECT_EQ(outer.inner.counter.value(), 1U);
+}
+
+TEST(ClockDomains, WhatBelongsToNoneOfSeveralIsAnErrorAtElaboration) {
+  const auto with = [](const auto& make, bool adopted) {
+    return in_child([&] {
+      rtl::ClockDomain one("one", ns(10)), two("two", ns(7));
+      const auto part = make();
+      if (adopted) two.adopt(*part);
+      one.run(1);
+      return std::string();
+    });
+  };
+  const auto expect_unknown = [&](const char* name, const auto& make) {
+    EXPECT_THAT(with(make, false),
+                testing::HasSubstr(fmt::format("{}: its clock domain is not known", name)));
+    EXPECT_THAT(with(make, false), testing::HasSubstr("several domains around it (one, two)"));
+    EXPECT_EQ(with(make, true), "");
+  };
+  expect_unknown("fifo", [] { return std::make_unique<rtl::Fifo<Token>>("fifo", 4); });
+  expect_unknown("table", [] {
+    auto table = std::make_unique<Table>("table", table_shape(), kContent);
+    const rtl::ReadPort<std::uint8_t> port(*table, "words");
+    return table;
+  });
+  expect_unknown("counter",
+                 [] { return std::make_unique<rtl::Counter>("counter", "things", "things"); });
+  expect_unknown("histogram",
+                 [] { return std::make_unique<rtl::Histogram>("histogram", "things", "things"); });
+  expect_unknown("wire", [] { return std::make_unique<rtl::Wire<bool>>("wire", false); });
+  expect_unknown("link", [] { return std::make_unique<rtl::Link<Token>>("link"); });
+}
+
+// Its link is a part of it.
+TEST(ClockDomains, AFifoBelongsToTheUnitThatItsLinkIsBoundTo) {
+  rtl::ClockDomain mine("mine", ns(10)), other("other", ns(7));
+  rtl::Fifo<Token> fifo("fifo", 4);
+  Sink<Token> sink("sink", mine, {999, 1});
+  sink.beats_in(fifo.link());
+  const Idle idle("idle", other);
+  mine.run(1);
+  fifo.push(mine.cycle(), {});
+  reset(other);
+  EXPECT_EQ(fifo.high_water(), 1U);
+  reset(mine);
+  EXPECT_EQ(fifo.high_water(), 0U);
+  EXPECT_TRUE(fifo.empty());
+}
+
+TEST(ClockDomains, AMemoryWithPortsInTwoIsAnErrorAtElaboration) {
+  rtl::ClockDomain one("one", ns(10)), two("two", ns(7));
+  rtl::MemoryShape shape = table_shape();
+  shape.read_ports = 2;
+  Table table("table", shape, kContent);
+  const Lookup first("first", one, table), second("second", two, table);
+  EXPECT_THAT([&] { one.run(1); },
+              testing::ThrowsMessage<spec::CheckFailed>(testing::HasSubstr(
+                  "table joins two clock domains (one is one): a memory has one clock")));
+}
+
+TEST(ClockDomains, ALinkOfAUnitBoundInAnotherIsAnErrorAtElaboration) {
+  struct Sender final : rtl::Unit {
+    rtl::Link<Token> link{"link"};
+    Sender(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
+    rtl::Activity tick(Cycle) override { return rtl::kIdle; }
+    void reset() override {}
+  };
+  rtl::ClockDomain one("one", ns(10)), two("two", ns(7));
+  Sender sender("sender", one);
+  Sink<Token> sink("sink", two);
+  sink.beats_in(sender.link);
+  EXPECT_THAT([&] { one.run(1); }, testing::ThrowsMessage<spec::CheckFailed>(testing::HasSubstr(
+                                       "sender.link joins two clock domains (two is one)")));
+}
+
+TEST(ClockDomains, AModuleIsAdoptedByOneAlone) {
+  rtl::ClockDomain one("one", ns(10)), two("two", ns(7));
+  const Parts parts("parts");
+  one.adopt(parts);
+  one.adopt(parts);
+  EXPECT_THAT([&] { two.adopt(parts); },
+              testing::ThrowsMessage<spec::CheckFailed>(
+                  testing::HasSubstr("parts is given to two clock domains (one and two)")));
+}
+
+TEST(ClockDomains, FailureOfOneStopsAll) {
+  Pipeline a(300, 200, ns(10), "a_"), b(300, 200, ns(15), "b_");
+  b.adders[0]->raise = [&](Cycle, const Token& token) {
+    if (token.number == 20) throw spec::DeadlockError("found by a unit");
+  };
+  EXPECT_THROW(a.clock.run(1000), spec::DeadlockError);
+  const sc_time failed = sc_core::sc_time_stamp();
+  for (rtl::ClockDomain* clock : {&a.clock, &b.clock}) {
+    EXPECT_THROW(clock->run(1), spec::DeadlockError);
+    EXPECT_EQ(sc_core::sc_time_stamp(), failed);
+  }
 }
 
 }  // namespace

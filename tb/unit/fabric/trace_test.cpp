@@ -423,7 +423,7 @@ TEST(Trace, ShowsRegistersByTheNamesThatAScopeCanChoose) {
   platform::RegisterHost host("host");
   host.bus.bind(block.bus);
   Pipeline p(100);
-  EXPECT_THAT(rtl::Trace::names(),
+  EXPECT_THAT(rtl::Trace::names(p.clock),
               testing::IsSupersetOf({"link_0", "adder_3", "block.MODE", "block.COUNT"}));
   {
     rtl::Trace trace(p.clock, {.file = file, .scopes = {"block.M*"}});
@@ -457,7 +457,8 @@ TEST(Trace, NamesEveryKindThatAScopeCanChoose) {
   const Pipeline p(1);
   const rtl::Wire<bool> wire("wire", false);
   const rtl::Counter counter("counter", "lines", "lines fetched");
-  EXPECT_THAT(rtl::Trace::names(), testing::IsSupersetOf({"link_0", "wire", "adder_0", "counter"}));
+  EXPECT_THAT(rtl::Trace::names(p.clock),
+              testing::IsSupersetOf({"link_0", "wire", "adder_0", "counter"}));
 }
 
 TEST(Trace, UnwritableFileIsAnError) {

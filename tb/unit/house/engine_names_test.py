@@ -34,6 +34,7 @@ MADE = {
 # engine -> why files name it -> which. A CMake list names what the sources beside it do.
 NAMED = {
     "geometric": {
+        "each pair of engines is tested in clock domains of its own": ["tb/unit/platform/engine_domains_test.cpp"],
         "the rule `leave` is about what it has marked": [
             "golden/morphological/configuration.cpp", "golden/morphological/configuration.h",
             "golden/morphological/leave.h", "rtl_model/morphological/blend/blender.cpp",
@@ -54,6 +55,7 @@ NAMED = {
         "it alone leaves pictures of a frame that it could not begin": ["tb/unit/app/simulate_test.cpp"],
     },
     "morphological": {
+        "each pair of engines is tested in clock domains of its own": ["tb/unit/platform/engine_domains_test.cpp"],
         "it blends in the same light, by the same tables": [
             "golden/geometric/geometric_golden.cpp", "golden/geometric/geometric_golden.h",
             "golden/geometric/resolve.cpp", "golden/geometric/resolve.h", "spec/geometric/tables.h",

@@ -191,6 +191,14 @@ TEST_F(Lines, OfTwoPortsAreInOrder) {
             "2 read 0x00000140 64 1\n3 read 0x00000180 64 1\n# end 5\n");
 }
 
+TEST_F(Lines, RejectsPortsOfTwoClockDomains) {
+  rtl::ClockDomain one("one", kPeriod), two("two", 2 * kPeriod);
+  const rtl::MemoryPort first("first", one), second("second", two);
+  EXPECT_THAT(([&] { LineTrace(file_, {}); }),
+              testing::ThrowsMessage<spec::ConfigError>(
+                  testing::HasSubstr("first belongs to one and second to two")));
+}
+
 TEST_F(Lines, OfNobodyAreRejected) {
   EXPECT_THROW(LineTrace(file_, {}), spec::ConfigError);
   EXPECT_FALSE(fs::exists(file_));

@@ -143,7 +143,8 @@ class Kit : public EngineKit {
   Kit(const Parameters& p, const Disturbance& disturbance, Scene whole, Scene broken)
       : b_(p, {.scatter = disturbance.scatter,
                .bench = disturbance.bench,
-               .program = disturbance.program}),
+               .program = disturbance.program,
+               .period = disturbance.period}),
         whole_(std::move(whole)),
         broken_(std::move(broken)) {}
   static Parameters drawn(Random& random) {

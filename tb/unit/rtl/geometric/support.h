@@ -96,6 +96,7 @@ struct EngineOptions {
   std::uint32_t memory_bytes = 1u << 20;
   BenchOptions bench = {};
   bool program = false;  // rules are written after each reset(), over others
+  sc_core::sc_time period = unit_bench::period();
 };
 
 // The engine with memory, host and checkers.
@@ -113,8 +114,9 @@ class EngineBench {
 
   explicit EngineBench(const Parameters& parameters = {}, const EngineOptions& options = {})
       : p(parameters),
+        clock("clock", options.period),
         engine("engine", clock, options.program ? unprogrammed(parameters) : parameters),
-        memory("memory", period(), memory_parameters(options)),
+        memory("memory", options.period, memory_parameters(options)),
         driver(bus, memory, options.program ? unprogrammed(parameters) : parameters),
         program(options.program) {
     engine.memory()->bind(memory.ports);
@@ -267,7 +269,7 @@ class EngineBench {
   const Parameters p;
   Bases bases;
   int width = 0, height = 0;
-  ClockDomain clock{"clock", period()};
+  ClockDomain clock;
   rtl::geometric::GeometricEngine engine;
   platform::MemoryModel memory;
   platform::RegisterHost bus{"bus"};

@@ -215,6 +215,7 @@ class Kit : public EngineKit {
     options.memory_latency = latency;
     options.memory_scatter = disturbance.scatter;
     options.program = disturbance.program;
+    options.period = disturbance.period;
     return options;
   }
   static Parameters parameters(const Build& build) {

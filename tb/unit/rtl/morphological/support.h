@@ -123,10 +123,12 @@ struct EngineBench {
     std::uint32_t memory_latency = 20, memory_scatter = 0;
     platform::MemoryModelParameters memory;
     bool program = false;  // rules are written after each reset(), over others
+    sc_core::sc_time period = unit_bench::period();
   };
   explicit EngineBench(const Parameters& p) : EngineBench(p, Options{}) {}
   EngineBench(const Parameters& p, Options options)
-      : driver("driver", clock, options.driver),
+      : clock("clock", options.period),
+        driver("driver", clock, options.driver),
         engine("engine", clock, options.program ? unprogrammed(p) : p),
         sink("sink", clock, options.sink),
         software(bus, p),
@@ -141,7 +143,7 @@ struct EngineBench {
       options.memory.bytes = 1u << 20;
       options.memory.latency_min = options.memory_latency;
       options.memory.latency_max = options.memory_latency + options.memory_scatter;
-      memory = std::make_unique<platform::MemoryModel>("memory", period(), options.memory);
+      memory = std::make_unique<platform::MemoryModel>("memory", options.period, options.memory);
       engine.memory()->bind(memory->ports);
     }
     bench = std::make_unique<Bench>(clock, options.bench);
@@ -176,7 +178,7 @@ struct EngineBench {
     return frame;
   }
 
-  ClockDomain clock{"clock", period()};
+  ClockDomain clock;
   Link<spec::morphological::PixelBeat> in{"in"};
   Link<spec::morphological::BlendedBeat> out{"out"};
   Driver<spec::morphological::PixelBeat> driver;

@@ -164,7 +164,7 @@ class Kit : public EngineKit {
 
  private:
   Kit(const spec::texture::Parameters& parameters, const Disturbance& disturbance)
-      : bench_(parameters, kLatency, disturbance.scatter),
+      : bench_(parameters, kLatency, disturbance.scatter, disturbance.period),
         checks_(bench_.clock, disturbance.bench) {}
   static spec::texture::Parameters parameters(const Build& build) {
     spec::texture::Parameters p = preset_parameters(build.preset);

@@ -132,9 +132,11 @@ struct Store {
 // The whole unit between source and sink, by the paper's rules unless others are given.
 struct UnitBench {
   explicit UnitBench(const spec::texture::Parameters& parameters = paper_rules(),
-                     std::uint32_t latency = kMemoryLatency, std::uint32_t scatter = 0)
-      : unit("unit", clock, parameters, {static_cast<std::int32_t>(latency + scatter), 1}),
-        memory("memory", period(), memory_parameters(latency, scatter)) {
+                     std::uint32_t latency = kMemoryLatency, std::uint32_t scatter = 0,
+                     const sc_core::sc_time& clock_period = period())
+      : clock("clock", clock_period),
+        unit("unit", clock, parameters, {static_cast<std::int32_t>(latency + scatter), 1}),
+        memory("memory", clock_period, memory_parameters(latency, scatter)) {
     unit.quads_in(quads);
     unit.colours_out(colours);
     unit.memory()->bind(memory.ports);
@@ -152,7 +154,7 @@ struct UnitBench {
     clock.set_reset_n(true);
   }
 
-  ClockDomain clock{"clock", period()};
+  ClockDomain clock;
   Link<spec::texture::Quad> quads{"quads"};
   Link<spec::texture::Colour> colours{"colours"};
   Source<spec::texture::Quad> source{"source", clock};
