@@ -92,7 +92,7 @@ ParameterStore::ParameterStore(const sc_core::sc_module_name& name, ClockDomain&
     invalid_pair_in.emplace("invalid_pair_in", [this](Cycle /*cycle*/) {
       registers_.set_sticky(reg::kStatusInvalidEdge);
     });
-  registers.set_reset(reg::kRules, spec::geometric::rules_word(p));
+  registers.set_resets(spec::geometric::loaded_registers(p));
   registers.on_command(reg::kControlStart, [this] { start(); });
   registers.on_read(reg::kRefusal, [this] { return static_cast<std::uint32_t>(refusal_); });
   clock.on_reset([this] {
