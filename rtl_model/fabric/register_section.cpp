@@ -239,7 +239,8 @@ const char* rdl_access(spec::Access access) {
   return "";
 }
 
-std::string rdl_field(const spec::Field& field, std::uint32_t reset, const std::string& indent) {
+std::string rdl_field(const spec::Field& field, std::uint32_t reset, bool waits_for_idle,
+                      const std::string& indent) {
   std::string text;
   const std::string name = field.name.empty() ? "value" : rdl_name(field.name);
   const int width = field.high - field.low + 1;
@@ -250,6 +251,7 @@ std::string rdl_field(const spec::Field& field, std::uint32_t reset, const std::
     text += " };\n";
   }
   text += fmt::format("{}field {{ {}", indent, rdl_access(field.access));
+  if (waits_for_idle) text += " swwe;";  // software may write while hardware lets it
   if (!field.codes.empty()) text += fmt::format(" encode = {}_codes;", name);
   if (!field.meaning.empty()) text += fmt::format(" desc = {};", rdl_text(field.meaning));
   text += fmt::format(" }} {}[{}:{}]", name, field.high, field.low);
@@ -261,7 +263,10 @@ std::string rdl_register(const RegisterSection& section, const spec::RegisterInf
                          std::string_view name, std::uint32_t base, const std::string& indent) {
   std::string text = fmt::format("{0}reg {{\n{0}  desc = {1};\n", indent, rdl_text(info.meaning));
   for (const spec::Field& field : info.fields)
-    text += rdl_field(field, reset_word(info, section.loaded), indent + "  ");
+    text += rdl_field(field, reset_word(info, section.loaded),
+                      section.busy_ignores_writes && info.name != "CONTROL" &&
+                          (info.written() & field.mask()) != 0,
+                      indent + "  ");
   return text + fmt::format("{}}} {} @ 0x{:03X};\n", indent, rdl_name(name), info.offset - base);
 }
 
@@ -292,6 +297,9 @@ std::string rdl_map(const RegisterSection& section) {
 std::string register_page(const RegisterSection& section) {
   std::string page = fmt::format("\n## {}\n\n{}", section.module,
                                  register_table_markdown(section.rows, section.loaded));
+  if (section.busy_ignores_writes)
+    page +=
+        "\nWhile the engine is busy, writes to all registers but CONTROL and STATUS are ignored.\n";
   if (!section.repeated) return page;
   const auto& [name, stride, count] = *section.repeated;
   return page + fmt::format(

@@ -28,6 +28,7 @@ struct RegisterSection {
   std::string macros;  // what the names of its macros begin with
   std::vector<spec::RegisterInfo> rows;
   std::vector<spec::LoadedRegister> loaded{};  // by the parameters of the build
+  bool busy_ignores_writes = false;            // but those to CONTROL and STATUS
   std::optional<RepeatedRegisters> repeated{};
 };
 

@@ -10,7 +10,8 @@ RegisterSection register_section(const spec::geometric::Parameters& parameters) 
   return {"GeometricEngine",
           "DEBURR_GEOMETRIC",
           {spec::geometric::kRegisters.begin(), spec::geometric::kRegisters.end()},
-          {loaded.begin(), loaded.end()}};
+          {loaded.begin(), loaded.end()},
+          spec::geometric::kBusyIgnoresWrites};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -12,6 +12,7 @@ RegisterSection register_section(const spec::morphological::Parameters& paramete
   const auto loaded = spec::morphological::loaded_registers(parameters);
   RegisterSection section{"MorphologicalEngine", "DEBURR_MORPHOLOGICAL", {}};
   section.loaded.assign(loaded.begin(), loaded.end());
+  section.busy_ignores_writes = spec::morphological::kBusyIgnoresWrites;
   // Without learned shares their registers read 0 and keep nothing.
   static constexpr std::array kNotBuilt = spec::number(spec::Access::kConstant);
   const bool learned = parameters.area == spec::morphological::AreaSource::kLearned;

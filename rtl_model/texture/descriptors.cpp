@@ -48,7 +48,9 @@ std::span<const spec::RegisterInfo> register_table() {
   return table;
 }
 
-ControlLayout control_layout() { return rtl::control_layout(spec::texture::kRegisters, false); }
+ControlLayout control_layout() {
+  return rtl::control_layout(spec::texture::kRegisters, spec::texture::kBusyIgnoresWrites);
+}
 
 TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
   const auto field = [&](std::uint32_t offset) {

@@ -17,6 +17,7 @@ RegisterSection register_section(const spec::texture::Parameters& parameters) {
     if (r.offset < kSecond) section.rows.push_back(r);
   const auto loaded = spec::texture::loaded_registers(parameters);
   section.loaded.assign(loaded.begin(), loaded.end());
+  section.busy_ignores_writes = spec::texture::kBusyIgnoresWrites;
   section.repeated = {"TEXTURE", reg::kTextureStride,
                       static_cast<std::uint32_t>(spec::texture::kMaxTextures)};
   return section;

@@ -145,6 +145,8 @@ inline constexpr std::uint32_t kStatusWrittenWhileBusy = status::kWrittenWhileBu
 inline constexpr std::uint32_t kStatusInvalidEdge = status::kInvalidEdge.mask();
 }  // namespace reg
 
+// Writes while a frame is under way are ignored, but those to CONTROL and STATUS.
+inline constexpr bool kBusyIgnoresWrites = true;
 inline constexpr std::array<RegisterInfo, 42> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit and the version of its register map.", reg::id::kFields},
     {reg::kControl, "CONTROL", "Switch and commands.", reg::control::kFields},

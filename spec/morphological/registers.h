@@ -159,6 +159,8 @@ inline constexpr std::uint32_t kStatusMemoryError = status::kMemoryError.mask();
 inline constexpr std::uint32_t kStatusWrittenWhileBusy = status::kWrittenWhileBusy.mask();
 }  // namespace reg
 
+// Writes while a frame is inside are ignored, but those to CONTROL and STATUS.
+inline constexpr bool kBusyIgnoresWrites = true;
 inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit and the version of its register map.", reg::id::kFields},
     {reg::kControl, "CONTROL", "Switch and command.", reg::control::kFields},

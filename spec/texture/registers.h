@@ -104,6 +104,8 @@ inline constexpr std::uint32_t kControlInvalidate = control::kInvalidate.mask();
 inline constexpr std::uint32_t kControlClearCounters = control::kClearCounters.mask();
 }  // namespace reg
 
+// Writes while it is busy are taken.
+inline constexpr bool kBusyIgnoresWrites = false;
 inline constexpr std::array<RegisterInfo, 11> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit and the version of its register map.", reg::id::kFields},
     {reg::kControl, "CONTROL", "Switch and commands.", reg::control::kFields},

@@ -11,7 +11,9 @@ using spec::geometric::Refusal;
 
 }  // namespace
 
-ControlLayout control_layout() { return rtl::control_layout(spec::geometric::kRegisters, true); }
+ControlLayout control_layout() {
+  return rtl::control_layout(spec::geometric::kRegisters, spec::geometric::kBusyIgnoresWrites);
+}
 
 FrameRules decode(const ControlRegisters& registers) {
   const std::uint32_t size = registers.value(reg::kSize), rules = registers.value(reg::kRules);

@@ -22,7 +22,8 @@ int reach_rows_of(const spec::morphological::Parameters& p) { return p.window_ro
 }  // namespace
 
 ControlLayout control_layout() {
-  return rtl::control_layout(spec::morphological::kRegisters, true);
+  return rtl::control_layout(spec::morphological::kRegisters,
+                             spec::morphological::kBusyIgnoresWrites);
 }
 
 Decoded decode(const ControlRegisters& registers, const spec::morphological::Parameters& p) {

@@ -56,7 +56,7 @@ Datasheet LevelUnit::datasheet() {
 Posteriser::Posteriser(const sc_core::sc_module_name& name, ClockDomain& clock,
                        const spec::posteriser::Parameters& parameters)
     : Engine(name, clock, spec::posteriser::kRegisters,
-             control_layout(spec::posteriser::kRegisters, true)),
+             control_layout(spec::posteriser::kRegisters, spec::posteriser::kBusyIgnoresWrites)),
       clock_(clock),
       levels("levels", clock, control) {
   const spec::posteriser::Parameters p = check_build(parameters);

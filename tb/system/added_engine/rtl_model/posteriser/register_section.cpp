@@ -10,7 +10,8 @@ RegisterSection register_section(const spec::posteriser::Parameters& parameters)
   return {"Posteriser",
           "DEBURR_POSTERISER",
           {spec::posteriser::kRegisters.begin(), spec::posteriser::kRegisters.end()},
-          {loaded.begin(), loaded.end()}};
+          {loaded.begin(), loaded.end()},
+          spec::posteriser::kBusyIgnoresWrites};
 }
 
 }  // namespace deburr::rtl::posteriser

@@ -40,6 +40,8 @@ inline constexpr std::array kFields = {kBits, kRounding};
 }  // namespace rules
 }  // namespace reg
 
+// Writes while it is busy are ignored, but those to CONTROL and STATUS.
+inline constexpr bool kBusyIgnoresWrites = true;
 inline constexpr std::array<RegisterInfo, 6> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit.", reg::id::kFields},
     {reg::kControl, "CONTROL", "Switch and command.", reg::control::kFields},
