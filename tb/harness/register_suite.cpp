@@ -33,7 +33,7 @@ struct FileField {
   bool software_reads() const { return has("sw = r") || has("sw = rw"); }
   bool software_writes() const { return has("sw = w") || has("sw = rw"); }
   bool hardware_writes() const { return has("hw = w") || has("hw = rw"); }
-  bool clears() const { return has("onwrite = woclr"); }
+  bool clears() const { return has("onwrite = woclr") && software_writes(); }
 };
 
 struct FileRegister {
@@ -154,6 +154,7 @@ class Comparison {
       }
     }
     try_while_busy();
+    if (wrong_.empty()) try_provoked();
     hardware_.reset();
     return wrong_;
   }
@@ -348,6 +349,20 @@ class Comparison {
              read(offset, info) & (locked | open));
       expect(status->second, fmt::format("written_while_busy after a write to {}", info.name),
              busy_write->mask(), read(status->first, status->second) & busy_write->mask());
+    }
+  }
+
+  // Of what is read only hardware changes what the file says; of the rest, what sticks.
+  void try_provoked() {
+    hardware_.reset();
+    const std::map<std::uint32_t, std::uint32_t> before = read_others(~std::uint32_t{0});
+    hardware_.provoke();
+    for (const auto& [offset, info] : map_) {
+      const std::uint32_t sticky = info.bits([](auto& f) { return f.has("hwset"); });
+      const std::uint32_t written = info.writable() & ~info.cleared();
+      const std::uint32_t rest = ~(info.changing() | sticky | written);
+      expect(info, "after everything has happened", before.at(offset) & rest,
+             read(offset, info) & rest);
     }
   }
 

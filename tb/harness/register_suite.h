@@ -28,6 +28,7 @@ struct RegisterHardware {
       write_bytes;
   std::function<void()> reset;
   std::function<void()> begin_job;                          // until a read of idle gives 0
+  std::function<void()> provoke;                            // whatever sticks, and counts
   std::function<void(std::uint32_t bits)> set_sticky;       // of STATUS
   std::function<std::uint32_t(std::uint32_t offset)> seen;  // by the units, after a write
   std::function<bool()> interrupt;
@@ -103,6 +104,7 @@ RegisterHardware RegisterSuite<Kit>::hardware() {
                 kit_.start(Job::kBroken);
                 EXPECT_TRUE(kit_.clock().run_until([this] { return !kit_.engine().idle(); }, 1000));
               },
+          .provoke = [this] { kit_.spoil(); },
           .set_sticky = [&control](std::uint32_t bits) { control.set_sticky(bits); },
           .seen = [&control](std::uint32_t offset) { return control.value(offset); },
           .interrupt = [&control] { return control.interrupt(); }};
