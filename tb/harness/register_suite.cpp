@@ -332,6 +332,7 @@ class Comparison {
       return;
     }
     hardware_.begin_job();
+    hardware_.run_until([&] { return (read(status->first, status->second) & idle->mask()) == 0; });
     const std::uint32_t before = read(status->first, status->second);
     if (!idle->hardware_writes())
       say(status->second, "idle changes, and hardware does not write it");
