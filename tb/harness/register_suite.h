@@ -28,7 +28,8 @@ struct RegisterHardware {
   std::function<tlm::tlm_response_status(std::uint32_t offset, unsigned bytes, bool enables)>
       write_bytes;
   std::function<void()> reset;
-  std::function<void()> begin_job;                          // until a read of idle gives 0
+  std::function<void()> begin_job;
+  std::function<bool(const std::function<bool()>& done)> run_until;
   std::function<void()> provoke;                            // whatever sticks, and counts
   std::function<void(std::uint32_t bits)> set_sticky;       // of STATUS
   std::function<std::uint32_t(std::uint32_t offset)> seen;  // by the units, after a write
