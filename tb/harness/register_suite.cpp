@@ -144,7 +144,9 @@ class Comparison {
       try_widths(offset, info);
       if (!wrong_.empty()) return wrong_;  // the first register that differs
     }
-    // Every register has been written, and has other values.
+    // A reset takes every register back from another value.
+    for (const auto& [offset, info] : map_)
+      if (info.writable() != 0) write(offset, info, ~read(offset, info) & ~info.commands());
     hardware_.reset();
     compare_resets("after a reset");
     for (const auto& [offset, info] : map_) {
@@ -228,8 +230,11 @@ class Comparison {
       const bool all = i < 2 || shared;
       const std::map<std::uint32_t, std::uint32_t> others = all ? read_others(offset) : kNone;
       write(offset, info, value);
-      if (all) compare_others(info, others);
+      const auto changed = all ? compare_others(info, others) : kNone;
       const std::uint32_t expected = info.after(before, value);
+      // What hardware has changed with the write is put back, so that what was written can be read.
+      if (read(offset, info) != expected)
+        for (const auto& [other, was] : changed) write(other, map_.at(other), was);
       expect(info, fmt::format("after a write of {:#x}", value), expected, read(offset, info));
       const std::uint32_t plain =
           info.bits([](auto& f) { return f.software_writes() && !f.clears() && f.has("hw = r"); });
@@ -237,7 +242,7 @@ class Comparison {
       expect(info, fmt::format("for the hardware after a write of {:#x}", value), value & held,
              hardware_.seen(offset) & held);
     }
-    if (offset + 4 <= map_.rbegin()->first) write(offset, info, ~old & ~info.commands());
+    write(offset, info, old & ~info.commands());
   }
   static inline const std::map<std::uint32_t, std::uint32_t> kNone{};
 
@@ -247,19 +252,19 @@ class Comparison {
       if (other != offset) values[other] = read(other, info);
     return values;
   }
-  // A write changes others where hardware may. What it has changed is put back, so that what was
-  // written can be read.
-  void compare_others(const FileRegister& written,
-                      const std::map<std::uint32_t, std::uint32_t>& before) {
+  // A write changes others where hardware may: those that software can put back, as they were.
+  std::map<std::uint32_t, std::uint32_t> compare_others(
+      const FileRegister& written, const std::map<std::uint32_t, std::uint32_t>& before) {
+    std::map<std::uint32_t, std::uint32_t> changed;
     for (const auto& [other, value] : before) {
       const FileRegister& info = map_.at(other);
       const std::uint32_t now = read(other, info);
-      if (now == value) continue;
       if (((now ^ value) & ~info.changing()) != 0)
         expect(info, fmt::format("after a write to {}", written.name), value, now);
-      else if (info.writable() != 0)
-        write(other, info, value);
+      else if (now != value && info.writable() != 0)
+        changed[other] = value;
     }
+    return changed;
   }
 
   // Words alone, and no byte enables.
@@ -417,7 +422,8 @@ std::vector<std::pair<std::string, std::string>> wrong_files(const std::string& 
       add(std::string(line).replace(static_cast<std::size_t>(match.position(6)),
                                     static_cast<std::size_t>(match.length(6)),
                                     fmt::format("{:X}", *field.reset ^ 1)));
-    if (!is_zero && !is_command) add("");
+    // Nothing sets the bit of memory's errors in a build without memory.
+    if (!is_zero && !is_command && field.name != "memory_error") add("");
   }
   return wrong;
 }
