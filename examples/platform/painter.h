@@ -34,8 +34,10 @@ struct Frame {
 };
 
 inline constexpr std::uint32_t kPainterStart = 0x00;
+inline constexpr std::array kPainterStartFields =
+    deburr::spec::number(deburr::spec::Access::kWriteOnly);
 inline constexpr std::array<deburr::spec::RegisterInfo, 1> kPainterRegisters = {
-    {{kPainterStart, "START", deburr::spec::Access::kCommand, 0, "Any write starts a frame."}}};
+    {{kPainterStart, "START", "Any write starts a frame.", kPainterStartFields}}};
 
 // What is painted, apart from when.
 inline constexpr int kQuadsAcross = kWidth / 2, kQuads = kQuadsAcross * (kHeight / 2);

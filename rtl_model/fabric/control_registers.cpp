@@ -17,36 +17,40 @@ ControlLayout control_layout(std::span<const spec::RegisterInfo> table, bool bus
     DEBURR_CHECK(found, fmt::format("an engine without a register {}", name));
     return *found;
   };
-  const auto bit = [&](const spec::RegisterInfo& of, std::string_view name) {
+  const auto bit = [&](const spec::RegisterInfo& of, std::string_view name, spec::Access access) {
     const std::uint32_t bits = spec::bits_named(of, name);
     DEBURR_CHECK(bits != 0, fmt::format("{} without a field {}", of.name, name));
+    DEBURR_CHECK(
+        (bits & of.bits(access)) == bits,
+        fmt::format("{}.{} has an access that the hardware does not give it", of.name, name));
     return bits;
   };
+  using spec::Access;
   const spec::RegisterInfo &control = row("CONTROL"), &status = row("STATUS");
   return {.control = control.offset,
           .status = status.offset,
-          .enable = bit(control, "enable"),
-          .clear_counters = bit(control, "clear_counters"),
-          .idle = bit(status, "idle"),
-          .written_while_busy = bit(status, "written_while_busy"),
+          .enable = bit(control, "enable", Access::kReadWrite),
+          .clear_counters = bit(control, "clear_counters", Access::kCommand),
+          .idle = bit(status, "idle", Access::kReadOnly),
+          .written_while_busy = bit(status, "written_while_busy", Access::kWriteOneToClear),
           .busy_ignores_writes = busy_ignores_writes};
 }
 
 ControlRegisters::ControlRegisters(const char* name, std::span<const spec::RegisterInfo> table,
                                    const ControlLayout& layout)
-    : registers(name, table),
-      layout_(layout),
-      masks_(table.size(), ~std::uint32_t{0}),
-      kept_(table.size()),
-      taken_(table.size()) {
+    : registers(name, table), layout_(layout), kept_(table.size()), taken_(table.size()) {
   for (std::size_t i = 0; i < registers.table().size(); ++i) {
-    resets_.push_back(registers.table()[i].reset);
+    const spec::RegisterInfo& info = registers.table()[i];
+    resets_.push_back(info.reset());
     kept_[i] = resets_[i];
-    if (registers.table()[i].offset != layout.control) masks_[i] = registers.table()[i].mask();
-    if (registers.table()[i].access == spec::Access::kReadWrite)
+    masks_.push_back(info.mask() & ~info.bits(spec::Access::kCommand));
+    if (info.written() != 0 || info.offset == layout.control)
       registers.on_write(i, [this, i](std::uint32_t value) { written(i, value); });
   }
-  registers.on_write(index(layout.status), [this](std::uint32_t value) { keep(sticky_ & ~value); });
+  const std::size_t status = index(layout.status);
+  registers.on_write(
+      status, [this, sticky = registers.table()[status].bits(spec::Access::kWriteOneToClear)](
+                  std::uint32_t value) { keep(sticky_ & ~(value & sticky)); });
   registers.on_read(index(layout.status),
                     [this] { return sticky_ | (busy_() ? 0 : layout_.idle); });
   enabled_ = value(layout.control) & layout.enable;
@@ -61,13 +65,19 @@ std::size_t ControlRegisters::index(std::uint32_t offset) const {
 }
 
 void ControlRegisters::on_command(std::uint32_t control_bit, std::function<void()> action) {
+  const spec::RegisterInfo& control = registers.table()[index(layout_.control)];
+  DEBURR_CHECK((control.bits(spec::Access::kCommand) & control_bit) == control_bit,
+               fmt::format("{}.{}: bit {:#x} is not a command", registers.name(), control.name,
+                           control_bit));
   commands_.push_back({control_bit, std::move(action)});
 }
 
-void ControlRegisters::set_reset(std::uint32_t offset, std::uint32_t value) {
-  const std::size_t i = index(offset);
-  resets_[i] = kept_[i] = value;
-  registers.set(i, value);
+void ControlRegisters::set_resets(std::span<const spec::LoadedRegister> loaded) {
+  for (const auto& [offset, value] : loaded) {
+    const std::size_t i = index(offset);
+    resets_[i] = kept_[i] = value;
+    registers.set(i, value);
+  }
 }
 
 void ControlRegisters::show_sum(std::uint32_t offset,
@@ -83,10 +93,11 @@ void ControlRegisters::written(std::size_t i, std::uint32_t value) {
   const std::uint32_t offset = registers.table()[i].offset;
   if (offset == layout_.control) return write_control(value);
   if (busy_()) {
-    sticky_ |= layout_.written_while_busy;
+    set_sticky(layout_.written_while_busy);
     if (layout_.busy_ignores_writes) return registers.set(i, kept_[i]);
   }
-  kept_[i] = value & masks_[i];
+  const std::uint32_t bits = registers.table()[i].written() & masks_[i];
+  kept_[i] = (kept_[i] & ~bits) | (value & bits);
   registers.set(i, kept_[i]);
   if (taken_[i]) taken_[i](kept_[i]);
   changed_(offset);
@@ -107,7 +118,7 @@ void ControlRegisters::write_control(std::uint32_t value) {
   for (const Command& command : commands_) {
     if (!(value & command.bit)) continue;
     if (busy_())
-      sticky_ |= layout_.written_while_busy;
+      set_sticky(layout_.written_while_busy);
     else
       command.action();
   }
@@ -130,7 +141,7 @@ void ControlRegisters::reset() {
   enabled_ = value(layout_.control) & layout_.enable;
   keep(0);
   for (const spec::RegisterInfo& r : registers.table())
-    if (r.access == spec::Access::kReadWrite && r.offset != layout_.control) changed_(r.offset);
+    if (r.written() != 0 && r.offset != layout_.control) changed_(r.offset);
 }
 
 }  // namespace deburr::rtl

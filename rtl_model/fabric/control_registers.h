@@ -3,12 +3,13 @@
 // that every engine has.
 //
 // Where: beside the pipe, owned by the engine. Timing: a write counts from the next clock edge on.
-// CONTROL: enable; clear the counters (command); further commands, which wait for nobody: while the
-// engine is busy they are rejected. STATUS: idle, and sticky bits that a one clears; one of them
-// says that a register was written while the engine was busy. Such a write is taken or ignored, as
-// the layout says. The interrupt is high while one of the sticky bits is set. Bits that no field
-// has read as 0. What the values mean is the engine's business: it decodes them in on_change().
-// Cost: 32 flip-flops a writable register.
+// The rows of the table say what each field is: kept as written, a command, sticky. CONTROL:
+// enable; clear the counters (command); further commands, which wait for nobody: while the engine
+// is busy they are rejected. STATUS: idle, and sticky bits that a one clears; one of them says that
+// a register was written while the engine was busy. Such a write is taken or ignored, as the layout
+// says. The interrupt is high while one of the sticky bits is set. Bits that no field has read as
+// 0. What the values mean is the engine's business: it decodes them in on_change(). Cost: 32
+// flip-flops a writable register.
 #pragma once
 
 #include <cstdint>
@@ -79,8 +80,8 @@ class ControlRegisters {
   // The bits of a register that exist where a build has fewer than its fields; the others read as
   // 0.
   void set_mask(std::uint32_t offset, std::uint32_t mask) { masks_[index(offset)] = mask; }
-  // A reset value that a parameter gives.
-  void set_reset(std::uint32_t offset, std::uint32_t value);
+  // Reset values that parameters give.
+  void set_resets(std::span<const spec::LoadedRegister> loaded);
   void show(std::uint32_t offset, const Counter& counter) {
     registers.show(index(offset), counter);
   }

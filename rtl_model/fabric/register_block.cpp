@@ -40,7 +40,7 @@ RegisterBlock::RegisterBlock(const sc_core::sc_module_name& name,
     DEBURR_CHECK(index_by_word_[offset / 4] < 0,
                  fmt::format("{}.{}: offset {:#x} is taken", this->name(), table[i].name, offset));
     index_by_word_[offset / 4] = static_cast<int>(i);
-    values_.push_back(table[i].reset);
+    values_.push_back(table[i].reset());
   }
   bus.register_b_transport(this, &RegisterBlock::b_transport);
   bus.register_transport_dbg(this, &RegisterBlock::transport_dbg);
@@ -60,13 +60,13 @@ void RegisterBlock::on_read(std::size_t index, std::function<std::uint32_t()> va
 
 void RegisterBlock::show(std::size_t index, const Counter& counter, int shift) {
   DEBURR_CHECK(
-      table_[index].access == spec::Access::kReadOnly,
+      table_[index].bits(spec::Access::kReadOnly) == table_[index].mask(),
       fmt::format("{}.{} shows a counter, so it must be read-only", name(), table_[index].name));
   shown_.at(index) = {&counter, shift};
 }
 
 void RegisterBlock::reset() {
-  for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = table_[i].reset;
+  for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = table_[i].reset();
 }
 
 std::size_t RegisterBlock::index_of(const std::string& register_name) const {
@@ -102,16 +102,14 @@ void RegisterBlock::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_t
   if (payload.get_data_length() != 4 || payload.get_streaming_width() < 4)
     return reject(tlm::TLM_BURST_ERROR_RESPONSE);
   const auto index = static_cast<std::size_t>(found);
-  const spec::Access access = table_[index].access;
-  if (access == (write ? spec::Access::kReadOnly : spec::Access::kCommand))
+  const spec::RegisterInfo& info = table_[index];
+  if ((write ? info.writable() : info.readable()) == 0)
     return reject(tlm::TLM_COMMAND_ERROR_RESPONSE);
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
   if (!write) return store(payload.get_data_ptr(), read(index));
   const std::uint32_t value = load(payload.get_data_ptr());
-  if (access == spec::Access::kWriteOneToClear)
-    values_[index] &= ~value;
-  else
-    values_[index] = value;
+  const std::uint32_t cleared = info.bits(spec::Access::kWriteOneToClear) & value;
+  values_[index] = (values_[index] & ~info.written() & ~cleared) | (value & info.written());
   if (actions_[index]) actions_[index](value);
 }
 

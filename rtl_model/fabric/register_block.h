@@ -3,14 +3,15 @@
 // the tables of the docs and the C header for a user's software.
 //
 // Access: one aligned 32-bit word a transaction, no byte enables. Errors: unknown or unaligned
-// address
-// -> ADDRESS_ERROR; other length or streaming width -> BURST_ERROR; byte enables ->
-// BYTE_ENABLE_ERROR; write to a read-only or read of a write-only register -> COMMAND_ERROR.
-// transport_dbg reads and writes any span of whole registers, without side effects but those of
-// on_debug_write(), and stops at the first hole. A write at the time of a clock edge counts for
-// that edge. A thread that is ahead of simulated time (temporal decoupling) waits until that has
-// come: the registers are those of its own time, whatever its quantum is. Who cannot wait is served
-// at once, with its delay unchanged. Cost: 32 flip-flops a writable register.
+// address: ADDRESS_ERROR; other length or streaming width: BURST_ERROR; byte enables:
+// BYTE_ENABLE_ERROR; write to a register without a field that software may write, or read of one
+// without a field that it may read: COMMAND_ERROR. A write reaches those fields alone, as the
+// access of each says. Commands, and bits that no field has, read as 0. transport_dbg reads and
+// writes any span of whole registers, without side effects but those of on_debug_write(), and stops
+// at the first hole. A write at the time of a clock edge counts for that edge. A thread that is
+// ahead of simulated time (temporal decoupling) waits until that has come: the registers are those
+// of its own time, whatever its quantum is. Who cannot wait is served at once, with its delay
+// unchanged. Cost: 32 flip-flops a writable register.
 #pragma once
 
 #include <tlm_utils/simple_target_socket.h>

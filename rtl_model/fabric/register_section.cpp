@@ -13,16 +13,49 @@ namespace {
 
 const char* access_name(spec::Access access) {
   switch (access) {
-    case spec::Access::kReadWrite:
-      return "RW";
+    case spec::Access::kConstant:
     case spec::Access::kReadOnly:
       return "RO";
-    case spec::Access::kCommand:
+    case spec::Access::kReadWrite:
+      return "RW";
+    case spec::Access::kShared:
+      return "RWH";
+    case spec::Access::kWriteOnly:
       return "WO";
+    case spec::Access::kCommand:
+      return "W1P";
     case spec::Access::kWriteOneToClear:
       return "W1C";
   }
   return "?";
+}
+
+// Each once, in the order of the fields.
+std::string access_names(const spec::RegisterInfo& info) {
+  std::vector<std::string_view> names;
+  for (const spec::Field& field : info.fields)
+    if (const std::string_view name = access_name(field.access);
+        std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+const spec::LoadedRegister* loaded_value(const spec::RegisterInfo& info,
+                                         std::span<const spec::LoadedRegister> loaded) {
+  const auto found = std::find_if(loaded.begin(), loaded.end(),
+                                  [&](const auto& each) { return each.offset == info.offset; });
+  return found == loaded.end() ? nullptr : &*found;
+}
+
+// The register's word after a reset, and whether a reset leaves all of it as it is.
+std::uint32_t reset_word(const spec::RegisterInfo& info,
+                         std::span<const spec::LoadedRegister> loaded) {
+  const spec::LoadedRegister* const value = loaded_value(info, loaded);
+  return value ? value->value : info.reset();
+}
+bool has_reset(const spec::RegisterInfo& info) {
+  return std::any_of(info.fields.begin(), info.fields.end(),
+                     [](const spec::Field& field) { return field.reset.has_value(); });
 }
 
 std::string codes_of(const spec::Field& field) {
@@ -43,25 +76,35 @@ std::string bits_of(const spec::Field& field) {
                                  : fmt::format("[{}:{}]", field.high, field.low);
 }
 
-// Registers of the same fields stand in one row.
-std::string field_table_markdown(std::span<const spec::RegisterInfo> table) {
-  std::vector<std::pair<std::span<const spec::Field>, std::string>> groups;
+// Registers of the same fields and reset value stand in one row.
+std::string field_table_markdown(std::span<const spec::RegisterInfo> table,
+                                 std::span<const spec::LoadedRegister> loaded) {
+  struct Group {
+    std::span<const spec::Field> fields;
+    std::uint32_t reset;
+    std::string names;
+  };
+  std::vector<Group> groups;
   for (const spec::RegisterInfo& r : table) {
-    if (r.fields.empty()) continue;
-    const auto same = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
-      return group.first.data() == r.fields.data();
+    if (r.is_number()) continue;
+    const std::uint32_t reset = reset_word(r, loaded);
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
+      return group.fields.data() == r.fields.data() && group.reset == reset;
     });
     if (same == groups.end())
-      groups.emplace_back(r.fields, fmt::format("`{}`", r.name));
+      groups.push_back({r.fields, reset, fmt::format("`{}`", r.name)});
     else
-      same->second += fmt::format(", `{}`", r.name);
+      same->names += fmt::format(", `{}`", r.name);
   }
   if (groups.empty()) return {};
-  std::string text = "\n| register | bits | field | meaning |\n|---|---|---|---|\n";
-  for (const auto& [fields, names] : groups)
+  std::string text =
+      "\n| register | bits | field | access | reset | meaning |\n|---|---|---|---|---|---|\n";
+  for (const auto& [fields, reset, names] : groups)
     for (const spec::Field& field : fields)
-      text += fmt::format("| {} | {} | `{}` | {} |\n", names, bits_of(field), field.name,
-                          meaning_of(field));
+      text +=
+          fmt::format("| {} | {} | `{}` | {} | {} | {} |\n", names, bits_of(field), field.name,
+                      access_name(field.access),
+                      field.reset ? fmt::format("{}", field.of(reset)) : "none", meaning_of(field));
   return text;
 }
 
@@ -76,26 +119,37 @@ std::string upper(std::string_view name) {
 
 }  // namespace
 
-std::string register_table_markdown(std::span<const spec::RegisterInfo> table) {
+std::string register_table_markdown(std::span<const spec::RegisterInfo> table,
+                                    std::span<const spec::LoadedRegister> loaded) {
   std::string text = "| offset | name | access | reset | meaning |\n|---|---|---|---|---|\n";
   for (const spec::RegisterInfo& r : table)
-    text += fmt::format("| 0x{:03X} | `{}` | {} | 0x{:08X} | {} |\n", r.offset, r.name,
-                        access_name(r.access), r.reset, r.meaning);
-  return text + field_table_markdown(table);
+    text += fmt::format("| 0x{:03X} | `{}` | {} | {} | {} |\n", r.offset, r.name, access_names(r),
+                        has_reset(r) ? fmt::format("0x{:08X}", reset_word(r, loaded)) : "none",
+                        r.meaning);
+  return text + field_table_markdown(table, loaded);
 }
 
-std::string register_c_macros(std::span<const spec::RegisterInfo> table, std::string_view prefix) {
+std::string register_c_macros(std::span<const spec::RegisterInfo> table, std::string_view prefix,
+                              std::span<const spec::LoadedRegister> loaded) {
   std::string text;
   for (const spec::RegisterInfo& r : table) {
-    const std::string name = fmt::format("{}_{}", prefix, upper(r.name));
-    text += fmt::format("\n/* {}: {} */\n#define {} 0x{:03X}u\n", access_name(r.access), r.meaning,
-                        name, r.offset);
-    if (r.reset != 0) text += fmt::format("#define {}_RESET 0x{:08X}u\n", name, r.reset);
+    const std::string name = fmt::format("{}_{}", prefix, upper(r.name)), access = access_names(r);
+    text +=
+        fmt::format("\n/* {}: {} */\n#define {} 0x{:03X}u\n", access, r.meaning, name, r.offset);
+    if (const std::uint32_t reset = reset_word(r, loaded); reset != 0)
+      text += fmt::format("#define {}_RESET 0x{:08X}u{}\n", name, reset,
+                          loaded_value(r, loaded) ? " /* with default parameters */" : "");
+    if (r.is_number()) continue;
     for (const spec::Field& field : r.fields) {
       const std::string full = fmt::format("{}_{}", name, upper(field.name));
+      // Where fields differ in it, each says its access.
+      std::string remark(field.meaning);
+      if (access != access_name(field.access))
+        remark =
+            fmt::format("{}{}{}", access_name(field.access), remark.empty() ? "" : ": ", remark);
+      if (!remark.empty()) remark = fmt::format(" /* {} */", remark);
       text += fmt::format("#define {0}_MASK 0x{1:08X}u{3}\n#define {0}_SHIFT {2}u\n", full,
-                          field.mask(), field.low,
-                          field.meaning.empty() ? "" : fmt::format(" /* {} */", field.meaning));
+                          field.mask(), field.low, remark);
       for (std::size_t code = 0; code < field.codes.size(); ++code)
         text += fmt::format("#define {}_{} {}u\n", full, upper(field.codes[code]), code);
     }
@@ -163,45 +217,56 @@ std::string rdl_text(std::string_view text) {
   return quoted + "\"";
 }
 
+// Hardware reads what software may write, and drives what is read only. What both write has a write
+// enable: without one, hardware would write it in every cycle.
 const char* rdl_access(spec::Access access) {
   switch (access) {
-    case spec::Access::kReadWrite:
-      return "sw = rw; hw = r;";
+    case spec::Access::kConstant:
+      return "sw = r; hw = na;";
     case spec::Access::kReadOnly:
       return "sw = r; hw = w;";
-    case spec::Access::kCommand:
+    case spec::Access::kReadWrite:
+      return "sw = rw; hw = r;";
+    case spec::Access::kShared:
+      return "sw = rw; hw = rw; we;";
+    case spec::Access::kWriteOnly:
       return "sw = w; hw = r;";
+    case spec::Access::kCommand:
+      return "sw = w; hw = r; singlepulse;";
     case spec::Access::kWriteOneToClear:
-      return "sw = rw; onwrite = woclr; hw = w;";
+      return "sw = rw; hw = r; onwrite = woclr; hwset;";
   }
   return "";
 }
 
-std::string rdl_field(const spec::RegisterInfo& info, const spec::Field& field,
+std::string rdl_field(const spec::Field& field, std::uint32_t reset, bool waits_for_idle,
                       const std::string& indent) {
   std::string text;
+  const std::string name = field.name.empty() ? "value" : rdl_name(field.name);
   const int width = field.high - field.low + 1;
   if (!field.codes.empty()) {
-    text += fmt::format("{}enum {}_codes {{", indent, rdl_name(field.name));
+    text += fmt::format("{}enum {}_codes {{", indent, name);
     for (std::size_t code = 0; code < field.codes.size(); ++code)
       text += fmt::format(" {} = {}'d{};", rdl_name(field.codes[code]), width, code);
     text += " };\n";
   }
-  text += fmt::format("{}field {{ {}", indent, rdl_access(info.access));
-  if (!field.codes.empty()) text += fmt::format(" encode = {}_codes;", rdl_name(field.name));
+  text += fmt::format("{}field {{ {}", indent, rdl_access(field.access));
+  if (waits_for_idle) text += " swwe;";  // software may write while hardware lets it
+  if (!field.codes.empty()) text += fmt::format(" encode = {}_codes;", name);
   if (!field.meaning.empty()) text += fmt::format(" desc = {};", rdl_text(field.meaning));
-  return text + fmt::format(" }} {}[{}:{}] = {}'h{:X};\n", rdl_name(field.name), field.high,
-                            field.low, width, field.of(info.reset));
+  text += fmt::format(" }} {}[{}:{}]", name, field.high, field.low);
+  if (field.reset) text += fmt::format(" = {}'h{:X}", width, field.of(reset));
+  return text + ";\n";
 }
 
-// A register of one number has one field.
-std::string rdl_register(const spec::RegisterInfo& info, std::string_view name, std::uint32_t base,
-                         const std::string& indent) {
-  constexpr spec::Field kWhole{"value", 31, 0, {}};
+std::string rdl_register(const RegisterSection& section, const spec::RegisterInfo& info,
+                         std::string_view name, std::uint32_t base, const std::string& indent) {
   std::string text = fmt::format("{0}reg {{\n{0}  desc = {1};\n", indent, rdl_text(info.meaning));
-  const std::span<const spec::Field> fields =
-      info.fields.empty() ? std::span(&kWhole, 1) : info.fields;
-  for (const spec::Field& field : fields) text += rdl_field(info, field, indent + "  ");
+  for (const spec::Field& field : info.fields)
+    text += rdl_field(field, reset_word(info, section.loaded),
+                      section.busy_ignores_writes && info.name != "CONTROL" &&
+                          (info.written() & field.mask()) != 0,
+                      indent + "  ");
   return text + fmt::format("{}}} {} @ 0x{:03X};\n", indent, rdl_name(name), info.offset - base);
 }
 
@@ -214,11 +279,11 @@ std::string rdl_map(const RegisterSection& section) {
   std::uint32_t base = 0;
   for (const spec::RegisterInfo& info : section.rows) {
     if (prefix.empty() || !info.name.starts_with(prefix)) {
-      text += rdl_register(info, info.name, 0, "  ");
+      text += rdl_register(section, info, info.name, 0, "  ");
       continue;
     }
     if (repeated.empty()) base = info.offset;
-    repeated += rdl_register(info, info.name.substr(prefix.size()), base, "    ");
+    repeated += rdl_register(section, info, info.name.substr(prefix.size()), base, "    ");
   }
   if (section.repeated)
     text += fmt::format("  regfile {{\n{}  }} {}[{}] @ 0x{:03X} += 0x{:X};\n", repeated,
@@ -230,8 +295,11 @@ std::string rdl_map(const RegisterSection& section) {
 }  // namespace
 
 std::string register_page(const RegisterSection& section) {
-  std::string page =
-      fmt::format("\n## {}\n\n{}", section.module, register_table_markdown(section.rows));
+  std::string page = fmt::format("\n## {}\n\n{}", section.module,
+                                 register_table_markdown(section.rows, section.loaded));
+  if (section.busy_ignores_writes)
+    page +=
+        "\nWhile the engine is busy, writes to all registers but CONTROL and STATUS are ignored.\n";
   if (!section.repeated) return page;
   const auto& [name, stride, count] = *section.repeated;
   return page + fmt::format(
@@ -244,8 +312,8 @@ std::string register_systemrdl(std::span<const RegisterSection> sections) {
   std::string text =
       "// SPDX-License-Identifier: MIT\n"
       "// Registers of Deburr's engines as SystemRDL 2.0, an address map each. Bits without a "
-      "field "
-      "read as 0.\n"
+      "field, and\n// commands (singlepulse), read as 0. Reset values are those of default "
+      "parameters.\n"
       "// Generated by `deburr params --systemrdl`; do not edit.\n";
   for (const RegisterSection& section : sections) text += rdl_map(section);
   return text;
@@ -257,6 +325,9 @@ std::string register_c_header(std::span<const RegisterSection> sections) {
       "/* Registers of Deburr's engines, for software that programs them: byte offsets, masks and "
       "shifts of\n"
       " * fields, codes of choices. Generated by `deburr params --c-header`; do not edit.\n"
+      " * RO: read only; RW: read and write; RWH: hardware writes it, too; WO: write only; W1C: "
+      "hardware sets it, a one\n"
+      " * written clears it; W1P: a one written is a command, reads as 0.\n"
       " * Of names of fields, as DEBURR_TEXTURE_TEXTURE0_SIZE_WIDTH: */\n"
       "#ifndef DEBURR_REGISTERS_H\n#define DEBURR_REGISTERS_H\n"
       "\n/* a field of a register's word, */\n"
@@ -268,7 +339,8 @@ std::string register_c_header(std::span<const RegisterSection> sections) {
       "/* a word with another value in a field. */\n"
       "#define DEBURR_WITH(name, word, value) (((word) & ~name##_MASK) | DEBURR_IN(name, value))\n";
   for (const RegisterSection& section : sections)
-    header += register_c_macros(section.rows, section.macros) + repetition_macros(section);
+    header += register_c_macros(section.rows, section.macros, section.loaded) +
+              repetition_macros(section);
   return header + "\n#endif\n";
 }
 

@@ -27,15 +27,19 @@ struct RegisterSection {
   std::string module;  // as its page calls it; empty: the engine has no registers of its own
   std::string macros;  // what the names of its macros begin with
   std::vector<spec::RegisterInfo> rows;
+  std::vector<spec::LoadedRegister> loaded{};  // by the parameters of the build
+  bool busy_ignores_writes = false;            // but those to CONTROL and STATUS
   std::optional<RepeatedRegisters> repeated{};
 };
 
-// As Markdown: | offset | name | access | reset | meaning |, and behind it a table of the fields,
-// | register | bits | field | meaning |.
-std::string register_table_markdown(std::span<const spec::RegisterInfo> table);
+// As Markdown: | offset | name | access | reset | meaning |, and after it a table of the fields,
+// | register | bits | field | access | reset | meaning |.
+std::string register_table_markdown(std::span<const spec::RegisterInfo> table,
+                                    std::span<const spec::LoadedRegister> loaded = {});
 // For a user's software, in C: PREFIX_NAME is an offset; PREFIX_NAME_RESET a reset value other than
 // 0; PREFIX_NAME_FIELD_MASK and _SHIFT a field, PREFIX_NAME_FIELD_CODE a choice of it.
-std::string register_c_macros(std::span<const spec::RegisterInfo> table, std::string_view prefix);
+std::string register_c_macros(std::span<const spec::RegisterInfo> table, std::string_view prefix,
+                              std::span<const spec::LoadedRegister> loaded = {});
 // The section of a page: its tables, and what is repeated.
 std::string register_page(const RegisterSection& section);
 // An address map a section.

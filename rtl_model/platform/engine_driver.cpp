@@ -26,7 +26,7 @@ std::uint32_t bits(std::string_view engine, const spec::RegisterInfo& of, std::s
 DriverLayout::DriverLayout(std::string_view name, std::span<const spec::RegisterInfo> registers)
     : engine(name),
       id(row(name, registers, "ID").offset),
-      id_value(row(name, registers, "ID").reset),
+      id_value(row(name, registers, "ID").reset()),
       control(row(name, registers, "CONTROL").offset),
       clear_counters(bits(name, row(name, registers, "CONTROL"), "clear_counters")),
       status(row(name, registers, "STATUS").offset),

@@ -39,9 +39,8 @@ std::span<const spec::RegisterInfo> register_table() {
       for (std::uint32_t k = 0; k < spec::texture::kMaxLevels; ++k)
         add({reg::kLevelBase + 4 * k,
              {},
-             spec::Access::kReadWrite,
-             0,
-             "Byte address of the level, a multiple of 64."},
+             "Byte address of the level, a multiple of 64.",
+             spec::kNumber},
             "BASE_" + std::to_string(k));
     }
     return all;
@@ -49,7 +48,9 @@ std::span<const spec::RegisterInfo> register_table() {
   return table;
 }
 
-ControlLayout control_layout() { return rtl::control_layout(spec::texture::kRegisters, false); }
+ControlLayout control_layout() {
+  return rtl::control_layout(spec::texture::kRegisters, spec::texture::kBusyIgnoresWrites);
+}
 
 TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
   const auto field = [&](std::uint32_t offset) {

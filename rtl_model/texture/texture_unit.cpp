@@ -30,7 +30,7 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
   filter.colours_out(colours_out);
 
   namespace reg = spec::texture::reg;
-  control.set_reset(reg::kRules, spec::texture::rules_word(parameters_));
+  control.set_resets(spec::texture::loaded_registers(parameters_));
   control.on_command(reg::kControlInvalidate, [this] { cache.tag_stage.invalidate(); });
   control.show(reg::kFragments, filter.fragments);
   control.show(reg::kBilinears, address.addresser.bilinears);

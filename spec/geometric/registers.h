@@ -73,44 +73,54 @@ inline constexpr std::uint32_t kCoarseBase = 0xA4;
 inline constexpr std::uint32_t kIdValue = 0xDEB00004;
 
 // Fields, from the lowest bit on. Codes are those of the enumerations of spec/geometric/.
+namespace id {
+inline constexpr std::array kFields = number(Access::kConstant, kIdValue);
+}  // namespace id
 namespace control {
-inline constexpr Field kEnable{"enable", 0, 0, "frames may start"};
-inline constexpr Field kClearCounters{"clear_counters", 1, 1, "command, reads 0"};
-inline constexpr Field kStart{"start", 2, 2, "command, reads 0: starts a frame; when idle only"};
+inline constexpr Field kEnable{"enable", 0, 0, Access::kReadWrite, "frames may start", {}, 1};
+inline constexpr Field kClearCounters{"clear_counters", 1, 1, Access::kCommand,
+                                      "sets every counter to 0"};
+inline constexpr Field kStart{"start", 2, 2, Access::kCommand, "starts a frame; when idle only"};
 inline constexpr std::array kFields = {kEnable, kClearCounters, kStart};
 }  // namespace control
 namespace status {
-inline constexpr Field kIdle{"idle", 0, 0, "no frame under way; read only"};
-inline constexpr Field kFrameDone{"frame_done", 1, 1, "sticky"};
-inline constexpr Field kRefused{"refused", 2, 2, "sticky: a start was rejected, see REFUSAL"};
-inline constexpr Field kMemoryError{"memory_error", 3, 3, "sticky: memory answered with an error"};
+inline constexpr Field kIdle{"idle", 0, 0, Access::kReadOnly, "no frame under way", {}, 1};
+inline constexpr Field kFrameDone{"frame_done", 1, 1, Access::kWriteOneToClear, "a frame is done"};
+inline constexpr Field kRefused{"refused", 2, 2, Access::kWriteOneToClear,
+                                "a start was rejected, see REFUSAL"};
+inline constexpr Field kMemoryError{"memory_error", 3, 3, Access::kWriteOneToClear,
+                                    "memory answered with an error"};
 inline constexpr Field kWrittenWhileBusy{
-    "written_while_busy", 4, 4,
-    "sticky: a register was written while a frame was under way; the write is ignored"};
-inline constexpr Field kInvalidEdge{"invalid_edge", 5, 5,
-                                    "sticky: an edge has an index out of range"};
+    "written_while_busy", 4, 4, Access::kWriteOneToClear,
+    "a register was written while a frame was under way; the write is ignored"};
+inline constexpr Field kInvalidEdge{"invalid_edge", 5, 5, Access::kWriteOneToClear,
+                                    "an edge has an index out of range"};
 inline constexpr std::array kFields = {kIdle,        kFrameDone,        kRefused,
                                        kMemoryError, kWrittenWhileBusy, kInvalidEdge};
 }  // namespace status
 namespace size {
-inline constexpr Field kWidth{"width", 13, 0, "pixels, 1..8192"};
-inline constexpr Field kHeight{"height", 29, 16, "pixels, 1..8192"};
+inline constexpr Field kWidth{"width", 13, 0, Access::kReadWrite, "pixels, 1..8192"};
+inline constexpr Field kHeight{"height", 29, 16, Access::kReadWrite, "pixels, 1..8192"};
 inline constexpr std::array kFields = {kWidth, kHeight};
 }  // namespace size
 namespace rules {
-inline constexpr Field kSelect{"select", 1, 0, {}, kSelectNames};
-inline constexpr Field kCrease{"crease", 3, 2, {}, kCreaseNames};
-inline constexpr Field kDepthTest{"depth_test", 5, 4, {}, kDepthTestNames};
-inline constexpr Field kCombine{"combine", 7, 6, {}, kCombineNames};
-inline constexpr Field kDepthBias{"depth_bias", 12, 8, "1..24; 0 counts as 1, more as 24"};
-inline constexpr Field kMark{"mark", 13, 13, "1: clear bit 0 of alpha of blended pixels"};
-inline constexpr Field kLayout{"layout", 14, 14, {}, kLayoutNames};
-inline constexpr Field kFrameCopy{"frame_copy", 15, 15, "1: blend from a copy of the frame"};
-inline constexpr Field kCoverage{"coverage", 16, 16, {}, kCoverageNames};
-inline constexpr Field kCull{"cull", 17, 17, {}, kCullNames};
-inline constexpr Field kCreaseDepth{"crease_depth", 22, 18,
+inline constexpr Field kSelect{"select", 1, 0, Access::kReadWrite, {}, kSelectNames};
+inline constexpr Field kCrease{"crease", 3, 2, Access::kReadWrite, {}, kCreaseNames};
+inline constexpr Field kDepthTest{"depth_test", 5, 4, Access::kReadWrite, {}, kDepthTestNames};
+inline constexpr Field kCombine{"combine", 7, 6, Access::kReadWrite, {}, kCombineNames};
+inline constexpr Field kDepthBias{"depth_bias", 12, 8, Access::kReadWrite,
+                                  "1..24; 0 counts as 1, more as 24"};
+inline constexpr Field kMark{"mark", 13, 13, Access::kReadWrite,
+                             "1: clear bit 0 of alpha of blended pixels"};
+inline constexpr Field kLayout{"layout", 14, 14, Access::kReadWrite, {}, kLayoutNames};
+inline constexpr Field kFrameCopy{"frame_copy", 15, 15, Access::kReadWrite,
+                                  "1: blend from a copy of the frame"};
+inline constexpr Field kCoverage{"coverage", 16, 16, Access::kReadWrite, {}, kCoverageNames};
+inline constexpr Field kCull{"cull", 17, 17, Access::kReadWrite, {}, kCullNames};
+inline constexpr Field kCreaseDepth{"crease_depth", 22, 18, Access::kReadWrite,
                                     "1..24; 0: creases of any depth, more counts as 24"};
-inline constexpr Field kLinearLight{"linear_light", 23, 23, "1: blend in linear light"};
+inline constexpr Field kLinearLight{"linear_light", 23, 23, Access::kReadWrite,
+                                    "1: blend in linear light"};
 inline constexpr std::array kFields = {kSelect,    kCrease, kDepthTest,   kCombine,
                                        kDepthBias, kMark,   kLayout,      kFrameCopy,
                                        kCoverage,  kCull,   kCreaseDepth, kLinearLight};
@@ -120,7 +130,7 @@ inline constexpr Field kAddress = kLineAddress;
 inline constexpr std::array kFields = {kAddress};
 }  // namespace line_base
 namespace refusal {
-inline constexpr Field kReason{"reason", 3, 0, {}, kRefusalNames};
+inline constexpr Field kReason{"reason", 3, 0, Access::kReadOnly, {}, kRefusalNames};
 inline constexpr std::array kFields = {kReason};
 }  // namespace refusal
 
@@ -135,80 +145,67 @@ inline constexpr std::uint32_t kStatusWrittenWhileBusy = status::kWrittenWhileBu
 inline constexpr std::uint32_t kStatusInvalidEdge = status::kInvalidEdge.mask();
 }  // namespace reg
 
-// Reset values marked 0 with the access kReadWrite of RULES are loaded from the parameters at
-// construction; bases read 0 in their low six bits.
+// Writes while a frame is under way are ignored, but those to CONTROL and STATUS.
+inline constexpr bool kBusyIgnoresWrites = true;
 inline constexpr std::array<RegisterInfo, 42> kRegisters = {{
-    {reg::kId, "ID", Access::kReadOnly, reg::kIdValue,
-     "Identifies the unit and the version of its register map."},
-    {reg::kControl, "CONTROL", Access::kReadWrite, 1, "Switch and commands.",
-     reg::control::kFields},
-    {reg::kStatus, "STATUS", Access::kWriteOneToClear, 1, "State, and what has happened.",
-     reg::status::kFields},
-    {reg::kSize, "SIZE", Access::kReadWrite, 0, "Size of the frame.", reg::size::kFields},
-    {reg::kRules, "RULES", Access::kReadWrite, 0, "The rules of the frame, and where it lies.",
-     reg::rules::kFields},
-    {reg::kEdgeCount, "EDGE_COUNT", Access::kReadWrite, 0, "Records of the edge table, 0..2^24."},
-    {reg::kVertexCount, "VERTEX_COUNT", Access::kReadWrite, 0, "Vertices, 0..2^24."},
-    {reg::kFaceCount, "FACE_COUNT", Access::kReadWrite, 0, "Facing bits, 0..face_limit."},
-    {reg::kEdgeBase, "EDGE_BASE", Access::kReadWrite, 0, "Byte address of the edge table.",
+    {reg::kId, "ID", "Identifies the unit and the version of its register map.", reg::id::kFields},
+    {reg::kControl, "CONTROL", "Switch and commands.", reg::control::kFields},
+    {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
+    {reg::kSize, "SIZE", "Size of the frame.", reg::size::kFields},
+    {reg::kRules, "RULES", "The rules of the frame, and where it lies.", reg::rules::kFields},
+    {reg::kEdgeCount, "EDGE_COUNT", "Records of the edge table, 0..2^24.", kNumber},
+    {reg::kVertexCount, "VERTEX_COUNT", "Vertices, 0..2^24.", kNumber},
+    {reg::kFaceCount, "FACE_COUNT", "Facing bits, 0..face_limit.", kNumber},
+    {reg::kEdgeBase, "EDGE_BASE", "Byte address of the edge table.", reg::line_base::kFields},
+    {reg::kVertexBase, "VERTEX_BASE", "Byte address of the vertices.", reg::line_base::kFields},
+    {reg::kFaceBase, "FACE_BASE", "Byte address of the facing bits.", reg::line_base::kFields},
+    {reg::kDepthBase, "DEPTH_BASE", "Byte address of the depth buffer.", reg::line_base::kFields},
+    {reg::kColourBase, "COLOUR_BASE", "Byte address of the frame, which is blended in place.",
      reg::line_base::kFields},
-    {reg::kVertexBase, "VERTEX_BASE", Access::kReadWrite, 0, "Byte address of the vertices.",
-     reg::line_base::kFields},
-    {reg::kFaceBase, "FACE_BASE", Access::kReadWrite, 0, "Byte address of the facing bits.",
-     reg::line_base::kFields},
-    {reg::kDepthBase, "DEPTH_BASE", Access::kReadWrite, 0, "Byte address of the depth buffer.",
-     reg::line_base::kFields},
-    {reg::kColourBase, "COLOUR_BASE", Access::kReadWrite, 0,
-     "Byte address of the frame, which is blended in place.", reg::line_base::kFields},
-    {reg::kWeightBase, "WEIGHT_BASE", Access::kReadWrite, 0,
+    {reg::kWeightBase, "WEIGHT_BASE",
      "Byte address of room for the weights, 64 bytes a block of 4 x 4 pixels.",
      reg::line_base::kFields},
-    {reg::kCopyBase, "COPY_BASE", Access::kReadWrite, 0,
-     "Byte address of room for a copy of the frame (frame_copy).", reg::line_base::kFields},
-    {reg::kRefusal, "REFUSAL", Access::kReadOnly, 0,
+    {reg::kCopyBase, "COPY_BASE", "Byte address of room for a copy of the frame (frame_copy).",
+     reg::line_base::kFields},
+    {reg::kRefusal, "REFUSAL",
      "Why the last start was rejected: the first reason that holds; 0 if it was accepted.",
      reg::refusal::kFields},
-    {reg::kEdges, "EDGES", Access::kReadOnly, 0, "Edges read."},
-    {reg::kBoundaryEdges, "BOUNDARY_EDGES", Access::kReadOnly, 0, "Edges of a single face."},
-    {reg::kSilhouetteEdges, "SILHOUETTE_EDGES", Access::kReadOnly, 0,
-     "Edges between a face turned to the eye and one turned away."},
-    {reg::kBackEdges, "BACK_EDGES", Access::kReadOnly, 0,
-     "Edges of two faces turned away, which cull drops."},
-    {reg::kCreaseEdges, "CREASE_EDGES", Access::kReadOnly, 0,
-     "Creases between two faces turned to the eye, or not culled."},
-    {reg::kFlatEdges, "FLAT_EDGES", Access::kReadOnly, 0,
-     "Edges between two faces turned to the eye, or not culled, that are no crease."},
-    {reg::kInvalidEdges, "INVALID_EDGES", Access::kReadOnly, 0,
-     "Edges with an index out of range."},
-    {reg::kKeptEdges, "KEPT_EDGES", Access::kReadOnly, 0, "Edges whose vertices were fetched."},
-    {reg::kOutsideEdges, "OUTSIDE_EDGES", Access::kReadOnly, 0,
-     "Kept edges with a vertex that is not usable."},
-    {reg::kDegenerateEdges, "DEGENERATE_EDGES", Access::kReadOnly, 0,
-     "Kept edges with both ends in one place."},
-    {reg::kEmptyEdges, "EMPTY_EDGES", Access::kReadOnly, 0,
-     "Kept edges without a column of the frame."},
-    {reg::kLines, "LINES", Access::kReadOnly, 0, "Lines set up and walked."},
-    {reg::kColumns, "COLUMNS", Access::kReadOnly, 0, "Columns walked."},
-    {reg::kGroups, "GROUPS", Access::kReadOnly, 0, "Clocks in which the walkers stepped."},
-    {reg::kCandidates, "CANDIDATES", Access::kReadOnly, 0,
-     "Pixels that a line would blend with a neighbour."},
-    {reg::kPassed, "PASSED", Access::kReadOnly, 0, "Candidates that passed the depth test."},
-    {reg::kBlocks, "BLOCKS", Access::kReadOnly, 0, "Blocks of 4 x 4 pixels that were touched."},
-    {reg::kBlendedPixels, "BLENDED_PIXELS", Access::kReadOnly, 0, "Pixels that were blended."},
-    {reg::kMemoryErrors, "MEMORY_ERRORS", Access::kReadOnly, 0, "Memory responses with an error."},
-    {reg::kFrameCycles, "FRAME_CYCLES", Access::kReadOnly, 0,
-     "Clocks of the last frame, from its start to its end."},
-    {reg::kEdgeCycles, "EDGE_CYCLES", Access::kReadOnly, 0,
-     "Of these until every edge was drawn and every weight written back."},
-    {reg::kResolveCycles, "RESOLVE_CYCLES", Access::kReadOnly, 0, "Of these the rest."},
-    {reg::kBoundaryCount, "BOUNDARY_COUNT", Access::kReadWrite, 0,
-     "Boundaries of the edge table, 0..EDGE_COUNT (records = split)."},
-    {reg::kPairBase, "PAIR_BASE", Access::kReadWrite, 0,
-     "Byte address of the vertices of boundaries (records = split).", reg::line_base::kFields},
-    {reg::kOtherPairBase, "OTHER_PAIR_BASE", Access::kReadWrite, 0,
+    {reg::kEdges, "EDGES", "Edges read.", kCounter},
+    {reg::kBoundaryEdges, "BOUNDARY_EDGES", "Edges of a single face.", kCounter},
+    {reg::kSilhouetteEdges, "SILHOUETTE_EDGES",
+     "Edges between a face turned to the eye and one turned away.", kCounter},
+    {reg::kBackEdges, "BACK_EDGES", "Edges of two faces turned away, which cull drops.", kCounter},
+    {reg::kCreaseEdges, "CREASE_EDGES",
+     "Creases between two faces turned to the eye, or not culled.", kCounter},
+    {reg::kFlatEdges, "FLAT_EDGES",
+     "Edges between two faces turned to the eye, or not culled, that are no crease.", kCounter},
+    {reg::kInvalidEdges, "INVALID_EDGES", "Edges with an index out of range.", kCounter},
+    {reg::kKeptEdges, "KEPT_EDGES", "Edges whose vertices were fetched.", kCounter},
+    {reg::kOutsideEdges, "OUTSIDE_EDGES", "Kept edges with a vertex that is not usable.", kCounter},
+    {reg::kDegenerateEdges, "DEGENERATE_EDGES", "Kept edges with both ends in one place.",
+     kCounter},
+    {reg::kEmptyEdges, "EMPTY_EDGES", "Kept edges without a column of the frame.", kCounter},
+    {reg::kLines, "LINES", "Lines set up and walked.", kCounter},
+    {reg::kColumns, "COLUMNS", "Columns walked.", kCounter},
+    {reg::kGroups, "GROUPS", "Clocks in which the walkers stepped.", kCounter},
+    {reg::kCandidates, "CANDIDATES", "Pixels that a line would blend with a neighbour.", kCounter},
+    {reg::kPassed, "PASSED", "Candidates that passed the depth test.", kCounter},
+    {reg::kBlocks, "BLOCKS", "Blocks of 4 x 4 pixels that were touched.", kCounter},
+    {reg::kBlendedPixels, "BLENDED_PIXELS", "Pixels that were blended.", kCounter},
+    {reg::kMemoryErrors, "MEMORY_ERRORS", "Memory responses with an error.", kCounter},
+    {reg::kFrameCycles, "FRAME_CYCLES", "Clocks of the last frame, from its start to its end.",
+     kCounter},
+    {reg::kEdgeCycles, "EDGE_CYCLES",
+     "Of these until every edge was drawn and every weight written back.", kCounter},
+    {reg::kResolveCycles, "RESOLVE_CYCLES", "Of these the rest.", kCounter},
+    {reg::kBoundaryCount, "BOUNDARY_COUNT",
+     "Boundaries of the edge table, 0..EDGE_COUNT (records = split).", kNumber},
+    {reg::kPairBase, "PAIR_BASE", "Byte address of the vertices of boundaries (records = split).",
+     reg::line_base::kFields},
+    {reg::kOtherPairBase, "OTHER_PAIR_BASE",
      "Byte address of the vertices of all other edges (records = split).", reg::line_base::kFields},
-    {reg::kCoarseBase, "COARSE_BASE", Access::kReadWrite, 0,
-     "Byte address of the coarse depth (coarse_lines).", reg::line_base::kFields},
+    {reg::kCoarseBase, "COARSE_BASE", "Byte address of the coarse depth (coarse_lines).",
+     reg::line_base::kFields},
 }};
 static_assert(fields_are_in_order(kRegisters));
 
@@ -222,6 +219,10 @@ constexpr std::uint32_t rules_word(const Parameters& p) {
          rules::kMark.in(code(p.mark)) | rules::kLayout.in(code(p.layout)) |
          rules::kFrameCopy.in(code(p.frame_copy)) | rules::kCoverage.in(code(p.coverage)) |
          rules::kCull.in(code(p.cull)) | rules::kCreaseDepth.in(code(p.crease_depth));
+}
+// What a reset loads from the parameters.
+constexpr std::array<LoadedRegister, 1> loaded_registers(const Parameters& p) {
+  return {{{reg::kRules, rules_word(p)}}};
 }
 constexpr std::uint32_t size_word(std::uint32_t width, std::uint32_t height) {
   return reg::size::kWidth.in(width) | reg::size::kHeight.in(height);

@@ -46,64 +46,82 @@ inline constexpr std::uint32_t kSharesSum = 0x88;
 inline constexpr std::uint32_t kIdValue = 0xDEB00104;
 
 // Fields, from the lowest bit on. Codes are those of the enumerations of spec/morphological/.
+namespace id {
+inline constexpr std::array kFields = number(Access::kConstant, kIdValue);
+}  // namespace id
 namespace control {
-inline constexpr Field kEnable{"enable", 0, 0, "frames are taken"};
-inline constexpr Field kClearCounters{"clear_counters", 1, 1, "command, reads 0"};
+inline constexpr Field kEnable{"enable", 0, 0, Access::kReadWrite, "frames are taken", {}, 1};
+inline constexpr Field kClearCounters{"clear_counters", 1, 1, Access::kCommand,
+                                      "sets every counter to 0"};
 inline constexpr std::array kFields = {kEnable, kClearCounters};
 }  // namespace control
 namespace status {
-inline constexpr Field kIdle{"idle", 0, 0, "no frame inside; read only"};
-inline constexpr Field kFrameDone{"frame_done", 1, 1, "sticky"};
-inline constexpr Field kFraming{
-    "framing", 2, 2, "sticky: start of frame, end of row or lane count are not as SIZE says"};
-inline constexpr Field kMemoryError{"memory_error", 3, 3, "sticky: memory answered with an error"};
+inline constexpr Field kIdle{"idle", 0, 0, Access::kReadOnly, "no frame inside", {}, 1};
+inline constexpr Field kFrameDone{"frame_done", 1, 1, Access::kWriteOneToClear, "a frame is done"};
+inline constexpr Field kFraming{"framing", 2, 2, Access::kWriteOneToClear,
+                                "start of frame, end of row or lane count are not as SIZE says"};
+inline constexpr Field kMemoryError{"memory_error", 3, 3, Access::kWriteOneToClear,
+                                    "memory answered with an error"};
 inline constexpr Field kWrittenWhileBusy{
-    "written_while_busy", 4, 4,
-    "sticky: a register was written while a frame was inside; the write is ignored"};
+    "written_while_busy", 4, 4, Access::kWriteOneToClear,
+    "a register was written while a frame was inside; the write is ignored"};
 inline constexpr std::array kFields = {kIdle, kFrameDone, kFraming, kMemoryError,
                                        kWrittenWhileBusy};
 }  // namespace status
 namespace size {
-inline constexpr Field kWidth{"width", 13, 0, "pixels, 1..8192"};
-inline constexpr Field kHeight{"height", 29, 16, "pixels, 1..8192"};
+inline constexpr Field kWidth{"width", 13, 0, Access::kReadWrite, "pixels, 1..8192"};
+inline constexpr Field kHeight{"height", 29, 16, Access::kReadWrite, "pixels, 1..8192"};
 inline constexpr std::array kFields = {kWidth, kHeight};
 }  // namespace size
 namespace rules {
-inline constexpr Field kSource{"edges.source", 1, 0, {}, kEdgeSourceNames};
-inline constexpr Field kThresholdMode{"threshold_mode", 2, 2, {}, kThresholdModeNames};
-inline constexpr Field kDynamicLuma{"dynamic_luma", 4, 3, {}, kDynamicLumaNames};
-inline constexpr Field kLocalContrast{"local_contrast", 6, 5, {}, kLocalContrastNames};
-inline constexpr Field kPredictor{"predictor", 8, 7, {}, kPredictorNames};
-inline constexpr Field kSteps{"steps", 13, 9, "0..16"};
-inline constexpr Field kContiguous{"contiguous", 14, 14, "off where it is not built"};
-inline constexpr Field kSafe{"safe", 15, 15, "1: both sides grow in lockstep, while one line fits"};
-inline constexpr Field kLinearLight{"linear_light", 16, 16, "1: blend in linear light"};
-inline constexpr Field kTrim{"trim", 17, 17, "1: a side that lost its line gives back steps"};
-inline constexpr Field kCrossings{"ends", 18, 18, "gaps where crossings are not built", kEndsNames};
-inline constexpr Field kTable{"area_table", 19, 19, "1: areas from the table, where it is built"};
-inline constexpr Field kDiagonals{"diagonals", 20, 20, "off where they are not built"};
-inline constexpr Field kRoundCorners{"round_corners", 21, 21, "off where they are not built"};
-inline constexpr Field kStrongest{"blend", 22, 22, {}, kBlendRuleNames};
-inline constexpr Field kLearned{"area_learned", 23, 23,
+inline constexpr Field kSource{"edges.source", 1, 0, Access::kReadWrite, {}, kEdgeSourceNames};
+inline constexpr Field kThresholdMode{"threshold_mode",   2,  2,
+                                      Access::kReadWrite, {}, kThresholdModeNames};
+inline constexpr Field kDynamicLuma{"dynamic_luma",     4,  3,
+                                    Access::kReadWrite, {}, kDynamicLumaNames};
+inline constexpr Field kLocalContrast{"local_contrast",   6,  5,
+                                      Access::kReadWrite, {}, kLocalContrastNames};
+inline constexpr Field kPredictor{"predictor", 8, 7, Access::kReadWrite, {}, kPredictorNames};
+inline constexpr Field kSteps{"steps", 13, 9, Access::kReadWrite, "0..16"};
+inline constexpr Field kContiguous{"contiguous", 14, 14, Access::kReadWrite,
+                                   "off where it is not built"};
+inline constexpr Field kSafe{"safe", 15, 15, Access::kReadWrite,
+                             "1: both sides grow in lockstep, while one line fits"};
+inline constexpr Field kLinearLight{"linear_light", 16, 16, Access::kReadWrite,
+                                    "1: blend in linear light"};
+inline constexpr Field kTrim{"trim", 17, 17, Access::kReadWrite,
+                             "1: a side that lost its line gives back steps"};
+inline constexpr Field kCrossings{
+    "ends", 18, 18, Access::kReadWrite, "gaps where crossings are not built", kEndsNames};
+inline constexpr Field kTable{"area_table", 19, 19, Access::kReadWrite,
+                              "1: areas from the table, where it is built"};
+inline constexpr Field kDiagonals{"diagonals", 20, 20, Access::kReadWrite,
+                                  "off where they are not built"};
+inline constexpr Field kRoundCorners{"round_corners", 21, 21, Access::kReadWrite,
+                                     "off where they are not built"};
+inline constexpr Field kStrongest{"blend", 22, 22, Access::kReadWrite, {}, kBlendRuleNames};
+inline constexpr Field kLearned{"area_learned", 23, 23, Access::kReadWrite,
                                 "1: areas are learned, where the ROMs are built"};
-inline constexpr Field kLeave{"leave", 26, 24, {}, kLeaveNames};
-inline constexpr Field kBorder{"border", 27, 27, "end where clamp is not built", kBorderNames};
-inline constexpr Field kTextGuard{"text_guard", 28, 28, "off where the guard is not built"};
+inline constexpr Field kLeave{"leave", 26, 24, Access::kReadWrite, {}, kLeaveNames};
+inline constexpr Field kBorder{
+    "border", 27, 27, Access::kReadWrite, "end where clamp is not built", kBorderNames};
+inline constexpr Field kTextGuard{"text_guard", 28, 28, Access::kReadWrite,
+                                  "off where the guard is not built"};
 inline constexpr std::array kFields = {
     kSource,    kThresholdMode, kDynamicLuma, kLocalContrast, kPredictor, kSteps,     kContiguous,
     kSafe,      kLinearLight,   kTrim,        kCrossings,     kTable,     kDiagonals, kRoundCorners,
     kStrongest, kLearned,       kLeave,       kBorder,        kTextGuard};
 }  // namespace rules
 namespace threshold {
-inline constexpr Field kValue{"value", kThresholdBits - 1, 0, "codes, U8.16"};
+inline constexpr Field kValue{"value", kThresholdBits - 1, 0, Access::kReadWrite, "codes, U8.16"};
 inline constexpr std::array kFields = {kValue};
 }  // namespace threshold
 namespace alpha {
-inline constexpr Field kValue{"value", kThresholdBits - 1, 0, "U0.24"};
+inline constexpr Field kValue{"value", kThresholdBits - 1, 0, Access::kReadWrite, "U0.24"};
 inline constexpr std::array kFields = {kValue};
 }  // namespace alpha
 namespace depth_threshold {
-inline constexpr Field kValue{"value", 15, 0, "U0.16"};
+inline constexpr Field kValue{"value", 15, 0, Access::kReadWrite, "U0.16"};
 inline constexpr std::array kFields = {kValue};
 }  // namespace depth_threshold
 namespace line_base {
@@ -111,19 +129,26 @@ inline constexpr Field kAddress = kLineAddress;
 inline constexpr std::array kFields = {kAddress};
 }  // namespace line_base
 namespace smaa {
-inline constexpr Field kSearchSteps{"search_steps", 6, 0, "1..112"};
-inline constexpr Field kDiagonalSteps{"diagonal_steps", 12, 8, "0 for none, at most those built"};
-inline constexpr Field kCornerRounding{"corner_rounding", 24, 16, "in 1/256, 0..256"};
+inline constexpr Field kSearchSteps{"search_steps", 6, 0, Access::kReadWrite, "1..112"};
+inline constexpr Field kDiagonalSteps{"diagonal_steps", 12, 8, Access::kReadWrite,
+                                      "0 for none, at most those built"};
+inline constexpr Field kCornerRounding{"corner_rounding", 24, 16, Access::kReadWrite,
+                                       "in 1/256, 0..256"};
 inline constexpr std::array kFields = {kSearchSteps, kDiagonalSteps, kCornerRounding};
 }  // namespace smaa
 namespace shares_address {
-inline constexpr Field kEntry{"entry", 11, 0, "A 0..1023, B 1024..1663, C 1664..2303"};
+inline constexpr Field kEntry{"entry", 11, 0, Access::kShared,
+                              "A 0..1023, B 1024..1663, C 1664..2303"};
 inline constexpr std::array kFields = {kEntry};
 }  // namespace shares_address
 namespace shares_data {
-inline constexpr Field kShare{"share", 7, 0, "S3.4"};
+inline constexpr Field kShare{"share", 7,           0, Access::kShared, "S3.4; a reset leaves it",
+                              {},      std::nullopt};
 inline constexpr std::array kFields = {kShare};
 }  // namespace shares_data
+namespace shares_sum {
+inline constexpr std::array kFields = number(Access::kReadOnly, std::nullopt);
+}  // namespace shares_sum
 
 inline constexpr std::uint32_t kControlEnable = control::kEnable.mask();
 inline constexpr std::uint32_t kControlClearCounters = control::kClearCounters.mask();
@@ -134,62 +159,55 @@ inline constexpr std::uint32_t kStatusMemoryError = status::kMemoryError.mask();
 inline constexpr std::uint32_t kStatusWrittenWhileBusy = status::kWrittenWhileBusy.mask();
 }  // namespace reg
 
-// Reset values marked 0 with the access kReadWrite are loaded from the parameters at construction.
+// Writes while a frame is inside are ignored, but those to CONTROL and STATUS.
+inline constexpr bool kBusyIgnoresWrites = true;
 inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
-    {reg::kId, "ID", Access::kReadOnly, reg::kIdValue,
-     "Identifies the unit and the version of its register map."},
-    {reg::kControl, "CONTROL", Access::kReadWrite, 1, "Switch and command.", reg::control::kFields},
-    {reg::kStatus, "STATUS", Access::kWriteOneToClear, 1, "State, and what has happened.",
-     reg::status::kFields},
-    {reg::kSize, "SIZE", Access::kReadWrite, 0, "Size of the frame.", reg::size::kFields},
-    {reg::kRules, "RULES", Access::kReadWrite, 0,
-     "The rules of the frame. Blocks that are not built count as off.", reg::rules::kFields},
-    {reg::kThreshold, "THRESHOLD", Access::kReadWrite, 0, "T.", reg::threshold::kFields},
-    {reg::kThresholdOn, "THRESHOLD_ON", Access::kReadWrite, 0,
-     "T of predicated edges where depth has an edge.", reg::threshold::kFields},
-    {reg::kThresholdOff, "THRESHOLD_OFF", Access::kReadWrite, 0,
-     "T of predicated edges where depth has none.", reg::threshold::kFields},
-    {reg::kAlpha, "ALPHA", Access::kReadWrite, 0, "Factor of the dynamic threshold.",
-     reg::alpha::kFields},
-    {reg::kFloor, "FLOOR", Access::kReadWrite, 0, "Smallest luma step of a dynamic threshold.",
+    {reg::kId, "ID", "Identifies the unit and the version of its register map.", reg::id::kFields},
+    {reg::kControl, "CONTROL", "Switch and command.", reg::control::kFields},
+    {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
+    {reg::kSize, "SIZE", "Size of the frame.", reg::size::kFields},
+    {reg::kRules, "RULES", "The rules of the frame. Blocks that are not built count as off.",
+     reg::rules::kFields},
+    {reg::kThreshold, "THRESHOLD", "T.", reg::threshold::kFields},
+    {reg::kThresholdOn, "THRESHOLD_ON", "T of predicated edges where depth has an edge.",
      reg::threshold::kFields},
-    {reg::kDepthThreshold, "DEPTH_THRESHOLD", Access::kReadWrite, 0,
-     "Relative depth step that is an edge.", reg::depth_threshold::kFields},
-    {reg::kPixelBase, "PIXEL_BASE", Access::kReadWrite, 0,
-     "Byte address of the frame with storage = memory.", reg::line_base::kFields},
-    {reg::kSmaa, "SMAA", Access::kReadWrite, 0, "Searches and corners of SMAA.",
-     reg::smaa::kFields},
-    {reg::kPixels, "PIXELS", Access::kReadOnly, 0, "Pixels delivered."},
-    {reg::kEdgePixels, "EDGE_PIXELS", Access::kReadOnly, 0, "Pixels with a left or a top edge."},
-    {reg::kHorizontalRuns, "HORIZONTAL_RUNS", Access::kReadOnly, 0, "Maximal runs of top edges."},
-    {reg::kVerticalRuns, "VERTICAL_RUNS", Access::kReadOnly, 0, "Maximal runs of left edges."},
-    {reg::kLongRuns, "LONG_RUNS", Access::kReadOnly, 0,
-     "Runs of either axis that are longer than the reach."},
-    {reg::kZRuns, "Z_RUNS", Access::kReadOnly, 0, "Clean Z runs within the reach."},
-    {reg::kExtendedRuns, "EXTENDED_RUNS", Access::kReadOnly, 0,
-     "Runs that keep at least one step."},
-    {reg::kSteps, "STEPS", Access::kReadOnly, 0, "Extensions kept."},
-    {reg::kProbes, "PROBES", Access::kReadOnly, 0, "Corners tested."},
-    {reg::kDivides, "DIVIDES", Access::kReadOnly, 0, "Divisions."},
-    {reg::kBlendedPixels, "BLENDED_PIXELS", Access::kReadOnly, 0,
-     "Pixels that took a share of a neighbour."},
-    {reg::kFrameCycles, "FRAME_CYCLES", Access::kReadOnly, 0,
-     "Clocks from the first input beat to the last output beat of the last frame, both counted."},
-    {reg::kRecordStalls, "RECORD_STALLS", Access::kReadOnly, 0,
-     "Clocks in which the slot waited for records."},
-    {reg::kMemoryErrors, "MEMORY_ERRORS", Access::kReadOnly, 0, "Memory responses with an error."},
-    {reg::kDiagonals, "DIAGONALS", Access::kReadOnly, 0,
-     "Pixels whose top edge took its shares from a diagonal."},
-    {reg::kLeftPixels, "LEFT_PIXELS", Access::kReadOnly, 0,
-     "Pixels that would have taken a share and took none, by the rules leave and text_guard."},
-    {reg::kSharesAddress, "SHARES_ADDRESS", Access::kReadWrite, 0,
-     "Entry of the learned shares that SHARES_DATA names.", reg::shares_address::kFields},
-    {reg::kSharesData, "SHARES_DATA", Access::kReadWrite, 0,
-     "The entry; a write moves SHARES_ADDRESS on by one. The reset value is that of the first "
-     "entry.",
+    {reg::kThresholdOff, "THRESHOLD_OFF", "T of predicated edges where depth has none.",
+     reg::threshold::kFields},
+    {reg::kAlpha, "ALPHA", "Factor of the dynamic threshold.", reg::alpha::kFields},
+    {reg::kFloor, "FLOOR", "Smallest luma step of a dynamic threshold.", reg::threshold::kFields},
+    {reg::kDepthThreshold, "DEPTH_THRESHOLD", "Relative depth step that is an edge.",
+     reg::depth_threshold::kFields},
+    {reg::kPixelBase, "PIXEL_BASE", "Byte address of the frame with storage = memory.",
+     reg::line_base::kFields},
+    {reg::kSmaa, "SMAA", "Searches and corners of SMAA.", reg::smaa::kFields},
+    {reg::kPixels, "PIXELS", "Pixels delivered.", kCounter},
+    {reg::kEdgePixels, "EDGE_PIXELS", "Pixels with a left or a top edge.", kCounter},
+    {reg::kHorizontalRuns, "HORIZONTAL_RUNS", "Maximal runs of top edges.", kCounter},
+    {reg::kVerticalRuns, "VERTICAL_RUNS", "Maximal runs of left edges.", kCounter},
+    {reg::kLongRuns, "LONG_RUNS", "Runs of either axis that are longer than the reach.", kCounter},
+    {reg::kZRuns, "Z_RUNS", "Clean Z runs within the reach.", kCounter},
+    {reg::kExtendedRuns, "EXTENDED_RUNS", "Runs that keep at least one step.", kCounter},
+    {reg::kSteps, "STEPS", "Extensions kept.", kCounter},
+    {reg::kProbes, "PROBES", "Corners tested.", kCounter},
+    {reg::kDivides, "DIVIDES", "Divisions.", kCounter},
+    {reg::kBlendedPixels, "BLENDED_PIXELS", "Pixels that took a share of a neighbour.", kCounter},
+    {reg::kFrameCycles, "FRAME_CYCLES",
+     "Clocks from the first input beat to the last output beat of the last frame, both counted.",
+     kCounter},
+    {reg::kRecordStalls, "RECORD_STALLS", "Clocks in which the slot waited for records.", kCounter},
+    {reg::kMemoryErrors, "MEMORY_ERRORS", "Memory responses with an error.", kCounter},
+    {reg::kDiagonals, "DIAGONALS", "Pixels whose top edge took its shares from a diagonal.",
+     kCounter},
+    {reg::kLeftPixels, "LEFT_PIXELS",
+     "Pixels that would have taken a share and took none, by the rules leave and text_guard.",
+     kCounter},
+    {reg::kSharesAddress, "SHARES_ADDRESS", "Entry of the learned shares that SHARES_DATA names.",
+     reg::shares_address::kFields},
+    {reg::kSharesData, "SHARES_DATA", "The entry; a write moves SHARES_ADDRESS on by one.",
      reg::shares_data::kFields},
-    {reg::kSharesSum, "SHARES_SUM", Access::kReadOnly, 0,
-     "Sum over all entries of (index + 1) x the entry as an unsigned byte, mod 2^32."},
+    {reg::kSharesSum, "SHARES_SUM",
+     "Sum over all entries of (index + 1) x the entry as an unsigned byte, mod 2^32.",
+     reg::shares_sum::kFields},
 }};
 static_assert(fields_are_in_order(kRegisters));
 
@@ -216,6 +234,18 @@ constexpr std::uint32_t smaa_word(const Parameters& p) {
   return reg::smaa::kSearchSteps.in(code(p.search_steps)) |
          reg::smaa::kDiagonalSteps.in(code(p.diagonal_steps)) |
          reg::smaa::kCornerRounding.in(code(p.corner_rounding));
+}
+// What a reset loads from the parameters.
+constexpr std::array<LoadedRegister, 8> loaded_registers(const Parameters& p) {
+  const auto word = [](std::int64_t value) { return static_cast<std::uint32_t>(value); };
+  return {{{reg::kRules, rules_word(p)},
+           {reg::kThreshold, word(p.threshold)},
+           {reg::kThresholdOn, word(p.threshold_on_depth_edge)},
+           {reg::kThresholdOff, word(p.threshold_off_depth_edge)},
+           {reg::kAlpha, word(p.alpha)},
+           {reg::kFloor, word(p.floor)},
+           {reg::kDepthThreshold, word(p.depth_threshold)},
+           {reg::kSmaa, smaa_word(p)}}};
 }
 constexpr std::uint32_t size_word(std::uint32_t width, std::uint32_t height) {
   return reg::size::kWidth.in(width) | reg::size::kHeight.in(height);

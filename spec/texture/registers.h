@@ -35,58 +35,63 @@ inline constexpr std::uint32_t kLevelBase = 0x10;  // + 4 k for level k
 inline constexpr std::uint32_t kIdValue = 0xDEB00001;
 
 // Fields, from the lowest bit on.
+namespace id {
+inline constexpr std::array kFields = number(Access::kConstant, kIdValue);
+}  // namespace id
 namespace control {
-inline constexpr Field kEnable{"enable", 0, 0, "quads are taken"};
-inline constexpr Field kInvalidate{"invalidate", 1, 1,
-                                   "command, reads 0: empties the cache; when idle only"};
-inline constexpr Field kClearCounters{"clear_counters", 2, 2, "command, reads 0"};
+inline constexpr Field kEnable{"enable", 0, 0, Access::kReadWrite, "quads are taken", {}, 1};
+inline constexpr Field kInvalidate{"invalidate", 1, 1, Access::kCommand,
+                                   "empties the cache; when idle only"};
+inline constexpr Field kClearCounters{"clear_counters", 2, 2, Access::kCommand,
+                                      "sets every counter to 0"};
 inline constexpr std::array kFields = {kEnable, kInvalidate, kClearCounters};
 }  // namespace control
 namespace status {
-inline constexpr Field kIdle{"idle", 0, 0, "read only"};
-inline constexpr Field kMemoryError{"memory_error", 1, 1, "sticky: memory answered with an error"};
-inline constexpr Field kInvalidTexture{"invalid_texture", 2, 2,
-                                       "sticky: a quad named an invalid descriptor"};
-inline constexpr Field kWrittenWhileBusy{"written_while_busy", 3, 3,
-                                         "sticky: a descriptor was written while busy"};
+inline constexpr Field kIdle{"idle", 0, 0, Access::kReadOnly, "nothing is inside", {}, 1};
+inline constexpr Field kMemoryError{"memory_error", 1, 1, Access::kWriteOneToClear,
+                                    "memory answered with an error"};
+inline constexpr Field kInvalidTexture{"invalid_texture", 2, 2, Access::kWriteOneToClear,
+                                       "a quad named an invalid descriptor"};
+inline constexpr Field kWrittenWhileBusy{"written_while_busy", 3, 3, Access::kWriteOneToClear,
+                                         "a descriptor was written while busy"};
 inline constexpr std::array kFields = {kIdle, kMemoryError, kInvalidTexture, kWrittenWhileBusy};
 }  // namespace status
 namespace rules {
-inline constexpr Field kFootprint{"footprint", 2, 0, {}, kFootprintNames};
-inline constexpr Field kLog2{"log2", 5, 4, {}, kLog2Names};
-inline constexpr Field kAxes{"axes", 7, 6, {}, kAxesNames};
-inline constexpr Field kCount{"count", 9, 8, {}, kCountNames};
-inline constexpr Field kCountCap{"count_cap", 10, 10, {}, kCountCapNames};
-inline constexpr Field kKernel{"kernel", 11, 11, {}, kKernelNames};
-inline constexpr Field kSrgbOutput{"srgb_output", 12, 12, {}, kSrgbOutputNames};
-inline constexpr Field kSpread{"spread", 23, 16, "U2.6 of the major axis"};
+inline constexpr Field kFootprint{"footprint", 2, 0, Access::kConstant, {}, kFootprintNames};
+inline constexpr Field kLog2{"log2", 5, 4, Access::kConstant, {}, kLog2Names};
+inline constexpr Field kAxes{"axes", 7, 6, Access::kConstant, {}, kAxesNames};
+inline constexpr Field kCount{"count", 9, 8, Access::kConstant, {}, kCountNames};
+inline constexpr Field kCountCap{"count_cap", 10, 10, Access::kConstant, {}, kCountCapNames};
+inline constexpr Field kKernel{"kernel", 11, 11, Access::kConstant, {}, kKernelNames};
+inline constexpr Field kSrgbOutput{"srgb_output", 12, 12, Access::kConstant, {}, kSrgbOutputNames};
+inline constexpr Field kSpread{"spread", 23, 16, Access::kConstant, "U2.6 of the major axis"};
 inline constexpr std::array kFields = {kFootprint, kLog2,   kAxes,       kCount,
                                        kCountCap,  kKernel, kSrgbOutput, kSpread};
 }  // namespace rules
 namespace size {
-inline constexpr Field kWidth{"width", 15, 0, "texels"};
-inline constexpr Field kHeight{"height", 31, 16, "texels"};
+inline constexpr Field kWidth{"width", 15, 0, Access::kReadWrite, "texels"};
+inline constexpr Field kHeight{"height", 31, 16, Access::kReadWrite, "texels"};
 inline constexpr std::array kFields = {kWidth, kHeight};
 }  // namespace size
 namespace mode {
-inline constexpr Field kFormat{"format", 2, 0, {}, kFormatNames};
-inline constexpr Field kLayout{"layout", 4, 4, {}, kLayoutNames};
-inline constexpr Field kWrapS{"wrap_s", 9, 8, {}, kWrapNames};
-inline constexpr Field kWrapT{"wrap_t", 11, 10, {}, kWrapNames};
-inline constexpr Field kMinFilter{"min_filter", 14, 12, {}, kMinFilterNames};
-inline constexpr Field kMagFilter{"mag_filter", 16, 16, {}, kMagFilterNames};
-inline constexpr Field kLevels{"levels", 23, 20, "present, from 1 on"};
-inline constexpr Field kMaxCount{"max_count_log2", 26, 24, "lb N_max, 0..4"};
+inline constexpr Field kFormat{"format", 2, 0, Access::kReadWrite, {}, kFormatNames};
+inline constexpr Field kLayout{"layout", 4, 4, Access::kReadWrite, {}, kLayoutNames};
+inline constexpr Field kWrapS{"wrap_s", 9, 8, Access::kReadWrite, {}, kWrapNames};
+inline constexpr Field kWrapT{"wrap_t", 11, 10, Access::kReadWrite, {}, kWrapNames};
+inline constexpr Field kMinFilter{"min_filter", 14, 12, Access::kReadWrite, {}, kMinFilterNames};
+inline constexpr Field kMagFilter{"mag_filter", 16, 16, Access::kReadWrite, {}, kMagFilterNames};
+inline constexpr Field kLevels{"levels", 23, 20, Access::kReadWrite, "present, from 1 on"};
+inline constexpr Field kMaxCount{"max_count_log2", 26, 24, Access::kReadWrite, "lb N_max, 0..4"};
 inline constexpr std::array kFields = {kFormat,    kLayout,    kWrapS,  kWrapT,
                                        kMinFilter, kMagFilter, kLevels, kMaxCount};
 }  // namespace mode
 namespace lod_bias {
-inline constexpr Field kBias{"bias", 15, 0, "S7.8"};
+inline constexpr Field kBias{"bias", 15, 0, Access::kReadWrite, "S7.8"};
 inline constexpr std::array kFields = {kBias};
 }  // namespace lod_bias
 namespace lod_clamp {
-inline constexpr Field kMinLod{"min_lod", 15, 0, "U8.8"};
-inline constexpr Field kMaxLod{"max_lod", 31, 16, "U8.8"};
+inline constexpr Field kMinLod{"min_lod", 15, 0, Access::kReadWrite, "U8.8"};
+inline constexpr Field kMaxLod{"max_lod", 31, 16, Access::kReadWrite, "U8.8"};
 inline constexpr std::array kFields = {kMinLod, kMaxLod};
 }  // namespace lod_clamp
 
@@ -99,37 +104,33 @@ inline constexpr std::uint32_t kControlInvalidate = control::kInvalidate.mask();
 inline constexpr std::uint32_t kControlClearCounters = control::kClearCounters.mask();
 }  // namespace reg
 
+// Writes while it is busy are taken.
+inline constexpr bool kBusyIgnoresWrites = false;
 inline constexpr std::array<RegisterInfo, 11> kRegisters = {{
-    {reg::kId, "ID", Access::kReadOnly, reg::kIdValue,
-     "Identifies the unit and the version of its register map."},
-    {reg::kControl, "CONTROL", Access::kReadWrite, 1, "Switch and commands.",
-     reg::control::kFields},
-    {reg::kStatus, "STATUS", Access::kWriteOneToClear, 1, "State, and what has happened.",
-     reg::status::kFields},
-    {reg::kRules, "RULES", Access::kReadOnly, 0, "The variant built.", reg::rules::kFields},
-    {reg::kFragments, "FRAGMENTS", Access::kReadOnly, 0, "Colours delivered."},
-    {reg::kBilinears, "BILINEARS", Access::kReadOnly, 0, "Bilinear requests sent to the cache."},
-    {reg::kLineFills, "LINE_FILLS", Access::kReadOnly, 0, "Cache lines requested."},
-    {reg::kClamped, "CLAMPED", Access::kReadOnly, 0,
-     "Covered fragments whose coordinates were clamped before the unit."},
-    {reg::kSaturated, "SATURATED", Access::kReadOnly, 0,
-     "Covered fragments with a derivative beyond U15.16 texels."},
-    {reg::kMemoryErrors, "MEMORY_ERRORS", Access::kReadOnly, 0,
-     "Line fills answered with an error; such a line reads as zero."},
-    {reg::kInvalidFragments, "INVALID_FRAGMENTS", Access::kReadOnly, 0,
-     "Covered fragments of quads with an invalid descriptor; their colour is zero."},
+    {reg::kId, "ID", "Identifies the unit and the version of its register map.", reg::id::kFields},
+    {reg::kControl, "CONTROL", "Switch and commands.", reg::control::kFields},
+    {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
+    {reg::kRules, "RULES", "The variant built.", reg::rules::kFields},
+    {reg::kFragments, "FRAGMENTS", "Colours delivered.", kCounter},
+    {reg::kBilinears, "BILINEARS", "Bilinear requests sent to the cache.", kCounter},
+    {reg::kLineFills, "LINE_FILLS", "Cache lines requested.", kCounter},
+    {reg::kClamped, "CLAMPED", "Covered fragments whose coordinates were clamped before the unit.",
+     kCounter},
+    {reg::kSaturated, "SATURATED", "Covered fragments with a derivative beyond U15.16 texels.",
+     kCounter},
+    {reg::kMemoryErrors, "MEMORY_ERRORS",
+     "Line fills answered with an error; such a line reads as zero.", kCounter},
+    {reg::kInvalidFragments, "INVALID_FRAGMENTS",
+     "Covered fragments of quads with an invalid descriptor; their colour is zero.", kCounter},
 }};
 static_assert(fields_are_in_order(kRegisters));
 
 // The registers of a descriptor before its bases, offsets from its start.
 inline constexpr std::array<RegisterInfo, 4> kDescriptorRegisters = {{
-    {reg::kSize, "SIZE", Access::kReadWrite, 0, "Size of level 0.", reg::size::kFields},
-    {reg::kMode, "MODE", Access::kReadWrite, 0, "Texels, and how they are sampled.",
-     reg::mode::kFields},
-    {reg::kLodBias, "LOD_BIAS", Access::kReadWrite, 0, "Added to the level of detail.",
-     reg::lod_bias::kFields},
-    {reg::kLodClamp, "LOD_CLAMP", Access::kReadWrite, 0, "Limits of the level of detail.",
-     reg::lod_clamp::kFields},
+    {reg::kSize, "SIZE", "Size of level 0.", reg::size::kFields},
+    {reg::kMode, "MODE", "Texels, and how they are sampled.", reg::mode::kFields},
+    {reg::kLodBias, "LOD_BIAS", "Added to the level of detail.", reg::lod_bias::kFields},
+    {reg::kLodClamp, "LOD_CLAMP", "Limits of the level of detail.", reg::lod_clamp::kFields},
 }};
 static_assert(fields_are_in_order(kDescriptorRegisters));
 
@@ -141,6 +142,10 @@ constexpr std::uint32_t rules_word(const Parameters& p) {
          rules::kAxes.in(code(p.axes)) | rules::kCount.in(code(p.count)) |
          rules::kCountCap.in(code(p.count_cap)) | rules::kKernel.in(code(p.kernel)) |
          rules::kSrgbOutput.in(code(p.srgb_output)) | rules::kSpread.in(code(p.spread));
+}
+// What a build has of its parameters.
+constexpr std::array<LoadedRegister, 1> loaded_registers(const Parameters& p) {
+  return {{{reg::kRules, rules_word(p)}}};
 }
 // The words of a descriptor before its bases.
 constexpr std::uint32_t size_word(const Descriptor& d) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A Kit: how the tests of an engine build it, give it work and see what comes of it. An engine
 // declares one, and register_suites<Kit>() (tb/unit/rtl/engine_suites.h) gives its test program the
-// suites over it: reset_suite.h, stress_suite.h, register_noise.h, tb/unit/rtl/token_suite.h.
+// suites over it: reset_suite.h, register_suite.h, stress_suite.h, register_noise.h,
+// tb/unit/rtl/token_suite.h.
 //
 //   class Kit : public EngineKit {           // below: what it may leave out
 //    public:
@@ -13,6 +14,7 @@
 //     rtl::ClockDomain& clock();
 //     platform::RegisterHost& bus();
 //     rtl::Engine& engine();
+//     rtl::RegisterSection section() const;  // with the reset values of the build
 //     Bench& bench();
 //     void start(Job);                       // after a reset, or after a job that is done
 //     bool done();                           // all of it has come out

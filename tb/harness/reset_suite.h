@@ -119,7 +119,7 @@ class ResetSuite {
   void spoil() {
     kit_.spoil();
     for (const spec::RegisterInfo& info : kit_.engine().control.registers.table())
-      if (info.access == spec::Access::kReadWrite &&
+      if (info.written() != 0 &&
           std::find(Kit::kKept.begin(), Kit::kKept.end(), info.offset) == Kit::kKept.end())
         kit_.bus().write(info.offset, ~kit_.bus().read(info.offset));
   }

@@ -11,7 +11,9 @@ using spec::geometric::Refusal;
 
 }  // namespace
 
-ControlLayout control_layout() { return rtl::control_layout(spec::geometric::kRegisters, true); }
+ControlLayout control_layout() {
+  return rtl::control_layout(spec::geometric::kRegisters, spec::geometric::kBusyIgnoresWrites);
+}
 
 FrameRules decode(const ControlRegisters& registers) {
   const std::uint32_t size = registers.value(reg::kSize), rules = registers.value(reg::kRules);
@@ -92,7 +94,7 @@ ParameterStore::ParameterStore(const sc_core::sc_module_name& name, ClockDomain&
     invalid_pair_in.emplace("invalid_pair_in", [this](Cycle /*cycle*/) {
       registers_.set_sticky(reg::kStatusInvalidEdge);
     });
-  registers.set_reset(reg::kRules, spec::geometric::rules_word(p));
+  registers.set_resets(spec::geometric::loaded_registers(p));
   registers.on_command(reg::kControlStart, [this] { start(); });
   registers.on_read(reg::kRefusal, [this] { return static_cast<std::uint32_t>(refusal_); });
   clock.on_reset([this] {

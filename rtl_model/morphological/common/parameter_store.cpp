@@ -22,7 +22,8 @@ int reach_rows_of(const spec::morphological::Parameters& p) { return p.window_ro
 }  // namespace
 
 ControlLayout control_layout() {
-  return rtl::control_layout(spec::morphological::kRegisters, true);
+  return rtl::control_layout(spec::morphological::kRegisters,
+                             spec::morphological::kBusyIgnoresWrites);
 }
 
 Decoded decode(const ControlRegisters& registers, const spec::morphological::Parameters& p) {
@@ -91,14 +92,7 @@ ParameterStore::ParameterStore(ControlRegisters& registers,
   if (!is_learned(p))
     for (const std::uint32_t offset : {reg::kSharesAddress, reg::kSharesData})
       registers.set_mask(offset, 0);
-  registers.set_reset(reg::kRules, spec::morphological::rules_word(p));
-  registers.set_reset(reg::kThreshold, static_cast<std::uint32_t>(p.threshold));
-  registers.set_reset(reg::kThresholdOn, static_cast<std::uint32_t>(p.threshold_on_depth_edge));
-  registers.set_reset(reg::kThresholdOff, static_cast<std::uint32_t>(p.threshold_off_depth_edge));
-  registers.set_reset(reg::kAlpha, static_cast<std::uint32_t>(p.alpha));
-  registers.set_reset(reg::kFloor, static_cast<std::uint32_t>(p.floor));
-  registers.set_reset(reg::kDepthThreshold, static_cast<std::uint32_t>(p.depth_threshold));
-  registers.set_reset(reg::kSmaa, spec::morphological::smaa_word(p));
+  registers.set_resets(spec::morphological::loaded_registers(p));
   registers.on_busy([this] { return inside_; });
   for (const std::uint32_t offset : {reg::kSharesAddress, reg::kSharesData, reg::kSharesSum})
     registers.on_read(offset, [] { return 0u; });

@@ -137,7 +137,9 @@ class GeometricCommand final : public Engine {
     return "lines that pass it, candidates with depth and test, weights, colour";
   }
 
-  rtl::RegisterSection registers() const override { return rtl::geometric::register_section(); }
+  rtl::RegisterSection registers() const override {
+    return rtl::geometric::register_section(parameters_);
+  }
   CoverageSection coverage() const override {
     CoverageSection section{"Geometric engine", declared_geometric_coverage(),
                             geometric_coverage_groups()};

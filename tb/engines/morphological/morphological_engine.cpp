@@ -159,7 +159,9 @@ class MorphologicalCommand final : public Engine {
   }
   std::vector<std::string_view> maps() const override { return {"edges", "run_length", "steps"}; }
 
-  rtl::RegisterSection registers() const override { return rtl::morphological::register_section(); }
+  rtl::RegisterSection registers() const override {
+    return rtl::morphological::register_section(parameters_);
+  }
   CoverageSection coverage() const override {
     return {"Morphological engine",
             morphological_coverage(golden::morphological::MorphologicalGolden({})),

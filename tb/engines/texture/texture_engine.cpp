@@ -181,7 +181,9 @@ class TextureEngine final : public Engine {
     return "footprint, level and samples, texels, lines with hit, merged or miss, colour";
   }
 
-  rtl::RegisterSection registers() const override { return rtl::texture::register_section(); }
+  rtl::RegisterSection registers() const override {
+    return rtl::texture::register_section(texture_);
+  }
   CoverageSection coverage() const override {
     return {"Texture unit", TextureCoverage::declared(), TextureCoverage::groups()};
   }

@@ -58,7 +58,11 @@ Macros of_rows(const rtl::RegisterSection& section) {
   for (const spec::RegisterInfo& row : section.rows) {
     const std::string name = section.macros + "_" + in_c(row.name);
     define(name, row.offset);
-    if (row.reset != 0) define(name + "_RESET", row.reset);
+    std::uint32_t reset = row.reset();
+    for (const spec::LoadedRegister& loaded : section.loaded)
+      if (loaded.offset == row.offset) reset = loaded.value;
+    if (reset != 0) define(name + "_RESET", reset);
+    if (row.is_number()) continue;
     for (const spec::Field& field : row.fields) {
       const std::string full = name + "_" + in_c(field.name);
       std::uint32_t mask = 0;

@@ -1,16 +1,42 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What `deburr params --systemrdl` prints is read back, by a reader of the part of SystemRDL 2.0 that it uses, and
-says the same as the C header (whose values c_header_test.py holds against the contract).
+"""What `deburr params --systemrdl` prints is read back, by a reader of the part of SystemRDL 2.0 that it uses. It keeps
+the standard's rules for properties, bits and addresses. It says of some fields what the contract says, of those that
+parameters load their defaults, and the same as the C header (whose values c_header_test.py holds against the contract).
+What the hardware does is compared with it by tb/harness/register_suite.h.
 
 usage: systemrdl_test.py DEBURR
 """
+import json
 import re
 import subprocess
 import sys
 
 TOKEN = re.compile(r'\s+|//[^\n]*|("(?:\\.|[^"\\])*"|\\?\w+(?:\'[hd]\w+)?|@|\+=|[{}\[\];:=])')
-ACCESS = {("sw", "rw"): "RW", ("sw", "r"): "RO", ("sw", "w"): "WO", ("onwrite", "woclr"): "W1C"}
+# What the properties of a field come to.
+ACCESS = {("rw", "r"): "RW", ("r", "w"): "RO", ("r", "na"): "RO", ("rw", "rw", "we"): "RWH", ("w", "r"): "WO",
+          ("w", "r", "singlepulse"): "W1P", ("rw", "r", "hwset", "woclr"): "W1C"}
+# By hand, of the contract's pages: access, properties and reset value of fields.
+CONTRACT = {
+    "deburr_geometric.STATUS.idle": ({"sw": "r", "hw": "w"}, 1),
+    "deburr_geometric.STATUS.frame_done": ({"sw": "rw", "hw": "r", "onwrite": "woclr", "hwset": "true"}, 0),
+    "deburr_geometric.CONTROL.enable": ({"sw": "rw", "hw": "r"}, 1),
+    "deburr_geometric.CONTROL.start": ({"sw": "w", "hw": "r", "singlepulse": "true"}, 0),
+    "deburr_geometric.SIZE.width": ({"sw": "rw", "hw": "r", "swwe": "true"}, 0),
+    "deburr_geometric.EDGES.value": ({"sw": "r", "hw": "w"}, 0),
+    "deburr_geometric.ID.value": ({"sw": "r", "hw": "na"}, 0xDEB00004),
+    "deburr_morphological.STATUS.framing": ({"sw": "rw", "hw": "r", "onwrite": "woclr", "hwset": "true"}, 0),
+    "deburr_morphological.CONTROL.clear_counters": ({"sw": "w", "hw": "r", "singlepulse": "true"}, 0),
+    "deburr_morphological.SHARES_ADDRESS.entry": ({"sw": "rw", "hw": "rw", "we": "true", "swwe": "true"}, 0),
+    "deburr_morphological.SHARES_DATA.share": ({"sw": "rw", "hw": "rw", "we": "true", "swwe": "true"}, None),
+    "deburr_morphological.SHARES_SUM.value": ({"sw": "r", "hw": "w"}, None),
+    "deburr_morphological.THRESHOLD_ON.value": ({"sw": "rw", "hw": "r", "swwe": "true"}, 167025),
+    "deburr_morphological.THRESHOLD_OFF.value": ({"sw": "rw", "hw": "r", "swwe": "true"}, 835635),
+    "deburr_texture.STATUS.invalid_texture": ({"sw": "rw", "hw": "r", "onwrite": "woclr", "hwset": "true"}, 0),
+    "deburr_texture.CONTROL.invalidate": ({"sw": "w", "hw": "r", "singlepulse": "true"}, 0),
+    "deburr_texture.RULES.spread": ({"sw": "r", "hw": "na"}, 64),
+    "deburr_texture.TEXTURE0_MODE.levels": ({"sw": "rw", "hw": "r"}, 0),
+}
 
 
 def tokens(text):
@@ -53,10 +79,10 @@ class Reader:
     def property(self):
         if self.words[self.at] == "default":
             self.take()
-        key = self.take()
-        self.take("=")
-        value = self.name()
-        self.take(";")
+        key, value = self.take(), "true"  # which is what one without a value has
+        if self.take("=", ";") == "=":
+            value = self.name()
+            self.take(";")
         return key, value
 
     def file(self):
@@ -90,7 +116,7 @@ class Reader:
                 self.take("@")
                 base = number(self.take())
                 self.take("+=")
-                found["repeated"] = {"count": count, "stride": number(self.take())}
+                found["repeated"] = {"count": count, "base": base, "stride": number(self.take())}
                 self.take(";")
                 found |= {f"{name}0_{key}": value | {"offset": base + value["offset"]} for key, value in inner.items()}
             else:
@@ -99,7 +125,7 @@ class Reader:
         return found
 
     def register(self):
-        register = {"reset": 0, "fields": {}, "access": set()}
+        register = {"reset": 0, "fields": {}, "access": []}
         codes = {}
         self.take("{")
         while self.words[self.at] != "}":
@@ -140,12 +166,94 @@ class Reader:
         self.take(":")
         low = number(self.take())
         self.take("]")
-        self.take("=")
-        register["reset"] |= number(self.take()) << low
-        self.take(";")
-        named = dict(properties).get("encode")
-        register["fields"][name] = {"mask": (2 << high) - (1 << low), "shift": low, "codes": codes[named] if named else {}}
-        register["access"].add([ACCESS[item] for item in properties if item in ACCESS][-1])
+        reset = None
+        if self.take("=", ";") == "=":
+            reset = number(self.take())
+            self.take(";")
+        register["reset"] |= (reset or 0) << low
+        given = dict(properties)
+        if len(given) < len(properties) or name in register["fields"]:
+            raise ValueError(f"{name} has something twice")
+        named = given.get("encode")
+        effects = sorted(value if key == "onwrite" else key
+                         for key, value in properties if key in ("singlepulse", "onwrite", "hwset", "we"))
+        access = ACCESS[given["sw"], given["hw"], *effects]
+        if access not in register["access"]:
+            register["access"].append(access)
+        register["fields"][name] = {
+            "mask": (2 << high) - (1 << low), "shift": low, "width": high - low + 1, "reset": reset,
+            "codes": codes[named] if named else {},
+            "properties": {key: value for key, value in properties if key not in ("desc", "name", "encode")}}
+
+
+def broken_rules(maps):
+    """Of the standard, SystemRDL 2.0 (its sections in brackets)."""
+    for register, info in ((f"{prefix}.{name}", info) for prefix, registers in maps.items()
+                           for name, info in registers.items() if name != "repeated"):
+        taken = 0
+        if info["offset"] % 4:
+            yield f"{register}: not at a multiple of its width (10.1)"
+        if not info["fields"]:
+            yield f"{register}: without a field (10.1)"
+        for name, field in info["fields"].items():
+            sw, hw = field["properties"]["sw"], field["properties"]["hw"]
+            has = field["properties"]
+            full = f"{register}.{name}"
+            if taken & field["mask"]:
+                yield f"{full}: shares bits (10.1)"
+            taken |= field["mask"]
+            if field["mask"] >> 32:
+                yield f"{full}: beyond the register (10.1)"
+            if sw not in ("r", "w", "rw") or hw not in ("r", "w", "rw", "na") or (sw == "w" and hw in ("w", "na")):
+                yield f"{full}: no such field as sw = {sw}, hw = {hw} (9.4)"
+            if "onwrite" in has and "w" not in sw:
+                yield f"{full}: onwrite, and software does not write it (9.6)"
+            if "swwe" in has and "w" not in sw:
+                yield f"{full}: swwe, and software does not write it (9.6)"
+            bit = field["width"] == 1 and field["reset"] == 0 and "w" in sw and "onwrite" not in has
+            if "singlepulse" in has and not bit:
+                yield f"{full}: singlepulse wants one bit that is reset to 0 and that software writes (9.6)"
+            if "we" in has and "w" not in hw:
+                yield f"{full}: we, and hardware does not write it"
+            if hw == "na" and field["reset"] is None:
+                yield f"{full}: a constant without a value (9.4)"
+            if any(value >> field["width"] for value in field["codes"].values()):
+                yield f"{full}: a code that does not fit (9.10)"
+            if len(set(field["codes"].values())) < len(field["codes"]):
+                yield f"{full}: a code twice (9.10)"
+    for prefix, registers in maps.items():
+        offsets = [info["offset"] for name, info in registers.items() if name != "repeated"]
+        if len(set(offsets)) < len(offsets):
+            yield f"{prefix}: two registers in one place (10.1)"
+        group = registers.get("repeated")
+        if group and max(offsets) + 4 - group["base"] > group["stride"]:
+            yield f"{prefix}: repeated registers overlap"
+
+
+def broken_contract(maps):
+    for full, (properties, reset) in CONTRACT.items():
+        prefix, register, name = full.split(".")
+        field = maps.get(prefix, {}).get(register, {}).get("fields", {}).get(name, {"properties": None, "reset": None})
+        if (field["properties"], field["reset"]) != (properties, reset):
+            yield f"{full}: {field['properties']}, reset {field['reset']}, but the contract says {properties}, {reset}"
+
+
+def broken_resets(maps, defaults):
+    """Fields that parameters load: their defaults, as `deburr params --json` lists them."""
+    tried = 0
+    for prefix, registers in maps.items():
+        for register in ("RULES", "SMAA", "THRESHOLD", "ALPHA", "FLOOR", "DEPTH_THRESHOLD"):
+            for name, field in registers.get(register, {"fields": {}})["fields"].items():
+                stem = register.lower() if name == "value" else name
+                keys = [(prefix, stem), (prefix, f"edges_{stem}")]
+                default = next((defaults[key] for key in keys if key in defaults), None)
+                if default is None:
+                    continue  # made of several: area_table, area_learned
+                tried += 1
+                if field["reset"] != field["codes"].get(default, default):
+                    yield f"{prefix}.{register}.{name}: reset {field['reset']}, the parameter's default is {default}"
+    if tried < 40:
+        yield f"only {tried} fields hold a parameter"
 
 
 def macros(maps):
@@ -159,7 +267,7 @@ def macros(maps):
                 continue
             full = f"{prefix}_{name}"
             values[full] = register["offset"]
-            accesses[full] = "/".join(sorted(register["access"]))
+            accesses[full] = ", ".join(register["access"])
             if register["reset"]:
                 values[f"{full}_RESET"] = register["reset"]
             for field, bits in register["fields"].items():
@@ -173,18 +281,20 @@ def macros(maps):
 
 def header_macros(header):
     values = {name: int(value, 0) for name, value in re.findall(r"^#define (\w+) (\w+)u", header, re.M)}
-    accesses = {name: access for access, name in re.findall(r"^/\* (RW|RO|WO|W1C): .*\n#define (\w+) ", header, re.M)}
+    accesses = {name: access for access, name in re.findall(r"^/\* ([RWOHP1C, ]+): .*\n#define (\w+) ", header, re.M)}
     return values, accesses
 
 
-def differences(text, header):
+def differences(text, header, defaults):
     try:
-        read = macros(Reader(text).file())
+        maps = Reader(text).file()
+        read = macros(maps)
     except (ValueError, IndexError, KeyError) as error:
-        return [f"cannot be read: {error}"]
-    return [f"{name}: {mine.get(name)} here, {theirs.get(name)} in the header"
-            for mine, theirs in zip(read, header_macros(header)) for name in sorted(set(mine) | set(theirs))
-            if mine.get(name) != theirs.get(name)]
+        return [f"cannot be read: {error!r}"]
+    return [*broken_rules(maps), *broken_contract(maps), *broken_resets(maps, defaults),
+            *(f"{name}: {mine.get(name)} here, {theirs.get(name)} in the header"
+              for mine, theirs in zip(read, header_macros(header)) for name in sorted(set(mine) | set(theirs))
+              if mine.get(name) != theirs.get(name))]
 
 
 def main():
@@ -193,16 +303,26 @@ def main():
         return 2
     text, header = (subprocess.run([sys.argv[1], "params", option], check=True, capture_output=True, text=True).stdout
                     for option in ("--systemrdl", "--c-header"))
-    wrong = differences(text, header)
+    listed = json.loads(subprocess.run([sys.argv[1], "params", "--json"], check=True, capture_output=True).stdout)
+    defaults = {(f"deburr_{one['engine']}", one["name"].partition(".")[2].replace(".", "_")): one["default"]
+                for one in listed["parameters"]}
+    wrong = differences(text, header, defaults)
     if len(header_macros(header)[0]) < 300:
         wrong.append("the header is not all there")
-    # Faults that must be seen: an offset, a bit, a reset value, a code, an access, a lost register, a stride.
-    for before, after in ((" ID @ 0x000;", " ID @ 0x0FC;"), ("crease[3:2]", "crease[4:3]"), ("32'hDEB00004", "32'hDEB00002"),
-                          (" paper = 2'd1;", " paper = 2'd2;"), ("onwrite = woclr;", ""), ("} SIZE @", "} SIZES @"),
+    # Faults that must be seen: an offset, a bit, a reset value, a code, an access, side effects, a lost register, a
+    # stride, and what the standard forbids.
+    for before, after in ((" ID @ 0x000;", " ID @ 0x0FC;"), ("crease[3:2]", "crease[4:3]"),
+                          ("32'hDEB00004", "32'hDEB00002"), (" paper = 2'd1;", " paper = 2'd2;"),
+                          ("onwrite = woclr;", ""), (" hwset;", ""), ("steps[13:9] = 5'h8", "steps[13:9] = 5'h0"),
+                          ("value[15:0] = 16'hCCD", "value[15:0] = 16'h0"),
+                          (" singlepulse;", ""), ("sw = r; hw = w;", "sw = rw; hw = r;"), (" swwe;", ""), (" we;", ""),
+                          ("hw = r; singlepulse;", "hw = r; singlepulse; onwrite = woclr;"),
+                          ("sw = r; hw = w;", "sw = r; hw = r; we;"), ("enable[0:0] = 1'h1", "enable[0:0] = 1'h0"),
+                          ("start[2:2]", "start[3:2]"), ("idle[0:0] = 1'h1", "idle[0:0]"), ("} SIZE @", "} SIZES @"),
                           ("+= 0x80", "+= 0x40"), ("enable[0:0]", "enable[0:0")):
         if before not in text:
             wrong.append(f"nothing is {before!r}")
-        elif not differences(text.replace(before, after, 1), header):
+        elif not differences(text.replace(before, after, 1), header, defaults):
             wrong.append(f"{before!r} as {after!r} was not noticed")
     print("\n".join(wrong))
     return 1 if wrong else 0

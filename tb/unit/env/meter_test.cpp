@@ -19,10 +19,11 @@ namespace {
 using spec::Access;
 
 constexpr std::uint32_t kControl = 0x04, kStatus = 0x08;
+constexpr std::array kId = spec::number(Access::kConstant, 0xDEB000FF);
 constexpr std::array<spec::RegisterInfo, 3> kTable = {
-    {{0x00, "ID", Access::kReadOnly, 0xDEB000FF, "Which."},
-     {kControl, "CONTROL", Access::kReadWrite, 1, "Bit 0 enable, 1 clear."},
-     {kStatus, "STATUS", Access::kWriteOneToClear, 1, "Bit 0 idle."}}};
+    {{0x00, "ID", "Which.", kId},
+     {kControl, "CONTROL", "Bit 0 enable, 1 clear.", spec::kNumber},
+     {kStatus, "STATUS", "Bit 0 idle.", spec::kCounter}}};
 
 struct Linked final : rtl::Engine {
   rtl::Link<std::uint16_t> pair{"pair"};

@@ -40,14 +40,23 @@ void describe(P& p, Visitor& v) {
 
 constexpr std::uint32_t kControl = 0x04, kStatus = 0x08, kSize = 0x10, kLimit = 0x14,
                         kTokens = 0x20, kBoth = 0x24;
+constexpr std::array kId = spec::number(Access::kConstant, 0xDEB000FF);
+constexpr std::array kControlFields = {spec::Field{"enable", 0, 0, Access::kReadWrite, "", {}, 1},
+                                       spec::Field{"clear_counters", 1, 1, Access::kCommand, ""},
+                                       spec::Field{"flush", 2, 2, Access::kCommand, ""}};
+constexpr std::array kStatusFields = {
+    spec::Field{"idle", 0, 0, Access::kReadOnly, "", {}, 1},
+    spec::Field{"framing", 1, 1, Access::kWriteOneToClear, ""},
+    spec::Field{"written_while_busy", 2, 2, Access::kWriteOneToClear, ""}};
+constexpr std::array kLimitField = spec::number(Access::kReadWrite, 70);
 constexpr std::array<spec::RegisterInfo, 7> kTable = {{
-    {0x00, "ID", Access::kReadOnly, 0xDEB000FF, "Which."},
-    {kControl, "CONTROL", Access::kReadWrite, 1, "Bit 0 enable, 1 clear, 2 flush."},
-    {kStatus, "STATUS", Access::kWriteOneToClear, 1, "Bit 0 idle, 1 framing, 2 written."},
-    {kSize, "SIZE", Access::kReadWrite, 0, "Width [13:0]."},
-    {kLimit, "LIMIT", Access::kReadWrite, 70, "All of its bits."},
-    {kTokens, "TOKENS", Access::kReadOnly, 0, "Tokens."},
-    {kBoth, "BOTH", Access::kReadOnly, 0, "Tokens of both."},
+    {0x00, "ID", "Which.", kId},
+    {kControl, "CONTROL", "Switch and commands.", kControlFields},
+    {kStatus, "STATUS", "State.", kStatusFields},
+    {kSize, "SIZE", "Width [13:0].", spec::kNumber},
+    {kLimit, "LIMIT", "All of its bits.", kLimitField},
+    {kTokens, "TOKENS", "Tokens.", spec::kCounter},
+    {kBoth, "BOTH", "Tokens of both.", spec::kCounter},
 }};
 
 class Counting final : public rtl::Unit {
@@ -85,7 +94,7 @@ class Engine final : public rtl::Engine {
          bool with_memory = false)
       : rtl::Engine(name, clock, kTable, layout(ignores)), a("a", clock), b("b", clock) {
     control.set_mask(kSize, 0x3FFF);
-    control.set_reset(kSize, 640);
+    control.set_resets(std::array{spec::LoadedRegister{kSize, 640}});
     control.show(kTokens, a.tokens);
     control.show_sum(kBoth, {&a.tokens, &b.tokens});
     control.on_command(4, [this] { ++flushed; });
@@ -272,8 +281,10 @@ TEST(Engine, ABusyEngineIgnoresWritesOrTakesThem) {
 
 // Before the first edge, too.
 TEST(Engine, IsEnabledAsTheResetValueOfControlSays) {
+  auto fields = kControlFields;
+  fields[0].reset = 0;
   auto table = kTable;
-  table[1].reset = 0;
+  table[1].fields = fields;
   const rtl::ControlRegisters on("on", kTable, layout(true)), off("off", table, layout(true));
   EXPECT_TRUE(on.enabled());
   EXPECT_FALSE(off.enabled());
@@ -366,6 +377,26 @@ TEST(Engine, InterruptIsHighWhileAStickyBitIsSet) {
   }
 }
 
+// The bit of a rejected write raises the line, too, and one that comes later does not stay unheard.
+TEST(Engine, WriteWhileBusyRaisesInterrupt) {
+  for (const std::uint32_t offset : {kSize, kControl}) {
+    const std::string result = in_child([&] {
+      Bed bed(true, false);
+      Listener listener("listener");
+      listener.line(bed.engine.interrupt);
+      bed.clock.run(100);
+      bed.engine.busy = true;
+      bed.host.write(offset, 4);
+      bed.clock.run(100);
+      bed.host.write(kStatus, 4);
+      bed.engine.control.set_sticky(2);
+      bed.clock.run(100);
+      return fmt::format("{}", fmt::join(listener.changes, ", "));
+    });
+    EXPECT_THAT(result, testing::StartsWith("true 100")) << offset;
+  }
+}
+
 // After a reset an engine decodes what a host can set, and CONTROL is not among it.
 TEST(Engine, AResetTellsOfEachRegisterOfTheHost) {
   Bed bed(true);
@@ -407,13 +438,15 @@ TEST(LatencyProbe, OfSingleItemsIsTheirTime) {
 // ---- what the rows of a table say of every engine
 
 constexpr std::array<std::string_view, 3> kChoices = {"one", "two", "three"};
-constexpr spec::Field kEnable{"enable", 4, 4, ""}, kClear{"clear_counters", 9, 9, ""},
-    kIdle{"idle", 2, 2, ""}, kBusyWrite{"written_while_busy", 17, 17, ""};
-constexpr std::array kControlFields = {kEnable, kClear}, kStatusFields = {kIdle, kBusyWrite};
+constexpr spec::Field kEnable{"enable", 4, 4, Access::kReadWrite, ""},
+    kClear{"clear_counters", 9, 9, Access::kCommand, ""},
+    kIdle{"idle", 2, 2, Access::kReadOnly, ""},
+    kBusyWrite{"written_while_busy", 17, 17, Access::kWriteOneToClear, ""};
+constexpr std::array kSwitches = {kEnable, kClear}, kStates = {kIdle, kBusyWrite};
 constexpr std::array<spec::RegisterInfo, 3> kRows = {{
-    {0x30, "STATUS", Access::kWriteOneToClear, 1, "State.", kStatusFields},
-    {0x34, "SIZE", Access::kReadWrite, 0, "Size."},
-    {0x38, "CONTROL", Access::kReadWrite, 1, "Switch.", kControlFields},
+    {0x30, "STATUS", "State.", kStates},
+    {0x34, "SIZE", "Size.", spec::kNumber},
+    {0x38, "CONTROL", "Switch.", kSwitches},
 }};
 
 TEST(ControlLayout, IsThatOfTheRowsByName) {
@@ -442,15 +475,37 @@ TEST(ControlLayout, WantsBothRegistersAndTheirFields) {
   EXPECT_THAT(said(all.first(2)), HasSubstr("without a register CONTROL"));
   EXPECT_THAT(said(all.last(2)), HasSubstr("without a register STATUS"));
   std::array<spec::RegisterInfo, 3> fewer = kRows;
-  fewer[0].fields = std::span(kStatusFields).first(1);
+  fewer[0].fields = std::span(kStates).first(1);
   EXPECT_THAT(said(fewer), HasSubstr("STATUS without a field written_while_busy"));
   fewer = kRows;
-  fewer[2].fields = std::span(kControlFields).last(1);
+  fewer[2].fields = std::span(kSwitches).last(1);
   EXPECT_THAT(said(fewer), HasSubstr("CONTROL without a field enable"));
+  // What the hardware does with these four is the same in every engine.
+  std::array states = kStates, switches = kSwitches;
+  const auto with = [&](spec::Field& field, Access access) {
+    std::array<spec::RegisterInfo, 3> rows = kRows;
+    rows[0].fields = states;
+    rows[2].fields = switches;
+    const Access before = std::exchange(field.access, access);
+    const std::string text = said(rows);
+    field.access = before;
+    return text;
+  };
+  EXPECT_THAT(with(states[0], Access::kWriteOneToClear), HasSubstr("STATUS.idle has an access"));
+  EXPECT_THAT(with(states[1], Access::kReadOnly), HasSubstr("STATUS.written_while_busy has an"));
+  EXPECT_THAT(with(switches[0], Access::kCommand), HasSubstr("CONTROL.enable has an access"));
+  EXPECT_THAT(with(switches[1], Access::kReadWrite), HasSubstr("CONTROL.clear_counters has an"));
+}
+
+TEST(ControlRegisters, RejectsCommandOfABitThatIsNone) {
+  rtl::ControlRegisters control("control", kTable, layout(true));
+  control.on_command(4, [] {});
+  EXPECT_THAT(text_of<spec::CheckFailed>([&] { control.on_command(1, [] {}); }),
+              HasSubstr("control.CONTROL: bit 0x1 is not a command"));
 }
 
 TEST(Choice, ACodeThatNoneHasCountsAsZero) {
-  constexpr spec::Field field{"which", 5, 4, "", kChoices};
+  constexpr spec::Field field{"which", 5, 4, Access::kReadWrite, "", kChoices};
   enum class Which : std::uint8_t { kOne, kTwo, kThree };
   EXPECT_EQ(rtl::choice_of<Which>(field, 0x2F), Which::kThree);
   EXPECT_EQ(rtl::choice_of<Which>(field, 0x10), Which::kTwo);

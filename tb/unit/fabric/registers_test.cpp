@@ -21,12 +21,16 @@ namespace {
 using spec::Access;
 
 enum Index { kControl, kStatus, kCommand, kFlags, kCount };
+constexpr std::array kControlField = spec::number(Access::kReadWrite, 5),
+                     kStatusField = spec::number(Access::kReadOnly, 1),
+                     kCommandField = spec::number(Access::kWriteOnly),
+                     kFlagsField = spec::number(Access::kWriteOneToClear);
 constexpr spec::RegisterInfo kTable[] = {
-    {0x00, "CONTROL", Access::kReadWrite, 0x00000005, "bit 0: enable; bits 2..1: mode"},
-    {0x04, "STATUS", Access::kReadOnly, 0x00000001, "bit 0: idle"},
-    {0x08, "COMMAND", Access::kCommand, 0, "bit 0: start"},
-    {0x10, "FLAGS", Access::kWriteOneToClear, 0, "bit i: error i was seen"},
-    {0x14, "COUNT", Access::kReadOnly, 0, "lines fetched, low word"},
+    {0x00, "CONTROL", "bit 0: enable; bits 2..1: mode", kControlField},
+    {0x04, "STATUS", "bit 0: idle", kStatusField},
+    {0x08, "COMMAND", "bit 0: start", kCommandField},
+    {0x10, "FLAGS", "bit i: error i was seen", kFlagsField},
+    {0x14, "COUNT", "lines fetched, low word", spec::kCounter},
 };
 
 struct Bus : sc_core::sc_module {
@@ -89,6 +93,28 @@ TEST_F(Registers, HardwareSideAndCommands) {
   bus.block.set(kFlags, 0b1011);
   EXPECT_EQ(bus.write(0x10, 0b0010), tlm::TLM_OK_RESPONSE);
   EXPECT_EQ(bus.block.get(kFlags), 0b1001U);
+}
+
+// Each field as it is declared, in one register: bits of others, and bits of none, stay 0.
+TEST(RegisterFields, AWriteReachesThoseThatItMay) {
+  static constexpr spec::Field kEach[] = {
+      {"rw", 3, 0, Access::kReadWrite, {}, {}, 5},       {"ro", 7, 4, Access::kReadOnly, {}, {}, 6},
+      {"constant", 11, 8, Access::kConstant, {}, {}, 7}, {"shared", 15, 12, Access::kShared, {}},
+      {"sticky", 19, 16, Access::kWriteOneToClear, {}},  {"go", 20, 20, Access::kCommand, {}}};
+  static constexpr spec::RegisterInfo table[] = {{0, "MIXED", "all kinds", kEach}};
+  rtl::RegisterBlock block("block", table);
+  platform::RegisterHost host("host");
+  host.bus.bind(block.bus);
+  sc_core::sc_start(sc_core::SC_ZERO_TIME);
+  EXPECT_EQ(host.read(0), 0x765u);
+  std::uint32_t seen = 0;
+  block.on_write(0, [&](std::uint32_t value) { seen = value; });
+  host.write(0, ~std::uint32_t{0});
+  EXPECT_EQ(seen, ~std::uint32_t{0});
+  EXPECT_EQ(host.read(0), 0xF76Fu);
+  block.set(0, 0xF'F76Fu);  // hardware sets what sticks
+  host.write(0, 0x5'0000u);
+  EXPECT_EQ(host.read(0), 0xA'0760u);
 }
 
 TEST_F(Registers, ShowCounters) {
@@ -375,14 +401,17 @@ TEST_F(Registers, NamesAndTexts) {
 // Values by hand: three fields, of which one is a choice, and two registers that share theirs.
 namespace fields {
 constexpr std::string_view kCodes[] = {"off", "own-way"};
-constexpr spec::Field kMode{"a.mode", 1, 0, "off where it is not built", kCodes},
-    kCount{"count", 12, 8, "U5"}, kTop{"top", 31, 31, {}, kCodes};
+constexpr spec::Field kMode{"a.mode", 1, 0, Access::kReadWrite, "off where it is not built",
+                            kCodes,   1},
+    kCount{"count", 12, 8, Access::kReadOnly, "U5"},
+    kTop{"top", 31, 31, Access::kReadWrite, {}, kCodes};
 constexpr spec::Field kAll[] = {kMode, kCount, kTop};
-constexpr spec::Field kLow[] = {{"address", 31, 6, "a multiple of 64"}};
-constexpr spec::RegisterInfo kTable[] = {{0x00, "ID", Access::kReadOnly, 0xDEB0, "which one"},
-                                         {0x10, "RULES", Access::kReadWrite, 0, "rules", kAll},
-                                         {0x14, "FROM", Access::kReadWrite, 0, "source", kLow},
-                                         {0x18, "TO", Access::kReadWrite, 0, "target", kLow}};
+constexpr spec::Field kLow[] = {{"address", 31, 6, Access::kReadWrite, "a multiple of 64"}};
+constexpr std::array kId = spec::number(Access::kConstant, 0xDEB0);
+constexpr spec::RegisterInfo kTable[] = {{0x00, "ID", "which one", kId},
+                                         {0x10, "RULES", "rules", kAll},
+                                         {0x14, "FROM", "source", kLow},
+                                         {0x18, "TO", "target", kLow}};
 }  // namespace fields
 
 TEST(RegisterFields, AreTakenOutAndPutInWhereTheyStand) {
@@ -390,7 +419,7 @@ TEST(RegisterFields, AreTakenOutAndPutInWhereTheyStand) {
   EXPECT_EQ(fields::kCount.mask(), 0x1F00u);
   EXPECT_EQ(fields::kTop.mask(), 0x80000000u);
   EXPECT_EQ(fields::kLow[0].mask(), 0xFFFFFFC0u);
-  EXPECT_EQ((spec::Field{"all", 31, 0, {}}.mask()), 0xFFFFFFFFu);
+  EXPECT_EQ((spec::Field{"all", 31, 0, Access::kReadWrite, {}}.mask()), 0xFFFFFFFFu);
   EXPECT_EQ(fields::kCount.of(0xFFFF15FF), 0x15u);
   EXPECT_EQ(fields::kTop.of(0x7FFFFFFF), 0u);
   EXPECT_EQ(fields::kCount.in(0x15), 0x1500u);
@@ -403,23 +432,43 @@ TEST(RegisterFields, AreOrderedAndShareNoBit) {
   EXPECT_TRUE(spec::fields_are_in_order(fields::kTable));
   const auto ordered = [](std::initializer_list<spec::Field> list) {
     const std::vector<spec::Field> all(list);
-    const spec::RegisterInfo info[] = {{0, "A", Access::kReadWrite, 0, "a", all}};
+    const spec::RegisterInfo info[] = {{0, "A", "a", all}};
     return spec::fields_are_in_order(info);
   };
-  EXPECT_TRUE(ordered({{"a", 3, 0, {}}, {"b", 4, 4, {}}}));
-  EXPECT_FALSE(ordered({{"a", 3, 0, {}}, {"b", 4, 3, {}}}));
-  EXPECT_FALSE(ordered({{"b", 4, 4, {}}, {"a", 3, 0, {}}}));
-  EXPECT_FALSE(ordered({{"a", 0, 3, {}}}));
-  EXPECT_FALSE(ordered({{"a", 32, 32, {}}}));
+  constexpr Access kRw = Access::kReadWrite;
+  EXPECT_TRUE(ordered({{"a", 3, 0, kRw, {}}, {"b", 4, 4, kRw, {}}}));
+  EXPECT_FALSE(ordered({{"a", 3, 0, kRw, {}}, {"b", 4, 3, kRw, {}}}));
+  EXPECT_FALSE(ordered({{"b", 4, 4, kRw, {}}, {"a", 3, 0, kRw, {}}}));
+  EXPECT_FALSE(ordered({{"a", 0, 3, kRw, {}}}));
+  EXPECT_FALSE(ordered({{"a", 32, 32, kRw, {}}}));
+  EXPECT_FALSE(ordered({})) << "a register without a field";
+  EXPECT_TRUE(ordered({{"a", 1, 0, kRw, {}, {}, 3}}));
+  EXPECT_FALSE(ordered({{"a", 1, 0, kRw, {}, {}, 4}})) << "its reset value does not fit";
+  EXPECT_TRUE(ordered({{"a", 1, 1, Access::kCommand, {}}}));
+  EXPECT_FALSE(ordered({{"a", 1, 0, Access::kCommand, {}}})) << "a command of two bits";
+  EXPECT_FALSE(ordered({{"a", 1, 1, Access::kCommand, {}, {}, 1}})) << "that does not read as 0";
 }
 
 TEST(RegisterFields, StandInATableOfTheirOwn) {
   const std::string page = rtl::register_table_markdown(fields::kTable);
   for (const char* const row :
-       {"| `RULES` | [1:0] | `a.mode` | 0 off, 1 own-way; off where it is not built |\n",
-        "| `RULES` | [12:8] | `count` | U5 |\n", "| `RULES` | [31] | `top` | 0 off, 1 own-way |\n",
-        "| `FROM`, `TO` | [31:6] | `address` | a multiple of 64 |\n"})
+       {"| 0x010 | `RULES` | RW, RO | 0x00000001 | rules |\n",
+        "| `RULES` | [1:0] | `a.mode` | RW | 1 | 0 off, 1 own-way; off where it is not built |\n",
+        "| `RULES` | [12:8] | `count` | RO | 0 | U5 |\n",
+        "| `RULES` | [31] | `top` | RW | 0 | 0 off, 1 own-way |\n",
+        "| `FROM`, `TO` | [31:6] | `address` | RW | 0 | a multiple of 64 |\n"})
     EXPECT_THAT(page, testing::HasSubstr(row));
+  // Where parameters load TO its fields are others than those of FROM; none without a reset.
+  constexpr spec::LoadedRegister kLoaded[] = {{0x18, 0x80}};
+  const std::string loaded = rtl::register_table_markdown(fields::kTable, kLoaded);
+  for (const char* const row : {"| 0x018 | `TO` | RW | 0x00000080 | target |\n",
+                                "| `FROM` | [31:6] | `address` | RW | 0 | a multiple of 64 |\n",
+                                "| `TO` | [31:6] | `address` | RW | 2 | a multiple of 64 |\n"})
+    EXPECT_THAT(loaded, testing::HasSubstr(row));
+  static constexpr std::array kKept = spec::number(Access::kShared, std::nullopt);
+  constexpr spec::RegisterInfo kWord[] = {{0, "WORD", "of a memory", kKept}};
+  EXPECT_THAT(rtl::register_table_markdown(kWord),
+              testing::HasSubstr("| 0x000 | `WORD` | RWH | none | of a memory |\n"));
   EXPECT_THAT(rtl::register_table_markdown(kTable), testing::Not(testing::HasSubstr("| field |")));
 }
 
@@ -428,39 +477,50 @@ TEST(RegisterFields, BecomeMacrosOfC) {
             "\n/* RO: which one */\n"
             "#define DEBURR_X_ID 0x000u\n"
             "#define DEBURR_X_ID_RESET 0x0000DEB0u\n"
-            "\n/* RW: rules */\n"
+            "\n/* RW, RO: rules */\n"
             "#define DEBURR_X_RULES 0x010u\n"
-            "#define DEBURR_X_RULES_A_MODE_MASK 0x00000003u /* off where it is not built */\n"
+            "#define DEBURR_X_RULES_RESET 0x00000001u\n"
+            "#define DEBURR_X_RULES_A_MODE_MASK 0x00000003u /* RW: off where it is not built */\n"
             "#define DEBURR_X_RULES_A_MODE_SHIFT 0u\n"
             "#define DEBURR_X_RULES_A_MODE_OFF 0u\n"
             "#define DEBURR_X_RULES_A_MODE_OWN_WAY 1u\n"
-            "#define DEBURR_X_RULES_COUNT_MASK 0x00001F00u /* U5 */\n"
+            "#define DEBURR_X_RULES_COUNT_MASK 0x00001F00u /* RO: U5 */\n"
             "#define DEBURR_X_RULES_COUNT_SHIFT 8u\n"
-            "#define DEBURR_X_RULES_TOP_MASK 0x80000000u\n"
+            "#define DEBURR_X_RULES_TOP_MASK 0x80000000u /* RW */\n"
             "#define DEBURR_X_RULES_TOP_SHIFT 31u\n"
             "#define DEBURR_X_RULES_TOP_OFF 0u\n"
             "#define DEBURR_X_RULES_TOP_OWN_WAY 1u\n");
+  constexpr spec::LoadedRegister kLoaded[] = {{0x18, 0x80}};
+  EXPECT_EQ(rtl::register_c_macros(std::span(fields::kTable).last(1), "X", kLoaded),
+            "\n/* RW: target */\n#define X_TO 0x018u\n"
+            "#define X_TO_RESET 0x00000080u /* with default parameters */\n"
+            "#define X_TO_ADDRESS_MASK 0xFFFFFFC0u /* a multiple of 64 */\n"
+            "#define X_TO_ADDRESS_SHIFT 6u\n");
 }
 
 // A table may be in any order.
 TEST(RegisterTable, FindsEachRegisterWhereverItStands) {
-  static constexpr spec::RegisterInfo table[] = {{300, "LAST", Access::kReadWrite, 1, "a"},
-                                                 {240, "MIDDLE", Access::kReadWrite, 2, "b"},
-                                                 {0, "FIRST", Access::kReadWrite, 3, "c"},
-                                                 {304, "BEHIND", Access::kReadWrite, 4, "d"}};
+  static constexpr std::array one = spec::number(Access::kReadWrite, 1),
+                              two = spec::number(Access::kReadWrite, 2),
+                              three = spec::number(Access::kReadWrite, 3),
+                              four = spec::number(Access::kReadWrite, 4);
+  static constexpr spec::RegisterInfo table[] = {{300, "LAST", "a", one},
+                                                 {240, "MIDDLE", "b", two},
+                                                 {0, "FIRST", "c", three},
+                                                 {304, "BEHIND", "d", four}};
   rtl::RegisterBlock block("block", table);
   platform::RegisterHost host("host");
   host.bus.bind(block.bus);
   sc_core::sc_start(sc_core::SC_ZERO_TIME);
-  for (const spec::RegisterInfo& r : table) EXPECT_EQ(host.read(r.offset), r.reset) << r.name;
+  for (const spec::RegisterInfo& r : table) EXPECT_EQ(host.read(r.offset), r.reset()) << r.name;
   for (const std::uint32_t hole : {4u, 236u, 244u, 296u, 308u})
     EXPECT_EQ(host.try_write(hole, 0), tlm::TLM_ADDRESS_ERROR_RESPONSE) << hole;
 }
 
 TEST(RegisterTable, MistakesAreCaught) {
-  static constexpr spec::RegisterInfo twice[] = {{0, "A", Access::kReadWrite, 0, "a"},
-                                                 {0, "B", Access::kReadWrite, 0, "b"}};
-  static constexpr spec::RegisterInfo odd[] = {{2, "A", Access::kReadWrite, 0, "a"}};
+  static constexpr spec::RegisterInfo twice[] = {{0, "A", "a", spec::kNumber},
+                                                 {0, "B", "b", spec::kNumber}};
+  static constexpr spec::RegisterInfo odd[] = {{2, "A", "a", spec::kNumber}};
   EXPECT_THROW(rtl::RegisterBlock("twice", twice), spec::CheckFailed);
   EXPECT_THROW(rtl::RegisterBlock("odd", odd), spec::CheckFailed);
 }

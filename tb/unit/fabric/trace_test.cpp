@@ -341,8 +341,8 @@ TEST(Trace, AttachedInMidRunItShowsNothingOfBefore) {
 
 // By VCD's own rules: a range for what has more than one bit, and no two signals of one name.
 TEST(Trace, DeclaresEachSignalWithItsWidthAndAnIdentifierOfItsOwn) {
-  static constexpr spec::RegisterInfo kTable[] = {
-      {0x00, "CONTROL", spec::Access::kReadWrite, 5, "a register"}};
+  static constexpr std::array kControl = spec::number(spec::Access::kReadWrite, 5);
+  static constexpr spec::RegisterInfo kTable[] = {{0x00, "CONTROL", "a register", kControl}};
   const std::string file = testing::TempDir() + "widths.vcd";
   Pipeline p(1);
   rtl::RegisterBlock block("block", kTable);
@@ -415,9 +415,9 @@ TEST(Trace, AWindowThatHasEndedIsInTheFile) {
 }
 
 TEST(Trace, ShowsRegistersByTheNamesThatAScopeCanChoose) {
-  static constexpr spec::RegisterInfo table[] = {
-      {0, "MODE", spec::Access::kReadWrite, 5, "a mode"},
-      {4, "COUNT", spec::Access::kReadOnly, 0, "a count"}};
+  static constexpr std::array kMode = spec::number(spec::Access::kReadWrite, 5);
+  static constexpr spec::RegisterInfo table[] = {{0, "MODE", "a mode", kMode},
+                                                 {4, "COUNT", "a count", spec::kCounter}};
   const std::string file = testing::TempDir() + "registers.vcd";
   rtl::RegisterBlock block("block", table);
   platform::RegisterHost host("host");

@@ -46,7 +46,8 @@ NAMED = {
             "examples/installed_test.py", "examples/systemverilog/testbench.sv", "tb/fuzz/c_calls.cpp",
             "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
             "tb/unit/golden/c/threads_test.cpp"],
-        "registers of the C header are held by hand": ["tb/unit/app/c_header_test.py"],
+        "registers of the C header and of SystemRDL are held by hand": [
+            "tb/unit/app/c_header_test.py", "tb/unit/app/systemrdl_test.py"],
         "Python has its equations in real numbers, and tests call its functions of the module": [
             "python/bindings/ideal_python.cpp", "tb/system/python_golden_test.py"],
         "tables of pages are measured, its own among them": [
@@ -93,7 +94,8 @@ NAMED = {
         "tests call its functions of the C interface": [
             "tb/fuzz/c_calls.cpp", "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
             "tb/unit/golden/c/threads_test.cpp"],
-        "registers of the C header are held by hand": ["tb/unit/app/c_header_test.py"],
+        "registers of the C header and of SystemRDL are held by hand": [
+            "tb/unit/app/c_header_test.py", "tb/unit/app/systemrdl_test.py"],
         "tables of pages are measured, its own among them": [
             "scripts/report", "scripts/reports/guides.py", "scripts/reports/results.py"],
     },

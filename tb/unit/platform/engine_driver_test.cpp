@@ -15,13 +15,15 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Pair;
 
-constexpr spec::Field kClear{"clear_counters", 6, 6, ""}, kIdle{"idle", 3, 3, ""};
+constexpr spec::Field kClear{"clear_counters", 6, 6, Access::kCommand, ""},
+    kIdle{"idle", 3, 3, Access::kReadOnly, ""};
+constexpr std::array kId = spec::number(Access::kConstant, 0xDEB0007F);
 constexpr std::array kControlFields = {kClear}, kStatusFields = {kIdle};
 constexpr std::array<spec::RegisterInfo, 4> kRows = {{
-    {0x10, "MEMORY_ERRORS", Access::kReadOnly, 0, "Errors."},
-    {0x14, "STATUS", Access::kWriteOneToClear, 1, "State.", kStatusFields},
-    {0x18, "CONTROL", Access::kReadWrite, 1, "Switch.", kControlFields},
-    {0x1C, "ID", Access::kReadOnly, 0xDEB0007F, "Which."},
+    {0x10, "MEMORY_ERRORS", "Errors.", spec::kCounter},
+    {0x14, "STATUS", "State.", kStatusFields},
+    {0x18, "CONTROL", "Switch.", kControlFields},
+    {0x1C, "ID", "Which.", kId},
 }};
 using Rows = std::span<const spec::RegisterInfo>;
 

@@ -12,6 +12,7 @@
 
 #include "tb/base/sanitized.h"
 #include "tb/harness/register_noise.h"
+#include "tb/harness/register_suite.h"
 #include "tb/harness/reset_suite.h"
 #include "tb/harness/stress_suite.h"
 #include "tb/unit/rtl/token_suite.h"
@@ -69,6 +70,13 @@ bool register_suites(const char* file = __builtin_FILE(), int line = __builtin_L
   if constexpr (Kit::kPrograms)
     each("Stress", "WrittenRulesGiveTheSameRunAsResetValues",
          &Stress::written_rules_give_the_same_run_as_reset_values);
+  using Registers = RegisterSuite<Kit>;
+  each("RegisterFile", "EveryFieldIsAsTheExportedFileSays",
+       &Registers::every_field_is_as_the_exported_file_says);
+  add("RegisterFile", "AWrongFileIsSeen", nullptr,
+      [] { Registers(Kit::kBuilds[0]).a_wrong_file_is_seen(); });
+  add("RegisterFile", "WrongHardwareIsSeen", nullptr,
+      [] { Registers(Kit::kBuilds[0]).wrong_hardware_is_seen(); });
   add("RegisterNoise", "LeavesNothingAfterAReset", nullptr,
       [] { EXPECT_EQ(first_complaint(Kit::kNoiseSeeds, left_by_noise<Kit>), ""); });
   using Tokens = TokenSuite<Kit>;

@@ -216,9 +216,9 @@ TEST_P(IgnoredBits, OfRegistersChangeNothing) {
       b.bus.write(info.offset, value | noise);
     };
     for (const spec::RegisterInfo& info : spec::geometric::kRegisters)
-      if (info.access == spec::Access::kReadWrite && info.offset != reg::kControl)
+      if (info.written() != 0 && info.offset != reg::kControl)
         noisy(info, b.bus.read(info.offset));
-      else if (info.access == spec::Access::kWriteOneToClear)
+      else if (info.writable() != 0)
         noisy(info, 0);
     const spec::RegisterInfo& control =
         *spec::register_named(spec::geometric::kRegisters, "CONTROL");
@@ -264,7 +264,7 @@ TEST_P(IgnoredBits, AreWholeRegistersOfWhatIsNotUsed) {
     return trail_of(b);
   };
   for (const spec::RegisterInfo& info : spec::geometric::kRegisters) {
-    if (info.access != spec::Access::kReadWrite || info.offset == reg::kControl) continue;
+    if (info.written() == 0 || info.offset == reg::kControl) continue;
     SCOPED_TRACE(info.name);
     if (of_no_use(info.offset)) {
       for (const std::uint32_t value : {0u, 1u, ~0u}) {

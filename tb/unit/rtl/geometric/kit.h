@@ -4,6 +4,7 @@
 
 #include "rtl_model/geometric/common/frame_rules.h"
 #include "rtl_model/geometric/common/tokens.h"
+#include "rtl_model/geometric/register_section.h"
 #include "tb/unit/rtl/geometric/trail.h"
 #include "tb/unit/rtl/token_suite.h"
 
@@ -38,6 +39,7 @@ class Kit : public EngineKit {
   ClockDomain& clock() { return b_.clock; }
   platform::RegisterHost& bus() { return b_.bus; }
   rtl::Engine& engine() { return b_.engine; }
+  rtl::RegisterSection section() const { return rtl::geometric::register_section(b_.p); }
   Bench& bench() { return *b_.bench; }
 
   void start(Job job) {

@@ -149,15 +149,13 @@ TEST_P(IgnoredBits, OfRegistersChangeNothing) {
   for (int round = 0; round < 3; ++round) {
     const auto noisy = [&](const spec::RegisterInfo& info) {
       const std::uint32_t noise = (round == 0 ? ~0u : random.word()) & ~info.mask();
-      const bool is_state = info.access == spec::Access::kReadWrite;
+      const bool is_state = info.written() != 0;
       bench.bus.write(info.offset, noise | (is_state ? bench.bus.read(info.offset) : 0));
       return static_cast<std::uint64_t>(std::popcount(noise));
     };
     const auto written = [&] {
       for (const spec::RegisterInfo& info : spec::morphological::kRegisters)
-        if (info.access == spec::Access::kReadWrite ||
-            info.access == spec::Access::kWriteOneToClear)
-          ignored += noisy(info);
+        if (info.writable() != 0) ignored += noisy(info);
       bench.bus.write(reg::kSharesAddress, 0);  // the write of an entry has moved it on
     };
     // CONTROL while a frame is inside, too; its many writes would hide that no other was written.

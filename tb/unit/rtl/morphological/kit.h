@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "rtl_model/morphological/register_section.h"
 #include "tb/harness/engine_kit.h"
 #include "tb/unit/rtl/morphological/support.h"
 #include "tb/unit/rtl/token_suite.h"
@@ -49,6 +50,9 @@ class Kit : public EngineKit {
   ClockDomain& clock() { return bench_.clock; }
   platform::RegisterHost& bus() { return bench_.bus; }
   rtl::Engine& engine() { return bench_.engine; }
+  rtl::RegisterSection section() const {
+    return rtl::morphological::register_section(bench_.engine.parameters());
+  }
   Bench& bench() { return *bench_.bench; }
 
   void start(Job job) {

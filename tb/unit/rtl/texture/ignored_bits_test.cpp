@@ -130,9 +130,9 @@ TEST_P(IgnoredBits, OfRegisters) {
     auto noisy = registers;
     for (const spec::RegisterInfo& info : spec::texture::kRegisters) {
       const std::uint32_t noise = (all ? ~0u : random.word()) & ~info.mask();
-      if (info.access == spec::Access::kReadWrite)
+      if (info.written() != 0)
         noisy.emplace_back(info.offset, bench.bus.read(info.offset) | noise);
-      else if (info.access == spec::Access::kWriteOneToClear)
+      else if (info.writable() != 0)
         noisy.emplace_back(info.offset, noise);
     }
     ASSERT_EQ(noisy.size(), registers.size() + 2) << "CONTROL and STATUS";

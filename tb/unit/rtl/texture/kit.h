@@ -2,6 +2,7 @@
 // The texture unit for the suites of every engine (tb/harness/engine_kit.h).
 #pragma once
 
+#include "rtl_model/texture/register_section.h"
 #include "tb/harness/engine_kit.h"
 #include "tb/unit/rtl/texture/support.h"
 #include "tb/unit/rtl/token_suite.h"
@@ -30,6 +31,9 @@ class Kit : public EngineKit {
   ClockDomain& clock() { return bench_.clock; }
   platform::RegisterHost& bus() { return bench_.bus; }
   rtl::Engine& engine() { return bench_.unit; }
+  rtl::RegisterSection section() const {
+    return rtl::texture::register_section(bench_.unit.parameters());
+  }
   Bench& bench() { return checks_; }
   // Every register of every descriptor.
   static std::vector<std::uint32_t> more_registers() {

@@ -56,15 +56,13 @@ Datasheet LevelUnit::datasheet() {
 Posteriser::Posteriser(const sc_core::sc_module_name& name, ClockDomain& clock,
                        const spec::posteriser::Parameters& parameters)
     : Engine(name, clock, spec::posteriser::kRegisters,
-             control_layout(spec::posteriser::kRegisters, true)),
+             control_layout(spec::posteriser::kRegisters, spec::posteriser::kBusyIgnoresWrites)),
       clock_(clock),
       levels("levels", clock, control) {
   const spec::posteriser::Parameters p = check_build(parameters);
   levels.tones_in(tones_in);
   levels.tones_out(tones_out);
-  control.set_reset(reg::kRules,
-                    reg::rules::kBits.in(static_cast<std::uint32_t>(p.bits)) |
-                        reg::rules::kRounding.in(static_cast<std::uint32_t>(p.rounding)));
+  control.set_resets(spec::posteriser::loaded_registers(p));
   control.show(reg::kPixels, levels.pixels);
   control.show(reg::kChanged, levels.changed);
   control.reset();

@@ -5,10 +5,13 @@
 
 namespace deburr::rtl::posteriser {
 
-RegisterSection register_section() {
+RegisterSection register_section(const spec::posteriser::Parameters& parameters) {
+  const auto loaded = spec::posteriser::loaded_registers(parameters);
   return {"Posteriser",
           "DEBURR_POSTERISER",
-          {spec::posteriser::kRegisters.begin(), spec::posteriser::kRegisters.end()}};
+          {spec::posteriser::kRegisters.begin(), spec::posteriser::kRegisters.end()},
+          {loaded.begin(), loaded.end()},
+          spec::posteriser::kBusyIgnoresWrites};
 }
 
 }  // namespace deburr::rtl::posteriser

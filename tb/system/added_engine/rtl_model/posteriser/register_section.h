@@ -2,9 +2,11 @@
 #pragma once
 
 #include "rtl_model/fabric/register_section.h"
+#include "spec/posteriser/parameters.h"
 
 namespace deburr::rtl::posteriser {
 
-RegisterSection register_section();
+// With the reset values of a build.
+RegisterSection register_section(const spec::posteriser::Parameters& parameters = {});
 
 }  // namespace deburr::rtl::posteriser

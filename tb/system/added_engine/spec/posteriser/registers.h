@@ -18,33 +18,43 @@ inline constexpr std::uint32_t kRules = 0x0C;
 inline constexpr std::uint32_t kPixels = 0x10;
 inline constexpr std::uint32_t kChanged = 0x14;
 inline constexpr std::uint32_t kIdValue = 0xDEB000FF;
+namespace id {
+inline constexpr std::array kFields = number(Access::kConstant, kIdValue);
+}  // namespace id
 namespace control {
-inline constexpr Field kEnable{"enable", 0, 0, "tones are taken"};
-inline constexpr Field kClearCounters{"clear_counters", 1, 1, "command, reads 0"};
+inline constexpr Field kEnable{"enable", 0, 0, Access::kReadWrite, "tones are taken", {}, 1};
+inline constexpr Field kClearCounters{"clear_counters", 1, 1, Access::kCommand,
+                                      "sets every counter to 0"};
 inline constexpr std::array kFields = {kEnable, kClearCounters};
 }  // namespace control
 namespace status {
-inline constexpr Field kIdle{"idle", 0, 0, "read only"};
-inline constexpr Field kWrittenWhileBusy{"written_while_busy", 1, 1,
-                                         "sticky: a register was written while busy, in vain"};
+inline constexpr Field kIdle{"idle", 0, 0, Access::kReadOnly, "nothing is inside", {}, 1};
+inline constexpr Field kWrittenWhileBusy{"written_while_busy", 1, 1, Access::kWriteOneToClear,
+                                         "a register was written while busy; the write is ignored"};
 inline constexpr std::array kFields = {kIdle, kWrittenWhileBusy};
 }  // namespace status
 namespace rules {
-inline constexpr Field kBits{"bits", 3, 0, "0 as 1, 9 and more as 8"};
-inline constexpr Field kRounding{"rounding", 4, 4, {}, kRoundingNames};
+inline constexpr Field kBits{"bits", 3, 0, Access::kReadWrite, "0 as 1, 9 and more as 8"};
+inline constexpr Field kRounding{"rounding", 4, 4, Access::kReadWrite, {}, kRoundingNames};
 inline constexpr std::array kFields = {kBits, kRounding};
 }  // namespace rules
 }  // namespace reg
 
+// Writes while it is busy are ignored, but those to CONTROL and STATUS.
+inline constexpr bool kBusyIgnoresWrites = true;
 inline constexpr std::array<RegisterInfo, 6> kRegisters = {{
-    {reg::kId, "ID", Access::kReadOnly, reg::kIdValue, "Identifies the unit."},
-    {reg::kControl, "CONTROL", Access::kReadWrite, 1, "Switch and command.", reg::control::kFields},
-    {reg::kStatus, "STATUS", Access::kWriteOneToClear, 1, "State, and what has happened.",
-     reg::status::kFields},
-    {reg::kRules, "RULES", Access::kReadWrite, 0, "Loaded from the parameters.",
-     reg::rules::kFields},
-    {reg::kPixels, "PIXELS", Access::kReadOnly, 0, "Pixels delivered."},
-    {reg::kChanged, "CHANGED", Access::kReadOnly, 0, "Pixels that it changed."},
+    {reg::kId, "ID", "Identifies the unit.", reg::id::kFields},
+    {reg::kControl, "CONTROL", "Switch and command.", reg::control::kFields},
+    {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
+    {reg::kRules, "RULES", "Loaded from the parameters.", reg::rules::kFields},
+    {reg::kPixels, "PIXELS", "Pixels delivered.", kCounter},
+    {reg::kChanged, "CHANGED", "Pixels that it changed.", kCounter},
 }};
+
+// What a reset loads from the parameters.
+constexpr std::array<LoadedRegister, 1> loaded_registers(const Parameters& p) {
+  return {{{reg::kRules, reg::rules::kBits.in(static_cast<std::uint32_t>(p.bits)) |
+                             reg::rules::kRounding.in(static_cast<std::uint32_t>(p.rounding))}}};
+}
 
 }  // namespace deburr::spec::posteriser

@@ -81,7 +81,9 @@ class PosteriserCommand final : public Engine {
     return {"before", "after", "golden", "difference", "change"};
   }
   std::vector<std::string_view> maps() const override { return {"level"}; }
-  rtl::RegisterSection registers() const override { return rtl::posteriser::register_section(); }
+  rtl::RegisterSection registers() const override {
+    return rtl::posteriser::register_section(parameters_);
+  }
   DatasheetSection datasheets() const override {
     return {"Posteriser", {rtl::posteriser::LevelUnit::datasheet()}};
   }

@@ -2,6 +2,7 @@
 // Reset, register noise, stress and tokens of the posteriser, by its kit.
 #include "rtl_model/platform/register_host.h"
 #include "rtl_model/posteriser/posteriser.h"
+#include "rtl_model/posteriser/register_section.h"
 #include "spec/posteriser/registers.h"
 #include "tb/unit/rtl/engine_suites.h"
 
@@ -19,7 +20,7 @@ class Kit : public EngineKit {
                                                     {8, spec::posteriser::Rounding::kNearest}}};
   static std::string text_of(const Build& build) { return std::to_string(build.bits) + " bits"; }
   explicit Kit(const Build& build, const Disturbance& disturbance = {})
-      : engine_("engine", clock_, {build, {}}) {
+      : p_{build, {}}, engine_("engine", clock_, p_) {
     engine_.tones_in(ends_.in);
     engine_.tones_out(ends_.out);
     bus_.bus.bind(engine_.registers);
@@ -30,6 +31,7 @@ class Kit : public EngineKit {
   rtl::ClockDomain& clock() { return clock_; }
   platform::RegisterHost& bus() { return bus_; }
   rtl::Engine& engine() { return engine_; }
+  rtl::RegisterSection section() const { return rtl::posteriser::register_section(p_); }
   Bench& bench() { return *bench_; }
   void start(Job job) {
     begin_ = clock_.cycle();
@@ -94,6 +96,7 @@ class Kit : public EngineKit {
         {{c, static_cast<std::uint8_t>(c + 77), static_cast<std::uint8_t>(3 * c)}, false});
   }
 
+  const spec::posteriser::Parameters p_;
   rtl::ClockDomain clock_{"clock", unit_bench::period()};
   unit_bench::Ends<Tone, Tone> ends_{clock_};
   rtl::posteriser::Posteriser engine_;

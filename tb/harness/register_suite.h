@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// The registers of an engine against the SystemRDL that is exported of them: a reader of the file's
+// text and a host at the bus try each field's access, reset value and side effects in every build
+// of a Kit (engine_kit.h). Neither reads the rows of spec/, of which file and hardware are made.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <tlm>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/fabric/register_section.h"
+#include "tb/harness/engine_kit.h"
+#include "tb/harness/in_child.h"
+
+namespace deburr::tb {
+
+// The hardware as software and the units of the engine have it.
+struct RegisterHardware {
+  std::function<std::uint32_t(std::uint32_t offset)> read;  // SimulationError: rejected
+  std::function<tlm::tlm_response_status(std::uint32_t offset, std::uint32_t value)> write;
+  // A write of so many bytes, with or without byte enables.
+  std::function<tlm::tlm_response_status(std::uint32_t offset, unsigned bytes, bool enables)>
+      write_bytes;
+  std::function<void()> reset;
+  std::function<void()> begin_job;
+  std::function<bool(const std::function<bool()>& done)> run_until;
+  std::function<void()> provoke;                            // whatever sticks, and counts
+  std::function<void(std::uint32_t bits)> set_sticky;       // of STATUS
+  std::function<std::uint32_t(std::uint32_t offset)> seen;  // by the units, after a write
+  std::function<bool()> interrupt;
+};
+
+// What the hardware does that the file does not say, and the other way round; empty: nothing. The
+// fields that were tried are counted.
+std::vector<std::string> register_differences(const std::string& systemrdl,
+                                              const RegisterHardware& hardware, int& fields);
+// The file with one thing wrong in a line that declares a field, with that line: bits, access, side
+// effects, reset value, or the line is not there. Left out is what nobody can see.
+std::vector<std::pair<std::string, std::string>> wrong_files(const std::string& systemrdl);
+// The hardware with one thing wrong at its bus, with what it is.
+std::vector<std::pair<std::string, RegisterHardware>> wrong_hardware(const std::string& systemrdl,
+                                                                     const RegisterHardware& right);
+
+template <class Kit>
+class RegisterSuite {
+ public:
+  explicit RegisterSuite(const typename Kit::Build& build) : kit_(build) {}
+
+  void every_field_is_as_the_exported_file_says() {
+    int fields = 0;
+    EXPECT_EQ(difference(file(), hardware(), &fields), "");
+    EXPECT_GE(fields, 9);
+  }
+  // Whatever is wrong with either is seen. Each is tried in a process of its own, by a new engine.
+  void a_wrong_file_is_seen() {
+    EXPECT_EQ(in_child([&] { return difference(file(), hardware()); }), "");
+    const auto files = wrong_files(file());
+    EXPECT_GE(files.size(), 20u);
+    for (const auto& [what, wrong] : files) {
+      const std::string text = in_child([&] { return difference(wrong, hardware()); });
+      EXPECT_FALSE(text.empty() || text.starts_with("exception")) << text << what;
+    }
+  }
+  void wrong_hardware_is_seen() {
+    for (const auto& [what, wrong] : wrong_hardware(file(), hardware()))
+      EXPECT_NE(in_child([&] { return difference(file(), wrong); }), "") << what;
+  }
+
+ private:
+  std::string file() const {
+    const std::array sections = {kit_.section()};
+    return rtl::register_systemrdl(sections);
+  }
+  static std::string difference(const std::string& file, const RegisterHardware& hardware,
+                                int* fields = nullptr) {
+    int tried = 0;
+    std::string text;
+    for (const std::string& line : register_differences(file, hardware, tried)) text += line + "\n";
+    if (fields) *fields = tried;
+    return text;
+  }
+  RegisterHardware hardware();
+
+  Kit kit_;
+};
+
+// One write of `bytes` over a host's socket.
+tlm::tlm_response_status write_bytes(platform::RegisterHost& host, std::uint32_t offset,
+                                     unsigned bytes, bool enables);
+
+template <class Kit>
+RegisterHardware RegisterSuite<Kit>::hardware() {
+  rtl::ControlRegisters& control = kit_.engine().control;
+  return {
+      .read = [this](std::uint32_t offset) { return kit_.bus().read(offset); },
+      .write = [this](std::uint32_t offset,
+                      std::uint32_t value) { return kit_.bus().try_write(offset, value); },
+      .write_bytes = [this](
+                         std::uint32_t offset, unsigned bytes,
+                         bool enables) { return write_bytes(kit_.bus(), offset, bytes, enables); },
+      .reset = [this] { kit_.reset(kit_.long_reset()); },
+      .begin_job = [this] { kit_.start(Job::kBroken); },
+      .run_until =
+          [this](const std::function<bool()>& done) { return kit_.clock().run_until(done, 1000); },
+      .provoke = [this] { kit_.spoil(); },
+      .set_sticky = [&control](std::uint32_t bits) { control.set_sticky(bits); },
+      .seen = [&control](std::uint32_t offset) { return control.value(offset); },
+      .interrupt = [&control] { return control.interrupt(); }};
+}
+
+}  // namespace deburr::tb
