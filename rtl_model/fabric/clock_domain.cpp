@@ -37,9 +37,23 @@ void ClockDomain::add(Unit& unit) {
   units_.push_back(&unit);
   slots_.push_back({&unit, unit.activity_.data()});
 }
-void ClockDomain::add(Clocked& clocked) { slots_.push_back({&clocked, ignored_}); }
-void ClockDomain::add_before(Clocked& clocked) { before_.push_back(&clocked); }
-void ClockDomain::add_after(Clocked& clocked) { after_.push_back(&clocked); }
+void ClockDomain::add(Clocked& clocked) {
+  adopt_module(clocked);
+  slots_.push_back({&clocked, ignored_});
+}
+void ClockDomain::add_before(Clocked& clocked) {
+  adopt_module(clocked);
+  before_.push_back(&clocked);
+}
+void ClockDomain::add_after(Clocked& clocked) {
+  adopt_module(clocked);
+  after_.push_back(&clocked);
+}
+// What is ticked by this domain, and is a module, belongs to it.
+void ClockDomain::adopt_module(const Clocked& clocked) {
+  const auto* const object = dynamic_cast<const sc_core::sc_object*>(&clocked);
+  if (object && !Ownership().given(*object)) adopt(*object);
+}
 void ClockDomain::add(LinkBase& link) {
   adopt(link);
   claim(link);
@@ -199,9 +213,15 @@ sc_core::sc_time ClockDomain::time_of(Cycle cycle) const {
   return sc_core::sc_time::from_value(cycle * period_value_);
 }
 
+// A unit of another domain may have called into this one: the offset is that of its edge.
 sc_core::sc_time ClockDomain::offset() {
   block_end_ = 0;
-  return evaluating_ ? time_of(cycle_ - block_start_) : sc_core::SC_ZERO_TIME;
+  for (ClockDomain* domain : domains_) {
+    if (!domain->evaluating_) continue;
+    domain->block_end_ = 0;
+    return domain->time_of(domain->cycle_ - domain->block_start_);
+  }
+  return sc_core::SC_ZERO_TIME;
 }
 
 void ClockDomain::notify(sc_core::sc_event& event, const sc_core::sc_time& delay) {
@@ -233,19 +253,24 @@ void ClockDomain::activate() {
     next_trigger(SC_ZERO_TIME);
     return;
   }
-  if (domains_.size() > 1 && !edge_done_) {
+  if (domains_.size() > 1) {
     if (stops_now()) {
       deferred_ = true;
       next_trigger(SC_ZERO_TIME);
       return;
     }
-    for (ClockDomain* domain : domains_)
-      if (domain->is_due() && !domain->attempt([domain] { domain->evaluate_edge(); })) return;
+    for (const ClockDomain* domain : domains_) {
+      if (domain == this) break;
+      if (!domain->is_due()) continue;
+      deferred_ = true;
+      next_trigger(turn_);
+      return;
+    }
   }
   ++activations_;
   const bool good = attempt([this] {
-    if (!edge_done_) evaluate_edge();
-    edge_done_ = false;
+    evaluate_edge();
+    if (domains_.size() > 1) hand_on();  // before it runs on: the others are at this time
     while (may_run_on()) evaluate_block();
   });
   if (!good) return;
@@ -274,12 +299,16 @@ bool ClockDomain::attempt(const Action& action) {
   return true;
 }
 
-// Edges of several domains at one time: the first process that the kernel calls evaluates all of
-// them, in the order of construction. In which order it calls them depends on how long their last
-// blocks were.
+// Edges of several domains at one time take turns. In which order the kernel calls their processes
+// depends on how long their last blocks were. Each evaluates its own edge: SystemC tells by the
+// process who drives a signal.
 bool ClockDomain::is_due() const {
-  return phase_ == Phase::kEdge && !edge_done_ && !failure_ &&
-         sc_core::sc_time_stamp() == time_of(cycle_);
+  return phase_ == Phase::kEdge && !failure_ && sc_core::sc_time_stamp() == time_of(cycle_);
+}
+
+void ClockDomain::hand_on() {
+  for (ClockDomain* domain : domains_)
+    if (domain != this && domain->is_due()) return domain->turn_.notify();
 }
 
 // Does a domain end the run at this time? Then none evaluates an edge of this time before the next
@@ -298,7 +327,6 @@ inline void ClockDomain::evaluate_edge() {
   block_start_ = cycle_;
   block_end_ = 0;
   evaluate();
-  edge_done_ = true;
 }
 
 void ClockDomain::evaluate() {

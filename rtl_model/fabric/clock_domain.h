@@ -9,7 +9,8 @@
 // time_of(cycle)), and they raise events and call TLM targets with the offset of the domain added
 // (notify(), offset()). The first rule cannot be checked, the second is checked. It also makes the
 // domain cheap: only after such a call, and every kBlock cycles, does it ask the kernel again.
-// Edges of several domains at one time are evaluated in the order in which these were constructed.
+// Edges of several domains at one time are evaluated in the order of the module hierarchy: at the
+// top level that of construction.
 // Running on needs to know where sc_start() will end, so it happens inside run(), run_until() and
 // run_free() only; a bare sc_start() gives the same results cycle by cycle.
 #pragma once
@@ -44,7 +45,7 @@ class ClockDomain final : public sc_core::sc_module {
   void add(LinkBase& link);  // only for a link that no Unit's port is bound to: reset with the rest
   // The object belongs to this domain, and what stands in it, but for units of other domains and
   // what belongs to these: for a module that is not a Unit, and a memory, counter or histogram
-  // that stands in no unit (ownership.h has the rules).
+  // that stands in no unit (ownership.h has the rules). Done for a module that is added above.
   void adopt(const sc_core::sc_object& object);
 
   // From now on something else does the work of a unit, at the unit's ports, and counts these of
@@ -115,6 +116,8 @@ class ClockDomain final : public sc_core::sc_module {
   template <class Action>
   bool attempt(const Action& action);
   bool is_due() const;
+  void hand_on();
+  void adopt_module(const Clocked& clocked);
   bool stops_now() const;
   void find_domains();
   void rethrow_failure() const;
@@ -157,11 +160,10 @@ class ClockDomain final : public sc_core::sc_module {
   bool shuffled_ = false, fast_path_ = true, cycle_by_cycle_ = false, reset_n_ = true;
   bool deferred_ = false, stop_requested_ = false, in_run_ = false, evaluating_ = false;
   bool observed_ = false;
-  bool edge_done_ = false;                        // of this time, by the process of another domain
   std::uint64_t stopped_in_ = ~std::uint64_t{0};  // the delta cycle of the last stop
   const std::function<bool()>* done_ = nullptr;
   bool done_reached_ = false;
-  sc_core::sc_event edge_{"edge"};
+  sc_core::sc_event edge_{"edge"}, turn_{"turn"};  // turn_: to evaluate an edge at this time
   std::exception_ptr failure_;
 };
 

@@ -123,7 +123,8 @@ void ControlRegisters::write_control(std::uint32_t value) {
       command.action();
   }
   if (value & layout_.clear_counters) clear_counters_();
-  registers.set(index(layout_.control), value & layout_.enable);
+  const std::size_t control = index(layout_.control);
+  registers.set(control, value & registers.table()[control].bits(spec::Access::kReadWrite));
 }
 
 void ControlRegisters::mask_values() {

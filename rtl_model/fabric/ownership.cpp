@@ -65,31 +65,45 @@ const ClockDomain* Ownership::around(const sc_core::sc_object* object) const {
   return nullptr;
 }
 
-const ClockDomain* Ownership::of(const sc_core::sc_object& object) const {
+// Is the innermost that rule 3 finds a unit?
+bool Ownership::stands_in_unit(const sc_core::sc_object& object) const {
+  for (const sc_core::sc_object* place = &object; place; place = place->get_parent_object()) {
+    if (dynamic_cast<const Unit*>(place)) return true;
+    if (place != &object && given(*place)) return false;
+  }
+  return false;
+}
+
+const ClockDomain* Ownership::find(const sc_core::sc_object& object) const {
   if (domains_.size() < 2) return domains_.empty() ? nullptr : domains_.front();
   if (const auto* link = dynamic_cast<const LinkBase*>(&object); link && link->memory())
-    return of(*link->memory());
+    return find(*link->memory());
   const ClockDomain* found = given(object);
-  Ends ends = ends_of(object);
-  ends.held_by.push_back(&object);
-  for (const sc_core::sc_object* end : ends.held_by) {
-    const ClockDomain* const domain = around(end);
-    DEBURR_CHECK(!found || !domain || found == domain,
-                 fmt::format("{} joins two clock domains ({} is one): a {} has one clock",
-                             object.name(), found ? found->name() : "", ends.kind));
+  const Ends ends = ends_of(object);
+  const auto take = [&](const ClockDomain* domain) {
+    if (found && domain && found != domain)
+      throw spec::CheckFailed(fmt::format("{} joins two clock domains ({} and {}): a {} has one",
+                                          object.name(), found->name(), domain->name(), ends.kind));
     if (domain) found = domain;
-  }
+  };
+  for (const sc_core::sc_object* end : ends.held_by) take(around(end));
+  if (!found || stands_in_unit(object)) take(around(&object));
   const sc_core::sc_object* module = object.get_parent_object();
-  for (; !found && module; module = module->get_parent_object()) {
-    std::set<const ClockDomain*> inside;
+  std::set<const ClockDomain*> inside;
+  for (; !found && inside.empty() && module; module = module->get_parent_object())
     walk(const_cast<sc_core::sc_object&>(*module), [&](const sc_core::sc_object& each) {
       if (const auto* domain = dynamic_cast<const ClockDomain*>(&each)) inside.insert(domain);
       if (const auto* unit = dynamic_cast<const Unit*>(&each)) inside.insert(&unit->clock());
     });
-    if (inside.size() > 1) break;
-    if (inside.size() == 1) found = *inside.begin();
-  }
-  if (found) return found;
+  if (inside.empty())
+    for (const ClockDomain* domain : domains_)
+      if (!domain->units().empty()) inside.insert(domain);
+  return !found && inside.size() == 1 ? *inside.begin() : found;
+}
+
+const ClockDomain* Ownership::of(const sc_core::sc_object& object) const {
+  const ClockDomain* const found = find(object);
+  if (found || domains_.empty()) return found;
   std::string names;
   for (const ClockDomain* domain : domains_)
     names += fmt::format("{}{}", names.empty() ? "" : ", ", domain->name());

@@ -5,12 +5,13 @@
 //   1. the domain that it was given to: ClockDomain::adopt();
 //   2. the domain of the units that hold its ports;
 //   3. the domain of the innermost unit or adopted module around it (an Engine is adopted by the
-//      domain that it is constructed with);
+//      domain that it is constructed with, and a module that is ticked by the one that ticks it);
 //   4. the domain of the innermost module around it with units or clock domains in it, and
-//      outside of all modules that of the simulation, if there is one alone. If there are several,
-//      that is an error.
+//      outside of all modules the only one with units, or where none has units the only one.
+//      If there are several, that is an error.
 //
-// If the rules 1 to 3 give different domains, that is an error.
+// If rule 1, rule 2 and a unit around it give different domains, that is an error. An adopted
+// module may hold parts of other domains.
 // In a simulation of one domain everything belongs to it. Asked for outside of time: at the end of
 // elaboration, and by observers as they are made.
 #pragma once
@@ -26,13 +27,16 @@ namespace deburr::rtl {
 class Ownership {
  public:
   Ownership();  // with the domains that exist now
-  // nullptr: there is no clock domain. CheckFailed if the rules give two.
+  // nullptr: there is no clock domain. CheckFailed if the rules give two, or none.
   const ClockDomain* of(const sc_core::sc_object& object) const;
+  // The same, but nullptr if the rules give none.
+  const ClockDomain* find(const sc_core::sc_object& object) const;
   // By rule 1 alone, of this very object.
   const ClockDomain* given(const sc_core::sc_object& object) const;
 
  private:
   const ClockDomain* around(const sc_core::sc_object* object) const;
+  bool stands_in_unit(const sc_core::sc_object& object) const;
 
   std::vector<const ClockDomain*> domains_;
 };

@@ -39,6 +39,9 @@ RegisterBlock::RegisterBlock(const sc_core::sc_module_name& name,
     if (index_by_word_.size() <= offset / 4) index_by_word_.resize(offset / 4 + 1, -1);
     DEBURR_CHECK(index_by_word_[offset / 4] < 0,
                  fmt::format("{}.{}: offset {:#x} is taken", this->name(), table[i].name, offset));
+    DEBURR_CHECK(!table[i].fields.empty(),
+                 fmt::format("{}.{}: has no field: one number is spec::kNumber or spec::number()",
+                             this->name(), table[i].name));
     index_by_word_[offset / 4] = static_cast<int>(i);
     values_.push_back(table[i].reset());
   }

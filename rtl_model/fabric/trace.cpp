@@ -91,7 +91,9 @@ std::vector<std::string> Trace::names(const ClockDomain& clock) {
   for_each_of<WireBase>(clock, add);
   for_each_of<Unit>(clock, add);
   for_each_of<Counter>(clock, add);
-  for_each_of<RegisterBlock>(clock, [&](const RegisterBlock& block) {
+  const Ownership ownership;  // a user's registers may belong to no domain
+  for_each<RegisterBlock>([&](const RegisterBlock& block) {
+    if (ownership.find(block) != &clock) return;
     for (const spec::RegisterInfo& r : block.table())
       names.push_back(fmt::format("{}.{}", block.name(), r.name));
   });
@@ -178,7 +180,9 @@ void Trace::collect(Cycle cycle) {
   for_each_of<Counter>(clock_, [&](Counter& counter) {
     add(counter.name(), 64, [&counter] { return counter.value(); });
   });
-  for_each_of<RegisterBlock>(clock_, [&](RegisterBlock& block) {
+  const Ownership ownership;
+  for_each<RegisterBlock>([&](RegisterBlock& block) {
+    if (ownership.find(block) != &clock_) return;
     for (std::size_t i = 0; i < block.table().size(); ++i)
       add(fmt::format("{}.{}", block.name(), block.table()[i].name), 32,
           [&block, i]() -> std::uint64_t { return block.get(i); });

@@ -16,6 +16,7 @@
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/ownership.h"
 #include "rtl_model/fabric/trace.h"
 #include "rtl_model/fabric/wire.h"
 #include "tb/unit/fabric/support.h"
@@ -856,7 +857,7 @@ TEST(ClockDomains, AMemoryWithPortsInTwoIsAnErrorAtElaboration) {
   const Lookup first("first", one, table), second("second", two, table);
   EXPECT_THAT([&] { one.run(1); },
               testing::ThrowsMessage<spec::CheckFailed>(testing::HasSubstr(
-                  "table joins two clock domains (one is one): a memory has one clock")));
+                  "table joins two clock domains (one and two): a memory has one")));
 }
 
 TEST(ClockDomains, ALinkOfAUnitBoundInAnotherIsAnErrorAtElaboration) {
@@ -871,7 +872,7 @@ TEST(ClockDomains, ALinkOfAUnitBoundInAnotherIsAnErrorAtElaboration) {
   Sink<Token> sink("sink", two);
   sink.beats_in(sender.link);
   EXPECT_THAT([&] { one.run(1); }, testing::ThrowsMessage<spec::CheckFailed>(testing::HasSubstr(
-                                       "sender.link joins two clock domains (two is one)")));
+                                       "sender.link joins two clock domains (two and one)")));
 }
 
 TEST(ClockDomains, AModuleIsAdoptedByOneAlone) {
@@ -882,6 +883,113 @@ TEST(ClockDomains, AModuleIsAdoptedByOneAlone) {
   EXPECT_THAT([&] { two.adopt(parts); },
               testing::ThrowsMessage<spec::CheckFailed>(
                   testing::HasSubstr("parts is given to two clock domains (one and two)")));
+}
+
+// A module that is ticked, and is no unit: what it has belongs to the domain that ticks it.
+TEST(ClockDomains, ATickedModuleBelongsToTheDomainThatTicksIt) {
+  struct Source final : sc_core::sc_module, rtl::Clocked {
+    rtl::Counter sent{"sent", "tokens", "Tokens that were sent."};
+    explicit Source(const sc_core::sc_module_name& name) : sc_module(name) {}
+    rtl::Activity tick(Cycle) override {
+      ++sent;
+      return rtl::kIdle;
+    }
+    void reset() override {}
+  };
+  rtl::ClockDomain mine("mine", ns(10)), other("other", ns(7));
+  Source source("source");
+  mine.add(source);
+  const Idle one("one", mine), two("two", other);
+  mine.run(5);
+  reset(other);
+  EXPECT_GE(source.sent.value(), 5U);
+  reset(mine);
+  EXPECT_LE(source.sent.value(), 1U);
+}
+
+TEST(ClockDomains, AnAdoptedModuleMayHoldALinkOfAnother) {
+  struct Top final : sc_core::sc_module {
+    rtl::Link<Token> link{"link"};
+    explicit Top(const sc_core::sc_module_name& name) : sc_module(name) {}
+  };
+  rtl::ClockDomain mine("mine", ns(10)), other("other", ns(7));
+  Top top("top");
+  mine.adopt(top);
+  Sink<Token> sink("sink", other);
+  sink.beats_in(top.link);
+  const Idle idle("idle", mine);
+  mine.run(1);
+  EXPECT_EQ(rtl::Ownership().of(top.link), &other);
+}
+
+TEST(ClockDomains, ADomainWithoutUnitsOwnsNothingThatStandsAlone) {
+  rtl::ClockDomain mine("mine", ns(10)), empty("empty", ns(7));
+  const rtl::Counter counter("counter", "things", "Things.");
+  const Idle idle("idle", mine);
+  mine.run(1);
+  EXPECT_EQ(rtl::Ownership().of(counter), &mine);
+}
+
+// SystemC allows a signal one driver, which it tells by the process.
+TEST(ClockDomains, UnitsOfEachMayDriveSignals) {
+  struct Driving final : rtl::Unit {
+    sc_core::sc_out<bool> out{"out"};
+    bool value = false;
+    Driving(const sc_core::sc_module_name& name, rtl::ClockDomain& domain) : Unit(name, domain) {}
+    rtl::Activity tick(Cycle) override {
+      value = !value;
+      clock().offset();
+      out.write(value);
+      return rtl::kIdle;
+    }
+    void reset() override {}
+  };
+  for (const bool fast : {false, true})
+    EXPECT_EQ(in_child([&] {
+                rtl::ClockDomain one("one", ns(10)), two("two", ns(15));
+                sc_core::sc_signal<bool> x("x"), y("y");
+                Driving first("first", one), second("second", two);
+                first.out(x);
+                second.out(y);
+                for (rtl::ClockDomain* clock : {&one, &two}) clock->set_fast_path(fast);
+                one.run(100);
+                return fmt::format("{} {}", one.cycle(), two.cycle());
+              }),
+              "100 67")
+        << fast;
+}
+
+// As a master of one clock does that clears the interrupt of an engine of another.
+TEST(ClockDomains, AUnitOfOneMayRaiseAnEventOfAnother) {
+  struct Raiser final : rtl::Unit {
+    rtl::ClockDomain& other;
+    sc_core::sc_event& event;
+    Raiser(const sc_core::sc_module_name& name, rtl::ClockDomain& domain, rtl::ClockDomain& of,
+           sc_core::sc_event& raised)
+        : Unit(name, domain), other(of), event(raised) {}
+    rtl::Activity tick(Cycle cycle) override {
+      if (cycle == 50) other.notify(event);
+      return rtl::kIdle;
+    }
+    void reset() override {}
+  };
+  struct Watcher final : sc_core::sc_module {
+    sc_core::sc_event event{"event"};
+    sc_time at;
+    SC_HAS_PROCESS(Watcher);
+    explicit Watcher(const sc_core::sc_module_name& name) : sc_module(name) {
+      SC_METHOD(see);
+      sensitive << event;
+      dont_initialize();
+    }
+    void see() { at = sc_core::sc_time_stamp(); }
+  };
+  rtl::ClockDomain slow("slow", ns(1000)), quick("quick", ns(1));
+  Watcher watcher("watcher");
+  const Idle idle("idle", slow);
+  const Raiser raiser("raiser", quick, slow, watcher.event);
+  quick.run(3000);
+  EXPECT_EQ(watcher.at, ns(50));
 }
 
 TEST(ClockDomains, FailureOfOneStopsAll) {

@@ -504,6 +504,18 @@ TEST(ControlRegisters, RejectsCommandOfABitThatIsNone) {
               HasSubstr("control.CONTROL: bit 0x1 is not a command"));
 }
 
+TEST(ControlRegisters, ControlKeepsEveryFieldThatIsReadAndWritten) {
+  static constexpr std::array fields = {kControlFields[0], kControlFields[1], kControlFields[2],
+                                        spec::Field{"mode", 5, 4, Access::kReadWrite, ""}};
+  auto table = kTable;
+  table[1].fields = fields;
+  rtl::ControlRegisters control("control", table, layout(true));
+  control.on_busy([] { return false; });
+  control.on_clear_counters([] {});
+  control.write(kControl, 0x33);
+  EXPECT_EQ(control.value(kControl), 0x31U);
+}
+
 TEST(Choice, ACodeThatNoneHasCountsAsZero) {
   constexpr spec::Field field{"which", 5, 4, Access::kReadWrite, "", kChoices};
   enum class Which : std::uint8_t { kOne, kTwo, kThree };

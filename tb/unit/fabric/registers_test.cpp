@@ -523,6 +523,8 @@ TEST(RegisterTable, MistakesAreCaught) {
   static constexpr spec::RegisterInfo odd[] = {{2, "A", "a", spec::kNumber}};
   EXPECT_THROW(rtl::RegisterBlock("twice", twice), spec::CheckFailed);
   EXPECT_THROW(rtl::RegisterBlock("odd", odd), spec::CheckFailed);
+  static constexpr spec::RegisterInfo bare[] = {{0, "A", "a", {}}};
+  EXPECT_THROW(rtl::RegisterBlock("bare", bare), spec::CheckFailed);
 }
 
 }  // namespace

@@ -437,6 +437,19 @@ TEST(Trace, ShowsRegistersByTheNamesThatAScopeCanChoose) {
   EXPECT_EQ(number(vcd.value("deburr.block.MODE", 20'000)), 9U);
 }
 
+// Registers of a user's module may belong to none of several domains.
+TEST(Trace, LeavesOutRegistersOfNoDomain) {
+  static constexpr std::array kMode = spec::number(spec::Access::kReadWrite, 5);
+  static constexpr spec::RegisterInfo table[] = {{0, "MODE", "a mode", kMode}};
+  rtl::RegisterBlock block("block", table);
+  platform::RegisterHost host("host");
+  host.bus.bind(block.bus);
+  Pipeline p(100), other(100, 0, sc_core::sc_time(7, sc_core::SC_NS), "other_");
+  const auto names = rtl::Trace::names(p.clock);
+  EXPECT_THAT(names, testing::Contains("link_0"));
+  EXPECT_THAT(names, testing::Not(testing::Contains("block.MODE")));
+}
+
 TEST(Trace, ShowsCounters) {
   const std::string file = testing::TempDir() + "counters.vcd";
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
