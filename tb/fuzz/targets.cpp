@@ -180,6 +180,12 @@ constexpr std::string_view kGltfExtensions =
     R"("count":3,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":2,"byteOffset":12,)"
     R"("componentType":5121},"values":{"bufferView":2}}},{"componentType":5126,"count":3,)"
     R"("type":"VEC2"},{"componentType":5126,"count":3,"type":"VEC4"}]})";
+// Lists in lists, a node that is drawn twice.
+constexpr std::string_view kGltfNested =
+    R"({"asset":{"version":"2.0"},"extras":[[[[[[[[{"a":[["\\"]]}]]]]]]]],"nodes":[{)"
+    R"("children":[1,1]},{"children":[2,2]},{"mesh":0}],"meshes":[{"primitives":[{)"
+    R"("attributes":{"POSITION":0}}]}],"accessors":[{"componentType":5126,"count":3,)"
+    R"("type":"VEC3"}]})";
 constexpr std::string_view kTrace =
     "deburr-fragments 1\nsize 640 480\n# comment\n"
     "quad 0 f f 0 10 20 0.5 0.25 0.51 0.25 0.5 0.26 0.51 0.26\n"
@@ -251,7 +257,7 @@ std::vector<std::string> obj_seeds() {
 // The same as .gltf and as .glb.
 std::vector<std::string> gltf_seeds() {
   std::vector<std::string> seeds;
-  for (const std::string_view text : {kGltf, kGltfExtensions}) {
+  for (const std::string_view text : {kGltf, kGltfExtensions, kGltfNested}) {
     std::string json = made_of(text);
     seeds.push_back(json);
     while (json.size() % 4 != 0) json += ' ';

@@ -208,6 +208,7 @@ class GltfImporter final : public Importer {
     try {
       const bool binary = bytes.compare(0, 4, "glTF") == 0;
       check_length(bytes, binary);
+      check_nesting(bytes, binary);
       if (binary) drop_chunk(bytes);
       good = binary
                  ? loader.LoadBinaryFromMemory(&model_, &errors, &warnings,
@@ -326,6 +327,35 @@ class GltfImporter final : public Importer {
                        stated, bytes.size()));
   }
 
+  // tinygltf calls itself for each level of JSON that it does not know.
+  void check_nesting(const std::string& bytes, bool binary) const {
+    constexpr int kMaxNesting = 1000;
+    std::string_view json = bytes;
+    if (binary) {  // the first chunk
+      std::uint32_t length = 0;
+      if (bytes.size() < 20) return;
+      std::memcpy(&length, bytes.data() + 12, 4);
+      json = json.substr(20, length);
+    }
+    int depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+      const char c = json[i];
+      if (in_string && c == '\\') {
+        ++i;
+      } else if (c == '"') {
+        in_string = !in_string;
+      } else if (in_string) {
+        continue;
+      } else if (c == ']' || c == '}') {
+        --depth;
+      } else if ((c == '[' || c == '{') && ++depth > kMaxNesting) {
+        fail(fmt::format("its JSON is nested more than {} levels deep; export it again",
+                         kMaxNesting));
+      }
+    }
+  }
+
   // The chunk after the JSON, if it is empty or of an unknown type, both of which tinygltf rejects.
   static void drop_chunk(std::string& bytes) {
     std::uint32_t json = 0, length = 0;
@@ -438,8 +468,9 @@ class GltfImporter final : public Importer {
 
   void visit_node(int index, const M44d& parent, int depth) {
     constexpr int kMaxDepth = 128;
-    if (depth > kMaxDepth || ++visits_ > kMaxVisits)
+    if (depth > kMaxDepth)
       fail("its nodes form a cycle or are nested too deeply; the file is damaged");
+    count_drawn(1);
     const tinygltf::Node& node = item(model_.nodes, index, "node");
     const tinygltf::Value& visible = member(extension_of(node.extensions, kVisibility), "visible");
     if (visible.IsBool() && !visible.Get<bool>()) {
@@ -450,10 +481,18 @@ class GltfImporter final : public Importer {
     if (node.mesh >= 0) {
       const tinygltf::Mesh& mesh = item(model_.meshes, node.mesh, "mesh");
       const std::vector<M44d> places = places_of(node, matrix);
+      count_drawn(std::max({places.size(), mesh.primitives.size(), std::size_t{1}}) - 1);
       for (const tinygltf::Primitive& primitive : mesh.primitives)
         import_primitive(primitive, node.weights.empty() ? mesh.weights : node.weights, places);
     }
     for (int child : node.children) visit_node(child, matrix, depth + 1);
+  }
+
+  void count_drawn(std::size_t more) {
+    drawn_parts_ += more;
+    if (drawn_parts_ > kMaxParts)
+      fail(fmt::format("it draws more than {} nodes, instances and primitives; split it",
+                       kMaxParts));
   }
 
   static M44d transform_of(const V3d& scale, const Imath::Quatd& rotation, const V3d& translation) {
@@ -490,11 +529,11 @@ class GltfImporter final : public Importer {
     for (const std::string& name : attributes.Keys()) {
       const int accessor = integer_of(attributes, name.c_str(), -1);
       const std::size_t own = item(model_.accessors, accessor, "accessor").count;
-      if (count.value_or(own) != own || own > kMaxVisits)
+      if (count.value_or(own) != own || own > kMaxParts)
         fail(
             fmt::format("the attributes of instances have {} and {} elements; the same number in "
                         "each and at most {} are read",
-                        count.value_or(own), own, kMaxVisits));
+                        count.value_or(own), own, kMaxParts));
       count = own;
     }
     if (!count) fail("a node with EXT_mesh_gpu_instancing has no attributes; the file is damaged");
@@ -552,6 +591,7 @@ class GltfImporter final : public Importer {
     if (!fits)
       fail(fmt::format("accessor {} reaches beyond its buffer; the file is truncated or damaged",
                        accessor));
+    count_numbers(layout.count * layout.components);
     std::vector<double> values;
     values.reserve(layout.count * layout.components);
     const unsigned char* base = buffer.data.data() + view.byteOffset + layout.byte_offset;
@@ -560,6 +600,16 @@ class GltfImporter final : public Importer {
         values.push_back(
             number(base + i * stride + c * each, layout.component_type, layout.normalized));
     return values;
+  }
+
+  // An accessor is read anew wherever it is used.
+  void count_numbers(std::size_t numbers) const {
+    numbers_read_ += numbers;
+    if (numbers_read_ > kMaxNumbers)
+      fail(
+          fmt::format("its nodes and primitives read more than {} numbers of accessors; share "
+                      "less between them or split it",
+                      kMaxNumbers));
   }
 
   [[noreturn]] void fail_type(int accessor) const {
@@ -583,6 +633,7 @@ class GltfImporter final : public Importer {
       if (result.count > kMaxTriangles)
         fail(fmt::format("accessor {} has {} elements without a buffer view, the limit is {}",
                          index, result.count, kMaxTriangles));
+      count_numbers(result.count * result.components);
       result.values.assign(result.count * result.components, 0.0);
       if (!accessor.sparse.isSparse) zeros_.insert(index);
     }
@@ -725,7 +776,8 @@ class GltfImporter final : public Importer {
     incomplete_corners_ += mode == TINYGLTF_MODE_TRIANGLES ? corners % 3
                            : corners < 3                   ? corners
                                                            : 0;
-    drawn_ = drawn_ || (triangles > 0 && !places.empty());
+    if (triangles == 0 || places.empty()) return;
+    drawn_ = true;
     const auto vertex_of = [&](std::size_t corner) {
       const double index =
           primitive.indices >= 0 ? indices.values[corner] : static_cast<double>(corner);
@@ -759,14 +811,16 @@ class GltfImporter final : public Importer {
     }
   }
 
-  static constexpr int kMaxVisits = 1'000'000;
+  static constexpr std::size_t kMaxParts = 1'000'000;
+  static constexpr std::size_t kMaxNumbers = std::size_t{1} << 28;  // of all accessors
   MeshBuilder builder_;
   tinygltf::Model model_;
   std::map<int, std::string> encoded_;
   std::string unreadable_;         // why a file that is there could not be read
   std::vector<MaterialUse> uses_;  // by material, the default material last
   std::map<std::tuple<int, spec::texture::Wrap, spec::texture::Wrap>, int> textures_;
-  int visits_ = 0;
+  std::size_t drawn_parts_ = 0;
+  mutable std::size_t numbers_read_ = 0;
   std::size_t incomplete_corners_ = 0;
   mutable std::set<int> zeros_;  // accessors without data
   bool skipped_primitives_ = false, vertex_colours_ = false, hidden_nodes_ = false, drawn_ = false;

@@ -965,6 +965,77 @@ TEST(Gltf, BrokenFilesAreNamed) {
   EXPECT_THAT(error(file), HasSubstr("mesh 4"));
 }
 
+TEST(Gltf, JsonOfMoreThanAThousandLevelsIsRejected) {
+  const TemporaryFolder folder;
+  write_image(folder / "wood.png", noise(4, 4));
+  GltfFile file;
+  const auto lists = [](int levels) {  // brackets in a string are none, nor is a quote in one
+    const auto count = static_cast<std::size_t>(levels);
+    return R"(,"extras":[")" + std::string(2000, '[') + R"(\"{[",)" + std::string(count, '[') +
+           std::string(count, ']') + "]";
+  };
+  file.extra = lists(998);  // in a list and in the file's object: 1000
+  EXPECT_EQ(import_mesh(folder.write("d.glb", file.glb())).triangles.size(), 1u);
+  folder.write("t.bin", file.binary);
+  for (const int levels : {999, 100'000}) {
+    file.extra = lists(levels);
+    const auto named = HasSubstr("JSON is nested more than 1000 levels deep; export it again");
+    EXPECT_THAT(import_error(folder.write("d.glb", file.glb())), named);
+    EXPECT_THAT(import_error(folder.write("d.gltf", file.json("t.bin"))), named);
+  }
+  const std::string objects = [] {
+    std::string text;
+    for (int i = 0; i < 100'000; ++i) text += R"({"a":)";
+    return text;
+  }();
+  EXPECT_THAT(import_error(folder.write("o.gltf", objects)), HasSubstr("nested more than 1000"));
+}
+
+// Each number of the file is allowed; what they ask for together is not.
+TEST(Gltf, ProductsOfCountsAreLimited) {
+  const TemporaryFolder folder;
+  write_image(folder / "wood.png", noise(4, 4));
+  GltfFile file;
+  const auto doubled = [](int levels, const std::string& last) {  // drawn 2^levels times
+    std::string nodes = "[";
+    for (int i = 1; i <= levels; ++i)
+      nodes += R"({"children":[)" + std::to_string(i) + "," + std::to_string(i) + "]},";
+    return nodes + last + "]";
+  };
+  const std::string many = R"(,{"componentType":5126,"count":600000,"type":"VEC3"})";
+  const std::string instances =
+      R"({"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":3}}}})";
+  const auto error = [&] { return import_error(folder.write("p.glb", file.glb())); };
+  const auto drawn = HasSubstr("draws more than 1000000 nodes, instances and primitives; split it");
+  file.accessors = many;
+  file.index_count = 2;  // no triangle
+  file.primitive = R"({"attributes":{"POSITION":0},"indices":2})";
+  file.nodes = doubled(1, instances);
+  EXPECT_THAT(error(), drawn);
+  file.nodes = doubled(0, instances);
+  EXPECT_THAT(error(), HasSubstr("no triangles"));
+  file.primitive = R"({"attributes":{"POSITION":0},"mode":1})";
+  for (int i = 0; i < 99; ++i) file.primitive += R"(,{"attributes":{"POSITION":0},"mode":1})";
+  file.nodes = doubled(14, R"({"mesh":0})");
+  EXPECT_THAT(error(), drawn);
+  // 600 000 positions of 3 numbers are read once more than 2^28 allows.
+  const auto read = HasSubstr("read more than 268435456 numbers of accessors; share less");
+  file.primitive = R"({"attributes":{"POSITION":3},"indices":2})";
+  file.nodes = doubled(8, R"({"mesh":0})");
+  EXPECT_THAT(error(), read);
+  file.nodes = doubled(1, R"({"mesh":0})");
+  EXPECT_THAT(error(), HasSubstr("no triangles"));
+  std::string targets, weights;
+  for (int i = 0; i < 200; ++i) {
+    targets += std::string(i > 0 ? "," : "") + R"({"POSITION":3})";
+    weights += std::string(i > 0 ? "," : "") + "1";
+  }
+  file.primitive = R"({"attributes":{"POSITION":3},"indices":2,"targets":[)" + targets + "]}";
+  file.mesh = R"(,"weights":[)" + weights + "]";
+  file.nodes = R"([{"mesh":0}])";
+  EXPECT_THAT(error(), read);
+}
+
 TEST(Gltf, StripsAndFans) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
