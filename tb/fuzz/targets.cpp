@@ -148,7 +148,7 @@ constexpr std::string_view kPolygons =
     "f 1 2 3 4 5 6 7 8 # C\nf 1 7 2 8\nf 1 2 7 8 1 4 5 \\\n6 3 4\nf 1 2 2 1 1\ncurv 0 1 1 2\n";
 constexpr std::string_view kMaterials =
     "\xEF\xBB\xBFnewmtl a\nKd 0.5\nmap_Kd -s 2 3 -o 0.5 -clamp on -mm 0 2 -cc on a b.png\nd 0.5\n"
-    "newmtl b\nKd spectral a.rfl\nmap_d -bm 1 a.png\n";
+    "newmtl b\nKd spectral a.rfl\nmap_d -bm 1 a.png\nnewmtl c\nKd 1 \\\n0,5 0\nnewmtl d\n";
 constexpr std::string_view kGltf =
     R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,)"
     R"("scale":[1,2,3]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,)"

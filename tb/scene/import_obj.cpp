@@ -153,7 +153,7 @@ class ObjImporter final : public Importer {
   // The lines that name materials, by themselves, make tinyobjloader ask for the same files in the
   // same order as all of them do.
   void open() override {
-    text_ = with_whole_lines(plain_text(read_mesh(), path().string()));
+    text_ = with_whole_lines(plain_text(read_mesh(), path().string()), Statements::kObj);
     checked_.emplace(path(), text_);
     load(checked_->material_lines(), [this](const std::string& name) {
       const ObjMaterials* const read = read_material_file(name);
@@ -238,7 +238,8 @@ class ObjImporter final : public Importer {
   const ObjMaterials* read_material_file(const std::string& name) {
     std::optional<ObjMaterials>& file = material_files_[name];
     if (std::optional<std::string> text = name.empty() ? std::nullopt : read_named(folder() / name))
-      file = parse_materials(plain_text(std::move(*text), name));
+      file = parse_materials(
+          with_whole_lines(plain_text(std::move(*text), name), Statements::kMaterials));
     return file ? &*file : nullptr;
   }
 
