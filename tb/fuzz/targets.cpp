@@ -182,7 +182,7 @@ constexpr std::string_view kGltfExtensions =
     R"("type":"VEC2"},{"componentType":5126,"count":3,"type":"VEC4"}]})";
 // Lists in lists, a node that is drawn twice.
 constexpr std::string_view kGltfNested =
-    R"({"asset":{"version":"2.0"},"extras":[[[[[[[[{"a":[["\\"]]}]]]]]]]],"nodes":[{)"
+    R"({"asset":{"version":"2.0"},"extensionsUsed":["A\u001b"],"extras":[[[[[[[[{"a":[["\\"]]}]]]]]]]],"nodes":[{)"
     R"("children":[1,1]},{"children":[2,2]},{"mesh":0}],"meshes":[{"primitives":[{)"
     R"("attributes":{"POSITION":0}}]}],"accessors":[{"componentType":5126,"count":3,)"
     R"("type":"VEC3"}]})";

@@ -23,6 +23,7 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/import.h"
 #include "tb/scene/mesh_builder.h"
+#include "tb/scene/obj_text.h"
 
 namespace deburr::tb {
 namespace {
@@ -68,28 +69,10 @@ struct TextureTransform {
   }
 };
 
-V2d pair_of(const tinygltf::Value& value, const char* key, const V2d& otherwise) {
-  if (!value.Has(key)) return otherwise;
-  const tinygltf::Value& array = value.Get(key);
-  if (!array.IsArray() || array.ArrayLen() != 2) return otherwise;
-  return {array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble()};
-}
-
 // A member of an object, or a value that has no members.
 const tinygltf::Value& member(const tinygltf::Value& value, const char* key) {
   static const tinygltf::Value none;
   return value.Has(key) ? value.Get(key) : none;
-}
-
-V3d colour_of(const tinygltf::Value& value, const char* key) {
-  const tinygltf::Value& array = member(value, key);
-  if (array.ArrayLen() < 3) return V3d(1, 1, 1);
-  return {array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble(),
-          array.Get(2).GetNumberAsDouble()};
-}
-
-int integer_of(const tinygltf::Value& value, const char* key, int otherwise) {
-  return value.Has(key) && value.Get(key).IsInt() ? value.Get(key).GetNumberAsInt() : otherwise;
 }
 
 // An object's extension, or a value that has no members.
@@ -99,8 +82,16 @@ const tinygltf::Value& extension_of(const tinygltf::ExtensionMap& extensions, co
   return found == extensions.end() ? none : found->second;
 }
 
-std::string listed(const std::set<std::string>& names) {
-  return fmt::format("{}", fmt::join(names, ", "));
+template <class Name>
+std::string listed(const std::set<Name>& names) {
+  constexpr std::size_t kMost = 20;
+  std::string text;
+  std::size_t shown = 0;
+  for (const Name& name : names) {
+    if (shown == kMost) return fmt::format("{} and {} more", text, names.size() - kMost);
+    text += (shown++ > 0 ? ", " : "") + shown_name(fmt::format("{}", name));
+  }
+  return text;
 }
 
 struct MaterialUse {
@@ -127,6 +118,41 @@ class GltfImporter final : public Importer {
 
  private:
   [[noreturn]] void fail(const std::string& reason) const { fail_mesh(path(), reason); }
+
+  // Numbers of an extension: `otherwise` where they are not there, an error where they are not as
+  // many numbers.
+  template <std::size_t N>
+  std::array<double, N> numbers_of(const tinygltf::Value& value, const char* key,
+                                   std::array<double, N> otherwise) const {
+    if (!value.Has(key)) return otherwise;
+    const tinygltf::Value& array = value.Get(key);
+    bool good = array.IsArray() && array.ArrayLen() == N;
+    for (std::size_t i = 0; i < N && good; ++i) {
+      const tinygltf::Value& part = array.Get(static_cast<int>(i));
+      good = part.IsNumber();
+      otherwise[i] = part.GetNumberAsDouble();
+    }
+    if (!good) fail_member(key, fmt::format("{} numbers", N));
+    return otherwise;
+  }
+  V2d pair_of(const tinygltf::Value& value, const char* key, double otherwise) const {
+    const auto [x, y] = numbers_of<2>(value, key, {otherwise, otherwise});
+    return {x, y};
+  }
+  double number_of(const tinygltf::Value& value, const char* key, double otherwise) const {
+    if (!value.Has(key)) return otherwise;
+    if (!value.Get(key).IsNumber()) fail_member(key, "a number");
+    return value.Get(key).GetNumberAsDouble();
+  }
+  int integer_of(const tinygltf::Value& value, const char* key, int otherwise) const {
+    if (!value.Has(key)) return otherwise;
+    if (!value.Get(key).IsInt()) fail_member(key, "a whole number");
+    return value.Get(key).GetNumberAsInt();
+  }
+  [[noreturn]] void fail_member(std::string_view key, std::string_view wanted) const {
+    fail(fmt::format("'{}' is not {}; the file is damaged, export it again", shown_name(key),
+                     wanted));
+  }
 
   template <class Container>
   const auto& item(const Container& container, int index, const char* what) const {
@@ -188,8 +214,8 @@ class GltfImporter final : public Importer {
                       "out; the file is damaged, export it again",
                       incomplete_corners_));
     if (!zeros_.empty())
-      builder_.note(fmt::format("accessors without a buffer view, which are all zeros: {}",
-                                fmt::join(zeros_, ", ")));
+      builder_.note(
+          fmt::format("accessors without a buffer view, which are all zeros: {}", listed(zeros_)));
     if (const auto names = unread_of_materials(); !names.empty())
       builder_.note(
           fmt::format("of materials the base colour is read: {} left out", listed(names)));
@@ -207,6 +233,7 @@ class GltfImporter final : public Importer {
     bool good = false;
     try {
       const bool binary = bytes.compare(0, 4, "glTF") == 0;
+      if (!binary && is_utf16(bytes)) fail("it is written in UTF-16; save it as UTF-8");
       check_length(bytes, binary);
       check_nesting(bytes, binary);
       if (binary) drop_chunk(bytes);
@@ -384,7 +411,8 @@ class GltfImporter final : public Importer {
                                      extension_of(base.baseColorTexture.extensions, kTransform));
       if (material.extensions.contains(kSpecularGlossiness)) {  // it replaces the other
         const tinygltf::Value& diffuse = extension_of(material.extensions, kSpecularGlossiness);
-        ours.colour = colour_of(diffuse, "diffuseFactor");
+        const auto colour = numbers_of<4>(diffuse, "diffuseFactor", {1, 1, 1, 1});
+        ours.colour = {colour[0], colour[1], colour[2]};
         const tinygltf::Value& info = member(diffuse, "diffuseTexture");
         index = integer_of(info, "index", -1);
         use = material_use(integer_of(info, "texCoord", 0),
@@ -398,11 +426,11 @@ class GltfImporter final : public Importer {
     builder_.add_material({"default", V3d(0.8, 0.8, 0.8), -1});
   }
 
-  static MaterialUse material_use(int texcoord, const tinygltf::Value& transform) {
+  MaterialUse material_use(int texcoord, const tinygltf::Value& transform) const {
     MaterialUse use;
-    use.transform.offset = pair_of(transform, "offset", V2d(0, 0));
-    use.transform.scale = pair_of(transform, "scale", V2d(1, 1));
-    use.transform.rotation = member(transform, "rotation").GetNumberAsDouble();
+    use.transform.offset = pair_of(transform, "offset", 0);
+    use.transform.scale = pair_of(transform, "scale", 1);
+    use.transform.rotation = number_of(transform, "rotation", 0);
     use.texcoord = integer_of(transform, "texCoord", texcoord);
     return use;
   }
@@ -440,12 +468,12 @@ class GltfImporter final : public Importer {
     if (encoded == encoded_.end())
       fail(fmt::format(
           "its texture '{}' is missing; put it beside the file or give a texture of your own",
-          ours.name));
+          shown_name(ours.name)));
     ReadReport report;
-    ours.image = read_image_memory(fmt::format("{}: {}", path().string(), ours.name),
+    ours.image = read_image_memory(fmt::format("{}: {}", path().string(), shown_name(ours.name)),
                                    encoded->second, &report);
     for (const std::string& conversion : report.conversions)
-      builder_.note(fmt::format("'{}': {}", ours.name, conversion));
+      builder_.note(fmt::format("'{}': {}", shown_name(ours.name), conversion));
     return textures_[key] = builder_.add_texture(std::move(ours));
   }
 
@@ -473,6 +501,8 @@ class GltfImporter final : public Importer {
     count_drawn(1);
     const tinygltf::Node& node = item(model_.nodes, index, "node");
     const tinygltf::Value& visible = member(extension_of(node.extensions, kVisibility), "visible");
+    if (visible.Type() != tinygltf::NULL_TYPE && !visible.IsBool())
+      fail_member("visible", "true or false");
     if (visible.IsBool() && !visible.Get<bool>()) {
       hidden_nodes_ = true;
       return;
@@ -504,7 +534,13 @@ class GltfImporter final : public Importer {
 
   // glTF stores columns one after the other; Imath multiplies row vectors from the left, so the
   // same sixteen numbers in the same order are Imath's matrix.
-  static M44d local_matrix(const tinygltf::Node& node) {
+  M44d local_matrix(const tinygltf::Node& node) const {
+    for (const auto& [name, numbers, count] : {std::tuple("matrix", &node.matrix, 16u),
+                                               {"scale", &node.scale, 3u},
+                                               {"rotation", &node.rotation, 4u},
+                                               {"translation", &node.translation, 3u}})
+      if (!numbers->empty() && numbers->size() != count)
+        fail_member(name, fmt::format("{} numbers", count));
     if (node.matrix.size() == 16) {
       M44d matrix;
       for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
@@ -529,11 +565,12 @@ class GltfImporter final : public Importer {
     for (const std::string& name : attributes.Keys()) {
       const int accessor = integer_of(attributes, name.c_str(), -1);
       const std::size_t own = item(model_.accessors, accessor, "accessor").count;
-      if (count.value_or(own) != own || own > kMaxParts)
+      if (own > kMaxParts)
         fail(
-            fmt::format("the attributes of instances have {} and {} elements; the same number in "
-                        "each and at most {} are read",
-                        count.value_or(own), own, kMaxParts));
+            fmt::format("a node has {} instances, at most {} are drawn; split it", own, kMaxParts));
+      if (count.value_or(own) != own)
+        fail(fmt::format("the attributes of instances have {} and {} elements; the file is damaged",
+                         *count, own));
       count = own;
     }
     if (!count) fail("a node with EXT_mesh_gpu_instancing has no attributes; the file is damaged");

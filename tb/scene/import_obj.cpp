@@ -199,7 +199,7 @@ class ObjImporter final : public Importer {
                     std::string* /*errors*/) override {
       const ObjMaterials* const file = file_(name);
       if (file == nullptr) {
-        *warnings += fmt::format("the materials '{}' are not there\n", name);
+        *warnings += fmt::format("the materials '{}' are not there\n", shown_name(name));
         return false;
       }
       for (const ObjMaterial& material : file->materials) {
@@ -227,11 +227,9 @@ class ObjImporter final : public Importer {
   }
 
   std::string plain_text(std::string text, const std::string& file) const {
-    bool is_utf16 = false;
-    text = without_byte_order_mark(std::move(text), is_utf16);
-    if (is_utf16)
+    if (is_utf16(text))
       fail_mesh(path(), fmt::format("'{}' is written in UTF-16; save it as UTF-8", file));
-    return text;
+    return without_byte_order_mark(std::move(text));
   }
 
   // A blank at the end of the line is an empty name.
@@ -259,7 +257,7 @@ class ObjImporter final : public Importer {
       builder.note("statements that were left out: " + text);
     for (const auto& [name, file] : material_files_)
       if (const std::string text = file ? file->not_read.text() : ""; !text.empty())
-        builder.note(fmt::format("'{}': left out: {}", name, text));
+        builder.note(fmt::format("'{}': left out: {}", shown_name(name), text));
   }
 
   void add_faces(const TinyObj& loaded, MeshBuilder& builder) const {

@@ -81,8 +81,12 @@ constexpr std::array<std::string_view, 18> kMaterialStatements = {
 
 }  // namespace
 
-std::string without_byte_order_mark(std::string text, bool& is_utf16) {
-  is_utf16 = text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE");
+bool is_utf16(std::string_view text) {
+  return text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE") ||
+         (text.size() >= 2 && (text[0] == '\0') != (text[1] == '\0'));
+}
+
+std::string without_byte_order_mark(std::string text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   return text;
 }

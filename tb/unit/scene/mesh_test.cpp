@@ -686,6 +686,10 @@ TEST(Gltf, EveryInstanceIsDrawn) {
   EXPECT_THAT(import_error(folder.write("e.glb", file.glb())), HasSubstr("have 3 and 2 elements"));
   file.nodes = nodes("");
   EXPECT_THAT(import_error(folder.write("e.glb", file.glb())), HasSubstr("no attributes"));
+  file.accessors = R"(,{"componentType":5126,"count":4000000000,"type":"VEC3"})";
+  file.nodes = nodes(R"("TRANSLATION":3,"SCALE":3)");
+  EXPECT_THAT(import_error(folder.write("e.glb", file.glb())),
+              HasSubstr("a node has 4000000000 instances, at most 1000000 are drawn"));
 }
 
 TEST(Gltf, HiddenNodesAreLeftOut) {
@@ -1034,6 +1038,80 @@ TEST(Gltf, ProductsOfCountsAreLimited) {
   file.mesh = R"(,"weights":[)" + weights + "]";
   file.nodes = R"([{"mesh":0}])";
   EXPECT_THAT(error(), read);
+}
+
+TEST(Gltf, MembersThatAreNotTheRightNumbersAreNamed) {
+  const TemporaryFolder folder;
+  write_image(folder / "wood.png", noise(4, 4));
+  const auto error = [&](const GltfFile& file) {
+    return import_error(folder.write("m.glb", file.glb()));
+  };
+  for (const auto& [member, reason] :
+       {std::pair(R"("offset":[0,"1"])", "'offset' is not 2 numbers"),
+        {R"("offset":0.5)", "'offset' is not 2 numbers"},
+        {R"("scale":[1,1,1])", "'scale' is not 2 numbers"},
+        {R"("scale":{"x":1})", "'scale' is not 2 numbers"},
+        {R"("rotation":"1")", "'rotation' is not a number"},
+        {R"("texCoord":"1")", "'texCoord' is not a whole number"}}) {
+    GltfFile file;
+    file.material = std::string(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0,)") +
+                    R"("extensions":{"KHR_texture_transform":{)" + member + "}}}}}";
+    EXPECT_THAT(error(file), HasSubstr(std::string(reason) + "; the file is damaged"));
+  }
+  GltfFile file;
+  file.material =
+      R"({"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[1,0]}}})";
+  EXPECT_THAT(error(file), HasSubstr("'diffuseFactor' is not 4 numbers"));
+  for (const auto& [member, reason] :
+       {std::pair(R"("matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0])", "'matrix' is not 16 numbers"),
+        {R"("scale":[1,1])", "'scale' is not 3 numbers"},
+        {R"("rotation":[0,0,1])", "'rotation' is not 4 numbers"},
+        {R"("translation":[0,0,1,0])", "'translation' is not 3 numbers"},
+        {R"("extensions":{"KHR_node_visibility":{"visible":0}})", "'visible' is not true or false"},
+        {R"("extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":"0"}}})",
+         "'TRANSLATION' is not a whole number"}}) {
+    GltfFile node;
+    node.nodes = std::string(R"([{"mesh":0,)") + member + "}]";
+    EXPECT_THAT(error(node), HasSubstr(reason));
+  }
+}
+
+// A file cannot steer the terminal or fill it.
+TEST(Gltf, NamesAreShownShortAndWithoutControlCharacters) {
+  const TemporaryFolder folder;
+  write_image(folder / "wood.png", noise(4, 4));
+  GltfFile file;
+  const auto used = [&](const std::string& names) {
+    file.extra = R"(,"extensionsUsed":[)" + names + "]";
+    for (const std::string& note : import_mesh(folder.write("n.glb", file.glb())).notes)
+      if (note.starts_with("extensions that are not read: ")) return note.substr(30);
+    return std::string();
+  };
+  EXPECT_EQ(used(R"("A\u001b[31m\u0007\n\u009b\u007f\u00e4")"), "A?[31m????\xC3\xA4");
+  EXPECT_EQ(used('"' + std::string(64, 'x') + '"'), std::string(64, 'x'));
+  EXPECT_EQ(used('"' + std::string(65, 'x') + '"'), std::string(64, 'x') + "...");
+  // A character of two bytes is not cut into half.
+  EXPECT_EQ(used('"' + std::string(63, 'x') + "\xC3\xA4\""), std::string(63, 'x') + "...");
+  std::string names, shown;
+  for (int i = 10; i < 30; ++i) names += "\"E" + std::to_string(i) + "\",";
+  for (int i = 10; i < 30; ++i) shown += (i > 10 ? ", E" : "E") + std::to_string(i);
+  EXPECT_EQ(used(names + R"("E29")"), shown);
+  EXPECT_EQ(used(names + R"("E30","E31")"), shown + " and 2 more");
+  file.extra = R"(,"extensionsRequired":["\u001b[31m"])";
+  EXPECT_THAT(import_error(folder.write("n.glb", file.glb())), HasSubstr("extension ?[31m,"));
+  file = {};
+  file.image = R"({"uri":")" + std::string(65, 'y') + R"("})";
+  EXPECT_THAT(import_error(folder.write("n.glb", file.glb())),
+              HasSubstr("texture '" + std::string(64, 'y') + "...' is missing"));
+}
+
+TEST(Gltf, Utf16IsNamed) {
+  const TemporaryFolder folder;
+  for (const std::string_view bytes :
+       {std::string_view("\xFF\xFE{\0", 4), std::string_view("\xFE\xFF\0{", 4),
+        std::string_view("{\0}\0", 4), std::string_view("\0{\0}", 4)})
+    EXPECT_THAT(import_error(folder.write("u.gltf", std::string(bytes))),
+                HasSubstr("it is written in UTF-16; save it as UTF-8"));
 }
 
 TEST(Gltf, StripsAndFans) {

@@ -556,6 +556,9 @@ TEST(ObjText, ByteOrderMarksAreNoStatements) {
                 import_mesh(folder.write("w.obj", std::string_view("\xFF\xFEv\0 \0", 6)));
               }),
               HasSubstr("w.obj' is written in UTF-16; save it as UTF-8"));
+  for (const std::string_view unmarked : {std::string_view("v\0 \0", 4), {"\0v\0 ", 4}})
+    EXPECT_THAT(file_error([&] { import_mesh(folder.write("w.obj", unmarked)); }),
+                HasSubstr("w.obj' is written in UTF-16; save it as UTF-8"));
   folder.write("m.mtl", "\xFE\xFF");
   EXPECT_THAT(file_error([&] { import_mesh(folder / "m.obj"); }),
               HasSubstr("'m.mtl' is written in UTF-16"));
@@ -581,6 +584,17 @@ TEST(ObjText, WhatIsNotReadIsNamedWithItsLine) {
   std::string much;
   for (int k = 0; k < 500; ++k) much += "x" + std::to_string(k) + " 1\n";
   EXPECT_THAT(notes(much), Contains(AllOf(HasSubstr("'x11' (line 16) and 488 more lines"))));
+}
+
+TEST(ObjText, NotesHaveNoControlCharacters) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(import_mesh(folder.write("n.obj",
+                                       "mtllib a\x1B[31m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                       "f 1 2 3\n"))
+                  .notes,
+              Contains(HasSubstr("'a?[31m.mtl'")));
+  EXPECT_THAT(file_error([&] { import_mesh(folder.write("n.obj", "v 0 0 \x1B[31m\n")); }),
+              HasSubstr("'?[31m' in a vertex"));
 }
 
 TEST(ObjText, ACommentMayFollowNumbers) {
