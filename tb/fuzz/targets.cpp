@@ -148,7 +148,7 @@ constexpr std::string_view kPolygons =
     "f 1 2 3 4 5 6 7 8 # C\nf 1 7 2 8\nf 1 2 7 8 1 4 5 \\\n6 3 4\nf 1 2 2 1 1\ncurv 0 1 1 2\n";
 constexpr std::string_view kMaterials =
     "\xEF\xBB\xBFnewmtl a\nKd 0.5\nmap_Kd -s 2 3 -o 0.5 -clamp on -mm 0 2 -cc on a b.png\nd 0.5\n"
-    "newmtl b\nKd spectral a.rfl\nmap_d -bm 1 a.png\n";
+    "newmtl b\nKd spectral a.rfl\nmap_d -bm 1 a.png\nnewmtl c\nKd 1 \\\n0,5 0\nnewmtl d\n";
 constexpr std::string_view kGltf =
     R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,)"
     R"("scale":[1,2,3]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,)"
@@ -180,6 +180,12 @@ constexpr std::string_view kGltfExtensions =
     R"("count":3,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":2,"byteOffset":12,)"
     R"("componentType":5121},"values":{"bufferView":2}}},{"componentType":5126,"count":3,)"
     R"("type":"VEC2"},{"componentType":5126,"count":3,"type":"VEC4"}]})";
+// Lists in lists, a node that is drawn twice.
+constexpr std::string_view kGltfNested =
+    R"({"asset":{"version":"2.0"},"extensionsUsed":["A\u001b"],"extras":[[[[[[[[{"a":[["\\"]]}]]]]]]]],"nodes":[{)"
+    R"("children":[1,1]},{"children":[2,2]},{"mesh":0}],"meshes":[{"primitives":[{)"
+    R"("attributes":{"POSITION":0}}]}],"accessors":[{"componentType":5126,"count":3,)"
+    R"("type":"VEC3"}]})";
 constexpr std::string_view kTrace =
     "deburr-fragments 1\nsize 640 480\n# comment\n"
     "quad 0 f f 0 10 20 0.5 0.25 0.51 0.25 0.5 0.26 0.51 0.26\n"
@@ -251,7 +257,7 @@ std::vector<std::string> obj_seeds() {
 // The same as .gltf and as .glb.
 std::vector<std::string> gltf_seeds() {
   std::vector<std::string> seeds;
-  for (const std::string_view text : {kGltf, kGltfExtensions}) {
+  for (const std::string_view text : {kGltf, kGltfExtensions, kGltfNested}) {
     std::string json = made_of(text);
     seeds.push_back(json);
     while (json.size() % 4 != 0) json += ' ';

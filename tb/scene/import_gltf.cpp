@@ -23,6 +23,7 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/import.h"
 #include "tb/scene/mesh_builder.h"
+#include "tb/scene/obj_text.h"
 
 namespace deburr::tb {
 namespace {
@@ -68,28 +69,10 @@ struct TextureTransform {
   }
 };
 
-V2d pair_of(const tinygltf::Value& value, const char* key, const V2d& otherwise) {
-  if (!value.Has(key)) return otherwise;
-  const tinygltf::Value& array = value.Get(key);
-  if (!array.IsArray() || array.ArrayLen() != 2) return otherwise;
-  return {array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble()};
-}
-
 // A member of an object, or a value that has no members.
 const tinygltf::Value& member(const tinygltf::Value& value, const char* key) {
   static const tinygltf::Value none;
   return value.Has(key) ? value.Get(key) : none;
-}
-
-V3d colour_of(const tinygltf::Value& value, const char* key) {
-  const tinygltf::Value& array = member(value, key);
-  if (array.ArrayLen() < 3) return V3d(1, 1, 1);
-  return {array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble(),
-          array.Get(2).GetNumberAsDouble()};
-}
-
-int integer_of(const tinygltf::Value& value, const char* key, int otherwise) {
-  return value.Has(key) && value.Get(key).IsInt() ? value.Get(key).GetNumberAsInt() : otherwise;
 }
 
 // An object's extension, or a value that has no members.
@@ -99,8 +82,16 @@ const tinygltf::Value& extension_of(const tinygltf::ExtensionMap& extensions, co
   return found == extensions.end() ? none : found->second;
 }
 
-std::string listed(const std::set<std::string>& names) {
-  return fmt::format("{}", fmt::join(names, ", "));
+template <class Name>
+std::string listed(const std::set<Name>& names) {
+  constexpr std::size_t kMost = 20;
+  std::string text;
+  std::size_t shown = 0;
+  for (const Name& name : names) {
+    if (shown == kMost) return fmt::format("{} and {} more", text, names.size() - kMost);
+    text += (shown++ > 0 ? ", " : "") + shown_name(fmt::format("{}", name));
+  }
+  return text;
 }
 
 struct MaterialUse {
@@ -127,6 +118,41 @@ class GltfImporter final : public Importer {
 
  private:
   [[noreturn]] void fail(const std::string& reason) const { fail_mesh(path(), reason); }
+
+  // Numbers of an extension: `otherwise` where they are not there, an error where they are not as
+  // many numbers.
+  template <std::size_t N>
+  std::array<double, N> numbers_of(const tinygltf::Value& value, const char* key,
+                                   std::array<double, N> otherwise) const {
+    if (!value.Has(key)) return otherwise;
+    const tinygltf::Value& array = value.Get(key);
+    bool good = array.IsArray() && array.ArrayLen() == N;
+    for (std::size_t i = 0; i < N && good; ++i) {
+      const tinygltf::Value& part = array.Get(static_cast<int>(i));
+      good = part.IsNumber();
+      otherwise[i] = part.GetNumberAsDouble();
+    }
+    if (!good) fail_member(key, fmt::format("{} numbers", N));
+    return otherwise;
+  }
+  V2d pair_of(const tinygltf::Value& value, const char* key, double otherwise) const {
+    const auto [x, y] = numbers_of<2>(value, key, {otherwise, otherwise});
+    return {x, y};
+  }
+  double number_of(const tinygltf::Value& value, const char* key, double otherwise) const {
+    if (!value.Has(key)) return otherwise;
+    if (!value.Get(key).IsNumber()) fail_member(key, "a number");
+    return value.Get(key).GetNumberAsDouble();
+  }
+  int integer_of(const tinygltf::Value& value, const char* key, int otherwise) const {
+    if (!value.Has(key)) return otherwise;
+    if (!value.Get(key).IsInt()) fail_member(key, "a whole number");
+    return value.Get(key).GetNumberAsInt();
+  }
+  [[noreturn]] void fail_member(std::string_view key, std::string_view wanted) const {
+    fail(fmt::format("'{}' is not {}; the file is damaged, export it again", shown_name(key),
+                     wanted));
+  }
 
   template <class Container>
   const auto& item(const Container& container, int index, const char* what) const {
@@ -188,8 +214,8 @@ class GltfImporter final : public Importer {
                       "out; the file is damaged, export it again",
                       incomplete_corners_));
     if (!zeros_.empty())
-      builder_.note(fmt::format("accessors without a buffer view, which are all zeros: {}",
-                                fmt::join(zeros_, ", ")));
+      builder_.note(
+          fmt::format("accessors without a buffer view, which are all zeros: {}", listed(zeros_)));
     if (const auto names = unread_of_materials(); !names.empty())
       builder_.note(
           fmt::format("of materials the base colour is read: {} left out", listed(names)));
@@ -207,7 +233,9 @@ class GltfImporter final : public Importer {
     bool good = false;
     try {
       const bool binary = bytes.compare(0, 4, "glTF") == 0;
+      if (!binary && is_utf16(bytes)) fail("it is written in UTF-16; save it as UTF-8");
       check_length(bytes, binary);
+      check_nesting(bytes, binary);
       if (binary) drop_chunk(bytes);
       good = binary
                  ? loader.LoadBinaryFromMemory(&model_, &errors, &warnings,
@@ -326,6 +354,35 @@ class GltfImporter final : public Importer {
                        stated, bytes.size()));
   }
 
+  // tinygltf calls itself for each level of JSON that it does not know.
+  void check_nesting(const std::string& bytes, bool binary) const {
+    constexpr int kMaxNesting = 1000;
+    std::string_view json = bytes;
+    if (binary) {  // the first chunk
+      std::uint32_t length = 0;
+      if (bytes.size() < 20) return;
+      std::memcpy(&length, bytes.data() + 12, 4);
+      json = json.substr(20, length);
+    }
+    int depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+      const char c = json[i];
+      if (in_string && c == '\\') {
+        ++i;
+      } else if (c == '"') {
+        in_string = !in_string;
+      } else if (in_string) {
+        continue;
+      } else if (c == ']' || c == '}') {
+        --depth;
+      } else if ((c == '[' || c == '{') && ++depth > kMaxNesting) {
+        fail(fmt::format("its JSON is nested more than {} levels deep; export it again",
+                         kMaxNesting));
+      }
+    }
+  }
+
   // The chunk after the JSON, if it is empty or of an unknown type, both of which tinygltf rejects.
   static void drop_chunk(std::string& bytes) {
     std::uint32_t json = 0, length = 0;
@@ -354,7 +411,8 @@ class GltfImporter final : public Importer {
                                      extension_of(base.baseColorTexture.extensions, kTransform));
       if (material.extensions.contains(kSpecularGlossiness)) {  // it replaces the other
         const tinygltf::Value& diffuse = extension_of(material.extensions, kSpecularGlossiness);
-        ours.colour = colour_of(diffuse, "diffuseFactor");
+        const auto colour = numbers_of<4>(diffuse, "diffuseFactor", {1, 1, 1, 1});
+        ours.colour = {colour[0], colour[1], colour[2]};
         const tinygltf::Value& info = member(diffuse, "diffuseTexture");
         index = integer_of(info, "index", -1);
         use = material_use(integer_of(info, "texCoord", 0),
@@ -368,11 +426,11 @@ class GltfImporter final : public Importer {
     builder_.add_material({"default", V3d(0.8, 0.8, 0.8), -1});
   }
 
-  static MaterialUse material_use(int texcoord, const tinygltf::Value& transform) {
+  MaterialUse material_use(int texcoord, const tinygltf::Value& transform) const {
     MaterialUse use;
-    use.transform.offset = pair_of(transform, "offset", V2d(0, 0));
-    use.transform.scale = pair_of(transform, "scale", V2d(1, 1));
-    use.transform.rotation = member(transform, "rotation").GetNumberAsDouble();
+    use.transform.offset = pair_of(transform, "offset", 0);
+    use.transform.scale = pair_of(transform, "scale", 1);
+    use.transform.rotation = number_of(transform, "rotation", 0);
     use.texcoord = integer_of(transform, "texCoord", texcoord);
     return use;
   }
@@ -410,12 +468,12 @@ class GltfImporter final : public Importer {
     if (encoded == encoded_.end())
       fail(fmt::format(
           "its texture '{}' is missing; put it beside the file or give a texture of your own",
-          ours.name));
+          shown_name(ours.name)));
     ReadReport report;
-    ours.image = read_image_memory(fmt::format("{}: {}", path().string(), ours.name),
+    ours.image = read_image_memory(fmt::format("{}: {}", path().string(), shown_name(ours.name)),
                                    encoded->second, &report);
     for (const std::string& conversion : report.conversions)
-      builder_.note(fmt::format("'{}': {}", ours.name, conversion));
+      builder_.note(fmt::format("'{}': {}", shown_name(ours.name), conversion));
     return textures_[key] = builder_.add_texture(std::move(ours));
   }
 
@@ -438,10 +496,13 @@ class GltfImporter final : public Importer {
 
   void visit_node(int index, const M44d& parent, int depth) {
     constexpr int kMaxDepth = 128;
-    if (depth > kMaxDepth || ++visits_ > kMaxVisits)
+    if (depth > kMaxDepth)
       fail("its nodes form a cycle or are nested too deeply; the file is damaged");
+    count_drawn(1);
     const tinygltf::Node& node = item(model_.nodes, index, "node");
     const tinygltf::Value& visible = member(extension_of(node.extensions, kVisibility), "visible");
+    if (visible.Type() != tinygltf::NULL_TYPE && !visible.IsBool())
+      fail_member("visible", "true or false");
     if (visible.IsBool() && !visible.Get<bool>()) {
       hidden_nodes_ = true;
       return;
@@ -450,10 +511,18 @@ class GltfImporter final : public Importer {
     if (node.mesh >= 0) {
       const tinygltf::Mesh& mesh = item(model_.meshes, node.mesh, "mesh");
       const std::vector<M44d> places = places_of(node, matrix);
+      count_drawn(std::max({places.size(), mesh.primitives.size(), std::size_t{1}}) - 1);
       for (const tinygltf::Primitive& primitive : mesh.primitives)
         import_primitive(primitive, node.weights.empty() ? mesh.weights : node.weights, places);
     }
     for (int child : node.children) visit_node(child, matrix, depth + 1);
+  }
+
+  void count_drawn(std::size_t more) {
+    drawn_parts_ += more;
+    if (drawn_parts_ > kMaxParts)
+      fail(fmt::format("it draws more than {} nodes, instances and primitives; split it",
+                       kMaxParts));
   }
 
   static M44d transform_of(const V3d& scale, const Imath::Quatd& rotation, const V3d& translation) {
@@ -465,7 +534,13 @@ class GltfImporter final : public Importer {
 
   // glTF stores columns one after the other; Imath multiplies row vectors from the left, so the
   // same sixteen numbers in the same order are Imath's matrix.
-  static M44d local_matrix(const tinygltf::Node& node) {
+  M44d local_matrix(const tinygltf::Node& node) const {
+    for (const auto& [name, numbers, count] : {std::tuple("matrix", &node.matrix, 16u),
+                                               {"scale", &node.scale, 3u},
+                                               {"rotation", &node.rotation, 4u},
+                                               {"translation", &node.translation, 3u}})
+      if (!numbers->empty() && numbers->size() != count)
+        fail_member(name, fmt::format("{} numbers", count));
     if (node.matrix.size() == 16) {
       M44d matrix;
       for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
@@ -490,11 +565,12 @@ class GltfImporter final : public Importer {
     for (const std::string& name : attributes.Keys()) {
       const int accessor = integer_of(attributes, name.c_str(), -1);
       const std::size_t own = item(model_.accessors, accessor, "accessor").count;
-      if (count.value_or(own) != own || own > kMaxVisits)
+      if (own > kMaxParts)
         fail(
-            fmt::format("the attributes of instances have {} and {} elements; the same number in "
-                        "each and at most {} are read",
-                        count.value_or(own), own, kMaxVisits));
+            fmt::format("a node has {} instances, at most {} are drawn; split it", own, kMaxParts));
+      if (count.value_or(own) != own)
+        fail(fmt::format("the attributes of instances have {} and {} elements; the file is damaged",
+                         *count, own));
       count = own;
     }
     if (!count) fail("a node with EXT_mesh_gpu_instancing has no attributes; the file is damaged");
@@ -552,6 +628,7 @@ class GltfImporter final : public Importer {
     if (!fits)
       fail(fmt::format("accessor {} reaches beyond its buffer; the file is truncated or damaged",
                        accessor));
+    count_numbers(layout.count * layout.components);
     std::vector<double> values;
     values.reserve(layout.count * layout.components);
     const unsigned char* base = buffer.data.data() + view.byteOffset + layout.byte_offset;
@@ -560,6 +637,16 @@ class GltfImporter final : public Importer {
         values.push_back(
             number(base + i * stride + c * each, layout.component_type, layout.normalized));
     return values;
+  }
+
+  // An accessor is read anew wherever it is used.
+  void count_numbers(std::size_t numbers) const {
+    numbers_read_ += numbers;
+    if (numbers_read_ > kMaxNumbers)
+      fail(
+          fmt::format("its nodes and primitives read more than {} numbers of accessors; share "
+                      "less between them or split it",
+                      kMaxNumbers));
   }
 
   [[noreturn]] void fail_type(int accessor) const {
@@ -583,6 +670,7 @@ class GltfImporter final : public Importer {
       if (result.count > kMaxTriangles)
         fail(fmt::format("accessor {} has {} elements without a buffer view, the limit is {}",
                          index, result.count, kMaxTriangles));
+      count_numbers(result.count * result.components);
       result.values.assign(result.count * result.components, 0.0);
       if (!accessor.sparse.isSparse) zeros_.insert(index);
     }
@@ -725,7 +813,8 @@ class GltfImporter final : public Importer {
     incomplete_corners_ += mode == TINYGLTF_MODE_TRIANGLES ? corners % 3
                            : corners < 3                   ? corners
                                                            : 0;
-    drawn_ = drawn_ || (triangles > 0 && !places.empty());
+    if (triangles == 0 || places.empty()) return;
+    drawn_ = true;
     const auto vertex_of = [&](std::size_t corner) {
       const double index =
           primitive.indices >= 0 ? indices.values[corner] : static_cast<double>(corner);
@@ -759,14 +848,16 @@ class GltfImporter final : public Importer {
     }
   }
 
-  static constexpr int kMaxVisits = 1'000'000;
+  static constexpr std::size_t kMaxParts = 1'000'000;
+  static constexpr std::size_t kMaxNumbers = std::size_t{1} << 28;  // of all accessors
   MeshBuilder builder_;
   tinygltf::Model model_;
   std::map<int, std::string> encoded_;
   std::string unreadable_;         // why a file that is there could not be read
   std::vector<MaterialUse> uses_;  // by material, the default material last
   std::map<std::tuple<int, spec::texture::Wrap, spec::texture::Wrap>, int> textures_;
-  int visits_ = 0;
+  std::size_t drawn_parts_ = 0;
+  mutable std::size_t numbers_read_ = 0;
   std::size_t incomplete_corners_ = 0;
   mutable std::set<int> zeros_;  // accessors without data
   bool skipped_primitives_ = false, vertex_colours_ = false, hidden_nodes_ = false, drawn_ = false;

@@ -153,7 +153,7 @@ class ObjImporter final : public Importer {
   // The lines that name materials, by themselves, make tinyobjloader ask for the same files in the
   // same order as all of them do.
   void open() override {
-    text_ = with_whole_lines(plain_text(read_mesh(), path().string()));
+    text_ = with_whole_lines(plain_text(read_mesh(), path().string()), Statements::kObj);
     checked_.emplace(path(), text_);
     load(checked_->material_lines(), [this](const std::string& name) {
       const ObjMaterials* const read = read_material_file(name);
@@ -199,7 +199,7 @@ class ObjImporter final : public Importer {
                     std::string* /*errors*/) override {
       const ObjMaterials* const file = file_(name);
       if (file == nullptr) {
-        *warnings += fmt::format("the materials '{}' are not there\n", name);
+        *warnings += fmt::format("the materials '{}' are not there\n", shown_name(name));
         return false;
       }
       for (const ObjMaterial& material : file->materials) {
@@ -227,18 +227,17 @@ class ObjImporter final : public Importer {
   }
 
   std::string plain_text(std::string text, const std::string& file) const {
-    bool is_utf16 = false;
-    text = without_byte_order_mark(std::move(text), is_utf16);
-    if (is_utf16)
+    if (is_utf16(text))
       fail_mesh(path(), fmt::format("'{}' is written in UTF-16; save it as UTF-8", file));
-    return text;
+    return without_byte_order_mark(std::move(text));
   }
 
   // A blank at the end of the line is an empty name.
   const ObjMaterials* read_material_file(const std::string& name) {
     std::optional<ObjMaterials>& file = material_files_[name];
     if (std::optional<std::string> text = name.empty() ? std::nullopt : read_named(folder() / name))
-      file = parse_materials(plain_text(std::move(*text), name));
+      file = parse_materials(
+          with_whole_lines(plain_text(std::move(*text), name), Statements::kMaterials));
     return file ? &*file : nullptr;
   }
 
@@ -258,7 +257,7 @@ class ObjImporter final : public Importer {
       builder.note("statements that were left out: " + text);
     for (const auto& [name, file] : material_files_)
       if (const std::string text = file ? file->not_read.text() : ""; !text.empty())
-        builder.note(fmt::format("'{}': left out: {}", name, text));
+        builder.note(fmt::format("'{}': left out: {}", shown_name(name), text));
   }
 
   void add_faces(const TinyObj& loaded, MeshBuilder& builder) const {

@@ -24,7 +24,26 @@ using Imath::V2d;
 using Imath::V3d;
 
 void fail_mesh(const fs::path& path, const std::string& reason) {
-  throw spec::FileError(fmt::format("cannot read the mesh '{}': {}", path.string(), reason));
+  throw spec::FileError(
+      fmt::format("cannot read the mesh '{}': {}", path.string(), printable(reason)));
+}
+
+std::string printable(std::string text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    if (byte < ' ' || byte == 0x7F) text[i] = '?';
+    if (byte == 0xC2 && next >= 0x80 && next < 0xA0) text.replace(i, 2, "?");  // U+0080 to U+009F
+  }
+  return text;
+}
+
+std::string shown_name(std::string_view name) {
+  constexpr std::size_t kMost = 64;
+  if (name.size() <= kMost) return printable(std::string(name));
+  std::size_t end = kMost;
+  while (end > kMost - 4 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80) --end;
+  return printable(std::string(name.substr(0, end))) + "...";
 }
 
 namespace {

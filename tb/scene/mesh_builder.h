@@ -18,6 +18,10 @@ namespace deburr::tb {
 // "cannot read the mesh 'file': reason"
 [[noreturn]] void fail_mesh(const std::filesystem::path& path, const std::string& reason);
 
+// What a file says goes to terminals: without characters that steer one, a name with at most 64.
+std::string printable(std::string text);
+std::string shown_name(std::string_view name);
+
 class MeshBuilder {
  public:
   explicit MeshBuilder(const std::filesystem::path& path);
@@ -28,7 +32,7 @@ class MeshBuilder {
     std::optional<Imath::V2d> uv;
   };
   void add_triangle(const std::array<Corner, 3>& corners, std::uint32_t material);
-  void note(const std::string& text) { mesh_.notes.push_back(text); }
+  void note(const std::string& text) { mesh_.notes.push_back(printable(text)); }
 
   // Reads a texture file once, however many materials name it, for each way to wrap it. Throws
   // FileError.

@@ -81,18 +81,22 @@ constexpr std::array<std::string_view, 18> kMaterialStatements = {
 
 }  // namespace
 
-std::string without_byte_order_mark(std::string text, bool& is_utf16) {
-  is_utf16 = text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE");
+bool is_utf16(std::string_view text) {
+  return text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE") ||
+         (text.size() >= 2 && (text[0] == '\0') != (text[1] == '\0'));
+}
+
+std::string without_byte_order_mark(std::string text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   return text;
 }
 
-std::string with_whole_lines(std::string text) {
+std::string with_whole_lines(std::string text, Statements statements) {
   if (text.find("\\\n") == std::string::npos && text.find("\\\r\n") == std::string::npos &&
       text.find(" #") == std::string::npos && text.find("\t#") == std::string::npos)
     return text;
   std::string whole, owed;
-  bool numbers = false;  // it is such a line
+  bool goes_on = false;  // it is a line that may
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::string_view line = std::string_view(text).substr(at, end - at);
@@ -100,17 +104,20 @@ std::string with_whole_lines(std::string text) {
     if (owed.empty()) {
       std::string_view rest = line;
       const std::string_view keyword = next_word(rest);
-      numbers = keyword == "v" || keyword == "vt" || keyword == "vn" || keyword == "f";
+      goes_on = statements == Statements::kMaterials
+                    ? !keyword.starts_with('#')
+                    : keyword == "v" || keyword == "vt" || keyword == "vn" || keyword == "f";
     }
     std::string_view bare = line;
     if (bare.ends_with('\r')) bare.remove_suffix(1);
-    if (numbers && bare.find('\r') == std::string_view::npos) bare = bare.substr(0, bare.find('#'));
-    if (numbers && bare.ends_with('\\') && end < text.size()) {
+    if (goes_on && statements == Statements::kObj && bare.find('\r') == std::string_view::npos)
+      bare = bare.substr(0, bare.find('#'));
+    if (goes_on && bare.ends_with('\\') && end < text.size()) {
       whole += bare.substr(0, bare.size() - 1);
       owed += '\n';
       continue;
     }
-    whole += numbers ? bare : line;
+    whole += goes_on ? bare : line;
     if (end < text.size()) whole += '\n';
     whole += std::exchange(owed, "");
   }
@@ -263,6 +270,7 @@ class MaterialParser {
     if (keyword == "newmtl") {
       finish();
       material_.name = trimmed(line);
+      first_line_ = line_;
       return;
     }
     double value = 0.0;
@@ -287,7 +295,12 @@ class MaterialParser {
   void not_read(std::string_view what) { result_.not_read.add(what, line_); }
 
   void finish() {
-    if (!has_colour_ && !material_.map.empty()) material_.colour = V3d(0.6, 0.6, 0.6);
+    if (!has_colour_) {
+      const bool mapped = !material_.map.empty();
+      material_.colour = mapped ? V3d(0.6, 0.6, 0.6) : V3d(kGrey, kGrey, kGrey);
+      if (!mapped && !material_.name.empty())
+        result_.not_read.add("a material without 'Kd' and 'map_Kd', grey instead", first_line_);
+    }
     if (!material_.name.empty()) result_.materials.push_back(std::move(material_));
     material_ = {};
     has_colour_ = false;
@@ -303,6 +316,10 @@ class MaterialParser {
     V3d values(0, 0, 0);
     int found = 0;
     while (found < 3 && take_number(line, values[found])) ++found;
+    if (const std::string_view rest = trimmed(line); found < 3 && !rest.empty() && rest[0] != '#') {
+      not_read("'Kd' that is not a number, grey instead");
+      return V3d(kGrey, kGrey, kGrey);
+    }
     if (found == 1) return V3d(values.x, values.x, values.x);
     if (found == 2) not_read("'Kd' of two numbers, blue is 0");
     if (found > 0) return values;
@@ -357,7 +374,7 @@ class MaterialParser {
   ObjMaterials result_;
   ObjMaterial material_;
   bool has_colour_ = false;
-  std::uint64_t line_ = 0;
+  std::uint64_t line_ = 0, first_line_ = 0;  // first: of the material
 };
 
 }  // namespace

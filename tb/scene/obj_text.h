@@ -14,12 +14,16 @@
 
 namespace deburr::tb {
 
-// Without a byte order mark of UTF-8. `other` is set where there is one of UTF-16.
-std::string without_byte_order_mark(std::string text, bool& is_utf16);
+// By its byte order mark, or by its first character.
+bool is_utf16(std::string_view text);
+// Without that of UTF-8.
+std::string without_byte_order_mark(std::string text);
 
 // A line of numbers that ends with a backslash goes on in the next one, and one of a face may end
-// with a comment: tinyobjloader knows neither. Lines keep their numbers.
-std::string with_whole_lines(std::string text);
+// with a comment: tinyobjloader knows neither. Of materials every statement may go on, and a hash
+// may be part of a name. Lines keep their numbers.
+enum class Statements { kObj, kMaterials };
+std::string with_whole_lines(std::string text, Statements statements);
 
 // What a file has and nobody reads, each with the line that it is first in.
 class NotRead {

@@ -20,8 +20,8 @@ namespace {
 
 using Corner = MeshBuilder::Corner;
 
-constexpr std::size_t kAlwaysSimpleEnough = 1024;  // corners
-constexpr double kFlat = 1e-4;                     // height over the longest side
+constexpr std::size_t kAlwaysSimpleEnough = 128;  // corners
+constexpr double kFlat = 1e-4;                    // height over the longest side
 
 // ---- limits -------------------------------------------------------------------------------------
 

@@ -22,7 +22,7 @@ bool is_strictly_convex(const PolygonCorners& polygon);
 
 // The tessellator's time grows with the square of corners, and with crossings times corners.
 inline constexpr std::size_t kMaxPolygonCorners = 1 << 15;
-inline constexpr std::size_t kMaxPolygonCrossings = 1 << 12;  // of more than 1024 corners
+inline constexpr std::size_t kMaxPolygonCrossings = 1 << 12;  // of more than 128 corners
 // Why the tessellator would take too long; empty if it would not.
 std::string too_complex(const PolygonCorners& polygon);
 

@@ -686,6 +686,10 @@ TEST(Gltf, EveryInstanceIsDrawn) {
   EXPECT_THAT(import_error(folder.write("e.glb", file.glb())), HasSubstr("have 3 and 2 elements"));
   file.nodes = nodes("");
   EXPECT_THAT(import_error(folder.write("e.glb", file.glb())), HasSubstr("no attributes"));
+  file.accessors = R"(,{"componentType":5126,"count":4000000000,"type":"VEC3"})";
+  file.nodes = nodes(R"("TRANSLATION":3,"SCALE":3)");
+  EXPECT_THAT(import_error(folder.write("e.glb", file.glb())),
+              HasSubstr("a node has 4000000000 instances, at most 1000000 are drawn"));
 }
 
 TEST(Gltf, HiddenNodesAreLeftOut) {
@@ -963,6 +967,151 @@ TEST(Gltf, BrokenFilesAreNamed) {
   EXPECT_THAT(error(file), HasSubstr("cycle"));
   file.nodes = R"([{"mesh":4}])";
   EXPECT_THAT(error(file), HasSubstr("mesh 4"));
+}
+
+TEST(Gltf, JsonOfMoreThanAThousandLevelsIsRejected) {
+  const TemporaryFolder folder;
+  write_image(folder / "wood.png", noise(4, 4));
+  GltfFile file;
+  const auto lists = [](int levels) {  // brackets in a string are none, nor is a quote in one
+    const auto count = static_cast<std::size_t>(levels);
+    return R"(,"extras":[")" + std::string(2000, '[') + R"(\"{[",)" + std::string(count, '[') +
+           std::string(count, ']') + "]";
+  };
+  file.extra = lists(998);  // in a list and in the file's object: 1000
+  EXPECT_EQ(import_mesh(folder.write("d.glb", file.glb())).triangles.size(), 1u);
+  folder.write("t.bin", file.binary);
+  for (const int levels : {999, 100'000}) {
+    file.extra = lists(levels);
+    const auto named = HasSubstr("JSON is nested more than 1000 levels deep; export it again");
+    EXPECT_THAT(import_error(folder.write("d.glb", file.glb())), named);
+    EXPECT_THAT(import_error(folder.write("d.gltf", file.json("t.bin"))), named);
+  }
+  const std::string objects = [] {
+    std::string text;
+    for (int i = 0; i < 100'000; ++i) text += R"({"a":)";
+    return text;
+  }();
+  EXPECT_THAT(import_error(folder.write("o.gltf", objects)), HasSubstr("nested more than 1000"));
+}
+
+// Each number of the file is allowed; what they ask for together is not.
+TEST(Gltf, ProductsOfCountsAreLimited) {
+  const TemporaryFolder folder;
+  write_image(folder / "wood.png", noise(4, 4));
+  GltfFile file;
+  const auto doubled = [](int levels, const std::string& last) {  // drawn 2^levels times
+    std::string nodes = "[";
+    for (int i = 1; i <= levels; ++i)
+      nodes += R"({"children":[)" + std::to_string(i) + "," + std::to_string(i) + "]},";
+    return nodes + last + "]";
+  };
+  const std::string many = R"(,{"componentType":5126,"count":600000,"type":"VEC3"})";
+  const std::string instances =
+      R"({"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":3}}}})";
+  const auto error = [&] { return import_error(folder.write("p.glb", file.glb())); };
+  const auto drawn = HasSubstr("draws more than 1000000 nodes, instances and primitives; split it");
+  file.accessors = many;
+  file.index_count = 2;  // no triangle
+  file.primitive = R"({"attributes":{"POSITION":0},"indices":2})";
+  file.nodes = doubled(1, instances);
+  EXPECT_THAT(error(), drawn);
+  file.nodes = doubled(0, instances);
+  EXPECT_THAT(error(), HasSubstr("no triangles"));
+  file.primitive = R"({"attributes":{"POSITION":0},"mode":1})";
+  for (int i = 0; i < 99; ++i) file.primitive += R"(,{"attributes":{"POSITION":0},"mode":1})";
+  file.nodes = doubled(14, R"({"mesh":0})");
+  EXPECT_THAT(error(), drawn);
+  // 600 000 positions of 3 numbers are read once more than 2^28 allows.
+  const auto read = HasSubstr("read more than 268435456 numbers of accessors; share less");
+  file.primitive = R"({"attributes":{"POSITION":3},"indices":2})";
+  file.nodes = doubled(8, R"({"mesh":0})");
+  EXPECT_THAT(error(), read);
+  file.nodes = doubled(1, R"({"mesh":0})");
+  EXPECT_THAT(error(), HasSubstr("no triangles"));
+  std::string targets, weights;
+  for (int i = 0; i < 200; ++i) {
+    targets += std::string(i > 0 ? "," : "") + R"({"POSITION":3})";
+    weights += std::string(i > 0 ? "," : "") + "1";
+  }
+  file.primitive = R"({"attributes":{"POSITION":3},"indices":2,"targets":[)" + targets + "]}";
+  file.mesh = R"(,"weights":[)" + weights + "]";
+  file.nodes = R"([{"mesh":0}])";
+  EXPECT_THAT(error(), read);
+}
+
+TEST(Gltf, MembersThatAreNotTheRightNumbersAreNamed) {
+  const TemporaryFolder folder;
+  write_image(folder / "wood.png", noise(4, 4));
+  const auto error = [&](const GltfFile& file) {
+    return import_error(folder.write("m.glb", file.glb()));
+  };
+  for (const auto& [member, reason] :
+       {std::pair(R"("offset":[0,"1"])", "'offset' is not 2 numbers"),
+        {R"("offset":0.5)", "'offset' is not 2 numbers"},
+        {R"("scale":[1,1,1])", "'scale' is not 2 numbers"},
+        {R"("scale":{"x":1})", "'scale' is not 2 numbers"},
+        {R"("rotation":"1")", "'rotation' is not a number"},
+        {R"("texCoord":"1")", "'texCoord' is not a whole number"}}) {
+    GltfFile file;
+    file.material = std::string(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0,)") +
+                    R"("extensions":{"KHR_texture_transform":{)" + member + "}}}}}";
+    EXPECT_THAT(error(file), HasSubstr(std::string(reason) + "; the file is damaged"));
+  }
+  GltfFile file;
+  file.material =
+      R"({"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[1,0]}}})";
+  EXPECT_THAT(error(file), HasSubstr("'diffuseFactor' is not 4 numbers"));
+  for (const auto& [member, reason] :
+       {std::pair(R"("matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0])", "'matrix' is not 16 numbers"),
+        {R"("scale":[1,1])", "'scale' is not 3 numbers"},
+        {R"("rotation":[0,0,1])", "'rotation' is not 4 numbers"},
+        {R"("translation":[0,0,1,0])", "'translation' is not 3 numbers"},
+        {R"("extensions":{"KHR_node_visibility":{"visible":0}})", "'visible' is not true or false"},
+        {R"("extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":"0"}}})",
+         "'TRANSLATION' is not a whole number"}}) {
+    GltfFile node;
+    node.nodes = std::string(R"([{"mesh":0,)") + member + "}]";
+    EXPECT_THAT(error(node), HasSubstr(reason));
+  }
+}
+
+// A file cannot steer the terminal or fill it.
+TEST(Gltf, NamesAreShownShortAndWithoutControlCharacters) {
+  const TemporaryFolder folder;
+  write_image(folder / "wood.png", noise(4, 4));
+  GltfFile file;
+  const auto used = [&](const std::string& names) {
+    file.extra = R"(,"extensionsUsed":[)" + names + "]";
+    for (const std::string& note : import_mesh(folder.write("n.glb", file.glb())).notes)
+      if (note.starts_with("extensions that are not read: ")) return note.substr(30);
+    return std::string();
+  };
+  EXPECT_EQ(used(R"("A\u001b[31m\u0007\n\u009b\u007f\u00e4")"), "A?[31m????\xC3\xA4");
+  EXPECT_EQ(used('"' + std::string(64, 'x') + '"'), std::string(64, 'x'));
+  EXPECT_EQ(used('"' + std::string(65, 'x') + '"'), std::string(64, 'x') + "...");
+  // A character of two bytes is not cut into half.
+  EXPECT_EQ(used('"' + std::string(63, 'x') + "\xC3\xA4\""), std::string(63, 'x') + "...");
+  std::string names, shown;
+  for (int i = 10; i < 30; ++i) names += "\"E" + std::to_string(i) + "\",";
+  for (int i = 10; i < 30; ++i) shown += (i > 10 ? ", E" : "E") + std::to_string(i);
+  EXPECT_EQ(used(names + R"("E29")"), shown);
+  EXPECT_EQ(used(names + R"("E30","E31")"), shown + " and 2 more");
+  file.extra = R"(,"extensionsRequired":["\u001b[31m"])";
+  EXPECT_THAT(import_error(folder.write("n.glb", file.glb())), HasSubstr("extension ?[31m,"));
+  file = {};
+  file.image = R"({"uri":")" + std::string(65, 'y') + R"("})";
+  EXPECT_THAT(import_error(folder.write("n.glb", file.glb())),
+              HasSubstr("texture '" + std::string(64, 'y') + "...' is missing"));
+}
+
+TEST(Gltf, Utf16IsNamed) {
+  const TemporaryFolder folder;
+  for (const std::string_view bytes :
+       {std::string_view("\xFF\xFE{\0", 4), std::string_view("\xFE\xFF\0{", 4),
+        std::string_view("{\0}\0", 4), std::string_view("\0{\0}", 4)})
+    EXPECT_THAT(import_error(folder.write("u.gltf", std::string(bytes))),
+                HasSubstr("it is written in UTF-16; save it as UTF-8"));
 }
 
 TEST(Gltf, StripsAndFans) {
