@@ -16,7 +16,7 @@ function(deburr_add_subdirectories_of folder)
   endforeach()
 endfunction()
 
-# deburr_engines(<library> <name>...): a library that defines engines() (tb/app/engine.h) with these
+# deburr_engines(<library> <name>...): a library that defines engines() (tool/run/engine.h) with these
 # engines in this order; a program links one such library. It is made of objects, since parts of
 # deburr::app need engines() wherever they stand on a linker's command line.
 function(deburr_engines library)
@@ -31,7 +31,7 @@ function(deburr_engines library)
   set(file "${CMAKE_CURRENT_BINARY_DIR}/${library}.cpp")
   file(CONFIGURE OUTPUT "${file}" @ONLY CONTENT [[
 // Made by cmake/Engines.cmake.
-#include "tb/app/engine.h"
+#include "tool/run/engine.h"
 
 namespace deburr::tb {
 

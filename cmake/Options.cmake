@@ -52,7 +52,7 @@ set(DEBURR_LIGHT_OPTIONS $<$<CONFIG:Release>:-Og>)
 target_compile_options(deburr_light_options INTERFACE ${DEBURR_LIGHT_OPTIONS})
 
 # What hands its work to models and environments. Under sanitizers -O0 takes less than half of the time of -O1 to
-# compile; a model would run four times as long, and so would the random configurations of tb/app.
+# compile; a model would run four times as long, and so would the random configurations of tool/run.
 add_library(deburr_lightest_options INTERFACE)
 target_link_libraries(deburr_lightest_options INTERFACE deburr_light_options)
 if(DEBURR_SANITIZE)

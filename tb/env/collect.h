@@ -9,7 +9,7 @@
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
-#include "tb/results/result.h"
+#include "tb/run/result.h"
 
 namespace deburr::tb {
 

@@ -28,8 +28,8 @@
 #include "tb/harness/coverage.h"
 #include "tb/harness/observer.h"
 #include "tb/harness/scoreboard.h"
-#include "tb/results/picture_map.h"
-#include "tb/results/result.h"
+#include "tb/run/picture_map.h"
+#include "tb/run/result.h"
 
 namespace deburr::tb {
 

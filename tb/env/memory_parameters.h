@@ -9,7 +9,7 @@
 
 #include "rtl_model/fabric/memory_clocks.h"
 #include "rtl_model/platform/memory_model_parameters.h"
-#include "tb/results/parameter_set.h"
+#include "tb/run/parameter_set.h"
 
 namespace deburr::tb {
 

@@ -15,8 +15,8 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/platform/memory_model.h"
 #include "tb/harness/observer.h"
-#include "tb/results/picture_map.h"
-#include "tb/results/result.h"
+#include "tb/run/picture_map.h"
+#include "tb/run/result.h"
 
 namespace deburr::tb {
 

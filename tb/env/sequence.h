@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tb/env/camera_parameters.h"
-#include "tb/results/given_work.h"
+#include "tb/run/given_work.h"
 #include "tb/scene/motion.h"
 
 namespace deburr::tb {

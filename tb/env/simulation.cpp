@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "tb/env/environment.h"
-#include "tb/results/progress.h"
+#include "tb/run/progress.h"
 
 namespace deburr::tb {
 namespace {

@@ -23,7 +23,7 @@
 #include "tb/harness/bench.h"
 #include "tb/harness/timeline.h"
 #include "tb/harness/window_recorder.h"
-#include "tb/results/result.h"
+#include "tb/run/result.h"
 
 namespace deburr::tb {
 

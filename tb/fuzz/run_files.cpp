@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "spec/error.h"
-#include "tb/results/compare_runs.h"
-#include "tb/results/picture_map.h"
-#include "tb/results/report.h"
-#include "tb/results/result.h"
+#include "tb/run/picture_map.h"
+#include "tb/run/result.h"
+#include "tool/pages/compare_runs.h"
+#include "tool/pages/report.h"
 
 namespace deburr::tb {
 namespace {

@@ -18,7 +18,7 @@
 #include "tb/fuzz/c_calls.h"
 #include "tb/fuzz/engine_parameters.h"
 #include "tb/fuzz/run_files.h"
-#include "tb/results/parameter_set.h"
+#include "tb/run/parameter_set.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/mesh.h"
 #include "tb/scene/png.h"

@@ -16,13 +16,13 @@
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/morphological_golden.h"
 #include "spec/error.h"
+#include "studies/training/stand_ins.h"
 #include "tb/scene/flip.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/ssim.h"
 #include "tb/scene/truth.h"
 #include "tb/stimuli/reference_filters.h"
-#include "tb/training/stand_ins.h"
 
 namespace deburr::tb::harm {
 namespace {

@@ -22,12 +22,12 @@
 
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/morphological_golden.h"
+#include "studies/training/stand_ins.h"
 #include "tb/harness/test_paths.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/truth.h"
 #include "tb/stimuli/reference_filters.h"
-#include "tb/training/stand_ins.h"
 
 namespace deburr::tb::morphological_frames_test {
 namespace {

@@ -128,11 +128,11 @@ class Added(unittest.TestCase):
 
     # What the declaration leaves out, and works all the same.
     def test_what_an_engine_may_leave_out(self):
-        with open(os.path.join(SOURCE, "tb/app/engine.h"), encoding="utf-8") as file:
+        with open(os.path.join(SOURCE, "tool/run/engine.h"), encoding="utf-8") as file:
             declared = file.read().split("class Engine {")[1].split("\n};")[0]
         functions = dict(re.findall(r"virtual [^;{]*?\b(\w+)\([^;{]*?(= 0;|\{)", declared.replace("const {", "{")))
         functions |= {name: "{" for name in re.findall(r"virtual [^;{=]*?\b(\w+)\([^;{=]*?;", declared)}
-        own = (FOLDER / f"{NAME}_engine.cpp").read_text(encoding="utf-8")
+        own = (HERE / "tool/engines" / NAME / f"{NAME}_engine.cpp").read_text(encoding="utf-8")
         overridden = {name for name in functions if re.search(rf"\b{name}\([^;{{]*override", own)}
         self.assertEqual({name for name, body in functions.items() if body == "= 0;"} - overridden, set())
         self.assertEqual(set(functions) - overridden, {"parts", "clock_mhz", "resolve", "prepare", "built_for_golden",

@@ -2,7 +2,7 @@
 add_dependencies(deburr_system_tests deburr_complete)
 add_dependencies(deburr_slurm_tests deburr_complete)
 deburr_test(app_report_test PROGRAM system_app_tests LABELS system SOURCE app_report_test.cpp
-            LINK deburr::results TIMEOUT 300)
+            LINK deburr::pages TIMEOUT 300)
 deburr_test(app_reset_test PROGRAM system_app_reset_tests LABELS stress SOURCE app_reset_test.cpp
             LINK deburr::engines TIMEOUT 300)
 set(command $<TARGET_FILE:deburr>)

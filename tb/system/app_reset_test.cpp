@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A reset in mid-run, of builds and runs as they are drawn at random
-// (tb/app/random_configuration.h): what comes after it is, to the clock, a run without it. Every
+// (tool/run/random_configuration.h): what comes after it is, to the clock, a run without it. Every
 // figure of result.json is compared.
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include "tb/app/random_configuration.h"
-#include "tb/app/run_once.h"
 #include "tb/base/forked.h"
 #include "tb/base/random.h"
-#include "tb/results/result.h"
+#include "tb/run/result.h"
+#include "tool/run/random_configuration.h"
+#include "tool/run/run_once.h"
 
 namespace deburr::tb::app_reset_test {
 namespace {

@@ -14,13 +14,13 @@
 #include "spec/error.h"
 #include "spec/morphological/check_build.h"
 #include "spec/texture/check_build.h"
-#include "tb/app/engine.h"
 #include "tb/engines/texture/texture_expectation.h"
 #include "tb/harness/verdict.h"
-#include "tb/results/run_context.h"
-#include "tb/results/shared_inputs.h"
 #include "tb/system/morphological_runs.h"
 #include "tb/system/texture_runs.h"
+#include "tool/pages/run_context.h"
+#include "tool/pages/shared_inputs.h"
+#include "tool/run/engine.h"
 
 namespace deburr::tb::shared_golden_test {
 namespace {

@@ -48,7 +48,7 @@ inline double get_double(std::string_view bytes, std::size_t at) {
 }
 
 // A file that appears whole or not at all, if it lies in a run's draft
-// (tb/results/run_directory.h): every failure, a full disk above all, is a FileError, behind which
+// (tool/pages/run_directory.h): every failure, a full disk above all, is a FileError, behind which
 // it is gone.
 class TraceOutput {
  public:

@@ -15,7 +15,7 @@
 #include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/env/camera_parameters.h"
 #include "tb/env/sequence.h"
-#include "tb/results/given_work.h"
+#include "tb/run/given_work.h"
 #include "tb/scene/image.h"
 #include "tb/scene/scenes.h"
 

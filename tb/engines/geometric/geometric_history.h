@@ -11,7 +11,7 @@
 #include "rtl_model/fabric/clocked.h"
 #include "spec/geometric/packets.h"
 #include "tb/engines/geometric/geometric_stimuli.h"
-#include "tb/results/pixel_history.h"
+#include "tb/run/pixel_history.h"
 
 namespace deburr::tb {
 

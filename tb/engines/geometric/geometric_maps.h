@@ -11,7 +11,7 @@
 
 #include "rtl_model/geometric/geometric_engine.h"
 #include "spec/geometric/packets.h"
-#include "tb/results/picture_map.h"
+#include "tb/run/picture_map.h"
 
 namespace deburr::tb {
 

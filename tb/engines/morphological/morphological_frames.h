@@ -16,7 +16,7 @@
 #include "golden/morphological/morphological_golden.h"
 #include "tb/engines/morphological/morphological_input.h"
 #include "tb/env/sequence.h"
-#include "tb/results/given_work.h"
+#include "tb/run/given_work.h"
 #include "tb/scene/image.h"
 #include "tb/scene/truth.h"
 

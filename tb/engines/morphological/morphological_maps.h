@@ -8,7 +8,7 @@
 
 #include "rtl_model/morphological/morphological_engine.h"
 #include "spec/morphological/packets.h"
-#include "tb/results/picture_map.h"
+#include "tb/run/picture_map.h"
 
 namespace deburr::tb {
 

@@ -15,7 +15,7 @@
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/packets.h"
 #include "tb/harness/monitor.h"
-#include "tb/results/pixel_history.h"
+#include "tb/run/pixel_history.h"
 #include "tb/traces/fragment_trace.h"
 
 namespace deburr::tb {

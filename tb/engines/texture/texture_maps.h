@@ -11,7 +11,7 @@
 #include "spec/texture/packets.h"
 #include "tb/engines/texture/sent_quads.h"
 #include "tb/harness/monitor.h"
-#include "tb/results/picture_map.h"
+#include "tb/run/picture_map.h"
 
 namespace deburr::tb {
 

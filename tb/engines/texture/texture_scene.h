@@ -17,7 +17,7 @@
 #include "tb/env/camera_parameters.h"
 #include "tb/env/memory_parameters.h"
 #include "tb/env/sequence.h"
-#include "tb/results/given_work.h"
+#include "tb/run/given_work.h"
 #include "tb/scene/drawn_scene.h"
 #include "tb/scene/image.h"
 #include "tb/scene/motion.h"

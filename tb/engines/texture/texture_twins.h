@@ -16,7 +16,7 @@
 #include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/texture/texture_unit.h"
 #include "spec/texture/parameters.h"
-#include "tb/results/parameter_set.h"
+#include "tb/run/parameter_set.h"
 
 namespace deburr::tb {
 

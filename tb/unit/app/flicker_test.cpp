@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Flicker over the frames of a run: every figure by hand.
-#include "tb/app/flicker.h"
+#include "tool/run/flicker.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

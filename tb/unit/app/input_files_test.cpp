@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "tb/app/run_once.h"
+#include "tool/run/run_once.h"
 
 namespace deburr::tb::input_files_test {
 namespace {

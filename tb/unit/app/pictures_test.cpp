@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures and quality of a run, whole or interrupted.
-#include "tb/app/pictures.h"
+#include "tool/run/pictures.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

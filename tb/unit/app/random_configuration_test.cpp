@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/app/random_configuration.h"
+#include "tool/run/random_configuration.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/app/run_once.h"
 #include "tb/base/forked.h"
 #include "tb/base/sanitized.h"
+#include "tool/run/run_once.h"
 
 namespace deburr::tb::random_configuration_test {
 namespace {

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "rtl_model/fabric/register_section.h"
-#include "tb/app/engine.h"
-#include "tb/app/reference_pages.h"
+#include "tool/run/engine.h"
+#include "tool/run/reference_pages.h"
 
 namespace deburr::tb::register_header_test {
 namespace {

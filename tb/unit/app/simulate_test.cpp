@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a run that fails says of itself, whatever can no longer be left of it.
-#include "tb/app/simulate.h"
+#include "tool/run/simulate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/app/input_rules.h"
-#include "tb/app/run_once.h"
 #include "tb/base/forked.h"
 #include "tb/engines/geometric/geometric_environment.h"
 #include "tb/engines/geometric/geometric_frames.h"
+#include "tool/run/input_rules.h"
+#include "tool/run/run_once.h"
 
 namespace deburr::tb::simulate_test {
 namespace {
@@ -165,7 +165,9 @@ TEST(SimulationOptions, ProgramRulesUnlessTheyAreResetValues) {
 }
 
 TEST(FromRepository, IsThePathThatUsersKnow) {
-  EXPECT_EQ(from_repository("/a/layers/tb/tb/app/x.cpp:7: y"), "tb/app/x.cpp:7: y");
+  EXPECT_EQ(from_repository("/a/layers/tb/tb/env/x.cpp:7: y"), "tb/env/x.cpp:7: y");
+  EXPECT_EQ(from_repository("/a/layers/tool/tool/run/x.cpp:7: y"), "tool/run/x.cpp:7: y");
+  EXPECT_EQ(from_repository("/a/layers/studies/studies/papers/x.h"), "studies/papers/x.h");
   EXPECT_EQ(from_repository("/a/layers/rtl_model/rtl_model/x.h:7"), "rtl_model/x.h:7");
   EXPECT_EQ(from_repository("/a/layers/golden/golden/x.h"), "golden/x.h");
   EXPECT_EQ(from_repository("/a/layers/spec/spec/x.h"), "spec/x.h");

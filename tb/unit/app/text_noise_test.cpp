@@ -17,12 +17,12 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/app/random_configuration.h"
-#include "tb/app/run_once.h"
 #include "tb/base/random.h"
 #include "tb/harness/register_noise.h"
 #include "tb/harness/test_paths.h"
-#include "tb/sweep/definition.h"
+#include "tool/run/random_configuration.h"
+#include "tool/run/run_once.h"
+#include "tool/sweep/definition.h"
 
 namespace deburr::tb::text_noise_test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "tb/app/engine.h"
+#include "tool/run/engine.h"
 
 namespace deburr::tb {
 

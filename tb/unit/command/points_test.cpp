@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "tb/results/result.h"
-#include "tb/sweep/plan.h"
-#include "tb/sweep/point.h"
+#include "tb/run/result.h"
 #include "tb/unit/command/made_engine.h"
 #include "tb/unit/command/transcript.h"
+#include "tool/sweep/plan.h"
+#include "tool/sweep/point.h"
 
 namespace deburr::tb::points_test {
 namespace {

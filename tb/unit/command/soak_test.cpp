@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a soak counts and how it ends: the program beside the command, with the engines of its
 // tests.
-#include "tb/soak/soak.h"
+#include "tool/soak/soak.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "tb/base/file.h"
-#include "tb/command/commands.h"
 #include "tb/harness/test_paths.h"
-#include "tb/results/build_info.h"
 #include "tb/unit/command/made_engine.h"
+#include "tool/command/commands.h"
+#include "tool/pages/build_info.h"
 
 namespace deburr::tb {
 namespace {

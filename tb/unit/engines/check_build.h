@@ -25,13 +25,13 @@
 #include "rtl_model/fabric/clock_domain.h"
 #include "spec/check_build.h"
 #include "spec/error.h"
-#include "tb/app/run_once.h"
 #include "tb/base/forked.h"
 #include "tb/base/headline.h"
 #include "tb/base/random.h"
-#include "tb/sweep/definition.h"
-#include "tb/sweep/plan.h"
-#include "tb/sweep/search.h"
+#include "tool/run/run_once.h"
+#include "tool/sweep/definition.h"
+#include "tool/sweep/plan.h"
+#include "tool/sweep/search.h"
 
 namespace deburr::tb {
 

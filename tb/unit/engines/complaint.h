@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/results/parameter_set.h"
+#include "tb/run/parameter_set.h"
 
 namespace deburr::tb {
 

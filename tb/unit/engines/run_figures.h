@@ -16,8 +16,8 @@
 
 #include "tb/base/forked.h"
 #include "tb/env/environment.h"
-#include "tb/results/picture_map.h"
-#include "tb/results/result.h"
+#include "tb/run/picture_map.h"
+#include "tb/run/result.h"
 
 namespace deburr::tb {
 

@@ -14,7 +14,7 @@ import tempfile
 import unittest
 
 SOURCE, BUILD = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
-LAYERS = ("spec", "golden", "rtl_model", "tb")
+LAYERS = ("spec", "golden", "rtl_model", "tb", "tool", "studies")
 BATCH = re.compile(r"_batch_\d+\.cpp$")
 INCLUDE = re.compile(r'^#include "(.+)"$', re.M)
 MOST = 40

@@ -38,10 +38,10 @@ NAMED = {
         "the rule `leave` is about what it has marked": [
             "golden/morphological/configuration.cpp", "golden/morphological/configuration.h",
             "golden/morphological/leave.h", "rtl_model/morphological/blend/blender.cpp",
-            "spec/morphological/parameters.h", "tb/engines/morphological/morphological_role.cpp",
+            "spec/morphological/parameters.h", "tool/engines/morphological/morphological_role.cpp",
             "tb/unit/golden/morphological/frames_test.cpp"],
         "methods are compared there, each by its name": ["tb/oracle/comparison.cpp"],
-        "the paper whose method it is": ["tb/papers/papers_002.cpp"],
+        "the paper whose method it is": ["studies/papers/papers_002.cpp"],
         "tests call its functions of the C interface, and what is built from installed files does": [
             "examples/installed_test.py", "examples/systemverilog/testbench.sv", "tb/fuzz/c_calls.cpp",
             "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
@@ -67,13 +67,13 @@ NAMED = {
             "tb/oracle/smaa_frames.h",
             "tb/oracle/smaa_published_test.cpp", "tb/oracle/smaa_shader_test.cpp", "tb/oracle/smaa_test.cpp",
             "tb/scene/truth.h"],
-        "papers whose methods it has": ["tb/papers/papers_000.cpp", "tb/papers/papers_003.cpp"],
+        "papers whose methods it has": ["studies/papers/papers_000.cpp", "studies/papers/papers_003.cpp"],
         "lines and discs that its shares are measured and learned by": [
             "scripts/train-shares", "tb/stimuli/discs.cpp", "tb/stimuli/discs.h", "tb/stimuli/line_fans.cpp",
-            "tb/stimuli/line_fans.h", "tb/training/recipe.cpp", "tb/training/recipe.h", "tb/stimuli/share_file.cpp",
-            "tb/stimuli/share_file.h", "tb/training/share_samples.cpp", "tb/training/share_samples.h",
-            "tb/training/share_trainer.cpp", "tb/training/share_trainer.h", "tb/training/title_shares.cpp",
-            "tb/training/title_shares.h", "tb/training/train_shares.cpp", "tb/unit/training/recipe_test.cpp",
+            "tb/stimuli/line_fans.h", "studies/training/recipe.cpp", "studies/training/recipe.h", "tb/stimuli/share_file.cpp",
+            "tb/stimuli/share_file.h", "studies/training/share_samples.cpp", "studies/training/share_samples.h",
+            "studies/training/share_trainer.cpp", "studies/training/share_trainer.h", "studies/training/title_shares.cpp",
+            "studies/training/title_shares.h", "studies/training/train_shares.cpp", "tb/unit/training/recipe_test.cpp",
             "tb/unit/stimuli/share_file_test.cpp", "tb/unit/training/share_trainer_test.cpp"],
         "values of its tables that its contract takes from doubles": ["tb/unit/house/layers_test.py"],
         "an example of an engine, in tests of what every engine has": [
@@ -105,8 +105,9 @@ NAMED = {
 GENERAL = re.compile(r"CMakeLists\.txt|cmake/|golden/CMakeLists\.txt|golden/c/|rtl_model/CMakeLists\.txt|spec/[^/]*$|"
                      r"rtl_model/(fabric|platform)/|tb/(env|harness)/|tb/traces/(CMakeLists|line_trace|trace_file)|"
                      r"python/(CMakeLists|bindings/(arrays|module)\.|deburr/)|"
-                     r"tb/(CMakeLists\.txt|app/|base/|command/|baselines/check\.py|fuzz/(?!c_calls\.cpp)|regress/|results/|soak/|speed$|sweep/|testplan/|"
-                     r"engines/[^/]*$|engines/frame/[^/]*\.(h|cpp|txt)$|unit/engines/frame/|unit/CMakeLists\.txt|system/smoke\.cmake)|scripts/coverage")
+                     r"tool/(?!engines/(?!frame/))|"
+                     r"tb/(CMakeLists\.txt|base/|baselines/check\.py|fuzz/(?!c_calls\.cpp)|run/|speed$|testplan/|"
+                     r"engines/[^/]*$|engines/frame/[^/]*\.txt$|unit/engines/frame/|unit/CMakeLists\.txt|system/smoke\.cmake)|scripts/coverage")
 
 
 def files(root):
@@ -192,27 +193,27 @@ def planted_faults_are_caught():
     """A small tree: what must be found, and what must not."""
     def tree(folder, **changed):
         texts = {LIST: "# engines\nfoo\nfrobber\n", "spec/frobber/parameters.h": "namespace spec::frobber",
-                 "tb/app/engine.cpp": "for (engine : engines())",
-                 "tb/papers/one.cpp": "the frobber of 2016", "docs/a.md": "frobber",
+                 "tool/run/engine.cpp": "for (engine : engines())",
+                 "studies/papers/one.cpp": "the frobber of 2016", "docs/a.md": "frobber",
                  "tb/engines/frame/smoke.yaml": "frobber", **changed}
         root = pathlib.Path(folder)
         for name, text in texts.items():
             (root / name).parent.mkdir(parents=True, exist_ok=True)
             (root / name).write_text(text, encoding="utf-8")
         return root
-    named = {"frobber": {"a paper": ["tb/papers/one.cpp"]}}
-    expected = [({}, 0), ({"tb/soak/soak.cpp": 'if (engine == "foo")'}, 1), ({"tb/scene/a.cpp": "of the frobber"}, 1),
-                ({"tb/results/a.cpp": '"frobber."'}, 2), ({"tb/oracle/a.cpp": "deburr_frobber_new()"}, 1),
+    named = {"frobber": {"a paper": ["studies/papers/one.cpp"]}}
+    expected = [({}, 0), ({"tool/soak/soak.cpp": 'if (engine == "foo")'}, 1), ({"tb/scene/a.cpp": "of the frobber"}, 1),
+                ({"tool/pages/a.cpp": '"frobber."'}, 2), ({"tb/oracle/a.cpp": "deburr_frobber_new()"}, 1),
                 ({"tb/oracle/a.cpp": "class FrobberFrame"}, 1), ({"tb/oracle/a.cpp": "frobbers, frobber_of_mine.md"}, 0),
                 ({"golden/c/deburr_golden.h.in": "int deburr_foo_new(void);"}, 1), ({"golden/c/foo_c.cpp": "deburr_foo_new"}, 0),
                 ({"python/deburr/golden.py": "def foo(pixels):"}, 1), ({"python/deburr/_golden_foo.py": "def foo(pixels):"}, 0),
-                ({"tb/traces/line_trace.cpp": "rtl::foo::Cache"}, 1), ({"tb/papers/one.cmake": "deburr::frobber_engine"}, 0),
-                ({"tb/oracle/one.cmake": "deburr::frobber_engine"}, 1), ({"tb/papers/one.cpp": "of 2016"}, 1),
+                ({"tb/traces/line_trace.cpp": "rtl::foo::Cache"}, 1), ({"studies/papers/one.cmake": "deburr::frobber_engine"}, 0),
+                ({"tb/oracle/one.cmake": "deburr::frobber_engine"}, 1), ({"studies/papers/one.cpp": "of 2016"}, 1),
                 ({"tb/env/a.h": 'v.integer("count", p.count, 1, 100, "foo", "So many.");'}, 0),
-                ({"tb/sweep/a.h": "a foo is no engine here"}, 0), ({"tb/scene/b.h": "// docs/reference/frobber/index.md"}, 0),
-                ({"tb/engines/frame/frame_mix.cpp": "spec::foo::Rules p"}, 1),
+                ({"tool/sweep/a.h": "a foo is no engine here"}, 0), ({"tb/scene/b.h": "// docs/reference/frobber/index.md"}, 0),
+                ({"tool/engines/frame/frame_mix.cpp": "spec::foo::Rules p"}, 1),
                 ({"tb/unit/engines/frame/a.cpp": "of the frobber"}, 1),
-                ({"tb/results/b.cpp": "as Posteriser does"}, 1),
+                ({"tool/pages/b.cpp": "as Posteriser does"}, 1),
                 ({"tb/system/added_engine/posteriser.h": "class Posteriser"}, 0)]
     missed = []
     for changed, count in expected:

@@ -60,7 +60,7 @@ def check_code(root):
     planted = subprocess.run(check, input="int  x ;\n", capture_output=True, text=True, check=False)
     if planted.returncode == 0:
         sys.exit("the planted fault was not caught")
-    files = [str(path) for layer in ("spec", "golden", "rtl_model", "tb", "examples")
+    files = [str(path) for layer in ("spec", "golden", "rtl_model", "tb", "tool", "studies", "examples")
              for path in sorted((root / layer).rglob("*")) if path.suffix in {".h", ".cpp"}]
     sys.exit(subprocess.run([*check, *files], check=False).returncode)
 

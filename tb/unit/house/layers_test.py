@@ -18,18 +18,24 @@ ALLOWED = {
     "rtl_model": {"spec", "rtl_model"},
     "python": {"spec", "golden", "python"},
     "tb": {"spec", "golden", "rtl_model", "tb"},
+    "tool": {"spec", "golden", "rtl_model", "tb", "tool"},
+    "studies": {"spec", "golden", "rtl_model", "tb", "tool", "studies"},
 }
+# Rings from the models out. Tests, which stand in tb, look into all of them.
+RINGS = ("tb", "tool", "studies")
 # Rooms of tb that only tests look into; what the command is built from does not.
-TESTS_ALONE = {"unit", "system", "oracle", "negative", "bench", "baselines", "hdl"}
+TESTS_ALONE = {"unit", "system", "oracle", "negative", "bench", "baselines", "hdl", "fuzz"}
 # rtl_model/platform is software's side: it knows engines by their registers in spec, and no engine
 # knows it.
 PLATFORM_MAY_INCLUDE = {"platform", "fabric"}
-# Rooms of tb from below: a room includes itself and what stands before it. Tests and benchmarks stand above all.
-ROOMS = ["base", "scene", "stimuli", "harness", "results", "traces", "env", "app", "engines", "sweep", "regress",
-         "command", "training", "papers", "soak"]
+# Rooms of a ring from below: a room includes itself and what stands before it. Tests and benchmarks stand above all.
+ROOMS = {"tb": ["base", "scene", "stimuli", "harness", "run", "traces", "env", "engines"],
+         "tool": ["pages", "run", "engines", "sweep", "regress", "command", "soak"],
+         "studies": ["training", "papers"]}
 # Rooms that stand beside the simulation: no header on their way is SystemC's, which takes longer to compile than
 # all of theirs. Nor is json.hpp in a header, where json_fwd.hpp does.
-WITHOUT_SYSTEMC = {"base", "scene", "stimuli", "results", "training", "sweep", "regress", "command", "soak"}
+WITHOUT_SYSTEMC = {"tb/base", "tb/scene", "tb/stimuli", "tb/run", "tool/pages", "tool/sweep", "tool/regress", "tool/command",
+                   "tool/soak", "studies/training"}
 SYSTEMC = {"systemc", "tlm", "tlm_utils"}
 JSON = "nlohmann/json.hpp"
 SOURCE = {".h", ".cpp", ".cmake", ".py", ".txt"}
@@ -46,7 +52,7 @@ ASSERT = re.compile(r"(?<![\w_])assert\s*\(")
 NAMESPACE = re.compile(r"^\s*using\s+namespace\b")
 RANDOM = re.compile(r"\bstd::(?:mt19937|minstd_rand|ranlux|default_random|random_device|s?rand\b|\w+_distribution)")
 # What frames and trainings are made by, which are the same on every machine; measures are not.
-EXACT, MEASURES = {"scene", "stimuli", "training"}, {"flip.cpp", "quality.cpp", "ssim.cpp"}
+EXACT, MEASURES = {"tb/scene", "tb/stimuli", "studies/training"}, {"flip.cpp", "quality.cpp", "ssim.cpp"}
 OF_THE_C_LIBRARY = re.compile(
     r"\bstd::(?:a?(?:sin|cos|tan)h?|atan2|pow|exp2?|expm1|log(?:2|10|1p)?|cbrt|hypot)f?\(")
 CONDITIONAL = re.compile(r"^\s*#\s*if(n?def)?\b")
@@ -55,14 +61,14 @@ IN_C = re.compile(r"^#ifdef __cplusplus$")
 
 
 def in_order(where, wanted):
-    """Whether a file of tb may include another one, by their rooms."""
-    room, below = where[1], wanted[1]
-    if room not in ROOMS or below not in ROOMS:
+    """Whether a file of a ring may include another one of it, by their rooms."""
+    room, below, rooms = where[1], wanted[1], ROOMS[where[0]]
+    if room not in rooms or below not in rooms:
         return True
     # Engines do not include each other, nor does a composition.
     if room == below == "engines" and len(where) > 3 and len(wanted) > 3:
         return where[2] == wanted[2]
-    return ROOMS.index(below) <= ROOMS.index(room)
+    return rooms.index(below) <= rooms.index(room)
 
 
 def way_to_systemc(root, name, seen):
@@ -144,10 +150,11 @@ def violations(root):
             if path.suffix not in {".h", ".cpp"}:
                 continue
             way = (way_to_systemc(root, str(where), set())
-                   if layer == "tb" and where.parts[1] in WITHOUT_SYSTEMC else None)
+                   if "/".join(where.parts[:2]) in WITHOUT_SYSTEMC else None)
             if way:
                 yield f"{where}:1: SystemC beside the simulation: " + " -> ".join(way)
             ideal = where.parts[:2] == ("golden", "ideal")
+            of_tests = layer == "tb" and where.parts[1] in TESTS_ALONE
             for number, line in enumerate(lines, 1):
                 include = INCLUDE.match(line)
                 if include:
@@ -156,14 +163,14 @@ def violations(root):
                         yield f"{where}:{number}: relative include {name}"
                     if name == "systemc.h":
                         yield f"{where}:{number}: <systemc.h> instead of <systemc>"
-                    if layer == "tb" and name == JSON and path.suffix == ".h" and where.parts[1] not in TESTS_ALONE:
+                    if layer in RINGS and name == JSON and path.suffix == ".h" and not of_tests:
                         yield f"{where}:{number}: {JSON} in a header"
                     if name == "random":
                         yield f"{where}:{number}: <random> instead of tb/base/random.h"
                     if layer in {"spec", "golden"} and name.split("/")[0] in {"systemc", "tlm"}:
                         yield f"{where}:{number}: SystemC in {layer}"
                     first = name.split("/")[0]
-                    if first in ALLOWED and first not in allowed:
+                    if first in ALLOWED and first not in allowed and not (of_tests and first in RINGS):
                         yield f"{where}:{number}: {layer} includes {first}"
                     if first == layer == "rtl_model":
                         room, wanted = where.parts[1], name.split("/")[1]
@@ -171,10 +178,9 @@ def violations(root):
                             yield f"{where}:{number}: rtl_model/platform includes an engine"
                         if room != "platform" and wanted == "platform":
                             yield f"{where}:{number}: hardware includes rtl_model/platform"
-                    if layer == first == "tb" and not in_order(where.parts, name.split("/")):
-                        yield f"{where}:{number}: tb/{where.parts[1]} includes {name}, which does not stand below it"
-                    if (layer == "tb" and where.parts[1] not in TESTS_ALONE
-                            and first == "tb" and name.split("/")[1] in TESTS_ALONE):
+                    if layer == first and layer in RINGS and not in_order(where.parts, name.split("/")):
+                        yield f"{where}:{number}: {layer}/{where.parts[1]} includes {name}, which does not stand below it"
+                    if layer in RINGS and not of_tests and first == "tb" and name.split("/")[1] in TESTS_ALONE:
                         yield f"{where}:{number}: test support in the command"
                 if (layer in {"golden", "rtl_model"} and not ideal and where.as_posix() not in DOUBLES
                         and FLOATING.search(line)):
@@ -183,7 +189,7 @@ def violations(root):
                     yield f"{where}:{number}: assert instead of DEBURR_CHECK"
                 if RANDOM.search(line):
                     yield f"{where}:{number}: a generator besides tb/base/random.h"
-                if (layer == "tb" and where.parts[1] in EXACT and path.name not in MEASURES
+                if ("/".join(where.parts[:2]) in EXACT and path.name not in MEASURES
                         and OF_THE_C_LIBRARY.search(line)):
                     yield f"{where}:{number}: a function of the C library where tb/scene/exact_math.h has one"
                 if path.suffix == ".h" and NAMESPACE.match(line):
@@ -216,12 +222,14 @@ def planted_faults_are_caught():
         "tb/unit/a.cpp": "std::mt19937_64 random(1);",
         "tb/unit/b.cpp": "std::uniform_int_distribution<int> pick(0, 3);",
         "tb/scene/a.cpp": "double y = std::pow(x, 2.2);",
-        "tb/training/a.h": "inline double f(double x) { return std::log2(x); }",
-        "tb/app/a.cpp": '#include "tb/unit/scene/fixtures.h"',
-        "tb/app/b.cpp": '#include "tb/sweep/point.h"',
-        "tb/app/c.h": "#include <nlohmann/json.hpp>",
-        "tb/results/a.h": "#include <systemc>",
-        "tb/base/a.cpp": '#include "tb/results/result.h"',
+        "studies/training/a.h": "inline double f(double x) { return std::log2(x); }",
+        "tool/run/a.cpp": '#include "tb/unit/scene/fixtures.h"',
+        "tool/run/b.cpp": '#include "tool/sweep/point.h"',
+        "tool/run/c.h": "#include <nlohmann/json.hpp>",
+        "tool/run/d.cpp": '#include "studies/papers/papers.h"',
+        "tb/env/a.cpp": '#include "tool/run/engine.h"',
+        "tb/run/a.h": "#include <systemc>",
+        "tb/base/a.cpp": '#include "tb/run/result.h"',
         "tb/engines/foo/a.cpp": '#include "tb/engines/bar/bar_environment.h"',
         "golden/b.cpp": "double x;",
         "golden/ideal/c.cpp": '#include "../../rtl_model/x.h"',
@@ -242,12 +250,12 @@ def planted_faults_are_caught():
             if len(list(violations(pathlib.Path(folder)))) != 1:
                 missed.append(f"{name}: {line}")
     with tempfile.TemporaryDirectory() as folder:
-        for name, include in (("tb/sweep/a.cpp", "rtl_model/fabric/a.h"), ("rtl_model/fabric/a.h", "systemc")):
+        for name, include in (("tool/sweep/a.cpp", "rtl_model/fabric/a.h"), ("rtl_model/fabric/a.h", "systemc")):
             path = pathlib.Path(folder) / name
             path.parent.mkdir(parents=True)
             path.write_text(f'// SPDX-License-Identifier: MIT\n#include "{include}"\n', encoding="utf-8")
         if len(list(violations(pathlib.Path(folder)))) != 1:
-            missed.append("tb/sweep/a.cpp: SystemC through a header")
+            missed.append("tool/sweep/a.cpp: SystemC through a header")
     ring = ("rtl_model/foo", "rtl_model/foo/below", "rtl_model/foo/common")
     for length in (2, 3):
         with tempfile.TemporaryDirectory() as folder:

@@ -18,7 +18,7 @@ VERSION = re.compile(r"^project\(deburr VERSION (\d+\.\d+\.\d+) ", re.M)
 SAID = re.compile(r"(?:(takes no)|find_package\(deburr|Deburr|\(today) (\d+\.\d+(?:\.\d+)?)")
 PLACEHOLDER = re.compile(r"@[A-Z_]{3,}@")
 CODE = re.compile(r"`([^`]+)`")
-FOLDERS = ("cmake", "docs", "examples", "golden", "hdl", "python", "rtl_model", "scripts", "spec", "tb")
+FOLDERS = ("cmake", "docs", "examples", "golden", "hdl", "python", "rtl_model", "scripts", "spec", "studies", "tb", "tool")
 PATH = re.compile(rf"(?<![\w./-])((?:{'|'.join(FOLDERS)})/[\w./-]*\w/?|(?:\w+/)+\w+\.(?:h|cpp|py|md))(?![\w/{{])")
 # Qualified names, and single ones that can be no other word: CamelCase, kCamelCase.
 NAME = re.compile(r"(?<![\w:])(?:[A-Za-z_]\w*::)+\w+|\b[A-Z][a-z]+[A-Z]\w*|\bk[A-Z]\w+")

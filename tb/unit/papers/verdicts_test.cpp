@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Each verdict with figures that speak for the paper and with figures that speak against it.
-#include "tb/papers/verdicts.h"
+#include "studies/papers/verdicts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/papers/papers.h"
+#include "studies/papers/papers.h"
 
 namespace deburr::tb::verdicts_test {
 namespace {

@@ -14,12 +14,12 @@
 
 #include "spec/error.h"
 #include "tb/base/atomic_file.h"
-#include "tb/regress/failure_message.h"
-#include "tb/regress/junit.h"
-#include "tb/regress/regression_plan.h"
-#include "tb/regress/regression_result.h"
-#include "tb/regress/testplan.h"
-#include "tb/regress/trend.h"
+#include "tool/regress/failure_message.h"
+#include "tool/regress/junit.h"
+#include "tool/regress/regression_plan.h"
+#include "tool/regress/regression_result.h"
+#include "tool/regress/testplan.h"
+#include "tool/regress/trend.h"
 
 namespace deburr::tb::regress_test {
 namespace {

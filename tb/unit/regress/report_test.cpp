@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "tb/base/atomic_file.h"
-#include "tb/regress/regression_plan.h"
-#include "tb/regress/regression_result.h"
-#include "tb/regress/testplan.h"
-#include "tb/regress/trend.h"
 #include "tb/unit/sweep/kept_points.h"
+#include "tool/regress/regression_plan.h"
+#include "tool/regress/regression_result.h"
+#include "tool/regress/testplan.h"
+#include "tool/regress/trend.h"
 
 namespace deburr::tb::report_test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/results/amount.h"
+#include "tb/run/amount.h"
 
 #include <gtest/gtest.h>
 

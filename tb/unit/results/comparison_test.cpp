@@ -13,13 +13,13 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/results/compare.h"
-#include "tb/results/compare_runs.h"
-#include "tb/results/compare_sweeps.h"
-#include "tb/results/comparison_page.h"
-#include "tb/results/result.h"
+#include "tb/run/result.h"
 #include "tb/scene/image_io.h"
 #include "tb/unit/results/page_words.h"
+#include "tool/pages/compare.h"
+#include "tool/pages/compare_runs.h"
+#include "tool/pages/compare_sweeps.h"
+#include "tool/pages/comparison_page.h"
 
 namespace deburr::tb::comparison_test {
 namespace {

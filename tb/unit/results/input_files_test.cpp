@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Question: do keys hold what the files of a run hold, and is a file that becomes another one found
 // out before anything is kept under the old key?
-#include "tb/results/input_files.h"
+#include "tool/pages/input_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 
 #include "spec/error.h"
 #include "tb/base/file.h"
-#include "tb/results/run_context.h"
+#include "tool/pages/run_context.h"
 
 namespace deburr::tb::input_files_test {
 namespace {

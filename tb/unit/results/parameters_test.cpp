@@ -14,7 +14,7 @@
 
 #include "spec/error.h"
 #include "spec/texture/check_build.h"
-#include "tb/results/parameter_set.h"
+#include "tb/run/parameter_set.h"
 
 namespace deburr::tb::parameters_test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Maps over the picture: values as they are, colours by a scale that is printed, and an account
 // that can be wrong.
-#include "tb/results/picture_map.h"
+#include "tb/run/picture_map.h"
 
 #include <gtest/gtest.h>
 

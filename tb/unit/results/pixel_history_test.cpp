@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A pixel's address is read strictly, and its history says what differs, where all of it is too
 // much as well.
-#include "tb/results/pixel_history.h"
+#include "tb/run/pixel_history.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "spec/error.h"
-#include "tb/results/result.h"
+#include "tb/run/result.h"
 
 namespace deburr::tb::pixel_history_test {
 namespace {

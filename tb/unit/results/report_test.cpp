@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whole pages of small results, word by word: each value in its place, in its unit, and in the form
 // that it has there.
-#include "tb/results/report.h"
+#include "tool/pages/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 #include "spec/error.h"
 #include "tb/base/file.h"
-#include "tb/results/picture_map.h"
+#include "tb/run/picture_map.h"
 #include "tb/scene/image.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/png.h"

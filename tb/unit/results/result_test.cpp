@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a run leaves behind: result.json, comparison, report, progress, files.
-#include "tb/results/result.h"
+#include "tb/run/result.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,12 +21,12 @@
 #include "spec/error.h"
 #include "tb/base/file.h"
 #include "tb/base/headline.h"
-#include "tb/results/amount.h"
-#include "tb/results/compare.h"
-#include "tb/results/progress.h"
-#include "tb/results/report.h"
-#include "tb/results/run_context.h"
+#include "tb/run/amount.h"
+#include "tb/run/progress.h"
 #include "tb/scene/png.h"
+#include "tool/pages/compare.h"
+#include "tool/pages/report.h"
+#include "tool/pages/run_context.h"
 
 namespace deburr::tb::result_test {
 namespace {

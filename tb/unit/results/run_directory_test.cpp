@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The life of a directory of results: who has it, when earlier results go, what a death leaves.
-#include "tb/results/run_directory.h"
+#include "tool/pages/run_directory.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

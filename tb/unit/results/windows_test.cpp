@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Windows that do not add up are noticed, whatever is wrong with them.
-#include "tb/results/windows.h"
+#include "tb/run/windows.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/soak/flat_memory.h"
+#include "tool/soak/flat_memory.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a sweep shows of results that are made by hand: states, values, fronts, means, tables.
-#include "tb/sweep/collection.h"
+#include "tool/sweep/collection.h"
 
 #include <gmock/gmock.h>
 
@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/sweep/status.h"
 #include "tb/unit/sweep/kept_points.h"
+#include "tool/sweep/status.h"
 
 namespace deburr::tb::collection_test {
 namespace {

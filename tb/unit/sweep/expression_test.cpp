@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Conditions and objectives of sweeps: what each operator gives, how they bind, what is rejected.
-#include "tb/sweep/expression.h"
+#include "tool/sweep/expression.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

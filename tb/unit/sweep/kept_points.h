@@ -10,9 +10,9 @@
 #include <string>
 
 #include "tb/base/file.h"
-#include "tb/results/result.h"
-#include "tb/sweep/plan.h"
-#include "tb/sweep/point.h"
+#include "tb/run/result.h"
+#include "tool/sweep/plan.h"
+#include "tool/sweep/point.h"
 
 namespace deburr::tb {
 

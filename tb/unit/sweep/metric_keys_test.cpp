@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tb/sweep/metric_keys.h"
+#include "tool/sweep/metric_keys.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The part of a search that does not know points: budget, constraints, repetition, and how much it
 // finds of a front that is known.
-#include "tb/sweep/pareto_search.h"
+#include "tool/sweep/pareto_search.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

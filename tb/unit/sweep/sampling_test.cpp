@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Samples of axes: every combination, listed ones, random ones, a Latin hypercube.
-#include "tb/sweep/sampling.h"
+#include "tool/sweep/sampling.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

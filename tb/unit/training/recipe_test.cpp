@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Are the ROMs those of their recipe, and is the recipe that of this trainer and these frames?
 // Whether a training gives them, byte for byte, takes minutes: shares_from_their_recipe.
-#include "tb/training/recipe.h"
+#include "studies/training/recipe.h"
 
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@ namespace deburr::tb::training::recipe_test {
 namespace {
 
 std::string text_of(const char* file) { return read_file(source_folder() / file, 1 << 20); }
-std::string kept() { return text_of("tb/training/recipe.txt"); }
+std::string kept() { return text_of("studies/training/recipe.txt"); }
 
 TEST(Recipe, IsTheOneThatTheRomsWereTrainedBy) {
   EXPECT_EQ(hash_of(kept()), spec::morphological::kSharesRecipe);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Does training give the same tables every time, do they smooth better than what it began with, and
 // are its features and its error those of the engine?
-#include "tb/training/share_trainer.h"
+#include "studies/training/share_trainer.h"
 
 #include <gmock/gmock.h>
 
@@ -13,12 +13,12 @@
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/morphological_golden.h"
 #include "spec/error.h"
+#include "studies/training/recipe.h"
+#include "studies/training/title_shares.h"
+#include "studies/training/training_frames.h"
 #include "tb/base/fnv.h"
 #include "tb/scene/quality.h"
 #include "tb/stimuli/share_file.h"
-#include "tb/training/recipe.h"
-#include "tb/training/title_shares.h"
-#include "tb/training/training_frames.h"
 
 namespace deburr::tb::training::share_trainer_test {
 namespace {
@@ -58,7 +58,7 @@ TEST(ShareTrainer, GivesTheSameTablesAgain) {
   EXPECT_FALSE(same(tables, train(samples, other)));
 }
 
-// Byte for byte, on every machine. Another hash: raise kTrainerVersion (tb/training/recipe.h),
+// Byte for byte, on every machine. Another hash: raise kTrainerVersion (studies/training/recipe.h),
 // train again (scripts/train-shares --write) and record it here.
 TEST(ShareTrainer, GivesTheTablesOfItsVersion) {
   EXPECT_EQ(kTrainerVersion, 2);

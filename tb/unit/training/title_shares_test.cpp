@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Do shares for a title gain on what was kept back, and is nothing measured on what they were
 // trained on?
-#include "tb/training/title_shares.h"
+#include "studies/training/title_shares.h"
 
 #include <gmock/gmock.h>
 
@@ -9,10 +9,10 @@
 #include <string>
 
 #include "spec/error.h"
+#include "studies/training/training_frames.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/truth.h"
 #include "tb/stimuli/share_file.h"
-#include "tb/training/training_frames.h"
 
 namespace deburr::tb::training::title_shares_test {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "spec/error.h"
 #include "tb/base/forked.h"
-#include "tb/engines/frame/frame_composition.h"
 #include "tb/unit/engines/run_figures.h"
+#include "tool/engines/frame/frame_composition.h"
 
 namespace deburr::tb::composition_test {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "tb/engines/frame/frame_roles.h"
+#include "tool/engines/frame/frame_roles.h"
 
 namespace deburr::tb::roles_test {
 namespace {

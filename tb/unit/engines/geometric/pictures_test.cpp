@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tb/engines/geometric/geometric_pictures.h"
+#include "tool/engines/geometric/geometric_pictures.h"
 
 namespace deburr::tb::pictures_test {
 namespace {

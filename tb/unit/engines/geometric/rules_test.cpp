@@ -11,10 +11,10 @@
 #include "spec/error.h"
 #include "spec/geometric/check_build.h"
 #include "spec/geometric/registers.h"
-#include "tb/engines/geometric/geometric_rules.h"
 #include "tb/engines/geometric/geometric_unprogrammed.h"
-#include "tb/results/parameter_set.h"
+#include "tb/run/parameter_set.h"
 #include "tb/unit/engines/complaint.h"
+#include "tool/engines/geometric/geometric_rules.h"
 
 namespace deburr::tb::rules_test {
 namespace {

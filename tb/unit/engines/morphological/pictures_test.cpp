@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "tb/engines/morphological/morphological_pictures.h"
 #include "tb/scene/image_io.h"
+#include "tool/engines/morphological/morphological_pictures.h"
 
 namespace deburr::tb::pictures_test {
 namespace {

@@ -13,10 +13,10 @@
 #include "spec/error.h"
 #include "spec/morphological/check_build.h"
 #include "spec/morphological/registers.h"
-#include "tb/engines/morphological/morphological_rules.h"
 #include "tb/engines/morphological/morphological_unprogrammed.h"
-#include "tb/results/parameter_set.h"
+#include "tb/run/parameter_set.h"
 #include "tb/unit/engines/complaint.h"
+#include "tool/engines/morphological/morphological_rules.h"
 
 namespace deburr::tb::rules_test {
 namespace {

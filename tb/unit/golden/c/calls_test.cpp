@@ -13,7 +13,7 @@
 #include "spec/morphological/check_build.h"
 #include "spec/texture/check_build.h"
 #include "tb/fuzz/engine_parameters.h"
-#include "tb/results/parameter_set.h"
+#include "tb/run/parameter_set.h"
 #include "tb/unit/golden/c/support.h"
 
 namespace deburr::calls_test {

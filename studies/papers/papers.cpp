@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "studies/papers/papers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "spec/error.h"
+#include "tb/base/atomic_file.h"
+#include "tb/base/interrupt.h"
+#include "tb/run/progress.h"
+#include "tb/scene/image_io.h"
+#include "tb/scene/truth.h"
+#include "tool/pages/build_info.h"
+#include "tool/pages/embedded.h"
+#include "tool/pages/page_template.h"
+#include "tool/pages/report.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace mustache = kainjow::mustache;
+using Json = nlohmann::ordered_json;
+
+// Columns line up by characters, not bytes: the tables hold Greek letters and signs.
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text + std::string(width - std::min(width, characters(text)), ' ');
+}
+
+// A column is set right when it holds numbers (and gaps) only.
+bool is_numeric(const PaperTable& table, std::size_t column) {
+  return !table.rows.empty() &&
+         std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+           return row[column].find_first_not_of("0123456789.,+-") == std::string::npos;
+         });
+}
+
+mustache::data text_cell(const char* name, const std::string& text) {
+  mustache::data cell;
+  cell.set(name, text);
+  return cell;
+}
+
+mustache::data table_data(const PaperTable& table) {
+  mustache::data data;
+  data.set("title", table.title);
+  mustache::data note{mustache::data::type::list};
+  if (!table.note.empty()) note << text_cell("note", table.note);
+  data.set("note", note);
+  mustache::data columns{mustache::data::type::list};
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    mustache::data column = text_cell("name", table.columns[i]);
+    column.set("numeric", is_numeric(table, i));
+    columns << column;
+  }
+  data.set("columns", columns);
+  mustache::data rows{mustache::data::type::list};
+  for (const auto& row : table.rows) {
+    mustache::data cells{mustache::data::type::list};
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      mustache::data cell;
+      cell.set("text", row[i]);
+      cell.set("numeric", is_numeric(table, i));
+      cell.set("verdict", table.columns[i] == "verdict");
+      cells << cell;
+    }
+    mustache::data line;
+    line.set("cells", cells);
+    rows << line;
+  }
+  data.set("rows", rows);
+  return data;
+}
+
+}  // namespace
+
+const std::vector<PaperEntry>& papers() {
+  static const std::vector<PaperEntry> entries = {{"000", &paper_000::build},
+                                                  {"002", &paper_002::build},
+                                                  {"003", &paper_003::build},
+                                                  {"004", &paper_004::build}};
+  return entries;
+}
+
+void PaperOptions::go_on() const {
+  if (interrupted()) throw Interrupted();
+}
+
+std::function<bool()> PaperOptions::watching(Waiting& waiting) const {
+  return [&waiting, ask = interrupted] {
+    waiting.update();
+    return ask();
+  };
+}
+
+std::string decimals(double value, int digits) {
+  return std::isinf(value) ? "identical" : fmt::format("{:.{}f}", value, digits);
+}
+
+std::string to_text(const Paper& paper) {
+  std::string out = fmt::format("== {} {} ==\n", paper.id, paper.title);
+  for (const PaperTable& table : paper.tables) {
+    out += "\n" + table.title + "\n";
+    if (!table.note.empty()) out += "  " + table.note + "\n";
+    std::vector<std::size_t> widths;
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      std::size_t width = characters(table.columns[i]);
+      for (const auto& row : table.rows) width = std::max(width, characters(row[i]));
+      widths.push_back(width);
+    }
+    const auto line = [&](const std::vector<std::string>& cells) {
+      std::string text = " ";
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        text += fmt::format(" {} ", padded(cells[i], widths[i]));
+      text.erase(text.find_last_not_of(' ') + 1);
+      out += text + "\n";
+    };
+    line(table.columns);
+    for (const auto& row : table.rows) line(row);
+  }
+  return out;
+}
+
+nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
+                                    const std::vector<Paper>& papers) {
+  Json json;
+  json["schema"] = 1;
+  json["commit"] = build_info().commit;
+  json["papers"] = Json::array();
+  mustache::data list{mustache::data::type::list};
+  for (const Paper& paper : papers) {
+    Json entry{{"id", paper.id}, {"title", paper.title}, {"source", paper.source}};
+    mustache::data page;
+    page.set("title", fmt::format("{}: {}", paper.id, paper.title));
+    page.set("source", paper.source);
+    entry["tables"] = Json::array();
+    mustache::data tables{mustache::data::type::list};
+    for (const PaperTable& table : paper.tables) {
+      Json rows = Json::array();
+      for (const auto& row : table.rows) {
+        DEBURR_CHECK(row.size() == table.columns.size(), table.title + ": a row has gaps");
+        Json cells = Json::object();
+        for (std::size_t i = 0; i < row.size(); ++i) cells[table.columns[i]] = row[i];
+        rows.push_back(cells);
+      }
+      entry["tables"].push_back({{"title", table.title}, {"note", table.note}, {"rows", rows}});
+      tables << table_data(table);
+    }
+    page.set("tables", tables);
+    entry["figures"] = Json::array();
+    mustache::data figures{mustache::data::type::list};
+    for (const PaperFigure& figure : paper.figures) {
+      mustache::data block;
+      block.set("title", figure.title);
+      block.set("note", figure.note);
+      Json files = Json::array();
+      mustache::data images{mustache::data::type::list};
+      for (const PaperImage& image : figure.images) {
+        const std::string file = fmt::format("{}_{}.png", paper.id, image.file);
+        write_image(directory / file, image.image);
+        files.push_back({{"file", file}, {"title", image.title}, {"caption", image.caption}});
+        mustache::data cell;
+        cell.set("title", image.title);
+        cell.set("caption", image.caption);
+        cell.set("wide", image.wide);
+        cell.set("source", data_uri(directory / file));
+        images << cell;
+      }
+      block.set("images", images);
+      figures << block;
+      entry["figures"].push_back({{"title", figure.title}, {"images", files}});
+    }
+    page.set("figures", figures);
+    list << page;
+    json["papers"].push_back(entry);
+  }
+  mustache::data root;
+  root.set("style", std::string(embedded::style_css()));
+  root.set("papers", list);
+  write_file_atomically(directory / "papers.json", json.dump(2) + "\n");
+  write_file_atomically(directory / "index.html",
+                        filled_page(embedded::papers_template(), "papers.mustache", root));
+  Json ids = Json::array();
+  for (const Paper& paper : papers) ids.push_back(paper.id);
+  return {{"unit", "papers"}, {"papers", ids}, {"commit", build_info().commit}};
+}
+
+}  // namespace deburr::tb

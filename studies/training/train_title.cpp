@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// The program behind `deburr train`.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "spec/error.h"
+#include "studies/training/title_shares.h"
+#include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
+#include "tb/base/interrupt.h"
+#include "tb/base/json_text.h"
+#include "tb/base/terminal.h"
+#include "tb/env/sequence.h"
+#include "tb/run/progress.h"
+#include "tb/scene/image_io.h"
+#include "tb/stimuli/share_file.h"
+#include "tool/command/command_train.h"
+
+namespace deburr::tb {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using training::KeptBack;
+using training::TitlePair;
+using training::TitleShares;
+
+constexpr double kLeastGain = 0.05;  // dB; what is below is noise
+
+std::vector<TitlePair> read_pairs(const TrainOptions& options, bool quiet) {
+  const std::vector<std::string> frames = listed_files("--in", options.in),
+                                 truths = listed_files("--truth", options.truth);
+  if (frames.size() != truths.size())
+    throw spec::ConfigError(
+        fmt::format("--in names {} frames and --truth {}: expected a truth a frame, in one order",
+                    frames.size(), truths.size()));
+  std::vector<TitlePair> pairs;
+  const auto read = [&](const std::string& file) {
+    ReadReport report;
+    Image image = read_image(file, &report);
+    if (!quiet)
+      for (const std::string& conversion : report.conversions)
+        fmt::print(stderr, "deburr: note: '{}': {}\n", file, conversion);
+    return image;
+  };
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    pairs.push_back({frames[i], read(frames[i]), read(truths[i])});
+  return pairs;
+}
+
+// Before the work: what cannot be written, for a disk that is full or a folder that is closed, too,
+// is an error now.
+void check_output(const TrainOptions& options) {
+  const std::filesystem::path out = options.out;
+  for (const std::string& text : {options.in, options.truth})
+    for (const std::string& file : listed_files("--in", text))
+      if (is_there(out) && is_there(file) && std::filesystem::equivalent(out, file))
+        throw spec::ConfigError(
+            fmt::format("--out '{}' is read, too: give another name", options.out));
+  if (const std::filesystem::path folder = out.parent_path(); !folder.empty() && !is_folder(folder))
+    throw spec::FileError(
+        fmt::format("cannot write '{}': there is no folder '{}'", options.out, folder.string()));
+  if (is_folder(out))
+    throw spec::FileError(fmt::format("cannot write '{}': it is a folder", options.out));
+  if (is_there(out)) {
+    try {
+      read_share_file(out);
+    } catch (const spec::FileError&) {
+      throw spec::ConfigError(fmt::format(
+          "'{}' stands there and holds no shares: remove it, or give another --out", options.out));
+    }
+  }
+  try_to_write(out, share_file_text({}, {}));
+}
+
+std::string row(const KeptBack& k) {
+  return fmt::format(
+      "kept back: {}: edges {:.2f} dB without smoothing, {:.2f} shipped, {:.2f} trained "
+      "({:+.2f}); whole picture {:.2f}, {:.2f} ({:+.2f})\n",
+      k.name, k.none, k.shipped, k.trained, k.trained - k.shipped, k.shipped_frame, k.trained_frame,
+      k.trained_frame - k.shipped_frame);
+}
+
+Json to_json(const TitleShares& shares, double seconds) {
+  Json kept = Json::array();
+  for (const KeptBack& k : shares.kept_back)
+    kept.push_back({{"name", k.name},
+                    {"edges_none_db", k.none},
+                    {"edges_shipped_db", k.shipped},
+                    {"edges_trained_db", k.trained},
+                    {"frame_shipped_db", k.shipped_frame},
+                    {"frame_trained_db", k.trained_frame}});
+  return {{"training",
+           {{"gain_db", shares.gain},
+            {"frame_gain_db", shares.frame_gain},
+            {"trained_on", shares.trained_on},
+            {"kept_back", kept},
+            {"seconds", seconds}}}};
+}
+
+Outcome train(const TrainOptions& options, const CommandLine& line) {
+  const bool quiet = options.quiet || line.json;
+  check_output(options);
+  const std::vector<TitlePair> pairs = read_pairs(options, quiet);
+  catch_interrupts();
+  const auto begun = std::chrono::steady_clock::now();
+  TitleShares shares;
+  const auto ask = [] {
+    if (interrupted()) throw Interrupted();
+  };
+  try {
+    Progress progress("training", static_cast<std::uint64_t>(options.batches), "batch", quiet);
+    const auto batch_done = [&](int done) {
+      ask();
+      progress.update(static_cast<std::uint64_t>(done));
+    };
+    shares = training::train_title(pairs, {options.batches, options.seed, batch_done, ask});
+    ask();
+  } catch (const Interrupted&) {
+    return {kInterruptedExit, "INTERRUPTED train: no shares were written"};
+  }
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  if (!quiet)
+    for (const KeptBack& k : shares.kept_back) print_wrapped(row(k));
+  Outcome outcome;
+  outcome.details = json_text(to_json(shares, seconds));
+  const std::string gain =
+      fmt::format("{:+.2f} dB on edges of what was kept back, {:+.2f} on all of it", shares.gain,
+                  shares.frame_gain);
+  if (!(shares.gain >= kLeastGain)) {
+    fmt::print(stderr,
+               "deburr: no shares were written: {}, expected at least {:+.2f} on edges; the "
+               "shipped shares serve these frames as well\n",
+               gain, kLeastGain);
+    outcome.code = static_cast<int>(spec::ExitCode::kMismatch);
+    outcome.text = fmt::format("FAIL no gain: {}", gain);
+    return outcome;
+  }
+  std::vector<std::string> notes = {
+      fmt::format("{}; {} batches, seed {}", gain, options.batches, options.seed)};
+  for (const std::string& name : shares.trained_on) notes.push_back("trained on " + name);
+  write_file_atomically(options.out, share_file_text(shares.tables, notes));
+  outcome.text = fmt::format("PASS train: {}, in {:.1f} s, {}", gain, seconds, options.out);
+  return outcome;
+}
+
+}  // namespace
+}  // namespace deburr::tb
+
+int main(int argc, char** argv) {
+  using deburr::tb::CommandLine;
+  return deburr::tb::run_command_line(argc, argv, [](CLI::App& app, CommandLine& line) {
+    deburr::tb::add_train(app, line, deburr::tb::train);
+  });
+}

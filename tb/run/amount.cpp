@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "tb/run/amount.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace deburr::tb {
+
+std::string grouped(std::uint64_t value) {
+  const std::string digits = std::to_string(value);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
+}
+
+std::string amount(double value, int digits) {
+  constexpr double kMost = 1e15;  // beyond it no digit of a double is a whole number's
+  const double size = std::fabs(value);
+  if (size < kMost && (value == std::round(value) || size >= std::pow(10.0, digits - 1)))
+    return (value < 0 ? "-" : "") + grouped(static_cast<std::uint64_t>(std::llround(size)));
+  const std::string text = fmt::format("{:.{}g}", size, digits);
+  if (text.find_first_not_of("0123456789.") != std::string::npos)
+    return fmt::format("{:.{}g}", value, digits);
+  const std::size_t point = std::min(text.find('.'), text.size());
+  return (value < 0 ? "-" : "") + grouped(std::stoull(text.substr(0, point))) + text.substr(point);
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// The posteriser in a composition: it works on a finished picture, as engines do that smooth one.
+#pragma once
+
+#include <memory>
+
+#include "tool/run/composition.h"
+
+namespace deburr::tb {
+
+std::unique_ptr<CompositionRole> make_posteriser_role();
+
+}  // namespace deburr::tb

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: MIT
+// `deburr regress [TESTPLAN.yaml] [plan | run | rerun --failed | status | collect]`.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/base/file.h"
+#include "tb/base/interrupt.h"
+#include "tb/base/json_text.h"
+#include "tb/base/ready_file.h"
+#include "tb/run/amount.h"
+#include "tool/command/commands.h"
+#include "tool/command/point_options.h"
+#include "tool/regress/regression_plan.h"
+#include "tool/regress/regression_result.h"
+#include "tool/regress/testplan.h"
+#include "tool/sweep/local_engine.h"
+#include "tool/sweep/slurm.h"
+#include "tool/sweep/status.h"
+
+namespace deburr::tb {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using spec::ExitCode;
+
+constexpr std::array kActions = {"plan", "run", "rerun", "status", "collect"};
+constexpr const char* kDefaultTestplan = "tb/testplan/smoke.yaml";
+
+struct RegressOptions : PointOptions {
+  std::string file = kDefaultTestplan, action = "run";
+  std::optional<std::uint64_t> seed;
+  std::uint64_t divide = 1;
+  bool failed = false;
+
+  void reject_half_a_rerun() const {
+    if (failed == (action == "rerun")) return;
+    throw spec::ConfigError(failed ? "--failed goes with 'rerun': rerun --failed"
+                                   : "rerun: of what? 'rerun --failed' runs again what has failed");
+  }
+
+  // `deburr regress status` is about the default testplan.
+  void take_lone_action() {
+    if (std::find(kActions.begin(), kActions.end(), file) == kActions.end() || is_there(file))
+      return;
+    action = file;
+    file = kDefaultTestplan;
+  }
+};
+
+class Regression {
+ public:
+  explicit Regression(const RegressOptions& options)
+      : options_(options),
+        testplan_(part_of(read_testplan(ready_file(options.file)), options.divide)),
+        base_seed_(base_seed_of(options, testplan_)),
+        place_(regression_place_of(options.out, testplan_.name, base_seed_)),
+        what_(fmt::format("regression {} --seed {}", testplan_.name, base_seed_)) {}
+
+  std::uint64_t base_seed() const { return base_seed_; }
+
+  Outcome act() {
+    if (options_.failed) failed_ = failed_in_report(place_);
+    say_changes(options_, options_.action, place_, testplan_.file);
+    if (options_.action == "status") return show_status(options_, what_, place_);
+    plan_ = make_regression_plan(testplan_, base_seed_, place_);
+    say_left_out(options_, plan_);
+    if (options_.action == "plan") return planned_outcome(what_, plan_, place_);
+    catch_interrupts();
+    const SweepLock lock(place_.directory);
+    return options_.action == "run"     ? run()
+           : options_.action == "rerun" ? rerun()
+                                        : check(collect());
+  }
+
+ private:
+  // Given, or that of the report that is spoken of, or the day.
+  static std::uint64_t base_seed_of(const RegressOptions& options, const Testplan& testplan) {
+    if (options.seed) return *options.seed;
+    return options.action == "rerun" ? seed_of_last_report(options.out, testplan.name)
+                                     : seed_of_today();
+  }
+
+  Outcome run() {
+    reject_while_submitted(place_);
+    const Pending pending = find_pending(place_, options_.retry);
+    if (!pending.points.empty()) {
+      if (!options_.slurm.empty())
+        return run_on_slurm(options_, what_, plan_, place_, pending.points);
+      const int code = run_here(plan_, place_, pending.points, settings("regression"));
+      if (code == kInterruptedExit) return ended(options_, what_, place_, pending.done, code);
+    }
+    return check(collect());
+  }
+
+  // What failed, by the names of the runs: behind a change of the model they are other points.
+  Outcome rerun() {
+    reject_while_submitted(place_);
+    std::vector<PlannedPoint> points;
+    for_each_point(points_file(place_.directory), [&](const PlannedPoint& point) {
+      if (failed_.erase(origin_of(point).name()) > 0) points.push_back(point);
+    });
+    for (const std::string& name : failed_)
+      say(options_, fmt::format("gone        {}: the testplan has no such run any more", name));
+    const Pending pending = find_pending(place_, points, /*retry=*/true);
+    if (!pending.points.empty()) {
+      if (!options_.slurm.empty())
+        return run_on_slurm(options_, what_, plan_, place_, pending.points);
+      run_here(plan_, place_, pending.points, settings("rerun"));
+    }
+    return check_again(points);
+  }
+
+  // All of the report where every run has a result, and else only what was run again.
+  Outcome check_again(const std::vector<PlannedPoint>& points) const {
+    std::vector<const PlannedPoint*> failed;
+    std::uint64_t passed = 0;
+    for (const PlannedPoint& point : points) {
+      const PointState state = state_of(point_directory(place_.points(), point.name));
+      passed += state == PointState::kDone ? 1 : 0;
+      if (state == PointState::kFailed) failed.push_back(&point);
+    }
+    const std::string figures =
+        fmt::format("{} of {} runs that had failed pass now, {} fail", grouped(passed),
+                    grouped(points.size()), grouped(failed.size()));
+    if (!interrupted()) {
+      if (const Status status = look(place_, plan_); status.missing + status.running == 0) {
+        say(options_, "rerun       " + figures);
+        return check(collect());
+      }
+    }
+    const std::string text = fmt::format(
+        "{}: {}; other runs have no result of this state, so the report stays as it "
+        "is: 'run' it for all of them",
+        what_, figures);
+    Json failures = Json::array();
+    for (const PlannedPoint* point : failed) {
+      const Failure failure = read_failure(point_directory(place_.points(), point->name));
+      const std::string name = origin_of(*point).name();
+      say(options_, fmt::format("failed      {}: {}: {}", name, failure.kind, failure.reason));
+      failures.push_back({{"name", name},
+                          {"kind", failure.kind},
+                          {"reason", failure.reason},
+                          {"command", command_of(point->engine, point->settings)}});
+    }
+    Outcome outcome{failed.empty() ? 0 : static_cast<int>(ExitCode::kMismatch),
+                    (failed.empty() ? "PASS " : "FAIL ") + text};
+    outcome.details = json_text(
+        Json{{"counts", {{"rerun", points.size()}, {"passed", passed}, {"failed", failed.size()}}},
+             {"failures", std::move(failures)}},
+        -1, NotUtf8::kReplace);
+    if (!failed.empty()) outcome.repro = arguments_of(failed[0]->engine, failed[0]->settings);
+    if (passed + failed.size() < points.size()) {
+      outcome.code = static_cast<int>(ExitCode::kSimulation);
+      outcome.text = "FAIL " + text;
+    }
+    if (interrupted()) {
+      outcome.code = kInterruptedExit;
+      outcome.text = fmt::format("INTERRUPTED {}: {}", what_, figures);
+    }
+    return outcome;
+  }
+
+  RunSettings settings(const std::string& what) const {
+    RunSettings settings = run_settings(options_);
+    settings.what = what;
+    return settings;
+  }
+
+  // Failures are few behind buckets: their waves are made here, whoever ran the points.
+  RegressionResult collect() const {
+    RegressionResult result = collect_regression(testplan_, place_);
+    const std::vector<PlannedPoint> runs = runs_with_waves(result, place_);
+    if (!runs.empty()) {
+      const SweepPlace place = waves_place_of(place_);
+      Plan plan = plan_;
+      plan.points = runs.size();
+      plan.reports = true;
+      write_points(runs, place);
+      write_plan(plan, place);
+      const Pending pending = find_pending(place, runs, false);
+      if (!pending.points.empty()) run_here(plan, place, pending.points, settings("waves"));
+      add_waves(result, runs, place_);
+    }
+    for (const std::string& fall : write_regression(testplan_, base_seed_, plan_, place_, result))
+      say(options_, "fell        " + fall);
+    return result;
+  }
+
+  Outcome check(const RegressionResult& result) const {
+    return with_collection(outcome_of(result), place_);
+  }
+
+  Outcome outcome_of(const RegressionResult& result) const {
+    const std::string figures =
+        fmt::format("{}: {}, {} passed, {} failed in {} bucket{}, {} missing; {}", what_,
+                    points_of(plan_.points), grouped(result.passed), grouped(result.failed),
+                    grouped(result.buckets.size()), result.buckets.size() == 1 ? "" : "s",
+                    grouped(result.missing), (place_.directory / "index.html").string());
+    for (const FailureBucket& bucket : result.buckets)
+      say(options_, fmt::format("failed      {} x {}: {}: {}", grouped(bucket.runs.size()),
+                                bucket.engine, bucket.kind, bucket.message));
+    for (const FeatureResult& feature : result.features)
+      if (!feature.holds()) say(options_, "broken      " + reasons(feature));
+    for (const CoverageResult& covered : result.merged)
+      if (!covered.met()) say(options_, "broken      all runs: " + reason(covered, /*named=*/true));
+    for (const UnmetBin& unmet : result.unmet)
+      if (unmet.hits > 0)
+        say(options_,
+            fmt::format("met         {}, which the testplan excepts: {}", unmet.bin, unmet.reason));
+    if (interrupted()) return {kInterruptedExit, "INTERRUPTED " + figures};
+    if (result.missing > 0)
+      return {static_cast<int>(ExitCode::kSimulation),
+              fmt::format("FAIL {}: 'run' it again for what is missing", figures)};
+    if (!result.holds()) {
+      Outcome outcome{static_cast<int>(ExitCode::kMismatch), "FAIL " + figures};
+      if (!result.buckets.empty()) outcome.repro = arguments_of_example(result);
+      return outcome;
+    }
+    return {0, "PASS " + figures};
+  }
+
+  // Of the bucket with the most runs.
+  static std::string arguments_of_example(const RegressionResult& result) {
+    const PlannedPoint& point = result.runs[result.buckets.front().runs.front()].point;
+    return arguments_of(point.engine, point.settings);
+  }
+
+  static std::string reasons(const FeatureResult& feature) {
+    std::vector<std::string> why;
+    if (feature.failed + feature.missing > 0)
+      why.push_back(
+          fmt::format("{} of {} runs passed", grouped(feature.passed), grouped(feature.runs())));
+    for (const CheckResult& check : feature.checks)
+      if (!check.met())
+        why.push_back(check.unknown.empty()
+                          ? fmt::format("{}: {} comparisons of {}", check.required.scoreboard,
+                                        grouped(check.comparisons), grouped(check.required.minimum))
+                          : check.unknown);
+    for (const CoverageResult& covered : feature.coverage)
+      if (!covered.met()) why.push_back(reason(covered));
+    return fmt::format("{}: {}", feature.feature->id, fmt::join(why, "; "));
+  }
+
+  static std::string reason(const CoverageResult& covered, bool named = false) {
+    if (!covered.unknown.empty()) return covered.unknown;
+    std::string text = fmt::format("{}: {} of {} bins were not met", covered.required.glob,
+                                   grouped(covered.holes.size()), grouped(covered.bins));
+    if (named) text += fmt::format(": {}", fmt::join(covered.holes, ", "));
+    return text;
+  }
+
+  const RegressOptions& options_;
+  Testplan testplan_;
+  std::uint64_t base_seed_;
+  SweepPlace place_;
+  std::string what_;
+  Plan plan_;
+  std::set<std::string> failed_;  // in the report, by name
+};
+
+}  // namespace
+
+void add_regress(CLI::App& app, CommandLine& line) {
+  CLI::App* command = app.add_subcommand(
+      "regress", "A testplan: many seeds of many configurations, and what failed of them");
+  show_examples(*command, {"deburr regress", "deburr regress tb/testplan/nightly.yaml --divide 100",
+                           "deburr regress tb/testplan/nightly.yaml rerun --failed"});
+  const auto options = std::make_shared<RegressOptions>();
+  command->add_option("TESTPLAN", options->file, "YAML file of the testplan")
+      ->capture_default_str();
+  const CLI::Option* action =
+      command
+          ->add_option(
+              "ACTION", options->action,
+              "plan: name every point; run: simulate those without a result, and collect; rerun: "
+              "with --failed, the failures of the last report again, and only them; status: how "
+              "far it is; collect: failures again with waves, and JUnit, JSON and "
+              "a page of what is there")
+          ->check(CLI::IsMember(std::vector<std::string>(kActions.begin(), kActions.end())))
+          ->capture_default_str();
+  command->add_flag("--failed", options->failed, "rerun: what failed in the last report");
+  add_seed(*command,
+           "Base seed of all points (the day, as 20261231; rerun: that of the last report)",
+           [seed = &options->seed](std::uint64_t given) { *seed = given; });
+  command
+      ->add_option(
+          "--divide", options->divide,
+          "Of each configuration one of N seeds, at least one, and of what must be compared")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}));
+  add_point_options(*command, *options, line);
+  command->callback([options, action, &line] {
+    if (action->count() == 0) options->take_lone_action();
+    line.action = [options, &line] {
+      options->reject_half_a_rerun();
+      Regression regression(*options);
+      if (!options->seed)
+        line.text += fmt::format(" --seed {}", regression.base_seed());  // the same tomorrow
+      return regression.act();
+    };
+  });
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Commands that are programs of their own, beside `deburr`, started with the same command line.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <string_view>
+
+#include "spec/error.h"
+#include "tool/command/command_papers.h"
+#include "tool/command/command_train.h"
+
+namespace deburr::tb {
+namespace {
+
+[[noreturn]] void become(std::string_view name, std::string_view what, const CommandLine& line) {
+  const std::filesystem::path program =
+      std::filesystem::read_symlink("/proc/self/exe").replace_filename(name);
+  ::execv(program.c_str(), line.words);
+  const int reason = errno;
+  throw spec::FileError(
+      fmt::format("{} by a program of its own, {}, which cannot be started ({}); put that of the "
+                  "same build there (in the repository: scripts/demo --complete)",
+                  what, program.string(), std::strerror(reason)));
+}
+
+}  // namespace
+
+// The other program reads the options again.
+Outcome start_papers(const PapersOptions&, const CommandLine& line) {
+  become("deburr_papers", "papers are reproduced", line);
+}
+
+Outcome start_train(const TrainOptions&, const CommandLine& line) {
+  become("deburr_train", "shares are trained", line);
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "tool/engines/frame/frame_meter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "tb/env/collect.h"
+#include "tb/run/amount.h"
+
+namespace deburr::tb {
+
+FrameMeter::FrameMeter(const FrameParts& parts)
+    : Meter(""), parts_(parts), words_(parts.drawer.words()) {}
+
+void FrameMeter::collect(Result& result) const {
+  parts_.environments.front()->collect(result);
+  add(result, "frame_buffer", parts_.buffer);
+  for (std::size_t i = 1; i < parts_.environments.size(); ++i)
+    parts_.environments[i]->collect(result);
+  parts_.drawing.collect(result);
+  add(result, "frame_buffer_bytes_written", parts_.buffer.bytes_written);
+  add(result, "frame_buffer_bytes_read", parts_.buffer.bytes_read);
+  add(result, "frame_buffer_bytes", std::uint64_t{FrameBuffer::kPixelBytes} * pixels(), "byte",
+      "Size of the frame buffer, which is not among the memories: what is drawn into it and read "
+      "of it is not modelled in time.");
+}
+
+void FrameMeter::show_parts(Observer& observer) const {
+  for (const Environment* part : parts_.environments) part->show_parts(observer);
+  observer.see("frame_buffer", parts_.buffer, activity_keys(parts_.buffer));
+  observer.see("frame_buffer_bytes_written", parts_.buffer.bytes_written);
+  observer.see("frame_buffer_bytes_read", parts_.buffer.bytes_read);
+}
+
+FrameMeter::Clocks FrameMeter::clocks(const Result& result, const FrameProgress& progress) const {
+  const auto since_begin = [&](rtl::Cycle cycle) {
+    return cycle - std::min(cycle, progress.begun);
+  };
+  const FrameBuffer& buffer = parts_.buffer;
+  Clocks c;
+  const int width = buffer.frame().width, height = buffer.frame().height;
+  c.colours = since_begin(buffer.last_colour());
+  c.colours_bound = parts_.drawing.clocks_bound();
+  if (parts_.mesh) {
+    c.drawing = progress.drawing_clocks;
+    c.drawing_bound = parts_.mesh->clocks_bound(width, height);
+  }
+  if (parts_.rows) {
+    c.smoothing = result.cycles - std::min(result.cycles, since_begin(buffer.first_beat()));
+    c.smoothing_bound = parts_.rows->clocks_bound(width, height);
+  }
+  return c;
+}
+
+std::uint64_t FrameMeter::bound(const Clocks& c) const {
+  return parts_.mesh ? c.colours_bound + c.drawing_bound + c.smoothing_bound
+                     : std::max(c.colours_bound, c.smoothing_bound);
+}
+
+std::string FrameMeter::meaning_of_bound(const Clocks& c) const {
+  if (parts_.mesh)
+    return fmt::format(
+        "Pixels of the frame over the clocks that the engines need one after the other: {} {}, "
+        "drawing edges {}{}.",
+        words_.doing, grouped(c.colours_bound), grouped(c.drawing_bound),
+        parts_.rows ? fmt::format(", smoothing {}", grouped(c.smoothing_bound)) : "");
+  return fmt::format(
+      "Pixels of the frame over the clocks of the slower engine alone ({0}), the other one at the "
+      "same time: {1} takes {2} clocks at least, smoothing {3}.",
+      c.smoothing_bound >= c.colours_bound ? "smoothing" : words_.doing, words_.doing,
+      grouped(c.colours_bound), grouped(c.smoothing_bound));
+}
+
+std::string FrameMeter::colours_key() const { return fmt::format("{}_clocks", words_.doing); }
+
+void FrameMeter::collect_clocks(Result& result, const Clocks& c) const {
+  add(result, colours_key(), c.colours, "clk",
+      fmt::format("From the first {} to the last colour.", words_.from));
+  if (parts_.mesh)
+    add(result, "drawing_clocks", c.drawing, "clk",
+        fmt::format("From the last colour in the frame buffer until the {} is done.",
+                    parts_.mesh_title));
+  if (parts_.rows) {
+    add(result, "smoothing_clocks", c.smoothing, "clk",
+        "From the first row out of the frame buffer to the last pixel.");
+    add(result, "smoothing_clocks_by_formula", c.smoothing_bound, "clk",
+        fmt::format("Of the {} alone, if nothing stalls.", parts_.rows_title));
+  }
+  if (!parts_.mesh)
+    add(result, "overlapped_clocks", c.together() - std::min(c.together(), result.cycles), "clk",
+        "Clocks in which both engines were at this frame.");
+  add(result, parts_.mesh ? "engine_clocks_bound" : "slower_engine_clocks", bound(c), "clk",
+      parts_.mesh ? "Of all engines, one after the other, if nothing stalls."
+                  : fmt::format("Of the slower engine alone if nothing stalls: {}, or "
+                                "smoothing_clocks_by_formula.",
+                                words_.bound_meaning));
+}
+
+void FrameMeter::collect_headline(Result& result, const FrameProgress& progress) const {
+  const Clocks c = clocks(result, progress);
+  collect_clocks(result, c);
+  const SmoothingStage& last = parts_.rows ? static_cast<const SmoothingStage&>(*parts_.rows)
+                                           : static_cast<const SmoothingStage&>(*parts_.mesh);
+  result.latency = last.latency();
+  result.throughput =
+      ratio(parts_.rows ? parts_.rows->delivered_in_all() : pixels(), result.cycles);
+  result.throughput_unit = "pixel/clk";
+  result.throughput_bound = ratio(pixels(), bound(c));
+  result.throughput_bound_meaning = meaning_of_bound(c);
+  result.figures = headline_figures(progress.complete);
+  result.bottleneck = find_bottleneck(result.units, std::string(last.last_unit()));
+}
+
+std::vector<Figure> FrameMeter::headline_figures(bool complete) const {
+  std::vector<Figure> figures;
+  const auto append = [&](std::vector<Figure> more) {
+    for (Figure& figure : more) figures.push_back(std::move(figure));
+  };
+  if (complete) {
+    figures.push_back(
+        parts_.mesh
+            ? Figure{"Frame", "cycles", "engines alone", "work.engine_clocks_bound", true}
+            : Figure{"Frame", "cycles", "slower engine alone", "work.slower_engine_clocks", true});
+    figures.push_back({std::string(words_.label), "work." + colours_key(),
+                       std::string(words_.bound_label), std::string(words_.bound_key)});
+    if (parts_.mesh) figures.push_back({"Edges", "work.drawing_clocks"});
+    if (parts_.rows)
+      figures.push_back(
+          {"Smoothing", "work.smoothing_clocks", "formula", "work.smoothing_clocks_by_formula"});
+    if (!parts_.mesh) figures.push_back({"Both at once", "work.overlapped_clocks"});
+  }
+  append(parts_.drawing.figures());
+  append({{"Frame buffer, not among the memories", "work.frame_buffer_bytes"},
+          {"Written to the frame buffer", "work.frame_buffer_bytes_written"},
+          {"Read from the frame buffer", "work.frame_buffer_bytes_read"}});
+  for (const SmoothingStage* stage : parts_.smoothing) append(stage->work_figures());
+  return figures;
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Figures of a whole frame: those of its engines, the frame buffer between them, and the clocks of
+// each against what it needs at least.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tb/env/meter.h"
+#include "tool/engines/frame/frame_buffer.h"
+#include "tool/run/composition.h"
+
+namespace deburr::tb {
+
+// In the order of the frame's way; who does not smooth is null.
+struct FrameParts {
+  const PictureDrawer& drawer;
+  const DrawingStage& drawing;
+  const FrameBuffer& buffer;
+  std::vector<const Environment*> environments;
+  const MeshStage* mesh;
+  const RowStage* rows;
+  std::string_view mesh_title, rows_title;
+  // Those two; of a composition to be described, every one that there is.
+  std::vector<const SmoothingStage*> smoothing;
+};
+
+// How far the composition is.
+struct FrameProgress {
+  rtl::Cycle begun = 0;              // when the run began
+  std::uint64_t drawing_clocks = 0;  // along edges of the mesh; 0 before that is done
+  bool complete = false;             // the run
+};
+
+class FrameMeter : public Meter {
+ public:
+  explicit FrameMeter(const FrameParts& parts);
+
+  void collect(Result& result) const;
+  void show_parts(Observer& observer) const;
+  void collect_headline(Result& result, const FrameProgress& progress) const;
+
+ private:
+  // Clocks of each engine at this frame, and what it needs at least.
+  struct Clocks {
+    std::uint64_t colours = 0, drawing = 0, smoothing = 0;
+    std::uint64_t colours_bound = 0, drawing_bound = 0, smoothing_bound = 0;
+    std::uint64_t together() const { return colours + drawing + smoothing; }
+  };
+  Clocks clocks(const Result& result, const FrameProgress& progress) const;
+  // Engines behind each other add up; who draws and who smooths rows overlap.
+  std::uint64_t bound(const Clocks& clocks) const;
+  std::string meaning_of_bound(const Clocks& clocks) const;
+  void collect_clocks(Result& result, const Clocks& clocks) const;
+  std::vector<Figure> headline_figures(bool complete) const;
+  std::uint64_t pixels() const { return parts_.buffer.frame().pixels.size(); }
+  std::string colours_key() const;
+
+  FrameParts parts_;
+  DrawingWords words_;
+};
+
+}  // namespace deburr::tb

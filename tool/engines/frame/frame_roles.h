@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// The engines of a composition, as they declare themselves (tool/run/composition.h), and which of
+// them smooth: each alone, or one along the mesh's edges and behind it one of the finished picture.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tool/run/composition.h"
+
+namespace deburr::tb {
+
+// A value of frame.smoothing: one of the two, or both.
+struct Smoothing {
+  std::string name;  // "NAME", "NAME-NAME"
+  const MeshSmoother* mesh = nullptr;
+  const RowSmoother* rows = nullptr;
+  // The second looks at what the first one marks.
+  bool follows() const;
+};
+
+class FrameRoles {
+ public:
+  // Those of engines(). The composition itself has no role.
+  FrameRoles();
+  explicit FrameRoles(std::vector<std::unique_ptr<CompositionRole>> roles);
+
+  const PictureDrawer& drawer() const { return *drawer_; }
+  // In the order of the frame's way.
+  std::vector<const CompositionRole*> all() const;
+  std::vector<const PictureSmoother*> smoothers() const;
+
+  const std::vector<Smoothing>& smoothings() const { return smoothings_; }
+  const Smoothing& chosen() const { return smoothings_[choice_]; }
+  // Of what is chosen, in the order of the frame's way.
+  std::vector<const PictureSmoother*> chosen_smoothers() const;
+  // Every one at once, to be described.
+  std::vector<const MeshSmoother*> mesh_smoothers() const;
+  std::vector<const RowSmoother*> row_smoothers() const;
+
+  void add_parameters(ParameterSet& set);
+  // Presets, what the chosen engines do for each other, and what is rejected.
+  void resolve(ParameterSet& set);
+  std::vector<Shorthand> shorthands() const;
+
+ private:
+  std::unique_ptr<PictureDrawer> drawer_;
+  std::vector<std::unique_ptr<MeshSmoother>> mesh_;
+  std::vector<std::unique_ptr<RowSmoother>> rows_;
+  std::vector<Smoothing> smoothings_;
+  std::vector<std::string> names_;  // of smoothings_
+  std::size_t choice_ = 0;
+};
+
+}  // namespace deburr::tb

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+// `deburr run geometric`: a lit scene and the edges of its mesh through the geometric engine.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "golden/geometric/configuration.h"
+#include "rtl_model/geometric/datasheets.h"
+#include "rtl_model/geometric/register_section.h"
+#include "spec/geometric/check_build.h"
+#include "tb/base/interrupt.h"
+#include "tb/engines/geometric/geometric_coverage.h"
+#include "tb/engines/geometric/geometric_environment.h"
+#include "tb/engines/geometric/geometric_frames.h"
+#include "tb/run/amount.h"
+#include "tb/run/progress.h"
+#include "tool/engines/geometric/geometric_draws.h"
+#include "tool/engines/geometric/geometric_pictures.h"
+#include "tool/engines/geometric/geometric_role.h"
+#include "tool/engines/geometric/geometric_rules.h"
+#include "tool/run/flicker.h"
+#include "tool/run/input_rules.h"
+#include "tool/run/pictures.h"
+#include "tool/run/shorthands.h"
+#include "tool/run/simulate.h"
+
+namespace deburr::tb {
+namespace {
+
+class GeometricCommand final : public Engine {
+ public:
+  std::string_view name() const override { return "geometric"; }
+  std::string_view summary() const override {
+    return "A lit scene and the edges of its mesh through the geometric engine";
+  }
+  std::unique_ptr<CompositionRole> role() const override { return make_geometric_role(); }
+
+  double clock_mhz() const override { return 250; }  // what its units are made for
+
+  void add_parameters(ParameterSet& set) override {
+    set.add("scene", ParameterKind::kInput, scene_);
+    set.add("sequence", ParameterKind::kInput, sequence_);
+    set.add_engine("geometric", parameters_);
+    add_memory(set, "memory", memory_);
+    set.add("run", ParameterKind::kRun, program_);
+  }
+
+  void resolve(ParameterSet& set) override {
+    apply_preset(set, parameters_);
+    lists_ = lists_of(scene_);
+    frames_ = frames_of(set, sequence_, lists_);
+    imply_crossings(set, "scene.crossings", parameters_);
+    reject_unused_rules(set, parameters_);
+    reject_unused_memory(set, "memory", memory_);
+    reject_slow_memory(set, "memory", memory_);
+    if (set.find("run.truth")->text() == "false" && frames_ == 1)
+      set.reject("scene.truth_samples", "nothing is compared without run.truth (--truth)");
+    preset_label_ = preset_label(set, parameters_);
+  }
+
+  std::vector<std::string_view> examples() const override {
+    return {"--in mesh.obj --size 1280x720 --truth --out out/mesh",
+            "--scene wing --preset gpaa --walkers 2"};
+  }
+  std::vector<Shorthand> shorthands() const override {
+    return joined({{"--scene", "scene.source",
+                    "Scene: cube, wheelcover (default), wing, canopy, sphere, ..."},
+                   {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
+                   {"--size", "scene.width", "Size of the frame, WxH (640x480)", "scene.height"}},
+                  joined(edge_shorthands(), sequence_shorthands()));
+  }
+
+  void check(const RunParameters& run, RunContext& context) override { check(*load(run, context)); }
+
+  void run(const RunParameters& run, RunContext& context, Result& result) override {
+    const std::shared_ptr<const LoadedGeometricFrame> shared = load(run, context);
+    const LoadedGeometricFrame& loaded = *shared;
+    check(loaded);
+    const geometric::Frame& frame = loaded.frame;
+    MeshFiles meshes;
+    context.add_inputs(frames_ > 1 ? input_files(meshes) : loaded.inputs);
+    context.set_title(
+        "Geometric engine: " + std::filesystem::path(scene_.source).filename().string(),
+        summary_line(frame));
+    for (const std::string& note : loaded.notes) context.add_note(note);
+    for (const std::string& note : build_notes(rtl::geometric::sized(
+             parameters_, memory_clocks(GeometricSetup{parameters_, memory_}))))
+      context.add_note(note);
+    const std::vector<geometric::Frame> frames(static_cast<std::size_t>(scene_.count), frame);
+    Simulation simulation(simulation_options(run, context));
+    GeometricEnvironment environment(simulation, frames, {parameters_, memory_});
+    simulate(simulation, environment, context, result, [&] {
+      for (const std::string& note : dropped_notes(environment.engine().work()))
+        context.add_note(note);
+      add_pictures(run, context, loaded, environment, result);
+    });
+    if (frames_ > 1 && !result.interrupted && !context.checking_only())
+      measure_flicker(frames_, context, result,
+                      [&](int i) { return picture_of(i, static_cast<std::uint32_t>(run.seed)); });
+  }
+
+  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
+    const FrameLists lists = lists_of(scene_);
+    std::vector<std::filesystem::path> files;
+    for (int i = 0; i < lists.frames(); ++i)
+      for (const std::filesystem::path& file : frame_files(in_frame(scene_, lists, i), meshes))
+        add_once(files, file);
+    return files;
+  }
+
+  void prepare(const RunParameters& run, RunContext& context) override { load(run, context); }
+
+  void describe_statistics(Result& result) override {
+    geometric::Frame smallest;
+    smallest.image = Image(2, 2);
+    smallest.depths.assign(4, 0);
+    const std::vector<geometric::Frame> frames = {smallest};
+    Simulation simulation({});
+    GeometricEnvironment environment(simulation, frames, {});
+    describe(simulation, environment, result);
+    describe_flicker(result);
+  }
+
+  std::vector<std::string_view> pictures() const override {
+    return {"before", "after",  "golden",  "difference", "truth",
+            "error",  "change", "weights", "classes"};
+  }
+  std::vector<std::string_view> maps() const override {
+    return {"lines", "passed", "weight", "depth_reads"};
+  }
+
+  std::string_view pixel_history() const override {
+    return "lines that pass it, candidates with depth and test, weights, colour";
+  }
+
+  rtl::RegisterSection registers() const override {
+    return rtl::geometric::register_section(parameters_);
+  }
+  CoverageSection coverage() const override {
+    CoverageSection section{"Geometric engine", declared_geometric_coverage(),
+                            geometric_coverage_groups()};
+    declare_directed_geometric_coverage(section.bins);
+    return section;
+  }
+  DatasheetSection datasheets() const override {
+    return {"GeometricEngine", rtl::geometric::datasheets()};
+  }
+
+  RandomDraws random_draws() const override { return geometric_draws(); }
+  LongRun long_run() const override { return {{{"scene.count", "60"}}}; }
+
+ private:
+  // What is known before anything is rendered.
+  void check(const Scene& scene) const {
+    reject_too_many_faces(scene, parameters_);
+    golden::geometric::check_frame(parameters_, {scene_.width, scene_.height, 0, 0, 0});
+  }
+
+  void check(const LoadedGeometricFrame& loaded) const {
+    check(loaded.scene);
+    reject_nothing_drawn(loaded.scene, loaded.frame.depth);
+    const geometric::Frame& frame = loaded.frame;
+    golden::geometric::check_frame(
+        parameters_, {frame.image.width, frame.image.height, frame.screen.edges.size(),
+                      frame.screen.vertices.size(), frame.screen.faces});
+  }
+
+  std::shared_ptr<const LoadedGeometricFrame> load(const RunParameters& run,
+                                                   const RunContext& context) const {
+    const bool truth = run.truth && !context.checking_only();
+    return context.shared<LoadedGeometricFrame>("geometric frame", {"scene.", "run.truth"}, [&] {
+      Waiting waiting(truth ? "rendering frame and truth" : "rendering the frame", context.quiet());
+      return load_geometric_frame(
+          in_frame(scene_, lists_, 0), static_cast<std::uint32_t>(run.seed), truth,
+          [&] {
+            waiting.update();
+            return interrupted();
+          },
+          [&](const Scene& scene) { check(scene); });
+    });
+  }
+
+  SequencePicture picture_of(int frame, std::uint32_t seed) const {
+    GeometricSceneParameters wanted = in_frame(scene_, lists_, frame);
+    wanted.move = move_of(sequence_, lists_, frame);
+    const LoadedGeometricFrame loaded =
+        load_geometric_frame(wanted, seed, true, [] { return interrupted(); });
+    check(loaded);
+    return {loaded.frame.image, geometric::smoothed(loaded.frame, parameters_).image,
+            *loaded.truth};
+  }
+
+  std::string summary_line(const geometric::Frame& frame) const {
+    const spec::geometric::Parameters& p = parameters_;
+    std::string clipped, crease;
+    if (frame.screen.clipped > 0)
+      clipped = fmt::format(" ({} clipped)", grouped(frame.screen.clipped));
+    if (p.select == spec::geometric::Select::kEdges)
+      crease = fmt::format(", creases {}", name_of(p.crease, spec::geometric::kCreaseNames));
+    return fmt::format(
+        "{} x {} pixels, {} faces, {} edges{}, {}: select {}{}, depth test {}, combine {}, {} "
+        "light; "
+        "{} of 8 x 8 pixels, {} edges, {} pixels a clock{}; memory latency {} clk",
+        frame.image.width, frame.image.height, grouped(frame.screen.faces),
+        grouped(frame.screen.edges.size()), clipped, preset_label_,
+        name_of(p.select, spec::geometric::kSelectNames), crease,
+        name_of(p.depth_test, spec::geometric::kDepthTestNames),
+        name_of(p.combine, spec::geometric::kCombineNames), p.linear_light ? "linear" : "stored",
+        p.layout == spec::geometric::Layout::kTiled ? "tiles" : "rows instead",
+        name_of(p.edge_lanes, spec::geometric::kLanesNames),
+        name_of(p.walkers, spec::geometric::kLanesNames),
+        p.frame_copy ? ", the frame copied first" : "", memory_.latency);
+  }
+
+  void add_pictures(const RunParameters& run, RunContext& context,
+                    const LoadedGeometricFrame& loaded, const GeometricEnvironment& engine,
+                    Result& result) const {
+    const Image& before = loaded.frame.image;
+    const Image after = engine.frame();
+    if (after.pixels.size() != before.pixels.size()) return;  // no frame was begun
+    Image expected(after.width, after.height);
+    const bool golden = run.check == CheckMode::kGolden &&
+                        engine.golden_model().pixels().size() == expected.pixels.size();
+    if (golden) expected.pixels = engine.golden_model().pixels();
+    add_frame_pictures(context, {before, after, after.pixels.size(), golden ? &expected : nullptr,
+                                 loaded.truth ? &*loaded.truth : nullptr,
+                                 "the lit frame as it was rendered", loaded.truth_name});
+    add_edge_pictures(context, loaded.frame, parameters_, engine.blocks());
+    if (!engine.done()) return;
+    result.change = measure_change(before, after, loaded.truth ? &*loaded.truth : nullptr);
+    if (loaded.truth)
+      result.quality =
+          measure_quality(loaded.truth_name, before, after, *loaded.truth, &loaded.frame.depth);
+  }
+
+  GeometricSceneParameters scene_;
+  SequenceParameters sequence_;
+  FrameLists lists_;
+  int frames_ = 1;
+  spec::geometric::Parameters parameters_;
+  MemoryParameters memory_;
+  ProgramParameters program_;
+  std::string preset_label_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_geometric_engine() { return std::make_unique<GeometricCommand>(); }
+
+}  // namespace deburr::tb

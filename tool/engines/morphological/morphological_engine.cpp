@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: MIT
+// `deburr run morphological`: an image, or a scene without anti-aliasing, through the morphological
+// engine.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "golden/morphological/configuration.h"
+#include "rtl_model/morphological/datasheets.h"
+#include "rtl_model/morphological/register_section.h"
+#include "spec/error.h"
+#include "spec/morphological/check_build.h"
+#include "tb/base/file.h"
+#include "tb/base/interrupt.h"
+#include "tb/engines/morphological/morphological_coverage.h"
+#include "tb/engines/morphological/morphological_environment.h"
+#include "tb/engines/morphological/morphological_frames.h"
+#include "tb/run/progress.h"
+#include "tb/scene/image_bytes.h"
+#include "tb/scene/truth.h"
+#include "tool/engines/morphological/morphological_draws.h"
+#include "tool/engines/morphological/morphological_pictures.h"
+#include "tool/engines/morphological/morphological_role.h"
+#include "tool/engines/morphological/morphological_rules.h"
+#include "tool/run/flicker.h"
+#include "tool/run/input_rules.h"
+#include "tool/run/pictures.h"
+#include "tool/run/shorthands.h"
+#include "tool/run/simulate.h"
+
+namespace deburr::tb {
+namespace {
+
+class MorphologicalCommand final : public Engine {
+ public:
+  std::string_view name() const override { return "morphological"; }
+  std::string_view summary() const override {
+    return "An image or a scene through the morphological engine, checked pixel by pixel";
+  }
+  std::unique_ptr<CompositionRole> role() const override { return make_morphological_role(); }
+
+  double clock_mhz() const override { return 148.5; }  // the pixel clock of 1080p60
+
+  void add_parameters(ParameterSet& set) override {
+    set.add("frame", ParameterKind::kInput, frame_);
+    set.add("sequence", ParameterKind::kInput, sequence_);
+    set.add_engine("morphological", parameters_);
+    add_memory(set, "memory", memory_);
+    set.add("run", ParameterKind::kRun, program_);
+  }
+
+  void resolve(ParameterSet& set) override {
+    apply_preset(set, parameters_);
+    lists_ = lists_of(frame_);
+    frames_ = frames_of(set, sequence_, lists_);
+    if (frames_ > 1 && lists_.frames() == 1 && !is_rendered(first()) && is_there(frame_.source))
+      throw spec::ConfigError(
+          "sequence.frames: an image file does not move: list a file a frame, as by "
+          "--in 'frames/*.png'");
+    if (!frame_.mask.empty()) {
+      set.imply("morphological.leave", "masked", "frame.mask");
+      if (parameters_.leave == spec::morphological::Leave::kNone)
+        set.reject("frame.mask", "morphological.leave = none looks at no mask");
+    }
+    reject_unused_rules(set, parameters_, "memory");
+    reject_unused_memory(set, "memory", memory_);
+    if (parameters_.storage == spec::morphological::Storage::kMemory)
+      reject_slow_memory(set, "memory", memory_);
+    else if (set.find("run.line_trace")->text() != "none")
+      set.reject("run.line_trace",
+                 "nothing is asked of memory: morphological.storage = memory asks for lines");
+    if (!frame_.shares.empty() && parameters_.area != spec::morphological::AreaSource::kLearned)
+      set.reject("frame.shares",
+                 fmt::format("morphological.area = {} has no learned shares",
+                             name_of(parameters_.area, spec::morphological::kAreaSourceNames)));
+    reject_unused_frame(set);
+    preset_label_ = preset_label(set, parameters_);
+  }
+
+  std::vector<std::string_view> examples() const override {
+    return {"--scene road --size 1280x720 --out out/road",
+            "--in frame.png --preset smaa --lanes 2 --out out/smaa",
+            "--storage memory --set memory.latency=200"};
+  }
+  std::vector<Shorthand> shorthands() const override {
+    return joined(
+        {{"--in", "frame.source",
+          "Image file of any format that OpenImageIO reads, or a mesh file"},
+         {"--scene", "frame.source", "Scene instead of a file: cylinders (default), road, ..."},
+         {"--truth", "frame.truth", "Anti-aliased picture to compare with"},
+         {"--depth", "frame.depth", "Depth of the image: quality of silhouettes too"},
+         {"--mask", "frame.mask", "Picture of what to leave as it is: white is masked"},
+         {"--shares", "frame.shares", "Learned shares of `deburr train` instead of those shipped"},
+         {"--size", "frame.width", "Size of a rendered scene, WxH (640x480)", "frame.height"}},
+        joined(smoothing_shorthands(), sequence_shorthands()));
+  }
+
+  void check(const RunParameters& run, RunContext& context) override {
+    check(run, *load(run, context));
+  }
+
+  void run(const RunParameters& run, RunContext& context, Result& result) override {
+    const std::shared_ptr<const LoadedFrame> shared = load(run, context);
+    const LoadedFrame& loaded = *shared;
+    check(run, loaded);
+    MeshFiles meshes;
+    context.add_inputs(frames_ > 1 ? input_files(meshes) : loaded.inputs);
+    context.set_title(
+        "Morphological engine: " + std::filesystem::path(frame_.source).filename().string(),
+        summary_line(loaded));
+    for (const std::string& conversion : loaded.conversions) context.add_note(conversion);
+    for (const std::string& note : build_notes(parameters_)) context.add_note(note);
+    const std::vector<MorphologicalInput> frames(static_cast<std::size_t>(frame_.count),
+                                                 loaded.input);
+    Simulation simulation(simulation_options(run, context));
+    MorphologicalEnvironment environment(simulation, frames,
+                                         {.morphological = parameters_,
+                                          .memory = memory_,
+                                          .shares = loaded.shares,
+                                          .expectation = golden_of(loaded, context)});
+    simulate(simulation, environment, context, result,
+             [&] { add_pictures(run, context, loaded, environment, result); });
+    if (frames_ > 1 && !result.interrupted && !context.checking_only())
+      measure_flicker(frames_, context, result, [&](int frame) {
+        return picture_of(frame, static_cast<std::uint32_t>(run.seed));
+      });
+  }
+
+  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
+    const FrameLists lists = lists_of(frame_);
+    std::vector<std::filesystem::path> files;
+    for (int i = 0; i < lists.frames(); ++i)
+      for (const std::filesystem::path& file : frame_files(in_frame(frame_, lists, i), meshes))
+        add_once(files, file);
+    return files;
+  }
+
+  void prepare(const RunParameters& run, RunContext& context) override {
+    golden_of(*load(run, context), context);
+  }
+
+  void describe_statistics(Result& result) override {
+    const std::vector<MorphologicalInput> frames = {{Image(2, 2), {}}};
+    Simulation simulation({});
+    MorphologicalEnvironment environment(simulation, frames, {});
+    describe(simulation, environment, result);
+    describe_flicker(result);
+  }
+
+  std::vector<std::string_view> pictures() const override {
+    return {"before", "after",  "golden", "difference", "truth",
+            "error",  "change", "edges",  "weights"};
+  }
+  std::string_view pixel_history() const override {
+    return "edges, runs and lines of its four sides, shares, blend, colour";
+  }
+  std::vector<std::string_view> maps() const override { return {"edges", "run_length", "steps"}; }
+
+  rtl::RegisterSection registers() const override {
+    return rtl::morphological::register_section(parameters_);
+  }
+  CoverageSection coverage() const override {
+    return {"Morphological engine",
+            morphological_coverage(golden::morphological::MorphologicalGolden({})),
+            morphological_coverage_groups()};
+  }
+  DatasheetSection datasheets() const override {
+    return {"MorphologicalEngine", rtl::morphological::datasheets()};
+  }
+
+  RandomDraws random_draws() const override { return morphological_draws(); }
+  LongRun long_run() const override { return {{{"frame.count", "300"}}}; }
+
+ private:
+  void check(const RunParameters& run, const LoadedFrame& loaded) const {
+    if (is_rendered(first())) reject_nothing_drawn(*loaded.depth, first().source);
+    if (run.truth && !loaded.truth)
+      throw spec::ConfigError(
+          "run.truth: this image comes without a truth; name one with --truth FILE");
+    const Image& image = loaded.input.image;
+    golden::morphological::check_frame(parameters_, image.width, image.height);
+  }
+
+  std::shared_ptr<const LoadedFrame> load(const RunParameters& run,
+                                          const RunContext& context) const {
+    FrameParameters wanted = first();
+    if (context.checking_only()) wanted.truth_samples = std::min(1, wanted.truth_samples);
+    const auto render = [&](const std::function<LitFrames()>& make) {
+      const std::string bytes = context.shared_bytes("lit frames", {"frame."}, [&] {
+        const LitFrames frames = make();
+        std::string made;
+        append_bytes(made, frames.noaa);
+        append_bytes(made, frames.truth);
+        append_bytes(made, frames.depth);
+        return made;
+      });
+      std::string_view rest = bytes;
+      LitFrames frames;
+      frames.noaa = take_image<Rgba8>(rest);
+      frames.truth = take_image<Rgba8>(rest);
+      frames.depth = take_image<float>(rest);
+      return frames;
+    };
+    return context.shared<LoadedFrame>("loaded frame", {"frame."}, [&] {
+      Waiting waiting("rendering scene and truth", context.quiet());
+      return load_frame(
+          wanted, static_cast<std::uint32_t>(run.seed),
+          [&] {
+            waiting.update();
+            return interrupted();
+          },
+          render);
+    });
+  }
+
+  std::shared_ptr<const golden::morphological::MorphologicalGolden> golden_of(
+      const LoadedFrame& loaded, const RunContext& context) const {
+    using golden::morphological::MorphologicalGolden;
+    return context.shared_golden<MorphologicalGolden>(built_for_golden(), [&] {
+      return golden_frame(loaded.input, parameters_, shares_of(loaded));
+    });
+  }
+
+  static const golden::morphological::ShareTables* shares_of(const LoadedFrame& loaded) {
+    return loaded.shares ? &*loaded.shares : nullptr;
+  }
+
+  FrameParameters first() const { return in_frame(frame_, lists_, 0); }
+
+  SequencePicture picture_of(int frame, std::uint32_t seed) const {
+    FrameParameters wanted = in_frame(frame_, lists_, frame);
+    wanted.move = move_of(sequence_, lists_, frame);
+    const LoadedFrame loaded = load_frame(wanted, seed, [] { return interrupted(); });
+    const Image& image = loaded.input.image;
+    golden::morphological::check_frame(parameters_, image.width, image.height);
+    Image after(image.width, image.height);
+    after.pixels = golden_frame(loaded.input, parameters_, shares_of(loaded)).pixels();
+    return {image, std::move(after), loaded.truth ? *loaded.truth : Image()};
+  }
+
+  void reject_unused_frame(const ParameterSet& set) const {
+    const bool depth_used = parameters_.edge_source == spec::morphological::EdgeSource::kDepth ||
+                            parameters_.edge_source == spec::morphological::EdgeSource::kPredicated;
+    // load_frame() has its own words for a truth beside a scene, and for a file that is not there.
+    if (is_rendered(first()) || !is_there(first().source)) return;
+    for (const char* name : {"frame.width", "frame.height"})
+      set.reject(name, "frame.source is an image file, which has a size of its own");
+    set.reject("frame.truth_samples",
+               "an image file is compared with the file frame.truth (--truth)");
+    if (depth_used && frame_.depth.empty())
+      throw spec::ConfigError(fmt::format(
+          "morphological.edges.source = {} needs the depth of the image: name it with --depth FILE",
+          name_of(parameters_.edge_source, spec::morphological::kEdgeSourceNames)));
+    if (!depth_used && frame_.truth.empty())
+      set.reject(
+          "frame.depth",
+          "edges come from colours, and silhouettes are measured only against a --truth FILE");
+  }
+
+  std::string summary_line(const LoadedFrame& loaded) const {
+    const spec::morphological::Parameters& p = parameters_;
+    const int lanes = spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
+    return fmt::format(
+        "{} x {} pixels, {}: edges from {} at T = {:.2f} codes, local contrast {}, predictor {} "
+        "with N = {}{}{}{}, {} light; {} pixel{} a clock, {} window rows, {}",
+        loaded.input.image.width, loaded.input.image.height, preset_label_,
+        name_of(p.edge_source, spec::morphological::kEdgeSourceNames), p.threshold / 65536.0,
+        name_of(p.local_contrast, spec::morphological::kLocalContrastNames),
+        name_of(p.predictor, spec::morphological::kPredictorNames), p.steps,
+        p.contiguous ? ", contiguous" : "", p.safe ? ", safe" : "", p.trim ? ", trim" : "",
+        p.linear_light ? "linear" : "stored", lanes, lanes == 1 ? "" : "s", p.window_rows,
+        name_of(p.storage, spec::morphological::kStorageNames));
+  }
+
+  static void add_pictures(const RunParameters& run, RunContext& context, const LoadedFrame& loaded,
+                           const MorphologicalEnvironment& engine, Result& result) {
+    const Image& before = loaded.input.image;
+    const Image& after = engine.frame();
+    if (after.pixels.size() != before.pixels.size()) return;  // no frame was begun
+    Image expected(after.width, after.height);
+    const bool golden = run.check == CheckMode::kGolden &&
+                        engine.golden_model().pixels().size() == expected.pixels.size();
+    if (golden) expected.pixels = engine.golden_model().pixels();
+    add_smoothing_pictures(
+        context,
+        {before, after, engine.delivered(), golden ? &expected : nullptr,
+         loaded.truth ? &*loaded.truth : nullptr, "the frame as it came", loaded.truth_name},
+        engine.taps());
+    if (engine.delivered() < after.pixels.size()) return;
+    result.change = measure_change(before, after, loaded.truth ? &*loaded.truth : nullptr);
+    if (loaded.truth)
+      result.quality = measure_quality(loaded.truth_name, before, after, *loaded.truth,
+                                       loaded.depth ? &*loaded.depth : nullptr);
+  }
+
+  FrameParameters frame_;
+  SequenceParameters sequence_;
+  FrameLists lists_;
+  int frames_ = 1;
+  spec::morphological::Parameters parameters_;
+  MemoryParameters memory_;
+  ProgramParameters program_;
+  std::string preset_label_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_morphological_engine() {
+  return std::make_unique<MorphologicalCommand>();
+}
+
+}  // namespace deburr::tb

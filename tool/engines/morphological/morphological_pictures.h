@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Pictures of what the morphological engine did besides the frame: edges and weights.
+#pragma once
+
+#include <vector>
+
+#include "spec/morphological/packets.h"
+#include "tb/scene/image.h"
+#include "tool/pages/run_context.h"
+#include "tool/run/pictures.h"
+
+namespace deburr::tb {
+
+// add_frame_pictures(), and edges and weights.
+void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame,
+                            const std::vector<spec::morphological::BlendTap>& taps);
+
+// Left edges red, top edges green, over the frame in grey.
+Image edge_picture(const Image& frame, const std::vector<spec::morphological::BlendTap>& taps);
+
+}  // namespace deburr::tb

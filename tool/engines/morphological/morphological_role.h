@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The morphological engine in a composition: it smooths a finished picture, and leaves pixels that
+// were smoothed and marked before.
+#pragma once
+
+#include <memory>
+
+#include "tool/run/composition.h"
+
+namespace deburr::tb {
+
+std::unique_ptr<CompositionRole> make_morphological_role();
+
+}  // namespace deburr::tb

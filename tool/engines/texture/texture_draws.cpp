@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "tool/engines/texture/texture_draws.h"
+
+namespace deburr::tb {
+
+RandomDraws texture_draws() {
+  RandomDraws all;
+  all.draws = {{"sampler.lod_bias", evenly<-1600, 1600>},
+               {"sampler.min_lod", evenly<0, 1600>},
+               {"sampler.max_lod", evenly<0, 4000>},
+               {"texture.cache.bytes", power_of_two<8, 16>},
+               {"texture.cache.line_bytes", power_of_two<5, 7>},
+               {"texture.cache.ways", power_of_two<0, 3>},
+               {"texture.cache.fifo_depth", magnitude<2, 300>},
+               {"texture.axis_clocks", power_of_two<0, 2>}};
+  // A file; and what is of frames behind each other, by the golden model alone.
+  // Units in SystemVerilog, which most builds lack.
+  all.fixed = {"scene.fragments", "sequence.frames", "sequence.motion", "run.hdl"};
+  return all;
+}
+
+}  // namespace deburr::tb

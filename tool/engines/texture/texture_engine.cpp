@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: MIT
+// `deburr run texture`: a scene through the texture unit.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/texture/datasheets.h"
+#include "rtl_model/texture/register_section.h"
+#include "spec/error.h"
+#include "spec/texture/check_build.h"
+#include "spec/texture/descriptor.h"
+#include "tb/base/interrupt.h"
+#include "tb/engines/texture/texture_coverage.h"
+#include "tb/engines/texture/texture_environment.h"
+#include "tb/engines/texture/texture_sequence.h"
+#include "tb/engines/texture/texture_twins.h"
+#include "tb/run/amount.h"
+#include "tb/scene/compose.h"
+#include "tb/scene/quality.h"
+#include "tb/scene/textures.h"
+#include "tb/scene/truth.h"
+#include "tb/traces/fragment_reader.h"
+#include "tb/traces/fragment_writer.h"
+#include "tool/engines/texture/texture_draws.h"
+#include "tool/engines/texture/texture_role.h"
+#include "tool/engines/texture/texture_rules.h"
+#include "tool/engines/texture/texture_traces.h"
+#include "tool/engines/texture/texture_truth.h"
+#include "tool/run/flicker.h"
+#include "tool/run/input_rules.h"
+#include "tool/run/pictures.h"
+#include "tool/run/preset_help.h"
+#include "tool/run/shorthands.h"
+#include "tool/run/simulate.h"
+
+namespace deburr::tb {
+namespace {
+
+class TextureEngine final : public Engine {
+ public:
+  std::string_view name() const override { return "texture"; }
+  std::string_view summary() const override {
+    return "A scene through the texture unit, checked colour by colour and line by line";
+  }
+  std::unique_ptr<CompositionRole> role() const override { return make_texture_role(); }
+
+  void add_parameters(ParameterSet& set) override {
+    set.add("run", ParameterKind::kRun, look_up_trace_);
+    set.add("run", ParameterKind::kRun, trace_out_);
+    set.add("run", ParameterKind::kRun, twins_);
+    set.add("scene", ParameterKind::kInput, scene_);
+    set.add("scene", ParameterKind::kInput, trace_in_);
+    add_sampler(set, sampler_);
+    set.add("sequence", ParameterKind::kInput, sequence_);
+    set.add_engine("texture", texture_);
+    add_memory(set, "memory", memory_);
+  }
+
+  std::vector<std::string_view> examples() const override {
+    return {"--scene tunnel --size 640x360 --aniso 8 --truth --out out/tunnel",
+            "--in mesh.obj --preset paper --mode trilinear --out out/mesh",
+            "--windows 2000 --maps --set memory.latency=200"};
+  }
+  std::vector<Shorthand> shorthands() const override {
+    return joined(
+        joined(scene_shorthands("plane"), sequence_shorthands()),
+        {{"--preset", "texture.preset",
+          preset_help(spec::texture::kPresetNames, spec::texture::Rules().preset)},
+         {"--roll", "scene.roll", "Degrees by which the camera is turned"},
+         {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
+         {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},
+         {"--layout", "sampler.layout", "tiled (default) or linear"},
+         {"--fragments", "scene.fragments",
+          "Fragments of another rasteriser: a trace, text or binary (docs/reference/traces.md)"},
+         {"--fragment-trace", "run.fragment_trace",
+          "Leave the fragments as such a trace: text or binary"},
+         {"--hdl", "run.hdl",
+          "Units that run as SystemVerilog: address, cache, filter (with commas between), or "
+          "all"}});
+  }
+
+  void resolve(ParameterSet& set) override {
+    apply_preset(set, texture_);
+    preset_label_ = preset_label(set, texture_);
+    reject_unused_memory(set, "memory", memory_);
+    reject_slow_memory(set, "memory", memory_);
+    reject_empty_lod_range(sampler_);
+    reject_unused_look_ups(set);
+    twin_units_ = twin_units(twins_.units);
+    if (!twin_units_.empty()) {
+      reject_views_inside(set);
+      stand_ins(0);  // rejects what the build does not have
+    }
+    if (foreign()) reject_unused_scene(set);
+    lists_ = lists_of(scene_);
+    frames_ = frames_of(set, sequence_, lists_);
+    if (foreign() && frames_ > 1)
+      set.reject(lists_.longest(), "the fragments of scene.fragments are those of one frame");
+  }
+
+  void check(const RunParameters& run, RunContext& context) override {
+    const std::shared_ptr<const TextureScene> scene = load(run, context);
+    if (foreign())
+      fragments_of_file(*scene);
+    else
+      reject_nothing_drawn(*scene);
+    reject_maps_of_nothing(run, *scene);
+  }
+
+  void run(const RunParameters& run, RunContext& context, Result& result) override {
+    const std::shared_ptr<const TextureScene> shared = load(run, context);
+    const TextureScene& scene = *shared;
+    TextureSetup setup{texture_, memory_};
+    setup.stand_ins = stand_ins(run.seed);
+    if (foreign())
+      setup.foreign = fragments_of_file(scene);
+    else
+      reject_nothing_drawn(scene);
+    reject_maps_of_nothing(run, scene);
+    MeshFiles meshes;
+    context.add_inputs(frames_ > 1 ? input_files(meshes) : with_trace(scene.inputs()));
+    context.set_title(title(), summary_line(scene, setup));
+    for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
+    Simulation simulation(simulation_options(run, context));
+    if (!foreign() && run.pixel.empty()) setup.expectation = expectation(scene, context);
+    std::unique_ptr<FragmentWriter> writer;
+    if (trace_out_.fragments != TraceChoice::kNone && !context.checking_only()) {
+      writer = std::make_unique<FragmentWriter>(context.fragment_trace_file(),
+                                                format_of(trace_out_.fragments),
+                                                scene.stream().width, scene.stream().height);
+      setup.observer = [&writer](const TracedQuad& quad) { writer->put(quad); };
+    }
+    TextureEnvironment environment(simulation, scene, setup);
+    simulate(simulation, environment, context, result, [&] {
+      if (writer) writer->finish();
+      add_pictures(run, context, scene, environment, result);
+    });
+    if (frames_ > 1 && !result.interrupted && !context.checking_only())
+      measure_flicker(frames_, context, result, [&](int frame) {
+        return picture_of(frame, static_cast<std::uint32_t>(run.seed));
+      });
+  }
+
+  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
+    return with_trace(scene_files(scene_, lists_of(scene_), meshes));
+  }
+
+  void prepare(const RunParameters& run, RunContext& context) override {
+    const std::shared_ptr<const TextureScene> scene = load(run, context);
+    if (run.truth) scene_truth(*scene, truth_options(), context);
+    expectation(*scene, context);
+  }
+
+  std::vector<std::string_view> built_for_golden() const override {
+    return {"texture.cache.bytes", "texture.cache.line_bytes", "texture.cache.ways",
+            "texture.cache.replacement"};
+  }
+
+  void describe_statistics(Result& result) override {
+    const TextureScene scene = smallest(scene_, sampler_);
+    Simulation simulation({});
+    TextureEnvironment environment(simulation, scene, {});
+    describe(simulation, environment, result);
+    describe_flicker(result);
+  }
+
+  std::vector<std::string_view> pictures() const override {
+    return {"before", "after", "golden", "difference", "truth", "error"};
+  }
+  std::vector<std::string_view> maps() const override {
+    return {"samples", "level", "misses", "latency"};
+  }
+
+  std::string_view pixel_history() const override {
+    return "footprint, level and samples, texels, lines with hit, merged or miss, colour";
+  }
+
+  rtl::RegisterSection registers() const override {
+    return rtl::texture::register_section(texture_);
+  }
+  CoverageSection coverage() const override {
+    return {"Texture unit", TextureCoverage::declared(), TextureCoverage::groups()};
+  }
+  DatasheetSection datasheets() const override {
+    return {"TextureUnit", rtl::texture::datasheets()};
+  }
+
+  RandomDraws random_draws() const override { return texture_draws(); }
+  LongRun long_run() const override { return {{{"scene.width", "321"}, {"scene.height", "243"}}}; }
+
+ private:
+  std::shared_ptr<const TextureScene> load(const RunParameters& run,
+                                           const RunContext& context) const {
+    return context.shared<TextureScene>("texture scene", {"scene.", "sampler."}, [&] {
+      const auto seed = static_cast<std::uint32_t>(run.seed);
+      const SceneParameters first = in_frame(scene_, lists_, 0);
+      if (!foreign()) return TextureScene(first, sampler_, seed);
+      // The picture's size stands at the beginning; the textures are counted when they are there.
+      const FragmentReader reader(trace_in_.file, spec::texture::kMaxTextures);
+      return TextureScene::without_fragments(first, sampler_, seed, reader.width(),
+                                             reader.height());
+    });
+  }
+
+  bool foreign() const { return !trace_in_.file.empty(); }
+
+  rtl::texture::TextureUnit::StandIns stand_ins(std::uint64_t seed) const {
+    return texture_twins(
+        twin_units_, as_built(texture_, memory_clocks(memory_, texture_.cache_line_bytes)), seed);
+  }
+
+  std::vector<std::filesystem::path> with_trace(std::vector<std::filesystem::path> files) const {
+    if (foreign()) add_once(files, trace_in_.file);
+    return files;
+  }
+
+  void reject_maps_of_nothing(const RunParameters& run, const TextureScene& scene) const {
+    if (run.maps && scene.stream().width == 0)
+      throw spec::ConfigError(fmt::format(
+          "run.maps: the fragments of '{}' have no place in a picture: leave it out, or write "
+          "'size WIDTH HEIGHT' and the place of each quad into the trace "
+          "(docs/reference/traces.md)",
+          trace_in_.file));
+  }
+
+  // All of the file has been read and checked after it.
+  ForeignFragments fragments_of_file(const TextureScene& scene) const {
+    const std::size_t textures = scene.memory().descriptors().size();
+    const FragmentSummary summary = examine_fragments(trace_in_.file, textures);
+    if (summary.fragments == 0)
+      throw spec::ConfigError(
+          fmt::format("the trace '{}' covers no fragment in {} quads: nothing would be filtered",
+                      trace_in_.file, summary.quads));
+    const auto open = [file = trace_in_.file, textures]() -> QuadSource {
+      const auto reader = std::make_shared<FragmentReader>(file, textures);
+      return [reader](TracedQuad& quad) { return reader->next(quad); };
+    };
+    return {open, summary.fragments};
+  }
+
+  std::shared_ptr<const TextureExpectation> expectation(const TextureScene& scene,
+                                                        const RunContext& context) const {
+    return context.shared_golden<TextureExpectation>(built_for_golden(),
+                                                     [&] { return expected_of(scene, texture_); });
+  }
+
+  RenderOptions truth_options() const {
+    RenderOptions options;
+    options.sampling = Sampling::kBilinear;
+    options.averaging = sampler_.format == spec::texture::Format::kSrgb8A8 ? Averaging::kLinear
+                                                                           : Averaging::kStored;
+    return options;
+  }
+
+  std::string title() const {
+    return "Texture unit: " +
+           std::filesystem::path(foreign() ? trace_in_.file : scene_.source).filename().string();
+  }
+
+  std::string summary_line(const TextureScene& scene, const TextureSetup& setup) const {
+    const auto name = [](auto value, const auto& names) {
+      return names[static_cast<std::size_t>(value)];
+    };
+    return fmt::format(
+        "{}{} fragments, {}, N_max {}, {} {}; {}; axes {}, footprint {}, log2 {}, count {}, "
+        "kernel {}; cache {} bytes, {} ways; memory latency {} clk{}{}",
+        scene.stream().width > 0
+            ? fmt::format("{} x {} pixels, ", scene.stream().width, scene.stream().height)
+            : "",
+        foreign() ? setup.foreign.fragments : scene.stream().counts.fragments,
+        name(sampler_.mode, spec::texture::kMinFilterNames),
+        name(sampler_.anisotropy, kAnisotropyNames),
+        name(sampler_.format, spec::texture::kFormatNames),
+        name(sampler_.layout, spec::texture::kLayoutNames), preset_label_,
+        name(texture_.axes, spec::texture::kAxesNames),
+        name(texture_.footprint, spec::texture::kFootprintNames),
+        name(texture_.log2, spec::texture::kLog2Names),
+        name(texture_.count, spec::texture::kCountNames),
+        name(texture_.kernel, spec::texture::kKernelNames), texture_.cache_bytes,
+        texture_.cache_ways, memory_.latency,
+        twin_units_.empty() ? "" : "; in SystemVerilog: ", fmt::join(twin_units_, ", "));
+  }
+
+  bool linear_light() const {
+    return sampler_.format == spec::texture::Format::kSrgb8A8 &&
+           texture_.srgb_output == spec::texture::SrgbOutput::kLinear;
+  }
+
+  // Pictures are stored as sRGB, whatever the unit delivers of sRGB textures.
+  Image stored(const Image& image, const Mask& drawn) const {
+    if (!linear_light()) return image;
+    Image out = image;
+    for (std::size_t i = 0; i < out.pixels.size(); ++i) {
+      if (drawn.pixels[i] == 0) continue;  // it is not from the unit
+      for (std::size_t c = 0; c < 3; ++c)
+        out.pixels[i][c] =
+            static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(out.pixels[i][c] / 255.0)));
+    }
+    return out;
+  }
+
+  static Image unfiltered(const TextureScene& scene) {
+    RenderOptions options;
+    options.width = scene.stream().width;
+    options.height = scene.stream().height;
+    options.sampling = Sampling::kNearest;
+    return render(scene.scene(), options);
+  }
+
+  void add_pictures(const RunParameters& run, RunContext& context, const TextureScene& scene,
+                    const TextureEnvironment& unit, Result& result) const {
+    if (unit.frame().empty()) return;
+    Mask came;
+    came.width = unit.frame().width;
+    came.height = unit.frame().height;
+    came.pixels = unit.came();
+    // Of a foreign picture nobody knows which pixels have no fragment before all have come.
+    const Mask drawn = foreign() ? came : drawn_pixels(scene);
+    const Mask missing = without(drawn, came);
+    const Image before = foreign() ? Image() : unfiltered(scene);
+    // What was under way when the run was ended came on one side only.
+    const auto lost = static_cast<std::uint64_t>(count(missing));
+    const std::string note =
+        lost == 0 ? "" : fmt::format("; grey: {} pixels were not delivered", grouped(lost));
+    const Image after = painted(stored(unit.frame(), drawn), missing, kNotDelivered);
+    if (!foreign())
+      context.add_image("before", before, "Before", "nearest texel of level 0, no filter");
+    context.add_image("after", after, "Hardware model",
+                      "the colours that the unit delivered" + note);
+    if (run.check == CheckMode::kGolden) {
+      // Once the run is over, what did not come is lost, and differs.
+      const bool over = unit.done();
+      Image expected = stored(unit.golden_frame(), drawn);
+      if (!over) expected = painted(std::move(expected), missing, kNotDelivered);
+      context.add_image("golden", expected, "Golden model",
+                        over ? "the same fragments by the golden model"
+                             : "the same fragments by the golden model" + note);
+      context.add_image("difference", difference(after, expected, 255), "Difference",
+                        std::string(count_different(after, expected) == 0
+                                        ? "hardware against golden: none"
+                                        : "hardware against golden: any difference is bright") +
+                            (over || lost == 0 ? "" : "; black where nothing was delivered"));
+    }
+    if (run.truth && !result.interrupted) {
+      const Image truth =
+          compare_with_scene(scene, truth_options(), before, after, result, context);
+      if (truth.empty()) return;
+      context.add_image("truth", truth, "Truth", truth_caption());
+      context.add_image("error", difference(after, truth, kDifferenceGain), "Error",
+                        fmt::format("hardware against truth, {} times", kDifferenceGain));
+    }
+  }
+
+  SequencePicture picture_of(int frame, std::uint32_t seed) const {
+    const TextureScene scene(in_frame(scene_, lists_, frame), sampler_, seed,
+                             move_of(sequence_, lists_, frame));
+    RenderOptions options = truth_options();
+    options.width = scene.stream().width;
+    options.height = scene.stream().height;
+    options.samples = kTruthSamples;
+    options.interrupted = [] { return interrupted(); };
+    const Mask drawn = drawn_pixels(scene);
+    return {unfiltered(scene), stored(golden_frame(scene, texture_).image, drawn),
+            render(scene.scene(), options), drawn};
+  }
+
+  LookUpTrace look_up_trace_;
+  TwinParameters twins_;
+  std::vector<std::string> twin_units_;
+  FragmentTraceOut trace_out_;
+  FragmentTraceIn trace_in_;
+  SceneParameters scene_;
+  SamplerParameters sampler_;
+  SequenceParameters sequence_;
+  spec::texture::Parameters texture_;
+  MemoryParameters memory_;
+  FrameLists lists_;
+  int frames_ = 1;
+  std::string preset_label_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_texture_engine() { return std::make_unique<TextureEngine>(); }
+
+}  // namespace deburr::tb

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "tool/engines/texture/texture_role.h"
+
+#include <utility>
+
+#include "spec/error.h"
+#include "spec/texture/check_build.h"
+#include "tb/engines/texture/texture_environment.h"
+#include "tool/engines/texture/texture_rules.h"
+#include "tool/engines/texture/texture_traces.h"
+#include "tool/engines/texture/texture_truth.h"
+#include "tool/run/flicker.h"
+#include "tool/run/input_rules.h"
+#include "tool/run/shorthands.h"
+
+namespace deburr::tb {
+namespace {
+
+using spec::texture::Colour;
+
+const TextureScene& textured(const DrawnScene& scene) {
+  return static_cast<const TextureScene&>(scene);
+}
+
+class ColoursOfTexture final : public ColoursPort {
+ public:
+  ColoursOfTexture(const char* name, TextureEnvironment& environment, const FragmentStream& stream)
+      : in_(name), environment_(environment), stream_(stream) {
+    in_(environment.colours);
+  }
+  bool can_pop(rtl::Cycle cycle) const override { return in_.can_pop(cycle); }
+  DrawnColour take(rtl::Cycle cycle) override {
+    const Colour colour = in_.take(cycle);
+    environment_.check_output(cycle, colour);
+    DrawnColour drawn;
+    if (colour.tag >= stream_.quads.size() || colour.lane >= 4) return drawn;
+    const FragmentStream::Pixel p = stream_.pixel(colour.tag, colour.lane);
+    if (p.x >= stream_.width || p.y >= stream_.height) return drawn;
+    return {true, (stream_.visible[colour.tag] >> colour.lane & 1) != 0, p.x, p.y, colour.rgba};
+  }
+
+ private:
+  rtl::In<Colour> in_;
+  TextureEnvironment& environment_;
+  const FragmentStream& stream_;
+};
+
+class TextureStage final : public DrawingStage {
+ public:
+  TextureStage(Simulation& simulation, const TextureScene& scene, const TextureSetup& setup)
+      : scene_(scene), setup_(setup), environment_(simulation, scene, setup, "texture") {}
+  Environment& environment() override { return environment_; }
+  std::unique_ptr<ColoursPort> colours_port(const char* name) override {
+    return std::make_unique<ColoursOfTexture>(name, environment_, scene_.stream());
+  }
+  Image golden_picture() const override {
+    return golden_frame(scene_, setup_.texture, error_range(setup_.memory)).image;
+  }
+  std::uint64_t clocks_bound() const override {
+    return environment_.unit().address.addresser.bilinears.value();
+  }
+  void collect(Result& result) const override {
+    const rtl::Histogram& latency = environment_.unit().fragment_latency;
+    constexpr const char* kMeaning = "Of the texture unit.";
+    result.work.push_back(
+        {"texture_fragment_latency_p50", latency.percentile(50), "clk", kMeaning});
+    result.work.push_back({"texture_fragment_latency_max", latency.max(), "clk", kMeaning});
+  }
+  std::vector<Figure> figures() const override {
+    return {{"Latency of a texture fragment, median", "work.texture_fragment_latency_p50"}};
+  }
+
+ private:
+  const TextureScene& scene_;
+  TextureSetup setup_;
+  TextureEnvironment environment_;
+};
+
+class TextureRole final : public PictureDrawer {
+ public:
+  TextureRole() { scene_.source = "object"; }
+  std::string_view name() const override { return "texture"; }
+  std::string_view title() const override { return "texture unit"; }
+  HandedOn hands_on() const override { return {Handed::kDepth, Handed::kMeshEdges}; }
+  DrawingWords words() const override {
+    return {"texturing",
+            "quad",
+            "Texturing",
+            "bilinears",
+            "work.texture_bilinears",
+            "the texture unit's bilinears, one a clock"};
+  }
+  std::string_view caption() const override {
+    return "textured: what the texture unit left in the frame buffer";
+  }
+
+  void add_scene(ParameterSet& set) override {
+    set.add("run", ParameterKind::kRun, look_up_trace_);
+    set.add("scene", ParameterKind::kInput, scene_);
+    add_sampler(set, sampler_);
+    set.add("sequence", ParameterKind::kInput, sequence_);
+  }
+  void add_parameters(ParameterSet& set) override {
+    set.add_engine("texture", texture_);
+    add_memory(set, "memory", memory_);
+  }
+  std::vector<std::string> prefixes() const override { return {"texture.", "memory."}; }
+  void apply_preset(ParameterSet& set) override { tb::apply_preset(set, texture_); }
+  void resolve(ParameterSet& set) override {
+    lists_ = lists_of(scene_);
+    frames_ = frames_of(set, sequence_, lists_);
+    reject_unused_look_ups(set);
+    reject_unused_memory(set, "memory", memory_);
+    reject_slow_memory(set, "memory", memory_);
+    reject_empty_lod_range(sampler_);
+    if (sampler_.format == spec::texture::Format::kSrgb8A8 &&
+        texture_.srgb_output == spec::texture::SrgbOutput::kLinear)
+      throw spec::ConfigError(
+          "sampler.format: the frame buffer keeps codes, and srgb8_a8 delivers linear light: set "
+          "texture.srgb_output = encoded");
+  }
+  std::vector<Shorthand> shorthands() const override {
+    return joined(scene_shorthands("object"), sequence_shorthands());
+  }
+  LongRun long_run() const override { return {{{"scene.width", "321"}, {"scene.height", "243"}}}; }
+  void check(const DrawnScene& scene) const override { reject_nothing_drawn(textured(scene)); }
+
+  const std::string& source() const override { return scene_.source; }
+  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
+    return scene_files(scene_, lists_of(scene_), meshes);
+  }
+  std::shared_ptr<const DrawnScene> load(std::uint32_t seed,
+                                         const RunContext& context) const override {
+    return context.shared<TextureScene>("texture scene", {"scene.", "sampler."}, [&] {
+      return TextureScene(in_frame(scene_, lists_, 0), sampler_, seed);
+    });
+  }
+  std::shared_ptr<const DrawnScene> smallest() const override {
+    return std::make_shared<TextureScene>(tb::smallest(scene_, sampler_));
+  }
+
+  std::string truth_caption() const override { return tb::truth_caption(); }
+  void prepare_truth(const DrawnScene& scene, const RenderOptions& options,
+                     const RunContext& context) const override {
+    scene_truth(textured(scene), options, context);
+  }
+  Image compare_with_truth(const DrawnScene& scene, const RenderOptions& options,
+                           const Image& before, const Image& after, Result& result,
+                           const RunContext& context) const override {
+    return compare_with_scene(textured(scene), options, before, after, result, context);
+  }
+
+  int frames() const override { return frames_; }
+  std::shared_ptr<const DrawnScene> scene_of(int frame, std::uint32_t seed) const override {
+    return std::make_shared<TextureScene>(in_frame(scene_, lists_, frame), sampler_, seed,
+                                          move_of(sequence_, lists_, frame));
+  }
+  Image golden_picture(const DrawnScene& scene) const override {
+    return golden_frame(textured(scene), texture_).image;
+  }
+  Image truth_of(const DrawnScene& scene, const RenderOptions& options) const override {
+    RenderOptions sampled = options;
+    sampled.width = scene.stream().width;
+    sampled.height = scene.stream().height;
+    sampled.samples = kTruthSamples;
+    return render(scene.scene(), sampled);
+  }
+
+  std::unique_ptr<DrawingStage> build(Simulation& simulation,
+                                      const DrawnScene& scene) const override {
+    return std::make_unique<TextureStage>(simulation, textured(scene),
+                                          TextureSetup{texture_, memory_});
+  }
+
+ private:
+  LookUpTrace look_up_trace_;
+  SceneParameters scene_;
+  SamplerParameters sampler_;
+  SequenceParameters sequence_;
+  FrameLists lists_;
+  int frames_ = 1;
+  spec::texture::Parameters texture_;
+  MemoryParameters memory_;
+};
+
+}  // namespace
+
+std::unique_ptr<CompositionRole> make_texture_role() { return std::make_unique<TextureRole>(); }
+
+}  // namespace deburr::tb

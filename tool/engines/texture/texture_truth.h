@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The supersampled truth of a textured scene, and the quality that it gives a run.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "tb/engines/texture/texture_scene.h"
+#include "tb/run/result.h"
+#include "tb/scene/image.h"
+#include "tb/scene/truth.h"
+#include "tool/pages/run_context.h"
+
+namespace deburr::tb {
+
+// The scene's truth, 16 x 16 samples a pixel, and the quality that it gives the result. Ctrl-C on
+// the way ends it: the result is marked, the picture empty, and what was measured before stays.
+inline constexpr int kTruthSamples = 16;
+std::string truth_caption();
+// Shared by runs of the same scene (RunContext::shared). Throws Interrupted.
+std::shared_ptr<const Image> scene_truth(const TextureScene& scene, RenderOptions options,
+                                         const RunContext& context);
+Image compare_with_scene(const TextureScene& scene, RenderOptions options, const Image& before,
+                         const Image& after, Result& result, const RunContext& context);
+
+}  // namespace deburr::tb

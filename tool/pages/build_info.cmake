@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+# Runs at every build: writes build_info.cpp, and touches it only when its content changes.
+execute_process(COMMAND git -C "${SOURCE}" rev-parse HEAD
+                OUTPUT_VARIABLE COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
+if(failed)
+  set(COMMIT "unknown")
+else()
+  execute_process(COMMAND git -C "${SOURCE}" diff-index --quiet HEAD -- RESULT_VARIABLE dirty ERROR_QUIET)
+  if(dirty)
+    string(APPEND COMMIT "-dirty")
+  endif()
+endif()
+# Documentation, tests and what only starts runs or shows results change no result.
+set(folders)
+foreach(folder spec golden rtl_model tb/engines tb/env tb/harness tb/run tb/scene tool/engines tool/pages tool/run)
+  list(APPEND folders "${SOURCE}/${folder}/*.h" "${SOURCE}/${folder}/*.cpp")
+endforeach()
+file(GLOB_RECURSE sources RELATIVE "${SOURCE}" ${folders})
+list(FILTER sources EXCLUDE REGEX "tool/run/reference_pages|tb/run/progress|tool/pages/(report|compare)")
+list(SORT sources)
+set(digests "")
+foreach(source IN LISTS sources)
+  file(SHA256 "${SOURCE}/${source}" digest)
+  string(APPEND digests "${source} ${digest}\n")
+endforeach()
+string(SHA256 MODEL "${digests}")
+string(SUBSTRING "${MODEL}" 0 16 MODEL)
+configure_file("${TEMPLATE}" "${OUTPUT}" @ONLY)

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+#include "tool/pages/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "spec/error.h"
+#include "tb/base/json_text.h"
+#include "tb/run/parameter_set.h"
+#include "tb/run/result.h"
+#include "tool/pages/input_files.h"
+
+namespace deburr::tb {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+enum class Better {
+  kNone,
+  kLessIsBetter,
+  kMoreIsBetter,
+  kDecibel,
+  kFlip,
+  kSsim,
+  kMustBeZero,
+  kBits
+};
+
+struct Rule {
+  std::string_view key;
+  Better better;
+};
+constexpr Rule kRules[] = {
+    {"checks.mismatches", Better::kMustBeZero},
+    {"checks.traffic_mismatches", Better::kMustBeZero},
+    {"cycles", Better::kLessIsBetter},
+    {"throughput.value", Better::kMoreIsBetter},
+    {"latency.p50", Better::kLessIsBetter},
+    {"latency.p95", Better::kLessIsBetter},
+    {"latency.p99", Better::kLessIsBetter},
+    {"memory.bytes_read", Better::kLessIsBetter},
+    {"memory.bytes_written", Better::kLessIsBetter},
+    {"quality.psnr_db", Better::kDecibel},
+    {"quality.psnr_edge_db", Better::kDecibel},
+    {"quality.psnr_silhouette_db", Better::kDecibel},
+    {"quality.flip", Better::kFlip},
+    {"quality.ssim", Better::kSsim},
+};
+
+Better better_of(const std::string& key) {
+  for (const Rule& rule : kRules)
+    if (rule.key == key) return rule.better;
+  if (key.starts_with("memory_bits.") && (key.ends_with(".logical") || key.ends_with(".physical")))
+    return Better::kBits;
+  return Better::kNone;
+}
+
+using KeyValues = std::vector<std::pair<std::string, Json>>;
+
+void flatten(const Json& node, const std::string& path, KeyValues& values) {
+  // The host's speed says nothing about the hardware, nor do bins of coverage say what is better,
+  // the histogram has its percentiles, and what is identical is infinite.
+  if (path == "host" || path == "quality.identical" || path == "change.identical" ||
+      path == "coverage" || path.ends_with("meaning") || path == "latency.histogram" ||
+      path == "schema")
+    return;
+  if (node.is_object()) {
+    for (const auto& [key, value] : node.items())
+      flatten(value, path.empty() ? key : fmt::format("{}.{}", path, key), values);
+  } else if (!node.is_array()) {
+    values.emplace_back(path, node);
+  }
+}
+
+const Json* find(const KeyValues& values, const std::string& key) {
+  for (const auto& [name, value] : values)
+    if (name == key) return &value;
+  return nullptr;
+}
+
+std::optional<double> number_of(const Json* value) {
+  return value ? as_number(*value) : std::nullopt;
+}
+std::string shown_or_dash(const Json* value) { return value ? value_text(*value) : "-"; }
+
+// The parameters that one of the manifests says to be such work, each once.
+std::vector<std::string> work_parameters(const Json& a, const Json& b, GivenWork work) {
+  std::vector<std::string> names;
+  for (const Json* manifest : {&a, &b})
+    for (const Json& entry : manifest->value("parameters", Json::array())) {
+      if (entry.value("work", "") != name_of(work, kGivenWorkNames)) continue;
+      std::string name = entry.value("name", "");
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(std::move(name));
+    }
+  return names;
+}
+
+// Of values that both are there.
+Trend compare_numbers(Better better, double a, double b, const Tolerances& t) {
+  const auto less = [&](double percent) {
+    if (b > a * (1 + percent / 100)) return Trend::kWorse;
+    return b < a * (1 - percent / 100) ? Trend::kBetter : Trend::kEqual;
+  };
+  const auto more = [&](double by) {
+    if (b < a - by) return Trend::kWorse;
+    return b > a + by ? Trend::kBetter : Trend::kEqual;
+  };
+  if (a == b) return Trend::kEqual;
+  switch (better) {
+    case Better::kLessIsBetter:
+      return less(t.cycles_percent);
+    case Better::kBits:
+      return less(t.memory_percent.value_or(0));
+    case Better::kMoreIsBetter:
+      if (b < a * (1 - t.throughput_percent / 100)) return Trend::kWorse;
+      return b > a * (1 + t.throughput_percent / 100) ? Trend::kBetter : Trend::kEqual;
+    case Better::kDecibel:
+      return more(t.psnr_db);
+    case Better::kSsim:
+      return more(t.ssim);
+    case Better::kFlip:
+      if (b > a + t.flip) return Trend::kWorse;
+      return b < a - t.flip ? Trend::kBetter : Trend::kEqual;
+    default:
+      return Trend::kNone;
+  }
+}
+
+}  // namespace
+
+std::optional<double> as_number(const Json& value) {
+  return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+}
+
+std::string value_text(const Json& value) {
+  if (value.is_null()) return "-";
+  if (value.is_string()) return value.get<std::string>();
+  if (is_infinite(value)) return "identical";
+  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+  return json_text(value);
+}
+
+// Parts of a key may have dots themselves.
+Json value_at(const Json& result, const std::string& key) {
+  if (!result.is_object()) return nullptr;
+  if (const auto whole = result.find(key); whole != result.end()) return *whole;
+  for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', dot + 1))
+    if (const auto part = result.find(key.substr(0, dot)); part != result.end())
+      if (Json found = value_at(*part, key.substr(dot + 1)); !found.is_null()) return found;
+  return nullptr;
+}
+
+Trend check(const std::string& key, std::optional<double> a, std::optional<double> b,
+            const Tolerances& tolerances, std::optional<bool> maximise) {
+  Better rule = better_of(key);
+  if (rule == Better::kMustBeZero) {
+    if (b.value_or(1) != 0) return Trend::kWorse;
+    return a.value_or(0) != 0 ? Trend::kBetter : Trend::kEqual;
+  }
+  if (rule == Better::kBits) a = a.value_or(0), b = b.value_or(0);  // none of a kind
+  if (rule == Better::kNone && maximise)
+    rule = *maximise ? Better::kMoreIsBetter : Better::kLessIsBetter;
+  if (rule == Better::kNone || !a) return Trend::kNone;  // nothing to compare with
+  return b ? compare_numbers(rule, *a, *b, tolerances) : Trend::kWorse;
+}
+
+bool counts(const std::string& key, const Tolerances& tolerances) {
+  return better_of(key) != Better::kBits || tolerances.memory_percent;
+}
+
+bool in_decibels(const std::string& key) { return better_of(key) == Better::kDecibel; }
+
+std::string change_of(const std::string& key, std::optional<double> a, std::optional<double> b) {
+  if (!a || !b || *a == *b || std::isinf(*a) || std::isinf(*b)) return "";
+  if (in_decibels(key)) return fmt::format("{:+.2f} dB", *b - *a);
+  return *a == 0 ? "" : fmt::format("{:+.2f} %", 100 * (*b - *a) / std::fabs(*a));
+}
+
+Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
+  if (a.at("unit") != b.at("unit"))
+    throw spec::ConfigError(fmt::format(
+        "A is a run of '{}', B of '{}': results of different engines cannot be compared",
+        shown_or_dash(&a.at("unit")), shown_or_dash(&b.at("unit"))));
+  KeyValues values_a, values_b;
+  flatten(a, "", values_a);
+  flatten(b, "", values_b);
+  KeyValues keys = values_a;
+  for (const auto& entry : values_b)
+    if (!find(values_a, entry.first)) keys.push_back(entry);
+
+  Comparison comparison;
+  for (const auto& [key, unused] : keys) {
+    const Json* left = find(values_a, key);
+    const Json* right = find(values_b, key);
+    const auto x = number_of(left), y = number_of(right);
+    ComparedValue value{key,
+                        shown_or_dash(left),
+                        shown_or_dash(right),
+                        change_of(key, x, y),
+                        check(key, x, y, tolerances),
+                        false};
+    value.worse = value.verdict == Trend::kWorse && counts(key, tolerances);
+    if (key == "verdict") value.worse = left && *left == "pass" && (!right || *right != "pass");
+    if (key == "verdict" && right && *right == "fail") value.worse = true;
+    // What B counts is not what could be built.
+    if (key.starts_with("idealised.")) value.worse = right != nullptr && left == nullptr;
+    if (value.worse) value.verdict = Trend::kWorse;
+    if (left && right && *left == *right && !value.worse) continue;
+    comparison.worse = comparison.worse || value.worse;
+    comparison.values.push_back(std::move(value));
+  }
+  return comparison;
+}
+
+std::vector<std::string> different_work(const Json& a, const Json& b) {
+  std::vector<std::string> lines;
+  const auto inputs = [](const Json& manifest) { return manifest.value("inputs", Json::array()); };
+  const std::string different = different_inputs(inputs(a), inputs(b));
+  if (!different.empty()) lines.push_back("the inputs differ: " + different);
+  const auto look = [&](const std::string& key) {
+    const auto value = [&](const Json& manifest) {
+      const auto found = manifest.find("configuration");
+      return found != manifest.end() && found->is_object() && found->contains(key)
+                 ? shown_or_dash(&found->at(key))
+                 : std::string("-");
+    };
+    if (value(a) != value(b))
+      lines.push_back(fmt::format("{} differs: A {}, B {}", key, value(a), value(b)));
+  };
+  const auto reads = [&](const Json& manifest) {
+    const Json all = inputs(manifest);
+    return std::any_of(all.begin(), all.end(),
+                       [](const Json& input) { return !input.contains("role"); });
+  };
+  // A file may have been moved.
+  if (!reads(a) && !reads(b))
+    for (const std::string& name : work_parameters(a, b, GivenWork::kSource)) look(name);
+  for (const std::string& name : work_parameters(a, b, GivenWork::kSetting)) look(name);
+  return lines;
+}
+
+}  // namespace deburr::tb

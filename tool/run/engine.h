@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+// An engine declares itself here, once: what it is called, what it is given, what its runs leave,
+// what its reference pages hold, and how random and long runs of it are made. Everything around it
+// reads the declaration and names no engine. To add one: implement this in tb/engines/NAME, and add
+// NAME to tb/engines/engines.txt (docs/howto/add_an_engine.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "rtl_model/fabric/datasheet.h"
+#include "rtl_model/fabric/register_section.h"
+#include "tb/harness/coverage.h"
+#include "tb/run/given_work.h"
+#include "tb/run/parameter_set.h"
+#include "tb/run/result.h"
+#include "tb/scene/mesh.h"
+#include "tb/traces/trace_file.h"
+#include "tool/pages/run_context.h"
+#include "tool/run/random_draws.h"
+
+namespace deburr::tb {
+
+// Parameters that every engine's run has, "run.*".
+enum class CheckMode : std::uint8_t { kNone, kGolden };
+inline constexpr std::array<std::string_view, 2> kCheckModeNames = {"none", "golden"};
+
+struct RunParameters {
+  CheckMode check = CheckMode::kGolden;
+  std::int64_t seed = 1, stall_seed = 1;
+  double clock_mhz = 166.67;
+  std::int64_t max_cycles = 0;
+  std::int32_t watchdog_cycles = 20000;
+  double stalls = 0;
+  std::int64_t reset_after = 0;
+  bool shuffle = false;
+  bool fast_path = true;
+  bool check_links = true;
+  bool poison = false;
+  std::string trace;
+  std::int64_t trace_from = 0, trace_to = 2000;
+  std::int64_t window_cycles = 0;
+  bool maps = false;
+  std::string pixel;
+  bool coverage = false;
+  bool timeline = false;
+  std::int64_t timeline_from = 0, timeline_to = 2000;
+  TraceChoice line_trace = TraceChoice::kNone;
+  std::string fault;
+  bool truth = false;
+  bool images = true;
+};
+
+template <class Visitor>
+void describe(RunParameters& p, Visitor& v) {
+  v.choice("check", p.check, kCheckModeNames,
+           "golden: compare every output and every memory access with the golden model.");
+  v.integer("seed", p.seed, 0, 0xFFFFFFFF, "", "Seed of what goes in: textures made by formula.");
+  v.integer("stall_seed", p.stall_seed, 0, 0xFFFFFFFF, "",
+            "Seed of what must change no pixel: random stalls, latency, shuffling and poison.");
+  v.real("clock_mhz", p.clock_mhz, 1, 10000, "MHz", "Clock that times and rates are quoted for.");
+  v.is_work("clock_mhz", GivenWork::kSetting);
+  v.integer("max_cycles", p.max_cycles, 0, std::int64_t{1} << 40, "clk",
+            "Ends the run with an error after so many cycles; 0: no limit.");
+  v.integer("watchdog_cycles", p.watchdog_cycles, 100, 1 << 30, "clk",
+            "Cycles without any progress that count as a deadlock.");
+  v.real("stalls", p.stalls, 0, 0.9, "probability",
+         "Random stalls: chance that a side of a link is held back in a cycle, on every link.");
+  v.integer(
+      "reset_after", p.reset_after, 0, std::int64_t{1} << 40, "clk",
+      "Resets the hardware once in mid-run, so many cycles into the first frame, which begins "
+      "again; must change nothing. 0: never.");
+  v.boolean("shuffle", p.shuffle, "Evaluate the units in a random order; must change nothing.");
+  v.boolean("fast_path", p.fast_path, "Let the clock domain run on; must change nothing.");
+  v.boolean("check_links", p.check_links,
+            "Protocol checkers on every link; off by default where a fault is planted.");
+  v.boolean("poison", p.poison,
+            "Fields that nobody wrote hold noise in every link, and each must fit its width; must "
+            "change nothing.");
+  v.text("trace", p.trace, "glob", "Units and links whose waves go to trace.vcd; empty: none.");
+  v.integer("trace_from", p.trace_from, 0, std::int64_t{1} << 40, "clk", "First cycle traced.");
+  v.integer("trace_to", p.trace_to, 0, std::int64_t{1} << 40, "clk",
+            "Cycle after the last traced.");
+  v.integer("window_cycles", p.window_cycles, 0, std::int64_t{1} << 40, "clk",
+            "Cuts the run into windows of so many cycles and keeps what each unit, link and port "
+            "did in them: windows.json, result.json's links, the report's curves; 0: none.");
+  v.boolean("maps", p.maps,
+            "Leave maps over the picture, in false colours and as values: what the hardware did "
+            "for each pixel.");
+  v.text("pixel", p.pixel, "X,Y",
+         "Keeps everything that happens to this pixel, golden and hardware side by side: pixel of "
+         "result.json, the report's table; columns from the left, rows from the top. Empty: none.");
+  v.boolean(
+      "coverage", p.coverage,
+      "Functional coverage: leave how often each bin of docs/reference/coverage.md was met, as "
+      "coverage.bins of result.json; with the golden model, which counts them.");
+  v.boolean("timeline", p.timeline,
+            "Leave timeline.json for trace viewers (Perfetto, chrome://tracing): what each unit "
+            "did in each cycle, and transactions of memory.");
+  v.integer("timeline_from", p.timeline_from, 0, std::int64_t{1} << 40, "clk",
+            "First cycle of the timeline.");
+  v.integer("timeline_to", p.timeline_to, 0, std::int64_t{1} << 40, "clk",
+            "Cycle after the last of the timeline, at most 100000 after the first.");
+  v.choice("line_trace", p.line_trace, kTraceChoiceNames,
+           "Leaves lines.trace: every line that is asked of memory (docs/reference/traces.md).");
+  v.text("fault", p.fault, "name",
+         "Plants a fault that the checks must catch (docs/reference/planted_faults.md).");
+  v.boolean("truth", p.truth, "Compare the picture with the scene's supersampled truth.");
+  v.boolean("images", p.images, "Leave pictures, and show them in the report.");
+}
+
+// Of an engine whose rules are registers.
+enum class Program : std::uint8_t { kRegisters, kReset };
+inline constexpr std::array<std::string_view, 2> kProgramNames = {"registers", "reset"};
+
+struct ProgramParameters {
+  Program program = Program::kRegisters;
+};
+
+template <class Visitor>
+void describe(ProgramParameters& p, Visitor& v) {
+  v.choice(
+      "program", p.program, kProgramNames,
+      "registers: after each reset the driver writes the rules to an engine whose reset values "
+      "are others. reset: the engine is built with the rules as reset values. Must change "
+      "nothing.");
+}
+
+// A command line option that stands for a parameter, or for two that are given as AxB. Without a
+// value it sets a switch to `given`.
+struct Shorthand {
+  std::string option, parameter, help;
+  std::string second_parameter{}, given = "true";
+};
+
+// Of docs/reference/datasheets.md: an engine's units.
+struct DatasheetSection {
+  std::string module;  // as its page calls it; empty: the engine has no units of its own
+  std::vector<rtl::Datasheet> sheets;
+};
+
+// Of docs/reference/coverage.md: every bin of an engine, those too that only directed tests meet.
+struct CoverageSection {
+  std::string title;  // of its table; empty: the engine has no bins of its own
+  Coverage bins;
+  std::span<const CoverageGroup> groups;
+};
+
+// What makes a long run of random settings: many frames, or a large one.
+struct LongRun {
+  std::vector<std::pair<std::string, std::string>> settings;
+  // Ends of names that keep their defaults: what is built for small pictures.
+  std::vector<std::string_view> without{};
+};
+
+class CompositionRole;
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  virtual std::string_view name() const = 0;
+  virtual std::string_view summary() const = 0;
+  // What it is in a composition, with parameters of its own (tool/run/composition.h); null: it is
+  // in none.
+  virtual std::unique_ptr<CompositionRole> role() const;
+  // Engines that it is composed of, by name. Their maps (with "NAME_" in front), bins and draws are
+  // its own too.
+  virtual std::vector<std::string_view> parts() const { return {}; }
+  // What its rates and times are quoted for, unless run.clock_mhz is given: the texture paper's.
+  virtual double clock_mhz() const { return 166.67; }
+  RunParameters run_parameters() const {
+    RunParameters run;
+    run.clock_mhz = clock_mhz();
+    return run;
+  }
+  virtual void add_parameters(ParameterSet& set) = 0;
+  virtual std::vector<Shorthand> shorthands() const = 0;
+  // Options of runs that are worth a look, for its --help: one at least. What they read is called
+  // mesh.obj or frame.png.
+  virtual std::vector<std::string_view> examples() const = 0;
+  // After everything that was given has been set: fills in what follows from it (presets), and
+  // rejects what was given and has no effect.
+  virtual void resolve(ParameterSet&) {}
+  // What run() would reject of its input, a scene that draws nothing or a frame too wide for what
+  // is built, without a simulation. After resolve().
+  virtual void check(const RunParameters& run, RunContext& context) = 0;
+  // Simulates and fills the context's images. Errors of the run are exceptions (spec/error.h);
+  // what was measured until then is in `result`.
+  virtual void run(const RunParameters& run, RunContext& context, Result& result) = 0;
+  // Every file that run() opens, or looks for in vain, named by a parameter or by another file:
+  // what they hold is in the keys of all that is kept of a run. After resolve().
+  virtual std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const = 0;
+  // Makes what run() will take from context.shared(), for all runs that are to share it. It makes
+  // nothing of SystemC, so that a process can run() behind it as often as it forks.
+  virtual void prepare(const RunParameters&, RunContext&) {}
+  // Names of what is built and yet decides what the golden model says, as a cache's size decides
+  // its misses. Runs that agree in these, in rules and in inputs are checked with one golden
+  // result.
+  virtual std::vector<std::string_view> built_for_golden() const { return {}; }
+  // Every counter and stall cause that a run of this engine reports, for
+  // docs/reference/statistics.md. It elaborates the model, so it is called at most once a process,
+  // and not in one that runs.
+  virtual void describe_statistics(Result& result) = 0;
+
+  // ---- what its runs may leave, by name: NAME.png; map_NAME.png and map_NAME.pfm
+  virtual std::vector<std::string_view> pictures() const = 0;
+  virtual std::vector<std::string_view> maps() const { return {}; }
+
+  // What its history of one pixel shows (run.pixel), in a few words; empty: it keeps none.
+  virtual std::string_view pixel_history() const { return {}; }
+
+  // ---- reference pages
+  virtual rtl::RegisterSection registers() const { return {}; }
+  virtual CoverageSection coverage() const { return {}; }
+  virtual DatasheetSection datasheets() const { return {}; }
+
+  // ---- runs that nobody chose
+  virtual RandomDraws random_draws() const { return {}; }
+  virtual LongRun long_run() const = 0;
+};
+
+// Those of tb/engines/engines.txt, in its order; which they are, a program says by the list that it
+// is linked with (cmake/Engines.cmake).
+std::vector<std::unique_ptr<Engine>> engines();
+
+// ConfigError with near matches for a name that no engine has.
+std::unique_ptr<Engine> engine_named(const std::string& name);
+// The engine's own maps and those of its parts, as RunContext calls them.
+std::vector<std::string> maps_of(const Engine& engine);
+// The engine or a part of it keeps the history of a pixel.
+bool keeps_pixel_history(const Engine& engine);
+
+}  // namespace deburr::tb

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "tool/run/flicker.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "spec/error.h"
+#include "tb/base/interrupt.h"
+#include "tb/run/progress.h"
+#include "tb/scene/quality.h"
+
+namespace deburr::tb {
+namespace {
+
+void add(Result& result, const FlickerMeter& after, const FlickerMeter& before) {
+  result.work.push_back({"flicker", after.mean(), "1/255",
+                         "Root mean square of what a pixel changes from frame to frame more or "
+                         "less than its truth (without a truth: than what went in), in runs of "
+                         "several frames (sequence.frames, lists)."});
+  result.work.push_back(
+      {"flicker_worst", after.worst(), "1/255", "The same of the pair of frames with the most."});
+  const bool flickers = after.worst() > 0;
+  result.work.push_back(
+      {"flicker_worst_frame",
+       flickers ? WorkValue(static_cast<std::uint64_t>(after.worst_frame())) : WorkValue(), "",
+       "The second frame of that pair, counted from 0; null where nothing flickers."});
+  result.work.push_back({"flicker_before", before.mean(), "1/255", "As flicker, of what went in."});
+}
+
+}  // namespace
+
+std::vector<Shorthand> sequence_shorthands() {
+  return {
+      {"--frames", "sequence.frames", "Measures flicker over so many frames of a moving camera"},
+      {"--motion", "sequence.motion", "zoom, roll (default) or pan"}};
+}
+
+int frames_of(const ParameterSet& set, const SequenceParameters& sequence,
+              const FrameLists& lists) {
+  if (lists.frames() > 1) {
+    const std::string why = fmt::format("{} lists {} frames", lists.longest(), lists.frames());
+    for (const char* name : {"sequence.frames", "sequence.motion"}) set.reject(name, why);
+    return lists.frames();
+  }
+  if (sequence.frames == 1) set.reject("sequence.motion", "sequence.frames = 1 does not move");
+  return sequence.frames;
+}
+
+void measure_flicker(int frames, const RunContext& context, Result& result,
+                     const std::function<SequencePicture(int)>& picture) {
+  Progress progress("flicker", static_cast<std::uint64_t>(frames), "picture", context.quiet());
+  FlickerMeter after, before;
+  bool truth = true;
+  try {
+    for (int i = 0; i < frames; ++i) {
+      progress.update(static_cast<std::uint64_t>(i));
+      SequencePicture now = picture(i);
+      if (after.frames() > 0 &&
+          (now.after.width != after.width() || now.after.height != after.height()))
+        throw spec::ConfigError(
+            fmt::format("frame {} has {} x {} pixels, the frames before it have {} x {}: flicker "
+                        "is measured between frames of one size",
+                        i, now.after.width, now.after.height, after.width(), after.height()));
+      const Mask drawn = now.drawn ? *now.drawn : FlickerMeter::everywhere(now.after);
+      truth = truth && !now.truth.empty();
+      if (now.truth.empty()) now.truth = now.before;
+      after.add(std::move(now.after), now.truth, drawn);
+      before.add(std::move(now.before), now.truth, drawn);
+    }
+  } catch (const Interrupted&) {
+    result.interrupted = true;
+    return;
+  }
+  add(result, after, before);
+  result.terminal.push_back(
+      {"flicker", fmt::format("{:.2f}/255 over {} frames{}, {}", after.mean(), frames,
+                              after.worst() > 0 ? fmt::format(" (worst {:.2f}, at frame {})",
+                                                              after.worst(), after.worst_frame())
+                                                : "",
+                              truth ? fmt::format("against {:.2f} of what went in", before.mean())
+                                    : "beyond what went in")});
+  result.figures.push_back({truth ? "Flicker over the frames" : "Flicker beyond what went in",
+                            "work.flicker", "worst pair of frames", "work.flicker_worst"});
+  if (truth)
+    result.figures.push_back(
+        {"Flicker, against what went in", "work.flicker", "went in", "work.flicker_before"});
+}
+
+void describe_flicker(Result& result) { add(result, {}, {}); }
+
+}  // namespace deburr::tb

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "tool/run/input_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <string>
+
+#include "spec/error.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr const char* kLook =
+    "look at the camera (scene.eye, scene.target, scene.fov) and at the size of the mesh";
+
+bool shows_something(const DepthImage& depth) {
+  return std::any_of(depth.pixels.begin(), depth.pixels.end(), [](float d) { return d > 0; });
+}
+
+}  // namespace
+
+void reject_empty_picture(const Scene& scene, int width, int height) {
+  const Mesh& mesh = scene.mesh;
+  const Bounds box = bounds(mesh);
+  throw spec::ConfigError(fmt::format(
+      "the scene '{}' draws nothing: none of its {} triangles, from ({:g}, {:g}, {:g}) to "
+      "({:g}, {:g}, {:g}), covers the centre of one of {} x {} pixels: {}",
+      scene.name, mesh.triangles.size(), box.low.x, box.low.y, box.low.z, box.high.x, box.high.y,
+      box.high.z, width, height, kLook));
+}
+
+void reject_nothing_drawn(const Scene& scene, const DepthImage& depth) {
+  if (!shows_something(depth)) reject_empty_picture(scene, depth.width, depth.height);
+}
+
+void reject_nothing_drawn(const DepthImage& depth, std::string_view source) {
+  if (shows_something(depth)) return;
+  throw spec::ConfigError(
+      fmt::format("the scene '{}' draws nothing: none of its triangles covers the centre of one of "
+                  "{} x {} pixels: look at the size of the mesh",
+                  source, depth.width, depth.height));
+}
+
+void reject_slow_memory(const ParameterSet& set, std::string_view prefix,
+                        const MemoryParameters& memory) {
+  const std::string patience = set.find("run.watchdog_cycles")->text();
+  std::int64_t clocks = 0;
+  std::from_chars(patience.data(), patience.data() + patience.size(), clocks);
+  const bool drawn = memory.latency_max > memory.latency;
+  const std::int64_t slowest = std::max(memory.latency, memory.latency_max);
+  if (slowest + memory.bank_busy >= clocks)
+    throw spec::ConfigError(fmt::format(
+        "{0}.{1} = {2}{3} is not below run.watchdog_cycles = {4}, after which a run without "
+        "progress counts as dead: raise that (--set run.watchdog_cycles={5}), or make the memory "
+        "faster",
+        prefix, drawn ? "latency_max" : "latency", slowest,
+        memory.bank_busy > 0 ? fmt::format(" and {}.bank_busy = {}", prefix, memory.bank_busy) : "",
+        clocks, 2 * (slowest + memory.bank_busy)));
+}
+
+void reject_unused_memory(const ParameterSet& set, std::string_view prefix,
+                          const MemoryParameters& memory) {
+  const auto reject = [&](std::string_view name, std::string_view why) {
+    set.reject(fmt::format("{}.{}", prefix, name), why);
+  };
+  if (memory.latency_max > 0 && memory.latency_max <= memory.latency)
+    reject("latency_max", fmt::format("it is not above {}.latency = {}", prefix, memory.latency));
+  if (memory.banks == 1) reject("interleave_bytes", fmt::format("{}.banks = 1", prefix));
+  if (memory.error_address < 0)
+    reject("error_bytes", fmt::format("{}.error_address names no address", prefix));
+}
+
+std::string with_changes(std::string label, const ParameterSet& set, std::string_view prefix) {
+  bool first = true;
+  for (const Parameter* p : set.changed()) {
+    if (!p->name.starts_with(prefix)) continue;
+    label += first ? ", changed: " : ", ";
+    label += p->name.substr(prefix.size());
+    first = false;
+  }
+  return label;
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "tool/run/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "tb/run/amount.h"
+#include "tb/scene/compose.h"
+#include "tb/scene/flip.h"
+#include "tb/scene/quality.h"
+#include "tb/scene/ssim.h"
+
+namespace deburr::tb {
+namespace {
+
+constexpr int kAnyDifference = 255;  // gain that makes it full scale
+
+std::optional<double> value_of(double measure) {
+  return std::isnan(measure) ? std::nullopt : std::optional(measure);
+}
+
+}  // namespace
+
+Quality measure_quality(std::string reference, const Image& before, const Image& after,
+                        const Image& truth, const DepthImage* depth) {
+  const Mask edges = edge_mask(truth, before);
+  Quality quality;
+  quality.reference = std::move(reference);
+  quality.psnr_db = value_of(psnr(after, truth));
+  quality.psnr_before_db = value_of(psnr(before, truth));
+  quality.psnr_edge_db = value_of(psnr(after, truth, edges));
+  quality.psnr_edge_before_db = value_of(psnr(before, truth, edges));
+  if (depth) {
+    const Mask silhouettes = silhouette_mask(edges, *depth);
+    quality.psnr_silhouette_db = value_of(psnr(after, truth, silhouettes));
+    quality.psnr_silhouette_before_db = value_of(psnr(before, truth, silhouettes));
+  }
+  const Image* const both[] = {&after, &before};
+  const std::vector<double> flips = flip(truth, both), similar = ssim(truth, both);
+  quality.flip = flips[0];
+  quality.flip_before = flips[1];
+  quality.ssim = value_of(similar[0]);
+  quality.ssim_before = value_of(similar[1]);
+  return quality;
+}
+
+Change measure_change(const Image& before, const Image& after, const Image* truth) {
+  const auto percent = [](std::int64_t part, std::size_t whole) {
+    return 100 * static_cast<double>(part) / static_cast<double>(whole);
+  };
+  Change change;
+  const std::size_t all = before.pixels.size();
+  change.small_percent = percent(count_different(after, before, Change::kSmall), all);
+  change.large_percent = percent(count_different(after, before, Change::kLarge), all);
+  change.psnr_db = psnr(after, before);
+  if (!truth) return change;
+  const Mask right = inverted(edge_mask(*truth, before));
+  const auto there = static_cast<std::size_t>(count(right));
+  if (there == 0) return change;
+  change.right_small_percent =
+      percent(count_different(after, before, right, Change::kSmall), there);
+  change.right_large_percent =
+      percent(count_different(after, before, right, Change::kLarge), there);
+  return change;
+}
+
+Image delivered_part(const Image& image, std::size_t delivered, const Rgba8& rest) {
+  Image part = image;
+  const auto from = std::min(delivered, part.pixels.size());
+  std::fill(part.pixels.begin() + static_cast<std::ptrdiff_t>(from), part.pixels.end(), rest);
+  return part;
+}
+
+void add_frame_pictures(RunContext& context, const SmoothedFrame& frame) {
+  const std::size_t all = frame.after.pixels.size();
+  const Image after = delivered_part(frame.after, frame.delivered, kNotDelivered);
+  const auto compared = [&](const Image& with, int gain) {
+    return delivered_part(difference(frame.after, with, gain), frame.delivered, kNotCompared);
+  };
+  const std::string missing =
+      frame.delivered >= all ? ""
+                             : fmt::format("; {} of {} pixels, the grey rest was not delivered",
+                                           grouped(frame.delivered), grouped(all));
+  const std::string unknown = missing.empty() ? "" : "; black where nothing was delivered";
+  context.add_image("before", frame.before, "Before", frame.before_caption);
+  context.add_image("after", after, "After",
+                    "the pixels that the hardware model delivered" + missing);
+  if (frame.golden) {
+    context.add_image("golden", *frame.golden, "Golden model",
+                      "the same frame by the golden model");
+    const Image apart = compared(*frame.golden, kAnyDifference);
+    const bool none = count_different(apart, Image(apart.width, apart.height, kNotCompared)) == 0;
+    context.add_image("difference", apart, "Difference",
+                      (none ? "hardware against golden: none"
+                            : "hardware against golden: any difference is bright") +
+                          unknown);
+  }
+  if (frame.truth) {
+    context.add_image("truth", *frame.truth, "Truth", frame.truth_caption);
+    context.add_image("error", compared(*frame.truth, kDifferenceGain), "Error",
+                      fmt::format("after against truth, {} times{}", kDifferenceGain, unknown));
+  }
+  context.add_image("change", compared(frame.before, kDifferenceGain), "Change",
+                    fmt::format("after against before, {} times{}", kDifferenceGain, unknown));
+}
+
+Image shares_picture(int width, int height, const std::vector<Shares>& shares) {
+  const auto bright = [](int share) { return static_cast<std::uint8_t>(std::min(255, 2 * share)); };
+  Image picture(width, height);
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    picture.pixels[i] = {bright(shares[i].first), bright(shares[i].second),
+                         static_cast<std::uint8_t>(shares[i].horizontal ? 160 : 0), 255};
+  return picture;
+}
+
+}  // namespace deburr::tb

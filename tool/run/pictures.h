@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Pictures and quality that runs of different engines have in common.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tb/run/result.h"
+#include "tb/scene/image.h"
+#include "tool/pages/run_context.h"
+
+namespace deburr::tb {
+
+inline constexpr int kDifferenceGain = 4;
+
+// `after` and what went in, `before`, against the truth: PSNR over the frame, over edge pixels and,
+// with a depth, over silhouettes; FLIP and SSIM over the frame.
+Quality measure_quality(std::string reference, const Image& before, const Image& after,
+                        const Image& truth, const DepthImage* depth);
+
+// What became of `before`; where there is a truth, of its right pixels too.
+Change measure_change(const Image& before, const Image& after, const Image* truth);
+
+// A frame that an engine smoothed, or as much of it as it delivered.
+struct SmoothedFrame {
+  const Image& before;
+  const Image& after;
+  std::size_t delivered;  // pixels of `after`, in raster order
+  const Image* golden;    // nullptr: not checked
+  const Image* truth;     // nullptr: none
+  std::string before_caption, truth_caption;
+};
+
+// before, after, golden, difference, truth, error, change. Pixels that were not delivered are grey
+// in `after` and black where pictures are compared.
+void add_frame_pictures(RunContext& context, const SmoothedFrame& frame);
+
+// What stands for a pixel that did not come, and for one that could not be compared.
+inline constexpr Rgba8 kNotDelivered = {128, 128, 128, 255}, kNotCompared = {0, 0, 0, 255};
+
+// The first `delivered` pixels; `rest` in place of the others.
+Image delivered_part(const Image& image, std::size_t delivered, const Rgba8& rest);
+
+// What a pixel takes of two neighbours, of 256.
+struct Shares {
+  std::uint8_t first = 0, second = 0;  // of the upper or left one, of the lower or right one
+  bool horizontal = false;             // the two are left and right
+};
+// Twice as bright: up or left red, down or right green; blue where the pair is left and right.
+Image shares_picture(int width, int height, const std::vector<Shares>& shares);
+
+}  // namespace deburr::tb

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "tool/run/simulate.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "rtl_model/fabric/memory.h"
+#include "spec/error.h"
+#include "tb/base/interrupt.h"
+#include "tb/base/json_text.h"
+#include "tb/run/progress.h"
+#include "tb/run/windows.h"
+#include "tb/traces/line_trace.h"
+
+namespace deburr::tb {
+
+SimulationOptions simulation_options(const RunParameters& run, const RunContext& context) {
+  SimulationOptions o;
+  o.clock_mhz = run.clock_mhz;
+  o.seed = static_cast<std::uint64_t>(run.stall_seed);
+  o.stall_permille = static_cast<std::uint32_t>(std::lround(run.stalls * 1000));
+  o.golden = run.check == CheckMode::kGolden;
+  o.reset_after = static_cast<rtl::Cycle>(run.reset_after);
+  o.shuffle = run.shuffle;
+  o.fast_path = run.fast_path;
+  o.check_links = run.check_links;
+  o.poison = run.poison;
+  if (const Parameter* const program = context.parameters().find("run.program"))
+    o.program = program->text() != kProgramNames[static_cast<std::size_t>(Program::kReset)];
+  o.max_cycles = static_cast<rtl::Cycle>(run.max_cycles);
+  o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
+  if (!run.fault.empty()) o.faults = {run.fault};
+  // Faults on links are seen by the link checkers first; they look away, so that the checks behind
+  // them show that they can fail too, unless the link checkers are what was asked for.
+  if (!run.fault.empty() && !context.parameters().given("run.check_links")) o.check_links = false;
+  o.trace_scope = run.trace;
+  o.trace_file = context.trace_file().string();
+  o.trace_from = static_cast<rtl::Cycle>(run.trace_from);
+  o.trace_to = static_cast<rtl::Cycle>(run.trace_to);
+  o.window_cycles = static_cast<rtl::Cycle>(run.window_cycles);
+  o.maps = run.maps;
+  if (run.coverage && !o.golden)
+    throw spec::ConfigError(
+        "run.coverage: what was met is known to the golden model: leave out run.check=none");
+  o.coverage = run.coverage;
+  if (!run.pixel.empty()) o.pixel = pixel_of(run.pixel);
+  if (run.timeline)
+    o.timeline = {static_cast<rtl::Cycle>(run.timeline_from),
+                  static_cast<rtl::Cycle>(run.timeline_to)};
+  return o;
+}
+
+namespace {
+
+void reject_empty_trace(Simulation& simulation) {
+  const SimulationOptions& o = simulation.options();
+  const rtl::Cycle end = simulation.clock().cycle();
+  if (o.timeline && o.timeline->from >= end)
+    throw spec::ConfigError(
+        fmt::format("run.timeline_from = {}: the run was over after cycle {}, so the timeline is "
+                    "empty: give a --timeline-from below it",
+                    o.timeline->from, end));
+  if (!o.trace_scope.empty() && o.trace_from >= end)
+    throw spec::ConfigError(
+        fmt::format("run.trace_from = {}: the run was over after cycle {}, so nothing was traced: "
+                    "give a --trace-from below it",
+                    o.trace_from, end));
+}
+
+// What was watched over time, whatever ended the run; only where no cycle was broken off does it
+// add up.
+void leave_windows(const Simulation& simulation, RunContext& context, const Result& result,
+                   bool whole_cycles) {
+  if (simulation.timeline())
+    context.add_record("timeline", kTimelineFile, simulation.timeline()->json());
+  if (!simulation.windows()) return;
+  const nlohmann::ordered_json windows = simulation.windows()->json();
+  context.add_record("windows", kWindowsFile, json_text(windows) + "\n");
+  if (whole_cycles) check_windows(windows, to_json(result));
+}
+
+// Where something differs from the golden model, or is missing, counts differ too.
+void leave_maps(const Simulation& simulation, const Environment& environment, RunContext& context,
+                Result& result) {
+  const bool right =
+      simulation.complete() && result.mismatches == 0 && result.traffic_mismatches == 0;
+  for (const PictureMap& map : environment.maps()) {
+    context.add_map(map);
+    result.maps.push_back(figures_of(map));
+    if (right) check_map(map);
+  }
+}
+
+// nullptr: none is wanted.
+std::unique_ptr<LineTrace> line_trace(const Simulation& simulation, const RunContext& context,
+                                      const Result& result) {
+  const auto value = [&](const char* name) {
+    const Parameter* parameter = context.parameters().find(name);
+    return parameter ? parameter->text() : std::string();
+  };
+  const std::string wanted = value("run.line_trace");
+  if (wanted == "none") return nullptr;
+  LineTraceOptions options;
+  options.engine = result.unit;
+  options.clock_mhz = simulation.options().clock_mhz;
+  options.format = wanted == "binary" ? TraceFormat::kBinary : TraceFormat::kText;
+  options.look_ups = value("run.line_trace_look_ups") == "true";
+  return std::make_unique<LineTrace>(context.line_trace_file(), options);
+}
+
+// Copies are counted wherever bits are, but so many of a large memory are seldom meant.
+void note_copies(RunContext& context) {
+  constexpr std::uint32_t kMany = 8;
+  constexpr std::uint64_t kLarge = 1'000'000;
+  rtl::for_each<rtl::MemoryBase>([&](const rtl::MemoryBase& memory) {
+    if (memory.copies() > kMany && memory.physical_bits() > kLarge)
+      context.add_note(fmt::format("{}: {} copies, one a read port, {} kbit for {} of content",
+                                   memory.name(), memory.copies(), memory.physical_bits() / 1000,
+                                   memory.logical_bits() / 1000));
+  });
+}
+
+}  // namespace
+
+void simulate(Simulation& simulation, Environment& environment, RunContext& context, Result& result,
+              const std::function<void()>& add_pictures) {
+  simulation.elaborate(environment);
+  const std::unique_ptr<LineTrace> lines = line_trace(simulation, context, result);
+  if (context.checking_only()) return;
+  if (interrupted()) throw Interrupted();  // while the input was made: there is nothing to keep
+  note_copies(context);
+  try {
+    const Amount amount = environment.amount();
+    Progress progress(result.unit, amount.total, amount.unit, context.quiet());
+    simulation.run([&](std::uint64_t delivered, std::uint64_t taken) {
+      progress.update(delivered, taken);
+      return !interrupted();
+    });
+  } catch (const spec::FileError&) {  // a wave that could not be written: nothing stays
+    throw;
+  } catch (...) {
+    // What cannot be left of it does not hide why it failed.
+    const auto leave = [&context](auto&& part) {
+      try {
+        part();
+      } catch (const std::exception& error) {
+        context.add_note(fmt::format("of the run that failed something is missing: {}",
+                                     from_repository(error.what())));
+      }
+    };
+    leave([&] { simulation.collect(result); });
+    if (lines) leave([&] { lines->finish(); });
+    leave(add_pictures);
+    leave([&] { leave_windows(simulation, context, result, false); });
+    leave([&] { leave_maps(simulation, environment, context, result); });
+    throw;
+  }
+  simulation.collect(result);
+  if (lines) lines->finish();
+  result.interrupted = !simulation.complete();
+  if (result.interrupted && result.cycles == 0) throw Interrupted();  // while golden worked
+  add_pictures();
+  leave_windows(simulation, context, result, true);
+  leave_maps(simulation, environment, context, result);
+  if (!simulation.complete()) return;
+  environment.check();
+  environment.reject_unused_errors();
+  reject_empty_trace(simulation);
+}
+
+std::string from_repository(const std::string& text) {
+  for (const char* layer : {"/layers/spec/", "/layers/golden/", "/layers/rtl_model/", "/layers/tb/",
+                            "/layers/tool/", "/layers/studies/"})
+    if (const std::size_t at = text.find(layer); at != std::string::npos)
+      return text.substr(at + std::string_view(layer).size());
+  return text;
+}
+
+void describe(Simulation& simulation, Environment& environment, Result& result) {
+  simulation.elaborate(environment);
+  simulation.collect(result);
+  result.faults = simulation.faults().known_names();
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "tool/sweep/evolution.h"
+
+#include <dlfcn.h>
+#include <fmt/core.h>
+
+#include "spec/error.h"
+
+namespace deburr::tb {
+namespace {
+
+using Entry = Evolution* (*)();
+
+// The program's run path says where to look: beside the program, or where the build puts it.
+Evolution* load() {
+  void* const module = ::dlopen(kEvolutionModule, RTLD_LAZY | RTLD_LOCAL);
+  void* const symbol = module != nullptr ? ::dlsym(module, kEvolutionModuleEntry) : nullptr;
+  if (symbol == nullptr)
+    throw spec::FileError(fmt::format(
+        "nothing can be searched: the module {0} cannot be loaded ({1}); install pagmo (Debian's "
+        "libpagmo-dev; in the repository: scripts/demo --complete), and put the {0} of the same "
+        "build beside the program",
+        kEvolutionModule, ::dlerror()));
+  return reinterpret_cast<Entry>(symbol)();
+}
+
+}  // namespace
+
+Evolution& evolution() {
+  static Evolution* const module = load();
+  return *module;
+}
+
+}  // namespace deburr::tb

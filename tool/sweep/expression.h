@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// An expression of a sweep's file: a condition on parameters (`texture.cache.bytes >= 64 *
+// texture.cache.ways`), a metric made of keys of result.json (`work.bilinears / cycles`), or a
+// limit on metrics (`hit_rate >= 0.97`).
+//
+//   or       := and ("or" and)*            sum     := product (("+" | "-") product)*
+//   and      := not ("and" not)*           product := unary (("*" | "/" | "%") unary)*
+//   not      := "not" not | compare        unary   := "-" unary | value
+//   compare  := sum (("==" | "!=" | "<" | "<=" | ">" | ">=") sum)?
+//   value    := number | name | word | "(" or ")"
+//
+// A word is a value of the choice that it is compared with. Numbers are doubles, written in decimal
+// or hexadecimal (0x100).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/run/parameter_set.h"
+
+namespace deburr::tb {
+
+class DivisionByZero : public spec::ConfigError {
+ public:
+  using ConfigError::ConfigError;
+};
+
+// What an expression may name, and what its errors call things.
+struct ExpressionNames {
+  std::string expression;  // "constraint"
+  std::string name;        // "a parameter"
+  // What the values of a name are, as Parameter::range; nothing: it is no name.
+  std::function<std::optional<std::string>(const std::string&)> range;
+  std::function<std::vector<std::string>(const std::string&)> near_matches;
+};
+
+class Expression {
+ public:
+  using Value = std::variant<double, bool, std::string>;
+  using Lookup = std::function<Value(const std::string& name)>;
+  using Term = std::function<Value(const Lookup&)>;
+
+  // ConfigError that begins with `where` for what is no expression over the names.
+  Expression(std::string text, std::string where, const ExpressionNames& names);
+
+  // DivisionByZero; ConfigError where it is of another kind.
+  double number(const Lookup& lookup) const;
+  bool truth(const Lookup& lookup) const;
+  // How far a comparison by < <= > >= is from what it demands, over the absolute value of its right
+  // side; 0: it holds. Infinite where a side has no value.
+  double violation(const Lookup& lookup) const;
+  // ... which this is.
+  bool is_comparison() const { return violation_ != nullptr; }
+
+  const std::string& text() const { return origin_->text; }
+  const std::string& where() const { return origin_->where; }
+  // In the order in which they are first named.
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  // For errors, which terms too may end with.
+  struct Origin {
+    std::string text, where, kind;
+    std::string message(const std::string& what) const;
+    [[noreturn]] void fail(const std::string& what) const;
+    template <class T>
+    T as(const Value& value, std::string_view wanted) const;
+  };
+  class Parser;
+
+  std::shared_ptr<const Origin> origin_;
+  Term term_;
+  std::function<double(const Lookup&)> violation_;
+  std::vector<std::string> names_;
+};
+
+// A condition that every point of a sweep must meet.
+class Constraint {
+ public:
+  // ConfigError that begins with `where` for what is no condition over the parameters of `known`.
+  Constraint(std::string text, std::string where, const ParameterSet& known);
+  bool holds(const ParameterSet& set) const;
+  const std::string& text() const { return condition_.text(); }
+
+ private:
+  Expression condition_;
+};
+
+}  // namespace deburr::tb

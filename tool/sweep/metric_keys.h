@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Which keys results of an engine can have, known before there is one: a metric that no result will
+// have is said by `plan`, not after the last run.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tool/sweep/definition.h"
+
+namespace deburr::tb {
+
+// Keys of result.json, dotted, in which * stands for names that go with the build or the run.
+// Elaborates the model, in a process of its own.
+std::vector<std::string> result_keys(const std::string& engine);
+bool is_key_of(std::string_view key, std::string_view pattern);
+
+// ConfigError with file, line and near matches for a metric that no result of the engine can have.
+void require_known_metrics(const SweepDefinition& sweep);
+
+}  // namespace deburr::tb
