@@ -183,8 +183,7 @@ struct Channels {
 
 Channels channels_of(const std::string& name, const Header& header) {
   if (!header.odd_channels.empty())
-    fail_read(name, fmt::format("its first channels are {}; a picture has R, G and B, or Y alone; "
-                                "write it so",
+    fail_read(name, fmt::format("it has {} where a picture has R, G and B, or Y alone; write it so",
                                 header.odd_channels));
   Channels channels;
   std::vector<std::size_t> colours;
@@ -388,9 +387,9 @@ std::optional<int> named_depth(const std::string& name, const Header& header, Re
                           fmt::join(header.names, ", ")));
   if (all < 2) return std::nullopt;
   if (report != nullptr)
-    report->conversions.push_back(fmt::format("channel {} taken as depth, {} others left out",
+    report->conversions.push_back(fmt::format("channel {} of {} taken as depth",
                                               header.names[static_cast<std::size_t>(header.depth)],
-                                              all - 1));
+                                              all));
   return header.depth;
 }
 
@@ -493,6 +492,7 @@ DepthImage read_depth(const fs::path& path, ReadReport* report) {
     if (header.several) report->conversions.push_back("the first of several pictures");
   }
   const std::optional<int> named = named_depth(name, header, report);
+  if (named && report != nullptr) report->channels = 1;
   DepthImage depth(header.width, header.height);
   // Colours that a file or its decoder has made others are no codes any more.
   const bool divided = header.value_format == kBytes && header.associated;
