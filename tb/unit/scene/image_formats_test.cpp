@@ -635,6 +635,29 @@ TEST(ImageFormats, DepthOfAnExrOfSeveralChannelsIsTheOneNamedSo) {
     EXPECT_THAT(file_error([&] { read_depth(made(names)); }), HasSubstr(words));
 }
 
+TEST(ImageFormats, DepthOfAnExrOfSeveralPicturesIsTheFirstIfNamedSo) {
+  const TemporaryFolder folder;
+  const auto path = (folder / "of.exr").string();
+  ReadReport report;
+  const auto depth = [&](const std::string& first, const std::string& second) {
+    std::vector<OIIO::ImageSpec> specs(2, OIIO::ImageSpec(1, 1, 1, OIIO::TypeFloat));
+    specs[0].channelnames = {first};
+    specs[1].channelnames = {second};
+    const auto output = OIIO::ImageOutput::create(path);
+    EXPECT_TRUE(output->open(path, 2, specs.data())) << output->geterror();
+    const float values[] = {0.25f, 0.5f};
+    EXPECT_TRUE(output->write_image(OIIO::TypeFloat, &values[0])) << output->geterror();
+    EXPECT_TRUE(output->open(path, specs[1], OIIO::ImageOutput::AppendSubimage));
+    EXPECT_TRUE(output->write_image(OIIO::TypeFloat, &values[1])) << output->geterror();
+    EXPECT_TRUE(output->close()) << output->geterror();
+    return read_depth(path, &report).pixels;
+  };
+  EXPECT_THAT(depth("Z", "V"), ElementsAre(0.25f));
+  EXPECT_THAT(report.conversions, ElementsAre("the first of several pictures"));
+  EXPECT_THAT(file_error([&] { depth("V", "Z"); }),
+              HasSubstr("it has several pictures, the first with V, of which not one alone"));
+}
+
 TEST(ImageFormats, GreyWhoseWhiteIs0IsTurnedRoundOrNamed) {
   const TemporaryFolder folder;
   const auto grey = [&](int extra, int samples, int bits) {
