@@ -28,8 +28,7 @@ class ImageDecoder {
     bool associated = false;    // colours are stored multiplied by alpha
     bool cmyk = false;          // made RGB by the decoder
     std::string other_colours;  // "CIELAB", ...: what the decoder gives as R, G and B unchanged
-    std::string
-        odd_channels;  // "Y, BY, RY": of an EXR, where colours stand; not R, G, B or Y alone
+    std::string odd_channels;   // "Y, BY, RY": of an EXR, in place of R, G, B or Y alone
     std::vector<std::string> names;  // of an EXR's channels, of all layers
     bool lossy = false;              // values are not those that were written
     bool flat = true;                // neither a volume nor a deep image
