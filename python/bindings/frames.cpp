@@ -38,7 +38,7 @@ FramePixels frame_pixels(const py::handle& given) {
   return {array, {pixels, static_cast<int>(width), static_cast<int>(height), stride}};
 }
 
-void check_depths(const py::array& depths) {
+void check_depths(const py::array& depths, py::ssize_t level) {
   const auto size = static_cast<std::size_t>(depths.size());
   const auto width = static_cast<std::size_t>(depths.shape(1));
   spec::DepthCheck check;
@@ -52,7 +52,7 @@ void check_depths(const py::array& depths) {
   }
   golden::c::require_depths(check, width);
   if (const std::string note = check.note(width);
-      !note.empty() && PyErr_WarnEx(PyExc_UserWarning, ("depth: " + note).c_str(), 2) != 0)
+      !note.empty() && PyErr_WarnEx(PyExc_UserWarning, ("depth: " + note).c_str(), level) != 0)
     throw py::error_already_set();
 }
 
@@ -70,7 +70,7 @@ FrameDepth frame_depth(const py::handle& given, int width, int height) {
         "depth",
         "the size of the pixels, (" + std::to_string(height) + ", " + std::to_string(width) + "),",
         given);
-  check_depths(array);
+  check_depths(array, 2);  // the caller of deburr.golden
   const auto size = static_cast<std::size_t>(array.size());
   depth.codes.resize(size);
   if (is_float) {

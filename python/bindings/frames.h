@@ -28,8 +28,9 @@ struct FrameDepth {
   std::vector<std::uint32_t> codes;
   golden::morphological::ViewOf<std::uint32_t> view;  // empty: no depth was given
 };
-// ValueError, or a warning, by spec/depth_check.h; of float32 or uint32, in rows without gaps.
-void check_depths(const py::array& depths);
+// ValueError, or a warning, by spec/depth_check.h; of float32 or uint32, in rows without gaps. The
+// warning names the line of the Python function at this level: 1 called here, 2 is its caller.
+void check_depths(const py::array& depths, py::ssize_t level);
 FrameDepth frame_depth(const py::handle& given, int width, int height);
 
 // Whether memory answers a line with an error: of those that begin at these addresses.

@@ -76,8 +76,8 @@ PYBIND11_MODULE(_golden, module) {
   module.doc() = "The golden models of deburr.golden and deburr.ideal.";
   module.attr("version") = DEBURR_VERSION;
   py::register_exception_translator(translate);
-  module.def("check_depths", [](const py::array& depths) {
-    check_depths(py::array::ensure(depths, py::array::c_style));
+  module.def("check_depths", [](const py::array& depths, py::ssize_t level) {
+    check_depths(py::array::ensure(depths, py::array::c_style), level);
   });
   add_engines(module);
   add_ideal(module);

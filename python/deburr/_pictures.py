@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Files of runs as arrays: PNG with 8 bits, as the command writes it, and portable float maps."""
 import struct
+import sys
 import zlib
 
 import numpy
@@ -12,11 +13,19 @@ _CHANNELS = {0: 1, 2: 3, 6: 4}  # by PNG's colour type
 _NONE, _UP = 0, 2
 
 
+def _level_of_caller():
+    """Where a warning belongs, as a level of the stack above the one that asks: the first line outside of deburr."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back and frame.f_globals.get("__name__", "").split(".")[0] == "deburr":
+        level, frame = level + 1, frame.f_back
+    return level
+
+
 def png_of(array):
     """A picture of uint8, (height, width), (height, width, 3) or (height, width, 4); or depths of (height, width),
     float32, 0..1, or uint32, U24, as 24 bits in R, G, B, which the command reads as such."""
     if array.ndim == 2 and array.dtype in (numpy.float32, numpy.uint32):
-        _golden.check_depths(array)
+        _golden.check_depths(array, _level_of_caller())
     if array.ndim == 2 and array.dtype == numpy.float32:
         scaled = numpy.floor(numpy.clip(array.astype(numpy.float64), 0, 1) * 0xFFFFFF + 0.5)
         return png_of(scaled.astype(numpy.uint32))

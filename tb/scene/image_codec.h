@@ -24,13 +24,16 @@ class ImageDecoder {
     int full_width = 0, full_height = 0, x = 0, y = 0;
     int alpha = -1;             // the channel that is alpha
     bool alpha_named = false;   // the file says that it is
-    int depth = -1;             // the channel that the file says is a distance
+    int depth = -1;             // the one channel that the file names as depth, of any layer
     bool associated = false;    // colours are stored multiplied by alpha
     bool cmyk = false;          // made RGB by the decoder
     std::string other_colours;  // "CIELAB", ...: what the decoder gives as R, G and B unchanged
-    bool flat = true;           // neither a volume nor a deep image
-    std::string file_format;    // "png", "jpeg", ...
-    std::string value_format;   // "uint8", "uint16", "half", "float", ...
+    std::string odd_channels;   // "Y, BY, RY": of an EXR, in place of R, G, B or Y alone
+    std::vector<std::string> names;  // of an EXR's channels, of all layers
+    bool lossy = false;              // values are not those that were written
+    bool flat = true;                // neither a volume nor a deep image
+    std::string file_format;         // "png", "jpeg", ...
+    std::string value_format;        // "uint8", "uint16", "half", "float", ...
     bool floating_point = false;
     std::string colour_space;  // as the file names it, or as its format implies
     int orientation = 1;
@@ -43,7 +46,8 @@ class ImageDecoder {
   // floats are divided by their maximum. False: error() says why.
   virtual bool read(int channels, std::uint8_t* values) = 0;
   virtual bool read(int channels, float* values) = 0;
-  virtual std::string error() = 0;  // on one line
+  virtual bool read_channel(int channel, float* values) = 0;  // of any layer
+  virtual std::string error() = 0;                            // on one line
 };
 
 class ImageCodec {

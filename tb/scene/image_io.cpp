@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -101,7 +102,7 @@ void check_header(const std::string& name, const Header& header) {
               "the whole picture, or an EXR");
   if (!header.other_colours.empty())
     fail_read(name, fmt::format("its colours are of the kind '{}', which is not converted; save it "
-                                "as RGB",
+                                "as RGB, or as grey whose black is 0",
                                 header.other_colours));
   if (!header.flat) fail_read(name, "it is a volume or a deep image; flatten it to two dimensions");
 }
@@ -158,15 +159,18 @@ void check_complete_tiff(const fs::path& path) {
                             size));
 }
 
+[[noreturn]] void fail_damaged(const std::string& name, ImageDecoder& decoder) {
+  fail_read(name, fmt::format("the file is truncated or corrupt ({}); make or copy it again",
+                              decoder.error()));
+}
+
 template <class Value>
 std::vector<Value> read_pixels(const std::string& name, ImageDecoder& decoder, int channels) {
   const Header& header = decoder.header();
   std::vector<Value> values(static_cast<std::size_t>(header.width) *
                             static_cast<std::size_t>(header.height) *
                             static_cast<std::size_t>(channels));
-  if (!decoder.read(channels, values.data()))
-    fail_read(name, fmt::format("the file is truncated or corrupt ({}); make or copy it again",
-                                decoder.error()));
+  if (!decoder.read(channels, values.data())) fail_damaged(name, decoder);
   return values;
 }
 
@@ -178,6 +182,9 @@ struct Channels {
 };
 
 Channels channels_of(const std::string& name, const Header& header) {
+  if (!header.odd_channels.empty())
+    fail_read(name, fmt::format("it has {} where a picture has R, G and B, or Y alone; write it so",
+                                header.odd_channels));
   Channels channels;
   std::vector<std::size_t> colours;
   for (int c = 0; c < header.channels && colours.size() < 3; ++c)
@@ -269,19 +276,25 @@ void describe_conversions(const Header& header, const Channels& channels, bool l
   if (header.several) note("the first of several pictures");
 }
 
+// What is cut is not counted.
 void describe_values(const Header& header, const std::vector<float>& values, std::size_t channels,
                      ReadReport& report) {
   spec::Found outside, nan;
+  std::size_t seen = 0;
+  const auto width = static_cast<std::size_t>(header.full_width);
   for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto stored = static_cast<std::int64_t>(i / channels);
+    const std::int64_t x = header.x + stored % header.width, y = header.y + stored / header.width;
+    if (x < 0 || y < 0 || x >= header.full_width || y >= header.full_height) continue;
+    ++seen;
+    const std::size_t place = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
     if (std::isnan(values[i]))
-      nan.add(i);
+      nan.add(place);
     else if (values[i] < 0.0f || values[i] > 1.0f)
-      outside.add(i);
+      outside.add(place);
   }
   const auto note = [&](const spec::Found& found, std::string_view what) {
-    if (found.number > 0)
-      report.conversions.push_back(spec::Found{found.number, found.first / channels}.in_words(
-          values.size(), static_cast<std::size_t>(header.width), what));
+    if (found.number > 0) report.conversions.push_back(found.in_words(seen, width, what));
   };
   note(outside, "clamped to [0, 1]");
   note(nan, "NaN made 0");
@@ -361,6 +374,30 @@ void check_depths(const std::string& name, const DepthImage& depths, ReadReport*
 // The codes of a depth, as the reals that depth_codes() makes the same codes of.
 float depth_of_code(std::uint64_t code) {
   return static_cast<float>(static_cast<double>(code) / spec::kLargestDepth);
+}
+
+// The channel of an EXR of several that is the depth by its name; none: it has one channel.
+std::optional<int> named_depth(const std::string& name, const Header& header, ReadReport* report) {
+  const std::size_t all = header.names.size();
+  if (header.depth < 0 && (all > 1 || (all == 1 && header.several)))
+    fail_read(name,
+              fmt::format("it has {} {}, of which not one alone is named as depth (Z); write "
+                          "the depth alone",
+                          header.several ? "several pictures, the first with" : "the channels",
+                          fmt::join(header.names, ", ")));
+  if (all < 2) return std::nullopt;
+  if (report != nullptr)
+    report->conversions.push_back(fmt::format("channel {} of {} taken as depth",
+                                              header.names[static_cast<std::size_t>(header.depth)],
+                                              all));
+  return header.depth;
+}
+
+std::vector<float> read_channel(const std::string& name, ImageDecoder& decoder, int channel) {
+  std::vector<float> values(static_cast<std::size_t>(decoder.header().width) *
+                            static_cast<std::size_t>(decoder.header().height));
+  if (!decoder.read_channel(channel, values.data())) fail_damaged(name, decoder);
+  return values;
 }
 
 DecoderPointer open_checked(const fs::path& path) {
@@ -452,12 +489,17 @@ DepthImage read_depth(const fs::path& path, ReadReport* report) {
   if (report != nullptr) {
     *report = {header.channels, header.value_format, {}};
     note_window(header, "infinitely far", *report);
+    if (header.several) report->conversions.push_back("the first of several pictures");
   }
+  const std::optional<int> named = named_depth(name, header, report);
+  if (named && report != nullptr) report->channels = 1;
   DepthImage depth(header.width, header.height);
   // Colours that a file or its decoder has made others are no codes any more.
   const bool divided = header.value_format == kBytes && header.associated;
-  const bool changed = header.cmyk || header.file_format == "jpeg" || header.file_format == "heif";
-  if (header.channels == 1 && header.floating_point) {
+  const bool changed = header.cmyk || header.lossy;
+  if (named) {
+    depth.pixels = read_channel(name, *decoder, *named);
+  } else if (header.channels == 1 && header.floating_point) {
     depth.pixels = read_pixels<float>(name, *decoder, 1);
   } else if (header.channels == 1 && header.value_format == kWords) {
     const std::vector<float> values = read_pixels<float>(name, *decoder, 1);

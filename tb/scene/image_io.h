@@ -46,8 +46,8 @@ Image read_image_memory(const std::string& name, std::string_view bytes,
 
 // A depth picture: 24 bits in R, G, B (most significant first; 8-bit file with three or more
 // channels) as value / (2^24 - 1); 16 bits of grey as value / (2^16 - 1), rounded to 24 bits; or
-// one float channel as it is. 0 where a part of a picture is not. Throws FileError for anything
-// else, and for a NaN. Values that become others where they are made 24 bits are reported.
+// one float channel, of an EXR of several the one named Z or depth. 0 where a part of a picture is
+// not. Throws FileError for all else, and for a NaN. Values that 24 bits make others are reported.
 DepthImage read_depth(const std::filesystem::path& path, ReadReport* report = nullptr);
 
 // Encodes by extension (.png, .exr, .tif, ... whatever OpenImageIO writes to memory) and writes it

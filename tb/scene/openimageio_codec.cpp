@@ -93,6 +93,64 @@ int channels_of_first_layer(const OIIO::ImageSpec& spec, const std::string& form
   return channels;
 }
 
+// "depth.Z" is "z".
+std::string last_part(const std::string& channel) {
+  return OIIO::Strutil::lower(channel.substr(channel.rfind('.') + 1));
+}
+
+// The one channel of an EXR that is a depth by its name; -1 where there is none or several. A Z
+// beside an X is a part of a vector.
+int depth_channel(const OIIO::ImageSpec& spec) {
+  std::vector<std::string> lower;
+  for (const std::string& name : spec.channelnames) lower.push_back(OIIO::Strutil::lower(name));
+  int found = -1;
+  for (int c = 0; c < spec.nchannels; ++c) {
+    std::string name = lower[static_cast<std::size_t>(c)];
+    const std::string part = last_part(name);
+    if ((part != "z" && part != "depth") || !spec.channelformat(c).is_floating_point()) continue;
+    name.back() = 'x';
+    if (part == "z" && std::find(lower.begin(), lower.end(), name) != lower.end()) continue;
+    if (found >= 0) return -1;
+    found = c;
+  }
+  return found;
+}
+
+// The channels of an EXR's first layer that would become colours, where they have other names.
+std::string odd_channels(const ImageDecoder::Header& header) {
+  std::string letters, names;
+  for (int c = 0; c < header.channels && letters.size() < 3; ++c) {
+    if (c == header.alpha || (c == header.depth && header.channels > 1)) continue;
+    const std::string& name = header.names[static_cast<std::size_t>(c)];
+    const std::string part = last_part(name);
+    const bool known = part == "r" || part == "g" || part == "b" || part == "y" || part == "red" ||
+                       part == "green" || part == "blue";
+    letters += known ? part[0] : '?';
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  const bool alone = letters.size() < 2 && letters != "?";
+  return alone || letters == "rgb" ? "" : names;
+}
+
+// Whether the first picture of a WebP is of the chunk of lossy compression.
+bool is_lossy_webp(Io& io) {
+  for (std::uint64_t at = 12; at < io.size();) {
+    const std::string chunk = bytes_at(io, at, 4);
+    if (chunk == "VP8 " || chunk == "VP8L") return chunk == "VP8 ";
+    constexpr std::uint64_t kFrameHead = 24;
+    at += chunk == "ANMF" ? kFrameHead : 8 + (number_of(bytes_at(io, at + 4, 4), true) + 1) / 2 * 2;
+  }
+  return false;
+}
+
+bool is_lossy(const OIIO::ImageSpec& spec, const std::string& format, Io& io) {
+  constexpr std::uint64_t kCompressed = 4;  // a flag of the pixel format of a DDS
+  if (format == "webp") return is_lossy_webp(io);
+  if (format == "dds") return (number_of(bytes_at(io, 80, 4), true) & kCompressed) != 0;
+  if (format == "tiff") return spec.get_string_attribute("compression") == "jpeg";
+  return format == "jpeg" || format == "heif" || format == "gif";
+}
+
 ImageDecoder::Header header_of(OIIO::ImageInput& input, Io& io) {
   const OIIO::ImageSpec spec = input.spec();
   ImageDecoder::Header header;
@@ -116,7 +174,7 @@ ImageDecoder::Header header_of(OIIO::ImageInput& input, Io& io) {
   }
   if (spec.alpha_channel < header.channels && header.channels > 1)
     header.alpha = spec.alpha_channel;
-  if (spec.z_channel < header.channels) header.depth = spec.z_channel;
+  header.depth = format == "openexr" ? depth_channel(spec) : spec.z_channel;
   header.alpha_named = header.alpha >= 0;
   if (header.alpha_named)
     header.associated = is_associated(spec, format, io);
@@ -127,6 +185,15 @@ ImageDecoder::Header header_of(OIIO::ImageInput& input, Io& io) {
   const std::string colours = spec.get_string_attribute("tiff:ColorSpace");
   for (const char* const name : {"CIELAB", "ICCLAB", "ITULAB", "LOGL", "LOGLUV", "color separated"})
     if (colours == name) header.other_colours = colours;
+  // OpenImageIO turns these round in 8 bits alone, and alpha with them.
+  if (spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0 &&
+      (spec.format != OIIO::TypeUInt8 || spec.nchannels > 1))
+    header.other_colours = "grey whose white is 0, of more than 8 bits or with alpha";
+  if (format == "openexr") {
+    header.names = spec.channelnames;
+    header.odd_channels = odd_channels(header);
+  }
+  header.lossy = is_lossy(spec, format, io);
   header.flat = spec.depth <= 1 && !spec.deep;
   header.value_format = spec.format.c_str();
   header.floating_point = spec.format.is_floating_point();
@@ -214,6 +281,9 @@ class Decoder final : public ImageDecoder {
   }
   bool read(int channels, float* values) override {
     return read(channels, OIIO::TypeFloat, values);
+  }
+  bool read_channel(int channel, float* values) override {
+    return input_->read_image(0, 0, channel, channel + 1, OIIO::TypeFloat, values);
   }
   std::string error() override {
     OIIO::ImageInput* const input =

@@ -162,6 +162,10 @@ class Errors(Scratch):
                       "morphological", depth=depth, **frame)
         self.rejected("depth: 1 of 256 values lie outside 0..16777215, the first at (5, 3)", ValueError, "morphological",
                       depth=numpy.where(numpy.isnan(depth), 1 << 24, 1).astype(numpy.uint32), **frame)
+        depth[3, 5] = 2
+        with self.assertWarnsRegex(UserWarning, r"depth: 1 of 256 values lie outside \[0, 1\]") as caught:
+            deburr.run("morphological", depth=depth, **frame)
+        self.assertEqual(caught.filename, __file__)
         self.rejected("no 'deburr run textur': did you mean", ValueError, "textur")
         self.rejected("None", ValueError, None)
         self.rejected("nothing.obj", OSError, "texture", in_="nothing.obj")

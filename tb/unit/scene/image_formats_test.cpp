@@ -3,9 +3,11 @@
 // multiplied by alpha, and a part of a picture in its place? Files that OpenImageIO cannot write,
 // or writes only as it would read them, are made of bytes here or come from Pillow.
 #include <OpenImageIO/imageio.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -380,9 +382,25 @@ TEST(ImageFormats, ChannelsOfAnExrAreTakenByTheirNames) {
   read_image(path, &report);
   EXPECT_THAT(report.conversions, Contains("the first layer; 2 channels of others left out"));
   EXPECT_EQ(pixel({"A", "B", "G", "R", "Z"}, {0.5f, 0, 0.25f, 0.5f, 7}), (Rgba8{255, 188, 0, 128}));
-  for (const auto& names : {std::vector<std::string>{"R", "G", "A"}, {"u", "v"}})
-    EXPECT_THAT(file_error([&] { pixel(names, std::vector<float>(names.size())); }),
-                HasSubstr("2 channels of colour; a picture has one (grey) or three"));
+  EXPECT_EQ(pixel({"Blue", "Green", "Red"}, {0, 0.5f, 1}), (Rgba8{255, 188, 0, 255}));
+  EXPECT_EQ(pixel({"R", "G", "B", "N"}, {0.5f, 0, 1, 1}), (Rgba8{188, 0, 255, 255}));
+}
+
+TEST(ImageFormats, ChannelsOfAnExrThatAreNoColoursAreNamed) {
+  const TemporaryFolder folder;
+  const auto error = [&](const std::vector<std::string>& names) {
+    Written what{1, 1, static_cast<int>(names.size())};
+    what.names = names;
+    const auto path = write(folder / "of.exr", what, std::vector<float>(names.size(), 0.5f));
+    return file_error([&] { read_image(path); });
+  };
+  EXPECT_THAT(error({"Y", "RY", "BY"}),
+              HasSubstr("it has Y, BY, RY where a picture has R, G and B, or Y"));
+  EXPECT_THAT(error({"u", "v", "w"}), HasSubstr("it has u, v, w where"));
+  EXPECT_THAT(error({"R", "AR", "AG", "AB"}), HasSubstr("it has R, AR, AG where"));
+  EXPECT_THAT(error({"R", "G", "A"}), HasSubstr("it has R, G where"));
+  for (const char* const name : {"A", "Z", "depth.Z", "mask"})
+    EXPECT_THAT(error({name}), HasSubstr(fmt::format("it has {} where", name)));
 }
 
 TEST(ImageFormats, PaletteAndAnimationsAreReadAsStraightColours) {
@@ -559,7 +577,7 @@ TEST(ImageFormats, PicturesThatAreNoDepthAreNamed) {
               AllOf(HasSubstr("16 bits of grey"), HasSubstr("this one has 1 channel of uint8")));
   EXPECT_THAT(error(write(folder / "colour.png", {1, 1, 3}, std::vector<std::uint16_t>{1, 2, 3})),
               HasSubstr("this one has 3 channels of uint16"));
-  EXPECT_THAT(error(write(folder / "colour.exr", {1, 1, 3}, std::vector<float>{0, 0, 0})),
+  EXPECT_THAT(error(write(folder / "colour.tif", {1, 1, 3}, std::vector<float>{0, 0, 0})),
               HasSubstr("this one has 3 channels of float"));
   EXPECT_THAT(error(write(folder / "grey_alpha.png", {1, 1, 2}, std::vector<std::uint16_t>{1, 2})),
               HasSubstr("this one has 2 channels of uint16"));
@@ -567,8 +585,102 @@ TEST(ImageFormats, PicturesThatAreNoDepthAreNamed) {
               HasSubstr("4 channels of uint8, multiplied by alpha"));
   EXPECT_THAT(error(write(folder / "lossy.jpg", {1, 1, 3}, Bytes{1, 2, 3})),
               HasSubstr("3 channels of uint8, changed by compression or conversion"));
+  EXPECT_THAT(error(write(folder / "of.gif", {1, 1, 3}, Bytes{1, 2, 3})), HasSubstr("changed by"));
+  EXPECT_THAT(error(folder.write("block.dds", block_dds("DXT5", 15))), HasSubstr("changed by"));
+  EXPECT_EQ(read_depth(folder.write("raw.dds", raw_dds(kStraight))).pixels[2],
+            static_cast<float>((9 * 65536 + 8 * 256 + 7) / 16777215.0));
+  for (const std::string& head :
+       {std::string(), "VP8X" + little(10, 4) + little(0, 4) + little(3, 3) + little(3, 3)}) {
+    std::string lossy = of_hex(
+        "52494646340000005745425056503820280000009001009d012a0400040002c04c25a00274ba00039800fede12"
+        "7ff0415cccbd9e1fe379bcd6884000");
+    lossy.insert(12, head);
+    lossy.replace(4, 4, little(lossy.size() - 8, 4));
+    EXPECT_EQ(read_image(folder.write("lossy.webp", lossy)).width, 4);
+    EXPECT_THAT(error(folder / "lossy.webp"), HasSubstr("changed by"));
+  }
   EXPECT_EQ(read_depth(folder.write("of.webp", webp())).pixels[0],
             static_cast<float>((204 * 65536 + 199 * 256 + 230) / 16777215.0));
+}
+
+TEST(ImageFormats, DepthOfAnExrOfSeveralChannelsIsTheOneNamedSo) {
+  const TemporaryFolder folder;
+  const auto path = folder / "of.exr";
+  ReadReport report;
+  const auto made = [&](const std::vector<std::string>& names) {
+    Written what{1, 1, static_cast<int>(names.size())};
+    what.names = names;
+    std::vector<float> values;  // 1/8, 2/8, ... as they are named
+    for (std::size_t i = 1; i <= names.size(); ++i) values.push_back(static_cast<float>(i) / 8);
+    return write(path, what, values);
+  };
+  const auto depth = [&](const std::vector<std::string>& names) {
+    return read_depth(made(names), &report).pixels;
+  };
+  EXPECT_THAT(depth({"AO.V", "Depth.Z"}), ElementsAre(0.25f));
+  EXPECT_THAT(report.conversions, ElementsAre("channel Depth.Z of 2 taken as depth"));
+  EXPECT_THAT(depth({"R", "G", "B", "Z"}), ElementsAre(0.5f));
+  EXPECT_EQ(report.channels, 1);  // not 24 bits in R, G and B
+  EXPECT_THAT(depth({"R", "G", "B", "depth"}), ElementsAre(0.5f));
+  EXPECT_THAT(depth({"Z", "ZBack"}), ElementsAre(0.125f));
+  EXPECT_THAT(depth({"depth.Z", "normal.X", "normal.Y", "normal.Z"}), ElementsAre(0.125f));
+  EXPECT_THAT(depth({"V"}), ElementsAre(0.125f));
+  EXPECT_THAT(report.conversions, ElementsAre());
+  const std::vector<std::pair<std::vector<std::string>, std::string>> rejected = {
+      {{"AO.V", "Depth.V"}, "it has the channels AO.V, Depth.V, of which not one alone is named"},
+      {{"a.Z", "b.Z"}, "channels a.Z, b.Z,"},
+      {{"R", "G", "B"}, "channels R, G, B,"},
+      {{"normal.X", "normal.Y", "normal.Z"}, "channels normal.X, normal.Y, normal.Z,"}};
+  for (const auto& [names, words] : rejected)
+    EXPECT_THAT(file_error([&] { read_depth(made(names)); }), HasSubstr(words));
+}
+
+TEST(ImageFormats, DepthOfAnExrOfSeveralPicturesIsTheFirstIfNamedSo) {
+  const TemporaryFolder folder;
+  const auto path = (folder / "of.exr").string();
+  ReadReport report;
+  const auto depth = [&](const std::string& first, const std::string& second) {
+    std::vector<OIIO::ImageSpec> specs(2, OIIO::ImageSpec(1, 1, 1, OIIO::TypeFloat));
+    specs[0].channelnames = {first};
+    specs[1].channelnames = {second};
+    const auto output = OIIO::ImageOutput::create(path);
+    EXPECT_TRUE(output->open(path, 2, specs.data())) << output->geterror();
+    const float values[] = {0.25f, 0.5f};
+    EXPECT_TRUE(output->write_image(OIIO::TypeFloat, &values[0])) << output->geterror();
+    EXPECT_TRUE(output->open(path, specs[1], OIIO::ImageOutput::AppendSubimage));
+    EXPECT_TRUE(output->write_image(OIIO::TypeFloat, &values[1])) << output->geterror();
+    EXPECT_TRUE(output->close()) << output->geterror();
+    return read_depth(path, &report).pixels;
+  };
+  EXPECT_THAT(depth("Z", "V"), ElementsAre(0.25f));
+  EXPECT_THAT(report.conversions, ElementsAre("the first of several pictures"));
+  EXPECT_THAT(file_error([&] { depth("V", "Z"); }),
+              HasSubstr("it has several pictures, the first with V, of which not one alone"));
+}
+
+TEST(ImageFormats, GreyWhoseWhiteIs0IsTurnedRoundOrNamed) {
+  const TemporaryFolder folder;
+  const auto grey = [&](int extra, int samples, int bits) {
+    std::string bytes = tiff(extra, samples, bits, std::vector<unsigned>(2, 10));
+    const std::size_t tag = bytes.find(little(262, 2) + little(3, 2));
+    return folder.write("white.tif", bytes.replace(tag + 8, 1, 1, '\0'));
+  };
+  EXPECT_EQ(read_image(grey(-1, 1, 8)).pixels[0], (Rgba8{245, 245, 245, 255}));
+  EXPECT_THAT(file_error([&] { read_image(grey(-1, 1, 16)); }), HasSubstr("white is 0"));
+  EXPECT_THAT(file_error([&] { read_depth(grey(-1, 1, 16)); }), HasSubstr("white is 0"));
+  EXPECT_THAT(file_error([&] { read_image(grey(2, 2, 8)); }), HasSubstr("white is 0"));
+}
+
+TEST(ImageFormats, ChangedValuesAreCountedAndPlacedInThePicture) {
+  const TemporaryFolder folder;
+  ReadReport report;
+  // The first of three stored pixels is cut, and the third is at (1, 2).
+  read_image(write(folder / "of.exr", {3, 1, 3, -1, 2, 2, 4},
+                   std::vector<float>{7, 7, 7, 0, 0, 0, 0, 2, std::nanf("")}),
+             &report);
+  EXPECT_THAT(report.conversions,
+              AllOf(Contains("1 of 6 values clamped to [0, 1], the first at (1, 2)"),
+                    Contains("1 of 6 values NaN made 0, the first at (1, 2)")));
 }
 
 }  // namespace
