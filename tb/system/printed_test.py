@@ -16,7 +16,7 @@ import unittest
 DEBURR, ROOT = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
-from measurement.sources import write_png  # noqa: E402
+from reports.sources import write_png  # noqa: E402
 
 PAGES = {"tutorial/first_run": 3, "howto/which_engine": 2, "howto/smooth_my_frames": 2, "howto/explore_a_design": 3}
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.S | re.M)
