@@ -173,7 +173,7 @@ std::string too_complex(const PolygonCorners& polygon) {
 
 struct PolygonSplitter::State {
   struct Delete {
-    void operator()(GLUtesselator* tessellator) const { gluDeleteTess(tessellator); }
+    void operator()(GLUtesselator* one) const { gluDeleteTess(one); }
   };
   std::unique_ptr<GLUtesselator, Delete> tessellator{gluNewTess()};
   std::deque<Corner> made;  // at crossings
