@@ -62,14 +62,14 @@ class RegisterSuite {
     EXPECT_EQ(in_child([&] { return difference(file(), hardware()); }), "");
     const auto files = wrong_files(file());
     EXPECT_GE(files.size(), 20u);
-    for (const auto& [what, wrong] : files) {
-      const std::string text = in_child([&] { return difference(wrong, hardware()); });
-      EXPECT_FALSE(text.empty() || text.starts_with("exception")) << text << what;
+    for (const auto& wrong : files) {
+      const std::string text = in_child([&] { return difference(wrong.second, hardware()); });
+      EXPECT_FALSE(text.empty() || text.starts_with("exception")) << text << wrong.first;
     }
   }
   void wrong_hardware_is_seen() {
-    for (const auto& [what, wrong] : wrong_hardware(file(), hardware()))
-      EXPECT_NE(in_child([&] { return difference(file(), wrong); }), "") << what;
+    for (const auto& wrong : wrong_hardware(file(), hardware()))
+      EXPECT_NE(in_child([&] { return difference(file(), wrong.second); }), "") << wrong.first;
   }
 
  private:

@@ -445,15 +445,17 @@ TEST(ImageFormats, TruncatedFilesAreNamed) {
   const TemporaryFolder folder;
   const std::string iff =
       test::read_bytes(write(folder / "of.iff", {64, 64, 3}, Bytes(std::size_t{64} * 64 * 3, 200)));
-  for (const auto& [name, bytes] :
+  for (const auto& file :
        std::map<std::string, std::string>{{"cut.dds", raw_dds(kStraight)},
                                           {"cut_blocks.dds", block_dds("DXT2", 8)},
                                           {"cut.webp", webp()},
                                           {"cut.iff", iff},
                                           {"cut.tga", targa(0, kStraight)}})
-    EXPECT_THAT(
-        file_error([&] { read_image(folder.write(name, bytes.substr(0, bytes.size() - 4))); }),
-        AllOf(HasSubstr(name), testing::ContainsRegex("truncated|damaged")));
+    EXPECT_THAT(file_error([&] {
+                  const std::string& bytes = file.second;
+                  read_image(folder.write(file.first, bytes.substr(0, bytes.size() - 4)));
+                }),
+                AllOf(HasSubstr(file.first), testing::ContainsRegex("truncated|damaged")));
 }
 
 TEST(ImageFormats, WhatAFormatCannotKeepIsNotWritten) {
@@ -631,8 +633,10 @@ TEST(ImageFormats, DepthOfAnExrOfSeveralChannelsIsTheOneNamedSo) {
       {{"a.Z", "b.Z"}, "channels a.Z, b.Z,"},
       {{"R", "G", "B"}, "channels R, G, B,"},
       {{"normal.X", "normal.Y", "normal.Z"}, "channels normal.X, normal.Y, normal.Z,"}};
-  for (const auto& [names, words] : rejected)
+  for (const auto& [channels, words] : rejected) {
+    const std::vector<std::string>& names = channels;
     EXPECT_THAT(file_error([&] { read_depth(made(names)); }), HasSubstr(words));
+  }
 }
 
 TEST(ImageFormats, DepthOfAnExrOfSeveralPicturesIsTheFirstIfNamedSo) {

@@ -245,7 +245,8 @@ TEST(ObjPolygon, CornersKeepTheirTextureCoordinatesAndNormals) {
                                                      {V2d(1, 1), V3d(-1, 0, 0)},
                                                      {V2d(1, 2), V3d(0, -1, 0)},
                                                      {V2d(0, 2), V3d(0, 0, -1)}}};
-  for (const auto& [at, normal] : expected) {
+  for (const auto& [place, normal] : expected) {
+    const V2d at = place;
     const auto found =
         std::find_if(mesh.vertices.begin(), mesh.vertices.end(), [&](const Vertex& vertex) {
           return vertex.position.x == at.x && vertex.position.y == at.y;
