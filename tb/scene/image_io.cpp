@@ -503,9 +503,10 @@ DepthImage read_depth(const fs::path& path, ReadReport* report) {
     depth.pixels = read_pixels<float>(name, *decoder, 1);
   } else if (header.channels == 1 && header.value_format == kWords) {
     const std::vector<float> values = read_pixels<float>(name, *decoder, 1);
+    constexpr std::uint64_t kFrom = 65535, kTo = spec::kLargestDepth;
     for (std::size_t i = 0; i < values.size(); ++i) {
       const auto value = static_cast<std::uint64_t>(std::lround(values[i] * kLargestWord));
-      depth.pixels[i] = depth_of_code((2 * spec::kLargestDepth * value + 65535) / (2 * 65535));
+      depth.pixels[i] = depth_of_code((2 * kTo * value + kFrom) / (2 * kFrom));
     }
     if (report != nullptr)
       report->conversions.push_back(
