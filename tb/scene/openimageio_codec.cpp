@@ -292,7 +292,7 @@ class Decoder final : public ImageDecoder {
   }
 
  private:
-  bool read(int channels, OIIO::TypeDesc type, void* values) {
+  bool read(int channels, const OIIO::TypeDesc& type, void* values) {
     if (!changed_) return input_->read_image(0, 0, 0, channels, type, values) && !lost_an_error();
     OIIO::ImageInput* const changed = changed_->input();
     if (changed == nullptr) return false;
