@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <fstream>
 #include <set>
 #include <string>
 #include <tuple>
@@ -230,7 +229,6 @@ TEST(SharesCoverage, EveryClassAndEveryWordThatCanBeAskedFor) {
                                << "abc"[table] << ' ' << word;
       if (can && !was) rest += fmt::format(" {}{}", "abc"[table], word);
     }
-  std::ofstream("shares_not_asked.txt") << rest << '\n';
   for (std::size_t table = 0; table < 3; ++table) {
     EXPECT_LE(asked[table].size(), kNamed[table]);
     EXPECT_GE(asked[table].size() * 100, kNamed[table] * 92)
