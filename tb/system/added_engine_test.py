@@ -128,11 +128,14 @@ class Added(unittest.TestCase):
 
     # What the declaration leaves out, and works all the same.
     def test_what_an_engine_may_leave_out(self):
-        with open(os.path.join(SOURCE, "tool/run/engine.h"), encoding="utf-8") as file:
-            declared = file.read().split("class Engine {")[1].split("\n};")[0]
+        declared = own = ""
+        for header, base, file in (("tb/env/engine_testbench.h", "EngineTestbench", f"tb/engines/{NAME}/{NAME}_testbench.h"),
+                                   ("tool/run/engine.h", "Engine", f"tool/engines/{NAME}/{NAME}_engine.cpp")):
+            text = pathlib.Path(SOURCE, header).read_text(encoding="utf-8")
+            declared += text.split(f"class {base} ")[1].split("\n};")[0]
+            own += (HERE / file).read_text(encoding="utf-8")
         functions = dict(re.findall(r"virtual [^;{]*?\b(\w+)\([^;{]*?(= 0;|\{)", declared.replace("const {", "{")))
         functions |= {name: "{" for name in re.findall(r"virtual [^;{=]*?\b(\w+)\([^;{=]*?;", declared)}
-        own = (HERE / "tool/engines" / NAME / f"{NAME}_engine.cpp").read_text(encoding="utf-8")
         overridden = {name for name in functions if re.search(rf"\b{name}\([^;{{]*override", own)}
         self.assertEqual({name for name, body in functions.items() if body == "= 0;"} - overridden, set())
         self.assertEqual(set(functions) - overridden, {"parts", "clock_mhz", "resolve", "prepare", "built_for_golden",
