@@ -3,9 +3,10 @@
 """Checks that the names of all tests are the same on every build: no address, no bytes of a value that
 GoogleTest could not print, no path of the machine, and none twice; that every test source is in one
 program, that of its folder, has a namespace of its own, and names its tests as its path:
-tb/unit/fabric/link_test.cpp is fabric_link_test; that every class of tests in a tb/**/*_test.py, and
-every method of one of which methods are named, is run by some test; that every test has labels, of those
-that cmake/Labels.cmake lists; and that scripts/everything, and so CI, runs every test in one part."""
+tb/unit/fabric/link_test.cpp is fabric_link_test, tool/tests/run/reset_test.cpp tool_run_reset_test; that
+every class of tests in a *_test.py, and every method of one of which methods are named, is run by some
+test; that every test has labels, of those that cmake/Labels.cmake lists; and that scripts/everything, and
+so CI, runs every test in one part."""
 import argparse
 import ast
 import collections
@@ -69,19 +70,28 @@ def problems(listed):
         yield "no tests at all"
 
 
+def test_sources(source, pattern):
+    return [path for ring in ("tb", "tool", "studies") for path in sorted((source / ring).rglob(pattern))]
+
+
+def prefix(folders):
+    """What a test's name has in front by the folders of its source; of whole runs the ring alone."""
+    if folders[0] == "tb":
+        return {"unit": folders[2:], "fuzz": folders[1:]}.get(folders[1], ())
+    return folders[:1] if folders[2] == "system" else (folders[0], *folders[2:])
+
+
 def misnamed(listed, source):
     """Yields what is wrong with the sources of the test programs: (name, file, program) each."""
     files = [file for _, file, _ in listed]
-    for path in sorted((source / "tb").rglob("*_test.cpp")):
+    for path in test_sources(source, "*_test.cpp"):
         file = path.relative_to(source).as_posix()
         if files.count(file) != 1 and file not in SOMETIMES and not (
                 file.startswith(SOME_BUILDS) and file not in files):
             yield f"{file} is in {files.count(file)} test programs"
     for name, file, program in listed:
         path = pathlib.PurePosixPath(file)
-        folder = path.parent.parts[1:]
-        prefix = {"unit": folder[1:], "fuzz": folder}.get(folder[0], ())
-        if name != "_".join([*prefix, path.stem]):
+        if name != "_".join([*prefix(path.parent.parts), path.stem]):
             yield f"{file} is called {name}"
         if pathlib.PurePosixPath(program).parent != path.parent:
             yield f"{file} is in {program}"
@@ -112,10 +122,10 @@ def test_methods(text):
 
 
 def unregistered(tests, source):
-    """Yields what of the Python tests below tb none of these tests of ctest's listing runs. A command
+    """Yields what of the Python tests none of these tests of ctest's listing runs. A command
     that names neither class nor method runs the whole file."""
     commands = [test.get("command", []) for test in tests]
-    for path in sorted((source / "tb").rglob("*_test.py")):
+    for path in test_sources(source, "*_test.py"):
         file = path.relative_to(source).as_posix()
         calls = [command for command in commands if any(word.endswith("/" + file) for word in command)]
         if not calls:
@@ -144,11 +154,11 @@ def classes_without_a_test_are_caught():
             "Faults.test_one Faults.test_two SharesFaults": 0, None: 1}
     with tempfile.TemporaryDirectory() as folder:
         source = pathlib.Path(folder)
-        for file in ("negative/a_test.py", "hdl/b_test.py", "system/python_c_test.py"):
-            (source / "tb" / file).parent.mkdir(parents=True)
-            (source / "tb" / file).write_text(text, encoding="utf-8")
+        for file in ("tool/tests/negative/a_test.py", "tb/hdl/b_test.py", "tool/tests/system/python_c_test.py"):
+            (source / file).parent.mkdir(parents=True)
+            (source / file).write_text(text, encoding="utf-8")
         for words, faults in runs.items():
-            script = str(source / "tb/negative/a_test.py")
+            script = str(source / "tool/tests/negative/a_test.py")
             one = [{"command": [script, "-v", *words.split()]}] if words is not None else []
             each = [{"command": ["python3", script, word]} for word in (words or "").split()]
             if any(len(list(unregistered(tests, source))) != faults for tests in (one, each or one)):
