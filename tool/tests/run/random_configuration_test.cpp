@@ -29,7 +29,7 @@ void take(BoundEngine& bound, const std::string& engine, std::uint64_t seed) {
 
 // Each renders what its engine is given, which takes long: no more than it takes until every
 // parameter has varied. Sanitizers, which take ten times as long, do without that.
-constexpr std::uint64_t kLeastSeeds = kSanitized ? 20 : 100, kMostSeeds = kSanitized ? 20 : 500;
+constexpr std::uint64_t kLeastSeeds = kSanitized ? 20 : 40, kMostSeeds = kSanitized ? 20 : 500;
 
 TEST_P(RandomConfiguration, IsAcceptedAndVariesEveryParameterThatIsNotFixed) {
   const std::string engine = GetParam();
@@ -84,7 +84,7 @@ TEST_P(RandomConfiguration, IsTheSameForTheSameSeed) {
 // What only the model can tell when it is built.
 TEST_P(RandomConfiguration, CanBeBuilt) {
   const std::string engine = GetParam();
-  for (std::uint64_t seed = 0; seed < (kSanitized ? 10 : 60); ++seed) {
+  for (std::uint64_t seed = 0; seed < (kSanitized ? 10 : 30); ++seed) {
     const std::string rejected = forked_text([&]() -> std::string {
       const std::unique_ptr<Engine> made = engine_named(engine);
       BoundEngine bound(*made);
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, RandomConfiguration, testing::ValuesIn([] {
 TEST(RandomConfigurations, GoWithWhatIsGiven) {
   const std::vector<std::pair<std::string, std::string>> given = {{"texture.preset", "paper"}};
   std::set<std::string> axes;
-  for (std::uint64_t seed = 0; seed < (kSanitized ? 30 : 300); ++seed) {
+  for (std::uint64_t seed = 0; seed < (kSanitized ? 30 : 120); ++seed) {
     const std::unique_ptr<Engine> made = engine_named("texture");
     BoundEngine bound(*made);
     for (const auto& [name, value] : given) bound.set.set(name, value, "given");

@@ -168,13 +168,11 @@ class Replaced(InputsTest):
         self.assertEqual(self.figures(), before)
         self.assertEqual(self.load("out/sweeps/s/collected.json")["inputs"], inputs)
 
+    # Of each kind of file an engine: that all of them list these, Traced holds.
     def test_textures_of_an_obj(self):
         self.write_obj()
-        for engine in ENGINES:
-            with self.subTest(engine):
-                self.check_replaced(engine, "meshes/m.obj", "pictures/wood grain.png", png(220))
+        self.check_replaced(list(ENGINES)[len(ENGINES) // 2], "meshes/m.obj", "pictures/wood grain.png", png(220))
 
-    # Of other files an engine each: that all of them list these, Traced holds.
     def test_textures_of_a_gltf(self):
         self.write_gltf()
         self.check_replaced(list(ENGINES)[0], "meshes/m.gltf", "pictures/wood grain.png", png(220))
