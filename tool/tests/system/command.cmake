@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 add_dependencies(deburr_system_tests deburr_complete)
 add_dependencies(deburr_slurm_tests deburr_complete)
-deburr_test(tool_report_test LABELS system SOURCE report_test.cpp
-            LINK deburr::pages TIMEOUT 300)
 set(command $<TARGET_FILE:deburr>)
 deburr_script_test(memories ARGUMENTS ${command} "${PROJECT_SOURCE_DIR}/docs")
 deburr_script_test(terminal TIMEOUT 600 ARGUMENTS ${command}

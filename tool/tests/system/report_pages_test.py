@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Pages as a person has them: nothing wider than a phone, a text for each chart, ticks at round numbers, no dead
-link, the keyboard. Each page is opened in headless Chromium, in a frame as wide as a phone, with a probe added to a copy
-of it. Skipped where there is no Chromium.
+"""Pages as a person has them, from disk and without a network: charts and pictures are there, no script fails, the
+colour scheme is obeyed; nothing wider than a phone, a text for each chart, ticks at round numbers, no dead link, the
+keyboard. Each page is opened in headless Chromium, in frames as wide as a phone and a screen, with a probe added to
+copies of it. Skipped where there is no Chromium.
 
 usage: report_pages_test.py DEBURR [CLASS]
 DEBURR_KEEP_SCREENSHOTS=DIR leaves a picture of each page in DIR, 1280 and 390 pixels wide."""
@@ -29,6 +30,7 @@ FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-ne
          "--hide-scrollbars", "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr"]
 PHONE, DESKTOP = 390, 1280  # wide
 SCREEN = 844  # the height of a phone
+LIGHT, DARK = "rgb(246, 245, 242)", "rgb(19, 21, 24)"  # --page of report_style.css
 
 # Runs in the page, and tells the page around it.
 PROBE = """
@@ -46,6 +48,14 @@ const probe_page = async () => {
   const told = {
     width: root.clientWidth, needs: root.scrollWidth, wide,
     canvases: [...document.querySelectorAll('canvas')].map((c) => [c.id, label(c), c.getAttribute('role')]),
+    page: getComputedStyle(document.body).backgroundColor,
+    pictures: [...document.images].map((e) => [e.alt, e.naturalWidth]),
+    // Colours of each canvas; of one that shows a file, which no script may read, -1.
+    drawn: [...document.querySelectorAll('canvas')].filter((c) => c.getClientRects().length > 0 && c.width > 0).map((c) => {
+      try {
+        return [c.id, new Set(new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer)).size];
+      } catch { return [c.id, -1]; }
+    }),
     height: document.body.scrollHeight,
     contents: [...document.querySelectorAll('nav.contents a')].map((a) => a.getAttribute('href').slice(1)),
     heads: [...document.querySelectorAll('main h2')].filter((e) => e.getClientRects().length > 0).map((e) => e.id),
@@ -76,8 +86,14 @@ const probe_page = async () => {
 };
 addEventListener('load', probe_page);
 """
-AROUND = """<!doctype html><meta charset=utf-8><body style="margin:0"><iframe src="%s" style="border:0;width:%dpx;height:3000px"></iframe>
-<pre id=told></pre><script>addEventListener('message', (e) => { document.getElementById('told').textContent = e.data; });</script>"""
+AROUND = """<!doctype html><meta charset=utf-8><body style="margin:0">%s
+<pre id=told></pre><script>
+const told = [], frames_of_page = [...document.querySelectorAll('iframe')];
+addEventListener('message', (e) => {
+  told[frames_of_page.findIndex((f) => f.contentWindow === e.source)] = JSON.parse(e.data);
+  document.getElementById('told').textContent = JSON.stringify(told);
+});</script>"""
+FRAME = '<iframe src="%s" style="border:0;width:%dpx;height:3000px"></iframe>'
 
 
 def is_number(text):
@@ -130,24 +146,35 @@ class PagesTest(unittest.TestCase):
         self.assertEqual(said, [])
         return done.stdout
 
-    def probed(self, page, width=PHONE, keys=""):
-        """What the probe tells of a page below the directory."""
+    def all_probed(self, page, *frames, more=()):
+        """What the probe tells of a page below the directory, in a frame for each (width, keys, anchor)."""
         folder, name = os.path.split(self.path(page))
-        copy, around = os.path.join(folder, "probed_" + name), os.path.join(folder, "around_" + name)
+        around, copies, boxes = os.path.join(folder, "around_" + name), [], ""
         with open(self.path(page), encoding="utf-8") as file:
             text = file.read()
-        with open(copy, "w", encoding="utf-8") as file:
-            file.write(text.replace("</body>", f"<script>{keys}{PROBE}</script></body>"))
+        for number, (width, keys, anchor) in enumerate(frames):
+            copies.append(os.path.join(folder, f"probed{number}_{name}"))
+            with open(copies[-1], "w", encoding="utf-8") as file:
+                file.write(text.replace("</body>", f"<script>{keys}{PROBE}</script></body>"))
+            boxes += FRAME % (os.path.basename(copies[-1]) + anchor, width)
         with open(around, "w", encoding="utf-8") as file:
-            file.write(AROUND % (os.path.basename(copy), width))
+            file.write(AROUND % boxes)
         try:
-            dom = self.browse(f"file://{around}", "--window-size=1400,3100", "--virtual-time-budget=8000", "--dump-dom")
+            dom = self.browse(f"file://{around}", "--window-size=1800,3100", "--virtual-time-budget=8000", "--dump-dom", *more)
         finally:
-            os.remove(copy)
-            os.remove(around)
+            for file in (*copies, around):
+                os.remove(file)
         told = re.search(r'<pre id="told">(.*?)</pre>', dom, re.S)
         self.assertTrue(told and told[1], f"{page} has told nothing")
-        return json.loads(html.unescape(told[1]))
+        told = json.loads(html.unescape(told[1]))
+        self.assertEqual([each is not None for each in told], [True] * len(frames), f"{page} has not told all")
+        for each in told:
+            self.assertEqual([name for name, colours in each["drawn"] if 0 <= colours < 3], [], f"{page}: not drawn")
+            self.assertEqual([name for name, wide in each["pictures"] if wide == 0], [], f"{page}: no pictures")
+        return told
+
+    def probed(self, page, width=PHONE, keys="", anchor=""):
+        return self.all_probed(page, (width, keys, anchor))[0]
 
     def screenshots(self, page, title):
         keep = os.environ.get("DEBURR_KEEP_SCREENSHOTS")
@@ -165,8 +192,8 @@ class PagesTest(unittest.TestCase):
 
     def check(self, page, title, charts, keys=""):
         """Every demand that holds for all pages; gives what the probe told."""
-        told = self.probed(page, PHONE, keys)
-        self.assertEqual(told["width"], PHONE)
+        told, desktop = self.all_probed(page, (PHONE, keys, ""), (DESKTOP, "", ""))
+        self.assertEqual((told["width"], told["page"]), (PHONE, LIGHT))
         self.assertEqual(told["wide"], [], title)
         self.assertLessEqual(told["needs"], PHONE, title)
         self.assertGreaterEqual(len(told["canvases"]), charts)
@@ -183,7 +210,6 @@ class PagesTest(unittest.TestCase):
                 self.assertTrue(f'id="{link[1:]}"' in text or re.match("#(window|follow)-[0-9,]+$", link), f"{title}: {link}")
             else:
                 self.assertTrue(os.path.exists(os.path.join(os.path.dirname(self.path(page)), link)), f"{title}: {link}")
-        desktop = self.probed(page, DESKTOP)
         # What a chart draws keeps its height, however many rows its legend has.
         for (name, low, rows), (_, high, _) in zip(told["charts"], desktop["charts"]):
             self.assertGreater(low, 0.75 * high, f"{title}: {name} with {rows} rows of a legend")
@@ -304,8 +330,7 @@ class Runs(PagesTest):
     def test_stills(self):
         """All are of the frame, however small or narrow it is: of a map the map, not the paper of its scale."""
         self.deburr("run", "texture", "--size", "40x32", "--maps", "--out", "small")
-        for width in (PHONE, DESKTOP):
-            told = self.probed("small/report.html", width)
+        for told in self.all_probed("small/report.html", (PHONE, "", ""), (DESKTOP, "", "")):
             self.assertGreater(len(told["stills"]), 5)
             (across, down), = {(round(still[1]), round(still[2])) for still in told["stills"]}
             self.assertAlmostEqual(across / down, 40 / 32, delta=0.05)
@@ -335,13 +360,45 @@ class Runs(PagesTest):
             columns.add(column)
         self.assertEqual(columns, {False, True})
 
+    # The page's text once its scripts have run.
+    TEXT = "window.probe_keys = async () => document.body.innerHTML;"
+
+    def test_a_window_of_a_run(self):
+        """Its link gives the command that writes its waves."""
+        self.deburr("run", "texture", "--size", "128x128", "--windows", "1000", "--maps", "--trace", "colours", "--trace-to",
+                    "9", "--out", "run")
+        text = self.probed("run/report.html", DESKTOP, self.TEXT, "#window-3")["keys"]
+        self.assertIn("Window 3: cycles 3,004 to 4,004.", text)
+        self.assertRegex(text, r"--maps --out run --trace '\*' --trace-from 3004 --trace-to 4004</pre>")
+        for part in ('data-role="map_samples"', "map_latency.pfm", "latency_fifo_entries", "<option>tag_stage</option>",
+                     'href="#window-3">3,004 to 4,004</a>'):
+            self.assertIn(part, text)
+        for canvas in ("rate-time", "unit-time", "port-time", "link-time", "link-histogram"):
+            self.assertRegex(text, f'<canvas id="{canvas}"[^>]*style="[^"]*height: 2[0-9]+px')
+        (dark,) = self.all_probed("run/report.html", (DESKTOP, "", ""), more=("--force-dark-mode",))
+        self.assertEqual(dark["page"], DARK)
+
+    def test_the_pixel_of_a_mismatch(self):
+        """Its link gives the command that follows it."""
+        self.deburr("run", "texture", "--size", "64x48", "--fault", "flip-bit", "--pixel", "36,0", "--out", "run", codes=(1,))
+        text = self.probed("run/report.html", PHONE, self.TEXT, "#follow-7,9")["keys"]
+        self.assertIn('<h2 id="pixel">What happened to pixel 36,0</h2>', text)
+        self.assertIn('id="follow"><pre id="pixel-command">', text)  # not hidden
+        self.assertRegex(text, "--fault flip-bit --out run --pixel 7,9</pre>")
+        self.assertRegex(text, r"--pixel 36,0 --trace '\*' --trace-from [0-9]+")
+
     def test_what_the_checks_look_for(self):
-        """A page that is too wide, has charts without words and links that lead nowhere is noticed."""
+        """A script that fails, a page that is too wide, an empty chart, charts without words and links that lead nowhere
+        are noticed."""
+        for body in ("<script>undefined_function();</script>", "<canvas id=c></canvas>", "<img src=none.png>"):
+            with open(self.path("broken.html"), "w", encoding="utf-8") as file:
+                file.write(f"<!doctype html><body>{body}</body>")
+            self.assertRaises(AssertionError, self.probed, "broken.html")
         self.assertTrue(steps_are_round(["0", "50", "100"]) and steps_are_round(["2,500", "5,000", "7,500"]))
         self.assertFalse(steps_are_round(["4", "3,004", "6,004"]))
         self.assertFalse(steps_are_round(["0", "3", "6"]))
         with open(self.path("bad.html"), "w", encoding="utf-8") as file:
-            file.write("<!doctype html><meta name=viewport content=width=device-width><body><canvas id=c></canvas>"
+            file.write("<!doctype html><meta name=viewport content=width=device-width><body><canvas id=c hidden></canvas>"
                        "<h1>Alone <i>apart</i></h1><h1>Alone<i>joined</i></h1>"
                        "<div style='width:600px'>wide</div><a href=nowhere.json>x</a></body>")
         told = self.probed("bad.html")
@@ -443,6 +500,7 @@ class Sweeps(PagesTest):
         self.deburr("compare", "small", "large", "--html", "page.html", codes=(0, 1))
         told = self.check("page.html", "comparison_of_runs", 0, SEEN_TOGETHER % ("#differ + .scroll table, #figures + .scroll table, "
                                                                                  "#values + details table", 3))
+        self.assertGreater(len(told["pictures"]), 1)
         self.assertEqual(len(told["keys"]), 3)
         for head, rows, beyond, cut in told["keys"]:
             self.assertGreater(rows, 1)
