@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""A fifth engine (tb/system/added_engine), which the program was built with and nothing else of the repository names:
+"""A fifth engine (tool/tests/system/added_engine), which the program was built with and nothing else of the repository names:
 it is run, swept, regressed, completed, soaked and held to its baselines like the others. Its edits are counted.
 
 usage: added_engine_test.py DEBURR SOAK SOURCE"""
@@ -99,7 +99,7 @@ class Added(unittest.TestCase):
     def repository(self, *engines_there):
         """A tree whose list has these engines and the added one, with the tests of every engine."""
         root = self.folder / "repository"
-        for file in ("tb/engines/engine_list.py", *(f"tb/system/{name}_test.py" for name in TESTS)):
+        for file in ("tb/engines/engine_list.py", *(f"tool/tests/system/{name}_test.py" for name in TESTS)):
             os.makedirs(root / os.path.dirname(file), exist_ok=True)
             shutil.copy(os.path.join(SOURCE, file), root / file)
         for engine in engines_there:
@@ -114,7 +114,7 @@ class Added(unittest.TestCase):
 
         def run_tests(name, code=0):
             more = [os.path.join(SOURCE, "docs")] if name == "memories" else []
-            self.call(code, root / f"tb/system/{name}_test.py", DEBURR, *more, *TESTS[name])
+            self.call(code, root / f"tool/tests/system/{name}_test.py", DEBURR, *more, *TESTS[name])
 
         for name in TESTS:
             run_tests(name)
