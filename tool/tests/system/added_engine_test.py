@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""A fifth engine (tool/tests/system/added_engine), which the program was built with and nothing else of the repository names:
-it is run, swept, regressed, completed, soaked and held to its baselines like the others. Its edits are counted.
+"""A fifth engine (tool/tests/system/added_engine), which the program was built with and nothing else of the
+repository names: it is run, swept, regressed, completed, soaked and held to its baselines like the others. Its edits
+are counted.
 
 usage: added_engine_test.py DEBURR SOAK SOURCE"""
 import json
