@@ -14,13 +14,14 @@
 #include "spec/error.h"
 #include "spec/morphological/check_build.h"
 #include "spec/texture/check_build.h"
+#include "tb/engines/morphological/morphological_testbench.h"
 #include "tb/engines/texture/texture_expectation.h"
+#include "tb/engines/texture/texture_testbench.h"
 #include "tb/harness/verdict.h"
 #include "tb/system/morphological_runs.h"
 #include "tb/system/texture_runs.h"
 #include "tool/pages/run_context.h"
 #include "tool/pages/shared_inputs.h"
-#include "tool/run/engine.h"
 
 namespace deburr::tb::shared_golden_test {
 namespace {
@@ -53,18 +54,12 @@ struct Varied {
   }
 };
 
-std::unique_ptr<Engine> engine(std::string_view name) {
-  for (std::unique_ptr<Engine>& each : engines())
-    if (each->name() == name) return std::move(each);
-  return nullptr;
-}
-
 // What an engine says of itself, and a key that forgets the rest.
 template <class P>
 void every_parameter_is_in_the_key_or_matters_not(
-    std::string_view name, const std::function<std::string(const P&)>& golden_result) {
-  const std::unique_ptr<Engine> it = engine(name);
-  const std::vector<std::string_view> built = it->built_for_golden();
+    const EngineTestbench& engine, const std::function<std::string(const P&)>& golden_result) {
+  const std::string_view name = engine.name();
+  const std::vector<std::string_view> built = engine.built_for_golden();
   const Varied<P> plain(name);
   const std::string key = golden_dependencies(plain.set, 1, built).dump();
   const std::string before = golden_result(plain.values);
@@ -111,7 +106,7 @@ std::string bytes_of(const TextureExpectation& all) {
 TEST(SharedGolden, OfTheTextureUnitDependsOnItsKeyAlone) {
   const TextureScene scene(picture("tunnel", 24), {}, 1);
   every_parameter_is_in_the_key_or_matters_not<spec::texture::Parameters>(
-      "texture",
+      TextureTestbench(),
       [&](const spec::texture::Parameters& p) { return bytes_of(expected_of(scene, p)); });
 }
 
@@ -133,7 +128,7 @@ MorphologicalGolden worked_on(const MorphologicalInput& frame,
 TEST(SharedGolden, OfTheMorphologicalEngineDependsOnItsKeyAlone) {
   const MorphologicalInput frame = rendered("cylinders", 64, 48);
   every_parameter_is_in_the_key_or_matters_not<spec::morphological::Parameters>(
-      "morphological", [&](const spec::morphological::Parameters& p) {
+      MorphologicalTestbench(), [&](const spec::morphological::Parameters& p) {
         const MorphologicalGolden golden = worked_on(frame, p);
         std::string text;
         for (const Rgba8& pixel : golden.pixels()) text.append(pixel.begin(), pixel.end());

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""A fifth engine (tb/system/added_engine), which the program was built with and nothing else of the repository names:
-it is run, swept, regressed, completed, soaked and held to its baselines like the others. Its edits are counted.
+"""A fifth engine (tool/tests/system/added_engine), which the program was built with and nothing else of the
+repository names: it is run, swept, regressed, completed, soaked and held to its baselines like the others. Its edits
+are counted.
 
 usage: added_engine_test.py DEBURR SOAK SOURCE"""
 import json
@@ -99,7 +100,7 @@ class Added(unittest.TestCase):
     def repository(self, *engines_there):
         """A tree whose list has these engines and the added one, with the tests of every engine."""
         root = self.folder / "repository"
-        for file in ("tb/engines/engine_list.py", *(f"tb/system/{name}_test.py" for name in TESTS)):
+        for file in ("tb/engines/engine_list.py", *(f"tool/tests/system/{name}_test.py" for name in TESTS)):
             os.makedirs(root / os.path.dirname(file), exist_ok=True)
             shutil.copy(os.path.join(SOURCE, file), root / file)
         for engine in engines_there:
@@ -114,7 +115,7 @@ class Added(unittest.TestCase):
 
         def run_tests(name, code=0):
             more = [os.path.join(SOURCE, "docs")] if name == "memories" else []
-            self.call(code, root / f"tb/system/{name}_test.py", DEBURR, *more, *TESTS[name])
+            self.call(code, root / f"tool/tests/system/{name}_test.py", DEBURR, *more, *TESTS[name])
 
         for name in TESTS:
             run_tests(name)
@@ -128,11 +129,14 @@ class Added(unittest.TestCase):
 
     # What the declaration leaves out, and works all the same.
     def test_what_an_engine_may_leave_out(self):
-        with open(os.path.join(SOURCE, "tool/run/engine.h"), encoding="utf-8") as file:
-            declared = file.read().split("class Engine {")[1].split("\n};")[0]
+        declared = own = ""
+        for header, base, file in (("tb/env/engine_testbench.h", "EngineTestbench", f"tb/engines/{NAME}/{NAME}_testbench.h"),
+                                   ("tool/run/engine.h", "Engine", f"tool/engines/{NAME}/{NAME}_engine.cpp")):
+            text = pathlib.Path(SOURCE, header).read_text(encoding="utf-8")
+            declared += text.split(f"class {base} ")[1].split("\n};")[0]
+            own += (HERE / file).read_text(encoding="utf-8")
         functions = dict(re.findall(r"virtual [^;{]*?\b(\w+)\([^;{]*?(= 0;|\{)", declared.replace("const {", "{")))
         functions |= {name: "{" for name in re.findall(r"virtual [^;{=]*?\b(\w+)\([^;{=]*?;", declared)}
-        own = (HERE / "tool/engines" / NAME / f"{NAME}_engine.cpp").read_text(encoding="utf-8")
         overridden = {name for name in functions if re.search(rf"\b{name}\([^;{{]*override", own)}
         self.assertEqual({name for name, body in functions.items() if body == "= 0;"} - overridden, set())
         self.assertEqual(set(functions) - overridden, {"parts", "clock_mhz", "resolve", "prepare", "built_for_golden",

@@ -4,7 +4,6 @@
 
 #include <string>
 
-#include "tb/run/parameter_set.h"
 #include "tb/traces/trace_file.h"
 
 namespace deburr::tb {
@@ -19,8 +18,6 @@ void describe(LookUpTrace& p, Visitor& v) {
   v.boolean("line_trace_look_ups", p.look_ups,
             "lines.trace has every look-up of the texture cache too, and what came of it.");
 }
-// ConfigError for look-ups without a trace that they could be in.
-void reject_unused_look_ups(const ParameterSet& set);
 
 struct FragmentTraceOut {
   TraceChoice fragments = TraceChoice::kNone;
@@ -42,7 +39,5 @@ void describe(FragmentTraceIn& p, Visitor& v) {
          "Fragments of another rasteriser instead of the scene's own, which then gives the "
          "textures alone (docs/reference/traces.md).");
 }
-// ConfigError for what says how a scene is drawn, beside fragments that are drawn already.
-void reject_unused_scene(const ParameterSet& set);
 
 }  // namespace deburr::tb
