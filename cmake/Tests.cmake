@@ -9,10 +9,10 @@
 # regex of TIMING or LONG have the label `timing` or `long` too; a regex that matches none is an error of the
 # build.
 #
-# The sources of a folder are one program, named after it: rtl_texture_tests of tb/unit/rtl/texture;
-# there what is no unit test has a program of its own, by its first label: harness_negative_tests. PROGRAM
-# names another one, as for what loads a library that the others do not. Each source has a namespace of
-# its own (tb/unit/house/names_test.py).
+# The sources of a folder are one program, named after it: rtl_texture_tests of tb/unit/rtl/texture,
+# tool_pages_tests of tool/tests/pages; there what is no unit test has a program of its own, by its first
+# label: harness_negative_tests. PROGRAM names another one, as for what loads a library that the others do
+# not. Each source has a namespace of its own (tb/unit/house/names_test.py).
 function(deburr_test name)
   cmake_parse_arguments(ARG "" "SOURCE;PROGRAM;TIMEOUT" "LABELS;LINK;TIMING;LONG" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -20,15 +20,16 @@ function(deburr_test name)
   endif()
   list(GET ARG_LABELS 0 kind)
   if(NOT ARG_PROGRAM)
-    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY "${PROJECT_SOURCE_DIR}/tb"
+    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY "${PROJECT_SOURCE_DIR}"
                OUTPUT_VARIABLE path)
-    string(REPLACE "/" "_" ARG_PROGRAM "${path}_tests")
-    if(ARG_PROGRAM MATCHES "^unit_(.*)_tests$")
-      set(ARG_PROGRAM "${CMAKE_MATCH_1}_tests")
-      if(NOT kind STREQUAL "unit")
-        set(ARG_PROGRAM "${CMAKE_MATCH_1}_${kind}_tests")
-      endif()
+    set(of_units "${path}")
+    string(REGEX REPLACE "^tb/(unit/)?" "" path "${path}")
+    string(REGEX REPLACE "^([a-z]+/)tests/" "\\1" path "${path}")
+    string(REPLACE "/" "_" path "${path}")
+    if(of_units MATCHES "^tb/unit/|/tests/" AND NOT kind STREQUAL "unit")
+      string(APPEND path "_${kind}")
     endif()
+    set(ARG_PROGRAM "${path}_tests")
   endif()
   set(program ${ARG_PROGRAM})
   if(NOT TARGET ${program})

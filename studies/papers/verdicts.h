@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The verdicts of the reproduction report: each a word that follows from figures, and each tested
-// with figures that speak against the paper (tb/unit/papers/verdicts_test.cpp).
+// with figures that speak against the paper (studies/tests/papers/verdicts_test.cpp).
 #pragma once
 
 #include <cstddef>

@@ -11,6 +11,7 @@
 
 #include "spec/error.h"
 #include "tb/base/file.h"
+#include "tb/run/result.h"
 
 namespace deburr::tb {
 namespace {
@@ -116,6 +117,21 @@ void add_camera(FrameLists& lists, const CameraParameters& camera) {
 void choose_camera(CameraParameters& camera, const FrameLists& lists, int frame) {
   camera.eye = lists.at("scene.eye", frame);
   camera.target = lists.at("scene.target", frame);
+}
+
+void add_flicker(Result& result, const FlickerMeter& after, const FlickerMeter& before) {
+  result.work.push_back({"flicker", after.mean(), "1/255",
+                         "Root mean square of what a pixel changes from frame to frame more or "
+                         "less than its truth (without a truth: than what went in), in runs of "
+                         "several frames (sequence.frames, lists)."});
+  result.work.push_back(
+      {"flicker_worst", after.worst(), "1/255", "The same of the pair of frames with the most."});
+  const bool flickers = after.worst() > 0;
+  result.work.push_back(
+      {"flicker_worst_frame",
+       flickers ? WorkValue(static_cast<std::uint64_t>(after.worst_frame())) : WorkValue(), "",
+       "The second frame of that pair, counted from 0; null where nothing flickers."});
+  result.work.push_back({"flicker_before", before.mean(), "1/255", "As flicker, of what went in."});
 }
 
 }  // namespace deburr::tb

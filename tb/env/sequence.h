@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
@@ -10,9 +11,13 @@
 
 #include "tb/env/camera_parameters.h"
 #include "tb/run/given_work.h"
+#include "tb/scene/mesh.h"
 #include "tb/scene/motion.h"
+#include "tb/scene/quality.h"
 
 namespace deburr::tb {
+
+struct Result;
 
 struct SequenceParameters {
   std::int32_t frames = 1;
@@ -55,8 +60,23 @@ class FrameLists {
   int frames_ = 1;
 };
 
+// Every file of all frames, by lists_of(), in_frame() and frame_files() of an engine's parameters.
+template <class Parameters>
+std::vector<std::filesystem::path> files_of_frames(const Parameters& parameters,
+                                                   MeshFiles& meshes) {
+  const FrameLists lists = lists_of(parameters);
+  std::vector<std::filesystem::path> files;
+  for (int i = 0; i < lists.frames(); ++i)
+    for (const std::filesystem::path& file : frame_files(in_frame(parameters, lists, i), meshes))
+      add_once(files, file);
+  return files;
+}
+
 // Eye and target of a camera under "scene.": lists too.
 void add_camera(FrameLists& lists, const CameraParameters& camera);
 void choose_camera(CameraParameters& camera, const FrameLists& lists, int frame);
+
+// Counters of a run of several frames: of the golden model's pictures, and of the input.
+void add_flicker(Result& result, const FlickerMeter& after, const FlickerMeter& before);
 
 }  // namespace deburr::tb

@@ -209,4 +209,10 @@ void Simulation::collect(Result& result) const {
   environment_->collect_headline(result);
 }
 
+void describe(Simulation& simulation, Environment& environment, Result& result) {
+  simulation.elaborate(environment);
+  simulation.collect(result);
+  result.faults = simulation.faults().known_names();
+}
+
 }  // namespace deburr::tb

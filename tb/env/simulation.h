@@ -107,4 +107,8 @@ class Simulation {
   bool running_ = false, stopped_ = false, complete_ = false;
 };
 
+// For EngineTestbench::describe_statistics(): what an environment reports, and its faults, without
+// a run.
+void describe(Simulation& simulation, Environment& environment, Result& result);
+
 }  // namespace deburr::tb

@@ -1,27 +1,21 @@
 // SPDX-License-Identifier: MIT
-// An engine declares itself here, once: what it is called, what it is given, what its runs leave,
-// what its reference pages hold, and how random and long runs of it are made. Everything around it
-// reads the declaration and names no engine. To add one: implement this in tb/engines/NAME, and add
-// NAME to tb/engines/engines.txt (docs/howto/add_an_engine.md).
+// The command's half of an engine's declaration: how it is run, what its runs leave, and how random
+// and long runs of it are made. The testbench half is tb/env/engine_testbench.h. An engine is
+// declared once; everything around it reads the declaration and names no engine. To add one:
+// implement the halves in tb/engines/NAME and tool/engines/NAME, and add NAME to
+// tb/engines/engines.txt (docs/howto/add_an_engine.md).
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "rtl_model/fabric/datasheet.h"
-#include "rtl_model/fabric/register_section.h"
-#include "tb/harness/coverage.h"
+#include "tb/env/engine_testbench.h"
 #include "tb/run/given_work.h"
-#include "tb/run/parameter_set.h"
-#include "tb/run/result.h"
-#include "tb/scene/mesh.h"
 #include "tb/traces/trace_file.h"
 #include "tool/pages/run_context.h"
 #include "tool/run/random_draws.h"
@@ -116,41 +110,11 @@ void describe(RunParameters& p, Visitor& v) {
   v.boolean("images", p.images, "Leave pictures, and show them in the report.");
 }
 
-// Of an engine whose rules are registers.
-enum class Program : std::uint8_t { kRegisters, kReset };
-inline constexpr std::array<std::string_view, 2> kProgramNames = {"registers", "reset"};
-
-struct ProgramParameters {
-  Program program = Program::kRegisters;
-};
-
-template <class Visitor>
-void describe(ProgramParameters& p, Visitor& v) {
-  v.choice(
-      "program", p.program, kProgramNames,
-      "registers: after each reset the driver writes the rules to an engine whose reset values "
-      "are others. reset: the engine is built with the rules as reset values. Must change "
-      "nothing.");
-}
-
 // A command line option that stands for a parameter, or for two that are given as AxB. Without a
 // value it sets a switch to `given`.
 struct Shorthand {
   std::string option, parameter, help;
   std::string second_parameter{}, given = "true";
-};
-
-// Of docs/reference/datasheets.md: an engine's units.
-struct DatasheetSection {
-  std::string module;  // as its page calls it; empty: the engine has no units of its own
-  std::vector<rtl::Datasheet> sheets;
-};
-
-// Of docs/reference/coverage.md: every bin of an engine, those too that only directed tests meet.
-struct CoverageSection {
-  std::string title;  // of its table; empty: the engine has no bins of its own
-  Coverage bins;
-  std::span<const CoverageGroup> groups;
 };
 
 // What makes a long run of random settings: many frames, or a large one.
@@ -162,25 +126,19 @@ struct LongRun {
 
 class CompositionRole;
 
-class Engine {
+class Engine : public virtual EngineTestbench {
  public:
-  virtual ~Engine() = default;
-  virtual std::string_view name() const = 0;
   virtual std::string_view summary() const = 0;
-  // What it is in a composition, with parameters of its own (tool/run/composition.h); null: it is
-  // in none.
+  // Its role in a composition, with parameters of its own (tool/run/composition.h); null: none.
   virtual std::unique_ptr<CompositionRole> role() const;
   // Engines that it is composed of, by name. Their maps (with "NAME_" in front), bins and draws are
   // its own too.
   virtual std::vector<std::string_view> parts() const { return {}; }
-  // What its rates and times are quoted for, unless run.clock_mhz is given: the texture paper's.
-  virtual double clock_mhz() const { return 166.67; }
   RunParameters run_parameters() const {
     RunParameters run;
     run.clock_mhz = clock_mhz();
     return run;
   }
-  virtual void add_parameters(ParameterSet& set) = 0;
   virtual std::vector<Shorthand> shorthands() const = 0;
   // Options of runs that are worth a look, for its --help: one at least. What they read is called
   // mesh.obj or frame.png.
@@ -194,20 +152,9 @@ class Engine {
   // Simulates and fills the context's images. Errors of the run are exceptions (spec/error.h);
   // what was measured until then is in `result`.
   virtual void run(const RunParameters& run, RunContext& context, Result& result) = 0;
-  // Every file that run() opens, or looks for in vain, named by a parameter or by another file:
-  // what they hold is in the keys of all that is kept of a run. After resolve().
-  virtual std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const = 0;
   // Makes what run() will take from context.shared(), for all runs that are to share it. It makes
   // nothing of SystemC, so that a process can run() behind it as often as it forks.
   virtual void prepare(const RunParameters&, RunContext&) {}
-  // Names of what is built and yet decides what the golden model says, as a cache's size decides
-  // its misses. Runs that agree in these, in rules and in inputs are checked with one golden
-  // result.
-  virtual std::vector<std::string_view> built_for_golden() const { return {}; }
-  // Every counter and stall cause that a run of this engine reports, for
-  // docs/reference/statistics.md. It elaborates the model, so it is called at most once a process,
-  // and not in one that runs.
-  virtual void describe_statistics(Result& result) = 0;
 
   // ---- what its runs may leave, by name: NAME.png; map_NAME.png and map_NAME.pfm
   virtual std::vector<std::string_view> pictures() const = 0;
@@ -215,11 +162,6 @@ class Engine {
 
   // What its history of one pixel shows (run.pixel), in a few words; empty: it keeps none.
   virtual std::string_view pixel_history() const { return {}; }
-
-  // ---- reference pages
-  virtual rtl::RegisterSection registers() const { return {}; }
-  virtual CoverageSection coverage() const { return {}; }
-  virtual DatasheetSection datasheets() const { return {}; }
 
   // ---- runs that nobody chose
   virtual RandomDraws random_draws() const { return {}; }

@@ -11,25 +11,6 @@
 #include "tb/scene/quality.h"
 
 namespace deburr::tb {
-namespace {
-
-void add(Result& result, const FlickerMeter& after, const FlickerMeter& before) {
-  result.work.push_back({"flicker", after.mean(), "1/255",
-                         "Root mean square of what a pixel changes from frame to frame more or "
-                         "less than its truth (without a truth: than what went in), in runs of "
-                         "several frames (sequence.frames, lists)."});
-  result.work.push_back(
-      {"flicker_worst", after.worst(), "1/255", "The same of the pair of frames with the most."});
-  const bool flickers = after.worst() > 0;
-  result.work.push_back(
-      {"flicker_worst_frame",
-       flickers ? WorkValue(static_cast<std::uint64_t>(after.worst_frame())) : WorkValue(), "",
-       "The second frame of that pair, counted from 0; null where nothing flickers."});
-  result.work.push_back({"flicker_before", before.mean(), "1/255", "As flicker, of what went in."});
-}
-
-}  // namespace
-
 std::vector<Shorthand> sequence_shorthands() {
   return {
       {"--frames", "sequence.frames", "Measures flicker over so many frames of a moving camera"},
@@ -72,7 +53,7 @@ void measure_flicker(int frames, const RunContext& context, Result& result,
     result.interrupted = true;
     return;
   }
-  add(result, after, before);
+  add_flicker(result, after, before);
   result.terminal.push_back(
       {"flicker", fmt::format("{:.2f}/255 over {} frames{}, {}", after.mean(), frames,
                               after.worst() > 0 ? fmt::format(" (worst {:.2f}, at frame {})",
@@ -86,7 +67,5 @@ void measure_flicker(int frames, const RunContext& context, Result& result,
     result.figures.push_back(
         {"Flicker, against what went in", "work.flicker", "went in", "work.flicker_before"});
 }
-
-void describe_flicker(Result& result) { add(result, {}, {}); }
 
 }  // namespace deburr::tb

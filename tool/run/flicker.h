@@ -37,7 +37,5 @@ struct SequencePicture {
 // result is marked.
 void measure_flicker(int frames, const RunContext& context, Result& result,
                      const std::function<SequencePicture(int)>& picture);
-// Its counters, for docs/reference/statistics.md.
-void describe_flicker(Result& result);
 
 }  // namespace deburr::tb

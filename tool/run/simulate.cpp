@@ -181,10 +181,4 @@ std::string from_repository(const std::string& text) {
   return text;
 }
 
-void describe(Simulation& simulation, Environment& environment, Result& result) {
-  simulation.elaborate(environment);
-  simulation.collect(result);
-  result.faults = simulation.faults().known_names();
-}
-
 }  // namespace deburr::tb

@@ -27,7 +27,4 @@ void simulate(Simulation& simulation, Environment& environment, RunContext& cont
 // know it: from the root of the repository.
 std::string from_repository(const std::string& text);
 
-// For Engine::describe_statistics(): what an environment reports, without a run.
-void describe(Simulation& simulation, Environment& environment, Result& result);
-
 }  // namespace deburr::tb

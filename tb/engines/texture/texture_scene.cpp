@@ -74,10 +74,23 @@ TextureScene::TextureScene(const SceneParameters& scene, const SamplerParameters
   stream_ = rasterise(scene_, options);
 }
 
-std::vector<std::filesystem::path> scene_files(const SceneParameters& scene, MeshFiles& meshes) {
+std::vector<std::filesystem::path> frame_files(const SceneParameters& scene, MeshFiles& meshes) {
   SceneOptions options;
   options.texture = scene.texture;
   return scene_files(scene.source, options, meshes);
+}
+
+void add_sampler(ParameterSet& set, SamplerParameters& sampler) {
+  set.add("sampler", ParameterKind::kInput, sampler);
+  constexpr auto kTrilinear =
+      static_cast<std::size_t>(spec::texture::MinFilter::kLinearMipmapLinear);
+  set.alias("sampler.mode", "trilinear", spec::texture::kMinFilterNames[kTrilinear]);
+}
+
+TextureScene smallest(SceneParameters scene, const SamplerParameters& sampler) {
+  scene.width = scene.height = 2;
+  scene.texture_size = 4;
+  return {scene, sampler, 1};
 }
 
 FrameLists lists_of(const SceneParameters& scene) {
@@ -91,15 +104,6 @@ SceneParameters in_frame(SceneParameters scene, const FrameLists& lists, int fra
   scene.source = lists.at("scene.source", frame);
   choose_camera(scene, lists, frame);
   return scene;
-}
-
-std::vector<std::filesystem::path> scene_files(const SceneParameters& scene,
-                                               const FrameLists& lists, MeshFiles& meshes) {
-  std::vector<std::filesystem::path> files;
-  for (int i = 0; i < lists.frames(); ++i)
-    for (const std::filesystem::path& file : scene_files(in_frame(scene, lists, i), meshes))
-      add_once(files, file);
-  return files;
 }
 
 void TextureScene::lay_out(const SamplerParameters& sampler) {

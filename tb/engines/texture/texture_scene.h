@@ -18,6 +18,7 @@
 #include "tb/env/memory_parameters.h"
 #include "tb/env/sequence.h"
 #include "tb/run/given_work.h"
+#include "tb/run/parameter_set.h"
 #include "tb/scene/drawn_scene.h"
 #include "tb/scene/image.h"
 #include "tb/scene/motion.h"
@@ -93,6 +94,9 @@ void describe(SamplerParameters& p, Visitor& v) {
   v.integer("max_lod", p.max_lod, 0, 65535, "1/256 level", "Upper limit of the level of detail.");
 }
 
+// The parameters "sampler.*": `trilinear` is a word for linear_mipmap_linear.
+void add_sampler(ParameterSet& set, SamplerParameters& sampler);
+
 class TextureScene final : public DrawnScene {
  public:
   // Loads, rasterises and lays out. ConfigError and FileError as of tb/scene.
@@ -119,15 +123,14 @@ class TextureScene final : public DrawnScene {
   platform::TextureMemory memory_;
 };
 
+// The smallest picture of a scene, to elaborate with.
+TextureScene smallest(SceneParameters scene, const SamplerParameters& sampler);
+
 // What parameters say of each frame: meshes and cameras may be lists.
 FrameLists lists_of(const SceneParameters& scene);
 SceneParameters in_frame(SceneParameters scene, const FrameLists& lists, int frame);
-// Of all frames.
-std::vector<std::filesystem::path> scene_files(const SceneParameters& scene,
-                                               const FrameLists& lists, MeshFiles& meshes);
-
 // TextureScene::inputs(), without loading.
-std::vector<std::filesystem::path> scene_files(const SceneParameters& scene, MeshFiles& meshes);
+std::vector<std::filesystem::path> frame_files(const SceneParameters& scene, MeshFiles& meshes);
 
 // A golden model with the scene's textures, of a memory that answers with errors in `errors`. The
 // scene must outlive it.

@@ -21,17 +21,19 @@ ALLOWED = {
     "tool": {"spec", "golden", "rtl_model", "tb", "tool"},
     "studies": {"spec", "golden", "rtl_model", "tb", "tool", "studies"},
 }
-# Rings from the models out. Tests, which stand in tb, look into all of them.
+# Rings from the models out; each has its tests.
 RINGS = ("tb", "tool", "studies")
-# Rooms of tb that only tests look into; what the command is built from does not.
-TESTS_ALONE = {"unit", "system", "oracle", "negative", "bench", "baselines", "hdl", "fuzz"}
+# Rooms that tests and studies look into; what the command is built from does not.
+TESTS_ALONE = {"unit", "system", "oracle", "bench", "baselines", "hdl", "fuzz", "tests"}
+# The readers of the tool are fuzzed with those of the testbench.
+SEES_THE_TOOL = {"tb/fuzz"}
 # rtl_model/platform is software's side: it knows engines by their registers in spec, and no engine
 # knows it.
 PLATFORM_MAY_INCLUDE = {"platform", "fabric"}
 # Rooms of a ring from below: a room includes itself and what stands before it. Tests and benchmarks stand above all.
 ROOMS = {"tb": ["base", "scene", "stimuli", "harness", "run", "traces", "env", "engines"],
          "tool": ["pages", "run", "engines", "sweep", "regress", "command", "soak"],
-         "studies": ["training", "papers"]}
+         "studies": ["training", "papers", "quality"]}
 # Rooms that stand beside the simulation: no header on their way is SystemC's, which takes longer to compile than
 # all of theirs. Nor is json.hpp in a header, where json_fwd.hpp does.
 WITHOUT_SYSTEMC = {"tb/base", "tb/scene", "tb/stimuli", "tb/run", "tool/pages", "tool/sweep", "tool/regress", "tool/command",
@@ -154,7 +156,8 @@ def violations(root):
             if way:
                 yield f"{where}:1: SystemC beside the simulation: " + " -> ".join(way)
             ideal = where.parts[:2] == ("golden", "ideal")
-            of_tests = layer == "tb" and where.parts[1] in TESTS_ALONE
+            of_tests = layer in RINGS and where.parts[1] in TESTS_ALONE
+            sees_the_tool = "/".join(where.parts[:2]) in SEES_THE_TOOL
             for number, line in enumerate(lines, 1):
                 include = INCLUDE.match(line)
                 if include:
@@ -170,7 +173,7 @@ def violations(root):
                     if layer in {"spec", "golden"} and name.split("/")[0] in {"systemc", "tlm"}:
                         yield f"{where}:{number}: SystemC in {layer}"
                     first = name.split("/")[0]
-                    if first in ALLOWED and first not in allowed and not (of_tests and first in RINGS):
+                    if first in ALLOWED and first not in allowed and not (sees_the_tool and first == "tool"):
                         yield f"{where}:{number}: {layer} includes {first}"
                     if first == layer == "rtl_model":
                         room, wanted = where.parts[1], name.split("/")[1]
@@ -180,7 +183,7 @@ def violations(root):
                             yield f"{where}:{number}: hardware includes rtl_model/platform"
                     if layer == first and layer in RINGS and not in_order(where.parts, name.split("/")):
                         yield f"{where}:{number}: {layer}/{where.parts[1]} includes {name}, which does not stand below it"
-                    if layer in RINGS and not of_tests and first == "tb" and name.split("/")[1] in TESTS_ALONE:
+                    if layer in {"tb", "tool"} and not of_tests and first in RINGS and name.split("/")[1] in TESTS_ALONE:
                         yield f"{where}:{number}: test support in the command"
                 if (layer in {"golden", "rtl_model"} and not ideal and where.as_posix() not in DOUBLES
                         and FLOATING.search(line)):
@@ -228,6 +231,9 @@ def planted_faults_are_caught():
         "tool/run/c.h": "#include <nlohmann/json.hpp>",
         "tool/run/d.cpp": '#include "studies/papers/papers.h"',
         "tb/env/a.cpp": '#include "tool/run/engine.h"',
+        "tb/unit/env/a.cpp": '#include "tool/run/engine.h"',
+        "tool/tests/run/a.cpp": '#include "studies/papers/papers.h"',
+        "tool/sweep/a.cpp": '#include "tool/tests/run/support.h"',
         "tb/run/a.h": "#include <systemc>",
         "tb/base/a.cpp": '#include "tb/run/result.h"',
         "tb/engines/foo/a.cpp": '#include "tb/engines/bar/bar_environment.h"',

@@ -3,6 +3,7 @@
 """scripts/tidy on a tree of two files: it finds what is planted, and looks again at what has changed and at nothing
 else. usage: tidy_test.py SOURCE [unittest options]"""
 import json
+import os
 import pathlib
 import shutil
 import subprocess
@@ -23,7 +24,8 @@ class Tidy(unittest.TestCase):
         (self.root / "build/release").mkdir(parents=True)
         (self.root / "golden").mkdir()
         (self.root / "scripts").mkdir()
-        shutil.copy(SOURCE / "scripts/tidy", self.root / "scripts/tidy")
+        for name in ("scripts/tidy", "scripts/changed.py"):
+            shutil.copy(SOURCE / name, self.root / name)
         shutil.copy(SOURCE / ".clang-tidy", self.root / ".clang-tidy")
         (self.root / "golden/a.cpp").write_text('#include "golden/a.h"\nint* a() { return nothing(); }\n',
                                                 encoding="utf-8")
@@ -38,8 +40,8 @@ class Tidy(unittest.TestCase):
         (self.root / "golden/a.h").write_text(text, encoding="utf-8")
 
     def tidy(self, *arguments):
-        done = subprocess.run([self.root / "scripts/tidy", *arguments], capture_output=True,
-                              text=True, check=False)
+        done = subprocess.run([self.root / "scripts/tidy", *arguments], capture_output=True, text=True, check=False,
+                              env={**os.environ, "DEBURR_CHANGED_HOURS": ""})
         clean = len(list((self.root / "build/tidy").glob("*")))
         return done.returncode, clean, done.stdout + done.stderr
 

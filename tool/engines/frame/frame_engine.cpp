@@ -82,7 +82,7 @@ class FrameCommand final : public Engine {
     const std::unique_ptr<FrameComposition> frame =
         FrameComposition::of_all(simulation, *scene, roles());
     describe(simulation, *frame, result);
-    describe_flicker(result);
+    add_flicker(result, {}, {});
   }
 
   std::vector<std::string_view> parts() const override {

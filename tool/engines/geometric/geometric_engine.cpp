@@ -9,13 +9,9 @@
 #include <vector>
 
 #include "golden/geometric/configuration.h"
-#include "rtl_model/geometric/datasheets.h"
-#include "rtl_model/geometric/register_section.h"
-#include "spec/geometric/check_build.h"
 #include "tb/base/interrupt.h"
-#include "tb/engines/geometric/geometric_coverage.h"
 #include "tb/engines/geometric/geometric_environment.h"
-#include "tb/engines/geometric/geometric_frames.h"
+#include "tb/engines/geometric/geometric_testbench.h"
 #include "tb/run/amount.h"
 #include "tb/run/progress.h"
 #include "tool/engines/geometric/geometric_draws.h"
@@ -31,23 +27,12 @@
 namespace deburr::tb {
 namespace {
 
-class GeometricCommand final : public Engine {
+class GeometricCommand final : public Engine, public GeometricTestbench {
  public:
-  std::string_view name() const override { return "geometric"; }
   std::string_view summary() const override {
     return "A lit scene and the edges of its mesh through the geometric engine";
   }
   std::unique_ptr<CompositionRole> role() const override { return make_geometric_role(); }
-
-  double clock_mhz() const override { return 250; }  // what its units are made for
-
-  void add_parameters(ParameterSet& set) override {
-    set.add("scene", ParameterKind::kInput, scene_);
-    set.add("sequence", ParameterKind::kInput, sequence_);
-    set.add_engine("geometric", parameters_);
-    add_memory(set, "memory", memory_);
-    set.add("run", ParameterKind::kRun, program_);
-  }
 
   void resolve(ParameterSet& set) override {
     apply_preset(set, parameters_);
@@ -103,27 +88,7 @@ class GeometricCommand final : public Engine {
                       [&](int i) { return picture_of(i, static_cast<std::uint32_t>(run.seed)); });
   }
 
-  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
-    const FrameLists lists = lists_of(scene_);
-    std::vector<std::filesystem::path> files;
-    for (int i = 0; i < lists.frames(); ++i)
-      for (const std::filesystem::path& file : frame_files(in_frame(scene_, lists, i), meshes))
-        add_once(files, file);
-    return files;
-  }
-
   void prepare(const RunParameters& run, RunContext& context) override { load(run, context); }
-
-  void describe_statistics(Result& result) override {
-    geometric::Frame smallest;
-    smallest.image = Image(2, 2);
-    smallest.depths.assign(4, 0);
-    const std::vector<geometric::Frame> frames = {smallest};
-    Simulation simulation({});
-    GeometricEnvironment environment(simulation, frames, {});
-    describe(simulation, environment, result);
-    describe_flicker(result);
-  }
 
   std::vector<std::string_view> pictures() const override {
     return {"before", "after",  "golden",  "difference", "truth",
@@ -135,19 +100,6 @@ class GeometricCommand final : public Engine {
 
   std::string_view pixel_history() const override {
     return "lines that pass it, candidates with depth and test, weights, colour";
-  }
-
-  rtl::RegisterSection registers() const override {
-    return rtl::geometric::register_section(parameters_);
-  }
-  CoverageSection coverage() const override {
-    CoverageSection section{"Geometric engine", declared_geometric_coverage(),
-                            geometric_coverage_groups()};
-    declare_directed_geometric_coverage(section.bins);
-    return section;
-  }
-  DatasheetSection datasheets() const override {
-    return {"GeometricEngine", rtl::geometric::datasheets()};
   }
 
   RandomDraws random_draws() const override { return geometric_draws(); }
@@ -237,13 +189,8 @@ class GeometricCommand final : public Engine {
           measure_quality(loaded.truth_name, before, after, *loaded.truth, &loaded.frame.depth);
   }
 
-  GeometricSceneParameters scene_;
-  SequenceParameters sequence_;
   FrameLists lists_;
   int frames_ = 1;
-  spec::geometric::Parameters parameters_;
-  MemoryParameters memory_;
-  ProgramParameters program_;
   std::string preset_label_;
 };
 

@@ -9,15 +9,11 @@
 #include <utility>
 
 #include "golden/morphological/configuration.h"
-#include "rtl_model/morphological/datasheets.h"
-#include "rtl_model/morphological/register_section.h"
 #include "spec/error.h"
-#include "spec/morphological/check_build.h"
 #include "tb/base/file.h"
 #include "tb/base/interrupt.h"
-#include "tb/engines/morphological/morphological_coverage.h"
 #include "tb/engines/morphological/morphological_environment.h"
-#include "tb/engines/morphological/morphological_frames.h"
+#include "tb/engines/morphological/morphological_testbench.h"
 #include "tb/run/progress.h"
 #include "tb/scene/image_bytes.h"
 #include "tb/scene/truth.h"
@@ -34,23 +30,12 @@
 namespace deburr::tb {
 namespace {
 
-class MorphologicalCommand final : public Engine {
+class MorphologicalCommand final : public Engine, public MorphologicalTestbench {
  public:
-  std::string_view name() const override { return "morphological"; }
   std::string_view summary() const override {
     return "An image or a scene through the morphological engine, checked pixel by pixel";
   }
   std::unique_ptr<CompositionRole> role() const override { return make_morphological_role(); }
-
-  double clock_mhz() const override { return 148.5; }  // the pixel clock of 1080p60
-
-  void add_parameters(ParameterSet& set) override {
-    set.add("frame", ParameterKind::kInput, frame_);
-    set.add("sequence", ParameterKind::kInput, sequence_);
-    set.add_engine("morphological", parameters_);
-    add_memory(set, "memory", memory_);
-    set.add("run", ParameterKind::kRun, program_);
-  }
 
   void resolve(ParameterSet& set) override {
     apply_preset(set, parameters_);
@@ -129,25 +114,8 @@ class MorphologicalCommand final : public Engine {
       });
   }
 
-  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
-    const FrameLists lists = lists_of(frame_);
-    std::vector<std::filesystem::path> files;
-    for (int i = 0; i < lists.frames(); ++i)
-      for (const std::filesystem::path& file : frame_files(in_frame(frame_, lists, i), meshes))
-        add_once(files, file);
-    return files;
-  }
-
   void prepare(const RunParameters& run, RunContext& context) override {
     golden_of(*load(run, context), context);
-  }
-
-  void describe_statistics(Result& result) override {
-    const std::vector<MorphologicalInput> frames = {{Image(2, 2), {}}};
-    Simulation simulation({});
-    MorphologicalEnvironment environment(simulation, frames, {});
-    describe(simulation, environment, result);
-    describe_flicker(result);
   }
 
   std::vector<std::string_view> pictures() const override {
@@ -158,18 +126,6 @@ class MorphologicalCommand final : public Engine {
     return "edges, runs and lines of its four sides, shares, blend, colour";
   }
   std::vector<std::string_view> maps() const override { return {"edges", "run_length", "steps"}; }
-
-  rtl::RegisterSection registers() const override {
-    return rtl::morphological::register_section(parameters_);
-  }
-  CoverageSection coverage() const override {
-    return {"Morphological engine",
-            morphological_coverage(golden::morphological::MorphologicalGolden({})),
-            morphological_coverage_groups()};
-  }
-  DatasheetSection datasheets() const override {
-    return {"MorphologicalEngine", rtl::morphological::datasheets()};
-  }
 
   RandomDraws random_draws() const override { return morphological_draws(); }
   LongRun long_run() const override { return {{{"frame.count", "300"}}}; }
@@ -296,13 +252,8 @@ class MorphologicalCommand final : public Engine {
                                        loaded.depth ? &*loaded.depth : nullptr);
   }
 
-  FrameParameters frame_;
-  SequenceParameters sequence_;
   FrameLists lists_;
   int frames_ = 1;
-  spec::morphological::Parameters parameters_;
-  MemoryParameters memory_;
-  ProgramParameters program_;
   std::string preset_label_;
 };
 

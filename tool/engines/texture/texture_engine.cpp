@@ -10,16 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "rtl_model/texture/datasheets.h"
-#include "rtl_model/texture/register_section.h"
 #include "spec/error.h"
-#include "spec/texture/check_build.h"
 #include "spec/texture/descriptor.h"
 #include "tb/base/interrupt.h"
-#include "tb/engines/texture/texture_coverage.h"
 #include "tb/engines/texture/texture_environment.h"
 #include "tb/engines/texture/texture_sequence.h"
-#include "tb/engines/texture/texture_twins.h"
+#include "tb/engines/texture/texture_testbench.h"
 #include "tb/run/amount.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
@@ -30,7 +26,6 @@
 #include "tool/engines/texture/texture_draws.h"
 #include "tool/engines/texture/texture_role.h"
 #include "tool/engines/texture/texture_rules.h"
-#include "tool/engines/texture/texture_traces.h"
 #include "tool/engines/texture/texture_truth.h"
 #include "tool/run/flicker.h"
 #include "tool/run/input_rules.h"
@@ -42,25 +37,12 @@
 namespace deburr::tb {
 namespace {
 
-class TextureEngine final : public Engine {
+class TextureEngine final : public Engine, public TextureTestbench {
  public:
-  std::string_view name() const override { return "texture"; }
   std::string_view summary() const override {
     return "A scene through the texture unit, checked colour by colour and line by line";
   }
   std::unique_ptr<CompositionRole> role() const override { return make_texture_role(); }
-
-  void add_parameters(ParameterSet& set) override {
-    set.add("run", ParameterKind::kRun, look_up_trace_);
-    set.add("run", ParameterKind::kRun, trace_out_);
-    set.add("run", ParameterKind::kRun, twins_);
-    set.add("scene", ParameterKind::kInput, scene_);
-    set.add("scene", ParameterKind::kInput, trace_in_);
-    add_sampler(set, sampler_);
-    set.add("sequence", ParameterKind::kInput, sequence_);
-    set.add_engine("texture", texture_);
-    add_memory(set, "memory", memory_);
-  }
 
   std::vector<std::string_view> examples() const override {
     return {"--scene tunnel --size 640x360 --aniso 8 --truth --out out/tunnel",
@@ -147,27 +129,10 @@ class TextureEngine final : public Engine {
       });
   }
 
-  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
-    return with_trace(scene_files(scene_, lists_of(scene_), meshes));
-  }
-
   void prepare(const RunParameters& run, RunContext& context) override {
     const std::shared_ptr<const TextureScene> scene = load(run, context);
     if (run.truth) scene_truth(*scene, truth_options(), context);
     expectation(*scene, context);
-  }
-
-  std::vector<std::string_view> built_for_golden() const override {
-    return {"texture.cache.bytes", "texture.cache.line_bytes", "texture.cache.ways",
-            "texture.cache.replacement"};
-  }
-
-  void describe_statistics(Result& result) override {
-    const TextureScene scene = smallest(scene_, sampler_);
-    Simulation simulation({});
-    TextureEnvironment environment(simulation, scene, {});
-    describe(simulation, environment, result);
-    describe_flicker(result);
   }
 
   std::vector<std::string_view> pictures() const override {
@@ -179,16 +144,6 @@ class TextureEngine final : public Engine {
 
   std::string_view pixel_history() const override {
     return "footprint, level and samples, texels, lines with hit, merged or miss, colour";
-  }
-
-  rtl::RegisterSection registers() const override {
-    return rtl::texture::register_section(texture_);
-  }
-  CoverageSection coverage() const override {
-    return {"Texture unit", TextureCoverage::declared(), TextureCoverage::groups()};
-  }
-  DatasheetSection datasheets() const override {
-    return {"TextureUnit", rtl::texture::datasheets()};
   }
 
   RandomDraws random_draws() const override { return texture_draws(); }
@@ -213,11 +168,6 @@ class TextureEngine final : public Engine {
   rtl::texture::TextureUnit::StandIns stand_ins(std::uint64_t seed) const {
     return texture_twins(
         twin_units_, as_built(texture_, memory_clocks(memory_, texture_.cache_line_bytes)), seed);
-  }
-
-  std::vector<std::filesystem::path> with_trace(std::vector<std::filesystem::path> files) const {
-    if (foreign()) add_once(files, trace_in_.file);
-    return files;
   }
 
   void reject_maps_of_nothing(const RunParameters& run, const TextureScene& scene) const {
@@ -370,16 +320,7 @@ class TextureEngine final : public Engine {
             render(scene.scene(), options), drawn};
   }
 
-  LookUpTrace look_up_trace_;
-  TwinParameters twins_;
   std::vector<std::string> twin_units_;
-  FragmentTraceOut trace_out_;
-  FragmentTraceIn trace_in_;
-  SceneParameters scene_;
-  SamplerParameters sampler_;
-  SequenceParameters sequence_;
-  spec::texture::Parameters texture_;
-  MemoryParameters memory_;
   FrameLists lists_;
   int frames_ = 1;
   std::string preset_label_;

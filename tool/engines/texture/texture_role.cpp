@@ -6,8 +6,8 @@
 #include "spec/error.h"
 #include "spec/texture/check_build.h"
 #include "tb/engines/texture/texture_environment.h"
+#include "tb/engines/texture/texture_traces.h"
 #include "tool/engines/texture/texture_rules.h"
-#include "tool/engines/texture/texture_traces.h"
 #include "tool/engines/texture/texture_truth.h"
 #include "tool/run/flicker.h"
 #include "tool/run/input_rules.h"
@@ -127,7 +127,7 @@ class TextureRole final : public PictureDrawer {
 
   const std::string& source() const override { return scene_.source; }
   std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
-    return scene_files(scene_, lists_of(scene_), meshes);
+    return files_of_frames(scene_, meshes);
   }
   std::shared_ptr<const DrawnScene> load(std::uint32_t seed,
                                          const RunContext& context) const override {

@@ -34,13 +34,6 @@ std::string preset_label(const ParameterSet& set, const spec::texture::Parameter
   return with_changes(source_of(values), set, kTexturePrefix);
 }
 
-void add_sampler(ParameterSet& set, SamplerParameters& sampler) {
-  set.add("sampler", ParameterKind::kInput, sampler);
-  constexpr auto kTrilinear =
-      static_cast<std::size_t>(spec::texture::MinFilter::kLinearMipmapLinear);
-  set.alias("sampler.mode", "trilinear", spec::texture::kMinFilterNames[kTrilinear]);
-}
-
 void reject_nothing_drawn(const TextureScene& scene) {
   if (scene.stream().counts.fragments > 0) return;
   reject_empty_picture(scene.scene(), scene.stream().width, scene.stream().height);
@@ -51,6 +44,21 @@ void reject_empty_lod_range(const SamplerParameters& sampler) {
     throw spec::ConfigError(fmt::format(
         "sampler.min_lod = {} is above sampler.max_lod = {}: no level of detail lies between them",
         sampler.min_lod, sampler.max_lod));
+}
+
+void reject_unused_look_ups(const ParameterSet& set) {
+  if (set.find("run.line_trace")->text() == "none")
+    set.reject("run.line_trace_look_ups",
+               "there is no trace without run.line_trace (--line-trace text)");
+}
+
+void reject_unused_scene(const ParameterSet& set) {
+  for (const char* name :
+       {"scene.width", "scene.height", "scene.traversal", "scene.visibility", "scene.eye",
+        "scene.target", "scene.fov", "scene.roll", "sequence.frames", "sequence.motion"})
+    set.reject(name, "the fragments come from the file scene.fragments (--fragments)");
+  if (set.find("run.truth")->text() == "true")
+    throw spec::ConfigError("run.truth: the scene of a file's fragments is unknown: leave it out");
 }
 
 std::vector<Shorthand> scene_shorthands(const std::string& default_scene) {
@@ -65,12 +73,6 @@ std::vector<Shorthand> scene_shorthands(const std::string& default_scene) {
       {"--mode", "sampler.mode",
        "Minification filter, one of GL's six, or trilinear (linear_mipmap_linear)"},
       {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8 or 16 (default)"}};
-}
-
-TextureScene smallest(SceneParameters scene, const SamplerParameters& sampler) {
-  scene.width = scene.height = 2;
-  scene.texture_size = 4;
-  return {scene, sampler, 1};
 }
 
 }  // namespace deburr::tb

@@ -20,17 +20,15 @@ void apply_preset(ParameterSet& set, const spec::texture::Parameters& values);
 // "preset paper", or "preset paper, changed: axes".
 std::string preset_label(const ParameterSet& set, const spec::texture::Parameters& values);
 
-// The parameters "sampler.*": `trilinear` is a word for linear_mipmap_linear.
-void add_sampler(ParameterSet& set, SamplerParameters& sampler);
-
 // ConfigError for a scene that draws nothing, and for levels of which none lies in the range.
 void reject_nothing_drawn(const TextureScene& scene);
 void reject_empty_lod_range(const SamplerParameters& sampler);
+// ConfigError for look-ups without a trace that they could be in.
+void reject_unused_look_ups(const ParameterSet& set);
+// ConfigError for what says how a scene is drawn, beside fragments that are drawn already.
+void reject_unused_scene(const ParameterSet& set);
 
 // Of what is given a scene to texture: --scene, --in, --texture, --size, --mode, --aniso.
 std::vector<Shorthand> scene_shorthands(const std::string& default_scene);
-
-// The smallest picture of a scene, to elaborate with.
-TextureScene smallest(SceneParameters scene, const SamplerParameters& sampler);
 
 }  // namespace deburr::tb

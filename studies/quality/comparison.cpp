@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: MIT
+#include "studies/quality/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "golden/geometric/configuration.h"
+#include "golden/morphological/configuration.h"
+#include "golden/morphological/morphological_golden.h"
+#include "spec/error.h"
+#include "tb/base/forked.h"
+#include "tb/engines/geometric/geometric_environment.h"
+#include "tb/engines/geometric/geometric_stimuli.h"
+#include "tb/engines/morphological/morphological_environment.h"
+#include "tb/scene/compose.h"
+#include "tb/scene/flip.h"
+#include "tb/scene/label.h"
+#include "tb/scene/quality.h"
+#include "tb/scene/scenes.h"
+#include "tb/scene/ssim.h"
+#include "tb/stimuli/reference_filters.h"
+
+namespace deburr::tb {
+namespace {
+
+using geometric::Checker;
+using geometric::Frame;
+using MorphologicalRules = spec::morphological::Parameters;
+using GeometricRules = spec::geometric::Parameters;
+
+constexpr int kWidth = 640, kHeight = 480, kSamples = 16;
+constexpr int kLinePixels = 1920;
+constexpr double kStreamBytes = 2 * spec::morphological::kFramePixelBytes;  // in and out
+constexpr double kDepthBytes = 4;
+
+struct Method {
+  std::string name, label;
+  std::optional<GeometricRules> geometric;
+  std::optional<MorphologicalRules> morphological;
+};
+
+std::vector<Method> compared_methods() {
+  namespace m = spec::morphological;
+  namespace g = spec::geometric;
+  std::vector<Method> all;
+  const auto morphological = [](m::Preset preset) {
+    MorphologicalRules p = golden::morphological::preset_parameters(preset);
+    p.line_pixels = kLinePixels;
+    return p;
+  };
+  const auto add = [&](std::string name, std::string label, std::optional<g::Preset> edges,
+                       std::optional<m::Preset> smoothing) {
+    Method method{std::move(name), std::move(label), {}, {}};
+    if (edges) method.geometric = golden::geometric::preset_parameters(*edges);
+    if (smoothing) method.morphological = morphological(*smoothing);
+    if (edges && smoothing) {
+      method.geometric->mark = true;
+      method.morphological = golden::morphological::following_geometric(*method.morphological);
+    }
+    all.push_back(std::move(method));
+  };
+  add("`mlaa`", "mlaa", {}, m::Preset::kMlaa);
+  add("`mlaa-slope`", "mlaa-slope", {}, m::Preset::kMlaaSlope);
+  add("`smaa`", "smaa", {}, m::Preset::kSmaa);
+  add("`smaa-dynamic`", "smaa-dynamic", {}, m::Preset::kSmaaDynamic);
+  add("`deburr-line`, morphological", "deburr line", {}, m::Preset::kDeburrLine);
+  add("`deburr`, morphological", "deburr morph", {}, m::Preset::kDeburr);
+  add("`gpaa`", "gpaa", g::Preset::kGpaa, {});
+  add("`gpaa-optimised`", "gpaa-optimised", g::Preset::kGpaaOptimised, {});
+  add("`deburr`, geometric", "deburr geo", g::Preset::kDeburr, {});
+  add("geometric, then morphological", "deburr both", g::Preset::kDeburr,
+      m::FollowingRules().preset);
+  return all;
+}
+
+Image drawn(const Frame& frame, const GeometricRules& rules) {
+  return geometric::smoothed(frame, rules).image;
+}
+
+Image smoothed(const Frame& frame, const Image& image, const MorphologicalRules& rules) {
+  golden::morphological::MorphologicalGolden golden(
+      rules, golden::morphological::MorphologicalGolden::Detail::kPixels);
+  Image result = image;
+  result.pixels = golden.process({image.pixels, image.width, image.height},
+                                 {frame.depths, image.width, image.height});
+  return result;
+}
+
+Image picture_of(const Method& method, const Frame& frame) {
+  Image image = method.geometric ? drawn(frame, *method.geometric) : frame.image;
+  return method.morphological ? smoothed(frame, image, *method.morphological) : image;
+}
+
+// ---- costs --------------------------------------------------------------------------------------
+
+// Runs an environment that `make` makes, in a process of its own.
+template <class Make, class Measure>
+ComparisonCost cost_of(Make make, Measure measure) {
+  return forked<ComparisonCost>([&] {
+    SimulationOptions options;
+    options.check_links = false;
+    Simulation simulation(options);
+    auto environment = make(simulation);
+    simulation.elaborate(*environment);
+    simulation.run();
+    environment->check();
+    Result result;
+    simulation.collect(result);
+    ComparisonCost cost = measure(*environment);
+    for (const MemoryFigures& memory : result.memories) cost.bits += memory.physical_bits;
+    return cost;
+  });
+}
+
+ComparisonCost cost_of(const GeometricRules& rules, const Frame& frame) {
+  return cost_of(
+      [&](Simulation& simulation) {
+        GeometricSetup setup;
+        setup.geometric = rules;
+        return std::make_unique<GeometricEnvironment>(simulation, std::span(&frame, 1), setup);
+      },
+      [](const GeometricEnvironment& environment) {
+        const rtl::geometric::GeometricEngine& engine = environment.engine();
+        const std::uint64_t bytes =
+            engine.memory_port.bytes_read.value() + engine.memory_port.bytes_written.value();
+        return ComparisonCost{number(engine.work().blended_pixels),
+                              number(engine.frame_sequencer.frame_cycles.value()),
+                              number(bytes) / (kWidth * kHeight), 0};
+      });
+}
+
+ComparisonCost cost_of(const MorphologicalRules& rules, const MorphologicalInput& input) {
+  const bool depth = rules.edge_source == spec::morphological::EdgeSource::kDepth ||
+                     rules.edge_source == spec::morphological::EdgeSource::kPredicated;
+  return cost_of(
+      [&](Simulation& simulation) {
+        MorphologicalSetup setup;
+        setup.morphological = rules;
+        return std::make_unique<MorphologicalEnvironment>(simulation, std::span(&input, 1), setup);
+      },
+      [&](const MorphologicalEnvironment& environment) {
+        return ComparisonCost{number(environment.engine().work().blended_pixels),
+                              number(environment.engine().sequencer.frame_cycles.value()),
+                              kStreamBytes + (depth ? kDepthBytes : 0), 0};
+      });
+}
+
+ComparisonCost cost_of(const Method& method, const Frame& frame) {
+  ComparisonCost sum;
+  const auto add = [&](const ComparisonCost& cost) {
+    sum.blended += cost.blended;
+    sum.clocks += cost.clocks;
+    sum.bytes += cost.bytes;
+    sum.bits += cost.bits;
+  };
+  if (method.geometric) add(cost_of(*method.geometric, frame));
+  if (method.morphological) {
+    MorphologicalInput input{frame.image, frame.depths};
+    if (method.geometric) input.image = drawn(frame, *method.geometric);
+    add(cost_of(*method.morphological, input));
+  }
+  return sum;
+}
+
+// ---- tables -------------------------------------------------------------------------------------
+
+// Digits in groups of three.
+std::string grouped_digits(double value) {
+  std::string digits = fmt::format("{}", std::llround(value));
+  for (int i = static_cast<int>(digits.size()) - 3; i > 0; i -= 3)
+    digits.insert(static_cast<std::size_t>(i), 1, ' ');
+  return digits;
+}
+
+// A column of quality.
+struct Column {
+  const char* title;
+  double ComparisonRow::*value;
+  int digits;
+  bool least_is_best;
+};
+constexpr Column kColumns[] = {{"PSNR, dB", &ComparisonRow::psnr, 2, false},
+                               {"edges, dB", &ComparisonRow::edges, 2, false},
+                               {"silhouettes, dB", &ComparisonRow::silhouettes, 2, false},
+                               {"FLIP", &ComparisonRow::flip, 4, true},
+                               {"SSIM", &ComparisonRow::ssim, 4, false}};
+
+bool is_truth(const ComparisonRow& row) { return !std::isfinite(row.psnr); }
+
+// Of the truth there is nothing to say.
+std::string cell(const ComparisonRow& row, const Column& column) {
+  return is_truth(row) ? "-" : fmt::format("{:.{}f}", row.*column.value, column.digits);
+}
+
+// The best cell of a column.
+std::string best(std::span<const ComparisonRow> rows, const Column& column) {
+  const auto rank = [&](const ComparisonRow& row) {
+    if (is_truth(row)) return -std::numeric_limits<double>::infinity();
+    return row.*column.value * (column.least_is_best ? -1 : 1);
+  };
+  return cell(*std::max_element(rows.begin(), rows.end(),
+                                [&](const ComparisonRow& a, const ComparisonRow& b) {
+                                  return rank(a) < rank(b);
+                                }),
+              column);
+}
+
+}  // namespace
+
+std::span<const std::string_view> comparison_scenes() {
+  static constexpr std::array<std::string_view, 9> kScenes = {
+      "cube", "sphere", "wheelcover", "wing", "canopy", "cylinders", "object", "road", "terrain"};
+  return kScenes;
+}
+
+std::vector<ComparisonRow> compare_methods(const std::string& scene) {
+  const Checker checker(make_scene(scene), kWidth, kHeight, kSamples);
+  std::vector<ComparisonRow> rows;
+  std::vector<Image> images;
+  const auto add = [&](const std::string& name, Image image) -> ComparisonRow& {
+    ComparisonRow row;
+    row.method = name;
+    row.psnr = psnr(image, checker.truth);
+    row.edges = checker.edge_psnr(image);
+    row.silhouettes = checker.silhouette_psnr(image);
+    images.push_back(std::move(image));
+    rows.push_back(std::move(row));
+    return rows.back();
+  };
+  add("none", checker.frame.image);
+  add("MSAA 4x", checker.msaa);
+  for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
+    add(reference.name, reference.filter(checker.frame.image, true));
+  for (const Method& method : compared_methods())
+    add(method.name, picture_of(method, checker.frame)).cost = cost_of(method, checker.frame);
+  add("supersampled, 256 samples", checker.truth);
+  std::vector<const Image*> tests;
+  tests.reserve(images.size());
+  for (const Image& image : images) tests.push_back(&image);
+  const std::vector<double> flips = flip(checker.truth, tests),
+                            similar = ssim(checker.truth, tests);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].flip = flips[i];
+    rows[i].ssim = similar[i];
+  }
+  return rows;
+}
+
+std::string comparison_section(const std::string& name, std::span<const ComparisonRow> rows) {
+  std::string text = fmt::format("### {}\n\n|", name), line = "|";
+  for (const Column& column : kColumns) text += fmt::format(" | {}", column.title);
+  text += fmt::format(" | blended pixels | clocks, M = {} | bytes a pixel | memory, bits |\n",
+                      GeometricSetup().memory.latency);
+  for (std::size_t i = 0; i < std::size(kColumns) + 5; ++i) line += "---|";
+  text += line + "\n";
+  for (const ComparisonRow& row : rows) {
+    text += "| " + row.method;
+    for (const Column& column : kColumns) {
+      const std::string value = cell(row, column);
+      text += value == best(rows, column) ? " | **" + value + "**" : " | " + value;
+    }
+    if (row.cost)
+      text += fmt::format(" | {} | {} | {:.1f} | {} |\n", grouped_digits(row.cost->blended),
+                          grouped_digits(row.cost->clocks), row.cost->bytes,
+                          grouped_digits(static_cast<double>(row.cost->bits)));
+    else
+      text += " | - | - | - | - |\n";
+  }
+  return text + "\n";
+}
+
+std::vector<ComparisonRow> means_of(std::span<const std::vector<ComparisonRow>> scenes) {
+  std::vector<ComparisonRow> means = scenes.front();
+  const double n = static_cast<double>(scenes.size());
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    ComparisonRow& mean = means[i];
+    for (const auto& rows : scenes.subspan(1)) {
+      for (const Column& column : kColumns) mean.*column.value += rows[i].*column.value;
+      if (!mean.cost) continue;
+      mean.cost->blended += rows[i].cost->blended;
+      mean.cost->clocks += rows[i].cost->clocks;
+      mean.cost->bytes += rows[i].cost->bytes;
+      DEBURR_CHECK(mean.cost->bits == rows[i].cost->bits, "memory that depends on the scene");
+    }
+    for (const Column& column : kColumns) mean.*column.value /= n;
+    if (!mean.cost) continue;
+    mean.cost->blended /= n;
+    mean.cost->clocks /= n;
+    mean.cost->bytes /= n;
+  }
+  return means;
+}
+
+// ---- the picture --------------------------------------------------------------------------------
+
+namespace {
+
+struct Place {
+  const char* scene;
+  int x, y;  // of the crop's corner
+};
+constexpr Place kPlaces[] = {{"object", 264, 116}, {"cylinders", 414, 136}};
+constexpr int kCrop = 28, kZoom = 6, kAcross = 8, kGap = 8, kLetters = 2, kLeading = 4;
+
+// The picture with lines of text over it.
+Image captioned(const Image& picture, std::span<const std::string> lines) {
+  constexpr Rgba8 kPaper = {255, 255, 255, 255};
+  std::vector<Image> labels;
+  int top = 0;
+  for (const std::string& line : lines) {
+    labels.push_back(label(line, kLetters));
+    top += labels.back().height + kLeading;
+  }
+  Image result(picture.width, picture.height + top, kPaper);
+  int y = 0;
+  for (const Image& text : labels) {
+    paste(result, crop(text, 0, 0, std::min(text.width, result.width), text.height), 0, y);
+    y += text.height + kLeading;
+  }
+  paste(result, picture, 0, top);
+  return result;
+}
+
+}  // namespace
+
+Image comparison_sheet() {
+  std::vector<Image> cells;
+  for (const Place& place : kPlaces) {
+    const Checker checker(make_scene(place.scene), kWidth, kHeight, kSamples);
+    const auto add = [&](const std::string& name, const Image& image) {
+      const double edges = checker.edge_psnr(image);
+      const std::string lines[] = {
+          name, std::isfinite(edges) ? fmt::format("{:.1f} dB", edges) : "256 samples"};
+      cells.push_back(captioned(zoom(crop(image, place.x, place.y, kCrop, kCrop), kZoom), lines));
+    };
+    add("none", checker.frame.image);
+    add("MSAA 4x", checker.msaa);
+    for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
+      add(reference.name, reference.filter(checker.frame.image, true));
+    for (const Method& method : compared_methods())
+      add(method.label, picture_of(method, checker.frame));
+    add("truth", checker.truth);
+    // The next place begins a row.
+    while (cells.size() % kAcross != 0)
+      cells.emplace_back(cells.front().width, cells.front().height, Rgba8{255, 255, 255, 255});
+  }
+  const Image inner = sheet(cells, kAcross, kGap);
+  Image result(inner.width + 2 * kGap, inner.height + 2 * kGap, {255, 255, 255, 255});
+  paste(result, inner, kGap, kGap);
+  return result;
+}
+
+}  // namespace deburr::tb

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// Are the tables of harm in docs/measurements/morphological_harm.md, and of FLIP and SSIM in
+// morphological_quality.md beside it, what is measured today? And are the frames what the page says
+// of them?
+#include "studies/quality/harm.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "studies/quality/harm_frames.h"
+#include "tb/harness/test_paths.h"
+#include "tb/scene/quality.h"
+#include "tb/scene/textures.h"
+#include "tb/unit/spec/generated_table.h"
+
+namespace deburr::tb::harm_test {
+namespace {
+
+using harm::Text;
+
+constexpr const char *kPage = "measurements/morphological_harm.md",
+                     *kQualityPage = "measurements/morphological_quality.md",
+                     *kFormula = "MorphologicalHarm.OfFramesByFormula",
+                     *kGuard = "MorphologicalHarm.OfTheTextGuard",
+                     *kData = "MorphologicalHarm.OfFramesOfOthers";
+
+TEST(MorphologicalHarm, OfFramesByFormula) {
+  expect_generated(kPage, kFormula, harm::formula_tables());
+}
+
+TEST(MorphologicalHarm, OfFramesOfOthers) {
+  if (const std::string missing = harm::missing_data(data_folder()); !missing.empty())
+    GTEST_SKIP() << "no " << missing
+                 << ": set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/";
+  expect_generated(kPage, kData, harm::data_tables(data_folder()));
+}
+
+TEST(MorphologicalHarm, OfFramesWithTruth) {
+  expect_generated(kQualityPage, "MorphologicalHarm.OfFramesWithTruth",
+                   harm::formula_frames_with_truth());
+}
+
+TEST(MorphologicalHarm, OfFramesOfOthersWithTruth) {
+  if (const std::string missing = harm::missing_data(data_folder()); !missing.empty())
+    GTEST_SKIP() << "no " << missing
+                 << ": set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/";
+  expect_generated(kQualityPage, "MorphologicalHarm.OfFramesOfOthersWithTruth",
+                   harm::data_frames_with_truth(data_folder()));
+}
+
+TEST(MorphologicalHarm, OfTheTextGuard) { expect_generated(kPage, kGuard, harm::guard_tables()); }
+
+TEST(MorphologicalHarm, OfTheTextGuardOnWires) {
+  expect_generated(kPage, "MorphologicalHarm.OfTheTextGuardOnWires", harm::wires_table());
+}
+
+TEST(MorphologicalHarm, OfTheTextGuardOnFramesOfOthers) {
+  if (const std::string missing = harm::missing_data(data_folder()); !missing.empty())
+    GTEST_SKIP() << "no " << missing
+                 << ": set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/";
+  expect_generated(kPage, "MorphologicalHarm.OfTheTextGuardOnFramesOfOthers",
+                   harm::data_guard_table(data_folder()));
+}
+
+// What it is for: of aliased text at most a fifth of the pixels change that changed before, also on
+// pages smaller than those of the tables.
+// Smoothed text it does not find.
+TEST(MorphologicalHarm, OfTextIsAFifthWithTheGuard) {
+  for (const harm::GuardedText& page : harm::guarded_text(240, 180)) {
+    const int kind = static_cast<int>(page.kind);
+    EXPECT_GT(page.without, 20) << kind;
+    if (page.kind == Text::kSmoothed)
+      EXPECT_GT(page.with, page.without * 0.9) << kind;
+    else
+      EXPECT_LE(page.with, page.without / 5) << kind;
+  }
+}
+
+// The last line of a table, and the one above which its rows begin.
+std::pair<std::string, std::string> head_and_last_row(const std::string& table) {
+  const std::size_t head = table.find("\n| |"), last = table.rfind("\n| ");
+  return {table.substr(head + 1, table.find('\n', head + 1) - head),
+          table.substr(last + 1, table.find('\n', last + 1) - last)};
+}
+
+// One row of a large table, which takes seconds.
+void expect_row(const char* generated, std::string (*table)(Text)) {
+  std::ifstream file(source_folder() / "docs" / kPage, std::ios::binary);
+  const std::string part =
+      GeneratedPart({std::istreambuf_iterator<char>(file), {}}, generated).part();
+  const auto [head, row] = head_and_last_row(table(Text::kAliased));
+  EXPECT_NE(part.find(head), std::string::npos) << head;
+  EXPECT_NE(part.find(row), std::string::npos) << row;
+  // The planted fault: another page gives another row, even under the same name.
+  const auto [other_head, other_row] = head_and_last_row(table(Text::kBitmapFont));
+  EXPECT_EQ(other_head, head);
+  EXPECT_EQ(part.find(other_row), std::string::npos) << other_row;
+}
+
+TEST(MorphologicalHarm, OfAliasedText) { expect_row(kFormula, harm::text_table); }
+
+TEST(MorphologicalHarm, OfAliasedTextWithTheGuard) { expect_row(kGuard, harm::guarded_text_table); }
+
+std::set<Rgba8> colours(const Image& image) { return {image.pixels.begin(), image.pixels.end()}; }
+
+TEST(HarmFrames, OfTextHaveTwoColoursUnlessSmoothed) {
+  for (const Text kind : {Text::kAliased, Text::kLightOnDark, Text::kBitmapFont})
+    EXPECT_EQ(colours(text_page(kind, 160, 120)).size(), 2u) << static_cast<int>(kind);
+  const Image smoothed = text_page(Text::kSmoothed, 160, 120);
+  EXPECT_GT(colours(smoothed).size(), 20u);
+  // Ink where at least half of the pixel is ink: the aliased page is the smoothed one by a
+  // threshold.
+  const Image aliased = text_page(Text::kAliased, 160, 120);
+  for (std::size_t i = 0; i < aliased.pixels.size(); ++i)
+    ASSERT_EQ(aliased.pixels[i][0] == 255, smoothed.pixels[i][0] > 138) << i;
+}
+
+TEST(HarmFrames, OfTextOverASceneHaveLettersAndTheScene) {
+  const Image frame = harm::text_over_scene(160, 120), scene = harm::landscape_photo(160, 120),
+              page = text_page(Text::kAliased, 160, 120);
+  int letters = 0;
+  for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
+    const bool ink = page.pixels[i][0] != 255;
+    ASSERT_EQ(frame.pixels[i], (ink ? page : scene).pixels[i]) << i;
+    letters += ink;
+  }
+  EXPECT_GT(letters, 1000);
+}
+
+// Both have two colours, and the truth between them what a wire covers of a pixel: its mean is that
+// of the wires' area.
+TEST(HarmFrames, OfWiresAreTheWiresAndTheirCoverage) {
+  const Image upright = harm::wires(2, 90, 80, 40).frame;
+  // Wires at multiples of 40 pixels take the pixel on either side.
+  for (int x = 0; x < 80; ++x)
+    EXPECT_EQ(upright.at(x, 7)[0] == 40, x == 0 || x == 39 || x == 40 || x == 79) << x;
+  for (const double thickness : {1.0, 1.5, 3.0}) {
+    const harm::Textured t = harm::wires(thickness, 30, 256, 256);
+    EXPECT_EQ(colours(t.frame).size(), 2u);
+    EXPECT_GT(colours(t.truth).size(), 30u);
+    double covered = 0, sampled = 0;
+    for (std::size_t i = 0; i < t.truth.pixels.size(); ++i) {
+      const auto light = [](const Image& image, std::size_t at) {
+        return srgb_to_linear(image.pixels[at][0] / 255.0);
+      };
+      const double sky = srgb_to_linear(150 / 255.0), wire = srgb_to_linear(40 / 255.0);
+      covered += (sky - light(t.truth, i)) / (sky - wire);
+      sampled += (sky - light(t.frame, i)) / (sky - wire);
+    }
+    const double pixels = 256 * 256;
+    EXPECT_NEAR(covered / pixels, thickness / 40, 0.002) << thickness;
+    EXPECT_NEAR(sampled / pixels, thickness / 40, 0.002) << thickness;
+  }
+}
+
+TEST(HarmFrames, OfPixelArtHaveSixteenColoursAndBlocks) {
+  const Image art = harm::pixel_art(1, 240, 160), large = harm::pixel_art(4, 240, 160);
+  EXPECT_LE(colours(art).size(), 16u);
+  EXPECT_GT(colours(art).size(), 10u);
+  for (int y = 0; y < large.height; ++y)
+    for (int x = 0; x < large.width; ++x)
+      ASSERT_EQ(large.at(x, y), large.at(x / 4 * 4, y / 4 * 4)) << x << ", " << y;
+}
+
+TEST(HarmFrames, OfTexturesAreRightButAtEdges) {
+  for (int view = 0; view < 3; ++view) {
+    const harm::Textured t = harm::textured_frame(view, 240, 180);
+    const double edges = static_cast<double>(count(edge_mask(t.truth, t.frame))) / (240 * 180);
+    EXPECT_GT(edges, 0.01) << view;
+    EXPECT_LT(edges, 0.2) << view;
+  }
+}
+
+TEST(HarmFrames, ComeBackFromJpegChangedByItsQuality) {
+  const Image photo = harm::landscape_photo(160, 120), good = harm::compressed(photo, 90),
+              poor = harm::compressed(photo, 50);
+  EXPECT_GT(psnr(good, photo), 34);
+  EXPECT_LT(psnr(poor, photo), psnr(good, photo) - 2);
+  EXPECT_GT(psnr(poor, photo), 25);
+}
+
+}  // namespace
+}  // namespace deburr::tb::harm_test

@@ -1,0 +1,202 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""`deburr train`: its file is loaded by a run and gains there; what cannot be learned from is rejected by name, and
+nothing is written then. See --help of unittest."""
+import json
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../tool/tests/negative"))
+from app_support import DEBURR, CommandTest, png  # noqa: E402
+
+
+class Base(CommandTest):
+    QUICK = ("--batches", "60")
+
+    def rendered(self, name, *arguments, size="192x144"):
+        """A scene without and with supersampling, as a run leaves it."""
+        self.expect(0, "run", "morphological", "--size", size, "--check", "none", "--quiet", "--out", self.path(name),
+                    *arguments)
+        return self.path(f"{name}/before.png"), self.path(f"{name}/truth.png")
+
+    def train(self, code, frame, truth, *arguments, says=(), out="title.shares"):
+        return self.expect(code, "train", "--in", frame, "--truth", truth, "--out", self.path(out), *arguments,
+                           says=says)
+
+    def nothing_written(self, name="title.shares"):
+        self.assertFalse(os.path.exists(self.path(name)))
+
+
+class Trains(Base):
+    """What it writes, and what a run makes of it."""
+
+    def test_a_frame_of_textures_gains_on_its_kept_back_half(self):
+        frame, truth = self.rendered("tunnel", "--scene", "tunnel", size="384x288")
+        done = self.train(0, frame, truth, "--batches", "200",
+                          says=["kept back: ", "right half: edges ", "RESULT: PASS train: +"])
+        with open(self.path("title.shares")) as file:
+            self.assertEqual(file.readline(), "deburr-shares 1\n")
+        said = json.loads(self.run_command("train", "--in", frame, "--truth", truth, "--out", self.path("again"),
+                                           "--batches", "200", "--json").stdout)
+        self.assertGreater(said["training"]["gain_db"], 0.5)
+        self.assertEqual(said["outcome"].split(" in ")[0].split(": ")[1], done.stdout.split("train: ")[1].split(" in ")[0])
+        kept = said["training"]["kept_back"]
+        self.assertEqual([picture["name"] for picture in kept], [f"{frame}, right half"])
+        self.assertAlmostEqual(kept[0]["edges_trained_db"] - kept[0]["edges_shipped_db"], said["training"]["gain_db"])
+        with open(self.path("title.shares")) as first, open(self.path("again")) as second:
+            self.assertEqual(first.read(), second.read())
+
+        # Golden and hardware agree on them, and the run gains what was said.
+        quality = {}
+        for name, more in (("shipped", ()), ("title", ("--shares", self.path("title.shares")))):
+            self.expect(0, "run", "morphological", "--in", frame, "--truth", truth, "--out", self.path("out"), *more)
+            quality[name] = self.result()["quality"]["psnr_edge_db"]
+        self.assertGreater(quality["title"], quality["shipped"] + 0.5)
+
+    def test_several_frames_and_another_run_of_its_own_file(self):
+        for i in range(4):
+            frame, truth = self.rendered(f"run{i}", "--scene", "tunnel", "--seed", str(i + 1))
+            for folder, file in (("plain", frame), ("smooth", truth)):
+                os.makedirs(self.path(folder), exist_ok=True)
+                shutil.copy(file, self.path(f"{folder}/f{i}.png"))
+        given = (self.path("plain/*.png"), self.path("smooth/*.png"))
+        done = self.train(0, *given, *self.QUICK)
+        for i, kept in enumerate((False, True, False, True)):
+            self.assertEqual(f"kept back: {self.path('plain')}/f{i}.png" in done.stdout.replace("\n", " "), kept)
+        with open(self.path("title.shares")) as file:
+            text = file.read()
+        for i, trained_on in enumerate((True, False, True, False)):
+            self.assertEqual(f"# trained on {self.path('plain')}/f{i}.png\n" in text, trained_on)
+        self.train(0, *given, *self.QUICK)  # in its place
+
+    def test_where_it_does_not_gain_nothing_is_written(self):
+        frame, truth = self.rendered("road", "--scene", "road")
+        self.train(1, frame, truth, *self.QUICK, says=["RESULT: FAIL no gain: -", "no shares were written",
+                                                       "expected at least +0.05"])
+        self.nothing_written()
+        said = json.loads(self.run_command("train", "--in", frame, "--truth", truth, "--out", self.path("x"), "--json",
+                                           *self.QUICK).stdout)
+        self.assertEqual(said["exit_code"], 1)
+        self.assertLess(said["training"]["gain_db"], 0.05)
+        self.nothing_written("x")
+
+    def test_an_interrupt_ends_it_without_a_file(self):
+        frame, truth = self.rendered("tunnel", "--scene", "tunnel")
+        process = subprocess.Popen([DEBURR, "train", "--in", frame, "--truth", truth, "--out", self.path("title.shares"),
+                                    "--batches", "100000"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertIn("training", process.stderr.readline())  # after some seconds
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("RESULT: INTERRUPTED train: no shares were written", out)
+        self.nothing_written()
+
+    def checkers(self, name, side, codes):
+        """Cells of 5 x 3 pixels, dark and bright."""
+        rows = [b"".join(bytes([code]) * 15 for code in (codes if even else codes[::-1])) * (side // 10 + 1)
+                for even in (True, False)]
+        picture = b"".join(rows[y // 3 % 2][:3 * side] for y in range(side))
+        return self.write(name, b"P6 %d %d 255\n" % (side, side) + picture)
+
+    def test_an_interrupt_after_the_last_batch_does_too(self):
+        """One batch of a small picture, then the large one that is kept back is measured, for seconds."""
+        pairs = [";".join(self.checkers(f"{what}{side}.ppm", side, codes) for side in (64, 1536))
+                 for what, codes in (("plain", (20, 230)), ("smooth", (30, 220)))]
+        wait = 0.5
+        while True:  # a fast machine has ended by then
+            process = subprocess.Popen([DEBURR, "train", "--in", pairs[0], "--truth", pairs[1], "--out",
+                                        self.path("title.shares"), "--batches", "1"], stdout=subprocess.PIPE,
+                                       stderr=subprocess.PIPE, text=True)
+            self.wait_until_caught(process)
+            time.sleep(wait)
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=120)
+            if process.returncode != 1 or wait < 0.07:
+                break
+            wait /= 2
+        self.assertEqual(process.returncode, 130, out + err)
+        self.assertIn("RESULT: INTERRUPTED train: no shares were written", out)
+        self.assertNotIn("kept back: ", out)
+        self.nothing_written()
+
+    def wait_until_caught(self, process):
+        """Until it has taken over SIGINT."""
+        while process.poll() is None:
+            with open(f"/proc/{process.pid}/status") as status:
+                caught = next(line for line in status if line.startswith("SigCgt:"))
+            if int(caught.split()[1], 16) >> (signal.SIGINT - 1) & 1:
+                return
+            time.sleep(0.01)
+        self.fail(process.communicate())
+
+
+class Rejects(Base):
+    """Bad input."""
+
+    def setUp(self):
+        super().setUp()
+        self.frame, self.truth = self.rendered("tunnel", "--scene", "tunnel", size="96x64")
+
+    def test_names(self):
+        self.expect(2, "train", "--truth", self.truth, "--out", "x", says="--in is required")
+        self.expect(2, "train", "--in", self.frame, "--out", "x", says="--truth is required")
+        self.expect(2, "train", "--in", self.frame, "--truth", self.truth, says="--out is required")
+        self.train(2, self.frame, self.truth, "--batches", "0", says="--batches")
+        self.train(2, self.frame, self.truth, "--seed", "x", says="--seed")
+        self.train(2, self.frame, self.truth, "--frobnicate", says="unknown option '--frobnicate'")
+
+    def test_pictures(self):
+        self.train(5, self.path("missing.png"), self.truth, says="missing.png")
+        self.train(5, self.frame, self.path("missing.png"), says="missing.png")
+        self.train(5, self.write("text.png", b"no picture"), self.truth, says="text.png")
+        self.train(2, self.path("no*.png"), self.truth, says="no*.png")
+        self.train(2, f"{self.frame};{self.frame}", self.truth, says=["names 2 frames and --truth 1"])
+        self.train(2, self.frame, self.write("small.png", png(48, 40)), says=["96 x 64", "48 x 40"])
+        self.train(2, self.write("tiny.png", png(31, 31)), self.write("tiny2.png", png(31, 31)), says="at least 64")
+        self.train(2, self.frame, self.frame, says="is its truth within 2 codes")
+        self.nothing_written()
+
+    def test_output(self):
+        self.train(2, self.frame, self.truth, out="tunnel/before.png", says="is read, too")
+        self.write("mine.txt", "a letter\n")
+        self.train(2, self.frame, self.truth, out="mine.txt", says=["mine.txt", "holds no shares"])
+        with open(self.path("mine.txt")) as file:
+            self.assertEqual(file.read(), "a letter\n")
+        self.train(5, self.frame, self.truth, out="nowhere/x", says="there is no folder")
+        self.train(5, self.frame, self.truth, out="tunnel", says="it is a folder")
+
+    def test_where_nothing_can_be_written_it_says_so_before_the_work(self):
+        done = self.expect(5, "train", "--in", self.frame, "--truth", self.truth, "--out", "/proc/title.shares",
+                           says="cannot create a file in the folder of '/proc/title.shares'")
+        self.assertNotIn("kept back: ", done.stdout)
+
+    def test_a_full_disk_leaves_the_file_of_before(self):
+        self.rendered("gains", "--scene", "tunnel", size="384x288")
+        self.train(0, self.path("gains/before.png"), self.path("gains/truth.png"), "--batches", "200")
+        with open(self.path("title.shares")) as file:
+            before = file.read()
+        for size in (0, 1000, 4096):
+            done = self.expect(5, "train", "--in", self.frame, "--truth", self.truth, "--out", self.path("title.shares"),
+                               says="File too large",
+                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+            self.assertNotIn("kept back: ", done.stdout)
+            with open(self.path("title.shares")) as file:
+                self.assertEqual(file.read(), before)
+        self.assertEqual([name for name in os.listdir(self.directory) if name.endswith(".tmp")], [])
+
+    def test_a_run_of_a_file_that_holds_no_shares(self):
+        run = ("run", "morphological", "--in", self.frame, "--out", self.path("out"))
+        self.expect(5, *run, "--shares", self.path("missing"), says="missing")
+        self.expect(5, *run, "--shares", self.write("spoilt", "deburr-shares 1\ncodes 1024\n1 2 x\n"),
+                    says=["spoilt", "line 3", "got 'x'"])
+        self.expect(2, *run, "--preset", "mlaa", "--shares", self.path("spoilt"), says=["frame.shares", "analytic"])
+
+
+if __name__ == "__main__":
+    unittest.main()

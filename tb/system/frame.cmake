@@ -1,2 +1,0 @@
-# SPDX-License-Identifier: MIT
-deburr_script_test(smoothing FILE frame ARGUMENTS $<TARGET_FILE:deburr> "${PROJECT_SOURCE_DIR}")

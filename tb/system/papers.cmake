@@ -1,2 +1,0 @@
-# SPDX-License-Identifier: MIT
-deburr_script_test(papers LABELS system long ARGUMENTS $<TARGET_FILE:deburr>)

@@ -1,2 +1,0 @@
-# SPDX-License-Identifier: MIT
-deburr_test(shared_golden_test PROGRAM system_app_tests LABELS negative SOURCE shared_golden_test.cpp LINK deburr::engines)

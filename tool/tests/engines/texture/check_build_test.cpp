@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// What the texture unit cannot be built with.
+#include "spec/texture/check_build.h"
+
+#include <gtest/gtest.h>
+
+#include "rtl_model/texture/texture_unit.h"
+#include "tool/tests/engines/check_build.h"
+
+namespace deburr::tb::check_build_test {
+namespace {
+
+using Parameters = spec::texture::Parameters;
+
+BuildChecks<Parameters, rtl::texture::TextureUnit> checks() {
+  return {"texture",
+          {
+              {{{"cache.bytes", "3000"}}, "cache.bytes", "power of two"},
+              {{{"cache.line_bytes", "48"}}, "cache.line_bytes", "power of two"},
+              {{{"cache.ways", "3"}}, "cache.ways", "power of two"},
+              {{{"cache.bytes", "256"}, {"cache.ways", "8"}},
+               "cache.bytes",
+               "with cache.line_bytes = 64, cache.ways = 8: must hold one set at least, a line for "
+               "each way; make it at least 512"},
+              {{{"cache.fifo_depth", "1"}}, "cache.fifo_depth", "at least 2 places"},
+              {{{"axes", "eight"}, {"axis_clocks", "3"}}, "axis_clocks", "power of two"},
+              {{{"axis_clocks", "4"}},
+               "axis_clocks",
+               "with axes = four: must be at most half of the directions"},
+              {{{"preset", "paper"}, {"axis_clocks", "2"}},
+               "axis_clocks",
+               "make it at most 1 for 2 directions"},
+              {{{"cache.bytes", "65536"}}, "cache.bytes", "make it at most 32768, or lines longer"},
+              {{{"cache.bytes", "32768"}, {"cache.line_bytes", "32"}, {"cache.ways", "8"}},
+               "cache.bytes",
+               "at most 512 lines"},
+          }};
+}
+
+TEST(TextureCheckBuild, HasARowForEveryRule) { checks().expect_a_row_a_rule(); }
+
+TEST(TextureCheckBuild, RejectsAlikeWhereverItIsAsked) { checks().expect_the_same_words(); }
+
+TEST(TextureCheckBuild, RejectsWhatIsOutOfRange) { checks().expect_ranges(); }
+
+TEST(TextureCheckBuild, ShowsRangesThatCanBeBuilt) { checks().expect_ends(); }
+
+TEST(TextureCheckBuild, LeavesNothingThatCannotBeBuilt) { checks().expect_all_else_is_built(300); }
+
+}  // namespace
+}  // namespace deburr::tb::check_build_test

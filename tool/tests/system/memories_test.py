@@ -1,0 +1,95 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""What runs say of the memories that the hardware is built from: no default and no preset of any engine has one
+that no technology offers, the totals are the sums, and the texture unit's page names what there is.
+
+usage: memories_test.py DEBURR DOCS"""
+import itertools
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../tb/engines"))
+from engine_list import engines, trials  # noqa: E402
+
+DEBURR = DOCS = ""
+
+
+def runs():
+    for engine, options in trials("idealised").items():
+        for values in itertools.product(*options.values()):
+            yield (engine, *itertools.chain(*zip(options, values)))
+
+
+class Memories(unittest.TestCase):
+    def result(self, *arguments):
+        with tempfile.TemporaryDirectory() as out:
+            done = subprocess.run([DEBURR, "run", *arguments, "--size", "24x16", "--check", "none", "--out", out],
+                                  text=True, capture_output=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            with open(os.path.join(out, "result.json")) as file:
+                return done.stdout + done.stderr, json.load(file)
+
+    def test_no_default_and_no_preset_is_idealised(self):
+        for arguments in runs():
+            with self.subTest(arguments):
+                said, result = self.result(*arguments)
+                self.assertNotIn("idealised", result)
+                self.assertNotIn("IDEALISED", said)
+                self.assertNotIn("cannot be built", said)
+
+    def test_totals_are_sums(self):
+        with_memories = with_registers = with_links = 0
+        for arguments in ((engine,) for engine in engines()):
+            _, result = self.result(*arguments)
+            memories = result["memories"].values()
+            with_memories += 1 if memories else 0
+            for m in memories:
+                self.assertEqual(m["logical_bits"], m["words"] * m["word_bits"])
+                self.assertGreaterEqual(m["physical_bits"], m["logical_bits"])
+                self.assertIn(m["kind"], ("flops", "sram", "rom"))
+            sums = result["memory_bits"]
+            beside = [m["register_bits"] for m in memories if "register_bits" in m]
+            registers = sums.get("registers", {"memories": 0, "physical": 0})
+            self.assertEqual((registers["memories"], registers["physical"]), (len(beside), sum(beside)))
+            if "links" in sums:
+                self.assertGreater(sums["links"]["physical"], sums["links"]["memories"])
+            with_registers += "registers" in sums
+            with_links += "links" in sums
+            for kind in sums.keys() - {"registers", "links"}:
+                bits = sums[kind]
+                of_kind = [m for m in memories if kind in ("total", m["kind"])]
+                self.assertEqual(bits["memories"], len(of_kind))
+                self.assertEqual(bits["logical"], sum(m["logical_bits"] for m in of_kind))
+                self.assertEqual(bits["physical"], sum(m["physical_bits"] for m in of_kind))
+        self.assertGreater(min(with_memories, with_registers, with_links), 0)
+
+    def test_the_page_of_the_texture_unit_names_what_there_is(self):
+        with open(os.path.join(DOCS, "reference/texture/hardware.md"), encoding="utf-8") as file:
+            table = file.read().split("\n## Memories\n")[1].split("\n## ")[0]
+        page = {}
+        for line in table.splitlines():
+            cells = [cell.strip() for cell in line.strip("|").split("|")]
+            if not line.startswith("| `"):
+                continue
+            name = cells[0].split("`")[1].removeprefix("cache.").removeprefix("address.").replace(".", "_")
+            page[name] = (cells[2], cells[3].split(",")[0], cells[5], int(cells[6].replace(" ", "")))
+
+        def found(*rules):
+            _, result = self.result("texture", *rules)
+            return {name: (f"{m['words']} x {m['word_bits']}", m["ports"], m["built_as"], m["physical_bits"])
+                    for name, m in result["memories"].items() if name != "memory_port_response_buffer"}
+
+        every_rule = found("--set", "texture.srgb_output=encoded", "--set", "texture.log2=exact")
+        self.assertEqual(page, every_rule)
+        self.assertEqual(set(page) - set(found()), {"filter_codes", "log2_table"})
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3 or sys.argv[1] in ("-h", "--help"):
+        sys.exit(__doc__)
+    DEBURR, DOCS = sys.argv.pop(1), sys.argv.pop(1)
+    unittest.main()
