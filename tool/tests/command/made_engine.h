@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The engines of this program: nothing is simulated, a run leaves what the test says.
+// The engines `made` and `other` simulate nothing; a test chooses their results.
 #pragma once
 
 #include <functional>
@@ -8,10 +8,9 @@
 
 namespace deburr::tb {
 
-// What a run of either engine does, where a test says so. Else, as in the worker of a sweep, it is
-// given lanes and a gain: the cycles are 1200 / lanes and the rate is the lanes; of 3 lanes one of
-// nine colours is wrong, a gain of 2 is a deadlock, and one of 1.5 is rejected. Waves say which
-// clocks they are of.
+// Replaces the run of both engines. Without it, as in the worker of a sweep, lanes and gain decide:
+// 1200 / lanes cycles at a rate of `lanes`. With 3 lanes one of nine colours is wrong; a gain of 2
+// deadlocks; a gain of 1.5 is rejected. The wave file holds the traced interval.
 using MadeRun = std::function<void(const RunParameters& run, RunContext& context, Result& result)>;
 MadeRun& made_run();
 

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// `deburr run`: what is given, what is said of a result, and how it ends.
+// `deburr run`: its options, output and exit codes.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <limits>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <string>
-#include <utility>
 
 #include "spec/error.h"
 #include "tb/base/interrupt.h"
+#include "tool/tests/command/in_process.h"
 #include "tool/tests/command/made_engine.h"
-#include "tool/tests/command/transcript.h"
 
 namespace deburr::tb::run_test {
 namespace {
 
+using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -29,7 +29,7 @@ MemoryFigures memory(const std::string& name, const std::string& idealised) {
   return m;
 }
 
-// A value of its own for each field, so that none can stand for another.
+// Every field has a different value.
 void fill(Result& r) {
   r.comparisons = 12345;
   r.traffic_comparisons = 2345;
@@ -48,11 +48,11 @@ void fill(Result& r) {
   r.change = Change{12.25, 3.5, 0.75, 0.125, 33.75};
 }
 
-// The seed says which.
+// The seed selects the outcome.
 void run(const RunParameters& p, RunContext& context, Result& r) {
   if (context.checking_only()) return;
   switch (p.seed) {
-    case 2:  // what may be absent is
+    case 2:  // without what may be absent
       r.cycles = 1000;
       r.throughput = 0.5;
       r.throughput_unit = "pixel/clk";
@@ -97,76 +97,180 @@ void run(const RunParameters& p, RunContext& context, Result& r) {
       break;
     case 12:
       throw std::runtime_error("something else");
-    case 13:
-      r.cycles = 1000;
-      r.traffic_comparisons = 1;
-      r.bytes_written = 1;
-      r.throughput_bound = 3;
-      r.throughput = 1;
-      break;
     default:
       fill(r);
   }
 }
 
-class RunCommand : public Transcript {
+class RunCommand : public InProcessTable {
  protected:
-  RunCommand() {
-    made_run() = run;
-    write("set.yaml", "frame:\n  width: 9\nmade.lanes: 2\n");
-    write("in.png", "");
-  }
+  RunCommand() { made_run() = run; }
 };
+class RunOutput : public RunCommand {};
+class RejectedRun : public RunCommand {};
 
-TEST_F(RunCommand, SaysWhatWasMeasuredAndHowItEnded) { expect("run.txt"); }
+// ---- output -------------------------------------------------------------------------------------
 
-TEST_F(RunCommand, AsJsonIsOneObject) {
+TEST_P(RunOutput, PrintsExpectedLines) {
+  EXPECT_EQ(printed(GetParam().given), GetParam().expected);
+}
+
+const Case kOutputs[] = {
+    {"Everything", "run made", R"(rate        1.250 pixel/clk, 62.5 % of 2: two lanes
+limited by  walker, full in 22.5 % of the cycles: Its queue is full.
+hits        98.1 % of look-ups
+a long name of it 7
+memory      3.2 GB/s read, 0.8 written at 200 MHz
+quality     31.50 dB (+1.25), edges 28.25 dB (-1.25), silhouettes 27.12 dB (+2.12), FLIP 0.0625 (-0.0625), SSIM 0.9688 (+0.0312) against truth
+changed     12.25 % of the pixels by more than 2 codes, 3.50 % by more than 16 (of those that were right before 0.75 % and 0.12 %); 33.75 dB to what went in
+RESULT: PASS made: 12,345 outputs and 2,345 memory accesses compared, 0 mismatches, 40,000 cycles, 1.250 pixel/clk, IDEALISED cache, queue, out/made/report.html
+! deburr: warning: this hardware cannot be built: memory cache: nine ports
+! deburr: warning: this hardware cannot be built: memory queue: no clock
+)"},
+    {"WithoutOptionalValues", "run other --seed 2", R"(rate        0.500 pixel/clk
+quality     identical, FLIP 0.5000, SSIM 0.2500 against truth
+changed     1.00 % of the pixels by more than 2 codes, 0.00 % by more than 16; identical to what went in
+RESULT: PASS other: 1,000 cycles, 0.500 pixel/clk, out/other/report.html
+)"},
+    {"Unchecked", "run made --seed 2 --quiet --check none",
+     "RESULT: UNCHECKED made: 1,000 cycles, 0.500 pixel/clk, out/made/report.html\n"},
+    {"Mismatch", "run made --quiet --seed 3", R"(REPRO: deburr run made --quiet --seed 3
+RESULT: FAIL mismatch: 3 of 12345 outputs and 4 of 2345 memory accesses differ from the golden model (made: 12,345 outputs and 2,345 memory accesses compared, 7 mismatches, 40,000 cycles, 1.250 pixel/clk, IDEALISED cache, queue, out/made/report.html)
+= 1
+)"},
+    {"MismatchAndInterrupted", "run made --seed 11",
+     "rate        0.000 \n"
+     R"(quality     -, edges 30.00 dB against truth
+REPRO: deburr run made --seed 11
+RESULT: FAIL mismatch: 1 of 0 outputs and 0 of 0 memory accesses differ from the golden model (made: 1,000 cycles, 0.000 , out/made/report.html)
+= 1
+)"},
+    {"Deadlock", "run made --seed 4",
+     "rate        0.000 \n"
+     R"(REPRO: deburr run made --seed 4
+RESULT: FAIL deadlock: nothing moves, links: 1 (made: 77 cycles, 0.000 , out/made/report.html)
+! deburr: nothing moves
+! links: 1
+= 4
+)"},
+    {"ErrorInSimulation", "run made --seed 5", R"(REPRO: deburr run made --seed 5
+RESULT: FAIL simulation: a limit (made: 0 cycles, 0.000 , out/made/report.html)
+! deburr: a limit
+= 3
+)"},
+    {"Interrupted", "run made --quiet --seed 8", R"(REPRO: deburr run made --quiet --seed 8
+RESULT: INTERRUPTED made: 12,345 outputs and 2,345 memory accesses compared, 0 mismatches, 40,000 cycles, 1.250 pixel/clk, IDEALISED cache, queue, out/made/report.html
+! deburr: interrupted; the partial results are kept. Run the same command again for all of it.
+= 130
+)"},
+    {"InterruptedBeforeItBegan", "run made --seed 9", R"(REPRO: deburr run made --seed 9
+RESULT: INTERRUPTED made: before the simulation began, no results were written
+! deburr: interrupted before the simulation began; no results were written
+= 130
+)"},
+};
+INSTANTIATE_TEST_SUITE_P(All, RunOutput, testing::ValuesIn(kOutputs), name_of_case);
+
+TEST_F(RunCommand, JsonIsOneObject) {
+  const char* const mismatch =
+      "3 of 12345 outputs and 4 of 2345 memory accesses differ from the golden model";
   struct Row {
     const char *seed, *check;
     int code;
     const char *verdict, *reason;
-    bool repro;
   };
-  for (const Row& row :
-       {Row{"1", "golden", 0, "pass", "", false}, Row{"1", "none", 0, "unchecked", "", false},
-        Row{"3", "none", 1, "fail",
-            "3 of 12345 outputs and 4 of 2345 memory accesses differ from the golden model", true},
-        Row{"4", "golden", 4, "fail", "nothing moves\nlinks: 1", true},
-        Row{"5", "golden", 3, "fail", "a limit", true},
-        Row{"8", "golden", 130, "unchecked",
-            "interrupted: the results cover what was done until then", true},
-        Row{"11", "golden", 1, "fail",
-            "1 of 0 outputs and 0 of 0 memory accesses differ from the golden model", true}}) {
-    const Said said = deburr({"run", "made", "--seed", row.seed, "--check", row.check, "--json"});
-    EXPECT_EQ(said.code, row.code) << row.seed;
-    const Json json = Json::parse(said.out);
-    EXPECT_EQ(json["exit_code"], row.code) << row.seed;
-    EXPECT_EQ(json["directory"], "out/made") << row.seed;
-    EXPECT_EQ(json["result"]["verdict"], row.verdict) << row.seed;
-    EXPECT_EQ(json["result"].value("reason", ""), row.reason) << row.seed;
-    EXPECT_EQ(json["result"]["clock_mhz"], 200.0) << row.seed;
-    const std::string command =
-        fmt::format("deburr run made --seed {} --check {} --json", row.seed, row.check);
-    EXPECT_EQ(json["command"], command);
-    EXPECT_EQ(json.value("repro", ""), row.repro ? command : "");
+  for (const Row& row : {Row{"1", "golden", 0, "pass", ""}, Row{"1", "none", 0, "unchecked", ""},
+                         Row{"3", "none", 1, "fail", mismatch},
+                         Row{"4", "golden", 4, "fail", "nothing moves\nlinks: 1"},
+                         Row{"5", "golden", 3, "fail", "a limit"},
+                         Row{"8", "golden", 130, "unchecked",
+                             "interrupted: the results cover what was done until then"}}) {
+    const std::string line =
+        fmt::format("run made --seed {} --check {} --json", row.seed, row.check);
+    const Json json = InProcess::json(line);
+    EXPECT_EQ(json["exit_code"], row.code) << line;
+    EXPECT_EQ(json["directory"], "out/made") << line;
+    EXPECT_EQ(json["result"]["verdict"], row.verdict) << line;
+    EXPECT_EQ(json["result"].value("reason", ""), row.reason) << line;
+    EXPECT_EQ(json["result"]["clock_mhz"], 200.0) << line;
+    EXPECT_EQ(json["command"], "deburr " + line);
+    EXPECT_EQ(json.value("repro", ""), row.code == 0 ? "" : "deburr " + line);
   }
   for (const auto& [seed, code] : {std::pair("6", 2), {"7", 5}, {"9", 130}, {"12", 3}}) {
-    const Said said = deburr({"run", "made", "--seed", seed, "--json"});
-    EXPECT_EQ(said.code, code);
-    const Json json = Json::parse(said.out);
-    EXPECT_EQ(json["exit_code"], code);
-    EXPECT_EQ(json.size(), 4u) << said.out;
+    const Json json = InProcess::json(fmt::format("run made --seed {} --json", seed));
+    EXPECT_EQ(json["exit_code"], code) << seed;
+    EXPECT_EQ(json.size(), 4u) << "no result";
   }
 }
 
-// The manifest repeats the run.
-TEST_F(RunCommand, LeavesWhatItWas) {
-  EXPECT_EQ(deburr({"run", "made", "--config", "set.yaml", "--seed", "2"}).code, 0);
+TEST_F(RunCommand, ManifestRecordsCommandAndConfiguration) {
+  write("set.yaml", "frame:\n  width: 9\n");
+  EXPECT_EQ(result("run made --quiet --config set.yaml --seed 2"),
+            "PASS made: 1,000 cycles, 0.500 pixel/clk, out/made/report.html");
   const Json manifest = Json::parse(read("out/made/manifest.json"));
-  EXPECT_EQ(manifest["command"], "deburr run made --config set.yaml --seed 2");
+  EXPECT_EQ(manifest["command"], "deburr run made --quiet --config set.yaml --seed 2");
   EXPECT_EQ(manifest["configuration"]["frame.width"], 9);
   EXPECT_EQ(manifest["configuration"]["run.seed"], 2);
   EXPECT_EQ(manifest["inputs"][0]["file"], "set.yaml");
+}
+
+TEST_F(RunCommand, ShowConfigMergesFileAndOptions) {
+  write("set.yaml", "frame:\n  width: 9\nmade.lanes: 2\n");
+  const std::string shown = printed(
+      "run made --show-config --config set.yaml --size 12x7 --set made.filter=bilinear --round "
+      "--no-images");
+  for (const char* const line :
+       {"run.seed: 1  # ", "run.images: false  # ", "frame.width: 12  # ", "frame.height: 7  # ",
+        "made.filter: \"linear\"  # How it looks.", "made.round: true  # ", "made.lanes: 2  # ",
+        "made.depth: 8  # Of its queue."})
+    EXPECT_THAT("\n" + shown, HasSubstr(std::string("\n") + line));
+  EXPECT_FALSE(std::filesystem::exists("out"));
+}
+
+// ---- rejected -----------------------------------------------------------------------------------
+
+TEST_P(RejectedRun, MessageNamesReason) { expect_failure(GetParam().given, GetParam().expected); }
+
+const Case kRejected[] = {
+    {"ByTheEngine", "run made --seed 6", "configuration: no such thing"},
+    {"MissingFile", "run made --seed 7", "file: no such file"},
+    {"OutOfMemory", "run made --seed 10",
+     "simulation: out of memory: use a smaller picture or fewer textures"},
+    {"OtherException", "run made --seed 12", "simulation: something else"},
+    {"SizeOfOneNumber", "run made --size 12",
+     "configuration: --size: expected WIDTHxHEIGHT, got '12'"},
+    {"SetContradictsSet", "run made --set made.lanes=4 --set made.lanes=5",
+     "configuration: --set: 'made.lanes' = '5' contradicts --set ('4')"},
+    {"PixelOfEngineWithoutHistory", "run other --pixel 1,2",
+     "configuration: run.pixel: the engine other keeps no history of a pixel: leave out --pixel; "
+     "those that do: made"},
+    {"TraceFromWithoutTrace", "run made --trace-from 5",
+     "configuration: --trace-from: 'run.trace_from' = '5' has no effect: nothing is traced without "
+     "run.trace (--trace)"},
+    {"TraceToWithoutTrace", "run made --trace-to 5",
+     "configuration: --trace-to: 'run.trace_to' = '5' has no effect: nothing is traced without "
+     "run.trace (--trace)"},
+    {"EmptyTimeline", "run made --timeline --timeline-from 7 --timeline-to 7",
+     "configuration: run.timeline_from = 7 and run.timeline_to = 7 leave no cycle: --timeline-to "
+     "is the cycle after the last one, give one above 7"},
+    {"TimelineTooLong", "run made --timeline --timeline-from 7 --timeline-to 100008",
+     "configuration: run.timeline_from = 7 and run.timeline_to = 100008: 100001 cycles are more "
+     "than a viewer opens, at most 100000: choose some of them"},
+    {"TimelineFromWithoutTimeline", "run made --timeline-from 5",
+     "configuration: --timeline-from: 'run.timeline_from' = '5' has no effect: there is no "
+     "timeline without run.timeline (--timeline)"},
+    {"TimelineToWithoutTimeline", "run made --timeline-to 5",
+     "configuration: --timeline-to: 'run.timeline_to' = '5' has no effect: there is no timeline "
+     "without run.timeline (--timeline)"},
+};
+INSTANTIATE_TEST_SUITE_P(All, RejectedRun, testing::ValuesIn(kRejected), name_of_case);
+
+TEST_F(RunCommand, AcceptsOneCycleTraceLongestTimelineAndRepeatedValue) {
+  for (const char* const options :
+       {"--trace '*' --trace-from 5 --trace-to 6",
+        "--timeline --timeline-from 7 --timeline-to 100007", "--set made.lanes=4 --lanes 4"})
+    EXPECT_EQ(printed(fmt::format("run made --quiet --seed 2 {}", options)),
+              "RESULT: PASS made: 1,000 cycles, 0.500 pixel/clk, out/made/report.html\n");
 }
 
 }  // namespace

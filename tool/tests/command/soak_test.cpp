@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a soak counts and how it ends: the program beside the command, with the engines of its
-// tests.
+// Counts, output and exit codes of the soak program, with the engines of made_engine.cpp.
 #include "tool/soak/soak.h"
 
 #include <gmock/gmock.h>
@@ -56,7 +55,7 @@ TEST(Soak, CountsRunsOfEveryEngineInTurn) {
                                    "memory; 36 comparisons, "));
 }
 
-TEST(Soak, PassesWhereNothingFails) {
+TEST(Soak, PassesWithoutFailures) {
   const Ended ended = one_soaked("2", "0.5");
   EXPECT_EQ(ended.code, 0) << ended.out;
   EXPECT_THAT(ended.out, HasSubstr("| made | 1 | 1 | 0 | 600 | 9 | 0 | 0 |\n"));
@@ -66,13 +65,13 @@ TEST(Soak, PassesWhereNothingFails) {
   EXPECT_THAT(ended.out, Not(HasSubstr("FAIL")));
 }
 
-// A run that is over before its reset has had none.
+// A run that ends before its reset counts no reset.
 TEST(Soak, CountsResetsWithinARun) {
   EXPECT_THAT(one_soaked("4", "0.5", "299").out, HasSubstr("| made | 1 | 1 | 1 | 300 | 9 |"));
   EXPECT_THAT(one_soaked("4", "0.5", "300").out, HasSubstr("| made | 1 | 1 | 0 | 300 | 9 |"));
 }
 
-TEST(Soak, AMismatchFailsItAndSaysHowToSeeIt) {
+TEST(Soak, MismatchFailsAndPrintsItsCommand) {
   const Ended ended = one_soaked("3", "0.5");
   EXPECT_EQ(ended.code, 1);
   EXPECT_THAT(ended.out, HasSubstr("| made | 1 | 1 | 0 | 400 | 9 | 1 | 1 |\n"));
@@ -84,7 +83,7 @@ TEST(Soak, AMismatchFailsItAndSaysHowToSeeIt) {
   EXPECT_THAT(ended.out, HasSubstr(" --set 'frame.gain=0.5'"));
 }
 
-TEST(Soak, ARunThatCannotBeFailsIt) {
+TEST(Soak, DeadlockAndRejectionFail) {
   const Ended deadlock = one_soaked("2", "2");
   EXPECT_EQ(deadlock.code, 1);
   EXPECT_THAT(deadlock.out, HasSubstr("FAIL      made: nothing moves, cycle 812\n"));
