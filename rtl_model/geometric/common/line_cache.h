@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A direct-mapped cache of lines of memory that looks ahead: fetches the lines that tokens need, in
-// the order of the tokens.
+// A direct-mapped cache of lines of memory that looks ahead.
 //
-// Function  The unit looks a token up, keeps it in a FIFO, and uses the lines when the token leaves
-//           the FIFO. Tags change when a line is requested, data when it is used. So a line that is
-//           replaced has been used by all tokens before, and many misses are under way at a time.
+// Function  The unit looks the lines of a token up, keeps the token in a FIFO, and uses the lines
+//           when the token leaves it. Tags change when a line is requested, data when it is used.
 // Position  Inside VertexFetch, PairFetch, DepthTest, DepthScreen and WeightCombiner.
-// Latency   Tags and data: 1 in SRAM, 0 in flip-flops. A missed line: that of the FillStore.
-// Interval  One token per cycle, of a lookup per port; 2 if both miss, since one line is requested
-//           per cycle. One line arrives and one is used per cycle.
-// Stalls    The unit's cause `fills` (no entry for a line is free), downstream (memory takes no
-//           request). The unit waits while its line is not ready().
-// Cost      Tags, data, a FillStore, and per port a tag and its compare.
+// Latency   A tag or a word: 1 in SRAM, 0 in flip-flops. A line: that of memory and FillStore.
+// Interval  1 for a token with one lookup per port; 2 if both miss: one line is requested, one
+//           arrives and one is used per cycle.
+// Stalls    `no_line` (the line has not come), `no_fill` (no entry for a line is free), downstream.
+// Cost      Tags, data, the FillStore; per port a tag of the token and its compare.
 // Source    docs/reference/geometric/hardware.md, "Caches with a look ahead".
 #pragma once
 
@@ -19,8 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "rtl_model/fabric/clocked.h"
-#include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/common/fill_store.h"
 #include "rtl_model/geometric/common/memory_arbiter.h"
 
@@ -28,115 +24,134 @@ namespace deburr::rtl::geometric {
 
 struct LineCacheShape {
   struct Part {
-    const char* name;
+    const char *name, *content;
     std::uint32_t bits;
-    const char* content;
     MemoryKind kind = MemoryKind::kSram;
     ReadDuringWrite read_during_write = ReadDuringWrite::kForbidden;
   };
-  std::uint32_t lines;  // a power of two
+  struct Fills {
+    const char *name, *content;
+    std::int32_t entries;
+  };
+  std::uint32_t lines, ports;  // lines: a power of two; ports: 1 or 2
   Part tags, data;
-  const char *fills, *fills_content;
-  std::int32_t fill_entries;
+  Fills fills;
+  Activity no_line, no_fill;
 };
 
-template <class Word, std::size_t kPorts>
+template <class Word>
 class LineCache {
-  static_assert(kPorts == 1 || kPorts == 2);
-
  public:
-  // `no_fill`: the stall of a lookup that finds no entry free.
-  LineCache(const LineCacheShape& s, Activity no_fill)
-      : lines_(s.lines),
+  explicit LineCache(const LineCacheShape& s)
+      : shape_(s),
         // A lookup sees the line that the one before it has requested.
-        tags_(s.tags.name, shape_of(s.lines, s.tags, ReadDuringWrite::kNewWord)),
-        data_(s.data.name, shape_of(s.lines, s.data, s.data.read_during_write)),
-        fills_(s.fills, s.fill_entries, s.data.bits, s.fills_content),
-        no_fill_(no_fill) {}
+        tags_(s.tags.name, shape_of(s.tags, ReadDuringWrite::kNewWord)),
+        data_(s.data.name, shape_of(s.data, s.data.read_during_write)),
+        fills_(s.fills.name, s.fills.entries, s.data.bits, s.fills.content) {}
 
-  std::uint32_t lines() const { return lines_; }
-  // Handles for a unit that uses the ports while this one does not.
+  std::uint32_t lines() const { return shape_.lines; }
+  // For a unit that uses the ports while this one does not.
   const ReadPort<std::uint32_t>& tag_port() const { return tag_ports_[0]; }
   const ReadPort<Word>& data_port() const { return data_ports_[0]; }
 
-  // --- Before a frame's first lookup ---
-  // Empties the tags: flip-flops at once, SRAM one per cycle. kIdle: they are empty.
+  // --- Begin of a frame: empties the tags, flip-flops at once, SRAM one per cycle ---
   Activity clear(Cycle cycle) {
-    if (cleared()) return kIdle;
-    if (in_flops_) {
+    if (cleared_ == lines()) return kIdle;
+    if (in_flops()) {
       tags_.clear();
-      cleared_ = lines_;
+      cleared_ = lines();
     } else {
       tag_write_.write(cycle, cleared_++, 0);
     }
     return kBusy;
   }
-  bool cleared() const { return cleared_ == lines_; }
+  // The same; says when they are empty.
+  Activity clear(Cycle cycle, WireOut<bool>& cleared) {
+    const Activity done = clear(cycle);
+    if (done == kBusy && cleared_ == lines()) cleared.drive(cycle, true);
+    return done;
+  }
 
   // --- Tags ---
-  // Addresses the tag at `index` for a line of this tag, which is not 0. Port 0 begins a token.
+  // Addresses the tag of a lookup; the one of port 0 begins a token.
   void find(Cycle cycle, std::size_t port, std::uint32_t index, std::uint32_t tag) {
     wanted_[port] = {index, tag};
-    if (!in_flops_) tag_ports_[port].read(cycle, index);
-    if (port != 0) {
-      two_ = true;
-      return;
-    }
-    found_ = cycle;
-    two_ = false;
+    if (!in_flops()) tag_ports_[port].read(cycle, index);
+    two_ = port != 0;
     missed_ = 0;
+    found_ = cycle;
     decided_ = kNever;
   }
-  // The tag that find() addressed; 0: no line.
+  // The tag that is there; 0: no line.
   std::uint32_t tag(Cycle cycle, std::size_t port) {
     const std::uint32_t index = wanted_[port].index;
-    return in_flops_ ? tag_ports_[port].now(cycle, index)
-                     : tag_ports_[port].at(cycle, index, found_);
+    return in_flops() ? tag_ports_[port].now(cycle, index)
+                      : tag_ports_[port].at(cycle, index, found_);
   }
   void set_tag(Cycle cycle, std::size_t port) {
     tag_write_.write(cycle, wanted_[port].index, wanted_[port].tag);
   }
-  // kIdle, or why no line can be requested.
+  // kIdle, or why not.
   Activity can_request(Cycle cycle, const MemoryClient& memory) const {
-    if (!fills_.can_reserve(cycle)) return no_fill_;
+    if (!fills_.can_reserve(cycle)) return shape_.no_fill;
     return memory.requests_out.can_push(cycle) ? kIdle : kStalledDownstream;
   }
   void request(Cycle cycle, MemoryClient& memory, std::uint32_t address) {
     memory.read(cycle, address, fills_.reserve());
   }
-  // Compares the token's lookups and requests the lines that miss, one per cycle. `address(port)`
-  // is called for each request. kIdle: done; kBusy: one more request in the next cycle.
+  // Compares the lookups and requests the lines that miss, each of `address(port)`. kIdle: done;
+  // kBusy: one more is requested in the next cycle.
   template <class Address>
-  Activity look_up(Cycle cycle, MemoryClient& memory, Address&& address) {
-    if (decided_ == kNever) {
-      const bool first = misses(cycle, 0);
-      // The line of the first lookup may replace that of the second.
-      const bool second = kPorts == 2 && two_ &&
-                          (misses(cycle, 1) || (first && wanted_[0].index == wanted_.back().index));
-      if (first)
-        if (const Activity done = fetch(cycle, memory, 0, address); done != kIdle) return done;
-      decided_ = cycle;
-      if (!second) return kIdle;
-      if (first) return kBusy;
-    }
-    return fetch(cycle, memory, 1, address);
+  Activity look_up(Cycle cycle, MemoryClient& memory, const Address& address) {
+    const auto fetch = [&](std::size_t port) {
+      const Activity can = can_request(cycle, memory);
+      if (can != kIdle) return can;
+      request(cycle, memory, address(port));
+      set_tag(cycle, port);
+      missed_ |= static_cast<std::uint8_t>(1u << port);
+      return kIdle;
+    };
+    if (decided_ != kNever) return fetch(1);
+    const bool first = misses(cycle, 0);
+    // The line of the first lookup may replace that of the second.
+    const bool second =
+        two_ && (misses(cycle, 1) || (first && wanted_[0].index == wanted_[1].index));
+    if (first)
+      if (const Activity done = fetch(0); done != kIdle) return done;
+    decided_ = cycle;
+    return !second ? kIdle : first ? kBusy : fetch(1);
   }
-  // Lookups that were decided in this cycle, for counters.
+  // Lookups that were decided in this cycle: for counters.
   std::uint32_t decided(Cycle cycle) const { return decided_ == cycle ? 1 + two_ : 0; }
   // Bit k: the token's lookup of port k has missed.
   std::uint8_t missed() const { return missed_; }
 
   // --- Data, in the order of requests ---
-  bool ready(Cycle cycle) const { return fills_.ready(cycle); }
+  // kIdle, or why not.
+  Activity can_take(Cycle cycle) const { return fills_.ready(cycle) ? kIdle : shape_.no_line; }
   const Word& take(Cycle cycle) {
     const Word& line = fills_.line(cycle);
     fills_.release(cycle);
     return line;
   }
-  const Word& install(Cycle cycle, std::uint32_t index) {
-    const Word& line = take(cycle);
-    write(cycle, index, line);
-    return line;
+  // Installs the lines that a token has missed, one per cycle, each of which `take_line(port,
+  // line)` uses; then addresses its other words. Both are bits by port. kIdle: done.
+  template <class Index, class Take>
+  Activity collect(Cycle cycle, const Index* index, std::uint32_t missed, std::uint32_t others,
+                   const Take& take_line) {
+    if (const std::uint32_t left = missed & ~installed_; left != 0) {
+      if (const Activity can = can_take(cycle); can != kIdle) return can;
+      const std::size_t port = left & 1 ? 0 : 1;
+      const Word& line = take(cycle);
+      write(cycle, index[port], line);
+      take_line(port, line);
+      installed_ |= 1u << port;
+      if (left == 3) return kBusy;
+    }
+    installed_ = 0;
+    for (std::size_t port = 0; port < 2; ++port)
+      if (others >> port & 1) read(cycle, port, index[port]);
+    return kIdle;
   }
   void write(Cycle cycle, std::uint32_t index, const Word& word) {
     data_write_.write(cycle, index, word);
@@ -148,14 +163,17 @@ class LineCache {
     return data_ports_[port].at(cycle, index);
   }
 
-  // Last in every cycle: takes what memory gives, and says what the unit did by both its halves.
+  // --- Last in each cycle ---
+  // Takes what memory gives, by `decode(word, line)`; what the unit did, by its data and its tags.
   template <class Decode>
   Activity finish(Cycle cycle, MemoryClient& memory, Activity data, Activity tags,
-                  Decode&& decode) {
+                  const Decode& decode) {
     bool did = data == kBusy || tags == kBusy;
     if (memory.responses_in.can_pop(cycle)) {
       const MemoryResponse& response = memory.responses_in.take(cycle);
-      fills_.fill(cycle, response.tag, decode(response.data));
+      Word word;
+      decode(word, response.data);
+      fills_.fill(cycle, response.tag, word);
       did = true;
     }
     fills_.read_ahead(cycle);
@@ -164,7 +182,7 @@ class LineCache {
   }
   void reset() {
     fills_.reset();
-    cleared_ = 0;
+    cleared_ = installed_ = 0;
   }
 
  private:
@@ -172,37 +190,27 @@ class LineCache {
     std::uint32_t index, tag;
   };
   template <class T>
-  using ReadPorts = std::array<ReadPort<T>, kPorts>;
+  using ReadPorts = std::array<ReadPort<T>, 2>;
 
-  static MemoryShape shape_of(std::uint32_t lines, const LineCacheShape::Part& part,
-                              ReadDuringWrite read_during_write) {
-    const bool flops = part.kind == MemoryKind::kFlops;
-    return {.words = lines,
+  MemoryShape shape_of(const LineCacheShape::Part& part, ReadDuringWrite in_sram) const {
+    const bool sram = part.kind == MemoryKind::kSram;
+    return {.words = shape_.lines,
             .word_bits = part.bits,
             .kind = part.kind,
-            .read_ports = kPorts,
-            .latency = flops ? 0U : 1U,
-            .read_during_write = flops ? ReadDuringWrite::kForbidden : read_during_write,
+            .read_ports = shape_.ports,
+            .latency = sram,
+            .read_during_write = sram ? in_sram : ReadDuringWrite::kForbidden,
             .content = part.content};
   }
   template <class T>
-  static ReadPorts<T> ports_of(Memory<T>& memory) {
-    if constexpr (kPorts == 1)
-      return {ReadPort<T>{memory, "look-up"}};
-    else
-      return {ReadPort<T>{memory, "first"}, ReadPort<T>{memory, "second"}};
+  ReadPorts<T> ports_of(Memory<T>& memory) const {
+    const ReadPort<T> first{memory, "first"};
+    return {first, shape_.ports == 2 ? ReadPort<T>{memory, "second"} : first};
   }
+  bool in_flops() const { return shape_.tags.kind == MemoryKind::kFlops; }
   bool misses(Cycle cycle, std::size_t port) { return tag(cycle, port) != wanted_[port].tag; }
-  template <class Address>
-  Activity fetch(Cycle cycle, MemoryClient& memory, std::size_t port, Address&& address) {
-    if (const Activity done = can_request(cycle, memory); done != kIdle) return done;
-    request(cycle, memory, address(port));
-    set_tag(cycle, port);
-    missed_ |= static_cast<std::uint8_t>(1u << port);
-    return kIdle;
-  }
 
-  const std::uint32_t lines_;
+  const LineCacheShape shape_;
   Memory<std::uint32_t> tags_;
   ReadPorts<std::uint32_t> tag_ports_ = ports_of(tags_);
   WritePort<std::uint32_t> tag_write_{tags_, "requests"};
@@ -210,16 +218,15 @@ class LineCache {
   ReadPorts<Word> data_ports_ = ports_of(data_);
   WritePort<Word> data_write_{data_, "install"};
   FillStore<Word> fills_;
-  const Activity no_fill_;
-  const bool in_flops_ = tags_.memory_kind() == MemoryKind::kFlops;
   std::uint32_t cleared_ = 0;  // U11, tags that are empty
 
-  // The token that is looked up.
-  std::array<Wanted, kPorts> wanted_{};
+  // Of the token that is looked up.
+  std::array<Wanted, 2> wanted_{};
   bool two_ = false;
   std::uint8_t missed_ = 0;
-  Cycle found_ = 0;         // when its tags were addressed
-  Cycle decided_ = kNever;  // since when its first lookup is decided
+  Cycle found_ = 0, decided_ = kNever;  // tags addressed, first lookup decided
+  // Of the token whose lines are collected, bit k: that of port k.
+  std::uint32_t installed_ = 0;
 };
 
 }  // namespace deburr::rtl::geometric

@@ -16,21 +16,14 @@ PairFetch::PairFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
                      const spec::geometric::Parameters& p, EdgeLatency& latency)
     : Unit(name, clock),
       latency_(latency),
-      stalled_pairs_(declare_stall("pairs", "a line of pairs has not come")),
       cache_({.lines = 2,
-              .tags = {"pair_tags", kPairTagBits, "line, valid", MemoryKind::kFlops},
-              .data = {"pair_lines", kPairLineBits, "ten pairs of each array", MemoryKind::kFlops},
-              .fills = "pair_fills",
-              .fills_content = "pairs on their way",
-              .fill_entries = p.fills},
-             declare_stall("fills", "no place for a line of pairs is free")),
+              .ports = 1,
+              .tags = {"pair_tags", "line, valid", kPairTagBits, MemoryKind::kFlops},
+              .data = {"pair_lines", "ten pairs of each array", kPairLineBits, MemoryKind::kFlops},
+              .fills = {"pair_fills", "pairs on their way", p.fills},
+              .no_line = declare_stall("pairs", "a line of pairs has not come"),
+              .no_fill = declare_stall("fills", "no place for a line of pairs is free")}),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo)) {}
-
-PairFetch::PairLine PairFetch::decode(const Line& line) {
-  PairLine pairs;
-  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = split_record_of(line, i);
-  return pairs;
-}
 
 // Stage 1.
 Activity PairFetch::look_up(Cycle cycle) {
@@ -80,15 +73,18 @@ Activity PairFetch::deliver(Cycle cycle) {
   }
   if (!fifo_.can_pop(cycle)) return kBusy;
   const Lookup& l = fifo_.front(cycle);
-  if (l.missed && !cache_.ready(cycle)) return stalled_pairs_;
+  const bool has_pair = !l.invalid && !l.end, kept = has_pair && !l.missed;
+  std::uint64_t pair = 0;
+  const Activity done =
+      cache_.collect(cycle, &l.other, l.missed, kept,
+                     [&](std::size_t, const PairLine& line) { pair = line[l.place]; });
+  if (done != kIdle) return done;
+  if (kept) pair = cache_.word(cycle, 0, l.other)[l.place];
   Work& work = pipe_.enter();
   work.invalid = l.invalid;
   work.edge.crease = l.crease;
   work.edge.end = l.end;
-  if (!l.invalid && !l.end) {
-    if (!l.missed) cache_.read(cycle, 0, l.other);
-    const std::uint64_t pair =
-        (l.missed ? cache_.install(cycle, l.other) : cache_.word(cycle, 0, l.other))[l.place];
+  if (has_pair) {
     work.edge.v0 = static_cast<std::uint32_t>(pair) & spec::geometric::kIndexMask;
     work.edge.v1 = static_cast<std::uint32_t>(pair >> spec::geometric::kSplitVertexBits) &
                    spec::geometric::kIndexMask;
@@ -101,7 +97,9 @@ Activity PairFetch::tick(Cycle cycle) {
   const Phase phase = phase_in.read(cycle);
   if (phase != Phase::kEdges) return phase == Phase::kBegin ? cache_.clear(cycle) : kIdle;
   const Activity data = deliver(cycle), tags = look_up(cycle);
-  return cache_.finish(cycle, memory, data, tags, decode);
+  return cache_.finish(cycle, memory, data, tags, [](PairLine& pairs, const Line& line) {
+    for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = split_record_of(line, i);
+  });
 }
 
 void PairFetch::reset() {

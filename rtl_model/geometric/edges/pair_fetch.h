@@ -68,13 +68,11 @@ class PairFetch final : public Unit {
     }
   };
 
-  static PairLine decode(const Line& line);
   Activity look_up(Cycle cycle);
   Activity deliver(Cycle cycle);
 
-  EdgeLatency& latency_;  // an instrument
-  const Activity stalled_pairs_;
-  LineCache<PairLine, 1> cache_;  // a line of each array, boundaries first
+  EdgeLatency& latency_;       // an instrument
+  LineCache<PairLine> cache_;  // a line of each array, boundaries first
   Fifo<Lookup> fifo_;
 
   // Stages 2 and 3.

@@ -27,25 +27,17 @@ VertexFields decode_vertex(const Line& line, std::size_t vertex) {
 VertexFetch::VertexFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
                          const spec::geometric::Parameters& p)
     : Unit(name, clock),
-      stalled_vertices_(declare_stall("vertices", "a line of vertices has not come")),
       cache_({.lines = spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.vertex_lines)],
-              .tags = {"vertex_tags", kVertexTagBits, "line of vertices, valid"},
-              .data = {"vertex_data", kVertexBits * kVerticesInLine,
-                       "four vertices: x, y, depth, usable", MemoryKind::kSram,
+              .ports = 2,
+              .tags = {"vertex_tags", "line of vertices, valid", kVertexTagBits},
+              .data = {"vertex_data", "four vertices: x, y, depth, usable",
+                       kVertexBits * kVerticesInLine, MemoryKind::kSram,
                        // v1's line replaces the one of v0 in the clock that reads v0.
                        ReadDuringWrite::kOldWord},
-              .fills = "vertex_fills",
-              .fills_content = "vertices on their way",
-              .fill_entries = p.fills},
-             declare_stall("fills", "no place for a line of vertices is free")),
+              .fills = {"vertex_fills", "vertices on their way", p.fills},
+              .no_line = declare_stall("vertices", "a line of vertices has not come"),
+              .no_fill = declare_stall("fills", "no place for a line of vertices is free")}),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo)) {}
-
-VertexFetch::VertexLine VertexFetch::decode(const Line& line) {
-  VertexLine vertices;
-  std::size_t i = 0;
-  for (VertexFields& vertex : vertices) vertex = decode_vertex(line, i++);
-  return vertices;
-}
 
 // Stages 2 and 1.
 Activity VertexFetch::look_up(Cycle cycle) {
@@ -77,8 +69,8 @@ Activity VertexFetch::look_up(Cycle cycle) {
     lookup_.place[i] = static_cast<std::uint8_t>(vertex[i] % kVerticesInLine);
   }
   lookup_.one_line = line_[0] == line_[1];
-  for (std::size_t i = 0; i < (lookup_.one_line ? 1u : 2u); ++i)
-    cache_.find(cycle, i, lookup_.index[i], line_[i] | kValid);
+  cache_.find(cycle, 0, lookup_.index[0], line_[0] | kValid);
+  if (!lookup_.one_line) cache_.find(cycle, 1, lookup_.index[1], line_[1] | kValid);
   return kBusy;
 }
 
@@ -108,17 +100,10 @@ Activity VertexFetch::deliver(Cycle cycle) {
     work_.from_cache &= static_cast<std::uint8_t>(~work_.lookup.missed);
     working_ = true;
   }
-  Lookup& l = work_.lookup;
-  if (l.missed != 0) {
-    // v1's line may replace the one of v0, which is read in this clock at the latest.
-    const std::size_t which = l.missed & 1 ? 0 : 1;
-    if (!cache_.ready(cycle)) return stalled_vertices_;
-    take(work_, which, cache_.install(cycle, l.index[which]));
-    l.missed &= static_cast<std::uint8_t>(~(1u << which));
-    if (l.missed != 0) return kBusy;
-  }
-  for (std::size_t which = 0; which < 2; ++which)
-    if (work_.from_cache >> which & 1) cache_.read(cycle, which, l.index[which]);
+  const Activity done =
+      cache_.collect(cycle, work_.lookup.index.data(), work_.lookup.missed, work_.from_cache,
+                     [&](std::size_t which, const VertexLine& line) { take(work_, which, line); });
+  if (done != kIdle) return done;
   pipe_.enter() = work_;
   working_ = false;
   return kBusy;
@@ -126,15 +111,13 @@ Activity VertexFetch::deliver(Cycle cycle) {
 
 Activity VertexFetch::tick(Cycle cycle) {
   const Phase phase = phase_in.read(cycle);
-  if (phase == Phase::kBegin) {
-    const Activity clears = cache_.clear(cycle);
-    if (clears == kBusy && cache_.cleared()) cleared_out.drive(cycle, true);
-    return clears;
-  }
-  if (phase != Phase::kEdges) return kIdle;
+  if (phase != Phase::kEdges)
+    return phase == Phase::kBegin ? cache_.clear(cycle, cleared_out) : kIdle;
   if (cleared_out.driven()) cleared_out.drive(cycle, false);
   const Activity data = deliver(cycle), tags = look_up(cycle);
-  return cache_.finish(cycle, memory, data, tags, decode);
+  return cache_.finish(cycle, memory, data, tags, [](VertexLine& vertices, const Line& line) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = decode_vertex(line, i);
+  });
 }
 
 void VertexFetch::reset() {

@@ -65,13 +65,11 @@ class VertexFetch final : public Unit {
     std::uint8_t from_cache;  // bit k: the word of look-up k comes from the data
   };
 
-  static VertexLine decode(const Line& line);
   Activity look_up(Cycle cycle);
   Activity deliver(Cycle cycle);
   static void take(Work& work, std::size_t which, const VertexLine& line);
 
-  const Activity stalled_vertices_;
-  LineCache<VertexLine, 2> cache_;  // of v0, of v1
+  LineCache<VertexLine> cache_;  // of v0, of v1
   Fifo<Lookup> fifo_;
 
   // Stage 2.

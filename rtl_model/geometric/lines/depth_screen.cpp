@@ -20,24 +20,16 @@ std::uint32_t coarse_tag_of(std::uint32_t u, std::uint32_t v) {
 DepthScreen::DepthScreen(const sc_core::sc_module_name& name, ClockDomain& clock,
                          const spec::geometric::Parameters& p)
     : Unit(name, clock),
-      stalled_coarse_(declare_stall("coarse", "a line of coarse depth has not come")),
       cache_({.lines = spec::geometric::kCoarseLineCount[static_cast<std::size_t>(p.coarse_lines)],
-              .tags = {"coarse_tags", kCoarseTagBits, "v, u, valid", MemoryKind::kFlops},
-              .data = {"coarse_lines", kCoarseEntryBits * kInLine, "32 bounds of depth"},
-              .fills = "coarse_fills",
-              .fills_content = "bounds on their way",
-              .fill_entries = p.fills},
-             declare_stall("fills", "no place for a line of coarse depth is free")),
+              .ports = 2,
+              .tags = {"coarse_tags", "v, u, valid", kCoarseTagBits, MemoryKind::kFlops},
+              .data = {"coarse_lines", "32 bounds of depth", kCoarseEntryBits * kInLine},
+              .fills = {"coarse_fills", "bounds on their way", p.fills},
+              .no_line = declare_stall("coarse", "a line of coarse depth has not come"),
+              .no_fill = declare_stall("fills", "no place for a line of coarse depth is free")}),
       index_bits_(static_cast<std::uint32_t>(std::countr_zero(cache_.lines()))),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo),
             candidates_shape(p, false, "group.")) {}
-
-DepthScreen::CoarseLine DepthScreen::decode(const Line& line) {
-  CoarseLine bounds;
-  for (std::size_t i = 0; i < bounds.size(); ++i)
-    bounds[i] = static_cast<std::uint16_t>(line[2 * i] | line[2 * i + 1] << 8);
-  return bounds;
-}
 
 // Stage 1.
 void DepthScreen::find_tiles(Cycle cycle, const CandidateToken& group) {
@@ -58,7 +50,8 @@ void DepthScreen::find_tiles(Cycle cycle, const CandidateToken& group) {
     l.index[which] =
         static_cast<std::uint8_t>((line_[which].u & ((1u << low) - 1)) |
                                   (line_[which].v & ((1u << (index_bits_ - low)) - 1)) << low);
-    if (which == 0 || line_[0] != line_[1])
+    l.two_lines = which == 1 && line_[0] != line_[1];
+    if (which == 0 || l.two_lines)
       cache_.find(cycle, which, l.index[which], coarse_tag_of(line_[which].u, line_[which].v));
   };
   const std::uint32_t tx = group.block_x >> 1, ty = group.block_y >> 1;
@@ -76,7 +69,6 @@ void DepthScreen::find_tiles(Cycle cycle, const CandidateToken& group) {
   if (l.crossing == 0) return;
   const std::uint32_t step = forward ? 1 : ~0u;
   find(1, group.vertical ? tx + step : tx, group.vertical ? ty : ty + step);
-  l.two_lines = line_[0] != line_[1];
 }
 
 // Stages 2 and 1.
@@ -162,16 +154,10 @@ Activity DepthScreen::deliver(Cycle cycle) {
     work_.from_cache &= static_cast<std::uint8_t>(~l.missed);
     working_ = true;
   }
-  Lookup& l = work_.lookup;
-  if (l.missed != 0) {
-    const std::size_t which = l.missed & 1 ? 0 : 1;
-    if (!cache_.ready(cycle)) return stalled_coarse_;
-    take(work_, which, cache_.install(cycle, l.index[which]));
-    l.missed &= static_cast<std::uint8_t>(~(1u << which));
-    if (l.missed != 0) return kBusy;
-  }
-  for (std::size_t which = 0; which < 2; ++which)
-    if (work_.from_cache >> which & 1) cache_.read(cycle, which, l.index[which]);
+  const Activity done =
+      cache_.collect(cycle, work_.lookup.index.data(), work_.lookup.missed, work_.from_cache,
+                     [&](std::size_t which, const CoarseLine& line) { take(work_, which, line); });
+  if (done != kIdle) return done;
   pipe_.enter() = work_;
   working_ = false;
   return kBusy;
@@ -181,7 +167,10 @@ Activity DepthScreen::tick(Cycle cycle) {
   const Phase phase = phase_in.read(cycle);
   if (phase != Phase::kEdges) return phase == Phase::kBegin ? cache_.clear(cycle) : kIdle;
   const Activity data = deliver(cycle), tags = look_up(cycle);
-  return cache_.finish(cycle, memory, data, tags, decode);
+  return cache_.finish(cycle, memory, data, tags, [](CoarseLine& bounds, const Line& line) {
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+      bounds[i] = static_cast<std::uint16_t>(line[2 * i] | line[2 * i + 1] << 8);
+  });
 }
 
 void DepthScreen::reset() {

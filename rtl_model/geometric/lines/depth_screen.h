@@ -88,15 +88,13 @@ class DepthScreen final : public Unit {
     std::uint8_t from_cache;             // bit k: the word of look-up k comes from the data
   };
 
-  static CoarseLine decode(const Line& line);
   void find_tiles(Cycle cycle, const CandidateToken& group);
   Activity look_up(Cycle cycle);
   Activity deliver(Cycle cycle);
   void take(Work& work, std::size_t which, const CoarseLine& line) const;
   void screen(Cycle cycle, Work& work);
 
-  const Activity stalled_coarse_;
-  LineCache<CoarseLine, 2> cache_;  // of its own line, of that of its neighbours
+  LineCache<CoarseLine> cache_;  // of its own line, of that of its neighbours
   const std::uint32_t index_bits_;
   Fifo<Lookup> fifo_;
 

@@ -32,22 +32,15 @@ DepthTest::DepthTest(const sc_core::sc_module_name& name, ClockDomain& clock,
     : Unit(name, clock),
       latency_(latency),
       index_bits_(spec::geometric::kCacheLineBits[static_cast<std::size_t>(p.depth_lines)]),
-      stalled_depth_(declare_stall("depth", "a line of depths has not come")),
       cache_({.lines = spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.depth_lines)],
-              .tags = {"depth_tags", kDepthTagBits, "u, v, valid"},
-              .data = {"depth_data", 24 * spec::geometric::kPixelsInLine, "sixteen depths"},
-              .fills = "depth_fills",
-              .fills_content = "depths on their way",
-              .fill_entries = p.fills},
-             declare_stall("fills", "no place for a line of depths is free")),
+              .ports = 2,
+              .tags = {"depth_tags", "u, v, valid", kDepthTagBits},
+              .data = {"depth_data", "sixteen depths", 24 * spec::geometric::kPixelsInLine},
+              .fills = {"depth_fills", "depths on their way", p.fills},
+              .no_line = declare_stall("depth", "a line of depths has not come"),
+              .no_fill = declare_stall("fills", "no place for a line of depths is free")}),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo),
             candidates_shape(p, p.coarse_lines != spec::geometric::CoarseLines::kNone, "group.")) {}
-
-DepthTest::DepthLine DepthTest::decode(const Line& line) {
-  DepthLine depths;
-  for (std::size_t i = 0; i < depths.size(); ++i) depths[i] = word_of(line, i) & 0xFFFFFF;
-  return depths;
-}
 
 // Its number among the group's lines.
 std::uint8_t DepthTest::add_line(Wanted& wanted, Place line, bool tiled) const {
@@ -241,43 +234,33 @@ Activity DepthTest::deliver(Cycle cycle) {
     working_ = true;
     step_ = 0;
   }
-  Lookup& l = work_.lookup;
-  const std::uint32_t pair = l.missed >> step_ & 3;
-  if (pair != 0) {
-    if (!cache_.ready(cycle)) return stalled_depth_;
-    const std::size_t which = step_ + (pair & 1 ? 0 : 1);
-    capture(cycle, work_, which, cache_.install(cycle, l.index[which]));
-    l.missed &= static_cast<std::uint8_t>(~(1u << which));
-    installed_ |= static_cast<std::uint8_t>(1u << which);
-    if (pair == 3) return kBusy;
-  }
-  for (std::size_t port = 0; port < 2 && step_ + port < l.count; ++port)
-    if (!(installed_ >> (step_ + port) & 1)) {
-      cache_.read(cycle, port, l.index[step_ + port]);
-      reading_ |= static_cast<std::uint8_t>(1u << port);
-    }
+  const Lookup& l = work_.lookup;
+  const std::uint32_t lines = l.count - step_ > 1 ? 3 : l.count - step_ == 1,
+                      missed = l.missed >> step_ & 3;
+  const Activity done = cache_.collect(
+      cycle, &l.index[step_], missed, lines & ~missed,
+      [&](std::size_t port, const DepthLine& line) { capture(cycle, work_, step_ + port, line); });
+  if (done != kIdle) return done;
+  reading_ = static_cast<std::uint8_t>(lines & ~missed);
   reading_step_ = step_;
   step_ += 2;
   reading_last_ = step_ >= l.count;
   if (reading_last_) {
     pipe_.enter() = work_;
     working_ = false;
-    installed_ = 0;
   }
   return kBusy;
 }
 
 Activity DepthTest::tick(Cycle cycle) {
   const Phase phase = phase_in.read(cycle);
-  if (phase == Phase::kBegin) {
-    const Activity clears = cache_.clear(cycle);
-    if (clears == kBusy && cache_.cleared()) cleared_out.drive(cycle, true);
-    return clears;
-  }
-  if (phase != Phase::kEdges) return kIdle;
+  if (phase != Phase::kEdges)
+    return phase == Phase::kBegin ? cache_.clear(cycle, cleared_out) : kIdle;
   if (cleared_out.driven()) cleared_out.drive(cycle, false);
   const Activity data = deliver(cycle), tags = look_up(cycle);
-  return cache_.finish(cycle, memory, data, tags, decode);
+  return cache_.finish(cycle, memory, data, tags, [](DepthLine& depths, const Line& line) {
+    for (std::size_t i = 0; i < depths.size(); ++i) depths[i] = word_of(line, i) & 0xFFFFFF;
+  });
 }
 
 void DepthTest::reset() {
@@ -285,7 +268,7 @@ void DepthTest::reset() {
   fifo_.reset();
   pipe_.reset();
   has_addressed_ = is_looking_ = working_ = false;
-  reading_ = installed_ = 0;
+  reading_ = 0;
 }
 
 Datasheet DepthTest::datasheet() {

@@ -89,7 +89,6 @@ class DepthTest final : public Unit {
     std::uint8_t nearer, farther;  // bit k: the pixel than its neighbour
   };
 
-  static DepthLine decode(const Line& line);
   void find_lines(Cycle cycle, const CandidateToken& group, Wanted& out) const;
   std::uint8_t add_line(Wanted& wanted, Place line, bool tiled) const;
   void read_tags(Cycle cycle);
@@ -104,8 +103,7 @@ class DepthTest final : public Unit {
 
   EdgeLatency& latency_;  // an instrument
   const std::uint32_t index_bits_;
-  const Activity stalled_depth_;
-  LineCache<DepthLine, 2> cache_;  // of even lines of a group, of odd ones
+  LineCache<DepthLine> cache_;  // of even lines of a group, of odd ones
   Fifo<Lookup> fifo_;
 
   // Stages 2 and 3.
@@ -116,7 +114,6 @@ class DepthTest final : public Unit {
   Work work_{};
   bool working_ = false;
   std::size_t step_ = 0;          // U4, first line of the pair that is installed and read
-  std::uint8_t installed_ = 0;    // bit i: line i of the group in stage 4 came from memory
   std::uint8_t reading_ = 0;      // bit k: a word is on port k
   std::size_t reading_step_ = 0;  // its pair
   bool reading_last_ = false;     // of the group in stage 5, else of that in stage 4

@@ -28,22 +28,21 @@ WeightCombiner::WeightCombiner(const sc_core::sc_module_name& name, ClockDomain&
     : Unit(name, clock),
       latency_(latency),
       places_(p),
-      stalled_weights_(declare_stall("weights", "a block of weights has not come")),
       touched_("touched", {.words = static_cast<std::uint64_t>(p.touched_words),
                            .word_bits = spec::geometric::kBlocksInWord,
                            // Marks of one word follow each other, each on those before.
                            .read_during_write = ReadDuringWrite::kNewWord,
                            .content = "a bit a block: a line has cut it"}),
       cache_({.lines = spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.weight_blocks)],
-              .tags = {"weight_tags", WeightPlaces::kTagBits, "x, y of a block, valid"},
-              .data = {"weight_data", 8 * spec::geometric::kLineBytes,
-                       "sixteen pixels of four weights", MemoryKind::kSram,
+              .ports = 1,
+              .tags = {"weight_tags", "x, y of a block, valid", WeightPlaces::kTagBits},
+              .data = {"weight_data", "sixteen pixels of four weights",
+                       8 * spec::geometric::kLineBytes, MemoryKind::kSram,
                        // Groups of one block follow each other, each on the weights before.
                        ReadDuringWrite::kNewWord},
-              .fills = "weight_fills",
-              .fills_content = "weights on their way",
-              .fill_entries = p.fills},
-             declare_stall("fills", "no place for a block of weights is free")),
+              .fills = {"weight_fills", "weights on their way", p.fills},
+              .no_line = declare_stall("weights", "a block of weights has not come"),
+              .no_fill = declare_stall("fills", "no place for a block of weights is free")}),
       spill_("spill", {.words = static_cast<std::uint64_t>(p.fills),
                        .word_bits = WeightPlaces::kTagBits,
                        .kind = MemoryKind::kFlops,
@@ -272,7 +271,8 @@ Activity WeightCombiner::deliver(Cycle cycle) {
   if (Work* work = pipe_.at(2); work && !work->lookup.group.end) combine(cycle, *work);
   if (!fifo_.can_pop(cycle)) return kBusy;
   const Lookup& l = fifo_.front(cycle);
-  if (l.reads && !cache_.ready(cycle)) return stalled_weights_;
+  if (l.reads)
+    if (const Activity can = cache_.can_take(cycle); can != kIdle) return can;
   Work& work = pipe_.enter();
   if (l.missed) work.block = l.reads ? cache_.take(cycle) : BlockWeights{};
   if (!l.group.end && (!l.missed || l.replaces)) cache_.read(cycle, 0, l.index);
@@ -303,13 +303,6 @@ bool WeightCombiner::answer(Cycle cycle) {
   return true;
 }
 
-BlockWeights WeightCombiner::decode(const Line& line) {
-  BlockWeights block;
-  for (std::size_t i = 0; i < block.size(); ++i)
-    std::copy_n(line.begin() + static_cast<std::ptrdiff_t>(4 * i), 4, block[i].begin());
-  return block;
-}
-
 Activity WeightCombiner::tick(Cycle cycle) {
   const Phase phase = phase_in.read(cycle);
   if (phase == Phase::kBegin) return clear(cycle);
@@ -326,7 +319,11 @@ Activity WeightCombiner::tick(Cycle cycle) {
   }
   const Activity data = ended_ && buffer_ ? flush(cycle) : deliver(cycle);
   const Activity tags = look_up(cycle), answered = answer(cycle) ? kBusy : tags;
-  const Activity done = cache_.finish(cycle, memory, data, answered, decode);
+  const Activity done =
+      cache_.finish(cycle, memory, data, answered, [](BlockWeights& block, const Line& line) {
+        for (std::size_t i = 0; i < block.size(); ++i)
+          std::copy_n(line.begin() + static_cast<std::ptrdiff_t>(4 * i), 4, block[i].begin());
+      });
   if (ended_ && writes_ == 0 && !(buffer_ && buffer_->full()) && !drawn_out.driven())
     drawn_out.drive(cycle, true);
   return done;

@@ -110,7 +110,6 @@ class WeightCombiner final : public Unit {
   Activity flush(Cycle cycle);
   void combine(Cycle cycle, Work& work);
   bool answer(Cycle cycle);
-  static BlockWeights decode(const Line& line);
   std::uint32_t address_of(Cycle cycle, std::uint32_t x, std::uint32_t y) const;
   bool spilling(std::uint32_t tag) const;
   bool spill(Lookup& lookup, std::uint32_t tag);
@@ -123,11 +122,10 @@ class WeightCombiner final : public Unit {
 
   EdgeLatency& latency_;  // an instrument
   const WeightPlaces places_;
-  const Activity stalled_weights_;
   Memory<TouchedWord> touched_;
   ReadPort<TouchedWord> touched_port_{touched_, "look-up"};
   WritePort<TouchedWord> touched_write_{touched_, "look-up"};
-  LineCache<BlockWeights, 1> cache_;
+  LineCache<BlockWeights> cache_;
   MemoryBase spill_;                     // by place: valid and tag, in spilled_
   std::unique_ptr<WriteBuffer> buffer_;  // with write_buffer > 0
   Fifo<Lookup> fifo_;
