@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Fetches both vertices of each kept edge through a small cache that looks ahead.
 //
-// Where: after the EdgeClassifier. Tags change when a fill is ordered, data when it is used, in
-// the same order; what a miss wants is taken from the line that came. Stalls: `vertices` (the line
-// has not come), `fills` (no place for one), `downstream`.
+// Where: after the EdgeClassifier. What a miss wants is taken from the line that came. Stalls:
+// `vertices` (the line has not come), `fills` (no place for one), `downstream`.
 #pragma once
 
 #include <array>

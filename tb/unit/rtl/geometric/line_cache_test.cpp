@@ -81,6 +81,7 @@ TEST(LineCache, ComparesTagsAfterTheirLatency) {
   EXPECT_THROW(b.cache.tag(10, 0), spec::CheckFailed) << "a cycle early";
   EXPECT_EQ(b.look_up(11), "idle 1, 1 decided");
   b.find(11, {3});
+  EXPECT_THROW(b.cache.tag(11, 0), spec::CheckFailed) << "that of before";
   EXPECT_EQ(b.look_up(12), "idle 0, 1 decided");
 }
 TEST(LineCache, ComparesTagsInFlipFlopsAtOnce) {
