@@ -197,27 +197,29 @@ TEST(LineCache, EmptiesTagsBeforeAFrame) {
     rtl::Wire<bool> wire("wire", false);
     rtl::WireOut<bool> cleared("cleared");
     cleared(wire);
-    const auto misses = [&](Cycle cycle) {
+    // Of each lookup whether the tag is empty; its line takes it.
+    const auto empty = [&](Cycle cycle) {
       std::string text;
       for (std::uint32_t line = 0; line < 8; ++line) {
         b.find(cycle++, {line});
-        b.look_up(cycle - (clears == 1));
-        b.taken(++cycle);
-        text += std::to_string(b.cache.missed());
+        text += b.cache.tag(cycle++, 0) == 0 ? '1' : '0';
+        b.look_up(cycle++);
+        b.taken(cycle);
       }
       return text;
     };
     EXPECT_EQ(b.cache.clear(9, cleared), kIdle) << "they are empty";
-    EXPECT_EQ(misses(10), "11111111");
-    b.finish(29);
-    for (Cycle cycle = 30; cycle < 30 + clears; ++cycle) {
+    EXPECT_EQ(empty(10), "11111111");
+    b.finish(39);
+    for (Cycle cycle = 40; cycle < 40 + clears; ++cycle) {
       EXPECT_FALSE(wire.read(cycle));
       EXPECT_EQ(b.cache.clear(cycle, cleared), kBusy);
     }
-    EXPECT_TRUE(wire.read(30 + clears));
-    EXPECT_EQ(b.cache.clear(39, cleared), kIdle);
+    EXPECT_TRUE(wire.read(40 + clears));
+    EXPECT_EQ(b.cache.clear(49, cleared), kIdle);
     b.cache.reset();
-    EXPECT_EQ(misses(40), "11111111");
+    EXPECT_EQ(empty(50), "11111111");
+    EXPECT_EQ(b.cache.clear(80), kBusy) << "after a reset from the first one on";
   }
 }
 // Busy where either half worked or an answer came, else the stall of the data, else of the tags.
