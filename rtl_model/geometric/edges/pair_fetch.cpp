@@ -10,23 +10,20 @@ constexpr std::uint32_t kPairTagBits = 22, kPairLineBits = 8 * spec::geometric::
                                                            spec::geometric::kSplitInLine;
 constexpr std::uint32_t kPairValid = 1u << (kPairTagBits - 1);
 
-MemoryShape of_both_arrays(std::uint32_t bits, const char* content) {
-  return {
-      .words = 2, .word_bits = bits, .kind = MemoryKind::kFlops, .latency = 0, .content = content};
-}
-
 }  // namespace
 
 PairFetch::PairFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
                      const spec::geometric::Parameters& p, EdgeLatency& latency)
     : Unit(name, clock),
       latency_(latency),
-      tags_("pair_tags", of_both_arrays(kPairTagBits, "line, valid")),
-      lines_("pair_lines", of_both_arrays(kPairLineBits, "ten pairs of each array")),
-      fills_("pair_fills", p.fills, kPairLineBits, "pairs on their way"),
-      fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo)),
-      stalled_pairs_(declare_stall("pairs", "a line of pairs has not come")),
-      stalled_fills_(declare_stall("fills", "no place for a line of pairs is free")) {}
+      cache_({.lines = 2,
+              .ports = 1,
+              .tags = {"pair_tags", "line, valid", kPairTagBits, MemoryKind::kFlops},
+              .data = {"pair_lines", "ten pairs of each array", kPairLineBits, MemoryKind::kFlops},
+              .fills = {"pair_fills", "pairs on their way", p.fills},
+              .no_line = declare_stall("pairs", "a line of pairs has not come"),
+              .no_fill = declare_stall("fills", "no place for a line of pairs is free")}),
+      fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo)) {}
 
 // Stage 1.
 Activity PairFetch::look_up(Cycle cycle) {
@@ -35,18 +32,14 @@ Activity PairFetch::look_up(Cycle cycle) {
   const PairNumber& number = numbers_in.front(cycle);
   bool missed = false;
   if (!number.end && !number.invalid) {
-    tag_port_.read(cycle, number.other);
-    missed = tag_port_.at(cycle, number.other) != (number.line | kPairValid);
-    if (missed) {
-      if (!fills_.can_reserve(cycle)) return stalled_fills_;
-      if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
+    cache_.find(cycle, 0, number.other, number.line | kPairValid);
+    const Activity done = cache_.look_up(cycle, memory, [&](std::size_t) {
       const FrameRules& rules = rules_in.read(cycle);
-      memory.read(cycle,
-                  (number.other ? rules.other_pair_base : rules.pair_base) +
-                      number.line * spec::geometric::kLineBytes,
-                  fills_.reserve());
-      tag_write_.write(cycle, number.other, number.line | kPairValid);
-    }
+      return (number.other ? rules.other_pair_base : rules.pair_base) +
+             number.line * spec::geometric::kLineBytes;
+    });
+    if (done != kIdle) return done;
+    missed = cache_.missed();
     ++lookups;
     boundary_lookups += !number.other;
     lines_read += missed;
@@ -80,22 +73,18 @@ Activity PairFetch::deliver(Cycle cycle) {
   }
   if (!fifo_.can_pop(cycle)) return kBusy;
   const Lookup& l = fifo_.front(cycle);
-  if (l.missed && !fills_.ready(cycle)) return stalled_pairs_;
+  const bool has_pair = !l.invalid && !l.end, kept = has_pair && !l.missed;
+  std::uint64_t pair = 0;
+  const Activity done =
+      cache_.collect(cycle, &l.other, l.missed, kept,
+                     [&](std::size_t, const PairLine& line) { pair = line[l.place]; });
+  if (done != kIdle) return done;
+  if (kept) pair = cache_.word(cycle, 0, l.other)[l.place];
   Work& work = pipe_.enter();
   work.invalid = l.invalid;
   work.edge.crease = l.crease;
   work.edge.end = l.end;
-  if (!l.invalid && !l.end) {
-    std::uint64_t pair = 0;
-    if (l.missed) {
-      const PairLine& line = fills_.line(cycle);
-      line_write_.write(cycle, l.other, line);
-      pair = line[l.place];
-      fills_.release(cycle);
-    } else {
-      line_port_.read(cycle, l.other);
-      pair = line_port_.at(cycle, l.other)[l.place];
-    }
+  if (has_pair) {
     work.edge.v0 = static_cast<std::uint32_t>(pair) & spec::geometric::kIndexMask;
     work.edge.v1 = static_cast<std::uint32_t>(pair >> spec::geometric::kSplitVertexBits) &
                    spec::geometric::kIndexMask;
@@ -106,31 +95,17 @@ Activity PairFetch::deliver(Cycle cycle) {
 
 Activity PairFetch::tick(Cycle cycle) {
   const Phase phase = phase_in.read(cycle);
-  if (phase != Phase::kEdges) {
-    const bool empties = phase == Phase::kBegin && !emptied_;
-    if (empties) tags_.clear();
-    emptied_ = phase == Phase::kBegin;
-    return empties ? kBusy : kIdle;
-  }
-  const Activity data = deliver(cycle);
-  const Activity tags = look_up(cycle);
-  bool did = data == kBusy || tags == kBusy;
-  if (memory.responses_in.can_pop(cycle)) {
-    const MemoryResponse& response = memory.responses_in.take(cycle);
-    PairLine line;
-    for (std::size_t i = 0; i < line.size(); ++i) line[i] = split_record_of(response.data, i);
-    fills_.fill(cycle, response.tag, line);
-    did = true;
-  }
-  fills_.read_ahead(cycle);
-  return did ? kBusy : data != kIdle ? data : tags;
+  if (phase != Phase::kEdges) return phase == Phase::kBegin ? cache_.clear(cycle) : kIdle;
+  const Activity data = deliver(cycle), tags = look_up(cycle);
+  return cache_.finish(cycle, memory, data, tags, [](PairLine& pairs, const Line& line) {
+    for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = split_record_of(line, i);
+  });
 }
 
 void PairFetch::reset() {
-  fills_.reset();
+  cache_.reset();
   fifo_.reset();
   pipe_.reset();
-  emptied_ = false;
 }
 
 Datasheet PairFetch::datasheet() {

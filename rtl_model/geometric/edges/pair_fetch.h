@@ -17,8 +17,8 @@
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/common/edge_latency.h"
-#include "rtl_model/geometric/common/fill_store.h"
 #include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/line_cache.h"
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/tokens.h"
 
@@ -71,17 +71,9 @@ class PairFetch final : public Unit {
   Activity look_up(Cycle cycle);
   Activity deliver(Cycle cycle);
 
-  EdgeLatency& latency_;        // an instrument
-  Memory<std::uint32_t> tags_;  // line + valid bit, boundaries first
-  ReadPort<std::uint32_t> tag_port_{tags_, "look-up"};
-  WritePort<std::uint32_t> tag_write_{tags_, "fill"};
-  Memory<PairLine> lines_;
-  ReadPort<PairLine> line_port_{lines_, "choice"};
-  WritePort<PairLine> line_write_{lines_, "install"};
-  FillStore<PairLine> fills_;
+  EdgeLatency& latency_;       // an instrument
+  LineCache<PairLine> cache_;  // a line of each array, boundaries first
   Fifo<Lookup> fifo_;
-  Activity stalled_pairs_, stalled_fills_;
-  bool emptied_ = false;  // the tags, of this frame
 
   // Stages 2 and 3.
   struct Work {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Fetches both vertices of each kept edge through a small cache that looks ahead.
 //
-// Where: after the EdgeClassifier. Tags change when a fill is ordered, data when it is used, in
-// the same order; what a miss wants is taken from the line that came. Stalls: `vertices` (the line
-// has not come), `fills` (no place for one), `downstream`.
+// Where: after the EdgeClassifier. What a miss wants is taken from the line that came. Stalls:
+// `vertices` (the line has not come), `fills` (no place for one), `downstream`.
 #pragma once
 
 #include <array>
@@ -14,8 +13,8 @@
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/common/fill_store.h"
 #include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/line_cache.h"
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/tokens.h"
 
@@ -65,30 +64,17 @@ class VertexFetch final : public Unit {
     std::uint8_t from_cache;  // bit k: the word of look-up k comes from the data
   };
 
-  bool clear(Cycle cycle);
   Activity look_up(Cycle cycle);
   Activity deliver(Cycle cycle);
-  bool install(Cycle cycle, std::size_t which);
+  static void take(Work& work, std::size_t which, const VertexLine& line);
 
-  const std::uint32_t lines_;
-  Memory<std::uint32_t> tags_;  // line + valid bit
-  std::array<ReadPort<std::uint32_t>, 2> tag_ports_{ReadPort<std::uint32_t>{tags_, "v0"},
-                                                    ReadPort<std::uint32_t>{tags_, "v1"}};
-  WritePort<std::uint32_t> tag_write_{tags_, "fills"};
-  Memory<VertexLine> data_;
-  std::array<ReadPort<VertexLine>, 2> data_ports_{ReadPort<VertexLine>{data_, "v0"},
-                                                  ReadPort<VertexLine>{data_, "v1"}};
-  WritePort<VertexLine> data_write_{data_, "install"};
-  FillStore<VertexLine> fills_;
+  LineCache<VertexLine> cache_;  // of v0, of v1
   Fifo<Lookup> fifo_;
-  Activity stalled_vertices_, stalled_fills_;
-  std::uint32_t clearing_ = 0;  // U11, tags that are cleared
 
   // Stage 2.
-  KeptEdge edge_{};
+  std::array<std::uint32_t, 2> line_{};
   Lookup lookup_{};
-  bool looking_ = false, first_done_ = false;
-  Cycle looked_ = 0;
+  bool looking_ = false;
   // Stages 3 to 5.
   Work work_{};
   bool working_ = false;

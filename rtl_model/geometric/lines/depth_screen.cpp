@@ -20,23 +20,16 @@ std::uint32_t coarse_tag_of(std::uint32_t u, std::uint32_t v) {
 DepthScreen::DepthScreen(const sc_core::sc_module_name& name, ClockDomain& clock,
                          const spec::geometric::Parameters& p)
     : Unit(name, clock),
-      lines_(spec::geometric::kCoarseLineCount[static_cast<std::size_t>(p.coarse_lines)]),
-      index_bits_(static_cast<std::uint32_t>(std::countr_zero(lines_))),
-      tags_("coarse_tags", {.words = lines_,
-                            .word_bits = kCoarseTagBits,
-                            .kind = MemoryKind::kFlops,
-                            .read_ports = 2,
-                            .latency = 0,
-                            .content = "v, u, valid"}),
-      data_("coarse_lines", {.words = lines_,
-                             .word_bits = kCoarseEntryBits * kInLine,
-                             .read_ports = 2,
-                             .content = "32 bounds of depth"}),
-      fills_("coarse_fills", p.fills, kCoarseEntryBits * kInLine, "bounds on their way"),
+      cache_({.lines = spec::geometric::kCoarseLineCount[static_cast<std::size_t>(p.coarse_lines)],
+              .ports = 2,
+              .tags = {"coarse_tags", "v, u, valid", kCoarseTagBits, MemoryKind::kFlops},
+              .data = {"coarse_lines", "32 bounds of depth", kCoarseEntryBits * kInLine},
+              .fills = {"coarse_fills", "bounds on their way", p.fills},
+              .no_line = declare_stall("coarse", "a line of coarse depth has not come"),
+              .no_fill = declare_stall("fills", "no place for a line of coarse depth is free")}),
+      index_bits_(static_cast<std::uint32_t>(std::countr_zero(cache_.lines()))),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo),
-            candidates_shape(p, false, "group.")),
-      stalled_coarse_(declare_stall("coarse", "a line of coarse depth has not come")),
-      stalled_fills_(declare_stall("fills", "no place for a line of coarse depth is free")) {}
+            candidates_shape(p, false, "group.")) {}
 
 // Stage 1.
 void DepthScreen::find_tiles(Cycle cycle, const CandidateToken& group) {
@@ -57,6 +50,9 @@ void DepthScreen::find_tiles(Cycle cycle, const CandidateToken& group) {
     l.index[which] =
         static_cast<std::uint8_t>((line_[which].u & ((1u << low) - 1)) |
                                   (line_[which].v & ((1u << (index_bits_ - low)) - 1)) << low);
+    l.two_lines = which == 1 && line_[0] != line_[1];
+    if (which == 0 || l.two_lines)
+      cache_.find(cycle, which, l.index[which], coarse_tag_of(line_[which].u, line_[which].v));
   };
   const std::uint32_t tx = group.block_x >> 1, ty = group.block_y >> 1;
   find(0, tx, ty);
@@ -73,46 +69,27 @@ void DepthScreen::find_tiles(Cycle cycle, const CandidateToken& group) {
   if (l.crossing == 0) return;
   const std::uint32_t step = forward ? 1 : ~0u;
   find(1, group.vertical ? tx + step : tx, group.vertical ? ty : ty + step);
-  l.two_lines = line_[0] != line_[1];
-}
-
-Activity DepthScreen::order(Cycle cycle, std::size_t which) {
-  if (!fills_.can_reserve(cycle)) return stalled_fills_;
-  if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
-  const FrameRules& rules = rules_in.read(cycle);
-  const Place line = line_[which];
-  // A multiply 8 x 8.
-  const std::uint32_t across = (rules.width + 63) >> 6;
-  memory.read(cycle, rules.coarse_base + ((line.v * across + line.u) << 6), fills_.reserve());
-  tag_write_.write(cycle, lookup_.index[which], coarse_tag_of(line.u, line.v));
-  lookup_.missed |= static_cast<std::uint8_t>(1u << which);
-  ++misses;
-  return kBusy;
 }
 
 // Stages 2 and 1.
 Activity DepthScreen::look_up(Cycle cycle) {
   if (looking_) {
     if (!fifo_.can_push(cycle)) return kStalledDownstream;
-    const auto found = [&](std::size_t which) {
-      tag_ports_[which].read(cycle, lookup_.index[which]);
-      return tag_ports_[which].at(cycle, lookup_.index[which]) ==
-             coarse_tag_of(line_[which].u, line_[which].v);
-    };
-    if (lookup_.looks && !first_done_) {
-      const bool missed = !found(0), other_missed = lookup_.two_lines && !found(1);
-      if (missed)
-        if (const Activity done = order(cycle, 0); done != kBusy) return done;
-      first_done_ = true;
-      ++groups;
-      lookups += lookup_.two_lines ? 2 : 1;
-      if (other_missed) {
-        both_missed += missed;
-        if (missed) return kBusy;
-        if (const Activity done = order(cycle, 1); done != kBusy) return done;
-      }
-    } else if (lookup_.looks) {
-      if (const Activity done = order(cycle, 1); done != kBusy) return done;
+    if (lookup_.looks) {
+      const Activity done = cache_.look_up(cycle, memory, [&](std::size_t which) {
+        const FrameRules& rules = rules_in.read(cycle);
+        const Place line = line_[which];
+        ++misses;
+        // A multiply 8 x 8.
+        const std::uint32_t across = (rules.width + 63) >> 6;
+        return rules.coarse_base + ((line.v * across + line.u) << 6);
+      });
+      const std::uint32_t decided = cache_.decided(cycle);
+      groups += decided != 0;
+      lookups += decided;
+      both_missed += done == kBusy;
+      if (done != kIdle) return done;
+      lookup_.missed = cache_.missed();
     }
     fifo_.push(cycle, lookup_);
     looking_ = false;
@@ -120,7 +97,6 @@ Activity DepthScreen::look_up(Cycle cycle) {
   if (!candidates_in.can_pop(cycle)) return kIdle;
   find_tiles(cycle, candidates_in.take(cycle));
   looking_ = true;
-  first_done_ = false;
   return kBusy;
 }
 
@@ -129,17 +105,6 @@ void DepthScreen::take(Work& work, std::size_t which, const CoarseLine& line) co
   const Lookup& l = work.lookup;
   work.bound[which] = line[l.tile[which]];
   if (which == 0 && !l.two_lines && l.crossing != 0) work.bound[1] = line[l.tile[1]];
-}
-
-// The missed line of a look-up, if it has come.
-bool DepthScreen::install(Cycle cycle, std::size_t which) {
-  if (!fills_.ready(cycle)) return false;
-  const CoarseLine& line = fills_.line(cycle);
-  data_write_.write(cycle, work_.lookup.index[which], line);
-  take(work_, which, line);
-  fills_.release(cycle);
-  work_.lookup.missed &= static_cast<std::uint8_t>(~(1u << which));
-  return true;
 }
 
 // Stage 5.
@@ -178,7 +143,7 @@ Activity DepthScreen::deliver(Cycle cycle) {
   if (Work* const words = pipe_.at(2)) {
     for (std::size_t which = 0; which < 2; ++which)
       if (words->from_cache >> which & 1)
-        take(*words, which, data_ports_[which].at(cycle, words->lookup.index[which]));
+        take(*words, which, cache_.word(cycle, which, words->lookup.index[which]));
     words->lesser = std::min(words->bound[0], words->bound[1]);
   }
   if (!working_) {
@@ -189,13 +154,10 @@ Activity DepthScreen::deliver(Cycle cycle) {
     work_.from_cache &= static_cast<std::uint8_t>(~l.missed);
     working_ = true;
   }
-  Lookup& l = work_.lookup;
-  if (l.missed != 0) {
-    if (!install(cycle, l.missed & 1 ? 0 : 1)) return stalled_coarse_;
-    if (l.missed != 0) return kBusy;
-  }
-  for (std::size_t which = 0; which < 2; ++which)
-    if (work_.from_cache >> which & 1) data_ports_[which].read(cycle, l.index[which]);
+  const Activity done =
+      cache_.collect(cycle, work_.lookup.index.data(), work_.lookup.missed, work_.from_cache,
+                     [&](std::size_t which, const CoarseLine& line) { take(work_, which, line); });
+  if (done != kIdle) return done;
   pipe_.enter() = work_;
   working_ = false;
   return kBusy;
@@ -203,32 +165,19 @@ Activity DepthScreen::deliver(Cycle cycle) {
 
 Activity DepthScreen::tick(Cycle cycle) {
   const Phase phase = phase_in.read(cycle);
-  if (phase != Phase::kEdges) {
-    const bool empties = phase == Phase::kBegin && !emptied_;
-    if (empties) tags_.clear();
-    emptied_ = phase == Phase::kBegin;
-    return empties ? kBusy : kIdle;
-  }
-  const Activity data = deliver(cycle);
-  const Activity tags = look_up(cycle);
-  bool did = data == kBusy || tags == kBusy;
-  if (memory.responses_in.can_pop(cycle)) {
-    const MemoryResponse& response = memory.responses_in.take(cycle);
-    CoarseLine line;
-    for (std::size_t i = 0; i < line.size(); ++i)
-      line[i] = static_cast<std::uint16_t>(response.data[2 * i] | response.data[2 * i + 1] << 8);
-    fills_.fill(cycle, response.tag, line);
-    did = true;
-  }
-  fills_.read_ahead(cycle);
-  return did ? kBusy : data != kIdle ? data : tags;
+  if (phase != Phase::kEdges) return phase == Phase::kBegin ? cache_.clear(cycle) : kIdle;
+  const Activity data = deliver(cycle), tags = look_up(cycle);
+  return cache_.finish(cycle, memory, data, tags, [](CoarseLine& bounds, const Line& line) {
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+      bounds[i] = static_cast<std::uint16_t>(line[2 * i] | line[2 * i + 1] << 8);
+  });
 }
 
 void DepthScreen::reset() {
-  fills_.reset();
+  cache_.reset();
   fifo_.reset();
   pipe_.reset();
-  emptied_ = looking_ = first_done_ = working_ = false;
+  looking_ = working_ = false;
 }
 
 Datasheet DepthScreen::datasheet() {

@@ -17,8 +17,8 @@
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/common/fill_store.h"
 #include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/line_cache.h"
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/tokens.h"
 
@@ -90,30 +90,18 @@ class DepthScreen final : public Unit {
 
   void find_tiles(Cycle cycle, const CandidateToken& group);
   Activity look_up(Cycle cycle);
-  Activity order(Cycle cycle, std::size_t which);
-  bool install(Cycle cycle, std::size_t which);
   Activity deliver(Cycle cycle);
   void take(Work& work, std::size_t which, const CoarseLine& line) const;
   void screen(Cycle cycle, Work& work);
 
-  const std::uint32_t lines_, index_bits_;
-  Memory<std::uint32_t> tags_;  // v, u, valid bit
-  std::array<ReadPort<std::uint32_t>, 2> tag_ports_{ReadPort<std::uint32_t>{tags_, "own"},
-                                                    ReadPort<std::uint32_t>{tags_, "neighbours"}};
-  WritePort<std::uint32_t> tag_write_{tags_, "fills"};
-  Memory<CoarseLine> data_;
-  std::array<ReadPort<CoarseLine>, 2> data_ports_{ReadPort<CoarseLine>{data_, "own"},
-                                                  ReadPort<CoarseLine>{data_, "neighbours"}};
-  WritePort<CoarseLine> data_write_{data_, "install"};
-  FillStore<CoarseLine> fills_;
+  LineCache<CoarseLine> cache_;  // of its own line, of that of its neighbours
+  const std::uint32_t index_bits_;
   Fifo<Lookup> fifo_;
-  Activity stalled_coarse_, stalled_fills_;
-  bool emptied_ = false;  // the tags, of this frame
 
   // Stage 2.
   Lookup lookup_{};
   std::array<Place, 2> line_{};
-  bool looking_ = false, first_done_ = false;
+  bool looking_ = false;
   // Stages 3 to 5.
   Work work_{};
   bool working_ = false;

@@ -31,30 +31,16 @@ DepthTest::DepthTest(const sc_core::sc_module_name& name, ClockDomain& clock,
                      const spec::geometric::Parameters& p, EdgeLatency& latency)
     : Unit(name, clock),
       latency_(latency),
-      lines_(spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.depth_lines)]),
       index_bits_(spec::geometric::kCacheLineBits[static_cast<std::size_t>(p.depth_lines)]),
-      tags_("depth_tags", {.words = lines_,
-                           .word_bits = kDepthTagBits,
-                           .read_ports = 2,
-                           // A look-up sees the line that the one before it has ordered.
-                           .read_during_write = ReadDuringWrite::kNewWord,
-                           .content = "u, v, valid"}),
-      data_("depth_data", {.words = lines_,
-                           .word_bits = 24 * spec::geometric::kPixelsInLine,
-                           .read_ports = 2,
-                           .content = "sixteen depths"}),
-      fills_("depth_fills", p.fills, 24 * spec::geometric::kPixelsInLine, "depths on their way"),
+      cache_({.lines = spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.depth_lines)],
+              .ports = 2,
+              .tags = {"depth_tags", "u, v, valid", kDepthTagBits},
+              .data = {"depth_data", "sixteen depths", 24 * spec::geometric::kPixelsInLine},
+              .fills = {"depth_fills", "depths on their way", p.fills},
+              .no_line = declare_stall("depth", "a line of depths has not come"),
+              .no_fill = declare_stall("fills", "no place for a line of depths is free")}),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo),
-            candidates_shape(p, p.coarse_lines != spec::geometric::CoarseLines::kNone, "group.")),
-      stalled_depth_(declare_stall("depth", "a line of depths has not come")),
-      stalled_fills_(declare_stall("fills", "no place for a line of depths is free")) {}
-
-bool DepthTest::clear(Cycle cycle) {
-  if (clearing_ == lines_) return false;
-  tag_write_.write(cycle, clearing_, 0);
-  if (++clearing_ == lines_) cleared_out.drive(cycle, true);
-  return true;
-}
+            candidates_shape(p, p.coarse_lines != spec::geometric::CoarseLines::kNone, "group.")) {}
 
 // Its number among the group's lines.
 std::uint8_t DepthTest::add_line(Wanted& wanted, Place line, bool tiled) const {
@@ -100,43 +86,24 @@ void DepthTest::find_lines(Cycle cycle, const CandidateToken& group, Wanted& out
 
 // Stage 2, of the pair that is looked up next.
 void DepthTest::read_tags(Cycle cycle) {
-  looked_ = cycle;
-  first_done_ = false;
-  for (std::size_t port = 0; port < 2 && pair_ + port < looking_.lookup.count; ++port)
-    tag_ports_[port].read(cycle, looking_.lookup.index[pair_ + port]);
-}
-
-Activity DepthTest::order(Cycle cycle, std::size_t which) {
-  if (!fills_.can_reserve(cycle)) return stalled_fills_;
-  if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
-  const FrameRules& rules = rules_in.read(cycle);
-  const Place line = looking_.line[which];
-  memory.read(cycle, rules.depth_base + rules.line_offset(line.u, line.v), fills_.reserve());
-  tag_write_.write(cycle, looking_.lookup.index[which], depth_tag_of(line.u, line.v, rules.tiled));
-  looking_.lookup.missed |= static_cast<std::uint8_t>(1u << which);
-  ++misses;
-  return kBusy;
+  for (std::size_t port = 0; port < 2 && pair_ + port < looking_.lookup.count; ++port) {
+    const Place line = looking_.line[pair_ + port];
+    cache_.find(cycle, port, looking_.lookup.index[pair_ + port],
+                depth_tag_of(line.u, line.v, rules_in.read(cycle).tiled));
+  }
 }
 
 // Stage 3; kIdle: the pair is done.
 Activity DepthTest::look_up_pair(Cycle cycle) {
-  const Lookup& l = looking_.lookup;
-  const auto found = [&](std::size_t port) {
+  const Activity done = cache_.look_up(cycle, memory, [&](std::size_t port) {
+    const FrameRules& rules = rules_in.read(cycle);
     const Place line = looking_.line[pair_ + port];
-    return tag_ports_[port].at(cycle, l.index[pair_ + port], looked_) ==
-           depth_tag_of(line.u, line.v, rules_in.read(cycle).tiled);
-  };
-  if (!first_done_) {
-    const bool missed = !found(0), two = pair_ + 1 < l.count, other_missed = two && !found(1);
-    if (missed)
-      if (const Activity done = order(cycle, pair_); done != kBusy) return done;
-    first_done_ = true;
-    lookups += two ? 2 : 1;
-    if (!other_missed) return kIdle;
-    if (missed) return kBusy;
-  }
-  const Activity done = order(cycle, pair_ + 1);
-  return done == kBusy ? kIdle : done;
+    ++misses;
+    return rules.depth_base + rules.line_offset(line.u, line.v);
+  });
+  lookups += cache_.decided(cycle);
+  if (done == kIdle) looking_.lookup.missed |= static_cast<std::uint8_t>(cache_.missed() << pair_);
+  return done;
 }
 
 // Stages 3 to 1.
@@ -187,7 +154,7 @@ void DepthTest::capture_words(Cycle cycle) {
   for (std::size_t port = 0; port < 2; ++port)
     if (reading_ >> port & 1) {
       const std::size_t which = reading_step_ + port;
-      capture(cycle, work, which, data_ports_[port].at(cycle, work.lookup.index[which]));
+      capture(cycle, work, which, cache_.word(cycle, port, work.lookup.index[which]));
     }
   reading_ = 0;
 }
@@ -267,66 +234,41 @@ Activity DepthTest::deliver(Cycle cycle) {
     working_ = true;
     step_ = 0;
   }
-  Lookup& l = work_.lookup;
-  const std::uint32_t pair = l.missed >> step_ & 3;
-  if (pair != 0) {
-    if (!fills_.ready(cycle)) return stalled_depth_;
-    const std::size_t which = step_ + (pair & 1 ? 0 : 1);
-    const DepthLine& line = fills_.line(cycle);
-    data_write_.write(cycle, l.index[which], line);
-    capture(cycle, work_, which, line);
-    fills_.release(cycle);
-    l.missed &= static_cast<std::uint8_t>(~(1u << which));
-    installed_ |= static_cast<std::uint8_t>(1u << which);
-    if (pair == 3) return kBusy;
-  }
-  for (std::size_t port = 0; port < 2 && step_ + port < l.count; ++port)
-    if (!(installed_ >> (step_ + port) & 1)) {
-      data_ports_[port].read(cycle, l.index[step_ + port]);
-      reading_ |= static_cast<std::uint8_t>(1u << port);
-    }
+  const Lookup& l = work_.lookup;
+  const std::uint32_t lines = l.count - step_ > 1 ? 3 : l.count - step_ == 1,
+                      missed = l.missed >> step_ & 3;
+  const Activity done = cache_.collect(
+      cycle, &l.index[step_], missed, lines & ~missed,
+      [&](std::size_t port, const DepthLine& line) { capture(cycle, work_, step_ + port, line); });
+  if (done != kIdle) return done;
+  reading_ = static_cast<std::uint8_t>(lines & ~missed);
   reading_step_ = step_;
   step_ += 2;
   reading_last_ = step_ >= l.count;
   if (reading_last_) {
     pipe_.enter() = work_;
     working_ = false;
-    installed_ = 0;
   }
   return kBusy;
 }
 
 Activity DepthTest::tick(Cycle cycle) {
   const Phase phase = phase_in.read(cycle);
-  if (phase != Phase::kEdges) {
-    if (phase == Phase::kBegin) return clear(cycle) ? kBusy : kIdle;
-    return kIdle;
-  }
-  if (clearing_ != 0) {
-    clearing_ = 0;
-    cleared_out.drive(cycle, false);
-  }
-  const Activity data = deliver(cycle);
-  const Activity tags = look_up(cycle);
-  bool did = data == kBusy || tags == kBusy;
-  if (memory.responses_in.can_pop(cycle)) {
-    const MemoryResponse& response = memory.responses_in.take(cycle);
-    DepthLine line;
-    for (std::size_t i = 0; i < line.size(); ++i) line[i] = word_of(response.data, i) & 0xFFFFFF;
-    fills_.fill(cycle, response.tag, line);
-    did = true;
-  }
-  fills_.read_ahead(cycle);
-  return did ? kBusy : data != kIdle ? data : tags;
+  if (phase != Phase::kEdges)
+    return phase == Phase::kBegin ? cache_.clear(cycle, cleared_out) : kIdle;
+  if (cleared_out.driven()) cleared_out.drive(cycle, false);
+  const Activity data = deliver(cycle), tags = look_up(cycle);
+  return cache_.finish(cycle, memory, data, tags, [](DepthLine& depths, const Line& line) {
+    for (std::size_t i = 0; i < depths.size(); ++i) depths[i] = word_of(line, i) & 0xFFFFFF;
+  });
 }
 
 void DepthTest::reset() {
-  fills_.reset();
+  cache_.reset();
   fifo_.reset();
   pipe_.reset();
-  clearing_ = 0;
-  has_addressed_ = is_looking_ = first_done_ = working_ = false;
-  reading_ = installed_ = 0;
+  has_addressed_ = is_looking_ = working_ = false;
+  reading_ = 0;
 }
 
 Datasheet DepthTest::datasheet() {

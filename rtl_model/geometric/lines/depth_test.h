@@ -20,8 +20,8 @@
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/common/edge_latency.h"
-#include "rtl_model/geometric/common/fill_store.h"
 #include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/line_cache.h"
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/tokens.h"
 
@@ -89,13 +89,11 @@ class DepthTest final : public Unit {
     std::uint8_t nearer, farther;  // bit k: the pixel than its neighbour
   };
 
-  bool clear(Cycle cycle);
   void find_lines(Cycle cycle, const CandidateToken& group, Wanted& out) const;
   std::uint8_t add_line(Wanted& wanted, Place line, bool tiled) const;
   void read_tags(Cycle cycle);
   Activity look_up(Cycle cycle);
   Activity look_up_pair(Cycle cycle);
-  Activity order(Cycle cycle, std::size_t which);
   void capture(Cycle cycle, Work& work, std::size_t which, const DepthLine& line) const;
   void capture_words(Cycle cycle);
   Activity deliver(Cycle cycle);
@@ -104,30 +102,18 @@ class DepthTest final : public Unit {
   void show(const CandidateToken& group, std::size_t lane, bool passes) const;
 
   EdgeLatency& latency_;  // an instrument
-  const std::uint32_t lines_, index_bits_;
-  Memory<std::uint32_t> tags_;
-  std::array<ReadPort<std::uint32_t>, 2> tag_ports_{ReadPort<std::uint32_t>{tags_, "even"},
-                                                    ReadPort<std::uint32_t>{tags_, "odd"}};
-  WritePort<std::uint32_t> tag_write_{tags_, "fills"};
-  Memory<DepthLine> data_;
-  std::array<ReadPort<DepthLine>, 2> data_ports_{ReadPort<DepthLine>{data_, "even"},
-                                                 ReadPort<DepthLine>{data_, "odd"}};
-  WritePort<DepthLine> data_write_{data_, "install"};
-  FillStore<DepthLine> fills_;
+  const std::uint32_t index_bits_;
+  LineCache<DepthLine> cache_;  // of even lines of a group, of odd ones
   Fifo<Lookup> fifo_;
-  Activity stalled_depth_, stalled_fills_;
-  std::uint32_t clearing_ = 0;  // U11
 
   // Stages 2 and 3.
   Wanted addressed_{}, looking_{};
-  bool has_addressed_ = false, is_looking_ = false, first_done_ = false;
+  bool has_addressed_ = false, is_looking_ = false;
   std::size_t pair_ = 0;  // U3, first line of the pair that is looked up
-  Cycle looked_ = 0;
   // Stages 4 to 7.
   Work work_{};
   bool working_ = false;
   std::size_t step_ = 0;          // U4, first line of the pair that is installed and read
-  std::uint8_t installed_ = 0;    // bit i: line i of the group in stage 4 came from memory
   std::uint8_t reading_ = 0;      // bit k: a word is on port k
   std::size_t reading_step_ = 0;  // its pair
   bool reading_last_ = false;     // of the group in stage 5, else of that in stage 4

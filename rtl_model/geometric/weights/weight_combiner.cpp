@@ -28,23 +28,21 @@ WeightCombiner::WeightCombiner(const sc_core::sc_module_name& name, ClockDomain&
     : Unit(name, clock),
       latency_(latency),
       places_(p),
-      blocks_(spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.weight_blocks)]),
-      tags_("weight_tags", {.words = blocks_,
-                            .word_bits = WeightPlaces::kTagBits,
-                            // A look-up sees the block that the one before it has ordered.
-                            .read_during_write = ReadDuringWrite::kNewWord,
-                            .content = "x, y of a block, valid"}),
       touched_("touched", {.words = static_cast<std::uint64_t>(p.touched_words),
                            .word_bits = spec::geometric::kBlocksInWord,
                            // Marks of one word follow each other, each on those before.
                            .read_during_write = ReadDuringWrite::kNewWord,
                            .content = "a bit a block: a line has cut it"}),
-      data_("weight_data", {.words = blocks_,
-                            .word_bits = 8 * spec::geometric::kLineBytes,
-                            // Groups of one block follow each other, each on the weights before.
-                            .read_during_write = ReadDuringWrite::kNewWord,
-                            .content = "sixteen pixels of four weights"}),
-      fills_("weight_fills", p.fills, 8 * spec::geometric::kLineBytes, "weights on their way"),
+      cache_({.lines = spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.weight_blocks)],
+              .ports = 1,
+              .tags = {"weight_tags", "x, y of a block, valid", WeightPlaces::kTagBits},
+              .data = {"weight_data", "sixteen pixels of four weights",
+                       8 * spec::geometric::kLineBytes, MemoryKind::kSram,
+                       // Groups of one block follow each other, each on the weights before.
+                       ReadDuringWrite::kNewWord},
+              .fills = {"weight_fills", "weights on their way", p.fills},
+              .no_line = declare_stall("weights", "a block of weights has not come"),
+              .no_fill = declare_stall("fills", "no place for a block of weights is free")}),
       spill_("spill", {.words = static_cast<std::uint64_t>(p.fills),
                        .word_bits = WeightPlaces::kTagBits,
                        .kind = MemoryKind::kFlops,
@@ -53,19 +51,18 @@ WeightCombiner::WeightCombiner(const sc_core::sc_module_name& name, ClockDomain&
                        .latency = 0,
                        .content = "blocks on their way out, compared at once"}),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo), lookup_shape(p)),
-      stalled_weights_(declare_stall("weights", "a block of weights has not come")),
-      stalled_fills_(declare_stall("fills", "no place for a block of weights is free")),
       stalled_spill_(declare_stall("spill", "a block is still on its way out")),
       spilled_(static_cast<std::size_t>(p.fills), 0) {
   if (p.write_buffer > 0) buffer_ = std::make_unique<WriteBuffer>(p.write_buffer);
 }
 
 Activity WeightCombiner::clear(Cycle cycle) {
-  const std::uint32_t words = rules_in.read(cycle).touched_words, all = std::max(words, blocks_);
+  const std::uint32_t words = rules_in.read(cycle).touched_words,
+                      all = std::max(words, cache_.lines());
   if (clearing_ == all) return kIdle;
   if (buffer_ && clearing_ == 0) buffer_->clear();
   if (clearing_ < words) touched_write_.write(cycle, clearing_, TouchedWord{});
-  if (clearing_ < blocks_) tag_write_.write(cycle, clearing_, 0);
+  cache_.clear(cycle);
   if (++clearing_ == all) cleared_out.drive(cycle, true);
   return kBusy;
 }
@@ -110,7 +107,7 @@ Activity WeightCombiner::replace(std::uint32_t tag) {
 Activity WeightCombiner::look_up_block(Cycle cycle) {
   const std::uint32_t x = lookup_.group.block_x, y = lookup_.group.block_y,
                       tag = WeightPlaces::tag_of(x, y);
-  const std::uint32_t there = tag_port_.at(cycle, lookup_.index, looked_);
+  const std::uint32_t there = cache_.tag(cycle, 0);
   lookup_.missed = there != tag;
   lookup_.reads = lookup_.replaces = lookup_.hit = false;
   if (lookup_.missed) {
@@ -124,13 +121,12 @@ Activity WeightCombiner::look_up_block(Cycle cycle) {
     lookup_.replaces = there != 0;
     if (lookup_.reads) {
       if (spilling(tag)) return stalled_spill_;
-      if (!fills_.can_reserve(cycle)) return stalled_fills_;
-      if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
+      if (const Activity done = cache_.can_request(cycle, memory); done != kIdle) return done;
     }
     if (lookup_.replaces)
       if (const Activity done = replace(there); done != kIdle) return done;
     if (lookup_.reads) {
-      memory.read(cycle, address_of(cycle, x, y), fills_.reserve());
+      cache_.request(cycle, memory, address_of(cycle, x, y));
       ++blocks_read;
     }
     if (!was_touched) {
@@ -139,7 +135,7 @@ Activity WeightCombiner::look_up_block(Cycle cycle) {
       touched_write_.write(cycle, touched_at_, word);
     }
     buffer_hits += lookup_.hit;
-    tag_write_.write(cycle, lookup_.index, tag);
+    cache_.set_tag(cycle, 0);
     ++misses;
   }
   ++lookups;
@@ -199,7 +195,7 @@ void WeightCombiner::address(Cycle cycle) {
   const std::uint32_t x = lookup_.group.block_x, y = lookup_.group.block_y;
   lookup_.index = static_cast<std::uint16_t>(places_.index_of(x, y));
   touched_at_ = y * rules_in.read(cycle).words_across + x / spec::geometric::kBlocksInWord;
-  tag_port_.read(cycle, lookup_.index);
+  cache_.find(cycle, 0, lookup_.index, WeightPlaces::tag_of(x, y));
   touched_port_.read(cycle, touched_at_);
 }
 
@@ -227,7 +223,7 @@ void WeightCombiner::combine(Cycle cycle, Work& work) {
   const Work* const before = pipe_.at(3);
   const bool past = before && !before->lookup.group.end && before->lookup.index == l.index;
   if (!l.missed || l.replaces) {
-    const BlockWeights& there = past ? before->block : data_port_.at(cycle, l.index);
+    const BlockWeights& there = past ? before->block : cache_.word(cycle, 0, l.index);
     if (l.replaces) move_out(cycle, work, there);
     if (!l.missed) work.block = there;
   }
@@ -268,22 +264,18 @@ Activity WeightCombiner::deliver(Cycle cycle) {
       if (buffer_) buffered_blocks.record(buffer_->full());
       note(latency_.end());
     } else {
-      data_write_.write(cycle, work->lookup.index, work->block);
+      cache_.write(cycle, work->lookup.index, work->block);
       if (!work->lookup.more) note(latency_.write(cycle));
     }
   }
   if (Work* work = pipe_.at(2); work && !work->lookup.group.end) combine(cycle, *work);
   if (!fifo_.can_pop(cycle)) return kBusy;
   const Lookup& l = fifo_.front(cycle);
-  if (l.reads && !fills_.ready(cycle)) return stalled_weights_;
+  if (l.reads)
+    if (const Activity can = cache_.can_take(cycle); can != kIdle) return can;
   Work& work = pipe_.enter();
-  if (l.reads) {
-    work.block = fills_.line(cycle);
-    fills_.release(cycle);
-  } else if (l.missed) {
-    work.block = {};
-  }
-  if (!l.group.end && (!l.missed || l.replaces)) data_port_.read(cycle, l.index);
+  if (l.missed) work.block = l.reads ? cache_.take(cycle) : BlockWeights{};
+  if (!l.group.end && (!l.missed || l.replaces)) cache_.read(cycle, 0, l.index);
   if (buffer_ && (l.hit || writes(l))) buffer_->read(cycle, l.ring);
   work.lookup = l;
   fifo_.pop(cycle);
@@ -303,17 +295,12 @@ Activity WeightCombiner::flush(Cycle cycle) {
   return kBusy;
 }
 
-void WeightCombiner::answer(Cycle cycle) {
-  const MemoryResponse& response = memory.responses_in.take(cycle);
-  if (response.write) {
-    spilled_[response.tag] = 0;
-    --writes_;
-    return;
-  }
-  BlockWeights block;
-  for (std::size_t i = 0; i < block.size(); ++i)
-    std::copy_n(response.data.begin() + static_cast<std::ptrdiff_t>(4 * i), 4, block[i].begin());
-  fills_.fill(cycle, response.tag, block);
+// Of a write.
+bool WeightCombiner::answer(Cycle cycle) {
+  if (!memory.responses_in.can_pop(cycle) || !memory.responses_in.front(cycle).write) return false;
+  spilled_[memory.responses_in.take(cycle).tag] = 0;
+  --writes_;
+  return true;
 }
 
 Activity WeightCombiner::tick(Cycle cycle) {
@@ -331,20 +318,19 @@ Activity WeightCombiner::tick(Cycle cycle) {
     cleared_out.drive(cycle, false);
   }
   const Activity data = ended_ && buffer_ ? flush(cycle) : deliver(cycle);
-  const Activity tags = look_up(cycle);
-  bool did = data == kBusy || tags == kBusy;
-  if (memory.responses_in.can_pop(cycle)) {
-    answer(cycle);
-    did = true;
-  }
-  fills_.read_ahead(cycle);
+  const Activity tags = look_up(cycle), answered = answer(cycle) ? kBusy : tags;
+  const Activity done =
+      cache_.finish(cycle, memory, data, answered, [](BlockWeights& block, const Line& line) {
+        for (std::size_t i = 0; i < block.size(); ++i)
+          std::copy_n(line.begin() + static_cast<std::ptrdiff_t>(4 * i), 4, block[i].begin());
+      });
   if (ended_ && writes_ == 0 && !(buffer_ && buffer_->full()) && !drawn_out.driven())
     drawn_out.drive(cycle, true);
-  return did ? kBusy : data != kIdle ? data : tags;
+  return done;
 }
 
 void WeightCombiner::reset() {
-  fills_.reset();
+  cache_.reset();
   fifo_.reset();
   pipe_.reset();
   clearing_ = 0;

@@ -24,8 +24,8 @@
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/common/edge_latency.h"
-#include "rtl_model/geometric/common/fill_store.h"
 #include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/line_cache.h"
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/tokens.h"
 #include "rtl_model/geometric/weights/weight_memories.h"
@@ -49,8 +49,8 @@ class WeightCombiner final : public Unit {
   void reset() override;
 
   // --- For the resolve, which shares the ports in time ---
-  ReadPort<std::uint32_t> tag_port() const { return tag_port_; }
-  ReadPort<BlockWeights> data_port() const { return data_port_; }
+  ReadPort<std::uint32_t> tag_port() const { return cache_.tag_port(); }
+  ReadPort<BlockWeights> data_port() const { return cache_.data_port(); }
   ReadPort<TouchedWord> touched_port() const { return touched_port_; }
 
   Counter lookups{"lookups", "blocks", "blocks looked up"};
@@ -109,7 +109,7 @@ class WeightCombiner final : public Unit {
   void move_out(Cycle cycle, Work& work, const BlockWeights& there);
   Activity flush(Cycle cycle);
   void combine(Cycle cycle, Work& work);
-  void answer(Cycle cycle);
+  bool answer(Cycle cycle);
   std::uint32_t address_of(Cycle cycle, std::uint32_t x, std::uint32_t y) const;
   bool spilling(std::uint32_t tag) const;
   bool spill(Lookup& lookup, std::uint32_t tag);
@@ -122,21 +122,14 @@ class WeightCombiner final : public Unit {
 
   EdgeLatency& latency_;  // an instrument
   const WeightPlaces places_;
-  const std::uint32_t blocks_;
-  Memory<std::uint32_t> tags_;
-  ReadPort<std::uint32_t> tag_port_{tags_, "look-up"};
-  WritePort<std::uint32_t> tag_write_{tags_, "look-up"};
   Memory<TouchedWord> touched_;
   ReadPort<TouchedWord> touched_port_{touched_, "look-up"};
   WritePort<TouchedWord> touched_write_{touched_, "look-up"};
-  Memory<BlockWeights> data_;
-  ReadPort<BlockWeights> data_port_{data_, "block"};
-  WritePort<BlockWeights> data_write_{data_, "block"};
-  FillStore<BlockWeights> fills_;
+  LineCache<BlockWeights> cache_;
   MemoryBase spill_;                     // by place: valid and tag, in spilled_
   std::unique_ptr<WriteBuffer> buffer_;  // with write_buffer > 0
   Fifo<Lookup> fifo_;
-  Activity stalled_weights_, stalled_fills_, stalled_spill_;
+  const Activity stalled_spill_;
   std::uint32_t clearing_ = 0;  // U17
 
   // Stage 2.

@@ -223,16 +223,6 @@ TEST(PairFetch, IsIdleButWhereItWorks) {
   b.clock.run(50);
   EXPECT_EQ(b.unit.busy_cycles(), busy);
 }
-TEST(PairFetch, TooFewFillsSetThePace) {
-  Parameters p = split();
-  p.fills = 8;
-  PairBench b(p);
-  for (std::uint32_t i = 0; i < 80; ++i) b.ends.source.add(PairBench::number(10 * i));
-  finish(b, b.ends, 80);
-  // Eight lines in M + 8 clocks. What waits for its line is named before what has no place.
-  EXPECT_EQ(b.ends.sink.taken[79].cycle - b.ends.sink.taken[7].cycle, 72u / 8 * 28);
-  EXPECT_GT(stalls(b.unit, "pairs"), 0u);
-}
 TEST(PairFetch, TheDefaultFillsCoverTheLatency) {
   PairBench b;
   for (std::uint32_t i = 0; i < 200; ++i) b.ends.source.add(PairBench::number(10 * i));

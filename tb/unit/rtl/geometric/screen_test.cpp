@@ -99,13 +99,6 @@ TEST(DepthScreen, AGroupAClockWhereAtMostOneLookUpMisses) {
   EXPECT_EQ(spread(b.ends), 59 * DepthScreen::datasheet().interval.clocks + 6);
   EXPECT_EQ(b.unit.both_missed.value(), 7u);
 }
-TEST(DepthScreen, TwoClocksWhereBothMiss) {
-  ScreenBench b;
-  for (std::uint32_t i = 0; i < 30; ++i) b.ends.source.add(ScreenBench::across(i % 5 * 2, i / 5));
-  finish(b, b.ends, 30);
-  EXPECT_EQ(spread(b.ends), 58u);
-  EXPECT_EQ(b.unit.misses.value(), 60u);
-}
 // N = 4 = 2^2: index (U mod 2) + 2 (V mod 2). N = 8: (U mod 4) + 4 (V mod 2).
 TEST(DepthScreen, LinesOfOneIndexReplaceEachOther) {
   struct Row {

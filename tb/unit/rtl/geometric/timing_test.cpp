@@ -241,12 +241,6 @@ TEST(VertexFetch, AnEdgeAClockWhereAtMostOneLookUpMisses) {
   EXPECT_EQ(spread(b.ends), 59 * VertexFetch::datasheet().interval.clocks);
   EXPECT_EQ(b.unit.misses.value(), 61u);
 }
-TEST(VertexFetch, TwoClocksWhereBothMiss) {
-  VertexBench b;
-  for (std::uint32_t i = 0; i < 30; ++i) b.ends.source.add({8 * i, 8 * i + 4, false, false});
-  finish(b, b.ends, 30);
-  EXPECT_EQ(spread(b.ends), 58u);
-}
 // Both vertices of a line are one look-up; a frame's end is none, and reads nothing.
 TEST(VertexFetch, CountsLookUpsOfLines) {
   VertexBench b;
@@ -812,15 +806,6 @@ TEST(DepthTest, APairTakesAClockWithAMiss) {
   EXPECT_EQ(b.unit.lookups.value(), 2u * 59);
   // The first pair misses twice, a clock more.
   EXPECT_EQ(spread(b.ends), 58u);
-  b.clock.run(10);
-  b.ends.sink.taken.clear();
-  for (int i = 1; i < 30; ++i) {
-    CandidateToken token = DepthBench::column(2 * i, 20);
-    token.candidates = 1;
-    b.ends.source.add(token);
-  }
-  finish(b, b.ends, 29);
-  EXPECT_EQ(spread(b.ends), 2u * 28) << "both miss";
 }
 // As few places for lines as can be built: a group that orders eight holds all of them.
 TEST(DepthTest, EightLinesFitIntoTheFewestFills) {
