@@ -18,7 +18,7 @@ std::vector<Datasheet> datasheets(const spec::morphological::Parameters& p) {
   if (learned) sheets.push_back(LineUnit::learned_datasheet());
   sheets.insert(sheets.end(), {AreaUnit::datasheet(p), RecordStore::datasheet(p),
                                RecordWalk::datasheet(), AnalyticShares::datasheet()});
-  if (TableShares::is_built(p)) sheets.push_back(TableShares::datasheet());
+  if (has_table(p)) sheets.push_back(TableShares::datasheet());
   if (learned) sheets.push_back(LearnedShares::datasheet());
   sheets.push_back(ShareRows::datasheet());
   if (p.diagonals) sheets.push_back(DiagonalUnit::datasheet(p));

@@ -11,33 +11,34 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
                                          const spec::morphological::Parameters& parameters)
     : Engine(name, clock, spec::morphological::kRegisters, control_layout()),
       parameters_(check_build(parameters)),
-      store(control, parameters_),
-      window("edge_window", parameters_, store),
-      rows(parameters_, store),
-      sequencer("sequencer", clock, store, probe_),
-      luma("luma", clock, store),
-      edges("edges", clock, parameters_, store),
-      extractor("extractor", clock, parameters_, store, window, rows),
-      predictor_h("predictor_h", clock, parameters_, store, rows),
-      predictor_v("predictor_v", clock, parameters_, store, window),
-      divider_h("divider_h", clock, parameters_, store, spec::morphological::Axis::kHorizontal),
-      divider_v("divider_v", clock, parameters_, store, spec::morphological::Axis::kVertical),
-      area("area", clock, parameters_, store),
+      parameter_store("parameter_store", control, parameters_),
+      window("edge_window", parameters_),
+      rows(parameters_),
+      sequencer("sequencer", clock, parameters_, probe_),
+      luma("luma", clock, parameters_),
+      edges("edges", clock, parameters_),
+      extractor("extractor", clock, parameters_, window, rows),
+      predictor_h("predictor_h", clock, parameters_, rows),
+      predictor_v("predictor_v", clock, parameters_, window),
+      divider_h("divider_h", clock, parameters_, spec::morphological::Axis::kHorizontal),
+      divider_v("divider_v", clock, parameters_, spec::morphological::Axis::kVertical),
+      area("area", clock, parameters_),
       shares_loader(parameters_.area == spec::morphological::AreaSource::kLearned
                         ? std::make_unique<SharesLoader>(control, area.shares_port().value())
                         : nullptr),
       diagonals(parameters_.diagonals
-                    ? std::make_unique<DiagonalUnit>("diagonals", clock, parameters_, store)
+                    ? std::make_unique<DiagonalUnit>("diagonals", clock, parameters_)
                     : nullptr),
       text_guard(parameters_.text_guard
-                     ? std::make_unique<TextGuard>("text_guard", clock, parameters_, store)
+                     ? std::make_unique<TextGuard>("text_guard", clock, parameters_)
                      : nullptr),
-      pixel_store("pixel_store", clock, parameters_, store),
-      blender("blender", clock, store, probe_),
-      sums_h_("sums_h", store.lanes(), sums_shape(parameters_)),
-      sums_v_("sums_v", store.lanes(), sums_shape(parameters_)),
-      lines_h_("lines_h", store.lanes(), line_shape(parameters_)),
-      lines_v_("lines_v", store.lanes(), line_shape(parameters_)) {
+      pixel_store("pixel_store", clock, parameters_),
+      blender("blender", clock, parameters_, probe_),
+      sums_h_("sums_h", built_lanes(parameters_), sums_shape(parameters_)),
+      sums_v_("sums_v", built_lanes(parameters_), sums_shape(parameters_)),
+      lines_h_("lines_h", built_lanes(parameters_), line_shape(parameters_)),
+      lines_v_("lines_v", built_lanes(parameters_), line_shape(parameters_)) {
+  control.on_busy([this] { return !sequencer.idle(); });
   sequencer.pixels_in(pixels_in);
   sequencer.slots_out(slots_);
   sequencer.beats_out(beats_);
@@ -48,7 +49,7 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   extractor.edges_in(edge_bits_);
   extractor.area_slots_out(area_slots_);
   extractor.fetches_out(fetches_);
-  for (std::size_t lane = 0; lane < static_cast<std::size_t>(store.lanes()); ++lane) {
+  for (std::size_t lane = 0; lane < built_lanes_.lanes; ++lane) {
     predictor_h.records_in[lane](extractor.records(spec::morphological::Axis::kHorizontal, lane));
     predictor_v.records_in[lane](extractor.records(spec::morphological::Axis::kVertical, lane));
   }
@@ -72,15 +73,43 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   blender.pixels_out(pixels_out);
   blender.frames_done_out(frames_done_);
   sequencer.frames_done_in(frames_done_);
+
+  parameter_store.rules_out(rules_);
+  sequencer.rules_in(rules_);
+  luma.rules_in(rules_);
+  edges.rules_in(rules_);
+  extractor.rules_in(rules_);
+  predictor_h.rules_in(rules_);
+  predictor_v.rules_in(rules_);
+  divider_h.rules_in(rules_);
+  divider_v.rules_in(rules_);
+  area.rules_in(rules_);
+  pixel_store.rules_in(rules_);
+  blender.rules_in(rules_);
+  sequencer.first_beat_out(first_beat_);
+  parameter_store.first_beat_in(first_beat_);
+  parameter_store.enabled_out(enabled_);
+  sequencer.enabled_in(enabled_);
+  sequencer.latch_out(latch_);
+  parameter_store.latch_in(latch_);
+  parameter_store.latched_out(latched_);
+  sequencer.latched_in(latched_);
+  sequencer.frame_done_out(frame_done_);
+  parameter_store.frame_done_in(frame_done_);
+  sequencer.framing_out(framing_);
+  parameter_store.framing_in(framing_);
+
   if (diagonals) {
+    diagonals->rules_in(rules_);
     columns_ = std::make_unique<Link<DiagonalColumnsToken>>(
-        "diagonal_columns", 2, diagonal_columns_shape(parameters_, store.lanes()));
+        "diagonal_columns", 2, diagonal_columns_shape(parameters_, built_lanes(parameters_)));
     (*extractor.columns_out)(*columns_);
     diagonals->columns_in(*columns_);
     (*area.diagonals_in)(diagonals->shares());
     control.show(spec::morphological::reg::kDiagonals, diagonals->diagonal_pixels);
   }
   if (text_guard) {
+    text_guard->rules_in(rules_);
     guard_slots_ = std::make_unique<Link<GuardSlotToken>>("guard_slots", 2, built_lanes_);
     (*sequencer.guard_slots_out)(*guard_slots_);
     text_guard->slots_in(*guard_slots_);
@@ -98,6 +127,9 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
     memory_port->requests_in(*requests_);
     memory_port->responses_out(*responses_);
     uses(*memory_port);
+    memory_error_ = std::make_unique<Pulse>("memory_error");
+    (*pixel_store.memory_error_out)(*memory_error_);
+    (*parameter_store.memory_error_in)(*memory_error_);
   }
 
   namespace reg = spec::morphological::reg;
@@ -122,7 +154,7 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
 }
 
 bool MorphologicalEngine::idle() const {
-  return !store.frame_inside() && sequencer.pixels_in.link().empty();
+  return sequencer.idle() && sequencer.pixels_in.link().empty();
 }
 
 spec::morphological::Work MorphologicalEngine::work() const {

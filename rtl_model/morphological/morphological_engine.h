@@ -28,6 +28,11 @@
 //                       |
 //                       +- words --> tables of the AreaUnit
 //
+//   wires: ParameterStore -- rules --> units of the pipe
+//          SlotSequencer -- first_beat, latch, framing, frame_done,
+//          PixelStore -- memory_error --> ParameterStore
+//          ParameterStore -- enabled, latched --> SlotSequencer
+//
 // DiagonalUnit, TextGuard, MemoryPort and SharesLoader are there if diagonals, text_guard, storage
 // = memory and learned shares are built.
 //
@@ -47,6 +52,7 @@
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/fabric/memory_port.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/morphological/blend/area_unit.h"
 #include "rtl_model/morphological/blend/blender.h"
 #include "rtl_model/morphological/blend/diagonal_unit.h"
@@ -83,7 +89,7 @@ class MorphologicalEngine final : public Engine {
 
  public:
   // In the order of the pipe.
-  ParameterStore store;
+  ParameterStore parameter_store;
   EdgeWindow window;
   EdgeRows rows;
   SlotSequencer sequencer;
@@ -116,12 +122,20 @@ class MorphologicalEngine final : public Engine {
   const spec::morphological::Parameters& parameters() const { return parameters_; }
 
  private:
-  const PayloadShape built_lanes_{.lanes = static_cast<std::uint32_t>(store.lanes())};
+  // From the registers to the units, and what sets their sticky bits.
+  Wire<FrameRules> rules_{"rules", FrameRules{}, rules_shape(parameters_)};
+  Pulse first_beat_{"first_beat"}, latch_{"latch"};
+  CombinationalWire<bool> enabled_{"enabled"};
+  CombinationalWire<Decoded> latched_{"latched", rules_shape(parameters_, "rules.")};
+  Pulse frame_done_{"frame_done"}, framing_{"framing"};
+  std::unique_ptr<Pulse> memory_error_;
+  const PayloadShape built_lanes_{.lanes = static_cast<std::uint32_t>(built_lanes(parameters_))};
   Link<SlotToken> slots_{"slots", 2, built_lanes_};
   Link<BeatToken> beats_{"beats", 2, built_lanes_};
   Link<LumaToken> lumas_{"lumas", 2, built_lanes_};
   Link<EdgeToken> edge_bits_{"edge_bits", 2, built_lanes_};
-  Link<AreaSlotToken> area_slots_{"area_slots", 2, area_slot_shape(parameters_, store.lanes())};
+  Link<AreaSlotToken> area_slots_{"area_slots", 2,
+                                  area_slot_shape(parameters_, built_lanes(parameters_))};
   Link<FetchToken> fetches_{"fetches"};
   Link<ShareToken> shares_{"shares", 2, built_lanes_};
   // The pixels of a slot wait here for its shares.

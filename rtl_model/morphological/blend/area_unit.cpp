@@ -4,24 +4,23 @@
 namespace deburr::rtl::morphological {
 
 AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                   const spec::morphological::Parameters& p, const ParameterStore& store)
+                   const spec::morphological::Parameters& p)
     : Unit(name, clock),
-      lines_h_in("lines_h_in", store.lanes()),
-      lines_v_in("lines_v_in", store.lanes()),
-      store_(store),
-      lanes_(static_cast<std::size_t>(store.lanes())),
-      lag_(store.reach_rows() + spec::morphological::kRowLag),
+      lines_h_in("lines_h_in", built_lanes(p)),
+      lines_v_in("lines_v_in", built_lanes(p)),
+      lanes_(static_cast<std::size_t>(built_lanes(p))),
+      lag_(reach_rows_of(p) + spec::morphological::kRowLag),
       columns_((static_cast<std::size_t>(p.line_pixels) + 2 * lanes_ - 1) / (2 * lanes_) * 2 *
                lanes_),
       smaa_(p.ends == spec::morphological::Ends::kCrossings || p.round_corners || p.diagonals ||
-            TableShares::is_built(p)),
-      record_store_("record_store", p, store, columns_, {records, bank_conflicts}),
-      record_walk_("record_walk", store, record_store_, {horizontal_edges, vertical_edges}),
-      table_(TableShares::is_built(p) ? std::make_unique<TableShares>("table", p, store) : nullptr),
+            has_table(p)),
+      record_store_("record_store", p, columns_, {records, bank_conflicts}),
+      record_walk_("record_walk", p, record_store_, {horizontal_edges, vertical_edges}),
+      table_(has_table(p) ? std::make_unique<TableShares>("table", p) : nullptr),
       learned_(p.area == spec::morphological::AreaSource::kLearned
-                   ? std::make_unique<LearnedShares>("learned", store.lanes())
+                   ? std::make_unique<LearnedShares>("learned", built_lanes(p))
                    : nullptr),
-      share_rows_("share_rows", p, store, columns_) {
+      share_rows_("share_rows", p, columns_) {
   if (!p.diagonals) return;
   diagonals_in.emplace("diagonals_in");
   diagonals_ = declare_stall("diagonals", "the diagonals of a beat have not come");
@@ -29,40 +28,40 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
 
 // Stage 1.
 template <bool kSmaa>
-void AreaUnit::enter(Cycle cycle, const AreaSlotToken& token, Beat& beat) {
+void AreaUnit::enter(Cycle cycle, const FrameRules& rules, const AreaSlotToken& token, Beat& beat) {
   beat.slot = token.slot;
   beat.left = token.left;
   beat.top = token.top;
   beat.next_left = token.next_left;
   beat.next_top = token.next_top;
   beat.shares = {};
-  record_walk_.address<kSmaa>(cycle, token.slot, beat.walk);
-  beat.takes_diagonals = kSmaa && beat.walk.evaluates && store_.rules().diagonal_steps != 0;
+  record_walk_.address<kSmaa>(cycle, rules, token.slot, beat.walk);
+  beat.takes_diagonals = kSmaa && beat.walk.evaluates && rules.diagonal_steps != 0;
 }
 
 // Stage 3: the edges of the beat go to the units of their shares.
 template <bool kSmaa, bool kLearned>
-void AreaUnit::ask(Cycle cycle, Beat& beat) {
+void AreaUnit::ask(Cycle cycle, const FrameRules& rules, Beat& beat) {
   record_walk_.visit_edges(
       cycle, beat.walk,
       [&](std::size_t number, const StoredRecord& record, const RecordWalk::Edge& edge) {
-        ask_edge<kSmaa, kLearned>(beat, number, record, edge);
+        ask_edge<kSmaa, kLearned>(rules, beat, number, record, edge);
       });
-  if (kLearned && store_.rules().learned) ask_gaps(beat);
+  if (kLearned && rules.learned) ask_gaps(beat);
 }
 
 template <bool kSmaa, bool kLearned>
-void AreaUnit::ask_edge(Beat& beat, std::size_t number, const StoredRecord& record,
-                        const RecordWalk::Edge& edge) {
+void AreaUnit::ask_edge(const FrameRules& rules, Beat& beat, std::size_t number,
+                        const StoredRecord& record, const RecordWalk::Edge& edge) {
   if (kLearned && record.learned) return learned_->ask(number, record, edge.k, edge.after);
   if constexpr (kSmaa) {
-    if (store_.rules().table) return table_->ask(number, record, edge.k);
+    if (rules.table) return table_->ask(number, record, edge.k);
     const std::uint8_t near = record.part == spec::morphological::RunPart::kHead ? 0
                               : record.part == spec::morphological::RunPart::kTail
                                   ? 1
                                   : nearer_end(edge.k, edge.after);
     shares_of(beat.shares, number) =
-        at_corners(store_.rules(), AnalyticShares::of(record, edge.k), record.far, near);
+        at_corners(rules, AnalyticShares::of(record, edge.k), record.far, near);
   } else {
     shares_of(beat.shares, number) = AnalyticShares::of(record, edge.k);
   }
@@ -86,14 +85,16 @@ void AreaUnit::take_diagonals(Cycle cycle, Beat& beat) {
 }
 
 // Stage 9: shares of the row above go to the Blender, those of this row take their place.
-[[gnu::always_inline]] inline void AreaUnit::send(Cycle cycle, const Beat& beat) {
+[[gnu::always_inline]] inline void AreaUnit::send(Cycle cycle, const FrameRules& rules,
+                                                  const Beat& beat) {
   if (!beat.works()) return;
   if (beat.slot.row >= lag_) {
     ShareToken& out = shares_out.emplace(cycle);
     out.slot = beat.slot;
     out.left = beat.left;
     out.top = beat.top;
-    share_rows_.join(cycle, beat.walk.x, beat.walk.count, beat.slot.beat, beat.shares, out);
+    share_rows_.join(cycle, rules.width, beat.walk.x, beat.walk.count, beat.slot.beat, beat.shares,
+                     out);
   }
   share_rows_.write(cycle, beat.walk.x, beat.slot.beat, beat.shares);
 }
@@ -101,6 +102,7 @@ void AreaUnit::take_diagonals(Cycle cycle, Beat& beat) {
 template <bool kSmaa, bool kLearned>
 Activity AreaUnit::work(Cycle cycle) {
   bool did = false, blocked = false, waits = false;
+  const FrameRules& rules = rules_in.read(cycle);
   const bool arrives = slots_in.can_pop(cycle);
   if (arrives || !pipe_.empty()) {
     if (!shares_out.can_push(cycle) && pipe_.leaves() && pipe_.at(8)->slot.row >= lag_) {
@@ -110,24 +112,25 @@ Activity AreaUnit::work(Cycle cycle) {
     } else {
       pipe_.move();
       did = true;
-      if (const Beat* beat = pipe_.at(9)) send(cycle, *beat);
+      if (const Beat* beat = pipe_.at(9)) send(cycle, rules, *beat);
       if (Beat* beat = pipe_.at(8)) {
         if (kSmaa && beat->takes_diagonals) take_diagonals(cycle, *beat);
         if (beat->works()) share_rows_.read(cycle, beat->walk.x);
       }
       // Stages 4 to 8 are those of the units of shares.
       if (kLearned) learned_->move(cycle, shares_in(7));
-      if (kSmaa && table_) table_->move(cycle, shares_in(6));
-      if (Beat* beat = pipe_.at(3); beat && beat->walk.any) ask<kSmaa, kLearned>(cycle, *beat);
+      if (kSmaa && table_) table_->move(cycle, rules, shares_in(6));
+      if (Beat* beat = pipe_.at(3); beat && beat->walk.any)
+        ask<kSmaa, kLearned>(cycle, rules, *beat);
       if (Beat* beat = pipe_.at(2)) {
         record_walk_.match<kSmaa, kLearned>(cycle, beat->slot, beat->walk);
-        if (kLearned && beat->walk.evaluates && store_.rules().learned)
+        if (kLearned && beat->walk.evaluates && rules.learned)
           beat->walk.any |= (beat->next_left | beat->next_top) != 0;
       }
-      if (arrives) enter<kSmaa>(cycle, slots_in.take(cycle), pipe_.enter());
+      if (arrives) enter<kSmaa>(cycle, rules, slots_in.take(cycle), pipe_.enter());
     }
   }
-  did |= record_store_.take_lines(cycle, lines_h_in, lines_v_in, finished_out);
+  did |= record_store_.take_lines(cycle, rules, lines_h_in, lines_v_in, finished_out);
   if (did) return kBusy;
   return blocked ? kStalledDownstream : waits ? *diagonals_ : kIdle;
 }
@@ -146,8 +149,7 @@ void AreaUnit::reset() {
 }
 
 Datasheet AreaUnit::datasheet(const spec::morphological::Parameters& p) {
-  const Datasheet line =
-      TableShares::is_built(p) ? TableShares::datasheet() : AnalyticShares::datasheet();
+  const Datasheet line = has_table(p) ? TableShares::datasheet() : AnalyticShares::datasheet();
   return {.unit = "AreaUnit",
           .does = "Shares of the pixels across each edge, by its record's line.",
           .latency = {RecordWalk::datasheet().latency.clocks + line.latency.clocks +

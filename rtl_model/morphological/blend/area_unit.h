@@ -30,6 +30,7 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/fabric/wire.h"
 #include "rtl_model/morphological/blend/analytic_shares.h"
 #include "rtl_model/morphological/blend/edge_shares.h"
 #include "rtl_model/morphological/blend/learned_shares.h"
@@ -37,13 +38,14 @@
 #include "rtl_model/morphological/blend/record_walk.h"
 #include "rtl_model/morphological/blend/share_rows.h"
 #include "rtl_model/morphological/blend/table_shares.h"
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 
 class AreaUnit final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   In<AreaSlotToken> slots_in{"slots_in"};
   LanePorts<In<LineToken>> lines_h_in, lines_v_in;
   // From the DiagonalUnit, if it is built.
@@ -52,7 +54,7 @@ class AreaUnit final : public Unit {
   Out<FinishToken> finished_out{"finished_out"};
 
   AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-           const spec::morphological::Parameters& parameters, const ParameterStore& store);
+           const spec::morphological::Parameters& parameters);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -92,13 +94,13 @@ class AreaUnit final : public Unit {
   Activity work(Cycle cycle);
   // Once a clock each, from one place: inline.
   template <bool kSmaa>
-  inline void enter(Cycle cycle, const AreaSlotToken& token, Beat& beat);
+  inline void enter(Cycle cycle, const FrameRules& rules, const AreaSlotToken& token, Beat& beat);
   template <bool kSmaa, bool kLearned>
-  [[gnu::noinline]] void ask(Cycle cycle, Beat& beat);
+  [[gnu::noinline]] void ask(Cycle cycle, const FrameRules& rules, Beat& beat);
   void ask_gaps(const Beat& beat);
   template <bool kSmaa, bool kLearned>
-  inline void ask_edge(Beat& beat, std::size_t number, const StoredRecord& record,
-                       const RecordWalk::Edge& edge);
+  inline void ask_edge(const FrameRules& rules, Beat& beat, std::size_t number,
+                       const StoredRecord& record, const RecordWalk::Edge& edge);
   // The next move brings a beat to stage 8 whose diagonals are not there.
   bool waits_for_diagonals(Cycle cycle) {
     const Beat* const beat = pipe_.at(7);
@@ -110,9 +112,8 @@ class AreaUnit final : public Unit {
     Beat* const beat = pipe_.at(stage);
     return beat ? &beat->shares : nullptr;
   }
-  void send(Cycle cycle, const Beat& beat);
+  void send(Cycle cycle, const FrameRules& rules, const Beat& beat);
 
-  const ParameterStore& store_;
   const std::size_t lanes_;
   const std::int32_t lag_;     // rows from a slot to the row that it blends
   const std::size_t columns_;  // of the longest row, in whole beats, of a pair at least

@@ -38,15 +38,16 @@ std::vector<std::uint32_t> mix_words() {
 }  // namespace
 
 Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
-                 const ParameterStore& store, LatencyProbe& probe)
+                 const spec::morphological::Parameters& p, LatencyProbe& probe)
     : Unit(name, clock),
-      store_(store),
+      lanes_(built_lanes(p)),
+      first_row_(reach_rows_of(p) + spec::morphological::kRowLag),
       probe_(probe),
       mix_rom_("mix_rom",
                {.words = spec::morphological::kMixSums,
                 .word_bits = kMixBits,
                 .kind = MemoryKind::kRom,
-                .read_ports = static_cast<std::uint32_t>(store.lanes()),
+                .read_ports = static_cast<std::uint32_t>(lanes_),
                 .write_ports = 0,
                 .content = "2^20 over a sum of shares"},
                mix_words()),
@@ -54,7 +55,7 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
                   {.words = spec::morphological::kLinear12FromSrgb.size(),
                    .word_bits = 12,
                    .kind = MemoryKind::kRom,
-                   .read_ports = static_cast<std::uint32_t>(9 * store.lanes()),
+                   .read_ports = static_cast<std::uint32_t>(9 * lanes_),
                    .write_ports = 0,
                    .content = "linear light of a code"},
                   spec::morphological::kLinear12FromSrgb),
@@ -62,11 +63,11 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
                   {.words = spec::morphological::kSrgbFromLinear12.size(),
                    .word_bits = 8,
                    .kind = MemoryKind::kRom,
-                   .read_ports = static_cast<std::uint32_t>(3 * store.lanes()),
+                   .read_ports = static_cast<std::uint32_t>(3 * lanes_),
                    .write_ports = 0,
                    .content = "code of a linear light"},
                   spec::morphological::kSrgbFromLinear12) {
-  for (int lane = 0; lane < store.lanes(); ++lane) {
+  for (int lane = 0; lane < lanes_; ++lane) {
     mix_.emplace_back(mix_rom_, std::to_string(lane));
     for (const char* const channel : {"r", "g", "b"}) {
       const std::string at = std::to_string(lane) + "." + channel;
@@ -75,15 +76,15 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
       codes_.emplace_back(encode_rom_, at);
     }
   }
-  if (store.has_text_guard()) guards_in.emplace("guards_in");
+  if (p.text_guard) guards_in.emplace("guards_in");
 }
 
 // Stage 1.
-void Blender::choose(Cycle cycle, const ShareToken& token, const PixelToken& around, Beat& beat) {
-  const FrameRules& rules = store_.rules();
+void Blender::choose(Cycle cycle, const FrameRules& rules, const ShareToken& token,
+                     const PixelToken& around, Beat& beat) {
   const Slot slot = token.slot;
   const bool end = slot.beat + 1u == rules.beats;
-  const auto count = static_cast<std::size_t>(end ? rules.last_count : store_.lanes());
+  const auto count = static_cast<std::size_t>(end ? rules.last_count : lanes_);
   beat.slot = slot.number;
   beat.last = end && slot.row + 1u == rules.rows;
   beat.blend = beat.left = 0;
@@ -91,8 +92,7 @@ void Blender::choose(Cycle cycle, const ShareToken& token, const PixelToken& aro
   result = {};  // what leaves the engine is defined in every lane
   result.count = static_cast<std::uint8_t>(count);
   result.end_of_row = end;
-  result.start_of_frame =
-      slot.row == store_.reach_rows() + spec::morphological::kRowLag && slot.beat == 0;
+  result.start_of_frame = slot.row == first_row_ && slot.beat == 0;
   for (std::size_t i = 0; i < count; ++i) {
     result.pixel[i] = around.centre[i];
     result.tap[i].edges =
@@ -105,14 +105,12 @@ void Blender::choose(Cycle cycle, const ShareToken& token, const PixelToken& aro
 }
 
 // By its own mark, or with `beside` those of its neighbours in the frame.
-bool Blender::is_left(const Slot& slot, const PixelToken& around, std::size_t lane,
-                      std::size_t count) const {
-  const FrameRules& rules = store_.rules();
+bool Blender::is_left(const FrameRules& rules, const Slot& slot, const PixelToken& around,
+                      std::size_t lane, std::size_t count) const {
   if (is_marked(around.centre[lane])) return true;
   if (rules.leave != Leave::kBeside) return false;
-  const bool first_row = slot.row == store_.reach_rows() + spec::morphological::kRowLag,
-             last_row = slot.row + 1u == rules.rows, first_column = slot.beat == 0 && lane == 0,
-             last_lane = lane + 1 == count,
+  const bool first_row = slot.row == first_row_, last_row = slot.row + 1u == rules.rows,
+             first_column = slot.beat == 0 && lane == 0, last_lane = lane + 1 == count,
              last_column = last_lane && slot.beat + 1u == rules.beats;
   return (!first_row && is_marked(around.above[lane])) ||
          (!last_row && is_marked(around.below[lane])) ||
@@ -122,8 +120,9 @@ bool Blender::is_left(const Slot& slot, const PixelToken& around, std::size_t la
 
 void Blender::choose_axes(Cycle cycle, const ShareToken& token, const PixelToken& around,
                           std::uint32_t guarded, Beat& beat) {
-  const bool strongest = store_.rules().strongest;
-  const Leave leave = store_.rules().leave;
+  const FrameRules& rules = rules_in.read(cycle);
+  const bool strongest = rules.strongest;
+  const Leave leave = rules.leave;
   const bool by_marks = leave != Leave::kNone && leave != Leave::kMasked,
              leaves = by_marks || guarded != 0;
   const std::size_t count = beat.result.count;
@@ -132,7 +131,7 @@ void Blender::choose_axes(Cycle cycle, const ShareToken& token, const PixelToken
     const int vertical_sum = s.up + s.down, horizontal_sum = s.left + s.right;
     if (vertical_sum + horizontal_sum == 0) continue;
     if (leaves &&
-        ((guarded >> i & 1) != 0 || (by_marks && is_left(token.slot, around, i, count)))) {
+        ((guarded >> i & 1) != 0 || (by_marks && is_left(rules, token.slot, around, i, count)))) {
       beat.left = static_cast<std::uint8_t>(beat.left | 1u << i);
       continue;
     }
@@ -190,7 +189,7 @@ void Blender::mix(Cycle cycle, Beat& beat) {
 
 // Stage 2.
 void Blender::address_light(Cycle cycle, const Beat& beat) {
-  if (!store_.rules().linear_light) return;
+  if (!rules_in.read(cycle).linear_light) return;
   for_each_lane(beat.blend, [&](std::size_t lane) {
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t operand = 0; operand < 3; ++operand)
@@ -200,7 +199,7 @@ void Blender::address_light(Cycle cycle, const Beat& beat) {
 
 // Stage 3.
 void Blender::subtract(Cycle cycle, Beat& beat) {
-  const bool linear = store_.rules().linear_light;
+  const bool linear = rules_in.read(cycle).linear_light;
   for_each_lane(beat.blend, [&](std::size_t lane) {
     Operands& o = beat.operands[lane];
     for (std::size_t c = 0; c < 3; ++c) {
@@ -226,7 +225,7 @@ void Blender::multiply(Beat& beat) {
 
 // Stage 5.
 void Blender::round(Cycle cycle, Beat& beat) {
-  const bool linear = store_.rules().linear_light;
+  const bool linear = rules_in.read(cycle).linear_light;
   for_each_lane(beat.blend, [&](std::size_t lane) {
     Operands& o = beat.operands[lane];
     for (std::size_t c = 0; c < 3; ++c) {
@@ -239,14 +238,14 @@ void Blender::round(Cycle cycle, Beat& beat) {
 }
 
 // Stage 6.
-void Blender::deliver(Cycle cycle, const Beat& beat) {
+void Blender::deliver(Cycle cycle, const FrameRules& rules, const Beat& beat) {
   spec::morphological::BlendedBeat& out = pixels_out.emplace(cycle);
   out = beat.result;
   if ((beat.blend | beat.left) != 0) {
     encode(cycle, beat, out);
     left_pixels += static_cast<std::uint64_t>(std::popcount(beat.left));
   }
-  if (store_.rules().leave != Leave::kNone)
+  if (rules.leave != Leave::kNone)
     for (std::size_t i = 0; i < out.count; ++i) out.pixel[i][3] |= 1;
   pixels += out.count;
   beat_latency.record(probe_.leaves(cycle));
@@ -254,7 +253,7 @@ void Blender::deliver(Cycle cycle, const Beat& beat) {
 }
 
 void Blender::encode(Cycle cycle, const Beat& beat, spec::morphological::BlendedBeat& out) {
-  const bool linear = store_.rules().linear_light;
+  const bool linear = rules_in.read(cycle).linear_light;
   for_each_lane(beat.blend, [&](std::size_t lane) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint16_t value = beat.operands[lane].value[c];
@@ -275,21 +274,22 @@ void Blender::blend(Cycle cycle) {
   if (Beat* beat = pipe_.at(3)) subtract(cycle, *beat);
   if (Beat* beat = pipe_.at(2)) {
     address_light(cycle, *beat);
-    if (store_.rules().strongest) mix(cycle, *beat);
+    if (rules_in.read(cycle).strongest) mix(cycle, *beat);
   }
 }
 
 Activity Blender::tick(Cycle cycle) {
+  const FrameRules& rules = rules_in.read(cycle);
   const bool arrives = shares_in.can_pop(cycle) && pixels_in.can_pop(cycle) &&
-                       (!store_.rules().text_guard || guards_in->can_pop(cycle));
+                       (!rules.text_guard || guards_in->can_pop(cycle));
   if (!arrives && pipe_.empty()) return kIdle;
   if (pipe_.leaves() &&
       (!pixels_out.can_push(cycle) || (pipe_.at(5)->last && !frames_done_out.can_push(cycle))))
     return kStalledDownstream;
   pipe_.move();
-  if (const Beat* beat = pipe_.at(6)) deliver(cycle, *beat);
+  if (const Beat* beat = pipe_.at(6)) deliver(cycle, rules, *beat);
   if (blending_ != 0) blend(cycle);
-  if (arrives) choose(cycle, shares_in.take(cycle), pixels_in.take(cycle), pipe_.enter());
+  if (arrives) choose(cycle, rules, shares_in.take(cycle), pixels_in.take(cycle), pipe_.enter());
   return kBusy;
 }
 

@@ -23,21 +23,23 @@
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 
 class Blender final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   In<ShareToken> shares_in{"shares_in"};
   In<PixelToken> pixels_in{"pixels_in"};
   std::optional<In<GuardToken>> guards_in;  // from the TextGuard, if it is built
   Out<spec::morphological::BlendedBeat> pixels_out{"pixels_out"};
   Out<FrameDoneToken> frames_done_out{"frames_done_out"};
 
-  Blender(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store,
-          LatencyProbe& probe);
+  Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
+          const spec::morphological::Parameters& parameters, LatencyProbe& probe);
   Activity tick(Cycle cycle) override;
   void reset() override {
     pipe_.reset();
@@ -71,10 +73,11 @@ class Blender final : public Unit {
   };
 
   // Once a clock each, from one place: inline.
-  inline void choose(Cycle cycle, const ShareToken& shares, const PixelToken& around, Beat& beat);
-  inline void deliver(Cycle cycle, const Beat& beat);
-  bool is_left(const Slot& slot, const PixelToken& around, std::size_t lane,
-               std::size_t count) const;
+  inline void choose(Cycle cycle, const FrameRules& rules, const ShareToken& shares,
+                     const PixelToken& around, Beat& beat);
+  inline void deliver(Cycle cycle, const FrameRules& rules, const Beat& beat);
+  bool is_left(const FrameRules& rules, const Slot& slot, const PixelToken& around,
+               std::size_t lane, std::size_t count) const;
   void choose_axes(Cycle cycle, const ShareToken& shares, const PixelToken& around,
                    std::uint32_t guarded, Beat& beat);
   void blend(Cycle cycle);
@@ -88,7 +91,7 @@ class Blender final : public Unit {
     return (lane * 3 + channel) * 3 + operand;
   }
 
-  const ParameterStore& store_;
+  const std::int32_t lanes_, first_row_;  // first_row: of slots that blend
   LatencyProbe& probe_;
   Memory<std::uint32_t> mix_rom_;
   std::vector<ReadPort<std::uint32_t>> mix_;  // lane

@@ -16,12 +16,12 @@ constexpr std::uint32_t kTagBits = 7;
 }  // namespace
 
 DiagonalUnit::DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                           const spec::morphological::Parameters& p, const ParameterStore& store)
+                           const spec::morphological::Parameters& p)
     : Unit(name, clock),
-      store_(store),
-      lanes_(static_cast<std::size_t>(store.lanes())),
+      lanes_(static_cast<std::size_t>(built_lanes(p))),
+      lag_(reach_rows_of(p) + spec::morphological::kRowLag - 2),
       steps_(p.diagonal_steps),
-      delay_(static_cast<std::size_t>(diagonal_delay(p.diagonal_steps, store.lanes()))),
+      delay_(static_cast<std::size_t>(diagonal_delay(p.diagonal_steps, built_lanes(p)))),
       clamp_(p.border == spec::morphological::Border::kClamp),
       window_memory_("diagonal_window",
                      {.words = (delay_ + 1) * lanes_ + static_cast<std::size_t>(steps_) + 1,
@@ -51,8 +51,7 @@ DiagonalUnit::DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clo
 
 // Rows beyond the frame as its first and its last one, of a column of that slot row.
 std::uint64_t DiagonalUnit::repeat_rows(std::uint64_t rows, std::int32_t row) const {
-  const std::int32_t y = row - store_.reach_rows() - spec::morphological::kRowLag + 2,
-                     first = steps_ - y, last = first + store_.rules().height - 1;
+  const std::int32_t y = row - lag_, first = steps_ - y, last = first + rules_->height - 1;
   if (first > 0 && (rows >> first & 1) != 0) rows |= (std::uint64_t{1} << first) - 1;
   if (last < 2 * steps_ && (rows >> last & 1) != 0) rows |= ~std::uint64_t{0} << last;
   return rows;
@@ -64,17 +63,16 @@ void DiagonalUnit::shift(Cycle cycle, const DiagonalColumnsToken* token) {
   const std::size_t first = token ? token->slot.beat * lanes_ : 0;
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
     Column& column = window_[newest_++ % kPlaces];
-    column.valid = token && first + lane < static_cast<std::size_t>(store_.rules().width);
+    column.valid = token && first + lane < static_cast<std::size_t>(rules_->width);
     if (!column.valid) continue;
     column.left = token->left[lane];
     column.top = token->top[lane];
     column.row = static_cast<std::uint8_t>(token->slot.row & kRowMask);
-    if (!clamp_ || !store_.rules().clamp) continue;
+    if (!clamp_ || !rules_->clamp) continue;
     column.left = repeat_rows(column.left, token->slot.row);
     column.top = repeat_rows(column.top, token->slot.row);
     if (first + lane == 0) first_[column.row & 1] = column;
-    if (first + lane + 1 == static_cast<std::size_t>(store_.rules().width))
-      last_[column.row & 1] = column;
+    if (first + lane + 1 == static_cast<std::size_t>(rules_->width)) last_[column.row & 1] = column;
   }
 }
 
@@ -99,7 +97,7 @@ template <class Good>
 DiagonalUnit::End DiagonalUnit::first_gap(Good&& good) const {
   std::uint32_t steps = 0;
   for (int i = 1; i <= steps_; ++i) steps |= std::uint32_t{good(i)} << (i - 1);
-  const int most = store_.rules().diagonal_steps;
+  const int most = rules_->diagonal_steps;
   const int found = std::min(std::countr_one(steps), most);
   return {std::min(found, most - 1), found == most};
 }
@@ -151,8 +149,8 @@ void DiagonalUnit::address(Cycle cycle, const Beat& beat) {
 
 // Stage 5.
 void DiagonalUnit::deliver(Cycle cycle, const Beat& beat) {
-  const std::uint32_t most = store_.rules().strongest ? spec::morphological::kMaxDiagonalWeight
-                                                      : spec::morphological::kMaxWeight;
+  const std::uint32_t most =
+      rules_->strongest ? spec::morphological::kMaxDiagonalWeight : spec::morphological::kMaxWeight;
   DiagonalSharesToken token{};
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
     if (!(beat.searched >> lane & 1)) continue;
@@ -184,6 +182,7 @@ void DiagonalUnit::deliver(Cycle cycle, const Beat& beat) {
 Activity DiagonalUnit::tick(Cycle cycle) {
   const bool arrives = columns_in.can_pop(cycle);
   if (!arrives && drains_ == 0 && pipe_.empty()) return kIdle;
+  rules_ = &rules_in.read(cycle);
   if (!shares_.can_push(cycle) && pipe_.leaves() && pipe_.at(kStages - 1)->valid)
     return kStalledDownstream;
   pipe_.move();
@@ -193,10 +192,9 @@ Activity DiagonalUnit::tick(Cycle cycle) {
   if (!arrives && drains_ == 0) return kBusy;
   const DiagonalColumnsToken* const token = arrives ? &columns_in.take(cycle) : nullptr;
   if (token) {
-    if (token->slot.row == store_.reach_rows() + spec::morphological::kRowLag - 2 &&
-        token->slot.beat == 0)
+    if (token->slot.row == lag_ && token->slot.beat == 0)
       for (Column& column : window_) column.valid = false;
-    drains_ = token->slot.beat + 1u == store_.rules().beats ? delay_ : 0;
+    drains_ = token->slot.beat + 1u == rules_->beats ? delay_ : 0;
   } else {
     --drains_;
   }

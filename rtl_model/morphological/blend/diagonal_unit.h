@@ -27,19 +27,21 @@
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 
 class DiagonalUnit final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   In<DiagonalColumnsToken> columns_in{"columns_in"};
   // For the AreaUnit.
   Link<DiagonalSharesToken>& shares() { return shares_.link(); }
 
   DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-               const spec::morphological::Parameters& parameters, const ParameterStore& store);
+               const spec::morphological::Parameters& parameters);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -92,7 +94,7 @@ class DiagonalUnit final : public Unit {
   }
   // What a column beyond the border reads as: the row's first or last one.
   std::uint64_t beyond(std::uint64_t Column::*plane, std::uint8_t row, bool before) const {
-    return store_.rules().clamp ? (before ? first_ : last_)[row & 1].*plane : 0;
+    return rules_->clamp ? (before ? first_ : last_)[row & 1].*plane : 0;
   }
   // Once a clock each, from one place: inline.
   inline void shift(Cycle cycle, const DiagonalColumnsToken* token);
@@ -105,8 +107,8 @@ class DiagonalUnit final : public Unit {
   Diagonal rising(const Around& at) const;
   Diagonal falling(const Around& at) const;
 
-  const ParameterStore& store_;
   const std::size_t lanes_;
+  const std::int32_t lag_;   // rows from a slot to the row of its columns
   const int steps_;          // M, as built
   const std::size_t delay_;  // D, beats
   const bool clamp_;         // built with border = clamp
@@ -122,6 +124,7 @@ class DiagonalUnit final : public Unit {
   std::size_t newest_ = 0;  // place behind the newest column
   std::size_t drains_ = 0;  // shifts that finish the row whose last beat has come
   Pipe<Beat, kStages> pipe_;
+  const FrameRules* rules_ = nullptr;  // on the wire in this clock
 };
 
 }  // namespace deburr::rtl::morphological

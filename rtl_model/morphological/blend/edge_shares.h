@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 #include "spec/morphological/parameters.h"
 
 namespace deburr::rtl::morphological {

@@ -30,14 +30,13 @@ static_assert(kFlightBits + kLineBits + 2 == PixelStore::kTagBits);
 }  // namespace
 
 PixelStore::PixelStore(const sc_core::sc_module_name& name, ClockDomain& clock,
-                       const spec::morphological::Parameters& p, ParameterStore& store)
+                       const spec::morphological::Parameters& p)
     : Unit(name, clock),
-      store_(store),
-      lanes_(store.lanes()),
-      lag_(store.reach_rows() + spec::morphological::kRowLag),
+      lanes_(built_lanes(p)),
+      lag_(reach_rows_of(p) + spec::morphological::kRowLag),
       rows_(p.storage == spec::morphological::Storage::kMemory
                 ? kLines
-                : (store.reach_rows() + 7 + kLines - 1) / kLines * kLines),
+                : (reach_rows_of(p) + 7 + kLines - 1) / kLines * kLines),
       stride_(stride_of(p.line_pixels, lanes_)),
       memory_stall_(declare_stall("memory", "a line of memory has not come, or cannot be sent")),
       rows_stall_(declare_stall("rows", "the place of a beat still holds a pixel to be blended")) {
@@ -54,7 +53,9 @@ PixelStore::PixelStore(const sc_core::sc_module_name& name, ClockDomain& clock,
                     .span = banks,
                     .content = "every fourth row of the pixels to be blended",
                     .columns = static_cast<std::uint64_t>(p.line_pixels)}));
-  if (in_memory) memory_.emplace(static_cast<std::uint32_t>(p.memory_outstanding));
+  if (!in_memory) return;
+  memory_.emplace(static_cast<std::uint32_t>(p.memory_outstanding));
+  memory_error_out.emplace("memory_error_out");
 }
 
 void PixelStore::connect(Link<MemoryRequest>& requests, Link<MemoryResponse>& responses) {
@@ -66,31 +67,30 @@ void PixelStore::connect(Link<MemoryRequest>& requests, Link<MemoryResponse>& re
 // ---- Out ----------------------------------------------------------------------------------------
 
 // storage = memory: have the lines come that the slot needs?
-bool PixelStore::is_loaded(const Slot& slot) const {
-  const FrameRules& rules = store_.rules();
+bool PixelStore::is_loaded(const FrameRules& rules, const Slot& slot) const {
   const std::int32_t y = slot.row - lag_;
   if (y + 1 == rules.height) return memory_->loaded.row >= rules.height;
-  const std::int32_t end = std::min((slot.beat + 1) * lanes_, rules.width);
+  const std::int32_t end = std::min<std::int32_t>((slot.beat + 1) * lanes_, rules.width);
   const LinePlace needed = {y + 1, static_cast<std::uint32_t>((end - 1) / kLinePixels)};
   return needed.before(memory_->loaded);
 }
 
-void PixelStore::look_around(std::int32_t slot_row) {
+void PixelStore::look_around(const FrameRules& rules, std::int32_t slot_row) {
   const std::int32_t y = slot_row - lag_;
   above_ = y > 0 ? row(y - 1) : Row{};
   centre_ = row(y);
-  below_ = y + 1 == store_.rules().height ? Row{} : row(y + 1);
+  below_ = y + 1 == rules.height ? Row{} : row(y + 1);
   around_row_ = slot_row;
 }
 
 // Stage 1.
-void PixelStore::address(Cycle cycle) {
+void PixelStore::address(Cycle cycle, const FrameRules& rules) {
   words_.before = words_.centre[static_cast<std::size_t>(lanes_) - 1];
   if (above_.lines) {
     above_.lines->read.read(cycle, above_.from + beat_);
     words_.above = above_.lines->words[above_.from + beat_];
   }
-  const bool goes_on = beat_ + 1 < store_.rules().beats;
+  const bool goes_on = beat_ + 1 < rules.beats;
   centre_.lines->read.read(cycle, centre_.from + beat_, goes_on ? 2 : 1);
   const Word* const centre = &centre_.lines->words[centre_.from + beat_];
   words_.centre = centre[0];
@@ -102,13 +102,13 @@ void PixelStore::address(Cycle cycle) {
 }
 
 // Stage 2. The rows are those of the slot still: the next one comes into stage 1 after this.
-void PixelStore::send(Cycle cycle) {
+void PixelStore::send(Cycle cycle, const FrameRules& rules) {
   const std::uint32_t beat = beat_;
   PixelToken& out = pixels_out.emplace(cycle);
   centre_.lines->read.check(cycle, centre_.from + beat);
   out.before = words_.before;
   out.centre = words_.centre;
-  if (beat + 1 < store_.rules().beats) out.after = words_.after;
+  if (beat + 1 < rules.beats) out.after = words_.after;
   if (above_.lines) {
     above_.lines->read.check(cycle, above_.from + beat);
     out.above = words_.above;
@@ -120,20 +120,20 @@ void PixelStore::send(Cycle cycle) {
   fetched_ = false;
 }
 
-PixelStore::Did PixelStore::fetch(Cycle cycle) {
+PixelStore::Did PixelStore::fetch(Cycle cycle, const FrameRules& rules) {
   Did did = Did::kNothing;
   if (fetched_) {
     if (!pixels_out.can_push(cycle)) return Did::kWaitsDownstream;
-    send(cycle);
+    send(cycle, rules);
     did = Did::kWork;
   }
   if (!fetches_in.can_pop(cycle)) return did;
-  if (memory_ && !is_loaded(fetches_in.front(cycle).slot))
+  if (memory_ && !is_loaded(rules, fetches_in.front(cycle).slot))
     return did == Did::kWork ? did : Did::kWaitsForMemory;
   const Slot slot = fetches_in.take(cycle).slot;
-  if (slot.row != around_row_) look_around(slot.row);
+  if (slot.row != around_row_) look_around(rules, slot.row);
   beat_ = slot.beat;
-  address(cycle);
+  address(cycle, rules);
   fetched_ = true;
   asked_row_ = slot.row;
   asked_beat_ = slot.beat + 1u;
@@ -142,14 +142,14 @@ PixelStore::Did PixelStore::fetch(Cycle cycle) {
 
 // ---- In -----------------------------------------------------------------------------------------
 
-PixelStore::Did PixelStore::store(Cycle cycle) {
+PixelStore::Did PixelStore::store(Cycle cycle, const FrameRules& rules) {
   if (!beats_in.can_pop(cycle)) return Did::kNothing;
   const BeatToken& beat = beats_in.front(cycle);
   const Slot slot = beat.slot;
-  if (slot.number == 0) begin_frame();
+  if (slot.number == 0) begin_frame(rules);
   if (memory_) {
     const std::int32_t first = slot.beat * lanes_;
-    if (!gather(cycle, beat, first, std::min(lanes_, store_.rules().width - first)))
+    if (!gather(cycle, rules, beat, first, std::min(lanes_, rules.width - first)))
       return Did::kWaitsForMemory;
   } else {
     if (!is_free(slot.row, slot.beat)) return Did::kWaitsForRows;
@@ -162,13 +162,14 @@ PixelStore::Did PixelStore::store(Cycle cycle) {
 }
 
 Activity PixelStore::tick(Cycle cycle) {
-  const Did fetched = fetch(cycle);
-  const Did stored = store(cycle);
+  const FrameRules& rules = rules_in.read(cycle);
+  const Did fetched = fetch(cycle, rules);
+  const Did stored = store(cycle, rules);
   bool did = fetched == Did::kWork || stored == Did::kWork;
   if (memory_) {
     did |= receive(cycle);
     did |= settle(cycle);
-    did |= request(cycle);
+    did |= request(cycle, rules);
   }
   if (did) return kBusy;
   if (fetched == Did::kWaitsForMemory || stored == Did::kWaitsForMemory) return memory_stall_;
@@ -176,21 +177,20 @@ Activity PixelStore::tick(Cycle cycle) {
   return stored == Did::kWaitsForRows ? rows_stall_ : kIdle;
 }
 
-void PixelStore::begin_frame() {
+void PixelStore::begin_frame(const FrameRules& rules) {
   around_row_ = -1;
   asked_row_ = 0;
   if (!memory_) return;
-  memory_->row_lines =
-      static_cast<std::uint32_t>((store_.rules().width + kLinePixels - 1) / kLinePixels);
+  memory_->row_lines = static_cast<std::uint32_t>((rules.width + kLinePixels - 1) / kLinePixels);
   memory_->sent = memory_->answered = memory_->asked = memory_->loaded = {};
   memory_->writes.reset();
   memory_->reads.reset();
 }
 
 // Puts a beat into the line in hand and sends the line if it is complete; false if it could not.
-bool PixelStore::gather(Cycle cycle, const BeatToken& beat, std::int32_t x, std::int32_t count) {
+bool PixelStore::gather(Cycle cycle, const FrameRules& rules, const BeatToken& beat, std::int32_t x,
+                        std::int32_t count) {
   InMemory& m = *memory_;
-  const FrameRules& rules = store_.rules();
   const bool completes = (x + count) % kLinePixels == 0 || x + count == rules.width;
   if (completes && (!m.requests->can_push(cycle) || m.writes.full())) return false;
   constexpr std::size_t kPixelBytes = spec::morphological::kFramePixelBytes;
@@ -221,7 +221,7 @@ bool PixelStore::receive(Cycle cycle) {
   if (!response.write && !load(cycle, response)) return true;
   if (response.status != MemoryStatus::kOk) {
     ++memory_errors;
-    store_.set_sticky(spec::morphological::reg::kStatusMemoryError);
+    memory_error_out->raise(cycle);
   }
   const std::uint32_t flight = response.tag & ((1u << kFlightBits) - 1);
   (response.write ? m.writes : m.reads).arrives(cycle, flight);
@@ -256,10 +256,9 @@ bool PixelStore::settle(Cycle cycle) {
 }
 
 // Asks for the next line, if it has been written and there is a place for it.
-bool PixelStore::request(Cycle cycle) {
+bool PixelStore::request(Cycle cycle, const FrameRules& rules) {
   InMemory& m = *memory_;
   if (!m.asked.before(m.answered) || m.reads.full() || !m.requests->can_push(cycle)) return false;
-  const FrameRules& rules = store_.rules();
   const std::uint32_t last_beat =
       std::min(rules.beats - 1, ((m.asked.line + 1) * static_cast<std::uint32_t>(kLinePixels) - 1) /
                                     static_cast<std::uint32_t>(lanes_));

@@ -29,19 +29,22 @@
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 
 class PixelStore final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   In<BeatToken> beats_in{"beats_in"};
   In<FetchToken> fetches_in{"fetches_in"};
   Out<PixelToken> pixels_out{"pixels_out"};
+  std::optional<PulseOut> memory_error_out;  // with storage = memory
 
   PixelStore(const sc_core::sc_module_name& name, ClockDomain& clock,
-             const spec::morphological::Parameters& parameters, ParameterStore& store);
+             const spec::morphological::Parameters& parameters);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -161,18 +164,19 @@ class PixelStore final : public Unit {
   static constexpr std::int32_t kLines = 4;
 
   // Once a clock each, from one place: inline.
-  inline Did fetch(Cycle cycle);
-  inline void address(Cycle cycle);
-  inline void send(Cycle cycle);
-  inline Did store(Cycle cycle);
-  bool is_loaded(const Slot& slot) const;
-  void look_around(std::int32_t slot_row);
-  bool gather(Cycle cycle, const BeatToken& beat, std::int32_t x, std::int32_t count);
+  inline Did fetch(Cycle cycle, const FrameRules& rules);
+  inline void address(Cycle cycle, const FrameRules& rules);
+  inline void send(Cycle cycle, const FrameRules& rules);
+  inline Did store(Cycle cycle, const FrameRules& rules);
+  bool is_loaded(const FrameRules& rules, const Slot& slot) const;
+  void look_around(const FrameRules& rules, std::int32_t slot_row);
+  bool gather(Cycle cycle, const FrameRules& rules, const BeatToken& beat, std::int32_t x,
+              std::int32_t count);
   bool receive(Cycle cycle);
   bool load(Cycle cycle, const MemoryResponse& response);
   bool settle(Cycle cycle);
-  bool request(Cycle cycle);
-  void begin_frame();
+  bool request(Cycle cycle, const FrameRules& rules);
+  void begin_frame(const FrameRules& rules);
   // Has the row whose place row y takes been asked for up to this beat for the last time?
   bool is_free(std::int32_t y, std::uint32_t beat) const {
     const std::int32_t last = y - rows_ + 1 + lag_;
@@ -188,7 +192,6 @@ class PixelStore final : public Unit {
             static_cast<std::size_t>(y % rows_ / kLines) * stride_};
   }
 
-  ParameterStore& store_;
   const std::int32_t lanes_, lag_;  // lag: rows from a slot to the row that it blends
   const std::int32_t rows_;         // kept on the chip
   const std::size_t stride_;        // words a row

@@ -88,12 +88,11 @@ void AxisRecords::clear_marks(Cycle cycle, std::size_t place) {
 }
 
 RecordStore::RecordStore(const sc_core::sc_module_name& name,
-                         const spec::morphological::Parameters& p, const ParameterStore& store,
-                         std::size_t columns, Counters counters)
+                         const spec::morphological::Parameters& p, std::size_t columns,
+                         Counters counters)
     : sc_module(name),
-      store_(store),
-      lanes_(static_cast<std::size_t>(store.lanes())),
-      ends_(TableShares::is_built(p)),
+      lanes_(static_cast<std::size_t>(built_lanes(p))),
+      ends_(has_table(p)),
       shapes_(ends_ || p.round_corners),
       pair_bits_(has_crossings(p) ? 0 : 1),
       entry_bits_(has_crossings(p) ? 1 : 0),
@@ -150,14 +149,14 @@ void RecordStore::measure_lines() {
 }
 
 // The last of their stages.
-bool RecordStore::store_lines(Cycle cycle, Out<FinishToken>& finished) {
+bool RecordStore::store_lines(Cycle cycle, const FrameRules& rules, Out<FinishToken>& finished) {
   if (!finished.can_push(cycle)) return false;
   FinishToken token{};
   const auto store_all = [&](AxisRecords& axis, Lines& under_way) {
     const auto& lines = ends_ ? under_way.measured : under_way.entered;
     std::size_t& count = ends_ ? under_way.measured_count : under_way.entered_count;
     for (std::size_t i = 0; i < count; ++i) {
-      store(cycle, axis, lines[i]);
+      store(cycle, rules, axis, lines[i]);
       // Its slot row is the one that passes here, or the one before that.
       ++token.count[odd_row_ != before(lines[i].slot, row_begin_)];
     }
@@ -169,7 +168,8 @@ bool RecordStore::store_lines(Cycle cycle, Out<FinishToken>& finished) {
   return true;
 }
 
-void RecordStore::store(Cycle cycle, AxisRecords& axis, const LineToken& token) {
+void RecordStore::store(Cycle cycle, const FrameRules& rules, AxisRecords& axis,
+                        const LineToken& token) {
   const spec::morphological::LineRecord& line = token.line;
   if (observer) observer(line);
   ++counters_.records;
@@ -178,7 +178,7 @@ void RecordStore::store(Cycle cycle, AxisRecords& axis, const LineToken& token) 
              std::int64_t{line.offset} * line.slope;
   record.growth = static_cast<std::uint32_t>(line.scale) * line.slope;
   record.inverse = line.inverse;
-  if (store_.rules().table) TableShares::set_ends(record, line.run.endless);
+  if (rules.table) TableShares::set_ends(record, line.run.endless);
   if (shapes_ || line.learned) {
     record.shape = line.run.shape;
     record.far = line.run.far;
@@ -220,7 +220,7 @@ Datasheet RecordStore::datasheet(const spec::morphological::Parameters& p) {
           "row_records, two rows of pairs of columns (with crossings of columns); column_marks and "
           "column_records, a word a column (with crossings two). Each bank 1R1W: marks are read a "
           "beat at a time, records one a bank."};
-  if (!TableShares::is_built(p)) return sheet;
+  if (!has_table(p)) return sheet;
   sheet.variant = "with a table";
   sheet.latency = {3};
   sheet.stages = {{"1", "choice of a line a bank, two products", "24 x 24 multiply"},

@@ -26,7 +26,7 @@
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/morphological/blend/stored_record.h"
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 #include "rtl_model/morphological/common/tokens.h"
 #include "spec/morphological/packets.h"
 #include "spec/morphological/parameters.h"
@@ -89,16 +89,16 @@ class RecordStore final : public sc_core::sc_module {
 
   // `columns`: of the longest row, in whole beats, of a pair at least.
   RecordStore(const sc_core::sc_module_name& name,
-              const spec::morphological::Parameters& parameters, const ParameterStore& store,
-              std::size_t columns, Counters counters);
+              const spec::morphological::Parameters& parameters, std::size_t columns,
+              Counters counters);
 
   // --- Lines: what their stages do in a clock. False: nothing, or `finished` has no room ---
-  bool take_lines(Cycle cycle, LanePorts<In<LineToken>>& horizontal,
+  bool take_lines(Cycle cycle, const FrameRules& rules, LanePorts<In<LineToken>>& horizontal,
                   LanePorts<In<LineToken>>& vertical, Out<FinishToken>& finished) {
     bool did = false;
     if ((ends_ ? row_lines_.measured_count + column_lines_.measured_count
                : row_lines_.entered_count + column_lines_.entered_count) != 0) {
-      if (!store_lines(cycle, finished)) return false;
+      if (!store_lines(cycle, rules, finished)) return false;
       did = true;
     }
     if (ends_ && row_lines_.entered_count + column_lines_.entered_count != 0) {
@@ -150,12 +150,11 @@ class RecordStore final : public sc_core::sc_module {
 
   bool enter(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisRecords& axis, Lines& under_way);
   void measure_lines();
-  bool store_lines(Cycle cycle, Out<FinishToken>& finished);
-  void store(Cycle cycle, AxisRecords& axis, const LineToken& token);
+  bool store_lines(Cycle cycle, const FrameRules& rules, Out<FinishToken>& finished);
+  void store(Cycle cycle, const FrameRules& rules, AxisRecords& axis, const LineToken& token);
   std::size_t place(const AxisRecords& axis, const LineToken& token) const;
   void clear_marks(Cycle cycle, const Slot& slot);
 
-  const ParameterStore& store_;
   const std::size_t lanes_;
   const bool ends_;    // with a table, which needs those of the line
   const bool shapes_;  // with a table or corners

@@ -20,7 +20,7 @@
 #include "rtl_model/morphological/blend/edge_shares.h"
 #include "rtl_model/morphological/blend/record_store.h"
 #include "rtl_model/morphological/blend/stored_record.h"
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
@@ -56,12 +56,11 @@ class RecordWalk final : public sc_core::sc_module {
     Counter &horizontal_edges, &vertical_edges;
   };
 
-  RecordWalk(const sc_core::sc_module_name& name, const ParameterStore& store, RecordStore& records,
-             Counters counters)
+  RecordWalk(const sc_core::sc_module_name& name, const spec::morphological::Parameters& p,
+             RecordStore& records, Counters counters)
       : sc_module(name),
-        store_(store),
-        lanes_(static_cast<std::size_t>(store.lanes())),
-        first_row_(store.reach_rows() + spec::morphological::kRowLag - 1),
+        lanes_(static_cast<std::size_t>(built_lanes(p))),
+        first_row_(reach_rows_of(p) + spec::morphological::kRowLag - 1),
         pair_bits_(records.pair_bits()),
         entry_bits_(records.entry_bits()),
         records_(records),
@@ -73,15 +72,15 @@ class RecordWalk final : public sc_core::sc_module {
   // shares. Others do not pay for them.
   // Stage 1: the addresses of the marks. Once a clock, from one place.
   template <bool kSmaa>
-  inline void address(Cycle cycle, const Slot& slot, Beat& beat) {
+  inline void address(Cycle cycle, const FrameRules& rules, const Slot& slot, Beat& beat) {
     const std::int32_t row = slot.row - first_row_;
     const std::size_t x = slot.beat * lanes_;
     beat.any = false;
     beat.row = row;
     beat.x = static_cast<std::uint32_t>(x);
-    beat.count = static_cast<std::uint32_t>(
-        std::min(lanes_, static_cast<std::size_t>(store_.rules().width) - x));
-    beat.evaluates = row >= 0 && row < store_.rules().height;
+    beat.count =
+        static_cast<std::uint32_t>(std::min(lanes_, static_cast<std::size_t>(rules.width) - x));
+    beat.evaluates = row >= 0 && row < rules.height;
     if (!beat.evaluates) return;
     const std::size_t pair = records_.row_place<!kSmaa>(row, x);
     const std::size_t column = x << (kSmaa ? entry_bits_ : 0);
@@ -121,7 +120,6 @@ class RecordWalk final : public sc_core::sc_module {
  private:
   void match_smaa(Cycle cycle, Beat& beat);
 
-  const ParameterStore& store_;
   const std::size_t lanes_;
   const std::int32_t first_row_;  // of slots: that has the edges of row 0
   const std::uint32_t pair_bits_, entry_bits_;

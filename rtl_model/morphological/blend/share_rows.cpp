@@ -11,10 +11,9 @@ constexpr std::uint32_t kWordBits = 3 * kShareBits + 2 * kShareSpanBits;
 }  // namespace
 
 ShareRows::ShareRows(const sc_core::sc_module_name& name, const spec::morphological::Parameters& p,
-                     const ParameterStore& store, std::size_t columns)
+                     std::size_t columns)
     : sc_module(name),
-      store_(store),
-      lanes_(static_cast<std::size_t>(store.lanes())),
+      lanes_(static_cast<std::size_t>(built_lanes(p))),
       columns_(columns),
       memory_("weight_lines", {.words = columns,
                                .word_bits = kWordBits,

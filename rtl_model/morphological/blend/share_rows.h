@@ -17,7 +17,6 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/morphological/blend/edge_shares.h"
-#include "rtl_model/morphological/common/parameter_store.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
@@ -26,7 +25,7 @@ class ShareRows final : public sc_core::sc_module {
  public:
   // `columns`: as the RecordStore's.
   ShareRows(const sc_core::sc_module_name& name, const spec::morphological::Parameters& parameters,
-            const ParameterStore& store, std::size_t columns);
+            std::size_t columns);
 
   // The columns of a beat, which begins at x, and the one beside it.
   void read(Cycle cycle, std::size_t x) {
@@ -38,14 +37,13 @@ class ShareRows final : public sc_core::sc_module {
     write_.write(cycle, x, lanes_);
     words_[beat] = shares;
   }
-  // Before that: what the `count` pixels of the row above get.
-  inline void join(Cycle cycle, std::size_t x, std::size_t count, std::size_t beat,
-                   const BeatShares& below, ShareToken& out) const;
+  // Before that: what the `count` pixels of the row above get, in a frame of this width.
+  inline void join(Cycle cycle, std::size_t width, std::size_t x, std::size_t count,
+                   std::size_t beat, const BeatShares& below, ShareToken& out) const;
 
   static Datasheet datasheet();
 
  private:
-  const ParameterStore& store_;
   const std::size_t lanes_, columns_;
   Memory<void> memory_;
   ReadPort<void> read_{memory_, "row above"};
@@ -53,10 +51,9 @@ class ShareRows final : public sc_core::sc_module {
   std::vector<BeatShares> words_;  // by beat; of top, `first` is used as it is evaluated
 };
 
-void ShareRows::join(Cycle cycle, std::size_t x, std::size_t count, std::size_t beat,
-                     const BeatShares& below, ShareToken& out) const {
+void ShareRows::join(Cycle cycle, std::size_t width, std::size_t x, std::size_t count,
+                     std::size_t beat, const BeatShares& below, ShareToken& out) const {
   read_.check(cycle, x);
-  const auto width = static_cast<std::size_t>(store_.rules().width);
   const BeatShares* const above = &words_[beat];
   const auto right_of = [&](std::size_t i) {
     return i + 1 < lanes_      ? above[0][i + 1].left

@@ -6,8 +6,8 @@
 namespace deburr::rtl::morphological {
 
 TableShares::TableShares(const sc_core::sc_module_name& name,
-                         const spec::morphological::Parameters& p, const ParameterStore& store)
-    : sc_module(name), store_(store), table_(p.area, p.area_values, store.lanes()) {}
+                         const spec::morphological::Parameters& p)
+    : sc_module(name), table_(p.area, p.area_values, built_lanes(p)) {}
 
 void TableShares::set_ends(StoredRecord& record, std::uint8_t endless) {
   constexpr std::int64_t kHalf = std::int64_t{1} << (spec::morphological::kRecipFractionBits - 1);
@@ -38,8 +38,8 @@ void TableShares::ask(std::size_t edge, const StoredRecord& record, std::int32_t
 }
 
 // Stage 1: searches end at their limit, and an end beyond it is not seen.
-void TableShares::cut(Cycle cycle, Beat& beat) {
-  const std::int32_t most_left = 2 * store_.rules().search_steps - 1, most_right = most_left + 1;
+void TableShares::cut(Cycle cycle, std::int32_t search_steps, Beat& beat) {
+  const std::int32_t most_left = 2 * search_steps - 1, most_right = most_left + 1;
   for_each(beat, [&](std::size_t edge, Search& search) {
     AreaTable::Query& query = search.query;
     if (search.left > most_left) {
@@ -58,19 +58,19 @@ void TableShares::cut(Cycle cycle, Beat& beat) {
 }
 
 // Stages 3 to 1, and the arithmetic behind them.
-void TableShares::move_on(Cycle cycle, BeatShares* shares) {
+void TableShares::move_on(Cycle cycle, const FrameRules& rules, BeatShares* shares) {
   pipe_.move();
   if (Beat* beat = pipe_.at(4))
     for_each(*beat, [&](std::size_t edge, const Search& search) {
       const AreaTable::Shares found = table_.shares(cycle, edge, search.query);
-      shares_of(*shares, edge) = at_corners(
-          store_.rules(), {found.first, found.second, search.span}, search.far, search.near);
+      shares_of(*shares, edge) =
+          at_corners(rules, {found.first, found.second, search.span}, search.far, search.near);
     });
   if (Beat* beat = pipe_.at(3))
     for_each(*beat, [&](std::size_t edge, Search& search) {
       table_.address_entries(cycle, edge, search.query);
     });
-  if (Beat* beat = pipe_.at(2)) cut(cycle, *beat);
+  if (Beat* beat = pipe_.at(2)) cut(cycle, rules.search_steps, *beat);
 }
 
 Datasheet TableShares::datasheet() {

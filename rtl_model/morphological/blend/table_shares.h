@@ -17,20 +17,14 @@
 #include "rtl_model/morphological/blend/area_table.h"
 #include "rtl_model/morphological/blend/edge_shares.h"
 #include "rtl_model/morphological/blend/stored_record.h"
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 
 namespace deburr::rtl::morphological {
 
 class TableShares final : public sc_core::sc_module {
  public:
   TableShares(const sc_core::sc_module_name& name,
-              const spec::morphological::Parameters& parameters, const ParameterStore& store);
-
-  // Whether an engine of these parameters has it.
-  static bool is_built(const spec::morphological::Parameters& p) {
-    return p.area != spec::morphological::AreaSource::kAnalytic &&
-           p.area != spec::morphological::AreaSource::kLearned;
-  }
+              const spec::morphological::Parameters& parameters);
 
   // As a line is stored: where its ends lie, as if a step were its whole length, rounded to whole
   // pixels; an endless one as far away as there is. `endless`: bit 0 the start, bit 1 the end.
@@ -38,8 +32,8 @@ class TableShares final : public sc_core::sc_module {
 
   // The stages move on: before the walk asks for its beat. `beat`: the shares of the beat in stage
   // 3 here, stage 6 of the AreaUnit, if there is one.
-  void move(Cycle cycle, BeatShares* beat) {
-    if (!pipe_.empty()) move_on(cycle, beat);
+  void move(Cycle cycle, const FrameRules& rules, BeatShares* beat) {
+    if (!pipe_.empty()) move_on(cycle, rules, beat);
   }
   // The walk's last stage: the edge of a beat that is pixel k of this record.
   void ask(std::size_t edge, const StoredRecord& record, std::int32_t k);
@@ -66,10 +60,9 @@ class TableShares final : public sc_core::sc_module {
       visit(edge, beat.search[edge]);
     }
   }
-  void move_on(Cycle cycle, BeatShares* shares);
-  void cut(Cycle cycle, Beat& beat);
+  void move_on(Cycle cycle, const FrameRules& rules, BeatShares* shares);
+  void cut(Cycle cycle, std::int32_t search_steps, Beat& beat);
 
-  const ParameterStore& store_;
   AreaTable table_;
   Pipe<Beat, 4> pipe_;  // the walk's last stage, and stages 1 to 3
 };

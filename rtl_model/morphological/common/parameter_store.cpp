@@ -8,17 +8,6 @@ namespace {
 
 namespace reg = spec::morphological::reg;
 
-int lanes_of(const spec::morphological::Parameters& p) {
-  return spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
-}
-bool is_learned(const spec::morphological::Parameters& p) {
-  return p.area == spec::morphological::AreaSource::kLearned;
-}
-bool is_table(const spec::morphological::Parameters& p) {
-  return p.area != spec::morphological::AreaSource::kAnalytic && !is_learned(p);
-}
-int reach_rows_of(const spec::morphological::Parameters& p) { return p.window_rows / 2 - 1; }
-
 }  // namespace
 
 ControlLayout control_layout() {
@@ -28,16 +17,17 @@ ControlLayout control_layout() {
 
 Decoded decode(const ControlRegisters& registers, const spec::morphological::Parameters& p) {
   const std::uint32_t size = registers.value(reg::kSize), rules = registers.value(reg::kRules);
-  const std::int32_t lanes = lanes_of(p), reach_rows = reach_rows_of(p);
+  const std::int32_t lanes = built_lanes(p), reach_rows = reach_rows_of(p);
+  const auto u16 = [](std::int32_t value) { return static_cast<std::uint16_t>(value); };
   Decoded decoded;
   FrameRules& f = decoded.rules;
-  f.width = static_cast<std::int32_t>(reg::size::kWidth.of(size));
-  f.height = static_cast<std::int32_t>(reg::size::kHeight.of(size));
+  f.width = static_cast<std::uint16_t>(reg::size::kWidth.of(size));
+  f.height = static_cast<std::uint16_t>(reg::size::kHeight.of(size));
   decoded.valid = f.width >= 1 && f.height >= 1 && f.width <= spec::morphological::kMaxFrameSize &&
                   f.height <= spec::morphological::kMaxFrameSize && f.width <= p.line_pixels;
   f.beats = static_cast<std::uint32_t>((f.width + lanes - 1) / lanes);
   f.rows = static_cast<std::uint32_t>(f.height + reach_rows + spec::morphological::kRowLag);
-  f.last_count = f.width - (static_cast<std::int32_t>(f.beats) - 1) * lanes;
+  f.last_count = u16(f.width - (static_cast<std::int32_t>(f.beats) - 1) * lanes);
 
   namespace field = reg::rules;
   const auto is_set = [&](const spec::Field& flag) { return flag.of(rules) != 0; };
@@ -48,8 +38,8 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
   if (f.source == spec::morphological::EdgeSource::kDepth)
     f.local_contrast = spec::morphological::LocalContrast::kOff;
   f.predictor = choice_of<spec::morphological::Predictor>(field::kPredictor, rules);
-  f.steps = std::min({static_cast<std::int32_t>(field::kSteps.of(rules)),
-                      spec::morphological::kMaxSteps, reach_rows - 1});
+  f.steps = u16(std::min({static_cast<std::int32_t>(field::kSteps.of(rules)),
+                          spec::morphological::kMaxSteps, reach_rows - 1}));
   if (f.predictor == spec::morphological::Predictor::kNone) f.steps = 0;
   f.contiguous = is_set(field::kContiguous) && p.contiguous;
   f.safe = is_set(field::kSafe);
@@ -61,17 +51,18 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
     return static_cast<std::int32_t>(steps.of(smaa));
   };
   f.crossings = is_set(field::kCrossings) && p.ends == spec::morphological::Ends::kCrossings;
-  f.table = is_set(field::kTable) && is_table(p);
+  f.table = is_set(field::kTable) && has_table(p);
   f.clamp = is_set(field::kBorder) && p.border == spec::morphological::Border::kClamp &&
             f.crossings && f.table;
-  f.learned = is_set(field::kLearned) && is_learned(p);
+  f.learned = is_set(field::kLearned) && p.area == spec::morphological::AreaSource::kLearned;
   f.search_steps =
-      std::clamp(number(reg::smaa::kSearchSteps), 1, spec::morphological::kMaxSearchSteps);
+      u16(std::clamp(number(reg::smaa::kSearchSteps), 1, spec::morphological::kMaxSearchSteps));
   if (is_set(field::kDiagonals) && p.diagonals)
-    f.diagonal_steps = std::min({number(reg::smaa::kDiagonalSteps), p.diagonal_steps, reach_rows});
+    f.diagonal_steps =
+        u16(std::min({number(reg::smaa::kDiagonalSteps), p.diagonal_steps, reach_rows}));
   f.corners = is_set(field::kRoundCorners) && p.round_corners;
-  f.corner_loss =
-      std::max(spec::morphological::kMaxCornerRounding - number(reg::smaa::kCornerRounding), 0);
+  f.corner_loss = u16(
+      std::max(spec::morphological::kMaxCornerRounding - number(reg::smaa::kCornerRounding), 0));
   f.strongest = is_set(field::kStrongest);
   f.leave = choice_of<spec::morphological::Leave>(field::kLeave, rules);
   f.text_guard = is_set(field::kTextGuard) && p.text_guard;
@@ -86,33 +77,37 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
   return decoded;
 }
 
-ParameterStore::ParameterStore(ControlRegisters& registers,
+ParameterStore::ParameterStore(const sc_core::sc_module_name& name, ControlRegisters& registers,
                                const spec::morphological::Parameters& p)
-    : registers_(registers), parameters_(p), lanes_(lanes_of(p)), reach_rows_(reach_rows_of(p)) {
-  if (!is_learned(p))
+    : sc_module(name),
+      first_beat_in("first_beat_in",
+                    [this](Cycle cycle) { enabled_out.drive(cycle, registers_.enabled()); }),
+      frame_done_in("frame_done_in",
+                    [this](Cycle /*cycle*/) { registers_.set_sticky(reg::kStatusFrameDone); }),
+      framing_in("framing_in",
+                 [this](Cycle /*cycle*/) { registers_.set_sticky(reg::kStatusFraming); }),
+      registers_(registers),
+      parameters_(p) {
+  if (p.storage == spec::morphological::Storage::kMemory)
+    memory_error_in.emplace("memory_error_in", [this](Cycle /*cycle*/) {
+      registers_.set_sticky(reg::kStatusMemoryError);
+    });
+  if (p.area != spec::morphological::AreaSource::kLearned)
     for (const std::uint32_t offset : {reg::kSharesAddress, reg::kSharesData})
       registers.set_mask(offset, 0);
   registers.set_resets(spec::morphological::loaded_registers(p));
-  registers.on_busy([this] { return inside_; });
   for (const std::uint32_t offset : {reg::kSharesAddress, reg::kSharesData, reg::kSharesSum})
     registers.on_read(offset, [] { return 0u; });
 }
 
-bool ParameterStore::latch() {
+void ParameterStore::latch(Cycle cycle) {
   registers_.mask_values();
   const Decoded decoded = decode(registers_, parameters_);
-  if (!decoded.valid) {
-    set_sticky(reg::kStatusFraming);
-    return false;
-  }
-  rules_ = decoded.rules;
-  inside_ = true;
-  return true;
-}
-
-void ParameterStore::leave() {
-  inside_ = false;
-  set_sticky(reg::kStatusFrameDone);
+  latched_out.drive(cycle, decoded);
+  if (decoded.valid)
+    rules_out.drive(cycle, decoded.rules);
+  else
+    registers_.set_sticky(reg::kStatusFraming);
 }
 
 }  // namespace deburr::rtl::morphological

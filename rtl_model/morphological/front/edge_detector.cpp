@@ -37,10 +37,9 @@ inline void EdgeDetector::Lines::take(Cycle cycle, const Slot& slot, const Lanes
 }
 
 EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clock,
-                           const spec::morphological::Parameters& p, const ParameterStore& store)
+                           const spec::morphological::Parameters& p)
     : Unit(name, clock),
-      store_(store),
-      lanes_(static_cast<std::uint32_t>(store.lanes())),
+      lanes_(static_cast<std::uint32_t>(built_lanes(p))),
       // The columns of a beat and the one beside it lie in banks of their own.
       luma_("luma_lines",
             {.words = std::max<std::uint64_t>(words_for(p.line_pixels, lanes_),
@@ -87,12 +86,13 @@ inline EdgeDetector::Edges EdgeDetector::plain_steps(std::int32_t first, std::in
 }
 
 [[gnu::always_inline]] inline void EdgeDetector::decide(EdgeToken& out) {
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = *rules_;
   const bool colour = rules.source == spec::morphological::EdgeSource::kColour;
   const bool plain = (rules.source == spec::morphological::EdgeSource::kLuma || colour) &&
                      rules.leave != spec::morphological::Leave::kMasked;
-  const std::int32_t y = out.slot.row - 1, first = out.slot.beat * store_.lanes();
-  const std::int32_t count = std::min(store_.lanes(), rules.width - first);
+  const auto lanes = static_cast<std::int32_t>(lanes_);
+  const std::int32_t y = out.slot.row - 1, first = out.slot.beat * lanes;
+  const std::int32_t count = std::min(lanes, rules.width - first);
   const auto fixed = [&](std::uint32_t a, std::uint32_t b) {
     return distance(a, b) >= rules.threshold;
   };
@@ -122,7 +122,8 @@ Activity EdgeDetector::tick(Cycle cycle) {
   if (pipe_.leaves() && !edges_out.can_push(cycle)) return kStalledDownstream;
   pipe_.move();
   if (const EdgeToken* edges = pipe_.at(4)) edges_out.push(cycle, *edges);
-  const std::int32_t height = store_.rules().height;
+  rules_ = &rules_in.read(cycle);
+  const std::int32_t height = rules_->height;
   if (EdgeToken* edges = pipe_.at(2)) {
     edges->left = edges->top = 0;
     if (edges->slot.row <= height) {
@@ -163,7 +164,7 @@ void EdgeDetector::keep_strong(Edges& edges, std::int32_t first, std::int32_t y)
 
 // Both pixels are inside.
 bool EdgeDetector::is_edge(Position p, Position q) const {
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = *rules_;
   const std::uint32_t c = contrast(p, q);
   switch (rules.source) {
     case spec::morphological::EdgeSource::kDepth:
@@ -180,14 +181,14 @@ bool EdgeDetector::is_edge(Position p, Position q) const {
 // U9.40: both sides are products with U0.24, of twice the luma.
 bool EdgeDetector::is_dynamic_edge(std::uint32_t c, std::uint32_t here,
                                    std::uint32_t across) const {
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = *rules_;
   return c >= rules.floor &&
          (std::uint64_t{c} << 25) > std::uint64_t{rules.alpha} * doubled_luma(here, across);
 }
 
 // Twice the luma that alpha multiplies, U9.16: the mean is exact.
 std::uint32_t EdgeDetector::doubled_luma(std::uint32_t here, std::uint32_t across) const {
-  switch (store_.rules().dynamic_luma) {
+  switch (rules_->dynamic_luma) {
     case spec::morphological::DynamicLuma::kMax:
       return 2 * std::max(here, across);
     case spec::morphological::DynamicLuma::kMin:
@@ -205,14 +206,14 @@ bool EdgeDetector::depth_edge(Position p, Position q) const {
   if ((luma_[p] | luma_[q]) & kMarkedLuma) return false;
   const std::uint32_t a = (*depth_)[p], b = (*depth_)[q];
   return a != b && (std::uint64_t{distance(a, b)} << 16) >=
-                       std::uint64_t{store_.rules().depth_threshold} * std::max(a, b);
+                       std::uint64_t{rules_->depth_threshold} * std::max(a, b);
 }
 
 std::uint32_t EdgeDetector::contrast(Position p, Position q) const {
   const std::uint32_t a = luma_[p], b = luma_[q];
   if ((a | b) & kMarkedLuma) return 0;
-  return store_.rules().source == spec::morphological::EdgeSource::kColour ? colour_distance(a, b)
-                                                                           : distance(a, b);
+  return rules_->source == spec::morphological::EdgeSource::kColour ? colour_distance(a, b)
+                                                                    : distance(a, b);
 }
 
 std::uint32_t EdgeDetector::step(Position p, Position q) const {
@@ -229,7 +230,7 @@ bool EdgeDetector::survives(Position p, Position across, Position along) const {
   const std::uint32_t c = step(p, across);
   std::uint32_t most = std::max({c, step(p, opposite), step(across, beyond)});
   const std::uint32_t beside = std::max(step(p, along), step(p, after));
-  const spec::morphological::LocalContrast rule = store_.rules().local_contrast;
+  const spec::morphological::LocalContrast rule = rules_->local_contrast;
   if (rule != spec::morphological::LocalContrast::kSymmetric) {
     most = std::max({most, beside, step(along, {along.x - bx, along.y - by})});
   } else {

@@ -13,11 +13,11 @@ Activity LumaUnit::tick(Cycle cycle) {
   const SlotToken& token = slots_in.take(cycle);
   LumaToken& out = pipe_.enter();
   out.slot = token.slot;
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = rules_in.read(cycle);
   if (token.slot.row < rules.height) {
     const bool colour = rules.source == spec::morphological::EdgeSource::kColour;
     const bool masked = rules.leave == spec::morphological::Leave::kMasked;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(store_.lanes()); ++i) {
+    for (std::size_t i = 0; i < lanes_; ++i) {
       const spec::morphological::Rgba8& p = token.pixel[i];
       out.luma[i] = colour ? p[0] | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16
                            : spec::morphological::kLumaWeights[0] * p[0] +

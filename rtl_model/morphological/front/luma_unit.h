@@ -5,30 +5,34 @@
 // Where: between SlotSequencer and EdgeDetector. Stalled by `downstream` only.
 #pragma once
 
+#include <cstddef>
 #include <systemc>
 
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 
 class LumaUnit final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   In<SlotToken> slots_in{"slots_in"};
   Out<LumaToken> lumas_out{"lumas_out"};
 
-  LumaUnit(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store)
-      : Unit(name, clock), store_(store) {}
+  LumaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
+           const spec::morphological::Parameters& parameters)
+      : Unit(name, clock), lanes_(static_cast<std::size_t>(built_lanes(parameters))) {}
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
 
   static Datasheet datasheet();
 
  private:
-  const ParameterStore& store_;
+  const std::size_t lanes_;
   Pipe<LumaToken, spec::morphological::kLumaLatency> pipe_;
 };
 

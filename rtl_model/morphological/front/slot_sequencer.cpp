@@ -4,23 +4,22 @@
 namespace deburr::rtl::morphological {
 
 SlotSequencer::SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& clock,
-                             ParameterStore& store, LatencyProbe& probe)
+                             const spec::morphological::Parameters& p, LatencyProbe& probe)
     : Unit(name, clock),
-      store_(store),
+      lanes_(built_lanes(p)),
       probe_(probe),
       upstream_(declare_stall("upstream", "inside a frame, and no beat has come")) {
-  if (store.has_text_guard()) guard_slots_out.emplace("guard_slots_out");
+  if (p.text_guard) guard_slots_out.emplace("guard_slots_out");
 }
 
-[[gnu::always_inline]] inline void SlotSequencer::take_beat(Cycle cycle) {
-  const FrameRules& rules = store_.rules();
+[[gnu::always_inline]] inline void SlotSequencer::take_beat(Cycle cycle, const FrameRules& rules) {
   const spec::morphological::PixelBeat& beat = pixels_in.take(cycle);
   const bool end = next_.beat + 1u == rules.beats;
-  const int count = end ? rules.last_count : store_.lanes();
+  const int count = end ? rules.last_count : lanes_;
   if (beat.count != count || beat.end_of_row != end || beat.start_of_frame != (next_.number == 0))
       [[unlikely]] {
     ++framing_errors;
-    store_.set_sticky(spec::morphological::reg::kStatusFraming);
+    framing_out.raise(cycle);
   }
   SlotToken& slot = slots_out.emplace(cycle);
   BeatToken& stored = beats_out.emplace(cycle);
@@ -34,8 +33,7 @@ SlotSequencer::SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& c
 }
 
 // False: it has no room. A slot that waits for something else is not sent yet.
-bool SlotSequencer::send_to_guard(Cycle cycle) {
-  const std::int32_t height = store_.rules().height;
+bool SlotSequencer::send_to_guard(Cycle cycle, std::int32_t height) {
   const bool input = next_.row < height;
   if (next_.row >= height + kGuardRows || !slots_out.can_push(cycle)) return true;
   if (input && (!pixels_in.can_pop(cycle) || !beats_out.can_push(cycle))) return true;
@@ -51,48 +49,54 @@ bool SlotSequencer::send_to_guard(Cycle cycle) {
 }
 
 Activity SlotSequencer::tick(Cycle cycle) {
+  const FrameRules* rules = &rules_in.read(cycle);
   if (slots_ != Slots::kSome) [[unlikely]] {
+    if (slots_ == Slots::kSent) {
+      if (!frames_done_in.can_pop(cycle)) return kIdle;  // it is on its way out
+      frames_done_in.pop(cycle);
+      slots_ = Slots::kNone;
+      frame_done_out.raise(cycle);
+      ++frames;
+      // The token was pushed with the last beat; how long it waited here does not count.
+      frame_cycles.reset();
+      frame_cycles += frames_done_in.link().last_push() + 1 - first_cycle_;
+    }
     if (slots_ == Slots::kNone) {
-      if (frames_done_in.can_pop(cycle)) {
-        frames_done_in.pop(cycle);
-        store_.leave();
-        ++frames;
-        // The token was pushed with the last beat; how long it waited here does not count.
-        frame_cycles.reset();
-        frame_cycles += frames_done_in.link().last_push() + 1 - first_cycle_;
-      }
-      if (store_.frame_inside()) return kIdle;  // what is left is on its way out
-      if (!pixels_in.can_pop(cycle) || !store_.enabled()) return kIdle;
+      if (!pixels_in.can_pop(cycle)) return kIdle;
+      first_beat_out.raise(cycle);
+      if (!enabled_in.read(cycle)) return kIdle;
       // The frame is inside from the clock on that takes its first beat.
       if (!slots_out.can_push(cycle) || !beats_out.can_push(cycle)) return kStalledDownstream;
       if (guard_slots_out && !guard_slots_out->can_push(cycle)) return kStalledDownstream;
-      if (!store_.latch()) return kIdle;
-      slots_ = store_.rules().text_guard ? Slots::kGuarded : Slots::kSome;
+      latch_out.raise(cycle);
+      const Decoded& latched = latched_in.read(cycle);
+      if (!latched.valid) return kIdle;
+      rules = &latched.rules;
+      slots_ = rules->text_guard ? Slots::kGuarded : Slots::kSome;
       next_ = {};
       first_cycle_ = cycle;
     }
-    if (slots_ == Slots::kGuarded && !send_to_guard(cycle)) return kStalledDownstream;
+    if (slots_ == Slots::kGuarded && !send_to_guard(cycle, rules->height))
+      return kStalledDownstream;
   }
-  const FrameRules& rules = store_.rules();
-  const bool input = next_.row < rules.height;
+  const bool input = next_.row < rules->height;
   if (input && !pixels_in.can_pop(cycle)) return upstream_;
   if (!slots_out.can_push(cycle) || (input && !beats_out.can_push(cycle)))
     return kStalledDownstream;
   if (input) {
-    take_beat(cycle);
+    take_beat(cycle, *rules);
   } else {
     slots_out.emplace(cycle).slot = next_;
   }
   ++next_.number;
-  if (++next_.beat == rules.beats) {
+  if (++next_.beat == rules->beats) {
     next_.beat = 0;
-    if (++next_.row == rules.rows) slots_ = Slots::kNone;
+    if (++next_.row == rules->rows) slots_ = Slots::kSent;
   }
   return kBusy;
 }
 
 void SlotSequencer::reset() {
-  store_.reset();
   probe_.reset();
   slots_ = Slots::kNone;
   next_ = {};

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Counts the slots of a frame: takes a beat a clock in the rows that have input, then flushes.
 //
-// Where: first block of the engine, in front of the LumaUnit and the PixelStore. The first slot
-// latches the rules; the next frame begins after the last beat of this one has been pushed. Stalls:
-// `upstream` (no beat in an input slot), `downstream` (the pipe is full: further on something waits
-// for records, memory or room). A beat whose marks disagree with SIZE sets the framing bit and is
-// taken as SIZE says.
+// Where: first block of the engine, in front of the LumaUnit and the PixelStore. The first slot has
+// the ParameterStore latch the rules, and goes by those that it gets in the same clock; the next
+// frame begins after the last beat of this one has been pushed. Stalls: `upstream` (no beat in an
+// input slot), `downstream` (the pipe is full: further on something waits for records, memory or
+// room). A beat whose marks disagree with SIZE sets the framing bit and is taken as SIZE says.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,8 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
@@ -27,11 +28,22 @@ class SlotSequencer final : public Unit {
   Out<SlotToken> slots_out{"slots_out"};
   Out<BeatToken> beats_out{"beats_out"};
   std::optional<Out<GuardSlotToken>> guard_slots_out;  // for the TextGuard, if it is built
+  WireIn<FrameRules> rules_in{"rules_in"};
+  // The first beat of a frame waits; whether it may be taken, in the same clock.
+  PulseOut first_beat_out{"first_beat_out"};
+  WireIn<bool, WireKind::kCombinational> enabled_in{"enabled_in"};
+  // The registers become the rules; what they are, in the same clock.
+  PulseOut latch_out{"latch_out"};
+  WireIn<Decoded, WireKind::kCombinational> latched_in{"latched_in"};
+  PulseOut frame_done_out{"frame_done_out"}, framing_out{"framing_out"};
 
-  SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& clock, ParameterStore& store,
-                LatencyProbe& probe);
+  SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& clock,
+                const spec::morphological::Parameters& parameters, LatencyProbe& probe);
   Activity tick(Cycle cycle) override;
   void reset() override;
+
+  // No frame is inside. Between edges.
+  bool idle() const { return slots_ == Slots::kNone; }
 
   Counter frames{"frames", "frames", "frames delivered"};
   Counter beats{"beats", "beats", "beats taken"};
@@ -42,13 +54,14 @@ class SlotSequencer final : public Unit {
   static Datasheet datasheet();
 
  private:
-  // Of the frame inside: none are left, some are, or each goes to the TextGuard, too.
-  enum class Slots : std::uint8_t { kNone, kSome, kGuarded };
+  // No frame is inside; of the one that is, all are sent, some are left, or each goes to the
+  // TextGuard, too.
+  enum class Slots : std::uint8_t { kNone, kSent, kSome, kGuarded };
 
-  void take_beat(Cycle cycle);
-  bool send_to_guard(Cycle cycle);
+  void take_beat(Cycle cycle, const FrameRules& rules);
+  bool send_to_guard(Cycle cycle, std::int32_t height);
 
-  ParameterStore& store_;
+  const std::int32_t lanes_;
   LatencyProbe& probe_;
   Activity upstream_;
   Slots slots_ = Slots::kNone;

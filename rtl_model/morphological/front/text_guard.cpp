@@ -55,9 +55,9 @@ std::int32_t column_stage_of(std::int32_t lanes) {
 }
 std::int32_t last_stage_of(std::int32_t lanes) { return column_stage_of(lanes) + 2; }
 
-std::uint32_t fifo_words(const spec::morphological::Parameters& p, const ParameterStore& store) {
-  const std::int32_t rows = store.reach_rows() + spec::morphological::kRowLag - kGuardRows;
-  return static_cast<std::uint32_t>(rows * beats_for(p.line_pixels, store.lanes()) + kUnderWay);
+std::uint32_t fifo_words(const spec::morphological::Parameters& p) {
+  const std::int32_t rows = reach_rows_of(p) + spec::morphological::kRowLag - kGuardRows;
+  return static_cast<std::uint32_t>(rows * beats_for(p.line_pixels, built_lanes(p)) + kUnderWay);
 }
 MemoryShape row_shape(const spec::morphological::Parameters& p, std::int32_t lanes) {
   return {.words = static_cast<std::uint64_t>(beats_for(p.line_pixels, lanes)),
@@ -82,25 +82,24 @@ MemoryShape column_shape(const spec::morphological::Parameters& p, std::int32_t 
 }  // namespace
 
 TextGuard::TextGuard(const sc_core::sc_module_name& name, ClockDomain& clock,
-                     const spec::morphological::Parameters& p, const ParameterStore& store)
+                     const spec::morphological::Parameters& p)
     : Unit(name, clock),
-      store_(store),
-      lanes_(static_cast<std::uint32_t>(store.lanes())),
-      row_stage_(row_stage_of(store.lanes())),
-      column_stage_(column_stage_of(store.lanes())),
-      last_stage_(last_stage_of(store.lanes())),
-      row_("guard_row", row_shape(p, store.lanes())),
+      lanes_(static_cast<std::uint32_t>(built_lanes(p))),
+      row_stage_(row_stage_of(built_lanes(p))),
+      column_stage_(column_stage_of(built_lanes(p))),
+      last_stage_(last_stage_of(built_lanes(p))),
+      row_("guard_row", row_shape(p, built_lanes(p))),
       columns_("guard_columns",
-               column_shape(p, store.lanes(), kHashRows * kHashWidth + kHBits + kVBits,
+               column_shape(p, built_lanes(p), kHashRows * kHashWidth + kHBits + kVBits,
                             "a column of the last rows: hashes, strokes of rows and columns")),
-      colours_("guard_colours", column_shape(p, store.lanes(), kColourRows,
+      colours_("guard_colours", column_shape(p, built_lanes(p), kColourRows,
                                              "a column of the last rows: are there two colours?")),
-      guards_("guards", fifo_words(p, store), PayloadShape{.lanes = lanes_}) {}
+      guards_("guards", fifo_words(p), PayloadShape{.lanes = lanes_}) {}
 
 // In. Flush rows have no pixels.
 void TextGuard::store(Cycle cycle) {
   const GuardSlotToken& token = slots_in.take(cycle);
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = *rules_;
   if (token.row == 0 && token.beat == 0) complete_ = next_row_ = next_beat_ = 0;
   if (token.row < rules.height) {
     Hashes word{};
@@ -119,7 +118,7 @@ void TextGuard::enter(Cycle cycle) {
   beat.row = next_row_;
   beat.beat = next_beat_;
   if (is_row(beat.row)) row_out_.read(cycle, static_cast<std::uint64_t>(beat.beat));
-  if (static_cast<std::uint32_t>(++next_beat_) != store_.rules().beats) return;
+  if (static_cast<std::uint32_t>(++next_beat_) != rules_->beats) return;
   next_beat_ = 0;
   ++next_row_;
 }
@@ -140,7 +139,7 @@ void TextGuard::find_h(Beat& beat) {
   beat.h = 0;
   if (!is_row(beat.row)) return;
   const auto first = static_cast<std::int32_t>(first_of(beat));
-  for (std::int32_t lane = 0; lane < store_.lanes(); ++lane) {
+  for (std::int32_t lane = 0; lane < static_cast<std::int32_t>(lanes_); ++lane) {
     const std::int32_t x = first + lane;
     if (!is_column(x)) break;
     const std::uint8_t colour = hash_at(x);
@@ -219,7 +218,8 @@ void TextGuard::read_columns(Cycle cycle, Beat& beat) {
 void TextGuard::look_around(Beat& beat) {
   beat.two = beat.enough = 0;
   const auto first = static_cast<std::int32_t>(first_of(beat));
-  for (std::int32_t lane = 0; lane < store_.lanes() && is_column(first + lane); ++lane) {
+  for (std::int32_t lane = 0; lane < static_cast<std::int32_t>(lanes_) && is_column(first + lane);
+       ++lane) {
     const std::int32_t x = first + lane;
     Colours colours{};
     int h = 0, v = 0;
@@ -259,6 +259,7 @@ void TextGuard::deliver(Cycle cycle, Beat& beat) {
 Activity TextGuard::tick(Cycle cycle) {
   const bool arrives = slots_in.can_pop(cycle);
   if (!arrives && inside_ == 0 && next_row_ == complete_) return kIdle;
+  rules_ = &rules_in.read(cycle);
   const Beat& leaves = at(last_stage_ - 1);
   if (leaves.valid && leaves.row >= kGuardRows && !guards_.can_push(cycle))
     return kStalledDownstream;

@@ -24,19 +24,21 @@
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 
 class TextGuard final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   In<GuardSlotToken> slots_in{"slots_in"};
   // For the Blender.
   Link<GuardToken>& guards() { return guards_.link(); }
 
   TextGuard(const sc_core::sc_module_name& name, ClockDomain& clock,
-            const spec::morphological::Parameters& parameters, const ParameterStore& store);
+            const spec::morphological::Parameters& parameters);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -79,8 +81,8 @@ class TextGuard final : public Unit {
   Beat& at(std::int32_t stage) {
     return beats_[(newest_ + 1 - static_cast<std::size_t>(stage)) % kPlaces];
   }
-  bool is_row(std::int32_t y) const { return y >= 0 && y < store_.rules().height; }
-  bool is_column(std::int32_t x) const { return x >= 0 && x < store_.rules().width; }
+  bool is_row(std::int32_t y) const { return y >= 0 && y < rules_->height; }
+  bool is_column(std::int32_t x) const { return x >= 0 && x < rules_->width; }
   std::uint64_t first_of(const Beat& beat) const {
     return static_cast<std::uint64_t>(beat.beat) * lanes_;
   }
@@ -97,7 +99,6 @@ class TextGuard final : public Unit {
   void deliver(Cycle cycle, Beat& beat);
   static Colours merged(const Colours& a, const Colours& b);
 
-  const ParameterStore& store_;
   const std::uint32_t lanes_;
   // Stages: of the row's and of the columns' beat in hand, and the last one.
   const std::int32_t row_stage_, column_stage_, last_stage_;
@@ -112,6 +113,7 @@ class TextGuard final : public Unit {
   WritePort<std::uint8_t> two_shift_{colours_, "shift"};
   Fifo<GuardToken> guards_;
 
+  const FrameRules* rules_ = nullptr;  // on the wire in this clock
   std::array<Beat, kPlaces> beats_{};
   std::size_t newest_ = 0;                     // place of the beat in stage 1
   std::uint32_t inside_ = 0;                   // beats in the stages

@@ -84,10 +84,9 @@ struct StepEdges {
 
 }  // namespace
 
-EdgeRows::EdgeRows(const spec::morphological::Parameters& p, const ParameterStore& store)
+EdgeRows::EdgeRows(const spec::morphological::Parameters& p)
     : memory{{{"edge_rows_even", shape(p)}, {"edge_rows_odd", shape(p)}}},
-      store_(store),
-      lanes_(store.lanes()),
+      lanes_(built_lanes(p)),
       steps_(most_steps(p)),
       rows_(2 * most_steps(p) + 4),
       words_(words_of_a_row(p)),
@@ -99,45 +98,49 @@ EdgeRows::EdgeRows(const spec::morphological::Parameters& p, const ParameterStor
 
 // From the corner before the step to the one behind its longest candidate, and to the last edge of
 // its class.
-inline void EdgeRows::find_columns(Trial& trial) const {
+inline void EdgeRows::find_columns(const FrameRules& rules, Trial& trial) const {
   const std::int32_t most = trial.tries ? std::min(trial.length + 1, trial.room) : 0;
-  const std::int32_t least = store_.rules().contiguous || trial.classes ? 0 : trial.length - 1;
+  const std::int32_t least = rules.contiguous || trial.classes ? 0 : trial.length - 1;
   const std::int32_t first = trial.to_the_right
                                  ? trial.at(least) - 1
                                  : std::min(trial.at(most) - 1, trial.at(trial.looks));
   const std::int32_t last =
       trial.to_the_right ? std::max(trial.at(most), trial.at(trial.looks) - 1) : trial.at(least);
   trial.first = std::max(first, 0);
-  trial.last = std::min(last, store_.rules().width - 1);
+  trial.last = std::min(last, rules.width - 1);
 }
 
-void EdgeRows::read(Cycle cycle, std::size_t port, Trial& trial) {
-  find_columns(trial);
+void EdgeRows::read(Cycle cycle, const FrameRules& rules, std::size_t port, Trial& trial) {
+  find_columns(rules, trial);
   if (trial.first > trial.last) return;  // beyond the frame's border
   const auto words =
       static_cast<std::uint32_t>(trial.last / kWordColumns - trial.first / kWordColumns + 1);
   for (const std::int32_t y : {trial.line, trial.line - 1})
-    if (in_frame(y)) steps_of_[parity(y)][port].read(cycle, address(y, trial.first), words);
+    if (in_frame(rules, y)) steps_of_[parity(y)][port].read(cycle, address(y, trial.first), words);
 }
 
 template <class Ask>
-std::uint8_t EdgeRows::ask(Cycle cycle, std::size_t port, const Trial& trial, Ask&& ask) const {
+std::uint8_t EdgeRows::ask(Cycle cycle, const FrameRules& rules, std::size_t port,
+                           const Trial& trial, Ask&& ask) const {
   if (trial.first > trial.last) return 0;
   const auto words_of = [&](std::int32_t y) {
-    return in_frame(y) ? &steps_of_[parity(y)][port].at(cycle, address(y, trial.first)) : nullptr;
+    return in_frame(rules, y) ? &steps_of_[parity(y)][port].at(cycle, address(y, trial.first))
+                              : nullptr;
   };
   return ask(StepEdges{words_of(trial.line), words_of(trial.line - 1), trial.first, trial.last,
-                       store_.rules().width});
+                       rules.width});
 }
 
-std::uint8_t EdgeRows::hits(Cycle cycle, std::size_t port, const Trial& trial) const {
-  return ask(cycle, port, trial, [&](const StepEdges& edges) {
-    return hits_of(trial, edges, store_.rules().contiguous);
-  });
+std::uint8_t EdgeRows::hits(Cycle cycle, const FrameRules& rules, std::size_t port,
+                            const Trial& trial) const {
+  return ask(cycle, rules, port, trial,
+             [&](const StepEdges& edges) { return hits_of(trial, edges, rules.contiguous); });
 }
 
-std::uint8_t EdgeRows::crossing_class(Cycle cycle, std::size_t port, const Trial& trial) const {
-  return ask(cycle, port, trial, [&](const StepEdges& edges) { return class_of(trial, edges); });
+std::uint8_t EdgeRows::crossing_class(Cycle cycle, const FrameRules& rules, std::size_t port,
+                                      const Trial& trial) const {
+  return ask(cycle, rules, port, trial,
+             [&](const StepEdges& edges) { return class_of(trial, edges); });
 }
 
 }  // namespace deburr::rtl::morphological

@@ -24,7 +24,6 @@
 #include <deque>
 
 #include "rtl_model/fabric/memory.h"
-#include "rtl_model/morphological/common/parameter_store.h"
 #include "rtl_model/morphological/runs/edge_port.h"
 #include "rtl_model/morphological/runs/trial.h"
 
@@ -37,37 +36,42 @@ struct EdgeWord {
 
 class EdgeRows final : public EdgeMemory {
  public:
-  EdgeRows(const spec::morphological::Parameters& parameters, const ParameterStore& store);
+  explicit EdgeRows(const spec::morphological::Parameters& parameters);
 
   // While the runs of row y are found, row y + ahead() is written.
   std::int32_t ahead() const { return steps_ + 1; }
   // A beat of row y, from left to right; bit k: lane k.
-  void write(Cycle cycle, std::int32_t y, std::int32_t column, std::uint32_t left,
-             std::uint32_t top) {
+  void write(Cycle cycle, const FrameRules& rules, std::int32_t y, std::int32_t column,
+             std::uint32_t left, std::uint32_t top) {
     const auto place = static_cast<std::uint32_t>(column) % kWordColumns;
     if (place == 0) gathered_ = {};
     if ((left | top) != 0) {
       gathered_.left |= std::uint64_t{left} << place;
       gathered_.top |= std::uint64_t{top} << place;
     }
-    if (place + lanes_ == kWordColumns || column + lanes_ >= store_.rules().width)
+    if (place + lanes_ == kWordColumns || column + lanes_ >= rules.width)
       update_[parity(y)].write(cycle, address(y, column), gathered_);
   }
 
   // --- A predictor of horizontal runs: the columns of a step, of its row and of the one above ---
-  void read(Cycle cycle, std::size_t port, Trial& trial) override;
-  std::uint8_t hits(Cycle cycle, std::size_t port, const Trial& trial) const override;
-  std::uint8_t crossing_class(Cycle cycle, std::size_t port, const Trial& trial) const override;
+  void read(Cycle cycle, const FrameRules& rules, std::size_t port, Trial& trial) override;
+  std::uint8_t hits(Cycle cycle, const FrameRules& rules, std::size_t port,
+                    const Trial& trial) const override;
+  std::uint8_t crossing_class(Cycle cycle, const FrameRules& rules, std::size_t port,
+                              const Trial& trial) const override;
 
   std::array<Memory<EdgeWord>, 2> memory;  // even and odd rows
 
  private:
   static constexpr std::int32_t kWordColumns = 64;
-  void find_columns(Trial& trial) const;
+  void find_columns(const FrameRules& rules, Trial& trial) const;
   // `ask` gets what has been read.
   template <class Ask>
-  std::uint8_t ask(Cycle cycle, std::size_t port, const Trial& trial, Ask&& ask) const;
-  bool in_frame(std::int32_t y) const { return y >= 0 && y < store_.rules().height; }
+  std::uint8_t ask(Cycle cycle, const FrameRules& rules, std::size_t port, const Trial& trial,
+                   Ask&& ask) const;
+  static bool in_frame(const FrameRules& rules, std::int32_t y) {
+    return y >= 0 && y < rules.height;
+  }
   static std::size_t parity(std::int32_t y) { return static_cast<std::size_t>(y & 1); }
   // In the memory of the row's parity.
   std::uint64_t address(std::int32_t y, std::int32_t column) const {
@@ -75,7 +79,6 @@ class EdgeRows final : public EdgeMemory {
     return static_cast<std::uint64_t>(place);
   }
 
-  const ParameterStore& store_;
   const std::int32_t lanes_;
   const std::int32_t steps_;         // N, the most that the register can ask for
   const std::int32_t rows_, words_;  // rows in both memories, words of a row

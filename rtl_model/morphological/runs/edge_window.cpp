@@ -68,11 +68,9 @@ MemoryShape shape(const spec::morphological::Parameters& p, std::int32_t lanes) 
 
 }  // namespace
 
-EdgeWindow::EdgeWindow(const char* name, const spec::morphological::Parameters& p,
-                       const ParameterStore& store)
-    : memory(name, shape(p, store.lanes())),
-      store_(store),
-      lanes_(store.lanes()),
+EdgeWindow::EdgeWindow(const char* name, const spec::morphological::Parameters& p)
+    : memory(name, shape(p, built_lanes(p))),
+      lanes_(built_lanes(p)),
       rows_(p.window_rows + 1),
       lane_bits_(static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(lanes_)))),
       row_mask_(std::bit_ceil(static_cast<std::uint32_t>(rows_)) - 1),
@@ -94,24 +92,25 @@ void EdgeWindow::clear(std::int32_t beat) {
   }
 }
 
-void EdgeWindow::read(Cycle cycle, std::size_t port, Trial& trial) {
+void EdgeWindow::read(Cycle cycle, const FrameRules& rules, std::size_t port, Trial& trial) {
   const std::int32_t first = std::max(trial.line - 1, 0);
-  const std::int32_t last = std::min(trial.line, store_.rules().width - 1);
+  const std::int32_t last = std::min(trial.line, rules.width - 1);
   lines_[port].read(cycle, at(first), static_cast<std::uint32_t>(last - first + 1));
 }
 
-std::uint8_t EdgeWindow::hits(Cycle cycle, std::size_t port, const Trial& trial) const {
+std::uint8_t EdgeWindow::hits(Cycle cycle, const FrameRules& rules, std::size_t port,
+                              const Trial& trial) const {
   const std::int32_t line = trial.line;
   lines_[port].check(cycle, at(std::max(line - 1, 0)));
-  const BesideLine edges{*this, line, line == store_.rules().width, newest_row(line), rows_};
-  return hits_of(trial, edges, store_.rules().contiguous);
+  const BesideLine edges{*this, line, line == rules.width, newest_row(line), rows_};
+  return hits_of(trial, edges, rules.contiguous);
 }
 
-std::uint8_t EdgeWindow::crossing_class(Cycle cycle, std::size_t port, const Trial& trial) const {
+std::uint8_t EdgeWindow::crossing_class(Cycle cycle, const FrameRules& rules, std::size_t port,
+                                        const Trial& trial) const {
   const std::int32_t line = trial.line;
   lines_[port].check(cycle, at(std::max(line - 1, 0)));
-  return class_of(trial,
-                  BesideLine{*this, line, line == store_.rules().width, newest_row(line), rows_});
+  return class_of(trial, BesideLine{*this, line, line == rules.width, newest_row(line), rows_});
 }
 
 }  // namespace deburr::rtl::morphological

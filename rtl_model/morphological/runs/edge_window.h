@@ -25,7 +25,6 @@
 #include <vector>
 
 #include "rtl_model/fabric/memory.h"
-#include "rtl_model/morphological/common/parameter_store.h"
 #include "rtl_model/morphological/runs/edge_port.h"
 #include "rtl_model/morphological/runs/trial.h"
 
@@ -38,17 +37,17 @@ struct EdgeBits {
 
 class EdgeWindow final : public EdgeMemory {
  public:
-  EdgeWindow(const char* name, const spec::morphological::Parameters& parameters,
-             const ParameterStore& store);
+  EdgeWindow(const char* name, const spec::morphological::Parameters& parameters);
 
   // --- The extractor: the columns of a beat, which begins at `column` ---
-  void read_beat(Cycle cycle, std::int32_t column) {
-    beat_.read(cycle, at(column), columns(column));
+  void read_beat(Cycle cycle, const FrameRules& rules, std::int32_t column) {
+    beat_.read(cycle, at(column), columns(rules, column));
   }
   // In a clock after: the words of that beat go back in slot row `row`, moved on by the row above.
-  void write_beat(Cycle cycle, std::int32_t column, std::int32_t row, EdgeBits newest) {
+  void write_beat(Cycle cycle, const FrameRules& rules, std::int32_t column, std::int32_t row,
+                  EdgeBits newest) {
     beat_.check(cycle, at(column));
-    update_.write(cycle, at(column), columns(column));
+    update_.write(cycle, at(column), columns(rules, column));
     progress_ = {row, column + lanes_};
     if (row == 0) [[unlikely]]
       clear(column >> lane_bits_);
@@ -73,9 +72,11 @@ class EdgeWindow final : public EdgeMemory {
   void turn_entry(std::int32_t x) { entries_[static_cast<std::size_t>(x)] ^= 1; }
 
   // --- A predictor of vertical runs: both columns beside the trial's lattice line ---
-  void read(Cycle cycle, std::size_t port, Trial& trial) override;
-  std::uint8_t hits(Cycle cycle, std::size_t port, const Trial& trial) const override;
-  std::uint8_t crossing_class(Cycle cycle, std::size_t port, const Trial& trial) const override;
+  void read(Cycle cycle, const FrameRules& rules, std::size_t port, Trial& trial) override;
+  std::uint8_t hits(Cycle cycle, const FrameRules& rules, std::size_t port,
+                    const Trial& trial) const override;
+  std::uint8_t crossing_class(Cycle cycle, const FrameRules& rules, std::size_t port,
+                              const Trial& trial) const override;
 
   Memory<void> memory;
 
@@ -94,11 +95,10 @@ class EdgeWindow final : public EdgeMemory {
     return static_cast<std::uint32_t>(x) & ((1u << lane_bits_) - 1);
   }
   static std::uint64_t at(std::int32_t column) { return static_cast<std::uint64_t>(column); }
-  std::uint32_t columns(std::int32_t first) const {
-    return static_cast<std::uint32_t>(std::min(lanes_, store_.rules().width - first));
+  std::uint32_t columns(const FrameRules& rules, std::int32_t first) const {
+    return static_cast<std::uint32_t>(std::min(lanes_, rules.width - first));
   }
 
-  const ParameterStore& store_;
   const std::int32_t lanes_, rows_;
   const std::uint32_t lane_bits_, row_mask_;
   const std::size_t row_beats_;

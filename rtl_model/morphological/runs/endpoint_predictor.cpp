@@ -6,37 +6,35 @@
 namespace deburr::rtl::morphological {
 
 EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
-                                     const spec::morphological::Parameters& p,
-                                     const ParameterStore& store, EdgeMemory& edges,
+                                     const spec::morphological::Parameters& p, EdgeMemory& edges,
                                      std::int32_t reach, bool vertical)
     : Unit(name, clock),
-      records_in("records_in", store.lanes()),
-      sums_out("sums_out", store.lanes()),
+      records_in("records_in", built_lanes(p)),
+      sums_out("sums_out", built_lanes(p)),
       schedule_(p),
-      lanes_(static_cast<std::size_t>(store.lanes())),
+      lanes_(static_cast<std::size_t>(built_lanes(p))),
       units_(static_cast<std::size_t>(p.predictor_units)),
       turn_(lanes_) {
   const Predictor::Counters counters{extended_runs, steps, probes, iterations};
   // Those of a lane do not follow each other in the schedule: they begin in different clocks, so
   // that a FIFO that gives a record a clock serves all of them in time.
-  for (int lane = 0; lane < store.lanes(); ++lane)
+  const int lanes = built_lanes(p);
+  for (int lane = 0; lane < lanes; ++lane)
     for (int unit = 0; unit < p.predictor_units; ++unit) {
-      const int number = unit * store.lanes() + lane;
+      const int number = unit * lanes + lane;
       places_.push_back(
-          {Predictor(store, schedule_, number, EdgePort(edges, schedule_.port(number, 0)),
+          {Predictor(schedule_, number, EdgePort(edges, schedule_.port(number, 0)),
                      EdgePort(edges, schedule_.port(number, 1)), reach, vertical, counters)});
     }
 }
 
 EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
-                                     const spec::morphological::Parameters& p,
-                                     const ParameterStore& store, EdgeRows& rows)
-    : EndpointPredictor(name, clock, p, store, rows, p.reach_columns, false) {}
+                                     const spec::morphological::Parameters& p, EdgeRows& rows)
+    : EndpointPredictor(name, clock, p, rows, p.reach_columns, false) {}
 
 EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
-                                     const spec::morphological::Parameters& p,
-                                     const ParameterStore& store, EdgeWindow& window)
-    : EndpointPredictor(name, clock, p, store, window, store.reach_rows(), true) {}
+                                     const spec::morphological::Parameters& p, EdgeWindow& window)
+    : EndpointPredictor(name, clock, p, window, reach_rows_of(p), true) {}
 
 Activity EndpointPredictor::work(Cycle cycle) {
   bool did = false, blocked = false;
@@ -90,7 +88,7 @@ Activity EndpointPredictor::work(Cycle cycle) {
       const bool takes = predictor.free() && !taken;
       if (takes) {
         taken = did = true;
-        predictor.take(cycle, clock().cycles_since_reset(), in.take(cycle));
+        predictor.take(cycle, rules_in.read(cycle), clock().cycles_since_reset(), in.take(cycle));
         ++held_;
         join();
       }

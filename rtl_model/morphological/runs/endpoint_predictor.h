@@ -16,7 +16,8 @@
 
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 #include "rtl_model/morphological/common/tokens.h"
 #include "rtl_model/morphological/runs/edge_port.h"
 #include "rtl_model/morphological/runs/edge_rows.h"
@@ -28,16 +29,15 @@ namespace deburr::rtl::morphological {
 
 class EndpointPredictor final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   LanePorts<In<RunToken>> records_in;
   LanePorts<Out<SumsToken>> sums_out;
 
   // Of horizontal runs, which read rows; of vertical runs, which read columns.
   EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
-                    const spec::morphological::Parameters& parameters, const ParameterStore& store,
-                    EdgeRows& rows);
+                    const spec::morphological::Parameters& parameters, EdgeRows& rows);
   EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
-                    const spec::morphological::Parameters& parameters, const ParameterStore& store,
-                    EdgeWindow& window);
+                    const spec::morphological::Parameters& parameters, EdgeWindow& window);
   Activity tick(Cycle cycle) override {
     return held_ == 0 && !records_in.any_arrives(cycle, lanes_) ? kIdle : work(cycle);
   }
@@ -63,8 +63,8 @@ class EndpointPredictor final : public Unit {
   };
 
   EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
-                    const spec::morphological::Parameters& parameters, const ParameterStore& store,
-                    EdgeMemory& edges, std::int32_t reach, bool vertical);
+                    const spec::morphological::Parameters& parameters, EdgeMemory& edges,
+                    std::int32_t reach, bool vertical);
   Activity work(Cycle cycle);
 
   const PortSchedule schedule_;

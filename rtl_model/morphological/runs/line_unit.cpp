@@ -44,14 +44,12 @@ std::uint32_t divide(std::int64_t over, std::int64_t under) {
 }  // namespace
 
 LineUnit::LineUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                   const spec::morphological::Parameters& p, const ParameterStore& store,
-                   spec::morphological::Axis axis)
+                   const spec::morphological::Parameters& p, spec::morphological::Axis axis)
     : Unit(name, clock),
-      sums_in("sums_in", store.lanes()),
-      lines_out("lines_out", store.lanes()),
-      store_(store),
-      lanes_(static_cast<std::size_t>(store.lanes())),
-      reach_(axis == spec::morphological::Axis::kVertical ? store.reach_rows() : p.reach_columns),
+      sums_in("sums_in", built_lanes(p)),
+      lines_out("lines_out", built_lanes(p)),
+      lanes_(static_cast<std::size_t>(built_lanes(p))),
+      reach_(axis == spec::morphological::Axis::kVertical ? reach_rows_of(p) : p.reach_columns),
       latency_(static_cast<Cycle>(p.divider_latency)),
       interval_(static_cast<Cycle>(p.divider_interval)),
       interval_stall_(declare_stall("interval", "the divider cannot start again yet")),
@@ -171,7 +169,7 @@ void LineUnit::begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Divis
   line.right_steps = sums.right;
   line.shift = right - left;
   line.span = static_cast<std::uint16_t>(span);
-  if (store_.rules().predictor == spec::morphological::Predictor::kChord) {
+  if (rules_in.read(cycle).predictor == spec::morphological::Predictor::kChord) {
     line.scale = 2;
     line.offset = sums.first + sums.last;
     line.slope = divide(steps, std::int64_t{2} * span);

@@ -18,7 +18,8 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
@@ -28,12 +29,12 @@ class LineUnit final : public Unit {
   // Two clocks of products, 24 quotient bits in twelve.
   static constexpr std::int32_t kLeastLatency = spec::morphological::kLeastDividerLatency;
 
+  WireIn<FrameRules> rules_in{"rules_in"};
   LanePorts<In<SumsToken>> sums_in;
   LanePorts<Out<LineToken>> lines_out;
 
   LineUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-           const spec::morphological::Parameters& parameters, const ParameterStore& store,
-           spec::morphological::Axis axis);
+           const spec::morphological::Parameters& parameters, spec::morphological::Axis axis);
   Activity tick(Cycle cycle) override {
     if (sums_in.any_arrives(cycle, lanes_)) return work(cycle);
     if (in_flight_ == 0) return kIdle;
@@ -68,7 +69,6 @@ class LineUnit final : public Unit {
   static LineToken begun(const SumsToken& sums);
   void begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Division& division);
 
-  const ParameterStore& store_;
   const std::size_t lanes_;
   const std::int32_t reach_;
   const Cycle latency_, interval_;

@@ -16,11 +16,9 @@ constexpr Cycle kJoinAfter = 2;
 
 }  // namespace
 
-Predictor::Predictor(const ParameterStore& store, const PortSchedule& schedule, int number,
-                     EdgePort right, EdgePort left, std::int32_t reach, bool vertical,
-                     Counters counters)
-    : store_(store),
-      schedule_(schedule),
+Predictor::Predictor(const PortSchedule& schedule, int number, EdgePort right, EdgePort left,
+                     std::int32_t reach, bool vertical, Counters counters)
+    : schedule_(schedule),
       phase_(schedule.phase(number, 0)),
       clocks_(static_cast<Cycle>(schedule.clocks())),
       left_after_(static_cast<Cycle>(schedule.phase(number, 1) - schedule.phase(number, 0))),
@@ -30,13 +28,15 @@ Predictor::Predictor(const ParameterStore& store, const PortSchedule& schedule, 
       right_{right, true},
       left_{left, false} {}
 
-void Predictor::take(Cycle cycle, Cycle since_reset, const RunToken& token) {
+void Predictor::take(Cycle cycle, const FrameRules& rules, Cycle since_reset,
+                     const RunToken& token) {
+  rules_ = &rules;
   const spec::morphological::RunRecord& run = token.run;
   run_ = token;
   length_ = run.length;
   const bool whole_z = run.part == spec::morphological::RunPart::kWhole &&
                        spec::morphological::kRunShapes[run.shape].clean_z;
-  const bool extends = whole_z && store_.rules().steps > 0;
+  const bool extends = whole_z && rules_->steps > 0;
   long_z_ = whole_z && length_ >= spec::morphological::kLongZ;
   right_.keep = left_.keep = kAll;
   right_.reached[kAll] = {0, length_, 0, 0};
@@ -49,7 +49,7 @@ void Predictor::take(Cycle cycle, Cycle since_reset, const RunToken& token) {
     side->trial.classes = false;
     side->trial.looks = 0;
   }
-  if (store_.rules().learned && !long_z_) {
+  if (rules_->learned && !long_z_) {
     look_at(right_, end_code);
     look_at(left_, start_code);
     if (right_.trial.classes || left_.trial.classes) state_ = State::kLooks;
@@ -130,7 +130,7 @@ std::int32_t Predictor::room(const End& end) const {
 }
 
 void Predictor::read(Cycle cycle, End& end) {
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = *rules_;
   Trial& trial = end.trial;
   if (end.open) {
     const std::int32_t lines = (step_ + 1) * drift_;
@@ -146,26 +146,26 @@ void Predictor::read(Cycle cycle, End& end) {
     trial.looks = 0;
   }
   end.reads = trial.tries || trial.classes;
-  if (end.reads) end.port.read(cycle, trial);
+  if (end.reads) end.port.read(cycle, rules, trial);
 }
 
-void Predictor::see(Cycle cycle, End& end) {
+[[gnu::always_inline]] inline void Predictor::see(Cycle cycle, End& end) {
   end.hits = 0;
   if (!end.reads) return;
-  if (end.trial.tries) end.hits = end.port.hits(cycle, end.trial);
-  if (end.trial.classes) end.crossing_class = end.port.crossing_class(cycle, end.trial);
+  if (end.trial.tries) end.hits = end.port.hits(cycle, *rules_, end.trial);
+  if (end.trial.classes) end.crossing_class = end.port.crossing_class(cycle, *rules_, end.trial);
 }
 
 bool Predictor::decide() {
   ++counters_.trials;
   for (const End* const end : {&right_, &left_})
     if (end->open) counters_.probes += end->other != 0 || length_ == 1 ? 2 : 3;
-  if (store_.rules().safe)
+  if (rules_->safe)
     decide_together();
   else
     decide_apart();
   ++step_;
-  return (right_.open || left_.open) && step_ < store_.rules().steps;
+  return (right_.open || left_.open) && step_ < rules_->steps;
 }
 
 // The first candidate that hits, or 0.
@@ -245,7 +245,7 @@ void Predictor::lose(End& end) {
 
 void Predictor::close(End& end, Keep keep) {
   end.open = false;
-  end.keep = store_.rules().trim ? keep : kAll;
+  end.keep = rules_->trim ? keep : kAll;
 }
 
 SumsToken Predictor::join() {
@@ -255,7 +255,7 @@ SumsToken Predictor::join() {
   counters_.steps += static_cast<std::uint64_t>(kept);
   if (kept != 0) ++counters_.extended_runs;
   state_ = State::kFree;
-  const bool learned = store_.rules().learned && kept == 0 && !long_z_;
+  const bool learned = rules_->learned && kept == 0 && !long_z_;
   return {run_,
           learned,
           learned ? left_.crossing_class : std::uint8_t{0},

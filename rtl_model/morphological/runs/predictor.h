@@ -33,7 +33,7 @@
 #include <cstdint>
 
 #include "rtl_model/fabric/counters.h"
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 #include "rtl_model/morphological/common/tokens.h"
 #include "rtl_model/morphological/runs/edge_port.h"
 #include "rtl_model/morphological/runs/line_bounds.h"
@@ -49,14 +49,14 @@ class Predictor {
   };
 
   // `number`: of the axis, for the schedule. `last_line`: of the frame, across the axis.
-  Predictor(const ParameterStore& store, const PortSchedule& schedule, int number, EdgePort right,
-            EdgePort left, std::int32_t reach, bool vertical, Counters counters);
+  Predictor(const PortSchedule& schedule, int number, EdgePort right, EdgePort left,
+            std::int32_t reach, bool vertical, Counters counters);
 
   // Holds no record.
   bool free() const { return state_ == State::kFree; }
   // Takes a record in this clock; `since_reset`: from the first one after the reset, where the
   // schedule begins.
-  void take(Cycle cycle, Cycle since_reset, const RunToken& run);
+  void take(Cycle cycle, const FrameRules& rules, Cycle since_reset, const RunToken& run);
   // The clocks of the record's trials.
   void tick(Cycle cycle) {
     if (state_ == State::kTrials && cycle >= trial_at_) run_trial(cycle);
@@ -96,7 +96,7 @@ class Predictor {
   void look(Cycle cycle);
   void look_at(End& end, int code);
   void read(Cycle cycle, End& end);
-  void see(Cycle cycle, End& end);
+  inline void see(Cycle cycle, End& end);
   bool decide();  // false after the last trial
   void decide_apart();
   void decide_together();
@@ -107,7 +107,6 @@ class Predictor {
   void close(End& end, Keep keep);
   std::int32_t room(const End& end) const;
 
-  const ParameterStore& store_;
   const PortSchedule& schedule_;
   const int phase_;
   const Cycle clocks_, left_after_;  // T; clocks from the right side's read to the left one's
@@ -115,6 +114,7 @@ class Predictor {
   const bool vertical_;
   Counters counters_;
 
+  const FrameRules* rules_ = nullptr;  // which stand still while it holds a record
   State state_ = State::kFree;
   Cycle trial_at_ = 0, join_at_ = 0;  // clock of the trial's first read; of the join
   RunToken run_{};

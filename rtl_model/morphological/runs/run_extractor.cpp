@@ -23,20 +23,19 @@ constexpr std::uint16_t u16(std::int32_t value) { return static_cast<std::uint16
 }  // namespace
 
 RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clock,
-                           const spec::morphological::Parameters& p, const ParameterStore& store,
-                           EdgeWindow& window, EdgeRows& rows)
+                           const spec::morphological::Parameters& p, EdgeWindow& window,
+                           EdgeRows& rows)
     : Unit(name, clock),
-      store_(store),
       window_(window),
       rows_(rows),
-      lanes_(store.lanes()),
-      reach_rows_(store.reach_rows()),
+      lanes_(built_lanes(p)),
+      reach_rows_(reach_rows_of(p)),
       reach_columns_(p.reach_columns),
       crossings_(p.ends == spec::morphological::Ends::kCrossings),
       corners_(p.round_corners),
       smaa_(crossings_ || corners_ || p.diagonals),
       spare_(crossings_ || corners_ || p.area == spec::morphological::AreaSource::kLearned ? 1 : 0),
-      diagonal_delay_(static_cast<Cycle>(diagonal_delay(p.diagonal_steps, store.lanes()))),
+      diagonal_delay_(static_cast<Cycle>(diagonal_delay(p.diagonal_steps, built_lanes(p)))),
       records_(declare_stall("records",
                              "a record FIFO is full, or records of two slot rows before are not "
                              "finished")),
@@ -48,13 +47,13 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
   }
   const auto depth = static_cast<std::uint32_t>(p.record_fifo);
   const PayloadShape shape = record_shape(p, "", "run.");
-  for (int lane = 0; lane < store.lanes(); ++lane) {
+  for (int lane = 0; lane < built_lanes(p); ++lane) {
     h_.fifo.emplace_back(("record_fifo_h" + std::to_string(lane)).c_str(), depth, shape);
     v_.fifo.emplace_back(("record_fifo_v" + std::to_string(lane)).c_str(), depth, shape);
   }
 }
 
-inline bool RunExtractor::take_slot(Cycle cycle) {
+inline bool RunExtractor::take_slot(Cycle cycle, const FrameRules& rules) {
   const EdgeToken& token = edges_in.front(cycle);
   const std::size_t parity = token.slot.row & 1;
   if (token.slot.beat == 0 && unfinished_[parity] + finding_[parity] != 0) {
@@ -63,7 +62,7 @@ inline bool RunExtractor::take_slot(Cycle cycle) {
     return false;
   }
   token_ = token;
-  window_.read_beat(cycle, token.slot.beat * lanes_);
+  window_.read_beat(cycle, rules, token.slot.beat * lanes_);
   reads_ = true;
   edges_in.pop(cycle);
   return true;
@@ -71,8 +70,7 @@ inline bool RunExtractor::take_slot(Cycle cycle) {
 
 // In a row of fewer beats than a diagonal takes nothing else would bring the row before to an end
 // before it is needed: behind it columns are shifted only where no slot comes.
-bool RunExtractor::waits_for_diagonals(Cycle cycle) const {
-  const FrameRules& rules = store_.rules();
+bool RunExtractor::waits_for_diagonals(Cycle cycle, const FrameRules& rules) const {
   return rules.diagonal_steps != 0 && rules.beats < diagonal_delay_ &&
          edges_in.front(cycle).slot.beat == 0 && cycle <= passed_ + diagonal_delay_;
 }
@@ -94,6 +92,7 @@ Activity RunExtractor::work(Cycle cycle) {
       return records_;
     }
   }
+  const FrameRules& rules = rules_in.read(cycle);
   ++step_;
   bool did = false;
   if (found_ != 0 && finds_[oldest_].begun + kFindClocks == step_) {
@@ -107,29 +106,30 @@ Activity RunExtractor::work(Cycle cycle) {
     if (!area_slots_out.can_push(cycle) || (blends && !fetches_out.can_push(cycle)) ||
         (kSmaa && columns_out && !columns_out->can_push(cycle)))
       return did ? kBusy : kStalledDownstream;
-    pass<kSmaa>(cycle);
+    pass<kSmaa>(cycle, rules);
     if (blends) fetches_out.emplace(cycle).slot = token_.slot;
     reads_ = false;
     did = true;
   }
   if (!arrives) return did || found_ != 0 ? kBusy : kIdle;
-  if (kSmaa && waits_for_diagonals(cycle)) return *diagonals_;
-  if (!take_slot(cycle)) return records_;
+  if (kSmaa && waits_for_diagonals(cycle, rules)) return *diagonals_;
+  if (!take_slot(cycle, rules)) return records_;
   return kBusy;
 }
 
-void RunExtractor::begin_row() {
+void RunExtractor::begin_row(const FrameRules& rules) {
+  rules_ = &rules;
   row_ = token_.slot.row - reach_rows_ - 2;
   constexpr std::int32_t kBlended = spec::morphological::kRowLag - 2;  // rows above row y
   blended_ = window_.beats(row_ - kBlended);
   shared_ = window_.beats(row_ - kBlended + 1);
   const auto in_frame = [&](std::int32_t y) {
-    return y >= 0 && y < store_.rules().height ? window_.beats(y) : nullptr;
+    return y >= 0 && y < rules_->height ? window_.beats(y) : nullptr;
   };
   ahead_ = in_frame(row_ + rows_.ahead());
   searched_ = in_frame(row_);
   const std::int32_t most = static_cast<std::int32_t>(about_.size() / 2), row = row_ - 1;
-  sends_columns_ = store_.rules().diagonal_steps != 0 && row >= 0 && row < store_.rules().height;
+  sends_columns_ = rules_->diagonal_steps != 0 && row >= 0 && row < rules_->height;
   if (!sends_columns_) return;
   for (std::int32_t k = 0; k <= 2 * most; ++k)
     about_[static_cast<std::size_t>(k)] = window_.beats(row + k - most);
@@ -137,16 +137,16 @@ void RunExtractor::begin_row() {
 
 // The words of the slot's columns are here.
 template <bool kSmaa>
-[[gnu::always_inline]] inline void RunExtractor::pass(Cycle cycle) {
-  const FrameRules& rules = store_.rules();
+[[gnu::always_inline]] inline void RunExtractor::pass(Cycle cycle, const FrameRules& rules) {
   const Slot& slot = token_.slot;
-  const std::int32_t first = slot.beat * lanes_, end = std::min(first + lanes_, rules.width);
+  const std::int32_t first = slot.beat * lanes_,
+                     end = std::min<std::int32_t>(first + lanes_, rules.width);
   const bool comes = slot.row >= 1 && slot.row <= rules.height;
   const unsigned inside = comes ? (1u << (end - first)) - 1 : 0;
-  window_.write_beat(cycle, first, slot.row,
+  window_.write_beat(cycle, rules, first, slot.row,
                      {static_cast<std::uint8_t>(token_.left & inside),
                       static_cast<std::uint8_t>(token_.top & inside)});
-  if (slot.beat == 0) begin_row();
+  if (slot.beat == 0) begin_row(rules);
   const EdgeBits blended = blended_[slot.beat];
   AreaSlotToken& out = area_slots_out.emplace(cycle);
   out.slot = slot;
@@ -161,7 +161,7 @@ template <bool kSmaa>
   }
   if (ahead_ != nullptr) {
     const EdgeBits bits = ahead_[slot.beat];
-    rows_.write(cycle, row_ + rows_.ahead(), first, bits.left, bits.top);
+    rows_.write(cycle, rules, row_ + rows_.ahead(), first, bits.left, bits.top);
   }
   if (searched_ == nullptr) return;
   here_ = searched_[slot.beat];
@@ -200,14 +200,14 @@ void RunExtractor::send_columns(Cycle cycle) {
 
 // Columns first..end - 1 of row y, and the end of the row.
 void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) {
-  const bool crossings = store_.rules().crossings;
+  const bool crossings = rules_->crossings;
   for (std::int32_t x = first; x < end; ++x) {
     if (here_.top >> (x - first) & 1) {
       if (!open_) {
         open_ = true;
         start_ = x;
         start_corner_ = corner_of_row(x);
-        start_corner_.endless = x == 0 && store_.rules().clamp;
+        start_corner_.endless = x == 0 && rules_->clamp;
       } else if (crossings && (window_.left(x, row_ - 1) || window_.left(x, row_))) {
         Corner corner = corner_of_row(x);
         corner.beyond = true;
@@ -225,13 +225,13 @@ void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) 
       close(find, x, corner_of_row(x));
     }
   }
-  if (open_ && end == store_.rules().width) close(find, end, right_border());
+  if (open_ && end == rules_->width) close(find, end, right_border());
 }
 
 // The corner behind the last column, whose edges are those of that column.
 RunExtractor::Corner RunExtractor::right_border() const {
-  if (!store_.rules().clamp) return {};
-  const Corner corner = corner_of_row(store_.rules().width - 1);
+  if (!rules_->clamp) return {};
+  const Corner corner = corner_of_row(rules_->width - 1);
   return corner.code != 0 ? corner : Corner{.endless = true};
 }
 
@@ -249,7 +249,7 @@ void RunExtractor::close(Find& find, std::int32_t end, Corner corner) {
 
 // Corner (x, y) of the row in hand: from its column.
 RunExtractor::Corner RunExtractor::corner_of_row(std::int32_t x) const {
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = *rules_;
   Corner corner{code(window_.left(x, row_ - 1), window_.left(x, row_))};
   if (rules.corners) {
     corner.far = code(window_.left(x, row_ - 2), window_.left(x, row_ + 1));
@@ -263,7 +263,7 @@ RunExtractor::Corner RunExtractor::corner_of_row(std::int32_t x) const {
 // nothing, with border = clamp the first one again.
 RunExtractor::Corner RunExtractor::corner_of_column(std::int32_t x, std::int32_t y,
                                                     bool far) const {
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = *rules_;
   const bool below = rules.clamp && y == rules.height;
   if (below) --y;
   Corner corner{code(window_.top(x - 1, y), window_.top(x, y))};
@@ -290,7 +290,7 @@ void RunExtractor::vertical(Find& find, std::int32_t first) {
 }
 
 void RunExtractor::vertical_at(Find& find, std::int32_t x, bool starts) {
-  const FrameRules& rules = store_.rules();
+  const FrameRules& rules = *rules_;
   const bool crossings = rules.crossings, far = rules.corners;
   const std::int32_t half = reach_rows_ / 2;
   // Does the run go on from the pixel above corner `below` to the one beneath it, or back?
@@ -326,7 +326,7 @@ void RunExtractor::vertical_at(Find& find, std::int32_t x, bool starts) {
 // column behind then, in the last slot of a row at its last column as well. In which entry a run
 // lies is known with its own column.
 void RunExtractor::smaa_vertical(Find& find, std::int32_t first, std::int32_t end) {
-  const bool crossings = store_.rules().crossings;
+  const bool crossings = rules_->crossings;
   const std::int32_t half = reach_rows_ / 2;
   const auto starts = [&](std::int32_t x) {
     return !window_.left(x, row_ - 1) || (crossings && crosses(x, row_));
@@ -339,7 +339,7 @@ void RunExtractor::smaa_vertical(Find& find, std::int32_t first, std::int32_t en
     if (begins || ends) vertical_at(find, x, begins);
   };
   if (corners_ && first != 0) find_at(first - 1);
-  const std::int32_t last = corners_ && end != store_.rules().width ? end - 1 : end;
+  const std::int32_t last = corners_ && end != rules_->width ? end - 1 : end;
   for (std::int32_t x = first; x < end; ++x) {
     if (crossings_ && window_.left(x, row_) && starts(x)) window_.turn_entry(x);
     if (x < last) find_at(x);
@@ -370,7 +370,7 @@ void RunExtractor::deliver(const Find& find) {
       if (run.part != RunPart::kWhole) ++long_runs;
     }
     if (run.part == RunPart::kWhole && shape.clean_z) ++z_runs;
-    if (!store_.rules().learned && shape.before == spec::morphological::Side::kNone &&
+    if (!rules_->learned && shape.before == spec::morphological::Side::kNone &&
         shape.after == spec::morphological::Side::kNone)
       continue;
     AxisSide& to = horizontal ? h_ : v_;

@@ -36,7 +36,8 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/morphological/common/parameter_store.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/morphological/common/frame_rules.h"
 #include "rtl_model/morphological/common/tokens.h"
 #include "rtl_model/morphological/runs/edge_rows.h"
 #include "rtl_model/morphological/runs/edge_window.h"
@@ -45,6 +46,7 @@ namespace deburr::rtl::morphological {
 
 class RunExtractor final : public Unit {
  public:
+  WireIn<FrameRules> rules_in{"rules_in"};
   In<EdgeToken> edges_in{"edges_in"};
   In<FinishToken> finished_in{"finished_in"};
   Out<AreaSlotToken> area_slots_out{"area_slots_out"};
@@ -57,8 +59,8 @@ class RunExtractor final : public Unit {
   }
 
   RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clock,
-               const spec::morphological::Parameters& parameters, const ParameterStore& store,
-               EdgeWindow& window, EdgeRows& rows);
+               const spec::morphological::Parameters& parameters, EdgeWindow& window,
+               EdgeRows& rows);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -109,11 +111,11 @@ class RunExtractor final : public Unit {
   // kSmaa: of an engine with crossings, corners or diagonals; others do not pay for them.
   template <bool kSmaa>
   Activity work(Cycle cycle);
-  bool waits_for_diagonals(Cycle cycle) const;
-  bool take_slot(Cycle cycle);  // false: it waits for records
-  void begin_row();
+  bool waits_for_diagonals(Cycle cycle, const FrameRules& rules) const;
+  bool take_slot(Cycle cycle, const FrameRules& rules);  // false: it waits for records
+  void begin_row(const FrameRules& rules);
   template <bool kSmaa>
-  void pass(Cycle cycle);
+  void pass(Cycle cycle, const FrameRules& rules);
   void send_columns(Cycle cycle);
   void horizontal(Find& find, std::int32_t first, std::int32_t end);
   void close(Find& find, std::int32_t end, Corner corner);
@@ -130,7 +132,6 @@ class RunExtractor final : public Unit {
   void deliver(const Find& find);
   void drain(AxisSide& from, Cycle cycle);
 
-  const ParameterStore& store_;
   EdgeWindow& window_;
   EdgeRows& rows_;
   const std::int32_t lanes_, reach_rows_, reach_columns_;
@@ -155,7 +156,8 @@ class RunExtractor final : public Unit {
   std::size_t oldest_ = 0, found_ = 0;
   std::uint64_t step_ = 0;  // clocks in which clocks 2 to 4 went on
 
-  std::int32_t row_ = 0;  // y
+  std::int32_t row_ = 0;               // y
+  const FrameRules* rules_ = nullptr;  // that it began with
   // Of the words of the window: the row that is blended, the one below, the one for EdgeRows and
   // row y; the latter two nullptr outside the frame.
   const EdgeBits *blended_ = nullptr, *shared_ = nullptr, *ahead_ = nullptr, *searched_ = nullptr;

@@ -20,7 +20,6 @@ NO_ENGINES = {"fabric", "platform"}
 SHARED = {
     "ClockDomain": "the clock",
     "ControlRegisters": "the registers on the bus",
-    "ParameterStore": "the registers, decoded, where they are no module",
     "EdgeWindow": "a memory with a port a user",
     "EdgeRows": "a memory with a port a user",
     "PortSchedule": "which clock of a port is whose",
@@ -161,7 +160,6 @@ def planted_faults_are_caught():
         "a part that may be left out": "class A final : public Unit {\n  std::unique_ptr<Store> store_;\n};",
         "an observer": "class A final : public Unit {\n public:\n  std::function<void(const Beat&)> observer;\n};",
         "itself": "class A final : public Unit {\n  struct Side {\n    const A& unit;\n  };\n};",
-        "registers": "class A final : public Unit {\n  const ParameterStore& store_;\n};",
         "an instrument": "class A final : public Unit {\n  EdgeLatency& latency_;\n};",
         "a local name": "class A final : public Unit {\n  void work() {\n    const Table& table = tables_[0];\n  }\n};",
         "a part's registers": "class Loader {\n  ControlRegisters& registers_;\n};",

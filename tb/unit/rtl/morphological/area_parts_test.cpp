@@ -19,7 +19,7 @@ constexpr std::size_t kColumns = 64, kRecords = 16;
 
 // A RecordStore with a vertical record in each of the first columns, in row 0, and its walk.
 struct Walk {
-  Walk() : records("record_store", small(), registers.store, kColumns, {stored, conflicts}) {
+  Walk() : records("record_store", small(), kColumns, {stored, conflicts}) {
     StoredRecord record;
     for (std::size_t x = 0; x < kRecords; ++x) {
       record.span = static_cast<std::uint16_t>(100 + x);
@@ -34,7 +34,7 @@ struct Walk {
     RecordWalk::Beat beat{};
     std::vector<int> spans;
     try {
-      walk.address<false>(cycle, slot, beat);
+      walk.address<false>(cycle, rules, slot, beat);
       walk.match<false, false>(cycle + match, slot, beat);
       walk.visit_edges(
           cycle + match + visit, beat,
@@ -50,11 +50,11 @@ struct Walk {
     return true;
   }
 
-  Registers registers{small(), 20, 7};
+  const FrameRules rules = Registers(small(), 20, 7).rules.driven();
   rtl::Counter stored{"stored", "records", "stored"}, conflicts{"conflicts", "clk", "waited"};
   rtl::Counter horizontal{"horizontal", "edges", "along"}, vertical{"vertical", "edges", "down"};
   RecordStore records;
-  RecordWalk walk{"record_walk", registers.store, records, {horizontal, vertical}};
+  RecordWalk walk{"record_walk", small(), records, {horizontal, vertical}};
 };
 
 // No stage can be left out: each waits for the words that the one before has addressed.
@@ -150,8 +150,7 @@ TEST(LearnedSharesBlock, HaveTheLatencyAndIntervalOfTheirDatasheet) {
 // The row above is addressed a clock before the shares of this row come, and what they were goes
 // out in the clock in which they do.
 TEST(ShareRowsBlock, HaveTheRowAboveAClockAfterItsAddress) {
-  const Registers registers(small(), 20, 7);
-  ShareRows rows("share_rows", small(), registers.store, kColumns);
+  ShareRows rows("share_rows", small(), kColumns);
   const auto shares_of_row = [](int row) {
     BeatShares shares{};
     shares[0].top = {static_cast<std::uint8_t>(10 + row), static_cast<std::uint8_t>(20 + row), 3};
@@ -160,7 +159,7 @@ TEST(ShareRowsBlock, HaveTheRowAboveAClockAfterItsAddress) {
   ShareToken out{};
   const auto join = [&](Cycle read, Cycle cycle, int row) {
     rows.read(read, 0);
-    rows.join(cycle, 0, 1, 0, shares_of_row(row), out);
+    rows.join(cycle, 20, 0, 1, 0, shares_of_row(row), out);
   };
   rows.write(10, 0, 0, shares_of_row(0));
   EXPECT_THROW(join(20, 20, 1), spec::CheckFailed);

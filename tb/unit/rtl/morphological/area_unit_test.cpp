@@ -35,12 +35,13 @@ struct Area {
         lanes(lanes_of(p)),
         beats((width_ + lanes - 1) / lanes),
         registers(p, width_, height_),
-        unit("area", clock, p, registers.store),
+        unit("area", clock, p),
         lines_h("lines_h", lanes),
         lines_v("lines_v", lanes),
         shares_gate("shares_gate", clock, shares_open),
         finished_gate("finished_gate", clock, finished_open) {
     slot_driver.out(slots);
+    unit.rules_in(registers.rules);
     unit.slots_in(slots);
     unit.lines_h_in.bind(lines_h);
     unit.lines_v_in.bind(lines_v);
@@ -413,8 +414,7 @@ TEST_P(AreaLanes, BesideANarrowerFrameIsNothing) {
   bench.clock.set_reset_n(false);
   bench.clock.run(2);
   bench.clock.set_reset_n(true);
-  bench.registers.reset();
-  bench.registers.frame(kNarrow, 9);
+  bench.registers.frame(kNarrow, 9, bench.clock.cycle());
   const int beats = kNarrow / bench.lanes;
   const Cycle from = bench.clock.cycle() + 1;
   std::uint32_t number = 0;
@@ -627,8 +627,7 @@ TEST_P(AreaLanes, AFrameHasNoRecordOfTheOneBefore) {
   bench.clock.set_reset_n(false);
   bench.clock.run(1);
   bench.clock.set_reset_n(true);
-  bench.registers.reset();
-  bench.registers.frame(kWidth, 9);
+  bench.registers.frame(kWidth, 9, bench.clock.cycle());
   bench.send_slots(bench.clock.cycle() + 1);
   bench.clock.run(bench.slots_before(9 + kLag) + 40);
   EXPECT_EQ(bench.shares_gate.taken.size(), static_cast<std::size_t>(9 * bench.beats));

@@ -16,8 +16,8 @@ using namespace rtl::morphological;  // NOLINT: a test of these
 
 struct Blending {
   explicit Blending(const Parameters& p, int width = 8, int height = 8)
-      : store(p), blender("blender", clock, store.store, probe) {
-    store.frame(width, height);
+      : registers(p, width, height), blender("blender", clock, p, probe) {
+    blender.rules_in(registers.rules);
     shares_source.beats_out(shares);
     pixel_source.beats_out(pixels);
     blender.shares_in(shares);
@@ -50,7 +50,7 @@ struct Blending {
     pixel_source.send(around);
   }
   ClockDomain clock{"clock", period()};
-  Registers store;
+  Registers registers;
   rtl::LatencyProbe probe;
   Link<ShareToken> shares{"shares"};
   Link<PixelToken> pixels{"pixels"};

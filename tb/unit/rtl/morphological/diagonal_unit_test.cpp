@@ -56,8 +56,9 @@ struct Diagonals {
         reach(reach_of(p)),
         registers(p),
         columns("columns", 2, diagonal_columns_shape(p, lanes)),
-        unit("diagonals", clock, p, registers.store),
+        unit("diagonals", clock, p),
         gate("gate", clock, opens) {
+    unit.rules_in(registers.rules);
     driver.out(columns);
     unit.columns_in(columns);
     gate.in(unit.shares());
@@ -89,7 +90,7 @@ struct Diagonals {
   }
   // A frame, a beat a clock from the next clock on, and `gap` clocks more between rows.
   void send(const EdgePlanes& edges, Cycle gap = 0) {
-    registers.frame(edges.top.width(), edges.top.height());
+    registers.frame(edges.top.width(), edges.top.height(), clock.cycle());
     Cycle at = clock.cycle();
     for (int y = 0; y < edges.top.height(); ++y, at += gap)
       for (int beat = 0; beat < beats(edges); ++beat) driver.add(at++, token(edges, y, beat));
@@ -100,7 +101,6 @@ struct Diagonals {
     send(edges, static_cast<Cycle>(beats(edges)) < delay() ? delay() : 0);
     clock.run_until([&] { return gate.taken.size() >= wanted; }, 1'000'000);
     clock.run(delay() + 20);
-    registers.store.leave();
     const auto tokens = tokens_of(gate);
     return {tokens.begin() + static_cast<std::ptrdiff_t>(before), tokens.end()};
   }
@@ -462,7 +462,6 @@ TEST(DiagonalUnitBlock, AResetLeavesNothing) {
   for (Cycle clocks = 100; clocks < 130; ++clocks) {
     bench.send(before);
     bench.clock.run(clocks);
-    bench.registers.reset();
     bench.clock.set_reset_n(false);
     bench.clock.run(1);
     bench.clock.set_reset_n(true);

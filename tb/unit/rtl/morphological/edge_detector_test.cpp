@@ -348,7 +348,8 @@ struct Detecting {
         }()),
         registers(p, 64, 8),
         ends(clock),
-        edges("edges", clock, p, registers.store) {
+        edges("edges", clock, p) {
+    edges.rules_in(registers.rules);
     edges.lumas_in(ends.in);
     edges.edges_out(ends.out);
   }

@@ -31,14 +31,15 @@ Parameters built(bool contiguous, int reach_rows = 32, int reach_columns = 256) 
 // Memories that show a frame of random edges when row `row` has been found.
 struct Shown {
   Shown(const Parameters& p, int width_, int height_, int row_, std::uint32_t permille)
-      : width(width_), height(height_), row(row_), store(control, p), memories(p, store) {
-    bus.bus.bind(control.registers.bus);
-    platform::MorphologicalDriver(bus, p).set_size(width, height);
-    EXPECT_TRUE(store.latch());
+      : width(width_),
+        height(height_),
+        row(row_),
+        rules(Registers(p, width_, height_).rules.driven()),
+        memories(p) {
     Random random(permille);
     for (int i = 0; i < 2 * width * height; ++i) bits.push_back(random.chance(permille));
     memories.show(
-        row, [&](int x, int y) { return edge(false, x, y); },
+        rules, row, [&](int x, int y) { return edge(false, x, y); },
         [&](int x, int y) { return edge(true, x, y); });
   }
   bool edge(bool top, int x, int y) const {
@@ -48,10 +49,7 @@ struct Shown {
   }
   int width, height, row;
   std::vector<bool> bits;
-  platform::RegisterHost bus{"bus"};
-  rtl::ControlRegisters control{"registers", spec::morphological::kRegisters,
-                                rtl::morphological::control_layout()};
-  ParameterStore store;
+  const FrameRules rules;
   EdgeMemories memories;
 };
 
@@ -122,11 +120,11 @@ TEST_P(EdgeMemoriesShow, WhatHasBeenWritten) {
     std::uint8_t hits = 0;
     ++cycle;
     if (vertical) {
-      shown.memories.window.read(cycle, 0, trial);
-      hits = shown.memories.window.hits(cycle + 1, 0, trial);
+      shown.memories.window.read(cycle, shown.rules, 0, trial);
+      hits = shown.memories.window.hits(cycle + 1, shown.rules, 0, trial);
     } else {
-      shown.memories.rows.read(cycle, 0, trial);
-      hits = shown.memories.rows.hits(cycle + 1, 0, trial);
+      shown.memories.rows.read(cycle, shown.rules, 0, trial);
+      hits = shown.memories.rows.hits(cycle + 1, shown.rules, 0, trial);
     }
     found += hits != 0;
     ASSERT_EQ(hits, hits_of(trial, planes, look.contiguous))
@@ -150,14 +148,15 @@ TEST(EdgeMemory, TheNextRowLeavesWhatTheRecordsOfThisOneLookAt) {
   for (const int row : {kRow, kRow + 1})
     for (int x = 0; x < kWidth; ++x) {
       const int y = row + rows.ahead();
-      rows.write(cycle++, y, x, shown.edge(false, x, y), shown.edge(true, x, y));
+      rows.write(cycle++, shown.rules, y, x, shown.edge(false, x, y), shown.edge(true, x, y));
     }
   for (const int line : {kRow - kSteps, kRow + kSteps}) {
     const Planes planes{shown, false, line};
     for (int x = 0; x < kWidth - 4; ++x) {
       Trial trial{line, x, 3, 20, true, planes.code(x), planes.code(x + 3)};
-      rows.read(++cycle, 0, trial);
-      EXPECT_EQ(rows.hits(++cycle, 0, trial), hits_of(trial, planes, false)) << line << ' ' << x;
+      rows.read(++cycle, shown.rules, 0, trial);
+      EXPECT_EQ(rows.hits(++cycle, shown.rules, 0, trial), hits_of(trial, planes, false))
+          << line << ' ' << x;
     }
   }
 }
@@ -242,12 +241,12 @@ TEST(EdgeMemory, OneAccessTooManyInAClockStops) {
   EdgeRows& rows = shown.memories.rows;
   Trial across{40, 30, 3, 20, true, 2, 1}, along{31, 40, 3, 20, true, 2, 1};
   for (const Cycle cycle : {Cycle{7}, Cycle{8}, Cycle{100}}) {
-    window.read(cycle, 0, across);
-    expect_stop([&] { window.read(cycle, 0, across); }, "edge_window");
-    rows.read(cycle, 0, along);
-    expect_stop([&] { rows.read(cycle, 0, along); }, "edge_rows");
-    window.read_beat(cycle, 5);
-    expect_stop([&] { window.read_beat(cycle, 6); }, "edge_window");
+    window.read(cycle, shown.rules, 0, across);
+    expect_stop([&] { window.read(cycle, shown.rules, 0, across); }, "edge_window");
+    rows.read(cycle, shown.rules, 0, along);
+    expect_stop([&] { rows.read(cycle, shown.rules, 0, along); }, "edge_rows");
+    window.read_beat(cycle, shown.rules, 5);
+    expect_stop([&] { window.read_beat(cycle, shown.rules, 6); }, "edge_window");
   }
 }
 
@@ -257,25 +256,25 @@ TEST(EdgeMemory, AWordIsThereAClockAfterItsReadAndNotBefore) {
   EdgeRows& rows = shown.memories.rows;
   Trial across{40, 30, 3, 20, true, 2, 1}, along{31, 40, 3, 20, true, 2, 1};
   // None has been read yet.
-  expect_stop([&] { window.hits(7, 0, across); }, "edge_window");
-  expect_stop([&] { rows.hits(7, 0, along); }, "edge_rows");
-  window.read(7, 0, across);
-  rows.read(7, 0, along);
-  expect_stop([&] { window.hits(7, 0, across); }, "edge_window");
-  expect_stop([&] { rows.hits(7, 0, along); }, "edge_rows");
-  EXPECT_NO_THROW(window.hits(8, 0, across));
-  EXPECT_NO_THROW(rows.hits(8, 0, along));
+  expect_stop([&] { window.hits(7, shown.rules, 0, across); }, "edge_window");
+  expect_stop([&] { rows.hits(7, shown.rules, 0, along); }, "edge_rows");
+  window.read(7, shown.rules, 0, across);
+  rows.read(7, shown.rules, 0, along);
+  expect_stop([&] { window.hits(7, shown.rules, 0, across); }, "edge_window");
+  expect_stop([&] { rows.hits(7, shown.rules, 0, along); }, "edge_rows");
+  EXPECT_NO_THROW(window.hits(8, shown.rules, 0, across));
+  EXPECT_NO_THROW(rows.hits(8, shown.rules, 0, along));
   // A read that is issued too late leaves the word of the one before.
   Trial next_across{60, 30, 3, 20, true, 2, 1}, next_along{33, 140, 3, 20, true, 2, 1};
-  window.read(9, 0, next_across);
-  rows.read(9, 0, next_along);
-  expect_stop([&] { window.hits(9, 0, next_across); }, "edge_window");
-  expect_stop([&] { rows.hits(9, 0, next_along); }, "edge_rows");
+  window.read(9, shown.rules, 0, next_across);
+  rows.read(9, shown.rules, 0, next_along);
+  expect_stop([&] { window.hits(9, shown.rules, 0, next_across); }, "edge_window");
+  expect_stop([&] { rows.hits(9, shown.rules, 0, next_along); }, "edge_rows");
   // The next one's word has taken the place of the old one.
-  expect_stop([&] { window.hits(10, 0, across); }, "edge_window");
-  expect_stop([&] { rows.hits(10, 0, along); }, "edge_rows");
-  EXPECT_NO_THROW(window.hits(10, 0, next_across));
-  EXPECT_NO_THROW(rows.hits(10, 0, next_along));
+  expect_stop([&] { window.hits(10, shown.rules, 0, across); }, "edge_window");
+  expect_stop([&] { rows.hits(10, shown.rules, 0, along); }, "edge_rows");
+  EXPECT_NO_THROW(window.hits(10, shown.rules, 0, next_across));
+  EXPECT_NO_THROW(rows.hits(10, shown.rules, 0, next_along));
 }
 
 // The window has the last window_rows + 1 rows of a column, of which one is a row ahead where the
@@ -288,8 +287,8 @@ TEST(EdgeMemory, TheWindowTracksWhichRowsItHolds) {
   const int newest = 30 + 8 + 1;
   Cycle cycle = Cycle{1} << 50;
   for (int x = 0; x < 40; ++x) {
-    window.read_beat(cycle++, x);
-    window.write_beat(cycle++, x, newest + 2, {});
+    window.read_beat(cycle++, shown.rules, x);
+    window.write_beat(cycle++, shown.rules, x, newest + 2, {});
   }
   // The corner of row y looks at rows y and y - 1. Both columns of line 39 have come, and of line
   // 40 the one before it.
@@ -301,8 +300,8 @@ TEST(EdgeMemory, TheWindowTracksWhichRowsItHolds) {
       trial.length = 2;
       trial.room = 1;
       trial.from = y - 1;
-      window.read(++cycle, 0, trial);
-      return window.hits(++cycle, 0, trial);
+      window.read(++cycle, shown.rules, 0, trial);
+      return window.hits(++cycle, shown.rules, 0, trial);
     };
     EXPECT_NO_THROW(ask(latest)) << line;
     EXPECT_NO_THROW(ask(latest - kRows + 2)) << line;
@@ -326,8 +325,8 @@ TEST(EdgeMemory, NoStepGoesAlongTheRightBorder) {
     for (const int length : {1, 2, 7}) {
       const auto hits = [&](int line, std::uint8_t corner) {
         Trial trial{line, 30, length, 20, right, corner, corner};
-        window.read(++cycle, 0, trial);
-        return window.hits(++cycle, 0, trial);
+        window.read(++cycle, shown.rules, 0, trial);
+        return window.hits(++cycle, shown.rules, 0, trial);
       };
       EXPECT_EQ(hits(kWidth - 1, kAll), kEqual | kLonger | (length > 1 ? kShorter : 0));
       EXPECT_EQ(hits(kWidth, kAll), 0);
@@ -356,8 +355,8 @@ TEST(EdgeMemory, TheLongestStepLiesInTheWordsOfAPort) {
         Trial trial{31, right ? from - 62 : from, length, room, right, 3, 3};
         trial.classes = learned;
         const Cycle cycle = (Cycle{1} << 50) + 2 * static_cast<Cycle>(from) + (right ? 1000 : 0);
-        EXPECT_NO_THROW(rows.read(cycle, 0, trial)) << reach << ' ' << from;
-        EXPECT_NO_THROW(rows.hits(cycle + 1, 0, trial)) << reach << ' ' << from;
+        EXPECT_NO_THROW(rows.read(cycle, shown.rules, 0, trial)) << reach << ' ' << from;
+        EXPECT_NO_THROW(rows.hits(cycle + 1, shown.rules, 0, trial)) << reach << ' ' << from;
         EXPECT_LE(trial.last - trial.first + 1, (reach + 1) / 2 + 2);
       }
     }
@@ -371,7 +370,7 @@ TEST(EdgeMemory, AStepShowsTheFourColumnsAtItsEnd) {
   for (const bool right : {false, true})
     for (const int length : {1, 2, 3, 40}) {
       Trial trial{31, 75, length, 60, right, 3, 3};
-      shown.memories.rows.read(++cycle, 0, trial);
+      shown.memories.rows.read(++cycle, shown.rules, 0, trial);
       const int from = right ? 75 + length - 2 : 75 - length - 2;
       EXPECT_EQ(trial.first, from) << length;
       EXPECT_EQ(trial.last, from + 3) << length;
@@ -385,13 +384,13 @@ TEST(EdgeMemory, AClassEndsWithTheFrame) {
   Shown shown(preset(Preset::kDeburr), kWidth, 70, 30, 0);
   EdgeRows& rows = shown.memories.rows;
   shown.memories.show(
-      30, [](int, int) { return false; },
+      shown.rules, 30, [](int, int) { return false; },
       [](int x, int y) { return y == 31 && (x == 64 || x >= kFrom); });
   Cycle cycle = 0;
   for (int i = 0; i < 8; ++i) {
     Trial both{31, 60, 3, 20, true, 3, 3};
     both.classes = true;
-    rows.read(++cycle, 0, both);  // words 0 and 1
+    rows.read(++cycle, shown.rules, 0, both);  // words 0 and 1
     ASSERT_TRUE(both.first < 64 && both.last >= 64);
   }
   Trial last{31, kFrom, 3, 20, true, 3, 3};
@@ -399,8 +398,8 @@ TEST(EdgeMemory, AClassEndsWithTheFrame) {
   last.crossing = kFirstBit;
   last.classes = true;
   last.looks = kMostLooks;
-  rows.read(++cycle, 0, last);
-  EXPECT_EQ(rows.crossing_class(cycle + 1, 0, last), 2 + 3);
+  rows.read(++cycle, shown.rules, 0, last);
+  EXPECT_EQ(rows.crossing_class(cycle + 1, shown.rules, 0, last), 2 + 3);
 }
 
 // All edges of a step that ends in the newest row are in the rows above it.
@@ -410,17 +409,17 @@ TEST(EdgeMemory, AStepMayEndInTheNewestRow) {
   Shown shown(built(true, 8, 60), 150, 70, 30, 1000);
   // Steps of two and of three; one more is beyond the reach.
   Trial trial{40, kNewest - 3, 3, 3, true, kAll, kAll};
-  shown.memories.window.read(1, 0, trial);
-  EXPECT_EQ(shown.memories.window.hits(2, 0, trial), kShorter | kEqual);
+  shown.memories.window.read(1, shown.rules, 0, trial);
+  EXPECT_EQ(shown.memories.window.hits(2, shown.rules, 0, trial), kShorter | kEqual);
 }
 
 TEST(EdgeMemory, ABeatIsWrittenAClockAfterItWasReadAndNotBefore) {
   Shown shown(built(true), 150, 70, 30, 500);
   EdgeWindow& window = shown.memories.window;
-  window.read_beat(7, 5);
-  expect_stop([&] { window.write_beat(7, 5, 64, {}); }, "edge_window");
-  EXPECT_NO_THROW(window.write_beat(8, 5, 64, {}));
-  expect_stop([&] { window.write_beat(9, 6, 64, {}); }, "edge_window");
+  window.read_beat(7, shown.rules, 5);
+  expect_stop([&] { window.write_beat(7, shown.rules, 5, 64, {}); }, "edge_window");
+  EXPECT_NO_THROW(window.write_beat(8, shown.rules, 5, 64, {}));
+  expect_stop([&] { window.write_beat(9, shown.rules, 6, 64, {}); }, "edge_window");
 }
 
 // No step is longer than a port shows: half the reach, then one more, as odd reaches allow.

@@ -29,12 +29,13 @@ struct Prediction {
   Prediction(const Parameters& p, Axis axis_, int width, int height,
              const std::function<int(int)>& boundary)
       : axis(axis_),
-        store(p),
-        edges(p, store.store),
+        registers(p),
+        edges(p),
         predictor(axis_ == Axis::kHorizontal
-                      ? EndpointPredictor("predictor", clock, p, store.store, edges.rows)
-                      : EndpointPredictor("predictor", clock, p, store.store, edges.window)),
+                      ? EndpointPredictor("predictor", clock, p, edges.rows)
+                      : EndpointPredictor("predictor", clock, p, edges.window)),
         ends(clock) {
+    predictor.rules_in(registers.rules);
     predictor.records_in[0](ends.in);
     predictor.sums_out[0](ends.out);
     frame(width, height, boundary);
@@ -42,14 +43,13 @@ struct Prediction {
   // Begins a frame: the registers count.
   void frame(int width, int height, const std::function<int(int)>& boundary) {
     const bool vertical = axis == Axis::kVertical;
-    store.software.set_size(vertical ? height : width, vertical ? width : height);
-    EXPECT_TRUE(store.store.latch());
+    registers.frame(vertical ? height : width, vertical ? width : height, clock.cycle());
     dark = [=](int x, int y) { return vertical ? x >= boundary(y) : y >= boundary(x); };
   }
   // A run; the memories show what is around it.
   RunToken z(int line, int start, int length, bool down) {
     edges.show(
-        axis == Axis::kVertical ? start : line,
+        registers.rules.driven(), axis == Axis::kVertical ? start : line,
         [&](int x, int y) { return x > 0 && dark(x, y) != dark(x - 1, y); },
         [&](int x, int y) { return y > 0 && dark(x, y) != dark(x, y - 1); });
     RunToken token{};
@@ -64,7 +64,7 @@ struct Prediction {
   }
   ClockDomain clock{"clock", period()};
   Axis axis;
-  Registers store;
+  Registers registers;
   EdgeMemories edges;
   std::function<bool(int, int)> dark;
   EndpointPredictor predictor;
@@ -151,8 +151,7 @@ TEST_P(PredictorAxes, RunsOfOnePixelHaveTwoCandidatesAndTheFrameEnds) {
   EXPECT_EQ(bench.ends.sink.taken[0].token.left, 2);   // (0, 0) and (1, 1): top(0, 0) is outside
   EXPECT_EQ(bench.predictor.probes.value(), 2u * 2u * 3u);
   // The frame's end is not the window's: with trim both sides are lost there.
-  bench.store.store.leave();
-  bench.store.bus.write(reg::kRules, bench.store.bus.read(reg::kRules) | kTrimBit);
+  bench.registers.bus.write(reg::kRules, bench.registers.bus.read(reg::kRules) | kTrimBit);
   bench.frame(7, 7, diagonal);
   bench.ends.source.add(bench.z(3, 3, 1, true));
   bench.clock.run(80);
@@ -201,7 +200,8 @@ TEST_P(PredictorAxes, EdgesThatGoOnAreOfTheCorners) {
     };
     const auto across = [](int p, int line) { return p == 40 + 3 * (line - 25); };
     bench.edges.show(
-        vertical ? 40 : 26, [&](int x, int y) { return vertical ? along(y, x) : across(x, y); },
+        bench.registers.rules.driven(), vertical ? 40 : 26,
+        [&](int x, int y) { return vertical ? along(y, x) : across(x, y); },
         [&](int x, int y) { return vertical ? across(y, x) : along(x, y); });
   };
   for (int there = 0; there < 4; ++there)
@@ -412,11 +412,11 @@ struct Trimming : Prediction {
     lengths.push_back(s.length);
     lengths.insert(lengths.end(), s.right.steps.begin(), s.right.steps.end());
     const auto steps = stair(kStart - before, lengths, row);
-    store.store.leave();
-    std::uint32_t rules = store.bus.read(reg::kRules);
+    std::uint32_t rules = registers.bus.read(reg::kRules);
     rules &= ~(0x1Fu << 9 | 1u << 15 | kTrimBit);
     rules |= static_cast<std::uint32_t>(s.n) << 9 | (s.safe ? 1u << 15 : 0) | (trim ? kTrimBit : 0);
-    store.bus.write(reg::kRules, rules);
+    registers.bus.write(reg::kRules, rules);
+    clock.run(1);
     frame(kWidth, kHeight, [&](int x) {
       const int y = steps(mirrored ? kWidth - 1 - x : x);
       return flipped ? kHeight - y : y;
@@ -582,9 +582,10 @@ struct Predicting {
   explicit Predicting(const Parameters& parameters, Cycle opens = 0)
       : p(parameters),
         registers(p, 40, 30),
-        edges(p, registers.store),
-        unit("predictor", clock, p, registers.store, edges.rows),
+        edges(p),
+        unit("predictor", clock, p, edges.rows),
         gate("gate", clock, opens) {
+    unit.rules_in(registers.rules);
     driver.out(records);
     unit.records_in[0](records);
     unit.sums_out[0](sums);
@@ -706,15 +707,15 @@ TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {
       return v >= (u < 20 ? 11 : u < 23 ? 12 : u < 26 ? 13 : 14);
     };
     bench.edges.show(
-        12, [&](int x, int y) { return x > 0 && dark(x, y) != dark(x - 1, y); },
+        bench.registers.rules.driven(), 12,
+        [&](int x, int y) { return x > 0 && dark(x, y) != dark(x - 1, y); },
         [&](int x, int y) { return y > 0 && dark(x, y) != dark(x, y - 1); });
   };
   const auto reset = [&] {
     bench.clock.set_reset_n(false);
     bench.clock.run(1);
     bench.clock.set_reset_n(true);
-    bench.registers.reset();
-    bench.registers.frame(40, 30);
+    bench.registers.frame(40, 30, bench.clock.cycle());
     edges();
   };
   for (const bool odd : {false, true}) {
@@ -757,11 +758,12 @@ struct Looking {
   Looking(const Parameters& p, Axis axis_)
       : axis(axis_),
         registers(p, 60, 60),
-        edges(p, registers.store),
+        edges(p),
         predictor(axis_ == Axis::kHorizontal
-                      ? EndpointPredictor("predictor", clock, p, registers.store, edges.rows)
-                      : EndpointPredictor("predictor", clock, p, registers.store, edges.window)),
+                      ? EndpointPredictor("predictor", clock, p, edges.rows)
+                      : EndpointPredictor("predictor", clock, p, edges.window)),
         ends(clock) {
+    predictor.rules_in(registers.rules);
     predictor.records_in[0](ends.in);
     predictor.sums_out[0](ends.out);
   }
@@ -769,7 +771,7 @@ struct Looking {
                   int end_code, RunPart part = RunPart::kWhole) {
     const bool vertical = axis == Axis::kVertical;
     edges.show(
-        vertical ? start : line,
+        registers.rules.driven(), vertical ? start : line,
         [&](int x, int y) { return vertical ? shown.has_along(y, x) : shown.has_across(x, y); },
         [&](int x, int y) { return vertical ? shown.has_across(y, x) : shown.has_along(x, y); });
     RunToken token{};
@@ -899,9 +901,8 @@ TEST_P(CrossingClasses, AreOfLearnedRecordsOnly) {
   EXPECT_FALSE(extended.learned);
   EXPECT_GT(extended.left + extended.right, 0);
   EXPECT_EQ(extended.start_class + extended.end_class, 0);
-  bench.registers.store.leave();
   bench.registers.bus.write(reg::kRules, bench.registers.bus.read(reg::kRules) & ~(1u << 23));
-  ASSERT_TRUE(bench.registers.store.latch());
+  bench.registers.frame(60, 60, bench.clock.cycle());
   const RunToken l = bench.record(stair, 12, 16, 3, 1, 0);
   EXPECT_FALSE(bench.classes(l).learned);
   EXPECT_EQ(bench.classes(l).start_class, 0);

@@ -18,10 +18,13 @@ struct Bits {
 struct Front {
   explicit Front(const Parameters& p)
       : lanes(lanes_of(p)),
-        store(p),
-        sequencer("sequencer", clock, store.store, probe),
-        luma("luma", clock, store.store),
-        edges("edges", clock, p, store.store) {
+        registers(p),
+        sequencer("sequencer", clock, p, probe),
+        luma("luma", clock, p),
+        edges("edges", clock, p) {
+    registers.join(sequencer);
+    luma.rules_in(registers.rules);
+    edges.rules_in(registers.rules);
     driver.beats_out(in);
     sequencer.pixels_in(in);
     sequencer.frames_done_in(done);
@@ -41,8 +44,8 @@ struct Front {
     clock.set_reset_n(false);
     clock.run(1);
     clock.set_reset_n(true);
-    for (const auto& [offset, value] : writes) store.bus.write(offset, value);
-    store.software.set_size(frame.width, frame.height);
+    for (const auto& [offset, value] : writes) registers.bus.write(offset, value);
+    registers.software.set_size(frame.width, frame.height);
     const auto all = beats_of(frame, lanes);
     driver.send([all](std::uint64_t i, spec::morphological::PixelBeat& beat) {
       if (i >= all.size()) return false;
@@ -61,7 +64,7 @@ struct Front {
 
   int lanes;
   ClockDomain clock{"clock", period()};
-  Registers store;
+  WiredRegisters registers;
   rtl::LatencyProbe probe;
   Link<spec::morphological::PixelBeat> in{"in"};
   Link<rtl::morphological::FrameDoneToken> done{"done"};

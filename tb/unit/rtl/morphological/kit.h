@@ -174,16 +174,17 @@ class Kit : public EngineKit {
 
   // --- tokens ---
   using Engine = rtl::morphological::MorphologicalEngine;
-  using Tokens = TokenList<rtl::morphological::SlotToken, rtl::morphological::BeatToken,
-                           rtl::morphological::GuardSlotToken, rtl::morphological::GuardToken,
-                           rtl::morphological::LumaToken, rtl::morphological::EdgeToken,
-                           rtl::morphological::AreaSlotToken, rtl::morphological::FetchToken,
-                           rtl::morphological::DiagonalColumnsToken,
-                           rtl::morphological::DiagonalSharesToken, rtl::morphological::ShareToken,
-                           rtl::morphological::PixelToken, rtl::morphological::RunToken,
-                           rtl::morphological::SumsToken, rtl::morphological::LineToken,
-                           rtl::morphological::FinishToken, rtl::morphological::FrameDoneToken>;
-  static constexpr int kFormats = 35;
+  using Tokens =
+      TokenList<rtl::morphological::SlotToken, rtl::morphological::BeatToken,
+                rtl::morphological::GuardSlotToken, rtl::morphological::GuardToken,
+                rtl::morphological::LumaToken, rtl::morphological::EdgeToken,
+                rtl::morphological::AreaSlotToken, rtl::morphological::FetchToken,
+                rtl::morphological::DiagonalColumnsToken, rtl::morphological::DiagonalSharesToken,
+                rtl::morphological::ShareToken, rtl::morphological::PixelToken,
+                rtl::morphological::RunToken, rtl::morphological::SumsToken,
+                rtl::morphological::LineToken, rtl::morphological::FinishToken,
+                rtl::morphological::FrameDoneToken, rtl::morphological::FrameRules>;
+  static constexpr int kFormats = 57;
   static constexpr const char* kTables = "reference/morphological/memories.md";
   static constexpr const char* kHeader = "rtl_model/morphological/morphological_engine.h";
   static constexpr const char* kFigure = "reference/morphological/index.md";
@@ -194,11 +195,11 @@ class Kit : public EngineKit {
     learned.storage = diagonal.storage = spec::morphological::Storage::kMemory;
     guarded.text_guard = learned.text_guard = diagonal.text_guard = true;
     const std::vector<std::string> units = {"DiagonalUnit", "SharesLoader", "TextGuard", "EdgeRows",
-                                            "Blender"};
+                                            "Blender",      "memory_error", "latched"};
     return {{"deburr-line", deburr_line()},
             {"deburr", deburr()},
             {"smaa", smaa()},
-            {"mlaa, 4 lanes, memory", memory},
+            {"mlaa, 4 lanes, memory", memory, true},
             {"deburr, text guard", guarded},
             {"", learned, false, false, units},
             {"", diagonal, false, false, units}};

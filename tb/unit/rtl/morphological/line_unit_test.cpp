@@ -33,13 +33,13 @@ SumsToken sums_of(std::vector<int> corners, int left, int length) {
 
 struct Lines {
   explicit Lines(const Parameters& p, Axis axis = Axis::kHorizontal)
-      : store(p), unit("divider", clock, p, store.store, axis), ends(clock) {
-    store.frame(64, 64);
+      : registers(p, 64, 64), unit("divider", clock, p, axis), ends(clock) {
+    unit.rules_in(registers.rules);
     unit.sums_in[0](ends.in);
     unit.lines_out[0](ends.out);
   }
   ClockDomain clock{"clock", period()};
-  Registers store;
+  Registers registers;
   LineUnit unit;
   Ends<SumsToken, LineToken> ends;
 };
@@ -139,8 +139,9 @@ struct Dividing {
   Dividing(int latency, int interval, Cycle opens = 0)
       : p(with(latency, interval)),
         registers(p, 40, 30),
-        unit("divider", clock, p, registers.store, Axis::kHorizontal),
+        unit("divider", clock, p, Axis::kHorizontal),
         gate("gate", clock, opens) {
+    unit.rules_in(registers.rules);
     driver.out(sums);
     unit.sums_in[0](sums);
     unit.lines_out[0](lines);
@@ -242,8 +243,7 @@ TEST(LineUnitBlock, AResetLetsTheDividerStartAtOnce) {
   bench.clock.set_reset_n(false);
   bench.clock.run(1);
   bench.clock.set_reset_n(true);
-  bench.registers.reset();
-  bench.registers.frame(40, 30);
+  bench.registers.frame(40, 30, bench.clock.cycle());
   const Cycle begin = bench.clock.cycle();
   bench.driver.add(begin, sums_of(5));
   bench.clock.run(20);

@@ -12,10 +12,10 @@ TEST(LumaUnitBlock, AddsTheWeightsExactlyTwoClocksLater) {
   ClockDomain clock("clock", period());
   Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.lanes = spec::morphological::Lanes::kTwo;
-  Registers store(p);
-  store.frame(4, 4);
+  Registers registers(p, 4, 4);
   Ends<SlotToken, LumaToken> ends(clock);
-  LumaUnit luma("luma", clock, store.store);
+  LumaUnit luma("luma", clock, p);
+  luma.rules_in(registers.rules);
   luma.slots_in(ends.in);
   luma.lumas_out(ends.out);
   SlotToken token{};

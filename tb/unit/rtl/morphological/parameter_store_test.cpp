@@ -24,33 +24,51 @@ namespace reg = spec::morphological::reg;
 using P = Parameters;
 
 TEST(ParameterStoreBlock, TrimIsABitOfRulesLatchedWithTheFrame) {
-  Registers on(preset(spec::morphological::Preset::kDeburrLine));
+  WiredRegisters on(preset(spec::morphological::Preset::kDeburrLine));
   const std::uint32_t reset_value = on.bus.read(reg::kRules);
   EXPECT_EQ(reset_value,
             1u << 3 | 2u << 5 | 2u << 7 | 8u << 9 | 1u << 14 | 1u << 15 | 1u << 16 | kTrimBit);
-  on.frame(8, 8);
-  EXPECT_TRUE(on.store.rules().trim);
-  on.bus.write(reg::kRules, reset_value & ~kTrimBit);  // ignored: a frame is inside
-  EXPECT_EQ(on.bus.read(reg::kRules), reset_value);
-  on.store.leave();
+  EXPECT_TRUE(on.frame(8, 8).trim);
   on.bus.write(reg::kRules, reset_value & ~kTrimBit);
   EXPECT_EQ(on.bus.read(reg::kRules), reset_value & ~kTrimBit);
-  EXPECT_TRUE(on.store.rules().trim) << "until the next frame begins";
-  ASSERT_TRUE(on.store.latch());
-  EXPECT_FALSE(on.store.rules().trim);
-  EXPECT_TRUE(on.store.rules().safe);
-  on.store.leave();
+  EXPECT_TRUE(on.units_see().trim) << "until the next frame begins";
+  ASSERT_TRUE(on.latch());
+  EXPECT_FALSE(on.units_see().trim);
+  EXPECT_TRUE(on.units_see().safe);
   on.bus.write(reg::kRules, ~0u);
   EXPECT_EQ(on.bus.read(reg::kRules), 0x1FFFFFFFu) << "no bits beyond";
-  on.reset();
+  on.control.reset();
   EXPECT_EQ(on.bus.read(reg::kRules), reset_value);
 }
 
+TEST(ParameterStoreBlock, LetsFramesInWhileEnabled) {
+  WiredRegisters registers(small());
+  EXPECT_TRUE(registers.lets_frames_in());
+  registers.bus.write(reg::kControl, 0);
+  EXPECT_FALSE(registers.lets_frames_in());
+  EXPECT_EQ(registers.units_see(), rtl::morphological::FrameRules{}) << "nothing is latched";
+  registers.bus.write(reg::kControl, reg::kControlEnable);
+  EXPECT_TRUE(registers.lets_frames_in());
+}
+
+TEST(ParameterStoreBlock, EachPulseSetsItsStatusBit) {
+  WiredRegisters registers(in_memory());
+  rtl::Pulse memory_error("memory_error");
+  (*registers.store.memory_error_in)(memory_error);
+  Cycle cycle = 0;
+  for (auto [pulse, bit] : {std::pair{&registers.frame_done, reg::kStatusFrameDone},
+                            {&registers.framing, reg::kStatusFraming},
+                            {&memory_error, reg::kStatusMemoryError}}) {
+    pulse->raise(++cycle);
+    EXPECT_EQ(registers.bus.read(reg::kStatus), reg::kStatusIdle | bit);
+    registers.bus.write(reg::kStatus, bit);
+  }
+}
+
 TEST(ParameterStoreBlock, ResetValueOfTrimIsTheParameter) {
-  Registers off(deburr_without_trim());
+  WiredRegisters off(deburr_without_trim());
   EXPECT_EQ(off.bus.read(reg::kRules) & kTrimBit, 0u);
-  off.frame(8, 8);
-  EXPECT_FALSE(off.store.rules().trim);
+  EXPECT_FALSE(off.frame(8, 8).trim);
 }
 
 // The register SMAA: its reset value, and values that no range has.
@@ -59,7 +77,7 @@ TEST(ParameterStoreBlock, SmaaIsLimitedToItsRangesAndToWhatIsBuilt) {
   p.diagonal_steps = 6;
   p.search_steps = 17;
   p.corner_rounding = 200;
-  Registers store(p);
+  WiredRegisters store(p);
   EXPECT_EQ(store.bus.read(reg::kSmaa), 17u | 6u << 8 | 200u << 16);
   struct Row {
     std::uint32_t value;
@@ -70,13 +88,11 @@ TEST(ParameterStoreBlock, SmaaIsLimitedToItsRangesAndToWhatIsBuilt) {
         Row{1u | 1u << 8 | 1u << 16, 1, 1, 255}, Row{112u | 7u << 8 | 256u << 16, 112, 6, 0},
         Row{127u | 31u << 8 | 511u << 16, 112, 6, 0}}) {
     store.bus.write(reg::kSmaa, row.value);
-    store.frame(8, 8);
-    const rtl::morphological::FrameRules& rules = store.store.rules();
+    const rtl::morphological::FrameRules& rules = store.frame(8, 8);
     EXPECT_TRUE(rules.table && rules.crossings && rules.strongest);
     EXPECT_EQ(rules.search_steps, row.search) << row.value;
     EXPECT_EQ(rules.diagonal_steps, row.diagonal) << row.value;
     EXPECT_EQ(rules.corner_loss, row.loss) << row.value;
-    store.store.leave();
   }
   // Each block is switched by its own bit.
   const std::uint32_t rules = store.bus.read(reg::kRules);
@@ -84,13 +100,12 @@ TEST(ParameterStoreBlock, SmaaIsLimitedToItsRangesAndToWhatIsBuilt) {
     store.bus.write(reg::kRules, rules & ~(1u << bit));
     store.bus.write(reg::kSmaa, 4u | 6u << 8);
     store.frame(8, 8);
-    EXPECT_EQ(store.store.rules().crossings, bit != 18);
-    EXPECT_EQ(store.store.rules().table, bit != 19);
-    EXPECT_EQ(store.store.rules().diagonal_steps, bit != 20 ? 6 : 0);
-    EXPECT_EQ(store.store.rules().corners, bit != 21);
-    EXPECT_EQ(store.store.rules().corner_loss, 256);
-    EXPECT_EQ(store.store.rules().strongest, bit != 22);
-    store.store.leave();
+    EXPECT_EQ(store.units_see().crossings, bit != 18);
+    EXPECT_EQ(store.units_see().table, bit != 19);
+    EXPECT_EQ(store.units_see().diagonal_steps, bit != 20 ? 6 : 0);
+    EXPECT_EQ(store.units_see().corners, bit != 21);
+    EXPECT_EQ(store.units_see().corner_loss, 256);
+    EXPECT_EQ(store.units_see().strongest, bit != 22);
   }
 }
 
@@ -98,20 +113,20 @@ TEST(ParameterStoreBlock, DiagonalStepsAreAtMostTheReach) {
   Parameters p = smaa();
   p.window_rows = 10;
   p.diagonal_steps = 4;
-  Registers store(p);
+  WiredRegisters store(p);
   store.bus.write(reg::kSmaa, 4u | 31u << 8);
   store.frame(8, 8);
-  EXPECT_EQ(store.store.rules().diagonal_steps, 4);
+  EXPECT_EQ(store.units_see().diagonal_steps, 4);
 }
 
 TEST(ParameterStoreBlock, StepsAreAtMostWhatTheWindowAllows) {
   for (const int window_rows : {10, 12, 34, 66}) {
     Parameters p = preset(Preset::kDeburrLine);
     p.window_rows = window_rows;
-    Registers store(p);
+    WiredRegisters store(p);
     store.bus.write(reg::kRules, 1u << 7 | 31u << 9);
     store.frame(8, 8);
-    EXPECT_EQ(store.store.rules().steps, std::min(16, window_rows / 2 - 2)) << window_rows;
+    EXPECT_EQ(store.units_see().steps, std::min(16, window_rows / 2 - 2)) << window_rows;
   }
 }
 
@@ -148,13 +163,12 @@ std::string text_of(const rtl::morphological::FrameRules& f) {
 }
 using RulesRow = std::pair<std::uint32_t, const char*>;
 void expect_rules(const Parameters& p, const std::vector<RulesRow>& rows) {
-  Registers registers(p);
+  WiredRegisters registers(p);
   registers.bus.write(reg::kSmaa, 5u << 8);
   for (const auto& [value, fields] : rows) {
     registers.bus.write(reg::kRules, value);
     registers.frame(8, 8);
-    EXPECT_EQ(text_of(registers.store.rules()), fields) << value;
-    registers.store.leave();
+    EXPECT_EQ(text_of(registers.units_see()), fields) << value;
   }
 }
 
@@ -237,7 +251,7 @@ TEST(FrameRules, OfAnEngineWithLearnedShares) {
 }
 
 TEST(FrameRules, ThresholdsAreThoseOfTheirRegisters) {
-  Registers r(preset(Preset::kMlaa));
+  WiredRegisters r(preset(Preset::kMlaa));
   std::uint32_t value = 100;
   std::vector<std::uint32_t> wanted;
   for (const std::uint32_t offset :
@@ -247,12 +261,10 @@ TEST(FrameRules, ThresholdsAreThoseOfTheirRegisters) {
     wanted.push_back(value);
     EXPECT_EQ(r.bus.read(offset), value);
   }
-  r.frame(8, 8);
-  const rtl::morphological::FrameRules& f = r.store.rules();
+  const rtl::morphological::FrameRules& f = r.frame(8, 8);
   EXPECT_EQ((std::vector<std::uint32_t>{f.threshold, f.threshold_on, f.threshold_off, f.floor,
                                         f.alpha, f.depth_threshold, f.pixel_base}),
             wanted);
-  r.store.leave();
   for (const std::uint32_t offset : {reg::kThreshold, reg::kThresholdOn, reg::kThresholdOff,
                                      reg::kFloor, reg::kAlpha, reg::kDepthThreshold})
     r.bus.write(offset, ~0u);
@@ -272,8 +284,8 @@ TEST(FrameRules, SizesInBeatsAndRows) {
                          Row{1, 8, 7, 4, 16, 2}, Row{1, 9, 7, 5, 16, 1}, Row{2, 1, 1, 1, 10, 1},
                          Row{2, 8, 7, 2, 16, 4}, Row{2, 9, 7, 3, 16, 1}, Row{2, 11, 7, 3, 16, 3},
                          Row{2, 12, 7, 3, 16, 4}, Row{2, 13, 7, 4, 16, 1}}) {
-    Registers r(small(row.lanes_code), row.width, row.height);
-    const rtl::morphological::FrameRules& f = r.store.rules();
+    WiredRegisters r(small(row.lanes_code));
+    const rtl::morphological::FrameRules& f = r.frame(row.width, row.height);
     EXPECT_EQ(f.width, row.width);
     EXPECT_EQ(f.height, row.height);
     EXPECT_EQ(f.beats, row.beats) << row.width;
@@ -286,14 +298,14 @@ TEST(FrameRules, SizesInBeatsAndRows) {
 TEST(FrameRules, LimitsOfASize) {
   Parameters p = small();
   p.line_pixels = 100;
-  Registers r(p);
+  WiredRegisters r(p);
   const auto takes = [&](std::uint32_t width, std::uint32_t height) {
     r.bus.write(reg::kSize, width | height << 16);
     r.bus.write(reg::kStatus, ~0u);
-    const bool taken = r.store.latch();
+    const rtl::morphological::FrameRules before = r.units_see();
+    const bool taken = r.latch();
     EXPECT_EQ((r.bus.read(reg::kStatus) & reg::kStatusFraming) == 0, taken);
-    EXPECT_EQ(r.store.frame_inside(), taken);
-    if (taken) r.store.leave();
+    EXPECT_EQ(r.units_see().width, taken ? width : before.width);
     return taken;
   };
   EXPECT_TRUE(takes(1, 1));
@@ -380,7 +392,7 @@ TEST(Registers, ResetValuesOfSmaaAreThePresets) {
                                      kStrongest | kClamp;
   struct Owner : sc_core::sc_module {
     Owner(const sc_core::sc_module_name& name, const Parameters& p) : sc_module(name), store(p) {}
-    Registers store;
+    WiredRegisters store;
   };
   for (const Row& row :
        {Row{Preset::kSmaa, Quality::kLow, kFixed, 2506752, 4u | 8u << 8 | 64u << 16},
@@ -397,7 +409,7 @@ TEST(Registers, ResetValuesOfSmaaAreThePresets) {
     EXPECT_EQ(owner.store.bus.read(reg::kSmaa), row.smaa);
     owner.store.bus.write(reg::kSmaa, 0);
     owner.store.bus.write(reg::kRules, 0);
-    owner.store.reset();
+    owner.store.control.reset();
     EXPECT_EQ(owner.store.bus.read(reg::kRules), row.rules);
     EXPECT_EQ(owner.store.bus.read(reg::kSmaa), row.smaa);
   }
@@ -856,7 +868,7 @@ TEST(RegisterBits, ThatDoNotExistReadAsZero) {
 
 // What always reads as 0 is not kept either.
 TEST(RegisterBits, OfLearnedSharesAreNotBuiltWithoutThem) {
-  Registers without(plain());
+  WiredRegisters without(plain());
   for (const std::uint32_t offset : {reg::kSharesAddress, reg::kSharesData}) {
     without.bus.write(offset, 0xFFFFFFFF);
     EXPECT_EQ(without.control.value(offset), 0u) << offset;

@@ -12,26 +12,82 @@
 
 namespace deburr::tb::morphological_rtl {
 
-// A ParameterStore with its bus, and a frame inside.
-struct Registers {
-  explicit Registers(const Parameters& p) : store(control, p), bus("bus"), software(bus, p) {
+// Registers with the reset values of a build, and their bus.
+struct RegisterFile {
+  explicit RegisterFile(const Parameters& p) : bus("bus"), software(bus, p), parameters(p) {
     bus.bus.bind(control.registers.bus);
-  }
-  Registers(const Parameters& p, int width, int height) : Registers(p) { frame(width, height); }
-  void frame(int width, int height) {
-    software.set_size(width, height);
-    EXPECT_TRUE(store.latch());
-  }
-  // As the reset of the engine does.
-  void reset() {
-    control.reset();
-    store.reset();
+    control.set_resets(spec::morphological::loaded_registers(p));
   }
   rtl::ControlRegisters control{"registers", spec::morphological::kRegisters,
                                 rtl::morphological::control_layout()};
-  rtl::morphological::ParameterStore store;
   platform::RegisterHost bus;
   platform::MorphologicalDriver software;
+  const Parameters parameters;
+};
+
+// For units without a SlotSequencer: a frame is inside when the test says so.
+struct Registers : RegisterFile {
+  explicit Registers(const Parameters& p) : RegisterFile(p) {}
+  Registers(const Parameters& p, int width, int height) : Registers(p) { frame(width, height); }
+  // Units see it in the clock after this one.
+  void frame(int width, int height, Cycle cycle = 0) {
+    software.set_size(width, height);
+    const rtl::morphological::Decoded decoded = rtl::morphological::decode(control, parameters);
+    EXPECT_TRUE(decoded.valid);
+    rules.drive(cycle, decoded.rules);
+  }
+  rtl::Wire<rtl::morphological::FrameRules> rules{"rules", rtl::morphological::FrameRules{}};
+};
+
+// With a ParameterStore, for a SlotSequencer; without one each call has a clock of its own.
+struct WiredRegisters : RegisterFile {
+  explicit WiredRegisters(const Parameters& p)
+      : RegisterFile(p), store("parameter_store", control, p) {
+    store.rules_out(rules);
+    store.first_beat_in(first_beat);
+    store.enabled_out(enabled);
+    store.latch_in(latch_pulse);
+    store.latched_out(latched);
+    store.frame_done_in(frame_done);
+    store.framing_in(framing);
+  }
+  void join(rtl::morphological::SlotSequencer& sequencer) {
+    sequencer.rules_in(rules);
+    sequencer.first_beat_out(first_beat);
+    sequencer.enabled_in(enabled);
+    sequencer.latch_out(latch_pulse);
+    sequencer.latched_in(latched);
+    sequencer.frame_done_out(frame_done);
+    sequencer.framing_out(framing);
+    control.on_busy([&] { return !sequencer.idle(); });
+  }
+  bool lets_frames_in() {
+    first_beat.raise(++now_);
+    return enabled.read(now_);
+  }
+  // False: the size is not one that the engine takes.
+  bool latch() {
+    latch_pulse.raise(++now_);
+    return latched.read(now_).valid;
+  }
+  const rtl::morphological::FrameRules& frame(int width, int height) {
+    software.set_size(width, height);
+    EXPECT_TRUE(latch());
+    EXPECT_EQ(latched.read(now_).rules, units_see());
+    return units_see();
+  }
+  // In the clock after.
+  const rtl::morphological::FrameRules& units_see() const { return rules.read(now_ + 1); }
+
+  rtl::morphological::ParameterStore store;
+  rtl::Wire<rtl::morphological::FrameRules> rules{"rules", rtl::morphological::FrameRules{}};
+  rtl::Pulse first_beat{"first_beat"}, latch_pulse{"latch"}, frame_done{"frame_done"},
+      framing{"framing"};
+  rtl::CombinationalWire<bool> enabled{"enabled"};
+  rtl::CombinationalWire<rtl::morphological::Decoded> latched{"latched"};
+
+ private:
+  Cycle now_ = 0;
 };
 
 using unit_bench::clocks_of, unit_bench::Ends, unit_bench::of_a_stage_less, unit_bench::tokens_of;

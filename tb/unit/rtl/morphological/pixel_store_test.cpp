@@ -33,8 +33,10 @@ struct Storing {
         lanes(lanes_of(p)),
         beats_a_row(morphological_rtl::beats_a_row(f, p)),
         registers(p, f.width, f.height),
-        store("pixel_store", clock, p, registers.store),
+        store("pixel_store", clock, p),
         pixel_gate("pixel_gate", clock, pixels_open) {
+    store.rules_in(registers.rules);
+    if (store.memory_error_out) (*store.memory_error_out)(memory_error);
     beat_driver.out(beats);
     store.beats_in(beats);
     fetch_driver.out(fetches);
@@ -96,6 +98,7 @@ struct Storing {
   const int lanes, beats_a_row;
   ClockDomain clock{"clock", period()};
   Registers registers;
+  rtl::Pulse memory_error{"memory_error"};
   PixelStore store;
   Link<BeatToken> beats{"beats"};
   Link<FetchToken> fetches{"fetches"};

@@ -28,14 +28,15 @@ class Finisher final : public rtl::Unit {
  public:
   LanePorts<rtl::In<RunToken>> h, v;
   rtl::Out<FinishToken> finished_out{"finished_out"};
-  Finisher(const sc_core::sc_module_name& name, ClockDomain& clock, const ParameterStore& store)
-      : Unit(name, clock), h("h", store.lanes()), v("v", store.lanes()), store_(store) {}
+  rtl::WireIn<FrameRules> rules_in{"rules_in"};
+  Finisher(const sc_core::sc_module_name& name, ClockDomain& clock, int lanes)
+      : Unit(name, clock), h("h", lanes), v("v", lanes), lanes_(static_cast<std::size_t>(lanes)) {}
   Activity tick(Cycle cycle) override {
     for (LanePorts<rtl::In<RunToken>>* ports : {&h, &v})
-      for (std::size_t lane = 0; lane < static_cast<std::size_t>(store_.lanes()); ++lane) {
+      for (std::size_t lane = 0; lane < lanes_; ++lane) {
         rtl::In<RunToken>& in = (*ports)[lane];
         if (!in.can_pop(cycle) || random.chance(wait_permille)) continue;
-        ++pending_[in.front(cycle).slot / store_.rules().beats & 1];
+        ++pending_[in.front(cycle).slot / rules_in.read(cycle).beats & 1];
         tokens.push_back({cycle, in.take(cycle)});
       }
     if ((pending_[0] | pending_[1]) && !random.chance(wait_permille)) {
@@ -45,6 +46,7 @@ class Finisher final : public rtl::Unit {
     return rtl::kBusy;
   }
   void reset() override {}
+  std::size_t lanes() const { return lanes_; }
   struct Taken {
     Cycle cycle;
     RunToken token;
@@ -54,7 +56,7 @@ class Finisher final : public rtl::Unit {
   Random random{1};
 
  private:
-  const ParameterStore& store_;
+  const std::size_t lanes_;
   std::array<std::uint8_t, 2> pending_{};
 };
 
@@ -156,10 +158,12 @@ auto key(const RunRecord& r) {
 
 struct Extraction {
   explicit Extraction(const Parameters& p)
-      : store(p),
-        memories(p, store.store),
-        extractor("extractor", clock, p, store.store, memories.window, memories.rows),
-        finisher("finisher", clock, store.store) {
+      : registers(p),
+        memories(p),
+        extractor("extractor", clock, p, memories.window, memories.rows),
+        finisher("finisher", clock, lanes_of(p)) {
+    extractor.rules_in(registers.rules);
+    finisher.rules_in(registers.rules);
     driver.beats_out(edges);
     extractor.edges_in(edges);
     extractor.finished_in(finished);
@@ -168,17 +172,16 @@ struct Extraction {
     area_sink.beats_in(area_slots);
     fetch_sink.beats_in(fetches);
     finisher.finished_out(finished);
-    for (std::size_t lane = 0; lane < static_cast<std::size_t>(store.store.lanes()); ++lane) {
+    for (std::size_t lane = 0; lane < finisher.lanes(); ++lane) {
       finisher.h[lane](extractor.records(Axis::kHorizontal, lane));
       finisher.v[lane](extractor.records(Axis::kVertical, lane));
     }
     extractor.observer = [this](const RunRecord& run) { runs.push_back(run); };
   }
   void send(const Planes& planes) {
-    store.software.set_size(planes.width, planes.height);
-    ASSERT_TRUE(store.store.latch());
-    const FrameRules rules = store.store.rules();
-    const int lanes = store.store.lanes();
+    registers.frame(planes.width, planes.height, clock.cycle());
+    const FrameRules rules = registers.rules.driven();
+    const auto lanes = static_cast<int>(finisher.lanes());
     std::uint32_t number = 0;
     for (std::uint32_t row = 0; row < rules.rows; ++row)
       for (std::uint32_t beat = 0; beat < rules.beats; ++beat) {
@@ -200,7 +203,7 @@ struct Extraction {
   }
 
   ClockDomain clock{"clock", period()};
-  Registers store;
+  Registers registers;
   EdgeMemories memories;
   RunExtractor extractor;
   Finisher finisher;

@@ -22,7 +22,7 @@ TEST(SlotSequencerBlock, SaysWhatDisagreesWithSize) {
   front.clock.set_reset_n(false);
   front.clock.run(1);
   front.clock.set_reset_n(true);
-  front.store.software.set_size(3, 1);
+  front.registers.software.set_size(3, 1);
   front.driver.send([all](std::uint64_t i, spec::morphological::PixelBeat& beat) {
     if (i >= all.size()) return false;
     beat = all[i];
@@ -30,7 +30,7 @@ TEST(SlotSequencerBlock, SaysWhatDisagreesWithSize) {
   });
   front.clock.run(10);
   EXPECT_EQ(front.sequencer.framing_errors.value(), 3u);
-  EXPECT_EQ(front.store.bus.read(reg::kStatus), reg::kStatusFraming);
+  EXPECT_EQ(front.registers.bus.read(reg::kStatus), reg::kStatusFraming);
 }
 
 // A frame is inside when its first beat has been taken, and not before.

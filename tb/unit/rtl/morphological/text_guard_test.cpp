@@ -100,18 +100,15 @@ Rows by_contract(const Frame& frame) {
 
 struct GuardBench {
   explicit GuardBench(const Parameters& p, Cycle opens = 0)
-      : lanes(lanes_of(p)),
-        store(p),
-        guard("guard", clock, p, store.store),
-        gate("gate", clock, opens) {
+      : lanes(lanes_of(p)), registers(p), guard("guard", clock, p), gate("gate", clock, opens) {
+    guard.rules_in(registers.rules);
     source.out(slots);
     guard.slots_in(slots);
     gate.in(guard.guards());
   }
   // The slots of a frame, from a clock on: rows beyond it, too, and noise wherever nothing is read.
   void send(const Frame& frame, Cycle from = 0) {
-    if (store.store.frame_inside()) store.store.leave();
-    store.frame(frame.width, frame.height);
+    registers.frame(frame.width, frame.height, clock.cycle());
     width = frame.width;
     height = frame.height;
     const int beats = (width + lanes - 1) / lanes;
@@ -165,7 +162,7 @@ struct GuardBench {
 
   int lanes, width = 0, height = 0;
   ClockDomain clock{"clock", period()};
-  Registers store;
+  Registers registers;
   Link<GuardSlotToken> slots{"slots"};
   unit_bench::Source<GuardSlotToken> source{"source", clock};
   TextGuard guard;

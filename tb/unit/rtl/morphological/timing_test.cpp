@@ -385,10 +385,13 @@ TEST(MemoryTime, SlowMemoryStallsAndNothingIsLost) {
 struct Path {
   explicit Path(const Parameters& p)
       : registers(p, 40, 30),
-        edges(p, registers.store),
-        predictor("predictor", clock, p, registers.store, edges.rows),
-        divider("divider", clock, p, registers.store, Axis::kHorizontal),
-        area("area", clock, p, registers.store) {
+        edges(p),
+        predictor("predictor", clock, p, edges.rows),
+        divider("divider", clock, p, Axis::kHorizontal),
+        area("area", clock, p) {
+    predictor.rules_in(registers.rules);
+    divider.rules_in(registers.rules);
+    area.rules_in(registers.rules);
     driver.out(records);
     predictor.records_in[0](records);
     predictor.sums_out[0](sums);
