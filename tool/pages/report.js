@@ -85,6 +85,8 @@
     function resize() {
       const {w, h} = size();
       if (!w) return;
+      // As wide as its picture, so that nothing is left beside it.
+      stage.style.maxWidth = split.style.maxWidth = `${Math.max(320, 620 * w / h)}px`;
       const width = Math.round(stage.clientWidth * devicePixelRatio);
       const height = Math.round(Math.min(
           Math.max(width * h / w, 160 * devicePixelRatio), 620 * devicePixelRatio));
@@ -112,7 +114,7 @@
       draw();
     }
     function paint(i, from, to) {
-      const {w, h} = sizeOf(i);
+      const {w, h} = sizeOf(i), at = [state.x, state.y, w * state.scale, h * state.scale];
       if (to <= from) return;
       context.save();
       context.beginPath();
@@ -120,7 +122,9 @@
       context.clip();
       context.imageSmoothingEnabled = state.scale < 1;
       context.imageSmoothingQuality = 'high';
-      context.drawImage(stills[i], 0, 0, w, h, state.x, state.y, w * state.scale, h * state.scale);
+      context.fillStyle = '#808080';  // behind what is transparent
+      context.fillRect(...at);
+      context.drawImage(stills[i], 0, 0, w, h, ...at);
       context.restore();
     }
     function tag(text, x, align) {

@@ -45,7 +45,9 @@ const probe_page = async () => {
       e.getBoundingClientRect().right > root.clientWidth + 1 && !e.closest('.scroll, .window') &&
       !e.matches('.strip img'))  // whose boxes hide what is beyond them
       .map((e) => `${e.tagName} ${e.id} ${e.className}`).slice(0, 5);
+  const strips = [];  // whether the left and right edges of the picture viewer at Fit are of the pictures
   const told = {
+    strips,
     width: root.clientWidth, needs: root.scrollWidth, wide,
     canvases: [...document.querySelectorAll('canvas')].map((c) => [c.id, label(c), c.getAttribute('role')]),
     page: getComputedStyle(document.body).backgroundColor,
@@ -53,7 +55,9 @@ const probe_page = async () => {
     // Colours of each canvas; of one that shows a file, which no script may read, -1.
     drawn: [...document.querySelectorAll('canvas')].filter((c) => c.getClientRects().length > 0 && c.width > 0).map((c) => {
       try {
-        return [c.id, new Set(new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer)).size];
+        const pixels = new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer);
+        if (c.id === 'view') strips.push([1, c.width - 2].map((x) => pixels[c.width * (c.height >> 1) + x] >>> 24 === 255));
+        return [c.id, new Set(pixels).size];
       } catch { return [c.id, -1]; }
     }),
     height: document.body.scrollHeight,
@@ -211,6 +215,8 @@ class PagesTest(unittest.TestCase):
         self.assertEqual(told["empty"], [], title)
         self.assertEqual(told["joined"], [], f"{title}: headlines that run together")
         self.assertEqual(told["torn"], [], f"{title}: words that are broken")
+        for edges in told["strips"] + desktop["strips"]:
+            self.assertEqual(edges, [True, True], f"{title}: strips beside the pictures")
         self.assertLessEqual(len(set(told["colours"])), 1, f"{title}: words of charts in another colour than the page's")
         with open(self.path(page), encoding="utf-8") as file:
             text = file.read()
