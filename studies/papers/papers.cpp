@@ -15,7 +15,7 @@
 #include "tb/scene/truth.h"
 #include "tool/pages/build_info.h"
 #include "tool/pages/embedded.h"
-#include "tool/pages/page_template.h"
+#include "tool/pages/page.h"
 #include "tool/pages/report.h"
 
 namespace deburr::tb {
@@ -43,40 +43,22 @@ bool is_numeric(const PaperTable& table, std::size_t column) {
          });
 }
 
-mustache::data text_cell(const char* name, const std::string& text) {
-  mustache::data cell;
-  cell.set(name, text);
-  return cell;
-}
-
 mustache::data table_data(const PaperTable& table) {
   mustache::data data;
   data.set("title", table.title);
-  mustache::data note{mustache::data::type::list};
-  if (!table.note.empty()) note << text_cell("note", table.note);
-  data.set("note", note);
-  mustache::data columns{mustache::data::type::list};
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    mustache::data column = text_cell("name", table.columns[i]);
-    column.set("numeric", is_numeric(table, i));
-    columns << column;
-  }
-  data.set("columns", columns);
-  mustache::data rows{mustache::data::type::list};
+  data.set("note", table.note);
+  data.set("has_note", !table.note.empty());
+  HtmlTable html("", "narrow");
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    html.column(table.columns[i], is_numeric(table, i) ? "n" : "");
   for (const auto& row : table.rows) {
-    mustache::data cells{mustache::data::type::list};
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      mustache::data cell;
-      cell.set("text", row[i]);
-      cell.set("numeric", is_numeric(table, i));
-      cell.set("verdict", table.columns[i] == "verdict");
-      cells << cell;
-    }
-    mustache::data line;
-    line.set("cells", cells);
-    rows << line;
+    std::vector<HtmlCell> cells;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      cells.push_back(table.columns[i] == "verdict" ? HtmlCell(row[i], "verdict " + row[i])
+                                                    : row[i]);
+    html.row(cells);
   }
-  data.set("rows", rows);
+  data.set("table", html.html());
   return data;
 }
 
@@ -183,11 +165,13 @@ nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
     json["papers"].push_back(entry);
   }
   mustache::data root;
-  root.set("style", std::string(embedded::style_css()));
+  root.set("title", "What the papers say, and what holds");
+  root.set("brand", "papers");
+  root.set("footer", "Built by deburr papers.");
   root.set("papers", list);
   write_file_atomically(directory / "papers.json", json.dump(2) + "\n");
   write_file_atomically(directory / "index.html",
-                        filled_page(embedded::papers_template(), "papers.mustache", root));
+                        filled_page(embedded::papers_template(), "papers.mustache", root, false));
   Json ids = Json::array();
   for (const Paper& paper : papers) ids.push_back(paper.id);
   return {{"unit", "papers"}, {"papers", ids}, {"commit", build_info().commit}};

@@ -2,15 +2,6 @@
 // Pictures that are zoomed together, or fronts and points of sweeps.
 'use strict';
 (() => {
-  const data = JSON.parse(document.getElementById('data').textContent);
-  const byId = (id) => document.getElementById(id);
-  function element(tag, text, parent, className) {
-    const made = document.createElement(tag);
-    if (text !== undefined) made.textContent = text;
-    if (className) made.className = className;
-    parent?.append(made);
-    return made;
-  }
   if (data.kind === 'runs') showPictures(); else showSweeps();
 
   // ---- runs ----
@@ -81,18 +72,14 @@
   // ---- sweeps ----
   function showSweeps() {
     const kMostRows = 1000;
-    const style = getComputedStyle(document.documentElement);
-    const colour = (name) => style.getPropertyValue(name).trim();
-    const ink = colour('--ink'), muted = colour('--muted'), rule = colour('--rule');
-    const palette = [colour('--accent'), '#c2571a', '#3a8f5c', '#8a5fb0', '#b08a1e', '#b33a6b', '#4a7f8f', '#7a6a58'];
+    const ink = css('--ink');
+    const palette = [css('--accent'), '#c2571a', '#3a8f5c', '#8a5fb0', '#b08a1e', '#b33a6b', '#4a7f8f', '#7a6a58'];
     const names = data.sweeps.map((s) => s.name);
     for (const badge of document.querySelectorAll('.letter'))
       badge.style.background = palette[names.indexOf(badge.textContent) % palette.length];
     const metrics = data.metrics;
     const finite = (v) => Number.isFinite(v);
-    const fiveDigits = new Intl.NumberFormat('en-US', {maximumSignificantDigits: 5});
-    const shown = (v) => v === null || v === undefined ? '-' : v === Infinity ? 'identical'
-      : Number.isInteger(v) || Math.abs(v) >= 1e4 ? Math.round(v).toLocaleString('en-US') : fiveDigits.format(v);
+    const shownOr = (v) => shown(v, '-');
     const titled = (m) => m.unit ? `${m.name} [${m.unit}]` : m.name;
     const decibels = (m) => m.unit === 'dB';
     const every = [...data.points, ...data.only];
@@ -108,7 +95,7 @@
     for (const points of [data.points, data.only])
       points.sort((p, q) => axes.reduce((order, axis) => order || numeric.compare(p.at[axis.i], q.at[axis.i]), 0));
     const short = (name) => name.split('.').slice(-2).join('.');
-    const place = (p) => axes.map((axis) => `${axis.name} = ${p.at[axis.i]}`);
+    const placeOf = (p) => axes.map((axis) => `${axis.name} = ${p.at[axis.i]}`);
 
     const goals = data.objectives.map((name) => metrics.findIndex((m) => m.name === name));
     for (const [id, first] of [['across', goals[0] ?? 0], ['up', goals[1] ?? Math.min(1, metrics.length - 1)]]) {
@@ -117,18 +104,6 @@
       byId(id).addEventListener('change', drawScatter);
     }
     byId('front-only').addEventListener('change', drawScatter);
-    Chart.defaults.color = muted;
-    Chart.defaults.borderColor = rule;
-    Chart.defaults.animation = false;
-    let scatter = null;
-
-    // An identical picture is drawn beyond all that have a number.
-    function placer(i) {
-      const values = every.flatMap((p) => p.values.filter(Boolean).map((v) => v[i])).filter(finite);
-      const low = Math.min(...values), high = Math.max(...values);
-      const beyond = values.length > 0 ? high + ((high - low) * 0.08 || 1) : 1;
-      return (v) => v === Infinity ? beyond : v;
-    }
     // Those that no other one beats in the two metrics that are shown, from left to right.
     function staircase(points, mx, my) {
       const sign = (m) => m.maximise === true ? -1 : 1;
@@ -141,7 +116,9 @@
     }
     function drawScatter() {
       const ix = Number(byId('across').value), iy = Number(byId('up').value);
-      const only = byId('front-only').checked, sets = [], across = placer(ix), up = placer(iy);
+      const only = byId('front-only').checked, sets = [];
+      const place = (i) => placer(every.flatMap((p) => p.values.filter(Boolean).map((v) => v[i])));
+      const across = place(ix), up = place(iy);
       names.forEach((name, s) => {
         const points = every.filter((p) => p.values[s] && p.values[s][ix] !== null && p.values[s][iy] !== null)
           .map((p) => ({x: across(p.values[s][ix]), y: up(p.values[s][iy]), point: p, sweep: s, front: p.front[s]}));
@@ -158,25 +135,13 @@
           pointStyle: ['circle', 'rect', 'triangle', 'rectRot'][s % 4],
         });
       });
-      scatter?.destroy();
-      const scale = (m) => ({title: {display: true, text: titled(m), color: ink}, ticks: {callback: shown}});
-      scatter = new Chart(byId('scatter'), {
-        type: 'scatter',
-        data: {datasets: sets},
-        options: {
-          maintainAspectRatio: false,
-          scales: {x: scale(metrics[ix]), y: scale(metrics[iy])},
-          plugins: {
-            legend: {labels: {boxWidth: 12, usePointStyle: true, filter: (item) => item.text !== '',
-                              generateLabels: (chart) => Chart.defaults.plugins.legend.labels.generateLabels(chart)
-                                .map((l) => ({...l, fillStyle: palette[((l.datasetIndex - 1) / 2) % palette.length]}))}},
-            tooltip: {callbacks: {label: (item) => item.raw.point
-              ? [item.dataset.label, `${metrics[ix].name} ${shown(item.raw.point.values[item.raw.sweep][ix])}, ` +
-                 `${metrics[iy].name} ${shown(item.raw.point.values[item.raw.sweep][iy])}`,
-                 ...place(item.raw.point)] : ''}},
-          },
-        },
-      });
+      const coloured = (chart) => Chart.defaults.plugins.legend.labels.generateLabels(chart)
+        .map((l) => ({...l, fillStyle: palette[((l.datasetIndex - 1) / 2) % palette.length]}));
+      scatterOf('scatter', sets, [titled(metrics[ix]), shownOr], [titled(metrics[iy]), shownOr],
+                {labels: {boxWidth: 12, usePointStyle: true, filter: (item) => item.text !== '', generateLabels: coloured}},
+                ({dataset, raw: {point: p, sweep}}) => p
+                  ? [dataset.label, `${metrics[ix].name} ${shownOr(p.values[sweep][ix])}, ` +
+                     `${metrics[iy].name} ${shownOr(p.values[sweep][iy])}`, ...placeOf(p)] : '');
     }
 
     // ---- tables ----
@@ -202,7 +167,7 @@
         for (const axis of axes) element('td', p.at[axis.i], row);
         metrics.forEach((m, i) => names.forEach((_, s) => {
           const checked = s === 0 ? '' : p.judgements[s - 1][i];
-          const cell = element('td', shown(p.values[s][i]), row, `n ${checked}${checked === 'worse' && m.counts ? ' fails' : ''}`);
+          const cell = element('td', shownOr(p.values[s][i]), row, `n ${checked}${checked === 'worse' && m.counts ? ' fails' : ''}`);
           if (s > 0) element('small', change(m, p.values[0][i], p.values[s][i]), cell);
         }));
       }
@@ -227,7 +192,7 @@
           const row = element('tr', undefined, body);
           for (const axis of axes) element('td', p.at[axis.i], row);
           element('td', s === null ? '-' : names[s] + (p.front[s] ? ', on its front' : ''), row);
-          metrics.forEach((_, i) => element('td', s === null ? '-' : shown(p.values[s][i]), row, 'n'));
+          metrics.forEach((_, i) => element('td', s === null ? '-' : shownOr(p.values[s][i]), row, 'n'));
           element('td', missing, row, p.worse ? 'worse' : 'muted');
         }
       }

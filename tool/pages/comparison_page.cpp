@@ -7,15 +7,15 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "spec/error.h"
 #include "tb/run/amount.h"
 #include "tb/run/result.h"
-#include "tool/pages/build_info.h"
 #include "tool/pages/compare.h"
 #include "tool/pages/embedded.h"
-#include "tool/pages/page_template.h"
+#include "tool/pages/page.h"
 #include "tool/pages/report.h"
 
 namespace deburr::tb {
@@ -36,13 +36,13 @@ std::string figure_text(const Json& value) {
   return value_text(value);
 }
 
-mustache::data cell(const std::string& text, const std::string& note = "",
-                    const std::string& state = "") {
-  mustache::data data;
-  data.set("text", text);
-  data.set("note", note);
-  data.set("state", state);
-  return data;
+std::string muted(const std::string& text) {
+  return "<span class=\"muted\">" + mustache::html_escape(text) + "</span>";
+}
+
+HtmlCell letter(const Json& name) {
+  return HtmlCell("").add("<span class=\"letter\">" + mustache::html_escape(text_of(name)) +
+                          "</span>");
 }
 
 class ComparisonPage {
@@ -53,76 +53,82 @@ class ComparisonPage {
     const bool runs = comparison_.at("kind") == "runs";
     page_.set("is_runs", runs);
     page_.set("is_sweeps", !runs);
-    page_.set("kind", runs ? "runs" : "sweeps");
-    page_.set("engine", text_of(comparison_.at("engine")));
-    page_.set("worse", comparison_.at("worse").get<bool>());
-    fill_warnings();
+    page_.set("brand", fmt::format("comparison of {} \u00b7 {}", runs ? "runs" : "sweeps",
+                                   text_of(comparison_.at("engine"))));
+    const bool worse = comparison_.at("worse").get<bool>();
+    page_.set("verdict", worse ? "worse" : "nothing is worse");
+    page_.set("badge", worse ? "fail" : "pass");
+    mustache::data warnings{mustache::data::type::list};
+    for (const Json& warning : comparison_.at("warnings")) warnings << text_of(warning);
+    page_.set("warnings", warnings);
     runs ? fill_runs() : fill_sweeps();
-    page_.set("style", std::string(embedded::style_css()));
-    page_.set("chart_js", runs ? std::string() : embedded::charts());
-    page_.set("comparison_js", std::string(embedded::comparison_js()));
+    page_.set("script", std::string(embedded::comparison_js()));
     page_.set("data", json_for_script(runs ? Json{{"kind", "runs"}} : comparison_));
-    page_.set("version", build_info().version);
-    page_.set("commit", build_info().commit);
-    return filled_page(embedded::comparison_template(), "comparison.mustache", page_);
+    return filled_page(embedded::comparison_template(), "comparison.mustache", page_, !runs);
   }
 
  private:
-  void fill_warnings() {
-    mustache::data warnings{mustache::data::type::list};
-    for (const Json& warning : comparison_.at("warnings")) warnings << cell(text_of(warning));
-    page_.set("warnings", warnings);
-  }
-
-  // Name, what it is, what came of it; the columns of every table.
-  void fill_inputs(const Json& inputs, const char* what) {
+  // What is compared; the columns of every table.
+  void fill_inputs(const Json& inputs) {
     mustache::data list{mustache::data::type::list};
+    HtmlTable table("|Directory:mono anywhere|What it is");
+    std::string title;
     for (const Json& input : inputs) {
       mustache::data data;
       data.set("name", text_of(input.at("name")));
-      data.set("path", text_of(input.at("path")));
-      data.set("title", text_of(input.at("title")));
-      data.set("summary", text_of(input.value(what, Json())));
       data.set("command", text_of(input.value("command", Json())));
-      data.set("state", text_of(input.value("verdict", Json())));
-      data.set("is_base", &input == &inputs.front());
       list << data;
-    }
-    page_.set("inputs", list);
-    std::string title;
-    for (const Json& input : inputs)
+      HtmlCell path = text_of(input.at("path"));
+      if (&input == &inputs.front()) path.add(" " + muted("(what the others are compared with)"));
+      table.row({letter(input.at("name")), path,
+                 HtmlCell(text_of(input.at("title")))
+                     .add(" " + muted(text_of(input.value("summary", Json()))))});
       title +=
           (title.empty() ? "" : ", ") + fs::path(text_of(input.at("path"))).filename().string();
+      names_.push_back(text_of(input.at("name")));
+    }
+    page_.set("inputs", list);
+    page_.set("inputs_table", table.html());
     page_.set("title", title);
   }
 
-  void fill_parameters() {
-    mustache::data rows{mustache::data::type::list};
+  // Rows of `what`, a column for each input.
+  HtmlTable table_of(const std::string& what, const char* look, bool described) const {
+    HtmlTable table(what);
+    for (const std::string& name : names_) table.column(name, look);
+    if (described) table.column("Unit");
+    if (described) table.column("Meaning", "muted meaning");
+    return table;
+  }
+
+  static void add_row(HtmlTable& table, std::vector<HtmlCell> cells, const Json& described) {
+    for (const char* key : {"unit", "meaning"})
+      cells.emplace_back(text_of(described.value(key, Json())));
+    table.row(cells);
+  }
+
+  void fill_parameters(bool described) {
+    HtmlTable table = table_of("Parameter:name mono", "", described);
     for (const Json& parameter : comparison_.at("parameters")) {
-      mustache::data row;
-      row.set("name", text_of(parameter.at("name")));
-      row.set("unit", text_of(parameter.value("unit", Json())));
-      row.set("meaning", text_of(parameter.value("meaning", Json())));
-      mustache::data cells{mustache::data::type::list};
+      std::vector<HtmlCell> cells{text_of(parameter.at("name"))};
       for (const Json& value : parameter.at("values"))
-        cells << cell(text_of(value), "", value == parameter.at("values").front() ? "" : "other");
-      row.set("cells", cells);
-      rows << row;
+        cells.emplace_back(text_of(value), value == parameter.at("values").front() ? "" : "other");
+      described ? add_row(table, std::move(cells), parameter) : table.row(cells);
     }
-    page_.set("has_parameters", rows.is_non_empty_list());
-    page_.set("parameters", rows);
+    page_.set("has_parameters", table.rows() > 0);
+    page_.set("parameters", table.html());
   }
 
   // ---- runs -------------------------------------------------------------------------------------
 
   void fill_runs() {
-    fill_inputs(comparison_.at("runs"), "summary");
-    fill_parameters();
-    page_.set("figures", rows_of(comparison_.at("figures"), true));
-    const mustache::data values = rows_of(comparison_.at("values"), false);
-    page_.set("has_values", values.is_non_empty_list());
-    page_.set("values_count", std::to_string(values.list_value().size()));
-    page_.set("values", values);
+    fill_inputs(comparison_.at("runs"));
+    fill_parameters(true);
+    page_.set("figures", figures_in(comparison_.at("figures"), "Figure:name", true).html());
+    const HtmlTable values = figures_in(comparison_.at("values"), "Value:name mono", false);
+    page_.set("has_values", values.rows() > 0);
+    page_.set("values_count", std::to_string(values.rows()));
+    page_.set("values", values.html());
     fill_tiles(comparison_.at("runs"));
     fill_pictures();
   }
@@ -151,37 +157,31 @@ class ComparisonPage {
     page_.set("tile_columns", runs.size() > 2 ? "2" : "1");
   }
 
-  static mustache::data rows_of(const Json& figures, bool bars) {
-    mustache::data rows{mustache::data::type::list};
+  HtmlTable figures_in(const Json& figures, const char* what, bool bars) const {
+    HtmlTable table = table_of(what, "n", true);
     for (const Json& figure : figures) {
-      mustache::data row;
       const std::string key = figure.at("key").get<std::string>();
-      row.set("name", figure.value("label", key));
-      row.set("unit", text_of(figure.value("unit", Json())));
-      row.set("meaning", text_of(figure.value("meaning", Json())));
       double most = 0;
       for (const Json& entry : figure.at("cells"))
         if (const auto value = as_number(entry.at("value")); value && std::isfinite(*value))
           most = std::max(most, std::fabs(*value));
-      mustache::data cells{mustache::data::type::list};
+      std::vector<HtmlCell> cells{figure.value("label", key)};
       for (const Json& entry : figure.at("cells")) {
-        const std::string verdict = entry.value("judgement", "");
-        const bool worse = entry.value("worse", false);
-        mustache::data data = cell(entry.value("identical", false) ? entry.value("text", "")
-                                                                   : figure_text(entry.at("value")),
-                                   entry.value("change", ""), worse ? "worse fails" : verdict);
-        const auto value = as_number(entry.at("value"));
+        const bool identical = entry.value("identical", false);
+        HtmlCell cell(identical ? entry.value("text", "") : figure_text(entry.at("value")),
+                      entry.value("worse", false) ? "worse fails" : entry.value("judgement", ""));
+        if (const std::string change = entry.value("change", ""); !change.empty())
+          cell.add("<small>" + mustache::html_escape(change) + "</small>");
         // A share of decibels says nothing.
-        data.set("has_bar",
-                 bars && !in_decibels(key) && value && most > 0 && std::isfinite(*value));
-        if (value && most > 0)
-          data.set("percent", fmt::format("{:.1f}", 100 * std::fabs(*value) / most));
-        cells << data;
+        const auto value = as_number(entry.at("value"));
+        if (bars && !in_decibels(key) && value && most > 0 && std::isfinite(*value))
+          cell.add(fmt::format(R"(<div class="bar"><i style="width: {:.1f}%"></i></div>)",
+                               100 * std::fabs(*value) / most));
+        cells.push_back(cell);
       }
-      row.set("cells", cells);
-      rows << row;
+      add_row(table, std::move(cells), figure);
     }
-    return rows;
+    return table;
   }
 
   // A row a role, in the order of the runs' lists, a column a run.
@@ -243,8 +243,8 @@ class ComparisonPage {
         text += fmt::format(", {} on the front of all together", figure_text(sweep["joint_front"]));
       sweep["summary"] = text;
     }
-    fill_inputs(sweeps, "summary");
-    fill_parameters();
+    fill_inputs(sweeps);
+    fill_parameters(false);
     page_.set("matched", grouped(comparison_.at("points").size()));
     page_.set("only", grouped(comparison_.at("only").size()));
     page_.set("has_only", !comparison_.at("only").empty());
@@ -252,30 +252,30 @@ class ComparisonPage {
     for (const Json& axis : comparison_.at("axes"))
       axes += (axes.empty() ? "" : ", ") + text_of(axis);
     page_.set("axes", axes);
-    mustache::data rows{mustache::data::type::list};
+    HtmlTable rows(
+        "|Metric:name|Better:n|Equal:n|Worse:n|Mean change:n|Least:n|Most:n|Unit|"
+        "Meaning:muted meaning");
     const Json& metrics = comparison_.at("metrics");
     for (std::size_t i = 0; i < comparison_.at("summary").size(); ++i)
       for (std::size_t m = 0; m < metrics.size(); ++m) {
         const Json& sum = comparison_.at("summary")[i][m];
-        mustache::data row;
-        row.set("sweep", text_of(sweeps[i + 1].at("name")));
-        row.set("metric", text_of(metrics[m].at("name")));
-        row.set("unit", text_of(metrics[m].at("unit")));
-        row.set("meaning", text_of(metrics[m].at("meaning")));
+        std::vector<HtmlCell> cells{letter(sweeps[i + 1].at("name")),
+                                    text_of(metrics[m].at("name"))};
         const bool has_direction = !metrics[m].at("maximise").is_null();
         for (const char* key : {"better", "equal", "worse"})
-          row.set(key, has_direction ? figure_text(sum.at(key)) : "-");
-        row.set("state", sum.at("worse") != 0 ? "worse" : "");
+          cells.emplace_back(has_direction ? figure_text(sum.at(key)) : "-");
+        if (sum.at("worse") != 0) cells.back().look = "worse";
         for (const char* key : {"mean", "least", "most"})
-          row.set(key, sum.contains(key) ? fmt::format("{:+.2f} {}", sum[key].get<double>(),
-                                                       sum["unit"].get<std::string>())
-                                         : "-");
-        rows << row;
+          cells.emplace_back(sum.contains(key) ? fmt::format("{:+.2f} {}", sum[key].get<double>(),
+                                                             sum["unit"].get<std::string>())
+                                               : "-");
+        add_row(rows, std::move(cells), metrics[m]);
       }
-    page_.set("summary", rows);
+    page_.set("summary", rows.html());
   }
 
   const Json& comparison_;
+  std::vector<std::string> names_;  // of what is compared
   mustache::data page_;
 };
 

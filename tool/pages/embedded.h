@@ -2,18 +2,14 @@
 // Files that the build turns into part of the program, so that reports need nothing beside it.
 #pragma once
 
-#include <string>
 #include <string_view>
 
 namespace deburr::tb::embedded {
 
-std::string_view chart_js();   // Chart.js (MIT), from Debian's libjs-chart.js
-std::string_view legend_js();  // legend.js
-inline std::string charts() {  // both, which go together
-  return std::string(chart_js()) + "\n" + std::string(legend_js());
-}
-std::string_view style_css();            // report_style.css
-std::string_view copy_js();              // copy.js
+std::string_view chart_js();             // Chart.js (MIT), from Debian's libjs-chart.js
+std::string_view style_css();            // page.css
+std::string_view page_template();        // page.mustache
+std::string_view kit_js();               // kit.js
 std::string_view report_template();      // report.mustache
 std::string_view report_js();            // report.js
 std::string_view sweep_template();       // sweep.mustache

@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <tuple>
 #include <utility>
 
 #include "spec/error.h"
@@ -22,7 +20,7 @@
 #include "tb/scene/png.h"
 #include "tool/pages/embedded.h"
 #include "tool/pages/input_files.h"
-#include "tool/pages/page_template.h"
+#include "tool/pages/report_parts.h"
 
 namespace deburr::tb {
 namespace {
@@ -31,34 +29,12 @@ namespace fs = std::filesystem;
 namespace mustache = kainjow::mustache;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMaxImageBytes = 256u << 20;
-constexpr std::size_t kMaxManifestBytes = 64u << 20, kMaxWindowsBytes = 64u << 20;
-
-// Numbers as a reader wants them: counts grouped, rates with four significant digits.
-std::string report_text(const Json& value) {
-  if (value.is_number_unsigned()) return grouped(value.get<std::uint64_t>());
-  if (value.is_number()) return amount(value.get<double>());
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
-  if (value.is_null()) return "-";
-  return json_text(value);
-}
-
-mustache::data row(std::initializer_list<std::pair<const char*, std::string>> cells) {
-  mustache::data data;
-  for (const auto& [name, value] : cells) data.set(name, value);
-  return data;
-}
+constexpr std::size_t kMaxManifestBytes = 64u << 20;
 
 // A count, 0 for anything else.
 std::uint64_t count_of(const Json& json, const char* key) {
   const Json value = json.value(key, Json());
   return value.is_number_unsigned() ? value.get<std::uint64_t>() : 0;
-}
-
-double number(const Json& json, const char* key) {
-  const Json value = json.value(key, Json(0.0));
-  return value.is_number() ? value.get<double>() : 0.0;
 }
 
 std::string two_digits(const Json& value) {
@@ -76,19 +52,6 @@ std::string fraction(const Json& value) {
   return value.is_number() ? fmt::format("{:.4f}", value.get<double>()) : "-";
 }
 
-// Columns and rows; nothing: it is no PNG.
-std::pair<std::uint64_t, std::uint64_t> png_size(const std::string& bytes) {
-  constexpr std::size_t kWidth = 16, kHeight = 20;  // in the first chunk, IHDR
-  if (!bytes.starts_with("\x89PNG") || bytes.size() < kHeight + 4) return {0, 0};
-  const auto number = [&](std::size_t at) {
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-      value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-    return value;
-  };
-  return {number(kWidth), number(kHeight)};
-}
-
 Json read_manifest(const fs::path& directory) {
   const fs::path file = directory / "manifest.json";
   Json manifest = try_parse_json(read_file(file, kMaxManifestBytes));
@@ -101,18 +64,22 @@ class ReportBuilder {
  public:
   ReportBuilder(const fs::path& directory, Json result, Json manifest)
       : result_(std::move(result)), manifest_(std::move(manifest)) {
-    fill_head();
-    fill_images(directory);
-    fill_windows(directory);
-    fill_tables();
+    const ReportSource source{directory, result_, manifest_};
+    fill_summary();
+    fill_pixel(source, page_);
+    maps_ = fill_pictures(source, page_);
+    windows_ = fill_over_time(source, page_);
+    fill_figures();
+    fill_quality();
+    fill_units();
+    fill_latency();
+    fill_memories();
+    fill_parameters();
     fill_origin();
   }
 
   std::string render() {
-    page_.set("style", std::string(embedded::style_css()));
-    page_.set("chart_js", embedded::charts());
-    page_.set("copy_js", std::string(embedded::copy_js()));
-    page_.set("report_js", std::string(embedded::report_js()));
+    page_.set("script", std::string(embedded::report_js()));
     page_.set("data", fmt::format(R"({{"result":{},"windows":{},"maps":{},"map_colours":{}}})",
                                   json_for_script(result_), json_for_script(windows_),
                                   json_for_script(maps_), json_for_script(Json(map_colours()))));
@@ -120,38 +87,18 @@ class ReportBuilder {
   }
 
  private:
-  void fill_head() {
-    page_.set("unit", report_text(result_["unit"]));
+  void fill_summary() {
+    page_.set("brand", report_text(result_["unit"]));
+    page_.set("footer", "Built from result.json and manifest.json.");
     page_.set("title", manifest_.value("title", "Run"));
     page_.set("summary", manifest_.value("summary", ""));
     page_.set("verdict", report_text(result_["verdict"]));
-    const std::string reason = result_.value("reason", "");
-    if (!reason.empty()) {
-      mustache::data list{mustache::data::type::list};
-      list << row({{"reason", reason}});
-      page_.set("reason", list);
-    }
+    page_.set("badge", report_text(result_["verdict"]));
+    if (const std::string reason = result_.value("reason", ""); !reason.empty())
+      page_.set("reason", reason);
     mustache::data notes{mustache::data::type::list};
-    for (const Json& note : result_.value("notes", Json::array()))
-      notes << row({{"note", report_text(note)}});
+    for (const Json& note : result_.value("notes", Json::array())) notes << report_text(note);
     page_.set("notes", notes);
-    mustache::data mismatches_table{mustache::data::type::list};
-    fill_pixel();
-    for (const Json& m : result_.value("first_mismatches", Json::array())) {
-      mustache::data line = row({{"check", m.value("check", "")},
-                                 {"where", m.value("where", "")},
-                                 {"item", m.value("item", "")},
-                                 {"field", m.value("field", "")},
-                                 {"expected", m.value("expected", "")},
-                                 {"got", m.value("got", "")}});
-      const std::string pixel = pixel_in(m.value("item", ""));
-      line.set("pixel", pixel);
-      line.set("followed", !pixel.empty() && pixel == followed_);
-      line.set("can_follow", !pixel.empty() && pixel != followed_);
-      mismatches_table << line;
-    }
-    page_.set("has_mismatches", mismatches_table.is_non_empty_list());
-    page_.set("mismatches", mismatches_table);
     page_.set("command", manifest_.value("command", ""));
     page_.set("cycles", report_text(result_["cycles"]));
 
@@ -160,14 +107,11 @@ class ReportBuilder {
     const Json& latency = result_["latency"];
     const double value = number(throughput, "value"), bound = number(throughput, "bound");
     const double mhz = number(result_, "clock_mhz");
-    mustache::data tiles{mustache::data::type::list};
+    std::vector<Tile> tiles;
     const auto tile = [&](std::string name, std::string number_text, std::string unit,
                           std::string note, const char* state = "") {
-      tiles << row({{"name", std::move(name)},
-                    {"value", std::move(number_text)},
-                    {"unit", std::move(unit)},
-                    {"note", std::move(note)},
-                    {"state", state}});
+      tiles.push_back(
+          {std::move(name), std::move(number_text), std::move(unit), std::move(note), state});
     };
     const bool interrupted = result_.value("interrupted", false);
     const std::uint64_t mismatches =
@@ -224,21 +168,19 @@ class ReportBuilder {
     tile("Simulation", fmt::format("{:.2f}", number(result_["host"], "mcycles_per_s")), "Mcycle/s",
          fmt::format("{:.1f} s, {:.1f} s of them computing", number(result_["host"], "seconds"),
                      number(result_["host"], "cpu_seconds")));
-    page_.set("tiles", tiles);
-    // One row of tiles, or two that are equally long.
-    constexpr std::size_t kRow = 7;
-    const std::size_t count = tiles.list_value().size();
-    page_.set("columns", std::to_string(count <= kRow ? count : (count + 1) / 2));
+    page_.set("tiles", html_of(tiles));
 
     mustache::data meters{mustache::data::type::list};
     const auto meter = [&](std::string name, double part, double whole, const std::string& unit,
                            std::string note) {
       const double percent = whole > 0 ? 100 * part / whole : 0;
-      meters << row({{"name", std::move(name)},
-                     {"text", fmt::format("{} of {} {} ({:.1f} %)", amount(part), amount(whole),
-                                          unit, percent)},
-                     {"percent", fmt::format("{:.2f}", std::clamp(percent, 0.0, 100.0))},
-                     {"note", std::move(note)}});
+      mustache::data one;
+      one.set("name", std::move(name));
+      one.set("text",
+              fmt::format("{} of {} {} ({:.1f} %)", amount(part), amount(whole), unit, percent));
+      one.set("percent", fmt::format("{:.2f}", std::clamp(percent, 0.0, 100.0)));
+      one.set("note", std::move(note));
+      meters << one;
     };
     meter("Rate over the whole run", value, bound, report_text(throughput.value("unit", Json(""))),
           bound_note(throughput));
@@ -250,61 +192,6 @@ class ReportBuilder {
                                 per_second(report_text(throughput.value("unit", Json("")))))
                   : "");
   }
-
-  // "X,Y" of an item that is called by its pixel, "pixel (X, Y)"; empty: it is not.
-  static std::string pixel_in(const std::string& item) {
-    constexpr std::string_view kBegin = "pixel (";
-    const std::size_t begin = item.find(kBegin), end = item.find(')', begin);
-    if (begin == std::string::npos || end == std::string::npos) return "";
-    std::string pixel = item.substr(begin + kBegin.size(), end - begin - kBegin.size());
-    std::erase(pixel, ' ');
-    return pixel;
-  }
-
-  // The history of a pixel, and the commands that give another one, or the waves around this one.
-  void fill_pixel() {
-    page_.set("has_history", manifest_.value("pixel_history", false));
-    const std::string command = without_options(
-        manifest_.value("command", ""), {"--pixel", "--trace", "--trace-from", "--trace-to"});
-    page_.set("pixel_command", command);
-    const auto found = result_.find("pixel");
-    page_.set("has_pixel", found != result_.end());
-    if (found == result_.end()) return;
-    followed_ = fmt::format("{:.0f},{:.0f}", number(*found, "x"), number(*found, "y"));
-    page_.set("pixel", followed_);
-    page_.set("pixel_note", found->value("note", ""));
-    page_.set("pixel_differences", report_text(found->value("differences", Json())));
-    mustache::data steps{mustache::data::type::list};
-    std::string part;
-    std::optional<std::uint64_t> first, last;
-    for (const Json& step : found->value("steps", Json::array())) {
-      const Json clock = step.value("clock", Json());
-      mustache::data line = row({{"step", step.value("step", "")},
-                                 {"item", step.value("item", "")},
-                                 {"golden", or_dash(step.value("golden", ""))},
-                                 {"hardware", or_dash(step.value("hardware", ""))},
-                                 {"clock", report_text(clock)}});
-      line.set("differs", step.value("differs", false));
-      if (const std::string own = step.value("part", ""); own != part) {
-        part = own;
-        line.set("begins", own);
-      }
-      if (clock.is_number_unsigned()) {
-        const auto cycle = clock.get<std::uint64_t>();
-        first = std::min(first.value_or(cycle), cycle);
-        last = std::max(last.value_or(cycle), cycle);
-      }
-      steps << line;
-    }
-    page_.set("has_pixel_steps", steps.is_non_empty_list());
-    page_.set("pixel_steps", steps);
-    if (first)
-      page_.set("pixel_waves",
-                fmt::format("{} --pixel {} --trace '*' --trace-from {} --trace-to {}", command,
-                            followed_, *first, *last + 2));
-  }
-
-  static std::string or_dash(const std::string& text) { return text.empty() ? "-" : text; }
 
   static std::string bound_note(const Json& throughput) {
     const std::string meaning = throughput.value("bound_meaning", "");
@@ -371,210 +258,6 @@ class ReportBuilder {
     return unit.ends_with("/clk") ? unit.substr(0, unit.size() - 3) + "s" : unit + "/s";
   }
 
-  void fill_images(const fs::path& directory) {
-    fill_stills(directory);
-    mustache::data maps{mustache::data::type::list};
-    const Json of_maps = result_.value("maps", Json::object());
-    for (const auto& [name, map] : of_maps.items()) {
-      const auto text = [&of = map](const char* key) { return amount(number(of, key)); };
-      maps << row({{"name", name},
-                   {"min", text("min")},
-                   {"mean", text("mean")},
-                   {"max", text("max")},
-                   {"unit", map.value("unit", "")},
-                   {"sum", text("sum")},
-                   {"pixels", report_text(map.value("pixels", Json()))},
-                   {"file", map.value("values", "")},
-                   {"meaning", map.value("meaning", "")}});
-      keep_values(directory, map);
-    }
-    page_.set("has_maps", maps.is_non_empty_list());
-    page_.set("maps", maps);
-  }
-
-  // Of a frame of a few rows or columns they would vanish: they are drawn out. Of a picture that is
-  // larger than the frame, with the scale of a map, the frame's part is shown.
-  void fill_stills(const fs::path& directory) {
-    constexpr std::uint64_t kNarrow = 8;
-    const Json list = manifest_.value("images", Json::array());
-    std::vector<std::string> pngs;
-    std::uint64_t width = UINT64_MAX, height = UINT64_MAX;
-    for (const Json& image : list) {
-      const fs::path file = image.value("file", "");
-      reject_path(directory, file);
-      pngs.push_back(read_file(directory / file, kMaxImageBytes));
-      const auto [across, down] = png_size(pngs.back());
-      width = std::min(width, across);
-      height = std::min(height, down);
-    }
-    width = std::max<std::uint64_t>(width, 1);  // of what is no PNG
-    height = std::max<std::uint64_t>(height, 1);
-    const char* const shape = width / kNarrow > height   ? "flat"
-                              : height / kNarrow > width ? "tall"
-                                                         : "part";
-    mustache::data images{mustache::data::type::list};
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const auto [across, down] = png_size(pngs[i]);
-      mustache::data still = row({{"title", list[i].value("title", list[i].value("file", ""))},
-                                  {"caption", list[i].value("caption", "")},
-                                  {"role", list[i].value("role", "")},
-                                  {"shape", shape},
-                                  {"source", png_uri(pngs[i])}});
-      still.set("ratio", fmt::format("{:.4f}", double(width) / double(height)));
-      still.set("across", fmt::format("{:.2f}", 100.0 * double(across) / double(width)));
-      still.set("down", fmt::format("{:.2f}", 100.0 * double(down) / double(height)));
-      images << still;
-    }
-    page_.set("has_images", images.is_non_empty_list());
-    page_.set("images", images);
-  }
-
-  // What the page says of a pixel of a map; nothing where the file of its values is gone.
-  void keep_values(const fs::path& directory, const Json& map) {
-    const std::string picture = map.value("picture", ""), name = map.value("values", "");
-    if (picture.empty() || name.empty() || number(map, "pixels") == 0) return;
-    reject_path(directory, name);
-    const fs::path file = directory / name;
-    if (!fs::exists(file)) return;
-    const std::string bytes = read_file(file, kMaxImageBytes);
-    int width = 0, height = 0;
-    // Before there is memory for so many values: they must be there.
-    if (std::sscanf(bytes.c_str(), "Pf %d %d", &width, &height) != 2 || width < 1 || height < 1 ||
-        static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > bytes.size() / 4)
-      throw spec::FileError(fmt::format("'{}' is not a portable float map", file.string()));
-    PictureMap values("", "", "", "", width, height);
-    try {
-      read_pfm(bytes, values);
-    } catch (const spec::ConfigError& error) {
-      throw spec::FileError(fmt::format("'{}': {}", file.string(), error.what()));
-    }
-    const MapScale scale = scale_of(values);
-    const MapCodes codes = codes_of(values);
-    maps_[fs::path(picture).stem().string()] = {{"title", map.value("title", "")},
-                                                {"unit", map.value("unit", "")},
-                                                {"width", width},
-                                                {"height", height},
-                                                {"least", scale.least},
-                                                {"knee", scale.knee},
-                                                {"knee_part", scale.part(scale.knee)},
-                                                {"most", scale.most},
-                                                {"step", codes.step},
-                                                {"source", png_uri(encode_png(codes.picture))}};
-  }
-
-  // Runs with windows: what the page draws over time, and the table of them.
-  void fill_windows(const fs::path& directory) {
-    const std::string name = manifest_.value("records", Json::object()).value("windows", "");
-    page_.set("has_windows", !name.empty());
-    if (name.empty()) return;
-    reject_path(directory, name);
-    const fs::path file = directory / name;
-    windows_ = try_parse_json(read_file(file, kMaxWindowsBytes));
-    const auto demand = [&](bool valid) {
-      if (!valid)
-        throw spec::FileError(fmt::format("'{}' is not a valid file of windows", file.string()));
-    };
-    demand(windows_.is_object() && windows_.contains("series"));
-    Json& series = windows_["series"];
-    const std::size_t count = windows_["from"].size();
-    const auto column = [&](const Json& values) {
-      demand(values.is_array() && values.size() == count);
-      for (const Json& value : values) demand(value.is_number_unsigned());
-      return values.get<std::vector<std::uint64_t>>();
-    };
-    const std::vector<std::uint64_t> from = column(windows_["from"]),
-                                     cycles = column(windows_["cycles"]);
-    page_.set("windows_note",
-              fmt::format("{} windows of {} cycles{}.", grouped(from.size()),
-                          report_text(windows_["window_cycles"]),
-                          windows_["window_cycles"] == windows_["asked_cycles"]
-                              ? ""
-                              : fmt::format("; {} were asked for, which would be too many windows",
-                                            report_text(windows_["asked_cycles"]))));
-    windows_["command"] =
-        without_options(manifest_.value("command", ""), {"--trace", "--trace-from", "--trace-to"});
-    page_.set("windows_command", windows_["command"].get<std::string>());
-
-    // A rate is a series over cycles.
-    std::vector<std::vector<std::uint64_t>> columns;
-    mustache::data rates{mustache::data::type::list}, ports{mustache::data::type::list};
-    Json kept = Json::object();
-    for (const Json& rate : windows_["throughput"]) {
-      const std::string key = rate.value("key", "");
-      const std::string counter = key.substr(key.find('.') + 1);
-      if (!series["work"].contains(counter)) continue;
-      kept[counter] = series["work"][counter];
-      columns.push_back(column(kept[counter]));
-      rates << row({{"label", rate.value("label", "")}, {"unit", rate.value("unit", "")}});
-    }
-    const Json of_ports = series.value("ports", Json::object());
-    for (const auto& [port, values] : of_ports.items()) {
-      columns.push_back(column(values.value("outstanding", Json())));
-      ports << port;
-      for (const char* bytes : {"_bytes_read", "_bytes_written"})
-        if (series["work"].contains(port + bytes))
-          kept[port + bytes] = series["work"][port + bytes];
-    }
-    series["work"] = kept;  // the page needs no more of them
-    windows_.erase("units");
-    page_.set("window_rates", rates);
-    page_.set("window_ports", ports);
-    page_.set("has_ports", ports.is_non_empty_list());
-    mustache::data rows{mustache::data::type::list};
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      mustache::data line = row({{"index", std::to_string(i)},
-                                 {"from", grouped(from[i])},
-                                 {"to", grouped(from[i] + cycles[i])}});
-      mustache::data values{mustache::data::type::list};
-      for (const std::vector<std::uint64_t>& counts : columns)
-        values << fmt::format("{:.3f}",
-                              static_cast<double>(counts.at(i)) / static_cast<double>(cycles[i]));
-      line.set("values", values);
-      rows << line;
-    }
-    page_.set("windows", rows);
-
-    mustache::data links{mustache::data::type::list};
-    const Json of_links = result_.value("links", Json::object());
-    for (const auto& [link, figures] : of_links.items())
-      links << row({{"name", link},
-                    {"full", figures.value("link", "")},
-                    {"depth", report_text(figures.value("depth", Json()))},
-                    {"beats", report_text(figures.value("beats", Json()))},
-                    {"mean", fmt::format("{:.2f}", number(figures, "mean"))},
-                    {"most", report_text(figures.value("most", Json()))},
-                    {"full_percent", fmt::format("{:.1f}", number(figures, "full_percent"))}});
-    page_.set("links", links);
-  }
-
-  // The command of a run without some of its options, so that others can be given behind it. Not
-  // with a regular expression: it would be a sixth of this library's build.
-  static std::string without_options(std::string command,
-                                     std::initializer_list<std::string_view> options) {
-    std::size_t at = 0;
-    while ((at = command.find(" --", at)) != std::string::npos) {
-      const std::size_t value = command.find_first_of(" =", at + 1);
-      const std::string name = command.substr(at + 1, value - at - 1);
-      if (value == std::string::npos ||
-          std::find(options.begin(), options.end(), name) == options.end()) {
-        ++at;
-        continue;
-      }
-      std::size_t end = value + 1;
-      for (bool quoted = false; end < command.size() && (quoted || command[end] != ' '); ++end)
-        if (command[end] == '\'') quoted = !quoted;
-      command.erase(at, end - at);
-    }
-    return command;
-  }
-
-  // Only names inside the directory: a manifest from elsewhere must not pull other files in.
-  static void reject_path(const fs::path& directory, const fs::path& file) {
-    if (file.empty() || file.has_parent_path())
-      throw spec::FileError(fmt::format("'{}': '{}' is not a file name",
-                                        (directory / "manifest.json").string(), file.string()));
-  }
-
   // Unit or meaning of a key, from the result itself.
   std::string described(const std::string& key, const char* what) const {
     const auto all = result_.find("meaning");
@@ -582,164 +265,130 @@ class ReportBuilder {
     return (*all)[key].value(what, "");
   }
 
-  void fill_tables() {
-    mustache::data figures{mustache::data::type::list};
-    bool any_against = false;
-    for (const Json& figure : result_.value("figures", Json::array())) {
+  void fill_figures() {
+    const Json figures = result_.value("figures", Json::array());
+    const bool any_against = std::any_of(figures.begin(), figures.end(),
+                                         [&](const Json& f) { return !against(f).empty(); });
+    HtmlTable table("What|Value:n|Unit");
+    if (any_against) table.column("Against");
+    for (const Json& figure : figures) {
       const std::string key = figure.value("key", "");
-      any_against = any_against || !against(figure).empty();
-      figures << row({{"label", figure.value("label", "")},
-                      {"value", figure_text(value_at(key))},
-                      {"unit", described(key, "unit")},
-                      {"against", against(figure)},
-                      {"meaning", described(key, "meaning")}});
+      std::vector<HtmlCell> cells{figure.value("label", ""), figure_text(value_at(key)),
+                                  described(key, "unit")};
+      if (any_against) cells.emplace_back(against(figure));
+      table.row(cells, "", described(key, "meaning"));
     }
-    page_.set("has_figures", figures.is_non_empty_list());
-    page_.set("has_against", any_against);
-    page_.set("figures", figures);
+    page_.set("has_figures", table.rows() > 0);
+    page_.set("figures", table.html());
 
-    mustache::data memory{mustache::data::type::list};
+    HtmlTable memory("What|Amount:n|Unit");
     const double cycles = number(result_, "cycles");
     bool traffic = false;
     for (const auto& [name, value] : result_["memory"].items()) {
       std::string meaning = described("memory." + name, "meaning");
       if (meaning.ends_with('.')) meaning.pop_back();
-      memory << row({{"name", meaning},
-                     {"value", report_text(value)},
-                     {"unit", described("memory." + name, "unit")}});
+      memory.row({meaning, report_text(value), described("memory." + name, "unit")});
       traffic = traffic || (value.is_number() && value.get<double>() > 0);
     }
     for (const auto& [label, key] : {std::pair("Mean read bandwidth", "bytes_read"),
                                      std::pair("Mean write bandwidth", "bytes_written")})
       if (const double bytes = number(result_["memory"], key); cycles > 0 && bytes > 0)
-        memory << row({{"name", label},
-                       {"value", fmt::format("{:.3f}", bytes / cycles)},
-                       {"unit", "byte/clk"}});
-    page_.set("memory", memory);
+        memory.row({label, fmt::format("{:.3f}", bytes / cycles), "byte/clk"});
+    page_.set("memory", memory.html());
     page_.set("has_traffic", traffic);
 
-    mustache::data units{mustache::data::type::list};
-    for (const auto& [name, unit] : result_["units"].items()) {
-      std::string stalls;
-      for (const auto& [cause, count] : unit["stalls"].items())
-        if (count != 0)
-          stalls += fmt::format("{}{} {}", stalls.empty() ? "" : ", ", cause, report_text(count));
-      units << row({{"name", name},
-                    {"busy", report_text(unit["busy"])},
-                    {"idle", report_text(unit["idle"])},
-                    {"stalls", stalls.empty() ? "-" : stalls}});
-    }
-    page_.set("units", units);
-    page_.set("units_table", mustache::partial{[] {
-                return std::string(
-                    "<table><tr><th>Unit</th><th class=\"n\">Busy</th><th class=\"n\">Idle</th>"
-                    "<th>Stalled, by cause</th></tr>{{#units}}<tr><td>{{name}}</td>"
-                    "<td class=\"n\">{{busy}}</td><td class=\"n\">{{idle}}</td><td>{{stalls}}</td>"
-                    "</tr>{{/units}}</table>");
-              }});
+    HtmlTable work("Counter:name mono|Value:n|Unit|Meaning:muted meaning");
+    for (const auto& [name, value] : result_["work"].items())
+      work.row({name, report_text(value), described("work." + name, "unit"),
+                described("work." + name, "meaning")});
+    page_.set("work", work.html());
 
-    const Json& latency = result_["latency"];
-    mustache::data percentiles{mustache::data::type::list};
-    for (const char* key : {"min", "p50", "p95", "p99", "max"})
-      percentiles << row({{"value", report_text(latency.value(key, Json()))}});
-    page_.set("latency", percentiles);
-    page_.set("latency_unit", report_text(latency.value("unit", Json("clk"))));
-    // One value needs no histogram.
-    const bool spread = latency.value("min", Json()) != latency.value("max", Json());
-    page_.set("latency_spread", spread);
-    page_.set("latency_single", report_text(latency.value("max", Json())));
-    mustache::data histogram{mustache::data::type::list};
-    for (const Json& bin : latency.value("histogram", Json::array()))
-      histogram << row({{"from", report_text(bin.value("from", Json()))},
-                        {"count", report_text(bin.value("count", Json()))}});
-    page_.set("histogram", histogram);
+    HtmlTable checks("Check|Value:n|Meaning:muted meaning");
+    for (const auto& [name, value] : result_["checks"].items())
+      checks.row({spaced(name), report_text(value), described("checks." + name, "meaning")});
+    page_.set("checks", checks.html());
+  }
 
-    fill_memories();
-
-    mustache::data work{mustache::data::type::list};
-    for (const auto& [name, value] : result_["work"].items()) {
-      work << row({{"name", name},
-                   {"value", report_text(value)},
-                   {"unit", described("work." + name, "unit")},
-                   {"meaning", described("work." + name, "meaning")}});
-    }
-    page_.set("work", work);
-
-    mustache::data checks{mustache::data::type::list};
-    for (const auto& [name, value] : result_["checks"].items()) {
-      std::string label = name;
-      std::replace(label.begin(), label.end(), '_', ' ');
-      checks << row({{"name", label},
-                     {"value", report_text(value)},
-                     {"meaning", described("checks." + name, "meaning")}});
-    }
-    page_.set("checks", checks);
-
+  // Against the reference, and against what went in.
+  void fill_quality() {
     const auto quality = result_.find("quality");
     page_.set("has_quality", quality != result_.end());
     if (quality != result_.end()) {
       page_.set("quality_reference", quality->value("reference", ""));
-      mustache::data rows{mustache::data::type::list};
+      HtmlTable table("Measure|Before:n|After:n|Gain:n|Unit", "after");
       for (const auto& [label, key] :
            {std::pair("PSNR, whole frame", "psnr_"), std::pair("PSNR, edge pixels", "psnr_edge_"),
             std::pair("PSNR, silhouette pixels", "psnr_silhouette_")}) {
         const Json after = quality->value(std::string(key) + "db", Json());
         const Json before = quality->value(std::string(key) + "before_db", Json());
         if (after.is_null() && before.is_null()) continue;
-        rows << row({{"name", label},
-                     {"before", two_digits(before)},
-                     {"after", two_digits(after)},
-                     {"gain", gain_of(before, after)},
-                     {"unit", "dB"}});
+        table.row({label, two_digits(before), two_digits(after), gain_of(before, after), "dB"});
       }
       for (const auto& [label, key] :
            {std::pair("FLIP, less is better", "flip"), std::pair("SSIM", "ssim")}) {
         const Json after = quality->value(key, Json());
         const Json before = quality->value(std::string(key) + "_before", Json());
         if (after.is_null()) continue;
-        rows << row({{"name", label},
-                     {"before", fraction(before)},
-                     {"after", fraction(after)},
-                     {"gain", gain_of(before, after, 4)},
-                     {"unit", ""}});
+        table.row({label, fraction(before), fraction(after), gain_of(before, after, 4), ""});
       }
-      page_.set("quality", rows);
+      page_.set("quality", table.html());
     }
-
     const auto change = result_.find("change");
     page_.set("has_change", change != result_.end());
-    if (change != result_.end()) {
-      mustache::data rows{mustache::data::type::list};
-      for (const auto& [label, all, right] :
-           {std::tuple("Changed by more than 2 codes", "over_2_percent", "right_over_2_percent"),
-            std::tuple("Changed by more than 16 codes", "over_16_percent",
-                       "right_over_16_percent")}) {
-        rows << row({{"name", label},
-                     {"all", two_digits(change->value(all, Json()))},
-                     {"right", two_digits(change->value(right, Json()))},
-                     {"unit", "%"}});
-      }
-      rows << row({{"name", "PSNR to what went in"},
-                   {"all", two_digits(change->value("psnr_db", Json()))},
-                   {"right", ""},
-                   {"unit", "dB"}});
-      page_.set("change", rows);
-    }
+    if (change == result_.end()) return;
+    HtmlTable table(
+        "Pixels, against what went in|All:n|Right before:n:within 2 codes of the truth before|Unit",
+        "after");
+    const auto text = [&](const char* key) { return two_digits(change->value(key, Json())); };
+    table.row({"Changed by more than 2 codes", text("over_2_percent"), text("right_over_2_percent"),
+               "%"});
+    table.row({"Changed by more than 16 codes", text("over_16_percent"),
+               text("right_over_16_percent"), "%"});
+    table.row({"PSNR to what went in", text("psnr_db"), "", "dB"});
+    page_.set("change", table.html());
+  }
 
-    mustache::data parameters{mustache::data::type::list};
-    for (const Json& p : manifest_.value("parameters", Json::array())) {
-      const std::string value = report_text(p.value("value", Json()));
-      mustache::data line = row({{"name", p.value("name", "")},
-                                 {"kind", p.value("kind", "")},
-                                 {"value", value},
-                                 {"default", p.value("default", "")},
-                                 {"range", p.value("range", "")},
-                                 {"unit", unit_of_parameter(p)},
-                                 {"meaning", p.value("meaning", "")}});
-      line.set("changed", value != p.value("default", ""));
-      parameters << line;
+  void fill_units() {
+    HtmlTable units("Unit:name|Busy:n|Idle:n|Stalled, by cause");
+    for (const auto& [name, unit] : result_["units"].items()) {
+      std::string stalls;
+      for (const auto& [cause, count] : unit["stalls"].items())
+        if (count != 0)
+          stalls += fmt::format("{}{} {}", stalls.empty() ? "" : ", ", cause, report_text(count));
+      units.row({name, report_text(unit["busy"]), report_text(unit["idle"]),
+                 stalls.empty() ? "-" : stalls});
     }
-    page_.set("parameters", parameters);
+    page_.set("units", units.html());
+  }
+
+  void fill_latency() {
+    const Json& latency = result_["latency"];
+    const std::string unit = report_text(latency.value("unit", Json("clk")));
+    HtmlTable percentiles("min:n|p50:n|p95:n|p99:n|max:n|Unit");
+    const auto text = [&](const char* key) { return report_text(latency, key); };
+    percentiles.row({text("min"), text("p50"), text("p95"), text("p99"), text("max"), unit});
+    page_.set("latency", percentiles.html());
+    page_.set("latency_unit", unit);
+    // One value needs no histogram.
+    page_.set("latency_spread", latency.value("min", Json()) != latency.value("max", Json()));
+    page_.set("latency_single", text("max"));
+    HtmlTable histogram("From:n|Transactions:n");
+    for (const Json& bin : latency.value("histogram", Json::array()))
+      histogram.row({report_text(bin, "from"), report_text(bin, "count")});
+    page_.set("histogram", histogram.html());
+  }
+
+  void fill_parameters() {
+    HtmlTable table(
+        "Name:name mono|Kind:muted|Value:mono value|Default:mono value muted|Range:muted range|"
+        "Unit:muted|Meaning:muted meaning");
+    for (const Json& p : manifest_.value("parameters", Json::array())) {
+      const std::string value = report_text(p, "value"), usual = p.value("default", "");
+      table.row({p.value("name", ""), p.value("kind", ""), value, usual, p.value("range", ""),
+                 unit_of_parameter(p), p.value("meaning", "")},
+                value == usual ? "" : "changed");
+    }
+    page_.set("parameters", table.html());
   }
 
   // A rate of memory is given in both units that its reader knows.
@@ -759,32 +408,38 @@ class ReportBuilder {
       return count_of(bits.value("total", Json::object()), key);
     };
     const std::uint64_t logical = total("logical"), at_width = total("logical_at_frame_width");
-    mustache::data rows{mustache::data::type::list};
+    const bool widths = at_width != 0 && at_width != logical;
+    HtmlTable rows("Memory:name|Kind|Words x bits:n|Ports|Read latency, clk:n|Built as"),
+        kinds("Kind|Memories:n");
+    const auto add_bits = [&](HtmlTable& table) {
+      if (widths) table.column("Bits at this width", "n");
+      for (const char* name : {"Logical bits", "Physical bits"}) table.column(name, "n");
+    };
+    add_bits(rows);
+    rows.column("Holds", "meaning");
+    add_bits(kinds);
     for (const auto& [name, m] : memories.items()) {
-      const auto text = [&of = m](const char* key) { return report_text(of.value(key, Json())); };
-      rows << row({{"name", name},
-                   {"content", text("content")},
-                   {"kind", text("kind")},
-                   {"size", fmt::format("{} x {}", text("words"), text("word_bits"))},
-                   {"ports", text("ports")},
-                   {"latency", text("read_latency")},
-                   {"built", text("built_as")},
-                   {"at_width", text("logical_bits_at_frame_width")},
-                   {"logical", text("logical_bits")},
-                   {"physical", text("physical_bits")}});
+      const auto text = [&of = m](const char* key) { return report_text(of, key); };
+      std::vector<HtmlCell> cells{name,
+                                  text("kind"),
+                                  fmt::format("{} x {}", text("words"), text("word_bits")),
+                                  text("ports"),
+                                  text("read_latency"),
+                                  text("built_as")};
+      if (widths) cells.emplace_back(text("logical_bits_at_frame_width"));
+      for (const char* key : {"logical_bits", "physical_bits", "content"})
+        cells.emplace_back(text(key));
+      rows.row(cells);
     }
-    page_.set("memories", rows);
-    mustache::data kinds{mustache::data::type::list};
+    page_.set("memories", rows.html());
     for (const auto& [kind, sum] : bits.items()) {
-      const auto text = [&of = sum](const char* key) { return report_text(of.value(key, Json())); };
-      kinds << row({{"kind", kind},
-                    {"number", text("memories")},
-                    {"at_width", text("logical_at_frame_width")},
-                    {"logical", text("logical")},
-                    {"physical", text("physical")}});
+      std::vector<HtmlCell> cells{kind, report_text(sum, "memories")};
+      if (widths) cells.emplace_back(report_text(sum, "logical_at_frame_width"));
+      for (const char* key : {"logical", "physical"}) cells.emplace_back(report_text(sum, key));
+      kinds.row(cells);
     }
-    page_.set("memory_kinds", kinds);
-    page_.set("memory_widths", at_width != 0 && at_width != logical);
+    page_.set("memory_kinds", kinds.html());
+    page_.set("memory_widths", widths);
     const auto megabits = [](std::uint64_t value) {
       return fmt::format("{:.2f} Mbit", static_cast<double>(value) / 1e6);
     };
@@ -792,36 +447,75 @@ class ReportBuilder {
     page_.set("memory_physical_note", megabits(total("physical")));
     page_.set("memory_width_note", megabits(at_width));
     mustache::data idealised{mustache::data::type::list};
-    for (const std::string& memory : idealised_memories(result_))
-      idealised << row({{"memory", memory}});
+    for (const std::string& memory : idealised_memories(result_)) idealised << memory;
     page_.set("idealised", idealised);
     page_.set("is_idealised", !idealised_memories(result_).empty());
   }
 
   void fill_origin() {
-    mustache::data origin{mustache::data::type::list};
+    HtmlTable origin("What|Value:mono");
     for (const char* key :
          {"version", "commit", "compiler", "build_type", "systemc", "seed", "started"})
-      if (manifest_.contains(key))
-        origin << row({{"name", key}, {"value", shown_plain(manifest_[key])}});
+      if (manifest_.contains(key)) origin.row({key, shown_plain(manifest_[key])});
     for (const Json& input : manifest_.value("inputs", Json::array()))
-      origin << row({{"name", input.value("role", "input")},
-                     {"value", fmt::format("{}  {}{}", input.value("file", ""),
-                                           input.contains("sha256") ? "sha256 " : "",
-                                           listed_content(input))}});
-    page_.set("origin", origin);
+      origin.row({input.value("role", "input"),
+                  fmt::format("{}  {}{}", input.value("file", ""),
+                              input.contains("sha256") ? "sha256 " : "", listed_content(input))});
+    page_.set("origin", origin.html());
   }
 
   static std::string shown_plain(const Json& value) {
     return value.is_string() ? value.get<std::string>() : json_text(value);
   }
 
-  Json result_, manifest_, windows_, maps_ = Json::object();
-  std::string followed_;  // pixel whose history there is, "X,Y"
+  Json result_, manifest_, windows_, maps_;
   mustache::data page_;
 };
 
 }  // namespace
+
+std::string report_text(const Json& value) {
+  if (value.is_number_unsigned()) return grouped(value.get<std::uint64_t>());
+  if (value.is_number()) return amount(value.get<double>());
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+  if (value.is_null()) return "-";
+  return json_text(value);
+}
+
+std::string report_text(const Json& object, const char* key) {
+  return report_text(object.value(key, Json()));
+}
+
+double number(const Json& json, const char* key) {
+  const Json value = json.value(key, Json(0.0));
+  return value.is_number() ? value.get<double>() : 0.0;
+}
+
+// Not with a regular expression: it would be a sixth of this library's build.
+std::string without_options(std::string command, std::initializer_list<std::string_view> options) {
+  std::size_t at = 0;
+  while ((at = command.find(" --", at)) != std::string::npos) {
+    const std::size_t value = command.find_first_of(" =", at + 1);
+    const std::string name = command.substr(at + 1, value - at - 1);
+    if (value == std::string::npos ||
+        std::find(options.begin(), options.end(), name) == options.end()) {
+      ++at;
+      continue;
+    }
+    std::size_t end = value + 1;
+    for (bool quoted = false; end < command.size() && (quoted || command[end] != ' '); ++end)
+      if (command[end] == '\'') quoted = !quoted;
+    command.erase(at, end - at);
+  }
+  return command;
+}
+
+void reject_path(const fs::path& directory, const fs::path& file) {
+  if (file.empty() || file.has_parent_path())
+    throw spec::FileError(fmt::format("'{}': '{}' is not a file name",
+                                      (directory / "manifest.json").string(), file.string()));
+}
 
 std::string json_for_script(const Json& json) {
   std::string text = json_text(json);

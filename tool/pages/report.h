@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
 namespace deburr::tb {
 
@@ -19,10 +18,7 @@ std::string build_report(const std::filesystem::path& pictures, nlohmann::ordere
 // build_report, written atomically to report.html of the same directory.
 void write_report(const std::filesystem::path& directory);
 
-// A picture as it travels inside a page.
-struct PageImage {
-  std::string title, caption, role, source;  // source: a data URI
-};
+// A picture inside a page.
 std::string data_uri(const std::filesystem::path& image_file);
 std::string png_uri(const std::string& png);
 

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: MIT
 'use strict';
 (() => {
-  const data = JSON.parse(document.getElementById('data').textContent);
-  const byId = (id) => document.getElementById(id);
-  const number = new Intl.NumberFormat('en-US');
-
-  copies(byId('copy'), byId('command'));
-
   // ---- the history of another pixel ----
-  if (byId('copy-pixel-waves')) copies(byId('copy-pixel-waves'), byId('pixel-waves'));
   const box = byId('follow');
   const command = box && byId('pixel-command').textContent.replace(/X,Y$/, '');
-  if (box) copies(byId('copy-pixel'), byId('pixel-command'));
   function follow(pixel) {
     byId('pixel-command').textContent = command + pixel;
     box.hidden = false;
@@ -19,7 +11,7 @@
   function followAndCopy(pixel) {
     if (!box) return;
     follow(pixel);
-    byId('copy-pixel').click();
+    box.querySelector('button').click();
   }
   function followLinked() {
     const linked = location.hash.match(/^#follow-(\d+,\d+)$/);
@@ -93,6 +85,8 @@
     function resize() {
       const {w, h} = size();
       if (!w) return;
+      // As wide as its picture, so that nothing is left beside it.
+      stage.style.maxWidth = split.style.maxWidth = `${Math.max(320, 620 * w / h)}px`;
       const width = Math.round(stage.clientWidth * devicePixelRatio);
       const height = Math.round(Math.min(
           Math.max(width * h / w, 160 * devicePixelRatio), 620 * devicePixelRatio));
@@ -120,7 +114,7 @@
       draw();
     }
     function paint(i, from, to) {
-      const {w, h} = sizeOf(i);
+      const {w, h} = sizeOf(i), at = [state.x, state.y, w * state.scale, h * state.scale];
       if (to <= from) return;
       context.save();
       context.beginPath();
@@ -128,7 +122,9 @@
       context.clip();
       context.imageSmoothingEnabled = state.scale < 1;
       context.imageSmoothingQuality = 'high';
-      context.drawImage(stills[i], 0, 0, w, h, state.x, state.y, w * state.scale, h * state.scale);
+      context.fillStyle = '#808080';  // behind what is transparent
+      context.fillRect(...at);
+      context.drawImage(stills[i], 0, 0, w, h, ...at);
       context.restore();
     }
     function tag(text, x, align) {
@@ -191,23 +187,16 @@
         box.hidden = !map;
         box.replaceChildren();
         if (!map) continue;
-        const add = (tag, parent, text, className) => {
-          const made = document.createElement(tag);
-          made.textContent = text;
-          if (className) made.className = className;
-          parent.append(made);
-          return made;
-        };
-        add('b', box, `${side === 'left' ? 'Left' : 'Right'}: ${map.title}`);
-        const bar = add('div', box, '', 'bar');
+        element('b', `${side === 'left' ? 'Left' : 'Right'}: ${map.title}`, box);
+        const bar = element('div', '', box, 'bar');
         bar.style.background = gradient;
         const value = valueOf(map, pointed);
-        if (value !== null) add('i', bar, '', 'at').style.left = `${100 * partOf(map, value)}%`;
-        const ends = add('div', box, '', 'ends');
-        add('span', ends, `least ${amount(map.least)} ${map.unit}`);
+        if (value !== null) element('i', '', bar, 'at').style.left = `${100 * partOf(map, value)}%`;
+        const ends = element('div', '', box, 'ends');
+        element('span', `least ${amount(map.least)} ${map.unit}`, ends);
         if (map.knee < map.most)
-          add('span', ends, `all but 0.5 % up to ${amount(map.knee)}, at ${(100 * map.knee_part).toFixed(1)} % of the scale`);
-        add('span', ends, `most ${amount(map.most)} ${map.unit}`);
+          element('span', `all but 0.5 % up to ${amount(map.knee)}, at ${(100 * map.knee_part).toFixed(1)} % of the scale`, ends);
+        element('span', `most ${amount(map.most)} ${map.unit}`, ends);
       }
     }
     function words(index, pixel) {
@@ -352,7 +341,6 @@
   const links = Object.entries(data.result.links || {});
   let chosen = -1;  // window
   if (windows) {
-    copies(byId('copy-window'), byId('window-command'));
     const units = byId('time-unit');
     for (const name of Object.keys(windows.series.units)) units.add(new Option(name));
     const worst = (data.result.bottleneck || {}).unit;
@@ -416,14 +404,7 @@
   function drawCharts() {
     for (const chart of charts) chart.destroy();
     charts = [];
-    const style = getComputedStyle(document.documentElement);
-    const css = (name) => style.getPropertyValue(name).trim();
-    Chart.defaults.animation = false;
-    Chart.defaults.locale = 'en-US';
-    Chart.defaults.color = css('--muted');
-    Chart.defaults.borderColor = css('--rule');
-    Chart.defaults.font.family = 'system-ui, "DejaVu Sans", sans-serif';
-    Chart.defaults.maintainAspectRatio = false;
+    chartColours();
     // What all names share, up to a '_'.
     const withoutBeginning = (names) => {
       let shared = names[0] ?? '';
@@ -432,60 +413,21 @@
       const length = shared.lastIndexOf('_') + 1;
       return names.map((name) => name.slice(length));
     };
-    // Names as labels of bars: in a narrow chart on several lines, broken after a '_'.
-    const linesOf = (name, width) => {
-      const lines = [''];
-      if (width > 400) return [name];
-      for (const part of name.split(/(?<=_)/)) {
-        if (lines[lines.length - 1] !== '' && (lines[lines.length - 1] + part).length > 18) lines.push('');
-        lines[lines.length - 1] += part;
-      }
-      return lines;
-    };
-    const horizontal = (labels, box) => {
-      const most = Math.max(1, ...labels.map((name) => linesOf(name, byId(box).clientWidth).length));
-      byId(box).style.height = `${Math.max(90, labels.length * Math.max(30, 15 * most + 4) + 70)}px`;
-      return labels;
-    };
-    const names = {
-      autoSkip: false,
-      callback(value) { return linesOf(this.getLabelForValue(value), this.chart.width); }
-    };
-
     // Cycles of each unit, by cause.
     const units = Object.entries(data.result.units);
     if (units.length > 0) {
       const cycles = ([, unit]) => unit.busy + unit.idle +
           Object.values(unit.stalls).reduce((a, b) => a + b, 0);
       const share = (count, unit) => cycles(unit) ? 100 * count / cycles(unit) : 0;
-      const series = (label, colour, get) => ({
-        label, backgroundColor: colour, maxBarThickness: 22,
-        data: units.map((unit) => share(get(unit[1]), unit)), counts: units.map((unit) => get(unit[1]))
-      });
-      charts.push(new Chart(byId('units'), {
-        type: 'bar',
-        data: {
-          labels: horizontal(units.map(([name]) => name), 'units-box'),
-          datasets: [
-            series('busy', css('--busy'), (unit) => unit.busy),
-            ...stallCauses.map((cause) => series(`stalled: ${cause.replaceAll('_', ' ')}`,
-                colourOfCause(cause), (unit) => unit.stalls[cause] || 0)),
-            series('idle', css('--idle'), (unit) => unit.idle)
-          ]
-        },
-        options: {
-          indexAxis: 'y',
-          scales: {
-            x: {stacked: true, beginAtZero: true, max: 100, title: {display: true, text: '% of cycles'}},
-            y: {stacked: true, grid: {display: false}, ticks: names}
-          },
-          plugins: {
-            legend: {position: 'bottom', labels: {boxWidth: 12}},
-            tooltip: {callbacks: {label: (item) => `${item.dataset.label}: ` +
-                `${number.format(item.dataset.counts[item.dataIndex])} clk (${item.raw.toFixed(1)} %)`}}
-          }
-        }
-      }));
+      const bars = (label, colour, get) => series(label, colour, units.map((unit) => share(get(unit[1]), unit)),
+                                                  {counts: units.map((unit) => get(unit[1]))});
+      charts.push(stackedBars('units', units.map(([name]) => name), [
+        bars('busy', css('--busy'), (unit) => unit.busy),
+        ...stallCauses.map((cause) => bars(`stalled: ${cause.replaceAll('_', ' ')}`, colourOfCause(cause),
+                                           (unit) => unit.stalls[cause] || 0)),
+        bars('idle', css('--idle'), (unit) => unit.idle)
+      ], axis('% of cycles', {max: 100}), {tooltip: {callbacks: {label: (item) => `${item.dataset.label}: ` +
+          `${number.format(item.dataset.counts[item.dataIndex])} clk (${item.raw.toFixed(1)} %)`}}}));
     }
 
     // Latency histogram with its percentiles as lines.
@@ -536,9 +478,8 @@
         },
         options: {
           scales: {
-            x: {grid: {display: false}, title: {display: true, text: `latency, ${latency.unit}`},
-                ticks: latencyTicks, afterBuildTicks: latencyTicks.build},
-            y: {beginAtZero: true, title: {display: true, text: 'transactions'}}
+            x: axis(`latency, ${latency.unit}`, {grid: {display: false}, ticks: latencyTicks, afterBuildTicks: latencyTicks.build}),
+            y: axis('transactions', {beginAtZero: true})
           },
           plugins: {
             legend: {display: false},
@@ -553,7 +494,7 @@
       }));
     }
 
-    if (windows) drawWindows(css);
+    if (windows) drawWindows();
 
     // Bits of the memories: for the width of this frame, beyond it what was built for wider ones,
     // and beyond that copies and filled-up banks.
@@ -564,33 +505,17 @@
       const copied = memories.map(([, m]) => m.physical_bits - m.logical_bits);
       const wider = beyond.some((bits) => bits > 0);
       const copies = copied.some((bits) => bits > 0);
-      const series = (label, colour, values) =>
-          ({label, data: values, backgroundColor: colour, maxBarThickness: 22});
-      charts.push(new Chart(byId('memories'), {
-        type: 'bar',
-        data: {
-          // Whole names are in the table below it: what they all begin with is left out here.
-          labels: horizontal(withoutBeginning(memories.map(([name]) => name)),
-                             'memories-box'),
-          datasets: [series(wider ? 'at this width' : 'logical', css('--busy'), here),
-                     ...(wider ? [series('more, as built', css('--idle'), beyond)] : []),
-                     ...(copies ? [series('copies', css('--warn'), copied)] : [])]
-        },
-        options: {
-          indexAxis: 'y',
-          scales: {
-            x: {stacked: true, beginAtZero: true, title: {display: true, text: 'bits'},
-                ticks: {maxRotation: 0, autoSkipPadding: 12}},
-            y: {stacked: true, grid: {display: false}, ticks: names}
-          },
-          plugins: {legend: {display: wider || copies, position: 'bottom', labels: {boxWidth: 12}}}
-        }
-      }));
+      // Whole names are in the table below it: what they all begin with is left out here.
+      charts.push(stackedBars('memories', withoutBeginning(memories.map(([name]) => name)), [
+        series(wider ? 'at this width' : 'logical', css('--busy'), here),
+        ...(wider ? [series('more, as built', css('--idle'), beyond)] : []),
+        ...(copies ? [series('copies', css('--warn'), copied)] : [])
+      ], axis('bits', {ticks: {maxRotation: 0, autoSkipPadding: 12}}), {legend: {...kLegend, display: wider || copies}}));
     }
   }
 
   // Everything over the windows shares an axis, and a mark at the one that is chosen.
-  function drawWindows(css) {
+  function drawWindows() {
     const cycles = windows.cycles;
     const labels = windows.from.map((from) => number.format(from));
     const mark = {
@@ -620,26 +545,23 @@
           choose(Math.min(labels.length - 1, Math.max(0, i)));
         },
         scales: {
-          x: {offset: true, grid: {display: false}, stacked: more.stacked, title: {display: true, text: 'cycle'},
-              ticks: cycleTicks, afterBuildTicks: cycleTicks.build},
-          y: {beginAtZero: true, stacked: more.stacked, max: more.max, suggestedMax: more.suggestedMax,
-              title: {display: true, text: y}},
+          x: axis('cycle', {offset: true, grid: {display: false}, stacked: more.stacked, ticks: cycleTicks,
+                            afterBuildTicks: cycleTicks.build}),
+          y: axis(y, {beginAtZero: true, stacked: more.stacked, max: more.max, suggestedMax: more.suggestedMax}),
           ...(more.scales || {})
         },
         plugins: {
-          legend: {display: more.legend !== false, position: 'bottom', labels: {boxWidth: 12}},
+          legend: kLegend,
           tooltip: {callbacks: {title: (items) => range(items[0].dataIndex)}}
         }
       },
       plugins: [mark]
     }));
     const colours = [css('--busy'), ...stallColours];
-    const line = (label, colour, values, more = {}) => ({
-      label, data: values, borderColor: colour, backgroundColor: colour, borderWidth: 1.8,
-      pointRadius: labels.length > 60 ? 0 : 2, stepped: 'middle', ...more
+    const line = (label, colour, values, more) => series(label, colour, values, {
+      borderWidth: 1.8, pointRadius: labels.length > 60 ? 0 : 2, stepped: 'middle', ...more
     });
-    const bars = (label, colour, values) =>
-        ({label, data: values, backgroundColor: colour, categoryPercentage: 1, barPercentage: 1});
+    const bars = (label, colour, values) => series(label, colour, values, {categoryPercentage: 1, barPercentage: 1});
     const over = (values, by) => values.map((value, i) => value / by[i]);
 
     const rates = windows.throughput.filter((rate) => rate.key.slice(5) in windows.series.work);
@@ -669,8 +591,8 @@
             .filter(([, bytes]) => bytes && bytes.some((b) => b > 0))
             .map(([what, bytes, k]) => line(`${name}: ${what}, byte/clk`,
                 colours[(3 * i + 1 + k) % colours.length], over(bytes, cycles), {yAxisID: 'bytes'}))
-      ]), 'transactions', {scales: {bytes: {beginAtZero: true, position: 'right', grid: {display: false},
-                                            title: {display: true, text: ['byte/clk', `100 are ${(data.result.clock_mhz / 10).toFixed(1)} GB/s`]}}}});
+      ]), 'transactions', {scales: {bytes: axis(['byte/clk', `100 are ${(data.result.clock_mhz / 10).toFixed(1)} GB/s`],
+                                                {beginAtZero: true, position: 'right', grid: {display: false}})}});
 
     if (links.length === 0) return;
     const name = byId('link').value, link = data.result.links[name], watched = windows.series.links[name];
@@ -686,9 +608,8 @@
              datasets: [bars('clocks', css('--busy'), link.histogram.map((count) => 100 * count / clocks))]},
       options: {
         scales: {
-          x: {grid: {display: false}, title: {display: true, text: `beats inside, of ${link.depth}`},
-              ticks: beatTicks, afterBuildTicks: beatTicks.build},
-          y: {beginAtZero: true, title: {display: true, text: '% of clocks'}}
+          x: axis(`beats inside, of ${link.depth}`, {grid: {display: false}, ticks: beatTicks, afterBuildTicks: beatTicks.build}),
+          y: axis('% of clocks', {beginAtZero: true})
         },
         plugins: {
           legend: {display: false},

@@ -17,7 +17,7 @@
 #include "tb/run/amount.h"
 #include "tool/pages/build_info.h"
 #include "tool/pages/embedded.h"
-#include "tool/pages/page_template.h"
+#include "tool/pages/page.h"
 #include "tool/pages/report.h"
 #include "tool/regress/junit.h"
 #include "tool/regress/regression_result.h"
@@ -284,21 +284,19 @@ void tell_whole(const Json& whole, mustache::data& page) {
   page.set("unmet", unmet);
 }
 
-mustache::data row_of(const Json& feature) {
+mustache::data data_of(const Json& feature, HtmlTable& rates) {
   const auto count = [&](const char* key) { return feature.at(key).get<std::uint64_t>(); };
-  mustache::data row;
-  row.set("id", feature.at("id").get<std::string>());
-  row.set("title", feature.at("title").get<std::string>());
-  row.set("holds", feature.at("holds").get<bool>());
-  for (const char* key : {"runs", "passed", "failed", "missing"}) row.set(key, grouped(count(key)));
-  row.set("rate", percent(count("passed"), count("runs")));
+  const auto text = [&](const char* key) { return grouped(count(key)); };
+  mustache::data data;
+  const auto title = feature.at("title").get<std::string>();
+  data.set("title", title);
+  data.set("holds", feature.at("holds").get<bool>());
   std::uint64_t bins = 0, hit = 0, all_checks = 0, met = 0;
   for (const char* list : {"checks", "coverage"})
     for (const Json& check : feature.at(list)) {
       ++all_checks;
       met += check.at("met").get<bool>() ? 1 : 0;
     }
-  row.set("checks_met", fmt::format("{} of {}", met, all_checks));
   mustache::data traces{mustache::data::type::list}, checks{mustache::data::type::list};
   for (const Json& trace : feature.at("traces")) traces << trace.get<std::string>();
   for (const Json& check : feature.at("checks")) {
@@ -314,12 +312,18 @@ mustache::data row_of(const Json& feature) {
     bins += covered.at("bins").get<std::uint64_t>();
     hit += covered.at("hit").get<std::uint64_t>();
   }
-  row.set("covered", bins == 0 ? "-" : fmt::format("{} of {}", grouped(hit), grouped(bins)));
-  row.set("traces", traces);
-  row.set("has_checks", all_checks > 0);
-  row.set("checks", checks);
-  row.set("coverage", data_of_coverage(feature.at("coverage")));
-  return row;
+  data.set("traces", traces);
+  data.set("has_checks", all_checks > 0);
+  data.set("checks", checks);
+  data.set("coverage", data_of_coverage(feature.at("coverage")));
+  rates.row(
+      {HtmlCell(title).add(" <span class=\"muted\">" +
+                           mustache::html_escape(feature.at("id").get<std::string>()) + "</span>"),
+       text("runs"), text("passed"), text("failed"), text("missing"),
+       percent(count("passed"), count("runs")), fmt::format("{} of {}", met, all_checks),
+       bins == 0 ? "-" : fmt::format("{} of {}", grouped(hit), grouped(bins))},
+      feature.at("holds").get<bool>() ? "" : "broken");
+  return data;
 }
 
 // "9 of 12 runs passed, 3 failed; 1 of 5 checks failed; 2 bins of their coverage were not met"
@@ -357,45 +361,42 @@ mustache::data card_of(const Json& bucket) {
 
 // Of the last nights; the drawing has them all.
 void tell_trend(const std::vector<Night>& nights, mustache::data& page) {
-  mustache::data rows{mustache::data::type::list};
+  HtmlTable rows(
+      "Night|Base seed|Commit:mono|Runs:n|Rate:n|Bins met:n|Seconds:n|Thousand clocks a second:n|"
+      "Worse than before");
   const std::size_t shown = std::min(nights.size(), kMostNights);
   for (std::size_t i = nights.size(); i > nights.size() - shown; --i) {
     const Night& night = nights[i - 1];
     const std::vector<std::string> falls =
         i > 1 ? falls_between(nights[i - 2], night) : std::vector<std::string>();
-    mustache::data row;
-    row.set("date", night.date);
-    row.set("seed", fmt::format("{}", night.seed));
-    row.set("commit", night.commit.substr(0, kCommitDigits));
-    row.set("runs", grouped(night.runs));
-    row.set("rate", percent(night.passed, night.runs));
-    row.set("met", fmt::format("{} of {}", grouped(night.met), grouped(night.bins)));
-    row.set("seconds", grouped(static_cast<std::uint64_t>(night.seconds)));
-    row.set("speed", grouped(static_cast<std::uint64_t>(night.clocks_a_second() / 1e3)));
-    row.set("fell", !falls.empty());
-    row.set("falls", fmt::format("{}", fmt::join(falls, "; ")));
-    rows << row;
+    rows.row({night.date, std::to_string(night.seed), night.commit.substr(0, kCommitDigits),
+              grouped(night.runs), percent(night.passed, night.runs),
+              fmt::format("{} of {}", grouped(night.met), grouped(night.bins)),
+              grouped(static_cast<std::uint64_t>(night.seconds)),
+              grouped(static_cast<std::uint64_t>(night.clocks_a_second() / 1e3)),
+              fmt::format("{}", fmt::join(falls, "; "))},
+             falls.empty() ? "" : "broken");
   }
   page.set("has_trend", nights.size() > 1);
   page.set("nights", grouped(nights.size()));
-  page.set("trend", rows);
+  page.set("trend", rows.html());
 }
 
 std::string page_of(const Json& json, const std::vector<Night>& nights) {
   mustache::data page;
-  page.set("style", std::string(embedded::style_css()));
-  page.set("chart_js", embedded::charts());
-  page.set("copy_js", std::string(embedded::copy_js()));
-  page.set("regression_js", std::string(embedded::regression_js()));
-  for (const char* key : {"title", "version", "commit"})
-    page.set(key, json.at(key).get<std::string>());
-  page.set("base_seed", fmt::format("{}", json.at("base_seed").get<std::uint64_t>()));
+  page.set("script", std::string(embedded::regression_js()));
+  page.set("title", json.at("title").get<std::string>());
+  page.set("brand", fmt::format("regression \u00b7 base seed {}",
+                                json.at("base_seed").get<std::uint64_t>()));
   const auto count = [&](const char* key) {
     return json.at("counts").at(key).get<std::uint64_t>();
   };
-  for (const char* key : {"runs", "passed", "failed", "missing"})
-    page.set(key, grouped(count(key)));
-  page.set("rate", percent(count("passed"), count("runs")));
+  const auto text = [&](const char* key) { return grouped(count(key)); };
+  page.set("tiles", html_of({{"Runs", text("runs")},
+                             {"Passed", text("passed")},
+                             {"Failed", text("failed")},
+                             {"Missing", text("missing")},
+                             {"Pass rate", percent(count("passed"), count("runs"))}}));
   const bool holds = json.at("holds").get<bool>();
   page.set("verdict", std::string(holds ? "PASSED" : "FAILED"));
   page.set("badge", std::string(holds ? "pass" : "fail"));
@@ -405,8 +406,9 @@ std::string page_of(const Json& json, const std::vector<Night>& nights) {
   Json drawn = Json::array();
   mustache::data features{mustache::data::type::list}, buckets{mustache::data::type::list},
       coverage{mustache::data::type::list};
+  HtmlTable rates("Feature|Runs:n|Passed:n|Failed:n|Missing:n|Rate:n|Checks:n|Bins:n");
   for (const Json& feature : json.at("features")) {
-    features << row_of(feature);
+    features << data_of(feature, rates);
     drawn.push_back({{"id", feature.at("id")},
                      {"passed", feature.at("passed")},
                      {"failed", feature.at("failed")},
@@ -424,6 +426,7 @@ std::string page_of(const Json& json, const std::vector<Night>& nights) {
     coverage << entry;
   }
   page.set("features", features);
+  page.set("rates", rates.html());
   page.set("has_buckets", !json.at("buckets").empty());
   page.set("buckets", buckets);
   page.set("coverage", coverage);

@@ -20,7 +20,7 @@
 #include "tool/pages/build_info.h"
 #include "tool/pages/compare_sweeps.h"
 #include "tool/pages/embedded.h"
-#include "tool/pages/page_template.h"
+#include "tool/pages/page.h"
 #include "tool/pages/report.h"
 
 namespace deburr::tb {
@@ -435,22 +435,14 @@ std::string cell_text(const Json& value) {
 constexpr std::size_t kMostRows = 200;
 
 void set_table(const Json& json, mustache::data& page) {
-  mustache::data columns{mustache::data::type::list}, rows{mustache::data::type::list};
-  const auto add_to = [](mustache::data& list, const char* key, const std::string& text,
-                         bool metric, const std::string& reason = "") {
-    mustache::data entry;
-    entry.set(key, text);
-    entry.set("metric", metric);
-    if (!reason.empty()) entry.set("reason", reason);
-    list << entry;
-  };
-  for (const Json& axis : json.at("axes"))
-    add_to(columns, "title", axis.at("name").get<std::string>(), false);
+  HtmlTable table("");
+  for (const Json& axis : json.at("axes")) table.column(axis.at("name").get<std::string>());
   for (const Json& metric : json.at("metrics")) {
     const auto unit = metric.at("unit").get<std::string>();
-    add_to(columns, "title",
-           metric.at("name").get<std::string>() + (unit.empty() ? "" : " (" + unit + ")"), true);
+    table.column(metric.at("name").get<std::string>() + (unit.empty() ? "" : " (" + unit + ")"),
+                 "n");
   }
+  table.column("Point");
   std::vector<const Json*> points;
   for (const Json& point : json.at("points")) points.push_back(&point);
   std::stable_partition(points.begin(), points.end(),
@@ -459,57 +451,50 @@ void set_table(const Json& json, mustache::data& page) {
   if (cut) points.resize(kMostRows);
   const fs::path folder = json.at("points_directory").get<std::string>();
   for (const Json* point : points) {
-    mustache::data row, cells{mustache::data::type::list};
-    for (const Json& value : point->at("at")) add_to(cells, "text", cell_text(value), false);
+    std::vector<HtmlCell> cells;
+    for (const Json& value : point->at("at")) cells.emplace_back(cell_text(value));
     const Json identical = point->value("identical", Json::array());
     const Json none = point->value("no_value", Json::object());
     for (std::size_t i = 0; i < json.at("metrics").size(); ++i) {
       const auto metric = json.at("metrics")[i].at("name").get<std::string>();
       const bool same = std::find(identical.begin(), identical.end(), metric) != identical.end();
-      const std::string reason = none.value(metric, "");
-      add_to(cells, "text",
-             same              ? "identical"
-             : !reason.empty() ? "none"
-                               : cell_text(point->at("values")[i]),
-             true, reason);
+      cells.emplace_back(same                    ? "identical"
+                         : none.contains(metric) ? "none"
+                                                 : cell_text(point->at("values")[i]));
+      cells.back().tip = none.value(metric, "");
     }
     const auto name = point->at("name").get<std::string>();
     const auto state = point->at("state").get<std::string>();
-    row.set("cells", cells);
-    row.set("kind", std::string(point->contains("front")    ? "front"
-                                : point->contains("beyond") ? "beyond"
-                                : state == "failed"         ? state
-                                                            : ""));
-    row.set("has_result", state == "done");
-    row.set("result", (point_directory(folder, name) / "result.json").string());
-    row.set("name", name.substr(0, 8));
-    row.set("note",
-            state + (point->contains("failure")  ? ": " + cell_text(point->at("failure"))
-                     : point->contains("beyond") ? ", beyond " + cell_text(point->at("beyond"))
-                                                 : ""));
-    rows << row;
+    cells.push_back(
+        state == "done"
+            ? HtmlCell::link((point_directory(folder, name) / "result.json").string(),
+                             name.substr(0, 8))
+            : state + (point->contains("failure") ? ": " + cell_text(point->at("failure")) : ""));
+    table.row(cells, point->contains("front")    ? "front"
+                     : point->contains("beyond") ? "beyond"
+                     : state == "failed"         ? state
+                                                 : "");
   }
-  page.set("columns", columns);
-  page.set("rows", rows);
+  page.set("rows", table.html(R"(class="scroll tall")"));
   page.set("is_cut", cut);
   page.set("rows_shown", grouped(points.size()));
 }
 
 std::string page_of(const Json& json) {
   mustache::data page;
-  page.set("style", std::string(embedded::style_css()));
-  page.set("chart_js", embedded::charts());
-  page.set("sweep_js", std::string(embedded::sweep_js()));
+  page.set("script", std::string(embedded::sweep_js()));
   page.set("title", json.at("title").get<std::string>());
-  page.set("engine", json.at("engine").get<std::string>());
-  page.set("version", json.at("version").get<std::string>());
-  page.set("commit", json.at("commit").get<std::string>());
+  page.set("brand", "sweep \u00b7 " + json.at("engine").get<std::string>());
   page.set("data", json_for_script(json));
   const auto count = [&](const char* key) {
     return grouped(json.at("counts").at(key).get<std::uint64_t>());
   };
-  for (const char* key : {"points", "done", "failed", "missing", "front"})
-    page.set(key, count(key));
+  page.set("points", count("points"));
+  page.set("tiles", html_of({{"Points", count("points")},
+                             {"Done", count("done")},
+                             {"Failed", count("failed")},
+                             {"Missing", count("missing")},
+                             {"On the front", count("front")}}));
   page.set("is_partial", json.at("counts").at("done") != json.at("counts").at("points"));
   page.set("has_objectives", !json.at("objectives").empty());
   const bool has_limits = json.contains("limits");

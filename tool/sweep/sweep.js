@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 'use strict';
 (() => {
-  const data = JSON.parse(document.getElementById('data').textContent);
-  const byId = (id) => document.getElementById(id);
-  const style = getComputedStyle(document.documentElement);
-  const ink = style.getPropertyValue('--ink').trim(), muted = style.getPropertyValue('--muted').trim();
-  const rule = style.getPropertyValue('--rule').trim(), accent = style.getPropertyValue('--accent').trim();
+  const ink = css('--ink'), muted = css('--muted'), rule = css('--rule'), accent = css('--accent');
   const kMostRows = 200, kMostLines = 3000;
 
   // A column is an axis or a metric of all points.
@@ -31,30 +27,8 @@
   // Why a point that is done has no value of a metric.
   const noValue = (p, i) => p.no_value?.[data.metrics[i].name];
   const columnOf = (name) => columns.find((c) => c.name === name);
-  function shown(value) {
-    if (value === null || value === undefined) return '';
-    if (typeof value === 'string') return value;
-    if (value === Infinity) return 'identical';
-    if (Number.isInteger(value)) return value.toLocaleString('en-US');
-    return Math.abs(value) >= 1000 ? Math.round(value).toLocaleString('en-US')
-                                   : String(Number(value.toPrecision(4)));
-  }
   const titled = (c) => c.unit ? `${c.name} (${c.unit})` : c.name;
   const done = data.points.filter((p) => p.state === 'done');
-  const element = (tag, text, parent, className) => {
-    const made = document.createElement(tag);
-    if (text !== undefined) made.textContent = text;
-    if (className) made.className = className;
-    if (parent) parent.append(made);
-    return made;
-  };
-
-  // By a click, or by Enter where the keyboard is.
-  function pressable(item, act) {
-    item.tabIndex = 0;
-    item.addEventListener('click', act);
-    item.addEventListener('keydown', (event) => { if (event.key === 'Enter') act(); });
-  }
 
   // ---- one point ----
   const quoted = (word) =>
@@ -109,17 +83,6 @@
     data.objectives.map((o) => `${o.maximise ? 'most' : 'least'} ${o.metric}`).join(', ') +
     (data.for_each.length > 0 ? `, a front for each ${data.for_each.join(', ')}` : '') +
     (limits.length > 0 ? `; limits: ${limits.join(', ')}` : '');
-  Chart.defaults.color = muted;
-  Chart.defaults.borderColor = rule;
-  Chart.defaults.animation = false;
-  let scatter = null;
-  // An identical picture is drawn beyond all that have a number.
-  function placer(column) {
-    const values = done.map(column.value).filter(Number.isFinite);
-    const low = Math.min(...values), high = Math.max(...values);
-    const beyond = values.length > 0 ? high + ((high - low) * 0.08 || 1) : 1;
-    return (p) => column.value(p) === Infinity ? beyond : column.value(p);
-  }
   // The fronts, one for each circumstance that points must agree in, by what tells them apart.
   const frontAxes = data.for_each.map((name) => data.axes.findIndex((axis) => axis.name === name));
   const fronts = new Map();
@@ -147,7 +110,11 @@
     const x = columnOf(byId('across').value), y = columnOf(byId('up').value);
     const colour = columnOf(byId('colour').value);
     const groups = colour.labels.length <= palette.length ? colour.labels : [];
-    const across = placer(x), up = placer(y);
+    const place = (column) => {
+      const at = placer(done.map(column.value));
+      return (p) => at(column.value(p));
+    };
+    const across = place(x), up = place(y);
     const sets = (groups.length > 0 ? groups : [null]).map((label, i) => {
       const points = done.filter((p) => label === null || p.at[colour.axis] === label)
         .filter((p) => !Number.isNaN(x.value(p)) && !Number.isNaN(y.value(p)));
@@ -166,30 +133,13 @@
       `Not drawn: ${missing} of ${done.length} points, which have no value here.`;
     const lines = linesOfFronts(x, y, across, up, colour, groups);
     sets.push(...lines);
-    scatter?.destroy();
-    const scale = (column) => ({
-      title: {display: true, text: titled(column), color: ink},
-      ticks: {callback: (v) => column.numeric ? shown(v) : column.labels[v] ?? ''},
-    });
-    scatter = new Chart(byId('scatter'), {
-      type: 'scatter',
-      data: {datasets: sets},
-      options: {
-        maintainAspectRatio: false,
-        scales: {x: scale(x), y: scale(y)},
-        onClick: (_, items) => {
-          if (items.length > 0) choose(sets[items[0].datasetIndex].data[items[0].index].point);
-        },
-        plugins: {
-          legend: {display: groups.length > 1 || lines.length > 1, labels: {boxWidth: 12}},
-          tooltip: {callbacks: {label: (item) => {
-            const p = item.raw.point;
-            return [`${x.name} ${x.text(p)}, ${y.name} ${y.text(p)}`,
-                    ...data.axes.map((a, i) => `${a.name} = ${p.at[i]}`)];
-          }}},
-        },
-      },
-    });
+    const scale = (column) => [titled(column), (v) => column.numeric ? shown(v) : column.labels[v] ?? ''];
+    scatterOf('scatter', sets, scale(x), scale(y), {display: groups.length > 1 || lines.length > 1, labels: {boxWidth: 12}},
+              ({raw: {point: p}}) => [`${x.name} ${x.text(p)}, ${y.name} ${y.text(p)}`,
+                                      ...data.axes.map((a, i) => `${a.name} = ${p.at[i]}`)],
+              (_, items) => {
+                if (items.length > 0) choose(sets[items[0].datasetIndex].data[items[0].index].point);
+              });
   }
 
   // ---- main effects ----
@@ -222,9 +172,8 @@
           effect.means.map(([label, mean]) => `${label}: ${shown(mean)}`).join(', '));
       effectCharts.push(new Chart(canvas, {
         type: 'line',
-        data: {labels: effect.means.map((m) => m[0]),
-               datasets: [{data: means, borderColor: accent, backgroundColor: accent, pointRadius: 3}]},
-        options: {maintainAspectRatio: false, plugins: {legend: {display: false}},
+        data: {labels: effect.means.map((m) => m[0]), datasets: [series(name, accent, means)]},
+        options: {plugins: {legend: {display: false}},
                   scales: {y: {min: low - margin, max: high + margin,
                                ticks: {maxTicksLimit: 6, includeBounds: false, callback: (v) => shown(v)}}}},
       }));
@@ -234,42 +183,29 @@
 
   // ---- filters and table ----
   const filters = new Map();  // axis -> label
-  let onlyFront = false, onlyWithin = false, states = new Set(['done', 'failed', 'missing', 'running']);
+  const kStates = ['done', 'failed', 'missing', 'running'];
+  let onlyFront = false, onlyWithin = false, states = new Set(kStates);
   let sortBy = null, descending = false;
   const bar = byId('filters');
-  for (const column of columns.filter((c) => c.axis !== undefined && c.labels.length > 1 && c.labels.length <= 100)) {
-    const label = element('label', column.name + ' ', bar);
-    const select = element('select', undefined, label);
-    select.add(new Option('all', ''));
-    for (const value of column.labels) select.add(new Option(value, value));
-    select.addEventListener('change', () => {
-      if (select.value === '') filters.delete(column.axis); else filters.set(column.axis, select.value);
-      drawTable();
-      drawParallel();
+  function filter(name, values, act) {
+    const select = element('select', undefined, element('label', name + ' ', bar));
+    for (const value of ['', ...values]) select.add(new Option(value || 'all', value));
+    select.addEventListener('change', () => { act(select.value); drawTable(); drawParallel(); });
+  }
+  for (const column of columns.filter((c) => c.axis !== undefined && c.labels.length > 1 && c.labels.length <= 100))
+    filter(column.name, column.labels, (value) => {
+      if (value === '') filters.delete(column.axis); else filters.set(column.axis, value);
     });
-  }
-  const stateSelect = element('select', undefined, element('label', 'state ', bar));
-  for (const state of ['all', 'done', 'failed', 'missing', 'running']) stateSelect.add(new Option(state, state));
-  stateSelect.addEventListener('change', () => {
-    states = new Set(stateSelect.value === 'all' ? ['done', 'failed', 'missing', 'running'] : [stateSelect.value]);
-    drawTable();
-    drawParallel();
-  });
-  if (goals.length > 0) {
-    const label = element('label', undefined, bar);
-    const box = element('input', undefined, label);
+  filter('state', kStates, (value) => { states = new Set(value === '' ? kStates : [value]); });
+  function only(name, act) {
+    const label = element('label', undefined, bar), box = element('input', undefined, label);
     box.type = 'checkbox';
-    label.append(' front only');
-    box.addEventListener('change', () => { onlyFront = box.checked; drawTable(); drawParallel(); });
+    label.append(` ${name} only`);
+    box.addEventListener('change', () => { act(box.checked); drawTable(); drawParallel(); });
+    return label;
   }
-  if (limits.length > 0) {
-    const label = element('label', undefined, bar);
-    const box = element('input', undefined, label);
-    box.type = 'checkbox';
-    label.append(' within limits only');
-    label.title = limits.join(', ');
-    box.addEventListener('change', () => { onlyWithin = box.checked; drawTable(); drawParallel(); });
-  }
+  if (goals.length > 0) only('front', (checked) => { onlyFront = checked; });
+  if (limits.length > 0) only('within limits', (checked) => { onlyWithin = checked; }).title = limits.join(', ');
   const passing = () => data.points.filter((p) => states.has(p.state) && (!onlyFront || p.front) &&
     (!onlyWithin || (p.state === 'done' && !p.beyond)) &&
     [...filters].every(([axis, label]) => p.at[axis] === label));

@@ -445,8 +445,7 @@ TEST_F(Runs, AreOnAPageInTheirForms) {
          {"cells", {cell("a", "", ""), cell(true, "", ""), cell(12345, "x", "")}}}}}};
   EXPECT_EQ(words(comparison_page(all)), R"page(
 Deburr &middot;
-comparison of runs &middot;
-texture
+comparison of runs · texture
 Arun, Brun, Crun|badge fail|worse
 Look.
 Parameters|Figures|Pictures|Values|Commands
@@ -643,8 +642,7 @@ TEST_F(Sweeps, AreOnAPageInTheirForms) {
   for (Json& each : all["sweeps"]) each["path"] = "out/" + each["name"].get<std::string>();
   EXPECT_EQ(words(comparison_page(all)), R"page(
 Deburr &middot;
-comparison of sweeps &middot;
-texture
+comparison of sweeps · texture
 A, B|badge fail|worse
 Parameters|Points in all|Fronts|Matched points|Points not in all
 Directory|What it is

@@ -14,6 +14,7 @@ inline std::string words(std::string page) {
     page = std::regex_replace(page, std::regex(what), by);
   };
   page.erase(0, page.find("<body>"));
+  replaced("<wbr>", "");
   page.erase(page.find("<footer"));
   replaced("<(script|noscript|select|button)\\b[^>]*>[^<]*</\\1>", "");
   replaced("<(tr|h1|h2|h3|p|pre|figure|div class=\"tile\\b|a href=\"#checks)", "\n<$1");

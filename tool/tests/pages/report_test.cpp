@@ -282,6 +282,7 @@ Name|Kind|Value|Default|Range|Unit|Meaning
 changed|cache.ways|build|4|2|1..8|way|Ways.
 rate|run|8|8|1..9|byte/clk, 1.6 GB/s|Rate.
 Made by
+What|Value
 version|1.2
 commit|abc
 compiler|gcc

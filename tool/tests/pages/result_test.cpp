@@ -597,7 +597,7 @@ TEST_F(Page, ShowsWhatTheIssueAsksForFirst) {
   EXPECT_THAT(page, Not(HasSubstr("silhouette pixels"))) << "there was no depth";
   EXPECT_THAT(
       page,
-      HasSubstr("<td class=\"label\">cache_lines</td><td>flops</td><td class=\"n\">80 x 64</td>"
+      HasSubstr("<td class=\"name\">cache_<wbr>lines</td><td>flops</td><td class=\"n\">80 x 64</td>"
                 "<td>2R1W</td><td class=\"n\">1</td><td>2 copies of 1R1W</td>"
                 "<td class=\"n\">1,280</td><td class=\"n\">5,120</td>"));
   EXPECT_THAT(page, HasSubstr("<td>total</td><td class=\"n\">2</td><td class=\"n\">132,352</td>"
@@ -683,7 +683,7 @@ TEST_F(Page, CanBeMadeFromAnOlderResult) {
   json.erase("change");
   std::ofstream(path_ / "result.json") << json.dump();
   const std::string page = build_report(path_);
-  EXPECT_THAT(page, HasSubstr("<td class=\"label\">cache_lines</td><td>flops</td>"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"name\">cache_<wbr>lines</td><td>flops</td>"));
   EXPECT_THAT(page, Not(HasSubstr("Key figures")));
   EXPECT_THAT(page, Not(HasSubstr("FLIP, less is better")));
   EXPECT_THAT(page, Not(HasSubstr("What was changed")));

@@ -30,7 +30,7 @@ FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-ne
          "--hide-scrollbars", "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr"]
 PHONE, DESKTOP = 390, 1280  # wide
 SCREEN = 844  # the height of a phone
-LIGHT, DARK = "rgb(246, 245, 242)", "rgb(19, 21, 24)"  # --page of report_style.css
+LIGHT, DARK = "rgb(246, 245, 242)", "rgb(19, 21, 24)"  # --page of page.css
 
 # Runs in the page, and tells the page around it.
 PROBE = """
@@ -42,10 +42,12 @@ const probe_page = async () => {
   const root = document.documentElement;
   const label = (c) => c.getAttribute('aria-label') ?? '';
   const wide = [...document.querySelectorAll('body *')].filter((e) => e.getClientRects().length > 0 &&
-      e.getBoundingClientRect().right > root.clientWidth + 1 && !e.closest('.scroll, .points-table, .window') &&
+      e.getBoundingClientRect().right > root.clientWidth + 1 && !e.closest('.scroll, .window') &&
       !e.matches('.strip img'))  // whose boxes hide what is beyond them
       .map((e) => `${e.tagName} ${e.id} ${e.className}`).slice(0, 5);
+  const strips = [];  // whether the left and right edges of the picture viewer at Fit are of the pictures
   const told = {
+    strips,
     width: root.clientWidth, needs: root.scrollWidth, wide,
     canvases: [...document.querySelectorAll('canvas')].map((c) => [c.id, label(c), c.getAttribute('role')]),
     page: getComputedStyle(document.body).backgroundColor,
@@ -53,7 +55,9 @@ const probe_page = async () => {
     // Colours of each canvas; of one that shows a file, which no script may read, -1.
     drawn: [...document.querySelectorAll('canvas')].filter((c) => c.getClientRects().length > 0 && c.width > 0).map((c) => {
       try {
-        return [c.id, new Set(new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer)).size];
+        const pixels = new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer);
+        if (c.id === 'view') strips.push([1, c.width - 2].map((x) => pixels[c.width * (c.height >> 1) + x] >>> 24 === 255));
+        return [c.id, new Set(pixels).size];
       } catch { return [c.id, -1]; }
     }),
     height: document.body.scrollHeight,
@@ -67,6 +71,14 @@ const probe_page = async () => {
     // Steps of a pixel may be as long as they like.
     cut: [...document.querySelectorAll('.scroll:not(.tall)')].filter((e) => e.scrollWidth > e.clientWidth + 1)
         .map((e) => e.innerText.slice(0, 40)),
+    // Words on two lines; paths and hashes end where there is no more room.
+    torn: [...document.querySelectorAll('h1, h2, h3, p, td, th, figcaption, summary, .tile *')].filter((e) => !e.closest('.anywhere, .reason'))
+        .flatMap((e) => [...e.childNodes]).filter((n) => n.nodeType === 3).flatMap((n) => [...n.data.matchAll(/[A-Za-z]{2,}/g)].filter((m) => {
+          const range = document.createRange();
+          range.setStart(n, m.index);
+          range.setEnd(n, m.index + m[0].length);
+          return new Set([...range.getClientRects()].map((box) => Math.round(box.top))).size > 1;
+        }).map((m) => `${m[0]} of ${n.parentElement.innerText.slice(0, 60)}`)),
     colours: typeof Chart === 'undefined' ? [] : [Chart.defaults.color, getComputedStyle(root).getPropertyValue('--muted').trim()],
     stills: [...document.querySelectorAll('.strip img')].map((e) => {
       const box = e.parentElement.getBoundingClientRect(), own = e.getBoundingClientRect();
@@ -202,6 +214,9 @@ class PagesTest(unittest.TestCase):
             self.assertIn(role, ("img", "application"), name)
         self.assertEqual(told["empty"], [], title)
         self.assertEqual(told["joined"], [], f"{title}: headlines that run together")
+        self.assertEqual(told["torn"], [], f"{title}: words that are broken")
+        for edges in told["strips"] + desktop["strips"]:
+            self.assertEqual(edges, [True, True], f"{title}: strips beside the pictures")
         self.assertLessEqual(len(set(told["colours"])), 1, f"{title}: words of charts in another colour than the page's")
         with open(self.path(page), encoding="utf-8") as file:
             text = file.read()
@@ -479,7 +494,7 @@ class Sweeps(PagesTest):
         # Without a script there is a table of all points.
         with open(self.path(page), encoding="utf-8") as file:
             without = "".join(re.findall(r"<noscript>(.*?)</noscript>", file.read(), re.S))
-        self.assertEqual(without.count("<tr class="), 18)
+        self.assertEqual(without.count("<tr"), 1 + 18)
         # Those beyond a limit look like no other.
         with open(self.path(f"{directory}/collected.json"), encoding="utf-8") as file:
             bits = sorted(point["values"][1] for point in json.load(file)["points"])

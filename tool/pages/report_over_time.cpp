@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "spec/error.h"
+#include "tb/base/file.h"
+#include "tb/base/json_text.h"
+#include "tb/run/amount.h"
+#include "tool/pages/report_parts.h"
+
+namespace deburr::tb {
+namespace {
+
+namespace fs = std::filesystem;
+namespace mustache = kainjow::mustache;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMaxWindowsBytes = 64u << 20;
+
+}  // namespace
+
+Json fill_over_time(const ReportSource& source, mustache::data& page) {
+  const std::string name = source.manifest.value("records", Json::object()).value("windows", "");
+  page.set("has_windows", !name.empty());
+  if (name.empty()) return Json();
+  reject_path(source.directory, name);
+  const fs::path file = source.directory / name;
+  Json windows = try_parse_json(read_file(file, kMaxWindowsBytes));
+  const auto demand = [&](bool valid) {
+    if (!valid)
+      throw spec::FileError(fmt::format("'{}' is not a valid file of windows", file.string()));
+  };
+  demand(windows.is_object() && windows.contains("series"));
+  Json& series = windows["series"];
+  const std::size_t count = windows["from"].size();
+  const auto column = [&](const Json& values) {
+    demand(values.is_array() && values.size() == count);
+    for (const Json& value : values) demand(value.is_number_unsigned());
+    return values.get<std::vector<std::uint64_t>>();
+  };
+  const std::vector<std::uint64_t> from = column(windows["from"]),
+                                   cycles = column(windows["cycles"]);
+  page.set("windows_note",
+           fmt::format("{} windows of {} cycles{}.", grouped(from.size()),
+                       report_text(windows["window_cycles"]),
+                       windows["window_cycles"] == windows["asked_cycles"]
+                           ? ""
+                           : fmt::format("; {} were asked for, which would be too many windows",
+                                         report_text(windows["asked_cycles"]))));
+  windows["command"] = without_options(source.manifest.value("command", ""),
+                                       {"--trace", "--trace-from", "--trace-to"});
+  page.set("windows_command", windows["command"].get<std::string>());
+
+  // A rate is a series over cycles.
+  std::vector<std::vector<std::uint64_t>> columns;
+  HtmlTable table("Cycles", "narrow");
+  Json kept = Json::object();
+  for (const Json& rate : windows["throughput"]) {
+    const std::string key = rate.value("key", "");
+    const std::string counter = key.substr(key.find('.') + 1);
+    if (!series["work"].contains(counter)) continue;
+    kept[counter] = series["work"][counter];
+    columns.push_back(column(kept[counter]));
+    table.column(rate.value("label", "") + ", " + rate.value("unit", ""), "n");
+  }
+  const Json of_ports = series.value("ports", Json::object());
+  for (const auto& [port, values] : of_ports.items()) {
+    columns.push_back(column(values.value("outstanding", Json())));
+    table.column(port + ": in flight, mean", "n");
+    for (const char* bytes : {"_bytes_read", "_bytes_written"})
+      if (series["work"].contains(port + bytes)) kept[port + bytes] = series["work"][port + bytes];
+  }
+  series["work"] = kept;  // the page needs no more of them
+  windows.erase("units");
+  page.set("has_ports", !of_ports.empty());
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::vector<HtmlCell> cells{
+        HtmlCell::link(fmt::format("#window-{}", i),
+                       fmt::format("{} to {}", grouped(from[i]), grouped(from[i] + cycles[i])))};
+    for (const std::vector<std::uint64_t>& counts : columns)
+      cells.emplace_back(fmt::format(
+          "{:.3f}", static_cast<double>(counts.at(i)) / static_cast<double>(cycles[i])));
+    table.row(cells);
+  }
+  page.set("windows", table.html());
+
+  HtmlTable links(
+      "Link:name|Of waves:name mono muted|Depth:n|Beats:n|Mean:n|Most:n|Full, % of clocks:n");
+  const Json of_links = source.result.value("links", Json::object());
+  for (const auto& [link, figures] : of_links.items())
+    links.row({link, figures.value("link", ""), report_text(figures, "depth"),
+               report_text(figures, "beats"), fmt::format("{:.2f}", number(figures, "mean")),
+               report_text(figures, "most"),
+               fmt::format("{:.1f}", number(figures, "full_percent"))});
+  page.set("links", links.html());
+  return windows;
+}
+
+}  // namespace deburr::tb
