@@ -3,7 +3,7 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 std::string filled_page(std::string_view page_template, std::string_view name,
                         const kainjow::mustache::data& values) {
@@ -12,4 +12,4 @@ std::string filled_page(std::string_view page_template, std::string_view name,
   return page.render(values);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

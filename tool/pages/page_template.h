@@ -7,10 +7,10 @@
 #include <string>
 #include <string_view>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // `name` is the file of the template, for what is said of one that is not valid.
 std::string filled_page(std::string_view page_template, std::string_view name,
                         const kainjow::mustache::data& values);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -24,7 +24,11 @@
 #include "tool/pages/input_files.h"
 #include "tool/pages/page_template.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::amount;
+using tb::grouped;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -41,7 +45,7 @@ std::string report_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
   if (value.is_null()) return "-";
-  return json_text(value);
+  return tb::json_text(value);
 }
 
 mustache::data row(std::initializer_list<std::pair<const char*, std::string>> cells) {
@@ -62,12 +66,13 @@ double number(const Json& json, const char* key) {
 }
 
 std::string two_digits(const Json& value) {
-  if (is_infinite(value)) return "identical";
+  if (tb::is_infinite(value)) return "identical";
   return value.is_number() ? fmt::format("{:.2f}", value.get<double>()) : "-";
 }
 
 std::string gain_of(const Json& before, const Json& after, int digits = 2) {
-  if (!before.is_number() || !after.is_number() || is_infinite(before) || is_infinite(after))
+  if (!before.is_number() || !after.is_number() || tb::is_infinite(before) ||
+      tb::is_infinite(after))
     return "-";
   return fmt::format("{:+.{}f}", after.get<double>() - before.get<double>(), digits);
 }
@@ -91,7 +96,7 @@ std::pair<std::uint64_t, std::uint64_t> png_size(const std::string& bytes) {
 
 Json read_manifest(const fs::path& directory) {
   const fs::path file = directory / "manifest.json";
-  Json manifest = try_parse_json(read_file(file, kMaxManifestBytes));
+  Json manifest = tb::try_parse_json(tb::read_file(file, kMaxManifestBytes));
   if (!manifest.is_object())
     throw spec::FileError(fmt::format("'{}' is not a valid manifest", file.string()));
   return manifest;
@@ -113,9 +118,10 @@ class ReportBuilder {
     page_.set("chart_js", embedded::charts());
     page_.set("copy_js", std::string(embedded::copy_js()));
     page_.set("report_js", std::string(embedded::report_js()));
-    page_.set("data", fmt::format(R"({{"result":{},"windows":{},"maps":{},"map_colours":{}}})",
-                                  json_for_script(result_), json_for_script(windows_),
-                                  json_for_script(maps_), json_for_script(Json(map_colours()))));
+    page_.set("data",
+              fmt::format(R"({{"result":{},"windows":{},"maps":{},"map_colours":{}}})",
+                          json_for_script(result_), json_for_script(windows_),
+                          json_for_script(maps_), json_for_script(Json(tb::map_colours()))));
     return filled_page(embedded::report_template(), "report.mustache", page_);
   }
 
@@ -347,7 +353,7 @@ class ReportBuilder {
 
   static std::string figure_text(const Json& value) {
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-    if (is_infinite(value)) return "identical";
+    if (tb::is_infinite(value)) return "identical";
     return value.is_number_float() ? amount(value.get<double>()) : report_text(value);
   }
 
@@ -402,7 +408,7 @@ class ReportBuilder {
     for (const Json& image : list) {
       const fs::path file = image.value("file", "");
       reject_path(directory, file);
-      pngs.push_back(read_file(directory / file, kMaxImageBytes));
+      pngs.push_back(tb::read_file(directory / file, kMaxImageBytes));
       const auto [across, down] = png_size(pngs.back());
       width = std::min(width, across);
       height = std::min(height, down);
@@ -436,20 +442,20 @@ class ReportBuilder {
     reject_path(directory, name);
     const fs::path file = directory / name;
     if (!fs::exists(file)) return;
-    const std::string bytes = read_file(file, kMaxImageBytes);
+    const std::string bytes = tb::read_file(file, kMaxImageBytes);
     int width = 0, height = 0;
     // Before there is memory for so many values: they must be there.
     if (std::sscanf(bytes.c_str(), "Pf %d %d", &width, &height) != 2 || width < 1 || height < 1 ||
         static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > bytes.size() / 4)
       throw spec::FileError(fmt::format("'{}' is not a portable float map", file.string()));
-    PictureMap values("", "", "", "", width, height);
+    tb::PictureMap values("", "", "", "", width, height);
     try {
       read_pfm(bytes, values);
     } catch (const spec::ConfigError& error) {
       throw spec::FileError(fmt::format("'{}': {}", file.string(), error.what()));
     }
-    const MapScale scale = scale_of(values);
-    const MapCodes codes = codes_of(values);
+    const tb::MapScale scale = scale_of(values);
+    const tb::MapCodes codes = codes_of(values);
     maps_[fs::path(picture).stem().string()] = {{"title", map.value("title", "")},
                                                 {"unit", map.value("unit", "")},
                                                 {"width", width},
@@ -469,7 +475,7 @@ class ReportBuilder {
     if (name.empty()) return;
     reject_path(directory, name);
     const fs::path file = directory / name;
-    windows_ = try_parse_json(read_file(file, kMaxWindowsBytes));
+    windows_ = tb::try_parse_json(tb::read_file(file, kMaxWindowsBytes));
     const auto demand = [&](bool valid) {
       if (!valid)
         throw spec::FileError(fmt::format("'{}' is not a valid file of windows", file.string()));
@@ -792,10 +798,10 @@ class ReportBuilder {
     page_.set("memory_physical_note", megabits(total("physical")));
     page_.set("memory_width_note", megabits(at_width));
     mustache::data idealised{mustache::data::type::list};
-    for (const std::string& memory : idealised_memories(result_))
+    for (const std::string& memory : tb::idealised_memories(result_))
       idealised << row({{"memory", memory}});
     page_.set("idealised", idealised);
-    page_.set("is_idealised", !idealised_memories(result_).empty());
+    page_.set("is_idealised", !tb::idealised_memories(result_).empty());
   }
 
   void fill_origin() {
@@ -813,7 +819,7 @@ class ReportBuilder {
   }
 
   static std::string shown_plain(const Json& value) {
-    return value.is_string() ? value.get<std::string>() : json_text(value);
+    return value.is_string() ? value.get<std::string>() : tb::json_text(value);
   }
 
   Json result_, manifest_, windows_, maps_ = Json::object();
@@ -824,7 +830,7 @@ class ReportBuilder {
 }  // namespace
 
 std::string json_for_script(const Json& json) {
-  std::string text = json_text(json);
+  std::string text = tb::json_text(json);
   constexpr std::string_view kEscaped = "\\u003c";
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; at += kEscaped.size())
     text.replace(at, 1, kEscaped);
@@ -832,7 +838,7 @@ std::string json_for_script(const Json& json) {
 }
 
 std::string data_uri(const fs::path& image_file) {
-  return png_uri(read_file(image_file, kMaxImageBytes));
+  return png_uri(tb::read_file(image_file, kMaxImageBytes));
 }
 
 std::string png_uri(const std::string& bytes) {
@@ -845,16 +851,17 @@ std::string png_uri(const std::string& bytes) {
 }
 
 std::string build_report(const fs::path& pictures, Json result, Json manifest) {
-  return ReportBuilder(pictures, with_infinity(std::move(result)), std::move(manifest)).render();
+  return ReportBuilder(pictures, tb::with_infinity(std::move(result)), std::move(manifest))
+      .render();
 }
 
 std::string build_report(const fs::path& directory) {
-  Json result = read_result(directory);
+  Json result = tb::read_result(directory);
   return build_report(directory, std::move(result), read_manifest(directory));
 }
 
 void write_report(const fs::path& directory) {
-  write_file_atomically(directory / "report.html", build_report(directory));
+  tb::write_file_atomically(directory / "report.html", build_report(directory));
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -53,7 +53,7 @@ THREADS = re.compile(r"\bSC_C?THREAD\b")
 ASSERT = re.compile(r"(?<![\w_])assert\s*\(")
 NAMESPACE = re.compile(r"^\s*using\s+namespace\b")
 # Namespaces follow folders: the tool and studies define in theirs, and declare of others.
-OPENED = re.compile(r"^namespace deburr::(\w+)")
+OPENED = re.compile(r"^namespace deburr::(tb|tool|studies)\b")
 DECLARED = re.compile(r"^((class|struct) \w+;|)$")
 ADDED_ENGINE = "tool/tests/system/added_engine/"
 RANDOM = re.compile(r"\bstd::(?:mt19937|minstd_rand|ranlux|default_random|random_device|s?rand\b|\w+_distribution)")
