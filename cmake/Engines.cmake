@@ -33,7 +33,7 @@ function(deburr_engines library)
 // Made by cmake/Engines.cmake.
 #include "tool/run/engine.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 @declarations@
 std::vector<std::unique_ptr<Engine>> engines() {
@@ -41,7 +41,7 @@ std::vector<std::unique_ptr<Engine>> engines() {
 @calls@  return all;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool
 ]])
   add_library(deburr_${library}_list OBJECT "${file}")
   target_link_libraries(deburr_${library}_list PRIVATE deburr::app deburr_options deburr_light_options)

@@ -16,14 +16,14 @@
 #include "tool/command/command_papers.h"
 #include "tool/pages/run_directory.h"
 
-namespace deburr::tb {
+namespace deburr::studies {
 namespace {
 
 bool printed(const std::string& text) {
   return std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
 }
 
-Outcome reproduce(const PapersOptions& command, const CommandLine& line) {
+tool::Outcome reproduce(const tool::PapersOptions& command, const tool::CommandLine& line) {
   std::vector<std::string> known;
   for (const PaperEntry& entry : papers()) known.emplace_back(entry.id);
   for (const std::string& id : command.only)
@@ -32,19 +32,19 @@ Outcome reproduce(const PapersOptions& command, const CommandLine& line) {
           fmt::format("no paper '{}' here: known are {}", id, fmt::join(known, ", ")));
   if (command.out.empty())
     throw spec::ConfigError("--out: expected a name, got '': give one, or leave out --out");
-  catch_interrupts();
-  let_broken_pipes_fail();
+  tb::catch_interrupts();
+  tb::let_broken_pipes_fail();
   const PaperOptions options{.quick = command.quick,
                              .size = command.size,
                              .quiet = command.quiet || line.json,
-                             .interrupted = interrupted};
-  RunDirectory directory(command.out);
+                             .interrupted = tb::interrupted};
+  tool::RunDirectory directory(command.out);
   std::vector<Paper> done;
   std::string ended;  // why it is not complete
   int code = 0;
   try {
     directory.claim(line.text, {"papers.json", "index.html"},
-                    command.wait ? IfTaken::kWait : IfTaken::kReject);
+                    command.wait ? tool::IfTaken::kWait : tool::IfTaken::kReject);
     for (const PaperEntry& entry : papers()) {
       if (!command.only.empty() &&
           std::find(command.only.begin(), command.only.end(), entry.id) == command.only.end())
@@ -56,8 +56,8 @@ Outcome reproduce(const PapersOptions& command, const CommandLine& line) {
         break;
       }
     }
-  } catch (const Interrupted&) {
-    code = kInterruptedExit;
+  } catch (const tb::Interrupted&) {
+    code = tb::kInterruptedExit;
     ended = "INTERRUPTED papers";
   }
   if (done.empty()) return {code, ended + ": nothing was finished, no results were written"};
@@ -70,11 +70,11 @@ Outcome reproduce(const PapersOptions& command, const CommandLine& line) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::studies
 
 int main(int argc, char** argv) {
-  using deburr::tb::CommandLine;
-  return deburr::tb::run_command_line(argc, argv, [](CLI::App& app, CommandLine& line) {
-    deburr::tb::add_papers(app, line, deburr::tb::reproduce);
+  using deburr::tool::CommandLine;
+  return deburr::tool::run_command_line(argc, argv, [](CLI::App& app, CommandLine& line) {
+    deburr::tool::add_papers(app, line, deburr::studies::reproduce);
   });
 }

@@ -18,7 +18,7 @@
 #include "tool/pages/page.h"
 #include "tool/pages/report.h"
 
-namespace deburr::tb {
+namespace deburr::studies {
 namespace {
 
 namespace mustache = kainjow::mustache;
@@ -73,10 +73,10 @@ const std::vector<PaperEntry>& papers() {
 }
 
 void PaperOptions::go_on() const {
-  if (interrupted()) throw Interrupted();
+  if (interrupted()) throw tb::Interrupted();
 }
 
-std::function<bool()> PaperOptions::watching(Waiting& waiting) const {
+std::function<bool()> PaperOptions::watching(tb::Waiting& waiting) const {
   return [&waiting, ask = interrupted] {
     waiting.update();
     return ask();
@@ -115,7 +115,7 @@ nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
                                     const std::vector<Paper>& papers) {
   Json json;
   json["schema"] = 1;
-  json["commit"] = build_info().commit;
+  json["commit"] = tool::build_info().commit;
   json["papers"] = Json::array();
   mustache::data list{mustache::data::type::list};
   for (const Paper& paper : papers) {
@@ -153,7 +153,7 @@ nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
         cell.set("title", image.title);
         cell.set("caption", image.caption);
         cell.set("wide", image.wide);
-        cell.set("source", data_uri(directory / file));
+        cell.set("source", tool::data_uri(directory / file));
         images << cell;
       }
       block.set("images", images);
@@ -174,7 +174,7 @@ nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
                         filled_page(embedded::papers_template(), "papers.mustache", root, false));
   Json ids = Json::array();
   for (const Paper& paper : papers) ids.push_back(paper.id);
-  return {{"unit", "papers"}, {"papers", ids}, {"commit", build_info().commit}};
+  return {{"unit", "papers"}, {"papers", ids}, {"commit", tool::build_info().commit}};
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::studies

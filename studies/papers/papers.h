@@ -13,8 +13,10 @@
 #include "tb/scene/image.h"
 
 namespace deburr::tb {
-
 class Waiting;
+}  // namespace deburr::tb
+
+namespace deburr::studies {
 
 struct PaperTable {
   std::string title, note;
@@ -26,7 +28,7 @@ struct PaperTable {
 struct PaperImage {
   std::string file;  // without extension
   std::string title, caption;
-  Image image;
+  tb::Image image;
   bool wide = false;  // a sheet: shown over the whole width
 };
 
@@ -50,7 +52,7 @@ struct PaperOptions {
   // Throws Interrupted when asked to: what was done of this paper is of no use.
   void go_on() const;
   // The same question of those who ask by themselves, and shows what is waited for meanwhile.
-  std::function<bool()> watching(Waiting& waiting) const;
+  std::function<bool()> watching(tb::Waiting& waiting) const;
 };
 
 // Builds one paper's part; shows progress on the error stream. May throw Interrupted.
@@ -83,4 +85,4 @@ namespace paper_004 {
 Paper build(const PaperOptions& options);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::studies

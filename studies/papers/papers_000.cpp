@@ -26,16 +26,21 @@
 #include "tb/stimuli/discs.h"
 #include "tb/stimuli/line_fans.h"
 
-namespace deburr::tb::paper_000 {
+namespace deburr::studies::paper_000 {
+
+using tb::Image;
+using tb::Mask;
+using tb::Random;
+
 namespace {
 
 using golden::morphological::MorphologicalGolden;
 using golden::morphological::preset_parameters;
-using morphological::FanFigures;
-using morphological::FanOptions;
-using morphological::FanRow;
 using spec::morphological::Parameters;
 using spec::morphological::Preset;
+using tb::stimuli::FanFigures;
+using tb::stimuli::FanOptions;
+using tb::stimuli::FanRow;
 
 constexpr int kPaperLoops = 4;    // "all results use 4"
 constexpr int kTruthSamples = 8;  // each way, of a pixel
@@ -271,7 +276,7 @@ PaperTable probes(const PaperOptions& options) {
       {}};
   Random random(4);
   const int lines = options.quick ? 2 : 12;
-  Waiting waiting("paper 000: lines through the engine", options.quiet);
+  tb::Waiting waiting("paper 000: lines through the engine", options.quiet);
   for (const int loops : {1, 2, 4, 8})
     for (const int length : {1, 2, 4, 8, 16}) {
       Parameters p = preset_parameters(Preset::kMlaaSlope);
@@ -311,7 +316,7 @@ PaperTable probes(const PaperOptions& options) {
 // ---- quality on straight lines ------------------------------------------------------------------
 
 std::vector<FanRow> quality_rows() {
-  std::vector<FanRow> rows = morphological::fan_rows();
+  std::vector<FanRow> rows = tb::stimuli::fan_rows();
   FanRow none_taken = rows[2];  // chord N = 1
   none_taken.name = "chord N = 0";
   none_taken.parameters.steps = 0;
@@ -358,23 +363,23 @@ PaperTable quality(const PaperOptions& options, double low, double high) {
                   fan.lines, fan.seeds),
       {"line"},
       {}};
-  for (const std::string_view name : morphological::kSlopeClasses)
+  for (const std::string_view name : tb::stimuli::kSlopeClasses)
     table.columns.push_back(fmt::format("n = {}", name));
   for (const char* name : {"undulation", "jump", "against mlaa", "contract", "verdict"})
     table.columns.emplace_back(name);
   const std::vector<FanRow> rows = quality_rows();
   FanFigures none, mlaa;
-  Progress progress("paper 000", rows.size(), "row", options.quiet);
+  tb::Progress progress("paper 000", rows.size(), "row", options.quiet);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     options.go_on();
-    const FanFigures figures = measure_fans(morphological::smoothing_of(rows[r]), fan);
+    const FanFigures figures = measure_fans(tb::stimuli::smoothing_of(rows[r]), fan);
     if (rows[r].name == "none") none = figures;
     if (rows[r].name == "mlaa") mlaa = figures;
     const bool chord = rows[r].name.starts_with("chord") && rows[r].parameters.steps > 0;
     const bool ours = rows[r].name.starts_with("fit") || rows[r].name.starts_with("deburr");
     // Two steps a side are not what the contract's row has.
     const bool checked = ours && rows[r].parameters.steps >= 4;
-    const std::vector<std::string> above = exceeded(morphological::asked_of_ours(), figures);
+    const std::vector<std::string> above = exceeded(tb::stimuli::asked_of_ours(), figures);
     std::vector<std::string> cells = cells_of(rows[r].name, figures, 1);
     cells.push_back(!chord && !ours
                         ? "-"
@@ -393,7 +398,7 @@ PaperTable quality(const PaperOptions& options, double low, double high) {
     else
       cells.emplace_back("-");
     table.rows.push_back(cells);
-    for (const morphological::FanLimit& limit : morphological::contract_figures()) {
+    for (const tb::stimuli::FanLimit& limit : tb::stimuli::contract_figures()) {
       if (limit.name != rows[r].name) continue;
       cells = cells_of(fmt::format("({})", limit.name), limit.figures);
       cells.insert(cells.end(), {"-", "-", "-"});
@@ -418,11 +423,11 @@ struct Method {
   Image image;
 };
 
-std::vector<Method> methods(const Scene& scene, const Image& noaa, bool with_msaa) {
+std::vector<Method> methods(const tb::Scene& scene, const Image& noaa, bool with_msaa) {
   std::vector<Method> all = {{"none", "no anti-aliasing", noaa}};
   if (with_msaa)
     all.push_back({"MSAA 4x", "four samples on the rotated grid",
-                   render_msaa4(scene, noaa.width, noaa.height)});
+                   tb::render_msaa4(scene, noaa.width, noaa.height)});
   all.push_back({"mlaa", "run ends", smoothed(noaa, preset_parameters(Preset::kMlaa))});
   all.push_back(
       {"mlaa-slope", "the paper, N = 4", smoothed(noaa, preset_parameters(Preset::kMlaaSlope))});
@@ -484,16 +489,16 @@ Image zooms(const std::vector<Method>& list, const Mask& silhouettes, int strips
         busiest(crop_mask(silhouettes, x, y, wide / 4), wide / 8, {0, wide, 0, wide});
     add_row({x + dx, y + dy}, wide / 8);
   }
-  return sheet(cells, static_cast<int>(list.size()));
+  return tb::sheet(cells, static_cast<int>(list.size()));
 }
 
 // Rendered scenes whose edges are mostly geometry.
-std::vector<LitFrames> frames_of_rules(const PaperOptions& options) {
-  std::vector<LitFrames> frames;
-  Waiting waiting("paper 000: rendering scenes and truth", options.quiet);
+std::vector<tb::LitFrames> frames_of_rules(const PaperOptions& options) {
+  std::vector<tb::LitFrames> frames;
+  tb::Waiting waiting("paper 000: rendering scenes and truth", options.quiet);
   for (const char* scene : {"cylinders", "object", "road"})
-    frames.push_back(render_lit_frames(make_scene(scene), options.size, options.size,
-                                       options.quick ? 4 : 8, options.watching(waiting)));
+    frames.push_back(tb::render_lit_frames(tb::make_scene(scene), options.size, options.size,
+                                           options.quick ? 4 : 8, options.watching(waiting)));
   return frames;
 }
 
@@ -531,24 +536,24 @@ PaperTable rules(const PaperOptions& options) {
   FanOptions fan;
   if (options.quick) fan.lines = 8;
   fan.seeds = 1;
-  const std::vector<LitFrames> frames = frames_of_rules(options);
-  std::vector<FanRow> rows = morphological::rule_rows();
+  const std::vector<tb::LitFrames> frames = frames_of_rules(options);
+  std::vector<FanRow> rows = tb::stimuli::rule_rows();
   std::vector<Figures> figures;
-  Progress progress("paper 000", rows.size(), "row", options.quiet);
+  tb::Progress progress("paper 000", rows.size(), "row", options.quiet);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     options.go_on();
     double edges = 0, silhouettes = 0;
-    for (const LitFrames& lit : frames) {
-      const Mask edge = edge_mask(lit.truth, lit.noaa);
+    for (const tb::LitFrames& lit : frames) {
+      const Mask edge = tb::edge_mask(lit.truth, lit.noaa);
       const Image image = smoothed(lit.noaa, rows[r].parameters);
       edges += psnr(image, lit.truth, edge) / static_cast<double>(frames.size());
-      silhouettes += psnr(image, lit.truth, silhouette_mask(edge, lit.depth)) /
+      silhouettes += psnr(image, lit.truth, tb::silhouette_mask(edge, lit.depth)) /
                      static_cast<double>(frames.size());
     }
     rows[r].parameters.linear_light = false;  // coverage is measured in codes
-    const morphological::Smoothing smoothing = morphological::smoothing_of(rows[r]);
-    const morphological::DiscFigures discs = morphological::measure_discs(
-        smoothing, {.pixels = options.quick ? 1000 : 4000, .seeds = 1});
+    const tb::stimuli::Smoothing smoothing = tb::stimuli::smoothing_of(rows[r]);
+    const tb::stimuli::DiscFigures discs =
+        tb::stimuli::measure_discs(smoothing, {.pixels = options.quick ? 1000 : 4000, .seeds = 1});
     const auto mean = [&](std::size_t from, std::size_t to) {
       double sum = 0;
       for (std::size_t i = from; i <= to; ++i) sum += discs.by_radius[i] * discs.by_radius[i];
@@ -613,13 +618,13 @@ Compared rendered_scenes(const PaperOptions& options) {
        {"quad", nullptr},
        {"tunnel", nullptr},
        {"plane", nullptr}}};
-  Waiting waiting("paper 000: rendering scenes and truth, and smoothing", options.quiet);
+  tb::Waiting waiting("paper 000: rendering scenes and truth, and smoothing", options.quiet);
   for (const Shown& shown : kScenes) {
-    const Scene scene = make_scene(shown.scene);
-    const LitFrames lit = render_lit_frames(scene, options.size, options.size, kTruthSamples,
-                                            options.watching(waiting));
-    const Mask edges = edge_mask(lit.truth, lit.noaa);
-    const Mask silhouettes = silhouette_mask(edges, lit.depth);
+    const tb::Scene scene = tb::make_scene(shown.scene);
+    const tb::LitFrames lit = tb::render_lit_frames(scene, options.size, options.size,
+                                                    kTruthSamples, options.watching(waiting));
+    const Mask edges = tb::edge_mask(lit.truth, lit.noaa);
+    const Mask silhouettes = tb::silhouette_mask(edges, lit.depth);
     const std::vector<Method> list = methods(scene, lit.noaa, true);
     std::vector<Scores> scores;
     for (const Method& m : list) {
@@ -666,14 +671,14 @@ PaperTable held_out(const PaperOptions& options) {
   training::FrameOptions frames;
   frames.size = options.size;
   if (const char* folder = std::getenv("DEBURR_DATA")) frames.data = folder;
-  Waiting waiting("paper 000: frames that learned shares did not see", options.quiet);
+  tb::Waiting waiting("paper 000: frames that learned shares did not see", options.quiet);
   for (const training::FrameSource& source : training::held_out_set(frames)) {
     options.go_on();
     waiting.update();
     const training::TruthFrame frame = source.make();
-    const Mask edges = edge_mask(frame.truth, frame.frame);
-    const Mask silhouettes =
-        frame.depth.empty() ? Mask(edges.width, edges.height) : silhouette_mask(edges, frame.depth);
+    const Mask edges = tb::edge_mask(frame.truth, frame.frame);
+    const Mask silhouettes = frame.depth.empty() ? Mask(edges.width, edges.height)
+                                                 : tb::silhouette_mask(edges, frame.depth);
     std::vector<std::string> cells = {frame.name};
     std::vector<Scores> scores;
     const auto add = [&](const Image& image) {
@@ -705,17 +710,17 @@ PaperTable cost_of_a_loop(const PaperOptions& options) {
                     "one more loop, ms, most", "frame, ms", "verdict"},
                    {}};
   const int side = options.size;
-  RenderOptions render_options;
+  tb::RenderOptions render_options;
   render_options.width = render_options.height = side;
-  render_options.shading = Shading::kLit;
-  const Image frame = render(make_scene("cylinders"), render_options);
+  render_options.shading = tb::Shading::kLit;
+  const Image frame = render(tb::make_scene("cylinders"), render_options);
   Image noisy(side, side);
   Random random(5);
-  for (Rgba8& p : noisy.pixels) {
+  for (tb::Rgba8& p : noisy.pixels) {
     const std::uint8_t v = random.chance(500) ? 255 : 0;
     p = {v, v, v, 255};
   }
-  Waiting waiting("paper 000: cost of a loop", options.quiet);
+  tb::Waiting waiting("paper 000: cost of a loop", options.quiet);
   const auto trials = [&waiting](const Image& image, int loops) {
     waiting.update();
     Parameters p = preset_parameters(Preset::kMlaaSlope);
@@ -769,4 +774,4 @@ Paper build(const PaperOptions& options) {
   return paper;
 }
 
-}  // namespace deburr::tb::paper_000
+}  // namespace deburr::studies::paper_000

@@ -29,13 +29,12 @@
 #include "tb/scene/quality.h"
 #include "tb/scene/scenes.h"
 
-namespace deburr::tb::paper_002 {
+namespace deburr::studies::paper_002 {
+
+using tb::make_scene;
+
 namespace {
 
-using geometric::Checker;
-using geometric::Frame;
-using geometric::make_frame;
-using geometric::smoothed;
 using golden::geometric::GeometricGolden;
 using golden::geometric::preset_parameters;
 using golden::ideal::CutPixel;
@@ -45,6 +44,10 @@ using spec::geometric::EdgeClass;
 using spec::geometric::Parameters;
 using spec::geometric::Preset;
 using spec::geometric::Region;
+using tb::geometric::Checker;
+using tb::geometric::Frame;
+using tb::geometric::make_frame;
+using tb::geometric::smoothed;
 
 // Counterparts of the paper's models, in its order.
 struct Model {
@@ -58,8 +61,8 @@ constexpr std::array<Model, 4> kModels = {{{"cube", "Figure 3: cube"},
 std::string number(std::uint64_t value) { return fmt::format("{}", value); }
 
 // A cube whose side x = 1 is seen edge on.
-Scene edge_on_cube() {
-  Scene scene = make_scene("cube");
+tb::Scene edge_on_cube() {
+  tb::Scene scene = make_scene("cube");
   const double side = bounds(scene.mesh).high.x;
   scene.camera.eye = V3d(side, 0.3, 4);
   scene.camera.target = V3d(0, 0, 0);
@@ -69,7 +72,7 @@ Scene edge_on_cube() {
 // ---- equations (1) to (4) -----------------------------------------------------------------------
 
 // The sign of N . V with V from the eye to the middle of a face, where the table takes a corner.
-double facing_of(const Scene& scene, std::size_t face) {
+double facing_of(const tb::Scene& scene, std::size_t face) {
   const auto& corners = scene.mesh.triangles[face].vertex;
   const V3d &a = scene.mesh.vertices[corners[0]].position,
             &b = scene.mesh.vertices[corners[1]].position,
@@ -82,7 +85,7 @@ struct Silhouettes {
 };
 
 template <class IsSilhouette>
-Silhouettes silhouettes_of(const EdgeTable& table, IsSilhouette&& is_silhouette) {
+Silhouettes silhouettes_of(const tb::EdgeTable& table, IsSilhouette&& is_silhouette) {
   Silhouettes found;
   std::vector<int> degree(table.vertices.size());
   for (const spec::geometric::Edge& edge : table.edges) {
@@ -105,9 +108,9 @@ PaperTable equations_1_to_3() {
       {"scene", "faces", "facing bits that differ from N·V", "silhouettes, product",
        "silhouettes, exclusive or", "loose ends, product", "loose ends, exclusive or", "verdict"},
       {}};
-  const auto row = [&](const std::string& name, const Scene& scene) {
-    const EdgeTable edges = build_edge_table(scene.mesh);
-    const ScreenEdges screen = project_edges(edges, scene.camera, 640, 480);
+  const auto row = [&](const std::string& name, const tb::Scene& scene) {
+    const tb::EdgeTable edges = tb::build_edge_table(scene.mesh);
+    const tb::ScreenEdges screen = project_edges(edges, scene.camera, 640, 480);
     const auto front = [&](std::uint32_t f) { return (screen.facing[f / 8] >> (f % 8) & 1) != 0; };
     std::int64_t wrong = 0;
     for (std::uint32_t f = 0; f < screen.faces; ++f) {
@@ -141,7 +144,7 @@ PaperTable equation_4(const PaperOptions& options) {
       "paper's creases against none.",
       {"scene", "silhouettes alone", "angle (paper)", "angle and shading (ours)", "verdict"},
       {}};
-  Waiting waiting("paper 002: creases", options.quiet);
+  tb::Waiting waiting("paper 002: creases", options.quiet);
   for (const char* scene : {"cube", "wheelcover", "object"}) {
     const Checker checker(make_scene(scene), options.size, options.size, options.quick ? 4 : 8,
                           options.watching(waiting));
@@ -169,7 +172,7 @@ PaperTable equations_5_and_6() {
       "cut, the share that an equal-depth test against the pixel itself drops:",
       {"item", "paper", "ours", "verdict"},
       {}};
-  const Scene scene = make_scene("sphere");
+  const tb::Scene scene = make_scene("sphere");
   Frame frame = make_frame(scene, 640, 480);
   Parameters p = preset_parameters(Preset::kDeburr);
   p.depth_test = spec::geometric::DepthTest::kOwn;
@@ -457,7 +460,7 @@ Compared pictures(const PaperOptions& options) {
       "six.",
       {"scene", "method", "edges drawn", "edges", "silhouettes", "verdict"},
       {}};
-  Waiting waiting("paper 002: rendering models and truth, and smoothing", options.quiet);
+  tb::Waiting waiting("paper 002: rendering models and truth, and smoothing", options.quiet);
   std::vector<std::pair<std::string, std::string>> scenes;
   scenes.reserve(std::size(kModels) + 3);
   for (const Model& model : kModels) scenes.emplace_back(model.scene, model.figure);
@@ -469,7 +472,7 @@ Compared pictures(const PaperOptions& options) {
                           options.watching(waiting));
     struct Method {
       std::string name;
-      Image image;
+      tb::Image image;
       std::string kept;
     };
     std::vector<Method> methods = {{"none", checker.frame.image, "-"},
@@ -529,14 +532,14 @@ PaperTable order_of_edges(const PaperOptions& options) {
     for (std::size_t rule = 0; rule < kRules.size(); ++rule) {
       Parameters p = preset_parameters(Preset::kGpaaOptimised);
       p.combine = kRules[rule];
-      const geometric::Smoothed before = smoothed(frame, p);
+      const tb::geometric::Smoothed before = smoothed(frame, p);
       blended = before.work.blended_pixels;
-      Random random(7);
+      tb::Random random(7);
       std::vector<spec::geometric::Edge>& edges = frame.screen.edges;
       const std::vector<spec::geometric::Edge> kept = edges;
       for (std::size_t i = edges.size(); i > 1; --i)
         std::swap(edges[i - 1], edges[random.below(static_cast<std::uint32_t>(i))]);
-      changed[rule] = count_different(before.image, smoothed(frame, p).image);
+      changed[rule] = tb::count_different(before.image, smoothed(frame, p).image);
       edges = kept;
     }
     table.rows.push_back(
@@ -573,4 +576,4 @@ Paper build(const PaperOptions& options) {
   return paper;
 }
 
-}  // namespace deburr::tb::paper_002
+}  // namespace deburr::studies::paper_002

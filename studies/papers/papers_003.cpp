@@ -32,20 +32,23 @@
 #include "tb/stimuli/line_fans.h"
 #include "tb/stimuli/reference_filters.h"
 
-namespace deburr::tb::paper_003 {
+namespace deburr::studies::paper_003 {
+
+using tb::Image;
+
 namespace {
 
 using golden::morphological::EdgePlanes;
 using golden::morphological::MorphologicalGolden;
 using golden::morphological::preset_parameters;
-using morphological::FanFigures;
-using morphological::FanOptions;
 using spec::morphological::DynamicLuma;
 using spec::morphological::LocalContrast;
 using spec::morphological::Parameters;
 using spec::morphological::Preset;
 using spec::morphological::Quality;
 using spec::morphological::ThresholdMode;
+using tb::stimuli::FanFigures;
+using tb::stimuli::FanOptions;
 
 // ---- the table ----------------------------------------------------------------------------------
 
@@ -150,10 +153,10 @@ struct NamedImage {
 std::vector<NamedImage> frames(const PaperOptions& options) {
   std::vector<NamedImage> all;
   for (const char* scene : {"cylinders", "object", "road", "quad", "tunnel", "plane"}) {
-    RenderOptions render_options;
+    tb::RenderOptions render_options;
     render_options.width = render_options.height = options.size;
-    render_options.shading = Shading::kLit;
-    all.push_back({scene, render(make_scene(scene), render_options)});
+    render_options.shading = tb::Shading::kLit;
+    all.push_back({scene, render(tb::make_scene(scene), render_options)});
   }
   return all;
 }
@@ -169,7 +172,7 @@ PaperTable densities(const PaperOptions& options) {
       {"frame", "T, alpha", "fixed", "dynamic", "dynamic, floor 2/255", "verdict"},
       {}};
   std::vector<NamedImage> shown = frames(options);
-  shown.push_back({"shades", stimuli::shades_image(options.size, options.size)});
+  shown.push_back({"shades", tb::stimuli::shades_image(options.size, options.size)});
   for (const NamedImage& frame : shown) {
     for (const Share& share : kShares) {
       const auto percent = [&](const Parameters& p) {
@@ -199,7 +202,7 @@ PaperTable symmetry(const PaperOptions& options) {
     std::int64_t changed = 0, bits = 0;
     for (const NamedImage& frame : all) {
       const EdgePlanes edges = edges_of(frame.image, p),
-                       mirrored = edges_of(stimuli::mirrored_x(frame.image), p);
+                       mirrored = edges_of(tb::stimuli::mirrored_x(frame.image), p);
       bits += static_cast<std::int64_t>(edges.left.count() + edges.top.count());
       for (int y = 0; y < frame.image.height; ++y)
         for (int x = 0; x < frame.image.width; ++x) {
@@ -221,7 +224,8 @@ struct Method {
   std::string name;
   bool smoothed = true;
   Parameters parameters;
-  const stimuli::ReferenceFilter* reference = nullptr;  // instead of the engine: has no hardware
+  const tb::stimuli::ReferenceFilter* reference =
+      nullptr;  // instead of the engine: has no hardware
   bool by_engine() const { return smoothed && reference == nullptr; }
 };
 
@@ -240,7 +244,7 @@ std::vector<Method> methods() {
     method.parameters.alpha = share.alpha;
     all.push_back(method);
   }
-  for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
+  for (const tb::stimuli::ReferenceFilter& reference : tb::stimuli::kReferenceFilters)
     all.push_back({reference.name, true, {}, &reference});
   all.push_back({"deburr", true, preset_parameters(Preset::kDeburr)});
   all.push_back({"deburr-line", true, preset_parameters(Preset::kDeburrLine)});
@@ -273,24 +277,24 @@ PaperTable matrix_of_lines(const PaperOptions& options) {
       "row in all columns?",
       {"rules"},
       {}};
-  for (const std::string_view name : morphological::kSlopeClasses)
+  for (const std::string_view name : tb::stimuli::kSlopeClasses)
     table.columns.push_back(fmt::format("n = {}", name));
   for (const char* name : {"undulation", "discs", "verdict"}) table.columns.emplace_back(name);
   FanOptions fan;
   if (options.quick) fan.lines = 8, fan.seeds = 1;
   std::vector<Method> all = methods();
   std::vector<std::vector<double>> figures;
-  Progress progress("paper 003", all.size(), "row", options.quiet);
+  tb::Progress progress("paper 003", all.size(), "row", options.quiet);
   for (Method& method : all) {
     method.parameters.linear_light = false;
-    const morphological::Smoothing smoothing = [&](const Image& image) {
+    const tb::stimuli::Smoothing smoothing = [&](const Image& image) {
       return smoothed(image, method);
     };
     const FanFigures lines = measure_fans(smoothing, fan);
     std::vector<double> row(lines.by_class.begin(), lines.by_class.end());
     row.push_back(lines.undulation);
-    row.push_back(morphological::measure_discs(smoothing, {.pixels = options.quick ? 1000 : 4000,
-                                                           .seeds = options.quick ? 1 : 3})
+    row.push_back(tb::stimuli::measure_discs(smoothing, {.pixels = options.quick ? 1000 : 4000,
+                                                         .seeds = options.quick ? 1 : 3})
                       .all);
     figures.push_back(row);
     progress.update(figures.size());
@@ -328,14 +332,14 @@ PaperTable matrix_of_frames(const PaperOptions& options) {
   };
   std::vector<Sum> sums(all.size() + 1);
   std::vector<const char*> scenes = {"cylinders", "object", "road", "quad", "tunnel", "plane"};
-  Progress progress("paper 003", scenes.size(), "scene", options.quiet);
+  tb::Progress progress("paper 003", scenes.size(), "scene", options.quiet);
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     table.columns.emplace_back(scenes[s]);
-    const Scene scene = make_scene(scenes[s]);
-    const LitFrames lit =
-        render_lit_frames(scene, options.size, options.size, options.quick ? 4 : 8);
-    const Mask edges = edge_mask(lit.truth, lit.noaa);
-    const Mask silhouettes = silhouette_mask(edges, lit.depth);
+    const tb::Scene scene = tb::make_scene(scenes[s]);
+    const tb::LitFrames lit =
+        tb::render_lit_frames(scene, options.size, options.size, options.quick ? 4 : 8);
+    const tb::Mask edges = tb::edge_mask(lit.truth, lit.noaa);
+    const tb::Mask silhouettes = tb::silhouette_mask(edges, lit.depth);
     const auto check = [&](Sum& sum, const Image& image) {
       const double on_edges = psnr(image, lit.truth, edges),
                    on_silhouettes = psnr(image, lit.truth, silhouettes);
@@ -348,7 +352,7 @@ PaperTable matrix_of_frames(const PaperOptions& options) {
       if (all[i].by_engine())
         sums[i].density += edge_pixels_percent(lit.noaa, edges_of(lit.noaa, all[i].parameters));
     }
-    check(sums.back(), render_msaa4(scene, options.size, options.size));
+    check(sums.back(), tb::render_msaa4(scene, options.size, options.size));
     progress.update(s + 1);
   }
   for (const char* name : {"edges", "silhouettes", "edge pixels, %", "verdict"})
@@ -378,23 +382,23 @@ struct Cost {
 
 // The frame through the hardware model, every pixel compared with golden; in a process of its own.
 Cost cost_of(const Parameters& parameters, const Image& image) {
-  return forked<Cost>([&] {
-    const MorphologicalInput frame{image, {}};
-    SimulationOptions options;
+  return tb::forked<Cost>([&] {
+    const tb::MorphologicalInput frame{image, {}};
+    tb::SimulationOptions options;
     options.check_links = false;
-    Simulation simulation(options);
-    MorphologicalSetup setup;
+    tb::Simulation simulation(options);
+    tb::MorphologicalSetup setup;
     setup.morphological = parameters;
     setup.morphological.line_pixels = std::max(1920, image.width);
-    MorphologicalEnvironment environment(simulation, {&frame, 1}, setup);
+    tb::MorphologicalEnvironment environment(simulation, {&frame, 1}, setup);
     simulation.elaborate(environment);
     simulation.run();
     environment.check();
-    Result result;
+    tb::Result result;
     simulation.collect(result);
     Cost cost{environment.engine().sequencer.frame_cycles.value(),
-              frame_clocks_by_formula(parameters, image.width, image.height), 0, 0};
-    for (const MemoryFigures& memory : result.memories)
+              tb::frame_clocks_by_formula(parameters, image.width, image.height), 0, 0};
+    for (const tb::MemoryFigures& memory : result.memories)
       (memory.kind == "rom" ? cost.rom_bits : cost.ram_bits) += memory.physical_bits;
     return cost;
   });
@@ -410,15 +414,15 @@ PaperTable matrix_of_costs(const PaperOptions& options) {
       "what the paper's threshold gives. The verdict: is it a pixel a clock up to 20 %?",
       {"rules", "clocks", "ROM, bits", "flip-flops and SRAM, bits", "20 %", "37 %", "verdict"},
       {}};
-  RenderOptions render_options;
+  tb::RenderOptions render_options;
   render_options.width = render_options.height = options.size;
-  render_options.shading = Shading::kLit;
-  const Image frame = render(make_scene("object"), render_options);
-  const Image fifth = stimuli::random_edges(256, 144, 200),
-              paper = stimuli::random_edges(256, 144, 370);
+  render_options.shading = tb::Shading::kLit;
+  const Image frame = render(tb::make_scene("object"), render_options);
+  const Image fifth = tb::stimuli::random_edges(256, 144, 200),
+              paper = tb::stimuli::random_edges(256, 144, 370);
   std::vector<Method> all = methods();
   std::erase_if(all, [](const Method& method) { return !method.by_engine(); });
-  Progress progress("paper 003", all.size(), "row", options.quiet);
+  tb::Progress progress("paper 003", all.size(), "row", options.quiet);
   for (const Method& method : all) {
     options.go_on();
     const auto slowdown = [&](const Image& image) {
@@ -443,7 +447,7 @@ Image drawn(const Image& image, const EdgePlanes& edges) {
   Image out(image.width, image.height);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
-      out.at(x, y) = stimuli::grey(edges.left.at(x, y) || edges.top.at(x, y) ? 0 : 255);
+      out.at(x, y) = tb::stimuli::grey(edges.left.at(x, y) || edges.top.at(x, y) ? 0 : 255);
   return out;
 }
 
@@ -499,4 +503,4 @@ Paper build(const PaperOptions& options) {
   return paper;
 }
 
-}  // namespace deburr::tb::paper_003
+}  // namespace deburr::studies::paper_003

@@ -25,7 +25,10 @@
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
 
-namespace deburr::tb::paper_004 {
+namespace deburr::studies::paper_004 {
+
+using tb::TextureScene;
+
 namespace {
 
 namespace ideal = golden::ideal;
@@ -253,7 +256,7 @@ struct Flips {
 
 // How often N differs from exact arithmetic on the fragments of a scene.
 Flips count_flips(const TextureScene& scene, const spec::texture::Parameters& parameters) {
-  const gold::TextureGolden golden = make_golden(scene, parameters);
+  const gold::TextureGolden golden = tb::make_golden(scene, parameters);
   Flips flips;
   for (const spec::texture::Quad& quad : scene.stream().quads) {
     const spec::texture::Descriptor& d = golden.texture(quad.texture);
@@ -271,16 +274,16 @@ Flips count_flips(const TextureScene& scene, const spec::texture::Parameters& pa
 std::vector<TextureScene> reference_scenes(int size) {
   std::vector<TextureScene> scenes;
   for (const char* name : {"plane", "quad", "tunnel"}) {
-    SceneParameters scene;
+    tb::SceneParameters scene;
     scene.source = name;
     scene.width = scene.height = size;
-    scenes.emplace_back(scene, SamplerParameters{}, 1);
+    scenes.emplace_back(scene, tb::SamplerParameters{}, 1);
   }
   return scenes;
 }
 
 PaperTable design_space(const std::vector<TextureScene>& scenes, const PaperOptions& options,
-                        Progress& progress) {
+                        tb::Progress& progress) {
   PaperTable table{
       "Design space: error of each footprint and logarithm rule",
       "Level error of one side over log-uniform lengths and b/a uniform in [0, 1]; N over the "
@@ -333,14 +336,14 @@ constexpr std::array<Gaussian, 3> kGaussians = {{{"whole", ideal::kEwaGaussian},
 
 // Every rule against both references on the checkerboard ground plane.
 PaperTable quality(const PaperOptions& options) {
-  SceneParameters scene_parameters;
+  tb::SceneParameters scene_parameters;
   scene_parameters.source = "plane";
   scene_parameters.texture = "checker";
   scene_parameters.width = scene_parameters.height = options.size;
-  TextureScene scene(scene_parameters, SamplerParameters{}, 1);
-  const Texture& texture = scene.scene().mesh.textures.at(0);
+  TextureScene scene(scene_parameters, tb::SamplerParameters{}, 1);
+  const tb::Texture& texture = scene.scene().mesh.textures.at(0);
   std::vector<std::uint8_t> texels;
-  for (const Rgba8& texel : texture.image.pixels)
+  for (const tb::Rgba8& texel : texture.image.pixels)
     texels.insert(texels.end(), texel.begin(), texel.end());
   const ideal::TextureImage image(texture.image.width, texture.image.height, texels, texture.wrap_s,
                                   texture.wrap_t);
@@ -351,7 +354,7 @@ PaperTable quality(const PaperOptions& options) {
   std::vector<ideal::Colour> box;
   std::array<std::vector<ideal::Colour>, kGaussians.size()> ewa;
   {
-    Progress progress("references", footprints.size(), "pixel", options.quiet);
+    tb::Progress progress("references", footprints.size(), "pixel", options.quiet);
     constexpr std::size_t kBlock = 4096;
     for (std::size_t i = 0; i < footprints.size(); i += kBlock) {
       const std::span<const ideal::PixelFootprint> block(footprints.data() + i,
@@ -402,10 +405,10 @@ PaperTable quality(const PaperOptions& options) {
     variants.push_back(p);
   }
 
-  Progress progress("rules", variants.size(), "picture", options.quiet);
+  tb::Progress progress("rules", variants.size(), "picture", options.quiet);
   for (const spec::texture::Parameters& p : variants) {
-    const GoldenFrame frame = golden_frame(scene, p);
-    const gold::TextureGolden golden = make_golden(scene, p);
+    const tb::GoldenFrame frame = tb::golden_frame(scene, p);
+    const gold::TextureGolden golden = tb::make_golden(scene, p);
     double lod_error = 0;
     std::size_t i = 0;
     for (const spec::texture::Quad& quad : scene.stream().quads)
@@ -476,8 +479,8 @@ PaperTable over_roll(const PaperOptions& options) {
        {"worst", "bilinears, 0°", "bilinears, 45°", "fills, 0°", "fills, 45°"})
     table.columns.push_back(column);
 
-  Progress progress("over roll", std::size(kTextures) * std::size(kRolls), "picture",
-                    options.quiet);
+  tb::Progress progress("over roll", std::size(kTextures) * std::size(kRolls), "picture",
+                        options.quiet);
   std::uint64_t done = 0;
   for (const char* const texture_name : kTextures) {
     std::vector<std::vector<std::string>> rows;
@@ -485,16 +488,16 @@ PaperTable over_roll(const PaperOptions& options) {
     std::vector<std::array<double, 4>> work(std::size(rules));
     for (const Rule& rule : rules) rows.push_back({texture_name, rule.name});
     for (const double roll : kRolls) {
-      SceneParameters scene_parameters;
+      tb::SceneParameters scene_parameters;
       scene_parameters.source = "plane";
       scene_parameters.texture = texture_name;
       scene_parameters.texture_size = 512;
       scene_parameters.width = scene_parameters.height = size;
       scene_parameters.roll = roll;
-      const TextureScene scene(scene_parameters, SamplerParameters{}, 1);
-      const Texture& texture = scene.scene().mesh.textures.at(0);
+      const TextureScene scene(scene_parameters, tb::SamplerParameters{}, 1);
+      const tb::Texture& texture = scene.scene().mesh.textures.at(0);
       std::vector<std::uint8_t> texels;
-      for (const Rgba8& texel : texture.image.pixels)
+      for (const tb::Rgba8& texel : texture.image.pixels)
         texels.insert(texels.end(), texel.begin(), texel.end());
       const ideal::TextureImage image(texture.image.width, texture.image.height, texels,
                                       texture.wrap_s, texture.wrap_t);
@@ -504,7 +507,7 @@ PaperTable over_roll(const PaperOptions& options) {
           24);
       for (std::size_t r = 0; r < std::size(rules); ++r) {
         gold::TextureGolden golden =
-            make_golden(scene, rules[r].parameters, gold::TextureGolden::Traffic::kPredict);
+            tb::make_golden(scene, rules[r].parameters, gold::TextureGolden::Traffic::kPredict);
         spec::texture::Descriptor descriptor = golden.texture(0);
         descriptor.max_anisotropy_log2 = static_cast<std::uint8_t>(rules[r].lb_n_max);
         golden.set_texture(0, descriptor);
@@ -534,24 +537,24 @@ PaperTable over_roll(const PaperOptions& options) {
 
 // ---- Figures 5 to 9 -----------------------------------------------------------------------------
 
-Image picture(const char* source, const char* texture, int texture_size, int size,
-              spec::texture::MinFilter mode, int lb_anisotropy) {
-  SceneParameters scene;
+tb::Image picture(const char* source, const char* texture, int texture_size, int size,
+                  spec::texture::MinFilter mode, int lb_anisotropy) {
+  tb::SceneParameters scene;
   scene.source = source;
   scene.texture = texture;
   scene.texture_size = texture_size;
   scene.width = scene.height = size;
-  SamplerParameters sampler;
+  tb::SamplerParameters sampler;
   sampler.mode = mode;
   sampler.anisotropy = static_cast<std::uint8_t>(lb_anisotropy);
   if (mode == spec::texture::MinFilter::kNearest)
     sampler.magnification = spec::texture::MagFilter::kNearest;
-  return golden_frame(TextureScene(scene, sampler, 1), papers_rules()).image;
+  return tb::golden_frame(TextureScene(scene, sampler, 1), papers_rules()).image;
 }
 
 std::vector<PaperFigure> figures(const PaperOptions& options) {
   const int size = options.size;
-  Waiting waiting("paper 004: pictures", options.quiet);
+  tb::Waiting waiting("paper 004: pictures", options.quiet);
   const auto next = [&] {
     waiting.update();
     options.go_on();
@@ -559,14 +562,14 @@ std::vector<PaperFigure> figures(const PaperOptions& options) {
   std::vector<PaperFigure> all;
   constexpr int kRoad = 256;  // the paper's texture has 256 x 256 texels
   PaperFigure road{"Figure 5: the original road texture", "Ours is made by formula.", {}};
-  SceneParameters scene;
+  tb::SceneParameters scene;
   scene.source = "plane";
   scene.texture = "road";
   scene.texture_size = kRoad;
   scene.width = scene.height = 1;
   road.images.push_back(
       {"figure_5", "road", "256 x 256 texels",
-       TextureScene(scene, SamplerParameters{}, 1).scene().mesh.textures.at(0).image});
+       TextureScene(scene, tb::SamplerParameters{}, 1).scene().mesh.textures.at(0).image});
   all.push_back(std::move(road));
 
   PaperFigure modes{"Figure 6: the six modes of GL on the road texture",
@@ -579,29 +582,29 @@ std::vector<PaperFigure> figures(const PaperOptions& options) {
                                                  spec::texture::MinFilter::kNearest,
                                                  spec::texture::MinFilter::kNearestMipmapLinear,
                                                  spec::texture::MinFilter::kNearestMipmapNearest};
-  std::vector<Image> cells;
+  std::vector<tb::Image> cells;
   for (const spec::texture::MinFilter mode : kOrder) {
-    Image image = picture("road", "road", kRoad, size, mode, 0);
+    tb::Image image = picture("road", "road", kRoad, size, mode, 0);
     next();
     const std::string name = name_of(mode, spec::texture::kMinFilterNames);
     cells.push_back(image);
     modes.images.push_back({"figure_6_" + name, name, "", std::move(image)});
   }
   modes.images.push_back(
-      {"figure_6_sheet", "all six on one sheet", "in the order above", sheet(cells, 3), true});
+      {"figure_6_sheet", "all six on one sheet", "in the order above", tb::sheet(cells, 3), true});
   all.push_back(std::move(modes));
 
   PaperFigure checker{"Figures 7 and 8: checkerboard, nearest against trilinear, with zooms",
                       "The frame marks the part that is zoomed 8 times.",
                       {}};
-  std::vector<Image> zooms;
+  std::vector<tb::Image> zooms;
   const int part = size / 8;
   const int left = size / 2 - part / 2, top = size / 4;
   for (const auto& [mode, lb_n, title] :
        {std::tuple{spec::texture::MinFilter::kNearest, 0, "nearest"},
         std::tuple{spec::texture::MinFilter::kLinearMipmapLinear, 0, "trilinear"},
         std::tuple{spec::texture::MinFilter::kLinearMipmapLinear, 4, "trilinear, 16 samples"}}) {
-    Image image = picture("plane", "checker", 1024, size, mode, lb_n);
+    tb::Image image = picture("plane", "checker", 1024, size, mode, lb_n);
     next();
     zooms.push_back(zoom(crop(image, left, top, part, part), 8));
     draw_frame(image, left, top, part, part, {220, 40, 40, 255});
@@ -609,7 +612,7 @@ std::vector<PaperFigure> figures(const PaperOptions& options) {
         {fmt::format("figure_7_{}", checker.images.size()), title, "", std::move(image)});
   }
   checker.images.push_back({"figure_8", "zoomed", "nearest, trilinear, trilinear with 16 samples",
-                            sheet(zooms, 3), true});
+                            tb::sheet(zooms, 3), true});
   all.push_back(std::move(checker));
 
   PaperFigure object{"Figure 9: a textured object, trilinear", "", {}};
@@ -636,7 +639,7 @@ Paper build(const PaperOptions& options) {
   if (!options.quick) {
     const std::vector<TextureScene> scenes = reference_scenes(options.size);
     {
-      Progress progress(
+      tb::Progress progress(
           "design space",
           spec::texture::kFootprintNames.size() * spec::texture::kLog2Names.size() * scenes.size(),
           "scene", options.quiet);
@@ -649,4 +652,4 @@ Paper build(const PaperOptions& options) {
   return paper;
 }
 
-}  // namespace deburr::tb::paper_004
+}  // namespace deburr::studies::paper_004

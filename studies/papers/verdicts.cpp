@@ -10,7 +10,7 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::studies {
 namespace {
 
 struct Printed {
@@ -100,4 +100,4 @@ std::string brings(const Figures& before, const Figures& after, int error_decima
   return better && worse ? "mixed" : better ? "better" : worse ? "worse" : "same";
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::studies

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace deburr::tb {
+namespace deburr::studies {
 
 // ---- a figure that the paper prints -------------------------------------------------------------
 
@@ -56,4 +56,4 @@ struct Figures {
 std::string brings(const Figures& before, const Figures& after, int error_decimals,
                    int quality_decimals);
 
-}  // namespace deburr::tb
+}  // namespace deburr::studies

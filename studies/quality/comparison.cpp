@@ -26,11 +26,14 @@
 #include "tb/scene/ssim.h"
 #include "tb/stimuli/reference_filters.h"
 
-namespace deburr::tb {
+namespace deburr::studies {
+
+using tb::Image;
+
 namespace {
 
-using geometric::Checker;
-using geometric::Frame;
+using tb::geometric::Checker;
+using tb::geometric::Frame;
 using MorphologicalRules = spec::morphological::Parameters;
 using GeometricRules = spec::geometric::Parameters;
 
@@ -80,7 +83,7 @@ std::vector<Method> compared_methods() {
 }
 
 Image drawn(const Frame& frame, const GeometricRules& rules) {
-  return geometric::smoothed(frame, rules).image;
+  return tb::geometric::smoothed(frame, rules).image;
 }
 
 Image smoothed(const Frame& frame, const Image& image, const MorphologicalRules& rules) {
@@ -102,51 +105,52 @@ Image picture_of(const Method& method, const Frame& frame) {
 // Runs an environment that `make` makes, in a process of its own.
 template <class Make, class Measure>
 ComparisonCost cost_of(Make make, Measure measure) {
-  return forked<ComparisonCost>([&] {
-    SimulationOptions options;
+  return tb::forked<ComparisonCost>([&] {
+    tb::SimulationOptions options;
     options.check_links = false;
-    Simulation simulation(options);
+    tb::Simulation simulation(options);
     auto environment = make(simulation);
     simulation.elaborate(*environment);
     simulation.run();
     environment->check();
-    Result result;
+    tb::Result result;
     simulation.collect(result);
     ComparisonCost cost = measure(*environment);
-    for (const MemoryFigures& memory : result.memories) cost.bits += memory.physical_bits;
+    for (const tb::MemoryFigures& memory : result.memories) cost.bits += memory.physical_bits;
     return cost;
   });
 }
 
 ComparisonCost cost_of(const GeometricRules& rules, const Frame& frame) {
   return cost_of(
-      [&](Simulation& simulation) {
-        GeometricSetup setup;
+      [&](tb::Simulation& simulation) {
+        tb::GeometricSetup setup;
         setup.geometric = rules;
-        return std::make_unique<GeometricEnvironment>(simulation, std::span(&frame, 1), setup);
+        return std::make_unique<tb::GeometricEnvironment>(simulation, std::span(&frame, 1), setup);
       },
-      [](const GeometricEnvironment& environment) {
+      [](const tb::GeometricEnvironment& environment) {
         const rtl::geometric::GeometricEngine& engine = environment.engine();
         const std::uint64_t bytes =
             engine.memory_port.bytes_read.value() + engine.memory_port.bytes_written.value();
-        return ComparisonCost{number(engine.work().blended_pixels),
-                              number(engine.frame_sequencer.frame_cycles.value()),
-                              number(bytes) / (kWidth * kHeight), 0};
+        return ComparisonCost{tb::number(engine.work().blended_pixels),
+                              tb::number(engine.frame_sequencer.frame_cycles.value()),
+                              tb::number(bytes) / (kWidth * kHeight), 0};
       });
 }
 
-ComparisonCost cost_of(const MorphologicalRules& rules, const MorphologicalInput& input) {
+ComparisonCost cost_of(const MorphologicalRules& rules, const tb::MorphologicalInput& input) {
   const bool depth = rules.edge_source == spec::morphological::EdgeSource::kDepth ||
                      rules.edge_source == spec::morphological::EdgeSource::kPredicated;
   return cost_of(
-      [&](Simulation& simulation) {
-        MorphologicalSetup setup;
+      [&](tb::Simulation& simulation) {
+        tb::MorphologicalSetup setup;
         setup.morphological = rules;
-        return std::make_unique<MorphologicalEnvironment>(simulation, std::span(&input, 1), setup);
+        return std::make_unique<tb::MorphologicalEnvironment>(simulation, std::span(&input, 1),
+                                                              setup);
       },
-      [&](const MorphologicalEnvironment& environment) {
-        return ComparisonCost{number(environment.engine().work().blended_pixels),
-                              number(environment.engine().sequencer.frame_cycles.value()),
+      [&](const tb::MorphologicalEnvironment& environment) {
+        return ComparisonCost{tb::number(environment.engine().work().blended_pixels),
+                              tb::number(environment.engine().sequencer.frame_cycles.value()),
                               kStreamBytes + (depth ? kDepthBytes : 0), 0};
       });
 }
@@ -161,7 +165,7 @@ ComparisonCost cost_of(const Method& method, const Frame& frame) {
   };
   if (method.geometric) add(cost_of(*method.geometric, frame));
   if (method.morphological) {
-    MorphologicalInput input{frame.image, frame.depths};
+    tb::MorphologicalInput input{frame.image, frame.depths};
     if (method.geometric) input.image = drawn(frame, *method.geometric);
     add(cost_of(*method.morphological, input));
   }
@@ -220,7 +224,7 @@ std::span<const std::string_view> comparison_scenes() {
 }
 
 std::vector<ComparisonRow> compare_methods(const std::string& scene) {
-  const Checker checker(make_scene(scene), kWidth, kHeight, kSamples);
+  const Checker checker(tb::make_scene(scene), kWidth, kHeight, kSamples);
   std::vector<ComparisonRow> rows;
   std::vector<Image> images;
   const auto add = [&](const std::string& name, Image image) -> ComparisonRow& {
@@ -235,7 +239,7 @@ std::vector<ComparisonRow> compare_methods(const std::string& scene) {
   };
   add("none", checker.frame.image);
   add("MSAA 4x", checker.msaa);
-  for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
+  for (const tb::stimuli::ReferenceFilter& reference : tb::stimuli::kReferenceFilters)
     add(reference.name, reference.filter(checker.frame.image, true));
   for (const Method& method : compared_methods())
     add(method.name, picture_of(method, checker.frame)).cost = cost_of(method, checker.frame);
@@ -243,7 +247,7 @@ std::vector<ComparisonRow> compare_methods(const std::string& scene) {
   std::vector<const Image*> tests;
   tests.reserve(images.size());
   for (const Image& image : images) tests.push_back(&image);
-  const std::vector<double> flips = flip(checker.truth, tests),
+  const std::vector<double> flips = tb::flip(checker.truth, tests),
                             similar = ssim(checker.truth, tests);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].flip = flips[i];
@@ -256,7 +260,7 @@ std::string comparison_section(const std::string& name, std::span<const Comparis
   std::string text = fmt::format("### {}\n\n|", name), line = "|";
   for (const Column& column : kColumns) text += fmt::format(" | {}", column.title);
   text += fmt::format(" | blended pixels | clocks, M = {} | bytes a pixel | memory, bits |\n",
-                      GeometricSetup().memory.latency);
+                      tb::GeometricSetup().memory.latency);
   for (std::size_t i = 0; i < std::size(kColumns) + 5; ++i) line += "---|";
   text += line + "\n";
   for (const ComparisonRow& row : rows) {
@@ -310,11 +314,11 @@ constexpr int kCrop = 28, kZoom = 6, kAcross = 8, kGap = 8, kLetters = 2, kLeadi
 
 // The picture with lines of text over it.
 Image captioned(const Image& picture, std::span<const std::string> lines) {
-  constexpr Rgba8 kPaper = {255, 255, 255, 255};
+  constexpr tb::Rgba8 kPaper = {255, 255, 255, 255};
   std::vector<Image> labels;
   int top = 0;
   for (const std::string& line : lines) {
-    labels.push_back(label(line, kLetters));
+    labels.push_back(tb::label(line, kLetters));
     top += labels.back().height + kLeading;
   }
   Image result(picture.width, picture.height + top, kPaper);
@@ -332,7 +336,7 @@ Image captioned(const Image& picture, std::span<const std::string> lines) {
 Image comparison_sheet() {
   std::vector<Image> cells;
   for (const Place& place : kPlaces) {
-    const Checker checker(make_scene(place.scene), kWidth, kHeight, kSamples);
+    const Checker checker(tb::make_scene(place.scene), kWidth, kHeight, kSamples);
     const auto add = [&](const std::string& name, const Image& image) {
       const double edges = checker.edge_psnr(image);
       const std::string lines[] = {
@@ -341,19 +345,19 @@ Image comparison_sheet() {
     };
     add("none", checker.frame.image);
     add("MSAA 4x", checker.msaa);
-    for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
+    for (const tb::stimuli::ReferenceFilter& reference : tb::stimuli::kReferenceFilters)
       add(reference.name, reference.filter(checker.frame.image, true));
     for (const Method& method : compared_methods())
       add(method.label, picture_of(method, checker.frame));
     add("truth", checker.truth);
     // The next place begins a row.
     while (cells.size() % kAcross != 0)
-      cells.emplace_back(cells.front().width, cells.front().height, Rgba8{255, 255, 255, 255});
+      cells.emplace_back(cells.front().width, cells.front().height, tb::Rgba8{255, 255, 255, 255});
   }
-  const Image inner = sheet(cells, kAcross, kGap);
+  const Image inner = tb::sheet(cells, kAcross, kGap);
   Image result(inner.width + 2 * kGap, inner.height + 2 * kGap, {255, 255, 255, 255});
   paste(result, inner, kGap, kGap);
   return result;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::studies

@@ -13,7 +13,7 @@
 
 #include "tb/scene/image.h"
 
-namespace deburr::tb {
+namespace deburr::studies {
 
 // Of a frame, by the hardware model, compared with golden throughout.
 struct ComparisonCost {
@@ -42,6 +42,6 @@ std::string comparison_section(const std::string& name, std::span<const Comparis
 std::vector<ComparisonRow> means_of(std::span<const std::vector<ComparisonRow>> scenes);
 
 // Crops of some scenes, a cell a method, with its name and PSNR over edges.
-Image comparison_sheet();
+tb::Image comparison_sheet();
 
-}  // namespace deburr::tb
+}  // namespace deburr::studies

@@ -48,18 +48,18 @@ std::pair<std::size_t, std::size_t> part_of(const std::filesystem::path& path,
 }
 
 // A column per scene, the best method of each in bold.
-std::string edges_by_scene(std::span<const std::vector<ComparisonRow>> scenes) {
+std::string edges_by_scene(std::span<const std::vector<deburr::studies::ComparisonRow>> scenes) {
   std::string text = "### Edges by scene, dB\n\n| |", line = "|---|";
-  for (const std::string_view scene : comparison_scenes()) {
+  for (const std::string_view scene : deburr::studies::comparison_scenes()) {
     text += fmt::format(" {} |", scene);
     line += "---|";
   }
   text += "\n" + line + "\n";
   for (std::size_t i = 0; i < scenes[0].size(); ++i) {
     text += "| " + scenes[0][i].method;
-    for (const std::vector<ComparisonRow>& rows : scenes) {
+    for (const std::vector<deburr::studies::ComparisonRow>& rows : scenes) {
       double best = 0;
-      for (const ComparisonRow& row : rows)
+      for (const deburr::studies::ComparisonRow& row : rows)
         if (std::isfinite(row.edges)) best = std::max(best, row.edges);
       const std::string value = fmt::format("{:.2f}", rows[i].edges);
       if (!std::isfinite(rows[i].edges))
@@ -74,16 +74,18 @@ std::string edges_by_scene(std::span<const std::vector<ComparisonRow>> scenes) {
 
 // The mean of all scenes, and in full the simplest one and the one that takes most cycles.
 std::string generated() {
-  std::vector<std::vector<ComparisonRow>> scenes;
+  std::vector<std::vector<deburr::studies::ComparisonRow>> scenes;
   std::string sections;
-  for (const std::string_view scene : comparison_scenes()) {
+  for (const std::string_view scene : deburr::studies::comparison_scenes()) {
     std::cerr << scene << "\n";
-    scenes.push_back(compare_methods(std::string(scene)));
+    scenes.push_back(deburr::studies::compare_methods(std::string(scene)));
     if (scene == "cube" || scene == "object")
-      sections += comparison_section(std::string(scene), scenes.back());
+      sections += deburr::studies::comparison_section(std::string(scene), scenes.back());
   }
-  return fmt::format("\n{}{}{}", comparison_section("Mean of all scenes", means_of(scenes)),
-                     edges_by_scene(scenes), sections);
+  return fmt::format(
+      "\n{}{}{}",
+      deburr::studies::comparison_section("Mean of all scenes", deburr::studies::means_of(scenes)),
+      edges_by_scene(scenes), sections);
 }
 
 ExitCode write(const std::filesystem::path& path) {
@@ -100,16 +102,16 @@ ExitCode check(const std::filesystem::path& path, const std::string& scene) {
   const auto [begin, end] = part_of(path, page);
   const std::string part = page.substr(begin, end - begin);
   const bool current =
-      scene.empty()
-          ? part == generated()
-          : part.find(comparison_section(scene, compare_methods(scene))) != std::string::npos;
+      scene.empty() ? part == generated()
+                    : part.find(deburr::studies::comparison_section(
+                          scene, deburr::studies::compare_methods(scene))) != std::string::npos;
   if (current) return ExitCode::kPass;
   std::cerr << path.string() << " is out of date: run comparison_page write on it\n";
   return ExitCode::kMismatch;
 }
 
 ExitCode compare(const std::filesystem::path& path) {
-  if (read_image(path) == comparison_sheet()) return ExitCode::kPass;
+  if (read_image(path) == deburr::studies::comparison_sheet()) return ExitCode::kPass;
   std::cerr << path.string() << " is out of date: run comparison_page draw on it\n";
   return ExitCode::kMismatch;
 }
@@ -120,7 +122,7 @@ ExitCode run(const std::vector<std::string>& words) {
   if (command == "check" && (words.size() == 2 || words.size() == 3))
     return check(words[1], words.size() == 3 ? words[2] : "");
   if (command == "draw" && words.size() == 2) {
-    write_image(words[1], comparison_sheet());
+    write_image(words[1], deburr::studies::comparison_sheet());
     return ExitCode::kPass;
   }
   if (command == "compare" && words.size() == 2) return compare(words[1]);

@@ -24,7 +24,10 @@
 #include "tb/scene/truth.h"
 #include "tb/stimuli/reference_filters.h"
 
-namespace deburr::tb::harm {
+namespace deburr::studies::harm {
+
+using tb::Image;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,7 +65,7 @@ std::vector<Filter> filters() {
         preset(fmt::format("smaa {}", m::kQualityNames[static_cast<std::size_t>(quality)]),
                m::Preset::kSmaa, quality));
   all.push_back(preset("smaa-dynamic", m::Preset::kSmaaDynamic));
-  for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
+  for (const tb::stimuli::ReferenceFilter& reference : tb::stimuli::kReferenceFilters)
     all.push_back({reference.name, [filter = reference.filter](const Image& image) {
                      return filter(image, true);
                    }});
@@ -81,15 +84,15 @@ struct Figures {
 // Against the truth, or, without one, against the frame, all of which is right then.
 std::vector<Figures> measure(const Image& frame, const Image& truth,
                              std::span<const Image> smoothed) {
-  const Mask right = inverted(edge_mask(truth, frame));
+  const tb::Mask right = inverted(tb::edge_mask(truth, frame));
   const auto of_right = static_cast<double>(count(right));
   std::vector<const Image*> tests;
   for (const Image& image : smoothed) tests.push_back(&image);
-  const std::vector<double> flips = flip(truth, tests), similar = ssim(truth, tests);
+  const std::vector<double> flips = tb::flip(truth, tests), similar = ssim(truth, tests);
   std::vector<Figures> all;
   for (std::size_t i = 0; i < tests.size(); ++i) {
     const auto changed = [&](int codes) {
-      const auto pixels = static_cast<double>(count_different(*tests[i], frame, right, codes));
+      const auto pixels = static_cast<double>(tb::count_different(*tests[i], frame, right, codes));
       return 100 * pixels / of_right;
     };
     all.push_back({changed(2), changed(16), psnr(*tests[i], truth), flips[i], similar[i]});
@@ -159,7 +162,7 @@ std::string textured_table(std::span<const Filter> filters) {
     images.insert(images.begin(), textured.frame);
     const std::vector<Figures> figures = measure(textured.frame, textured.truth, images);
     const auto right =
-        static_cast<double>(count(inverted(edge_mask(textured.truth, textured.frame))));
+        static_cast<double>(count(inverted(tb::edge_mask(textured.truth, textured.frame))));
     titles.push_back(fmt::format("view {}, {:.1f} % right: changed, %", view + 1,
                                  100 * right / static_cast<double>(textured.frame.pixels.size())));
     titles.insert(titles.end(), {"PSNR, dB", "FLIP / SSIM"});
@@ -177,8 +180,8 @@ struct Pair {
   Image frame, truth;
 };
 
-Pair rendered(const Scene& scene, int width, int height) {
-  LitFrames lit = render_lit_frames(scene, width, height, 8);
+Pair rendered(const tb::Scene& scene, int width, int height) {
+  tb::LitFrames lit = tb::render_lit_frames(scene, width, height, 8);
   return {std::move(lit.noaa), std::move(lit.truth)};
 }
 
@@ -222,7 +225,7 @@ std::vector<Pair> stand_ins() {
   std::vector<Pair> all;
   for (const char* const kind : {"street", "vehicle", "forest"})
     for (const std::uint64_t seed : {1, 2, 3})
-      all.push_back(rendered(import_scene(write_stand_in(folder, kind, seed)), 512, 512));
+      all.push_back(rendered(tb::import_scene(write_stand_in(folder, kind, seed)), 512, 512));
   fs::remove_all(folder);
   return all;
 }
@@ -285,7 +288,7 @@ std::string worst_with_guard(const std::string& name, std::span<const Pair> pair
   std::vector<std::pair<double, double>> worst(kGuardedPresets.size(), {1000, 1000});
   for (const Pair& pair : pairs) {
     guarded = std::max(guarded, guarded_percent(pair.frame));
-    const Mask edges = edge_mask(pair.truth, pair.frame);
+    const tb::Mask edges = tb::edge_mask(pair.truth, pair.frame);
     const std::vector<Image> smoothed = smoothed_by(filters, pair.frame);
     for (std::size_t i = 0; i < worst.size(); ++i) {
       const Image &without = smoothed[2 * i], &with = smoothed[2 * i + 1];
@@ -408,8 +411,8 @@ std::string guard_tables() {
   right("like a photograph: foliage", foliage_photo(kWidth, kHeight));
   right("smoothed already: the hall", smoothed_hall(kWidth, kHeight));
   std::vector<Pair> of_scenes, textured;
-  for (const SceneName& scene : scene_names())
-    of_scenes.push_back(rendered(make_scene(scene.name), 512, 512));
+  for (const tb::SceneName& scene : tb::scene_names())
+    of_scenes.push_back(rendered(tb::make_scene(scene.name), 512, 512));
   for (int view = 0; view < 3; ++view) {
     Textured t = textured_frame(view, 2 * kWidth, 2 * kHeight);
     textured.push_back({std::move(t.frame), std::move(t.truth)});
@@ -450,7 +453,7 @@ std::string formula_frames_with_truth() {
   std::vector<Column> columns;
   columns.push_back({"five scenes", {}});
   for (const char* const scene : {"cylinders", "object", "road", "quad", "tunnel"})
-    columns.back().pairs.push_back(rendered(make_scene(scene), 512, 512));
+    columns.back().pairs.push_back(rendered(tb::make_scene(scene), 512, 512));
   columns.push_back({"nine stand-ins", stand_ins()});
   return "\n" + perceptual_table(filters(), columns);
 }
@@ -485,7 +488,7 @@ std::string data_tables(const fs::path& data) {
   photos.reserve(kPhotos.size());
   for (const char* const name : kPhotos)
     photos.push_back(
-        checked(fmt::format("photograph: {}", name), read_image(photo_file(data, name)), all));
+        checked(fmt::format("photograph: {}", name), tb::read_image(photo_file(data, name)), all));
   return "\nPhotographs. " + changed_table(all, photos);
 }
 
@@ -495,7 +498,7 @@ std::vector<Pair> held_out(const fs::path& data) {
   std::vector<Pair> all;
   all.reserve(kHeldOut.size());
   for (const char* const name : kHeldOut)
-    all.push_back(rendered(import_scene(data / name), 512, 512));
+    all.push_back(rendered(tb::import_scene(data / name), 512, 512));
   return all;
 }
 
@@ -506,7 +509,7 @@ std::string data_guard_table(const fs::path& data) {
   const std::vector<Filter> all = guarded_filters();
   std::string text = "\n" + guard_truth_head();
   for (const FramePair& pair : kFrames) {
-    const Pair one = {read_image(data / pair.frame), read_image(data / pair.truth)};
+    const Pair one = {tb::read_image(data / pair.frame), tb::read_image(data / pair.truth)};
     text += worst_with_guard(pair.title, {&one, 1}, all);
   }
   return text + worst_with_guard("17 held-out meshes", held_out(data), all) + "\n";
@@ -518,9 +521,9 @@ std::string data_frames_with_truth(const fs::path& data) {
   columns.reserve(kFrames.size() + 1);
   for (const FramePair& pair : kFrames)
     columns.push_back(
-        {pair.title, {{read_image(data / pair.frame), read_image(data / pair.truth)}}});
+        {pair.title, {{tb::read_image(data / pair.frame), tb::read_image(data / pair.truth)}}});
   columns.push_back({"17 held-out meshes", held_out(data)});
   return "\n" + perceptual_table(filters(), columns);
 }
 
-}  // namespace deburr::tb::harm
+}  // namespace deburr::studies::harm

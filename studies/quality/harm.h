@@ -11,7 +11,7 @@
 
 #include "studies/quality/harm_frames.h"
 
-namespace deburr::tb::harm {
+namespace deburr::studies::harm {
 
 std::string formula_tables();
 // FileError where the folder has not what they need.
@@ -42,4 +42,4 @@ std::string text_table(Text kind);
 // The same of the first of guard_tables().
 std::string guarded_text_table(Text kind);
 
-}  // namespace deburr::tb::harm
+}  // namespace deburr::studies::harm

@@ -24,7 +24,13 @@
 #include "tb/scene/truth.h"
 #include "tb/stimuli/frames.h"
 
-namespace deburr::tb::harm {
+namespace deburr::studies::harm {
+
+using tb::Image;
+using tb::ImageOf;
+using tb::Random;
+using tb::Rgba8;
+
 namespace {
 
 using Imath::V2d;
@@ -43,7 +49,7 @@ class Hall {
     const int stones = texture("stones", 3), bricks = texture("brick", 5),
               planks = texture("road", 7);
     const int tiles =
-        add({"tiles", checkerboard(256, 256, 16, {170, 150, 130, 255}, {140, 125, 112, 255})});
+        add({"tiles", tb::checkerboard(256, 256, 16, {170, 150, 130, 255}, {140, 125, 112, 255})});
     const int marble = texture("stones", 11);
     const std::uint32_t floor = material({0.9, 0.9, 0.9}, stones),
                         wall = material({1, 0.95, 0.9}, bricks),
@@ -64,15 +70,15 @@ class Hall {
                                            {-2.8, -1.0, 0.8, 1.3}})
       prism({x, 0, z}, size * 0.7, size, 4, turn, crate, crate);
   }
-  Mesh mesh() && { return std::move(mesh_); }
+  tb::Mesh mesh() && { return std::move(mesh_); }
 
  private:
-  int add(Texture texture) {
+  int add(tb::Texture texture) {
     mesh_.textures.push_back(std::move(texture));
     return static_cast<int>(mesh_.textures.size()) - 1;
   }
   int texture(const std::string& name, std::uint32_t seed) {
-    return add({name, make_texture(name, 512, 512, seed)});
+    return add({name, tb::make_texture(name, 512, 512, seed)});
   }
   std::uint32_t material(const V3d& colour, int texture) {
     mesh_.materials.push_back({"", colour, texture});
@@ -107,7 +113,7 @@ class Hall {
     }
   }
 
-  Mesh mesh_;
+  tb::Mesh mesh_;
 };
 
 // ---- noise --------------------------------------------------------------------------------------
@@ -154,7 +160,7 @@ Image photo(int width, int height, std::uint64_t seed, Scenery light) {
           const Light one = light(x + (i + 0.5) / kSamples, y + (j + 0.5) / kSamples);
           for (std::size_t c = 0; c < 3; ++c) planes[c].at(x, y) += one[c] / (kSamples * kSamples);
         }
-  Kernel<double> lens;
+  tb::Kernel<double> lens;
   double sum = 0;
   for (int k = 0; k <= 2; ++k) {
     lens.taps.push_back(std::exp(-k * k / (2 * 0.6 * 0.6)));
@@ -194,7 +200,7 @@ struct Stroke {
 
 // Strokes that join the dots of a line of text, in dots.
 std::vector<Stroke> strokes_of(const std::string& text) {
-  const Image dots = label(text, 1);
+  const Image dots = tb::label(text, 1);
   const auto dot = [&](int x, int y) {
     return x >= 0 && y >= 0 && x < dots.width && y < dots.height && dots.at(x, y)[0] == 0;
   };
@@ -339,8 +345,8 @@ void draw_figure(ImageOf<std::uint8_t>& canvas, int left, int top, Random& rando
 
 // ---- frames -------------------------------------------------------------------------------------
 
-Scene textured_hall(int view) {
-  Scene scene;
+tb::Scene textured_hall(int view) {
+  tb::Scene scene;
   scene.name = "hall";
   scene.mesh = Hall().mesh();
   const std::array<std::pair<V3d, V3d>, 3> cameras = {{{{0.6, 1.7, 10.5}, {-0.5, 1.4, -4}},
@@ -353,17 +359,17 @@ Scene textured_hall(int view) {
 }
 
 Textured textured_frame(int view, int width, int height) {
-  const Scene scene = textured_hall(view);
-  return {render_covered(scene, width, height, 1), render_covered(scene, width, height, 8)};
+  const tb::Scene scene = textured_hall(view);
+  return {tb::render_covered(scene, width, height, 1), tb::render_covered(scene, width, height, 8)};
 }
 
 Image smoothed_hall(int width, int height) {
-  RenderOptions options;
+  tb::RenderOptions options;
   options.width = width;
   options.height = height;
   options.samples = 8;
-  options.shading = Shading::kLit;
-  options.averaging = Averaging::kLinear;
+  options.shading = tb::Shading::kLit;
+  options.averaging = tb::Averaging::kLinear;
   return render(textured_hall(0), options);
 }
 
@@ -442,8 +448,8 @@ Image text_page(Text kind, int width, int height) {
   if (kind == Text::kBitmapFont) {
     Image page(width, height, kPaper);
     for (int y = 6; y + 11 < height; y += 11) {
-      const Image line =
-          label(line_of_words(static_cast<std::size_t>(width - 12) / 6, random), 1, kInk, kPaper);
+      const Image line = tb::label(line_of_words(static_cast<std::size_t>(width - 12) / 6, random),
+                                   1, kInk, kPaper);
       paste(page, line, 6, y);
     }
     return page;
@@ -494,12 +500,12 @@ Textured wires(double thickness, double degrees, int width, int height) {
     mixes[samples][3] = 255;
     for (std::size_t c = 0; c < 3; ++c)
       mixes[samples][c] =
-          code(255 * linear_to_srgb(std::lerp(srgb_to_linear(kSky[c] / 255.0),
-                                              srgb_to_linear(kWire[c] / 255.0), share)));
+          code(255 * tb::linear_to_srgb(std::lerp(tb::srgb_to_linear(kSky[c] / 255.0),
+                                                  tb::srgb_to_linear(kWire[c] / 255.0), share)));
   }
-  Image frame = stimuli::draw(
+  Image frame = tb::stimuli::draw(
       width, height, [&](int x, int y) { return on_wire(x + 0.5, y + 0.5) ? kWire : kSky; });
-  Image truth = stimuli::draw(width, height, [&](int x, int y) {
+  Image truth = tb::stimuli::draw(width, height, [&](int x, int y) {
     std::size_t samples = 0;
     for (int j = 0; j < kSide; ++j)
       for (int i = 0; i < kSide; ++i)
@@ -531,7 +537,7 @@ Image pixel_art(int size, int width, int height) {
     const int x = random.between(0, columns - 1), y = random.between(0, rows - 1);
     draw_figure(canvas, x, y, random);
   }
-  return stimuli::draw(width, height, [&](int x, int y) {
+  return tb::stimuli::draw(width, height, [&](int x, int y) {
     return kPalette[canvas.at(std::min(columns - 1, x / size), std::min(rows - 1, y / size))];
   });
 }
@@ -547,7 +553,8 @@ Image compressed(const Image& image, int quality) {
       !output->close())
     throw spec::FileError(fmt::format("a JPEG cannot be written: {}",
                                       output ? output->geterror() : OIIO::geterror()));
-  return read_image_memory("harm.jpg", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  return tb::read_image_memory("harm.jpg",
+                               {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-}  // namespace deburr::tb::harm
+}  // namespace deburr::studies::harm

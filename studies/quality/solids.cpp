@@ -9,7 +9,11 @@
 
 #include "tb/base/random.h"
 
-namespace deburr::tb {
+namespace deburr::studies {
+
+using tb::Random;
+using tb::Scene;
+
 namespace {
 
 using Imath::V3d;
@@ -39,7 +43,7 @@ struct Prism {
   bool round = false;  // shaded smoothly around
 };
 
-void add(Mesh& mesh, const Prism& p, std::uint32_t material) {
+void add(tb::Mesh& mesh, const Prism& p, std::uint32_t material) {
   const V3d helper = std::abs(p.axis.y) < 0.9 ? V3d(0, 1, 0) : V3d(1, 0, 0);
   const V3d u = helper.cross(p.axis).normalized(), v = p.axis.cross(u);
   const auto out = [&](double corner) {
@@ -72,7 +76,7 @@ void add(Mesh& mesh, const Prism& p, std::uint32_t material) {
   }
 }
 
-std::uint32_t colour(Mesh& mesh, Random& random) {
+std::uint32_t colour(tb::Mesh& mesh, Random& random) {
   mesh.materials.push_back(
       {"plain", V3d(real(random, 0.1, 0.9), real(random, 0.1, 0.9), real(random, 0.1, 0.9)), -1});
   return static_cast<std::uint32_t>(mesh.materials.size()) - 1;
@@ -187,4 +191,4 @@ Scene turned(Scene scene, double degrees) {
   return scene;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::studies

@@ -9,7 +9,7 @@
 
 #include "tb/scene/scenes.h"
 
-namespace deburr::tb {
+namespace deburr::studies {
 
 struct SolidsName {
   std::string_view name, meaning;
@@ -19,9 +19,9 @@ std::span<const SolidsName> solids_names();
 
 // One of them by name; another seed is another scene of the same kind, from elsewhere. Throws
 // std::out_of_range for a name that there is not.
-Scene make_solids(std::string_view name, std::uint64_t seed);
+tb::Scene make_solids(std::string_view name, std::uint64_t seed);
 
 // The scene seen from elsewhere: its camera turned about the vertical through its target.
-Scene turned(Scene scene, double degrees);
+tb::Scene turned(tb::Scene scene, double degrees);
 
-}  // namespace deburr::tb
+}  // namespace deburr::studies

@@ -10,14 +10,14 @@
 #include "tb/engines/texture/texture_levels.h"
 #include "tb/scene/textures.h"
 
-namespace deburr::tb {
+namespace deburr::studies {
 namespace {
 
 constexpr int kBox = 24;  // points each way in a pixel of the truth
 
-std::vector<std::uint8_t> bytes_of(const Image& image) {
+std::vector<std::uint8_t> bytes_of(const tb::Image& image) {
   std::vector<std::uint8_t> bytes;
-  for (const Rgba8& texel : image.pixels) bytes.insert(bytes.end(), texel.begin(), texel.end());
+  for (const tb::Rgba8& texel : image.pixels) bytes.insert(bytes.end(), texel.begin(), texel.end());
   return bytes;
 }
 
@@ -27,9 +27,9 @@ std::int32_t fixed(double coordinate) {
 
 }  // namespace
 
-PhotoTexture::PhotoTexture(Image image)
+PhotoTexture::PhotoTexture(tb::Image image)
     : image_(std::move(image)), ideal_(image_.width, image_.height, bytes_of(image_)) {
-  const std::vector<Image> levels = mip_chain(image_);
+  const std::vector<tb::Image> levels = tb::mip_chain(image_);
   memory_.add(levels_of(levels), {});
 }
 
@@ -110,4 +110,4 @@ FilterFigures TurnedPhoto::check(std::span<const std::uint8_t> rgba) const {
   return figures;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::studies

@@ -17,19 +17,19 @@
 #include "spec/texture/parameters.h"
 #include "tb/scene/image.h"
 
-namespace deburr::tb {
+namespace deburr::studies {
 
 // A photograph with its mip levels, for the unit and for the ideal filters.
 class PhotoTexture {
  public:
-  explicit PhotoTexture(Image image);
-  const Image& image() const { return image_; }
+  explicit PhotoTexture(tb::Image image);
+  const tb::Image& image() const { return image_; }
   const golden::ideal::TextureImage& ideal() const { return ideal_; }
   std::span<const std::uint8_t> memory() const { return memory_.bytes(); }
   spec::texture::Descriptor descriptor(int lb_n_max) const;
 
  private:
-  Image image_;
+  tb::Image image_;
   golden::ideal::TextureImage ideal_;
   platform::TextureMemory memory_;
 };
@@ -67,4 +67,4 @@ class TurnedPhoto {
   std::vector<golden::ideal::Colour> truth_, blurred_;  // blurred: trilinear
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::studies

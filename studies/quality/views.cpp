@@ -11,7 +11,11 @@
 #include "studies/quality/solids.h"
 #include "tb/base/random.h"
 
-namespace deburr::tb {
+namespace deburr::studies {
+
+using tb::Mesh;
+using tb::Random;
+
 namespace {
 
 using Imath::V3d;
@@ -238,9 +242,9 @@ void field(Mesh& mesh, Random& random) {
 
 }  // namespace
 
-Scene make_kind(std::string_view name, std::uint64_t seed) {
+tb::Scene make_kind(std::string_view name, std::uint64_t seed) {
   Random random(seed);
-  Scene scene;
+  tb::Scene scene;
   scene.name = std::string(name);
   double height = 0.5, distance = 2.9, low = 0, high = kTurn;
   if (name == "fence") {
@@ -270,8 +274,8 @@ Scene make_kind(std::string_view name, std::uint64_t seed) {
   return scene;
 }
 
-Scene inside_a_cube(double degrees) {
-  Scene scene = make_scene("cube");
+tb::Scene inside_a_cube(double degrees) {
+  tb::Scene scene = tb::make_scene("cube");
   const double angle = degrees * std::numbers::pi / 180;
   scene.camera = {V3d(0.1, 0.05, -0.08), V3d(0.1 + std::sin(angle), 0.3, -0.08 + std::cos(angle)),
                   V3d(0, 1, 0), 1.4, 0.02};
@@ -281,14 +285,14 @@ Scene inside_a_cube(double degrees) {
 std::vector<MeasuredView> views(Half half, const std::filesystem::path& data) {
   const bool chosen_by = half == Half::kChosenBy;
   std::vector<MeasuredView> all;
-  const auto add = [&](const char* group, std::string name, Scene scene) {
+  const auto add = [&](const char* group, std::string name, tb::Scene scene) {
     all.push_back({group, std::move(name), std::move(scene)});
   };
   using Names = std::vector<const char*>;
   for (const char* name : chosen_by ? Names{"cube", "wheelcover", "wing", "cylinders", "terrain"}
                                     : Names{"sphere", "canopy", "object", "road"})
     for (const double degrees : {0.0, chosen_by ? 40.0 : -65.0})
-      add("scenes", fmt::format("{} {}", name, degrees), turned(make_scene(name), degrees));
+      add("scenes", fmt::format("{} {}", name, degrees), turned(tb::make_scene(name), degrees));
   for (const char* name :
        chosen_by ? Names{"fence", "ribbons", "chain"} : Names{"shelves", "terraces", "field"})
     for (const std::uint64_t seed : {1u, 2u})
@@ -298,7 +302,7 @@ std::vector<MeasuredView> views(Half half, const std::filesystem::path& data) {
       add("solids", fmt::format("{} {}", name, seed), make_solids(name, seed));
   const auto load = [&](const std::filesystem::path& file, double degrees) {
     add("meshes", fmt::format("{} {}", file.stem().string(), degrees),
-        turned(load_scene((data / file).string()), degrees));
+        turned(tb::load_scene((data / file).string()), degrees));
   };
   if (!std::filesystem::is_directory(data)) return all;
   for (const char* file :
@@ -314,4 +318,4 @@ std::vector<MeasuredView> views(Half half, const std::filesystem::path& data) {
   return all;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::studies

@@ -12,11 +12,11 @@
 
 #include "tb/scene/scenes.h"
 
-namespace deburr::tb {
+namespace deburr::studies {
 
 struct MeasuredView {
   std::string group, name;  // group: scenes, solids, meshes
-  Scene scene;
+  tb::Scene scene;
 };
 
 enum class Half { kChosenBy, kHeldOut };
@@ -31,9 +31,9 @@ std::vector<MeasuredView> views(Half half, const std::filesystem::path& data);
 //   shelves  stacked: boxes side by side and on each other, a hair apart
 //   terraces stacked: round steps with thin lids
 //   field    far and fine: cones and boxes in a hilly ground, seen from low above it
-Scene make_kind(std::string_view name, std::uint64_t seed);
+tb::Scene make_kind(std::string_view name, std::uint64_t seed);
 
 // Inside of a cube, near its middle.
-Scene inside_a_cube(double degrees);
+tb::Scene inside_a_cube(double degrees);
 
-}  // namespace deburr::tb
+}  // namespace deburr::studies

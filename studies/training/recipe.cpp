@@ -12,17 +12,17 @@
 #include "tb/base/fnv.h"
 #include "tb/stimuli/share_file.h"
 
-namespace deburr::tb::training {
+namespace deburr::studies::training {
 namespace {
 
 using golden::morphological::ShareTables;
 
 constexpr std::string_view kFrame = "frame ";
 
-void add(FnvHash& hash, const Image& image) {
+void add(tb::FnvHash& hash, const tb::Image& image) {
   hash.lowest_first(static_cast<std::uint64_t>(image.width), 4);
   hash.lowest_first(static_cast<std::uint64_t>(image.height), 4);
-  for (const Rgba8& pixel : image.pixels)
+  for (const tb::Rgba8& pixel : image.pixels)
     for (std::size_t c = 0; c < 3; ++c) hash.byte(pixel[c]);
 }
 
@@ -48,7 +48,7 @@ int least_step() {
     golden::morphological::MorphologicalGolden golden(
         golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr));
     const auto code = static_cast<std::uint8_t>(step);
-    const std::vector<Rgba8> pixels = {{0, 0, 0, 255}, {code, code, code, 255}};
+    const std::vector<tb::Rgba8> pixels = {{0, 0, 0, 255}, {code, code, code, 255}};
     golden.process({pixels, 2, 1});
     if (golden.edges().left.at(1, 0)) return step;
   }
@@ -58,7 +58,7 @@ int least_step() {
 }  // namespace
 
 std::uint64_t hash_of(const TruthFrame& frame) {
-  FnvHash hash;
+  tb::FnvHash hash;
   for (const char c : frame.name) hash.byte(static_cast<unsigned char>(c));
   add(hash, frame.frame);
   add(hash, frame.truth);
@@ -123,8 +123,8 @@ inline constexpr std::array<std::int8_t, 640> kSharesOfFar = {{
 
 }}  // namespace deburr::spec::morphological
 )",
-      hash_of(recipe), sum_of(tables), listed(tables.of_codes), listed(tables.of_near),
+      hash_of(recipe), tb::stimuli::sum_of(tables), listed(tables.of_codes), listed(tables.of_near),
       listed(tables.of_far));
 }
 
-}  // namespace deburr::tb::training
+}  // namespace deburr::studies::training

@@ -14,7 +14,7 @@
 #include "studies/training/share_trainer.h"
 #include "studies/training/training_frames.h"
 
-namespace deburr::tb::training {
+namespace deburr::studies::training {
 
 // To be raised with everything that changes tables and stands in no other line of the recipe
 // (ShareTrainer.GivesTheTablesOfItsVersion says when).
@@ -33,4 +33,4 @@ std::vector<HashedFrame> frames_of_recipe(const std::string& text);
 // spec/morphological/learned_shares.h.
 std::string header_of(const golden::morphological::ShareTables& tables, const std::string& recipe);
 
-}  // namespace deburr::tb::training
+}  // namespace deburr::studies::training

@@ -9,7 +9,7 @@
 #include "spec/morphological/packets.h"
 #include "spec/morphological/shapes.h"
 
-namespace deburr::tb::training {
+namespace deburr::studies::training {
 namespace {
 
 namespace gm = golden::morphological;
@@ -22,7 +22,7 @@ struct EdgeSource {
   std::array<std::uint8_t, 2> share{};
   std::uint16_t span = 0;
 };
-using EdgePlane = ImageOf<EdgeSource>;
+using EdgePlane = tb::ImageOf<EdgeSource>;
 
 struct Sources {
   EdgePlane top, left;
@@ -59,13 +59,13 @@ Sources sources_of(const gm::MorphologicalGolden& golden) {
   return result;
 }
 
-std::array<std::uint8_t, 3> rgb(const Rgba8& pixel) { return {pixel[0], pixel[1], pixel[2]}; }
+std::array<std::uint8_t, 3> rgb(const tb::Rgba8& pixel) { return {pixel[0], pixel[1], pixel[2]}; }
 
 }  // namespace
 
 std::vector<ShareSample> samples_of(const TruthFrame& frame) {
   gm::MorphologicalGolden golden(gm::preset_parameters(spec::morphological::Preset::kDeburr));
-  const Image& image = frame.frame;
+  const tb::Image& image = frame.frame;
   golden.process({image.pixels, image.width, image.height});
   const Sources sources = sources_of(golden);
   std::vector<ShareSample> result;
@@ -100,4 +100,4 @@ std::vector<ShareSample> samples_of(const TruthFrame& frame) {
   return result;
 }
 
-}  // namespace deburr::tb::training
+}  // namespace deburr::studies::training

@@ -14,14 +14,14 @@
 #include "golden/morphological/learned_shares.h"
 #include "tb/scene/image.h"
 
-namespace deburr::tb::training {
+namespace deburr::studies::training {
 
 // A frame without anti-aliasing, and what it should have been.
 struct TruthFrame {
   std::string name;   // unique
   std::string group;  // frames of one mesh or scene are trained on or checked, never both
-  Image frame, truth;
-  DepthImage depth;  // empty: no silhouettes
+  tb::Image frame, truth;
+  tb::DepthImage depth;  // empty: no silhouettes
 };
 
 enum class Source : std::uint8_t {
@@ -42,4 +42,4 @@ struct ShareSample {
 
 std::vector<ShareSample> samples_of(const TruthFrame& frame);
 
-}  // namespace deburr::tb::training
+}  // namespace deburr::studies::training

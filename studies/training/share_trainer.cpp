@@ -14,7 +14,7 @@
 #include "tb/base/random.h"
 #include "tb/scene/exact_math.h"
 
-namespace deburr::tb::training {
+namespace deburr::studies::training {
 namespace {
 
 using golden::morphological::ShareIndices;
@@ -26,7 +26,7 @@ constexpr double kMost = 0.5;
 
 using Weights = std::vector<double>;  // A, B, C, as real sums
 
-double sigmoid(double z) { return 1 / (1 + exponential(-z)); }
+double sigmoid(double z) { return 1 / (1 + tb::exponential(-z)); }
 
 // The code of linear light as a real number, and its slope.
 class Encoding {
@@ -34,7 +34,7 @@ class Encoding {
   Encoding() {
     for (std::size_t i = 0; i < code_.size(); ++i) {
       const double l = static_cast<double>(i) / kSteps;
-      code_[i] = 255 * (l <= 0.0031308 ? 12.92 * l : 1.055 * power(l, 1 / 2.4) - 0.055);
+      code_[i] = 255 * (l <= 0.0031308 ? 12.92 * l : 1.055 * tb::power(l, 1 / 2.4) - 0.055);
     }
   }
   struct Point {
@@ -173,7 +173,7 @@ ShareTables first_guess() {
         analytic_share(i >> 8, i >> 6 & 3, kDistances[static_cast<std::size_t>(i >> 3 & 7)],
                        kDistances[static_cast<std::size_t>(i & 7)]);
     tables.of_codes[static_cast<std::size_t>(i)] =
-        static_cast<std::int8_t>(std::lround(kUnit * logarithm(share / (1 - share))));
+        static_cast<std::int8_t>(std::lround(kUnit * tb::logarithm(share / (1 - share))));
   }
   return tables;
 }
@@ -195,7 +195,7 @@ ShareTables train(const std::vector<std::vector<ShareSample>>& frames, const Rec
   }
 
   constexpr double kFirst = 0.9, kSecond = 0.999, kTiny = 1e-8;
-  Random random(recipe.seed);
+  tb::Random random(recipe.seed);
   Weights gradient(kAll), mean(kAll, 0), square(kAll, 0);
   double first_left = 1, second_left = 1;
   for (int step = 0; step < recipe.batches; ++step) {
@@ -207,7 +207,7 @@ ShareTables train(const std::vector<std::vector<ShareSample>>& frames, const Rec
     }
     first_left *= kFirst;
     second_left *= kSecond;
-    const double rate = recipe.rate * 0.5 * (1 + sin_cos(kPi * step / recipe.batches).cos);
+    const double rate = recipe.rate * 0.5 * (1 + tb::sin_cos(tb::kPi * step / recipe.batches).cos);
     for (std::size_t i = 0; i < kAll; ++i) {
       mean[i] += (1 - kFirst) * (gradient[i] - mean[i]);
       square[i] += (1 - kSecond) * (gradient[i] * gradient[i] - square[i]);
@@ -230,9 +230,9 @@ ShareTables train(const std::vector<std::vector<ShareSample>>& frames, const Rec
 }
 
 std::uint64_t hash_of(const std::string& text) {
-  FnvHash hash;
+  tb::FnvHash hash;
   for (const char c : text) hash.byte(static_cast<unsigned char>(c));
   return hash.value();
 }
 
-}  // namespace deburr::tb::training
+}  // namespace deburr::studies::training

@@ -16,7 +16,7 @@
 #include "golden/morphological/learned_shares.h"
 #include "studies/training/share_samples.h"
 
-namespace deburr::tb::training {
+namespace deburr::studies::training {
 
 struct Recipe {
   int batches = 3000;
@@ -40,4 +40,4 @@ golden::morphological::ShareTables train(
 // FNV-1a, 64 bits.
 std::uint64_t hash_of(const std::string& text);
 
-}  // namespace deburr::tb::training
+}  // namespace deburr::studies::training

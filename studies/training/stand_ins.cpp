@@ -11,7 +11,7 @@
 #include "tb/base/random.h"
 #include "tb/scene/exact_math.h"
 
-namespace deburr::tb {
+namespace deburr::studies {
 namespace {
 
 constexpr std::array<std::array<double, 3>, 6> kColours = {{{0.8, 0.15, 0.1},
@@ -33,7 +33,7 @@ class Writer {
   void use(int colour) { text_ += fmt::format("usemtl c{}\n", colour); }
   // Turned by `angle` around the upright axis through its centre.
   void box(const Point& centre, const Point& size, double angle) {
-    const auto [s, c] = sin_cos(angle);
+    const auto [s, c] = tb::sin_cos(angle);
     std::array<int, 8> corner{};
     for (std::size_t i = 0; i < corner.size(); ++i) {
       const double x = (i & 1 ? 0.5 : -0.5) * size.x, y = (i & 2 ? 0.5 : -0.5) * size.y,
@@ -49,7 +49,7 @@ class Writer {
   void prism(const Point& foot, double height, double low, double high, int sides) {
     std::vector<int> below, above;
     for (int i = 0; i < sides; ++i) {
-      const SinCos a = sin_cos(2 * kPi * i / sides);
+      const tb::SinCos a = tb::sin_cos(2 * tb::kPi * i / sides);
       below.push_back(vertex({foot.x + low * a.cos, foot.y, foot.z + low * a.sin}));
       above.push_back(vertex({foot.x + high * a.cos, foot.y + height, foot.z + high * a.sin}));
     }
@@ -68,7 +68,7 @@ class Writer {
   void wheel(const Point& centre, double radius, double width, int sides) {
     std::vector<int> front, back;
     for (int i = 0; i < sides; ++i) {
-      const SinCos a = sin_cos(2 * kPi * i / sides);
+      const tb::SinCos a = tb::sin_cos(2 * tb::kPi * i / sides);
       const double x = centre.x + radius * a.cos, y = centre.y + radius * a.sin;
       front.push_back(vertex({x, y, centre.z + width / 2}));
       back.push_back(vertex({x, y, centre.z - width / 2}));
@@ -92,9 +92,9 @@ class Writer {
   int vertices_ = 0;
 };
 
-int any_colour(Random& random) { return static_cast<int>(random.below(kColours.size())); }
+int any_colour(tb::Random& random) { return static_cast<int>(random.below(kColours.size())); }
 
-void street(Writer& out, Random& random) {
+void street(Writer& out, tb::Random& random) {
   out.use(kBrown);
   out.box({0, -0.1, 0}, {20, 0.2, 4}, 0);
   for (int i = 0; i < 9; ++i) {
@@ -108,7 +108,7 @@ void street(Writer& out, Random& random) {
   }
 }
 
-void vehicle(Writer& out, Random& random) {
+void vehicle(Writer& out, tb::Random& random) {
   const double length = random.uniform(4, 7);
   out.use(any_colour(random));
   out.box({0, 1.1, 0}, {length, 0.9, 2}, 0);
@@ -121,7 +121,7 @@ void vehicle(Writer& out, Random& random) {
     for (const double z : {-1.0, 1.0}) out.wheel({x, 0.6, z}, 0.6, 0.3, sides);
 }
 
-void forest(Writer& out, Random& random) {
+void forest(Writer& out, tb::Random& random) {
   out.use(2);
   out.box({0, -0.1, 0}, {16, 0.2, 12}, 0);
   for (int i = 0; i < 14; ++i) {
@@ -146,7 +146,7 @@ void write(const std::filesystem::path& file, const std::string& text) {
 std::filesystem::path write_stand_in(const std::filesystem::path& folder, const std::string& kind,
                                      std::uint64_t seed) {
   const std::string name = fmt::format("{}_{}", kind, seed);
-  Random random(seed, kind);
+  tb::Random random(seed, kind);
   Writer out(name);
   if (kind == "street")
     street(out, random);
@@ -163,4 +163,4 @@ std::filesystem::path write_stand_in(const std::filesystem::path& folder, const 
   return folder / (name + ".obj");
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::studies

@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <string>
 
-namespace deburr::tb {
+namespace deburr::studies {
 
 // "street": houses along a road; "vehicle": boxes on wheels; "forest": cones on trunks; another
 // one for each seed. Leaves NAME.obj and NAME.mtl in the folder and gives the path of the first.
 std::filesystem::path write_stand_in(const std::filesystem::path& folder, const std::string& kind,
                                      std::uint64_t seed);
 
-}  // namespace deburr::tb
+}  // namespace deburr::studies

@@ -15,7 +15,7 @@
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
 
-namespace deburr::tb::training {
+namespace deburr::studies::training {
 namespace {
 
 using golden::morphological::MorphologicalGolden;
@@ -24,7 +24,7 @@ using golden::morphological::ShareTables;
 constexpr int kLeastSide = 32;  // pixels, of a picture that is trained on or measured
 
 void check(const TitlePair& pair) {
-  const Image &frame = pair.frame, &truth = pair.truth;
+  const tb::Image &frame = pair.frame, &truth = pair.truth;
   if (frame.width != truth.width || frame.height != truth.height)
     throw spec::ConfigError(
         fmt::format("'{}' has {} x {} pixels, its truth {} x {}: expected one size", pair.name,
@@ -33,7 +33,7 @@ void check(const TitlePair& pair) {
     throw spec::ConfigError(fmt::format("'{}' has {} x {} pixels: expected at least {} x {}",
                                         pair.name, frame.width, frame.height, kLeastSide,
                                         kLeastSide));
-  if (count(edge_mask(truth, frame)) == 0)
+  if (count(tb::edge_mask(truth, frame)) == 0)
     throw spec::ConfigError(fmt::format(
         "'{}' is its truth within 2 codes: expected the same picture with supersampling",
         pair.name));
@@ -72,8 +72,9 @@ Split split_of(const std::vector<TitlePair>& pairs) {
 }
 
 KeptBack measured(const TitlePair& pair, const ShareTables& tables) {
-  const Mask edges = edge_mask(pair.truth, pair.frame);
-  const Image shipped = smoothed(pair.frame, ShareTables()), trained = smoothed(pair.frame, tables);
+  const tb::Mask edges = tb::edge_mask(pair.truth, pair.frame);
+  const tb::Image shipped = smoothed(pair.frame, ShareTables()),
+                  trained = smoothed(pair.frame, tables);
   return {pair.name,
           psnr(pair.frame, pair.truth, edges),
           psnr(shipped, pair.truth, edges),
@@ -84,12 +85,12 @@ KeptBack measured(const TitlePair& pair, const ShareTables& tables) {
 
 }  // namespace
 
-Image smoothed(const Image& frame, const ShareTables& tables) {
+tb::Image smoothed(const tb::Image& frame, const ShareTables& tables) {
   MorphologicalGolden golden(
       golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr),
       MorphologicalGolden::Detail::kPixels);
   golden.set_share_tables(tables);
-  Image out(frame.width, frame.height);
+  tb::Image out(frame.width, frame.height);
   out.pixels = golden.process({frame.pixels, frame.width, frame.height});
   return out;
 }
@@ -126,4 +127,4 @@ TitleShares train_title(const std::vector<TitlePair>& pairs, const TitleOptions&
   return result;
 }
 
-}  // namespace deburr::tb::training
+}  // namespace deburr::studies::training

@@ -11,11 +11,11 @@
 #include "golden/morphological/learned_shares.h"
 #include "tb/scene/image.h"
 
-namespace deburr::tb::training {
+namespace deburr::studies::training {
 
 struct TitlePair {
   std::string name;  // what errors and tables call it
-  Image frame, truth;
+  tb::Image frame, truth;
 };
 
 struct TitleOptions {
@@ -42,10 +42,10 @@ struct TitleShares {
 };
 
 // What the engine with these shares makes of a frame, by the rules of the preset `deburr`.
-Image smoothed(const Image& frame, const golden::morphological::ShareTables& tables);
+tb::Image smoothed(const tb::Image& frame, const golden::morphological::ShareTables& tables);
 
 // Of several pairs every second one is kept back, of one pair the right half. ConfigError for no
 // pair, sizes that differ or are too small, a frame without an edge, and a truth that is the frame.
 TitleShares train_title(const std::vector<TitlePair>& pairs, const TitleOptions& options);
 
-}  // namespace deburr::tb::training
+}  // namespace deburr::studies::training

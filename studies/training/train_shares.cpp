@@ -33,7 +33,10 @@
 #include "tb/scene/quality.h"
 #include "tb/stimuli/share_file.h"
 
-namespace deburr::tb::training {
+namespace deburr::studies::training {
+
+using tb::Image;
+
 namespace {
 
 using golden::morphological::MorphologicalGolden;
@@ -56,10 +59,10 @@ Image smoothed(const Image& frame, const Parameters& parameters, const ShareTabl
 
 struct Checker {
   const TruthFrame& frame;
-  Mask edges;
-  std::optional<Mask> silhouettes;
-  explicit Checker(const TruthFrame& f) : frame(f), edges(edge_mask(f.truth, f.frame)) {
-    if (!f.depth.empty()) silhouettes = silhouette_mask(edges, f.depth);
+  tb::Mask edges;
+  std::optional<tb::Mask> silhouettes;
+  explicit Checker(const TruthFrame& f) : frame(f), edges(tb::edge_mask(f.truth, f.frame)) {
+    if (!f.depth.empty()) silhouettes = tb::silhouette_mask(edges, f.depth);
   }
   Figures of(const Image& image) const {
     return {psnr(image, frame.truth, edges),
@@ -175,9 +178,9 @@ ShareTables trained(const std::vector<const TruthFrame*>& frames, const Samples&
 
 // Triangles by their corners, to a 100 000th of a unit: what two meshes of one kit have in common
 // stands in the same place.
-std::set<std::array<std::int64_t, 9>> triangles_of(const Mesh& mesh) {
+std::set<std::array<std::int64_t, 9>> triangles_of(const tb::Mesh& mesh) {
   std::set<std::array<std::int64_t, 9>> found;
-  for (const Triangle& triangle : mesh.triangles) {
+  for (const tb::Triangle& triangle : mesh.triangles) {
     std::array<std::array<std::int64_t, 3>, 3> corners{};
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t c = 0; c < 3; ++c)
@@ -273,7 +276,7 @@ int run(int argc, char** argv) {
   if (!quiet) std::cerr << "\r\x1b[Ktraining on " << all.size() << " frames\n";
   const ShareTables tables = trained(all, samples, recipe);
   std::cout << fmt::format("recipe {:016x}, {} frames, sum of the shares {}\n", hash_of(text),
-                           all.size(), sum_of(tables));
+                           all.size(), tb::stimuli::sum_of(tables));
   constexpr const char *kHeader = "spec/morphological/learned_shares.h",
                        *kRecipe = "studies/training/recipe.txt";
   if (!write.empty())
@@ -283,7 +286,7 @@ int run(int argc, char** argv) {
     bool same = true;
     for (const auto& [file, made_again] :
          {std::pair(kHeader, header_of(tables, text)), std::pair(kRecipe, text)}) {
-      const bool equal = read_file(std::filesystem::path(check) / file, 1 << 20) == made_again;
+      const bool equal = tb::read_file(std::filesystem::path(check) / file, 1 << 20) == made_again;
       std::cout << file << (equal ? ": the same, byte for byte\n" : ": DIFFERENT\n");
       same = same && equal;
     }
@@ -327,11 +330,11 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::training
+}  // namespace deburr::studies::training
 
 int main(int argc, char** argv) {
   try {
-    return deburr::tb::training::run(argc, argv);
+    return deburr::studies::training::run(argc, argv);
   } catch (const deburr::spec::Error& error) {
     std::cerr << error.what() << '\n';
     return static_cast<int>(error.code());

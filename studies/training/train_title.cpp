@@ -22,7 +22,7 @@
 #include "tb/stimuli/share_file.h"
 #include "tool/command/command_train.h"
 
-namespace deburr::tb {
+namespace deburr::studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -32,17 +32,17 @@ using training::TitleShares;
 
 constexpr double kLeastGain = 0.05;  // dB; what is below is noise
 
-std::vector<TitlePair> read_pairs(const TrainOptions& options, bool quiet) {
-  const std::vector<std::string> frames = listed_files("--in", options.in),
-                                 truths = listed_files("--truth", options.truth);
+std::vector<TitlePair> read_pairs(const tool::TrainOptions& options, bool quiet) {
+  const std::vector<std::string> frames = tb::listed_files("--in", options.in),
+                                 truths = tb::listed_files("--truth", options.truth);
   if (frames.size() != truths.size())
     throw spec::ConfigError(
         fmt::format("--in names {} frames and --truth {}: expected a truth a frame, in one order",
                     frames.size(), truths.size()));
   std::vector<TitlePair> pairs;
   const auto read = [&](const std::string& file) {
-    ReadReport report;
-    Image image = read_image(file, &report);
+    tb::ReadReport report;
+    tb::Image image = tb::read_image(file, &report);
     if (!quiet)
       for (const std::string& conversion : report.conversions)
         fmt::print(stderr, "deburr: note: '{}': {}\n", file, conversion);
@@ -55,27 +55,28 @@ std::vector<TitlePair> read_pairs(const TrainOptions& options, bool quiet) {
 
 // Before the work: what cannot be written, for a disk that is full or a folder that is closed, too,
 // is an error now.
-void check_output(const TrainOptions& options) {
+void check_output(const tool::TrainOptions& options) {
   const std::filesystem::path out = options.out;
   for (const std::string& text : {options.in, options.truth})
-    for (const std::string& file : listed_files("--in", text))
-      if (is_there(out) && is_there(file) && std::filesystem::equivalent(out, file))
+    for (const std::string& file : tb::listed_files("--in", text))
+      if (tb::is_there(out) && tb::is_there(file) && std::filesystem::equivalent(out, file))
         throw spec::ConfigError(
             fmt::format("--out '{}' is read, too: give another name", options.out));
-  if (const std::filesystem::path folder = out.parent_path(); !folder.empty() && !is_folder(folder))
+  if (const std::filesystem::path folder = out.parent_path();
+      !folder.empty() && !tb::is_folder(folder))
     throw spec::FileError(
         fmt::format("cannot write '{}': there is no folder '{}'", options.out, folder.string()));
-  if (is_folder(out))
+  if (tb::is_folder(out))
     throw spec::FileError(fmt::format("cannot write '{}': it is a folder", options.out));
-  if (is_there(out)) {
+  if (tb::is_there(out)) {
     try {
-      read_share_file(out);
+      tb::stimuli::read_share_file(out);
     } catch (const spec::FileError&) {
       throw spec::ConfigError(fmt::format(
           "'{}' stands there and holds no shares: remove it, or give another --out", options.out));
     }
   }
-  try_to_write(out, share_file_text({}, {}));
+  tb::try_to_write(out, tb::stimuli::share_file_text({}, {}));
 }
 
 std::string row(const KeptBack& k) {
@@ -103,33 +104,33 @@ Json to_json(const TitleShares& shares, double seconds) {
             {"seconds", seconds}}}};
 }
 
-Outcome train(const TrainOptions& options, const CommandLine& line) {
+tool::Outcome train(const tool::TrainOptions& options, const tool::CommandLine& line) {
   const bool quiet = options.quiet || line.json;
   check_output(options);
   const std::vector<TitlePair> pairs = read_pairs(options, quiet);
-  catch_interrupts();
+  tb::catch_interrupts();
   const auto begun = std::chrono::steady_clock::now();
   TitleShares shares;
   const auto ask = [] {
-    if (interrupted()) throw Interrupted();
+    if (tb::interrupted()) throw tb::Interrupted();
   };
   try {
-    Progress progress("training", static_cast<std::uint64_t>(options.batches), "batch", quiet);
+    tb::Progress progress("training", static_cast<std::uint64_t>(options.batches), "batch", quiet);
     const auto batch_done = [&](int done) {
       ask();
       progress.update(static_cast<std::uint64_t>(done));
     };
     shares = training::train_title(pairs, {options.batches, options.seed, batch_done, ask});
     ask();
-  } catch (const Interrupted&) {
-    return {kInterruptedExit, "INTERRUPTED train: no shares were written"};
+  } catch (const tb::Interrupted&) {
+    return {tb::kInterruptedExit, "INTERRUPTED train: no shares were written"};
   }
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   if (!quiet)
-    for (const KeptBack& k : shares.kept_back) print_wrapped(row(k));
-  Outcome outcome;
-  outcome.details = json_text(to_json(shares, seconds));
+    for (const KeptBack& k : shares.kept_back) tb::print_wrapped(row(k));
+  tool::Outcome outcome;
+  outcome.details = tb::json_text(to_json(shares, seconds));
   const std::string gain =
       fmt::format("{:+.2f} dB on edges of what was kept back, {:+.2f} on all of it", shares.gain,
                   shares.frame_gain);
@@ -145,17 +146,17 @@ Outcome train(const TrainOptions& options, const CommandLine& line) {
   std::vector<std::string> notes = {
       fmt::format("{}; {} batches, seed {}", gain, options.batches, options.seed)};
   for (const std::string& name : shares.trained_on) notes.push_back("trained on " + name);
-  write_file_atomically(options.out, share_file_text(shares.tables, notes));
+  tb::write_file_atomically(options.out, tb::stimuli::share_file_text(shares.tables, notes));
   outcome.text = fmt::format("PASS train: {}, in {:.1f} s, {}", gain, seconds, options.out);
   return outcome;
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::studies
 
 int main(int argc, char** argv) {
-  using deburr::tb::CommandLine;
-  return deburr::tb::run_command_line(argc, argv, [](CLI::App& app, CommandLine& line) {
-    deburr::tb::add_train(app, line, deburr::tb::train);
+  using deburr::tool::CommandLine;
+  return deburr::tool::run_command_line(argc, argv, [](CLI::App& app, CommandLine& line) {
+    deburr::tool::add_train(app, line, deburr::studies::train);
   });
 }

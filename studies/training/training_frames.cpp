@@ -19,16 +19,19 @@
 #include "tb/scene/label.h"
 #include "tb/scene/truth.h"
 
-namespace deburr::tb::training {
+namespace deburr::studies::training {
+
+using tb::Rgba8;
+
 namespace {
 
 template <class Pixel>
-void put(std::ofstream& file, const ImageOf<Pixel>& image) {
+void put(std::ofstream& file, const tb::ImageOf<Pixel>& image) {
   file.write(reinterpret_cast<const char*>(image.pixels.data()),
              static_cast<std::streamsize>(image.pixels.size() * sizeof(Pixel)));
 }
 template <class Pixel>
-bool get(std::ifstream& file, ImageOf<Pixel>& image) {
+bool get(std::ifstream& file, tb::ImageOf<Pixel>& image) {
   return static_cast<bool>(
       file.read(reinterpret_cast<char*>(image.pixels.data()),
                 static_cast<std::streamsize>(image.pixels.size() * sizeof(Pixel))));
@@ -43,7 +46,7 @@ class Renderer {
   enum class Truth : std::uint8_t { kAll, kEdges };
 
   FrameSource source(const std::string& name, const std::string& group,
-                     const std::function<Scene()>& make, Truth truth = Truth::kAll) const {
+                     const std::function<tb::Scene()>& make, Truth truth = Truth::kAll) const {
     return {name, group,
             [options = options_, name, group, make, truth] {
               return rendered(options, name, group, make, truth);
@@ -59,7 +62,7 @@ class Renderer {
       const std::string name = fmt::format("{}_{}x{}{}", group, options_.size, options_.size,
                                            view == 0 ? std::string() : fmt::format("_{}", view));
       frames.push_back(source(name, group, [make, view] {
-        Scene scene = make(view);
+        tb::Scene scene = make(view);
         turn(scene.camera, view);
         return scene;
       }));
@@ -68,27 +71,28 @@ class Renderer {
 
  private:
   static TruthFrame rendered(const FrameOptions& options, const std::string& name,
-                             const std::string& group, const std::function<Scene()>& make,
+                             const std::string& group, const std::function<tb::Scene()>& make,
                              Truth truth) {
     const std::filesystem::path kept =
         options.cache / fmt::format("{}_{}.frames", name, options.samples);
     const int size = options.size;
-    TruthFrame frame{name, group, Image(size, size), Image(size, size), DepthImage(size, size)};
+    TruthFrame frame{name, group, tb::Image(size, size), tb::Image(size, size),
+                     tb::DepthImage(size, size)};
     if (read(options, kept, frame)) return frame;
-    const Scene scene = make();
-    LitFrames lit =
-        render_lit_frames(scene, size, size, truth == Truth::kAll ? options.samples : 1);
+    const tb::Scene scene = make();
+    tb::LitFrames lit =
+        tb::render_lit_frames(scene, size, size, truth == Truth::kAll ? options.samples : 1);
     frame.truth = truth == Truth::kAll ? std::move(lit.truth)
-                                       : render_covered(scene, size, size, options.samples);
+                                       : tb::render_covered(scene, size, size, options.samples);
     frame.frame = std::move(lit.noaa);
     frame.depth = std::move(lit.depth);
     write(options, kept, frame);
     return frame;
   }
   // About the upright axis through the target, and a little nearer.
-  static void turn(Camera& camera, int view) {
+  static void turn(tb::Camera& camera, int view) {
     if (view == 0) return;
-    const SinCos angle = sin_cos(1.1 * view);
+    const tb::SinCos angle = tb::sin_cos(1.1 * view);
     const double near = view % 2 != 0 ? 0.7 : 0.9;
     const Imath::V3d from = (camera.eye - camera.target) * near;
     camera.eye = camera.target + Imath::V3d(from.x * angle.cos + from.z * angle.sin, from.y,
@@ -123,9 +127,9 @@ void add_meshes(std::vector<FrameSource>& frames, const FrameOptions& options,
           fmt::format("there is no mesh '{}': name a folder that has it by --data", path.string()));
     // The first one as other tables show it, with a checkerboard where the mesh has no texture.
     renderer.add(frames, path.filename().string(), views, [path](int view) {
-      SceneOptions plain;
+      tb::SceneOptions plain;
       plain.plain = view != 0;
-      return import_scene(path, plain);
+      return tb::import_scene(path, plain);
     });
   }
 }
@@ -142,9 +146,9 @@ void add_stand_ins(std::vector<FrameSource>& frames, const FrameOptions& options
             std::filesystem::temp_directory_path() /
             fmt::format("deburr_training_{}_{}", group, ::getpid());
         std::filesystem::create_directories(folder);
-        SceneOptions plain;
+        tb::SceneOptions plain;
         plain.plain = view != 0;
-        Scene made = import_scene(write_stand_in(folder, kind, seed), plain);
+        tb::Scene made = tb::import_scene(write_stand_in(folder, kind, seed), plain);
         std::filesystem::remove_all(folder);
         return made;
       });
@@ -203,17 +207,17 @@ struct Shape {
 
 double decoded(std::uint8_t code) {
   const double v = code / 255.0;
-  return v <= 0.04045 ? v / 12.92 : power((v + 0.055) / 1.055, 2.4);
+  return v <= 0.04045 ? v / 12.92 : tb::power((v + 0.055) / 1.055, 2.4);
 }
 std::uint8_t encoded(double l) {
-  const double v = l <= 0.0031308 ? 12.92 * l : 1.055 * power(l, 1 / 2.4) - 0.055;
+  const double v = l <= 0.0031308 ? 12.92 * l : 1.055 * tb::power(l, 1 / 2.4) - 0.055;
   return static_cast<std::uint8_t>(std::floor(255 * v + 0.5));
 }
 
 }  // namespace
 
 TruthFrame shapes_frame(int width, int height, int samples, std::uint64_t seed) {
-  Random random(seed, "shapes");
+  tb::Random random(seed, "shapes");
   const auto colour = [&] {
     Rgba8 c{0, 0, 0, 255};
     for (std::size_t i = 0; i < 3; ++i) c[i] = static_cast<std::uint8_t>(random.below(256));
@@ -222,12 +226,13 @@ TruthFrame shapes_frame(int width, int height, int samples, std::uint64_t seed) 
   const Rgba8 ground = colour();
   std::vector<Shape> shapes;
   for (int i = 0; i < 60; ++i) {
-    const double angle = random.uniform(0, 2 * kPi);
-    const double size = exponential(random.uniform(logarithm(3.0), logarithm(0.3 * width)));
+    const double angle = random.uniform(0, 2 * tb::kPi);
+    const double size =
+        tb::exponential(random.uniform(tb::logarithm(3.0), tb::logarithm(0.3 * width)));
     const auto kind = static_cast<Shape::Kind>(random.below(3));
     const double x = random.uniform(0, width), y = random.uniform(0, height);
     const double thin = random.uniform(0.02, 1);
-    const SinCos turn = sin_cos(angle);
+    const tb::SinCos turn = tb::sin_cos(angle);
     shapes.push_back({kind, x, y, size, std::max(0.6, size * thin), turn.cos, turn.sin, colour()});
   }
   const auto at = [&](double x, double y) -> const Rgba8& {
@@ -237,7 +242,7 @@ TruthFrame shapes_frame(int width, int height, int samples, std::uint64_t seed) 
   };
   TruthFrame result;
   result.group = result.name = fmt::format("shapes{}", seed);
-  result.frame = result.truth = Image(width, height);
+  result.frame = result.truth = tb::Image(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       result.frame.at(x, y) = at(x + 0.5, y + 0.5);
@@ -257,14 +262,14 @@ TruthFrame shapes_frame(int width, int height, int samples, std::uint64_t seed) 
 }
 
 Overlaid overlaid(const TruthFrame& frame) {
-  Overlaid result{frame, Mask(frame.frame.width, frame.frame.height)};
+  Overlaid result{frame, tb::Mask(frame.frame.width, frame.frame.height)};
   result.frame.name += "_text";
-  Random random(3, frame.name);
+  tb::Random random(3, frame.name);
   constexpr Rgba8 kInk{255, 255, 255, 255}, kPaper{0, 0, 0, 0};
   for (int y = 6; y < frame.frame.height;) {
     const int scale = random.between(1, 3);
-    const Image line =
-        label("speed 184.5 lap 3 of 12 - fuel 62 - frame time 16.7 ms", scale, kInk, kPaper);
+    const tb::Image line =
+        tb::label("speed 184.5 lap 3 of 12 - fuel 62 - frame time 16.7 ms", scale, kInk, kPaper);
     const int x0 = random.between(0, 40);
     const auto code = [&] { return static_cast<std::uint8_t>(random.below(256)); };
     const Rgba8 colour = random.chance(500) ? kInk : Rgba8{code(), code(), code(), 255};
@@ -283,9 +288,9 @@ Overlaid overlaid(const TruthFrame& frame) {
 std::vector<FrameSource> training_set(const FrameOptions& options) {
   std::vector<FrameSource> frames;
   const Renderer renderer(options);
-  for (const SceneName& scene : scene_names()) {
+  for (const tb::SceneName& scene : tb::scene_names()) {
     const std::string name(scene.name);
-    renderer.add(frames, name, 1, [name](int) { return make_scene(name); });
+    renderer.add(frames, name, 1, [name](int) { return tb::make_scene(name); });
   }
   add_stand_ins(frames, options, {11, 12}, 2);
   add_shapes(frames, options, 100, 6);
@@ -329,8 +334,9 @@ std::vector<FrameSource> held_out_set(const FrameOptions& options) {
     const std::string name = "track_" + size;
     frames.push_back({name, "track",
                       [name, noaa, ssaa, depths] {
-                        return TruthFrame{name, "track", read_image(noaa), read_image(ssaa),
-                                          depths.empty() ? DepthImage() : read_depth(depths)};
+                        return TruthFrame{
+                            name, "track", tb::read_image(noaa), tb::read_image(ssaa),
+                            depths.empty() ? tb::DepthImage() : tb::read_depth(depths)};
                       },
                       nullptr});
   };
@@ -351,4 +357,4 @@ std::vector<FrameSource> held_out_set(const FrameOptions& options) {
   return frames;
 }
 
-}  // namespace deburr::tb::training
+}  // namespace deburr::studies::training

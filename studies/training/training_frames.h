@@ -13,7 +13,7 @@
 #include "studies/training/share_samples.h"
 #include "tb/scene/scenes.h"
 
-namespace deburr::tb::training {
+namespace deburr::studies::training {
 
 struct FrameOptions {
   std::filesystem::path data = {};   // of meshes, kenney and frames; empty: none
@@ -27,7 +27,7 @@ struct FrameSource {
   std::string name;   // unique
   std::string group;  // frames of one mesh or scene
   std::function<TruthFrame()> make;
-  std::function<Mesh()> mesh = nullptr;  // what is seen; null: no mesh, or not known
+  std::function<tb::Mesh()> mesh = nullptr;  // what is seen; null: no mesh, or not known
 };
 
 // What the ROMs are trained on (studies/training/recipe.txt).
@@ -43,8 +43,8 @@ TruthFrame shapes_frame(int width, int height, int samples, std::uint64_t seed);
 // The frame with lines of text over all of it, the same in its truth, and where the text is.
 struct Overlaid {
   TruthFrame frame;
-  Mask ink;
+  tb::Mask ink;
 };
 Overlaid overlaid(const TruthFrame& frame);
 
-}  // namespace deburr::tb::training
+}  // namespace deburr::studies::training

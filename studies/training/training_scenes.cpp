@@ -17,7 +17,12 @@
 #include "tb/scene/label.h"
 #include "tb/scene/textures.h"
 
-namespace deburr::tb::training {
+namespace deburr::studies::training {
+
+using tb::kPi;
+using tb::Random;
+using tb::sin_cos;
+
 namespace {
 
 using Imath::V2d;
@@ -29,7 +34,7 @@ constexpr std::array<std::string_view, 8> kKinds = {"model",   "town",  "props",
 // ---- shapes -------------------------------------------------------------------------------------
 
 V3d around(double turns) {
-  const SinCos at = sin_cos(2 * kPi * turns);
+  const tb::SinCos at = sin_cos(2 * kPi * turns);
   return {at.sin, 0, at.cos};
 }
 
@@ -45,7 +50,7 @@ class Builder {
     for (int i = 0; i < 3; ++i) linear[i] = light * (1 - vivid * random_.uniform(0, 1));
     return colour(linear);
   }
-  std::uint32_t texture(const std::string& name, Image image, const V3d& tint = {1, 1, 1}) {
+  std::uint32_t texture(const std::string& name, tb::Image image, const V3d& tint = {1, 1, 1}) {
     mesh_.textures.push_back({name, std::move(image)});
     return add({"", tint, static_cast<int>(mesh_.textures.size()) - 1});
   }
@@ -133,7 +138,7 @@ class Builder {
       const V3d u = axis.cross(std::abs(axis.y) < 0.9 ? V3d(0, 1, 0) : V3d(1, 0, 0)).normalized();
       const V3d v = axis.cross(u);
       const auto rim = [&](int i) {
-        const SinCos turn = sin_cos(2 * kPi * i / sides);
+        const tb::SinCos turn = sin_cos(2 * kPi * i / sides);
         return (u * turn.cos + v * turn.sin) * radius;
       };
       for (int i = 0; i < sides; ++i)
@@ -142,22 +147,22 @@ class Builder {
   }
   void disc(const V3d& centre, const V3d& right, const V3d& up, int sides, std::uint32_t of) {
     const auto rim = [&](int i) {
-      const SinCos turn = sin_cos(2 * kPi * i / sides);
+      const tb::SinCos turn = sin_cos(2 * kPi * i / sides);
       return centre + right * turn.cos + up * turn.sin;
     };
     for (int i = 0; i < sides; ++i) leaf(centre, rim(i), rim(i + 1), of);
   }
-  Mesh mesh() && { return std::move(mesh_); }
+  tb::Mesh mesh() && { return std::move(mesh_); }
 
  private:
   std::uint32_t next() const { return static_cast<std::uint32_t>(mesh_.vertices.size()); }
-  std::uint32_t add(Material material) {
+  std::uint32_t add(tb::Material material) {
     mesh_.materials.push_back(std::move(material));
     return static_cast<std::uint32_t>(mesh_.materials.size() - 1);
   }
 
   Random& random_;
-  Mesh mesh_;
+  tb::Mesh mesh_;
 };
 
 // What is looked at: its middle, and how far it reaches.
@@ -401,7 +406,7 @@ Subject props(Builder& out, Random& random) {
         out.revolve(foot, profile, 40, of);
         std::vector<V3d> handle;
         for (int i = 0; i <= 12; ++i) {
-          const SinCos turn = sin_cos(kPi * i / 12);
+          const tb::SinCos turn = sin_cos(kPi * i / 12);
           handle.push_back(foot +
                            V3d(size * (0.3 + 0.6 * turn.sin), size * (0.9 + 0.4 * turn.cos), 0));
         }
@@ -411,7 +416,7 @@ Subject props(Builder& out, Random& random) {
       case 1: {  // a ball
         std::vector<V2d> profile;
         for (int i = 0; i <= 24; ++i) {
-          const SinCos turn = sin_cos(kPi * i / 24);
+          const tb::SinCos turn = sin_cos(kPi * i / 24);
           profile.emplace_back(0.7 * size * turn.sin, 0.7 * size * (1 - turn.cos));
         }
         out.revolve(foot, profile, 48, of);
@@ -615,8 +620,8 @@ std::uint8_t code(double value) {
 }
 
 // Boards, plaster, cloth and paper, in two colours that are near or far.
-Image pattern(Random& random, int kind, int size) {
-  Image image(size, size);
+tb::Image pattern(Random& random, int kind, int size) {
+  tb::Image image(size, size);
   std::array<double, 3> light{}, dark{};
   const double step = random.uniform(10, 90);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -656,7 +661,7 @@ Image pattern(Random& random, int kind, int size) {
                       : 0.4 * board[static_cast<std::size_t>(i * 11 + j * 5) % 64];
       }
       const double noise = shade.uniform(-grain, grain);
-      Rgba8& pixel = image.at(x, y);
+      tb::Rgba8& pixel = image.at(x, y);
       for (std::size_t c = 0; c < 3; ++c)
         pixel[c] = code(light[c] + (dark[c] - light[c]) * share + noise);
       pixel[3] = 255;
@@ -671,11 +676,11 @@ std::uint32_t surface(Builder& out, Random& random) {
   const V3d tint(random.uniform(0.6, 1), random.uniform(0.6, 1), random.uniform(0.6, 1));
   switch (const int kind = static_cast<int>(random.below(8))) {
     case 5:
-      return out.texture("brick", make_texture("brick", kSize, kSize, seed), tint);
+      return out.texture("brick", tb::make_texture("brick", kSize, kSize, seed), tint);
     case 6:
-      return out.texture("stones", make_texture("stones", kSize, kSize, seed), tint);
+      return out.texture("stones", tb::make_texture("stones", kSize, kSize, seed), tint);
     case 7:
-      return out.texture("road", make_texture("road", kSize, kSize, seed), tint);
+      return out.texture("road", tb::make_texture("road", kSize, kSize, seed), tint);
     default:
       return out.texture("pattern", pattern(random, kind, kSize), tint);
   }
@@ -696,9 +701,9 @@ Subject signs(Builder& out, Random& random) {
     out.tube({foot, foot + V3d(0, high, 0)}, 0.04, 6, random.chance(500) ? metal : post);
     const V3d middle = foot + V3d(0, high, 0) + forward * 0.06;
     if (random.chance(600)) {
-      const Rgba8 ink{any(), any(), any(), 255}, paper{any(), any(), any(), 255};
+      const tb::Rgba8 ink{any(), any(), any(), 255}, paper{any(), any(), any(), 255};
       const std::string text(kTexts[random.below(kTexts.size())]);
-      const Image board = label(text, 4, ink, paper);
+      const tb::Image board = tb::label(text, 4, ink, paper);
       const double wide = 0.18 * static_cast<double>(text.size()) + 0.2;
       const double rise = wide * board.height / board.width;
       out.box(middle - forward * 0.06 - V3d(0, 0.1, 0), {wide + 0.16, rise + 0.2, 0.06}, turn,
@@ -753,11 +758,11 @@ Subject room(Builder& out, Random& random) {
   return {{0, 0.4 * h, 0}, 0.42 * std::min(w, d), 0.05, 0.5};
 }
 
-Camera looking(const Subject& subject, Random& random, bool inside) {
-  Camera camera;
+tb::Camera looking(const Subject& subject, Random& random, bool inside) {
+  tb::Camera camera;
   camera.fov_y = inside ? random.uniform(0.9, 1.2) : random.uniform(0.5, 1.0);
-  const double reach =
-      inside ? random.uniform(1.2, 2.1) : random.uniform(0.65, 1.1) / tangent(0.5 * camera.fov_y);
+  const double reach = inside ? random.uniform(1.2, 2.1)
+                              : random.uniform(0.65, 1.1) / tb::tangent(0.5 * camera.fov_y);
   const double slope = random.uniform(subject.low, subject.high);
   const V3d direction = (around(random.uniform(0, 1)) + V3d(0, slope, 0)).normalized();
   camera.target = subject.middle;
@@ -765,7 +770,8 @@ Camera looking(const Subject& subject, Random& random, bool inside) {
   if (camera.eye.y < 0.15) camera.eye.y = 0.15;
   // Half of them are held straight.
   const double roll = random.chance(500) ? 0 : random.uniform(-0.05, 0.05);
-  camera.up = V3d(0, 1, 0) + direction.cross(V3d(0, 1, 0)).normalized() * tangent(2 * kPi * roll);
+  camera.up =
+      V3d(0, 1, 0) + direction.cross(V3d(0, 1, 0)).normalized() * tb::tangent(2 * kPi * roll);
   camera.near_plane = 0.05;
   return camera;
 }
@@ -774,7 +780,7 @@ Camera looking(const Subject& subject, Random& random, bool inside) {
 
 std::span<const std::string_view> training_scene_kinds() { return kKinds; }
 
-Scene training_scene(std::string_view kind, std::uint64_t seed, int view) {
+tb::Scene training_scene(std::string_view kind, std::uint64_t seed, int view) {
   constexpr std::array<Subject (*)(Builder&, Random&), kKinds.size()> kMakers = {
       model, town, props, circuit, thicket, wires, signs, room};
   const auto found = std::find(kKinds.begin(), kKinds.end(), kind);
@@ -782,7 +788,7 @@ Scene training_scene(std::string_view kind, std::uint64_t seed, int view) {
   Random random(seed, kind);
   Builder out(random);
   const Subject subject = kMakers[static_cast<std::size_t>(found - kKinds.begin())](out, random);
-  Scene scene;
+  tb::Scene scene;
   scene.name = fmt::format("{}{}", kind, seed);
   scene.mesh = std::move(out).mesh();
   scene.mesh.name = scene.name;
@@ -802,4 +808,4 @@ Scene training_scene(std::string_view kind, std::uint64_t seed, int view) {
   return scene;
 }
 
-}  // namespace deburr::tb::training
+}  // namespace deburr::studies::training

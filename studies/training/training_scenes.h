@@ -9,12 +9,12 @@
 
 #include "tb/scene/scenes.h"
 
-namespace deburr::tb::training {
+namespace deburr::studies::training {
 
 // "town", "props", "circuit", "thicket", "wires": plain colours; "signs", "room": textures.
 std::span<const std::string_view> training_scene_kinds();
 
 // Another one for each seed, another camera for each view.
-Scene training_scene(std::string_view kind, std::uint64_t seed, int view);
+tb::Scene training_scene(std::string_view kind, std::uint64_t seed, int view);
 
-}  // namespace deburr::tb::training
+}  // namespace deburr::studies::training

@@ -20,9 +20,9 @@ int main(int argc, char** argv) {
     const int number = std::stoi(words[1]), width = std::stoi(words[2]),
               height = std::stoi(words[3]);
     if (words[0] == "random_edges")
-      write_image(words[4], stimuli::random_edges(width, height, number));
+      write_image(words[4], deburr::tb::stimuli::random_edges(width, height, number));
     else if (words[0] == "diagonals")
-      write_image(words[4], stimuli::diagonals(width, height, number));
+      write_image(words[4], deburr::tb::stimuli::diagonals(width, height, number));
     else
       throw std::invalid_argument("no pattern " + words[0]);
   } catch (const std::exception& error) {

@@ -162,7 +162,7 @@ struct System {
   platform::TextureDriver driver{host, memory};
 
   // The first call says by which rules.
-  static System& only(const spec::texture::Parameters& parameters = paper_rules()) {
+  static System& only(const spec::texture::Parameters& parameters = stimuli::paper_rules()) {
     static System system(parameters);
     return system;
   }
@@ -228,7 +228,7 @@ void bm_golden_over_rtl(benchmark::State& state, Workload workload,
   System& system = System::only();
   system.start(workload);
   const std::vector<std::uint8_t> memory = noise();
-  golden::texture::TextureGolden golden(paper_rules(), memory, traffic);
+  golden::texture::TextureGolden golden(stimuli::paper_rules(), memory, traffic);
   golden.set_texture(static_cast<int>(workload), texture_of(workload));
   std::clock_t rtl_time = 0, golden_time = 0;
   std::uint32_t count = 0;
@@ -265,7 +265,8 @@ int main(int argc, char** argv) {
     std::string name = argv[2];
     const bool own_rules = name.starts_with(kPreset);
     if (own_rules) name.erase(0, kPreset.size());
-    System& system = System::only(own_rules ? deburr::spec::texture::Parameters{} : paper_rules());
+    System& system =
+        System::only(own_rules ? deburr::spec::texture::Parameters{} : stimuli::paper_rules());
     for (std::size_t i = 0; i < kWorkloads.size(); ++i)
       if (name == kWorkloads[i]) system.start(static_cast<Workload>(i));
     const std::uint64_t before = system.bilinears();

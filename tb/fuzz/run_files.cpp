@@ -95,8 +95,8 @@ Result small_result() {
 void run_files(std::string_view bytes) {
   static const RunFolder known(run_files_seeds().front(), "known");
   const RunFolder folder(bytes, "run");
-  taken_or_damaged([&] { build_report(folder.path()); });
-  taken_or_damaged([&] { compare_runs({known.path(), folder.path()}, {}); });
+  taken_or_damaged([&] { tool::build_report(folder.path()); });
+  taken_or_damaged([&] { tool::compare_runs({known.path(), folder.path()}, {}); });
 }
 
 std::vector<std::string> run_files_seeds() {

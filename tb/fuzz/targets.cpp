@@ -103,12 +103,12 @@ void obj(std::string_view bytes) {
 }
 void gltf(std::string_view bytes) { mesh(bytes, bytes.starts_with("glTF") ? ".glb" : ".gltf"); }
 
-void traces(std::string_view bytes) {
+void read_traces(std::string_view bytes) {
   const InputFile file(bytes, ".trace");
   constexpr std::size_t kTextures = 2;
   taken_or_rejected([&] {
-    FragmentReader reader(file.path(), kTextures);
-    TracedQuad quad;
+    traces::FragmentReader reader(file.path(), kTextures);
+    traces::TracedQuad quad;
     while (reader.next(quad)) require(quad.quad.texture < kTextures, "a texture that is not there");
   });
 }
@@ -131,10 +131,11 @@ void configurations(std::string_view bytes) {
 void shares(std::string_view bytes) {
   taken_or_rejected([&] {
     // What was taken is written as what is taken again.
-    const auto read = parse_share_file("input", bytes);
-    const std::string text = share_file_text(read, {});
-    const auto again = parse_share_file("again", text);
-    require(entries_of(again) == entries_of(read), "other shares than were written");
+    const auto read = stimuli::parse_share_file("input", bytes);
+    const std::string text = stimuli::share_file_text(read, {});
+    const auto again = stimuli::parse_share_file("again", text);
+    require(stimuli::entries_of(again) == stimuli::entries_of(read),
+            "other shares than were written");
   });
 }
 
@@ -263,7 +264,7 @@ std::vector<std::string> gltf_seeds() {
     while (json.size() % 4 != 0) json += ' ';
     std::string& glb = seeds.emplace_back("glTF");
     const auto put = [&glb](std::size_t value) {
-      put_little_endian(glb, static_cast<std::uint32_t>(value));
+      traces::put_little_endian(glb, static_cast<std::uint32_t>(value));
     };
     put(2);
     put(28 + json.size());
@@ -278,10 +279,11 @@ std::vector<std::string> gltf_seeds() {
 
 std::vector<std::string> traces_seeds() {
   std::vector<std::string> seeds = {made_of(kTrace)};
-  for (const TraceFormat format : {TraceFormat::kText, TraceFormat::kBinary}) {
+  for (const traces::TraceFormat format :
+       {traces::TraceFormat::kText, traces::TraceFormat::kBinary}) {
     const InputFile file("", ".seed");
-    FragmentWriter writer(file.path(), format, 8, 6);
-    TracedQuad quad;
+    traces::FragmentWriter writer(file.path(), format, 8, 6);
+    traces::TracedQuad quad;
     quad.placed = true;
     quad.quad.coverage = 0xF;
     for (int i = 0; i < 3; ++i) {
@@ -314,7 +316,7 @@ std::vector<std::string> configurations_seeds() {
 }
 
 std::vector<std::string> shares_seeds() {
-  return {share_file_text({}, {}), share_file_text({}, {"a note"})};
+  return {stimuli::share_file_text({}, {}), stimuli::share_file_text({}, {"a note"})};
 }
 
 constexpr std::array<FuzzTarget, 9> kTargets{
@@ -322,7 +324,7 @@ constexpr std::array<FuzzTarget, 9> kTargets{
      {"depths", depths, depths_seeds},
      {"obj", obj, obj_seeds},
      {"gltf", gltf, gltf_seeds},
-     {"traces", traces, traces_seeds},
+     {"traces", read_traces, traces_seeds},
      {"configurations", configurations, configurations_seeds},
      {"run_files", run_files, run_files_seeds},
      {"shares", shares, shares_seeds},

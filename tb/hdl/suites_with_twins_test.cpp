@@ -45,7 +45,7 @@ Units not_built() {
 
 // A suite runs with SystemC units where the build has no others, so that it says nothing of it.
 TEST(SuitesWithTwins, TheBuildHasWhatTheyRunMost) {
-  std::vector<spec::texture::Parameters> all = {paper_rules(), {}};
+  std::vector<spec::texture::Parameters> all = {stimuli::paper_rules(), {}};
   for (int clocks : {1, 2, 4}) {
     spec::texture::Parameters storm;
     storm.axes = spec::texture::Axes::kEight;

@@ -192,16 +192,16 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
     Descriptors descriptors;
     std::array<bool, 16> valid;
     for (std::size_t h = 0; h < 16; ++h) {
-      descriptors[h] = random_texture(random, kMemoryBytes);
+      descriptors[h] = stimuli::random_texture(random, kMemoryBytes);
       valid[h] = h % 4 != 3;
-      if (!valid[h]) spoil(random, descriptors[h]);
+      if (!valid[h]) stimuli::spoil(random, descriptors[h]);
     }
     quads.clear();
     wanted.clear();
     for (std::uint32_t tag = 0; tag < 4000; ++tag) {
       const auto texture =
           static_cast<std::uint8_t>(random.chance(20) ? 16 + random.below(240) : random.below(16));
-      quads.push_back(random_quad(random, tag, texture));
+      quads.push_back(stimuli::random_quad(random, tag, texture));
       append_requests(parameters, descriptors, valid, quads.back(), wanted);
     }
     for (const rtl::Cycle work : {10 + random.below(3000), 0u}) {

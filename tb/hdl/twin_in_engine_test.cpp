@@ -112,7 +112,7 @@ Outcome run(const TextureRunOptions& options, const SamplerParameters& sampler, 
 
 TextureRunOptions calm(bool paper) {
   TextureRunOptions options;
-  if (paper) options.texture = paper_rules();
+  if (paper) options.texture = stimuli::paper_rules();
   return options;
 }
 TextureRunOptions storm(bool paper) {

@@ -10,7 +10,7 @@
 #include "tb/base/random.h"
 #include "tb/stimuli/frames.h"
 
-namespace deburr::tb::morphological {
+namespace deburr::tb::stimuli {
 namespace {
 
 using golden::ideal::Disc;
@@ -25,9 +25,8 @@ struct Errors {
 };
 
 void measure_disc(const Smoothing& smoothing, const Disc& disc, int side, Errors& errors) {
-  const Image sampled = stimuli::draw(side, side, [&](int x, int y) {
-    return stimuli::grey(disc.contains(x + 0.5, y + 0.5) ? 255 : 0);
-  });
+  const Image sampled = draw(
+      side, side, [&](int x, int y) { return grey(disc.contains(x + 0.5, y + 0.5) ? 255 : 0); });
   const Image result = smoothing(sampled);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
@@ -72,4 +71,4 @@ std::string to_text(std::string_view name, const DiscFigures& figures) {
   return line + fmt::format("{:>8.1f}", figures.all);
 }
 
-}  // namespace deburr::tb::morphological
+}  // namespace deburr::tb::stimuli

@@ -13,7 +13,7 @@
 
 #include "tb/stimuli/line_fans.h"
 
-namespace deburr::tb::morphological {
+namespace deburr::tb::stimuli {
 
 inline constexpr std::array<int, 6> kDiscRadii = {8, 16, 32, 64, 128, 256};  // pixels
 
@@ -30,4 +30,4 @@ DiscFigures measure_discs(const Smoothing& smoothing, const DiscOptions& options
 
 std::string to_text(std::string_view name, const DiscFigures& figures);  // one line of a table
 
-}  // namespace deburr::tb::morphological
+}  // namespace deburr::tb::stimuli

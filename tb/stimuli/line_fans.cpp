@@ -12,7 +12,7 @@
 #include "tb/base/random.h"
 #include "tb/stimuli/frames.h"
 
-namespace deburr::tb::morphological {
+namespace deburr::tb::stimuli {
 namespace {
 
 using golden::ideal::coverage;
@@ -57,11 +57,9 @@ void measure_line(const Smoothing& smoothing, int n, double slope, double phase,
   const int height = static_cast<int>(width * std::abs(slope)) + 2 * kMarginRows + 2;
   const double start = slope > 0 ? kMarginRows : height - kMarginRows;
   const HalfPlane above{slope, -1, start + (slope > 0 ? phase : -phase)};
-  const Image sampled = stimuli::draw(width, height, [&](int x, int y) {
-    return stimuli::grey(above.at(x + 0.5, y + 0.5) > 0 ? 255 : 0);
-  });
-  const Image result =
-      transpose ? stimuli::transposed(smoothing(stimuli::transposed(sampled))) : smoothing(sampled);
+  const Image sampled = draw(
+      width, height, [&](int x, int y) { return grey(above.at(x + 0.5, y + 0.5) > 0 ? 255 : 0); });
+  const Image result = transpose ? transposed(smoothing(transposed(sampled))) : smoothing(sampled);
 
   double previous = 0;
   for (int x = margin; x < width - margin; ++x) {
@@ -220,4 +218,4 @@ std::string to_text(std::string_view name, const FanFigures& figures) {
   return line + fmt::format("{:>12.1f}{:>8.1f}", figures.undulation, figures.jump);
 }
 
-}  // namespace deburr::tb::morphological
+}  // namespace deburr::tb::stimuli

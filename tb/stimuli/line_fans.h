@@ -24,7 +24,7 @@
 #include "spec/morphological/parameters.h"
 #include "tb/scene/image.h"
 
-namespace deburr::tb::morphological {
+namespace deburr::tb::stimuli {
 
 // Smooths a picture; the picture itself for no smoothing.
 using Smoothing = std::function<Image(const Image&)>;
@@ -76,4 +76,4 @@ std::vector<std::string> exceeded(const FanLimit& limit, const FanFigures& figur
 
 std::string to_text(std::string_view name, const FanFigures& figures);  // one line of a table
 
-}  // namespace deburr::tb::morphological
+}  // namespace deburr::tb::stimuli

@@ -10,7 +10,7 @@
 #include "spec/error.h"
 #include "tb/base/file.h"
 
-namespace deburr::tb {
+namespace deburr::tb::stimuli {
 namespace {
 
 using golden::morphological::ShareTables;
@@ -135,4 +135,4 @@ ShareTables read_share_file(const std::filesystem::path& file) {
   return parse_share_file(file.string(), read_file(file, kMaxBytes));
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::stimuli

@@ -11,7 +11,7 @@
 
 #include "golden/morphological/learned_shares.h"
 
-namespace deburr::tb {
+namespace deburr::tb::stimuli {
 
 inline constexpr std::string_view kShareFileHead = "deburr-shares 1";
 
@@ -28,4 +28,4 @@ std::string share_file_text(const golden::morphological::ShareTables& tables,
 golden::morphological::ShareTables parse_share_file(std::string_view name, std::string_view text);
 golden::morphological::ShareTables read_share_file(const std::filesystem::path& file);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::stimuli

@@ -15,7 +15,7 @@
 #include "spec/texture/parameters.h"
 #include "tb/base/random.h"
 
-namespace deburr::tb {
+namespace deburr::tb::stimuli {
 
 template <class T, std::size_t N>
 T any_of(Random& random, const std::array<T, N>& choices) {
@@ -203,4 +203,4 @@ inline spec::texture::Quad random_quad(Random& random, std::uint32_t tag, std::u
   return q;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::stimuli

@@ -14,6 +14,9 @@
 #include "tb/system/texture_quad_bench.h"
 
 namespace deburr::tb::texture_random_test {
+
+using stimuli::any_of;
+
 namespace {
 
 constexpr std::uint32_t kMemoryBytes = 2u << 20;
@@ -24,8 +27,8 @@ QuadInput random_input(Random& random) {
   input.memory.resize(kMemoryBytes);
   for (std::uint8_t& byte : input.memory) byte = static_cast<std::uint8_t>(random.next());
   for (int handle = 0; handle < spec::texture::kMaxTextures; ++handle) {
-    input.textures.push_back(random_texture(random, kMemoryBytes));
-    if (handle % 5 == 3) spoil(random, input.textures.back());
+    input.textures.push_back(stimuli::random_texture(random, kMemoryBytes));
+    if (handle % 5 == 3) stimuli::spoil(random, input.textures.back());
   }
   // A texture for a few quads in a row, or another one each time; now and then a handle that does
   // not exist.
@@ -33,18 +36,18 @@ QuadInput random_input(Random& random) {
   for (std::uint32_t tag = 0; tag < kQuads; ++tag) {
     if (tag / 100 % 2 || random.chance(200)) handle = static_cast<std::uint8_t>(random.below(16));
     const bool nowhere = random.chance(10);
-    input.quads.push_back(random_quad(random, tag, nowhere ? std::uint8_t{200} : handle));
+    input.quads.push_back(stimuli::random_quad(random, tag, nowhere ? std::uint8_t{200} : handle));
   }
   return input;
 }
 
 spec::texture::Parameters random_parameters(Random& random) {
-  spec::texture::Parameters p = random_rules(random);
+  spec::texture::Parameters p = stimuli::random_rules(random);
   p.cache_line_bytes = any_of(random, std::array{32, 64, 128});
   p.cache_ways = any_of(random, std::array{1, 2, 4, 8});
   p.cache_bytes = any_of(random, std::array{1024, 4096, 16384});
   p.cache_replacement =
-      any_code<spec::texture::Replacement>(random, spec::texture::kReplacementNames);
+      stimuli::any_code<spec::texture::Replacement>(random, spec::texture::kReplacementNames);
   p.cache_outstanding = any_of(random, std::array{4, 17, 64});
   p.cache_fifo_depth = any_of(random, std::array{0, 2, 33, 160});
   return p;

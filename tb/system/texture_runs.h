@@ -38,7 +38,7 @@ struct TextureRunOptions : SimulationOptions, TextureSetup {};
 // By the paper's rules.
 inline TextureRunOptions paper_options() {
   TextureRunOptions options;
-  options.texture = paper_rules();
+  options.texture = stimuli::paper_rules();
   return options;
 }
 

@@ -78,7 +78,7 @@ TEST_P(EveryModeInAStorm, IsIdenticalToGolden) {
   options.memory.bank_busy = 5;
   // The paper's rules and the project's own in turn, directions in time and encoded output too.
   if ((mode + lb_n) % 2 == 0) {
-    options.texture = paper_rules();
+    options.texture = stimuli::paper_rules();
   } else {
     options.texture.axes = spec::texture::Axes::kEight;
     options.texture.axis_clocks = 1 << lb_n % 3;
@@ -169,7 +169,7 @@ TEST(FrameReset, IsMissedWhenThereIsNone) {
   const QuadInput input = {scene.memory().descriptors(), scene.memory().bytes(),
                            scene.stream().quads};
   // By rules whose lines fit into the cache.
-  const spec::texture::Parameters paper = paper_rules();
+  const spec::texture::Parameters paper = stimuli::paper_rules();
   QuadBench bench(input, paper, {}, {},
                   stand_ins_of_suite(paper, QuadBench::memory_clocks({}), BenchOptions{}.seed));
   bench.reset();

@@ -12,7 +12,7 @@
 #include "spec/error.h"
 #include "tb/scene/rasteriser.h"
 
-namespace deburr::tb {
+namespace deburr::tb::traces {
 namespace {
 
 constexpr std::string_view kQuadUsage =
@@ -384,4 +384,4 @@ FragmentSummary examine_fragments(const std::filesystem::path& file, std::size_t
   return summary;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::traces

@@ -15,7 +15,7 @@
 #include "tb/traces/fragment_trace.h"
 #include "tb/traces/trace_file.h"
 
-namespace deburr::tb {
+namespace deburr::tb::traces {
 
 class FragmentReader {
  public:
@@ -85,4 +85,4 @@ struct FragmentSummary {
 };
 FragmentSummary examine_fragments(const std::filesystem::path& file, std::size_t textures);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::traces

@@ -10,7 +10,7 @@
 
 #include "spec/texture/packets.h"
 
-namespace deburr::tb {
+namespace deburr::tb::traces {
 
 struct TracedQuad {
   spec::texture::Quad quad;    // tag: its number in the trace
@@ -35,4 +35,4 @@ inline constexpr int kMostPictureSide = 8192;  // pixels
 // The two kinds of records: four lanes, or one with its derivatives.
 enum class FragmentRecord : std::uint8_t { kQuad = 0, kFragment = 1 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::traces

@@ -5,7 +5,7 @@
 
 #include <iterator>
 
-namespace deburr::tb {
+namespace deburr::tb::traces {
 namespace {
 
 double real(std::int32_t coordinate) {
@@ -82,4 +82,4 @@ void FragmentWriter::finish() {
   output_.finish();
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::traces

@@ -10,7 +10,7 @@
 #include "tb/traces/fragment_trace.h"
 #include "tb/traces/trace_file.h"
 
-namespace deburr::tb {
+namespace deburr::tb::traces {
 
 class FragmentWriter {
  public:
@@ -30,4 +30,4 @@ class FragmentWriter {
   TraceOutput output_;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::traces

@@ -11,7 +11,7 @@
 #include "rtl_model/fabric/memory_port.h"
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tb::traces {
 namespace {
 
 // Of the line that begins `from` bytes behind the transaction's address.
@@ -163,4 +163,4 @@ void LineTrace::finish() {
   output_.finish();
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::traces

@@ -17,7 +17,7 @@
 #include "rtl_model/fabric/clocked.h"
 #include "tb/traces/trace_file.h"
 
-namespace deburr::tb {
+namespace deburr::tb::traces {
 
 struct LineTraceOptions {
   std::string engine;  // as `deburr run` calls it
@@ -77,4 +77,4 @@ class LineTrace {
   std::uint64_t records_ = 0;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::traces

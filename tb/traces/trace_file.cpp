@@ -12,7 +12,7 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tb::traces {
 
 TraceOutput::TraceOutput(std::filesystem::path file) : file_(std::move(file)) {
   descriptor_ = ::open(file_.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0666);
@@ -78,4 +78,4 @@ void TraceOutput::finish(std::string_view beginning) {
   }
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::traces

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace deburr::tb {
+namespace deburr::tb::traces {
 
 enum class TraceFormat : std::uint8_t { kText, kBinary };
 
@@ -79,4 +79,4 @@ class TraceOutput {
   std::string buffer_;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tb::traces

@@ -25,7 +25,7 @@
 #include "tool/pages/report.h"
 #include "tool/run/run_once.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -59,13 +59,13 @@ void print(const std::vector<std::vector<std::string>>& rows) {
     widths.resize(std::max(widths.size(), row.size()));
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
   }
-  const std::size_t columns = output_columns();
+  const std::size_t columns = tb::output_columns();
   std::size_t all = 0;
   for (const std::size_t width : widths) all += width + (all > 0 ? 2 : 0);
   if (columns > 0 && all > columns) {
-    print_wrapped(rows[0][0].empty() ? "" : rows[0][0] + ":\n");
+    tb::print_wrapped(rows[0][0].empty() ? "" : rows[0][0] + ":\n");
     for (std::size_t i = 1; i < rows.size(); ++i)
-      fmt::print("{}", row_in_lines(rows[i], rows[0], columns));
+      fmt::print("{}", tb::row_in_lines(rows[i], rows[0], columns));
     return;
   }
   for (const auto& row : rows) {
@@ -145,9 +145,9 @@ void print_runs(const Json& comparison, bool all) {
   }
   if (!shown.empty()) print(rows);
   if (!all && !others.empty())
-    print_wrapped(fmt::format("{} more value{} differ{}: --all shows counters and the rest\n",
-                              others.size(), others.size() == 1 ? "" : "s",
-                              others.size() == 1 ? "s" : ""));
+    tb::print_wrapped(fmt::format("{} more value{} differ{}: --all shows counters and the rest\n",
+                                  others.size(), others.size() == 1 ? "" : "s",
+                                  others.size() == 1 ? "s" : ""));
 }
 
 void print_worst_points(const Json& comparison) {
@@ -163,19 +163,19 @@ void print_worst_points(const Json& comparison) {
     for (std::size_t i = 0; i < comparison.at("axes").size(); ++i)
       place += fmt::format("{}{} = {}", i > 0 ? ", " : "", text(comparison["axes"][i]),
                            value_text(point["at"][i]));
-    print_wrapped(fmt::format("WORSE at {}\n", place));
+    tb::print_wrapped(fmt::format("WORSE at {}\n", place));
   }
 }
 
 void print_sweeps(const Json& comparison) {
   const Json& sweeps = comparison.at("sweeps");
   print_parameters(comparison, sweeps);
-  print_wrapped(fmt::format("{} points in all of them, {} not done in all\n",
-                            comparison.at("points").size(), comparison.at("only").size()));
+  tb::print_wrapped(fmt::format("{} points in all of them, {} not done in all\n",
+                                comparison.at("points").size(), comparison.at("only").size()));
   for (const Json& sweep : sweeps)
     if (sweep.contains("joint_front"))
-      print_wrapped(fmt::format("{}: {} of its points are on the front of all together\n",
-                                text(sweep.at("name")), json_text(sweep["joint_front"])));
+      tb::print_wrapped(fmt::format("{}: {} of its points are on the front of all together\n",
+                                    text(sweep.at("name")), tb::json_text(sweep["joint_front"])));
   std::vector<std::vector<std::string>> rows = {
       {"", "better", "equal", "worse", "mean change", "least", "most"}};
   for (std::size_t i = 1; i < sweeps.size(); ++i)
@@ -183,7 +183,8 @@ void print_sweeps(const Json& comparison) {
       const Json& sum = comparison.at("summary")[i - 1][m];
       std::vector<std::string>& row = rows.emplace_back();
       row.push_back(text(sweeps[i].at("name")) + " " + text(comparison["metrics"][m].at("name")));
-      for (const char* key : {"better", "equal", "worse"}) row.push_back(json_text(sum.at(key)));
+      for (const char* key : {"better", "equal", "worse"})
+        row.push_back(tb::json_text(sum.at(key)));
       for (const char* key : {"mean", "least", "most"})
         row.push_back(sum.contains(key)
                           ? fmt::format("{:+.2f} {}", sum[key].get<double>(), text(sum["unit"]))
@@ -207,7 +208,8 @@ std::vector<std::string> what_is_worse(const Json& comparison) {
       if (const Json& points = comparison["summary"][i][m].at("worse");
           points != 0 && comparison["metrics"][m].at("counts").get<bool>())
         worse.push_back(fmt::format("{} at {} points of {}", text(comparison["metrics"][m]["name"]),
-                                    json_text(points), text(comparison["sweeps"][i + 1]["name"])));
+                                    tb::json_text(points),
+                                    text(comparison["sweeps"][i + 1]["name"])));
   const auto lost = std::count_if(comparison.at("only").begin(), comparison.at("only").end(),
                                   [](const Json& point) { return point.at("worse").get<bool>(); });
   if (lost > 0) worse.push_back(fmt::format("{} points that A has failed", lost));
@@ -220,7 +222,7 @@ std::string unsaid_value(const std::string& engine_name,
                          const std::string& parameter) {
   const std::unique_ptr<Engine> engine = engine_named(engine_name);
   BoundEngine bound(*engine);
-  const Parameter* wanted = bound.set.find(parameter);
+  const tb::Parameter* wanted = bound.set.find(parameter);
   if (!wanted) return "-";  // of another version
   try {
     for (const auto& [name, value] : base)
@@ -250,7 +252,7 @@ void check_page(const CompareOptions& options) {
   const std::filesystem::path folder = std::filesystem::absolute(options.page).parent_path();
   for (const std::filesystem::path& path : options.paths) {
     const std::filesystem::path read =
-        is_folder(path) ? path : std::filesystem::absolute(path).parent_path();
+        tb::is_folder(path) ? path : std::filesystem::absolute(path).parent_path();
     std::error_code none;  // what is not there is said by who reads it
     if (std::filesystem::equivalent(folder, read, none))
       throw spec::ConfigError(
@@ -284,7 +286,7 @@ Outcome compare_results(const CompareOptions& options, bool json) {
     comparison.at("kind") == "runs" ? print_runs(comparison, options.all)
                                     : print_sweeps(comparison);
   if (!options.page.empty()) {
-    write_file_atomically(options.page, comparison_page(comparison));
+    tb::write_file_atomically(options.page, comparison_page(comparison));
     if (!json) fmt::print("{}\n", options.page.string());
   }
   Outcome outcome;
@@ -295,7 +297,7 @@ Outcome compare_results(const CompareOptions& options, bool json) {
   } else {
     outcome.text = "PASS compare: nothing is worse by more than its tolerance" + idealised;
   }
-  if (json) outcome.details = json_text(Json{{"comparison", comparison}});
+  if (json) outcome.details = tb::json_text(Json{{"comparison", comparison}});
   return outcome;
 }
 
@@ -371,4 +373,4 @@ void add_report(CLI::App& app, CommandLine& line) {
   });
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -18,7 +18,7 @@
 #include "tool/run/reference_pages.h"
 #include "tool/run/shorthands.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 // What may follow, in words: by "PLACE" (a command: its commands and options), by "PLACE:WORD" (of
@@ -41,7 +41,7 @@ std::string choices(const std::string& range) {
   return words;
 }
 
-std::string values_of(const Parameter& parameter) {
+std::string values_of(const tb::Parameter& parameter) {
   std::string words = choices(parameter.range);
   for (const std::string& alias : parameter.aliases) words += " " + alias;
   return words;
@@ -81,11 +81,11 @@ void add_words(Words& words, const CLI::App& command, const std::string& place) 
 void add_parameters(Words& words, Engine& engine) {
   const std::string place = fmt::format("deburr run {}", engine.name());
   std::string& units = words["deburr params@0"];
-  ParameterSet set;
+  tb::ParameterSet set;
   RunParameters run = engine.run_parameters();
-  set.add("run", ParameterKind::kRun, run);
+  set.add("run", tb::ParameterKind::kRun, run);
   engine.add_parameters(set);
-  for (const Parameter& p : set.all()) {
+  for (const tb::Parameter& p : set.all()) {
     words[place + ":--set"] += p.name + "= ";
     if (const std::string values = values_of(p); !values.empty())
       words[place + ":" + p.name] = values;
@@ -96,7 +96,7 @@ void add_parameters(Words& words, Engine& engine) {
   words[place + ":run.fault"] = faults;
   for (const Shorthand& shorthand : shorthands_of(engine)) {
     if (!shorthand.second_parameter.empty()) continue;
-    const Parameter& parameter = *set.find(shorthand.parameter);
+    const tb::Parameter& parameter = *set.find(shorthand.parameter);
     const std::string values = parameter.name == "run.fault" ? faults : values_of(parameter);
     if (!values.empty() && parameter.range != "true | false")
       words[place + ":" + shorthand.option] = values;
@@ -299,4 +299,4 @@ void add_completion(CLI::App& app, CommandLine& line) {
   });
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

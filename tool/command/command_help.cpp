@@ -13,7 +13,7 @@
 #include "tool/pages/build_info.h"
 #include "tool/run/engine.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 std::string help_page(const CLI::App& app, const std::vector<std::string>& words) {
@@ -89,4 +89,4 @@ void add_help(CLI::App& app, CommandLine& line) {
   });
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -33,7 +33,7 @@
 #include "tb/run/result.h"
 #include "tool/pages/build_info.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -59,23 +59,24 @@ class OrderedFormatter : public CLI::Formatter {
 
 std::string quoted_command(int argc, char** argv) {
   std::string command;
-  for (int i = 0; i < argc; ++i) command += (i > 0 ? " " : "") + shell_quoted(argv[i]);
+  for (int i = 0; i < argc; ++i) command += (i > 0 ? " " : "") + tb::shell_quoted(argv[i]);
   return command;
 }
 
 int finish(const Outcome& outcome, const CommandLine& line) {
   std::fflush(stdout);
   const std::string repro =
-      outcome.repro.empty() ? line.text : shell_quoted(line.words[0]) + " " + outcome.repro;
+      outcome.repro.empty() ? line.text : tb::shell_quoted(line.words[0]) + " " + outcome.repro;
   if (line.json) {
     Json object = {{"exit_code", outcome.code}, {"outcome", outcome.text}, {"command", line.text}};
     if (outcome.code != 0) object["repro"] = repro;
     if (!outcome.directory.empty()) {
       object["directory"] = outcome.directory.string();
-      object["result"] = parse_json(read_file(outcome.directory / outcome.result, kMaxResultBytes));
+      object["result"] =
+          tb::parse_json(tb::read_file(outcome.directory / outcome.result, tb::kMaxResultBytes));
     }
-    if (!outcome.details.empty()) object.update(parse_json(outcome.details));
-    fmt::print("{}\n", json_text(object, 2, NotUtf8::kReplace));
+    if (!outcome.details.empty()) object.update(tb::parse_json(outcome.details));
+    fmt::print("{}\n", tb::json_text(object, 2, tb::NotUtf8::kReplace));
     return outcome.code;
   }
   if (outcome.code != 0) fmt::print("REPRO: {}\n", repro);
@@ -93,7 +94,7 @@ void fill_closed_streams() {
 
 bool is_utf8(const std::string& text) {
   try {
-    return !json_text(nlohmann::ordered_json(text)).empty();
+    return !tb::json_text(nlohmann::ordered_json(text)).empty();
   } catch (const nlohmann::ordered_json::exception&) {
     return false;
   }
@@ -121,7 +122,7 @@ int flushed(int code) {
 // The message becomes the last line; with its details (a dump) it goes to the error stream.
 Outcome failure(int code, const char* kind, const std::string& text) {
   fmt::print(stderr, "deburr: {}\n", text);
-  return {code, fmt::format("FAIL {}: {}", kind, headline(text))};
+  return {code, fmt::format("FAIL {}: {}", kind, tb::headline(text))};
 }
 
 std::string quoted_names(const std::vector<const CLI::App*>& commands) {
@@ -150,8 +151,8 @@ std::string explain(const CLI::App& app, int argc, char** argv, const std::strin
         for (const CLI::Option* other : command->get_options())
           for (const std::string& long_name : other->get_lnames())
             known.push_back("--" + long_name);
-        return see(
-            fmt::format("unknown option '{}'{}", name, did_you_mean(near_matches(name, known))));
+        return see(fmt::format("unknown option '{}'{}", name,
+                               tb::did_you_mean(tb::near_matches(name, known))));
       }
       if (name == word && option->get_items_expected_min() > 0) ++i;  // its value
     } else if (!word.starts_with("-") && !commands.empty()) {
@@ -277,19 +278,20 @@ const CLI::App& command_named(const CLI::App& app, const std::string& path,
     if (command->get_name() == name) return *command;
     known.push_back(command->get_name());
   }
-  throw spec::ConfigError(
-      known.empty() ? fmt::format("no '{} {}': '{}' has no commands", path, name, path)
-                    : fmt::format("no '{} {}'{}, known are {}", path, name,
-                                  did_you_mean(near_matches(name, known)), quoted_names(commands)));
+  throw spec::ConfigError(known.empty()
+                              ? fmt::format("no '{} {}': '{}' has no commands", path, name, path)
+                              : fmt::format("no '{} {}'{}, known are {}", path, name,
+                                            tb::did_you_mean(tb::near_matches(name, known)),
+                                            quoted_names(commands)));
 }
 
 void print_help(const std::string& text) {
   constexpr std::size_t kDescriptions = 30;  // where CLI11 begins them
-  const std::size_t columns = output_columns();
+  const std::size_t columns = tb::output_columns();
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     // A command stays whole, so that it can be copied.
-    if (!line.starts_with("  deburr ")) line = wrapped(line, columns, kDescriptions);
+    if (!line.starts_with("  deburr ")) line = tb::wrapped(line, columns, kDescriptions);
     std::fputs((line + "\n").c_str(), stdout);  // whether it arrived is looked at in the end
   }
 }
@@ -300,8 +302,8 @@ void show_examples(CLI::App& command, const std::vector<std::string>& lines) {
 
 int run_command_line(int argc, char** argv, void (*add)(CLI::App& app, CommandLine& line)) {
   fill_closed_streams();
-  let_full_files_fail();
+  tb::let_full_files_fail();
   return flushed(run(argc, argv, add));
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -12,7 +12,7 @@ namespace CLI {
 class App;
 }
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 struct Outcome {
   int code = 0;
@@ -45,4 +45,4 @@ void show_examples(CLI::App& command, const std::vector<std::string>& lines);
 // that was called. Returns the exit code.
 int run_command_line(int argc, char** argv, void (*add)(CLI::App& app, CommandLine& line));
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 void add_papers(CLI::App& app, CommandLine& line, PapersAction action) {
   CLI::App* command =
@@ -28,4 +28,4 @@ void add_papers(CLI::App& app, CommandLine& line, PapersAction action) {
   });
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

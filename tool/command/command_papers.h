@@ -9,7 +9,7 @@
 
 #include "tool/command/command_line.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 struct PapersOptions {
   std::string out = "out/papers";
@@ -24,4 +24,4 @@ void add_papers(CLI::App& app, CommandLine& line, PapersAction action);
 // The action of `deburr`: becomes deburr_papers. FileError where that is not there.
 Outcome start_papers(const PapersOptions& options, const CommandLine& line);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

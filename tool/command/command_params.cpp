@@ -19,7 +19,10 @@
 #include "tool/run/reference_pages.h"
 #include "tool/run/shorthands.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::Parameter;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -40,7 +43,7 @@ Json to_json(const Engine& engine, const Parameter& p) {
 }
 
 // Short options of `deburr run ENGINE`, and what they stand for.
-void list_options(const Engine& engine, const ParameterSet& set, Json& listed) {
+void list_options(const Engine& engine, const tb::ParameterSet& set, Json& listed) {
   for (const Shorthand& shorthand : shorthands_of(engine)) {
     Json parameters = {shorthand.parameter};
     if (!shorthand.second_parameter.empty()) parameters.push_back(shorthand.second_parameter);
@@ -87,13 +90,13 @@ Outcome print_params(const ParamsCommand& command, bool json) {
   }
   std::vector<std::string> groups;
   std::vector<Parameter> shown;
-  std::vector<BuildLimit> limits;
+  std::vector<tb::BuildLimit> limits;
   Json listed = Json::array();  // of each engine, whose defaults may be others
   Json options = Json::array();
   for (const auto& engine : all) {
-    ParameterSet set;
+    tb::ParameterSet set;
     RunParameters run = engine->run_parameters();
-    set.add("run", ParameterKind::kRun, run);
+    set.add("run", tb::ParameterKind::kRun, run);
     engine->add_parameters(set);
     for (const Parameter& p : set.all()) {
       const std::string group = p.name.substr(0, p.name.find('.'));
@@ -105,7 +108,7 @@ Outcome print_params(const ParamsCommand& command, bool json) {
       listed.push_back(to_json(*engine, p));
     }
     if (command.unit.empty()) list_options(*engine, set, options);
-    for (const BuildLimit& limit : set.build_limits()) {
+    for (const tb::BuildLimit& limit : set.build_limits()) {
       const std::string& about = limit.parameters.front();
       const bool known = std::find(limits.begin(), limits.end(), limit) != limits.end();
       if (!known && (command.unit.empty() || command.unit == about.substr(0, about.find('.'))))
@@ -114,15 +117,15 @@ Outcome print_params(const ParamsCommand& command, bool json) {
   }
   if (shown.empty())
     throw spec::ConfigError(fmt::format("no unit '{}'{} (known: {})", command.unit,
-                                        did_you_mean(near_matches(command.unit, groups)),
+                                        tb::did_you_mean(tb::near_matches(command.unit, groups)),
                                         fmt::join(groups, ", ")));
   if (json) {
     Json rules = Json::array();
-    for (const BuildLimit& limit : limits)
+    for (const tb::BuildLimit& limit : limits)
       rules.push_back({{"parameters", limit.parameters}, {"must", limit.must}});
     Outcome outcome{0, fmt::format("PASS params: {} parameters", shown.size())};
     outcome.details =
-        json_text(Json{{"parameters", listed}, {"options", options}, {"limits", rules}});
+        tb::json_text(Json{{"parameters", listed}, {"options", options}, {"limits", rules}});
     return outcome;
   }
   std::size_t name = 0, kind = 0, value = 0, range = 0, unit = 0;
@@ -133,23 +136,24 @@ Outcome print_params(const ParamsCommand& command, bool json) {
     range = std::max(range, std::min<std::size_t>(p.range.size(), 40));
     unit = std::max(unit, p.unit.size());
   }
-  const std::size_t columns = output_columns(), meaning = name + kind + value + range + unit + 10;
+  const std::size_t columns = tb::output_columns(),
+                    meaning = name + kind + value + range + unit + 10;
   const bool fits = columns == 0 || meaning + kLeastMeaning <= columns;
   for (const Parameter& p : shown)
     if (fits)
-      print_wrapped(
+      tb::print_wrapped(
           fmt::format("{:{}}  {:{}}  {:{}}  {:{}}  {:{}}  {}\n", p.name, name, kind_name(p), kind,
                       p.default_value, value, p.range, range, p.unit, unit, p.meaning),
           meaning);
     else
-      fmt::print("{}", row_in_lines({p.name, std::string(kind_name(p)), p.default_value, p.range,
-                                     p.unit, p.meaning},
-                                    {}, columns));
+      fmt::print("{}", tb::row_in_lines({p.name, std::string(kind_name(p)), p.default_value,
+                                         p.range, p.unit, p.meaning},
+                                        {}, columns));
   if (!limits.empty())
-    print_wrapped("\nWhat hardware can be built with, beyond these ranges:\n", 0);
-  for (const BuildLimit& limit : limits)
-    print_wrapped(fmt::format("{:{}}  {}\n", limit.parameters.front(), name, limit.must),
-                  fits ? name + 2 : 4);
+    tb::print_wrapped("\nWhat hardware can be built with, beyond these ranges:\n", 0);
+  for (const tb::BuildLimit& limit : limits)
+    tb::print_wrapped(fmt::format("{:{}}  {}\n", limit.parameters.front(), name, limit.must),
+                      fits ? name + 2 : 4);
   return {};
 }
 
@@ -192,4 +196,4 @@ void add_params(CLI::App& app, CommandLine& line) {
   });
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

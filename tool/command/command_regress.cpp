@@ -28,7 +28,10 @@
 #include "tool/sweep/slurm.h"
 #include "tool/sweep/status.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::grouped;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -51,7 +54,7 @@ struct RegressOptions : PointOptions {
 
   // `deburr regress status` is about the default testplan.
   void take_lone_action() {
-    if (std::find(kActions.begin(), kActions.end(), file) == kActions.end() || is_there(file))
+    if (std::find(kActions.begin(), kActions.end(), file) == kActions.end() || tb::is_there(file))
       return;
     action = file;
     file = kDefaultTestplan;
@@ -62,7 +65,7 @@ class Regression {
  public:
   explicit Regression(const RegressOptions& options)
       : options_(options),
-        testplan_(part_of(read_testplan(ready_file(options.file)), options.divide)),
+        testplan_(part_of(read_testplan(tb::ready_file(options.file)), options.divide)),
         base_seed_(base_seed_of(options, testplan_)),
         place_(regression_place_of(options.out, testplan_.name, base_seed_)),
         what_(fmt::format("regression {} --seed {}", testplan_.name, base_seed_)) {}
@@ -76,7 +79,7 @@ class Regression {
     plan_ = make_regression_plan(testplan_, base_seed_, place_);
     say_left_out(options_, plan_);
     if (options_.action == "plan") return planned_outcome(what_, plan_, place_);
-    catch_interrupts();
+    tb::catch_interrupts();
     const SweepLock lock(place_.directory);
     return options_.action == "run"     ? run()
            : options_.action == "rerun" ? rerun()
@@ -98,7 +101,7 @@ class Regression {
       if (!options_.slurm.empty())
         return run_on_slurm(options_, what_, plan_, place_, pending.points);
       const int code = run_here(plan_, place_, pending.points, settings("regression"));
-      if (code == kInterruptedExit) return ended(options_, what_, place_, pending.done, code);
+      if (code == tb::kInterruptedExit) return ended(options_, what_, place_, pending.done, code);
     }
     return check(collect());
   }
@@ -133,7 +136,7 @@ class Regression {
     const std::string figures =
         fmt::format("{} of {} runs that had failed pass now, {} fail", grouped(passed),
                     grouped(points.size()), grouped(failed.size()));
-    if (!interrupted()) {
+    if (!tb::interrupted()) {
       if (const Status status = look(place_, plan_); status.missing + status.running == 0) {
         say(options_, "rerun       " + figures);
         return check(collect());
@@ -155,17 +158,17 @@ class Regression {
     }
     Outcome outcome{failed.empty() ? 0 : static_cast<int>(ExitCode::kMismatch),
                     (failed.empty() ? "PASS " : "FAIL ") + text};
-    outcome.details = json_text(
+    outcome.details = tb::json_text(
         Json{{"counts", {{"rerun", points.size()}, {"passed", passed}, {"failed", failed.size()}}},
              {"failures", std::move(failures)}},
-        -1, NotUtf8::kReplace);
+        -1, tb::NotUtf8::kReplace);
     if (!failed.empty()) outcome.repro = arguments_of(failed[0]->engine, failed[0]->settings);
     if (passed + failed.size() < points.size()) {
       outcome.code = static_cast<int>(ExitCode::kSimulation);
       outcome.text = "FAIL " + text;
     }
-    if (interrupted()) {
-      outcome.code = kInterruptedExit;
+    if (tb::interrupted()) {
+      outcome.code = tb::kInterruptedExit;
       outcome.text = fmt::format("INTERRUPTED {}: {}", what_, figures);
     }
     return outcome;
@@ -218,7 +221,7 @@ class Regression {
       if (unmet.hits > 0)
         say(options_,
             fmt::format("met         {}, which the testplan excepts: {}", unmet.bin, unmet.reason));
-    if (interrupted()) return {kInterruptedExit, "INTERRUPTED " + figures};
+    if (tb::interrupted()) return {tb::kInterruptedExit, "INTERRUPTED " + figures};
     if (result.missing > 0)
       return {static_cast<int>(ExitCode::kSimulation),
               fmt::format("FAIL {}: 'run' it again for what is missing", figures)};
@@ -312,4 +315,4 @@ void add_regress(CLI::App& app, CommandLine& line) {
   });
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -25,7 +25,7 @@
 #include "tool/run/run_once.h"
 #include "tool/run/shorthands.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 using spec::ConfigError;
@@ -64,8 +64,9 @@ void reject_empty_names(const RunOptions& options) {
 // What --config holds. It is read once: a pipe gives it once.
 std::string configuration_of(const RunOptions& options) {
   if (!options.config) return "";
-  return *options.config == kStandardInput ? read_standard_input(kMaxConfigurationBytes)
-                                           : read_file(*options.config, kMaxConfigurationBytes);
+  return *options.config == tb::kStandardInput
+             ? tb::read_standard_input(tb::kMaxConfigurationBytes)
+             : tb::read_file(*options.config, tb::kMaxConfigurationBytes);
 }
 
 // As printf makes the text of it again, in one line.
@@ -81,11 +82,11 @@ std::string printed(const std::string& text) {
     else
       escaped += c;
   }
-  return "printf %b " + shell_quoted(escaped);
+  return "printf %b " + tb::shell_quoted(escaped);
 }
 
 void apply(const RunOptions& options, const std::string& configuration, const std::string& engine,
-           ParameterSet& set) {
+           tb::ParameterSet& set) {
   if (options.config) set.load(*options.config, configuration, engine);
   // The same parameter given twice with different values would silently lose one of them.
   std::map<std::string, Assignment> given;
@@ -105,15 +106,16 @@ void apply(const RunOptions& options, const std::string& configuration, const st
   }
 }
 
-std::string summary_of(const Result& r, const std::filesystem::path& directory) {
+std::string summary_of(const tb::Result& r, const std::filesystem::path& directory) {
   std::string text = r.unit + ": ";
   if (r.comparisons + r.traffic_comparisons > 0)
     text += fmt::format("{} outputs and {} memory accesses compared, {} mismatches, ",
-                        grouped(r.comparisons), grouped(r.traffic_comparisons),
-                        grouped(r.mismatches + r.traffic_mismatches));
-  text += fmt::format("{} cycles, {:.3f} {}", grouped(r.cycles), r.throughput, r.throughput_unit);
+                        tb::grouped(r.comparisons), tb::grouped(r.traffic_comparisons),
+                        tb::grouped(r.mismatches + r.traffic_mismatches));
+  text +=
+      fmt::format("{} cycles, {:.3f} {}", tb::grouped(r.cycles), r.throughput, r.throughput_unit);
   std::string idealised;
-  for (const MemoryFigures& memory : r.memories)
+  for (const tb::MemoryFigures& memory : r.memories)
     if (!memory.idealised.empty())
       idealised += fmt::format("{} {}", idealised.empty() ? ", IDEALISED" : ",", memory.name);
   text += idealised;
@@ -135,7 +137,7 @@ std::string measured(const std::optional<double>& after, const std::optional<dou
 }
 
 // Rate, bound, bottleneck, quality and what was changed in a few lines.
-std::string figures_of(const Result& r) {
+std::string figures_of(const tb::Result& r) {
   if (r.cycles == 0) return "";
   std::string text = fmt::format("rate        {:.3f} {}", r.throughput, r.throughput_unit);
   if (r.throughput_bound > 0)
@@ -148,7 +150,7 @@ std::string figures_of(const Result& r) {
                     r.bottleneck->cause,
                     100 * static_cast<double>(r.bottleneck->cycles) / static_cast<double>(r.cycles),
                     r.bottleneck->meaning);
-  for (const TerminalLine& line : r.terminal)
+  for (const tb::TerminalLine& line : r.terminal)
     text += fmt::format("{:<11} {}\n", line.name, line.text);
   if (r.bytes_read + r.bytes_written > 0)
     text += fmt::format("memory      {:.3g} GB/s read, {:.3g} written at {:g} MHz\n",
@@ -165,11 +167,11 @@ std::string figures_of(const Result& r) {
     text += fmt::format(" against {}\n", r.quality->reference);
   }
   if (r.change) {
-    const Change& c = *r.change;
+    const tb::Change& c = *r.change;
     text += fmt::format(
         "changed     {:.2f} % of the pixels by more than {} codes, {:.2f} % by more "
         "than {}",
-        c.small_percent, Change::kSmall, c.large_percent, Change::kLarge);
+        c.small_percent, tb::Change::kSmall, c.large_percent, tb::Change::kLarge);
     if (c.right_small_percent && c.right_large_percent)
       text += fmt::format(" (of those that were right before {:.2f} % and {:.2f} %)",
                           *c.right_small_percent, *c.right_large_percent);
@@ -181,7 +183,7 @@ std::string figures_of(const Result& r) {
 Outcome run_engine(Engine& engine, const RunOptions& options, CommandLine& line) {
   reject_empty_names(options);
   const std::string configuration = configuration_of(options);
-  if (options.config == kStandardInput)
+  if (options.config == tb::kStandardInput)
     line.text = fmt::format("{} | {}", printed(configuration), line.text);
   BoundEngine bound(engine);
   apply(options, configuration, std::string(engine.name()), bound.set);
@@ -191,50 +193,52 @@ Outcome run_engine(Engine& engine, const RunOptions& options, CommandLine& line)
   context.set_quiet(options.quiet || line.json);
   if (options.resolve_only) {
     context.set_checking_only();
-    Result result;
+    tb::Result result;
     engine.run(bound.run, context, result);
     fmt::print("{}", bound.set.yaml());
     return {};
   }
-  catch_interrupts();
+  tb::catch_interrupts();
   const RunEnd end =
       run_once(bound, context, options.wait ? IfTaken::kWait : IfTaken::kReject, [&] {
         if (options.config) context.add_configuration(*options.config, configuration);
         return true;
       });
-  const Result& result = end.result;
+  const tb::Result& result = end.result;
   if (!end.begun) {
     fmt::print(stderr,
                "deburr: interrupted before the simulation began; no results were written\n");
-    return {kInterruptedExit,
+    return {tb::kInterruptedExit,
             fmt::format("INTERRUPTED {}: before the simulation began, no results were written",
                         result.unit)};
   }
-  for (const MemoryFigures& memory : result.memories)
+  for (const tb::MemoryFigures& memory : result.memories)
     if (!memory.idealised.empty() && !context.quiet())
       fmt::print(stderr, "deburr: warning: this hardware cannot be built: memory {}: {}\n",
                  memory.name, memory.idealised);
   context.finish(result);
-  if (!context.quiet()) print_wrapped(figures_of(result));
+  if (!context.quiet()) tb::print_wrapped(figures_of(result));
   if (result.pixel && !context.quiet())
-    print_wrapped(text_of(*result.pixel, (context.directory() / "report.html").string()), 4);
+    tb::print_wrapped(text_of(*result.pixel, (context.directory() / "report.html").string()), 4);
   const std::filesystem::path& directory = context.directory();
   const std::string summary = summary_of(result, directory);
   if (end.code != 0)
-    return {end.code, fmt::format("FAIL {}: {} ({})", end.kind, headline(result.reason), summary),
+    return {end.code,
+            fmt::format("FAIL {}: {} ({})", end.kind, tb::headline(result.reason), summary),
             directory};
   if (result.interrupted) {
     fmt::print(stderr,
                "deburr: interrupted; the partial results are kept. Run the same command again "
                "for all of it.\n");
-    return {kInterruptedExit, fmt::format("INTERRUPTED {}", summary), directory};
+    return {tb::kInterruptedExit, fmt::format("INTERRUPTED {}", summary), directory};
   }
-  return {0, fmt::format("{} {}", result.verdict == Verdict::kPass ? "PASS" : "UNCHECKED", summary),
-          directory};
+  return {
+      0, fmt::format("{} {}", result.verdict == tb::Verdict::kPass ? "PASS" : "UNCHECKED", summary),
+      directory};
 }
 
 // What --help calls a value of it.
-std::string value_name(const Shorthand& shorthand, const Parameter& parameter) {
+std::string value_name(const Shorthand& shorthand, const tb::Parameter& parameter) {
   if (!shorthand.second_parameter.empty()) return "WxH";
   if (parameter.range.find_first_not_of("0123456789.| ") == std::string::npos) return "NUMBER";
   if (parameter.range == "file") return "FILE";
@@ -244,7 +248,7 @@ std::string value_name(const Shorthand& shorthand, const Parameter& parameter) {
 }
 
 // Its help, with the default where that is a number.
-std::string help_of(const Shorthand& shorthand, const Parameter& parameter) {
+std::string help_of(const Shorthand& shorthand, const tb::Parameter& parameter) {
   if (shorthand.help.empty() || parameter.range.find("..") == std::string::npos ||
       !shorthand.second_parameter.empty())
     return shorthand.help;
@@ -252,7 +256,7 @@ std::string help_of(const Shorthand& shorthand, const Parameter& parameter) {
 }
 
 void add_shorthand(CLI::App& command, const Shorthand& shorthand, RunOptions& options,
-                   const Parameter& parameter) {
+                   const tb::Parameter& parameter) {
   if (parameter.range == "true | false") {
     command.add_flag_callback(
         shorthand.option,
@@ -313,7 +317,7 @@ void add_run(CLI::App& app, CommandLine& line) {
     // To know which shorthands are switches, the parameters are asked.
     const BoundEngine probe(*engine);
     for (const Shorthand& shorthand : shorthands_of(*engine)) {
-      const Parameter* parameter = probe.set.find(shorthand.parameter);
+      const tb::Parameter* parameter = probe.set.find(shorthand.parameter);
       DEBURR_CHECK(parameter, shorthand.option + " stands for an unknown parameter");
       add_shorthand(*command, shorthand, *options, *parameter);
     }
@@ -324,4 +328,4 @@ void add_run(CLI::App& app, CommandLine& line) {
   show_examples(*run, examples);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

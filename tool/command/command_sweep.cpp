@@ -30,7 +30,10 @@
 #include "tool/sweep/status.h"
 #include "tool/sweep/worker.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::grouped;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,7 +53,7 @@ Plan planned(const SweepOptions& options, const SweepDefinition& sweep, const Sw
 
 Outcome run_sweep(const SweepOptions& options, const SweepDefinition& sweep,
                   const SweepPlace& place) {
-  catch_interrupts();
+  tb::catch_interrupts();
   const Plan plan = planned(options, sweep, place);
   const SweepLock lock(place.directory);
   reject_while_submitted(place);
@@ -94,8 +97,8 @@ void say_front(const SweepOptions& options, const SweepDefinition& sweep,
                                     std::isnan(value)   ? "none"
                                     : std::isinf(value) ? "infinite"
                                     : metric.unit.empty()
-                                        ? amount(value)
-                                        : fmt::format("{} {}", amount(value), metric.unit)));
+                                        ? tb::amount(value)
+                                        : fmt::format("{} {}", tb::amount(value), metric.unit)));
     }
     say(options,
         fmt::format("front       {}: {}", fmt::join(place, ", "), fmt::join(figures, ", ")));
@@ -115,18 +118,19 @@ Collection collect_and_say(const SweepOptions& options, const SweepDefinition& s
 
 Outcome run_search(const SweepOptions& options, const SweepDefinition& sweep,
                    const SweepPlace& place) {
-  catch_interrupts();
+  tb::catch_interrupts();
   require_known_metrics(sweep);
   fs::create_directories(place.directory);
   const SweepLock lock(place.directory);
   reject_while_submitted(place);
   SearchSettings search = options.search;
   if (search.population == 0) search.population = population_for(search.runs);
-  std::optional<Progress> progress(std::in_place, "search", search.runs, "point", options.quiet);
+  std::optional<tb::Progress> progress(std::in_place, "search", search.runs, "point",
+                                       options.quiet);
   std::uint64_t known = 0, before = 0;
   RunSettings settings = run_settings(options);
   settings.watch = [&](std::uint64_t ended) { progress->update(known + ended); };
-  const SearchEnd end = run_search(
+  const SearchEnd end = tool::run_search(
       sweep, place, search,
       [&](const Plan& plan, const std::vector<PlannedPoint>& generation) {
         const Pending pending = find_pending(place, generation, options.retry);
@@ -140,8 +144,8 @@ Outcome run_search(const SweepOptions& options, const SweepDefinition& sweep,
   progress.reset();  // its row ends before anything else is said
   say_left_out(options, end.plan);
   if (!end.interrupted && !end.missing) collect_and_say(options, sweep, end.plan, place);
-  Outcome outcome =
-      ended(options, "search " + sweep.name, place, before, end.interrupted ? kInterruptedExit : 0);
+  Outcome outcome = ended(options, "search " + sweep.name, place, before,
+                          end.interrupted ? tb::kInterruptedExit : 0);
   return end.interrupted || end.missing ? outcome : with_collection(std::move(outcome), place);
 }
 
@@ -166,7 +170,7 @@ Outcome collect_points(const SweepOptions& options, const std::string& what,
 }
 
 Outcome sweep(const SweepOptions& options) {
-  const SweepDefinition definition = read_sweep(ready_file(options.file));
+  const SweepDefinition definition = read_sweep(tb::ready_file(options.file));
   const SweepPlace place = place_of(options.out, definition.name);
   const std::string what = "sweep " + definition.name;
   say_changes(options, options.action, place, definition.file);
@@ -178,7 +182,7 @@ Outcome sweep(const SweepOptions& options) {
 }
 
 Outcome search(const SweepOptions& options) {
-  const SweepDefinition definition = read_sweep(ready_file(options.file));
+  const SweepDefinition definition = read_sweep(tb::ready_file(options.file));
   const SweepPlace place = search_place_of(options.out, definition.name);
   const std::string what = "search " + definition.name;
   if (options.action == "run") return run_search(options, definition, place);
@@ -267,4 +271,4 @@ void add_sweep(CLI::App& app, CommandLine& line) {
   });
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 void add_train(CLI::App& app, CommandLine& line, TrainAction action) {
   CLI::App* command =
@@ -33,4 +33,4 @@ void add_train(CLI::App& app, CommandLine& line, TrainAction action) {
   });
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

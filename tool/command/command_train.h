@@ -8,7 +8,7 @@
 
 #include "tool/command/command_line.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 struct TrainOptions {
   std::string in, truth, out;
@@ -23,4 +23,4 @@ void add_train(CLI::App& app, CommandLine& line, TrainAction action);
 // The action of `deburr`: becomes deburr_train. FileError where that is not there.
 Outcome start_train(const TrainOptions& options, const CommandLine& line);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

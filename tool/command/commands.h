@@ -7,7 +7,7 @@
 #include "tool/command/command_papers.h"
 #include "tool/command/command_train.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 void add_run(CLI::App& app, CommandLine& line);
 void add_params(CLI::App& app, CommandLine& line);
@@ -18,4 +18,4 @@ void add_regress(CLI::App& app, CommandLine& line);
 void add_completion(CLI::App& app, CommandLine& line);
 void add_help(CLI::App& app, CommandLine& line);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -21,7 +21,9 @@
 #include "tool/sweep/slurm.h"
 #include "tool/sweep/status.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::grouped;
 
 namespace {
 
@@ -55,7 +57,9 @@ Json details_of(const SweepPlace& place, Json counts, const std::vector<FailedPo
 }
 
 // A reason may hold bytes of a file that was not understood.
-std::string text_of(const Json& details) { return json_text(details, -1, NotUtf8::kReplace); }
+std::string text_of(const Json& details) {
+  return tb::json_text(details, -1, tb::NotUtf8::kReplace);
+}
 
 std::string in_words(const FailedPoint& point) {
   return fmt::format("failed      {}: {}: {}", point.directory.string(), point.failure.kind,
@@ -107,7 +111,7 @@ void say(const PointOptions& options, const std::string& text) {
   if (options.json)
     fmt::print(stderr, "{}\n", text);
   else
-    print_wrapped(text + "\n");
+    tb::print_wrapped(text + "\n");
 }
 
 void say_left_out(const PointOptions& options, const Plan& plan) {
@@ -169,9 +173,9 @@ Outcome ended(const PointOptions& options, const std::string& what, const SweepP
     outcome.text = std::move(text);
     return outcome;
   };
-  if (code == kInterruptedExit) {
+  if (code == tb::kInterruptedExit) {
     fmt::print(stderr, "deburr: interrupted; run the same command again for what is missing\n");
-    return with(kInterruptedExit, fmt::format("INTERRUPTED {}: {}", what, figures));
+    return with(tb::kInterruptedExit, fmt::format("INTERRUPTED {}: {}", what, figures));
   }
   for (const FailedPoint& point : status.failures) say(options, in_words(point));
   if (status.done + status.failed < points)
@@ -248,7 +252,7 @@ Outcome show_status(const PointOptions& options, const std::string& what, const 
     details["time_left"] = status.time_left;
   }
   for (const FailedPoint& point : status.failures) text += in_words(point) + "\n";
-  if (!options.json) print_wrapped(text);
+  if (!options.json) tb::print_wrapped(text);
   Outcome outcome{
       0, fmt::format("PASS {}: {} of {} done", what, grouped(status.done), points_of(plan.points))};
   outcome.details = text_of(details);
@@ -261,4 +265,4 @@ Outcome with_collection(Outcome outcome, const SweepPlace& place) {
   return outcome;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

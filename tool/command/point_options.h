@@ -13,7 +13,7 @@
 #include "tool/sweep/local_engine.h"
 #include "tool/sweep/plan.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 struct PointOptions {
   std::string slurm;
@@ -52,4 +52,4 @@ Outcome show_status(const PointOptions& options, const std::string& what, const 
 // With collected.json of the place.
 Outcome with_collection(Outcome outcome, const SweepPlace& place);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -12,7 +12,7 @@
 #include "tool/command/command_papers.h"
 #include "tool/command/command_train.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 [[noreturn]] void become(std::string_view name, std::string_view what, const CommandLine& line) {
@@ -37,4 +37,4 @@ Outcome start_train(const TrainOptions&, const CommandLine& line) {
   become("deburr_train", "shares are trained", line);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 struct BuildInfo {
   std::string version;   // of the project, "0.1.0"
@@ -19,4 +19,4 @@ struct BuildInfo {
 };
 const BuildInfo& build_info();
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -17,7 +17,7 @@
 #include "tb/run/result.h"
 #include "tool/pages/input_files.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -91,11 +91,11 @@ std::optional<double> number_of(const Json* value) {
 std::string shown_or_dash(const Json* value) { return value ? value_text(*value) : "-"; }
 
 // The parameters that one of the manifests says to be such work, each once.
-std::vector<std::string> work_parameters(const Json& a, const Json& b, GivenWork work) {
+std::vector<std::string> work_parameters(const Json& a, const Json& b, tb::GivenWork work) {
   std::vector<std::string> names;
   for (const Json* manifest : {&a, &b})
     for (const Json& entry : manifest->value("parameters", Json::array())) {
-      if (entry.value("work", "") != name_of(work, kGivenWorkNames)) continue;
+      if (entry.value("work", "") != name_of(work, tb::kGivenWorkNames)) continue;
       std::string name = entry.value("name", "");
       if (std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(std::move(name));
@@ -143,9 +143,9 @@ std::optional<double> as_number(const Json& value) {
 std::string value_text(const Json& value) {
   if (value.is_null()) return "-";
   if (value.is_string()) return value.get<std::string>();
-  if (is_infinite(value)) return "identical";
+  if (tb::is_infinite(value)) return "identical";
   if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
-  return json_text(value);
+  return tb::json_text(value);
 }
 
 // Parts of a key may have dots themselves.
@@ -242,9 +242,9 @@ std::vector<std::string> different_work(const Json& a, const Json& b) {
   };
   // A file may have been moved.
   if (!reads(a) && !reads(b))
-    for (const std::string& name : work_parameters(a, b, GivenWork::kSource)) look(name);
-  for (const std::string& name : work_parameters(a, b, GivenWork::kSetting)) look(name);
+    for (const std::string& name : work_parameters(a, b, tb::GivenWork::kSource)) look(name);
+  for (const std::string& name : work_parameters(a, b, tb::GivenWork::kSetting)) look(name);
   return lines;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

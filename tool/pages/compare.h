@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 struct Tolerances {
   double cycles_percent = 2;      // cycles, latency and memory traffic may grow by this much
@@ -67,4 +67,4 @@ nlohmann::ordered_json value_at(const nlohmann::ordered_json& result, const std:
 std::vector<std::string> different_work(const nlohmann::ordered_json& a,
                                         const nlohmann::ordered_json& b);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

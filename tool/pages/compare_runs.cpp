@@ -12,7 +12,7 @@
 #include "tb/base/json_text.h"
 #include "tb/run/result.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -55,10 +55,10 @@ Run read_run(const fs::path& path, std::size_t index) {
     throw spec::FileError(fmt::format("'{}' is not there", path.string()));
   const bool folder = fs::is_directory(path, error);
   if (folder && !fs::exists(path / "result.json", error)) reject_unfinished(path);
-  Run run{letter(index), path, folder ? path : path.parent_path(), read_result(path), nullptr};
+  Run run{letter(index), path, folder ? path : path.parent_path(), tb::read_result(path), nullptr};
   const fs::path manifest = run.folder / "manifest.json";
   if (!fs::is_regular_file(manifest, error)) return run;
-  run.manifest = try_parse_json(read_file(manifest, kMaxRunManifestBytes));
+  run.manifest = tb::try_parse_json(tb::read_file(manifest, kMaxRunManifestBytes));
   if (!run.manifest.is_object())
     throw spec::FileError(
         fmt::format("'{}' is damaged: run that again, or remove it", manifest.string()));
@@ -76,7 +76,7 @@ void reject_different_engines(const std::vector<Run>& runs) {
 Json warnings_of(const std::vector<Run>& runs) {
   Json warnings = Json::array();
   for (const Run& run : runs) {
-    for (const std::string& memory : idealised_memories(run.result))
+    for (const std::string& memory : tb::idealised_memories(run.result))
       warnings.push_back(
           fmt::format("{} cannot be built: idealised memory {}", run.letter, memory));
     if (run.result.value("interrupted", false))
@@ -175,8 +175,8 @@ class Rows {
     const Json base = value_at(*results_[0], key);
     for (std::size_t i = 0; i < results_.size(); ++i) {
       const Json value = value_at(*results_[i], key);
-      Json cell = {{"value", is_infinite(value) ? Json() : value}, {"text", value_text(value)}};
-      if (is_infinite(value)) cell["identical"] = true;
+      Json cell = {{"value", tb::is_infinite(value) ? Json() : value}, {"text", value_text(value)}};
+      if (tb::is_infinite(value)) cell["identical"] = true;
       if (i > 0) {
         const ComparedValue* found = find(comparisons_[i - 1], key);
         const Trend equal = check(key, as_number(base), as_number(value), tolerances);
@@ -270,4 +270,4 @@ Json compare_runs(const std::vector<fs::path>& paths, const Tolerances& toleranc
   return json;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

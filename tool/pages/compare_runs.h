@@ -10,7 +10,7 @@
 
 #include "tool/pages/compare.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 inline constexpr std::size_t kMostCompared = 16;
 
@@ -29,4 +29,4 @@ std::string letter(std::size_t index);
 nlohmann::ordered_json compare_runs(const std::vector<std::filesystem::path>& paths,
                                     const Tolerances& tolerances);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

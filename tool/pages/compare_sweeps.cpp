@@ -15,7 +15,7 @@
 #include "tool/pages/compare_runs.h"
 #include "tool/pages/input_files.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,7 +57,7 @@ Sweep read_sweep(const fs::path& path) {
         fmt::format("'{}' is a sweep that was not collected: run 'deburr sweep FILE "
                     "collect' first",
                     path.string()));
-  Sweep sweep{path, try_parse_json(read_file(file, kMaxSweepBytes)), {}, {}};
+  Sweep sweep{path, tb::try_parse_json(tb::read_file(file, kMaxSweepBytes)), {}, {}};
   const Json& json = sweep.json;
   const auto damaged = [&](const std::string& what) {
     throw FileError(fmt::format("'{}' is damaged ({}): run 'deburr sweep FILE collect' again",
@@ -480,4 +480,4 @@ Json compare_sweeps(const std::vector<fs::path>& paths, const Tolerances& tolera
   return SweepComparison(std::move(sweeps), tolerances, unsaid).run();
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

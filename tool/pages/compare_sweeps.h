@@ -12,7 +12,7 @@
 
 #include "tool/pages/compare.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // Layout of a sweep's collected.json. In it a value that would be infinite is null, and the point's
 // list `identical` names its metric.
@@ -42,4 +42,4 @@ using UnsaidValue = std::function<std::string(
 nlohmann::ordered_json compare_sweeps(const std::vector<std::filesystem::path>& paths,
                                       const Tolerances& tolerances, const UnsaidValue& unsaid);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

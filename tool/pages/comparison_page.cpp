@@ -18,7 +18,7 @@
 #include "tool/pages/page.h"
 #include "tool/pages/report.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,10 +29,10 @@ std::string text_of(const Json& value) { return value.is_null() ? "" : value_tex
 
 // Counts grouped, anything else as it is.
 std::string figure_text(const Json& value) {
-  if (value.is_number_unsigned()) return grouped(value.get<std::uint64_t>());
+  if (value.is_number_unsigned()) return tb::grouped(value.get<std::uint64_t>());
   if (value.is_number_integer() && value.get<std::int64_t>() >= 0)
-    return grouped(value.get<std::uint64_t>());
-  if (value.is_number_float() && !is_infinite(value)) return amount(value.get<double>(), 5);
+    return tb::grouped(value.get<std::uint64_t>());
+  if (value.is_number_float() && !tb::is_infinite(value)) return tb::amount(value.get<double>(), 5);
   return value_text(value);
 }
 
@@ -245,8 +245,8 @@ class ComparisonPage {
     }
     fill_inputs(sweeps);
     fill_parameters(false);
-    page_.set("matched", grouped(comparison_.at("points").size()));
-    page_.set("only", grouped(comparison_.at("only").size()));
+    page_.set("matched", tb::grouped(comparison_.at("points").size()));
+    page_.set("only", tb::grouped(comparison_.at("only").size()));
     page_.set("has_only", !comparison_.at("only").empty());
     std::string axes;
     for (const Json& axis : comparison_.at("axes"))
@@ -283,4 +283,4 @@ class ComparisonPage {
 
 std::string comparison_page(const Json& comparison) { return ComparisonPage(comparison).render(); }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -7,9 +7,9 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // FileError for a picture that cannot be read.
 std::string comparison_page(const nlohmann::ordered_json& comparison);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

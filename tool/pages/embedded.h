@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace deburr::tb::embedded {
+namespace deburr::tool::embedded {
 
 std::string_view chart_js();             // Chart.js (MIT), from Debian's libjs-chart.js
 std::string_view style_css();            // page.css
@@ -20,4 +20,4 @@ std::string_view regression_template();  // regression.mustache
 std::string_view regression_js();        // regression.js
 std::string_view papers_template();      // papers.mustache
 
-}  // namespace deburr::tb::embedded
+}  // namespace deburr::tool::embedded

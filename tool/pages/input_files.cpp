@@ -12,7 +12,7 @@
 #include "spec/error.h"
 #include "tb/base/file.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -54,7 +54,7 @@ std::string content_of(const fs::path& file) {
   std::error_code error;
   if (fs::status(file, error).type() == fs::file_type::not_found) return std::string(kMissingFile);
   try {
-    return sha256_of_file(file);
+    return tb::sha256_of_file(file);
   } catch (const spec::FileError&) {  // whoever reads it says why
     return std::string(kUnreadableFile);
   }
@@ -127,4 +127,4 @@ std::map<std::string, std::string> InputFiles::all() const {
   return all;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

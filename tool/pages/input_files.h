@@ -14,7 +14,7 @@
 
 #include "tb/scene/mesh.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 inline constexpr std::string_view kMissingFile = "missing";        // there is no such file
 inline constexpr std::string_view kUnreadableFile = "unreadable";  // a folder, a pipe, locked
@@ -42,7 +42,7 @@ class InputFiles {
   void reject_changed(const std::vector<std::filesystem::path>& files);
   // All that were asked for, and what they hold.
   std::map<std::string, std::string> all() const;
-  MeshFiles& meshes() { return meshes_; }
+  tb::MeshFiles& meshes() { return meshes_; }
 
  private:
   // What no file keeps when it is written, or replaced.
@@ -58,7 +58,7 @@ class InputFiles {
   static Stamp stamp_of(const std::filesystem::path& file);
 
   std::map<std::filesystem::path, Known> known_;
-  MeshFiles meshes_;
+  tb::MeshFiles meshes_;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -10,7 +10,7 @@
 #include "tool/pages/build_info.h"
 #include "tool/pages/embedded.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace mustache = kainjow::mustache;
@@ -115,4 +115,4 @@ std::string filled_page(std::string_view content, std::string_view name, mustach
   return text;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

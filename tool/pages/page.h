@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // Escaped; names may end a line after '_', '.' and '/', and not within their words.
 std::string breakable(const std::string& text);
@@ -58,4 +58,4 @@ std::string html_of(const std::vector<Tile>& tiles);
 std::string filled_page(std::string_view content, std::string_view name,
                         kainjow::mustache::data page, bool with_charts = true);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -22,7 +22,11 @@
 #include "tool/pages/input_files.h"
 #include "tool/pages/report_parts.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::amount;
+using tb::grouped;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -38,12 +42,13 @@ std::uint64_t count_of(const Json& json, const char* key) {
 }
 
 std::string two_digits(const Json& value) {
-  if (is_infinite(value)) return "identical";
+  if (tb::is_infinite(value)) return "identical";
   return value.is_number() ? fmt::format("{:.2f}", value.get<double>()) : "-";
 }
 
 std::string gain_of(const Json& before, const Json& after, int digits = 2) {
-  if (!before.is_number() || !after.is_number() || is_infinite(before) || is_infinite(after))
+  if (!before.is_number() || !after.is_number() || tb::is_infinite(before) ||
+      tb::is_infinite(after))
     return "-";
   return fmt::format("{:+.{}f}", after.get<double>() - before.get<double>(), digits);
 }
@@ -54,7 +59,7 @@ std::string fraction(const Json& value) {
 
 Json read_manifest(const fs::path& directory) {
   const fs::path file = directory / "manifest.json";
-  Json manifest = try_parse_json(read_file(file, kMaxManifestBytes));
+  Json manifest = tb::try_parse_json(tb::read_file(file, kMaxManifestBytes));
   if (!manifest.is_object())
     throw spec::FileError(fmt::format("'{}' is not a valid manifest", file.string()));
   return manifest;
@@ -80,9 +85,10 @@ class ReportBuilder {
 
   std::string render() {
     page_.set("script", std::string(embedded::report_js()));
-    page_.set("data", fmt::format(R"({{"result":{},"windows":{},"maps":{},"map_colours":{}}})",
-                                  json_for_script(result_), json_for_script(windows_),
-                                  json_for_script(maps_), json_for_script(Json(map_colours()))));
+    page_.set("data",
+              fmt::format(R"({{"result":{},"windows":{},"maps":{},"map_colours":{}}})",
+                          json_for_script(result_), json_for_script(windows_),
+                          json_for_script(maps_), json_for_script(Json(tb::map_colours()))));
     return filled_page(embedded::report_template(), "report.mustache", page_);
   }
 
@@ -234,7 +240,7 @@ class ReportBuilder {
 
   static std::string figure_text(const Json& value) {
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-    if (is_infinite(value)) return "identical";
+    if (tb::is_infinite(value)) return "identical";
     return value.is_number_float() ? amount(value.get<double>()) : report_text(value);
   }
 
@@ -447,9 +453,9 @@ class ReportBuilder {
     page_.set("memory_physical_note", megabits(total("physical")));
     page_.set("memory_width_note", megabits(at_width));
     mustache::data idealised{mustache::data::type::list};
-    for (const std::string& memory : idealised_memories(result_)) idealised << memory;
+    for (const std::string& memory : tb::idealised_memories(result_)) idealised << memory;
     page_.set("idealised", idealised);
-    page_.set("is_idealised", !idealised_memories(result_).empty());
+    page_.set("is_idealised", !tb::idealised_memories(result_).empty());
   }
 
   void fill_origin() {
@@ -465,7 +471,7 @@ class ReportBuilder {
   }
 
   static std::string shown_plain(const Json& value) {
-    return value.is_string() ? value.get<std::string>() : json_text(value);
+    return value.is_string() ? value.get<std::string>() : tb::json_text(value);
   }
 
   Json result_, manifest_, windows_, maps_;
@@ -480,7 +486,7 @@ std::string report_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
   if (value.is_null()) return "-";
-  return json_text(value);
+  return tb::json_text(value);
 }
 
 std::string report_text(const Json& object, const char* key) {
@@ -518,7 +524,7 @@ void reject_path(const fs::path& directory, const fs::path& file) {
 }
 
 std::string json_for_script(const Json& json) {
-  std::string text = json_text(json);
+  std::string text = tb::json_text(json);
   constexpr std::string_view kEscaped = "\\u003c";
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; at += kEscaped.size())
     text.replace(at, 1, kEscaped);
@@ -526,7 +532,7 @@ std::string json_for_script(const Json& json) {
 }
 
 std::string data_uri(const fs::path& image_file) {
-  return png_uri(read_file(image_file, kMaxImageBytes));
+  return png_uri(tb::read_file(image_file, kMaxImageBytes));
 }
 
 std::string png_uri(const std::string& bytes) {
@@ -539,16 +545,17 @@ std::string png_uri(const std::string& bytes) {
 }
 
 std::string build_report(const fs::path& pictures, Json result, Json manifest) {
-  return ReportBuilder(pictures, with_infinity(std::move(result)), std::move(manifest)).render();
+  return ReportBuilder(pictures, tb::with_infinity(std::move(result)), std::move(manifest))
+      .render();
 }
 
 std::string build_report(const fs::path& directory) {
-  Json result = read_result(directory);
+  Json result = tb::read_result(directory);
   return build_report(directory, std::move(result), read_manifest(directory));
 }
 
 void write_report(const fs::path& directory) {
-  write_file_atomically(directory / "report.html", build_report(directory));
+  tb::write_file_atomically(directory / "report.html", build_report(directory));
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -8,7 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // Reads the directory and returns the page; FileError when something is missing or not valid.
 std::string build_report(const std::filesystem::path& directory);
@@ -25,4 +25,4 @@ std::string png_uri(const std::string& png);
 // JSON that is safe inside a <script> element: no '<' in it.
 std::string json_for_script(const nlohmann::ordered_json& json);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -10,7 +10,7 @@
 #include "tb/run/amount.h"
 #include "tool/pages/report_parts.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,7 +27,7 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
   if (name.empty()) return Json();
   reject_path(source.directory, name);
   const fs::path file = source.directory / name;
-  Json windows = try_parse_json(read_file(file, kMaxWindowsBytes));
+  Json windows = tb::try_parse_json(tb::read_file(file, kMaxWindowsBytes));
   const auto demand = [&](bool valid) {
     if (!valid)
       throw spec::FileError(fmt::format("'{}' is not a valid file of windows", file.string()));
@@ -43,7 +43,7 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
   const std::vector<std::uint64_t> from = column(windows["from"]),
                                    cycles = column(windows["cycles"]);
   page.set("windows_note",
-           fmt::format("{} windows of {} cycles{}.", grouped(from.size()),
+           fmt::format("{} windows of {} cycles{}.", tb::grouped(from.size()),
                        report_text(windows["window_cycles"]),
                        windows["window_cycles"] == windows["asked_cycles"]
                            ? ""
@@ -76,9 +76,9 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
   windows.erase("units");
   page.set("has_ports", !of_ports.empty());
   for (std::size_t i = 0; i < from.size(); ++i) {
-    std::vector<HtmlCell> cells{
-        HtmlCell::link(fmt::format("#window-{}", i),
-                       fmt::format("{} to {}", grouped(from[i]), grouped(from[i] + cycles[i])))};
+    std::vector<HtmlCell> cells{HtmlCell::link(
+        fmt::format("#window-{}", i),
+        fmt::format("{} to {}", tb::grouped(from[i]), tb::grouped(from[i] + cycles[i])))};
     for (const std::vector<std::uint64_t>& counts : columns)
       cells.emplace_back(fmt::format(
           "{:.3f}", static_cast<double>(counts.at(i)) / static_cast<double>(cycles[i])));
@@ -98,4 +98,4 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
   return windows;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

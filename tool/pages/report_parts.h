@@ -11,7 +11,7 @@
 
 #include "tool/pages/page.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 struct ReportSource {
   const std::filesystem::path& directory;
@@ -38,4 +38,4 @@ std::string without_options(std::string command, std::initializer_list<std::stri
 // Only names inside the directory: a manifest from elsewhere must not pull other files in.
 void reject_path(const std::filesystem::path& directory, const std::filesystem::path& file);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

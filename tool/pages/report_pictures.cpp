@@ -14,7 +14,7 @@
 #include "tool/pages/report.h"
 #include "tool/pages/report_parts.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -44,7 +44,7 @@ void fill_stills(const ReportSource& source, mustache::data& page) {
   for (const Json& image : list) {
     const fs::path file = image.value("file", "");
     reject_path(source.directory, file);
-    pngs.push_back(read_file(source.directory / file, kMaxImageBytes));
+    pngs.push_back(tb::read_file(source.directory / file, kMaxImageBytes));
     const auto [across, down] = png_size(pngs.back());
     width = std::min(width, across);
     height = std::min(height, down);
@@ -79,20 +79,20 @@ void keep_values(const fs::path& directory, const Json& map, Json& kept) {
   reject_path(directory, name);
   const fs::path file = directory / name;
   if (!fs::exists(file)) return;
-  const std::string bytes = read_file(file, kMaxImageBytes);
+  const std::string bytes = tb::read_file(file, kMaxImageBytes);
   int width = 0, height = 0;
   // Before there is memory for so many values: they must be there.
   if (std::sscanf(bytes.c_str(), "Pf %d %d", &width, &height) != 2 || width < 1 || height < 1 ||
       static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > bytes.size() / 4)
     throw spec::FileError(fmt::format("'{}' is not a portable float map", file.string()));
-  PictureMap values("", "", "", "", width, height);
+  tb::PictureMap values("", "", "", "", width, height);
   try {
-    read_pfm(bytes, values);
+    tb::read_pfm(bytes, values);
   } catch (const spec::ConfigError& error) {
     throw spec::FileError(fmt::format("'{}': {}", file.string(), error.what()));
   }
-  const MapScale scale = scale_of(values);
-  const MapCodes codes = codes_of(values);
+  const tb::MapScale scale = tb::scale_of(values);
+  const tb::MapCodes codes = tb::codes_of(values);
   kept[fs::path(picture).stem().string()] = {{"title", map.value("title", "")},
                                              {"unit", map.value("unit", "")},
                                              {"width", width},
@@ -102,7 +102,7 @@ void keep_values(const fs::path& directory, const Json& map, Json& kept) {
                                              {"knee_part", scale.part(scale.knee)},
                                              {"most", scale.most},
                                              {"step", codes.step},
-                                             {"source", png_uri(encode_png(codes.picture))}};
+                                             {"source", png_uri(tb::encode_png(codes.picture))}};
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ Json fill_pictures(const ReportSource& source, mustache::data& page) {
       "Map|Least:n|Mean:n|Most:n|Unit|Sum:n|Pixels:n|Values:mono|Meaning:muted meaning");
   const Json maps = source.result.value("maps", Json::object());
   for (const auto& [name, map] : maps.items()) {
-    const auto text = [&of = map](const char* key) { return amount(number(of, key)); };
+    const auto text = [&of = map](const char* key) { return tb::amount(number(of, key)); };
     const std::string file = map.value("values", "");
     table.row({name, text("min"), text("mean"), text("max"), map.value("unit", ""), text("sum"),
                report_text(map, "pixels"), HtmlCell::link(file, file), map.value("meaning", "")});
@@ -125,4 +125,4 @@ Json fill_pictures(const ReportSource& source, mustache::data& page) {
   return kept;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -7,7 +7,7 @@
 
 #include "tool/pages/report_parts.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -91,4 +91,4 @@ void fill_pixel(const ReportSource& source, kainjow::mustache::data& page) {
                                         command, pixel, *first, *last + 2));
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -23,7 +23,11 @@
 #include "tool/pages/build_info.h"
 #include "tool/pages/report.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::Parameter;
+using tb::ParameterKind;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -47,7 +51,7 @@ void check_declared(const std::string& name, const std::vector<std::string>& dec
 
 }  // namespace
 
-Json golden_dependencies(const ParameterSet& parameters, std::uint64_t seed,
+Json golden_dependencies(const tb::ParameterSet& parameters, std::uint64_t seed,
                          const std::vector<std::string_view>& built) {
   Json key = {{"seed", seed}};
   for (const Parameter& p : parameters.all())
@@ -62,7 +66,7 @@ struct RunContext::Listed {
 
   // Behind the hardware model's picture comes that of the golden model, as a rule the same one; to
   // compare them costs a hundredth of encoding one.
-  const std::string& png_of(const Image& image) {
+  const std::string& png_of(const tb::Image& image) {
     DEBURR_CHECK(!image.pixels.empty(), "a picture without pixels");
     if (image.width != last_.width || image.pixels != last_.pixels) {
       last_ = image;
@@ -72,11 +76,11 @@ struct RunContext::Listed {
   }
 
  private:
-  Image last_;
+  tb::Image last_;
   std::string png_;
 };
 
-RunContext::RunContext(fs::path directory, const ParameterSet& parameters, std::string command,
+RunContext::RunContext(fs::path directory, const tb::ParameterSet& parameters, std::string command,
                        std::uint64_t seed)
     : directory_(std::move(directory)),
       parameters_(parameters),
@@ -150,7 +154,7 @@ void RunContext::add_inputs(const std::vector<fs::path>& files) {
 
 // As it was read: a pipe gives it once.
 void RunContext::add_configuration(const fs::path& file, const std::string& text) {
-  list(file, sha256(text), "configuration")["bytes"] = text.size();
+  list(file, tb::sha256(text), "configuration")["bytes"] = text.size();
 }
 
 Json& RunContext::list(const fs::path& file, std::string_view content, std::string_view role) {
@@ -161,23 +165,23 @@ Json& RunContext::list(const fs::path& file, std::string_view content, std::stri
   return listed_->inputs.emplace_back(std::move(entry));
 }
 
-void RunContext::add_image(const std::string& name, const Image& image, std::string title,
+void RunContext::add_image(const std::string& name, const tb::Image& image, std::string title,
                            std::string caption) {
   check_declared(name, leaves_.pictures, "picture");
   const Parameter* wanted = parameters_.find("run.images");
   if (wanted != nullptr && wanted->text() == "false") return;
-  write_file_atomically(directory_.draft() / (name + ".png"), listed_->png_of(image));
+  tb::write_file_atomically(directory_.draft() / (name + ".png"), listed_->png_of(image));
   listed_->images.push_back({{"file", name + ".png"},
                              {"role", name},
                              {"title", std::move(title)},
                              {"caption", std::move(caption)}});
 }
 
-void RunContext::add_map(const PictureMap& map) {
+void RunContext::add_map(const tb::PictureMap& map) {
   check_declared(map.name, leaves_.maps, "map");
   const std::string file = fmt::format("map_{}", map.name);
   write_image(directory_.draft() / (file + ".png"), picture_of(map));
-  write_file_atomically(directory_.draft() / (file + ".pfm"), pfm_of(map));
+  tb::write_file_atomically(directory_.draft() / (file + ".pfm"), pfm_of(map));
   listed_->images.push_back({{"file", file + ".png"},
                              {"role", file},
                              {"title", "Map: " + map.title},
@@ -186,7 +190,7 @@ void RunContext::add_map(const PictureMap& map) {
 
 void RunContext::add_record(const std::string& kind, std::string_view file,
                             std::string_view content) {
-  write_file_atomically(directory_.draft() / file, content);
+  tb::write_file_atomically(directory_.draft() / file, content);
   listed_->records[kind] = file;
 }
 
@@ -202,7 +206,7 @@ std::string RunContext::golden_key() const {
       key["build"] = parameters_.resolved(ParameterKind::kBuild);
   for (const Json& input : listed_->inputs)
     if (!input.contains("role")) key["files"].push_back(listed_content(input));
-  return sha256(json_text(key));
+  return tb::sha256(tb::json_text(key));
 }
 
 bool RunContext::may_share_golden() const {
@@ -216,7 +220,7 @@ bool RunContext::may_share_golden() const {
 std::string RunContext::key_of_golden(const std::vector<std::string_view>& built) const {
   Json key = golden_dependencies(parameters_, seed_, built);
   key["files"] = shared_->files().contents(shared_files_);
-  return json_text(key);
+  return tb::json_text(key);
 }
 
 std::string RunContext::key_of(std::string_view what,
@@ -228,13 +232,13 @@ std::string RunContext::key_of(std::string_view what,
       continue;
     key[p.name] = p.json();
   }
-  return json_text(key);
+  return tb::json_text(key);
 }
 
-Json RunContext::manifest(const Result& result) const {
+Json RunContext::manifest(const tb::Result& result) const {
   const BuildInfo& build = build_info();
   Json json;
-  json["schema"] = kResultSchema;
+  json["schema"] = tb::kResultSchema;
   json["state"] = "complete";
   json["unit"] = result.unit;
   json["title"] = title_;
@@ -270,21 +274,22 @@ Json RunContext::manifest(const Result& result) const {
                                   {"range", p.range},
                                   {"unit", p.unit},
                                   {"meaning", p.meaning}});
-    if (p.work != GivenWork::kNone)
-      json["parameters"].back()["work"] = std::string(name_of(p.work, kGivenWorkNames));
+    if (p.work != tb::GivenWork::kNone)
+      json["parameters"].back()["work"] = std::string(name_of(p.work, tb::kGivenWorkNames));
   }
   return json;
 }
 
-void RunContext::finish(const Result& result) {
-  Result noted = result;
+void RunContext::finish(const tb::Result& result) {
+  tb::Result noted = result;
   noted.notes = notes_;
   Json json = to_json(noted);
   const Json origin = manifest(result);
   const fs::path draft = directory_.draft();
-  write_file_atomically(draft / kResult, json_text(json, 2) + "\n");
-  if (report_) write_file_atomically(draft / kReport, build_report(draft, std::move(json), origin));
+  tb::write_file_atomically(draft / kResult, tb::json_text(json, 2) + "\n");
+  if (report_)
+    tb::write_file_atomically(draft / kReport, build_report(draft, std::move(json), origin));
   directory_.publish(origin, kResult);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -26,7 +26,7 @@
 #include "tool/pages/run_directory.h"
 #include "tool/pages/shared_inputs.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 inline constexpr std::string_view kWindowsFile = "windows.json", kTimelineFile = "timeline.json";
 
@@ -37,14 +37,14 @@ struct Leaves {
 };
 
 // What a golden result depends on, by name and value; files by their names.
-nlohmann::ordered_json golden_dependencies(const ParameterSet& parameters, std::uint64_t seed,
+nlohmann::ordered_json golden_dependencies(const tb::ParameterSet& parameters, std::uint64_t seed,
                                            const std::vector<std::string_view>& built);
 
 class RunContext {
  public:
   // `command` is the line that repeats the run.
-  RunContext(std::filesystem::path directory, const ParameterSet& parameters, std::string command,
-             std::uint64_t seed);
+  RunContext(std::filesystem::path directory, const tb::ParameterSet& parameters,
+             std::string command, std::uint64_t seed);
   ~RunContext();
   // Nothing on the error stream but errors.
   void set_quiet(bool quiet) { quiet_ = quiet; }
@@ -99,17 +99,17 @@ class RunContext {
   std::filesystem::path fragment_trace_file() const { return draft_file("fragments.trace"); }
   // Writes NAME.png and lists it for the report. NAME, which is the role too, is one of the
   // pictures that the run may leave.
-  void add_image(const std::string& name, const Image& image, std::string title,
+  void add_image(const std::string& name, const tb::Image& image, std::string title,
                  std::string caption);
   // map_NAME.png, listed for the report, and map_NAME.pfm; NAME is one of its maps.
-  void add_map(const PictureMap& map);
+  void add_map(const tb::PictureMap& map);
   // A file of the run beside its result: `kind` is what the manifest's "records" calls it.
   void add_record(const std::string& kind, std::string_view file, std::string_view content);
   // Result, report and manifest; then all of it takes the place of an earlier run's results.
-  void finish(const Result& result);
+  void finish(const tb::Result& result);
 
   const std::filesystem::path& directory() const { return directory_.path(); }
-  const ParameterSet& parameters() const { return parameters_; }
+  const tb::ParameterSet& parameters() const { return parameters_; }
   const std::string& command() const { return command_; }
 
  private:
@@ -120,10 +120,10 @@ class RunContext {
   std::string key_of_golden(const std::vector<std::string_view>& built) const;
   std::string golden_key() const;
   std::string key_of(std::string_view what, std::initializer_list<std::string_view> prefixes) const;
-  nlohmann::ordered_json manifest(const Result& result) const;
+  nlohmann::ordered_json manifest(const tb::Result& result) const;
 
   RunDirectory directory_;
-  const ParameterSet& parameters_;
+  const tb::ParameterSet& parameters_;
   std::string command_, title_, summary_, started_;
   std::uint64_t seed_;
   bool quiet_ = false, checking_only_ = false, report_ = true;
@@ -135,4 +135,4 @@ class RunContext {
   std::unique_ptr<Listed> listed_;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -26,7 +26,7 @@
 #include "tb/base/json_text.h"
 #include "tb/scene/truth.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -40,7 +40,7 @@ constexpr std::size_t kMaxJsonBytes = 64u << 20;
 Json read_json(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return nullptr;
-  return try_parse_json(read_file(file, kMaxJsonBytes));
+  return tb::try_parse_json(tb::read_file(file, kMaxJsonBytes));
 }
 
 // What a manifest says its run left, in the order in which it got there. Only what a run can have
@@ -145,7 +145,7 @@ void RunDirectory::lock(IfTaken if_taken) {
       fmt::print(stderr, "deburr: waiting for '{}', which is taken by {}\n", path_.string(), other);
       told = true;
     }
-    if (interrupted()) throw Interrupted();
+    if (tb::interrupted()) throw tb::Interrupted();
     std::this_thread::sleep_for(kPoll);
   }
 }
@@ -193,7 +193,7 @@ void RunDirectory::write_claim(const std::string& command) const {
                      {"host", host.data()},
                      {"started", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now))},
                      {"command", command}};
-  const std::string text = json_text(json, 2) + "\n";
+  const std::string text = tb::json_text(json, 2) + "\n";
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t written = ::write(lock_, text.data() + done, text.size() - done);
     if (written < 0 && errno == EINTR) continue;
@@ -239,7 +239,7 @@ void RunDirectory::publish(Json manifest, std::string_view head) {
     if (fs::exists(fs::symlink_status(path_ / name)) && !ours.contains(name))
       reject_foreign(path_ / name);
   manifest["files"] = files;
-  write_file_atomically(draft() / kManifest, json_text(manifest, 2) + "\n");
+  tb::write_file_atomically(draft() / kManifest, tb::json_text(manifest, 2) + "\n");
   move_in();
   made_.clear();
   release();
@@ -284,4 +284,4 @@ void RunDirectory::release() {
   made_.clear();
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

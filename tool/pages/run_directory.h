@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // What a run does that finds its directory taken.
 enum class IfTaken { kReject, kWait };
@@ -63,4 +63,4 @@ class RunDirectory {
   int lock_ = -1;  // descriptor of the claim
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -16,7 +16,7 @@
 #include "tb/base/file.h"
 #include "tool/pages/build_info.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -52,10 +52,10 @@ class FileLock {
 std::optional<std::string> read_whole(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return std::nullopt;
-  std::string content = read_file(file, kMaxInputBytes);
+  std::string content = tb::read_file(file, kMaxInputBytes);
   if (content.size() <= kHash || content[kHash] != '\n') return std::nullopt;
   const std::string_view payload = std::string_view(content).substr(kHash + 1);
-  if (std::string_view(content).substr(0, kHash) != sha256(payload)) return std::nullopt;
+  if (std::string_view(content).substr(0, kHash) != tb::sha256(payload)) return std::nullopt;
   content.erase(0, kHash + 1);
   return content;
 }
@@ -65,7 +65,7 @@ std::optional<std::string> read_whole(const fs::path& file) {
 std::string SharedInputs::bytes(const std::string& key,
                                 const std::function<std::string()>& make) const {
   if (folder_.empty()) return make();
-  const std::string name = sha256(fmt::format("{}\n{}", build_info().model, key));
+  const std::string name = tb::sha256(fmt::format("{}\n{}", build_info().model, key));
   const fs::path folder = folder_ / name.substr(0, 2);
   const fs::path file = folder / name;
   if (auto kept = read_whole(file)) return *std::move(kept);
@@ -77,8 +77,8 @@ std::string SharedInputs::bytes(const std::string& key,
   const FileLock lock(folder / (name + ".lock"));
   if (auto kept = read_whole(file)) return *std::move(kept);
   std::string payload = make();
-  write_file_atomically(file, fmt::format("{}\n{}", sha256(payload), payload));
+  tb::write_file_atomically(file, fmt::format("{}\n{}", tb::sha256(payload), payload));
   return payload;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

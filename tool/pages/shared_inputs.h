@@ -18,7 +18,7 @@
 
 #include "tool/pages/input_files.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 class SharedInputs {
  public:
@@ -59,4 +59,4 @@ class SharedInputs {
   InputFiles files_;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -10,7 +10,7 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 constexpr std::uint64_t kCyclesBefore = 400, kCyclesAfter = 100;
@@ -113,4 +113,4 @@ WaveWindow wave_window(std::uint64_t failing_cycle) {
   return {failing_cycle - std::min(failing_cycle, kCyclesBefore), failing_cycle + kCyclesAfter};
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // The message without what differs from run to run: numbers become N, paths PATH. Digits within a
 // name ("predictor_h0") stay.
@@ -24,4 +24,4 @@ struct WaveWindow {
 };
 WaveWindow wave_window(std::uint64_t failing_cycle);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 void JunitReport::begin_suite(std::string name) {
   suite_name_ = std::move(name);
@@ -76,4 +76,4 @@ std::string xml_escaped(std::string_view text) {
   return out;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

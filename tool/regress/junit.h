@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 enum class JunitOutcome : std::uint8_t { kPassed, kFailed, kError };
 
@@ -40,4 +40,4 @@ class JunitReport {
 // As the value of an attribute or the text of an element; what XML cannot hold becomes '?'.
 std::string xml_escaped(std::string_view text);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -19,7 +19,7 @@
 #include "tool/run/random_configuration.h"
 #include "tool/sweep/sampling.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -137,7 +137,7 @@ class RegressionPlanner {
       if (!stimulus.configurations.skip_rejected)
         throw ConfigError(fmt::format(
             "{}: the engine rejects the point {}: {}; leave such points out with 'refused: skip'",
-            testplan_.file.string(), name, headline(error.what())));
+            testplan_.file.string(), name, tb::headline(error.what())));
       ++left_out_[fmt::format("{}/{}: the engine rejects", origin.feature, origin.stimulus)];
     }
   }
@@ -158,7 +158,7 @@ class RegressionPlanner {
 
   const Testplan& testplan_;
   std::uint64_t base_seed_;
-  Progress progress_;
+  tb::Progress progress_;
   std::uint64_t seen_ = 0;
   Plan plan_;
   PointNamer namer_;
@@ -186,8 +186,8 @@ std::uint64_t derived_seed(std::uint64_t base_seed, std::string_view point,
                            std::string_view purpose) {
   constexpr std::size_t kHexDigits = 16;  // of 64 bits
   return std::stoull(
-      sha256(fmt::format("{}\n{}\n{}", base_seed, point, purpose)).substr(0, kHexDigits), nullptr,
-      16);
+      tb::sha256(fmt::format("{}\n{}\n{}", base_seed, point, purpose)).substr(0, kHexDigits),
+      nullptr, 16);
 }
 
 std::string PointOrigin::name() const {
@@ -210,4 +210,4 @@ Plan make_regression_plan(const Testplan& testplan, std::uint64_t base_seed,
   return std::move(plan);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -18,7 +18,7 @@
 #include "tool/regress/testplan.h"
 #include "tool/sweep/plan.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 SweepPlace regression_place_of(const std::filesystem::path& out, const std::string& name,
                                std::uint64_t base_seed);
@@ -44,4 +44,4 @@ PointOrigin origin_of(const PlannedPoint& point);
 Plan make_regression_plan(const Testplan& testplan, std::uint64_t base_seed,
                           const SweepPlace& place);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

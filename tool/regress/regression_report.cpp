@@ -23,7 +23,10 @@
 #include "tool/regress/regression_result.h"
 #include "tool/regress/trend.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::grouped;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -456,7 +459,7 @@ std::vector<std::string> write_regression(const Testplan& testplan, std::uint64_
   Json json = json_of(testplan, base_seed, plan, place, result);
   for (const Night& night : nights) json["trend"].push_back(to_json(night));
   const std::string junit = junit_of(testplan, result),
-                    collected = json_text(json, 1, NotUtf8::kReplace) + "\n",
+                    collected = tb::json_text(json, 1, tb::NotUtf8::kReplace) + "\n",
                     page = page_of(json, nights), text = trend_text(nights);
   write_files_atomically({{place.directory / "junit.xml", junit},
                           {place.directory / kCollectedFile, collected},
@@ -492,7 +495,7 @@ std::set<std::string> failed_in_report(const SweepPlace& place) {
   if (!fs::exists(file, error))
     throw spec::FileError(
         fmt::format("there is no report in '{}': 'run' it first", place.directory.string()));
-  const Json json = try_parse_json(read_file(file, kMaxReportBytes));
+  const Json json = tb::try_parse_json(tb::read_file(file, kMaxReportBytes));
   if (!json.is_object() || json.value("schema", 0) != kReportSchema)
     throw spec::FileError(
         fmt::format("'{}' is not a report of this version: 'collect' it again", file.string()));
@@ -503,4 +506,4 @@ std::set<std::string> failed_in_report(const SweepPlace& place) {
   return failed;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -19,7 +19,7 @@
 #include "tb/run/result.h"
 #include "tool/regress/failure_message.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -30,7 +30,7 @@ SortedJson result_in(const fs::path& directory) {
   const fs::path file = directory / "result.json";
   std::error_code error;
   if (!fs::exists(file, error)) return nullptr;
-  return try_parse_sorted_json(read_file(file, kMaxResultBytes));
+  return tb::try_parse_sorted_json(tb::read_file(file, tb::kMaxResultBytes));
 }
 
 void add(const Bins& some, Bins& all) {
@@ -104,7 +104,7 @@ class RunCollector {
     for (const auto& [name, board] : boards.items())
       seen.comparisons[name] += board.value("comparisons", std::uint64_t{0});
     const Bins bins = result.value("/coverage/bins"_json_pointer, Bins());
-    tb::add(bins, seen.bins);
+    tool::add(bins, seen.bins);
     for (const auto& [bin, hits] : bins) all_.coverage[bin.substr(0, bin.find('/'))][bin] += hits;
   }
 
@@ -124,7 +124,7 @@ class RunCollector {
   // What all runs together have met, without what the plan excepts.
   void check_all() {
     Bins bins;
-    for (const auto& [engine, some] : all_.coverage) tb::add(some, bins);
+    for (const auto& [engine, some] : all_.coverage) tool::add(some, bins);
     for (const UnmetBins& unmet : testplan_.unmet)
       std::erase_if(bins, [&](const auto& entry) {
         if (!rtl::glob_match(unmet.glob, entry.first)) return false;
@@ -152,7 +152,7 @@ class RunCollector {
                              const std::string& name, const std::vector<std::string>& known,
                              std::string_view whose = "this feature") {
     return fmt::format("{}: no run of {} has a {} '{}' (there are {}){}", where, whose, what, name,
-                       fmt::join(known, ", "), did_you_mean(near_matches(name, known)));
+                       fmt::join(known, ", "), tb::did_you_mean(tb::near_matches(name, known)));
   }
 
   // Bins are too many to be listed: "texture/cache/*".
@@ -244,4 +244,4 @@ void add_waves(RegressionResult& result, const std::vector<PlannedPoint>& runs,
   }
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -15,7 +15,7 @@
 #include "tool/sweep/plan.h"
 #include "tool/sweep/point.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // Hits by bin.
 using Bins = std::map<std::string, std::uint64_t>;
@@ -101,4 +101,4 @@ std::uint64_t seed_of_last_report(const std::filesystem::path& out, const std::s
 // Names (PointOrigin::name) of the runs that the report there says have failed. FileError as above.
 std::set<std::string> failed_in_report(const SweepPlace& place);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

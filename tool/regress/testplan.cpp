@@ -26,7 +26,10 @@
 #include "tool/run/reference_pages.h"
 #include "tool/sweep/sampling.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::YamlFile;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -67,7 +70,7 @@ class Pages {
       std::error_code error;
       if (fs::is_regular_file(folder / page, error)) {
         found_.push_back(folder / page);
-        return anchors_in(read_file(found_.back(), kMaxPageBytes));
+        return anchors_in(tb::read_file(found_.back(), kMaxPageBytes));
       }
       if (folder == folder.parent_path()) return std::nullopt;
     }
@@ -288,11 +291,11 @@ class TestplanFile {
                                    "blanks and without punctuation",
                                    trace));
     if (std::find(anchors->begin(), anchors->end(), anchor) == anchors->end()) {
-      const std::vector<std::string> near = near_matches(anchor, *anchors);
+      const std::vector<std::string> near = tb::near_matches(anchor, *anchors);
       yaml_.fail(node, fmt::format("'{}' has no heading '#{}'{}", page.string(), anchor,
                                    near.empty() ? ": check that the feature is still tested, and "
                                                   "name the heading that describes it now"
-                                                : did_you_mean(near)));
+                                                : tb::did_you_mean(near)));
     }
     return trace;
   }
@@ -347,7 +350,7 @@ class TestplanFile {
                      [&](const std::string& bin) { return rtl::glob_match(glob, bin); }))
       yaml_.fail(node, fmt::format("no bin of {} engines is called '{}'{} "
                                    "(docs/reference/coverage.md)",
-                                   whose, glob, did_you_mean(near_matches(glob, bins))));
+                                   whose, glob, tb::did_you_mean(tb::near_matches(glob, bins))));
     return glob;
   }
 
@@ -440,4 +443,4 @@ Testplan part_of(Testplan testplan, std::uint64_t divisor) {
   return testplan;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

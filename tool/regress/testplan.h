@@ -10,7 +10,7 @@
 
 #include "tool/sweep/definition.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // Configurations of one engine, each with so many seeds; or so many random configurations.
 struct Stimulus {
@@ -71,4 +71,4 @@ Testplan read_testplan(const std::filesystem::path& file);
 // that the whole plan has too. Its name says so.
 Testplan part_of(Testplan testplan, std::uint64_t divisor);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -22,7 +22,7 @@
 #include "tb/base/json_text.h"
 #include "tool/pages/build_info.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,7 +37,7 @@ double share(std::uint64_t part, std::uint64_t whole) {
 }
 
 std::optional<Night> night_in(const std::string& line) {
-  const Json json = try_parse_json(line);
+  const Json json = tb::try_parse_json(line);
   const auto count = [&](const char* key) { return json.at(key).get<std::uint64_t>(); };
   try {
     return Night{.date = json.at("date").get<std::string>(),
@@ -109,8 +109,8 @@ fs::path trend_file(const fs::path& out, const std::string& testplan) {
 
 std::vector<Night> read_trend(const fs::path& file) {
   std::vector<Night> nights;
-  if (!is_there(file)) return nights;
-  std::istringstream lines(read_file(file, kMaxTrendBytes));
+  if (!tb::is_there(file)) return nights;
+  std::istringstream lines(tb::read_file(file, kMaxTrendBytes));
   std::size_t number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
@@ -134,7 +134,8 @@ std::vector<Night> with_night(std::vector<Night> nights, const Night& night) {
 
 std::string trend_text(const std::vector<Night>& nights) {
   std::string text;
-  for (const Night& night : nights) text += json_text(to_json(night), -1, NotUtf8::kReplace) + "\n";
+  for (const Night& night : nights)
+    text += tb::json_text(to_json(night), -1, tb::NotUtf8::kReplace) + "\n";
   return text;
 }
 
@@ -149,4 +150,4 @@ TrendLock::~TrendLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -12,7 +12,7 @@
 
 #include "tool/regress/regression_result.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // A regression of which no run is missing.
 struct Night {
@@ -53,4 +53,4 @@ class TrendLock {
   int descriptor_;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

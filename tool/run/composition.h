@@ -31,15 +31,15 @@
 #include "tool/run/engine.h"
 #include "tool/run/pictures.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // ---- stages: engines that are built -------------------------------------------------------------
 
 class Stage {
  public:
   virtual ~Stage() = default;
-  virtual Environment& environment() = 0;
-  const Environment& environment() const { return const_cast<Stage&>(*this).environment(); }
+  virtual tb::Environment& environment() = 0;
+  const tb::Environment& environment() const { return const_cast<Stage&>(*this).environment(); }
 
  protected:
   Stage() = default;
@@ -52,7 +52,7 @@ struct DrawnColour {
   bool inside = false;   // of the frame; what is not is found by the engine's own checks
   bool visible = false;  // the nearest fragment of its pixel
   int x = 0, y = 0;
-  Rgba8 colour{};
+  tb::Rgba8 colour{};
 };
 
 // A port of the frame buffer, in the beats that the engine before it speaks.
@@ -69,25 +69,25 @@ class DrawingStage : public Stage {
   // Made in the constructor of the frame buffer, whose port it is; bound.
   virtual std::unique_ptr<ColoursPort> colours_port(const char* name) = 0;
   // The golden model's picture of the scene.
-  virtual Image golden_picture() const = 0;
+  virtual tb::Image golden_picture() const = 0;
   // Clocks that it needs at least.
   virtual std::uint64_t clocks_bound() const = 0;
   // Figures beside those of its environment, under its name, and what a report shows of them.
-  virtual void collect(Result& result) const = 0;
-  virtual std::vector<Figure> figures() const = 0;
+  virtual void collect(tb::Result& result) const = 0;
+  virtual std::vector<tb::Figure> figures() const = 0;
 };
 
 class SmoothingStage : public Stage {
  public:
   // What was smoothed so far, and what it should be.
-  virtual Image frame() const = 0;
-  virtual Image expected_frame() const = 0;
-  virtual Latency latency() const = 0;
+  virtual tb::Image frame() const = 0;
+  virtual tb::Image expected_frame() const = 0;
+  virtual tb::Latency latency() const = 0;
   // The unit that the others wait for.
   virtual std::string_view last_unit() const = 0;
   // Clocks that it needs at least for this frame.
   virtual std::uint64_t clocks_bound(int width, int height) const = 0;
-  virtual std::vector<Figure> work_figures() const = 0;
+  virtual std::vector<tb::Figure> work_figures() const = 0;
   // What a user should know of the run that is over.
   virtual std::vector<std::string> notes() const { return {}; }
 };
@@ -95,11 +95,11 @@ class SmoothingStage : public Stage {
 class MeshStage : public SmoothingStage {
  public:
   // The frame in memory, without time.
-  virtual void put(int x, int y, const Rgba8& colour) = 0;
+  virtual void put(int x, int y, const tb::Rgba8& colour) = 0;
   // It is complete: the engine begins in the next clock.
   virtual void draw() = 0;
   // Weights and lines, under names that no other stage has.
-  virtual void add_pictures(RunContext& context, const Image& before, bool followed) const = 0;
+  virtual void add_pictures(RunContext& context, const tb::Image& before, bool followed) const = 0;
 };
 
 // A port of the frame buffer, in the beats that the engine after it speaks.
@@ -108,13 +108,13 @@ class RowsPort {
   virtual ~RowsPort() = default;
   virtual bool can_push(rtl::Cycle cycle) const = 0;
   // A beat of the pixels from (x, y) on; gives how many they were.
-  virtual int push(rtl::Cycle cycle, const Image& image, int x, int y) = 0;
+  virtual int push(rtl::Cycle cycle, const tb::Image& image, int x, int y) = 0;
 };
 
 class RowStage : public SmoothingStage {
  public:
   // The picture that the golden model gets, where it is known later only.
-  virtual void expect(Image image) = 0;
+  virtual void expect(tb::Image image) = 0;
   // Pixels of frame() that came, and those of all frames.
   virtual std::size_t delivered() const = 0;
   virtual std::uint64_t delivered_in_all() const = 0;
@@ -142,19 +142,19 @@ class CompositionRole {
   virtual HandedOn hands_on() const { return {}; }
 
   // What is built, and the memory around it, under names that no other engine of a composition has.
-  virtual void add_parameters(ParameterSet& set) = 0;
+  virtual void add_parameters(tb::ParameterSet& set) = 0;
   // Beginnings of their names.
   virtual std::vector<std::string> prefixes() const = 0;
-  virtual void apply_preset(ParameterSet& set) = 0;
+  virtual void apply_preset(tb::ParameterSet& set) = 0;
   // After every preset: rejects what was given and has no effect, or cannot be.
-  virtual void resolve(ParameterSet& set) = 0;
+  virtual void resolve(tb::ParameterSet& set) = 0;
   virtual std::vector<std::string> notes() const { return {}; }
   virtual std::vector<Shorthand> shorthands() const { return {}; }
   // Pictures beside those of the frame, and what makes a long run of a composition.
   virtual std::vector<std::string_view> pictures() const { return {}; }
   virtual LongRun long_run() const { return {}; }
   // ConfigError for a scene that the engine does not take.
-  virtual void check(const DrawnScene& scene) const = 0;
+  virtual void check(const tb::DrawnScene& scene) const = 0;
 
  protected:
   CompositionRole() = default;
@@ -172,39 +172,42 @@ struct DrawingWords {
 class PictureDrawer : public CompositionRole {
  public:
   // The scene, before any engine's parameters.
-  virtual void add_scene(ParameterSet& set) = 0;
+  virtual void add_scene(tb::ParameterSet& set) = 0;
   virtual DrawingWords words() const = 0;
   // "textured": what a picture of its frame is called, and by what.
   virtual std::string_view caption() const = 0;
 
   // What the scene was named.
   virtual const std::string& source() const = 0;
-  virtual std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const = 0;
-  virtual std::shared_ptr<const DrawnScene> load(std::uint32_t seed,
-                                                 const RunContext& context) const = 0;
+  virtual std::vector<std::filesystem::path> input_files(tb::MeshFiles& meshes) const = 0;
+  virtual std::shared_ptr<const tb::DrawnScene> load(std::uint32_t seed,
+                                                     const RunContext& context) const = 0;
   // To elaborate with.
-  virtual std::shared_ptr<const DrawnScene> smallest() const = 0;
+  virtual std::shared_ptr<const tb::DrawnScene> smallest() const = 0;
 
   // The supersampled truth, made once for all runs of a scene, and what results are compared with,
   // as of compare_with_scene().
   virtual std::string truth_caption() const = 0;
-  virtual void prepare_truth(const DrawnScene& scene, const RenderOptions& options,
+  virtual void prepare_truth(const tb::DrawnScene& scene, const tb::RenderOptions& options,
                              const RunContext& context) const = 0;
-  virtual Image compare_with_truth(const DrawnScene& scene, const RenderOptions& options,
-                                   const Image& before, const Image& after, Result& result,
-                                   const RunContext& context) const = 0;
+  virtual tb::Image compare_with_truth(const tb::DrawnScene& scene,
+                                       const tb::RenderOptions& options, const tb::Image& before,
+                                       const tb::Image& after, tb::Result& result,
+                                       const RunContext& context) const = 0;
 
-  virtual std::unique_ptr<DrawingStage> build(Simulation& simulation,
-                                              const DrawnScene& scene) const = 0;
+  virtual std::unique_ptr<DrawingStage> build(tb::Simulation& simulation,
+                                              const tb::DrawnScene& scene) const = 0;
 
   // Of several frames, whose flicker is measured: how many, the scene of one, and without a
   // simulation what the golden model draws and the truth of it. An engine without them has one.
   virtual int frames() const { return 1; }
-  virtual std::shared_ptr<const DrawnScene> scene_of(int /*frame*/, std::uint32_t /*seed*/) const {
+  virtual std::shared_ptr<const tb::DrawnScene> scene_of(int /*frame*/,
+                                                         std::uint32_t /*seed*/) const {
     return nullptr;
   }
-  virtual Image golden_picture(const DrawnScene& /*scene*/) const { return {}; }
-  virtual Image truth_of(const DrawnScene& /*scene*/, const RenderOptions& /*options*/) const {
+  virtual tb::Image golden_picture(const tb::DrawnScene& /*scene*/) const { return {}; }
+  virtual tb::Image truth_of(const tb::DrawnScene& /*scene*/,
+                             const tb::RenderOptions& /*options*/) const {
     return {};
   }
 };
@@ -217,7 +220,8 @@ class PictureSmoother : public CompositionRole {
   virtual bool linear_light() const = 0;
   // What the golden model makes of a picture of the scene, without a simulation; empty: it has
   // none, and no flicker is measured.
-  virtual Image golden_picture(const DrawnScene& /*scene*/, const Image& /*frame*/) const {
+  virtual tb::Image golden_picture(const tb::DrawnScene& /*scene*/,
+                                   const tb::Image& /*frame*/) const {
     return {};
   }
 };
@@ -227,9 +231,9 @@ class PictureSmoother : public CompositionRole {
 class MeshSmoother : public PictureSmoother {
  public:
   // Marks what it smooths, since an engine follows that looks at it.
-  virtual void mark(ParameterSet&, std::string_view /*why*/) {}
-  virtual std::unique_ptr<MeshStage> build(Simulation& simulation, const DrawnScene& scene,
-                                           Image frame) const = 0;
+  virtual void mark(tb::ParameterSet&, std::string_view /*why*/) {}
+  virtual std::unique_ptr<MeshStage> build(tb::Simulation& simulation, const tb::DrawnScene& scene,
+                                           tb::Image frame) const = 0;
 };
 
 class RowSmoother : public PictureSmoother {
@@ -238,12 +242,13 @@ class RowSmoother : public PictureSmoother {
   virtual bool looks_at_marks() const { return false; }
   // Behind an engine that marks what it smooths: the preset where none is given, then the rules
   // that no preset has.
-  virtual void follow_preset(ParameterSet&, std::string_view /*why*/) {}
-  virtual void follow(ParameterSet&, std::string_view /*why*/) {}
+  virtual void follow_preset(tb::ParameterSet&, std::string_view /*why*/) {}
+  virtual void follow(tb::ParameterSet&, std::string_view /*why*/) {}
   // Made in the constructor of the frame buffer, whose port it is; build() binds it.
-  virtual std::unique_ptr<RowsPort> rows_port(const char* name, const DrawnScene& scene) const = 0;
-  virtual std::unique_ptr<RowStage> build(Simulation& simulation, const DrawnScene& scene,
-                                          Image frame, RowsPort& port) const = 0;
+  virtual std::unique_ptr<RowsPort> rows_port(const char* name,
+                                              const tb::DrawnScene& scene) const = 0;
+  virtual std::unique_ptr<RowStage> build(tb::Simulation& simulation, const tb::DrawnScene& scene,
+                                          tb::Image frame, RowsPort& port) const = 0;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

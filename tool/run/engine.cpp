@@ -9,7 +9,7 @@
 #include "tb/base/near_matches.h"
 #include "tool/run/composition.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 std::unique_ptr<CompositionRole> Engine::role() const { return nullptr; }
 
@@ -20,7 +20,7 @@ std::unique_ptr<Engine> engine_named(const std::string& name) {
     known.emplace_back(engine->name());
   }
   throw spec::ConfigError(fmt::format("no engine '{}'{} (known: {})", name,
-                                      did_you_mean(near_matches(name, known)),
+                                      tb::did_you_mean(tb::near_matches(name, known)),
                                       fmt::join(known, ", ")));
 }
 
@@ -41,4 +41,4 @@ bool keeps_pixel_history(const Engine& engine) {
          });
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

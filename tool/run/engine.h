@@ -20,7 +20,7 @@
 #include "tool/pages/run_context.h"
 #include "tool/run/random_draws.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // Parameters that every engine's run has, "run.*".
 enum class CheckMode : std::uint8_t { kNone, kGolden };
@@ -46,7 +46,7 @@ struct RunParameters {
   bool coverage = false;
   bool timeline = false;
   std::int64_t timeline_from = 0, timeline_to = 2000;
-  TraceChoice line_trace = TraceChoice::kNone;
+  tb::traces::TraceChoice line_trace = tb::traces::TraceChoice::kNone;
   std::string fault;
   bool truth = false;
   bool images = true;
@@ -60,7 +60,7 @@ void describe(RunParameters& p, Visitor& v) {
   v.integer("stall_seed", p.stall_seed, 0, 0xFFFFFFFF, "",
             "Seed of what must change no pixel: random stalls, latency, shuffling and poison.");
   v.real("clock_mhz", p.clock_mhz, 1, 10000, "MHz", "Clock that times and rates are quoted for.");
-  v.is_work("clock_mhz", GivenWork::kSetting);
+  v.is_work("clock_mhz", tb::GivenWork::kSetting);
   v.integer("max_cycles", p.max_cycles, 0, std::int64_t{1} << 40, "clk",
             "Ends the run with an error after so many cycles; 0: no limit.");
   v.integer("watchdog_cycles", p.watchdog_cycles, 100, 1 << 30, "clk",
@@ -102,7 +102,7 @@ void describe(RunParameters& p, Visitor& v) {
             "First cycle of the timeline.");
   v.integer("timeline_to", p.timeline_to, 0, std::int64_t{1} << 40, "clk",
             "Cycle after the last of the timeline, at most 100000 after the first.");
-  v.choice("line_trace", p.line_trace, kTraceChoiceNames,
+  v.choice("line_trace", p.line_trace, tb::traces::kTraceChoiceNames,
            "Leaves lines.trace: every line that is asked of memory (docs/reference/traces.md).");
   v.text("fault", p.fault, "name",
          "Plants a fault that the checks must catch (docs/reference/planted_faults.md).");
@@ -126,7 +126,7 @@ struct LongRun {
 
 class CompositionRole;
 
-class Engine : public virtual EngineTestbench {
+class Engine : public virtual tb::EngineTestbench {
  public:
   virtual std::string_view summary() const = 0;
   // Its role in a composition, with parameters of its own (tool/run/composition.h); null: none.
@@ -145,13 +145,13 @@ class Engine : public virtual EngineTestbench {
   virtual std::vector<std::string_view> examples() const = 0;
   // After everything that was given has been set: fills in what follows from it (presets), and
   // rejects what was given and has no effect.
-  virtual void resolve(ParameterSet&) {}
+  virtual void resolve(tb::ParameterSet&) {}
   // What run() would reject of its input, a scene that draws nothing or a frame too wide for what
   // is built, without a simulation. After resolve().
   virtual void check(const RunParameters& run, RunContext& context) = 0;
   // Simulates and fills the context's images. Errors of the run are exceptions (spec/error.h);
   // what was measured until then is in `result`.
-  virtual void run(const RunParameters& run, RunContext& context, Result& result) = 0;
+  virtual void run(const RunParameters& run, RunContext& context, tb::Result& result) = 0;
   // Makes what run() will take from context.shared(), for all runs that are to share it. It makes
   // nothing of SystemC, so that a process can run() behind it as often as it forks.
   virtual void prepare(const RunParameters&, RunContext&) {}
@@ -179,4 +179,4 @@ std::vector<std::string> maps_of(const Engine& engine);
 // The engine or a part of it keeps the history of a pixel.
 bool keeps_pixel_history(const Engine& engine);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -10,15 +10,15 @@
 #include "tb/run/progress.h"
 #include "tb/scene/quality.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 std::vector<Shorthand> sequence_shorthands() {
   return {
       {"--frames", "sequence.frames", "Measures flicker over so many frames of a moving camera"},
       {"--motion", "sequence.motion", "zoom, roll (default) or pan"}};
 }
 
-int frames_of(const ParameterSet& set, const SequenceParameters& sequence,
-              const FrameLists& lists) {
+int frames_of(const tb::ParameterSet& set, const tb::SequenceParameters& sequence,
+              const tb::FrameLists& lists) {
   if (lists.frames() > 1) {
     const std::string why = fmt::format("{} lists {} frames", lists.longest(), lists.frames());
     for (const char* name : {"sequence.frames", "sequence.motion"}) set.reject(name, why);
@@ -28,10 +28,10 @@ int frames_of(const ParameterSet& set, const SequenceParameters& sequence,
   return sequence.frames;
 }
 
-void measure_flicker(int frames, const RunContext& context, Result& result,
+void measure_flicker(int frames, const RunContext& context, tb::Result& result,
                      const std::function<SequencePicture(int)>& picture) {
-  Progress progress("flicker", static_cast<std::uint64_t>(frames), "picture", context.quiet());
-  FlickerMeter after, before;
+  tb::Progress progress("flicker", static_cast<std::uint64_t>(frames), "picture", context.quiet());
+  tb::FlickerMeter after, before;
   bool truth = true;
   try {
     for (int i = 0; i < frames; ++i) {
@@ -43,13 +43,13 @@ void measure_flicker(int frames, const RunContext& context, Result& result,
             fmt::format("frame {} has {} x {} pixels, the frames before it have {} x {}: flicker "
                         "is measured between frames of one size",
                         i, now.after.width, now.after.height, after.width(), after.height()));
-      const Mask drawn = now.drawn ? *now.drawn : FlickerMeter::everywhere(now.after);
+      const tb::Mask drawn = now.drawn ? *now.drawn : tb::FlickerMeter::everywhere(now.after);
       truth = truth && !now.truth.empty();
       if (now.truth.empty()) now.truth = now.before;
       after.add(std::move(now.after), now.truth, drawn);
       before.add(std::move(now.before), now.truth, drawn);
     }
-  } catch (const Interrupted&) {
+  } catch (const tb::Interrupted&) {
     result.interrupted = true;
     return;
   }
@@ -68,4 +68,4 @@ void measure_flicker(int frames, const RunContext& context, Result& result,
         {"Flicker, against what went in", "work.flicker", "went in", "work.flicker_before"});
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -10,21 +10,21 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 constexpr const char* kLook =
     "look at the camera (scene.eye, scene.target, scene.fov) and at the size of the mesh";
 
-bool shows_something(const DepthImage& depth) {
+bool shows_something(const tb::DepthImage& depth) {
   return std::any_of(depth.pixels.begin(), depth.pixels.end(), [](float d) { return d > 0; });
 }
 
 }  // namespace
 
-void reject_empty_picture(const Scene& scene, int width, int height) {
-  const Mesh& mesh = scene.mesh;
-  const Bounds box = bounds(mesh);
+void reject_empty_picture(const tb::Scene& scene, int width, int height) {
+  const tb::Mesh& mesh = scene.mesh;
+  const tb::Bounds box = bounds(mesh);
   throw spec::ConfigError(fmt::format(
       "the scene '{}' draws nothing: none of its {} triangles, from ({:g}, {:g}, {:g}) to "
       "({:g}, {:g}, {:g}), covers the centre of one of {} x {} pixels: {}",
@@ -32,11 +32,11 @@ void reject_empty_picture(const Scene& scene, int width, int height) {
       box.high.z, width, height, kLook));
 }
 
-void reject_nothing_drawn(const Scene& scene, const DepthImage& depth) {
+void reject_nothing_drawn(const tb::Scene& scene, const tb::DepthImage& depth) {
   if (!shows_something(depth)) reject_empty_picture(scene, depth.width, depth.height);
 }
 
-void reject_nothing_drawn(const DepthImage& depth, std::string_view source) {
+void reject_nothing_drawn(const tb::DepthImage& depth, std::string_view source) {
   if (shows_something(depth)) return;
   throw spec::ConfigError(
       fmt::format("the scene '{}' draws nothing: none of its triangles covers the centre of one of "
@@ -44,8 +44,8 @@ void reject_nothing_drawn(const DepthImage& depth, std::string_view source) {
                   source, depth.width, depth.height));
 }
 
-void reject_slow_memory(const ParameterSet& set, std::string_view prefix,
-                        const MemoryParameters& memory) {
+void reject_slow_memory(const tb::ParameterSet& set, std::string_view prefix,
+                        const tb::MemoryParameters& memory) {
   const std::string patience = set.find("run.watchdog_cycles")->text();
   std::int64_t clocks = 0;
   std::from_chars(patience.data(), patience.data() + patience.size(), clocks);
@@ -61,8 +61,8 @@ void reject_slow_memory(const ParameterSet& set, std::string_view prefix,
         clocks, 2 * (slowest + memory.bank_busy)));
 }
 
-void reject_unused_memory(const ParameterSet& set, std::string_view prefix,
-                          const MemoryParameters& memory) {
+void reject_unused_memory(const tb::ParameterSet& set, std::string_view prefix,
+                          const tb::MemoryParameters& memory) {
   const auto reject = [&](std::string_view name, std::string_view why) {
     set.reject(fmt::format("{}.{}", prefix, name), why);
   };
@@ -73,9 +73,9 @@ void reject_unused_memory(const ParameterSet& set, std::string_view prefix,
     reject("error_bytes", fmt::format("{}.error_address names no address", prefix));
 }
 
-std::string with_changes(std::string label, const ParameterSet& set, std::string_view prefix) {
+std::string with_changes(std::string label, const tb::ParameterSet& set, std::string_view prefix) {
   bool first = true;
-  for (const Parameter* p : set.changed()) {
+  for (const tb::Parameter* p : set.changed()) {
     if (!p->name.starts_with(prefix)) continue;
     label += first ? ", changed: " : ", ";
     label += p->name.substr(prefix.size());
@@ -84,4 +84,4 @@ std::string with_changes(std::string label, const ParameterSet& set, std::string
   return label;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -12,21 +12,21 @@
 #include "tb/scene/image.h"
 #include "tb/scene/scenes.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // ConfigError each.
-void reject_nothing_drawn(const Scene& scene, const DepthImage& depth);
-void reject_nothing_drawn(const DepthImage& depth, std::string_view source);
+void reject_nothing_drawn(const tb::Scene& scene, const tb::DepthImage& depth);
+void reject_nothing_drawn(const tb::DepthImage& depth, std::string_view source);
 // Of a mesh that covers no centre of a pixel.
-[[noreturn]] void reject_empty_picture(const Scene& scene, int width, int height);
+[[noreturn]] void reject_empty_picture(const tb::Scene& scene, int width, int height);
 // `prefix` names the memory's parameters.
-void reject_slow_memory(const ParameterSet& set, std::string_view prefix,
-                        const MemoryParameters& memory);
+void reject_slow_memory(const tb::ParameterSet& set, std::string_view prefix,
+                        const tb::MemoryParameters& memory);
 // What a title says of an engine's rules: "preset gpaa", or "preset gpaa, changed: combine" for
 // what was given beside the preset. `prefix` is that of the engine's parameters.
-std::string with_changes(std::string label, const ParameterSet& set, std::string_view prefix);
+std::string with_changes(std::string label, const tb::ParameterSet& set, std::string_view prefix);
 // What was given of a memory and has no effect under the rest.
-void reject_unused_memory(const ParameterSet& set, std::string_view prefix,
-                          const MemoryParameters& memory);
+void reject_unused_memory(const tb::ParameterSet& set, std::string_view prefix,
+                          const tb::MemoryParameters& memory);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -15,7 +15,11 @@
 #include "tb/scene/quality.h"
 #include "tb/scene/ssim.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::Change;
+using tb::Image;
+
 namespace {
 
 constexpr int kAnyDifference = 255;  // gain that makes it full scale
@@ -26,22 +30,22 @@ std::optional<double> value_of(double measure) {
 
 }  // namespace
 
-Quality measure_quality(std::string reference, const Image& before, const Image& after,
-                        const Image& truth, const DepthImage* depth) {
-  const Mask edges = edge_mask(truth, before);
-  Quality quality;
+tb::Quality measure_quality(std::string reference, const Image& before, const Image& after,
+                            const Image& truth, const tb::DepthImage* depth) {
+  const tb::Mask edges = tb::edge_mask(truth, before);
+  tb::Quality quality;
   quality.reference = std::move(reference);
   quality.psnr_db = value_of(psnr(after, truth));
   quality.psnr_before_db = value_of(psnr(before, truth));
   quality.psnr_edge_db = value_of(psnr(after, truth, edges));
   quality.psnr_edge_before_db = value_of(psnr(before, truth, edges));
   if (depth) {
-    const Mask silhouettes = silhouette_mask(edges, *depth);
+    const tb::Mask silhouettes = tb::silhouette_mask(edges, *depth);
     quality.psnr_silhouette_db = value_of(psnr(after, truth, silhouettes));
     quality.psnr_silhouette_before_db = value_of(psnr(before, truth, silhouettes));
   }
   const Image* const both[] = {&after, &before};
-  const std::vector<double> flips = flip(truth, both), similar = ssim(truth, both);
+  const std::vector<double> flips = tb::flip(truth, both), similar = ssim(truth, both);
   quality.flip = flips[0];
   quality.flip_before = flips[1];
   quality.ssim = value_of(similar[0]);
@@ -55,21 +59,21 @@ Change measure_change(const Image& before, const Image& after, const Image* trut
   };
   Change change;
   const std::size_t all = before.pixels.size();
-  change.small_percent = percent(count_different(after, before, Change::kSmall), all);
-  change.large_percent = percent(count_different(after, before, Change::kLarge), all);
+  change.small_percent = percent(tb::count_different(after, before, Change::kSmall), all);
+  change.large_percent = percent(tb::count_different(after, before, Change::kLarge), all);
   change.psnr_db = psnr(after, before);
   if (!truth) return change;
-  const Mask right = inverted(edge_mask(*truth, before));
+  const tb::Mask right = inverted(tb::edge_mask(*truth, before));
   const auto there = static_cast<std::size_t>(count(right));
   if (there == 0) return change;
   change.right_small_percent =
-      percent(count_different(after, before, right, Change::kSmall), there);
+      percent(tb::count_different(after, before, right, Change::kSmall), there);
   change.right_large_percent =
-      percent(count_different(after, before, right, Change::kLarge), there);
+      percent(tb::count_different(after, before, right, Change::kLarge), there);
   return change;
 }
 
-Image delivered_part(const Image& image, std::size_t delivered, const Rgba8& rest) {
+Image delivered_part(const Image& image, std::size_t delivered, const tb::Rgba8& rest) {
   Image part = image;
   const auto from = std::min(delivered, part.pixels.size());
   std::fill(part.pixels.begin() + static_cast<std::ptrdiff_t>(from), part.pixels.end(), rest);
@@ -80,12 +84,12 @@ void add_frame_pictures(RunContext& context, const SmoothedFrame& frame) {
   const std::size_t all = frame.after.pixels.size();
   const Image after = delivered_part(frame.after, frame.delivered, kNotDelivered);
   const auto compared = [&](const Image& with, int gain) {
-    return delivered_part(difference(frame.after, with, gain), frame.delivered, kNotCompared);
+    return delivered_part(tb::difference(frame.after, with, gain), frame.delivered, kNotCompared);
   };
   const std::string missing =
       frame.delivered >= all ? ""
                              : fmt::format("; {} of {} pixels, the grey rest was not delivered",
-                                           grouped(frame.delivered), grouped(all));
+                                           tb::grouped(frame.delivered), tb::grouped(all));
   const std::string unknown = missing.empty() ? "" : "; black where nothing was delivered";
   context.add_image("before", frame.before, "Before", frame.before_caption);
   context.add_image("after", after, "After",
@@ -94,7 +98,8 @@ void add_frame_pictures(RunContext& context, const SmoothedFrame& frame) {
     context.add_image("golden", *frame.golden, "Golden model",
                       "the same frame by the golden model");
     const Image apart = compared(*frame.golden, kAnyDifference);
-    const bool none = count_different(apart, Image(apart.width, apart.height, kNotCompared)) == 0;
+    const bool none =
+        tb::count_different(apart, Image(apart.width, apart.height, kNotCompared)) == 0;
     context.add_image("difference", apart, "Difference",
                       (none ? "hardware against golden: none"
                             : "hardware against golden: any difference is bright") +
@@ -118,4 +123,4 @@ Image shares_picture(int width, int height, const std::vector<Shares>& shares) {
   return picture;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -11,25 +11,25 @@
 #include "tb/scene/image.h"
 #include "tool/pages/run_context.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 inline constexpr int kDifferenceGain = 4;
 
 // `after` and what went in, `before`, against the truth: PSNR over the frame, over edge pixels and,
 // with a depth, over silhouettes; FLIP and SSIM over the frame.
-Quality measure_quality(std::string reference, const Image& before, const Image& after,
-                        const Image& truth, const DepthImage* depth);
+tb::Quality measure_quality(std::string reference, const tb::Image& before, const tb::Image& after,
+                            const tb::Image& truth, const tb::DepthImage* depth);
 
 // What became of `before`; where there is a truth, of its right pixels too.
-Change measure_change(const Image& before, const Image& after, const Image* truth);
+tb::Change measure_change(const tb::Image& before, const tb::Image& after, const tb::Image* truth);
 
 // A frame that an engine smoothed, or as much of it as it delivered.
 struct SmoothedFrame {
-  const Image& before;
-  const Image& after;
-  std::size_t delivered;  // pixels of `after`, in raster order
-  const Image* golden;    // nullptr: not checked
-  const Image* truth;     // nullptr: none
+  const tb::Image& before;
+  const tb::Image& after;
+  std::size_t delivered;    // pixels of `after`, in raster order
+  const tb::Image* golden;  // nullptr: not checked
+  const tb::Image* truth;   // nullptr: none
   std::string before_caption, truth_caption;
 };
 
@@ -38,10 +38,10 @@ struct SmoothedFrame {
 void add_frame_pictures(RunContext& context, const SmoothedFrame& frame);
 
 // What stands for a pixel that did not come, and for one that could not be compared.
-inline constexpr Rgba8 kNotDelivered = {128, 128, 128, 255}, kNotCompared = {0, 0, 0, 255};
+inline constexpr tb::Rgba8 kNotDelivered = {128, 128, 128, 255}, kNotCompared = {0, 0, 0, 255};
 
 // The first `delivered` pixels; `rest` in place of the others.
-Image delivered_part(const Image& image, std::size_t delivered, const Rgba8& rest);
+tb::Image delivered_part(const tb::Image& image, std::size_t delivered, const tb::Rgba8& rest);
 
 // What a pixel takes of two neighbours, of 256.
 struct Shares {
@@ -49,6 +49,6 @@ struct Shares {
   bool horizontal = false;             // the two are left and right
 };
 // Twice as bright: up or left red, down or right green; blue where the pair is left and right.
-Image shares_picture(int width, int height, const std::vector<Shares>& shares);
+tb::Image shares_picture(int width, int height, const std::vector<Shares>& shares);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

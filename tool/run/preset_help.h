@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // `names` by the values of Preset, and the one that holds where none is given.
 template <class Preset, std::size_t N>
@@ -21,4 +21,4 @@ std::string preset_help(const std::array<std::string_view, N>& names, Preset by_
   return text;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

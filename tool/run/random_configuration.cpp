@@ -16,7 +16,10 @@
 #include "tb/scene/textures.h"
 #include "tool/run/run_once.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::Random;
+
 namespace {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
@@ -43,7 +46,7 @@ std::string permille(Random& random) {
 }
 
 std::string texture(Random& random) {
-  const auto names = texture_names();
+  const auto names = tb::texture_names();
   return std::string(names[random.below(static_cast<std::uint32_t>(names.size()))]);
 }
 
@@ -138,7 +141,7 @@ std::int64_t number(std::string_view text) {
 }
 
 // By its range: "2..4096", "true | false", "lru | fifo | random"; empty for text.
-std::string drawn(const RandomDraws& engine, const Parameter& parameter, Random& random) {
+std::string drawn(const RandomDraws& engine, const tb::Parameter& parameter, Random& random) {
   const std::string_view name = common_name(parameter.name);
   for (const auto* const all : {&engine.draws, &common_draws()})
     if (const auto found = all->find(name); found != all->end()) return found->second(random);
@@ -158,10 +161,10 @@ std::string drawn(const RandomDraws& engine, const Parameter& parameter, Random&
 }
 
 // What would take minutes of any memory.
-bool is_quick(const ParameterSet& set) {
+bool is_quick(const tb::ParameterSet& set) {
   constexpr std::int64_t kMostClocks = 60, kMostBusy = 10;  // of a transaction
   constexpr std::string_view kLatency = "memory.latency", kOfMemory = ".latency";
-  for (const Parameter& parameter : set.all()) {
+  for (const tb::Parameter& parameter : set.all()) {
     if (!parameter.name.ends_with(kLatency)) continue;
     const std::string memory = parameter.name.substr(0, parameter.name.size() - kOfMemory.size());
     const auto of = [&](const char* name) {
@@ -250,7 +253,7 @@ Settings random_configuration(const std::string& engine, std::uint64_t seed,
     Settings wanted = {{"run.images", "false"}, {"run.watchdog_cycles", "200000"}};
     for (const auto& setting : draws.given)
       if (bound.set.find(setting.first)) wanted.push_back(setting);
-    for (const Parameter& parameter : bound.set.all())
+    for (const tb::Parameter& parameter : bound.set.all())
       if (const std::string_view name = common_name(parameter.name);
           !has(kFixed, name) && !has(draws.fixed, name) &&
           random.chance(how_often(draws, parameter.name)))
@@ -270,4 +273,4 @@ Settings random_configuration(const std::string& engine, std::uint64_t seed,
                   kTries, engine, seed));
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

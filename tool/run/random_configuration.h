@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 class Engine;
 
@@ -26,4 +26,4 @@ std::vector<std::pair<std::string, std::string>> random_configuration(
 // Whether it never changes this parameter of the engine; in front of a dot, of every memory.
 bool is_fixed(const Engine& engine, std::string_view parameter);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -7,20 +7,20 @@
 #include "tb/run/parameter_set.h"
 #include "tb/scene/scenes.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
-std::int64_t number_of(const ParameterSet& set, std::string_view parameter) {
+std::int64_t number_of(const tb::ParameterSet& set, std::string_view parameter) {
   const std::string text = set.find(parameter)->text();
   std::int64_t value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
   return value;
 }
 
-std::string one_of(Random& random, std::initializer_list<std::string_view> values) {
+std::string one_of(tb::Random& random, std::initializer_list<std::string_view> values) {
   return std::string(values.begin()[random.below(static_cast<std::uint32_t>(values.size()))]);
 }
 
-std::int64_t by_magnitude(Random& random, std::int64_t low, std::int64_t high) {
+std::int64_t by_magnitude(tb::Random& random, std::int64_t low, std::int64_t high) {
   std::int64_t span = high - low + 1;
   int bits = 0;
   while (span >> bits > 1) ++bits;
@@ -28,15 +28,15 @@ std::int64_t by_magnitude(Random& random, std::int64_t low, std::int64_t high) {
   return low + static_cast<std::int64_t>(random.next() % static_cast<std::uint64_t>(below));
 }
 
-std::string side_of_picture(Random& random) {
+std::string side_of_picture(tb::Random& random) {
   if (random.chance(100)) return evenly<1, 5>(random);
   const int drawn = random.between(3, 96);
   return std::to_string(random.chance(700) ? drawn | 1 : drawn);
 }
 
-std::string name_of_scene(Random& random) {
-  const auto names = scene_names();
+std::string name_of_scene(tb::Random& random) {
+  const auto names = tb::scene_names();
   return std::string(names[random.below(static_cast<std::uint32_t>(names.size()))].name);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

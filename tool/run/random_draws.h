@@ -15,10 +15,12 @@
 #include "tb/base/random.h"
 
 namespace deburr::tb {
-
 class ParameterSet;
+}  // namespace deburr::tb
 
-using Draw = std::string (*)(Random&);
+namespace deburr::tool {
+
+using Draw = std::string (*)(tb::Random&);
 
 // Beside what holds for run.*, scene.* and every memory. By names of parameters.
 struct RandomDraws {
@@ -31,32 +33,32 @@ struct RandomDraws {
   // What every random run is given.
   std::vector<std::pair<std::string, std::string>> given{};
   // Each says false of what would take minutes, or show nothing.
-  std::vector<bool (*)(const ParameterSet&)> wanted{};
+  std::vector<bool (*)(const tb::ParameterSet&)> wanted{};
 };
 
 // What a parameter of integers is set to.
-std::int64_t number_of(const ParameterSet& set, std::string_view parameter);
+std::int64_t number_of(const tb::ParameterSet& set, std::string_view parameter);
 
 // ---- draws --------------------------------------------------------------------------------------
 
-std::string one_of(Random& random, std::initializer_list<std::string_view> values);
+std::string one_of(tb::Random& random, std::initializer_list<std::string_view> values);
 // low..high, of which small numbers are as likely as large ones.
-std::int64_t by_magnitude(Random& random, std::int64_t low, std::int64_t high);
+std::int64_t by_magnitude(tb::Random& random, std::int64_t low, std::int64_t high);
 
 template <std::int64_t low, std::int64_t high>
-std::string magnitude(Random& random) {
+std::string magnitude(tb::Random& random) {
   return std::to_string(by_magnitude(random, low, high));
 }
 template <int low, int high>
-std::string evenly(Random& random) {
+std::string evenly(tb::Random& random) {
   return std::to_string(random.between(low, high));
 }
 template <std::size_t low, std::size_t high>
-std::string power_of_two(Random& random) {
+std::string power_of_two(tb::Random& random) {
   return std::to_string(std::size_t{1} << random.between(low, high));
 }
 // Of a picture: mostly odd, and now and then a row or a column alone.
-std::string side_of_picture(Random& random);
-std::string name_of_scene(Random& random);
+std::string side_of_picture(tb::Random& random);
+std::string name_of_scene(tb::Random& random);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -19,7 +19,7 @@
 #include "spec/error.h"
 #include "tb/run/windows.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 // A table cell must not hold the character that separates cells.
@@ -55,9 +55,9 @@ class SilentRenaming {
 std::string group_of(const std::string& name) { return name.substr(0, name.find('.')); }
 
 // What the group's hardware can be built with, beyond ranges.
-std::string build_rules_of(const ParameterSet& set, const std::string& group) {
+std::string build_rules_of(const tb::ParameterSet& set, const std::string& group) {
   std::string table;
-  for (const BuildLimit& limit : set.build_limits()) {
+  for (const tb::BuildLimit& limit : set.build_limits()) {
     const std::vector<std::string>& names = limit.parameters;
     if (group_of(names.front()) != group) continue;
     std::string with;
@@ -144,12 +144,12 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "(`spec/NAME/check_build.h`).\n";
   for (const auto& engine : engines) {
     page += fmt::format("\n## `deburr run {}`\n", engine->name());
-    ParameterSet set;
+    tb::ParameterSet set;
     RunParameters run = engine->run_parameters();
-    set.add("run", ParameterKind::kRun, run);
+    set.add("run", tb::ParameterKind::kRun, run);
     engine->add_parameters(set);
     std::vector<std::string> groups;  // in the order of their first parameters
-    for (const Parameter& p : set.all())
+    for (const tb::Parameter& p : set.all())
       if (const std::string group = group_of(p.name);
           std::find(groups.begin(), groups.end(), group) == groups.end())
         groups.push_back(group);
@@ -158,7 +158,7 @@ std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines)
           "\n### {}\n\n| name | kind | default | range | unit | meaning "
           "|\n|---|---|---|---|---|---|\n",
           group);
-      for (const Parameter& p : set.all())
+      for (const tb::Parameter& p : set.all())
         if (group_of(p.name) == group)
           page += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.name, kind_name(p),
                               p.default_value.empty() ? "" : "`" + p.default_value + "`",
@@ -180,20 +180,20 @@ std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "is null with a flag in\n"
       "`quality.identical`, and better than any number wherever results are read.\n\n"
       "## Every engine\n\n| key | unit | meaning |\n|---|---|---|\n",
-      kResultSchema);
-  for (const Statistic& s : statistics())
+      tb::kResultSchema);
+  for (const tb::Statistic& s : tb::statistics())
     page += fmt::format("| `{}` | {} | {} |\n", s.name, cell(s.unit), cell(s.meaning));
   page +=
       "\n## windows.json\n\nOf a run with `run.window_cycles` (`--windows N`), beside "
       "`result.json`, schema 1. Each list has an entry a window. A\nseries stands under "
       "its key of `result.json`, and sums up to what stands there: every run checks it.\n\n"
       "| key | unit | meaning |\n|---|---|---|\n";
-  for (const Statistic& s : window_statistics())
+  for (const tb::Statistic& s : tb::window_statistics())
     page += fmt::format("| `{}` | {} | {} |\n", s.name, cell(s.unit), cell(s.meaning));
   std::set<std::string> known;  // of parts, as a composition has them
   for (const auto& engine : engines) {
     const auto parts = engine->parts();
-    Result result;
+    tb::Result result;
     engine->describe_statistics(result);
     page += fmt::format("\n## {}\n\n", engine->name());
     if (!parts.empty())
@@ -206,17 +206,17 @@ std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines)
       return !parts.empty() && known.contains(name);
     };
     page += "| key | unit | meaning |\n|---|---|---|\n";
-    for (const WorkItem& item : result.work)
+    for (const tb::WorkItem& item : result.work)
       if (!is_of_part(item.name))
         page += fmt::format("| `work.{}` | {} | {} |\n", item.name, cell(item.unit),
                             cell(item.meaning));
-    for (const UnitCycles& unit : result.units)
-      for (const StallCycles& stall : unit.stalls)
+    for (const tb::UnitCycles& unit : result.units)
+      for (const tb::StallCycles& stall : unit.stalls)
         if (!is_of_part(fmt::format("{}.stalls.{}", unit.name, stall.cause)))
           page += fmt::format("| `units.{}.stalls.{}` | clk | {} |\n", unit.name, stall.cause,
                               cell(stall.meaning));
     std::string memories;
-    for (const MemoryFigures& m : result.memories)
+    for (const tb::MemoryFigures& m : result.memories)
       if (!is_of_part(m.name))
         memories += fmt::format("| `memories.{}` | {} | {} x {} | {} | {} | {} | {} | {} | {} |\n",
                                 m.name, m.kind, m.words, m.word_bits, m.ports, m.read_latency,
@@ -233,7 +233,7 @@ std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines)
 
 std::vector<std::string> fault_names(Engine& engine) {
   const SilentRenaming silent;
-  Result result;
+  tb::Result result;
   engine.describe_statistics(result);
   return result.faults;
 }
@@ -288,10 +288,10 @@ std::string registers_systemrdl(const std::vector<std::unique_ptr<Engine>>& engi
 namespace {
 
 // Bins that differ in the last part of their name stand in one row.
-std::string coverage_table(const Coverage& bins, std::span<const CoverageGroup> groups) {
+std::string coverage_table(const tb::Coverage& bins, std::span<const tb::CoverageGroup> groups) {
   std::string page = "\n| bins | names | what they look at |\n|---|---|---|\n";
   std::size_t printed = 0;
-  for (const CoverageGroup& group : groups) {
+  for (const tb::CoverageGroup& group : groups) {
     std::map<std::string, std::string> rows;
     for (const auto& [bin, hits] : bins.bins()) {
       if (!bin.starts_with(fmt::format("{}/", group.name))) continue;
@@ -312,7 +312,7 @@ std::string coverage_table(const Coverage& bins, std::span<const CoverageGroup> 
 }
 
 void add_bins(const Engine& engine, std::set<std::string>& names) {
-  const CoverageSection section = engine.coverage();
+  const tb::CoverageSection section = engine.coverage();
   for (const auto& [bin, hits] : section.bins.bins()) names.insert(bin);
   for (const std::string_view part : engine.parts())
     add_bins(*engine_named(std::string(part)), names);
@@ -331,7 +331,7 @@ std::string coverage_page(const std::vector<std::unique_ptr<Engine>>& engines) {
   for (const auto& engine : engines) {
     if (!engine->parts().empty())
       composed += fmt::format("{}`deburr run {}`", composed.empty() ? "" : ", ", engine->name());
-    const CoverageSection section = engine->coverage();
+    const tb::CoverageSection section = engine->coverage();
     if (!section.title.empty())
       sections += fmt::format("\n## {}: {} bins\n{}", section.title, section.bins.size(),
                               coverage_table(section.bins, section.groups));
@@ -376,9 +376,9 @@ std::string datasheets_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "\n## Fabric\n";
   page += rtl::datasheets_markdown(std::vector{rtl::MemoryPort::datasheet()});
   for (const auto& engine : engines)
-    if (const DatasheetSection section = engine->datasheets(); !section.module.empty())
+    if (const tb::DatasheetSection section = engine->datasheets(); !section.module.empty())
       page += fmt::format("\n## {}\n{}", section.module, rtl::datasheets_markdown(section.sheets));
   return with_contents(page, Contents::kUnits);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

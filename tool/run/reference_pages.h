@@ -12,7 +12,7 @@
 #include "rtl_model/fabric/register_section.h"
 #include "tool/run/engine.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // The anchor that GitHub gives a heading of a page, if no heading before has the same text.
 std::string anchor_of(std::string_view heading);
@@ -35,4 +35,4 @@ std::vector<std::string> fault_names(Engine& engine);
 // Names of all bins that runs of an engine may have.
 std::set<std::string> coverage_bins(const std::string& engine);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

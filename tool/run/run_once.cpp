@@ -11,7 +11,7 @@
 #include "tb/scene/truth.h"
 #include "tool/run/simulate.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 using spec::ConfigError;
@@ -33,7 +33,7 @@ void reject_no_history(const Engine& engine) {
 }  // namespace
 
 BoundEngine::BoundEngine(Engine& bound) : engine(bound), run(bound.run_parameters()) {
-  set.add("run", ParameterKind::kRun, run);
+  set.add("run", tb::ParameterKind::kRun, run);
   engine.add_parameters(set);
 }
 
@@ -42,7 +42,7 @@ void BoundEngine::resolve() {
   set.check_build();
   if (!run.pixel.empty()) {
     reject_no_history(engine);
-    pixel_of(run.pixel);
+    tb::pixel_of(run.pixel);
   }
   if (!run.trace.empty() && run.trace_from >= run.trace_to)
     throw ConfigError(fmt::format(
@@ -71,7 +71,7 @@ void BoundEngine::resolve() {
 RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
                 const std::function<bool()>& claimed) {
   RunEnd end;
-  Result& result = end.result;
+  tb::Result& result = end.result;
   result.unit = bound.engine.name();
   result.clock_mhz = bound.run.clock_mhz;
   try {
@@ -93,7 +93,7 @@ RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
                       result.mismatches, result.comparisons, result.traffic_mismatches,
                       result.traffic_comparisons);
     }
-  } catch (const Interrupted&) {
+  } catch (const tb::Interrupted&) {
     result.interrupted = true;
     end.begun = false;
     return end;
@@ -113,14 +113,15 @@ RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
     fmt::print(stderr, "deburr: {}\n", result.reason);
   }
   if (end.code != 0)
-    result.verdict = Verdict::kFail;
+    result.verdict = tb::Verdict::kFail;
   else
-    result.verdict = bound.run.check == CheckMode::kGolden ? Verdict::kPass : Verdict::kUnchecked;
+    result.verdict =
+        bound.run.check == CheckMode::kGolden ? tb::Verdict::kPass : tb::Verdict::kUnchecked;
   if (result.interrupted && end.code == 0) {
-    result.verdict = Verdict::kUnchecked;
+    result.verdict = tb::Verdict::kUnchecked;
     result.reason = "interrupted: the results cover what was done until then";
   }
   return end;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

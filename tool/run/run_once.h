@@ -12,7 +12,7 @@
 #include "tool/pages/run_context.h"
 #include "tool/run/engine.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // An engine with all of its parameters, at their defaults until `set` is given others.
 class BoundEngine {
@@ -27,14 +27,14 @@ class BoundEngine {
 
   Engine& engine;
   RunParameters run;
-  ParameterSet set;
+  tb::ParameterSet set;
 };
 
 struct RunEnd {
   int code = 0;
   std::string kind;   // of what failed: "mismatch"
   bool begun = true;  // false: interrupted before anything was simulated; there is no result
-  Result result{};
+  tb::Result result{};
 };
 
 // Claims the context's directory, runs and checks; the caller finishes the context with the result.
@@ -44,4 +44,4 @@ struct RunEnd {
 RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
                 const std::function<bool()>& claimed = nullptr);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 std::vector<Shorthand> common_shorthands() {
@@ -46,4 +46,4 @@ std::vector<Shorthand> joined(std::vector<Shorthand> first, const std::vector<Sh
   return first;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -6,11 +6,11 @@
 
 #include "tool/run/engine.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // Those of every engine, and this one's own, which may give one of them another meaning.
 std::vector<Shorthand> shorthands_of(const Engine& engine);
 
 std::vector<Shorthand> joined(std::vector<Shorthand> first, const std::vector<Shorthand>& second);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -17,10 +17,10 @@
 #include "tb/run/windows.h"
 #include "tb/traces/line_trace.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
-SimulationOptions simulation_options(const RunParameters& run, const RunContext& context) {
-  SimulationOptions o;
+tb::SimulationOptions simulation_options(const RunParameters& run, const RunContext& context) {
+  tb::SimulationOptions o;
   o.clock_mhz = run.clock_mhz;
   o.seed = static_cast<std::uint64_t>(run.stall_seed);
   o.stall_permille = static_cast<std::uint32_t>(std::lround(run.stalls * 1000));
@@ -30,8 +30,8 @@ SimulationOptions simulation_options(const RunParameters& run, const RunContext&
   o.fast_path = run.fast_path;
   o.check_links = run.check_links;
   o.poison = run.poison;
-  if (const Parameter* const program = context.parameters().find("run.program"))
-    o.program = program->text() != kProgramNames[static_cast<std::size_t>(Program::kReset)];
+  if (const tb::Parameter* const program = context.parameters().find("run.program"))
+    o.program = program->text() != tb::kProgramNames[static_cast<std::size_t>(tb::Program::kReset)];
   o.max_cycles = static_cast<rtl::Cycle>(run.max_cycles);
   o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
   if (!run.fault.empty()) o.faults = {run.fault};
@@ -48,7 +48,7 @@ SimulationOptions simulation_options(const RunParameters& run, const RunContext&
     throw spec::ConfigError(
         "run.coverage: what was met is known to the golden model: leave out run.check=none");
   o.coverage = run.coverage;
-  if (!run.pixel.empty()) o.pixel = pixel_of(run.pixel);
+  if (!run.pixel.empty()) o.pixel = tb::pixel_of(run.pixel);
   if (run.timeline)
     o.timeline = {static_cast<rtl::Cycle>(run.timeline_from),
                   static_cast<rtl::Cycle>(run.timeline_to)};
@@ -57,8 +57,8 @@ SimulationOptions simulation_options(const RunParameters& run, const RunContext&
 
 namespace {
 
-void reject_empty_trace(Simulation& simulation) {
-  const SimulationOptions& o = simulation.options();
+void reject_empty_trace(tb::Simulation& simulation) {
+  const tb::SimulationOptions& o = simulation.options();
   const rtl::Cycle end = simulation.clock().cycle();
   if (o.timeline && o.timeline->from >= end)
     throw spec::ConfigError(
@@ -74,22 +74,22 @@ void reject_empty_trace(Simulation& simulation) {
 
 // What was watched over time, whatever ended the run; only where no cycle was broken off does it
 // add up.
-void leave_windows(const Simulation& simulation, RunContext& context, const Result& result,
+void leave_windows(const tb::Simulation& simulation, RunContext& context, const tb::Result& result,
                    bool whole_cycles) {
   if (simulation.timeline())
     context.add_record("timeline", kTimelineFile, simulation.timeline()->json());
   if (!simulation.windows()) return;
   const nlohmann::ordered_json windows = simulation.windows()->json();
-  context.add_record("windows", kWindowsFile, json_text(windows) + "\n");
-  if (whole_cycles) check_windows(windows, to_json(result));
+  context.add_record("windows", kWindowsFile, tb::json_text(windows) + "\n");
+  if (whole_cycles) tb::check_windows(windows, to_json(result));
 }
 
 // Where something differs from the golden model, or is missing, counts differ too.
-void leave_maps(const Simulation& simulation, const Environment& environment, RunContext& context,
-                Result& result) {
+void leave_maps(const tb::Simulation& simulation, const tb::Environment& environment,
+                RunContext& context, tb::Result& result) {
   const bool right =
       simulation.complete() && result.mismatches == 0 && result.traffic_mismatches == 0;
-  for (const PictureMap& map : environment.maps()) {
+  for (const tb::PictureMap& map : environment.maps()) {
     context.add_map(map);
     result.maps.push_back(figures_of(map));
     if (right) check_map(map);
@@ -97,20 +97,22 @@ void leave_maps(const Simulation& simulation, const Environment& environment, Ru
 }
 
 // nullptr: none is wanted.
-std::unique_ptr<LineTrace> line_trace(const Simulation& simulation, const RunContext& context,
-                                      const Result& result) {
+std::unique_ptr<tb::traces::LineTrace> line_trace(const tb::Simulation& simulation,
+                                                  const RunContext& context,
+                                                  const tb::Result& result) {
   const auto value = [&](const char* name) {
-    const Parameter* parameter = context.parameters().find(name);
+    const tb::Parameter* parameter = context.parameters().find(name);
     return parameter ? parameter->text() : std::string();
   };
   const std::string wanted = value("run.line_trace");
   if (wanted == "none") return nullptr;
-  LineTraceOptions options;
+  tb::traces::LineTraceOptions options;
   options.engine = result.unit;
   options.clock_mhz = simulation.options().clock_mhz;
-  options.format = wanted == "binary" ? TraceFormat::kBinary : TraceFormat::kText;
+  options.format =
+      wanted == "binary" ? tb::traces::TraceFormat::kBinary : tb::traces::TraceFormat::kText;
   options.look_ups = value("run.line_trace_look_ups") == "true";
-  return std::make_unique<LineTrace>(context.line_trace_file(), options);
+  return std::make_unique<tb::traces::LineTrace>(context.line_trace_file(), options);
 }
 
 // Copies are counted wherever bits are, but so many of a large memory are seldom meant.
@@ -127,19 +129,20 @@ void note_copies(RunContext& context) {
 
 }  // namespace
 
-void simulate(Simulation& simulation, Environment& environment, RunContext& context, Result& result,
-              const std::function<void()>& add_pictures) {
+void simulate(tb::Simulation& simulation, tb::Environment& environment, RunContext& context,
+              tb::Result& result, const std::function<void()>& add_pictures) {
   simulation.elaborate(environment);
-  const std::unique_ptr<LineTrace> lines = line_trace(simulation, context, result);
+  const std::unique_ptr<tb::traces::LineTrace> lines = line_trace(simulation, context, result);
   if (context.checking_only()) return;
-  if (interrupted()) throw Interrupted();  // while the input was made: there is nothing to keep
+  if (tb::interrupted())
+    throw tb::Interrupted();  // while the input was made: there is nothing to keep
   note_copies(context);
   try {
-    const Amount amount = environment.amount();
-    Progress progress(result.unit, amount.total, amount.unit, context.quiet());
+    const tb::Amount amount = environment.amount();
+    tb::Progress progress(result.unit, amount.total, amount.unit, context.quiet());
     simulation.run([&](std::uint64_t delivered, std::uint64_t taken) {
       progress.update(delivered, taken);
-      return !interrupted();
+      return !tb::interrupted();
     });
   } catch (const spec::FileError&) {  // a wave that could not be written: nothing stays
     throw;
@@ -163,7 +166,7 @@ void simulate(Simulation& simulation, Environment& environment, RunContext& cont
   simulation.collect(result);
   if (lines) lines->finish();
   result.interrupted = !simulation.complete();
-  if (result.interrupted && result.cycles == 0) throw Interrupted();  // while golden worked
+  if (result.interrupted && result.cycles == 0) throw tb::Interrupted();  // while golden worked
   add_pictures();
   leave_windows(simulation, context, result, true);
   leave_maps(simulation, environment, context, result);
@@ -181,4 +184,4 @@ std::string from_repository(const std::string& text) {
   return text;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

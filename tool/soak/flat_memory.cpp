@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <fstream>
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 std::uint64_t largest(std::span<const std::uint64_t> samples) {
@@ -62,4 +62,4 @@ std::string growth(std::span<const std::uint64_t> samples, const Allowance& allo
   return fmt::format("from {} to {} bytes, {} are allowed", before, after, allowed);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -13,11 +13,11 @@
 
 #include "tb/base/sanitized.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // AddressSanitizer has a heap of its own, and keeps what is freed for a while: leaks are its to
 // find.
-inline constexpr bool kCheckMemory = !kSanitized;
+inline constexpr bool kCheckMemory = !tb::kSanitized;
 
 // Of the process: resident memory in bytes; 0 where it is gone.
 std::uint64_t resident_bytes(pid_t process);
@@ -43,4 +43,4 @@ inline constexpr std::size_t kLeastSamples = 50;
 // from how much to how much.
 std::string growth(std::span<const std::uint64_t> samples, const Allowance& allowance);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -10,7 +10,7 @@
 #include "tool/run/run_once.h"
 #include "tool/soak/soak.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 int run(int argc, char** argv) {
@@ -39,11 +39,11 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tool
 
 int main(int argc, char** argv) {
   try {
-    return deburr::tb::run(argc, argv);
+    return deburr::tool::run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "deburr_soak: %s\n", error.what());
     return 2;

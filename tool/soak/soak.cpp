@@ -29,7 +29,7 @@
 #include "tool/run/run_once.h"
 #include "tool/soak/flat_memory.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,8 +85,8 @@ std::string run(const std::string& engine, const Settings& settings, const fs::p
     said["mismatches"] = end.result.mismatches + end.result.traffic_mismatches;
     said["cycles"] = end.result.cycles;
     std::uint64_t frames = 1;
-    for (const Parameter& parameter : bound.set.all())
-      if (parameter.kind == ParameterKind::kInput && parameter.name.ends_with(".count"))
+    for (const tb::Parameter& parameter : bound.set.all())
+      if (parameter.kind == tb::ParameterKind::kInput && parameter.name.ends_with(".count"))
         frames = std::stoull(parameter.text());
     said["frames"] = frames;
     // A run that is over before its reset has had none.
@@ -147,7 +147,7 @@ Ended run_in_child(const std::string& engine, const Settings& settings, const fs
         ended.resident.push_back(resident_bytes(child));
         next_sample = worked + kSamplePeriod * 1e-3;
       }
-      if (interrupted() || seconds_since(start) > kLongestSeconds) ::kill(child, SIGKILL);
+      if (tb::interrupted() || seconds_since(start) > kLongestSeconds) ::kill(child, SIGKILL);
     }
   }
   ::close(ends[0]);
@@ -191,7 +191,7 @@ class Soak {
                   std::min<std::uint64_t>(options_.engines.size(), options_.long_every);
       try {
         one(engine, options_.seed + round, is_long);
-      } catch (const Interrupted&) {
+      } catch (const tb::Interrupted&) {
         break;
       }
       progress(i + 1);
@@ -215,7 +215,7 @@ class Soak {
   };
 
   bool over(std::uint64_t runs) const {
-    return interrupted() || seconds_since(start_) >= options_.seconds ||
+    return tb::interrupted() || seconds_since(start_) >= options_.seconds ||
            (options_.runs > 0 && runs >= options_.runs);
   }
 
@@ -234,7 +234,7 @@ class Soak {
     if (is_long) lengthen(engine, settings);
     settings.insert(settings.end(), options_.settings.begin(), options_.settings.end());
     const Ended ended = run_in_child(engine, settings, directory_);
-    if (interrupted()) return;
+    if (tb::interrupted()) return;
     totals_[engine].add(ended.said);
     if (ended.said.code != 0) complain(engine, settings, ended.said.reason);
     if (!is_long) return;
@@ -321,16 +321,16 @@ class Soak {
     fmt::print(
         "RESULT: {} soak: {} runs in {:.0f} s, {} of them long, {} of these long enough to check "
         "their memory; {} comparisons, {} mismatches, {} failures, memory {}{}\n",
-        !good           ? "FAIL"
-        : interrupted() ? "INTERRUPTED"
-                        : "PASS",
+        !good               ? "FAIL"
+        : tb::interrupted() ? "INTERRUPTED"
+                            : "PASS",
         t.runs, seconds_since(start_), long_runs_, checked_, t.comparisons, t.mismatches,
         t.failures,
         !grown.empty()      ? "not flat"
         : is_checked(heap_) ? "flat"
                             : "not checked",
         grown);
-    return !good ? 1 : interrupted() ? kInterruptedExit : 0;
+    return !good ? 1 : tb::interrupted() ? tb::kInterruptedExit : 0;
   }
 
   static bool is_checked(const std::vector<std::uint64_t>& samples) {
@@ -351,11 +351,11 @@ class Soak {
 }  // namespace
 
 int soak(SoakOptions options) {
-  catch_interrupts();
+  tb::catch_interrupts();
   if (options.engines.empty())
     for (const std::unique_ptr<Engine>& engine : engines())
       options.engines.emplace_back(engine->name());
   return Soak(options).run();
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 struct SoakOptions {
   std::vector<std::string> engines;  // none: all
@@ -28,4 +28,4 @@ struct SoakOptions {
 // that grew.
 int soak(SoakOptions options);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -23,7 +23,7 @@
 #include "tool/pages/page.h"
 #include "tool/pages/report.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,12 +107,12 @@ Expression::Lookup lookup_in(const SweepDefinition& sweep, const std::vector<dou
 
 nlohmann::json complete_result_in(const fs::path& directory) {
   const fs::path file = directory / "result.json";
-  auto result = try_parse_sorted_json(read_file(file, kMaxResultBytes));
-  if (!result.is_object() || result.value("schema", 0) != kResultSchema)
+  auto result = tb::try_parse_sorted_json(tb::read_file(file, tb::kMaxResultBytes));
+  if (!result.is_object() || result.value("schema", 0) != tb::kResultSchema)
     throw spec::FileError(fmt::format(
         "'{}' is not a result of this version: remove its directory, and run the sweep again",
         file.string()));
-  return with_infinity(std::move(result));
+  return tb::with_infinity(std::move(result));
 }
 
 void add_keys(const nlohmann::json& node, const std::string& path, std::vector<std::string>& keys) {
@@ -214,7 +214,7 @@ class Collector {
         const std::string key = missing_key(first_result_, sweep_.metrics[i]);
         throw spec::ConfigError(fmt::format("{}: metric '{}': no result has the key '{}'{}",
                                             sweep_.file.string(), sweep_.metrics[i].name, key,
-                                            did_you_mean(near_matches(key, keys))));
+                                            tb::did_you_mean(tb::near_matches(key, keys))));
       }
   }
 
@@ -428,7 +428,7 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
 }
 
 std::string cell_text(const Json& value) {
-  return value.is_null() ? "" : value.is_string() ? value.get<std::string>() : json_text(value);
+  return value.is_null() ? "" : value.is_string() ? value.get<std::string>() : tb::json_text(value);
 }
 
 // The table without script: rows of the front first, so many.
@@ -477,7 +477,7 @@ void set_table(const Json& json, mustache::data& page) {
   }
   page.set("rows", table.html(R"(class="scroll tall")"));
   page.set("is_cut", cut);
-  page.set("rows_shown", grouped(points.size()));
+  page.set("rows_shown", tb::grouped(points.size()));
 }
 
 std::string page_of(const Json& json) {
@@ -487,7 +487,7 @@ std::string page_of(const Json& json) {
   page.set("brand", "sweep \u00b7 " + json.at("engine").get<std::string>());
   page.set("data", json_for_script(json));
   const auto count = [&](const char* key) {
-    return grouped(json.at("counts").at(key).get<std::uint64_t>());
+    return tb::grouped(json.at("counts").at(key).get<std::uint64_t>());
   };
   page.set("points", count("points"));
   page.set("tiles", html_of({{"Points", count("points")},
@@ -504,7 +504,7 @@ std::string page_of(const Json& json) {
     page.set("beyond", beyond == 0   ? "No point is beyond a limit."
                        : beyond == 1 ? "One point, the cross, is beyond a limit."
                                      : fmt::format("{} points, the crosses, are beyond a limit.",
-                                                   grouped(beyond)));
+                                                   tb::grouped(beyond)));
     page.set("limits",
              fmt::format("{}", fmt::join(json.at("limits").get<std::vector<std::string>>(), ", ")));
   }
@@ -519,8 +519,8 @@ std::string page_of(const Json& json) {
   for (const Json& entry : json.at("no_value")) {
     mustache::data line;
     line.set("text", fmt::format("{} in {} of {} points: {}", entry.at("metric").get<std::string>(),
-                                 grouped(entry.at("points").get<std::uint64_t>()), count("done"),
-                                 entry.at("reason").get<std::string>()));
+                                 tb::grouped(entry.at("points").get<std::uint64_t>()),
+                                 count("done"), entry.at("reason").get<std::string>()));
     none << line;
   }
   page.set("has_no_value", none.is_non_empty_list());
@@ -553,10 +553,11 @@ void write_collection(const SweepDefinition& sweep, const Plan& plan, const Swee
                       const Collection& collection) {
   const Json json = json_of(sweep, plan, place, collection);
   const std::string csv = csv_of(sweep, place, collection),
-                    collected = json_text(json, -1, NotUtf8::kReplace) + "\n", page = page_of(json);
+                    collected = tb::json_text(json, -1, tb::NotUtf8::kReplace) + "\n",
+                    page = page_of(json);
   write_files_atomically({{place.directory / "collected.csv", csv},
                           {place.directory / "collected.json", collected},
                           {place.directory / "index.html", page}});
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

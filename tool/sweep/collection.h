@@ -16,7 +16,7 @@
 #include "tool/sweep/definition.h"
 #include "tool/sweep/plan.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // A metric without a value, and why: "division by zero".
 struct NoValue {
@@ -71,4 +71,4 @@ double beyond_limits(const SweepDefinition& sweep, const std::vector<double>& va
 void write_collection(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place,
                       const Collection& collection);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

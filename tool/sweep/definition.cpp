@@ -16,7 +16,7 @@
 #include "tb/base/yaml_file.h"
 #include "tool/run/run_once.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 using spec::ConfigError;
@@ -26,7 +26,7 @@ constexpr int kMaxNesting = 16;
 
 class Reader {
  public:
-  explicit Reader(const YamlFile& yaml) : yaml_(yaml) {
+  explicit Reader(const tb::YamlFile& yaml) : yaml_(yaml) {
     sweep_.file = yaml.path();
     sweep_.name = yaml.path().stem().string();
   }
@@ -60,7 +60,7 @@ class Reader {
   }
 
  private:
-  static const char* kind(const YAML::Node& node) { return YamlFile::kind(node); }
+  static const char* kind(const YAML::Node& node) { return tb::YamlFile::kind(node); }
   std::string where(const YAML::Node& node) const { return yaml_.where(node); }
   [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const {
     yaml_.fail(node, what);
@@ -444,7 +444,7 @@ class Reader {
                           return found == metrics.end() ? std::nullopt
                                                         : std::optional(std::string());
                         },
-                        [&](const std::string& name) { return near_matches(name, metrics); }});
+                        [&](const std::string& name) { return tb::near_matches(name, metrics); }});
       if (!limit.is_comparison() || limit.names().empty())
         fail(node, fmt::format("limit '{}' is no comparison of a metric by < <= > >=: give several "
                                "limits one by one",
@@ -486,12 +486,13 @@ class Reader {
     const std::string name = scalar(node, what);
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
-      fail(node, fmt::format("no {} '{}'{} (known: {})", what, name,
-                             did_you_mean(near_matches(name, names)), fmt::join(names, ", ")));
+      fail(node,
+           fmt::format("no {} '{}'{} (known: {})", what, name,
+                       tb::did_you_mean(tb::near_matches(name, names)), fmt::join(names, ", ")));
     return static_cast<std::size_t>(found - names.begin());
   }
 
-  const YamlFile& yaml_;
+  const tb::YamlFile& yaml_;
   SweepDefinition sweep_;
   std::unique_ptr<Engine> engine_;
   std::unique_ptr<BoundEngine> bound_;
@@ -506,11 +507,11 @@ const std::vector<std::string>& stimulus_keys() {
 }
 
 SweepDefinition read_sweep(const std::filesystem::path& file) {
-  return Reader(YamlFile(file)).read();
+  return Reader(tb::YamlFile(file)).read();
 }
 
-SweepDefinition read_stimuli(const YamlFile& file, const YAML::Node& part) {
+SweepDefinition read_stimuli(const tb::YamlFile& file, const YAML::Node& part) {
   return Reader(file).read_part(part);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -19,8 +19,10 @@ class Node;
 }
 
 namespace deburr::tb {
-
 class YamlFile;
+}  // namespace deburr::tb
+
+namespace deburr::tool {
 
 // What is given to a parameter, and where that was said.
 struct Setting {
@@ -93,6 +95,6 @@ SweepDefinition read_sweep(const std::filesystem::path& file);
 // The part of it that says what is run: its keys, and how another file with such parts reads one.
 // Without axes and points it is one point, its base. The caller checks the keys of the part.
 const std::vector<std::string>& stimulus_keys();
-SweepDefinition read_stimuli(const YamlFile& file, const YAML::Node& part);
+SweepDefinition read_stimuli(const tb::YamlFile& file, const YAML::Node& part);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -6,7 +6,7 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 using Entry = Evolution* (*)();
@@ -31,4 +31,4 @@ Evolution& evolution() {
   return *module;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // One number an axis: which of its choices.
 using Genes = std::vector<std::uint32_t>;
@@ -47,4 +47,4 @@ Evolution& evolution();
 inline constexpr const char* kEvolutionModule = "libdeburr_evolution.so";
 inline constexpr const char* kEvolutionModuleEntry = "deburr_evolution";  // Evolution* ()
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -13,7 +13,7 @@
 #include "spec/error.h"
 #include "tb/base/near_matches.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 using Value = Expression::Value;
@@ -126,7 +126,7 @@ class Expression::Parser {
   Term settled(const Operand& operand) const {
     if (operand.word.empty()) return operand.term;
     fail(fmt::format("'{}' is neither {} nor a number{}", operand.word, known_.name,
-                     did_you_mean(known_.near_matches(operand.word))));
+                     tb::did_you_mean(known_.near_matches(operand.word))));
   }
   std::function<double(const Lookup&)> number(const Operand& operand) const {
     return [origin = origin_, term = settled(operand)](const Lookup& lookup) {
@@ -194,7 +194,7 @@ class Expression::Parser {
     const bool free_text = range.find("file") != std::string::npos || range == "name";
     if (!free_text && std::find(choices.begin(), choices.end(), operand.word) == choices.end())
       fail(fmt::format("'{}' is no value of {}: it wants {}{}", operand.word, with.name, range,
-                       did_you_mean(near_matches(operand.word, choices))));
+                       tb::did_you_mean(tb::near_matches(operand.word, choices))));
     return [word = operand.word](const Lookup&) -> Value { return word; };
   }
 
@@ -322,10 +322,10 @@ double Expression::violation(const Lookup& lookup) const {
 
 namespace {
 
-ExpressionNames parameters_of(const ParameterSet& known) {
+ExpressionNames parameters_of(const tb::ParameterSet& known) {
   return {"constraint", "a parameter",
           [&known](const std::string& name) -> std::optional<std::string> {
-            const Parameter* parameter = known.find(name);
+            const tb::Parameter* parameter = known.find(name);
             return parameter ? std::optional(parameter->range) : std::nullopt;
           },
           [&known](const std::string& name) { return known.near_matches(name); }};
@@ -333,14 +333,14 @@ ExpressionNames parameters_of(const ParameterSet& known) {
 
 }  // namespace
 
-Constraint::Constraint(std::string text, std::string where, const ParameterSet& known)
+Constraint::Constraint(std::string text, std::string where, const tb::ParameterSet& known)
     : condition_(std::move(text), std::move(where), parameters_of(known)) {
   holds(known);  // what cannot be computed shows on the defaults already
 }
 
-bool Constraint::holds(const ParameterSet& set) const {
+bool Constraint::holds(const tb::ParameterSet& set) const {
   return condition_.truth(
       [&](const std::string& name) { return value_of(set.find(name)->text()); });
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -25,7 +25,7 @@
 #include "spec/error.h"
 #include "tb/run/parameter_set.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 class DivisionByZero : public spec::ConfigError {
  public:
@@ -85,12 +85,12 @@ class Expression {
 class Constraint {
  public:
   // ConfigError that begins with `where` for what is no condition over the parameters of `known`.
-  Constraint(std::string text, std::string where, const ParameterSet& known);
-  bool holds(const ParameterSet& set) const;
+  Constraint(std::string text, std::string where, const tb::ParameterSet& known);
+  bool holds(const tb::ParameterSet& set) const;
   const std::string& text() const { return condition_.text(); }
 
  private:
   Expression condition_;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -13,12 +13,12 @@
 #include "tb/run/result.h"
 #include "tool/run/engine.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 std::vector<std::string> faults_of(const std::string& engine) {
-  std::istringstream words(forked_text([&] {
-    Result result;
+  std::istringstream words(tb::forked_text([&] {
+    tb::Result result;
     engine_named(engine)->describe_statistics(result);
     return fmt::format("{}", fmt::join(result.faults, " "));
   }));
@@ -44,7 +44,7 @@ void KnownFaults::require(const std::string& engine, const std::string& fault) {
     return;
   throw spec::ConfigError(fmt::format(
       "run.fault: no run of '{}' has a fault '{}'{} (docs/reference/planted_faults.md lists them)",
-      engine, fault, did_you_mean(near_matches(fault, known))));
+      engine, fault, tb::did_you_mean(tb::near_matches(fault, known))));
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

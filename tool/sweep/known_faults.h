@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 class KnownFaults {
  public:
@@ -20,4 +20,4 @@ class KnownFaults {
   std::map<std::string, std::vector<std::string>> of_engines_;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

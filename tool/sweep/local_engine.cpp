@@ -24,7 +24,7 @@
 #include "tb/run/progress.h"
 #include "tool/sweep/worker.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -137,10 +137,10 @@ std::uint64_t write_tasks(const Plan& plan, const SweepPlace& place, const fs::p
                   "rule chunk\n"
                   "  command = exec {} sweep-worker {} {} {} $lines\n"
                   "  description = chunk $lines\n",
-                  ninja_value(shell_quoted(settings.program)),
-                  ninja_value(shell_quoted(place.out.string())),
-                  ninja_value(shell_quoted(place.directory.string())),
-                  ninja_value(shell_quoted(pending.string()))));
+                  ninja_value(tb::shell_quoted(settings.program)),
+                  ninja_value(tb::shell_quoted(place.out.string())),
+                  ninja_value(tb::shell_quoted(place.directory.string())),
+                  ninja_value(tb::shell_quoted(pending.string()))));
   for (std::uint64_t task = 0; task < tasks; ++task)
     ninja[task] += fmt::format("folder = {}\nbuilddir = $folder/ninja_{}\n",
                                ninja_value(folder.string()), task);
@@ -153,9 +153,9 @@ std::uint64_t write_tasks(const Plan& plan, const SweepPlace& place, const fs::p
                                                  chunk, lines.size(), to - from);
     for (std::size_t i = from; i < to; ++i) lines += line_of(points[i]) + "\n";
   }
-  write_file_atomically(pending, lines);
+  tb::write_file_atomically(pending, lines);
   for (std::uint64_t task = 0; task < tasks; ++task)
-    write_file_atomically(folder / fmt::format("task_{}.ninja", task), ninja[task]);
+    tb::write_file_atomically(folder / fmt::format("task_{}.ninja", task), ninja[task]);
   return tasks;
 }
 
@@ -165,21 +165,22 @@ int run_ninja(const SweepPlace& place, std::uint64_t points, const RunSettings& 
   if (ninja < 0) throw FileError(fmt::format("cannot fork: {}", std::strerror(errno)));
   if (ninja == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (::getppid() != parent) ::_exit(kInterruptedExit);
+    if (::getppid() != parent) ::_exit(tb::kInterruptedExit);
     ::dup2(STDERR_FILENO, STDOUT_FILENO);  // the standard output is the command's own
     const std::string jobs = std::to_string(std::max(1u, settings.jobs));
     const std::string file = (place.directory / "task_0.ninja").string();
     ::execlp("ninja", "ninja", "--quiet", "-k", "0", "-j", jobs.c_str(), "-f", file.c_str(),
              static_cast<char*>(nullptr));
-    ::_exit(kNoSuchProgram);
+    ::_exit(tb::kNoSuchProgram);
   }
-  Progress progress(settings.what, points, "point", settings.quiet || settings.watch != nullptr);
+  tb::Progress progress(settings.what, points, "point",
+                        settings.quiet || settings.watch != nullptr);
   int status = 0;
   for (bool told = false;;) {
     const pid_t ended = ::waitpid(ninja, &status, WNOHANG);
     if (ended < 0 && errno != EINTR)
       throw FileError(fmt::format("cannot wait for Ninja: {}", std::strerror(errno)));
-    if (interrupted() && !told && ended != ninja) {
+    if (tb::interrupted() && !told && ended != ninja) {
       ::kill(ninja, SIGTERM);
       told = true;
     }
@@ -190,10 +191,10 @@ int run_ninja(const SweepPlace& place, std::uint64_t points, const RunSettings& 
     if (ended == ninja) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  if (interrupted()) return kInterruptedExit;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kNoSuchProgram)
+  if (tb::interrupted()) return tb::kInterruptedExit;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == tb::kNoSuchProgram)
     throw FileError("ninja was not found: install it (Debian: apt-get install ninja-build)");
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

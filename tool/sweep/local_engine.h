@@ -12,7 +12,7 @@
 
 #include "tool/sweep/plan.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 struct Pending {
   std::uint64_t done = 0, failed = 0;  // failed for a reason that will not go away
@@ -54,4 +54,4 @@ std::uint64_t write_tasks(const Plan& plan, const SweepPlace& place,
 // exit code, or kInterruptedExit. FileError when Ninja is not installed.
 int run_ninja(const SweepPlace& place, std::uint64_t points, const RunSettings& settings);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -13,33 +13,33 @@
 #include "tb/run/result.h"
 #include "tool/run/engine.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 constexpr std::string_view kUnits = "units.*.", kStalls = "stalls.";
 
 // A line each. What the engine declares of its own stands by its name.
 std::string described_keys(const std::string& name) {
-  Result result;
+  tb::Result result;
   engine_named(name)->describe_statistics(result);
   std::set<std::string> keys;
-  for (const Statistic& statistic : statistics()) {
+  for (const tb::Statistic& statistic : tb::statistics()) {
     const std::string_view key = statistic.name;
     if (!key.starts_with(kUnits)) {
       keys.emplace(key);
       continue;
     }
     const std::string_view figure = key.substr(kUnits.size());
-    for (const UnitCycles& unit : result.units) {
+    for (const tb::UnitCycles& unit : result.units) {
       if (!figure.starts_with(kStalls)) {
         keys.insert(fmt::format("units.{}.{}", unit.name, figure));
         continue;
       }
-      for (const StallCycles& stall : unit.stalls)
+      for (const tb::StallCycles& stall : unit.stalls)
         keys.insert(fmt::format("units.{}.stalls.{}", unit.name, stall.cause));
     }
   }
-  for (const WorkItem& item : result.work) keys.insert("work." + item.name);
+  for (const tb::WorkItem& item : result.work) keys.insert("work." + item.name);
   std::string lines;
   for (const std::string& key : keys) lines += key + "\n";
   return lines;
@@ -48,7 +48,7 @@ std::string described_keys(const std::string& name) {
 }  // namespace
 
 std::vector<std::string> result_keys(const std::string& engine) {
-  std::istringstream lines(forked_text([&] { return described_keys(engine); }));
+  std::istringstream lines(tb::forked_text([&] { return described_keys(engine); }));
   std::vector<std::string> keys;
   for (std::string key; std::getline(lines, key);) keys.push_back(key);
   return keys;
@@ -76,8 +76,8 @@ void require_known_metrics(const SweepDefinition& sweep) {
                        [&](const std::string& pattern) { return is_key_of(key, pattern); }))
         throw spec::ConfigError(fmt::format("{}: metric '{}': no result of '{}' has the key '{}'{}",
                                             metric.where, metric.name, sweep.engine, key,
-                                            did_you_mean(near_matches(key, known))));
+                                            tb::did_you_mean(tb::near_matches(key, known))));
     }
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

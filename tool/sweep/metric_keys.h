@@ -9,7 +9,7 @@
 
 #include "tool/sweep/definition.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // Keys of result.json, dotted, in which * stands for names that go with the build or the run.
 // Elaborates the model, in a process of its own.
@@ -19,4 +19,4 @@ bool is_key_of(std::string_view key, std::string_view pattern);
 // ConfigError with file, line and near matches for a metric that no result of the engine can have.
 void require_known_metrics(const SweepDefinition& sweep);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

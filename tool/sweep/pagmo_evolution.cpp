@@ -11,7 +11,7 @@
 
 #include "tool/sweep/evolution.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 constexpr double kCrossover = 0.9;
@@ -93,9 +93,9 @@ class PagmoEvolution final : public Evolution {
 };
 
 }  // namespace
-}  // namespace deburr::tb
+}  // namespace deburr::tool
 
-extern "C" deburr::tb::Evolution* deburr_evolution() {
-  static deburr::tb::PagmoEvolution evolution;
+extern "C" deburr::tool::Evolution* deburr_evolution() {
+  static deburr::tool::PagmoEvolution evolution;
   return &evolution;
 }

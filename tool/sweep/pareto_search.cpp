@@ -9,7 +9,7 @@
 #include "spec/error.h"
 #include "tb/base/random.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 constexpr int kTriesToBreed = 32;             // generations until enough points are new
@@ -99,7 +99,7 @@ class Search {
   const SearchSpace& space_;
   const SearchSettings& settings_;
   const Evaluate& evaluate_;
-  Random random_;
+  tb::Random random_;
   std::vector<Individual> all_;
   std::unordered_set<std::string> names_;
 };
@@ -118,4 +118,4 @@ std::size_t population_for(std::uint64_t runs) {
                                  Evolution::kLeast, 64);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

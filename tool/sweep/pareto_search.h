@@ -14,7 +14,7 @@
 
 #include "tool/sweep/evolution.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 struct SearchSpace {
   std::vector<std::uint32_t> sizes;  // how many choices each axis has
@@ -44,4 +44,4 @@ std::vector<Individual> search_pareto(const SearchSpace& space, const SearchSett
 // A population that suits a budget.
 std::size_t population_for(std::uint64_t runs);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

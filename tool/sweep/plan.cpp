@@ -24,7 +24,10 @@
 #include "tb/run/progress.h"
 #include "tool/pages/build_info.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::grouped;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -115,7 +118,7 @@ class Planner {
       : sweep_(sweep), plan_(plan), lines_(lines), check_(sweep, plan) {}
 
   void run() {
-    Progress progress("planning", sample_bound(sweep_), "point");
+    tb::Progress progress("planning", sample_bound(sweep_), "point");
     for_each_sample(sweep_, [&](const Sample& sample) {
       progress.update(++seen_);
       return take(sample);
@@ -180,8 +183,8 @@ std::vector<Setting> Plan::settings_of(const Sample& sample) const {
 
 PlannedPoint PointNamer::name(const BoundEngine& bound, Sample sample) {
   PlannedPoint planned{point_name(bound, files_), 0, 0, std::move(sample)};
-  planned.input = inputs_.emplace(sha256(input_name(bound)), inputs_.size()).first->second;
-  planned.golden = goldens_.emplace(sha256(golden_name(bound)), goldens_.size()).first->second;
+  planned.input = inputs_.emplace(tb::sha256(input_name(bound)), inputs_.size()).first->second;
+  planned.golden = goldens_.emplace(tb::sha256(golden_name(bound)), goldens_.size()).first->second;
   return planned;
 }
 
@@ -230,8 +233,9 @@ std::optional<PlannedPoint> PointChecker::check(const Sample& all) {
       throw ConfigError(fmt::format(
           "{}: the engine rejects the point {}: {}; leave such points out with a constraint, or "
           "all that are rejected with 'refused: skip'",
-          plan_.file, in_words(plan_, sample), headline(*rejection)));
-    if (rejected_++ == 0) first_rejection_ = in_words(plan_, sample) + ": " + headline(*rejection);
+          plan_.file, in_words(plan_, sample), tb::headline(*rejection)));
+    if (rejected_++ == 0)
+      first_rejection_ = in_words(plan_, sample) + ": " + tb::headline(*rejection);
     return std::nullopt;
   }
   return namer_.name(point.bound, sample);
@@ -302,13 +306,13 @@ void write_points(const std::vector<PlannedPoint>& points, const SweepPlace& pla
   make_folder(place.directory);
   std::string lines;
   for (const PlannedPoint& point : points) lines += line_of(point) + "\n";
-  write_file_atomically(points_file(place.directory), lines);
+  tb::write_file_atomically(points_file(place.directory), lines);
 }
 
 void write_plan(Plan& plan, const SweepPlace& place) {
-  plan.digest = sha256_of_file(plan.file);
+  plan.digest = tb::sha256_of_file(plan.file);
   plan.model = build_info().model;
-  write_file_atomically(plan_file(place.directory), json_text(to_json(plan), 1) + "\n");
+  tb::write_file_atomically(plan_file(place.directory), tb::json_text(to_json(plan), 1) + "\n");
 }
 
 Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place) {
@@ -352,7 +356,7 @@ Plan read_plan(const fs::path& directory) {
     throw FileError(
         fmt::format("there is no plan in '{}': run or plan it first", directory.string()));
   try {
-    const Json json = parse_json(read_file(file, kMaxPlanBytes));
+    const Json json = tb::parse_json(tb::read_file(file, kMaxPlanBytes));
     if (json.at("schema") != kPlanSchema) throw FileError("of another version");
     Plan plan;
     plan.engine = json.at("engine");
@@ -388,7 +392,7 @@ std::string line_of(const PlannedPoint& point) {
     for (const Setting& s : point.settings) settings.push_back({s.name, s.value, s.where});
     line.push_back({{"engine", point.engine}, {"settings", std::move(settings)}});
   }
-  return json_text(line, -1, NotUtf8::kReplace);
+  return tb::json_text(line, -1, tb::NotUtf8::kReplace);
 }
 
 void for_each_point(const fs::path& file, const std::function<void(const PlannedPoint&)>& take,
@@ -399,7 +403,7 @@ void for_each_point(const fs::path& file, const std::function<void(const Planned
   std::string line;
   in.seekg(static_cast<std::streamoff>(lines.offset));
   for (std::uint64_t taken = 0; taken < lines.count && std::getline(in, line); ++taken) {
-    const Json json = try_parse_json(line);
+    const Json json = tb::try_parse_json(line);
     if (!json.is_array() || json.size() < 3)
       throw FileError(fmt::format("'{}' is damaged: plan it again", file.string()));
     PlannedPoint point{json[0], json[1], json[2], {}};
@@ -417,4 +421,4 @@ void for_each_point(const fs::path& file, const std::function<void(const Planned
   if (in.bad()) throw FileError(fmt::format("cannot read '{}'", file.string()));
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

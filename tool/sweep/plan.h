@@ -26,7 +26,7 @@
 #include "tool/sweep/point.h"
 #include "tool/sweep/sampling.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 inline constexpr std::uint64_t kMostPoints = 1'000'000;
 
@@ -146,4 +146,4 @@ struct PointLines {
 void for_each_point(const std::filesystem::path& file,
                     const std::function<void(const PlannedPoint&)>& take, PointLines lines = {});
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

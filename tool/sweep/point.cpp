@@ -19,7 +19,7 @@
 #include "tb/base/shell.h"
 #include "tool/pages/build_info.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,23 +57,23 @@ PointEngine::PointEngine(const std::string& name, const std::vector<Setting>& se
 
 std::string point_name(const BoundEngine& bound, InputFiles& files) {
   std::string key = fmt::format("{}\n{}\n", bound.engine.name(), build_info().model);
-  for (const Parameter& p : bound.set.all()) key += fmt::format("{}={}\n", p.name, p.text());
+  for (const tb::Parameter& p : bound.set.all()) key += fmt::format("{}={}\n", p.name, p.text());
   for (const std::string& content : files.contents(bound.engine.input_files(files.meshes())))
     key += fmt::format("  {}\n", content);
-  return sha256(key).substr(0, kDigits);
+  return tb::sha256(key).substr(0, kDigits);
 }
 
 std::string input_name(const BoundEngine& bound) {
   std::string key;
-  for (const Parameter& p : bound.set.all())
-    if (p.kind == ParameterKind::kInput || p.name == "run.seed")
+  for (const tb::Parameter& p : bound.set.all())
+    if (p.kind == tb::ParameterKind::kInput || p.name == "run.seed")
       key += fmt::format("{}={}\n", p.name, p.text());
   return key;
 }
 
 std::string golden_name(const BoundEngine& bound) {
-  return json_text(golden_dependencies(bound.set, static_cast<std::uint64_t>(bound.run.seed),
-                                       bound.engine.built_for_golden()));
+  return tb::json_text(golden_dependencies(bound.set, static_cast<std::uint64_t>(bound.run.seed),
+                                           bound.engine.built_for_golden()));
 }
 
 fs::path point_directory(const fs::path& points, std::string_view name) {
@@ -100,7 +100,7 @@ bool has_failed_result(const fs::path& directory) {
 }
 
 Failure read_failure(const fs::path& directory) {
-  const Json json = try_parse_json(read_file(directory / kFailure, kMaxFailureBytes));
+  const Json json = tb::try_parse_json(tb::read_file(directory / kFailure, kMaxFailureBytes));
   if (!json.is_object()) return {"unknown", "failure.json cannot be read", true};
   return {json.value("kind", "unknown"), json.value("reason", ""), json.value("again", true)};
 }
@@ -110,7 +110,8 @@ void write_failure(const fs::path& directory, const Failure& failure) {
   fs::create_directories(directory, error);
   const Json json = {{"kind", failure.kind}, {"reason", failure.reason}, {"again", failure.again}};
   // A reason may hold bytes of a file that was not understood.
-  write_file_atomically(directory / kFailure, json_text(json, 2, NotUtf8::kReplace) + "\n");
+  tb::write_file_atomically(directory / kFailure,
+                            tb::json_text(json, 2, tb::NotUtf8::kReplace) + "\n");
 }
 
 void remove_failure(const fs::path& directory) {
@@ -121,7 +122,7 @@ void remove_failure(const fs::path& directory) {
 std::string arguments_of(const std::string& engine, const std::vector<Setting>& settings) {
   std::string arguments = "run " + engine;
   for (const Setting& setting : settings)
-    arguments += " --set " + shell_quoted(fmt::format("{}={}", setting.name, setting.value));
+    arguments += " --set " + tb::shell_quoted(fmt::format("{}={}", setting.name, setting.value));
   return arguments;
 }
 
@@ -129,4 +130,4 @@ std::string command_of(const std::string& engine, const std::vector<Setting>& se
   return "deburr " + arguments_of(engine, settings);
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -21,7 +21,7 @@
 #include "tool/run/run_once.h"
 #include "tool/sweep/definition.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // An engine with the parameters of one point. It is made anew for each, since engines remember.
 class PointEngine {
@@ -65,4 +65,4 @@ std::string arguments_of(const std::string& engine, const std::vector<Setting>& 
 // The same with the program's name in front.
 std::string command_of(const std::string& engine, const std::vector<Setting>& settings);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

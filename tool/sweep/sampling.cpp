@@ -11,7 +11,7 @@
 
 #include "tb/base/random.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 constexpr std::uint64_t kDrawsPerSample = 100;
@@ -49,7 +49,7 @@ void for_each_combination(const SweepDefinition& sweep,
 }
 
 void for_each_random(const SweepDefinition& sweep, const std::function<bool(const Sample&)>& take) {
-  Random random(sweep.sample_seed, "random sample");
+  tb::Random random(sweep.sample_seed, "random sample");
   std::uint64_t taken = 0;
   Sample sample(sweep.axes.size());
   for (std::uint64_t draw = 0; taken < sweep.samples && draw < kDrawsPerSample * sweep.samples;
@@ -62,7 +62,7 @@ void for_each_random(const SweepDefinition& sweep, const std::function<bool(cons
 
 void for_each_stratum(const SweepDefinition& sweep,
                       const std::function<bool(const Sample&)>& take) {
-  Random random(sweep.sample_seed, "latin sample");
+  tb::Random random(sweep.sample_seed, "latin sample");
   std::vector<std::vector<std::uint32_t>> strata(sweep.axes.size());
   for (std::vector<std::uint32_t>& order : strata) {
     order.resize(sweep.samples);
@@ -123,4 +123,4 @@ void for_each_sample(const SweepDefinition& sweep, const std::function<bool(cons
   }
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -10,7 +10,7 @@
 
 #include "tool/sweep/definition.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // One label or value an axis.
 using Sample = std::vector<std::string>;
@@ -25,4 +25,4 @@ std::string sizes_of(const SweepDefinition& sweep);
 // a new one). Random samples are drawn until enough of them count, or until hardly any does.
 void for_each_sample(const SweepDefinition& sweep, const std::function<bool(const Sample&)>& take);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

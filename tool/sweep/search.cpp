@@ -19,7 +19,7 @@
 #include "tool/sweep/evolution.h"
 #include "tool/sweep/sampling.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,7 +74,7 @@ class SweepSearch {
       throw ConfigError(fmt::format(
           "{}: --runs {} leave {} for each of {} front{}, less than the population of {}: give "
           "more runs, or a smaller --population",
-          sweep_.file.string(), grouped(settings_.runs), grouped(share), fronts.size(),
+          sweep_.file.string(), tb::grouped(settings_.runs), tb::grouped(share), fronts.size(),
           fronts.size() == 1 ? "" : "s", settings_.population));
     if (searched_.empty())
       throw ConfigError(sweep_.file.string() +
@@ -86,7 +86,7 @@ class SweepSearch {
     try {
       for (std::size_t i = 0; i < fronts.size(); ++i)
         search(fronts[i], share + (i < settings_.runs % fronts.size() ? 1 : 0), settings_.seed + i);
-    } catch (const Interrupted&) {
+    } catch (const tb::Interrupted&) {
       end.interrupted = true;
     } catch (const Missing&) {
       end.missing = true;
@@ -146,8 +146,8 @@ class SweepSearch {
     const bool first = points_.empty();
     points_.insert(points_.end(), generation.begin(), generation.end());
     write();
-    if (interrupted() || run_generation_(plan_, generation) == kInterruptedExit)
-      throw Interrupted();
+    if (tb::interrupted() || run_generation_(plan_, generation) == tb::kInterruptedExit)
+      throw tb::Interrupted();
     watch_(points_.size());
     if (first) collect(sweep_, place_);  // rejects metrics that no result has
     std::vector<Costs> costs;
@@ -179,9 +179,9 @@ class SweepSearch {
     check_.tell(plan_);
     plan_.points = points_.size();
     const std::uint64_t all = sample_bound(sweep_);
-    plan_.left_out.push_back(
-        fmt::format("all but {} of {} combinations, by a search (NSGA-II, population {}, seed {})",
-                    grouped(points_.size()), grouped(all), settings_.population, settings_.seed));
+    plan_.left_out.push_back(fmt::format(
+        "all but {} of {} combinations, by a search (NSGA-II, population {}, seed {})",
+        tb::grouped(points_.size()), tb::grouped(all), settings_.population, settings_.seed));
     write_points(points_, place_);
     write_plan(plan_, place_);
   }
@@ -221,4 +221,4 @@ SearchEnd run_search(const SweepDefinition& sweep, const SweepPlace& place,
   return SweepSearch(sweep, place, settings, run_generation, watch).run();
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -18,7 +18,7 @@
 #include "tool/sweep/pareto_search.h"
 #include "tool/sweep/plan.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 SweepPlace search_place_of(const std::filesystem::path& out, const std::string& name);
 
@@ -40,4 +40,4 @@ SearchEnd run_search(const SweepDefinition& sweep, const SweepPlace& place,
                      const SearchSettings& settings, const RunGeneration& run_generation,
                      const WatchSearch& watch);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -31,7 +31,7 @@
 #include "tb/base/yaml_file.h"
 #include "tb/run/amount.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,7 +69,7 @@ Answer ask(const std::vector<std::string>& words, const std::string& conf) {
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
     ::execvp(arguments[0], arguments.data());
-    ::_exit(kNoSuchProgram);
+    ::_exit(tb::kNoSuchProgram);
   }
   ::close(ends[1]);
   Answer answer;
@@ -110,12 +110,12 @@ void require_slurm(const std::string& conf) {
         "SLURM_CONF",
         file));
   const Answer ping = ask({"scontrol", "ping"}, conf);
-  if (ping.code == kNoSuchProgram)
+  if (ping.code == tb::kNoSuchProgram)
     throw FileError("scontrol was not found: install Slurm's clients (Debian: slurm-client)");
   if (ping.late || ping.code != 0 || ping.text.find("UP") == std::string::npos)
     throw FileError(fmt::format(
         "Slurm's controller does not answer ('scontrol ping', {}): {}", file,
-        ping.late ? fmt::format("nothing for {} s", kPatience.count()) : headline(ping.text)));
+        ping.late ? fmt::format("nothing for {} s", kPatience.count()) : tb::headline(ping.text)));
 }
 
 std::vector<std::vector<std::string>> table_of(const std::string& text) {
@@ -133,7 +133,7 @@ std::vector<std::vector<std::string>> table_of(const std::string& text) {
 }  // namespace
 
 SlurmProfile read_profile(const fs::path& file) {
-  const YamlFile yaml(file, kMaxProfileBytes);
+  const tb::YamlFile yaml(file, kMaxProfileBytes);
   const YAML::Node& root = yaml.root();
   yaml.require_keys(root,
                     {"conf", "partition", "time", "memory", "cpus", "tasks", "options", "setup"});
@@ -151,7 +151,8 @@ SlurmProfile read_profile(const fs::path& file) {
     const YAML::Node list = root[key];
     if (!list) return;
     if (!list.IsSequence())
-      yaml.fail(list, fmt::format("'{}' wants a list of lines, got {}", key, YamlFile::kind(list)));
+      yaml.fail(list,
+                fmt::format("'{}' wants a list of lines, got {}", key, tb::YamlFile::kind(list)));
     for (const auto& entry : list) lines.push_back(line(entry, key));
   };
   const auto read_count = [&](const char* key, std::uint64_t& count, std::uint64_t most) {
@@ -171,7 +172,7 @@ SlurmProfile read_profile(const fs::path& file) {
 std::optional<SlurmJob> submitted_job(const SweepPlace& place) {
   std::error_code error;
   if (!fs::exists(job_file(place), error)) return std::nullopt;
-  const Json json = try_parse_json(read_file(job_file(place), kMaxProfileBytes));
+  const Json json = tb::try_parse_json(tb::read_file(job_file(place), kMaxProfileBytes));
   if (!json.is_object()) return std::nullopt;
   return SlurmJob{json.value("id", ""), json.value("conf", ""), json.value("tasks", 0u)};
 }
@@ -206,21 +207,22 @@ SlurmJob submit(const Plan& plan, const SweepPlace& place, const std::vector<Pla
   if (!profile.time.empty()) option("--time=" + profile.time);
   if (!profile.memory.empty()) option("--mem=" + profile.memory);
   for (const std::string& line : profile.options) option(line);
-  script += fmt::format("cd {} || exit 1\n", shell_quoted(fs::current_path().string()));
+  script += fmt::format("cd {} || exit 1\n", tb::shell_quoted(fs::current_path().string()));
   for (const std::string& line : profile.setup) script += line + "\n";
   // Ninja says by its code that a point failed, which is no failure of the task.
   script += fmt::format("ninja --quiet -k 0 -j {} -f {}/task_$SLURM_ARRAY_TASK_ID.ninja\nexit 0\n",
-                        profile.cpus, shell_quoted(folder.string()));
+                        profile.cpus, tb::shell_quoted(folder.string()));
   const fs::path file = folder / "submit.sh";
-  write_file_atomically(file, script);
+  tb::write_file_atomically(file, script);
   const Answer answer = ask({"sbatch", "--parsable", file.string()}, profile.conf);
   if (answer.late) throw FileError("sbatch did not answer; the controller may be busy: try again");
   if (answer.code != 0)
-    throw ConfigError(fmt::format("sbatch rejects '{}': {}", file.string(), headline(answer.text)));
+    throw ConfigError(
+        fmt::format("sbatch rejects '{}': {}", file.string(), tb::headline(answer.text)));
   SlurmJob job{answer.text.substr(0, answer.text.find(';')), profile.conf, tasks};
-  write_file_atomically(
+  tb::write_file_atomically(
       job_file(place),
-      json_text(Json{{"id", job.id}, {"conf", job.conf}, {"tasks", job.tasks}}, 1) + "\n");
+      tb::json_text(Json{{"id", job.id}, {"conf", job.conf}, {"tasks", job.tasks}}, 1) + "\n");
   return job;
 }
 
@@ -258,7 +260,7 @@ void reject_while_submitted(const SweepPlace& place) {
   if (slurm.queued + slurm.running > 0)
     throw FileError(
         fmt::format("job {0} still has {1} tasks of it: wait for it, or end it with 'scancel {0}'",
-                    job->id, grouped(slurm.queued + slurm.running)));
+                    job->id, tb::grouped(slurm.queued + slurm.running)));
   forget_job(place);
 }
 
@@ -266,10 +268,10 @@ int wait_for(const SlurmJob& job) {
   for (;;) {
     const SlurmStatus slurm = ask_slurm(job);
     if (slurm.queued + slurm.running == 0) return 0;
-    for (int i = 0; i < kLooksASecond && !interrupted(); ++i)
+    for (int i = 0; i < kLooksASecond && !tb::interrupted(); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(1000 / kLooksASecond));
-    if (interrupted()) return kInterruptedExit;
+    if (tb::interrupted()) return tb::kInterruptedExit;
   }
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

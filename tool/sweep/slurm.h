@@ -15,7 +15,7 @@
 #include "tool/sweep/local_engine.h"
 #include "tool/sweep/plan.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // What the user's cluster asks for, from a YAML file.
 struct SlurmProfile {
@@ -56,4 +56,4 @@ void reject_while_submitted(const SweepPlace& place);
 // Returns when none of its tasks is queued or running any more, or kInterruptedExit.
 int wait_for(const SlurmJob& job);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

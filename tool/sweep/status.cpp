@@ -15,7 +15,7 @@
 #include "tb/base/json_text.h"
 #include "tool/sweep/worker.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,7 +39,7 @@ std::string time_left(const SweepPlace& place) {
   std::error_code error;
   const auto ended = static_cast<double>(read_progress(place.directory).ended());
   if (ended == 0 || !fs::exists(start_file(place), error)) return "";
-  const auto start = try_parse_json(read_file(start_file(place), 1 << 16));
+  const auto start = tb::try_parse_json(tb::read_file(start_file(place), 1 << 16));
   if (!start.is_object()) return "";
   const double passed =
       static_cast<double>(duration_cast<seconds>(system_clock::now().time_since_epoch()).count()) -
@@ -78,9 +78,9 @@ Status look(const SweepPlace& place, const Plan& plan) {
 
 void note_start(const SweepPlace& place, std::uint64_t points) {
   const auto now = duration_cast<seconds>(system_clock::now().time_since_epoch()).count();
-  write_file_atomically(
+  tb::write_file_atomically(
       start_file(place),
-      json_text(nlohmann::ordered_json{{"began", now}, {"points", points}}) + "\n");
+      tb::json_text(nlohmann::ordered_json{{"began", now}, {"points", points}}) + "\n");
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

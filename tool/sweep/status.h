@@ -9,7 +9,7 @@
 
 #include "tool/sweep/plan.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 struct FailedPoint {
   std::filesystem::path directory;
@@ -28,4 +28,4 @@ Status look(const SweepPlace& place, const Plan& plan);
 // Says when a run of so many points began, for the time left.
 void note_start(const SweepPlace& place, std::uint64_t points);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

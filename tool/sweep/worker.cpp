@@ -29,7 +29,10 @@
 #include "tool/sweep/plan.h"
 #include "tool/sweep/point.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::headline;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,10 +60,10 @@ class Worker {
     for_each_point(
         options_.points,
         [&](const PlannedPoint& point) {
-          if (!interrupted()) run(point);
+          if (!tb::interrupted()) run(point);
         },
         options_.lines);
-    return interrupted() ? kInterruptedExit : 0;
+    return tb::interrupted() ? tb::kInterruptedExit : 0;
   }
 
  private:
@@ -87,12 +90,12 @@ class Worker {
       failure = prepare(point.bound, context);
       if (!failure)
         failure = check(in_child([&] { return simulate(point.bound, context); }), directory);
-    } catch (const Interrupted&) {
+    } catch (const tb::Interrupted&) {
       return;
     } catch (const spec::ConfigError& error) {
       failure = Failure{"configuration", headline(error.what()), false};
     }
-    if (interrupted() && failure && failure->again) return;
+    if (tb::interrupted() && failure && failure->again) return;
     if (failure)
       write_failure(directory, *failure);
     else
@@ -118,7 +121,7 @@ class Worker {
         return !has_result(directory) && !has_failed_result(directory);
       });
       // Part of a run is no point of a sweep.
-      if (end.result.interrupted) return {kInterruptedExit, "interrupted"};
+      if (end.result.interrupted) return {tb::kInterruptedExit, "interrupted"};
       if (!end.begun) return {0, ""};  // someone else has done it meanwhile
       // Before the directory is free, so that no failed result is ever there without a reason.
       if (end.code != 0)
@@ -146,7 +149,7 @@ class Worker {
     if (child == 0) {
       // A point outlives no worker: what it would leave, the next one does again.
       ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-      if (::getppid() != parent) ::_exit(kInterruptedExit);
+      if (::getppid() != parent) ::_exit(tb::kInterruptedExit);
       ::close(ends[0]);
       const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
       ::dup2(nowhere, STDOUT_FILENO);
@@ -161,7 +164,7 @@ class Worker {
     Ended ended;
     while (::waitpid(child, &ended.status, 0) < 0) {
       if (errno != EINTR) fail("wait for a point");
-      if (interrupted()) ::kill(child, SIGKILL);
+      if (tb::interrupted()) ::kill(child, SIGKILL);
     }
     std::array<char, 4096> text{};
     if (const ssize_t got = ::read(ends[0], text.data(), text.size()); got > 0)
@@ -186,7 +189,7 @@ class Worker {
     switch (WEXITSTATUS(ended.status)) {
       case 0:
         return left_by_another(directory);
-      case kInterruptedExit:
+      case tb::kInterruptedExit:
         return Failure{"interrupted", "interrupted", true};
       case static_cast<int>(ExitCode::kMismatch):
         return Failure{"mismatch", ended.text, false};
@@ -235,12 +238,12 @@ PointCounts read_progress(const fs::path& sweep) {
 }
 
 int run_chunk(const WorkerOptions& options) {
-  catch_interrupts();
+  tb::catch_interrupts();
   // Ninja may be killed: its workers go with it.
   const pid_t parent = ::getppid();
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (::getppid() != parent) return kInterruptedExit;
+  if (::getppid() != parent) return tb::kInterruptedExit;
   return Worker(options).run();
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

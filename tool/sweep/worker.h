@@ -12,7 +12,7 @@
 
 #include "tool/sweep/plan.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 struct WorkerOptions {
   std::filesystem::path out, sweep;
@@ -35,4 +35,4 @@ struct PointCounts {
 // Nothing where nobody has begun.
 PointCounts read_progress(const std::filesystem::path& sweep);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -13,7 +13,7 @@
 #include "spec/error.h"
 #include "studies/papers/papers.h"
 
-namespace deburr::tb::verdicts_test {
+namespace deburr::studies::verdicts_test {
 namespace {
 
 using testing::ElementsAre;
@@ -128,4 +128,4 @@ TEST(Rules, BringWhatIsShown) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::verdicts_test
+}  // namespace deburr::studies::verdicts_test

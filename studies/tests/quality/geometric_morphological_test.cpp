@@ -22,7 +22,7 @@
 #include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr::geometric_morphological_test {
+namespace deburr::studies::geometric_morphological_test {
 namespace {
 
 using golden::geometric::GeometricGolden;
@@ -233,8 +233,8 @@ TEST_P(Joined, IsBestAsBuilt) {
   const std::string name = GetParam();
   for (const int degrees : {0, 25, -50, 77}) {
     SCOPED_TRACE(degrees);
-    check_ways(measure(tb::turned(tb::make_scene(name), degrees),
-                       fmt::format("{} {}", name, degrees), kWidth, kHeight, degrees == 0 ? 16 : 8),
+    check_ways(measure(turned(tb::make_scene(name), degrees), fmt::format("{} {}", name, degrees),
+                       kWidth, kHeight, degrees == 0 ? 16 : 8),
                name != "terrain");
   }
 }
@@ -298,10 +298,10 @@ struct Gains {
   std::array<Gain, 2> over_geometric, over_better;
 };
 
-std::map<std::string, Gains> gains_of_followers(tb::Half half, const std::filesystem::path& data) {
+std::map<std::string, Gains> gains_of_followers(Half half, const std::filesystem::path& data) {
   std::map<std::string, Gains> gains;
-  const std::vector<tb::MeasuredView> views = tb::views(half, data);
-  for (const tb::MeasuredView& view : views) {
+  const std::vector<MeasuredView> views = studies::views(half, data);
+  for (const MeasuredView& view : views) {
     const Checker checker(view.scene, kWidth, kHeight, 8, nullptr, {.crossings = true});
     const auto figures = [&](const Image& image) {
       return std::array{checker.edge_psnr(image), checker.silhouette_psnr(image)};
@@ -357,13 +357,13 @@ void check_followers(const std::map<std::string, Gains>& gains) {
 // Rules were chosen by these.
 TEST(Followers, TakeNothingWhereRulesWereChosen) {
   DEBURR_REQUIRE_DATA(data);
-  check_followers(gains_of_followers(tb::Half::kChosenBy, data));
+  check_followers(gains_of_followers(Half::kChosenBy, data));
 }
 
 // And nothing by these.
 TEST(Followers, TakeNothingOnTheOtherHalf) {
   DEBURR_REQUIRE_DATA(data);
-  check_followers(gains_of_followers(tb::Half::kHeldOut, data));
+  check_followers(gains_of_followers(Half::kHeldOut, data));
 }
 
 // ---- the outermost line -------------------------------------------------------------------------
@@ -374,7 +374,7 @@ TEST(Outermost, MendsHiddenLines) {
   p.crease_depth = 0;
   for (const char* name : {"wheelcover", "canopy", "cylinders", "object", "terrain"}) {
     for (const int degrees : {0, 25, -50, 77}) {
-      const Checker checker(tb::turned(tb::make_scene(name), degrees), kWidth, kHeight, 8);
+      const Checker checker(turned(tb::make_scene(name), degrees), kWidth, kHeight, 8);
       const auto followed = [&](const Image& image) {
         return smoothed(image, checker.frame, at_depth(Leave::kHalf));
       };
@@ -418,4 +418,4 @@ TEST(NearestEdges, KeepTheNearerSide) {
 }
 
 }  // namespace
-}  // namespace deburr::geometric_morphological_test
+}  // namespace deburr::studies::geometric_morphological_test

@@ -13,7 +13,7 @@
 #include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr::geometric_quality_test {
+namespace deburr::studies::geometric_quality_test {
 namespace {
 
 using golden::geometric::preset_parameters;
@@ -260,4 +260,4 @@ TEST(WeakSpot, EdgesOfATexture) {
 }
 
 }  // namespace
-}  // namespace deburr::geometric_quality_test
+}  // namespace deburr::studies::geometric_quality_test

@@ -16,7 +16,7 @@
 #include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/unit/scene/fixtures.h"
 
-namespace deburr::geometric_rules_test {
+namespace deburr::studies::geometric_rules_test {
 namespace {
 
 using golden::geometric::GeometricGolden;
@@ -166,10 +166,9 @@ TEST(LineRules, GainOnKnownScenes) {
 
 TEST(LineRules, GainOnOtherSolids) {
   std::vector<Measured> all;
-  for (const tb::SolidsName& kind : tb::solids_names())
+  for (const SolidsName& kind : solids_names())
     for (const std::uint64_t seed : {1u, 2u})
-      all.push_back(
-          measure(tb::make_solids(kind.name, seed), fmt::format("{} {}", kind.name, seed)));
+      all.push_back(measure(make_solids(kind.name, seed), fmt::format("{} {}", kind.name, seed)));
   print_gains("solids", all);
   expect_gain(all, 1.5);
 }
@@ -181,7 +180,7 @@ TEST(LineRules, GainOnOthersMeshes) {
     const tb::Scene scene =
         tb::load_scene((data / "meshes" / (std::string(name) + ".obj")).string());
     for (const double degrees : {0.0, 137.0})
-      all.push_back(measure(tb::turned(scene, degrees), fmt::format("{} {}", name, degrees)));
+      all.push_back(measure(turned(scene, degrees), fmt::format("{} {}", name, degrees)));
   }
   print_gains("meshes", all);
   expect_gain(all, 2);
@@ -190,17 +189,16 @@ TEST(LineRules, GainOnOthersMeshes) {
 // Drawn once the rules stood.
 TEST(LineRules, GainOnWhatNothingWasTunedOn) {
   std::vector<Measured> all;
-  for (const tb::SolidsName& kind : tb::solids_names())
+  for (const SolidsName& kind : solids_names())
     for (const std::uint64_t seed : {11u, 12u})
-      all.push_back(
-          measure(tb::make_solids(kind.name, seed), fmt::format("{} {}", kind.name, seed)));
+      all.push_back(measure(make_solids(kind.name, seed), fmt::format("{} {}", kind.name, seed)));
   const std::filesystem::path data = tb::data_folder();
   if (std::filesystem::is_directory(data / "meshes")) {
     for (const char* name : {"WusonOBJ", "spot", "wing_fine", "terrain_open", "canopy_open"}) {
       const tb::Scene scene =
           tb::load_scene((data / "meshes" / (std::string(name) + ".obj")).string());
       for (const double degrees : {0.0, -71.0})
-        all.push_back(measure(tb::turned(scene, degrees), fmt::format("{} {}", name, degrees)));
+        all.push_back(measure(turned(scene, degrees), fmt::format("{} {}", name, degrees)));
     }
   }
   print_gains("others", all);
@@ -281,25 +279,25 @@ void check_presets(const char* which, const std::vector<Presets>& all, double si
   }
 }
 
-void check_views(const char* which, tb::Half half) {
+void check_views(const char* which, Half half) {
   std::vector<Presets> scenes, others;
-  for (const tb::MeasuredView& view : tb::views(half, tb::data_folder()))
+  for (const MeasuredView& view : studies::views(half, tb::data_folder()))
     (view.group == "scenes" ? scenes : others).push_back(measure_presets(view.scene, view.name));
   check_presets(fmt::format("{}, scenes", which).c_str(), scenes, 2.9);
   check_presets(fmt::format("{}, other meshes", which).c_str(), others, 2);
 }
 
-TEST(Presets, GainOnOneHalf) { check_views("one half", tb::Half::kChosenBy); }
-TEST(Presets, GainOnTheOther) { check_views("the other", tb::Half::kHeldOut); }
+TEST(Presets, GainOnOneHalf) { check_views("one half", Half::kChosenBy); }
+TEST(Presets, GainOnTheOther) { check_views("the other", Half::kHeldOut); }
 
 // Drawn once crease_depth was 3, which was chosen by views of both halves.
 TEST(Presets, GainOnWhatCreaseDepthWasNotChosenBy) {
   std::vector<Presets> all;
   for (const double degrees : {0.0, 53.0}) {
-    all.push_back(measure_presets(tb::turned(tb::make_solids("plates", 41), degrees),
+    all.push_back(measure_presets(turned(make_solids("plates", 41), degrees),
                                   fmt::format("plates 41, {}", degrees)));
     for (const char* kind : {"shelves", "terraces"})
-      all.push_back(measure_presets(tb::turned(tb::make_kind(kind, 41), degrees),
+      all.push_back(measure_presets(turned(make_kind(kind, 41), degrees),
                                     fmt::format("{} 41, {}", kind, degrees)));
   }
   check_presets("never looked at", all, 1);
@@ -308,7 +306,7 @@ TEST(Presets, GainOnWhatCreaseDepthWasNotChosenBy) {
 // Where every face is turned away.
 TEST(Presets, SmoothInsideOfACube) {
   for (const double degrees : {0.0, 33.0, 71.0, 118.0}) {
-    const Checker checker(tb::inside_a_cube(degrees), kWidth, kHeight, 8);
+    const Checker checker(inside_a_cube(degrees), kWidth, kHeight, 8);
     const Image before = tb::geometric::smoothed(checker.frame, plain()).image,
                 after = tb::geometric::smoothed(checker.frame, preset_parameters(Preset::kDeburr))
                             .image;
@@ -327,7 +325,7 @@ TEST(Crossings, AreWorthMoreThanAllRules) {
   std::size_t views = 0;
   for (const char* kind : {"crossing", "floor"}) {
     for (const std::uint64_t seed : {1u, 2u, 11u, 12u}) {
-      const tb::Scene scene = tb::make_solids(kind, seed);
+      const tb::Scene scene = make_solids(kind, seed);
       const Checker checker(scene, kWidth, kHeight, 8, nullptr, {.crossings = true});
       tb::geometric::Frame without = checker.frame;
       without.table = tb::build_edge_table(scene.mesh);
@@ -356,4 +354,4 @@ TEST(Crossings, AreWorthMoreThanAllRules) {
 }
 
 }  // namespace
-}  // namespace deburr::geometric_rules_test
+}  // namespace deburr::studies::geometric_rules_test

@@ -19,7 +19,12 @@
 #include "tb/scene/textures.h"
 #include "tb/unit/spec/generated_table.h"
 
-namespace deburr::tb::harm_test {
+namespace deburr::studies::harm_test {
+
+using tb::data_folder;
+using tb::expect_generated;
+using tb::Image;
+
 namespace {
 
 using harm::Text;
@@ -91,9 +96,9 @@ std::pair<std::string, std::string> head_and_last_row(const std::string& table) 
 
 // One row of a large table, which takes seconds.
 void expect_row(const char* generated, std::string (*table)(Text)) {
-  std::ifstream file(source_folder() / "docs" / kPage, std::ios::binary);
+  std::ifstream file(tb::source_folder() / "docs" / kPage, std::ios::binary);
   const std::string part =
-      GeneratedPart({std::istreambuf_iterator<char>(file), {}}, generated).part();
+      tb::GeneratedPart({std::istreambuf_iterator<char>(file), {}}, generated).part();
   const auto [head, row] = head_and_last_row(table(Text::kAliased));
   EXPECT_NE(part.find(head), std::string::npos) << head;
   EXPECT_NE(part.find(row), std::string::npos) << row;
@@ -107,7 +112,9 @@ TEST(MorphologicalHarm, OfAliasedText) { expect_row(kFormula, harm::text_table);
 
 TEST(MorphologicalHarm, OfAliasedTextWithTheGuard) { expect_row(kGuard, harm::guarded_text_table); }
 
-std::set<Rgba8> colours(const Image& image) { return {image.pixels.begin(), image.pixels.end()}; }
+std::set<tb::Rgba8> colours(const Image& image) {
+  return {image.pixels.begin(), image.pixels.end()};
+}
 
 TEST(HarmFrames, OfTextHaveTwoColoursUnlessSmoothed) {
   for (const Text kind : {Text::kAliased, Text::kLightOnDark, Text::kBitmapFont})
@@ -147,9 +154,9 @@ TEST(HarmFrames, OfWiresAreTheWiresAndTheirCoverage) {
     double covered = 0, sampled = 0;
     for (std::size_t i = 0; i < t.truth.pixels.size(); ++i) {
       const auto light = [](const Image& image, std::size_t at) {
-        return srgb_to_linear(image.pixels[at][0] / 255.0);
+        return tb::srgb_to_linear(image.pixels[at][0] / 255.0);
       };
-      const double sky = srgb_to_linear(150 / 255.0), wire = srgb_to_linear(40 / 255.0);
+      const double sky = tb::srgb_to_linear(150 / 255.0), wire = tb::srgb_to_linear(40 / 255.0);
       covered += (sky - light(t.truth, i)) / (sky - wire);
       sampled += (sky - light(t.frame, i)) / (sky - wire);
     }
@@ -171,7 +178,7 @@ TEST(HarmFrames, OfPixelArtHaveSixteenColoursAndBlocks) {
 TEST(HarmFrames, OfTexturesAreRightButAtEdges) {
   for (int view = 0; view < 3; ++view) {
     const harm::Textured t = harm::textured_frame(view, 240, 180);
-    const double edges = static_cast<double>(count(edge_mask(t.truth, t.frame))) / (240 * 180);
+    const double edges = static_cast<double>(count(tb::edge_mask(t.truth, t.frame))) / (240 * 180);
     EXPECT_GT(edges, 0.01) << view;
     EXPECT_LT(edges, 0.2) << view;
   }
@@ -186,4 +193,4 @@ TEST(HarmFrames, ComeBackFromJpegChangedByItsQuality) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::harm_test
+}  // namespace deburr::studies::harm_test

@@ -29,7 +29,11 @@
 #include "tb/scene/truth.h"
 #include "tb/stimuli/reference_filters.h"
 
-namespace deburr::tb::morphological_frames_test {
+namespace deburr::studies::morphological_frames_test {
+
+using tb::Image;
+using tb::read_image;
+
 namespace {
 
 using golden::morphological::MorphologicalGolden;
@@ -50,9 +54,9 @@ struct Figures {
 class Checker {
  public:
   Checker(std::string name, const Image& frame, const Image& truth,
-          const std::optional<DepthImage>& depth)
-      : name_(std::move(name)), frame_(frame), truth_(truth), edges_(edge_mask(truth, frame)) {
-    if (depth) silhouettes_ = silhouette_mask(edges_, *depth);
+          const std::optional<tb::DepthImage>& depth)
+      : name_(std::move(name)), frame_(frame), truth_(truth), edges_(tb::edge_mask(truth, frame)) {
+    if (depth) silhouettes_ = tb::silhouette_mask(edges_, *depth);
   }
   Figures check(const std::string& method, const Image& image) const {
     const Figures f{psnr(image, truth_, edges_),
@@ -70,15 +74,15 @@ class Checker {
   }
   const std::string& name() const { return name_; }
   const Image& frame() const { return frame_; }
-  Figures check(const stimuli::ReferenceFilter& reference) const {
+  Figures check(const tb::stimuli::ReferenceFilter& reference) const {
     return check(reference.name, reference.filter(frame_, true));
   }
 
  private:
   std::string name_;
   const Image &frame_, &truth_;
-  Mask edges_;
-  std::optional<Mask> silhouettes_;
+  tb::Mask edges_;
+  std::optional<tb::Mask> silhouettes_;
 };
 
 // SMAA in its qualities, and with the dynamic threshold of paper 003.
@@ -161,12 +165,12 @@ void expect_deburr_best(const Checker& checker, double margin) {
   ahead("mlaa-slope", checker.check(Preset::kMlaaSlope));
   ahead("deburr-line", checker.check(Preset::kDeburrLine));
   for (const auto& [name, rules] : smaa_rules()) ahead(name, checker.check(name, rules));
-  for (const stimuli::ReferenceFilter& reference : stimuli::kReferenceFilters)
+  for (const tb::stimuli::ReferenceFilter& reference : tb::stimuli::kReferenceFilters)
     ahead(reference.name, checker.check(reference));
   for (const auto& [name, rules] : mixed_rules()) checker.check(name, rules);
 }
 
-std::filesystem::path data(const char* name) { return data_folder() / name; }
+std::filesystem::path data(const char* name) { return tb::data_folder() / name; }
 
 TEST(MorphologicalFrames, DeburrIsBestOnTrackAt720p) {
   if (!std::filesystem::exists(data("frames/track_720p_noaa.png")))
@@ -175,7 +179,7 @@ TEST(MorphologicalFrames, DeburrIsBestOnTrackAt720p) {
   const Image frame = read_image(data("frames/track_720p_noaa.png")),
               truth = read_image(data("frames/track_720p_ssaa256.png"));
   expect_deburr_best(
-      {"track 720p", frame, truth, read_depth(data("frames/track_720p_depth24.png"))}, 0.75);
+      {"track 720p", frame, truth, tb::read_depth(data("frames/track_720p_depth24.png"))}, 0.75);
 }
 
 TEST(MorphologicalFrames, DeburrIsBestOnTrackAt1080p) {
@@ -199,12 +203,12 @@ TEST(MorphologicalFrames, DeburrIsBestOnTrackFromOtherSides) {
   for (const View& view :
        {View{{-4, 1.5, 10}, {2, 0.5, -4}, 1.0}, View{{0.5, 4, 9}, {0, 0, -6}, 1.0},
         View{{8, 1.2, 2}, {-4, 0.8, -2}, 1.0}, View{{0, 8, 14}, {0, 0, -4}, 0.7}}) {
-    SceneOptions options;
+    tb::SceneOptions options;
     options.camera.emplace();
     options.camera->eye = view.eye;
     options.camera->target = view.target;
     options.camera->fov_y = view.fov;
-    const LitFrames lit = render_lit_frames(import_scene(mesh, options), 960, 540, 8);
+    const tb::LitFrames lit = tb::render_lit_frames(tb::import_scene(mesh, options), 960, 540, 8);
     const Checker checker("track", lit.noaa, lit.truth, lit.depth);
     expect_deburr_best(checker, 0.2);
   }
@@ -224,13 +228,13 @@ class RenderedFrames : public testing::TestWithParam<Rendered> {
     const bool file = std::filesystem::path(r.source).has_extension();
     if (file && !std::filesystem::exists(data(r.source)))
       GTEST_SKIP() << "no " << data(r.source) << ": set DEBURR_DATA to the folder that holds it";
-    const Scene scene = file ? import_scene(data(r.source)) : make_scene(r.source);
-    lit_ = render_lit_frames(scene, r.width, r.height, 8);
+    const tb::Scene scene = file ? tb::import_scene(data(r.source)) : tb::make_scene(r.source);
+    lit_ = tb::render_lit_frames(scene, r.width, r.height, 8);
     check_.emplace(std::filesystem::path(r.source).stem().string(), lit_.noaa, lit_.truth,
                    lit_.depth);
-    check_->check("MSAA 4x", render_msaa4(scene, r.width, r.height));
+    check_->check("MSAA 4x", tb::render_msaa4(scene, r.width, r.height));
   }
-  LitFrames lit_;
+  tb::LitFrames lit_;
   std::optional<Checker> check_;
 };
 
@@ -310,9 +314,10 @@ TEST_P(StandIns, DeburrIsBestToo) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / fmt::format("deburr_stand_in_{}", ::getpid());
   std::filesystem::create_directories(folder);
-  const Scene scene = import_scene(write_stand_in(folder, GetParam().kind, GetParam().seed));
+  const tb::Scene scene =
+      tb::import_scene(write_stand_in(folder, GetParam().kind, GetParam().seed));
   std::filesystem::remove_all(folder);
-  const LitFrames lit = render_lit_frames(scene, 512, 512, 8);
+  const tb::LitFrames lit = tb::render_lit_frames(scene, 512, 512, 8);
   const Checker checker(fmt::format("{} {}", GetParam().kind, GetParam().seed), lit.noaa, lit.truth,
                         lit.depth);
   expect_deburr_best(checker, 0.2);
@@ -339,7 +344,7 @@ TEST(MorphologicalFrames, LearnedSharesKeepTheirFiguresOutOfSample) {
   const Image small = read_image(data("frames/track_720p_noaa.png")),
               small_truth = read_image(data("frames/track_720p_ssaa256.png"));
   const Checker track("track 720p", small, small_truth,
-                      read_depth(data("frames/track_720p_depth24.png")));
+                      tb::read_depth(data("frames/track_720p_depth24.png")));
   const Figures figures = track.check(Preset::kDeburr);
   EXPECT_GT(figures.edges, 30.55);
   EXPECT_GT(figures.silhouettes, 27.95);
@@ -351,7 +356,7 @@ TEST(MorphologicalFrames, LearnedSharesKeepTheirFiguresOutOfSample) {
 
 // The check can fail: without the line fit and its edges there is nothing to be better by.
 TEST(MorphologicalFrames, AWorseFilterIsCaught) {
-  const LitFrames lit = render_lit_frames(make_scene("cylinders"), 320, 240, 8);
+  const tb::LitFrames lit = tb::render_lit_frames(tb::make_scene("cylinders"), 320, 240, 8);
   const Checker checker("cylinders", lit.noaa, lit.truth, lit.depth);
   spec::morphological::Parameters worse = preset_parameters(Preset::kDeburrLine);
   worse.predictor = spec::morphological::Predictor::kNone;  // the planted fault
@@ -361,4 +366,4 @@ TEST(MorphologicalFrames, AWorseFilterIsCaught) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::morphological_frames_test
+}  // namespace deburr::studies::morphological_frames_test

@@ -12,25 +12,25 @@
 #include "tb/stimuli/discs.h"
 #include "tb/stimuli/line_fans.h"
 
-namespace deburr::morphological_quality_test {
+namespace deburr::studies::morphological_quality_test {
 namespace {
 
-using tb::morphological::FanFigures;
-using tb::morphological::FanLimit;
-using tb::morphological::FanOptions;
-using tb::morphological::FanRow;
-using tb::morphological::measure_discs;
-using tb::morphological::measure_fans;
+using tb::stimuli::FanFigures;
+using tb::stimuli::FanLimit;
+using tb::stimuli::FanOptions;
+using tb::stimuli::FanRow;
+using tb::stimuli::measure_discs;
+using tb::stimuli::measure_fans;
 
 std::map<std::string, FanFigures, std::less<>> table(const char* title, const FanOptions& options,
                                                      const std::set<std::string>& only = {}) {
   std::map<std::string, FanFigures, std::less<>> result;
   std::cout << title << "\nn =           ";
-  for (const std::string_view name : tb::morphological::kSlopeClasses) {
+  for (const std::string_view name : tb::stimuli::kSlopeClasses) {
     std::cout << std::string(8 - name.size(), ' ') << name;
   }
   std::cout << "  undulation    jump\n";
-  for (const FanRow& row : tb::morphological::fan_rows()) {
+  for (const FanRow& row : tb::stimuli::fan_rows()) {
     if (!only.empty() && !only.contains(row.name)) continue;
     const FanFigures figures = measure_fans(smoothing_of(row), options);
     std::cout << to_text(row.name, figures) << '\n';
@@ -40,7 +40,7 @@ std::map<std::string, FanFigures, std::less<>> table(const char* title, const Fa
 }
 
 TEST(MorphologicalQuality, NoRowIsWorseThanTheContracts) {
-  using tb::morphological::asked_of_ours;
+  using tb::stimuli::asked_of_ours;
   const auto figures =
       table("u in [0.05, 0.95]", {}, {"deburr-line", "deburr", "fit N = 4", "fit N = 16"});
   for (const char* ours : {"deburr-line", "deburr", "fit N = 16"})
@@ -53,13 +53,13 @@ TEST(MorphologicalQuality, NoRowIsWorseThanTheContracts) {
 // The same measure as the contract's: what is not ours agrees with it by class.
 TEST(MorphologicalQuality, TheMeasureIsTheContracts) {
   const auto figures = table("u in [0, 1], one seed", {.u_low = 0, .u_high = 1, .seeds = 1});
-  for (FanLimit row : tb::morphological::contract_figures()) {
-    if (row.name == tb::morphological::asked_of_ours().name) continue;
+  for (FanLimit row : tb::stimuli::contract_figures()) {
+    if (row.name == tb::stimuli::asked_of_ours().name) continue;
     row.figures.undulation = row.figures.jump = 0;
     EXPECT_THAT(exceeded(row, figures.find(row.name)->second, 0.065), testing::IsEmpty());
     for (double& figure : row.figures.by_class) figure *= 0.88;
     EXPECT_EQ(exceeded(row, figures.find(row.name)->second).size(),
-              tb::morphological::kSlopeClasses.size());
+              tb::stimuli::kSlopeClasses.size());
   }
   // Lines near 1 / n are included: the fit has nothing to hold on to there. It stays better than
   // chord and plain runs in every class; with N = 16 it keeps what the contract asks even so.
@@ -69,7 +69,7 @@ TEST(MorphologicalQuality, TheMeasureIsTheContracts) {
     EXPECT_LT(deburr.by_class[c], chord.by_class[c]);
     EXPECT_LT(chord.by_class[c], mlaa.by_class[c]);
   }
-  const FanLimit& asked = tb::morphological::asked_of_ours();
+  const FanLimit& asked = tb::stimuli::asked_of_ours();
   EXPECT_THAT(exceeded(asked, figures.at("fit N = 16")), testing::IsEmpty());
   EXPECT_THAT(exceeded(asked, deburr), testing::ElementsAre("n = 2", "undulation"));
 }
@@ -86,7 +86,7 @@ TEST(MorphologicalQuality, SteepLinesAreBoundByTheWindow) {
 // ---- curves -------------------------------------------------------------------------------------
 
 FanRow rule_row(std::string_view name) {
-  for (FanRow row : tb::morphological::rule_rows()) {
+  for (FanRow row : tb::stimuli::rule_rows()) {
     row.parameters.linear_light = false;
     if (row.name == name) return row;
   }
@@ -96,10 +96,10 @@ FanRow rule_row(std::string_view name) {
 
 // An extension that a bend refutes must not cost what it won on straight lines.
 TEST(MorphologicalQuality, CurvesLoseNothingByTheFit) {
-  using tb::morphological::DiscFigures;
+  using tb::stimuli::DiscFigures;
   std::map<std::string, DiscFigures, std::less<>> figures;
   std::cout << "radius =      ";
-  for (const int radius : tb::morphological::kDiscRadii) std::cout << "     " << radius;
+  for (const int radius : tb::stimuli::kDiscRadii) std::cout << "     " << radius;
   std::cout << "   all\n";
   for (const char* name : {"mlaa", "mlaa-slope", "+ N = 8", "+ trim", "+ T = 0.03 = deburr-line",
                            "+ learned shares = deburr"}) {
@@ -122,12 +122,11 @@ TEST(MorphologicalQuality, CurvesLoseNothingByTheFit) {
 }
 
 TEST(MorphologicalQuality, AWorseFilterIsCaught) {
-  FanRow row = tb::morphological::fan_rows().back();
+  FanRow row = tb::stimuli::fan_rows().back();
   row.parameters.predictor = spec::morphological::Predictor::kChord;  // the planted fault
   const FanFigures figures = measure_fans(smoothing_of(row), {.lines = 8, .seeds = 1});
-  EXPECT_THAT(exceeded(tb::morphological::asked_of_ours(), figures),
-              testing::Not(testing::IsEmpty()));
+  EXPECT_THAT(exceeded(tb::stimuli::asked_of_ours(), figures), testing::Not(testing::IsEmpty()));
 }
 
 }  // namespace
-}  // namespace deburr::morphological_quality_test
+}  // namespace deburr::studies::morphological_quality_test

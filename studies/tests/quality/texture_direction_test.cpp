@@ -21,7 +21,7 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/textures.h"
 
-namespace deburr::tb::texture_direction_test {
+namespace deburr::studies::texture_direction_test {
 namespace {
 
 using spec::texture::Axes;
@@ -38,10 +38,10 @@ constexpr double kDegrees[] = {0,    7.5, 11.25, 15, 22.5, 30,    33.75,
 const std::map<std::string, PhotoTexture>& photos() {
   static const auto all = [] {
     std::map<std::string, PhotoTexture> result;
-    result.emplace("stones", make_texture("stones", 512, 512));
+    result.emplace("stones", tb::make_texture("stones", 512, 512));
     for (const char* const name : {"grass", "gravel", "brick"}) {
-      const auto file = data_folder() / "textures" / (std::string(name) + ".png");
-      if (std::filesystem::exists(file)) result.emplace(name, read_image(file));
+      const auto file = tb::data_folder() / "textures" / (std::string(name) + ".png");
+      if (std::filesystem::exists(file)) result.emplace(name, tb::read_image(file));
     }
     return result;
   }();
@@ -211,4 +211,4 @@ TEST(TextureDirectionFault, AWrongSineAndMissingSpreadAreSeen) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_direction_test
+}  // namespace deburr::studies::texture_direction_test

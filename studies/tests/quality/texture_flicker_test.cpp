@@ -16,7 +16,10 @@
 #include "tb/engines/texture/texture_sequence.h"
 #include "tb/harness/test_paths.h"
 
-namespace deburr::tb::texture_flicker_test {
+namespace deburr::studies::texture_flicker_test {
+
+using tb::Motion;
+
 namespace {
 
 using spec::texture::Axes;
@@ -62,13 +65,13 @@ std::vector<Row> rows() {
 
 // The picture with the true ellipse of every pixel, in real arithmetic: what candidate axes and
 // fixed-point logarithms stand in for. Of scenes with one texture.
-Image ellipse_frame(const TextureScene& scene, const Parameters& rules) {
+tb::Image ellipse_frame(const tb::TextureScene& scene, const Parameters& rules) {
   namespace ideal = golden::ideal;
-  const Image& image = scene.scene().mesh.textures.front().image;
+  const tb::Image& image = scene.scene().mesh.textures.front().image;
   std::vector<std::uint8_t> bytes;
-  for (const Rgba8& texel : image.pixels) bytes.insert(bytes.end(), texel.begin(), texel.end());
+  for (const tb::Rgba8& texel : image.pixels) bytes.insert(bytes.end(), texel.begin(), texel.end());
   const ideal::TextureImage texture(image.width, image.height, bytes);
-  FrameAssembler frame(scene.stream(), scene.scene());
+  tb::FrameAssembler frame(scene.stream(), scene.scene());
   for (const spec::texture::Quad& quad : scene.stream().quads) {
     for (int lane = 0; lane < 4; ++lane) {
       if (!(quad.coverage >> lane & 1)) continue;
@@ -87,27 +90,28 @@ Image ellipse_frame(const TextureScene& scene, const Parameters& rules) {
 }
 
 // By Which.
-std::vector<Flicker> flicker(const std::string& texture, Motion motion, int frames,
-                             std::int32_t lod_bias = 0) {
-  SceneParameters scene;
+std::vector<tb::Flicker> flicker(const std::string& texture, Motion motion, int frames,
+                                 std::int32_t lod_bias = 0) {
+  tb::SceneParameters scene;
   scene.source = "plane";
   scene.texture = texture;
   scene.texture_size = 512;
   scene.width = scene.height = 128;
-  SamplerParameters sampler;
+  tb::SamplerParameters sampler;
   sampler.lod_bias = lod_bias;
   const std::vector<Row> shown = rows();
-  std::vector<FrameFilter> all;
+  std::vector<tb::FrameFilter> all;
   for (const Row& row : shown)
-    all.emplace_back([&row](const TextureScene& moved) {
+    all.emplace_back([&row](const tb::TextureScene& moved) {
       return row.ellipse ? ellipse_frame(moved, row.parameters)
-                         : golden_frame(moved, row.parameters).image;
+                         : tb::golden_frame(moved, row.parameters).image;
     });
-  SequenceOptions options;
+  tb::SequenceOptions options;
   options.truth_samples = 8;
-  const std::vector<Flicker> result = flicker_of(scene, sampler, 1, {frames, motion}, all, options);
+  const std::vector<tb::Flicker> result =
+      tb::flicker_of(scene, sampler, 1, {frames, motion}, all, options);
   std::printf("%s, %s, %d frames, bias %g:", texture.c_str(),
-              kMotionNames[static_cast<std::size_t>(motion)].data(), frames, lod_bias / 256.0);
+              tb::kMotionNames[static_cast<std::size_t>(motion)].data(), frames, lod_bias / 256.0);
   for (std::size_t i = 0; i < result.size(); ++i)
     std::printf(" | %s %.2f (%.2f)", shown[i].name, result[i].mean, result[i].worst);
   std::printf("\n");
@@ -135,7 +139,7 @@ TEST(TextureFlicker, OnRollIsThatOfTheOtherMotions) {
 class TextureFlickerOnPhotographs : public testing::TestWithParam<const char*> {
  protected:
   std::string photo() const {
-    const auto file = data_folder() / "textures" / (std::string(GetParam()) + ".png");
+    const auto file = tb::data_folder() / "textures" / (std::string(GetParam()) + ".png");
     return std::filesystem::exists(file) ? file.string() : std::string();
   }
 };
@@ -173,16 +177,17 @@ INSTANTIATE_TEST_SUITE_P(Photographs, TextureFlickerOnPhotographs,
                          [](const auto& photo) { return std::string(photo.param); });
 
 TEST(TextureFlicker, OfPicturesThatChangeAsTheirTruthDoesIsNone) {
-  SceneParameters scene;
+  tb::SceneParameters scene;
   scene.source = "plane";
   scene.texture = "gradient";
   scene.texture_size = 8;
   scene.width = scene.height = 16;
   const Parameters own = preset_parameters(Preset::kDeburr);
-  const std::vector<Flicker> still = flicker_of(scene, {}, 1, {1, Motion::kRoll}, {&own, 1});
+  const std::vector<tb::Flicker> still =
+      tb::flicker_of(scene, {}, 1, {1, Motion::kRoll}, {&own, 1});
   EXPECT_EQ(still.front().mean, 0);
   EXPECT_EQ(still.front().worst, 0);
 }
 
 }  // namespace
-}  // namespace deburr::tb::texture_flicker_test
+}  // namespace deburr::studies::texture_flicker_test

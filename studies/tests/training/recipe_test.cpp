@@ -15,10 +15,10 @@
 #include "tb/base/sanitized.h"
 #include "tb/harness/test_paths.h"
 
-namespace deburr::tb::training::recipe_test {
+namespace deburr::studies::training::recipe_test {
 namespace {
 
-std::string text_of(const char* file) { return read_file(source_folder() / file, 1 << 20); }
+std::string text_of(const char* file) { return tb::read_file(tb::source_folder() / file, 1 << 20); }
 std::string kept() { return text_of("studies/training/recipe.txt"); }
 
 TEST(Recipe, IsTheOneThatTheRomsWereTrainedBy) {
@@ -48,7 +48,7 @@ TEST(Recipe, HashesThePixelsOfItsFrames) {
   ASSERT_EQ(frames.size(), sources.size());
   std::vector<std::string> names = {"shapes100", "wires2_1"};
   // Sanitizers would take half a minute for these two.
-  if (!kSanitized) names.insert(names.end(), {"cube_512x512", "vehicle11_512x512_1"});
+  if (!tb::kSanitized) names.insert(names.end(), {"cube_512x512", "vehicle11_512x512_1"});
   for (const std::string& name : names) {
     const auto found = std::find_if(sources.begin(), sources.end(),
                                     [&](const FrameSource& source) { return source.name == name; });
@@ -110,4 +110,4 @@ TEST(TrainingFrames, HeldOutOnesAreNotTrainedOn) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::training::recipe_test
+}  // namespace deburr::studies::training::recipe_test

@@ -20,7 +20,7 @@
 #include "tb/scene/quality.h"
 #include "tb/stimuli/share_file.h"
 
-namespace deburr::tb::training::share_trainer_test {
+namespace deburr::studies::training::share_trainer_test {
 namespace {
 
 using golden::morphological::MorphologicalGolden;
@@ -42,7 +42,7 @@ Recipe small_recipe() {
 }
 
 double quality(const TruthFrame& frame, const ShareTables& tables) {
-  return psnr(smoothed(frame.frame, tables), frame.truth, edge_mask(frame.truth, frame.frame));
+  return psnr(smoothed(frame.frame, tables), frame.truth, tb::edge_mask(frame.truth, frame.frame));
 }
 
 bool same(const ShareTables& a, const ShareTables& b) {
@@ -62,8 +62,8 @@ TEST(ShareTrainer, GivesTheSameTablesAgain) {
 // train again (scripts/train-shares --write) and record it here.
 TEST(ShareTrainer, GivesTheTablesOfItsVersion) {
   EXPECT_EQ(kTrainerVersion, 2);
-  FnvHash hash;
-  for (const std::int8_t entry : entries_of(train(small_set(), small_recipe())))
+  tb::FnvHash hash;
+  for (const std::int8_t entry : tb::stimuli::entries_of(train(small_set(), small_recipe())))
     hash.byte(static_cast<std::uint8_t>(entry));
   EXPECT_EQ(hash.value(), 0x02408f72aad20a3du);
 }
@@ -142,4 +142,4 @@ TEST(ShareSamples, AreWhatTheEngineBlends) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::training::share_trainer_test
+}  // namespace deburr::studies::training::share_trainer_test

@@ -14,14 +14,18 @@
 #include "tb/scene/truth.h"
 #include "tb/stimuli/share_file.h"
 
-namespace deburr::tb::training::title_shares_test {
+namespace deburr::studies::training::title_shares_test {
+
+using tb::stimuli::entries_of;
+
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 TitlePair rendered(const std::string& scene, int width, int height) {
-  LitFrames lit = render_lit_frames(make_scene(scene, {.texture = "stones"}), width, height, 4);
+  tb::LitFrames lit =
+      tb::render_lit_frames(tb::make_scene(scene, {.texture = "stones"}), width, height, 4);
   return {scene, std::move(lit.noaa), std::move(lit.truth)};
 }
 TitlePair shapes(std::uint64_t seed, int size = 96) {
@@ -106,7 +110,7 @@ TEST(TitleShares, AskBeforeEveryPicture) {
 TEST(TitleShares, RejectWhatTeachesNothing) {
   EXPECT_THAT(complaint({}), HasSubstr("no pairs"));
   TitlePair wide = shapes(1);
-  wide.truth = Image(97, 96);
+  wide.truth = tb::Image(97, 96);
   EXPECT_THAT(complaint({shapes(2), wide}),
               HasSubstr("'shapes1' has 96 x 96 pixels, its truth 97"));
   EXPECT_THAT(complaint({shapes(1, 31), shapes(2)}), HasSubstr("expected at least 32 x 32"));
@@ -114,9 +118,9 @@ TEST(TitleShares, RejectWhatTeachesNothing) {
   TitlePair same = shapes(1);
   same.truth = same.frame;
   EXPECT_THAT(complaint({shapes(2), same}), HasSubstr("'shapes1' is its truth"));
-  TitlePair flat{"flat", Image(96, 96, {9, 9, 9, 255}), Image(96, 96, {90, 9, 9, 255})};
+  TitlePair flat{"flat", tb::Image(96, 96, {9, 9, 9, 255}), tb::Image(96, 96, {90, 9, 9, 255})};
   EXPECT_THAT(complaint({flat, shapes(1)}), HasSubstr("'flat' has no edge"));
 }
 
 }  // namespace
-}  // namespace deburr::tb::training::title_shares_test
+}  // namespace deburr::studies::training::title_shares_test

@@ -129,7 +129,7 @@ spec::morphological::Parameters MorphologicalEnvironment::as_built() const {
 void MorphologicalEnvironment::configure() {
   driver_.identify();
   if (programs()) driver_.set_rules(faults_.as_built());
-  if (setup_.shares) driver_.load_shares(entries_of(*setup_.shares));
+  if (setup_.shares) driver_.load_shares(stimuli::entries_of(*setup_.shares));
   checks_.clear_counters();
 }
 

@@ -160,7 +160,7 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
   if (frame.depth) frame.input.depth = depth_codes(*frame.depth);
   if (!p.mask.empty()) apply_mask(p.mask, frame);
   if (!p.shares.empty()) {
-    frame.shares = read_share_file(p.shares);
+    frame.shares = stimuli::read_share_file(p.shares);
     add_once(frame.inputs, p.shares);
   }
   return frame;

@@ -9,11 +9,11 @@
 
 namespace deburr::tb {
 
-void show(const TracedQuad& quad, const spec::texture::Colour& colour, Image& picture) {
+void show(const traces::TracedQuad& quad, const spec::texture::Colour& colour, Image& picture) {
   if (quad.shows(colour.lane)) picture.at(quad.x(colour.lane), quad.y(colour.lane)) = colour.rgba;
 }
 
-void SentQuads::add(const TracedQuad& quad) {
+void SentQuads::add(const traces::TracedQuad& quad) {
   DEBURR_CHECK(quad.quad.tag == next_, fmt::format("quad {} has the tag {}", next_, quad.quad.tag));
   ++next_;
   // Colours come in the order of the quads.
@@ -23,13 +23,13 @@ void SentQuads::add(const TracedQuad& quad) {
   quads_.push_back({quad, quad.quad.coverage});
 }
 
-const TracedQuad* SentQuads::find(std::uint32_t tag) const {
+const traces::TracedQuad* SentQuads::find(std::uint32_t tag) const {
   const std::size_t back = next_ - tag;
   return back == 0 || back > quads_.size() ? nullptr : &quads_[quads_.size() - back].quad;
 }
 
-const TracedQuad* SentQuads::take(const spec::texture::Colour& colour, bool trusted) {
-  const TracedQuad* quad = find(colour.tag);
+const traces::TracedQuad* SentQuads::take(const spec::texture::Colour& colour, bool trusted) {
+  const traces::TracedQuad* quad = find(colour.tag);
   const bool lane = colour.lane < 4;
   DEBURR_CHECK(!trusted || (quad && lane),
                fmt::format("colour with tag {} lane {}, {} quads were sent", colour.tag,

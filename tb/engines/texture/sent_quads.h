@@ -14,23 +14,23 @@
 namespace deburr::tb {
 
 // Puts a colour where its quad says, if it is to be seen.
-void show(const TracedQuad& quad, const spec::texture::Colour& colour, Image& picture);
+void show(const traces::TracedQuad& quad, const spec::texture::Colour& colour, Image& picture);
 
 class SentQuads {
  public:
   // In the order of their tags, which count from 0.
-  void add(const TracedQuad& quad);
+  void add(const traces::TracedQuad& quad);
   // nullptr for a tag that was not sent, or so long ago that it is forgotten.
-  const TracedQuad* find(std::uint32_t tag) const;
+  const traces::TracedQuad* find(std::uint32_t tag) const;
   // The quad of a colour that has come, once a lane; else CheckFailed if the colour is `trusted`,
   // and nullptr if it may be anything.
-  const TracedQuad* take(const spec::texture::Colour& colour, bool trusted);
+  const traces::TracedQuad* take(const spec::texture::Colour& colour, bool trusted);
 
  private:
   // More than the unit holds: colours that come twice or too late find their pixel too.
   static constexpr std::size_t kKept = 4096;
   struct Sent {
-    TracedQuad quad;
+    traces::TracedQuad quad;
     std::uint8_t pending;  // bit i: the colour of lane i has not come
   };
   std::deque<Sent> quads_;

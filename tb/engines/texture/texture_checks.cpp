@@ -69,7 +69,8 @@ void TextureChecks::expect_line(std::uint32_t line) {
   for (std::uint64_t a = begin; a < begin + line_bytes; a += kMemoryGrain) fills.expect({a});
 }
 
-void TextureChecks::expect(const TracedQuad& quad, std::uint64_t number, TextureHistory* history) {
+void TextureChecks::expect(const traces::TracedQuad& quad, std::uint64_t number,
+                           TextureHistory* history) {
   if (!used_) return;
   const auto expect_colour = [&](const Colour& colour) {
     colours.expect(colour);
@@ -126,7 +127,7 @@ void TextureChecks::finish(std::uint64_t fragments, const platform::MemoryModel&
 }
 
 std::string TextureChecks::place(const Colour& c) const {
-  const TracedQuad* quad = sent_.find(c.tag);
+  const traces::TracedQuad* quad = sent_.find(c.tag);
   if (!quad || !quad->placed || c.lane >= 4) return "no pixel";
   return fmt::format("pixel ({}, {})", quad->x(c.lane), quad->y(c.lane));
 }

@@ -39,7 +39,8 @@ class TextureChecks {
   void begin(const Image& blank);
   // What the golden model makes of the quad that is sent as number `number`; with `history` it is
   // one that covers the pixel which that follows.
-  void expect(const TracedQuad& quad, std::uint64_t number, TextureHistory* history = nullptr);
+  void expect(const traces::TracedQuad& quad, std::uint64_t number,
+              TextureHistory* history = nullptr);
   // True if the colour is as expected, so that its tag and lane are those of a quad.
   bool got(const spec::texture::Colour& colour, rtl::Cycle cycle);
   // What memory has recorded since the last call, which it forgets then if it may.

@@ -92,9 +92,9 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
   clear_outputs();
 }
 
-QuadSource TextureEnvironment::open() const {
+traces::QuadSource TextureEnvironment::open() const {
   if (setup_.foreign.open) return setup_.foreign.open();
-  return [&stream = scene_.stream(), index = std::size_t{0}](TracedQuad& quad) mutable {
+  return [&stream = scene_.stream(), index = std::size_t{0}](traces::TracedQuad& quad) mutable {
     if (index == stream.quads.size()) return false;
     quad = {stream.quads[index], stream.visible[index], true};
     ++index;
@@ -171,7 +171,7 @@ void TextureEnvironment::check_output(rtl::Cycle cycle, const spec::texture::Col
   for (const std::uint8_t channel : colour.rgba) hash_.add(channel);
   // After a mismatch tags and lanes may be anything; the picture then shows what can be placed.
   const bool trusted = checks_.got(colour, cycle);
-  const TracedQuad* quad = sent_.take(colour, trusted);
+  const traces::TracedQuad* quad = sent_.take(colour, trusted);
   if (!quad || !quad->shows(colour.lane)) return;
   tb::show(*quad, colour, frame_);
   came_[frame_.index(quad->x(colour.lane), quad->y(colour.lane))] = 1;

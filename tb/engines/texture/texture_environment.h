@@ -102,7 +102,7 @@ class TextureEnvironment final : public Environment {
     tlm_utils::simple_initiator_socket<Stranger> memory{"memory"};
   };
 
-  QuadSource open() const;
+  traces::QuadSource open() const;
   std::uint64_t fragments() const;
   void clear_outputs();
   void fetch_again();
@@ -120,8 +120,8 @@ class TextureEnvironment final : public Environment {
   TextureMeter meter_;
   Stranger stranger_;
 
-  QuadSource source_;
-  TracedQuad quad_;  // the one that is being sent
+  traces::QuadSource source_;
+  traces::TracedQuad quad_;  // the one that is being sent
   SentQuads sent_;
   TextureChecks checks_;
   Image frame_;

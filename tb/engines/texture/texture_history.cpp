@@ -114,7 +114,7 @@ void TextureHistory::clear() {
   looked_up_.clear();
 }
 
-int TextureHistory::lane_of(const TracedQuad& quad) const {
+int TextureHistory::lane_of(const traces::TracedQuad& quad) const {
   if (!quad.placed) return -1;
   for (int lane = 0; lane < 4; ++lane)
     if ((quad.quad.coverage >> lane & 1) != 0 && quad.x(lane) == pixel_.x &&
@@ -129,14 +129,15 @@ TextureHistory::Fragment* TextureHistory::find(std::uint32_t tag, int lane) {
   return nullptr;
 }
 
-bool TextureHistory::send(const TracedQuad& quad) {
+bool TextureHistory::send(const traces::TracedQuad& quad) {
   const int lane = lane_of(quad);
   if (lane < 0) return false;
   fragments_.push_back({.quad = quad, .lane = lane});
   return true;
 }
 
-QuadColours TextureHistory::expect(const TracedQuad& quad, golden::texture::TextureGolden& golden) {
+QuadColours TextureHistory::expect(const traces::TracedQuad& quad,
+                                   golden::texture::TextureGolden& golden) {
   Fragment& fragment = fragments_.back();
   fragment.golden = true;
   fragment.analysis = golden.analyse(quad.quad, fragment.lane);

@@ -31,9 +31,9 @@ class TextureHistory {
 
   void clear();
   // A quad that is sent; true: a lane of it covers the pixel.
-  bool send(const TracedQuad& quad);
+  bool send(const traces::TracedQuad& quad);
   // What the golden model makes of it. After send() was true, instead of golden.process(quad).
-  golden::texture::QuadColours expect(const TracedQuad& quad,
+  golden::texture::QuadColours expect(const traces::TracedQuad& quad,
                                       golden::texture::TextureGolden& golden);
   // `ended`: all of the frame was done, so what was not seen does not come. `all_sent`: every quad
   // was.
@@ -51,7 +51,7 @@ class TextureHistory {
     rtl::texture::LookUp outcome;
   };
   struct Fragment {
-    TracedQuad quad;
+    traces::TracedQuad quad;
     int lane = 0;
     bool golden = false;
     golden::texture::FragmentAnalysis analysis{};
@@ -71,7 +71,7 @@ class TextureHistory {
   };
   class Writer;
 
-  int lane_of(const TracedQuad& quad) const;  // -1: none
+  int lane_of(const traces::TracedQuad& quad) const;  // -1: none
   Fragment* find(std::uint32_t tag, int lane);
   template <class T>
   void see(rtl::ClockDomain& clock, const rtl::Link<T>& link, Seen<T> Fragment::*where);

@@ -30,7 +30,7 @@ TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& uni
           width, height) {
   const auto add = [this](std::uint32_t tag, std::uint8_t lane, PictureMap& map, double value,
                           double* unplaced) {
-    const TracedQuad* quad = sent_.find(tag);
+    const traces::TracedQuad* quad = sent_.find(tag);
     if (!quad || lane >= 4) return;  // of a planted fault
     if (quad->placed)
       map.add(quad->x(lane), quad->y(lane), value);
@@ -46,7 +46,7 @@ TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& uni
         add(tag, lane, samples_, token.last_index + 1U, &unplaced_.samples);
         add(tag, lane, misses_, 0, nullptr);
         constexpr double kFraction = 1.0 / 256;
-        const TracedQuad* quad = sent_.find(tag);
+        const traces::TracedQuad* quad = sent_.find(tag);
         if (quad && quad->placed && lane < 4)
           level_.set(quad->x(lane), quad->y(lane), token.level + kFraction * token.fraction);
       }));

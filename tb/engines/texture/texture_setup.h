@@ -18,8 +18,8 @@ namespace deburr::tb {
 
 // Where fragments come from, if not from the scene's rasteriser.
 struct ForeignFragments {
-  std::function<QuadSource()> open;  // from the first quad on, each time
-  std::uint64_t fragments = 0;       // covered lanes in all
+  std::function<traces::QuadSource()> open;  // from the first quad on, each time
+  std::uint64_t fragments = 0;               // covered lanes in all
 };
 
 struct TextureSetup {
@@ -27,7 +27,7 @@ struct TextureSetup {
   MemoryParameters memory;
   ForeignFragments foreign{};
   // Sees every quad as it is sent.
-  std::function<void(const TracedQuad&)> observer{};
+  std::function<void(const traces::TracedQuad&)> observer{};
   // What the golden model found already; null: it works beside the hardware. Never with errors of
   // memory, nor with a pixel that is followed.
   std::shared_ptr<const TextureExpectation> expectation = nullptr;

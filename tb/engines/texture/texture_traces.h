@@ -20,12 +20,12 @@ void describe(LookUpTrace& p, Visitor& v) {
 }
 
 struct FragmentTraceOut {
-  TraceChoice fragments = TraceChoice::kNone;
+  traces::TraceChoice fragments = traces::TraceChoice::kNone;
 };
 
 template <class Visitor>
 void describe(FragmentTraceOut& p, Visitor& v) {
-  v.choice("fragment_trace", p.fragments, kTraceChoiceNames,
+  v.choice("fragment_trace", p.fragments, traces::kTraceChoiceNames,
            "Leaves fragments.trace: every quad that the texture unit is given.");
 }
 

@@ -65,7 +65,7 @@ NAMED = {
             "tb/scene/truth.h"],
         "papers whose methods it has": ["studies/papers/papers_000.cpp", "studies/papers/papers_003.cpp"],
         "lines and discs that its shares are measured and learned by": [
-            "scripts/train-shares", "tb/stimuli/discs.cpp", "tb/stimuli/discs.h", "tb/stimuli/line_fans.cpp",
+            "scripts/train-shares", "tb/stimuli/line_fans.cpp",
             "tb/stimuli/line_fans.h", "studies/training/recipe.cpp", "studies/training/recipe.h", "tb/stimuli/share_file.cpp",
             "tb/stimuli/share_file.h", "studies/training/share_samples.cpp", "studies/training/share_samples.h",
             "studies/training/share_trainer.cpp", "studies/training/share_trainer.h", "studies/training/title_shares.cpp",

@@ -52,6 +52,10 @@ FLOATING = re.compile(r"\b(float|double)\b")
 THREADS = re.compile(r"\bSC_C?THREAD\b")
 ASSERT = re.compile(r"(?<![\w_])assert\s*\(")
 NAMESPACE = re.compile(r"^\s*using\s+namespace\b")
+# Namespaces follow folders: the tool and studies define in theirs, and declare of others.
+OPENED = re.compile(r"^namespace deburr::(tb|tool|studies)\b")
+DECLARED = re.compile(r"^((class|struct) \w+;|)$")
+ADDED_ENGINE = "tool/tests/system/added_engine/"
 RANDOM = re.compile(r"\bstd::(?:mt19937|minstd_rand|ranlux|default_random|random_device|s?rand\b|\w+_distribution)")
 # What frames and trainings are made by, which are the same on every machine; measures are not.
 EXACT, MEASURES = {"tb/scene", "tb/stimuli", "studies/training"}, {"flip.cpp", "quality.cpp", "ssim.cpp"}
@@ -156,6 +160,7 @@ def violations(root):
             if way:
                 yield f"{where}:1: SystemC beside the simulation: " + " -> ".join(way)
             ideal = where.parts[:2] == ("golden", "ideal")
+            foreign = False
             of_tests = layer in RINGS and where.parts[1] in TESTS_ALONE
             sees_the_tool = "/".join(where.parts[:2]) in SEES_THE_TOOL
             for number, line in enumerate(lines, 1):
@@ -195,6 +200,14 @@ def violations(root):
                 if ("/".join(where.parts[:2]) in EXACT and path.name not in MEASURES
                         and OF_THE_C_LIBRARY.search(line)):
                     yield f"{where}:{number}: a function of the C library where tb/scene/exact_math.h has one"
+                opened = OPENED.match(line) if layer in {"tool", "studies"} else None
+                if opened and not where.as_posix().startswith(ADDED_ENGINE):
+                    foreign = opened[1] != layer
+                elif foreign and line.startswith("}"):
+                    foreign = False
+                elif foreign and not DECLARED.match(line):
+                    yield f"{where}:{number}: {layer} defines in another's namespace"
+                    foreign = False
                 if path.suffix == ".h" and NAMESPACE.match(line):
                     yield f"{where}:{number}: using namespace in a header"
                 if layer == "rtl_model" and THREADS.search(line):
@@ -230,6 +243,7 @@ def planted_faults_are_caught():
         "tool/run/b.cpp": '#include "tool/sweep/point.h"',
         "tool/run/c.h": "#include <nlohmann/json.hpp>",
         "tool/run/d.cpp": '#include "studies/papers/papers.h"',
+        "tool/run/e.cpp": 'namespace deburr::tb {\nclass Image;\nint a;\n}',
         "tb/env/a.cpp": '#include "tool/run/engine.h"',
         "tb/unit/env/a.cpp": '#include "tool/run/engine.h"',
         "tool/tests/run/a.cpp": '#include "studies/papers/papers.h"',

@@ -10,7 +10,7 @@
 #include "spec/error.h"
 #include "spec/morphological/learned_shares.h"
 
-namespace deburr::tb::share_file_test {
+namespace deburr::tb::stimuli::share_file_test {
 namespace {
 
 using golden::morphological::ShareTables;
@@ -94,4 +94,4 @@ TEST(ShareFile, SaysWhatIsWrongAndWhere) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::share_file_test
+}  // namespace deburr::tb::stimuli::share_file_test

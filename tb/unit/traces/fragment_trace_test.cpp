@@ -17,7 +17,7 @@
 #include "tb/traces/fragment_reader.h"
 #include "tb/traces/fragment_writer.h"
 
-namespace deburr::tb::fragment_trace_test {
+namespace deburr::tb::traces::fragment_trace_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,7 +50,8 @@ class FragmentTrace : public testing::TestWithParam<TraceFormat> {
     std::vector<TracedQuad> quads;
     for (std::uint32_t i = 0; i < count; ++i) {
       TracedQuad quad;
-      quad.quad = random_quad(random, i, static_cast<std::uint8_t>(random.below(kTextures)));
+      quad.quad =
+          stimuli::random_quad(random, i, static_cast<std::uint8_t>(random.below(kTextures)));
       quad.visible = static_cast<std::uint8_t>(random.below(16));
       quad.placed = random.chance(800);
       if (quad.placed) {
@@ -400,4 +401,4 @@ TEST_F(FragmentTrace, HasItsFieldsWhereTheyAreDocumented) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::fragment_trace_test
+}  // namespace deburr::tb::traces::fragment_trace_test

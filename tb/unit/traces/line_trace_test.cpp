@@ -20,7 +20,7 @@
 #include "tb/harness/driver.h"
 #include "tb/unit/rtl/texture/cache_bench.h"
 
-namespace deburr::tb::line_trace_test {
+namespace deburr::tb::traces::line_trace_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -223,4 +223,4 @@ TEST(TraceOutput, RemovesOnlyFiles) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::line_trace_test
+}  // namespace deburr::tb::traces::line_trace_test

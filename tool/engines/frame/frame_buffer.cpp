@@ -9,10 +9,10 @@
 
 #include "tb/scene/rasteriser.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 FrameBuffer::FrameBuffer(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
-                         const DrawnScene& scene, const BufferEnds& ends)
+                         const tb::DrawnScene& scene, const BufferEnds& ends)
     : Unit(name, clock),
       scene_(scene),
       colours_in_(ends.colours("colours_in")),
@@ -20,7 +20,7 @@ FrameBuffer::FrameBuffer(const sc_core::sc_module_name& name, rtl::ClockDomain& 
       when_released_(pixels_out_ && !ends.mesh.empty()),
       waiting_(
           declare_stall(std::string(ends.drawer).c_str(), "the next row still lacks fragments")),
-      sky_(FrameAssembler(scene.stream(), scene.scene()).frame()) {
+      sky_(tb::FrameAssembler(scene.stream(), scene.scene()).frame()) {
   if (when_released_)
     held_ = declare_stall(std::string(ends.mesh).c_str(),
                           fmt::format("the {} engine is at the frame", ends.mesh).c_str());
@@ -28,7 +28,7 @@ FrameBuffer::FrameBuffer(const sc_core::sc_module_name& name, rtl::ClockDomain& 
 }
 
 void FrameBuffer::reset() {
-  const FragmentStream& stream = scene_.stream();
+  const tb::FragmentStream& stream = scene_.stream();
   image_ = sky_;
   released_ = false;
   all_missing_ = 0;
@@ -58,7 +58,7 @@ void FrameBuffer::store(rtl::Cycle cycle, const DrawnColour& drawn) {
   --all_missing_;
 }
 
-void FrameBuffer::release(Image frame) {
+void FrameBuffer::release(tb::Image frame) {
   before_ = std::exchange(image_, std::move(frame));
   released_ = true;
 }
@@ -91,4 +91,4 @@ rtl::Activity FrameBuffer::tick(rtl::Cycle cycle) {
   return worked ? rtl::kBusy : activity;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

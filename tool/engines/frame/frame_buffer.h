@@ -14,7 +14,7 @@
 #include "tb/scene/image.h"
 #include "tool/run/composition.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // The engines around a frame buffer: who draws, and of those who smooth the ones that there are.
 struct BufferEnds {
@@ -28,8 +28,8 @@ struct BufferEnds {
 // smooths along edges (the frame is complete and not yet released), `downstream`.
 class FrameBuffer final : public rtl::Unit {
  public:
-  FrameBuffer(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, const DrawnScene& scene,
-              const BufferEnds& ends);
+  FrameBuffer(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
+              const tb::DrawnScene& scene, const BufferEnds& ends);
   rtl::Activity tick(rtl::Cycle cycle) override;
   void reset() override;
 
@@ -39,13 +39,13 @@ class FrameBuffer final : public rtl::Unit {
   // Every fragment has come.
   bool complete() const { return all_missing_ == 0; }
   // Rows of this frame go out from the next clock on, instead of what has come.
-  void release(Image frame);
+  void release(tb::Image frame);
   // What has come, over the sky.
-  const Image& frame() const { return released_ ? before_ : image_; }
-  std::function<void(int x, int y, const Rgba8&)> on_pixel;  // that is seen
+  const tb::Image& frame() const { return released_ ? before_ : image_; }
+  std::function<void(int x, int y, const tb::Rgba8&)> on_pixel;  // that is seen
   rtl::Cycle last_colour() const { return last_colour_; }
   rtl::Cycle first_beat() const { return first_beat_; }
-  static constexpr std::uint32_t kPixelBytes = sizeof(Rgba8);
+  static constexpr std::uint32_t kPixelBytes = sizeof(tb::Rgba8);
   rtl::Counter bytes_written{"bytes_written", "byte", "bytes of colours written"};
   rtl::Counter bytes_read{"bytes_read", "byte", "bytes of pixels read"};
 
@@ -53,13 +53,13 @@ class FrameBuffer final : public rtl::Unit {
   void store(rtl::Cycle cycle, const DrawnColour& drawn);
   bool may_send() const;
 
-  const DrawnScene& scene_;
+  const tb::DrawnScene& scene_;
   std::unique_ptr<ColoursPort> colours_in_;
   std::unique_ptr<RowsPort> pixels_out_;
   bool when_released_;  // rows wait for release()
   rtl::Activity waiting_, held_{};
-  Image image_;  // what goes out
-  Image sky_, before_;
+  tb::Image image_;  // what goes out
+  tb::Image sky_, before_;
   std::vector<std::uint32_t> missing_;  // fragments that each row still lacks
   std::uint64_t all_missing_ = 0;
   bool released_ = false;
@@ -67,4 +67,4 @@ class FrameBuffer final : public rtl::Unit {
   rtl::Cycle last_colour_ = 0, first_beat_ = 0;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

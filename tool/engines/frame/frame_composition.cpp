@@ -6,7 +6,10 @@
 
 #include "spec/error.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::Environment;
+
 namespace {
 
 template <class T>
@@ -16,19 +19,19 @@ std::vector<const T*> list_of(const T* one) {
 
 }  // namespace
 
-FrameComposition::FrameComposition(Simulation& simulation, const DrawnScene& scene,
+FrameComposition::FrameComposition(tb::Simulation& simulation, const tb::DrawnScene& scene,
                                    const FrameRoles& roles)
     : FrameComposition(simulation, scene, roles, list_of(roles.chosen().mesh),
                        list_of(roles.chosen().rows), roles.chosen().follows()) {}
 
-std::unique_ptr<FrameComposition> FrameComposition::of_all(Simulation& simulation,
-                                                           const DrawnScene& scene,
+std::unique_ptr<FrameComposition> FrameComposition::of_all(tb::Simulation& simulation,
+                                                           const tb::DrawnScene& scene,
                                                            const FrameRoles& roles) {
   return std::unique_ptr<FrameComposition>(new FrameComposition(
       simulation, scene, roles, roles.mesh_smoothers(), roles.row_smoothers(), false));
 }
 
-FrameComposition::FrameComposition(Simulation& simulation, const DrawnScene& scene,
+FrameComposition::FrameComposition(tb::Simulation& simulation, const tb::DrawnScene& scene,
                                    const FrameRoles& roles,
                                    const std::vector<const MeshSmoother*>& mesh,
                                    const std::vector<const RowSmoother*>& rows, bool follows)
@@ -53,13 +56,13 @@ FrameComposition::FrameComposition(Simulation& simulation, const DrawnScene& sce
 
   // What the first engine behind the buffer should get; without a golden model only its size
   // counts. The second one gets it when the first is done.
-  Image first = golden() ? drawing_stage_->golden_picture() : Image(width_, height_);
-  for (Rgba8& pixel : first.pixels) pixel = unmarked(pixel);
+  tb::Image first = golden() ? drawing_stage_->golden_picture() : tb::Image(width_, height_);
+  for (tb::Rgba8& pixel : first.pixels) pixel = unmarked(pixel);
   for (const MeshSmoother* smoother : mesh)
     mesh_.push_back(smoother->build(simulation, scene, first));
   if (!mesh.empty()) {
-    first = Image(width_, height_);
-    buffer_->on_pixel = [this](int x, int y, const Rgba8& colour) {
+    first = tb::Image(width_, height_);
+    buffer_->on_pixel = [this](int x, int y, const tb::Rgba8& colour) {
       this->mesh()->put(x, y, unmarked(colour));
     };
   }
@@ -71,7 +74,7 @@ FrameComposition::FrameComposition(Simulation& simulation, const DrawnScene& sce
   }
 }
 
-Rgba8 FrameComposition::unmarked(Rgba8 colour) const {
+tb::Rgba8 FrameComposition::unmarked(tb::Rgba8 colour) const {
   if (follows_) colour[3] = static_cast<std::uint8_t>(colour[3] | 1);
   return colour;
 }
@@ -112,7 +115,7 @@ bool FrameComposition::begin(std::size_t piece) {
 
 // Nothing else has come yet.
 void FrameComposition::put_sky() {
-  const Image& sky = buffer_->frame();
+  const tb::Image& sky = buffer_->frame();
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) mesh()->put(x, y, unmarked(sky.at(x, y)));
 }
@@ -178,7 +181,7 @@ void FrameComposition::reject_unused_errors() const {
   for (const Environment* part : parts()) part->reject_unused_errors();
 }
 
-Amount FrameComposition::amount() const { return last().environment().amount(); }
+tb::Amount FrameComposition::amount() const { return last().environment().amount(); }
 
 bool FrameComposition::memory_at_rest() const {
   bool at_rest = true;
@@ -231,32 +234,32 @@ FrameMeter FrameComposition::meter() const {
   return FrameMeter(in_order);
 }
 
-void FrameComposition::collect_headline(Result& result) const {
+void FrameComposition::collect_headline(tb::Result& result) const {
   meter().collect_headline(result, {simulation().begun(), drawn_ ? drawn_until_ - drawn_from_ : 0,
                                     simulation().complete()});
 }
 
-std::vector<PictureMap> FrameComposition::maps() const {
-  std::vector<PictureMap> all;
+std::vector<tb::PictureMap> FrameComposition::maps() const {
+  std::vector<tb::PictureMap> all;
   for (const Environment* part : parts())
-    for (PictureMap& map : part->maps()) all.push_back(std::move(map));
+    for (tb::PictureMap& map : part->maps()) all.push_back(std::move(map));
   return all;
 }
 
-std::optional<PixelHistory> FrameComposition::pixel_history() const {
-  std::optional<PixelHistory> all;
+std::optional<tb::PixelHistory> FrameComposition::pixel_history() const {
+  std::optional<tb::PixelHistory> all;
   for (const Environment* part : parts())
-    if (const std::optional<PixelHistory> one = part->pixel_history()) {
-      if (!all) all = PixelHistory{one->pixel};
+    if (const std::optional<tb::PixelHistory> one = part->pixel_history()) {
+      if (!all) all = tb::PixelHistory{one->pixel};
       all->append(*one);
     }
   return all;
 }
 
-Coverage FrameComposition::coverage() const {
-  Coverage all;
+tb::Coverage FrameComposition::coverage() const {
+  tb::Coverage all;
   for (const Environment* part : parts()) all.merge(part->coverage());
   return all;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

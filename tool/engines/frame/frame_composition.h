@@ -28,14 +28,16 @@
 #include "tool/engines/frame/frame_roles.h"
 #include "tool/run/composition.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
-class FrameComposition final : public Environment {
+class FrameComposition final : public tb::Environment {
  public:
   // Of what is chosen. Scene and roles must outlive it. ConfigError for wrong parameters.
-  FrameComposition(Simulation& simulation, const DrawnScene& scene, const FrameRoles& roles);
+  FrameComposition(tb::Simulation& simulation, const tb::DrawnScene& scene,
+                   const FrameRoles& roles);
   // Of every engine that smooths, for what is built of each: it never runs.
-  static std::unique_ptr<FrameComposition> of_all(Simulation& simulation, const DrawnScene& scene,
+  static std::unique_ptr<FrameComposition> of_all(tb::Simulation& simulation,
+                                                  const tb::DrawnScene& scene,
                                                   const FrameRoles& roles);
 
   void configure() override;
@@ -47,22 +49,22 @@ class FrameComposition final : public Environment {
   void finish() override;
   void reject_memory_errors() override;
   void reject_unused_errors() const override;
-  Amount amount() const override;
+  tb::Amount amount() const override;
   bool memory_at_rest() const override;
   Boards outputs() const override;
   Boards traffic() const override;
   Boards counters() const override;
-  void collect(Result& result) const override { meter().collect(result); }
-  void show_parts(Observer& observer) const override { meter().show_parts(observer); }
-  std::vector<PictureMap> maps() const override;
-  std::optional<PixelHistory> pixel_history() const override;
-  Coverage coverage() const override;
-  void collect_headline(Result& result) const override;
+  void collect(tb::Result& result) const override { meter().collect(result); }
+  void show_parts(tb::Observer& observer) const override { meter().show_parts(observer); }
+  std::vector<tb::PictureMap> maps() const override;
+  std::optional<tb::PixelHistory> pixel_history() const override;
+  tb::Coverage coverage() const override;
+  void collect_headline(tb::Result& result) const override;
 
   // What was smoothed so far, how many pixels of it were delivered, and what it should be.
-  Image frame() const { return last().frame(); }
+  tb::Image frame() const { return last().frame(); }
   std::size_t delivered() const;
-  Image expected_frame() const { return last().expected_frame(); }
+  tb::Image expected_frame() const { return last().expected_frame(); }
   // Of its smoothing stages, in the order of the frame's way.
   std::vector<std::string> notes() const;
   const FrameBuffer& buffer() const { return *buffer_; }
@@ -71,7 +73,7 @@ class FrameComposition final : public Environment {
   const RowStage* rows() const { return rows_.empty() ? nullptr : rows_.front().get(); }
 
  private:
-  FrameComposition(Simulation& simulation, const DrawnScene& scene, const FrameRoles& roles,
+  FrameComposition(tb::Simulation& simulation, const tb::DrawnScene& scene, const FrameRoles& roles,
                    const std::vector<const MeshSmoother*>& mesh,
                    const std::vector<const RowSmoother*>& rows, bool follows);
 
@@ -80,13 +82,13 @@ class FrameComposition final : public Environment {
   MeshStage* mesh() { return mesh_.empty() ? nullptr : mesh_.front().get(); }
   RowStage* rows() { return rows_.empty() ? nullptr : rows_.front().get(); }
   // Of all engines that there are, in the order of the frame's way.
-  std::vector<Environment*> parts();
-  std::vector<const Environment*> parts() const;
-  Boards boards(Boards (Environment::*of)() const) const;
+  std::vector<tb::Environment*> parts();
+  std::vector<const tb::Environment*> parts() const;
+  Boards boards(Boards (tb::Environment::*of)() const) const;
   // Between clocks: engines that begin when the one before them is done.
   void hand_on();
   // As it lies in the frame buffer: nothing is marked before the first engine marks it.
-  Rgba8 unmarked(Rgba8 colour) const;
+  tb::Rgba8 unmarked(tb::Rgba8 colour) const;
   void put_sky();
   std::uint64_t pixels() const;
 
@@ -104,4 +106,4 @@ class FrameComposition final : public Environment {
   rtl::Cycle drawn_from_ = 0, drawn_until_ = 0;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -16,7 +16,10 @@
 #include "tool/run/pictures.h"
 #include "tool/run/simulate.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::DrawnScene;
+
 namespace {
 
 class FrameCommand final : public Engine {
@@ -26,11 +29,11 @@ class FrameCommand final : public Engine {
     return "A scene that is drawn into a frame buffer, and smoothed by one engine or two";
   }
 
-  void add_parameters(ParameterSet& set) override {
+  void add_parameters(tb::ParameterSet& set) override {
     roles().add_parameters(set);
-    set.add("run", ParameterKind::kRun, program_);
+    set.add("run", tb::ParameterKind::kRun, program_);
   }
-  void resolve(ParameterSet& set) override { roles().resolve(set); }
+  void resolve(tb::ParameterSet& set) override { roles().resolve(set); }
 
   std::vector<std::string_view> examples() const override {
     two_ = fmt::format("--in mesh.obj --smoothing {} --out out/joined",
@@ -41,11 +44,11 @@ class FrameCommand final : public Engine {
 
   void check(const RunParameters& run, RunContext& context) override { check(*load(run, context)); }
 
-  void run(const RunParameters& run, RunContext& context, Result& result) override {
+  void run(const RunParameters& run, RunContext& context, tb::Result& result) override {
     const std::shared_ptr<const DrawnScene> shared = load(run, context);
     const DrawnScene& scene = *shared;
     check(scene);
-    MeshFiles meshes;
+    tb::MeshFiles meshes;
     context.add_inputs(drawer().frames() > 1 ? input_files(meshes) : scene.inputs());
     context.set_title(
         "Frame: " + std::filesystem::path(drawer().source()).filename().string(),
@@ -55,7 +58,7 @@ class FrameCommand final : public Engine {
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     for (const PictureSmoother* smoother : roles().chosen_smoothers())
       for (const std::string& note : smoother->notes()) context.add_note(note);
-    Simulation simulation(simulation_options(run, context));
+    tb::Simulation simulation(simulation_options(run, context));
     FrameComposition frame(simulation, scene, roles());
     simulate(simulation, frame, context, result, [&] {
       for (const std::string& note : frame.notes()) context.add_note(note);
@@ -66,7 +69,7 @@ class FrameCommand final : public Engine {
                       [&](int i) { return picture_of(i, static_cast<std::uint32_t>(run.seed)); });
   }
 
-  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
+  std::vector<std::filesystem::path> input_files(tb::MeshFiles& meshes) const override {
     return drawer().input_files(meshes);
   }
 
@@ -76,9 +79,9 @@ class FrameCommand final : public Engine {
   }
 
   // Of all engines at once.
-  void describe_statistics(Result& result) override {
+  void describe_statistics(tb::Result& result) override {
     const std::shared_ptr<const DrawnScene> scene = drawer().smallest();
-    Simulation simulation({});
+    tb::Simulation simulation({});
     const std::unique_ptr<FrameComposition> frame =
         FrameComposition::of_all(simulation, *scene, roles());
     describe(simulation, *frame, result);
@@ -135,8 +138,8 @@ class FrameCommand final : public Engine {
   SequencePicture picture_of(int frame, std::uint32_t seed) const {
     const std::shared_ptr<const DrawnScene> scene = drawer().scene_of(frame, seed);
     check(*scene);
-    const Image before = drawer().golden_picture(*scene);
-    Image after = before;
+    const tb::Image before = drawer().golden_picture(*scene);
+    tb::Image after = before;
     for (const PictureSmoother* smoother : roles().chosen_smoothers()) {
       after = smoother->golden_picture(*scene, after);
       if (after.empty())
@@ -144,8 +147,8 @@ class FrameCommand final : public Engine {
             "the {} has no golden picture of a frame alone: no flicker is measured through it",
             smoother->title()));
     }
-    RenderOptions options = truth_options();
-    options.interrupted = [] { return interrupted(); };
+    tb::RenderOptions options = truth_options();
+    options.interrupted = [] { return tb::interrupted(); };
     return {before, std::move(after), drawer().truth_of(*scene, options)};
   }
 
@@ -158,20 +161,20 @@ class FrameCommand final : public Engine {
                                          : " on one clock, overlapped row by row");
   }
 
-  RenderOptions truth_options() const {
-    RenderOptions options;
+  tb::RenderOptions truth_options() const {
+    tb::RenderOptions options;
     // Coverage is averaged in the light in which the last engine blends.
-    options.averaging =
-        roles().chosen_smoothers().back()->linear_light() ? Averaging::kLinear : Averaging::kStored;
+    options.averaging = roles().chosen_smoothers().back()->linear_light() ? tb::Averaging::kLinear
+                                                                          : tb::Averaging::kStored;
     return options;
   }
 
   void add_pictures(const RunParameters& run, RunContext& context, const DrawnScene& scene,
-                    const FrameComposition& frame, Result& result) const {
-    const Image& before = frame.buffer().frame();
-    const Image after = frame.frame();
+                    const FrameComposition& frame, tb::Result& result) const {
+    const tb::Image& before = frame.buffer().frame();
+    const tb::Image after = frame.frame();
     const bool whole = frame.delivered() == after.pixels.size();
-    Image expected, truth;
+    tb::Image expected, truth;
     if (after.pixels.size() != before.pixels.size()) return;  // nothing was begun
     const bool golden = run.check == CheckMode::kGolden;
     if (golden) expected = frame.expected_frame();
@@ -192,7 +195,7 @@ class FrameCommand final : public Engine {
     if (frame.mesh()) frame.mesh()->add_pictures(context, before, frame.rows() != nullptr);
   }
 
-  ProgramParameters program_;  // of the engines that smooth
+  tb::ProgramParameters program_;  // of the engines that smooth
   mutable std::unique_ptr<FrameRoles> roles_;
   mutable std::string two_;  // an example
 };
@@ -201,4 +204,4 @@ class FrameCommand final : public Engine {
 
 std::unique_ptr<Engine> make_frame_engine() { return std::make_unique<FrameCommand>(); }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

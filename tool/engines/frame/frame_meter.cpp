@@ -9,12 +9,14 @@
 #include "tb/env/collect.h"
 #include "tb/run/amount.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::Figure;
 
 FrameMeter::FrameMeter(const FrameParts& parts)
-    : Meter(""), parts_(parts), words_(parts.drawer.words()) {}
+    : tb::Meter(""), parts_(parts), words_(parts.drawer.words()) {}
 
-void FrameMeter::collect(Result& result) const {
+void FrameMeter::collect(tb::Result& result) const {
   parts_.environments.front()->collect(result);
   add(result, "frame_buffer", parts_.buffer);
   for (std::size_t i = 1; i < parts_.environments.size(); ++i)
@@ -27,14 +29,15 @@ void FrameMeter::collect(Result& result) const {
       "of it is not modelled in time.");
 }
 
-void FrameMeter::show_parts(Observer& observer) const {
-  for (const Environment* part : parts_.environments) part->show_parts(observer);
-  observer.see("frame_buffer", parts_.buffer, activity_keys(parts_.buffer));
+void FrameMeter::show_parts(tb::Observer& observer) const {
+  for (const tb::Environment* part : parts_.environments) part->show_parts(observer);
+  observer.see("frame_buffer", parts_.buffer, tb::activity_keys(parts_.buffer));
   observer.see("frame_buffer_bytes_written", parts_.buffer.bytes_written);
   observer.see("frame_buffer_bytes_read", parts_.buffer.bytes_read);
 }
 
-FrameMeter::Clocks FrameMeter::clocks(const Result& result, const FrameProgress& progress) const {
+FrameMeter::Clocks FrameMeter::clocks(const tb::Result& result,
+                                      const FrameProgress& progress) const {
   const auto since_begin = [&](rtl::Cycle cycle) {
     return cycle - std::min(cycle, progress.begun);
   };
@@ -64,18 +67,18 @@ std::string FrameMeter::meaning_of_bound(const Clocks& c) const {
     return fmt::format(
         "Pixels of the frame over the clocks that the engines need one after the other: {} {}, "
         "drawing edges {}{}.",
-        words_.doing, grouped(c.colours_bound), grouped(c.drawing_bound),
-        parts_.rows ? fmt::format(", smoothing {}", grouped(c.smoothing_bound)) : "");
+        words_.doing, tb::grouped(c.colours_bound), tb::grouped(c.drawing_bound),
+        parts_.rows ? fmt::format(", smoothing {}", tb::grouped(c.smoothing_bound)) : "");
   return fmt::format(
       "Pixels of the frame over the clocks of the slower engine alone ({0}), the other one at the "
       "same time: {1} takes {2} clocks at least, smoothing {3}.",
       c.smoothing_bound >= c.colours_bound ? "smoothing" : words_.doing, words_.doing,
-      grouped(c.colours_bound), grouped(c.smoothing_bound));
+      tb::grouped(c.colours_bound), tb::grouped(c.smoothing_bound));
 }
 
 std::string FrameMeter::colours_key() const { return fmt::format("{}_clocks", words_.doing); }
 
-void FrameMeter::collect_clocks(Result& result, const Clocks& c) const {
+void FrameMeter::collect_clocks(tb::Result& result, const Clocks& c) const {
   add(result, colours_key(), c.colours, "clk",
       fmt::format("From the first {} to the last colour.", words_.from));
   if (parts_.mesh)
@@ -98,16 +101,16 @@ void FrameMeter::collect_clocks(Result& result, const Clocks& c) const {
                                 words_.bound_meaning));
 }
 
-void FrameMeter::collect_headline(Result& result, const FrameProgress& progress) const {
+void FrameMeter::collect_headline(tb::Result& result, const FrameProgress& progress) const {
   const Clocks c = clocks(result, progress);
   collect_clocks(result, c);
   const SmoothingStage& last = parts_.rows ? static_cast<const SmoothingStage&>(*parts_.rows)
                                            : static_cast<const SmoothingStage&>(*parts_.mesh);
   result.latency = last.latency();
   result.throughput =
-      ratio(parts_.rows ? parts_.rows->delivered_in_all() : pixels(), result.cycles);
+      tb::ratio(parts_.rows ? parts_.rows->delivered_in_all() : pixels(), result.cycles);
   result.throughput_unit = "pixel/clk";
-  result.throughput_bound = ratio(pixels(), bound(c));
+  result.throughput_bound = tb::ratio(pixels(), bound(c));
   result.throughput_bound_meaning = meaning_of_bound(c);
   result.figures = headline_figures(progress.complete);
   result.bottleneck = find_bottleneck(result.units, std::string(last.last_unit()));
@@ -139,4 +142,4 @@ std::vector<Figure> FrameMeter::headline_figures(bool complete) const {
   return figures;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

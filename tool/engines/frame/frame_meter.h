@@ -12,14 +12,14 @@
 #include "tool/engines/frame/frame_buffer.h"
 #include "tool/run/composition.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // In the order of the frame's way; who does not smooth is null.
 struct FrameParts {
   const PictureDrawer& drawer;
   const DrawingStage& drawing;
   const FrameBuffer& buffer;
-  std::vector<const Environment*> environments;
+  std::vector<const tb::Environment*> environments;
   const MeshStage* mesh;
   const RowStage* rows;
   std::string_view mesh_title, rows_title;
@@ -34,13 +34,13 @@ struct FrameProgress {
   bool complete = false;             // the run
 };
 
-class FrameMeter : public Meter {
+class FrameMeter : public tb::Meter {
  public:
   explicit FrameMeter(const FrameParts& parts);
 
-  void collect(Result& result) const;
-  void show_parts(Observer& observer) const;
-  void collect_headline(Result& result, const FrameProgress& progress) const;
+  void collect(tb::Result& result) const;
+  void show_parts(tb::Observer& observer) const;
+  void collect_headline(tb::Result& result, const FrameProgress& progress) const;
 
  private:
   // Clocks of each engine at this frame, and what it needs at least.
@@ -49,12 +49,12 @@ class FrameMeter : public Meter {
     std::uint64_t colours_bound = 0, drawing_bound = 0, smoothing_bound = 0;
     std::uint64_t together() const { return colours + drawing + smoothing; }
   };
-  Clocks clocks(const Result& result, const FrameProgress& progress) const;
+  Clocks clocks(const tb::Result& result, const FrameProgress& progress) const;
   // Engines behind each other add up; who draws and who smooths rows overlap.
   std::uint64_t bound(const Clocks& clocks) const;
   std::string meaning_of_bound(const Clocks& clocks) const;
-  void collect_clocks(Result& result, const Clocks& clocks) const;
-  std::vector<Figure> headline_figures(bool complete) const;
+  void collect_clocks(tb::Result& result, const Clocks& clocks) const;
+  std::vector<tb::Figure> headline_figures(bool complete) const;
   std::uint64_t pixels() const { return parts_.buffer.frame().pixels.size(); }
   std::string colours_key() const;
 
@@ -62,4 +62,4 @@ class FrameMeter : public Meter {
   DrawingWords words_;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

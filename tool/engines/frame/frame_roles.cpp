@@ -9,7 +9,7 @@
 #include "spec/error.h"
 #include "tool/run/shorthands.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 bool has(const HandedOn& handed, Handed what) {
@@ -111,10 +111,10 @@ std::vector<const PictureSmoother*> FrameRoles::chosen_smoothers() const {
   return all;
 }
 
-void FrameRoles::add_parameters(ParameterSet& set) {
+void FrameRoles::add_parameters(tb::ParameterSet& set) {
   drawer_->add_scene(set);
   FrameChoice choice{choice_, names_};
-  set.add("frame", ParameterKind::kRule, choice);
+  set.add("frame", tb::ParameterKind::kRule, choice);
   drawer_->add_parameters(set);
   for (const auto& mesh : mesh_) mesh->add_parameters(set);
   for (const auto& rows : rows_) rows->add_parameters(set);
@@ -122,7 +122,7 @@ void FrameRoles::add_parameters(ParameterSet& set) {
 
 // The one place of what a pair does for each other: the first marks what it has smoothed, and the
 // second follows it by rules of its own. What is given stays.
-void FrameRoles::resolve(ParameterSet& set) {
+void FrameRoles::resolve(tb::ParameterSet& set) {
   const Smoothing& smoothing = chosen();
   const std::string why = fmt::format("frame.smoothing = {}", smoothing.name);
   const auto follows = [&](const RowSmoother& rows) {
@@ -166,4 +166,4 @@ std::vector<Shorthand> FrameRoles::shorthands() const {
   return options;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

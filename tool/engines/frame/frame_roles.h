@@ -11,7 +11,7 @@
 
 #include "tool/run/composition.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // A value of frame.smoothing: one of the two, or both.
 struct Smoothing {
@@ -41,9 +41,9 @@ class FrameRoles {
   std::vector<const MeshSmoother*> mesh_smoothers() const;
   std::vector<const RowSmoother*> row_smoothers() const;
 
-  void add_parameters(ParameterSet& set);
+  void add_parameters(tb::ParameterSet& set);
   // Presets, what the chosen engines do for each other, and what is rejected.
-  void resolve(ParameterSet& set);
+  void resolve(tb::ParameterSet& set);
   std::vector<Shorthand> shorthands() const;
 
  private:
@@ -55,4 +55,4 @@ class FrameRoles {
   std::size_t choice_ = 0;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -24,17 +24,21 @@
 #include "tool/run/shorthands.h"
 #include "tool/run/simulate.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::LoadedGeometricFrame;
+using tb::name_of;
+
 namespace {
 
-class GeometricCommand final : public Engine, public GeometricTestbench {
+class GeometricCommand final : public Engine, public tb::GeometricTestbench {
  public:
   std::string_view summary() const override {
     return "A lit scene and the edges of its mesh through the geometric engine";
   }
   std::unique_ptr<CompositionRole> role() const override { return make_geometric_role(); }
 
-  void resolve(ParameterSet& set) override {
+  void resolve(tb::ParameterSet& set) override {
     apply_preset(set, parameters_);
     lists_ = lists_of(scene_);
     frames_ = frames_of(set, sequence_, lists_);
@@ -61,23 +65,23 @@ class GeometricCommand final : public Engine, public GeometricTestbench {
 
   void check(const RunParameters& run, RunContext& context) override { check(*load(run, context)); }
 
-  void run(const RunParameters& run, RunContext& context, Result& result) override {
+  void run(const RunParameters& run, RunContext& context, tb::Result& result) override {
     const std::shared_ptr<const LoadedGeometricFrame> shared = load(run, context);
     const LoadedGeometricFrame& loaded = *shared;
     check(loaded);
-    const geometric::Frame& frame = loaded.frame;
-    MeshFiles meshes;
+    const tb::geometric::Frame& frame = loaded.frame;
+    tb::MeshFiles meshes;
     context.add_inputs(frames_ > 1 ? input_files(meshes) : loaded.inputs);
     context.set_title(
         "Geometric engine: " + std::filesystem::path(scene_.source).filename().string(),
         summary_line(frame));
     for (const std::string& note : loaded.notes) context.add_note(note);
     for (const std::string& note : build_notes(rtl::geometric::sized(
-             parameters_, memory_clocks(GeometricSetup{parameters_, memory_}))))
+             parameters_, memory_clocks(tb::GeometricSetup{parameters_, memory_}))))
       context.add_note(note);
-    const std::vector<geometric::Frame> frames(static_cast<std::size_t>(scene_.count), frame);
-    Simulation simulation(simulation_options(run, context));
-    GeometricEnvironment environment(simulation, frames, {parameters_, memory_});
+    const std::vector<tb::geometric::Frame> frames(static_cast<std::size_t>(scene_.count), frame);
+    tb::Simulation simulation(simulation_options(run, context));
+    tb::GeometricEnvironment environment(simulation, frames, {parameters_, memory_});
     simulate(simulation, environment, context, result, [&] {
       for (const std::string& note : dropped_notes(environment.engine().work()))
         context.add_note(note);
@@ -107,7 +111,7 @@ class GeometricCommand final : public Engine, public GeometricTestbench {
 
  private:
   // What is known before anything is rendered.
-  void check(const Scene& scene) const {
+  void check(const tb::Scene& scene) const {
     reject_too_many_faces(scene, parameters_);
     golden::geometric::check_frame(parameters_, {scene_.width, scene_.height, 0, 0, 0});
   }
@@ -115,7 +119,7 @@ class GeometricCommand final : public Engine, public GeometricTestbench {
   void check(const LoadedGeometricFrame& loaded) const {
     check(loaded.scene);
     reject_nothing_drawn(loaded.scene, loaded.frame.depth);
-    const geometric::Frame& frame = loaded.frame;
+    const tb::geometric::Frame& frame = loaded.frame;
     golden::geometric::check_frame(
         parameters_, {frame.image.width, frame.image.height, frame.screen.edges.size(),
                       frame.screen.vertices.size(), frame.screen.faces});
@@ -125,40 +129,41 @@ class GeometricCommand final : public Engine, public GeometricTestbench {
                                                    const RunContext& context) const {
     const bool truth = run.truth && !context.checking_only();
     return context.shared<LoadedGeometricFrame>("geometric frame", {"scene.", "run.truth"}, [&] {
-      Waiting waiting(truth ? "rendering frame and truth" : "rendering the frame", context.quiet());
-      return load_geometric_frame(
+      tb::Waiting waiting(truth ? "rendering frame and truth" : "rendering the frame",
+                          context.quiet());
+      return tb::load_geometric_frame(
           in_frame(scene_, lists_, 0), static_cast<std::uint32_t>(run.seed), truth,
           [&] {
             waiting.update();
-            return interrupted();
+            return tb::interrupted();
           },
-          [&](const Scene& scene) { check(scene); });
+          [&](const tb::Scene& scene) { check(scene); });
     });
   }
 
   SequencePicture picture_of(int frame, std::uint32_t seed) const {
-    GeometricSceneParameters wanted = in_frame(scene_, lists_, frame);
+    tb::GeometricSceneParameters wanted = in_frame(scene_, lists_, frame);
     wanted.move = move_of(sequence_, lists_, frame);
     const LoadedGeometricFrame loaded =
-        load_geometric_frame(wanted, seed, true, [] { return interrupted(); });
+        tb::load_geometric_frame(wanted, seed, true, [] { return tb::interrupted(); });
     check(loaded);
-    return {loaded.frame.image, geometric::smoothed(loaded.frame, parameters_).image,
+    return {loaded.frame.image, tb::geometric::smoothed(loaded.frame, parameters_).image,
             *loaded.truth};
   }
 
-  std::string summary_line(const geometric::Frame& frame) const {
+  std::string summary_line(const tb::geometric::Frame& frame) const {
     const spec::geometric::Parameters& p = parameters_;
     std::string clipped, crease;
     if (frame.screen.clipped > 0)
-      clipped = fmt::format(" ({} clipped)", grouped(frame.screen.clipped));
+      clipped = fmt::format(" ({} clipped)", tb::grouped(frame.screen.clipped));
     if (p.select == spec::geometric::Select::kEdges)
       crease = fmt::format(", creases {}", name_of(p.crease, spec::geometric::kCreaseNames));
     return fmt::format(
         "{} x {} pixels, {} faces, {} edges{}, {}: select {}{}, depth test {}, combine {}, {} "
         "light; "
         "{} of 8 x 8 pixels, {} edges, {} pixels a clock{}; memory latency {} clk",
-        frame.image.width, frame.image.height, grouped(frame.screen.faces),
-        grouped(frame.screen.edges.size()), clipped, preset_label_,
+        frame.image.width, frame.image.height, tb::grouped(frame.screen.faces),
+        tb::grouped(frame.screen.edges.size()), clipped, preset_label_,
         name_of(p.select, spec::geometric::kSelectNames), crease,
         name_of(p.depth_test, spec::geometric::kDepthTestNames),
         name_of(p.combine, spec::geometric::kCombineNames), p.linear_light ? "linear" : "stored",
@@ -169,12 +174,12 @@ class GeometricCommand final : public Engine, public GeometricTestbench {
   }
 
   void add_pictures(const RunParameters& run, RunContext& context,
-                    const LoadedGeometricFrame& loaded, const GeometricEnvironment& engine,
-                    Result& result) const {
-    const Image& before = loaded.frame.image;
-    const Image after = engine.frame();
+                    const LoadedGeometricFrame& loaded, const tb::GeometricEnvironment& engine,
+                    tb::Result& result) const {
+    const tb::Image& before = loaded.frame.image;
+    const tb::Image after = engine.frame();
     if (after.pixels.size() != before.pixels.size()) return;  // no frame was begun
-    Image expected(after.width, after.height);
+    tb::Image expected(after.width, after.height);
     const bool golden = run.check == CheckMode::kGolden &&
                         engine.golden_model().pixels().size() == expected.pixels.size();
     if (golden) expected.pixels = engine.golden_model().pixels();
@@ -189,7 +194,7 @@ class GeometricCommand final : public Engine, public GeometricTestbench {
           measure_quality(loaded.truth_name, before, after, *loaded.truth, &loaded.frame.depth);
   }
 
-  FrameLists lists_;
+  tb::FrameLists lists_;
   int frames_ = 1;
   std::string preset_label_;
 };
@@ -198,4 +203,4 @@ class GeometricCommand final : public Engine, public GeometricTestbench {
 
 std::unique_ptr<Engine> make_geometric_engine() { return std::make_unique<GeometricCommand>(); }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

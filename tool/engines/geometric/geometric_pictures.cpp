@@ -10,7 +10,10 @@
 #include "golden/geometric/resolve.h"
 #include "tool/run/pictures.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::Rgba8;
+
 namespace {
 
 using golden::geometric::LineFate;
@@ -62,8 +65,9 @@ void walk(const LineRecord& line, int rows, Visit&& visit) {
 
 }  // namespace
 
-Image weight_picture(int width, int height, std::span<const spec::geometric::BlockRecord> blocks) {
-  const Image shape(width, height);
+tb::Image weight_picture(int width, int height,
+                         std::span<const spec::geometric::BlockRecord> blocks) {
+  const tb::Image shape(width, height);
   std::vector<Shares> shares(shape.pixels.size());
   for (const spec::geometric::BlockRecord& block : blocks)
     for (std::size_t i = 0; i < block.weights.size(); ++i) {
@@ -77,10 +81,11 @@ Image weight_picture(int width, int height, std::span<const spec::geometric::Blo
   return shares_picture(width, height, shares);
 }
 
-Image class_picture(const geometric::Frame& frame, const spec::geometric::Parameters& parameters) {
+tb::Image class_picture(const tb::geometric::Frame& frame,
+                        const spec::geometric::Parameters& parameters) {
   const golden::geometric::FrameInput input = frame.input();
   const int width = frame.image.width, height = frame.image.height;
-  Image picture(width, height);
+  tb::Image picture(width, height);
   std::transform(frame.image.pixels.begin(), frame.image.pixels.end(), picture.pixels.begin(),
                  dim_grey);
   // What is seen goes over what is not.
@@ -104,7 +109,7 @@ Image class_picture(const geometric::Frame& frame, const spec::geometric::Parame
   return picture;
 }
 
-void add_edge_pictures(RunContext& context, const geometric::Frame& frame,
+void add_edge_pictures(RunContext& context, const tb::geometric::Frame& frame,
                        const spec::geometric::Parameters& parameters,
                        std::span<const spec::geometric::BlockRecord> blocks,
                        const std::string& weights) {
@@ -117,4 +122,4 @@ void add_edge_pictures(RunContext& context, const geometric::Frame& frame,
                     "classified white; dark where the depth test fails");
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -14,7 +14,7 @@
 #include "tool/run/input_rules.h"
 #include "tool/run/preset_help.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 constexpr std::string_view kGeometricPrefix = "geometric.";
@@ -26,7 +26,7 @@ std::string source_of(const spec::geometric::Parameters& values) {
 
 }  // namespace
 
-void apply_preset(ParameterSet& set, const spec::geometric::Parameters& values) {
+void apply_preset(tb::ParameterSet& set, const spec::geometric::Parameters& values) {
   const spec::geometric::Parameters rules = preset_parameters(values.preset);
   for_each_of(values.preset, [&](std::string_view name, auto, auto) {
     set.imply(fmt::format("{}{}", kGeometricPrefix, name), spec::value_text(rules, name),
@@ -34,17 +34,17 @@ void apply_preset(ParameterSet& set, const spec::geometric::Parameters& values) 
   });
 }
 
-void imply_crossings(ParameterSet& set, std::string_view name,
+void imply_crossings(tb::ParameterSet& set, std::string_view name,
                      const spec::geometric::Parameters& values) {
   if (values.preset == spec::geometric::Preset::kDeburr)
     set.imply(std::string(name), "true", source_of(values));
 }
 
-std::string preset_label(const ParameterSet& set, const spec::geometric::Parameters& values) {
+std::string preset_label(const tb::ParameterSet& set, const spec::geometric::Parameters& values) {
   return with_changes(source_of(values), set, kGeometricPrefix);
 }
 
-void reject_unused_rules(const ParameterSet& set, const spec::geometric::Parameters& p) {
+void reject_unused_rules(const tb::ParameterSet& set, const spec::geometric::Parameters& p) {
   const auto reject = [&](std::string_view name, std::string_view why) {
     set.reject(fmt::format("{}{}", kGeometricPrefix, name), why);
   };
@@ -78,7 +78,7 @@ void reject_unused_rules(const ParameterSet& set, const spec::geometric::Paramet
   }
 }
 
-void reject_too_many_faces(const Scene& scene, const spec::geometric::Parameters& p) {
+void reject_too_many_faces(const tb::Scene& scene, const spec::geometric::Parameters& p) {
   constexpr std::uint64_t kStep = spec::geometric::kFacesInLine;
   const std::uint64_t faces = scene.mesh.triangles.size();
   const std::string mesh = fmt::format("the mesh '{}' has {} faces", scene.name, faces);
@@ -112,9 +112,10 @@ std::vector<std::string> dropped_notes(const spec::geometric::Work& work) {
         {work.empty_edges, "outside the frame"},
         {work.degenerate_edges, "without length"},
         {work.invalid_edges, "with an index out of range"}})
-    if (count != 0) why += fmt::format("{}{} {}", why.empty() ? "" : ", ", grouped(count), what);
-  std::string note =
-      fmt::format("all {} edges were dropped ({}): nothing was smoothed", grouped(work.edges), why);
+    if (count != 0)
+      why += fmt::format("{}{} {}", why.empty() ? "" : ", ", tb::grouped(count), what);
+  std::string note = fmt::format("all {} edges were dropped ({}): nothing was smoothed",
+                                 tb::grouped(work.edges), why);
   if (work.back_edges != 0)
     note +=
         "; geometric.cull = none draws those that are turned away, for an eye inside of a mesh or "
@@ -131,4 +132,4 @@ std::vector<Shorthand> edge_shorthands() {
       {"--walkers", "geometric.walkers", "Pixels of a line walked a clock: 1, 2 or 4 (default)"}};
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

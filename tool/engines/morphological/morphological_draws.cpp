@@ -5,11 +5,11 @@
 
 #include "tb/run/parameter_set.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 // Alone it asks memory for nothing but the frame that it delays.
-bool traces_something(const ParameterSet& set) {
+bool traces_something(const tb::ParameterSet& set) {
   return !set.find("frame.count") || set.find("morphological.storage")->text() == "memory" ||
          set.find("run.line_trace")->text() == "none";
 }
@@ -23,7 +23,7 @@ RandomDraws morphological_draws() {
                {"frame.height", side_of_picture},
                {"frame.count", evenly<2, 3>},
                {"morphological.window_rows",
-                [](Random& r) { return std::to_string(2 * by_magnitude(r, 5, 129)); }},
+                [](tb::Random& r) { return std::to_string(2 * by_magnitude(r, 5, 129)); }},
                {"morphological.reach_columns", magnitude<4, 2048>},
                {"morphological.line_pixels", evenly<96, 1100>},
                {"morphological.memory.outstanding", magnitude<4, 256>}};
@@ -35,4 +35,4 @@ RandomDraws morphological_draws() {
   return all;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

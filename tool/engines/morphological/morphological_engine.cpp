@@ -27,21 +27,26 @@
 #include "tool/run/shorthands.h"
 #include "tool/run/simulate.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::Image;
+using tb::LoadedFrame;
+using tb::name_of;
+
 namespace {
 
-class MorphologicalCommand final : public Engine, public MorphologicalTestbench {
+class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbench {
  public:
   std::string_view summary() const override {
     return "An image or a scene through the morphological engine, checked pixel by pixel";
   }
   std::unique_ptr<CompositionRole> role() const override { return make_morphological_role(); }
 
-  void resolve(ParameterSet& set) override {
+  void resolve(tb::ParameterSet& set) override {
     apply_preset(set, parameters_);
     lists_ = lists_of(frame_);
     frames_ = frames_of(set, sequence_, lists_);
-    if (frames_ > 1 && lists_.frames() == 1 && !is_rendered(first()) && is_there(frame_.source))
+    if (frames_ > 1 && lists_.frames() == 1 && !is_rendered(first()) && tb::is_there(frame_.source))
       throw spec::ConfigError(
           "sequence.frames: an image file does not move: list a file a frame, as by "
           "--in 'frames/*.png'");
@@ -87,25 +92,25 @@ class MorphologicalCommand final : public Engine, public MorphologicalTestbench 
     check(run, *load(run, context));
   }
 
-  void run(const RunParameters& run, RunContext& context, Result& result) override {
+  void run(const RunParameters& run, RunContext& context, tb::Result& result) override {
     const std::shared_ptr<const LoadedFrame> shared = load(run, context);
     const LoadedFrame& loaded = *shared;
     check(run, loaded);
-    MeshFiles meshes;
+    tb::MeshFiles meshes;
     context.add_inputs(frames_ > 1 ? input_files(meshes) : loaded.inputs);
     context.set_title(
         "Morphological engine: " + std::filesystem::path(frame_.source).filename().string(),
         summary_line(loaded));
     for (const std::string& conversion : loaded.conversions) context.add_note(conversion);
     for (const std::string& note : build_notes(parameters_)) context.add_note(note);
-    const std::vector<MorphologicalInput> frames(static_cast<std::size_t>(frame_.count),
-                                                 loaded.input);
-    Simulation simulation(simulation_options(run, context));
-    MorphologicalEnvironment environment(simulation, frames,
-                                         {.morphological = parameters_,
-                                          .memory = memory_,
-                                          .shares = loaded.shares,
-                                          .expectation = golden_of(loaded, context)});
+    const std::vector<tb::MorphologicalInput> frames(static_cast<std::size_t>(frame_.count),
+                                                     loaded.input);
+    tb::Simulation simulation(simulation_options(run, context));
+    tb::MorphologicalEnvironment environment(simulation, frames,
+                                             {.morphological = parameters_,
+                                              .memory = memory_,
+                                              .shares = loaded.shares,
+                                              .expectation = golden_of(loaded, context)});
     simulate(simulation, environment, context, result,
              [&] { add_pictures(run, context, loaded, environment, result); });
     if (frames_ > 1 && !result.interrupted && !context.checking_only())
@@ -142,11 +147,11 @@ class MorphologicalCommand final : public Engine, public MorphologicalTestbench 
 
   std::shared_ptr<const LoadedFrame> load(const RunParameters& run,
                                           const RunContext& context) const {
-    FrameParameters wanted = first();
+    tb::FrameParameters wanted = first();
     if (context.checking_only()) wanted.truth_samples = std::min(1, wanted.truth_samples);
-    const auto render = [&](const std::function<LitFrames()>& make) {
+    const auto render = [&](const std::function<tb::LitFrames()>& make) {
       const std::string bytes = context.shared_bytes("lit frames", {"frame."}, [&] {
-        const LitFrames frames = make();
+        const tb::LitFrames frames = make();
         std::string made;
         append_bytes(made, frames.noaa);
         append_bytes(made, frames.truth);
@@ -154,19 +159,19 @@ class MorphologicalCommand final : public Engine, public MorphologicalTestbench 
         return made;
       });
       std::string_view rest = bytes;
-      LitFrames frames;
-      frames.noaa = take_image<Rgba8>(rest);
-      frames.truth = take_image<Rgba8>(rest);
-      frames.depth = take_image<float>(rest);
+      tb::LitFrames frames;
+      frames.noaa = tb::take_image<tb::Rgba8>(rest);
+      frames.truth = tb::take_image<tb::Rgba8>(rest);
+      frames.depth = tb::take_image<float>(rest);
       return frames;
     };
     return context.shared<LoadedFrame>("loaded frame", {"frame."}, [&] {
-      Waiting waiting("rendering scene and truth", context.quiet());
-      return load_frame(
+      tb::Waiting waiting("rendering scene and truth", context.quiet());
+      return tb::load_frame(
           wanted, static_cast<std::uint32_t>(run.seed),
           [&] {
             waiting.update();
-            return interrupted();
+            return tb::interrupted();
           },
           render);
     });
@@ -176,7 +181,7 @@ class MorphologicalCommand final : public Engine, public MorphologicalTestbench 
       const LoadedFrame& loaded, const RunContext& context) const {
     using golden::morphological::MorphologicalGolden;
     return context.shared_golden<MorphologicalGolden>(built_for_golden(), [&] {
-      return golden_frame(loaded.input, parameters_, shares_of(loaded));
+      return tb::golden_frame(loaded.input, parameters_, shares_of(loaded));
     });
   }
 
@@ -184,24 +189,24 @@ class MorphologicalCommand final : public Engine, public MorphologicalTestbench 
     return loaded.shares ? &*loaded.shares : nullptr;
   }
 
-  FrameParameters first() const { return in_frame(frame_, lists_, 0); }
+  tb::FrameParameters first() const { return in_frame(frame_, lists_, 0); }
 
   SequencePicture picture_of(int frame, std::uint32_t seed) const {
-    FrameParameters wanted = in_frame(frame_, lists_, frame);
+    tb::FrameParameters wanted = in_frame(frame_, lists_, frame);
     wanted.move = move_of(sequence_, lists_, frame);
-    const LoadedFrame loaded = load_frame(wanted, seed, [] { return interrupted(); });
+    const LoadedFrame loaded = tb::load_frame(wanted, seed, [] { return tb::interrupted(); });
     const Image& image = loaded.input.image;
     golden::morphological::check_frame(parameters_, image.width, image.height);
     Image after(image.width, image.height);
-    after.pixels = golden_frame(loaded.input, parameters_, shares_of(loaded)).pixels();
+    after.pixels = tb::golden_frame(loaded.input, parameters_, shares_of(loaded)).pixels();
     return {image, std::move(after), loaded.truth ? *loaded.truth : Image()};
   }
 
-  void reject_unused_frame(const ParameterSet& set) const {
+  void reject_unused_frame(const tb::ParameterSet& set) const {
     const bool depth_used = parameters_.edge_source == spec::morphological::EdgeSource::kDepth ||
                             parameters_.edge_source == spec::morphological::EdgeSource::kPredicated;
     // load_frame() has its own words for a truth beside a scene, and for a file that is not there.
-    if (is_rendered(first()) || !is_there(first().source)) return;
+    if (is_rendered(first()) || !tb::is_there(first().source)) return;
     for (const char* name : {"frame.width", "frame.height"})
       set.reject(name, "frame.source is an image file, which has a size of its own");
     set.reject("frame.truth_samples",
@@ -232,7 +237,7 @@ class MorphologicalCommand final : public Engine, public MorphologicalTestbench 
   }
 
   static void add_pictures(const RunParameters& run, RunContext& context, const LoadedFrame& loaded,
-                           const MorphologicalEnvironment& engine, Result& result) {
+                           const tb::MorphologicalEnvironment& engine, tb::Result& result) {
     const Image& before = loaded.input.image;
     const Image& after = engine.frame();
     if (after.pixels.size() != before.pixels.size()) return;  // no frame was begun
@@ -252,7 +257,7 @@ class MorphologicalCommand final : public Engine, public MorphologicalTestbench 
                                        loaded.depth ? &*loaded.depth : nullptr);
   }
 
-  FrameLists lists_;
+  tb::FrameLists lists_;
   int frames_ = 1;
   std::string preset_label_;
 };
@@ -263,4 +268,4 @@ std::unique_ptr<Engine> make_morphological_engine() {
   return std::make_unique<MorphologicalCommand>();
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame,
                             const std::vector<spec::morphological::BlendTap>& taps) {
@@ -21,11 +21,12 @@ void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame,
                     "blue where the two are left and right");
 }
 
-Image edge_picture(const Image& frame, const std::vector<spec::morphological::BlendTap>& taps) {
+tb::Image edge_picture(const tb::Image& frame,
+                       const std::vector<spec::morphological::BlendTap>& taps) {
   constexpr int kDim = 3;
-  Image picture(frame.width, frame.height);
+  tb::Image picture(frame.width, frame.height);
   for (std::size_t i = 0; i < taps.size(); ++i) {
-    const Rgba8& p = frame.pixels[i];
+    const tb::Rgba8& p = frame.pixels[i];
     const auto grey = static_cast<std::uint8_t>((p[0] + 2 * p[1] + p[2]) / 4 / kDim);
     picture.pixels[i] = {taps[i].edges & 1 ? std::uint8_t{255} : grey,
                          taps[i].edges & 2 ? std::uint8_t{255} : grey, grey, 255};
@@ -33,4 +34,4 @@ Image edge_picture(const Image& frame, const std::vector<spec::morphological::Bl
   return picture;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -9,13 +9,14 @@
 #include "tool/pages/run_context.h"
 #include "tool/run/pictures.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // add_frame_pictures(), and edges and weights.
 void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame,
                             const std::vector<spec::morphological::BlendTap>& taps);
 
 // Left edges red, top edges green, over the frame in grey.
-Image edge_picture(const Image& frame, const std::vector<spec::morphological::BlendTap>& taps);
+tb::Image edge_picture(const tb::Image& frame,
+                       const std::vector<spec::morphological::BlendTap>& taps);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -15,7 +15,10 @@
 #include "tool/engines/morphological/morphological_rules.h"
 #include "tool/run/input_rules.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::Image;
+
 namespace {
 
 using spec::morphological::PixelBeat;
@@ -41,29 +44,33 @@ class RowsToMorphological final : public RowsPort {
 
 class MorphologicalStage final : public RowStage {
  public:
-  MorphologicalStage(Simulation& simulation, const DrawnScene& scene, Image frame,
-                     const MorphologicalSetup& setup, RowsToMorphological& port)
+  MorphologicalStage(tb::Simulation& simulation, const tb::DrawnScene& scene, Image frame,
+                     const tb::MorphologicalSetup& setup, RowsToMorphological& port)
       : frames_{{std::move(frame), depth_codes(scene.stream().depth)}},
         environment_(simulation, frames_, setup, "morphological") {
     port.out(environment_.pixels);
   }
 
-  Environment& environment() override { return environment_; }
+  tb::Environment& environment() override { return environment_; }
   Image frame() const override { return environment_.frame(); }
   std::size_t delivered() const override { return environment_.delivered(); }
   Image expected_frame() const override {
     const Image& size = frames_.front().image;
     Image image(size.width, size.height);
-    const std::vector<Rgba8>& expected = environment_.golden_model().pixels();
+    const std::vector<tb::Rgba8>& expected = environment_.golden_model().pixels();
     if (expected.size() == image.pixels.size()) image.pixels = expected;
     return image;
   }
-  Latency latency() const override { return latency_of(environment_.engine().beat_latency); }
+  tb::Latency latency() const override {
+    return tb::latency_of(environment_.engine().beat_latency);
+  }
   std::string_view last_unit() const override { return "morphological_blender"; }
   std::uint64_t clocks_bound(int width, int height) const override {
-    return frame_clocks_by_formula(environment_.engine().parameters(), width, height);
+    return tb::frame_clocks_by_formula(environment_.engine().parameters(), width, height);
   }
-  std::vector<Figure> work_figures() const override { return environment_.meter().work_figures(); }
+  std::vector<tb::Figure> work_figures() const override {
+    return environment_.meter().work_figures();
+  }
 
   void expect(Image image) override { frames_.front().image = std::move(image); }
   std::uint64_t delivered_in_all() const override { return environment_.delivered_in_all(); }
@@ -72,8 +79,8 @@ class MorphologicalStage final : public RowStage {
   }
 
  private:
-  std::vector<MorphologicalInput> frames_;
-  MorphologicalEnvironment environment_;
+  std::vector<tb::MorphologicalInput> frames_;
+  tb::MorphologicalEnvironment environment_;
 };
 
 class MorphologicalRole final : public RowSmoother {
@@ -83,21 +90,21 @@ class MorphologicalRole final : public RowSmoother {
   HandedOn needs() const override { return {Handed::kDepth}; }
   bool looks_at_marks() const override { return true; }
 
-  void add_parameters(ParameterSet& set) override {
+  void add_parameters(tb::ParameterSet& set) override {
     set.add_engine("morphological", parameters_);
-    add_memory(set, kMorphologicalMemory, memory_);
+    add_memory(set, tb::kMorphologicalMemory, memory_);
   }
   std::vector<std::string> prefixes() const override {
-    return {"morphological.", fmt::format("{}.", kMorphologicalMemory)};
+    return {"morphological.", fmt::format("{}.", tb::kMorphologicalMemory)};
   }
-  void apply_preset(ParameterSet& set) override { tb::apply_preset(set, parameters_); }
-  void follow_preset(ParameterSet& set, std::string_view why) override {
-    set.imply(
-        "morphological.preset",
-        name_of(spec::morphological::FollowingRules().preset, spec::morphological::kPresetNames),
-        why);
+  void apply_preset(tb::ParameterSet& set) override { tool::apply_preset(set, parameters_); }
+  void follow_preset(tb::ParameterSet& set, std::string_view why) override {
+    set.imply("morphological.preset",
+              tb::name_of(spec::morphological::FollowingRules().preset,
+                          spec::morphological::kPresetNames),
+              why);
   }
-  void follow(ParameterSet& set, std::string_view why) override {
+  void follow(tb::ParameterSet& set, std::string_view why) override {
     const spec::morphological::Parameters rules =
         golden::morphological::following_geometric(parameters_);
     std::vector<std::string> names = {"leave"};
@@ -109,11 +116,11 @@ class MorphologicalRole final : public RowSmoother {
     for (const std::string& name : names)
       set.imply("morphological." + name, spec::value_text(rules, name), why);
   }
-  void resolve(ParameterSet& set) override {
-    reject_unused_rules(set, parameters_, kMorphologicalMemory);
-    reject_unused_memory(set, kMorphologicalMemory, memory_);
+  void resolve(tb::ParameterSet& set) override {
+    reject_unused_rules(set, parameters_, tb::kMorphologicalMemory);
+    reject_unused_memory(set, tb::kMorphologicalMemory, memory_);
     if (parameters_.storage == spec::morphological::Storage::kMemory)
-      reject_slow_memory(set, kMorphologicalMemory, memory_);
+      reject_slow_memory(set, tb::kMorphologicalMemory, memory_);
     label_ = preset_label(set, parameters_);
   }
   std::string label() const override { return label_; }
@@ -122,33 +129,34 @@ class MorphologicalRole final : public RowSmoother {
   std::vector<std::string_view> pictures() const override { return {"edges", "weights"}; }
   // What is built for small pictures.
   LongRun long_run() const override { return {{}, {".line_pixels"}}; }
-  void check(const DrawnScene& scene) const override {
+  void check(const tb::DrawnScene& scene) const override {
     golden::morphological::check_frame(parameters_, scene.stream().width, scene.stream().height);
   }
   bool linear_light() const override { return parameters_.linear_light; }
 
-  Image golden_picture(const DrawnScene& scene, const Image& frame) const override {
-    const MorphologicalInput input{frame, depth_codes(scene.stream().depth)};
+  Image golden_picture(const tb::DrawnScene& scene, const Image& frame) const override {
+    const tb::MorphologicalInput input{frame, depth_codes(scene.stream().depth)};
     Image after(input.image.width, input.image.height);
-    after.pixels = golden_frame(input, parameters_).pixels();
+    after.pixels = tb::golden_frame(input, parameters_).pixels();
     return after;
   }
 
-  std::unique_ptr<RowsPort> rows_port(const char* name, const DrawnScene& scene) const override {
+  std::unique_ptr<RowsPort> rows_port(const char* name,
+                                      const tb::DrawnScene& scene) const override {
     return std::make_unique<RowsToMorphological>(name, depth_codes(scene.stream().depth),
                                                  platform::lanes_of(parameters_));
   }
-  std::unique_ptr<RowStage> build(Simulation& simulation, const DrawnScene& scene, Image frame,
-                                  RowsPort& port) const override {
+  std::unique_ptr<RowStage> build(tb::Simulation& simulation, const tb::DrawnScene& scene,
+                                  Image frame, RowsPort& port) const override {
     return std::make_unique<MorphologicalStage>(
         simulation, scene, std::move(frame),
-        MorphologicalSetup{.morphological = parameters_, .memory = memory_},
+        tb::MorphologicalSetup{.morphological = parameters_, .memory = memory_},
         static_cast<RowsToMorphological&>(port));
   }
 
  private:
   spec::morphological::Parameters parameters_;
-  MemoryParameters memory_;
+  tb::MemoryParameters memory_;
   std::string label_;
 };
 
@@ -158,4 +166,4 @@ std::unique_ptr<CompositionRole> make_morphological_role() {
   return std::make_unique<MorphologicalRole>();
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

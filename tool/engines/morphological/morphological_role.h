@@ -7,8 +7,8 @@
 
 #include "tool/run/composition.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 std::unique_ptr<CompositionRole> make_morphological_role();
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

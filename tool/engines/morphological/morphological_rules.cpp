@@ -9,7 +9,7 @@
 #include "tool/run/input_rules.h"
 #include "tool/run/preset_help.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 constexpr std::string_view kMorphologicalPrefix = "morphological.";
@@ -30,7 +30,7 @@ std::string source_of(const spec::morphological::Parameters& values) {
 
 }  // namespace
 
-void apply_preset(ParameterSet& set, const spec::morphological::Parameters& values) {
+void apply_preset(tb::ParameterSet& set, const spec::morphological::Parameters& values) {
   const spec::morphological::Parameters rules = preset_parameters(values.preset, values.quality);
   for_each_of(values.preset, values.quality, [&](std::string_view name, auto, auto) {
     set.imply(fmt::format("{}{}", kMorphologicalPrefix, name), spec::value_text(rules, name),
@@ -38,11 +38,12 @@ void apply_preset(ParameterSet& set, const spec::morphological::Parameters& valu
   });
 }
 
-std::string preset_label(const ParameterSet& set, const spec::morphological::Parameters& values) {
+std::string preset_label(const tb::ParameterSet& set,
+                         const spec::morphological::Parameters& values) {
   return with_changes(source_of(values), set, kMorphologicalPrefix);
 }
 
-void reject_unused_rules(const ParameterSet& set, const spec::morphological::Parameters& p,
+void reject_unused_rules(const tb::ParameterSet& set, const spec::morphological::Parameters& p,
                          std::string_view memory) {
   const auto reject = [&](std::string_view why, std::initializer_list<std::string_view> names) {
     for (const std::string_view name : names)
@@ -145,4 +146,4 @@ std::vector<Shorthand> smoothing_shorthands() {
            "Of the pixels that the morphological engine delays: line_buffers (default) or memory"}};
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

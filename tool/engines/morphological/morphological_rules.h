@@ -11,17 +11,18 @@
 #include "tb/run/parameter_set.h"
 #include "tool/run/engine.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // The rules of `values.preset` for every rule "morphological.*" that was not given beside it.
-void apply_preset(ParameterSet& set, const spec::morphological::Parameters& values);
+void apply_preset(tb::ParameterSet& set, const spec::morphological::Parameters& values);
 
 // "preset mlaa", "preset smaa, quality high", or "preset mlaa, changed: predictor, steps".
-std::string preset_label(const ParameterSet& set, const spec::morphological::Parameters& values);
+std::string preset_label(const tb::ParameterSet& set,
+                         const spec::morphological::Parameters& values);
 
 // ConfigError for a rule or a parameter of the memory ("<memory>.*") that was given and has no
 // effect. After apply_preset().
-void reject_unused_rules(const ParameterSet& set, const spec::morphological::Parameters& values,
+void reject_unused_rules(const tb::ParameterSet& set, const spec::morphological::Parameters& values,
                          std::string_view memory);
 
 // What the result says of a build that no clock of 250 MHz holds, although it can be simulated, and
@@ -31,4 +32,4 @@ std::vector<std::string> build_notes(const spec::morphological::Parameters& valu
 // Of what smooths: --preset, --lanes, --storage.
 std::vector<Shorthand> smoothing_shorthands();
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tool/engines/texture/texture_draws.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 RandomDraws texture_draws() {
   RandomDraws all;
@@ -19,4 +19,4 @@ RandomDraws texture_draws() {
   return all;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

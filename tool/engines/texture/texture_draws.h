@@ -4,8 +4,8 @@
 
 #include "tool/run/random_draws.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 RandomDraws texture_draws();
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -34,10 +34,14 @@
 #include "tool/run/shorthands.h"
 #include "tool/run/simulate.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::Image;
+using tb::TextureScene;
+
 namespace {
 
-class TextureEngine final : public Engine, public TextureTestbench {
+class TextureEngine final : public Engine, public tb::TextureTestbench {
  public:
   std::string_view summary() const override {
     return "A scene through the texture unit, checked colour by colour and line by line";
@@ -67,14 +71,14 @@ class TextureEngine final : public Engine, public TextureTestbench {
           "all"}});
   }
 
-  void resolve(ParameterSet& set) override {
+  void resolve(tb::ParameterSet& set) override {
     apply_preset(set, texture_);
     preset_label_ = preset_label(set, texture_);
     reject_unused_memory(set, "memory", memory_);
     reject_slow_memory(set, "memory", memory_);
     reject_empty_lod_range(sampler_);
     reject_unused_look_ups(set);
-    twin_units_ = twin_units(twins_.units);
+    twin_units_ = tb::twin_units(twins_.units);
     if (!twin_units_.empty()) {
       reject_views_inside(set);
       stand_ins(0);  // rejects what the build does not have
@@ -95,30 +99,30 @@ class TextureEngine final : public Engine, public TextureTestbench {
     reject_maps_of_nothing(run, *scene);
   }
 
-  void run(const RunParameters& run, RunContext& context, Result& result) override {
+  void run(const RunParameters& run, RunContext& context, tb::Result& result) override {
     const std::shared_ptr<const TextureScene> shared = load(run, context);
     const TextureScene& scene = *shared;
-    TextureSetup setup{texture_, memory_};
+    tb::TextureSetup setup{texture_, memory_};
     setup.stand_ins = stand_ins(run.seed);
     if (foreign())
       setup.foreign = fragments_of_file(scene);
     else
       reject_nothing_drawn(scene);
     reject_maps_of_nothing(run, scene);
-    MeshFiles meshes;
+    tb::MeshFiles meshes;
     context.add_inputs(frames_ > 1 ? input_files(meshes) : with_trace(scene.inputs()));
     context.set_title(title(), summary_line(scene, setup));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
-    Simulation simulation(simulation_options(run, context));
+    tb::Simulation simulation(simulation_options(run, context));
     if (!foreign() && run.pixel.empty()) setup.expectation = expectation(scene, context);
-    std::unique_ptr<FragmentWriter> writer;
-    if (trace_out_.fragments != TraceChoice::kNone && !context.checking_only()) {
-      writer = std::make_unique<FragmentWriter>(context.fragment_trace_file(),
-                                                format_of(trace_out_.fragments),
-                                                scene.stream().width, scene.stream().height);
-      setup.observer = [&writer](const TracedQuad& quad) { writer->put(quad); };
+    std::unique_ptr<tb::traces::FragmentWriter> writer;
+    if (trace_out_.fragments != tb::traces::TraceChoice::kNone && !context.checking_only()) {
+      writer = std::make_unique<tb::traces::FragmentWriter>(
+          context.fragment_trace_file(), format_of(trace_out_.fragments), scene.stream().width,
+          scene.stream().height);
+      setup.observer = [&writer](const tb::traces::TracedQuad& quad) { writer->put(quad); };
     }
-    TextureEnvironment environment(simulation, scene, setup);
+    tb::TextureEnvironment environment(simulation, scene, setup);
     simulate(simulation, environment, context, result, [&] {
       if (writer) writer->finish();
       add_pictures(run, context, scene, environment, result);
@@ -154,10 +158,10 @@ class TextureEngine final : public Engine, public TextureTestbench {
                                            const RunContext& context) const {
     return context.shared<TextureScene>("texture scene", {"scene.", "sampler."}, [&] {
       const auto seed = static_cast<std::uint32_t>(run.seed);
-      const SceneParameters first = in_frame(scene_, lists_, 0);
+      const tb::SceneParameters first = in_frame(scene_, lists_, 0);
       if (!foreign()) return TextureScene(first, sampler_, seed);
       // The picture's size stands at the beginning; the textures are counted when they are there.
-      const FragmentReader reader(trace_in_.file, spec::texture::kMaxTextures);
+      const tb::traces::FragmentReader reader(trace_in_.file, spec::texture::kMaxTextures);
       return TextureScene::without_fragments(first, sampler_, seed, reader.width(),
                                              reader.height());
     });
@@ -166,8 +170,9 @@ class TextureEngine final : public Engine, public TextureTestbench {
   bool foreign() const { return !trace_in_.file.empty(); }
 
   rtl::texture::TextureUnit::StandIns stand_ins(std::uint64_t seed) const {
-    return texture_twins(
-        twin_units_, as_built(texture_, memory_clocks(memory_, texture_.cache_line_bytes)), seed);
+    return tb::texture_twins(
+        twin_units_, tb::as_built(texture_, memory_clocks(memory_, texture_.cache_line_bytes)),
+        seed);
   }
 
   void reject_maps_of_nothing(const RunParameters& run, const TextureScene& scene) const {
@@ -180,31 +185,32 @@ class TextureEngine final : public Engine, public TextureTestbench {
   }
 
   // All of the file has been read and checked after it.
-  ForeignFragments fragments_of_file(const TextureScene& scene) const {
+  tb::ForeignFragments fragments_of_file(const TextureScene& scene) const {
     const std::size_t textures = scene.memory().descriptors().size();
-    const FragmentSummary summary = examine_fragments(trace_in_.file, textures);
+    const tb::traces::FragmentSummary summary =
+        tb::traces::examine_fragments(trace_in_.file, textures);
     if (summary.fragments == 0)
       throw spec::ConfigError(
           fmt::format("the trace '{}' covers no fragment in {} quads: nothing would be filtered",
                       trace_in_.file, summary.quads));
-    const auto open = [file = trace_in_.file, textures]() -> QuadSource {
-      const auto reader = std::make_shared<FragmentReader>(file, textures);
-      return [reader](TracedQuad& quad) { return reader->next(quad); };
+    const auto open = [file = trace_in_.file, textures]() -> tb::traces::QuadSource {
+      const auto reader = std::make_shared<tb::traces::FragmentReader>(file, textures);
+      return [reader](tb::traces::TracedQuad& quad) { return reader->next(quad); };
     };
     return {open, summary.fragments};
   }
 
-  std::shared_ptr<const TextureExpectation> expectation(const TextureScene& scene,
-                                                        const RunContext& context) const {
-    return context.shared_golden<TextureExpectation>(built_for_golden(),
-                                                     [&] { return expected_of(scene, texture_); });
+  std::shared_ptr<const tb::TextureExpectation> expectation(const TextureScene& scene,
+                                                            const RunContext& context) const {
+    return context.shared_golden<tb::TextureExpectation>(
+        built_for_golden(), [&] { return expected_of(scene, texture_); });
   }
 
-  RenderOptions truth_options() const {
-    RenderOptions options;
-    options.sampling = Sampling::kBilinear;
-    options.averaging = sampler_.format == spec::texture::Format::kSrgb8A8 ? Averaging::kLinear
-                                                                           : Averaging::kStored;
+  tb::RenderOptions truth_options() const {
+    tb::RenderOptions options;
+    options.sampling = tb::Sampling::kBilinear;
+    options.averaging = sampler_.format == spec::texture::Format::kSrgb8A8 ? tb::Averaging::kLinear
+                                                                           : tb::Averaging::kStored;
     return options;
   }
 
@@ -213,7 +219,7 @@ class TextureEngine final : public Engine, public TextureTestbench {
            std::filesystem::path(foreign() ? trace_in_.file : scene_.source).filename().string();
   }
 
-  std::string summary_line(const TextureScene& scene, const TextureSetup& setup) const {
+  std::string summary_line(const TextureScene& scene, const tb::TextureSetup& setup) const {
     const auto name = [](auto value, const auto& names) {
       return names[static_cast<std::size_t>(value)];
     };
@@ -225,7 +231,7 @@ class TextureEngine final : public Engine, public TextureTestbench {
             : "",
         foreign() ? setup.foreign.fragments : scene.stream().counts.fragments,
         name(sampler_.mode, spec::texture::kMinFilterNames),
-        name(sampler_.anisotropy, kAnisotropyNames),
+        name(sampler_.anisotropy, tb::kAnisotropyNames),
         name(sampler_.format, spec::texture::kFormatNames),
         name(sampler_.layout, spec::texture::kLayoutNames), preset_label_,
         name(texture_.axes, spec::texture::kAxesNames),
@@ -243,41 +249,41 @@ class TextureEngine final : public Engine, public TextureTestbench {
   }
 
   // Pictures are stored as sRGB, whatever the unit delivers of sRGB textures.
-  Image stored(const Image& image, const Mask& drawn) const {
+  Image stored(const Image& image, const tb::Mask& drawn) const {
     if (!linear_light()) return image;
     Image out = image;
     for (std::size_t i = 0; i < out.pixels.size(); ++i) {
       if (drawn.pixels[i] == 0) continue;  // it is not from the unit
       for (std::size_t c = 0; c < 3; ++c)
-        out.pixels[i][c] =
-            static_cast<std::uint8_t>(std::lround(255 * linear_to_srgb(out.pixels[i][c] / 255.0)));
+        out.pixels[i][c] = static_cast<std::uint8_t>(
+            std::lround(255 * tb::linear_to_srgb(out.pixels[i][c] / 255.0)));
     }
     return out;
   }
 
   static Image unfiltered(const TextureScene& scene) {
-    RenderOptions options;
+    tb::RenderOptions options;
     options.width = scene.stream().width;
     options.height = scene.stream().height;
-    options.sampling = Sampling::kNearest;
+    options.sampling = tb::Sampling::kNearest;
     return render(scene.scene(), options);
   }
 
   void add_pictures(const RunParameters& run, RunContext& context, const TextureScene& scene,
-                    const TextureEnvironment& unit, Result& result) const {
+                    const tb::TextureEnvironment& unit, tb::Result& result) const {
     if (unit.frame().empty()) return;
-    Mask came;
+    tb::Mask came;
     came.width = unit.frame().width;
     came.height = unit.frame().height;
     came.pixels = unit.came();
     // Of a foreign picture nobody knows which pixels have no fragment before all have come.
-    const Mask drawn = foreign() ? came : drawn_pixels(scene);
-    const Mask missing = without(drawn, came);
+    const tb::Mask drawn = foreign() ? came : drawn_pixels(scene);
+    const tb::Mask missing = without(drawn, came);
     const Image before = foreign() ? Image() : unfiltered(scene);
     // What was under way when the run was ended came on one side only.
     const auto lost = static_cast<std::uint64_t>(count(missing));
     const std::string note =
-        lost == 0 ? "" : fmt::format("; grey: {} pixels were not delivered", grouped(lost));
+        lost == 0 ? "" : fmt::format("; grey: {} pixels were not delivered", tb::grouped(lost));
     const Image after = painted(stored(unit.frame(), drawn), missing, kNotDelivered);
     if (!foreign())
       context.add_image("before", before, "Before", "nearest texel of level 0, no filter");
@@ -291,8 +297,8 @@ class TextureEngine final : public Engine, public TextureTestbench {
       context.add_image("golden", expected, "Golden model",
                         over ? "the same fragments by the golden model"
                              : "the same fragments by the golden model" + note);
-      context.add_image("difference", difference(after, expected, 255), "Difference",
-                        std::string(count_different(after, expected) == 0
+      context.add_image("difference", tb::difference(after, expected, 255), "Difference",
+                        std::string(tb::count_different(after, expected) == 0
                                         ? "hardware against golden: none"
                                         : "hardware against golden: any difference is bright") +
                             (over || lost == 0 ? "" : "; black where nothing was delivered"));
@@ -302,7 +308,7 @@ class TextureEngine final : public Engine, public TextureTestbench {
           compare_with_scene(scene, truth_options(), before, after, result, context);
       if (truth.empty()) return;
       context.add_image("truth", truth, "Truth", truth_caption());
-      context.add_image("error", difference(after, truth, kDifferenceGain), "Error",
+      context.add_image("error", tb::difference(after, truth, kDifferenceGain), "Error",
                         fmt::format("hardware against truth, {} times", kDifferenceGain));
     }
   }
@@ -310,18 +316,18 @@ class TextureEngine final : public Engine, public TextureTestbench {
   SequencePicture picture_of(int frame, std::uint32_t seed) const {
     const TextureScene scene(in_frame(scene_, lists_, frame), sampler_, seed,
                              move_of(sequence_, lists_, frame));
-    RenderOptions options = truth_options();
+    tb::RenderOptions options = truth_options();
     options.width = scene.stream().width;
     options.height = scene.stream().height;
     options.samples = kTruthSamples;
-    options.interrupted = [] { return interrupted(); };
-    const Mask drawn = drawn_pixels(scene);
-    return {unfiltered(scene), stored(golden_frame(scene, texture_).image, drawn),
+    options.interrupted = [] { return tb::interrupted(); };
+    const tb::Mask drawn = drawn_pixels(scene);
+    return {unfiltered(scene), stored(tb::golden_frame(scene, texture_).image, drawn),
             render(scene.scene(), options), drawn};
   }
 
   std::vector<std::string> twin_units_;
-  FrameLists lists_;
+  tb::FrameLists lists_;
   int frames_ = 1;
   std::string preset_label_;
 };
@@ -330,4 +336,4 @@ class TextureEngine final : public Engine, public TextureTestbench {
 
 std::unique_ptr<Engine> make_texture_engine() { return std::make_unique<TextureEngine>(); }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

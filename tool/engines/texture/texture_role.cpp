@@ -13,7 +13,12 @@
 #include "tool/run/input_rules.h"
 #include "tool/run/shorthands.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::DrawnScene;
+using tb::Image;
+using tb::TextureScene;
+
 namespace {
 
 using spec::texture::Colour;
@@ -24,7 +29,8 @@ const TextureScene& textured(const DrawnScene& scene) {
 
 class ColoursOfTexture final : public ColoursPort {
  public:
-  ColoursOfTexture(const char* name, TextureEnvironment& environment, const FragmentStream& stream)
+  ColoursOfTexture(const char* name, tb::TextureEnvironment& environment,
+                   const tb::FragmentStream& stream)
       : in_(name), environment_(environment), stream_(stream) {
     in_(environment.colours);
   }
@@ -34,46 +40,46 @@ class ColoursOfTexture final : public ColoursPort {
     environment_.check_output(cycle, colour);
     DrawnColour drawn;
     if (colour.tag >= stream_.quads.size() || colour.lane >= 4) return drawn;
-    const FragmentStream::Pixel p = stream_.pixel(colour.tag, colour.lane);
+    const tb::FragmentStream::Pixel p = stream_.pixel(colour.tag, colour.lane);
     if (p.x >= stream_.width || p.y >= stream_.height) return drawn;
     return {true, (stream_.visible[colour.tag] >> colour.lane & 1) != 0, p.x, p.y, colour.rgba};
   }
 
  private:
   rtl::In<Colour> in_;
-  TextureEnvironment& environment_;
-  const FragmentStream& stream_;
+  tb::TextureEnvironment& environment_;
+  const tb::FragmentStream& stream_;
 };
 
 class TextureStage final : public DrawingStage {
  public:
-  TextureStage(Simulation& simulation, const TextureScene& scene, const TextureSetup& setup)
+  TextureStage(tb::Simulation& simulation, const TextureScene& scene, const tb::TextureSetup& setup)
       : scene_(scene), setup_(setup), environment_(simulation, scene, setup, "texture") {}
-  Environment& environment() override { return environment_; }
+  tb::Environment& environment() override { return environment_; }
   std::unique_ptr<ColoursPort> colours_port(const char* name) override {
     return std::make_unique<ColoursOfTexture>(name, environment_, scene_.stream());
   }
   Image golden_picture() const override {
-    return golden_frame(scene_, setup_.texture, error_range(setup_.memory)).image;
+    return tb::golden_frame(scene_, setup_.texture, error_range(setup_.memory)).image;
   }
   std::uint64_t clocks_bound() const override {
     return environment_.unit().address.addresser.bilinears.value();
   }
-  void collect(Result& result) const override {
+  void collect(tb::Result& result) const override {
     const rtl::Histogram& latency = environment_.unit().fragment_latency;
     constexpr const char* kMeaning = "Of the texture unit.";
     result.work.push_back(
         {"texture_fragment_latency_p50", latency.percentile(50), "clk", kMeaning});
     result.work.push_back({"texture_fragment_latency_max", latency.max(), "clk", kMeaning});
   }
-  std::vector<Figure> figures() const override {
+  std::vector<tb::Figure> figures() const override {
     return {{"Latency of a texture fragment, median", "work.texture_fragment_latency_p50"}};
   }
 
  private:
   const TextureScene& scene_;
-  TextureSetup setup_;
-  TextureEnvironment environment_;
+  tb::TextureSetup setup_;
+  tb::TextureEnvironment environment_;
 };
 
 class TextureRole final : public PictureDrawer {
@@ -94,19 +100,19 @@ class TextureRole final : public PictureDrawer {
     return "textured: what the texture unit left in the frame buffer";
   }
 
-  void add_scene(ParameterSet& set) override {
-    set.add("run", ParameterKind::kRun, look_up_trace_);
-    set.add("scene", ParameterKind::kInput, scene_);
+  void add_scene(tb::ParameterSet& set) override {
+    set.add("run", tb::ParameterKind::kRun, look_up_trace_);
+    set.add("scene", tb::ParameterKind::kInput, scene_);
     add_sampler(set, sampler_);
-    set.add("sequence", ParameterKind::kInput, sequence_);
+    set.add("sequence", tb::ParameterKind::kInput, sequence_);
   }
-  void add_parameters(ParameterSet& set) override {
+  void add_parameters(tb::ParameterSet& set) override {
     set.add_engine("texture", texture_);
     add_memory(set, "memory", memory_);
   }
   std::vector<std::string> prefixes() const override { return {"texture.", "memory."}; }
-  void apply_preset(ParameterSet& set) override { tb::apply_preset(set, texture_); }
-  void resolve(ParameterSet& set) override {
+  void apply_preset(tb::ParameterSet& set) override { tool::apply_preset(set, texture_); }
+  void resolve(tb::ParameterSet& set) override {
     lists_ = lists_of(scene_);
     frames_ = frames_of(set, sequence_, lists_);
     reject_unused_look_ups(set);
@@ -126,7 +132,7 @@ class TextureRole final : public PictureDrawer {
   void check(const DrawnScene& scene) const override { reject_nothing_drawn(textured(scene)); }
 
   const std::string& source() const override { return scene_.source; }
-  std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override {
+  std::vector<std::filesystem::path> input_files(tb::MeshFiles& meshes) const override {
     return files_of_frames(scene_, meshes);
   }
   std::shared_ptr<const DrawnScene> load(std::uint32_t seed,
@@ -139,13 +145,13 @@ class TextureRole final : public PictureDrawer {
     return std::make_shared<TextureScene>(tb::smallest(scene_, sampler_));
   }
 
-  std::string truth_caption() const override { return tb::truth_caption(); }
-  void prepare_truth(const DrawnScene& scene, const RenderOptions& options,
+  std::string truth_caption() const override { return tool::truth_caption(); }
+  void prepare_truth(const DrawnScene& scene, const tb::RenderOptions& options,
                      const RunContext& context) const override {
     scene_truth(textured(scene), options, context);
   }
-  Image compare_with_truth(const DrawnScene& scene, const RenderOptions& options,
-                           const Image& before, const Image& after, Result& result,
+  Image compare_with_truth(const DrawnScene& scene, const tb::RenderOptions& options,
+                           const Image& before, const Image& after, tb::Result& result,
                            const RunContext& context) const override {
     return compare_with_scene(textured(scene), options, before, after, result, context);
   }
@@ -156,35 +162,35 @@ class TextureRole final : public PictureDrawer {
                                           move_of(sequence_, lists_, frame));
   }
   Image golden_picture(const DrawnScene& scene) const override {
-    return golden_frame(textured(scene), texture_).image;
+    return tb::golden_frame(textured(scene), texture_).image;
   }
-  Image truth_of(const DrawnScene& scene, const RenderOptions& options) const override {
-    RenderOptions sampled = options;
+  Image truth_of(const DrawnScene& scene, const tb::RenderOptions& options) const override {
+    tb::RenderOptions sampled = options;
     sampled.width = scene.stream().width;
     sampled.height = scene.stream().height;
     sampled.samples = kTruthSamples;
     return render(scene.scene(), sampled);
   }
 
-  std::unique_ptr<DrawingStage> build(Simulation& simulation,
+  std::unique_ptr<DrawingStage> build(tb::Simulation& simulation,
                                       const DrawnScene& scene) const override {
     return std::make_unique<TextureStage>(simulation, textured(scene),
-                                          TextureSetup{texture_, memory_});
+                                          tb::TextureSetup{texture_, memory_});
   }
 
  private:
-  LookUpTrace look_up_trace_;
-  SceneParameters scene_;
-  SamplerParameters sampler_;
-  SequenceParameters sequence_;
-  FrameLists lists_;
+  tb::LookUpTrace look_up_trace_;
+  tb::SceneParameters scene_;
+  tb::SamplerParameters sampler_;
+  tb::SequenceParameters sequence_;
+  tb::FrameLists lists_;
   int frames_ = 1;
   spec::texture::Parameters texture_;
-  MemoryParameters memory_;
+  tb::MemoryParameters memory_;
 };
 
 }  // namespace
 
 std::unique_ptr<CompositionRole> make_texture_role() { return std::make_unique<TextureRole>(); }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

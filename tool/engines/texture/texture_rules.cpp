@@ -10,7 +10,7 @@
 #include "spec/error.h"
 #include "tool/run/input_rules.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 constexpr std::string_view kTexturePrefix = "texture.";
@@ -22,7 +22,7 @@ std::string source_of(const spec::texture::Parameters& values) {
 
 }  // namespace
 
-void apply_preset(ParameterSet& set, const spec::texture::Parameters& values) {
+void apply_preset(tb::ParameterSet& set, const spec::texture::Parameters& values) {
   const spec::texture::Parameters rules = preset_parameters(values.preset);
   for_each_of(values.preset, [&](std::string_view name, auto, auto) {
     set.imply(fmt::format("{}{}", kTexturePrefix, name), spec::value_text(rules, name),
@@ -30,29 +30,29 @@ void apply_preset(ParameterSet& set, const spec::texture::Parameters& values) {
   });
 }
 
-std::string preset_label(const ParameterSet& set, const spec::texture::Parameters& values) {
+std::string preset_label(const tb::ParameterSet& set, const spec::texture::Parameters& values) {
   return with_changes(source_of(values), set, kTexturePrefix);
 }
 
-void reject_nothing_drawn(const TextureScene& scene) {
+void reject_nothing_drawn(const tb::TextureScene& scene) {
   if (scene.stream().counts.fragments > 0) return;
   reject_empty_picture(scene.scene(), scene.stream().width, scene.stream().height);
 }
 
-void reject_empty_lod_range(const SamplerParameters& sampler) {
+void reject_empty_lod_range(const tb::SamplerParameters& sampler) {
   if (sampler.min_lod > sampler.max_lod)
     throw spec::ConfigError(fmt::format(
         "sampler.min_lod = {} is above sampler.max_lod = {}: no level of detail lies between them",
         sampler.min_lod, sampler.max_lod));
 }
 
-void reject_unused_look_ups(const ParameterSet& set) {
+void reject_unused_look_ups(const tb::ParameterSet& set) {
   if (set.find("run.line_trace")->text() == "none")
     set.reject("run.line_trace_look_ups",
                "there is no trace without run.line_trace (--line-trace text)");
 }
 
-void reject_unused_scene(const ParameterSet& set) {
+void reject_unused_scene(const tb::ParameterSet& set) {
   for (const char* name :
        {"scene.width", "scene.height", "scene.traversal", "scene.visibility", "scene.eye",
         "scene.target", "scene.fov", "scene.roll", "sequence.frames", "sequence.motion"})
@@ -75,4 +75,4 @@ std::vector<Shorthand> scene_shorthands(const std::string& default_scene) {
       {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8 or 16 (default)"}};
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

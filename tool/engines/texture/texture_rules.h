@@ -11,24 +11,24 @@
 #include "tb/run/parameter_set.h"
 #include "tool/run/engine.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // The rules of `values.preset` for every parameter "texture.*" of a preset that was not given
 // beside it.
-void apply_preset(ParameterSet& set, const spec::texture::Parameters& values);
+void apply_preset(tb::ParameterSet& set, const spec::texture::Parameters& values);
 
 // "preset paper", or "preset paper, changed: axes".
-std::string preset_label(const ParameterSet& set, const spec::texture::Parameters& values);
+std::string preset_label(const tb::ParameterSet& set, const spec::texture::Parameters& values);
 
 // ConfigError for a scene that draws nothing, and for levels of which none lies in the range.
-void reject_nothing_drawn(const TextureScene& scene);
-void reject_empty_lod_range(const SamplerParameters& sampler);
+void reject_nothing_drawn(const tb::TextureScene& scene);
+void reject_empty_lod_range(const tb::SamplerParameters& sampler);
 // ConfigError for look-ups without a trace that they could be in.
-void reject_unused_look_ups(const ParameterSet& set);
+void reject_unused_look_ups(const tb::ParameterSet& set);
 // ConfigError for what says how a scene is drawn, beside fragments that are drawn already.
-void reject_unused_scene(const ParameterSet& set);
+void reject_unused_scene(const tb::ParameterSet& set);
 
 // Of what is given a scene to texture: --scene, --in, --texture, --size, --mode, --aniso.
 std::vector<Shorthand> scene_shorthands(const std::string& default_scene);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

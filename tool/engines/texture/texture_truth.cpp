@@ -12,21 +12,23 @@
 #include "tb/scene/image_bytes.h"
 #include "tool/run/pictures.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::Image;
 
 std::string truth_caption() {
   return fmt::format("{} samples a pixel", kTruthSamples * kTruthSamples);
 }
 
-std::shared_ptr<const Image> scene_truth(const TextureScene& scene, RenderOptions options,
+std::shared_ptr<const Image> scene_truth(const tb::TextureScene& scene, tb::RenderOptions options,
                                          const RunContext& context) {
   options.width = scene.stream().width;
   options.height = scene.stream().height;
   options.samples = kTruthSamples;
-  Waiting waiting("rendering the truth", context.quiet());
+  tb::Waiting waiting("rendering the truth", context.quiet());
   options.interrupted = [&] {
     waiting.update();
-    return interrupted();
+    return tb::interrupted();
   };
   const std::string what =
       fmt::format("truth of {}, sampling {}, averaging {}", kTruthSamples,
@@ -39,21 +41,22 @@ std::shared_ptr<const Image> scene_truth(const TextureScene& scene, RenderOption
       return made;
     });
     std::string_view rest = bytes;
-    return take_image<Rgba8>(rest);
+    return tb::take_image<tb::Rgba8>(rest);
   });
 }
 
-Image compare_with_scene(const TextureScene& scene, RenderOptions options, const Image& before,
-                         const Image& after, Result& result, const RunContext& context) {
+Image compare_with_scene(const tb::TextureScene& scene, tb::RenderOptions options,
+                         const Image& before, const Image& after, tb::Result& result,
+                         const RunContext& context) {
   try {
     Image truth = *scene_truth(scene, std::move(options), context);
     result.quality = measure_quality(fmt::format("supersampled-{}", kTruthSamples * kTruthSamples),
                                      before, after, truth, &scene.stream().depth);
     return truth;
-  } catch (const Interrupted&) {
+  } catch (const tb::Interrupted&) {
     result.interrupted = true;
     return {};
   }
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

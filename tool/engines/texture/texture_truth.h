@@ -11,16 +11,17 @@
 #include "tb/scene/truth.h"
 #include "tool/pages/run_context.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // The scene's truth, 16 x 16 samples a pixel, and the quality that it gives the result. Ctrl-C on
 // the way ends it: the result is marked, the picture empty, and what was measured before stays.
 inline constexpr int kTruthSamples = 16;
 std::string truth_caption();
 // Shared by runs of the same scene (RunContext::shared). Throws Interrupted.
-std::shared_ptr<const Image> scene_truth(const TextureScene& scene, RenderOptions options,
-                                         const RunContext& context);
-Image compare_with_scene(const TextureScene& scene, RenderOptions options, const Image& before,
-                         const Image& after, Result& result, const RunContext& context);
+std::shared_ptr<const tb::Image> scene_truth(const tb::TextureScene& scene,
+                                             tb::RenderOptions options, const RunContext& context);
+tb::Image compare_with_scene(const tb::TextureScene& scene, tb::RenderOptions options,
+                             const tb::Image& before, const tb::Image& after, tb::Result& result,
+                             const RunContext& context);
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -8,7 +8,7 @@
 #include "tool/tests/command/in_process.h"
 #include "tool/tests/command/made_engine.h"
 
-namespace deburr::tb::compare_test {
+namespace deburr::tool::compare_test {
 namespace {
 
 using testing::HasSubstr;
@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 // Seed 2 is worse than seed 1, each value by another amount; seed 3 is better, but cannot be built;
 // seed 4 has one other counter.
-void run(const RunParameters& p, RunContext& /*context*/, Result& r) {
+void run(const RunParameters& p, RunContext& /*context*/, tb::Result& r) {
   const bool worse = p.seed == 2, better = p.seed == 3;
   r.comparisons = 10;
   r.cycles = worse ? 10400 : better ? 9000 : 10000;
@@ -26,7 +26,7 @@ void run(const RunParameters& p, RunContext& /*context*/, Result& r) {
   r.bytes_read = worse ? 6600 : 6400;
   r.latency.p50 = 5;
   r.latency.max = worse ? 9 : 8;
-  MemoryFigures memory;
+  tb::MemoryFigures memory;
   memory.name = "cache";
   memory.kind = "sram";
   memory.logical_bits = memory.physical_bits = worse ? 1100 : 1000;
@@ -152,4 +152,4 @@ TEST_F(CompareCommand, ReportRebuildsPages) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::compare_test
+}  // namespace deburr::tool::compare_test

@@ -5,7 +5,7 @@
 
 #include "tool/tests/command/planned_points.h"
 
-namespace deburr::tb::definition_test {
+namespace deburr::tool::definition_test {
 namespace {
 
 class Definition : public PlannedPoints, public testing::WithParamInterface<Case> {
@@ -176,4 +176,4 @@ const Case kPlanned[] = {
 INSTANTIATE_TEST_SUITE_P(All, PlannedDefinition, testing::ValuesIn(kPlanned), name_of_case);
 
 }  // namespace
-}  // namespace deburr::tb::definition_test
+}  // namespace deburr::tool::definition_test

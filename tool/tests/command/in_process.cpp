@@ -14,7 +14,7 @@
 #include "tool/pages/build_info.h"
 #include "tool/tests/command/made_engine.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 namespace fs = std::filesystem;
@@ -125,6 +125,6 @@ void InProcess::write(const fs::path& file, const std::string& text) {
   std::ofstream(file) << text;
 }
 
-std::string InProcess::read(const fs::path& file) { return read_file(file, 1 << 24); }
+std::string InProcess::read(const fs::path& file) { return tb::read_file(file, 1 << 24); }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

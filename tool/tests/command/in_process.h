@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // A row of a table of tests.
 struct Case {
@@ -50,4 +50,4 @@ class InProcess : public testing::Test {
 
 class InProcessTable : public InProcess, public testing::WithParamInterface<Case> {};
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

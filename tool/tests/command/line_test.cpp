@@ -11,7 +11,7 @@
 #include "tool/tests/command/in_process.h"
 #include "tool/tests/command/made_engine.h"
 
-namespace deburr::tb::line_test {
+namespace deburr::tool::line_test {
 namespace {
 
 using testing::ElementsAre;
@@ -20,7 +20,7 @@ using testing::Not;
 using testing::StartsWith;
 using Json = nlohmann::ordered_json;
 
-void run_nothing(const RunParameters& /*run*/, RunContext& /*context*/, Result& /*result*/) {}
+void run_nothing(const RunParameters& /*run*/, RunContext& /*context*/, tb::Result& /*result*/) {}
 
 // ---- errors -------------------------------------------------------------------------------------
 
@@ -260,4 +260,4 @@ TEST_F(CommandLine, ParamsPrintsReferencePages) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::line_test
+}  // namespace deburr::tool::line_test

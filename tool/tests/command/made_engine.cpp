@@ -10,7 +10,7 @@
 
 #include "spec/check_build.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
 enum class Filter : std::uint8_t { kNear, kLinear, kWide, kOther };
@@ -52,7 +52,7 @@ std::span<const spec::BuildRule<MadeParameters>> build_rules(const MadeParameter
   return kBuildRules;
 }
 
-constexpr std::array<CoverageGroup, 2> kGroups = {
+constexpr std::array<tb::CoverageGroup, 2> kGroups = {
     {{"made/lanes", "How many."}, {"made/never", "What never is."}}};
 
 struct MadeInput {
@@ -74,8 +74,8 @@ class MadeEngine : public Engine {
   std::string_view name() const override { return name_; }
   std::string_view summary() const override { return "Made for tests"; }
   double clock_mhz() const override { return 200; }
-  void add_parameters(ParameterSet& set) override {
-    set.add("frame", ParameterKind::kInput, input_);
+  void add_parameters(tb::ParameterSet& set) override {
+    set.add("frame", tb::ParameterKind::kInput, input_);
     set.add_engine(name_, values_);
     set.alias(std::string(name_) + ".filter", "bilinear", "linear");
   }
@@ -89,20 +89,20 @@ class MadeEngine : public Engine {
   }
   std::vector<std::string_view> examples() const override { return {"--size 64x32", "--lanes 8"}; }
   void check(const RunParameters& run, RunContext& context) override {
-    Result none;
+    tb::Result none;
     if (made_run()) made_run()(run, context, none);
   }
-  void run(const RunParameters& run, RunContext& context, Result& result) override {
+  void run(const RunParameters& run, RunContext& context, tb::Result& result) override {
     if (made_run())
       made_run()(run, context, result);
     else
       measure(run, context, result);
   }
-  std::vector<std::filesystem::path> input_files(MeshFiles& /*meshes*/) const override {
+  std::vector<std::filesystem::path> input_files(tb::MeshFiles& /*meshes*/) const override {
     if (input_.in.empty()) return {};
     return {input_.in};
   }
-  void describe_statistics(Result& result) override {
+  void describe_statistics(tb::Result& result) override {
     result.faults = {name_ + "_late", name_ + "_lost"};
   }
   std::vector<std::string_view> pictures() const override { return {"after"}; }
@@ -114,15 +114,15 @@ class MadeEngine : public Engine {
     draws.fixed = {"frame.in"};
     return draws;
   }
-  CoverageSection coverage() const override {
-    CoverageSection section{"Made", {}, kGroups};
+  tb::CoverageSection coverage() const override {
+    tb::CoverageSection section{"Made", {}, kGroups};
     for (const char* const bin : {"lanes/few", "lanes/many", "never/met"})
       section.bins.declare(name_ + "/" + bin);
     return section;
   }
 
  private:
-  void measure(const RunParameters& run, const RunContext& context, Result& result) const {
+  void measure(const RunParameters& run, const RunContext& context, tb::Result& result) const {
     if (!run.trace.empty())
       std::ofstream(context.trace_file()) << run.trace_from << ".." << run.trace_to << "\n";
     if (input_.gain == 1.5) throw spec::ConfigError("a gain of 1.5 is none");
@@ -160,4 +160,4 @@ std::vector<std::unique_ptr<Engine>> engines() {
   return all;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

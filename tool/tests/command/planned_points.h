@@ -14,7 +14,7 @@
 #include "tool/sweep/point.h"
 #include "tool/tests/command/in_process.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 class PlannedPoints : public InProcess {
  protected:
@@ -46,7 +46,7 @@ class PlannedPoints : public InProcess {
     return point_directory("out/points", points_.at(name));
   }
   void pass(const std::string& name, const nlohmann::ordered_json& result) const {
-    nlohmann::ordered_json whole = {{"schema", kResultSchema}, {"verdict", "pass"}};
+    nlohmann::ordered_json whole = {{"schema", tb::kResultSchema}, {"verdict", "pass"}};
     whole.update(result);
     write(folder_of(name) / "result.json", whole.dump(1));
     write(folder_of(name) / "manifest.json", "{}");
@@ -61,4 +61,4 @@ class PlannedPoints : public InProcess {
   std::map<std::string, std::string> points_;  // name here -> name of the point
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -2,7 +2,7 @@
 // `deburr regress`: reports of failed and missing runs, and of unmet checks and coverage.
 #include "tool/tests/command/planned_points.h"
 
-namespace deburr::tb::regress_test {
+namespace deburr::tool::regress_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -175,4 +175,4 @@ RESULT: FAIL regression faulty --seed 5: 0 of 2 runs that had failed pass now, 2
 }
 
 }  // namespace
-}  // namespace deburr::tb::regress_test
+}  // namespace deburr::tool::regress_test

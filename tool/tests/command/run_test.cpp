@@ -13,7 +13,7 @@
 #include "tool/tests/command/in_process.h"
 #include "tool/tests/command/made_engine.h"
 
-namespace deburr::tb::run_test {
+namespace deburr::tool::run_test {
 namespace {
 
 using testing::HasSubstr;
@@ -21,8 +21,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-MemoryFigures memory(const std::string& name, const std::string& idealised) {
-  MemoryFigures m;
+tb::MemoryFigures memory(const std::string& name, const std::string& idealised) {
+  tb::MemoryFigures m;
   m.name = name;
   m.kind = "sram";
   m.idealised = idealised;
@@ -30,7 +30,7 @@ MemoryFigures memory(const std::string& name, const std::string& idealised) {
 }
 
 // Every field has a different value.
-void fill(Result& r) {
+void fill(tb::Result& r) {
   r.comparisons = 12345;
   r.traffic_comparisons = 2345;
   r.cycles = 40000;
@@ -38,18 +38,18 @@ void fill(Result& r) {
   r.throughput_bound = 2;
   r.throughput_unit = "pixel/clk";
   r.throughput_bound_meaning = "two lanes";
-  r.bottleneck = Bottleneck{"walker", "full", "Its queue is full.", 9000};
+  r.bottleneck = tb::Bottleneck{"walker", "full", "Its queue is full.", 9000};
   r.terminal = {{"hits", "98.1 % of look-ups"}, {"a long name of it", "7"}};
   r.bytes_read = 640000;
   r.bytes_written = 160000;
   r.memories = {memory("rom", ""), memory("cache", "nine ports"), memory("queue", "no clock")};
   r.quality =
-      Quality{"truth", 31.5, 28.25, 27.125, 30.25, 29.5, 25, 0.0625, 0.125, 0.96875, 0.9375};
-  r.change = Change{12.25, 3.5, 0.75, 0.125, 33.75};
+      tb::Quality{"truth", 31.5, 28.25, 27.125, 30.25, 29.5, 25, 0.0625, 0.125, 0.96875, 0.9375};
+  r.change = tb::Change{12.25, 3.5, 0.75, 0.125, 33.75};
 }
 
 // The seed selects the outcome.
-void run(const RunParameters& p, RunContext& context, Result& r) {
+void run(const RunParameters& p, RunContext& context, tb::Result& r) {
   if (context.checking_only()) return;
   switch (p.seed) {
     case 2:  // without what may be absent
@@ -83,7 +83,7 @@ void run(const RunParameters& p, RunContext& context, Result& r) {
       r.interrupted = true;
       break;
     case 9:
-      throw Interrupted();
+      throw tb::Interrupted();
     case 10:
       throw std::bad_alloc();
     case 11:
@@ -274,4 +274,4 @@ TEST_F(RunCommand, AcceptsOneCycleTraceLongestTimelineAndRepeatedValue) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::run_test
+}  // namespace deburr::tool::run_test

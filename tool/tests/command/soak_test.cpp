@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace deburr::tb::soak_test {
+namespace deburr::tool::soak_test {
 namespace {
 
 using testing::ContainsRegex;
@@ -95,4 +95,4 @@ TEST(Soak, DeadlockAndRejectionFail) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::soak_test
+}  // namespace deburr::tool::soak_test

@@ -5,7 +5,7 @@
 #include "tool/tests/command/made_engine.h"
 #include "tool/tests/command/planned_points.h"
 
-namespace deburr::tb::sweep_test {
+namespace deburr::tool::sweep_test {
 namespace {
 
 using testing::EndsWith;
@@ -299,4 +299,4 @@ TEST_F(RunSweep, SearchRunsPointsForEachFront) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::sweep_test
+}  // namespace deburr::tool::sweep_test

@@ -10,7 +10,7 @@
 
 #include "tool/tests/command/planned_points.h"
 
-namespace deburr::tb::testplan_test {
+namespace deburr::tool::testplan_test {
 namespace {
 
 // A testplan of one feature, changed by the lines of a patch: "key: value" sets a key of the
@@ -216,4 +216,4 @@ left out first/runs: 1 that the engine rejects, the first: made.lanes = 9: made.
 }
 
 }  // namespace
-}  // namespace deburr::tb::testplan_test
+}  // namespace deburr::tool::testplan_test

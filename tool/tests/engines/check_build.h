@@ -33,7 +33,7 @@
 #include "tool/sweep/plan.h"
 #include "tool/sweep/search.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // What a user gives, beside defaults, and the rule that it breaks: its first parameter, and words
 // of it.
@@ -83,7 +83,7 @@ class EndSetter {
 // Any value of each parameter: ends of its range, powers of two, anything between.
 class AnyValue {
  public:
-  explicit AnyValue(Random& random) : random_(random) {}
+  explicit AnyValue(tb::Random& random) : random_(random) {}
   void integer(std::string_view, std::int32_t& value, std::int32_t min, std::int32_t max,
                std::string_view, std::string_view) {
     const auto anything = [&] {
@@ -118,7 +118,7 @@ class AnyValue {
   }
 
  private:
-  Random& random_;
+  tb::Random& random_;
 };
 
 template <class Parameters, class Hardware>
@@ -178,7 +178,7 @@ class BuildChecks {
 
   // No other reason keeps hardware from being built: neither a memory's shape nor a check inside.
   void expect_all_else_is_built(std::uint64_t draws) const {
-    Random random(1, engine_);
+    tb::Random random(1, engine_);
     std::size_t built_ones = 0, rejected = 0;
     for (std::uint64_t i = 0; i < draws; ++i) {
       Parameters p;
@@ -218,7 +218,7 @@ class BuildChecks {
 
   Parameters parameters_of(const Unbuildable& row) const {
     Parameters p;
-    ParameterSet set;
+    tb::ParameterSet set;
     set.add_engine(engine_, p);
     for (const auto& [name, value] : row.settings) set.set(engine_ + "." + name, value, "table");
     for (const auto& [name, value] : implied_by_preset(row)) set.set(name, value, "preset");
@@ -232,7 +232,7 @@ class BuildChecks {
     give(bound, row);
     made->resolve(bound.set);
     std::vector<std::pair<std::string, std::string>> implied;
-    for (const Parameter& p : bound.set.all())
+    for (const tb::Parameter& p : bound.set.all())
       if (p.name.starts_with(engine_ + ".") && !p.implied_by.empty() && !bound.set.given(p.name))
         implied.emplace_back(p.name, p.text());
     return implied;
@@ -260,7 +260,7 @@ class BuildChecks {
   // What the constructor says. In a process of its own: a model that throws in its midst leaves
   // SystemC's hierarchy torn.
   std::string built(const Parameters& p) const {
-    return forked_text([&]() -> std::string {
+    return tb::forked_text([&]() -> std::string {
       try {
         rtl::ClockDomain clock("clock", sc_core::sc_time(4, sc_core::SC_NS));
         const Hardware hardware("hardware", clock, p);
@@ -288,7 +288,7 @@ class BuildChecks {
       out.close();
       const SweepDefinition sweep = read_sweep(file);
       EXPECT_THAT(text_of_error([&] { make_plan(sweep, place_of(folder, "plan")); }),
-                  testing::HasSubstr(headline(text)))
+                  testing::HasSubstr(tb::headline(text)))
           << rejected;
       EXPECT_THAT(text_of_error([&] {
                     run_search(
@@ -296,7 +296,7 @@ class BuildChecks {
                         [](const Plan&, const std::vector<PlannedPoint>&) { return 0; },
                         [](std::uint64_t) {});
                   }),
-                  testing::HasSubstr(headline(text)))
+                  testing::HasSubstr(tb::headline(text)))
           << rejected;
     }
     std::filesystem::remove_all(folder);
@@ -306,4 +306,4 @@ class BuildChecks {
   std::vector<Unbuildable> table_;
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -10,7 +10,7 @@
 #include "spec/error.h"
 #include "tb/run/parameter_set.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;  // names without the engine's
 
@@ -20,7 +20,7 @@ template <class Parameters, class Reject>
 std::string complaint(const std::string& engine, const Settings& settings, Reject&& reject) {
   static constexpr std::string_view kBefore = "has no effect: ";
   Parameters values;
-  ParameterSet set;
+  tb::ParameterSet set;
   set.add_engine(engine, values);
   for (const auto& [name, value] : settings) set.set(engine + "." + name, value, "--set");
   try {
@@ -32,4 +32,4 @@ std::string complaint(const std::string& engine, const Settings& settings, Rejec
   return "";
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -21,7 +21,7 @@
 #include "tool/pages/comparison_page.h"
 #include "tool/tests/pages/page_words.h"
 
-namespace deburr::tb::comparison_test {
+namespace deburr::tool::comparison_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -182,13 +182,13 @@ class Directory : public testing::Test {
 class Runs : public Directory {
  protected:
   Json leave(const char* name, std::uint64_t cycles, const char* ways, std::uint64_t bits = 512) {
-    Result r;
+    tb::Result r;
     r.unit = "texture";
-    r.verdict = Verdict::kPass;
+    r.verdict = tb::Verdict::kPass;
     r.cycles = cycles;
     r.throughput_unit = "bilinear/clk";
     r.throughput = 1;
-    MemoryFigures memory;
+    tb::MemoryFigures memory;
     memory.name = "cache";
     memory.kind = "sram";
     memory.logical_bits = memory.physical_bits = bits;
@@ -210,7 +210,7 @@ class Runs : public Directory {
         {"parameters",
          Json::array({parameter("texture.cache.ways", ways), parameter("scene.width", "8")})}};
     put(fs::path(name) / "manifest.json", manifest.dump());
-    write_image(path_ / name / "after.png", Image(4, 4));
+    write_image(path_ / name / "after.png", tb::Image(4, 4));
     return manifest;
   }
 };
@@ -326,11 +326,11 @@ TEST_F(Runs, SayWhatTheyAreAndWhatIsDoubtful) {
 }
 
 TEST(Comparing, ARunThatFailedIsWorseThanOneThatDid) {
-  Result r;
+  tb::Result r;
   r.unit = "texture";
-  r.verdict = Verdict::kPass;
+  r.verdict = tb::Verdict::kPass;
   const Json passed = to_json(r);
-  r.verdict = Verdict::kFail;
+  r.verdict = tb::Verdict::kFail;
   const Json failed = to_json(r);
   EXPECT_FALSE(compare(passed, passed, {}).worse);
   EXPECT_FALSE(compare(failed, passed, {}).worse);
@@ -342,7 +342,7 @@ TEST_F(Runs, AnIdenticalPictureIsSaidToBeOne) {
   for (const auto& [name, psnr] :
        {std::pair{"a", 40.0}, std::pair{"b", kInfinity}, std::pair{"c", kInfinity}}) {
     leave(name, 1000, "2");
-    Json result = read_result(path_ / name);
+    Json result = tb::read_result(path_ / name);
     result["quality"] = {{"psnr_db", psnr}, {"identical", {{"psnr_db", psnr > 100}}}};
     put(fs::path(name) / "result.json", result.dump());
   }
@@ -406,7 +406,7 @@ TEST_F(Runs, AreOnAPageInTheirForms) {
     return Json{
         {"file", std::string(role) + ".png"}, {"role", role}, {"title", title}, {"caption", "c"}};
   };
-  for (const char* name : {"before.png", "after.png"}) write_image(path_ / name, Image(2, 2));
+  for (const char* name : {"before.png", "after.png"}) write_image(path_ / name, tb::Image(2, 2));
   Json same = cell(nullptr, "", "better");
   same["identical"] = true;
   same["text"] = "identical";
@@ -788,4 +788,4 @@ TEST_F(Sweeps, ThatAreNotWholeOrDoNotFitAreRejected) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::comparison_test
+}  // namespace deburr::tool::comparison_test

@@ -20,7 +20,10 @@
 #include "tb/base/file.h"
 #include "tool/pages/run_context.h"
 
-namespace deburr::tb::input_files_test {
+namespace deburr::tool::input_files_test {
+
+using tb::sha256;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -54,7 +57,7 @@ class InputFilesOfARun : public testing::Test {
   }
 
   fs::path path_;
-  ParameterSet parameters_;
+  tb::ParameterSet parameters_;
 };
 
 TEST_F(InputFilesOfARun, ContentInAWord) {
@@ -139,7 +142,7 @@ TEST_F(InputFilesOfARun, InAManifest) {
   context.add_inputs({write("a", "one"), path_ / "none"});
   context.add_configuration(write("c.yaml", "two"), "two");
   context.finish({});
-  const Json manifest = Json::parse(read_file(path_ / "out/manifest.json", 1 << 20));
+  const Json manifest = Json::parse(tb::read_file(path_ / "out/manifest.json", 1 << 20));
   const Json expected = {{{"file", path_ / "a"}, {"sha256", sha256("one")}, {"bytes", 3}},
                          {{"file", path_ / "none"}, {"missing", true}},
                          {{"file", path_ / "c.yaml"},
@@ -147,7 +150,7 @@ TEST_F(InputFilesOfARun, InAManifest) {
                           {"role", "configuration"},
                           {"bytes", 3}}};
   EXPECT_EQ(manifest.at("inputs"), expected);
-  const std::string page = read_file(path_ / "out/report.html", 1 << 24);
+  const std::string page = tb::read_file(path_ / "out/report.html", 1 << 24);
   EXPECT_THAT(page, AllOf(HasSubstr("none  missing"), HasSubstr("configuration")));
 }
 
@@ -172,4 +175,4 @@ TEST(DifferentInputs, AreNamed) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::input_files_test
+}  // namespace deburr::tool::input_files_test

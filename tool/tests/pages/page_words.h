@@ -5,7 +5,7 @@
 #include <regex>
 #include <string>
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // What a reader sees, a line a row, "|" between what stands apart; of attributes those that a page
 // is filled with.
@@ -39,4 +39,4 @@ inline std::string words(std::string page) {
   return page;
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

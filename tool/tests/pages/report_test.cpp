@@ -22,7 +22,7 @@
 #include "tb/scene/png.h"
 #include "tool/tests/pages/page_words.h"
 
-namespace deburr::tb::report_test {
+namespace deburr::tool::report_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -301,15 +301,15 @@ class Pages : public testing::Test {
       : path_(fs::temp_directory_path() / ("deburr_report_page_" + std::to_string(::getpid()))) {
     fs::create_directories(path_);
     put("windows.json", kWindows);
-    write_image(path_ / "after.png", Image(4, 3, {10, 20, 30, 255}));
-    write_image(path_ / "map_work.png", Image(6, 9, {10, 20, 30, 255}));
+    write_image(path_ / "after.png", tb::Image(4, 3, {10, 20, 30, 255}));
+    write_image(path_ / "map_work.png", tb::Image(6, 9, {10, 20, 30, 255}));
     put("map_work.pfm", pfm_of(values()));
   }
   ~Pages() override { fs::remove_all(path_); }
 
   void put(const char* name, const std::string& text) const { std::ofstream(path_ / name) << text; }
-  static PictureMap values() {
-    PictureMap map("work", "Work", "sample", "Of each pixel.", 4, 3);
+  static tb::PictureMap values() {
+    tb::PictureMap map("work", "Work", "sample", "Of each pixel.", 4, 3);
     for (int i = 0; i < 11; ++i) map.set(i % 4, i / 4, 1 + i / 2.0);
     return map;
   }
@@ -350,7 +350,7 @@ TEST_F(Pages, HaveTheDataOfTheirCharts) {
   EXPECT_EQ(data["windows"], expected);
   Json map = data["maps"];
   ASSERT_EQ(map.size(), 1u) << "of the empty one there is nothing to say";
-  const Image codes = codes_of(values()).picture;
+  const tb::Image codes = codes_of(values()).picture;
   EXPECT_EQ(map["map_work"]["source"], png_uri(encode_png(codes)));
   map["map_work"].erase("source");
   EXPECT_EQ(map, (Json{{"map_work",
@@ -363,7 +363,7 @@ TEST_F(Pages, HaveTheDataOfTheirCharts) {
                          {"knee_part", 1.0},
                          {"most", 6.0},
                          {"step", 1.0 / 256}}}}));
-  EXPECT_EQ(data["map_colours"], Json(map_colours()));
+  EXPECT_EQ(data["map_colours"], Json(tb::map_colours()));
 }
 
 TEST_F(Pages, HaveTilesOfWhatThereIs) {
@@ -427,14 +427,14 @@ TEST_F(Pages, HaveTilesOfWhatThereIs) {
 // it.
 TEST_F(Pages, HavePicturesOfTheFramesShape) {
   const auto shape = [&](int width, int height) {
-    write_image(path_ / "after.png", Image(width, height));
+    write_image(path_ / "after.png", tb::Image(width, height));
     const Json manifest = {
         {"images", {{{"file", "after.png"}}, {{"file", "large.png"}, {"title", "L"}}}}};
     return lines(words(page_of(result_, manifest)), "flat") +
            lines(words(page_of(result_, manifest)), "tall") +
            lines(words(page_of(result_, manifest)), "part");
   };
-  write_image(path_ / "large.png", Image(80, 80));
+  write_image(path_ / "large.png", tb::Image(80, 80));
   EXPECT_EQ(
       shape(8, 1),
       "part|--ratio: 8.0000; --across: 100.00%; --down: 100.00%|PNG|after.png|after.png|after.png\n"
@@ -446,7 +446,7 @@ TEST_F(Pages, HavePicturesOfTheFramesShape) {
 
 TEST_F(Pages, AreNotMadeOfDamagedFiles) {
   const auto says = [&](const char* file, const std::string& text, const std::string& expected) {
-    const std::string before = read_file(path_ / file, 1 << 20);
+    const std::string before = tb::read_file(path_ / file, 1 << 20);
     put(file, text);
     try {
       page_of(result_, manifest_);
@@ -476,4 +476,4 @@ TEST_F(Pages, AreNotMadeOfDamagedFiles) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::report_test
+}  // namespace deburr::tool::report_test

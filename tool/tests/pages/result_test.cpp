@@ -28,16 +28,25 @@
 #include "tool/pages/report.h"
 #include "tool/pages/run_context.h"
 
-namespace deburr::tb::result_test {
+namespace deburr::tool::result_test {
+
+using tb::find_statistic;
+using tb::headline;
+using tb::Image;
+using tb::Progress;
+using tb::read_file;
+using tb::read_result;
+using tb::Result;
+
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
 using Json = nlohmann::ordered_json;
 
-MemoryFigures memory(const char* name, const char* kind, std::uint64_t logical,
-                     std::uint64_t physical, std::uint64_t at_width) {
-  MemoryFigures m;
+tb::MemoryFigures memory(const char* name, const char* kind, std::uint64_t logical,
+                         std::uint64_t physical, std::uint64_t at_width) {
+  tb::MemoryFigures m;
   m.name = name;
   m.content = "Lines of the cache.";
   m.kind = kind;
@@ -56,7 +65,7 @@ MemoryFigures memory(const char* name, const char* kind, std::uint64_t logical,
 Result sample_result() {
   Result r;
   r.unit = "texture";
-  r.verdict = Verdict::kPass;
+  r.verdict = tb::Verdict::kPass;
   r.comparisons = 1000;
   r.cycles = 54321;
   r.clock_mhz = 166.67;
@@ -75,18 +84,18 @@ Result sample_result() {
   r.figures = {{"Fragments", "work.fragments", "a remark"},
                {"Whole run", "cycles", "bound", "work.bound", true}};
   r.work.push_back({"bound", 50000u, "clk", "The least."});
-  r.quality = Quality{"supersampled-256",
-                      41.25,
-                      std::numeric_limits<double>::infinity(),
-                      {},
-                      35.5,
-                      30.25,
-                      {},
-                      0.0125,
-                      0.05,
-                      0.9875,
-                      0.95};
-  r.change = Change{12.5, 3.25, 1.5, 0.5, 38.25};
+  r.quality = tb::Quality{"supersampled-256",
+                          41.25,
+                          std::numeric_limits<double>::infinity(),
+                          {},
+                          35.5,
+                          30.25,
+                          {},
+                          0.0125,
+                          0.05,
+                          0.9875,
+                          0.95};
+  r.change = tb::Change{12.5, 3.25, 1.5, 0.5, 38.25};
   r.host_seconds = 0.05;
   return r;
 }
@@ -94,7 +103,7 @@ Result sample_result() {
 // With everything that a run may have.
 Result full_result() {
   Result r = sample_result();
-  r.verdict = Verdict::kFail;
+  r.verdict = tb::Verdict::kFail;
   r.reason = "3 mismatches";
   r.interrupted = true;
   r.mismatches = 3;
@@ -121,7 +130,7 @@ Result full_result() {
 }
 
 // As read_result() gives it.
-Json as_read(const Result& result) { return with_infinity(to_json(result)); }
+Json as_read(const Result& result) { return tb::with_infinity(to_json(result)); }
 
 TEST(Headline, IsTheWholeMessageWithoutItsDetails) {
   EXPECT_EQ(headline("one line"), "one line");
@@ -307,7 +316,7 @@ TEST(ResultJson, MeaningsStandInTheOrderOfTheFile) {
 TEST(Statistics, AreTheKeysOfAFullResult) {
   std::set<std::string_view> met;
   Result r = full_result();
-  r.pixel = PixelHistory{{3, 4}, "of one fragment", {}};
+  r.pixel = tb::PixelHistory{{3, 4}, "of one fragment", {}};
   r.pixel->compare({.part = "fragment 0",
                     .step = "level",
                     .item = "samples",
@@ -316,7 +325,7 @@ TEST(Statistics, AreTheKeysOfAFullResult) {
                     .clock = 812});
   const Json json = to_json(r);
   for (const auto& [path, meaning] : json["meaning"].items()) {
-    const Statistic* s = find_statistic(path);
+    const tb::Statistic* s = find_statistic(path);
     if (path.starts_with("work.")) {
       EXPECT_EQ(s, nullptr) << path;
       continue;
@@ -328,8 +337,8 @@ TEST(Statistics, AreTheKeysOfAFullResult) {
       EXPECT_EQ(meaning["meaning"], s->meaning) << path;
     }
   }
-  for (const Statistic& s : statistics()) EXPECT_TRUE(met.contains(s.name)) << s.name;
-  EXPECT_EQ(met.size(), statistics().size()) << "a key is in the table twice";
+  for (const tb::Statistic& s : tb::statistics()) EXPECT_TRUE(met.contains(s.name)) << s.name;
+  EXPECT_EQ(met.size(), tb::statistics().size()) << "a key is in the table twice";
 }
 
 // A number that is none is null, never a text; why, says the flag.
@@ -345,16 +354,16 @@ TEST_F(Directory, IdenticalPicturesAreNullInTheFileAndInfiniteForItsReaders) {
                                         {"psnr_edge_before_db", false},
                                         {"psnr_silhouette_before_db", false}}));
   const Json read = read_result(path_);
-  EXPECT_TRUE(is_infinite(read["quality"]["psnr_edge_db"]));
-  EXPECT_FALSE(is_infinite(read["quality"]["psnr_db"]));
+  EXPECT_TRUE(tb::is_infinite(read["quality"]["psnr_edge_db"]));
+  EXPECT_FALSE(tb::is_infinite(read["quality"]["psnr_db"]));
   EXPECT_TRUE(read["quality"]["psnr_silhouette_db"].is_null());
   EXPECT_EQ(read["change"]["psnr_db"], 38.25);
   Result unchanged = sample_result();
   unchanged.change->psnr_db = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(to_json(unchanged)["change"]["psnr_db"].is_null());
-  EXPECT_TRUE(is_infinite(as_read(unchanged)["change"]["psnr_db"]));
-  EXPECT_EQ(with_infinity(read), read);
-  EXPECT_EQ(with_infinity(Json{{"cycles", 1}}), (Json{{"cycles", 1}}));
+  EXPECT_TRUE(tb::is_infinite(as_read(unchanged)["change"]["psnr_db"]));
+  EXPECT_EQ(tb::with_infinity(read), read);
+  EXPECT_EQ(tb::with_infinity(Json{{"cycles", 1}}), (Json{{"cycles", 1}}));
   EXPECT_EQ(read.dump(), to_json(sample_result()).dump()) << "and null when it is written again";
 }
 
@@ -379,10 +388,11 @@ TEST(Results, MemoriesAddUpByKind) {
 
 TEST(Results, AnIdealisedMemoryIsNamedEverywhere) {
   Result ideal = sample_result();
-  EXPECT_THAT(idealised_memories(to_json(ideal)), testing::IsEmpty());
+  EXPECT_THAT(tb::idealised_memories(to_json(ideal)), testing::IsEmpty());
   EXPECT_FALSE(to_json(ideal).contains("idealised"));
   ideal.memories[1].idealised = "nine ports";
-  EXPECT_THAT(idealised_memories(to_json(ideal)), testing::ElementsAre("cache_lines (nine ports)"));
+  EXPECT_THAT(tb::idealised_memories(to_json(ideal)),
+              testing::ElementsAre("cache_lines (nine ports)"));
   const Comparison worse = compare(to_json(sample_result()), to_json(ideal), {});
   EXPECT_TRUE(worse.worse) << "what B counts could not be built";
   EXPECT_FALSE(compare(to_json(ideal), to_json(sample_result()), {}).worse);
@@ -444,8 +454,8 @@ TEST(Compare, EachValueIsComparedInItsDirection) {
   EXPECT_TRUE(worse([](Result& r) { r.bytes_read = 700000; }));
   EXPECT_TRUE(worse([](Result& r) { r.mismatches = 1; }));
   EXPECT_TRUE(worse([](Result& r) { r.traffic_mismatches = 1; }));
-  EXPECT_TRUE(worse([](Result& r) { r.verdict = Verdict::kFail; }));
-  EXPECT_TRUE(worse([](Result& r) { r.verdict = Verdict::kUnchecked; }));
+  EXPECT_TRUE(worse([](Result& r) { r.verdict = tb::Verdict::kFail; }));
+  EXPECT_TRUE(worse([](Result& r) { r.verdict = tb::Verdict::kUnchecked; }));
   EXPECT_TRUE(worse([](Result& r) { r.quality->psnr_db = 41.1; }));
   EXPECT_FALSE(worse([](Result& r) { r.quality->psnr_db = 41.22; }));
   EXPECT_TRUE(worse([](Result& r) { r.quality->psnr_edge_db = 60.0; })) << "identical before";
@@ -521,7 +531,7 @@ TEST(Compare, DifferentWorkIsNamed) {
 }
 
 TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
-  ParameterSet parameters;
+  tb::ParameterSet parameters;
   RunContext context(path_, parameters, "deburr run texture --set a='<b>'", 7);
   context.set_title("A <title> & more", "summary");
   context.set_leaves({{"before", "after"}, {}});
@@ -572,7 +582,7 @@ TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
 class Page : public Directory {
  protected:
   std::string page_of(const Result& result) {
-    ParameterSet parameters;
+    tb::ParameterSet parameters;
     RunContext context(path_, parameters, "x", 0);
     context.claim();
     context.finish(result);
@@ -625,7 +635,7 @@ TEST_F(Page, DrawsNoHistogramOfOneValue) {
 
 TEST_F(Page, OfAnInterruptedRunSaysWhatWasCompared) {
   Result r = sample_result();
-  r.verdict = Verdict::kUnchecked;
+  r.verdict = tb::Verdict::kUnchecked;
   r.interrupted = true;
   const std::string page = page_of(r);
   EXPECT_THAT(page, HasSubstr("of 1,000 comparisons, incomplete"));
@@ -656,7 +666,7 @@ TEST_F(Page, IsThatOfTheFile) {
 
 // The golden model's picture is written from the hardware model's if it is the same one.
 TEST_F(Directory, KeepsPicturesApart) {
-  ParameterSet parameters;
+  tb::ParameterSet parameters;
   RunContext context(path_, parameters, "x", 0);
   context.set_leaves({{"a", "b", "c", "d"}, {}});
   context.claim();
@@ -690,7 +700,7 @@ TEST_F(Page, CanBeMadeFromAnOlderResult) {
 }
 
 TEST_F(Directory, AManifestCannotPullInFilesFromElsewhere) {
-  ParameterSet parameters;
+  tb::ParameterSet parameters;
   RunContext context(path_, parameters, "x", 0);
   context.claim();
   context.finish(sample_result());
@@ -707,7 +717,7 @@ struct Inputs {
 template <class Visitor>
 void describe(Inputs& p, Visitor& v) {
   v.integer("width", p.width, 1, 99, "pixel", "Columns.");
-  v.is_work("width", GivenWork::kSetting);
+  v.is_work("width", tb::GivenWork::kSetting);
   v.integer("error_address", p.error_address, -1, 99, "byte", "Fails.");
 }
 struct One {
@@ -732,10 +742,10 @@ void describe(OfRun& p, Visitor& v) {
 class Manifests : public Directory {
  protected:
   Manifests() {
-    set_.add("scene", ParameterKind::kInput, inputs_);
-    set_.add("rule", ParameterKind::kRule, rule_);
-    set_.add("build", ParameterKind::kBuild, build_);
-    set_.add("run", ParameterKind::kRun, run_);
+    set_.add("scene", tb::ParameterKind::kInput, inputs_);
+    set_.add("rule", tb::ParameterKind::kRule, rule_);
+    set_.add("build", tb::ParameterKind::kBuild, build_);
+    set_.add("run", tb::ParameterKind::kRun, run_);
   }
   Json manifest(std::uint64_t seed = 5, const std::function<void(RunContext&)>& more = {}) {
     RunContext context(path_ / "out", set_, "deburr run x", seed);
@@ -754,7 +764,7 @@ class Manifests : public Directory {
   Inputs inputs_;
   One rule_, build_;
   OfRun run_;
-  ParameterSet set_;
+  tb::ParameterSet set_;
 };
 
 TEST_F(Manifests, SayWhatARunWas) {
@@ -762,7 +772,7 @@ TEST_F(Manifests, SayWhatARunWas) {
   Json json = manifest(5, [](RunContext& context) {
     context.add_note("of the test");
     context.add_image("after", Image(2, 1), "After", "Came out.");
-    context.add_map(PictureMap("level", "Level", "level", "Levels.", 2, 2));
+    context.add_map(tb::PictureMap("level", "Level", "level", "Levels.", 2, 2));
     context.add_record("timeline", kTimelineFile, "{}");
   });
   std::vector<std::string> keys;
@@ -874,10 +884,10 @@ TEST_F(Manifests, AreOfRunsThatReplaceNothing) {
 }
 
 TEST_F(Directory, Sha256IsThatOfTheContent) {
-  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(tb::sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   std::ofstream(path_ / "x") << "abc";
-  EXPECT_EQ(sha256_of_file(path_ / "x"), sha256("abc"));
-  EXPECT_THROW(sha256_of_file(path_ / "missing"), spec::FileError);
+  EXPECT_EQ(tb::sha256_of_file(path_ / "x"), tb::sha256("abc"));
+  EXPECT_THROW(tb::sha256_of_file(path_ / "missing"), spec::FileError);
   EXPECT_THROW(read_file(path_ / "x", 2), spec::FileError);
   EXPECT_THROW(read_file(path_, 100), spec::FileError);
 }
@@ -905,7 +915,7 @@ TEST(Progress, SaysTimesInTwoUnits) {
   EXPECT_EQ(Progress::line("x", "y", 2345678, 0, 2), "x  100 %  1.17 My/s");
   EXPECT_EQ(Progress::fitted(60, "x", "y", 3, 4, 1, ""),
             "[##################......] x   75 %  3 y/s  0 s left");
-  EXPECT_EQ(out_of_cycles(12345, 678, 9000, "pixel"),
+  EXPECT_EQ(tb::out_of_cycles(12345, 678, 9000, "pixel"),
             "not done after 12,345 cycles, which is all that --max-cycles (run.max_cycles) allows: "
             "678 of 9,000 pixels are done; "
             "raise it, or set it to 0 for no limit");
@@ -948,9 +958,9 @@ TEST(Progress, CountsWhatWasTaken) {
 
 // ---- the bottleneck -----------------------------------------------------------------------------
 
-UnitCycles unit(const std::string& name, std::uint64_t busy,
-                std::vector<std::pair<std::string, std::uint64_t>> stalls = {}) {
-  UnitCycles cycles{name, busy, 1000 - busy, {}};
+tb::UnitCycles unit(const std::string& name, std::uint64_t busy,
+                    std::vector<std::pair<std::string, std::uint64_t>> stalls = {}) {
+  tb::UnitCycles cycles{name, busy, 1000 - busy, {}};
   for (auto& [cause, count] : stalls) {
     cycles.stalls.push_back({cause, "", count});
     cycles.idle -= count;
@@ -960,7 +970,7 @@ UnitCycles unit(const std::string& name, std::uint64_t busy,
 
 struct Limited {
   const char* name;
-  std::vector<UnitCycles> units;
+  std::vector<tb::UnitCycles> units;
   std::string unit, cause;
 };
 
@@ -1031,16 +1041,16 @@ TEST(Bottleneck, IsTheDeepestCauseOfTheLoss) {
     EXPECT_EQ(found->unit, row.unit) << row.name;
     EXPECT_EQ(found->cause, row.cause) << row.name;
   }
-  EXPECT_FALSE(find_bottleneck({}, "blender"));
-  const std::vector<UnitCycles> still = {unit("sequencer", 0)};
+  EXPECT_FALSE(tb::find_bottleneck({}, "blender"));
+  const std::vector<tb::UnitCycles> still = {unit("sequencer", 0)};
   EXPECT_FALSE(find_bottleneck(still, "blender"));
 }
 
 TEST(Numbers, AreGrouped) {
-  EXPECT_EQ(grouped(0), "0");
-  EXPECT_EQ(grouped(999), "999");
-  EXPECT_EQ(grouped(1000), "1,000");
-  EXPECT_EQ(grouped(1234567), "1,234,567");
+  EXPECT_EQ(tb::grouped(0), "0");
+  EXPECT_EQ(tb::grouped(999), "999");
+  EXPECT_EQ(tb::grouped(1000), "1,000");
+  EXPECT_EQ(tb::grouped(1234567), "1,234,567");
 }
 
 TEST(Statistics, TheMostSpecificDescriptionWins) {
@@ -1052,4 +1062,4 @@ TEST(Statistics, TheMostSpecificDescriptionWins) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::result_test
+}  // namespace deburr::tool::result_test

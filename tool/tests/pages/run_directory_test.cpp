@@ -20,7 +20,7 @@
 #include "spec/error.h"
 #include "tb/base/file.h"
 
-namespace deburr::tb::run_directory_test {
+namespace deburr::tool::run_directory_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,7 +47,7 @@ class Life : public testing::Test {
     for (const auto& entry : fs::directory_iterator(path_))
       if (entry.path().filename() != "manifest.json")
         found[entry.path().filename().string()] =
-            entry.is_directory() ? "a folder" : read_file(entry.path(), 1 << 16);
+            entry.is_directory() ? "a folder" : tb::read_file(entry.path(), 1 << 16);
     return found;
   }
   void claim(RunDirectory& directory, IfTaken if_taken = IfTaken::kReject) const {
@@ -185,7 +185,7 @@ TEST_F(Life, SaysWhoseItIs) {
   RunDirectory first(path_), second(path_);
   first.claim("deburr run x --seed 3", kNames, IfTaken::kReject);
   const nlohmann::json claim =
-      nlohmann::json::parse(read_file(path_ / ".deburr_run/claim.json", 1 << 16));
+      nlohmann::json::parse(tb::read_file(path_ / ".deburr_run/claim.json", 1 << 16));
   char host[256] = {};
   ::gethostname(host, sizeof host - 1);
   EXPECT_EQ(claim.at("state"), "running");
@@ -222,7 +222,7 @@ TEST_F(Life, WhatNoManifestNamesIsNotReplaced) {
     put(path_ / name, "{}");
     RunDirectory directory(path_);
     EXPECT_THAT(text_of<spec::ConfigError>([&] { claim(directory); }), HasSubstr(name));
-    EXPECT_EQ(read_file(path_ / name, 10), "{}");
+    EXPECT_EQ(tb::read_file(path_ / name, 10), "{}");
     fs::remove(path_ / name);
   }
   // One that comes while the run is under way.
@@ -231,7 +231,7 @@ TEST_F(Life, WhatNoManifestNamesIsNotReplaced) {
   draft(directory, new_);
   put(path_ / "after.png", "mine");
   EXPECT_THROW(directory.publish({}, kHead), spec::ConfigError);
-  EXPECT_EQ(read_file(path_ / "after.png", 10), "mine");
+  EXPECT_EQ(tb::read_file(path_ / "after.png", 10), "mine");
 }
 
 TEST_F(Life, AManifestNamesNoFilesThatNoRunLeaves) {
@@ -272,7 +272,7 @@ TEST_F(Life, WhatIsInTheWayIsAnError) {
   put(root_ / "runs", "a file");
   RunDirectory below_a_file(path_);
   EXPECT_THAT(text_of<spec::FileError>([&] { claim(below_a_file); }), HasSubstr("runs"));
-  EXPECT_EQ(read_file(root_ / "runs", 10), "a file");
+  EXPECT_EQ(tb::read_file(root_ / "runs", 10), "a file");
   fs::create_directories(root_ / "elsewhere");
   put(root_ / "elsewhere/before.png", "mine");
   fs::create_directories(root_ / "linked");
@@ -283,4 +283,4 @@ TEST_F(Life, WhatIsInTheWayIsAnError) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::run_directory_test
+}  // namespace deburr::tool::run_directory_test

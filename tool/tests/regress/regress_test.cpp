@@ -21,7 +21,7 @@
 #include "tool/regress/testplan.h"
 #include "tool/regress/trend.h"
 
-namespace deburr::tb::regress_test {
+namespace deburr::tool::regress_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -233,9 +233,9 @@ TEST(Trend, IsReadAsItWasWritten) {
   EXPECT_THAT(text,
               HasSubstr("\"seed\":18446744073709551615,\"holds\":false,\"runs\":7,\"passed\":6,"
                         "\"bins\":5,\"met\":4,\"clocks\":3,\"seconds\":2.5}\n"));
-  write_file_atomically(file, text);
+  tb::write_file_atomically(file, text);
   EXPECT_EQ(trend_text(read_trend(file)), text);
-  write_file_atomically(file, text + "{}\n");
+  tb::write_file_atomically(file, text + "{}\n");
   EXPECT_THAT([&] { read_trend(file); },
               testing::ThrowsMessage<spec::FileError>(HasSubstr("line 3 is no night")));
 }
@@ -259,4 +259,4 @@ TEST(Junit, CountsAndEscapes) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::regress_test
+}  // namespace deburr::tool::regress_test

@@ -14,7 +14,7 @@
 #include "tool/regress/trend.h"
 #include "tool/tests/sweep/kept_points.h"
 
-namespace deburr::tb::report_test {
+namespace deburr::tool::report_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -225,7 +225,7 @@ TEST_F(RegressionReport, ANightIsWhatAllRunsTook) {
   before.passed = 4;
   best.seed = 4;
   best.passed = 8;
-  write_file_atomically(trend_file(place().out, "night"), trend_text({best, before}));
+  tb::write_file_atomically(trend_file(place().out, "night"), trend_text({best, before}));
   EXPECT_THAT(report(), ElementsAre("pass rate from 50.0 % to 37.5 %"));
   EXPECT_EQ(json()["trend"].size(), 3u);
   const std::string page = read(place().directory / "index.html");
@@ -241,4 +241,4 @@ TEST_F(RegressionReport, ANightIsWhatAllRunsTook) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::report_test
+}  // namespace deburr::tool::report_test

@@ -14,28 +14,28 @@
 #include "spec/error.h"
 #include "tb/base/interrupt.h"
 
-namespace deburr::tb::flicker_test {
+namespace deburr::tool::flicker_test {
 namespace {
 
-Image picture(int left, int right) {
+tb::Image picture(int left, int right) {
   const auto code = [](int v) { return static_cast<std::uint8_t>(v); };
-  Image image(2, 1, {code(left), code(left), code(left), 255});
+  tb::Image image(2, 1, {code(left), code(left), code(left), 255});
   image.at(1, 0) = {code(right), code(right), code(right), 255};
   return image;
 }
 
 // Left and right pixel of what goes in, comes out and is true.
 struct Frame {
-  Image before, after, truth;
-  std::optional<Mask> drawn{};
+  tb::Image before, after, truth;
+  std::optional<tb::Mask> drawn{};
 };
 
 struct Measured {
-  Result result;
+  tb::Result result;
   std::map<std::string, double> work;
 };
 Measured measured(const std::vector<Frame>& frames) {
-  const ParameterSet set;
+  const tb::ParameterSet set;
   RunContext context("", set, "", 1);
   context.set_quiet(true);
   Measured m;
@@ -46,7 +46,7 @@ Measured measured(const std::vector<Frame>& frames) {
     return SequencePicture{frame.before, frame.after, frame.truth, frame.drawn};
   });
   for (std::size_t i = 0; i < asked.size(); ++i) EXPECT_EQ(asked[i], static_cast<int>(i));
-  for (const WorkItem& item : m.result.work) {
+  for (const tb::WorkItem& item : m.result.work) {
     if (const auto* real = std::get_if<double>(&item.value)) m.work[item.name] = *real;
     if (const auto* whole = std::get_if<std::uint64_t>(&item.value))
       m.work[item.name] = static_cast<double>(*whole);
@@ -98,7 +98,7 @@ TEST(Flicker, OfNothingHasNoWorstFrame) {
 }
 
 TEST(Flicker, LooksAtWhatIsDrawnAlone) {
-  Mask left(2, 1);
+  tb::Mask left(2, 1);
   left.at(0, 0) = 1;
   const Measured m = measured({{picture(0, 0), picture(0, 0), picture(0, 0), left},
                                {picture(0, 0), picture(5, 90), picture(0, 0), left}});
@@ -106,19 +106,19 @@ TEST(Flicker, LooksAtWhatIsDrawnAlone) {
 }
 
 TEST(Flicker, NeedsFramesOfOneSize) {
-  const Image wide(3, 1), high(2, 2);
-  for (const Image& other : {wide, high})
+  const tb::Image wide(3, 1), high(2, 2);
+  for (const tb::Image& other : {wide, high})
     EXPECT_THROW(measured({{picture(0, 0), picture(0, 0), picture(0, 0)}, {other, other, other}}),
                  spec::ConfigError);
 }
 
 TEST(Flicker, ThatIsInterruptedHasNoFigures) {
-  const ParameterSet set;
+  const tb::ParameterSet set;
   RunContext context("", set, "", 1);
   context.set_quiet(true);
-  Result result;
+  tb::Result result;
   measure_flicker(3, context, result, [&](int i) -> SequencePicture {
-    if (i == 2) throw Interrupted();
+    if (i == 2) throw tb::Interrupted();
     return {picture(0, 0), picture(i, 0), picture(0, 0)};
   });
   EXPECT_TRUE(result.interrupted);
@@ -127,15 +127,15 @@ TEST(Flicker, ThatIsInterruptedHasNoFigures) {
 }
 
 TEST(Flicker, ACameraMovesWhereNoListSaysWhatFramesAre) {
-  SequenceParameters sequence;
-  sequence.motion = Motion::kPan;
-  FrameLists lists;
+  tb::SequenceParameters sequence;
+  sequence.motion = tb::Motion::kPan;
+  tb::FrameLists lists;
   lists.add("scene.source", {"a"});
   EXPECT_EQ(move_of(sequence, lists, 2).frame, 2);
-  EXPECT_EQ(move_of(sequence, lists, 2).motion, Motion::kPan);
+  EXPECT_EQ(move_of(sequence, lists, 2).motion, tb::Motion::kPan);
   lists.add("scene.eye", {"0,0,1", "0,0,2", "0,0,3"});
   EXPECT_EQ(move_of(sequence, lists, 2).frame, 0);
 }
 
 }  // namespace
-}  // namespace deburr::tb::flicker_test
+}  // namespace deburr::tool::flicker_test

@@ -14,7 +14,7 @@
 
 #include "tool/run/run_once.h"
 
-namespace deburr::tb::input_files_test {
+namespace deburr::tool::input_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -41,9 +41,9 @@ TEST_F(InputFilesOfEngines, AreAllThatParametersName) {
   int parameters = 0;
   for (const std::unique_ptr<Engine>& engine : engines()) {
     const BoundEngine probe(*engine);
-    MeshFiles meshes;
+    tb::MeshFiles meshes;
     EXPECT_THAT(engine->input_files(meshes), IsEmpty()) << engine->name() << " by default";
-    for (const Parameter& parameter : probe.set.all()) {
+    for (const tb::Parameter& parameter : probe.set.all()) {
       if (parameter.range.find("file") == std::string::npos) continue;
       ++parameters;
       const std::unique_ptr<Engine> another = engine_named(std::string(engine->name()));
@@ -62,4 +62,4 @@ TEST_F(InputFilesOfEngines, AreAllThatParametersName) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::input_files_test
+}  // namespace deburr::tool::input_files_test

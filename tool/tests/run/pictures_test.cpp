@@ -18,7 +18,11 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/ssim.h"
 
-namespace deburr::tb::pictures_test {
+namespace deburr::tool::pictures_test {
+
+using tb::Image;
+using tb::Rgba8;
+
 namespace {
 
 constexpr Rgba8 kGrey = {128, 128, 128, 255}, kBlack = {0, 0, 0, 255},
@@ -28,15 +32,15 @@ TEST(Quality, IsOfBothPicturesWhereThereIsSomethingToCompare) {
   Image truth(8, 8, {100, 100, 100, 255}), before = truth, after = truth;
   before.at(3, 3) = {110, 100, 100, 255};
   after.at(3, 3) = {101, 100, 100, 255};
-  const Quality q = measure_quality("x", before, after, truth, nullptr);
+  const tb::Quality q = measure_quality("x", before, after, truth, nullptr);
   // One channel of one edge pixel: mse 100 / 3 and 1 / 3.
   EXPECT_NEAR(*q.psnr_edge_before_db, 32.90, 0.01);
   EXPECT_NEAR(*q.psnr_edge_db, 52.90, 0.01);
   EXPECT_NEAR(*q.psnr_db - *q.psnr_before_db, 20.0, 0.01);
   EXPECT_FALSE(q.psnr_silhouette_db || q.psnr_silhouette_before_db) << "no depth";
-  const DepthImage flat(8, 8, 1.0f);
+  const tb::DepthImage flat(8, 8, 1.0f);
   EXPECT_FALSE(measure_quality("x", before, after, truth, &flat).psnr_silhouette_db);
-  const Quality same = measure_quality("x", truth, truth, truth, nullptr);
+  const tb::Quality same = measure_quality("x", truth, truth, truth, nullptr);
   EXPECT_EQ(*same.psnr_db, std::numeric_limits<double>::infinity());
   EXPECT_FALSE(same.psnr_edge_db) << "no edge pixels";
 }
@@ -46,9 +50,9 @@ TEST(Quality, HasFlipAndSsimOfBothPictures) {
   Image before = truth, after = truth;
   before.at(3, 8) = {200, 100, 100, 255};
   after.at(3, 8) = {120, 100, 100, 255};
-  const Quality q = measure_quality("x", before, after, truth, nullptr);
-  EXPECT_EQ(*q.flip, flip(truth, after));
-  EXPECT_EQ(*q.flip_before, flip(truth, before));
+  const tb::Quality q = measure_quality("x", before, after, truth, nullptr);
+  EXPECT_EQ(*q.flip, tb::flip(truth, after));
+  EXPECT_EQ(*q.flip_before, tb::flip(truth, before));
   EXPECT_GT(*q.flip_before, *q.flip);
   EXPECT_EQ(*q.ssim, ssim(truth, after));
   EXPECT_EQ(*q.ssim_before, ssim(truth, before));
@@ -67,7 +71,7 @@ TEST(Change, CountsPixelsByCodesAndOfTheRightOnes) {
   after.at(4, 0)[3] = 0;    // alpha does not count
   truth.at(3, 0)[0] = 120;
   truth.at(5, 0)[0] = 98;  // right within 2 codes, and left
-  Change change = measure_change(before, after, nullptr);
+  tb::Change change = measure_change(before, after, nullptr);
   EXPECT_DOUBLE_EQ(change.small_percent, 15);
   EXPECT_DOUBLE_EQ(change.large_percent, 5);
   EXPECT_FALSE(change.right_small_percent || change.right_large_percent) << "no truth";
@@ -99,17 +103,19 @@ class Pictures : public testing::Test {
     for (std::size_t i = 0; i < delivered; ++i) after.pixels[i] = {12, 10, 10, 255};
     Image golden(4, 3, {12, 10, 10, 255});
     golden.at(1, 0) = {13, 10, 10, 255};
-    ParameterSet parameters;
+    tb::ParameterSet parameters;
     RunContext context(path_, parameters, "x", 0);
     context.set_leaves(
         {{"before", "after", "golden", "difference", "truth", "error", "change"}, {}});
     context.claim();
     add_frame_pictures(context, {before, after, delivered, &golden, &truth, "", ""});
-    Result result;
+    tb::Result result;
     result.unit = "smoother";
     context.finish(result);
   }
-  Image picture(const char* name) const { return read_image(path_ / (std::string(name) + ".png")); }
+  Image picture(const char* name) const {
+    return tb::read_image(path_ / (std::string(name) + ".png"));
+  }
 
   std::filesystem::path path_;
 };
@@ -136,20 +142,21 @@ TEST_F(Pictures, OfAnInterruptedRunHideWhatDidNotCome) {
     EXPECT_EQ(compared.at(3, 2), kBlack) << name;
   }
   EXPECT_EQ(picture("error").at(0, 1), (Rgba8{8, 0, 0, 255}));
-  const std::string manifest = read_file(path_ / "manifest.json", 1 << 20);
+  const std::string manifest = tb::read_file(path_ / "manifest.json", 1 << 20);
   EXPECT_NE(manifest.find("5 of 12 pixels"), std::string::npos);
 }
 
 // One that no engine declared could replace somebody's file.
 TEST_F(Pictures, OfOtherNamesAreNotLeft) {
-  ParameterSet parameters;
+  tb::ParameterSet parameters;
   RunContext context(path_, parameters, "x", 0);
   context.set_leaves({{"after"}, {"level"}});
   context.claim();
   context.add_image("after", Image(1, 1), "", "");
   EXPECT_THROW(context.add_image("classes", Image(1, 1), "", ""), spec::CheckFailed);
-  context.add_map(PictureMap("level", "", "", "", 1, 1));
-  EXPECT_THROW(context.add_map(PictureMap("texture_level", "", "", "", 1, 1)), spec::CheckFailed);
+  context.add_map(tb::PictureMap("level", "", "", "", 1, 1));
+  EXPECT_THROW(context.add_map(tb::PictureMap("texture_level", "", "", "", 1, 1)),
+               spec::CheckFailed);
 }
 
 TEST(SharesPicture, IsTwiceAsBrightAndBlueWhereLeftAndRight) {
@@ -168,4 +175,4 @@ TEST(DeliveredPart, ReplacesTheRest) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::pictures_test
+}  // namespace deburr::tool::pictures_test

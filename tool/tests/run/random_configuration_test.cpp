@@ -15,7 +15,7 @@
 #include "tb/base/sanitized.h"
 #include "tool/run/run_once.h"
 
-namespace deburr::tb::random_configuration_test {
+namespace deburr::tool::random_configuration_test {
 namespace {
 
 class RandomConfiguration : public testing::TestWithParam<std::string> {};
@@ -29,7 +29,8 @@ void take(BoundEngine& bound, const std::string& engine, std::uint64_t seed) {
 
 // Each renders what its engine is given, which takes long: no more than it takes until every
 // parameter has varied. Sanitizers, which take ten times as long, do without that.
-constexpr std::uint64_t kLeastSeeds = kSanitized ? 20 : 40, kMostSeeds = kSanitized ? 20 : 500;
+constexpr std::uint64_t kLeastSeeds = tb::kSanitized ? 20 : 40,
+                        kMostSeeds = tb::kSanitized ? 20 : 500;
 
 TEST_P(RandomConfiguration, IsAcceptedAndVariesEveryParameterThatIsNotFixed) {
   const std::string engine = GetParam();
@@ -46,10 +47,10 @@ TEST_P(RandomConfiguration, IsAcceptedAndVariesEveryParameterThatIsNotFixed) {
     const std::unique_ptr<Engine> made = engine_named(engine);
     BoundEngine bound(*made);
     ASSERT_NO_FATAL_FAILURE(take(bound, engine, seed));
-    for (const Parameter& parameter : bound.set.all())
+    for (const tb::Parameter& parameter : bound.set.all())
       values[parameter.name].insert(parameter.text());
     const auto& all = bound.set.all();
-    const auto width = std::find_if(all.begin(), all.end(), [](const Parameter& parameter) {
+    const auto width = std::find_if(all.begin(), all.end(), [](const tb::Parameter& parameter) {
       return parameter.name.ends_with(".width");
     });
     ASSERT_NE(width, all.end());
@@ -62,7 +63,7 @@ TEST_P(RandomConfiguration, IsAcceptedAndVariesEveryParameterThatIsNotFixed) {
     if (is_fixed(*asked, name)) {
       EXPECT_EQ(seen.size(), 1u) << name;
     }
-  if (!kSanitized) {  // whose seeds are too few
+  if (!tb::kSanitized) {  // whose seeds are too few
     EXPECT_THAT(constant(), testing::IsEmpty()) << seed << " seeds";
   }
 }
@@ -84,8 +85,8 @@ TEST_P(RandomConfiguration, IsTheSameForTheSameSeed) {
 // What only the model can tell when it is built.
 TEST_P(RandomConfiguration, CanBeBuilt) {
   const std::string engine = GetParam();
-  for (std::uint64_t seed = 0; seed < (kSanitized ? 10 : 30); ++seed) {
-    const std::string rejected = forked_text([&]() -> std::string {
+  for (std::uint64_t seed = 0; seed < (tb::kSanitized ? 10 : 30); ++seed) {
+    const std::string rejected = tb::forked_text([&]() -> std::string {
       const std::unique_ptr<Engine> made = engine_named(engine);
       BoundEngine bound(*made);
       for (const auto& [name, value] : random_configuration(engine, seed))
@@ -94,7 +95,7 @@ TEST_P(RandomConfiguration, CanBeBuilt) {
       RunContext context("", bound.set, "", seed);
       context.set_quiet(true);
       context.set_checking_only();
-      Result result;
+      tb::Result result;
       made->run(bound.run, context, result);
       return "";
     });
@@ -113,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, RandomConfiguration, testing::ValuesIn([] {
 TEST(RandomConfigurations, GoWithWhatIsGiven) {
   const std::vector<std::pair<std::string, std::string>> given = {{"texture.preset", "paper"}};
   std::set<std::string> axes;
-  for (std::uint64_t seed = 0; seed < (kSanitized ? 30 : 120); ++seed) {
+  for (std::uint64_t seed = 0; seed < (tb::kSanitized ? 30 : 120); ++seed) {
     const std::unique_ptr<Engine> made = engine_named("texture");
     BoundEngine bound(*made);
     for (const auto& [name, value] : given) bound.set.set(name, value, "given");
@@ -148,4 +149,4 @@ TEST(RandomConfigurations, OfACompositionFixWhatItsPartsFix) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::random_configuration_test
+}  // namespace deburr::tool::random_configuration_test

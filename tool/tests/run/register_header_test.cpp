@@ -14,7 +14,7 @@
 #include "tool/run/engine.h"
 #include "tool/run/reference_pages.h"
 
-namespace deburr::tb::register_header_test {
+namespace deburr::tool::register_header_test {
 namespace {
 
 using Macros = std::map<std::string, std::uint32_t>;
@@ -112,4 +112,4 @@ TEST(RegistersPage, OfNoEnginesHasNoSections) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::register_header_test
+}  // namespace deburr::tool::register_header_test

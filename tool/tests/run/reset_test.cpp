@@ -19,7 +19,7 @@
 #include "tool/run/random_configuration.h"
 #include "tool/run/run_once.h"
 
-namespace deburr::tb::reset_test {
+namespace deburr::tool::reset_test {
 namespace {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
@@ -71,7 +71,7 @@ struct Run {
 Run run(const std::string& engine, const Settings& settings, std::uint64_t reset_after) {
   const std::filesystem::path directory =
       std::filesystem::temp_directory_path() / ("deburr_reset_" + std::to_string(::getpid()));
-  const std::string text = forked_text([&]() -> std::string {
+  const std::string text = tb::forked_text([&]() -> std::string {
     const std::unique_ptr<Engine> made = engine_named(engine);
     BoundEngine bound(*made);
     for (const auto& [name, value] : settings) bound.set.set(name, value, "drawn");
@@ -105,7 +105,7 @@ TEST_P(ResetOfDraws, LeavesNothing) {
     const auto [whole, compared] = run(engine, settings, 0);
     ASSERT_EQ(whole.at(".verdict"), "\"pass\"") << text_of(settings);
     const std::uint64_t cycles = std::stoull(whole.at(".cycles"));
-    Random random(seed, "reset");
+    tb::Random random(seed, "reset");
     for (int i = 0; i < 3; ++i) {
       const std::uint64_t at =
           1 + random.below(static_cast<std::uint32_t>(cycles / frames_of(settings)));
@@ -133,4 +133,4 @@ INSTANTIATE_TEST_SUITE_P(Engines, ResetOfDraws, testing::ValuesIn([] {
                          [](const auto& p) { return p.param; });
 
 }  // namespace
-}  // namespace deburr::tb::reset_test
+}  // namespace deburr::tool::reset_test

@@ -23,22 +23,26 @@
 #include "tool/pages/run_context.h"
 #include "tool/pages/shared_inputs.h"
 
-namespace deburr::tb::shared_golden_test {
+namespace deburr::tool::shared_golden_test {
+
+using tb::picture;
+using tb::TextureScene;
+
 namespace {
 
 using golden::morphological::MorphologicalGolden;
-using morphological_system::MorphologicalRunOptions;
-using morphological_system::rendered;
+using tb::morphological_system::MorphologicalRunOptions;
+using tb::morphological_system::rendered;
 
 // Every parameter of an engine, and another value for each: the end of its range that it has not.
 template <class P>
 struct Varied {
   P values;
-  ParameterSet set;
+  tb::ParameterSet set;
   explicit Varied(std::string_view prefix) { set.add_engine(prefix, values); }
 
   // What the parameter takes beside its default.
-  std::vector<std::string> others(const Parameter& p) const {
+  std::vector<std::string> others(const tb::Parameter& p) const {
     std::vector<std::string> all;
     if (const std::size_t dots = p.range.find(".."); dots != std::string::npos) {
       all = {p.range.substr(0, dots), p.range.substr(dots + 2)};
@@ -57,7 +61,7 @@ struct Varied {
 // What an engine says of itself, and a key that forgets the rest.
 template <class P>
 void every_parameter_is_in_the_key_or_matters_not(
-    const EngineTestbench& engine, const std::function<std::string(const P&)>& golden_result) {
+    const tb::EngineTestbench& engine, const std::function<std::string(const P&)>& golden_result) {
   const std::string_view name = engine.name();
   const std::vector<std::string_view> built = engine.built_for_golden();
   const Varied<P> plain(name);
@@ -65,12 +69,12 @@ void every_parameter_is_in_the_key_or_matters_not(
   const std::string before = golden_result(plain.values);
   EXPECT_NE(golden_dependencies(plain.set, 2, built).dump(), key);
   for (const std::string_view parameter : built) {
-    const Parameter* found = plain.set.find(parameter);
+    const tb::Parameter* found = plain.set.find(parameter);
     ASSERT_NE(found, nullptr) << parameter;
-    EXPECT_EQ(found->kind, ParameterKind::kBuild) << parameter;
+    EXPECT_EQ(found->kind, tb::ParameterKind::kBuild) << parameter;
   }
   std::size_t free = 0;
-  for (const Parameter& p : plain.set.all()) {
+  for (const tb::Parameter& p : plain.set.all()) {
     for (const std::string& other : plain.others(p)) {
       Varied<P> varied(name);
       varied.set.set(p.name, other, "test");
@@ -84,7 +88,7 @@ void every_parameter_is_in_the_key_or_matters_not(
       EXPECT_TRUE(after == before) << p.name << " = " << other << " is not in the key";
       ++free;
     }
-    if (p.kind == ParameterKind::kRule) {
+    if (p.kind == tb::ParameterKind::kRule) {
       for (const std::string& other : plain.others(p)) {
         Varied<P> varied(name);
         varied.set.set(p.name, other, "test");
@@ -95,7 +99,7 @@ void every_parameter_is_in_the_key_or_matters_not(
   EXPECT_GE(free, 3u) << "there is something to share";
 }
 
-std::string bytes_of(const TextureExpectation& all) {
+std::string bytes_of(const tb::TextureExpectation& all) {
   std::string text;
   for (const spec::texture::Colour& c : all.colours)
     text.append(c.rgba.begin(), c.rgba.end()).append(std::to_string(c.tag));
@@ -106,7 +110,7 @@ std::string bytes_of(const TextureExpectation& all) {
 TEST(SharedGolden, OfTheTextureUnitDependsOnItsKeyAlone) {
   const TextureScene scene(picture("tunnel", 24), {}, 1);
   every_parameter_is_in_the_key_or_matters_not<spec::texture::Parameters>(
-      TextureTestbench(),
+      tb::TextureTestbench(),
       [&](const spec::texture::Parameters& p) { return bytes_of(expected_of(scene, p)); });
 }
 
@@ -118,7 +122,7 @@ TEST(SharedGolden, OfTheTextureUnitGoesByItsCache) {
   EXPECT_NE(bytes_of(expected_of(scene, small)), bytes_of(expected_of(scene, plain)));
 }
 
-MorphologicalGolden worked_on(const MorphologicalInput& frame,
+MorphologicalGolden worked_on(const tb::MorphologicalInput& frame,
                               const spec::morphological::Parameters& p) {
   MorphologicalGolden golden(p);
   golden.process({frame.image.pixels, frame.image.width, frame.image.height});
@@ -126,12 +130,12 @@ MorphologicalGolden worked_on(const MorphologicalInput& frame,
 }
 
 TEST(SharedGolden, OfTheMorphologicalEngineDependsOnItsKeyAlone) {
-  const MorphologicalInput frame = rendered("cylinders", 64, 48);
+  const tb::MorphologicalInput frame = rendered("cylinders", 64, 48);
   every_parameter_is_in_the_key_or_matters_not<spec::morphological::Parameters>(
-      MorphologicalTestbench(), [&](const spec::morphological::Parameters& p) {
+      tb::MorphologicalTestbench(), [&](const spec::morphological::Parameters& p) {
         const MorphologicalGolden golden = worked_on(frame, p);
         std::string text;
-        for (const Rgba8& pixel : golden.pixels()) text.append(pixel.begin(), pixel.end());
+        for (const tb::Rgba8& pixel : golden.pixels()) text.append(pixel.begin(), pixel.end());
         for (const spec::morphological::BlendTap& tap : golden.taps())
           text += std::to_string(tap.first) + " " + std::to_string(tap.second) + " " +
                   std::to_string(tap.edges) + (tap.horizontal ? "-" : "|");
@@ -142,65 +146,65 @@ TEST(SharedGolden, OfTheMorphologicalEngineDependsOnItsKeyAlone) {
 }
 
 TEST(SharedGolden, IsWhatATextureRunFindsByItself) {
-  const SceneParameters scene = picture("tunnel", 48);
-  TextureRunOptions options;
-  const TextureOutcome own = simulate(scene, {}, options);
-  const TextureExpectation shared = expected_of(TextureScene(scene, {}, 1), {});
+  const tb::SceneParameters scene = picture("tunnel", 48);
+  tb::TextureRunOptions options;
+  const tb::TextureOutcome own = simulate(scene, {}, options);
+  const tb::TextureExpectation shared = expected_of(TextureScene(scene, {}, 1), {});
   EXPECT_EQ(shared.work.line_fills, own.fills);
   EXPECT_EQ(shared.work.bilinears, own.bilinears);
   EXPECT_EQ(shared.colours.size(), own.colours);
 }
 
 TEST(SharedGolden, TextureRunPassesWithOneOfOtherHardware) {
-  const SceneParameters scene = picture("tunnel", 48);
-  TextureRunOptions options;
+  const tb::SceneParameters scene = picture("tunnel", 48);
+  tb::TextureRunOptions options;
   options.texture.cache_fifo_depth = 40;
   options.expectation =
-      std::make_shared<TextureExpectation>(expected_of(TextureScene(scene, {}, 1), {}));
-  const TextureOutcome shared = simulate(scene, {}, options);
+      std::make_shared<tb::TextureExpectation>(expected_of(TextureScene(scene, {}, 1), {}));
+  const tb::TextureOutcome shared = simulate(scene, {}, options);
   EXPECT_GT(shared.comparisons, 1000u);
   EXPECT_GT(shared.traffic_comparisons, 100u);
   EXPECT_EQ(shared.mismatches + shared.traffic_mismatches, 0u);
 }
 
 TEST(SharedGolden, TextureRunFailsWithOneOfOtherRules) {
-  const SceneParameters scene = picture("tunnel", 48);
-  TextureRunOptions options;
+  const tb::SceneParameters scene = picture("tunnel", 48);
+  tb::TextureRunOptions options;
   options.texture.footprint = spec::texture::FootprintRule::kMax;
   options.expectation =
-      std::make_shared<TextureExpectation>(expected_of(TextureScene(scene, {}, 1), {}));
-  EXPECT_THROW(simulate(scene, {}, options), Mismatch);
+      std::make_shared<tb::TextureExpectation>(expected_of(TextureScene(scene, {}, 1), {}));
+  EXPECT_THROW(simulate(scene, {}, options), tb::Mismatch);
 }
 
 TEST(SharedGolden, TextureRunFailsWithOneOfAnotherCache) {
-  const SceneParameters scene = picture("tunnel", 48);
-  TextureRunOptions options;
+  const tb::SceneParameters scene = picture("tunnel", 48);
+  tb::TextureRunOptions options;
   options.texture.cache_bytes = 1024;
   options.expectation =
-      std::make_shared<TextureExpectation>(expected_of(TextureScene(scene, {}, 1), {}));
-  EXPECT_THROW(simulate(scene, {}, options), Mismatch);
+      std::make_shared<tb::TextureExpectation>(expected_of(TextureScene(scene, {}, 1), {}));
+  EXPECT_THROW(simulate(scene, {}, options), tb::Mismatch);
 }
 
 TEST(SharedGolden, MorphologicalRunPassesWithOneOfOtherHardware) {
-  const std::vector<MorphologicalInput> frames = {rendered("cylinders", 96, 64)};
+  const std::vector<tb::MorphologicalInput> frames = {rendered("cylinders", 96, 64)};
   MorphologicalRunOptions options;
   options.expectation =
       std::make_shared<MorphologicalGolden>(worked_on(frames.front(), options.morphological));
   options.morphological.lanes = spec::morphological::Lanes::kFour;
   options.morphological.storage = spec::morphological::Storage::kMemory;
-  const auto outcome = morphological_system::simulate(frames, options);
+  const auto outcome = tb::morphological_system::simulate(frames, options);
   EXPECT_GT(outcome.comparisons, 2u * 96 * 64 - 1);
   EXPECT_GT(outcome.traffic_comparisons, 100u);
   EXPECT_EQ(outcome.mismatches + outcome.traffic_mismatches, 0u);
 }
 
 TEST(SharedGolden, MorphologicalRunFailsWithOneOfOtherRules) {
-  const std::vector<MorphologicalInput> frames = {rendered("cylinders", 96, 64)};
+  const std::vector<tb::MorphologicalInput> frames = {rendered("cylinders", 96, 64)};
   MorphologicalRunOptions options;
   options.expectation =
       std::make_shared<MorphologicalGolden>(worked_on(frames.front(), options.morphological));
   options.morphological.steps = 1;
-  EXPECT_THROW(morphological_system::simulate(frames, options), Mismatch);
+  EXPECT_THROW(tb::morphological_system::simulate(frames, options), tb::Mismatch);
 }
 
 TEST(SharedInputs, KeepTheLastGoldenResultOnly) {
@@ -214,4 +218,4 @@ TEST(SharedInputs, KeepTheLastGoldenResultOnly) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::shared_golden_test
+}  // namespace deburr::tool::shared_golden_test

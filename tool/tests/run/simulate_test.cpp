@@ -18,7 +18,10 @@
 #include "tool/run/input_rules.h"
 #include "tool/run/run_once.h"
 
-namespace deburr::tb::simulate_test {
+namespace deburr::tool::simulate_test {
+
+using tb::ParameterSet;
+
 namespace {
 
 using testing::HasSubstr;
@@ -31,7 +34,7 @@ struct Unbound : sc_core::sc_module {
 };
 
 std::string error_of(const std::string& engine) {
-  return forked_text([&]() -> std::string {
+  return tb::forked_text([&]() -> std::string {
     const std::unique_ptr<Engine> made = engine_named(engine);
     BoundEngine bound(*made);
     for (const char* size : {"width", "height"})
@@ -42,7 +45,7 @@ std::string error_of(const std::string& engine) {
     RunContext context("", bound.set, "", 1);
     context.set_quiet(true);
     const Unbound unbound("unbound");
-    Result result;
+    tb::Result result;
     try {
       bound.engine.run(bound.run, context, result);
     } catch (const std::exception& error) {
@@ -61,21 +64,22 @@ TEST(FailedRun, OfEveryEngineSaysWhatElaborationSays) {
 
 TEST(FailedRun, SaysWhyEvenIfItsPicturesFailToo) {
   for (const bool fails : {false, true}) {
-    const std::string error = forked_text([&]() -> std::string {
-      GeometricSceneParameters p;
+    const std::string error = tb::forked_text([&]() -> std::string {
+      tb::GeometricSceneParameters p;
       p.source = "cube";
       p.width = p.height = 32;
-      const std::vector<geometric::Frame> frames = {load_geometric_frame(p, 1, false).frame};
+      const std::vector<tb::geometric::Frame> frames = {
+          tb::load_geometric_frame(p, 1, false).frame};
       RunParameters run;
       ParameterSet set;
-      set.add("run", ParameterKind::kRun, run);
+      set.add("run", tb::ParameterKind::kRun, run);
       RunContext context("", set, "", 1);
       context.set_quiet(true);
-      SimulationOptions options;
+      tb::SimulationOptions options;
       options.max_cycles = fails ? 10 : 0;
-      Simulation simulation(options);
-      GeometricEnvironment environment(simulation, frames, {});
-      Result result;
+      tb::Simulation simulation(options);
+      tb::GeometricEnvironment environment(simulation, frames, {});
+      tb::Result result;
       try {
         simulate(simulation, environment, context, result,
                  [] { throw std::runtime_error("no pictures"); });
@@ -94,13 +98,13 @@ TEST(FailedRun, SaysWhyEvenIfItsPicturesFailToo) {
 // ---- what parameters make of a simulation
 // --------------------------------------------------------
 
-SimulationOptions options_of(const RunParameters& run, const ParameterSet& set = {}) {
+tb::SimulationOptions options_of(const RunParameters& run, const ParameterSet& set = {}) {
   return simulation_options(run, RunContext("out", set, "", 1));
 }
 
 TEST(SimulationOptions, AreThoseOfTheRun) {
   RunParameters run;
-  SimulationOptions o = options_of(run);
+  tb::SimulationOptions o = options_of(run);
   EXPECT_TRUE(o.golden && o.fast_path && o.check_links);
   EXPECT_FALSE(o.shuffle || o.poison || o.maps || o.coverage || o.timeline || o.pixel);
   EXPECT_TRUE(o.faults.empty() && o.trace_scope.empty());
@@ -134,7 +138,7 @@ TEST(SimulationOptions, AreThoseOfTheRun) {
   EXPECT_EQ(o.trace_from, 14u);
   EXPECT_EQ(o.trace_to, 15u);
   EXPECT_EQ(o.window_cycles, 16u);
-  EXPECT_EQ(o.pixel, (PixelAddress{17, 18}));
+  EXPECT_EQ(o.pixel, (tb::PixelAddress{17, 18}));
   EXPECT_EQ(o.timeline->from, 19u);
   EXPECT_EQ(o.timeline->to, 20u);
   run.check = CheckMode::kNone;
@@ -147,7 +151,7 @@ TEST(SimulationOptions, AreThoseOfTheRun) {
 TEST(SimulationOptions, OfAFaultAskForNoCheckersOfLinks) {
   RunParameters run;
   ParameterSet set;
-  set.add("run", ParameterKind::kRun, run);
+  set.add("run", tb::ParameterKind::kRun, run);
   run.fault = "flip-bit";
   EXPECT_FALSE(options_of(run, set).check_links);
   EXPECT_THAT(options_of(run, set).faults, testing::ElementsAre("flip-bit"));
@@ -156,9 +160,9 @@ TEST(SimulationOptions, OfAFaultAskForNoCheckersOfLinks) {
 }
 
 TEST(SimulationOptions, ProgramRulesUnlessTheyAreResetValues) {
-  ProgramParameters program;
+  tb::ProgramParameters program;
   ParameterSet set;
-  set.add("run", ParameterKind::kRun, program);
+  set.add("run", tb::ParameterKind::kRun, program);
   EXPECT_TRUE(options_of({}, set).program);
   set.set("run.program", "reset", "test");
   EXPECT_FALSE(options_of({}, set).program);
@@ -187,11 +191,11 @@ std::string rejection(const std::function<void()>& action) {
 }
 
 TEST(InputRules, ASceneDrawsSomething) {
-  Scene scene;
+  tb::Scene scene;
   scene.name = "s";
   scene.mesh.vertices = {{{1, -2, 3}, {}, {}}, {{-1.5, 4, 0}, {}, {}}};
   scene.mesh.triangles.resize(3);
-  DepthImage depth(3, 2);
+  tb::DepthImage depth(3, 2);
   EXPECT_EQ(rejection([&] { reject_nothing_drawn(scene, depth); }),
             "the scene 's' draws nothing: none of its 3 triangles, from (-1.5, -2, 0) to (1, 4, "
             "3), covers the centre of one of 3 x 2 "
@@ -209,8 +213,8 @@ TEST(InputRules, AMemoryIsFasterThanTheWatchdog) {
   RunParameters run;
   run.watchdog_cycles = 1000;
   ParameterSet set;
-  set.add("run", ParameterKind::kRun, run);
-  MemoryParameters memory;
+  set.add("run", tb::ParameterKind::kRun, run);
+  tb::MemoryParameters memory;
   const auto said = [&](std::int32_t latency, std::int32_t most, std::int32_t busy) {
     memory.latency = latency;
     memory.latency_max = most;
@@ -232,7 +236,7 @@ TEST(InputRules, AMemoryIsFasterThanTheWatchdog) {
 }
 
 TEST(InputRules, WhatAMemoryDoesNotUseIsRejected) {
-  MemoryParameters memory;
+  tb::MemoryParameters memory;
   const auto said = [&](const std::vector<std::pair<std::string, std::string>>& given) {
     memory = {};
     ParameterSet set;
@@ -254,7 +258,7 @@ TEST(InputRules, WhatAMemoryDoesNotUseIsRejected) {
 }
 
 TEST(InputRules, ALabelSaysWhatAPresetWouldHaveMadeOtherwise) {
-  MemoryParameters memory;
+  tb::MemoryParameters memory;
   ParameterSet set;
   add_memory(set, "memory", memory);
   EXPECT_EQ(with_changes("fast", set, "memory."), "fast");
@@ -267,4 +271,4 @@ TEST(InputRules, ALabelSaysWhatAPresetWouldHaveMadeOtherwise) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::simulate_test
+}  // namespace deburr::tool::simulate_test

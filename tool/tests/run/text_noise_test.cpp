@@ -24,7 +24,7 @@
 #include "tool/run/run_once.h"
 #include "tool/sweep/definition.h"
 
-namespace deburr::tb::text_noise_test {
+namespace deburr::tool::text_noise_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,12 +45,12 @@ const std::vector<std::string> kOddities = {"0",      "-1",    "9999999999999999
                                             "golden", "#",     ":",
                                             "*",      "\xff",  "\xc3\x28"};
 
-std::string odd(Random& random) {
+std::string odd(tb::Random& random) {
   return kOddities[random.below(static_cast<std::uint32_t>(kOddities.size()))];
 }
 
 // Lines doubled, lost, exchanged, with odd values, with bytes of anything.
-std::string spoilt(std::string text, Random& random) {
+std::string spoilt(std::string text, tb::Random& random) {
   std::vector<std::string> lines;
   std::istringstream input(text);
   for (std::string line; std::getline(input, line);) lines.push_back(line);
@@ -110,55 +110,56 @@ class TextNoise : public testing::Test {
 constexpr std::uint64_t kTextsAChild = 40;
 
 TEST_F(TextNoise, Configurations) {
-  EXPECT_EQ(first_complaint(12,
-                            [&](std::uint64_t seed) -> std::string {
-                              Random random(seed, "configurations");
-                              const std::string engine = kEngines[seed % kEngines.size()];
-                              std::string whole;
-                              for (const auto& [name, value] : random_configuration(engine, seed))
-                                whole += name + ": " + value + "\n";
-                              for (std::uint64_t i = 0; i < kTextsAChild; ++i) {
-                                const std::string text = spoilt(whole, random);
-                                const std::unique_ptr<Engine> made = engine_named(engine);
-                                BoundEngine bound(*made);
-                                try {
-                                  bound.set.load(written(text));
-                                  bound.resolve();
-                                } catch (const spec::Error&) {
-                                } catch (const std::exception& error) {
-                                  return std::string(error.what()) + " of\n" + text;
-                                }
+  EXPECT_EQ(
+      tb::first_complaint(12,
+                          [&](std::uint64_t seed) -> std::string {
+                            tb::Random random(seed, "configurations");
+                            const std::string engine = kEngines[seed % kEngines.size()];
+                            std::string whole;
+                            for (const auto& [name, value] : random_configuration(engine, seed))
+                              whole += name + ": " + value + "\n";
+                            for (std::uint64_t i = 0; i < kTextsAChild; ++i) {
+                              const std::string text = spoilt(whole, random);
+                              const std::unique_ptr<Engine> made = engine_named(engine);
+                              BoundEngine bound(*made);
+                              try {
+                                bound.set.load(written(text));
+                                bound.resolve();
+                              } catch (const spec::Error&) {
+                              } catch (const std::exception& error) {
+                                return std::string(error.what()) + " of\n" + text;
                               }
-                              return "";
-                            }),
-            "");
+                            }
+                            return "";
+                          }),
+      "");
 }
 
 TEST_F(TextNoise, Sweeps) {
   std::vector<std::string> sweeps;
-  for (const fs::directory_entry& entry : fs::directory_iterator(source_folder() / "sweeps")) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(tb::source_folder() / "sweeps")) {
     std::ostringstream text;
     text << std::ifstream(entry.path()).rdbuf();
     sweeps.push_back(text.str());
   }
   ASSERT_FALSE(sweeps.empty());
   std::sort(sweeps.begin(), sweeps.end());
-  EXPECT_EQ(first_complaint(12,
-                            [&](std::uint64_t seed) -> std::string {
-                              Random random(seed, "sweeps");
-                              for (std::uint64_t i = 0; i < kTextsAChild; ++i) {
-                                const std::string text = spoilt(
-                                    sweeps[random.below(static_cast<std::uint32_t>(sweeps.size()))],
-                                    random);
-                                try {
-                                  read_sweep(written(text));
-                                } catch (const spec::Error&) {
-                                } catch (const std::exception& error) {
-                                  return std::string(error.what()) + " of\n" + text;
-                                }
-                              }
-                              return "";
-                            }),
+  EXPECT_EQ(tb::first_complaint(
+                12,
+                [&](std::uint64_t seed) -> std::string {
+                  tb::Random random(seed, "sweeps");
+                  for (std::uint64_t i = 0; i < kTextsAChild; ++i) {
+                    const std::string text = spoilt(
+                        sweeps[random.below(static_cast<std::uint32_t>(sweeps.size()))], random);
+                    try {
+                      read_sweep(written(text));
+                    } catch (const spec::Error&) {
+                    } catch (const std::exception& error) {
+                      return std::string(error.what()) + " of\n" + text;
+                    }
+                  }
+                  return "";
+                }),
             "");
 }
 
@@ -169,7 +170,7 @@ std::string run_with(const std::string& engine, const std::string& fault, const 
                      std::string* said = nullptr) {
   const std::unique_ptr<Engine> made = engine_named(engine);
   BoundEngine bound(*made);
-  const auto is_width = [](const Parameter& p) { return p.name.ends_with(".width"); };
+  const auto is_width = [](const tb::Parameter& p) { return p.name.ends_with(".width"); };
   const auto& all = bound.set.all();
   const std::string width = std::find_if(all.begin(), all.end(), is_width)->name;
   const std::string size = width.substr(0, width.find('.') + 1);
@@ -199,7 +200,7 @@ std::string run_with(const std::string& engine, const std::string& fault, const 
 
 // As the rejection of an unknown one lists them.
 std::vector<std::string> links_of(const std::string& engine, const fs::path& directory) {
-  std::istringstream lines(forked_text([&] {
+  std::istringstream lines(tb::forked_text([&] {
     std::string said;
     run_with(engine, "drop:none:1", directory, &said);
     return said;
@@ -217,10 +218,10 @@ TEST_F(TextNoise, Faults) {
     ASSERT_GT(links.back().size(), 10u) << engine;
   }
   EXPECT_EQ(
-      first_complaint(
+      tb::first_complaint(
           60,
           [&](std::uint64_t seed) -> std::string {
-            Random random(seed, "faults");
+            tb::Random random(seed, "faults");
             const std::size_t engine = random.below(static_cast<std::uint32_t>(kEngines.size()));
             const auto& known = links[engine];
             const auto either = [&](const std::string& right) {
@@ -239,4 +240,4 @@ TEST_F(TextNoise, Faults) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::text_noise_test
+}  // namespace deburr::tool::text_noise_test

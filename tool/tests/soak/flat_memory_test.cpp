@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace deburr::tb::flat_memory_test {
+namespace deburr::tool::flat_memory_test {
 namespace {
 
 constexpr Allowance kNone{0, 0};
@@ -76,4 +76,4 @@ TEST(FlatMemory, WhatIsNotGivenBackIsOnTheHeap) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::flat_memory_test
+}  // namespace deburr::tool::flat_memory_test

@@ -16,7 +16,7 @@
 #include "tool/sweep/status.h"
 #include "tool/tests/sweep/kept_points.h"
 
-namespace deburr::tb::collection_test {
+namespace deburr::tool::collection_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -311,8 +311,8 @@ TEST_F(SweepCollection, APlanIsOfItsFileWhatThatIncludesAndWhatPointsRead) {
   std::filesystem::create_directories(place().directory);
   Plan made;
   made.file = file.string();
-  made.parts = {{part.string(), sha256_of_file(part)}};
-  made.files = {{picture.string(), sha256_of_file(picture)}};
+  made.parts = {{part.string(), tb::sha256_of_file(part)}};
+  made.files = {{picture.string(), tb::sha256_of_file(picture)}};
   write_plan(made, place());
   const auto changes = [&] { return changes_since(read_plan(place().directory), file); };
   EXPECT_THAT(changes(), testing::IsEmpty());
@@ -330,4 +330,4 @@ TEST_F(SweepCollection, APlanIsOfItsFileWhatThatIncludesAndWhatPointsRead) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::collection_test
+}  // namespace deburr::tool::collection_test

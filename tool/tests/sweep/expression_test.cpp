@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace deburr::tb::expression_test {
+namespace deburr::tool::expression_test {
 namespace {
 
 using testing::ElementsAre;
@@ -153,4 +153,4 @@ TEST(Expression, RejectsWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::expression_test
+}  // namespace deburr::tool::expression_test

@@ -14,7 +14,7 @@
 #include "tool/sweep/plan.h"
 #include "tool/sweep/point.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 // Pages are too long to be shown.
 inline void expect_in(const std::string& page, const std::string& text) {
@@ -34,14 +34,14 @@ class KeptPoints : public testing::Test {
     std::ofstream(out_ / name) << text;
     return out_ / name;
   }
-  std::string read(const std::filesystem::path& file) const { return read_file(file, 1 << 24); }
+  std::string read(const std::filesystem::path& file) const { return tb::read_file(file, 1 << 24); }
   SweepPlace place() const { return {out_, out_ / "here"}; }
   std::filesystem::path folder_of(const std::string& name) const {
     return point_directory(place().points(), name);
   }
   void keep(const std::string& name, nlohmann::ordered_json result,
             const std::string& verdict = "pass") const {
-    nlohmann::ordered_json whole = {{"schema", kResultSchema}, {"verdict", verdict}};
+    nlohmann::ordered_json whole = {{"schema", tb::kResultSchema}, {"verdict", verdict}};
     whole.update(result);
     std::filesystem::create_directories(folder_of(name));
     std::ofstream(folder_of(name) / "result.json") << whole.dump(1);
@@ -54,4 +54,4 @@ class KeptPoints : public testing::Test {
       (std::string("deburr_kept_") + testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

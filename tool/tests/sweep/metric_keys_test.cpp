@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace deburr::tb::metric_keys_test {
+namespace deburr::tool::metric_keys_test {
 namespace {
 
 // A * stands for one character or more, dots among them.
@@ -28,4 +28,4 @@ TEST(MetricKeys, OfAPattern) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::metric_keys_test
+}  // namespace deburr::tool::metric_keys_test

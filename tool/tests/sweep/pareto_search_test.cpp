@@ -16,7 +16,7 @@
 
 #include "tb/base/random.h"
 
-namespace deburr::tb::pareto_search_test {
+namespace deburr::tool::pareto_search_test {
 namespace {
 
 using testing::Each;
@@ -174,7 +174,7 @@ TEST(ParetoSearch, FindsMoreOfAFrontThanChance) {
     searched += percent_found(front, search.run({100, 12, seed})) / kSeeds;
     std::set<Costs> random;
     std::set<std::uint32_t> points;
-    for (Random noise(seed); points.size() < 100;) points.insert(noise.below(500));
+    for (tb::Random noise(seed); points.size() < 100;) points.insert(noise.below(500));
     for (const std::uint32_t i : points)
       random.insert(costs_of({i % 5, i / 5 % 5, i / 25 % 5, i / 125}));
     drawn += percent_found(front, random) / kSeeds;
@@ -206,4 +206,4 @@ TEST(Population, SuitsNsga2) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::pareto_search_test
+}  // namespace deburr::tool::pareto_search_test

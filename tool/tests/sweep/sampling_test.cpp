@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace deburr::tb::sampling_test {
+namespace deburr::tool::sampling_test {
 namespace {
 
 using testing::ElementsAre;
@@ -142,4 +142,4 @@ TEST(Sampling, RandomOnesAreDrawnUntilEnoughCount) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::sampling_test
+}  // namespace deburr::tool::sampling_test

@@ -16,7 +16,7 @@ constexpr double kSampled = 246.9, kUncovered = 608.0;  // x 1000
 
 TEST(Discs, AllRadiiCountAlike) {
   const auto none = [](const Image& image) { return image; };
-  const DiscFigures f = measure_discs(none, {.pixels = 600, .seeds = 2});
+  const stimuli::DiscFigures f = stimuli::measure_discs(none, {.pixels = 600, .seeds = 2});
   double squares = 0;
   for (const double figure : f.by_radius) {
     EXPECT_NEAR(figure, kSampled, 6);
@@ -29,7 +29,7 @@ TEST(Discs, AreHeldAgainstTheExactShare) {
   const auto white = [](const Image& image) {
     return Image(image.width, image.height, {255, 255, 255, 255});
   };
-  for (const double figure : measure_discs(white, {.pixels = 600, .seeds = 2}).by_radius)
+  for (const double figure : stimuli::measure_discs(white, {.pixels = 600, .seeds = 2}).by_radius)
     EXPECT_NEAR(figure, kUncovered, 25);
 }
 

@@ -10,6 +10,9 @@
 #include <vector>
 
 namespace deburr::tb::morphological::line_fans_test {
+
+using stimuli::FanFigures;
+
 namespace {
 
 using testing::ElementsAre;
@@ -25,13 +28,14 @@ FanFigures figures(double by, double undulation, double jump) {
 }
 
 TEST(Fans, WithoutSmoothingAreThoseOfTheContract) {
-  FanOptions options;
+  stimuli::FanOptions options;
   options.lines = 12;
   options.seeds = 1;
-  const Smoothing none = smoothing_of(fan_rows()[0]);
-  const FanFigures f = measure_fans(none, options);
+  const stimuli::Smoothing none = smoothing_of(stimuli::fan_rows()[0]);
+  const FanFigures f = stimuli::measure_fans(none, options);
   for (std::size_t c = 0; c < f.by_class.size(); ++c)
-    EXPECT_NEAR(f.by_class[c], contract_figures()[0].figures.by_class[c], 6) << kSlopeClasses[c];
+    EXPECT_NEAR(f.by_class[c], stimuli::contract_figures()[0].figures.by_class[c], 6)
+        << stimuli::kSlopeClasses[c];
   // The error of a column is a sawtooth of height 1, which falls by 1 in a share s of all columns,
   // the line's slope, and rises by s from column to column: of jumps the mean square is s (1 - s).
   double squares = 0;
@@ -43,15 +47,15 @@ TEST(Fans, WithoutSmoothingAreThoseOfTheContract) {
   EXPECT_NEAR(f.undulation, 1000 / std::sqrt(12.0), 6);
   EXPECT_NEAR(f.jump, 1000 * std::sqrt(squares), 6);
   options.lines = 2;
-  const FanFigures few = measure_fans(none, options);
+  const FanFigures few = stimuli::measure_fans(none, options);
   options.transposed = true;
-  const FanFigures turned = measure_fans(none, options);
+  const FanFigures turned = stimuli::measure_fans(none, options);
   EXPECT_EQ(turned.by_class, few.by_class);
   EXPECT_EQ(turned.undulation, few.undulation);
   EXPECT_EQ(turned.jump, few.jump);
   // All of it white: off by what the line leaves uncovered, in a column by half of its crossing at
   // least.
-  const FanFigures white = measure_fans(
+  const FanFigures white = stimuli::measure_fans(
       [](const Image& image) {
         return Image(image.width, image.height, {255, 255, 255, 255});
       },
@@ -62,17 +66,17 @@ TEST(Fans, WithoutSmoothingAreThoseOfTheContract) {
 }
 
 TEST(Fans, ExceedEachLimitThatIsGiven) {
-  const FanLimit limit{"x", figures(10, 5, 0)};
-  EXPECT_THAT(exceeded(limit, figures(10, 5, 100)), IsEmpty());
-  EXPECT_THAT(exceeded(limit, figures(10.9, 5.4, 0), 0.1), IsEmpty());
+  const stimuli::FanLimit limit{"x", figures(10, 5, 0)};
+  EXPECT_THAT(stimuli::exceeded(limit, figures(10, 5, 100)), IsEmpty());
+  EXPECT_THAT(stimuli::exceeded(limit, figures(10.9, 5.4, 0), 0.1), IsEmpty());
   EXPECT_THAT(
-      exceeded(limit, figures(11.1, 5.6, 0), 0.1),
+      stimuli::exceeded(limit, figures(11.1, 5.6, 0), 0.1),
       ElementsAre("n = 1", "n = 2", "n = 3-5", "n = 6-10", "n = 11-20", "n = 2-20", "undulation"));
   FanFigures one = figures(10, 5, 0);
   one.by_class[5] = 60.1;
-  EXPECT_THAT(exceeded(limit, one), ElementsAre("n = 2-20"));
-  EXPECT_THAT(exceeded({"x", figures(0, 0, 3)}, figures(10, 5, 3.1)), ElementsAre("jump"));
-  EXPECT_EQ(asked_of_ours().name, "fit N = 4");
+  EXPECT_THAT(stimuli::exceeded(limit, one), ElementsAre("n = 2-20"));
+  EXPECT_THAT(stimuli::exceeded({"x", figures(0, 0, 3)}, figures(10, 5, 3.1)), ElementsAre("jump"));
+  EXPECT_EQ(stimuli::asked_of_ours().name, "fit N = 4");
 }
 
 TEST(Fans, AreALineOfATable) {
@@ -82,7 +86,7 @@ TEST(Fans, AreALineOfATable) {
 
 TEST(Fans, HaveTheRowsOfTheContract) {
   std::vector<std::string> names;
-  for (const FanRow& row : fan_rows()) {
+  for (const stimuli::FanRow& row : stimuli::fan_rows()) {
     names.push_back(row.name + "|" + std::to_string(row.parameters.steps));
     EXPECT_EQ(row.smoothed, row.name != "none");
     EXPECT_FALSE(row.parameters.linear_light) << row.name;

@@ -10,8 +10,8 @@
 namespace deburr::tb::sent_quads_test {
 namespace {
 
-TracedQuad quad(std::uint32_t tag, std::uint8_t coverage) {
-  TracedQuad q;
+traces::TracedQuad quad(std::uint32_t tag, std::uint8_t coverage) {
+  traces::TracedQuad q;
   q.quad.tag = tag;
   q.quad.coverage = coverage;
   q.quad.x = 2;
@@ -61,7 +61,7 @@ TEST(SentQuads, ForgetsWhatIsDone) {
 
 TEST(Show, PutsWhatIsToBeSeenWhereItBelongs) {
   Image picture(8, 8);
-  TracedQuad q = quad(0, 0xF);
+  traces::TracedQuad q = quad(0, 0xF);
   q.visible = 0b0111;
   show(q, colour(0, 2), picture);
   EXPECT_EQ(picture.at(2, 5), (Rgba8{1, 2, 3, 4}));

@@ -96,10 +96,10 @@ TEST(Quads, AreThoseOfTheGoldenModelWithEveryRuleAndTexture) {
   for (std::uint8_t& byte : memory) byte = static_cast<std::uint8_t>(random.next());
   std::uint64_t fills = 0, coloured = 0;
   for (int trial = 0; trial < 40; ++trial) {
-    auto parameters = tb::random_rules(random);
+    auto parameters = tb::stimuli::random_rules(random);
     parameters.cache_bytes = 1 << random.between(10, 13);
     parameters.cache_replacement =
-        tb::any_code<spec::texture::Replacement>(random, spec::texture::kReplacementNames);
+        tb::stimuli::any_code<spec::texture::Replacement>(random, spec::texture::kReplacementNames);
     TextureGolden golden(parameters, memory);
     golden.record_fills(true);
     const Handle handle(deburr_texture_new());
@@ -108,8 +108,8 @@ TEST(Quads, AreThoseOfTheGoldenModelWithEveryRuleAndTexture) {
     DEBURR_EXPECT_TAKEN(handle,
                         deburr_texture_write(handle.get(), 0, memory.data(), memory.size()));
     for (std::uint32_t texture = 0; texture < 4; ++texture) {
-      Descriptor d = tb::random_texture(random, kMemoryBytes);
-      if (texture == 3) tb::spoil(random, d);
+      Descriptor d = tb::stimuli::random_texture(random, kMemoryBytes);
+      if (texture == 3) tb::stimuli::spoil(random, d);
       golden.set_texture(static_cast<int>(texture), d);
       if (texture == 3 || random.chance(500)) {
         set_registers(handle.get(), texture, d);
@@ -121,7 +121,7 @@ TEST(Quads, AreThoseOfTheGoldenModelWithEveryRuleAndTexture) {
     }
     for (std::uint32_t i = 0; i < 100; ++i) {
       const auto texture = static_cast<std::uint8_t>(random.chance(20) ? 200 : random.below(4));
-      const Quad quad(tb::random_quad(random, 0, texture));
+      const Quad quad(tb::stimuli::random_quad(random, 0, texture));
       const auto lane = static_cast<std::uint32_t>(random.below(4));
       const auto analysed = golden.analyse(quad, static_cast<int>(lane));
       for (const auto& [what, expected] :
@@ -191,7 +191,7 @@ TEST(Counters, HaveTheNamesOfTheRegisters) {
 TEST(Levels, LieWhereTheLayoutHasThem) {
   Random random(7);
   for (int trial = 0; trial < 60; ++trial) {
-    Descriptor d = tb::random_texture(random, kMemoryBytes);
+    Descriptor d = tb::stimuli::random_texture(random, kMemoryBytes);
     d.width = static_cast<std::uint16_t>(random.between(1, 90));
     d.height = static_cast<std::uint16_t>(random.between(1, 90));
     d.levels = static_cast<std::uint8_t>(std::bit_width(unsigned{std::max(d.width, d.height)}));

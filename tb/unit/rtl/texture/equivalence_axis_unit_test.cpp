@@ -29,8 +29,8 @@ Verdict compare_axis(spec::texture::Axes axes, spec::texture::FootprintRule rule
   for (int i = 0; i < 120'000; ++i) {
     const auto any = [&] {
       if (random.chance(100)) {
-        const std::int64_t a = any_of(random, kCoordinateCorners);
-        return a - any_of(random, kCoordinateCorners);
+        const std::int64_t a = stimuli::any_of(random, stimuli::kCoordinateCorners);
+        return a - stimuli::any_of(random, stimuli::kCoordinateCorners);
       }
       const auto v = static_cast<std::int64_t>(random.next() >> (32 + random.below(32)));
       return random.chance(500) ? -v : v;

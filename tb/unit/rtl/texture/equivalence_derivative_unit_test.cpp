@@ -24,7 +24,7 @@ Verdict compare_derivative(bool fault) {
   Random random(4);
   for (int batch = 0; batch < 8; ++batch) {
     Descriptors d;
-    for (auto& one : d) one = random_texture(random, kMemoryBytes);
+    for (auto& one : d) one = stimuli::random_texture(random, kMemoryBytes);
     bench.reset();
     write(store, d);
     struct Lane {
@@ -35,7 +35,8 @@ Verdict compare_derivative(bool fault) {
     std::vector<Lane> lanes;
     std::uint64_t saturated = 0, clamped = 0;
     for (std::uint32_t tag = 0; tag < 4000; ++tag) {
-      quads.push_back(random_quad(random, tag, static_cast<std::uint8_t>(random.below(16))));
+      quads.push_back(
+          stimuli::random_quad(random, tag, static_cast<std::uint8_t>(random.below(16))));
       for (std::size_t lane = 0; lane < 4; ++lane)
         if (quads.back().coverage >> lane & 1) {
           lanes.push_back({tag, lane, quads.back().coverage >> (lane + 1) == 0});

@@ -30,7 +30,7 @@ std::vector<std::int32_t> log_corners() {
 spec::texture::Descriptor level_texture(Random& random, int number) {
   constexpr std::array<std::uint8_t, 4> kLevels = {1, 2, 7, 13};
   constexpr int kSystematic = 6 * 2 * 4 * 5;
-  spec::texture::Descriptor d = random_texture(random, kMemoryBytes);
+  spec::texture::Descriptor d = stimuli::random_texture(random, kMemoryBytes);
   if (number < kSystematic) {
     d = {};
     d.width = d.height = 4096;
@@ -39,9 +39,10 @@ spec::texture::Descriptor level_texture(Random& random, int number) {
     d.levels = kLevels[static_cast<std::size_t>(number / 12 % 4)];
     d.max_anisotropy_log2 = static_cast<std::uint8_t>(number / 48);
   } else if (random.chance(300)) {
-    d.lod_bias = any_of(random, std::array<std::int16_t, 6>{-32768, 32767, -1, 1, -256, 4096});
-    d.min_lod = any_of(random, std::array<std::uint16_t, 5>{0, 1, 4096, 32768, 65535});
-    d.max_lod = any_of(random, std::array<std::uint16_t, 5>{0, 1, 3072, 32768, 65535});
+    d.lod_bias =
+        stimuli::any_of(random, std::array<std::int16_t, 6>{-32768, 32767, -1, 1, -256, 4096});
+    d.min_lod = stimuli::any_of(random, std::array<std::uint16_t, 5>{0, 1, 4096, 32768, 65535});
+    d.max_lod = stimuli::any_of(random, std::array<std::uint16_t, 5>{0, 1, 3072, 32768, 65535});
   }
   return d;
 }
@@ -75,7 +76,7 @@ Verdict compare_level(spec::texture::Axes axes, spec::texture::CountRule count,
       for (const std::int32_t lb_max : corners) {
         const std::int32_t near = lb_max - static_cast<std::int32_t>(random.below(5 * 4096));
         for (const std::int32_t lb_min :
-             {lb_max, near, any_of(random, std::array{-65536, 0, 4096}),
+             {lb_max, near, stimuli::any_of(random, std::array{-65536, 0, 4096}),
               lb_max - 4096 * static_cast<std::int32_t>(random.below(6))})
           tokens.push_back({ticket, 1, 2, 3, 4, lb_max, with_area ? lb_max + lb_min : lb_min});
       }

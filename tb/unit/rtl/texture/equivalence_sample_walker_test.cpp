@@ -37,13 +37,13 @@ Verdict compare_walker(spec::texture::CountRule count, spec::texture::Kernel ker
   Random random(6);
   for (std::size_t i = 0; i < 30'000; ++i) {
     const auto axis = [&] {
-      if (random.chance(300)) return any_of(random, kAxisCorners);
+      if (random.chance(300)) return stimuli::any_of(random, kAxisCorners);
       return static_cast<std::int64_t>(random.next()) >> (31 + random.below(30));
     };
     const std::int64_t axis_s = axis(), axis_t = axis();
     hw::LevelToken t = {
         kTicket,
-        any_of(random, kCoordinateCorners),
+        stimuli::any_of(random, stimuli::kCoordinateCorners),
         static_cast<std::int32_t>(random.next()),
         axis_s,
         axis_t,

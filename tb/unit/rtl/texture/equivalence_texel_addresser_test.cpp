@@ -24,7 +24,7 @@ Verdict compare_addresser(bool fault) {
   constexpr std::int64_t kFurthest = (std::int64_t{1} << 33) - 1;  // S9.24
   for (int batch = 0; batch < 40; ++batch) {
     Descriptors d;
-    for (auto& one : d) one = random_texture(random, kMemoryBytes);
+    for (auto& one : d) one = stimuli::random_texture(random, kMemoryBytes);
     bench.reset();
     write(store, d);
     std::vector<hw::SampleToken> tokens;
@@ -34,12 +34,13 @@ Verdict compare_addresser(bool fault) {
         const auto position = [&](std::uint16_t size) -> std::int64_t {
           switch (random.below(4)) {
             case 0:  // by a border of a texel, where the fraction and the pair of texels change
-              return any_of(random,
-                            std::array<std::int64_t, 5>{-2 * kOne, -kOne, 0, kOne, 3 * kOne}) +
+              return stimuli::any_of(
+                         random, std::array<std::int64_t, 5>{-2 * kOne, -kOne, 0, kOne, 3 * kOne}) +
                      kOne * random.below(2u * size + 1) / (2 * gold::level_size(size, level)) +
-                     any_of(random, std::array<std::int64_t, 5>{-32768, -1, 0, 1, 32767});
+                     stimuli::any_of(random, std::array<std::int64_t, 5>{-32768, -1, 0, 1, 32767});
             case 1:
-              return any_of(random, std::array<std::int64_t, 4>{kFurthest, -kFurthest - 1, -1, 0});
+              return stimuli::any_of(random,
+                                     std::array<std::int64_t, 4>{kFurthest, -kFurthest - 1, -1, 0});
             case 2:
               return static_cast<std::int64_t>(random.next()) >> 30;
             default:

@@ -108,14 +108,16 @@ inline FilterWork filter_work(const spec::texture::Rules& rules) {
                                                       0x80808080};
   constexpr std::array<std::uint8_t, 5> kFractions = {0, 1, 128, 254, 255};
   for (int i = 0; i < 12'000; ++i) {
-    const auto format = any_code<spec::texture::Format>(random, spec::texture::kFormatNames);
+    const auto format =
+        stimuli::any_code<spec::texture::Format>(random, spec::texture::kFormatNames);
     const std::uint32_t mask =
         spec::texture::kFormatBytes[static_cast<std::size_t>(format)] == 4   ? 0xFFFFFFFF
         : spec::texture::kFormatBytes[static_cast<std::size_t>(format)] == 2 ? 0xFFFF
                                                                              : 0xFF;
     const bool extreme = random.chance(400);
     const auto fraction = [&] {
-      return extreme ? any_of(random, kFractions) : static_cast<std::uint8_t>(random.below(256));
+      return extreme ? stimuli::any_of(random, kFractions)
+                     : static_cast<std::uint8_t>(random.below(256));
     };
     const int samples = rules.count == spec::texture::CountRule::kAny
                             ? 1 + static_cast<int>(random.below(16))
@@ -123,8 +125,8 @@ inline FilterWork filter_work(const spec::texture::Rules& rules) {
     work.fragment(format, samples, fraction(), [&] {
       hw::TexelQuadToken t{};
       for (std::uint32_t& texel : t.texel)
-        texel = mask &
-                (extreme ? any_of(random, kExtremes) : static_cast<std::uint32_t>(random.next()));
+        texel = mask & (extreme ? stimuli::any_of(random, kExtremes)
+                                : static_cast<std::uint32_t>(random.next()));
       t.control.fraction_u = fraction();
       t.control.fraction_v = fraction();
       return t;

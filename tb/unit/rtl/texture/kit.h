@@ -150,7 +150,7 @@ class Kit : public EngineKit {
   }
   // An AxisUnit stands in the place of the FootprintUnit but for the axes of the paper.
   static std::vector<Drawn<Parameters>> drawn_builds() {
-    Parameters paper = paper_rules(), deburr, largest, stored, two;
+    Parameters paper = stimuli::paper_rules(), deburr, largest, stored, two;
     for (Parameters* p : {&paper, &deburr, &largest, &stored, &two}) p->cache_fifo_depth = 107;
     largest.cache_line_bytes = 128;
     largest.cache_bytes = rtl::texture::TagStore::kMostLines * largest.cache_line_bytes;

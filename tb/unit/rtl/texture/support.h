@@ -131,7 +131,7 @@ struct Store {
 
 // The whole unit between source and sink, by the paper's rules unless others are given.
 struct UnitBench {
-  explicit UnitBench(const spec::texture::Parameters& parameters = paper_rules(),
+  explicit UnitBench(const spec::texture::Parameters& parameters = stimuli::paper_rules(),
                      std::uint32_t latency = kMemoryLatency, std::uint32_t scatter = 0,
                      const sc_core::sc_time& clock_period = period())
       : clock("clock", clock_period),

@@ -84,15 +84,15 @@ void check_latency(const spec::texture::Parameters& p, Cycle expected) {
   EXPECT_EQ(b.unit.fragment_latency.count(), 8u);
   EXPECT_EQ(b.unit.fragment_latency.min(), expected);
 }
-TEST(TextureRtlUnit, LatencyOfANearestFragment) { check_latency(paper_rules(), 30); }
+TEST(TextureRtlUnit, LatencyOfANearestFragment) { check_latency(stimuli::paper_rules(), 30); }
 TEST(TextureRtlUnit, LatencyWithExactFootprint) {
-  spec::texture::Parameters p = paper_rules();
+  spec::texture::Parameters p = stimuli::paper_rules();
   p.footprint = spec::texture::FootprintRule::kExact;
   check_latency(p, 47);
 }
 TEST(TextureRtlUnit, LatencyOfThePresetDeburr) { check_latency({}, 53); }
 TEST(TextureRtlUnit, LatencyEncoded) {
-  spec::texture::Parameters p = paper_rules();
+  spec::texture::Parameters p = stimuli::paper_rules();
   p.srgb_output = spec::texture::SrgbOutput::kEncoded;
   check_latency(p, 31);
 }

@@ -16,7 +16,11 @@
 #include "tb/unit/engines/run_figures.h"
 #include "tool/engines/frame/frame_composition.h"
 
-namespace deburr::tb::composition_test {
+namespace deburr::tool::composition_test {
+
+using tb::number_at;
+using tb::work;
+
 namespace {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
@@ -52,7 +56,7 @@ struct Given {
 // The roles as a run has them: its parameters, set and resolved.
 struct Resolved {
   explicit Resolved(const Given& given) {
-    set.add("run", ParameterKind::kRun, run);
+    set.add("run", tb::ParameterKind::kRun, run);
     roles.add_parameters(set);
     const Smoothing& smoothing = first_of(roles, given.kind);
     set.set("frame.smoothing", smoothing.name, "test");
@@ -63,13 +67,13 @@ struct Resolved {
       set.set(name_in(smoothing, name), value, "test");
     roles.resolve(set);
   }
-  std::shared_ptr<const DrawnScene> scene() const {
+  std::shared_ptr<const tb::DrawnScene> scene() const {
     RunContext context("", set, "", 1);
     return roles.drawer().load(1, context);
   }
   RunParameters run;
   FrameRoles roles;
-  ParameterSet set;
+  tb::ParameterSet set;
 };
 
 struct Outcome {
@@ -79,17 +83,17 @@ struct Outcome {
 };
 
 // A counter of the hardware, whatever engine and unit it is of.
-std::uint64_t counter(const Result& result, std::string_view end) {
-  for (const WorkItem& item : result.work)
+std::uint64_t counter(const tb::Result& result, std::string_view end) {
+  for (const tb::WorkItem& item : result.work)
     if (item.name.ends_with(end)) return std::get<std::uint64_t>(item.value);
   return 0;
 }
 
-Outcome run(const SimulationOptions& options, const Given& given) {
-  return forked<Outcome>([&] {
+Outcome run(const tb::SimulationOptions& options, const Given& given) {
+  return tb::forked<Outcome>([&] {
     const Resolved resolved(given);
-    const std::shared_ptr<const DrawnScene> scene = resolved.scene();
-    Simulation simulation(options);
+    const std::shared_ptr<const tb::DrawnScene> scene = resolved.scene();
+    tb::Simulation simulation(options);
     FrameComposition frame(simulation, *scene, resolved.roles);
     simulation.elaborate(frame);
     bool memory_errors = false;
@@ -99,7 +103,7 @@ Outcome run(const SimulationOptions& options, const Given& given) {
       memory_errors = true;
     }
     frame.check();
-    Result result;
+    tb::Result result;
     simulation.collect(result);
     return Outcome{result.cycles,
                    result.comparisons,
@@ -150,16 +154,16 @@ TEST(FrameComposition, WhoSmoothsRowsFollowsWhoSmoothsAlongEdges) {
   EXPECT_LT(both.cycles, first.cycles + (kRows + kReach + 5) * kWidth + 400);
 }
 
-Json figures_of(const Given& given) {
-  return Json::parse(forked_text([&] {
+tb::Json figures_of(const Given& given) {
+  return tb::Json::parse(tb::forked_text([&] {
     const Resolved resolved(given);
-    const std::shared_ptr<const DrawnScene> scene = resolved.scene();
-    Simulation simulation({});
+    const std::shared_ptr<const tb::DrawnScene> scene = resolved.scene();
+    tb::Simulation simulation({});
     FrameComposition frame(simulation, *scene, resolved.roles);
     simulation.elaborate(frame);
     simulation.run();
     frame.check();
-    Json json = json_of(simulation);
+    tb::Json json = json_of(simulation);
     json["fragments"] = scene->stream().counts.fragments;
     json["bound_of_colours"] = frame.drawing().clocks_bound();
     const MeshStage* const mesh = std::as_const(frame).mesh();
@@ -175,7 +179,7 @@ Json figures_of(const Given& given) {
 TEST(FrameComposition, FiguresAreOfTheWholeFrame) {
   constexpr double kPixels = 48 * 32;
   for (const Kind kind : kAll) {
-    const Json r = figures_of({kind});
+    const tb::Json r = figures_of({kind});
     const bool mesh = kind != Kind::kRows, rows = kind != Kind::kMesh;
     const double cycles = number_at(r, "/cycles"), colours = number_at(r, "/bound_of_colours"),
                  edges = number_at(r, "/bound_of_edges"), smooth = number_at(r, "/bound_of_rows");
@@ -209,8 +213,8 @@ TEST(FrameComposition, FiguresAreOfTheWholeFrame) {
 // What is behind others is written, too.
 TEST(FrameComposition, BytesAreOfHiddenFragmentsToo) {
   for (const Kind kind : kAll) {
-    const Json seen = figures_of({kind}),
-               all = figures_of({kind, {{"scene.visibility", "overdraw"}}});
+    const tb::Json seen = figures_of({kind}),
+                   all = figures_of({kind, {{"scene.visibility", "overdraw"}}});
     EXPECT_GT(number_at(all, "/fragments"), number_at(seen, "/fragments"));
     EXPECT_EQ(work(all, "frame_buffer_bytes_written"), 4 * number_at(all, "/fragments"));
     EXPECT_EQ(work(all, "frame_buffer_bytes_read"), work(seen, "frame_buffer_bytes_read"));
@@ -219,7 +223,7 @@ TEST(FrameComposition, BytesAreOfHiddenFragmentsToo) {
 }
 
 TEST(FrameComposition, NoiseInUnwrittenFieldsChangesNothing) {
-  SimulationOptions poisoned;
+  tb::SimulationOptions poisoned;
   poisoned.poison = true;
   poisoned.stall_permille = 100;
   for (const Kind kind : kAll) EXPECT_EQ(run(poisoned, {kind}).mismatches, 0u);
@@ -234,7 +238,7 @@ TEST(FrameComposition, AResetInMidFrameBeginsItAgain) {
     if (given.kind != Kind::kRows)
       moments.insert({whole.cycles - 60, whole.cycles - whole.drawing / 2});
     for (const rtl::Cycle at : moments) {
-      SimulationOptions broken_off;
+      tb::SimulationOptions broken_off;
       broken_off.reset_after = at;
       const Outcome again = run(broken_off, given);
       EXPECT_EQ(again.pixels, whole.pixels) << at;
@@ -259,17 +263,18 @@ TEST(FrameComposition, ErrorsOfEveryMemoryArePredictedAndReported) {
   }
 }
 
-void each_figure_has_a_name_of_its_own(Simulation& simulation, FrameComposition& frame) {
+void each_figure_has_a_name_of_its_own(tb::Simulation& simulation, FrameComposition& frame) {
   simulation.elaborate(frame);
-  Result result;
+  tb::Result result;
   simulation.collect(result);
   std::set<std::string> names;
-  for (const WorkItem& item : result.work) EXPECT_TRUE(names.insert(item.name).second) << item.name;
-  for (const UnitCycles& unit : result.units)
+  for (const tb::WorkItem& item : result.work)
+    EXPECT_TRUE(names.insert(item.name).second) << item.name;
+  for (const tb::UnitCycles& unit : result.units)
     EXPECT_TRUE(names.insert("unit " + unit.name).second) << unit.name;
-  for (const MemoryFigures& memory : result.memories)
+  for (const tb::MemoryFigures& memory : result.memories)
     EXPECT_TRUE(names.insert("memory " + memory.name).second) << memory.name;
-  for (const Figure& figure : result.figures) {
+  for (const tb::Figure& figure : result.figures) {
     if (!figure.key.starts_with("work.")) continue;
     EXPECT_TRUE(names.contains(figure.key.substr(5))) << figure.key;
   }
@@ -280,8 +285,8 @@ class EveryFigure : public testing::TestWithParam<Kind> {};
 
 TEST_P(EveryFigure, HasANameOfItsOwn) {
   const Resolved resolved({GetParam()});
-  const std::shared_ptr<const DrawnScene> scene = resolved.scene();
-  Simulation simulation({});
+  const std::shared_ptr<const tb::DrawnScene> scene = resolved.scene();
+  tb::Simulation simulation({});
   FrameComposition frame(simulation, *scene, resolved.roles);
   each_figure_has_a_name_of_its_own(simulation, frame);
 }
@@ -290,11 +295,11 @@ INSTANTIATE_TEST_SUITE_P(FrameComposition, EveryFigure, testing::ValuesIn(kAll))
 
 TEST(FrameComposition, OfAllEnginesIsDescribedAndNeverRuns) {
   const Resolved resolved({});
-  const std::shared_ptr<const DrawnScene> scene = resolved.scene();
-  Simulation simulation({});
+  const std::shared_ptr<const tb::DrawnScene> scene = resolved.scene();
+  tb::Simulation simulation({});
   const auto frame = FrameComposition::of_all(simulation, *scene, resolved.roles);
   each_figure_has_a_name_of_its_own(simulation, *frame);
 }
 
 }  // namespace
-}  // namespace deburr::tb::composition_test
+}  // namespace deburr::tool::composition_test

@@ -11,7 +11,11 @@
 #include "spec/error.h"
 #include "tool/engines/frame/frame_roles.h"
 
-namespace deburr::tb::roles_test {
+namespace deburr::tool::roles_test {
+
+using tb::DrawnScene;
+using tb::ParameterSet;
+
 namespace {
 
 using testing::ElementsAre;
@@ -35,7 +39,9 @@ class Plain : public Role {
   std::string_view title() const override { return name_; }
   HandedOn needs() const override { return needs_; }
   HandedOn hands_on() const override { return hands_on_; }
-  void add_parameters(ParameterSet& set) override { set.add(name_, ParameterKind::kRule, rules_); }
+  void add_parameters(ParameterSet& set) override {
+    set.add(name_, tb::ParameterKind::kRule, rules_);
+  }
   std::vector<std::string> prefixes() const override { return {name_ + "."}; }
   void apply_preset(ParameterSet&) override {}
   void resolve(ParameterSet&) override {}
@@ -62,18 +68,19 @@ class Drawer final : public Plain<PictureDrawer> {
   DrawingWords words() const override { return {}; }
   std::string_view caption() const override { return ""; }
   const std::string& source() const override { return name_; }
-  std::vector<std::filesystem::path> input_files(MeshFiles&) const override { return {}; }
+  std::vector<std::filesystem::path> input_files(tb::MeshFiles&) const override { return {}; }
   std::shared_ptr<const DrawnScene> load(std::uint32_t, const RunContext&) const override {
     return nullptr;
   }
   std::shared_ptr<const DrawnScene> smallest() const override { return nullptr; }
   std::string truth_caption() const override { return ""; }
-  void prepare_truth(const DrawnScene&, const RenderOptions&, const RunContext&) const override {}
-  Image compare_with_truth(const DrawnScene&, const RenderOptions&, const Image&, const Image&,
-                           Result&, const RunContext&) const override {
+  void prepare_truth(const DrawnScene&, const tb::RenderOptions&,
+                     const RunContext&) const override {}
+  tb::Image compare_with_truth(const DrawnScene&, const tb::RenderOptions&, const tb::Image&,
+                               const tb::Image&, tb::Result&, const RunContext&) const override {
     return {};
   }
-  std::unique_ptr<DrawingStage> build(Simulation&, const DrawnScene&) const override {
+  std::unique_ptr<DrawingStage> build(tb::Simulation&, const DrawnScene&) const override {
     return nullptr;
   }
 };
@@ -84,7 +91,7 @@ class Mesh final : public Plain<MeshSmoother> {
   std::string label() const override { return ""; }
   bool linear_light() const override { return false; }
   void mark(ParameterSet& set, std::string_view why) override { tell(set, "1", why); }
-  std::unique_ptr<MeshStage> build(Simulation&, const DrawnScene&, Image) const override {
+  std::unique_ptr<MeshStage> build(tb::Simulation&, const DrawnScene&, tb::Image) const override {
     return nullptr;
   }
 };
@@ -100,7 +107,8 @@ class Rows final : public Plain<RowSmoother> {
   std::unique_ptr<RowsPort> rows_port(const char*, const DrawnScene&) const override {
     return nullptr;
   }
-  std::unique_ptr<RowStage> build(Simulation&, const DrawnScene&, Image, RowsPort&) const override {
+  std::unique_ptr<RowStage> build(tb::Simulation&, const DrawnScene&, tb::Image,
+                                  RowsPort&) const override {
     return nullptr;
   }
 
@@ -160,7 +168,7 @@ std::string told(const std::string& smoothing, const std::string& engine) {
   made.add_parameters(set);
   set.set("frame.smoothing", smoothing, "test");
   made.resolve(set);
-  const Parameter* parameter = set.find(engine + ".told");
+  const tb::Parameter* parameter = set.find(engine + ".told");
   return parameter->text() + parameter->implied_by;
 }
 
@@ -190,4 +198,4 @@ TEST(FrameRoles, WhoIsNotChosenTakesNoParameters) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::roles_test
+}  // namespace deburr::tool::roles_test

@@ -7,7 +7,7 @@
 #include "rtl_model/geometric/geometric_engine.h"
 #include "tool/tests/engines/check_build.h"
 
-namespace deburr::tb::check_build_test {
+namespace deburr::tool::check_build_test {
 namespace {
 
 using Parameters = spec::geometric::Parameters;
@@ -42,4 +42,4 @@ TEST(GeometricCheckBuild, LeavesNothingThatCannotBeBuilt) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::check_build_test
+}  // namespace deburr::tool::check_build_test

@@ -16,16 +16,16 @@
 #include "tool/engines/geometric/geometric_rules.h"
 #include "tool/tests/engines/complaint.h"
 
-namespace deburr::tb::rules_test {
+namespace deburr::tool::rules_test {
 namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
 
 std::string complaint(const Settings& settings) {
-  return tb::complaint<spec::geometric::Parameters>(
+  return tool::complaint<spec::geometric::Parameters>(
       "geometric", settings,
-      [](const ParameterSet& set, const auto& values) { reject_unused_rules(set, values); });
+      [](const tb::ParameterSet& set, const auto& values) { reject_unused_rules(set, values); });
 }
 
 TEST(GeometricRules, WhatHasNoEffectIsRejectedWithItsReason) {
@@ -71,7 +71,7 @@ TEST(GeometricRules, WhatHasNoEffectIsRejectedWithItsReason) {
 
 TEST(GeometricRules, FacesAreCountedAgainstTheirLimits) {
   const auto said = [](std::size_t faces, spec::geometric::Select select, std::int32_t limit) {
-    Scene scene;
+    tb::Scene scene;
     scene.name = "many";
     scene.mesh.triangles.resize(faces);
     spec::geometric::Parameters p;
@@ -144,12 +144,12 @@ TEST(UnprogrammedGeometricEngine, HasAnotherValueInEveryField) {
         Parameters p = preset_parameters(preset.preset);
         p.depth_test = test;
         p.coarse_lines = test == DepthTest::kOff ? CoarseLines::kNone : coarse;
-        const Parameters other = unprogrammed(p);
+        const Parameters other = tb::unprogrammed(p);
         EXPECT_NO_THROW(check_build(other));
-        for (const spec::Field& field : reg::rules::kFields)
+        for (const spec::Field& field : spec::geometric::reg::rules::kFields)
           EXPECT_NE(field.of(rules_word(p)), field.of(rules_word(other))) << field.name;
       }
 }
 
 }  // namespace
-}  // namespace deburr::tb::rules_test
+}  // namespace deburr::tool::rules_test

@@ -7,7 +7,7 @@
 #include "rtl_model/morphological/morphological_engine.h"
 #include "tool/tests/engines/check_build.h"
 
-namespace deburr::tb::check_build_test {
+namespace deburr::tool::check_build_test {
 namespace {
 
 using Parameters = spec::morphological::Parameters;
@@ -56,4 +56,4 @@ TEST(MorphologicalCheckBuild, LeavesNothingThatCannotBeBuilt) {
 }
 
 }  // namespace
-}  // namespace deburr::tb::check_build_test
+}  // namespace deburr::tool::check_build_test

@@ -9,7 +9,7 @@
 #include "tb/scene/image_io.h"
 #include "tool/engines/morphological/morphological_pictures.h"
 
-namespace deburr::tb::pictures_test {
+namespace deburr::tool::pictures_test {
 namespace {
 
 std::vector<spec::morphological::BlendTap> taps_of_three() {
@@ -24,26 +24,26 @@ std::vector<spec::morphological::BlendTap> taps_of_three() {
 }
 
 TEST(EdgePicture, ShowsLeftEdgesRedAndTopEdgesGreenOverGrey) {
-  const Image edges = edge_picture(Image(3, 1, {90, 90, 90, 255}), taps_of_three());
+  const tb::Image edges = edge_picture(tb::Image(3, 1, {90, 90, 90, 255}), taps_of_three());
   EXPECT_EQ(edges.pixels,
-            (std::vector<Rgba8>{{255, 30, 30, 255}, {30, 255, 30, 255}, {30, 30, 30, 255}}));
+            (std::vector<tb::Rgba8>{{255, 30, 30, 255}, {30, 255, 30, 255}, {30, 30, 30, 255}}));
 }
 
 TEST(SmoothingPictures, AreThoseOfAFrameAndEdgesAndWeights) {
   const std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("deburr_smoothing_" + std::to_string(::getpid()));
-  ParameterSet parameters;
+  tb::ParameterSet parameters;
   RunContext context(path, parameters, "x", 0);
   context.set_leaves({{"before", "after", "change", "edges", "weights"}, {}});
   context.claim();
-  const Image frame(3, 1, {90, 90, 90, 255});
+  const tb::Image frame(3, 1, {90, 90, 90, 255});
   add_smoothing_pictures(context, {frame, frame, 3, nullptr, nullptr, "", ""}, taps_of_three());
   context.finish({});
-  EXPECT_EQ(read_image(path / "edges.png"), edge_picture(frame, taps_of_three()));
-  EXPECT_EQ(read_image(path / "weights.png").pixels,
-            (std::vector<Rgba8>{{0, 0, 0, 255}, {80, 20, 0, 255}, {0, 255, 160, 255}}));
+  EXPECT_EQ(tb::read_image(path / "edges.png"), edge_picture(frame, taps_of_three()));
+  EXPECT_EQ(tb::read_image(path / "weights.png").pixels,
+            (std::vector<tb::Rgba8>{{0, 0, 0, 255}, {80, 20, 0, 255}, {0, 255, 160, 255}}));
   std::filesystem::remove_all(path);
 }
 
 }  // namespace
-}  // namespace deburr::tb::pictures_test
+}  // namespace deburr::tool::pictures_test

@@ -18,7 +18,7 @@
 #include "tool/engines/morphological/morphological_rules.h"
 #include "tool/tests/engines/complaint.h"
 
-namespace deburr::tb::rules_test {
+namespace deburr::tool::rules_test {
 namespace {
 
 using spec::morphological::EdgeSource;
@@ -28,8 +28,8 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 std::string complaint(const Settings& settings) {
-  return tb::complaint<spec::morphological::Parameters>(
-      "morphological", settings, [](const ParameterSet& set, const auto& values) {
+  return tool::complaint<spec::morphological::Parameters>(
+      "morphological", settings, [](const tb::ParameterSet& set, const auto& values) {
         reject_unused_rules(set, values, "memory");
       });
 }
@@ -169,7 +169,7 @@ TEST(UnprogrammedMorphologicalEngine, HasAnotherValueInEveryFieldThatIsNotBuilt)
         p.edge_source = source;
         const bool no_luma = source == EdgeSource::kPredicated || source == EdgeSource::kColour;
         if (no_luma) p.threshold_mode = ThresholdMode::kFixed;
-        const Parameters other = unprogrammed(p);
+        const Parameters other = tb::unprogrammed(p);
         EXPECT_NO_THROW(check_build(other));
         std::vector<std::string> built = {"contiguous", "ends",          "area_table",
                                           "diagonals",  "round_corners", "area_learned",
@@ -177,10 +177,12 @@ TEST(UnprogrammedMorphologicalEngine, HasAnotherValueInEveryFieldThatIsNotBuilt)
         // From luma or depth to a source without a dynamic threshold.
         if (!no_luma && p.threshold_mode == ThresholdMode::kFixed)
           built.insert(built.begin(), "threshold_mode");
-        EXPECT_THAT(same_fields(reg::rules::kFields, rules_word(p), rules_word(other)),
-                    testing::ElementsAreArray(built));
-        EXPECT_THAT(same_fields(reg::smaa::kFields, smaa_word(p), smaa_word(other)),
-                    ElementsAre("diagonal_steps"));
+        EXPECT_THAT(
+            same_fields(spec::morphological::reg::rules::kFields, rules_word(p), rules_word(other)),
+            testing::ElementsAreArray(built));
+        EXPECT_THAT(
+            same_fields(spec::morphological::reg::smaa::kFields, smaa_word(p), smaa_word(other)),
+            ElementsAre("diagonal_steps"));
         for (const auto threshold :
              {&Rules::threshold, &Rules::threshold_on_depth_edge, &Rules::threshold_off_depth_edge,
               &Rules::alpha, &Rules::floor, &Rules::depth_threshold})
@@ -189,4 +191,4 @@ TEST(UnprogrammedMorphologicalEngine, HasAnotherValueInEveryFieldThatIsNotBuilt)
 }
 
 }  // namespace
-}  // namespace deburr::tb::rules_test
+}  // namespace deburr::tool::rules_test

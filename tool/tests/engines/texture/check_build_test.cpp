@@ -7,7 +7,7 @@
 #include "rtl_model/texture/texture_unit.h"
 #include "tool/tests/engines/check_build.h"
 
-namespace deburr::tb::check_build_test {
+namespace deburr::tool::check_build_test {
 namespace {
 
 using Parameters = spec::texture::Parameters;
@@ -48,4 +48,4 @@ TEST(TextureCheckBuild, ShowsRangesThatCanBeBuilt) { checks().expect_ends(); }
 TEST(TextureCheckBuild, LeavesNothingThatCannotBeBuilt) { checks().expect_all_else_is_built(300); }
 
 }  // namespace
-}  // namespace deburr::tb::check_build_test
+}  // namespace deburr::tool::check_build_test

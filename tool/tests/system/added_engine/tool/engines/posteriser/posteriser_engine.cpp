@@ -16,10 +16,10 @@
 #include "tool/run/pictures.h"
 #include "tool/run/simulate.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 namespace {
 
-class PosteriserCommand final : public Engine, public PosteriserTestbench {
+class PosteriserCommand final : public Engine, public tb::PosteriserTestbench {
  public:
   std::string_view summary() const override {
     return "A picture through the posteriser, checked pixel by pixel";
@@ -32,14 +32,14 @@ class PosteriserCommand final : public Engine, public PosteriserTestbench {
   }
   void check(const RunParameters&, RunContext&) override {}
 
-  void run(const RunParameters& run, RunContext& context, Result& result) override {
-    const Image picture = picture_of(static_cast<std::uint64_t>(run.seed));
+  void run(const RunParameters& run, RunContext& context, tb::Result& result) override {
+    const tb::Image picture = picture_of(static_cast<std::uint64_t>(run.seed));
     context.set_title("Posteriser", fmt::format("{} x {} pixels, {} bits", picture.width,
                                                 picture.height, parameters_.bits));
-    Simulation simulation(simulation_options(run, context));
-    PosteriserEnvironment environment(simulation, picture, parameters_);
+    tb::Simulation simulation(simulation_options(run, context));
+    tb::PosteriserEnvironment environment(simulation, picture, parameters_);
     simulate(simulation, environment, context, result, [&] {
-      const Image expected = environment.golden_frame();
+      const tb::Image expected = environment.golden_frame();
       add_frame_pictures(context, {picture, environment.frame(), environment.delivered(),
                                    run.check == CheckMode::kGolden ? &expected : nullptr, nullptr,
                                    "the picture as it was made", ""});
@@ -61,10 +61,10 @@ class PosteriserCommand final : public Engine, public PosteriserTestbench {
   }
 
  private:
-  Image picture_of(std::uint64_t seed) const {
-    Random random(seed, "posteriser");
-    Image picture(picture_.width, picture_.height);
-    for (Rgba8& pixel : picture.pixels)
+  tb::Image picture_of(std::uint64_t seed) const {
+    tb::Random random(seed, "posteriser");
+    tb::Image picture(picture_.width, picture_.height);
+    for (tb::Rgba8& pixel : picture.pixels)
       for (std::size_t c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>(random.below(256));
     return picture;
   }
@@ -74,4 +74,4 @@ class PosteriserCommand final : public Engine, public PosteriserTestbench {
 
 std::unique_ptr<Engine> make_posteriser_engine() { return std::make_unique<PosteriserCommand>(); }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

@@ -8,7 +8,10 @@
 #include "spec/posteriser/check_build.h"
 #include "tb/engines/posteriser/posteriser_environment.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
+
+using tb::Image;
+
 namespace {
 
 using spec::posteriser::Tone;
@@ -19,7 +22,7 @@ class RowsToPosteriser final : public RowsPort {
   rtl::Out<Tone> out;
   bool can_push(rtl::Cycle cycle) const override { return out.can_push(cycle); }
   int push(rtl::Cycle cycle, const Image& image, int x, int y) override {
-    const Rgba8& p = image.at(x, y);
+    const tb::Rgba8& p = image.at(x, y);
     out.push(cycle, {{p[0], p[1], p[2]}, x == image.width - 1 && y == image.height - 1});
     return 1;
   }
@@ -27,20 +30,20 @@ class RowsToPosteriser final : public RowsPort {
 
 class PosteriserStage final : public RowStage {
  public:
-  PosteriserStage(Simulation& simulation, Image frame,
+  PosteriserStage(tb::Simulation& simulation, Image frame,
                   const spec::posteriser::Parameters& parameters, RowsToPosteriser& port)
       : picture_(std::move(frame)), environment_(simulation, picture_, parameters, "posteriser") {
     port.out(environment_.tones_in);
   }
-  Environment& environment() override { return environment_; }
+  tb::Environment& environment() override { return environment_; }
   Image frame() const override { return environment_.frame(); }
   Image expected_frame() const override { return environment_.golden_frame(); }
-  Latency latency() const override { return {}; }
+  tb::Latency latency() const override { return {}; }
   std::string_view last_unit() const override { return "posteriser_levels"; }
   std::uint64_t clocks_bound(int width, int height) const override {
     return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   }
-  std::vector<Figure> work_figures() const override { return {}; }
+  std::vector<tb::Figure> work_figures() const override { return {}; }
   void expect(Image image) override { picture_ = std::move(image); }
   std::size_t delivered() const override { return environment_.delivered(); }
   std::uint64_t delivered_in_all() const override { return environment_.delivered(); }
@@ -50,24 +53,24 @@ class PosteriserStage final : public RowStage {
 
  private:
   Image picture_;
-  PosteriserEnvironment environment_;
+  tb::PosteriserEnvironment environment_;
 };
 
 class PosteriserRole final : public RowSmoother {
  public:
   std::string_view name() const override { return "posteriser"; }
   std::string_view title() const override { return "posteriser"; }
-  void add_parameters(ParameterSet& set) override { set.add_engine("posteriser", parameters_); }
+  void add_parameters(tb::ParameterSet& set) override { set.add_engine("posteriser", parameters_); }
   std::vector<std::string> prefixes() const override { return {"posteriser."}; }
-  void apply_preset(ParameterSet&) override {}
-  void resolve(ParameterSet&) override {}
-  void check(const DrawnScene&) const override {}
+  void apply_preset(tb::ParameterSet&) override {}
+  void resolve(tb::ParameterSet&) override {}
+  void check(const tb::DrawnScene&) const override {}
   std::string label() const override { return fmt::format("{} bits", parameters_.bits); }
   bool linear_light() const override { return false; }
-  std::unique_ptr<RowsPort> rows_port(const char* name, const DrawnScene&) const override {
+  std::unique_ptr<RowsPort> rows_port(const char* name, const tb::DrawnScene&) const override {
     return std::make_unique<RowsToPosteriser>(name);
   }
-  std::unique_ptr<RowStage> build(Simulation& simulation, const DrawnScene&, Image frame,
+  std::unique_ptr<RowStage> build(tb::Simulation& simulation, const tb::DrawnScene&, Image frame,
                                   RowsPort& port) const override {
     return std::make_unique<PosteriserStage>(simulation, std::move(frame), parameters_,
                                              static_cast<RowsToPosteriser&>(port));
@@ -83,4 +86,4 @@ std::unique_ptr<CompositionRole> make_posteriser_role() {
   return std::make_unique<PosteriserRole>();
 }
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool

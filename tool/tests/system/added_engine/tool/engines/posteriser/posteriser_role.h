@@ -6,8 +6,8 @@
 
 #include "tool/run/composition.h"
 
-namespace deburr::tb {
+namespace deburr::tool {
 
 std::unique_ptr<CompositionRole> make_posteriser_role();
 
-}  // namespace deburr::tb
+}  // namespace deburr::tool
