@@ -345,6 +345,9 @@ class Registers(Base):
     def test_each(self):
         self.miscount("geometric", self.CHECKED)
 
+    def test_figures(self):
+        self.wrong_figures("geometric", 27, ["memory_port_reads", "lines_read_edges"])
+
 
 class Fields(Base):
     """A field of the rules that the hardware decodes as another value than software wrote."""
@@ -361,7 +364,7 @@ class Fields(Base):
 
 class Blind(Base):
     """A scoreboard that compares nothing, although everything else of the run is right, is no pass."""
-    BOARDS = ("lines", "candidates", "blocks", "pixels", "memory-lines", "status-registers")
+    BOARDS = ("lines", "candidates", "blocks", "pixels", "memory-lines", "status-registers", "figures")
 
     def test_each(self):
         boards = {f"blind-{board}" for board in self.BOARDS}
