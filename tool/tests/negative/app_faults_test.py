@@ -78,9 +78,10 @@ class Faults(CommandTest):
 
     def test_duplicated_fetch(self):
         _, result = self.fault("duplicate-fetch", 1, "line fills", *self.UNCHECKED)
-        self.assertEqual(result["checks"]["mismatches"], 0, "the picture is perfect")
+        self.assertEqual(result["scoreboards"]["colours"]["mismatches"], 0, "the picture is perfect")
         self.assertGreater(result["checks"]["traffic_mismatches"], 0)
-        cycles = [int(re.fullmatch(r"cycle (\d+)", line["where"])[1]) for line in result["first_mismatches"]]
+        cycles = [int(re.fullmatch(r"cycle (\d+)", line["where"])[1]) for line in result["first_mismatches"]
+                  if line["check"] == "line fills"]
         self.assertEqual(cycles, sorted(cycles))
         self.assertLess(cycles[0], result["cycles"] // 2, "when it was seen, not when it was over")
 
