@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "spec/error.h"
+#include "tb/env/collect.h"
 
 namespace deburr::tb {
 namespace {
@@ -70,6 +71,11 @@ void Environment::let_miscount(RegisterScoreboard& board, std::span<const std::u
   know(std::move(faults));
 }
 
+void Environment::let_miscount(FigureScoreboard& board) {
+  if (planted("wrong-figures")) board.miscount();
+  know({{"wrong-figures", "Every counter that has a second source is one too large."}});
+}
+
 void Environment::let_misdecode(rtl::ControlRegisters& control,
                                 std::span<const std::uint32_t> offsets, const std::string& needs) {
   std::vector<PlantedFault> faults;
@@ -103,6 +109,31 @@ void Environment::reject_untouched(const platform::MemoryModel& memory,
         "{0}.error_address = {1}: the run asked {0} for nothing from {1:#x} to {2:#x}, so no "
         "access failed: name an address that it asks for, or more {0}.error_bytes",
         memory.name(), range->from, range->to - 1));
+}
+
+// ---- figures ------------------------------------------------------------------------------------
+
+void FigureScoreboard::check(const std::string& name, std::uint64_t counted,
+                             std::uint64_t expected) {
+  board_.require(++checked_);
+  board_.expect({name, expected});
+  board_.got({name, counted + too_many_}, name);
+}
+
+void FigureScoreboard::check(const rtl::Engine& engine, const rtl::Counter& counter,
+                             std::uint64_t expected) {
+  const std::vector<const rtl::Counter*> counted = engine.counters();
+  if (std::find(counted.begin(), counted.end(), &counter) != counted.end())
+    check(name_within(engine, counter), counter.value(), expected);
+}
+
+void FigureScoreboard::check(const rtl::Engine& engine, const rtl::MemoryPort& port,
+                             const platform::MemoryModel& memory) {
+  check(engine, port.reads, memory.reads());
+  check(engine, port.writes, memory.writes());
+  check(engine, port.bytes_read, memory.bytes_read());
+  if (memory.errors() > 0) return;  // a write that fails writes nothing
+  check(engine, port.bytes_written, memory.bytes_written());
 }
 
 // ---- registers ----------------------------------------------------------------------------------

@@ -8,6 +8,8 @@
 // --fault painter.flip-bit.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -19,6 +21,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/control_registers.h"
+#include "rtl_model/fabric/engine.h"
 #include "rtl_model/platform/host.h"
 #include "rtl_model/platform/memory_model.h"
 #include "spec/registers.h"
@@ -40,6 +43,29 @@ struct Amount {
 };
 
 class RegisterScoreboard;
+
+// Figures of a run that have a second source: what a unit counted, against what memory or the
+// golden model says.
+class FigureScoreboard {
+ public:
+  void check(const std::string& name, std::uint64_t counted, std::uint64_t expected);
+  // Of a counter of this engine, unless its unit is replaced and nobody counts for it.
+  void check(const rtl::Engine& engine, const rtl::Counter& counter, std::uint64_t expected);
+  // What it asked of memory that nobody else uses.
+  void check(const rtl::Engine& engine, const rtl::MemoryPort& port,
+             const platform::MemoryModel& memory);
+  // A fault: each counter is one too large.
+  void miscount() { too_many_ = 1; }
+  ScoreboardBase& board() { return board_; }
+  const ScoreboardBase& board() const { return board_; }
+
+ private:
+  using Figure = std::pair<std::string, std::uint64_t>;
+  std::uint64_t checked_ = 0, too_many_ = 0;
+  Scoreboard<Figure> board_{"figures", 1, [](const Figure& figure) {
+                              return fmt::format("{} = {}", figure.first, figure.second);
+                            }};
+};
 
 class Environment {
  public:
@@ -119,6 +145,8 @@ class Environment {
   void let_blind(std::initializer_list<ScoreboardBase*> boards);
   // `miscount-NAME` for each register that is checked: the engine counted one too many or too few.
   void let_miscount(RegisterScoreboard& board, std::span<const std::uint32_t> offsets);
+  // `wrong-figures`: all counters that are checked a second time are one too large.
+  void let_miscount(FigureScoreboard& board);
   // `misdecode-REGISTER-FIELD` for each field of these registers: of what software writes there the
   // hardware takes a choice for the next one, a number for its half, and 0 for all ones. It reads
   // back as it was written. `needs`: why none can be planted in this run.

@@ -197,8 +197,8 @@ void Simulation::collect(Result& result) const {
     }
   };
   sum(environment_->outputs(), result.comparisons, result.mismatches);
-  sum(environment_->counters(), result.comparisons, result.mismatches);
   sum(environment_->traffic(), result.traffic_comparisons, result.traffic_mismatches);
+  sum(environment_->counters(), result.comparisons, result.mismatches);
   environment_->collect(result);
   if (windows_)
     for (WindowRecorder::Occupancy& link : windows_->occupancy())

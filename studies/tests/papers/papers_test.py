@@ -34,7 +34,8 @@ EXPECTED_000 = {
         "tunnel deburr-line": "fourth", "plane deburr-line": "last", "cylinders deburr": "best",
         "object deburr": "best", "road deburr": "best", "quad deburr": "best",
         "tunnel deburr": "second", "plane deburr": "best"}),
-    "Learned shares on frames": ("best", {}),
+    # On silhouettes of signs mlaa is better by 0.6 dB at 512 pixels; on their edges, and at 256 on both, deburr is best.
+    "Learned shares on frames": ("best", {"signs901_0": "third"}),
     "Cost of one more loop": ("less", {}),
 }
 # Few lines in a quick run: these rows lie close to what is asked.

@@ -60,6 +60,7 @@ GeometricChecks::GeometricChecks(const GeometricSetup& setup,
 
 void GeometricChecks::clear_counters() {
   work_ = {};
+  moved_ = {};
   errors_ = 0;
 }
 
@@ -135,6 +136,10 @@ void GeometricChecks::end(const Image& after, rtl::Cycle cycle) {
   for (const Rgba8& pixel : after.pixels) pixels.got(pixel, cycle);
   for (const WorkCount& each : spec::geometric::kWorkCounts)
     work_.*each.count += golden_.work().*each.count;
+  for (std::size_t i = 0; i < moved_.read.size(); ++i) {
+    moved_.read[i] += golden_.traffic().reads[i].size();
+    moved_.written[i] += golden_.traffic().writes[i].size();
+  }
   errors_ += golden_.memory_errors();
 }
 
@@ -150,6 +155,35 @@ void GeometricChecks::finish(const rtl::geometric::GeometricEngine& engine,
   traffic.require(std::max<std::uint64_t>(1, memory.reads() + memory.writes()));
   pixels.require(area);
   registers.check(bus, expected_registers(engine));
+  check_figures(engine, memory);
+}
+
+void GeometricChecks::check_figures(const rtl::geometric::GeometricEngine& engine,
+                                    const platform::MemoryModel& memory) {
+  using rtl::geometric::Client;
+  figures.check(engine, engine.memory_port, memory);
+  const LinesMoved counted = lines_moved(engine, setup_.geometric.frame_copy);
+  for (std::size_t i = 0; i < moved_.read.size(); ++i) {
+    const std::string_view region = spec::geometric::kRegionNames[i];
+    figures.check(fmt::format("lines_read_{}", region), counted.read[i], moved_.read[i]);
+    figures.check(fmt::format("lines_written_{}", region), counted.written[i], moved_.written[i]);
+  }
+  // Reads whose latency the arbiter measured: of clients that read a region alone, and of all.
+  constexpr std::pair<Client, Region> kAlone[] = {
+      {Client::kFacing, Region::kFaces},      {Client::kEdges, Region::kEdges},
+      {Client::kVertices, Region::kVertices}, {Client::kDepth, Region::kDepth},
+      {Client::kPairs, Region::kPairs},       {Client::kCoarse, Region::kCoarse}};
+  std::uint64_t all = 0;
+  for (const Client client : rtl::geometric::clients_of(setup_.geometric)) {
+    const std::uint64_t reads = engine.memory_arbiter.read_latency(client).count();
+    all += reads;
+    for (const auto& [alone, region] : kAlone)
+      if (alone == client)
+        figures.check(fmt::format("reads of client {}",
+                                  rtl::geometric::kClientNames[static_cast<std::size_t>(client)]),
+                      reads, moved_.read[static_cast<std::size_t>(region)]);
+  }
+  figures.check("reads of all clients", all, memory.reads());
 }
 
 std::vector<std::pair<std::uint32_t, std::uint64_t>> GeometricChecks::expected_registers(

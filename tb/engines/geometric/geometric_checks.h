@@ -15,6 +15,7 @@
 #include "rtl_model/platform/host.h"
 #include "rtl_model/platform/memory_model.h"
 #include "spec/geometric/packets.h"
+#include "tb/engines/geometric/geometric_meter.h"
 #include "tb/engines/geometric/geometric_setup.h"
 #include "tb/engines/geometric/geometric_stimuli.h"
 #include "tb/env/environment.h"
@@ -42,7 +43,8 @@ class GeometricChecks {
   void check_traffic(const platform::MemoryModel& memory, rtl::Cycle cycle);
   // The frame is done; this is what is in memory.
   void end(const Image& after, rtl::Cycle cycle);
-  // All frames are done: sets how many comparisons there must be, and checks the registers.
+  // All frames are done: sets how many comparisons there must be, and checks the registers and the
+  // counters that have a second source.
   void finish(const rtl::geometric::GeometricEngine& engine, const platform::MemoryModel& memory,
               std::uint64_t pixels, platform::RegisterBus& registers);
 
@@ -58,17 +60,21 @@ class GeometricChecks {
   RasterScoreboard<Rgba8> pixels;
   Scoreboard<spec::geometric::MemoryAccess> traffic;
   RegisterScoreboard registers;
+  FigureScoreboard figures;
 
  private:
   golden::geometric::Bases bases() const;
   std::vector<std::pair<std::uint32_t, std::uint64_t>> expected_registers(
       const rtl::geometric::GeometricEngine& engine) const;
+  void check_figures(const rtl::geometric::GeometricEngine& engine,
+                     const platform::MemoryModel& memory);
 
   const GeometricSetup& setup_;
   const platform::GeometricRegions& regions_;
   bool used_;
   golden::geometric::GeometricGolden golden_;
   spec::geometric::Work work_;  // of the golden model, of all frames since the last reset
+  LinesMoved moved_;
   std::uint64_t errors_ = 0;
   const geometric::Frame* frame_ = nullptr;
   golden::geometric::FrameLayout layout_;  // of it

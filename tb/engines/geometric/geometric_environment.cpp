@@ -70,7 +70,8 @@ GeometricEnvironment::GeometricEnvironment(Simulation& simulation,
                 programs() ? "" : "run.program = registers");
   driver_.place(regions_);
   let_blind({&checks_.lines, &checks_.candidates, &checks_.blocks, &checks_.pixels,
-             &checks_.traffic, &checks_.registers.board()});
+             &checks_.traffic, &checks_.registers.board(), &checks_.figures.board()});
+  let_miscount(checks_.figures);
   std::array<std::uint32_t, spec::geometric::kRegisters.size()> checked{};
   std::transform(spec::geometric::kRegisters.begin(), spec::geometric::kRegisters.end(),
                  checked.begin(), [](const spec::RegisterInfo& info) { return info.offset; });

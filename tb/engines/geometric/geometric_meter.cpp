@@ -35,10 +35,7 @@ std::uint64_t count_of(spec::geometric::Lanes lanes) {
   return spec::geometric::kLaneCount[static_cast<std::size_t>(lanes)];
 }
 
-// Lines of memory by region, from the counters of the units that move them.
-struct LinesMoved {
-  std::array<std::uint64_t, platform::GeometricRegions::kCount> read{}, written{};
-};
+}  // namespace
 
 LinesMoved lines_moved(const rtl::geometric::GeometricEngine& engine, bool frame_copy) {
   LinesMoved lines;
@@ -61,8 +58,6 @@ LinesMoved lines_moved(const rtl::geometric::GeometricEngine& engine, bool frame
   written(Region::kCopy) = engine.frame_copier.lines_copied.value();
   return lines;
 }
-
-}  // namespace
 
 GeometricMeter::GeometricMeter(std::string name, const rtl::geometric::GeometricEngine& engine,
                                const platform::MemoryModel& memory,

@@ -16,6 +16,12 @@
 
 namespace deburr::tb {
 
+// Lines of memory by region, from the counters of the units that move them.
+struct LinesMoved {
+  std::array<std::uint64_t, spec::geometric::kRegionNames.size()> read{}, written{};
+};
+LinesMoved lines_moved(const rtl::geometric::GeometricEngine& engine, bool frame_copy);
+
 class GeometricMeter : public Meter {
  public:
   // All of these must outlive it.

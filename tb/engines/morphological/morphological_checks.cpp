@@ -72,6 +72,7 @@ MorphologicalChecks::MorphologicalChecks(const MorphologicalSetup& setup, bool g
 
 void MorphologicalChecks::clear_counters() {
   work_ = {};
+  iterations_ = {};
   unreadable_lines_ = 0;
 }
 
@@ -149,6 +150,8 @@ void MorphologicalChecks::end(rtl::Cycle cycle, std::size_t frame) {
   if (!used_) return;
   for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
     work_.*each.count += golden_model().work().*each.count;
+  for (const golden::morphological::PredictedRun& run : golden_model().runs())
+    iterations_[static_cast<std::size_t>(run.line.run.axis)] += run.iterations;
   unreadable_lines_ += golden_model().memory_errors();
   if (!setup_.records) return;
   std::vector<RunRecord> all_runs;
@@ -207,6 +210,24 @@ void MorphologicalChecks::finish(std::span<const MorphologicalInput> frames,
   // What cannot be read could not be written before.
   expected.emplace_back(reg::kMemoryErrors, 2 * unreadable_lines_);
   registers.check(bus, expected);
+}
+
+void MorphologicalChecks::check_figures(std::span<const MorphologicalInput> frames,
+                                        const rtl::morphological::MorphologicalEngine& engine,
+                                        const platform::MemoryModel* memory) {
+  if (!used_) return;
+  std::uint64_t beats = 0;
+  for (const MorphologicalInput& frame : frames)
+    beats += platform::beats_a_row(frame.image.width, platform::lanes_of(setup_.morphological)) *
+             static_cast<std::uint64_t>(frame.image.height);
+  figures.check(engine, engine.sequencer.frames, frames.size());
+  figures.check(engine, engine.sequencer.beats, beats);
+  figures.check(engine, engine.predictor_h.iterations, iterations_[0]);
+  figures.check(engine, engine.predictor_v.iterations, iterations_[1]);
+  if (!memory) return;
+  figures.check(engine, *engine.memory_port, *memory);
+  figures.check(engine, engine.pixel_store.lines_read, memory->reads());
+  figures.check(engine, engine.pixel_store.lines_written, memory->writes());
 }
 
 }  // namespace deburr::tb

@@ -3,12 +3,14 @@
 // and lines inside if asked for, lines of memory, counters.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "golden/morphological/morphological_golden.h"
+#include "rtl_model/morphological/morphological_engine.h"
 #include "rtl_model/platform/host.h"
 #include "rtl_model/platform/memory_model.h"
 #include "spec/morphological/packets.h"
@@ -52,6 +54,10 @@ class MorphologicalChecks {
   // All of them are: how much must have been compared, and the counters.
   void finish(std::span<const MorphologicalInput> frames, const spec::morphological::Work& work,
               std::uint64_t frame_clocks, platform::RegisterBus& registers);
+  // The same of counters that are not registers; no memory with line buffers.
+  void check_figures(std::span<const MorphologicalInput> frames,
+                     const rtl::morphological::MorphologicalEngine& engine,
+                     const platform::MemoryModel* memory);
 
   const golden::morphological::MorphologicalGolden& golden_model() const {
     return setup_.expectation ? *setup_.expectation : golden_;
@@ -63,6 +69,7 @@ class MorphologicalChecks {
   Scoreboard<spec::morphological::LineRecord> lines;
   Scoreboard<spec::morphological::FrameAccess> traffic;
   RegisterScoreboard registers;
+  FigureScoreboard figures;
 
  private:
   bool in_memory() const {
@@ -74,8 +81,9 @@ class MorphologicalChecks {
   const MorphologicalSetup& setup_;
   bool used_;
   golden::morphological::MorphologicalGolden golden_;
-  spec::morphological::Work work_;      // of the golden model, of all frames since the last reset
-  std::uint64_t unreadable_lines_ = 0;  // the same
+  spec::morphological::Work work_;  // of the golden model, of all frames since the last reset
+  std::array<std::uint64_t, 2> iterations_{};  // the same, by axis
+  std::uint64_t unreadable_lines_ = 0;         // the same
   const MorphologicalInput* frame_ = nullptr;
   std::vector<spec::morphological::RunRecord> runs_;
   std::vector<spec::morphological::LineRecord> lines_;

@@ -64,7 +64,8 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
                 programs() ? "" : "run.program = registers");
   progress_.source = source_.get();
   progress_.memory = memory_.get();
-  let_blind({&checks_.pixels, &checks_.taps, &checks_.registers.board()});
+  let_blind({&checks_.pixels, &checks_.taps, &checks_.registers.board(), &checks_.figures.board()});
+  let_miscount(checks_.figures);
   std::vector<std::uint32_t> checked;
   for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
     checked.push_back(each.offset);
@@ -189,6 +190,7 @@ void MorphologicalEnvironment::end() {
 
 void MorphologicalEnvironment::finish() {
   checks_.finish(frames_, engine_.work(), blended_.last_push() + 1 - first_taken_, host_);
+  checks_.check_figures(frames_, engine_, memory_.get());
 }
 
 void MorphologicalEnvironment::reject_memory_errors() {

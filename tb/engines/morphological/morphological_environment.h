@@ -61,7 +61,9 @@ class MorphologicalEnvironment final : public Environment {
   bool memory_at_rest() const override { return !memory_ || memory_->at_rest(); }
   Boards outputs() const override;
   Boards traffic() const override;
-  Boards counters() const override { return {&checks_.registers.board()}; }
+  Boards counters() const override {
+    return {&checks_.registers.board(), &checks_.figures.board()};
+  }
   void collect(Result& result) const override { meter_.collect(result); }
   void show_parts(Observer& observer) const override {
     meter_.show_parts(observer, pixels, blended_);

@@ -126,6 +126,22 @@ void TextureChecks::finish(std::uint64_t fragments, const platform::MemoryModel&
   registers.check(bus, expected);
 }
 
+void TextureChecks::check_figures(const rtl::texture::TextureUnit& unit,
+                                  const platform::MemoryModel& memory) {
+  if (!used_) return;
+  const golden::texture::TextureWork& expected = work();
+  const rtl::texture::TextureCache& cache = unit.cache;
+  figures.check(unit, cache.memory_port, memory);
+  for (const auto& [counter, value] : {std::pair(&cache.miss_queue.fill_bytes, memory.bytes_read()),
+                                       {&cache.tag_stage.requests, expected.bilinears},
+                                       {&cache.tag_stage.misses, expected.line_fills},
+                                       {&cache.data_stage.lines_written, expected.line_fills},
+                                       {&unit.address.level.magnified, expected.magnified},
+                                       {&unit.address.walker.samples, expected.samples},
+                                       {&unit.filter.fragments, expected.fragments}})
+    figures.check(unit, *counter, value);
+}
+
 std::string TextureChecks::place(const Colour& c) const {
   const traces::TracedQuad* quad = sent_.find(c.tag);
   if (!quad || !quad->placed || c.lane >= 4) return "no pixel";

@@ -10,6 +10,7 @@
 #include "golden/texture/texture_golden.h"
 #include "rtl_model/platform/host.h"
 #include "rtl_model/platform/memory_model.h"
+#include "rtl_model/texture/texture_unit.h"
 #include "spec/texture/packets.h"
 #include "tb/engines/texture/sent_quads.h"
 #include "tb/engines/texture/texture_scene.h"
@@ -50,6 +51,8 @@ class TextureChecks {
   // All quads are done: how much must have been compared, and the counters.
   void finish(std::uint64_t fragments, const platform::MemoryModel& memory,
               platform::RegisterBus& registers);
+  // The same of counters that are not registers.
+  void check_figures(const rtl::texture::TextureUnit& unit, const platform::MemoryModel& memory);
 
   const golden::texture::TextureGolden& golden_model() const { return golden_; }
   const golden::texture::TextureWork& work() const {
@@ -61,6 +64,7 @@ class TextureChecks {
   Scoreboard<spec::texture::Colour> colours;
   Scoreboard<Fill> fills;
   RegisterScoreboard registers;
+  FigureScoreboard figures;
 
  private:
   golden::texture::TextureGolden make_model() const;

@@ -36,7 +36,9 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
       stranger_("stranger"),
       checks_(scene_, setup_, sent_, golden()) {
   know(TextureFaults::list());
-  let_blind({&checks_.colours, &checks_.fills, &checks_.registers.board()});
+  let_blind(
+      {&checks_.colours, &checks_.fills, &checks_.registers.board(), &checks_.figures.board()});
+  let_miscount(checks_.figures);
   namespace reg = spec::texture::reg;
   let_miscount(checks_.registers,
                std::array{reg::kFragments, reg::kBilinears, reg::kLineFills, reg::kClamped,
@@ -145,7 +147,10 @@ void TextureEnvironment::restart() {
   clear_outputs();
 }
 
-void TextureEnvironment::finish() { checks_.finish(fragments(), memory_, host_); }
+void TextureEnvironment::finish() {
+  checks_.finish(fragments(), memory_, host_);
+  checks_.check_figures(unit_, memory_);
+}
 
 void TextureEnvironment::reject_memory_errors() {
   if (const std::uint32_t errors = driver_.memory_errors(); errors != 0)

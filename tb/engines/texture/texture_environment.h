@@ -67,7 +67,9 @@ class TextureEnvironment final : public Environment {
   bool memory_at_rest() const override { return memory_.at_rest(); }
   Boards outputs() const override { return {&checks_.colours}; }
   Boards traffic() const override { return {&checks_.fills}; }
-  Boards counters() const override { return {&checks_.registers.board()}; }
+  Boards counters() const override {
+    return {&checks_.registers.board(), &checks_.figures.board()};
+  }
   void collect(Result& result) const override { meter_.collect(result); }
   void show_parts(Observer& observer) const override {
     meter_.show_parts(observer, quads_, colours);

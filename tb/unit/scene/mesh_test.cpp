@@ -528,6 +528,29 @@ TEST(Gltf, NodesTransformAndMirrorsKeepTheOutside) {
   EXPECT_GT(face.z, 0);
 }
 
+// By hand: (x, y, z) becomes (1.2 x - 2.4 y + 1, 6.4 x + 7.2 y + 8, 10 z + 6), and a normal is
+// moved by the transposed inverse of that matrix.
+TEST(Gltf, UnequalScalesMovePointsAndNormalsDifferently) {
+  const TemporaryFolder folder;
+  write_image(folder / "wood.png", noise(4, 4));
+  GltfFile file;
+  file.append<float>({1, 2, 3, 4, -5, 6, -7, 8, 9});  // positions
+  file.append<float>({2, 3, 6, 6, -3, 2, -2, 6, 3});  // normals
+  file.accessors = R"(,{"bufferView":3,"componentType":5126,"count":3,"type":"VEC3"},
+      {"bufferView":3,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"})";
+  file.primitive = R"({"attributes":{"POSITION":3,"NORMAL":4},"indices":2,"material":0})";
+  // The child's rotation about z has cosine 0.6 and sine 0.8.
+  file.nodes = R"([{"children":[1],"scale":[1,4,2]},{"mesh":0,"scale":[2,3,5],"translation":[1,2,3],
+      "rotation":[0,0,0.4472135954999579,0.8944271909999159]}])";
+  const Mesh mesh = import_mesh(folder.write("n.glb", file.glb()));
+  const V3d positions[] = {{-2.6, 28.8, 36}, {17.8, -2.4, 66}, {-26.6, 20.8, 96}};
+  const V3d normals[] = {{-0.2, 0.35, 0.6}, {2.6, 0.45, 0.2}, {-2.2, 0.1, 0.3}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR((corner(mesh, 0, k).position - positions[k]).length(), 0, 1e-9) << k;
+    EXPECT_NEAR((corner(mesh, 0, k).normal - normals[k].normalized()).length(), 0, 1e-9) << k;
+  }
+}
+
 // By hand: u' = offset + cos u + sin v, v' = offset - sin u + cos v, of (u, v) times the scale.
 TEST(Gltf, TextureTransformScalesTurnsAndMoves) {
   const TemporaryFolder folder;
@@ -562,6 +585,29 @@ TEST(Gltf, TextureTransformScalesTurnsAndMoves) {
   file.primitive =
       R"({"attributes":{"POSITION":0,"TEXCOORD_0":1,"TEXCOORD_1":3},"indices":2,"material":0})";
   expect_uv(R"("texCoord":1,"scale":[1,2])", {3, 10}, {7, 22}, {13, 34});
+}
+
+// The transform's set of coordinates replaces the texture's own one, and only where it has one.
+TEST(Gltf, TextureTransformMayReplaceTheSetOfCoordinates) {
+  const TemporaryFolder folder;
+  write_image(folder / "wood.png", noise(4, 4));
+  GltfFile file;
+  file.append<float>({3, 5, 7, 11, 13, 17});
+  file.accessors = R"(,{"bufferView":3,"componentType":5126,"count":3,"type":"VEC2"})";
+  file.primitive =
+      R"({"attributes":{"POSITION":0,"TEXCOORD_0":1,"TEXCOORD_1":3},"indices":2,"material":0})";
+  for (const bool glossy : {false, true})
+    for (const auto& [transform, second] : {std::pair("", true), {R"("texCoord":0)", false}}) {
+      const std::string use =
+          std::string(R"({"index":0,"texCoord":1,"extensions":{"KHR_texture_transform":{)") +
+          transform + "}}}";
+      file.material =
+          glossy ? R"({"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseTexture":)" +
+                       use + "}}}"
+                 : R"({"pbrMetallicRoughness":{"baseColorTexture":)" + use + "}}";
+      EXPECT_EQ(corner(import_mesh(folder.write("t.glb", file.glb())), 0, 2).uv,
+                second ? V2d(13, 17) : V2d(0, 1));
+    }
 }
 
 TEST(Gltf, MorphTargetsMoveByTheirWeights) {

@@ -78,9 +78,10 @@ class Faults(CommandTest):
 
     def test_duplicated_fetch(self):
         _, result = self.fault("duplicate-fetch", 1, "line fills", *self.UNCHECKED)
-        self.assertEqual(result["checks"]["mismatches"], 0, "the picture is perfect")
+        self.assertEqual(result["scoreboards"]["colours"]["mismatches"], 0, "the picture is perfect")
         self.assertGreater(result["checks"]["traffic_mismatches"], 0)
-        cycles = [int(re.fullmatch(r"cycle (\d+)", line["where"])[1]) for line in result["first_mismatches"]]
+        cycles = [int(re.fullmatch(r"cycle (\d+)", line["where"])[1]) for line in result["first_mismatches"]
+                  if line["check"] == "line fills"]
         self.assertEqual(cycles, sorted(cycles))
         self.assertLess(cycles[0], result["cycles"] // 2, "when it was seen, not when it was over")
 
@@ -175,6 +176,18 @@ class Registers(CommandTest):
         self.miscount("morphological", self.MORPHOLOGICAL)
 
 
+class Figures(CommandTest):
+    """Each counter that has a second source can fail the run."""
+
+    def test_texture(self):
+        self.wrong_figures("texture", 11, ["memory_port_reads", "miss_queue_fill_bytes"])
+
+    def test_morphological(self):
+        self.wrong_figures("morphological", 4, ["sequencer_beats", "predictor_v_iterations"])
+        self.wrong_figures("morphological", 10, ["memory_port_bytes_written", "pixel_store_lines_read"],
+                           "--storage", "memory")
+
+
 class Fields(CommandTest):
     """A field of a texture descriptor that the hardware decodes as another value than software wrote."""
 
@@ -189,8 +202,8 @@ class Fields(CommandTest):
 
 class Blind(CommandTest):
     """A scoreboard that compares nothing, although everything else of the run is right, is no pass."""
-    TEXTURE = ("colours", "line-fills", "status-registers")
-    MORPHOLOGICAL = ("pixels", "taps", "memory-lines", "status-registers")
+    TEXTURE = ("colours", "line-fills", "status-registers", "figures")
+    MORPHOLOGICAL = ("pixels", "taps", "memory-lines", "status-registers", "figures")
 
     def test_texture(self):
         boards = {f"blind-{board}" for board in self.TEXTURE}
@@ -208,7 +221,8 @@ class Blind(CommandTest):
         self.assertEqual(self.known("morphological"), boards - {"blind-memory-lines"})
         needed = {board: self.blind("morphological", board, *memory) for board in boards}
         self.assertEqual(needed, {"blind-pixels": 32 * 32, "blind-taps": 32 * 32,
-                                  "blind-memory-lines": 2 * 2 * 32, "blind-status-registers": 15})
+                                  "blind-memory-lines": 2 * 2 * 32, "blind-status-registers": 15,
+                                  "blind-figures": 10})
 
 
 if __name__ == "__main__":

@@ -144,6 +144,16 @@ class CommandTest(unittest.TestCase):
                         says=["status registers: 1 mismatches in", f"{name}: "])
             self.assertEqual(self.result()["checks"]["mismatches"], 1)
 
+    def wrong_figures(self, engine, count, named, *arguments):
+        """All of them are compared, and each differs; these are among the first."""
+        run = ("run", engine, "--size", "24x24", "--out", self.path("out"), *arguments)
+        self.expect(0, *run)
+        self.assertEqual(self.result()["scoreboards"]["figures"], {"comparisons": count, "mismatches": 0})
+        self.expect(1, *run, "--fault", "wrong-figures", says=[f"figures: {count} mismatches in {count} comparisons"])
+        self.assertEqual(self.result()["checks"]["mismatches"], count)
+        for name in named:
+            self.assertIn(f"{name} = ", str(self.result()["first_mismatches"]))
+
     def blind(self, engine, board, *arguments):
         name = board.split(".")[-1].removeprefix("blind-").replace("-", " ")
         done = self.expect(1, "run", engine, "--size", "32x32", "--out", self.path("out"), "--fault", board,

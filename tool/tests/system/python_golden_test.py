@@ -442,6 +442,85 @@ class Ideal(unittest.TestCase):
         self.assertTrue(numpy.allclose(ideal.line_blend(light, weights)[4, 1:-1], 0.75))
 
 
+def laid_out(array, random):
+    """The same values at other distances: axes in any order and direction, gaps of any number of bytes."""
+    strides, reach, start = [0] * array.ndim, array.itemsize, 0
+    order = random.permutation(array.ndim) if random.integers(2) else range(array.ndim - 1, -1, -1)
+    for axis in order:
+        stride = reach + int(random.choice([0, 0, random.integers(1, 9)]))
+        reach = stride * max(array.shape[axis], 1)
+        backwards = random.integers(4) == 0
+        start += stride * (array.shape[axis] - 1) if backwards and array.shape[axis] else 0
+        strides[axis] = -stride if backwards else stride
+    memory = random.integers(256, size=reach + array.itemsize, dtype=numpy.uint8)
+    other = numpy.ndarray(array.shape, array.dtype, memory, start, strides)
+    other[...] = array
+    return other
+
+
+class Layouts(unittest.TestCase):
+    """Of every array that is given, the values alone matter."""
+
+    def calls(self):
+        """Function, arrays by name, what is given with them, and what is compared of the result."""
+        pixels, depth, drawn = Vectors.random_edges()
+        codes, line = depth, numpy.arange(0, 4096, 64, dtype=numpy.uint32)
+        own = golden.morphological(pixels).edges
+        levels, (s, t, covered) = golden.mip_levels(checkerboard()), floor()
+        quads = golden.quads_of(s, t, covered)[::7].copy()
+        colours, _ = golden.texture(quads, levels, fields=FIELDS)
+
+        def frame(result):
+            return [result.pixels]
+
+        def texture(result):
+            return [result[0], result[1].fills]
+
+        def unit(name, argument, *before):
+            def call(**arrays):
+                made = golden.TextureUnit()
+                made.load(levels, **FIELDS)
+                return made, getattr(made, name)(*before, arrays[argument])
+            call.__name__ = name
+            return call
+
+        def filtered(result):
+            return [result[0].filter(quads), result[0].work.memory_errors]
+        smooth = golden.morphological
+        yield smooth, {"pixels": pixels, "depth": (codes / 0xFFFFFF).astype(numpy.float32)}, {"edges_source": "depth"}, frame
+        yield smooth, {"pixels": pixels[:, :, :3], "depth": codes}, {"edges_source": "depth"}, frame
+        yield smooth, {"pixels": pixels, "edges": own, "error_lines": line}, {"storage": "memory"}, frame
+        yield golden.geometric, {"pixels": pixels, "depth": depth, **drawn, "error_lines": line}, {}, frame
+        yield golden.texture, {"quads": quads, "levels": levels[0]}, {"fields": FIELDS}, texture
+        yield golden.mip_levels, {"texels": checkerboard()}, {}, list
+        yield golden.quads_of, {"s": s, "t": t, "covered": covered}, {}, lambda result: [result]
+        yield (golden.image_of, {"quads": quads, "colours": colours}, {"shape": (HEIGHT, WIDTH)},
+               lambda result: [result])
+        yield unit("load", "levels"), {"levels": levels[1]}, {}, lambda result: [result[0].read(0, 20000)]
+        yield unit("write", "values", 64), {"values": levels[2].reshape(-1)}, {}, filtered
+        for name in ("filter", "analyse"):
+            yield unit(name, "quads"), {"quads": quads}, {}, lambda result: [result[1]]
+        yield unit("set_error_lines", "lines"), {"lines": line // 64}, {}, filtered
+
+    def test_values_alone_matter(self):
+        random, tried = numpy.random.default_rng(1), set()
+        for function, arrays, others, compared in self.calls():
+            tried |= {(function.__name__, name) for name in arrays}
+            wanted = compared(function(**arrays, **others))
+            for trial in range(20):
+                moved = {name: laid_out(array, random) for name, array in arrays.items()}
+                strides = {name: array.strides for name, array in moved.items()}
+                with self.subTest(function.__name__, strides=strides):
+                    got = compared(function(**moved, **others))
+                    self.assertEqual([numpy.asarray(one).tobytes() for one in got],
+                                     [numpy.asarray(one).tobytes() for one in wanted])
+        offered = [(name, getattr(golden, name)) for name in golden.__all__ if inspect.isfunction(getattr(golden, name))]
+        offered += inspect.getmembers(golden.TextureUnit, inspect.isfunction)
+        given = {(name, argument.name) for name, function in offered
+                 for argument in inspect.signature(function).parameters.values() if "Array" in str(argument.annotation)}
+        self.assertEqual(tried, given)
+
+
 class BadCalls(unittest.TestCase):
     """Each is an error that says what, and the next call works as if it had not been."""
 

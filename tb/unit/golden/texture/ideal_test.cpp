@@ -459,6 +459,32 @@ TEST(Ewa, ALongEllipseWithoutTexelsReadsThePointToo) {
               1e-3);
 }
 
+// On every level, of a texture whose levels shrink by another factor along each axis, with a wrap
+// mode per axis.
+TEST(Ewa, TransposedPictureAndFootprintGiveTheSameColour) {
+  using spec::texture::Wrap;
+  const tb::texture::Pyramid wide = tb::texture::noise(50, 23, 5);
+  const auto& base = wide.levels.front();
+  const tb::texture::Pyramid high(23, 50, [&](int x, int y) { return base.at(y, x); });
+  const TextureImage a(50, 23, wide.base_bytes(), Wrap::kRepeat, Wrap::kClampToEdge);
+  const TextureImage b(23, 50, high.base_bytes(), Wrap::kClampToEdge, Wrap::kRepeat);
+  for (const PixelFootprint& f :
+       {PixelFootprint{20.2, 7.9, 9, 4, -2, 3}, PixelFootprint{-5, 15, 25, -6, 1, 1},
+        PixelFootprint{70.7, 3.1, 2, 1, -1, 14}}) {
+    const PixelFootprint g{f.t, f.s, f.t_x, f.s_x, f.t_y, f.s_y};
+    for (const double most : {1e6, 60.0, 8.0, 3.2})
+      EXPECT_LT(
+          largest_difference(ewa(a, f, {.most_texels = most}), ewa(b, g, {.most_texels = most})),
+          1e-4)
+          << most << " at " << f.s;
+    EXPECT_LT(largest_difference(box(a, f), box(b, g)), 1e-3) << f.s;
+    for (const double level : {0.0, 1.5, 4.75, 5.5})
+      EXPECT_LT(largest_difference(trilinear(a, f.s, f.t, level), trilinear(b, g.s, g.t, level)),
+                1e-4)
+          << level;
+  }
+}
+
 // ---- texture image ------------------------------------------------------------------------------
 
 // Every wrap by walking: repeat starts again, mirrored repeat turns round, a clamp stays.

@@ -354,6 +354,18 @@ TEST(MemoryArbiter, TheLatencyOfReadsIsThatOfReads) {
           << kClientNames[static_cast<std::size_t>(client)];
     }
 }
+// Two clients that use the same numbers, granted in turn: each read counts from its own grant.
+TEST(MemoryArbiter, LatencyCountsFromTheGrantOfTheClientThatAsked) {
+  Frame b({});
+  b.tie();
+  Asker asker("asker", b.clock), other("other", b.clock);
+  b.arbiter.connect(Client::kDepth, asker.memory);
+  b.arbiter.connect(Client::kWeights, other.memory);
+  asker.wanted = other.wanted = 6;
+  b.clock.run(100);
+  EXPECT_EQ(text_of(b.arbiter.read_latency(Client::kDepth)), "23 x 6");
+  EXPECT_EQ(text_of(b.arbiter.read_latency(Client::kWeights)), "23 x 6");
+}
 // Eight clients, and one for each of two build choices.
 void expect_served_in_turn(const Parameters& p, std::size_t clients) {
   Frame b(p);

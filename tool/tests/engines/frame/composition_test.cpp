@@ -121,10 +121,10 @@ Outcome run(const tb::SimulationOptions& options, const Given& given) {
 
 TEST(FrameComposition, IsCheckedAtBothEnginesAndTheirRegisters) {
   const Outcome o = run({}, {});
-  constexpr std::uint64_t kRegisters = 7 + 15;
+  constexpr std::uint64_t kRegisters = 7 + 15, kFigures = 11 + 4;
   EXPECT_EQ(o.pixels, 48u * 32u);
   EXPECT_GT(o.colours, 0u);
-  EXPECT_EQ(o.comparisons, o.colours + 2 * o.pixels + kRegisters);
+  EXPECT_EQ(o.comparisons, o.colours + 2 * o.pixels + kRegisters + kFigures);
   EXPECT_GT(o.traffic, 0u);
 }
 
