@@ -48,13 +48,13 @@ mustache::data table_data(const PaperTable& table) {
   data.set("title", table.title);
   data.set("note", table.note);
   data.set("has_note", !table.note.empty());
-  HtmlTable html("", "narrow");
+  tool::HtmlTable html("", "narrow");
   for (std::size_t i = 0; i < table.columns.size(); ++i)
     html.column(table.columns[i], is_numeric(table, i) ? "n" : "");
   for (const auto& row : table.rows) {
-    std::vector<HtmlCell> cells;
+    std::vector<tool::HtmlCell> cells;
     for (std::size_t i = 0; i < row.size(); ++i)
-      cells.push_back(table.columns[i] == "verdict" ? HtmlCell(row[i], "verdict " + row[i])
+      cells.push_back(table.columns[i] == "verdict" ? tool::HtmlCell(row[i], "verdict " + row[i])
                                                     : row[i]);
     html.row(cells);
   }
@@ -169,9 +169,10 @@ nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
   root.set("brand", "papers");
   root.set("footer", "Built by deburr papers.");
   root.set("papers", list);
-  write_file_atomically(directory / "papers.json", json.dump(2) + "\n");
-  write_file_atomically(directory / "index.html",
-                        filled_page(embedded::papers_template(), "papers.mustache", root, false));
+  tb::write_file_atomically(directory / "papers.json", json.dump(2) + "\n");
+  tb::write_file_atomically(
+      directory / "index.html",
+      tool::filled_page(tool::embedded::papers_template(), "papers.mustache", root, false));
   Json ids = Json::array();
   for (const Paper& paper : papers) ids.push_back(paper.id);
   return {{"unit", "papers"}, {"papers", ids}, {"commit", tool::build_info().commit}};

@@ -461,10 +461,10 @@ std::vector<std::string> write_regression(const Testplan& testplan, std::uint64_
   const std::string junit = junit_of(testplan, result),
                     collected = tb::json_text(json, 1, tb::NotUtf8::kReplace) + "\n",
                     page = page_of(json, nights), text = trend_text(nights);
-  write_files_atomically({{place.directory / "junit.xml", junit},
-                          {place.directory / kCollectedFile, collected},
-                          {place.directory / "index.html", page},
-                          {trend, text}});
+  tb::write_files_atomically({{place.directory / "junit.xml", junit},
+                              {place.directory / kCollectedFile, collected},
+                              {place.directory / "index.html", page},
+                              {trend, text}});
   if (result.missing > 0 || nights.size() < 2) return {};
   return falls_between(nights[nights.size() - 2], nights.back());
 }

@@ -555,9 +555,9 @@ void write_collection(const SweepDefinition& sweep, const Plan& plan, const Swee
   const std::string csv = csv_of(sweep, place, collection),
                     collected = tb::json_text(json, -1, tb::NotUtf8::kReplace) + "\n",
                     page = page_of(json);
-  write_files_atomically({{place.directory / "collected.csv", csv},
-                          {place.directory / "collected.json", collected},
-                          {place.directory / "index.html", page}});
+  tb::write_files_atomically({{place.directory / "collected.csv", csv},
+                              {place.directory / "collected.json", collected},
+                              {place.directory / "index.html", page}});
 }
 
 }  // namespace deburr::tool
