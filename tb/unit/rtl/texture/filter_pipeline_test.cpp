@@ -73,12 +73,15 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Weight 0 for each sample, whatever its texels are.
 TEST_P(FilterBuild, AFragmentWithoutATextureIsZero) {
-  TexelQuadToken invalid = request(Format::kSrgb8A8, {~0u, ~0u, ~0u, ~0u});
-  invalid.ticket.valid = false;
-  b.add(invalid);
+  for (const Format format : {Format::kRgb565, Format::kSrgb8A8}) {
+    TexelQuadToken invalid = request(format, {~0u, ~0u, ~0u, ~0u});
+    invalid.ticket.valid = false;
+    b.add(invalid);
+  }
   b.clock.run(30);
-  ASSERT_EQ(b.ends.sink.taken.size(), 1u);
-  EXPECT_THAT(b.ends.sink.taken[0].token.rgba, ElementsAre(0, 0, 0, 0));
+  ASSERT_EQ(b.ends.sink.taken.size(), 2u);
+  for (const auto& taken : b.ends.sink.taken)
+    EXPECT_THAT(taken.token.rgba, ElementsAre(0, 0, 0, 0));
 }
 
 TEST_P(FilterBuild, LatencyOfTheDatasheet) {
