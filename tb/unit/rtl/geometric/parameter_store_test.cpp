@@ -49,16 +49,15 @@ TEST(FrameRules, EachBitOfRulesIsItsFields) {
     unsigned low, bits;
     int (*shown)(int);
   };
-  constexpr Row kRows[] = {{0, 2, choice},    {2, 2, choice},    {4, 2, choice},
-                           {6, 2, choice},    {8, 5, bias},      {13, 1, as_it_is},
-                           {14, 1, as_it_is}, {15, 1, as_it_is}, {16, 1, as_it_is},
-                           {17, 1, as_it_is}, {18, 5, depth},    {23, 1, as_it_is}};
-  for (std::size_t field = 0; field < std::size(kRows); ++field)
-    for (std::uint32_t value = 0; value < 1u << kRows[field].bits; ++value) {
-      const std::uint32_t rules = value << kRows[field].low;
+  const Row rows[] = {{0, 2, choice},    {2, 2, choice},    {4, 2, choice},    {6, 2, choice},
+                      {8, 5, bias},      {13, 1, as_it_is}, {14, 1, as_it_is}, {15, 1, as_it_is},
+                      {16, 1, as_it_is}, {17, 1, as_it_is}, {18, 5, depth},    {23, 1, as_it_is}};
+  for (std::size_t field = 0; field < std::size(rows); ++field)
+    for (std::uint32_t value = 0; value < 1u << rows[field].bits; ++value) {
+      const std::uint32_t rules = value << rows[field].low;
       b.bus.write(reg::kRules, rules);
       std::array<int, 12> expected = kNone;
-      expected[field] = kRows[field].shown(static_cast<int>(value));
+      expected[field] = rows[field].shown(static_cast<int>(value));
       EXPECT_EQ(fields_of(decode(b.control)), expected) << rules;
     }
 }
