@@ -73,6 +73,15 @@ class Registers : public testing::Test {
   Bus bus{"bus"};
 };
 
+TEST_F(Registers, ReadAndWrite) {
+  EXPECT_EQ(bus.read(0), tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(bus.word, 5U);
+  EXPECT_EQ(bus.write(0, 0x12345678), tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(bus.block.get(kControl), 0x12345678U);
+  bus.block.reset();
+  EXPECT_EQ(bus.block.get(kControl), 5U);
+}
+
 // Each field as it is declared, in one register: bits of others, and bits of none, stay 0.
 TEST(RegisterFields, AWriteReachesThoseThatItMay) {
   static constexpr spec::Field kEach[] = {
