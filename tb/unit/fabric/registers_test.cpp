@@ -82,19 +82,6 @@ TEST_F(Registers, ReadAndWrite) {
   EXPECT_EQ(bus.block.get(kControl), 5U);
 }
 
-TEST_F(Registers, HardwareSideAndCommands) {
-  bus.block.set(kStatus, 0);
-  EXPECT_EQ(bus.read(4), tlm::TLM_OK_RESPONSE);
-  EXPECT_EQ(bus.word, 0U);
-  std::uint32_t started = 0;
-  bus.block.on_write(kCommand, [&](std::uint32_t value) { started += value; });
-  EXPECT_EQ(bus.write(8, 1), tlm::TLM_OK_RESPONSE);
-  EXPECT_EQ(started, 1U);
-  bus.block.set(kFlags, 0b1011);
-  EXPECT_EQ(bus.write(0x10, 0b0010), tlm::TLM_OK_RESPONSE);
-  EXPECT_EQ(bus.block.get(kFlags), 0b1001U);
-}
-
 // Each field as it is declared, in one register: bits of others, and bits of none, stay 0.
 TEST(RegisterFields, AWriteReachesThoseThatItMay) {
   static constexpr spec::Field kEach[] = {

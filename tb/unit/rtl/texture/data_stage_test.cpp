@@ -282,6 +282,7 @@ INSTANTIATE_TEST_SUITE_P(TextureRtl, DataStageClocks,
                                                           PassesAndFills{2, 1, 2, {2, 0, 1, 0}},
                                                           PassesAndFills{2, 2, 2, {3, 0, 1, 1}},
                                                           PassesAndFills{1, 1, 3, {3, 0, 2, 0}},
+                                                          PassesAndFills{0, 0, 2, {2, 0, 1, 0}},
                                                           PassesAndFills{0, 0, 4, {4, 0, 3, 0}})));
 
 // Two texels of a request that hit: in different words of a bank they take two passes, in one word
@@ -319,35 +320,6 @@ TEST(TextureRtlDataStage, AFillWaitsForItsRequestAfterBankConflicts) {
   b.clock.run(1000);
   b.check_data(asked);
   EXPECT_GE(b.cache.data_stage.conflicts.value(), 32u);
-}
-
-// Texels that wait hold up the request behind them as a whole: it takes no fill, though both of its
-// lines are there.
-TEST(TextureRtlDataStage, StandsStillWhileTexelsWait) {
-  StageBench b(StageBench::hit({0, 4, 16, 20}));
-  const std::array<std::uint8_t, 64> line{};
-  for (int i = 0; i < 2; ++i) {
-    const Cycle now = b.clock.cycle();
-    b.fills.fill(now, b.fills.reserve(now), 0, line, true);
-    b.requests.push(now, StageBench::hit({0, 4, 16, 20}));
-    b.clock.run(1);
-  }
-  b.requests.push(b.clock.cycle(), request_of(0, 0, 2, false));
-  b.clock.run(20);
-  ASSERT_EQ(b.texels.occupancy(), 2u);
-  ASSERT_EQ(b.requests.occupancy(), 1u) << "the last one, which has not left";
-  EXPECT_EQ(b.line_used.high_clocks(b.clock.cycle()), 0u);
-  // Popped from here on. A clock later the third request leaves and the first fill is taken, then
-  // the second one, then the texels are pushed and can be popped.
-  const Cycle from = b.clock.cycle();
-  Cycle popped = 0;
-  for (int texels = 0; texels < 4 && b.clock.cycle() < from + 20; b.clock.run(1)) {
-    popped = b.clock.cycle();
-    if (!b.texels.can_pop(popped)) continue;
-    b.texels.pop(popped);
-    ++texels;
-  }
-  EXPECT_EQ(popped - from, 4u);
 }
 
 // ---- what the banks do not do -------------------------------------------------------------------

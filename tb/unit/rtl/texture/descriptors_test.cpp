@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The Descriptors: they follow the registers, and each block reads through its own port.
+// The Descriptors: they follow the registers, and each block reads through its own port. What they
+// make of a register is compared in equivalence_test.cpp, through the units that use it.
 #include "rtl_model/texture/descriptors.h"
 
 #include <array>
@@ -35,48 +36,6 @@ TEST(TextureRtlDescriptors, FollowTheRegisters) {
   EXPECT_FALSE(read.read(5, 3).valid);
 }
 
-// Level clamps are U8.8, shown with 12 fraction bits: no bit of them is lost.
-TEST(TextureRtlDescriptors, ClampsHaveAllTheirBits) {
-  ClockDomain clock("clock", period());
-  Store store(clock);
-  auto read = store.descriptors.for_levels;
-  rtl::Cycle cycle = 0;
-  for (int bit = 0; bit < 16; ++bit) {
-    spec::texture::Descriptor d = some_texture();
-    d.min_lod = static_cast<std::uint16_t>(1u << bit);
-    d.max_lod = static_cast<std::uint16_t>(1u << (15 - bit));
-    write_descriptor(store.bus, 3, d);
-    const rtl::texture::TextureState& t = read.read(++cycle, 3);
-    EXPECT_EQ(t.min_lod, 1 << (bit + 4));
-    EXPECT_EQ(t.max_lod, 1 << (15 - bit + 4));
-  }
-}
-
-// Levels end at 1 x 1, whichever side is longer; tiles that a side fills exactly count once.
-TEST(TextureRtlDescriptors, EveryLevelHasItsSizeAndItsTiles) {
-  ClockDomain clock("clock", period());
-  Store store(clock);
-  auto read = store.descriptors.for_levels;
-  rtl::Cycle cycle = 0;
-  for (const bool high : {false, true}) {
-    spec::texture::Descriptor d = some_texture();
-    d.width = high ? 64 : 128;
-    d.height = high ? 128 : 64;
-    d.levels = 8;
-    write_descriptor(store.bus, 3, d);
-    const rtl::texture::TextureState& t = read.read(++cycle, 3);
-    ASSERT_TRUE(t.valid);
-    // RGBA8 in tiles of 4 x 4.
-    const std::array<int, 8> shorter = {64, 32, 16, 8, 4, 2, 1, 1},
-                             lb_tiles = {4, 3, 2, 1, 0, 0, 0, 0};
-    for (std::size_t k = 0; k < 8; ++k) {
-      EXPECT_EQ(high ? t.level[k].width : t.level[k].height, shorter[k]) << k;
-      EXPECT_EQ(high ? t.level[k].height : t.level[k].width, 128 >> k) << k;
-      EXPECT_EQ(t.level[k].mixed_log2, lb_tiles[k]) << k;
-    }
-  }
-}
-
 // A row or a column of texels is a texture.
 TEST(TextureRtlDescriptors, OneTexelIsEnoughOfASide) {
   ClockDomain clock("clock", period());
@@ -91,47 +50,6 @@ TEST(TextureRtlDescriptors, OneTexelIsEnoughOfASide) {
     d.levels = levels;
     write_descriptor(store.bus, 3, d);
     EXPECT_TRUE(read.read(++cycle, 3).valid) << d.width << " x " << d.height;
-  }
-}
-
-// A tile that a side fills in part counts as a whole one.
-TEST(TextureRtlDescriptors, TilesAreRoundedUp) {
-  ClockDomain clock("clock", period());
-  Store store(clock);
-  auto read = store.descriptors.for_levels;
-  rtl::Cycle cycle = 0;
-  const std::array<std::uint16_t, 7> sides = {1, 4, 5, 8, 9, 16, 17};
-  const std::array<int, 7> lb_tiles = {0, 0, 1, 1, 2, 2, 3};  // of 4 x 4 texels
-  for (std::size_t i = 0; i < sides.size(); ++i)
-    for (const bool high : {false, true}) {
-      spec::texture::Descriptor d = some_texture();
-      d.width = high ? sides[i] : std::uint16_t{256};
-      d.height = high ? std::uint16_t{256} : sides[i];
-      d.levels = 1;
-      write_descriptor(store.bus, 3, d);
-      EXPECT_EQ(read.read(++cycle, 3).level[0].mixed_log2, lb_tiles[i]) << sides[i] << high;
-    }
-}
-
-// Rows of a linear level begin at multiples of 64 bytes.
-TEST(TextureRtlDescriptors, RowsBeginAtMultiplesOf64Bytes) {
-  ClockDomain clock("clock", period());
-  Store store(clock);
-  auto read = store.descriptors.for_levels;
-  rtl::Cycle cycle = 0;
-  for (const auto& [width, pitch] : {std::array<std::uint16_t, 2>{1, 64},
-                                     {63, 64},
-                                     {64, 64},
-                                     {65, 128},
-                                     {128, 128},
-                                     {129, 192}}) {
-    spec::texture::Descriptor d = some_texture();
-    d.format = spec::texture::Format::kL8;
-    d.layout = spec::texture::Layout::kLinear;
-    d.width = width;
-    d.levels = 1;
-    write_descriptor(store.bus, 3, d);
-    EXPECT_EQ(read.read(++cycle, 3).level[0].pitch, pitch) << width;
   }
 }
 
@@ -153,30 +71,6 @@ TEST(TextureRtlDescriptors, FollowEveryRegister) {
     store.bus.write(at + reg::kLevelBase + 4 * (spec::texture::kMaxLevels - 1), 64);
     store.bus.write(at + reg::kLevelBase + 8, 128);
     EXPECT_EQ(read.read(++cycle, handle).level[2].base, 128u) << +handle;
-  }
-}
-
-// What MODE has no name for changes nothing.
-TEST(TextureRtlDescriptors, OtherBitsOfModeDoNotMatter) {
-  namespace reg = spec::texture::reg;
-  ClockDomain clock("clock", period());
-  Store store(clock);
-  auto read = store.descriptors.for_levels;
-  rtl::Cycle cycle = 0;
-  const std::uint32_t mode = reg::kTextureBase + 3 * reg::kTextureStride + reg::kMode;
-  for (const auto layout : {spec::texture::Layout::kLinear, spec::texture::Layout::kTiled}) {
-    spec::texture::Descriptor d = some_texture();
-    d.layout = layout;
-    write_descriptor(store.bus, 3, d);
-    store.bus.write(mode, store.bus.read(mode) | 0xF80E80E8);
-    const rtl::texture::TextureState& t = read.read(++cycle, 3);
-    EXPECT_TRUE(t.valid);
-    EXPECT_EQ(t.layout, layout);
-    EXPECT_EQ(t.levels, 3);
-    EXPECT_EQ(t.format, d.format);
-    EXPECT_EQ(t.wrap_s, d.wrap_s);
-    EXPECT_EQ(t.mag_filter, d.mag_filter);
-    EXPECT_EQ(t.max_count_log2, d.max_anisotropy_log2);
   }
 }
 

@@ -4,8 +4,8 @@
 //
 // Where two implementations of one rule can be compared without a clock the inputs are exhaustive
 // or cover every combination of leading one, mantissa and kind of low bits. Units are fed through
-// links, corners first, then at random. Every block is also run with one bit of one token wrong:
-// the comparison must notice.
+// links that stall now and then, corners first, then at random. Every block is also run with one
+// bit of one token wrong: the comparison must notice.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -83,8 +83,8 @@ class Pair {
   Verdict verdict;
 
  private:
-  Driver<From> driver_{"driver", clock};
-  Sink<To> sink_{"sink", clock};
+  Driver<From> driver_{"driver", clock, {.stall_permille = 50}};
+  Sink<To> sink_{"sink", clock, {.stall_permille = 50}};
 };
 
 inline constexpr hw::Ticket kTicket = {7, 1, true, true, 0};
