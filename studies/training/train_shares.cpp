@@ -280,8 +280,8 @@ int run(int argc, char** argv) {
   constexpr const char *kHeader = "spec/morphological/learned_shares.h",
                        *kRecipe = "studies/training/recipe.txt";
   if (!write.empty())
-    write_files_atomically({{std::filesystem::path(write) / kHeader, header_of(tables, text)},
-                            {std::filesystem::path(write) / kRecipe, text}});
+    tb::write_files_atomically({{std::filesystem::path(write) / kHeader, header_of(tables, text)},
+                                {std::filesystem::path(write) / kRecipe, text}});
   if (!check.empty()) {
     bool same = true;
     for (const auto& [file, made_again] :
