@@ -44,7 +44,7 @@ class Faults(CommandTest):
         self.assertRegex(line["item"], r"^pixel \(\d+, \d+\)$")
         self.assertRegex(line["field"], "rgba|RGBA|r")
         with open(self.path("out/report.html")) as file:
-            page = html.unescape(file.read())
+            page = html.unescape(file.read().replace("<wbr>", ""))  # where a name may break
         for text in ("First mismatches", *line.values()):
             self.assertIn(f">{text}<", page)
         done, _ = self.fault("flip-bit", 3, "changed while it waited", *self.CHECKED)
