@@ -131,17 +131,16 @@ void expect_formulas(const Json& r, double lanes) {
   EXPECT_DOUBLE_EQ(w("frame_rate"), kMhz * 1e6 / w("frame_clocks"));
   // docs/reference/morphological/hardware.md: R + 5 rows and the clocks of the pipe.
   const morphological_system::Parameters p = lines_on_chip().morphological;
+  const int rows = p.window_rows / 2 - 1 + 5;
   const double beats = std::ceil(last.image.width / lanes),
-               latency =
-                   (p.window_rows / 2 - 1 + 5) * beats + spec::morphological::kPipelineLatency;
+               latency = rows * beats + spec::morphological::kPipelineLatency;
   EXPECT_EQ(w("latency_by_formula"), latency);
   EXPECT_EQ(w("frame_clocks_by_formula"), latency + last.image.height * beats);
   const double hd = 1920 / lanes, slowness = w("frame_clocks") / w("frame_clocks_by_formula");
   EXPECT_GE(slowness, 1);
-  EXPECT_DOUBLE_EQ(w("clock_for_1080p60"), slowness *
-                                               ((p.window_rows / 2 - 1 + 5) * hd +
-                                                spec::morphological::kPipelineLatency + 1080 * hd) *
-                                               60 / 1e6);
+  EXPECT_DOUBLE_EQ(
+      w("clock_for_1080p60"),
+      slowness * (rows * hd + spec::morphological::kPipelineLatency + 1080 * hd) * 60 / 1e6);
   EXPECT_EQ(r["work"]["fits_1080p60"], w("clock_for_1080p60") <= 148.5);
 }
 

@@ -300,7 +300,7 @@ TEST(TextureFigures, AHistoryHasEveryStepOfEveryFragmentOfThePixel) {
     for (const Json& step : r["pixel"]["steps"]) {
       EXPECT_EQ(step["differs"], false) << step.dump();
       parts.insert(step["part"]);
-      if (step["golden"] != "")
+      if (!step["golden"].get<std::string>().empty())
         steps.push_back({step["part"], step["step"], step["item"], step["golden"]});
       if (step["step"] != "quad") {
         EXPECT_NE(step["hardware"], "") << step.dump();
