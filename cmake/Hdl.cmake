@@ -25,7 +25,7 @@ endfunction()
 # deburr_hdl_model(<class> TOP <module> [SETTINGS <setting>...] [FAULT <file> <from> <to>]):
 # a library with the module verilated as C++ class <class>, with these parameters of the texture unit. A
 # FAULT is planted in a copy of one source: the text <from>, which stands there once, becomes <to>. Models
-# without a fault may do the work of SystemC units in a run (deburr_hdl_twins).
+# without a fault may do the work of SystemC units in a run (deburr_hdl_counterparts).
 function(deburr_hdl_model class)
   cmake_parse_arguments(ARG "" "TOP" "SETTINGS;FAULT" ${ARGN})
   deburr_hdl_headers(headers ${ARG_SETTINGS})
@@ -37,8 +37,8 @@ function(deburr_hdl_model class)
     cmake_path(GET file FILENAME name)
     set(faulty "${folder}_fault/${name}")
     add_custom_command(OUTPUT "${faulty}"
-      COMMAND "${PROJECT_SOURCE_DIR}/tb/hdl/plant_fault.py" "${DEBURR_HDL_ROOT}/${file}" "${faulty}" ${ARG_FAULT}
-      DEPENDS "${PROJECT_SOURCE_DIR}/tb/hdl/plant_fault.py" "${DEBURR_HDL_ROOT}/${file}" VERBATIM)
+      COMMAND "${PROJECT_SOURCE_DIR}/tb/hdl/inject_fault.py" "${DEBURR_HDL_ROOT}/${file}" "${faulty}" ${ARG_FAULT}
+      DEPENDS "${PROJECT_SOURCE_DIR}/tb/hdl/inject_fault.py" "${DEBURR_HDL_ROOT}/${file}" VERBATIM)
     set(paths -y "${folder}_fault" ${paths})
     list(APPEND depends "${faulty}")
   endif()
@@ -94,9 +94,9 @@ function(deburr_hdl_finish target)
   target_link_libraries(${target} INTERFACE ${libraries})
 endfunction()
 
-# deburr_hdl_twins(<name> LINK <library> CLASSES <class>...): an object that adds these models to those that a run of
+# deburr_hdl_counterparts(<name> LINK <library> CLASSES <class>...): an object that adds these models to those that a run of
 # the library's engine may take. A program that links deburr_<name> has them.
-function(deburr_hdl_twins name)
+function(deburr_hdl_counterparts name)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "LINK" "CLASSES")
   set(includes "")
   set(calls "")

@@ -82,7 +82,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION electronics)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Cycle-accurate models of anti-aliasing hardware
  Runs SystemC models of a texture unit and of anti-aliasing engines on scenes
- and frames, checks each against a bit-exact golden model, and reports clocks,
+ and frames, checks each against a bit-exact golden model, and reports cycles,
  stalls, traffic and image quality.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Models of anti-aliasing hardware, libraries
@@ -93,7 +93,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libsystemc-dev, libfmt-dev")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Models of anti-aliasing hardware, Python module
  Golden models of a texture unit and of anti-aliasing engines, reference
- filters and truth as functions on numpy arrays; runs and sweeps of their
+ filters and reference as functions on numpy arrays; runs and sweeps of their
  SystemC models as arrays and tables.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)

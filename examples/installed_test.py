@@ -203,9 +203,9 @@ class Files(Scratch):
             return found
 
         self.assertEqual(naming(PREFIX), [])
-        self.write("planted.cmake", f'include("{BUILD}/x.cmake")')
-        (self.folder / "planted").symlink_to(SOURCE)
-        self.assertEqual(sorted(naming(self.folder)), ["planted", "planted.cmake"])
+        self.write("injected.cmake", f'include("{BUILD}/x.cmake")')
+        (self.folder / "injected").symlink_to(SOURCE)
+        self.assertEqual(sorted(naming(self.folder)), ["injected", "injected.cmake"])
 
 
 def foreign_includes(root):
@@ -247,8 +247,8 @@ class Alone(Scratch):
             self.assertEqual(alone("find", *roots, "-path", PREFIX, "-prune", "-o", "-name", "left", "-print"), "")
         hiding.cache_clear()
         self.assertIn("parameters.h", alone("find", PREFIX, "-name", "*.h"))
-        self.write("planted", "not hidden")
-        self.assertEqual(alone("cat", self.folder / "planted"), "not hidden")
+        self.write("injected", "not hidden")
+        self.assertEqual(alone("cat", self.folder / "injected"), "not hidden")
 
 
 class Headers(Scratch):
@@ -519,9 +519,9 @@ class SystemVerilog(Scratch):
         said, shown = self.after_installing("howto/testbench")
         self.assertEqual(not_printed(shown, said), [])
         self.assertRegex(said, r"(?m)^PASS$")
-        planted, shown = blocks_of("howto/testbench")[2].split("\n", 1)
-        self.assertRegex(planted, r"^make .* RUN=\+bug=\d$")
-        self.assertEqual(not_printed(shown, self.as_on_the_page(planted, code=2)), [])
+        injected, shown = blocks_of("howto/testbench")[2].split("\n", 1)
+        self.assertRegex(injected, r"^make .* RUN=\+bug=\d$")
+        self.assertEqual(not_printed(shown, self.as_on_the_page(injected, code=2)), [])
         self.assertRegex(said, r"edge detector: 20 frames, \d{4,} pixels with edges, 0 differ")
         # 10^6 calls: what C++ computes of the same quads.
         alone(CXX, "-O2", self.write("quads.cpp", QUADS_MAIN), "-o", self.folder / "quads",

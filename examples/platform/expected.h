@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture as the golden models compute it, which know nothing of buses, clocks and registers.
+// The picture as the golden models compute it, which know nothing of buses, cycles and registers.
 #pragma once
 
 #include <cstdint>

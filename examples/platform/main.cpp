@@ -42,7 +42,7 @@ namespace platform {
 namespace {
 
 const sc_core::sc_time kPeriod(2, sc_core::SC_NS);
-constexpr std::uint64_t kMostClocks = 1'000'000;
+constexpr std::uint64_t kMostCycles = 1'000'000;
 
 deburr::spec::texture::Parameters texture_parameters() {
   auto parameters =
@@ -67,22 +67,22 @@ deburr::platform::MemoryModelParameters memory_parameters() {
   return parameters;
 }
 
-// A checker between an initiator and a target; where a violation is planted, that on its side.
+// A checker between an initiator and a target; where a violation is injected, that on its side.
 struct Hop {
   ProtocolChecker checker;
   std::unique_ptr<Violator> violator;
 
   template <class Initiator, class Target>
   Hop(const char* name, Initiator& initiator, Target& target,
-      const ViolationInfo* planted = nullptr)
+      const ViolationInfo* injected = nullptr)
       : checker(name) {
-    if (planted)
+    if (injected)
       violator =
-          std::make_unique<Violator>(sc_core::sc_gen_unique_name("violator"), planted->violation);
-    if (!planted) {
+          std::make_unique<Violator>(sc_core::sc_gen_unique_name("violator"), injected->violation);
+    if (!injected) {
       initiator.bind(checker.from_initiator);
       checker.to_target.bind(target);
-    } else if (planted->by_target) {
+    } else if (injected->by_target) {
       initiator.bind(checker.from_initiator);
       checker.to_target.bind(violator->from_initiator);
       violator->to_target.bind(target);
@@ -96,9 +96,9 @@ struct Hop {
 
 class Platform {
  public:
-  explicit Platform(const ViolationInfo* planted) {
+  explicit Platform(const ViolationInfo* injected) {
     const auto by = [&](bool software) {
-      return planted && planted->by_software == software ? planted : nullptr;
+      return injected && injected->by_software == software ? injected : nullptr;
     };
     hops_.emplace_back("software_bus", software_.bus, router_.initiators, by(true));
     hops_.emplace_back("texture_bus", *texture_.memory(), router_.initiators, by(false));
@@ -130,9 +130,9 @@ class Platform {
 
   void run() {
     const auto done = [this] { return ended_ && display_.complete(); };
-    if (!clock_.run_until(done, kMostClocks))
+    if (!clock_.run_until(done, kMostCycles))
       throw deburr::spec::SimulationError("the frame was not done in " +
-                                          std::to_string(kMostClocks) + " clocks");
+                                          std::to_string(kMostCycles) + " cycles");
     for (const Hop& hop : hops_) hop.checker.check_finished();
   }
 
@@ -146,8 +146,8 @@ class Platform {
                   static_cast<unsigned long long>(hop.checker.bytes()),
                   static_cast<unsigned long long>(hop.checker.most_in_flight()));
     std::printf(
-        "clocks %llu, of them the smoother's frame %u; %u bilinear samples, %u pixels blended\n",
-        static_cast<unsigned long long>(clock_.cycle()), software_.frame_clocks(),
+        "cycles %llu, of them the smoother's frame %u; %u bilinear samples, %u pixels blended\n",
+        static_cast<unsigned long long>(clock_.cycle()), software_.frame_cycles(),
         software_.bilinears(), software_.blended_pixels());
   }
 
@@ -177,7 +177,7 @@ class Platform {
 
 struct Options {
   const char* out = nullptr;
-  const ViolationInfo* planted = nullptr;
+  const ViolationInfo* injected = nullptr;
   long quantum = 1000;  // ns
 };
 
@@ -192,7 +192,7 @@ int usage(const char* what) {
 int run(const Options& options) {
   tlm::tlm_global_quantum::instance().set(
       sc_core::sc_time(static_cast<double>(options.quantum), sc_core::SC_NS));
-  Platform platform(options.planted);
+  Platform platform(options.injected);
   try {
     platform.run();
   } catch (const std::exception& error) {
@@ -236,8 +236,8 @@ int sc_main(int argc, char** argv) {
       if (*end || options.quantum < 0) return platform::usage("--quantum wants nanoseconds");
     } else if (word == "--plant") {
       for (const platform::ViolationInfo& each : platform::violations())
-        if (std::strcmp(each.name, value) == 0) options.planted = &each;
-      if (!options.planted) return platform::usage("no such violation (see --violations)");
+        if (std::strcmp(each.name, value) == 0) options.injected = &each;
+      if (!options.injected) return platform::usage("no such violation (see --violations)");
     } else {
       return platform::usage(("what is " + word + "?").c_str());
     }

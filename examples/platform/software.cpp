@@ -62,7 +62,7 @@ void Software::program() {
   look_at_memory();
   write(kPainter + kPainterStart, 1);
   wait_for_frame();
-  frame_clocks_ = read(kSmoother + DEBURR_MORPHOLOGICAL_FRAME_CYCLES);
+  frame_cycles_ = read(kSmoother + DEBURR_MORPHOLOGICAL_FRAME_CYCLES);
   blended_pixels_ = read(kSmoother + DEBURR_MORPHOLOGICAL_BLENDED_PIXELS);
   bilinears_ = read(kTextureUnit + DEBURR_TEXTURE_BILINEARS);
   texture_failed_ = texture_interrupt.read();  // it tells of errors alone

@@ -22,7 +22,7 @@ class Software final : public sc_core::sc_module {
 
   explicit Software(const sc_core::sc_module_name& name);
 
-  std::uint32_t frame_clocks() const { return frame_clocks_; }
+  std::uint32_t frame_cycles() const { return frame_cycles_; }
   std::uint32_t blended_pixels() const { return blended_pixels_; }
   std::uint32_t bilinears() const { return bilinears_; }
   bool texture_failed() const { return texture_failed_; }
@@ -41,7 +41,7 @@ class Software final : public sc_core::sc_module {
   void expect(std::uint64_t address, std::uint32_t value);
 
   tlm_utils::tlm_quantumkeeper time_;
-  std::uint32_t frame_clocks_ = 0, blended_pixels_ = 0, bilinears_ = 0;
+  std::uint32_t frame_cycles_ = 0, blended_pixels_ = 0, bilinears_ = 0;
   bool texture_failed_ = false;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A small device under test: samples a texture of 16 x 16 RGBA8 texels bilinearly, level 0,
-// wrapped by repeat, a fragment in each clock. The colour leaves three clocks behind its fragment.
+// wrapped by repeat, a fragment in each clock. The colour leaves three cycles behind its fragment.
 // Formats and rounding: docs/reference/texture/formats.md. `bug` plants a fault; 0 is the device as it should
 // be.
 module bilinear_sampler (

@@ -12,7 +12,7 @@ module testbench;
 
   localparam int SIDE = 16;
   localparam int WIDTH = 64, HEIGHT = 48;
-  localparam int LATENCY = 3;  // clocks, of the sampler
+  localparam int LATENCY = 3;  // cycles, of the sampler
 
   logic clock = 0;
   always #1 clock = !clock;
@@ -113,7 +113,7 @@ module testbench;
           checksum = (checksum ^ longint'(rgba[i])) * 64'd1099511628211;
       end
       @(negedge clock);
-      // Compare what left with what was predicted as many clocks ago.
+      // Compare what left with what was predicted as many cycles ago.
       if (quad + 1 >= LATENCY && quad + 1 < quads + LATENCY) begin
         for (int lane = 0; lane < 4; ++lane) begin
           automatic byte unsigned e[16] = expected[LATENCY-1];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the handles of engines that smooth frames share: the frame that is being given, and planes
+// What the handles of engines that smooth frames weight: the frame that is being given, and planes
 // of the one that was smoothed.
 #pragma once
 

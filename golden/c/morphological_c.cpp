@@ -12,10 +12,10 @@
 namespace deburr::golden::c {
 namespace {
 
-enum class MorphologicalPlane : std::size_t { kPixels, kEdges, kShares, kTaps, kDecisions };
+enum class MorphologicalPlane : std::size_t { kPixels, kEdges, kWeights, kTaps, kDecisions };
 constexpr std::array<Plane, 5> kMorphologicalPlanes = {{{"pixels", 4, false},
                                                         {"edges", 1, false},
-                                                        {"shares", 4, false},
+                                                        {"weights", 4, false},
                                                         {"taps", 4, true},
                                                         {"decisions", 1, true}}};
 
@@ -55,8 +55,8 @@ struct MorphologicalHandle final : MorphologicalModel {
       case MorphologicalPlane::kEdges:
         return {static_cast<std::uint8_t>((golden.edges().left.at(x, y) ? 1 : 0) |
                                           (golden.edges().top.at(x, y) ? 2 : 0))};
-      case MorphologicalPlane::kShares: {
-        const auto top = golden.top_shares(x, y), left = golden.left_shares(x, y);
+      case MorphologicalPlane::kWeights: {
+        const auto top = golden.top_weights(x, y), left = golden.left_weights(x, y);
         return {top.first, top.second, left.first, left.second};
       }
       case MorphologicalPlane::kTaps: {

@@ -29,23 +29,23 @@ bool is_crease(Crease crease, std::uint8_t flags) {
   return false;
 }
 
-EdgeClass classify(const spec::geometric::Rules& rules, const Edge& edge,
+EdgeClass classify(const spec::geometric::Configuration& configuration, const Edge& edge,
                    std::uint32_t vertex_count, const FacingBits& facing) {
   if (!are_vertices_there(edge.v0, edge.v1, vertex_count)) return EdgeClass::kInvalid;
-  return classify_faces(rules, edge, facing);
+  return classify_faces(configuration, edge, facing);
 }
 
-EdgeClass classify_faces(const spec::geometric::Rules& rules, const Edge& edge,
+EdgeClass classify_faces(const spec::geometric::Configuration& configuration, const Edge& edge,
                          const FacingBits& facing) {
-  if (!are_faces_there(rules.select, edge, facing.count)) return EdgeClass::kInvalid;
+  if (!are_faces_there(configuration.select, edge, facing.count)) return EdgeClass::kInvalid;
   if ((edge.flags & flag::kBoundary) != 0) return EdgeClass::kBoundary;
-  if (rules.select == Select::kAll) return EdgeClass::kUnclassified;
-  if (rules.select == Select::kEdges) {
+  if (configuration.select == Select::kAll) return EdgeClass::kUnclassified;
+  if (configuration.select == Select::kEdges) {
     const bool first = facing.at(edge.f0), second = facing.at(edge.f1);
     if (first != second) return EdgeClass::kSilhouette;
-    if (!first && rules.cull == spec::geometric::Cull::kBack) return EdgeClass::kBack;
+    if (!first && configuration.cull == spec::geometric::Cull::kBack) return EdgeClass::kBack;
   }
-  return is_crease(rules.crease, edge.flags) ? EdgeClass::kCrease : EdgeClass::kFlat;
+  return is_crease(configuration.crease, edge.flags) ? EdgeClass::kCrease : EdgeClass::kFlat;
 }
 
 }  // namespace deburr::golden::geometric

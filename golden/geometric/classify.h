@@ -29,11 +29,11 @@ bool are_faces_there(spec::geometric::Select select, const spec::geometric::Edge
                      std::uint32_t face_count);
 bool is_crease(spec::geometric::Crease crease, std::uint8_t flags);
 // The first class that holds.
-spec::geometric::EdgeClass classify(const spec::geometric::Rules& rules,
+spec::geometric::EdgeClass classify(const spec::geometric::Configuration& configuration,
                                     const spec::geometric::Edge& edge, std::uint32_t vertex_count,
                                     const FacingBits& facing);
 // The same without a look at the vertices.
-spec::geometric::EdgeClass classify_faces(const spec::geometric::Rules& rules,
+spec::geometric::EdgeClass classify_faces(const spec::geometric::Configuration& configuration,
                                           const spec::geometric::Edge& edge,
                                           const FacingBits& facing);
 constexpr bool is_kept(spec::geometric::EdgeClass c) {

@@ -60,10 +60,10 @@ std::vector<std::uint16_t> coarse_entries(const View& depth) {
 }
 
 // Whether a line at depth d is behind all that an entry allows.
-constexpr bool is_dropped(const spec::geometric::Rules& rules, std::uint32_t d,
+constexpr bool is_dropped(const spec::geometric::Configuration& configuration, std::uint32_t d,
                           std::uint16_t entry) {
   const std::uint32_t c = std::uint32_t{entry} << spec::geometric::kCoarseShift;
-  return d < c - (c >> rules.depth_bias);
+  return d < c - (c >> configuration.depth_bias);
 }
 
 }  // namespace deburr::golden::geometric

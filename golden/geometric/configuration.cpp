@@ -7,53 +7,53 @@
 
 namespace deburr::golden::geometric {
 
-using spec::geometric::Refusal;
+using spec::geometric::Rejection;
 
-Refusal refusal(const spec::geometric::Parameters& p, const FrameCounts& counts) {
+Rejection rejection(const spec::geometric::Parameters& p, const FrameCounts& counts) {
   constexpr int kMax = spec::geometric::kMaxFrameSize;
   if (counts.width < 1 || counts.height < 1 || counts.width > kMax || counts.height > kMax)
-    return Refusal::kSize;
-  if (counts.width > p.line_pixels) return Refusal::kWidth;
-  if (touched_words(counts.width, counts.height) > p.touched_words) return Refusal::kTouchedWords;
-  if (counts.edge_count > spec::geometric::kMaxEdges) return Refusal::kEdgeCount;
-  if (counts.vertex_count > spec::geometric::kMaxVertices) return Refusal::kVertexCount;
+    return Rejection::kSize;
+  if (counts.width > p.line_pixels) return Rejection::kWidth;
+  if (touched_words(counts.width, counts.height) > p.touched_words) return Rejection::kTouchedWords;
+  if (counts.edge_count > spec::geometric::kMaxEdges) return Rejection::kEdgeCount;
+  if (counts.vertex_count > spec::geometric::kMaxVertices) return Rejection::kVertexCount;
   if (p.select == spec::geometric::Select::kEdges &&
       counts.face_count > static_cast<std::uint64_t>(p.face_limit))
-    return Refusal::kFaceCount;
+    return Rejection::kFaceCount;
   if (p.records == spec::geometric::RecordsLayout::kSplit &&
       counts.boundary_count > counts.edge_count)
-    return Refusal::kBoundaryCount;
-  return Refusal::kNone;
+    return Rejection::kBoundaryCount;
+  return Rejection::kNone;
 }
 
 void check_frame(const spec::geometric::Parameters& p, const FrameCounts& counts) {
   const std::string frame = "a frame of " + std::to_string(counts.width) + " x " +
                             std::to_string(counts.height) + " pixels";
-  switch (refusal(p, counts)) {
-    case Refusal::kNone:
-    case Refusal::kDisabled:
+  switch (rejection(p, counts)) {
+    case Rejection::kNone:
+    case Rejection::kDisabled:
       return;
-    case Refusal::kSize:
+    case Rejection::kSize:
       throw spec::ConfigError(frame + "; 1..8192 each way are possible");
-    case Refusal::kWidth:
+    case Rejection::kWidth:
       throw spec::ConfigError(frame + " does not fit rows of " + std::to_string(p.line_pixels) +
                               " pixels; raise line_pixels");
-    case Refusal::kTouchedWords:
+    case Rejection::kTouchedWords:
       throw spec::ConfigError(frame + " needs " +
                               std::to_string(touched_words(counts.width, counts.height)) +
                               " touched words, the build has " + std::to_string(p.touched_words) +
                               "; raise touched_words");
-    case Refusal::kEdgeCount:
+    case Rejection::kEdgeCount:
       throw spec::ConfigError(std::to_string(counts.edge_count) +
                               " edges; at most 2^24 are possible");
-    case Refusal::kVertexCount:
+    case Rejection::kVertexCount:
       throw spec::ConfigError(std::to_string(counts.vertex_count) +
                               " vertices; at most 2^24 are possible");
-    case Refusal::kFaceCount:
+    case Rejection::kFaceCount:
       throw spec::ConfigError(std::to_string(counts.face_count) +
                               " faces, the build holds the facing bits of " +
                               std::to_string(p.face_limit) + "; raise face_limit");
-    case Refusal::kBoundaryCount:
+    case Rejection::kBoundaryCount:
       throw spec::ConfigError(std::to_string(counts.boundary_count) + " boundaries of " +
                               std::to_string(counts.edge_count) + " edges");
   }

@@ -21,9 +21,9 @@ struct FrameCounts {
 
 // Why the engine rejects a start: the first reason that holds. Never kDisabled, which is not a
 // matter of sizes.
-spec::geometric::Refusal refusal(const spec::geometric::Parameters& parameters,
+spec::geometric::Rejection rejection(const spec::geometric::Parameters& parameters,
                                  const FrameCounts& counts);
-// Throws ConfigError that names the refusal and what would be possible.
+// Throws ConfigError that names the rejection and what would be possible.
 void check_frame(const spec::geometric::Parameters& parameters, const FrameCounts& counts);
 
 // W_t: words of touched bits that a frame needs.

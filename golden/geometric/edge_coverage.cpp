@@ -45,7 +45,7 @@ constexpr std::array<std::string_view, 6> kPairs = {"boundary-pair/hit",   "boun
 constexpr std::array<std::string_view, 5> kBuffered = {"hit", "empty", "leaves", "full-at-end",
                                                        "not-full-at-end"};
 constexpr std::array<std::string_view, 2> kTwoTiles = {"own", "other"};
-constexpr std::array<std::string_view, 3> kTaps = {"up-down", "left-right", "tie"};
+constexpr std::array<std::string_view, 3> kProbes = {"up-down", "left-right", "tie"};
 constexpr std::array<std::string_view, 3> kOriginals = {"none", "above", "left"};
 
 std::string slash(std::initializer_list<std::string_view> parts) {
@@ -127,9 +127,9 @@ void EdgeCoverage::count_weight(spec::geometric::Combine rule, bool nearer,
   }
 }
 
-void EdgeCoverage::count_tap(const spec::geometric::Weights& w) {
+void EdgeCoverage::count_probe(const spec::geometric::Weights& w) {
   const int vertical = w[0] + w[1], horizontal = w[2] + w[3];
-  ++taps_[vertical > horizontal ? 0u : vertical < horizontal ? 1u : 2u];
+  ++probes_[vertical > horizontal ? 0u : vertical < horizontal ? 1u : 2u];
 }
 
 void EdgeCoverage::for_each_bin(const BinSink& sink) const {
@@ -173,7 +173,7 @@ void EdgeCoverage::for_each_bin(const BinSink& sink) const {
     sink(slash({"coarse", kBorders[i], "dropped"}), dropped_[i]);
   sink("coarse/equal", coarse_equal_);
   list("coarse/lesser", kTwoTiles, two_tiles_);
-  list("resolve", kTaps, taps_);
+  list("resolve", kProbes, probes_);
   list("original", kOriginals, originals_);
   for (std::size_t layout = 0; layout < block_lines_.size(); ++layout) {
     const bool tiled = static_cast<Layout>(layout) == Layout::kTiled;
@@ -212,7 +212,7 @@ void EdgeCoverage::for_each_table(EdgeCoverage& a, const EdgeCoverage& b, Visit&
   visit(a.dropped_, b.dropped_);
   visit(a.coarse_equal_, b.coarse_equal_);
   visit(a.two_tiles_, b.two_tiles_);
-  visit(a.taps_, b.taps_);
+  visit(a.probes_, b.probes_);
   visit(a.originals_, b.originals_);
   visit(a.block_lines_, b.block_lines_);
 }

@@ -59,8 +59,8 @@ enum class Original : std::uint8_t { kNone, kAbove, kLeft };
 
 class EdgeCoverage {
  public:
-  void count_class(const spec::geometric::Rules& rules, spec::geometric::EdgeClass c) {
-    ++classes_[index(rules.select)][index(rules.crease)][index(c)];
+  void count_class(const spec::geometric::Configuration& configuration, spec::geometric::EdgeClass c) {
+    ++classes_[index(configuration.select)][index(configuration.crease)][index(c)];
   }
   void count_turned_away(spec::geometric::Cull cull, spec::geometric::EdgeClass c);
   void count_fate(LineFate fate) { ++fates_[index(fate)]; }
@@ -86,7 +86,7 @@ class EdgeCoverage {
   void count_dropped(spec::geometric::Direction direction) { ++dropped_[index(direction)]; }
   void count_coarse_equal() { ++coarse_equal_; }
   void count_two_tiles(TwoTiles which) { ++two_tiles_[index(which)]; }
-  void count_tap(const spec::geometric::Weights& weights);
+  void count_probe(const spec::geometric::Weights& weights);
   void count_original(Original where) { ++originals_[index(where)]; }
   void count_block_lines(spec::geometric::Layout layout, std::size_t lines) {
     ++block_lines_[index(layout)][lines];
@@ -128,7 +128,7 @@ class EdgeCoverage {
   std::array<std::uint64_t, 4> dropped_{};
   std::uint64_t coarse_equal_ = 0;
   std::array<std::uint64_t, 2> two_tiles_{};
-  std::array<std::uint64_t, 3> taps_{};
+  std::array<std::uint64_t, 3> probes_{};
   std::array<std::uint64_t, 3> originals_{};
   std::array<std::array<std::uint64_t, kMaxBlockLines + 1>, 2> block_lines_{};
 };

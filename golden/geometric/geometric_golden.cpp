@@ -536,28 +536,28 @@ void GeometricGolden::resolve_block(int bx, int by) {
       const Weights& weights = weights_[i];
       if (!is_blended(weights)) continue;
       ++work_.blended_pixels;
-      const Tap tap = tap_of(weights);
-      const int dx = tap.left_right ? 1 : 0, dy = tap.left_right ? 0 : 1;
+      const Probe probe = probe_of(weights);
+      const int dx = probe.left_right ? 1 : 0, dy = probe.left_right ? 0 : 1;
       const Rgba8& pixel = input_.image.at(x, y);
       // A neighbour without a weight may lie outside the frame; the pixel itself stands in for it.
-      const Rgba8& first = tap.first != 0 ? input_.image.at(x - dx, y - dy) : pixel;
-      const Rgba8& second = tap.second != 0 ? input_.image.at(x + dx, y + dy) : pixel;
-      const Rgba8 blended = resolve(parameters_, tap, pixel, first, second);
+      const Rgba8& first = probe.first != 0 ? input_.image.at(x - dx, y - dy) : pixel;
+      const Rgba8& second = probe.second != 0 ? input_.image.at(x + dx, y + dy) : pixel;
+      const Rgba8 blended = resolve(parameters_, probe, pixel, first, second);
       const LineOfPixels line = layout_.line_of(x, y);
       if (!bad(input_.bases.colour + layout_.offset_of(line))) pixels_[i] = blended;
       if (!follow_) continue;
       read.add(line);
       written.add(line);
-      if (tap.first != 0) read.add(layout_.line_of(x - dx, y - dy));
-      if (tap.second != 0) read.add(layout_.line_of(x + dx, y + dy));
+      if (probe.first != 0) read.add(layout_.line_of(x - dx, y - dy));
+      if (probe.second != 0) read.add(layout_.line_of(x + dx, y + dy));
       if (!everything_) continue;
       const std::size_t k = 4 * static_cast<std::size_t>(y & 3) + static_cast<std::size_t>(x & 3);
       record.weights[k] = weights;
       record.pixels[k] = blended;
       record.blended = static_cast<std::uint16_t>(record.blended | 1u << k);
-      coverage_.count_tap(weights);
-      if (tap.first != 0 && is_blended(weights_at(x - dx, y - dy))) {
-        coverage_.count_original(tap.left_right ? Original::kLeft : Original::kAbove);
+      coverage_.count_probe(weights);
+      if (probe.first != 0 && is_blended(weights_at(x - dx, y - dy))) {
+        coverage_.count_original(probe.left_right ? Original::kLeft : Original::kAbove);
       } else {
         coverage_.count_original(Original::kNone);
       }

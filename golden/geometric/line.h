@@ -86,32 +86,32 @@ constexpr spec::geometric::Direction opposite(spec::geometric::Direction directi
 }
 
 // The depth that a line is compared with, of pixel and neighbour; U24.
-constexpr std::uint32_t compared_depth(const spec::geometric::Rules& rules, std::uint32_t own,
+constexpr std::uint32_t compared_depth(const spec::geometric::Configuration& configuration, std::uint32_t own,
                                        std::uint32_t other) {
-  const bool own_alone = rules.depth_test == spec::geometric::DepthTest::kOwn;
+  const bool own_alone = configuration.depth_test == spec::geometric::DepthTest::kOwn;
   return own_alone || own < other ? own : other;
 }
 // Whether a line at depth d is seen where pixel and neighbour have these depths; all U24.
-constexpr bool is_seen(const spec::geometric::Rules& rules, std::uint32_t d, std::uint32_t own,
+constexpr bool is_seen(const spec::geometric::Configuration& configuration, std::uint32_t d, std::uint32_t own,
                        std::uint32_t other) {
-  if (rules.depth_test == spec::geometric::DepthTest::kOff) return true;
-  const std::uint32_t f = compared_depth(rules, own, other);
-  return d >= f - (f >> rules.depth_bias);
+  if (configuration.depth_test == spec::geometric::DepthTest::kOff) return true;
+  const std::uint32_t f = compared_depth(configuration, own, other);
+  return d >= f - (f >> configuration.depth_bias);
 }
 // Whether both pixels show what meets in a crease at depth d.
-constexpr bool is_near_crease(const spec::geometric::Rules& rules, std::uint32_t d,
+constexpr bool is_near_crease(const spec::geometric::Configuration& configuration, std::uint32_t d,
                               std::uint32_t own, std::uint32_t other) {
-  if (rules.depth_test == spec::geometric::DepthTest::kOff || rules.crease_depth == 0) return true;
-  return compared_depth(rules, own, other) >= d - (d >> rules.crease_depth);
+  if (configuration.depth_test == spec::geometric::DepthTest::kOff || configuration.crease_depth == 0) return true;
+  return compared_depth(configuration, own, other) >= d - (d >> configuration.crease_depth);
 }
-constexpr bool passes(const spec::geometric::Rules& rules, bool crease, std::uint32_t d,
+constexpr bool passes(const spec::geometric::Configuration& configuration, bool crease, std::uint32_t d,
                       std::uint32_t own, std::uint32_t other) {
-  return is_seen(rules, d, own, other) && (!crease || is_near_crease(rules, d, own, other));
+  return is_seen(configuration, d, own, other) && (!crease || is_near_crease(configuration, d, own, other));
 }
 // Whether the pixel is nearer to the eye than its neighbour, as far as the rules know.
-constexpr bool is_nearer(const spec::geometric::Rules& rules, std::uint32_t own,
+constexpr bool is_nearer(const spec::geometric::Configuration& configuration, std::uint32_t own,
                          std::uint32_t other) {
-  return rules.depth_test == spec::geometric::DepthTest::kFarther && own > other;
+  return configuration.depth_test == spec::geometric::DepthTest::kFarther && own > other;
 }
 
 }  // namespace deburr::golden::geometric

@@ -28,18 +28,18 @@ void combine(spec::geometric::Combine rule, bool nearer, Weights& weights, Direc
   }
 }
 
-Tap tap_of(const Weights& weights) {
+Probe probe_of(const Weights& weights) {
   const int up = weights[0], down = weights[1], left = weights[2], right = weights[3];
   if (left + right > up + down) return {true, left, right};
   return {false, up, down};
 }
 
-Rgba8 resolve(const spec::geometric::Rules& rules, const Tap& tap, const Rgba8& pixel,
+Rgba8 resolve(const spec::geometric::Configuration& configuration, const Probe& probe, const Rgba8& pixel,
               const Rgba8& first, const Rgba8& second) {
   const auto fine = [](int share) { return share << spec::morphological::kMixFractionBits; };
-  Rgba8 result = morphological::blend(rules.linear_light, pixel, first, second,
-                                      {fine(tap.first), fine(tap.second)});
-  if (rules.mark) result[3] = static_cast<std::uint8_t>(result[3] & 0xFE);
+  Rgba8 result = morphological::blend(configuration.linear_light, pixel, first, second,
+                                      {fine(probe.first), fine(probe.second)});
+  if (configuration.mark) result[3] = static_cast<std::uint8_t>(result[3] & 0xFE);
   return result;
 }
 

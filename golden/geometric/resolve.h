@@ -15,16 +15,16 @@ void combine(spec::geometric::Combine rule, bool nearer, spec::geometric::Weight
              spec::geometric::Direction direction, std::uint8_t coverage);
 
 // The two weights that a pixel is blended with.
-struct Tap {
+struct Probe {
   bool left_right = false;
   int first = 0, second = 0;  // of up and down, or of left and right
 };
-Tap tap_of(const spec::geometric::Weights& weights);
+Probe probe_of(const spec::geometric::Weights& weights);
 constexpr bool is_blended(const spec::geometric::Weights& w) {
   return (w[0] | w[1] | w[2] | w[3]) != 0;
 }
 
-spec::geometric::Rgba8 resolve(const spec::geometric::Rules& rules, const Tap& tap,
+spec::geometric::Rgba8 resolve(const spec::geometric::Configuration& configuration, const Probe& probe,
                                const spec::geometric::Rgba8& pixel,
                                const spec::geometric::Rgba8& first,
                                const spec::geometric::Rgba8& second);

@@ -3,7 +3,7 @@
 // half-plane or a disc covers, and the areas that Reshetov cuts off between a line and a run of
 // edges.
 //
-// Truth for the quality tables and the error bound of the integer areas (paper 000, section 2;
+// Reference for the quality tables and the error bound of the integer areas (paper 000, section 2;
 // docs/reference/morphological/formats.md, "Line through a run", "Area", without any rounding).
 #pragma once
 

@@ -2,7 +2,7 @@
 // Geometric post-process anti-aliasing in real numbers: the paper's equations with exact fractions,
 // no rounding of positions, weights or colours.
 //
-// Truth for the bit-exact golden's arithmetic (paper 002, equations (6) to (8), with the
+// Reference for the bit-exact golden's arithmetic (paper 002, equations (6) to (8), with the
 // corrections of docs/reference/geometric/algorithm.md). What the method itself cannot do it cannot
 // do either; that is measured against supersampling.
 #pragma once

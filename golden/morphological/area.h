@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Area between the line of a run and its edge, pixel by pixel: the shares of the pixels beside it.
+// Area between the line of a run and its edge, pixel by pixel: the weights of the pixels beside it.
 //
 // After LineUnit; docs/reference/morphological/formats.md, "Area". Trapezoids, and two triangles
 // where the line crosses the edge (Reshetov). Error against real arithmetic on the same corners:
-// 0.57 of a share's unit for runs that are not extended, 0.8 for any, 1.07 where two triangles add
+// 0.57 of a weight's unit for runs that are not extended, 0.8 for any, 1.07 where two triangles add
 // up in one pixel of a U (tb/oracle/morphological_area_test.cpp, every length and shape).
 #pragma once
 
@@ -17,10 +17,10 @@
 
 namespace deburr::golden::morphological {
 
-// Shares of the two pixels of an edge, U0.8: what each takes of the pixel across.
-struct EdgeShares {
+// Weights of the two pixels of an edge, U0.8: what each takes of the pixel across.
+struct EdgeWeights {
   std::uint8_t first = 0, second = 0;
-  friend bool operator==(const EdgeShares&, const EdgeShares&) = default;
+  friend bool operator==(const EdgeWeights&, const EdgeWeights&) = default;
 };
 
 // The two areas of one pixel of the run, U0.8, before a side is named.
@@ -47,8 +47,8 @@ constexpr Areas areas(std::int64_t t0, std::int64_t t1, std::uint32_t inverse) {
   return {triangle(q0), triangle(q1)};
 }
 
-// Shares of the edge of pixel k of the record, 0 <= k < length.
-constexpr EdgeShares shares(const spec::morphological::LineRecord& line, int k) {
+// Weights of the edge of pixel k of the record, 0 <= k < length.
+constexpr EdgeWeights weights(const spec::morphological::LineDescriptor& line, int k) {
   const Areas a = areas(height(line, k), height(line, k + 1), line.inverse);
   const auto of = [&](spec::morphological::Side side) {
     const int sum = (line.before == side ? a.before : 0) + (line.after == side ? a.after : 0);

@@ -176,7 +176,7 @@ int table_root(int distance) {
   return static_cast<int>(isqrt(65536 * static_cast<std::uint64_t>(distance)));
 }
 
-EdgeShares table_shares(int shape, int before, int after, AreaValues values) {
+EdgeWeights table_weights(int shape, int before, int after, AreaValues values) {
   static const FullAreaTable exact(AreaValues::kExact), published(AreaValues::kPublished);
   const FullAreaTable& table = values == AreaValues::kExact ? exact : published;
   static const auto roots = [] {
@@ -199,7 +199,7 @@ EdgeShares table_shares(int shape, int before, int after, AreaValues values) {
           interpolated(e00.second, e10.second, e01.second, e11.second)};
 }
 
-LineEnds line_ends(const spec::morphological::LineRecord& line) {
+LineEnds line_ends(const spec::morphological::LineDescriptor& line) {
   constexpr std::int64_t kHalf = std::int64_t{1} << 23;
   // How far above the line's lower end the record begins, in steps, S5.12.
   const std::int64_t begin = (height(line, 0) + kHalf + 2048) >> 12;
@@ -212,7 +212,7 @@ LineEnds line_ends(const spec::morphological::LineRecord& line) {
           (line.run.endless & 2) != 0 ? 4095 : ends.last};
 }
 
-TableAddress table_address(const spec::morphological::LineRecord& line, const LineEnds& ends,
+TableAddress table_address(const spec::morphological::LineDescriptor& line, const LineEnds& ends,
                            int search_steps, int k) {
   const int left = 2 * search_steps - 1, right = 2 * search_steps;
   const int before = std::max(0, k - ends.first), after = std::max(0, ends.last - 1 - k);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SMAA's area table: the shares of a pixel by the distances to the two ends of its run and the
+// SMAA's area table: the weights of a pixel by the distances to the two ends of its run and the
 // pattern that its crossing edges make.
 //
 // After LineUnit, in place of area.h; docs/reference/morphological/smaa.md, "Areas from tables";
@@ -81,9 +81,9 @@ class MinimalAreaTable {
 
 // S(d), U4.8: the root by which a tile is read.
 int table_root(int distance);
-// Shares of a pixel `before` pixels from the start and `after` from the end of a run of this shape,
+// Weights of a pixel `before` pixels from the start and `after` from the end of a run of this shape,
 // both 0..kTableDistances - 1.
-EdgeShares table_shares(
+EdgeWeights table_weights(
     int shape, int before, int after,
     spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact);
 
@@ -92,7 +92,7 @@ EdgeShares table_shares(
 struct LineEnds {
   int first = 0, last = 0;
 };
-LineEnds line_ends(const spec::morphological::LineRecord& line);
+LineEnds line_ends(const spec::morphological::LineDescriptor& line);
 
 // What the searches of pixel k of the record see that end after `search_steps` (N).
 enum class SearchEnd : std::uint8_t { kWithin, kAtLimit, kBeyond };
@@ -105,12 +105,12 @@ struct TableAddress {
     return (start == SearchEnd::kBeyond ? 0 : far & 3) | (end == SearchEnd::kBeyond ? 0 : far & 12);
   }
 };
-TableAddress table_address(const spec::morphological::LineRecord& line, const LineEnds& ends,
+TableAddress table_address(const spec::morphological::LineDescriptor& line, const LineEnds& ends,
                            int search_steps, int k);
-inline EdgeShares table_shares(
+inline EdgeWeights table_weights(
     const TableAddress& address,
     spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact) {
-  return table_shares(address.shape, address.before, address.after, values);
+  return table_weights(address.shape, address.before, address.after, values);
 }
 
 }  // namespace deburr::golden::morphological

@@ -13,8 +13,8 @@ namespace deburr::golden::morphological {
 
 namespace {
 
-// What is decided if not both axes have shares.
-std::optional<Decision> decide_without_choice(const PixelShares& s) {
+// What is decided if not both axes have weights.
+std::optional<Decision> decide_without_choice(const PixelWeights& s) {
   const bool vertical_pair = (s.up | s.down) != 0;
   const bool horizontal_pair = (s.left | s.right) != 0;
   if (!vertical_pair) return horizontal_pair ? Decision::kOnlyLeftRight : Decision::kNone;
@@ -29,42 +29,42 @@ Decision stronger(int vertical, int horizontal) {
 
 }  // namespace
 
-Decision decide_by_length(const PixelShares& s) {
+Decision decide_by_length(const PixelWeights& s) {
   if (const auto decision = decide_without_choice(s)) return *decision;
   if (s.span_horizontal > s.span_vertical) return Decision::kLongerUpDown;
   if (s.span_horizontal < s.span_vertical) return Decision::kLongerLeftRight;
   return stronger(s.up + s.down, s.left + s.right);
 }
 
-Decision decide_by_strength(const PixelShares& s) {
+Decision decide_by_strength(const PixelWeights& s) {
   if (const auto decision = decide_without_choice(s)) return *decision;
   return stronger(std::max(s.up, s.down), std::max(s.left, s.right));
 }
 
-spec::morphological::BlendTap tap_of(const PixelShares& s, Decision decision) {
-  spec::morphological::BlendTap tap;
-  tap.horizontal = is_horizontal(decision);
-  tap.first = static_cast<std::uint8_t>(tap.horizontal ? s.left : s.up);
-  tap.second = static_cast<std::uint8_t>(tap.horizontal ? s.right : s.down);
-  return tap;
+spec::morphological::BlendProbe probe_of(const PixelWeights& s, Decision decision) {
+  spec::morphological::BlendProbe probe;
+  probe.horizontal = is_horizontal(decision);
+  probe.first = static_cast<std::uint8_t>(probe.horizontal ? s.left : s.up);
+  probe.second = static_cast<std::uint8_t>(probe.horizontal ? s.right : s.down);
+  return probe;
 }
 
-Weights unmixed(const spec::morphological::BlendTap& tap) {
+Weights unmixed(const spec::morphological::BlendProbe& probe) {
   constexpr int kUnit = 1 << spec::morphological::kMixFractionBits;
-  return {kUnit * tap.first, kUnit * tap.second};
+  return {kUnit * probe.first, kUnit * probe.second};
 }
 
 std::uint32_t mix_reciprocal(int sum) {
   return sum == 0 ? 0 : static_cast<std::uint32_t>(rdiv(1 << 20, static_cast<std::uint64_t>(sum)));
 }
 
-Weights mixed_by_squares(const spec::morphological::BlendTap& tap) {
-  if (tap.first == 0 || tap.second == 0) return unmixed(tap);
-  const std::uint64_t reciprocal = mix_reciprocal(tap.first + tap.second);
-  const auto mixed = [&](std::uint64_t share) {
-    return static_cast<int>((share * share * reciprocal + (1 << 15)) >> 16);
+Weights mixed_by_squares(const spec::morphological::BlendProbe& probe) {
+  if (probe.first == 0 || probe.second == 0) return unmixed(probe);
+  const std::uint64_t reciprocal = mix_reciprocal(probe.first + probe.second);
+  const auto mixed = [&](std::uint64_t weight) {
+    return static_cast<int>((weight * weight * reciprocal + (1 << 15)) >> 16);
   };
-  return {mixed(tap.first), mixed(tap.second)};
+  return {mixed(probe.first), mixed(probe.second)};
 }
 
 int blend_channel(bool linear_light, int c, int n1, int n2, Weights weights) {

@@ -2,7 +2,7 @@
 // Edges by colour: left and top edge bits from the largest step of R, G and B.
 //
 // In place of luma.h where source = colour, with the local contrast of edges.h said once more for
-// steps of a byte, whole rows at a time; docs/reference/morphological/learned_shares.md, "Edges
+// steps of a byte, whole rows at a time; docs/reference/morphological/learned_weights.md, "Edges
 // from colour". Ours.
 #pragma once
 

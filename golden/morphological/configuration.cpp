@@ -8,12 +8,12 @@
 namespace deburr::golden::morphological {
 
 spec::morphological::Parameters following_geometric(spec::morphological::Parameters p) {
-  const spec::morphological::FollowingRules rules;
-  p.leave = rules.leave;
+  const spec::morphological::FollowingRules configuration;
+  p.leave = configuration.leave;
   if (p.threshold_mode == spec::morphological::ThresholdMode::kDynamic) return p;
-  p.edge_source = rules.edge_source;
-  p.threshold_on_depth_edge = rules.threshold_on_depth_edge;
-  p.threshold_off_depth_edge = rules.threshold_off_depth_edge;
+  p.edge_source = configuration.edge_source;
+  p.threshold_on_depth_edge = configuration.threshold_on_depth_edge;
+  p.threshold_off_depth_edge = configuration.threshold_off_depth_edge;
   return p;
 }
 

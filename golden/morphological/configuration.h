@@ -18,10 +18,10 @@ spec::morphological::Parameters following_geometric(spec::morphological::Paramet
 void check_frame(const spec::morphological::Parameters& parameters, int width, int height);
 
 // R, the reach in rows.
-inline int reach_rows(const spec::morphological::Parameters& p) { return p.window_rows / 2 - 1; }
+inline int search_rows(const spec::morphological::Parameters& p) { return p.window_rows / 2 - 1; }
 // Longest run of an axis, and how far a run may be extended.
-inline int reach(const spec::morphological::Parameters& p, spec::morphological::Axis axis) {
-  return axis == spec::morphological::Axis::kHorizontal ? p.reach_columns : reach_rows(p);
+inline int search_range(const spec::morphological::Parameters& p, spec::morphological::Axis axis) {
+  return axis == spec::morphological::Axis::kHorizontal ? p.search_columns : search_rows(p);
 }
 
 }  // namespace deburr::golden::morphological

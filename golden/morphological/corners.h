@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Corner rounding: less share where a crossing edge goes on for a second pixel, since a corner is
+// Corner rounding: less weight where a crossing edge goes on for a second pixel, since a corner is
 // then sharp because it was drawn so.
 //
 // After area.h or area_table.h; docs/reference/morphological/smaa.md, "Corners". SMAA, section 4.3.
@@ -11,16 +11,16 @@
 
 namespace deburr::golden::morphological {
 
-// Shares of a pixel `before` pixels from the start and `after` from the end of its run, whose ends
+// Weights of a pixel `before` pixels from the start and `after` from the end of its run, whose ends
 // have these far bits; `stays` is corner_rounding, 256 keeps all.
-constexpr EdgeShares rounded_at_corners(const EdgeShares& shares, int far, int stays, int before,
+constexpr EdgeWeights rounded_at_corners(const EdgeWeights& weights, int far, int stays, int before,
                                         int after) {
-  const auto rounded = [&](int share, int side) {
+  const auto rounded = [&](int weight, int side) {
     const int start = far >> side & 1, end = far >> (side + 2) & 1;
     const int halves = before < after ? 2 * start : before > after ? 2 * end : start + end;
-    return static_cast<std::uint8_t>((share * (512 - (256 - stays) * halves) + 256) >> 9);
+    return static_cast<std::uint8_t>((weight * (512 - (256 - stays) * halves) + 256) >> 9);
   };
-  return {rounded(shares.first, 0), rounded(shares.second, 1)};
+  return {rounded(weights.first, 0), rounded(weights.second, 1)};
 }
 
 }  // namespace deburr::golden::morphological

@@ -103,13 +103,13 @@ DiagonalAreas exact_areas(std::span<const Line> lines, int d1, int d2) {
 DiagonalAreas published_areas(std::span<const Line> lines, int d1, int d2) {
   const int n = d1 + d2 + 1;
   double above = 0, below = 0;
-  const auto share = [](std::uint64_t samples) {
+  const auto weight = [](std::uint64_t samples) {
     return static_cast<double>(samples) / static_cast<double>(kAll);
   };
   for (const Line& line : lines) {
     const Point to{line.to.x + n, line.to.y + n};
-    above += 1 - share(samples_counted_below(line.from, to, 1 + d1, d1));
-    below += share(samples_counted_below(line.from, to, 1 + d1, 1 + d1));
+    above += 1 - weight(samples_counted_below(line.from, to, 1 + d1, d1));
+    below += weight(samples_counted_below(line.from, to, 1 + d1, 1 + d1));
   }
   const auto area = [&](double sum) {
     const auto byte = static_cast<std::uint64_t>(255 * (sum / static_cast<double>(lines.size())));
@@ -201,24 +201,24 @@ DiagonalEnds falling_diagonal(const EdgePlanes& edges, int steps, int x, int y, 
   return ends;
 }
 
-DiagonalShares diagonal_shares(const DiagonalEnds& rising, const DiagonalEnds& falling,
+DiagonalWeights diagonal_weights(const DiagonalEnds& rising, const DiagonalEnds& falling,
                                AreaValues values) {
-  DiagonalShares shares;
+  DiagonalWeights weights;
   const auto areas = [&](const DiagonalEnds& ends) {
-    shares.span = std::max(shares.span, ends.d1 + ends.d2 + 1);
+    weights.span = std::max(weights.span, ends.d1 + ends.d2 + 1);
     return diagonal_table(values).at(ends.e1, ends.e2, ends.d1, ends.d2);
   };
   if (rising.counts()) {
     const DiagonalAreas found = areas(rising);
-    shares.second += found.a;
-    shares.first += found.b;
+    weights.second += found.a;
+    weights.first += found.b;
   }
   if (falling.counts()) {
     const DiagonalAreas found = areas(falling);
-    shares.first += found.a;
-    shares.second += found.b;
+    weights.first += found.a;
+    weights.second += found.b;
   }
-  return shares;
+  return weights;
 }
 
 }  // namespace deburr::golden::morphological

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Diagonal patterns: edges that step by one pixel and one row, and the shares of the line along
+// Diagonal patterns: edges that step by one pixel and one row, and the weights of the line along
 // them.
 //
-// Beside the runs, whose shares they replace; docs/reference/morphological/smaa.md, "Diagonals";
+// Beside the runs, whose weights they replace; docs/reference/morphological/smaa.md, "Diagonals";
 // docs/reference/morphological/formats.md, "Diagonal table". Jimenez et al., SMAA, 2012,
 // section 4.2.
 #pragma once
@@ -56,13 +56,13 @@ DiagonalEnds falling_diagonal(
     const EdgePlanes& edges, int steps, int x, int y,
     spec::morphological::Border border = spec::morphological::Border::kEnd);
 
-// Shares of a top edge from its diagonals, not limited; both 0 where it has none.
-struct DiagonalShares {
+// Weights of a top edge from its diagonals, not limited; both 0 where it has none.
+struct DiagonalWeights {
   int first = 0, second = 0;
   int span = 0;
   bool taken() const { return first + second != 0; }
 };
-DiagonalShares diagonal_shares(
+DiagonalWeights diagonal_weights(
     const DiagonalEnds& rising, const DiagonalEnds& falling,
     spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact);
 

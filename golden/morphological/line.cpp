@@ -19,7 +19,7 @@ std::uint32_t inverse_slope(std::int64_t pixels, std::uint32_t factor) {
 }
 
 // The least-squares line through all corners: sums of X_i and of J_i X_i, J_i = 2 i - (r + 1 - l).
-void fit(const Prediction& p, int length, spec::morphological::LineRecord& line) {
+void fit(const Prediction& p, int length, spec::morphological::LineDescriptor& line) {
   const int l = p.left.steps, r = p.right.steps, m = l + r + 2;
   std::int32_t sum = length;
   std::int64_t weighted = std::int64_t{length} * (2 - (r + 1 - l));  // corners 0 and 1
@@ -42,7 +42,7 @@ void fit(const Prediction& p, int length, spec::morphological::LineRecord& line)
 }
 
 // The line through the two outermost corners.
-void chord(const Prediction& p, spec::morphological::LineRecord& line) {
+void chord(const Prediction& p, spec::morphological::LineDescriptor& line) {
   const auto n = static_cast<std::uint64_t>(p.left.steps + p.right.steps) + 1;
   const std::int32_t distance = p.right.end - p.left.end;
   line.scale = 2;
@@ -52,25 +52,25 @@ void chord(const Prediction& p, spec::morphological::LineRecord& line) {
 }
 
 // One end of an L as long as the reach, of which the record holds only the outer half.
-void end_of_long_run(const spec::morphological::RunRecord& run, int reach,
-                     spec::morphological::LineRecord& line) {
+void end_of_long_run(const spec::morphological::RunDescriptor& run, int search_range,
+                     spec::morphological::LineDescriptor& line) {
   line.scale = 2;
-  line.offset = run.part == spec::morphological::RunPart::kHead ? reach : 2 * run.length - reach;
-  line.slope = static_cast<std::uint32_t>(rdiv(kOne, 2 * static_cast<std::uint64_t>(reach)));
-  line.inverse = static_cast<std::uint32_t>(reach) << spec::morphological::kInverseFractionBits;
+  line.offset = run.part == spec::morphological::RunPart::kHead ? search_range : 2 * run.length - search_range;
+  line.slope = static_cast<std::uint32_t>(rdiv(kOne, 2 * static_cast<std::uint64_t>(search_range)));
+  line.inverse = static_cast<std::uint32_t>(search_range) << spec::morphological::kInverseFractionBits;
 }
 
 }  // namespace
 
-spec::morphological::LineRecord line_through(const spec::morphological::Parameters& parameters,
-                                             const spec::morphological::RunRecord& run,
+spec::morphological::LineDescriptor line_through(const spec::morphological::Parameters& parameters,
+                                             const spec::morphological::RunDescriptor& run,
                                              const Prediction& prediction) {
-  spec::morphological::LineRecord line;
+  spec::morphological::LineDescriptor line;
   line.run = run;
   line.before = spec::morphological::kRunShapes[run.shape].before;
   line.after = spec::morphological::kRunShapes[run.shape].after;
   if (run.part != spec::morphological::RunPart::kWhole) {
-    const int longest = reach(parameters, run.axis);
+    const int longest = search_range(parameters, run.axis);
     end_of_long_run(run, longest, line);
     line.span = static_cast<std::uint16_t>(longest + 1);
     return line;

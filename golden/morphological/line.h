@@ -13,12 +13,12 @@
 
 namespace deburr::golden::morphological {
 
-spec::morphological::LineRecord line_through(const spec::morphological::Parameters& parameters,
-                                             const spec::morphological::RunRecord& run,
+spec::morphological::LineDescriptor line_through(const spec::morphological::Parameters& parameters,
+                                             const spec::morphological::RunDescriptor& run,
                                              const Prediction& prediction);
 
 // t(X), S.24: height of the line over the edge at position X, in steps.
-constexpr std::int64_t height(const spec::morphological::LineRecord& line, int position) {
+constexpr std::int64_t height(const spec::morphological::LineDescriptor& line, int position) {
   const std::int64_t numerator = std::int64_t{line.scale} * position - line.offset;
   return numerator * line.slope +
          std::int64_t{line.shift} * (1 << (spec::morphological::kRecipFractionBits - 1));

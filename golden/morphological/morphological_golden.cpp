@@ -28,20 +28,20 @@ bool from_table(const spec::morphological::Parameters& parameters) {
          parameters.area != spec::morphological::AreaSource::kLearned;
 }
 
-// A record whose shares come from the ROMs.
-spec::morphological::LineRecord without_line(const AxisEdges& edges,
-                                             const spec::morphological::RunRecord& run, int reach) {
+// A record whose weights come from the ROMs.
+spec::morphological::LineDescriptor without_line(const AxisEdges& edges,
+                                             const spec::morphological::RunDescriptor& run, int search_range) {
   using spec::morphological::RunPart;
-  spec::morphological::LineRecord record;
-  record.run = run;
-  record.learned = true;
-  record.scale = 0;
-  const int room = run.part == RunPart::kWhole ? reach - run.length : 0;
+  spec::morphological::LineDescriptor descriptor;
+  descriptor.run = run;
+  descriptor.learned = true;
+  descriptor.scale = 0;
+  const int room = run.part == RunPart::kWhole ? search_range - run.length : 0;
   if (run.part != RunPart::kTail)
-    record.start_class = static_cast<std::uint8_t>(crossing_class(edges, run, false, room));
+    descriptor.start_class = static_cast<std::uint8_t>(crossing_class(edges, run, false, room));
   if (run.part != RunPart::kHead)
-    record.end_class = static_cast<std::uint8_t>(crossing_class(edges, run, true, room));
-  return record;
+    descriptor.end_class = static_cast<std::uint8_t>(crossing_class(edges, run, true, room));
+  return descriptor;
 }
 
 template <class Pixel>
@@ -56,7 +56,7 @@ void check_view(const ViewOf<Pixel>& view, const char* what) {
 
 }  // namespace
 
-void MorphologicalGolden::AxisShares::count_edges() {
+void MorphologicalGolden::AxisWeights::count_edges() {
   edges_before.clear();
   std::uint32_t count = 0;
   for (int line = 0; line < edges.along.height(); ++line) {
@@ -65,11 +65,11 @@ void MorphologicalGolden::AxisShares::count_edges() {
       count += static_cast<std::uint32_t>(bits_of(edges.along.row(line)[i]));
     }
   }
-  shares.clear();
-  shares.reserve(count);
+  weights.clear();
+  weights.reserve(count);
 }
 
-std::size_t MorphologicalGolden::AxisShares::index(int position, int line) const {
+std::size_t MorphologicalGolden::AxisWeights::index(int position, int line) const {
   const int word = position >> 6, bit = position & 63;
   const std::uint64_t earlier = edges.along.row(line)[word] & ((std::uint64_t{1} << bit) - 1);
   const std::size_t base =
@@ -78,8 +78,8 @@ std::size_t MorphologicalGolden::AxisShares::index(int position, int line) const
   return base + bits_of(earlier);
 }
 
-MorphologicalGolden::Share MorphologicalGolden::AxisShares::at(int position, int line) const {
-  return edges.along.at(position, line) ? shares[index(position, line)] : Share{};
+MorphologicalGolden::Weight MorphologicalGolden::AxisWeights::at(int position, int line) const {
+  return edges.along.at(position, line) ? weights[index(position, line)] : Weight{};
 }
 
 MorphologicalGolden::MorphologicalGolden(const spec::morphological::Parameters& parameters,
@@ -127,7 +127,7 @@ void MorphologicalGolden::smooth(const ImageView& image) {
   // them.
   if (pixels_.size() != pixels) pixels_.assign(image.pixels.data(), image.pixels.data() + pixels);
   if (everything_) {
-    taps_.assign(pixels, {});
+    probes_.assign(pixels, {});
     decisions_.assign(pixels, Decision::kNone);
   }
 
@@ -147,11 +147,11 @@ void MorphologicalGolden::smooth(const ImageView& image) {
   const ImageView source = as_read_back(image);
   for (int y = 0; y < image.height; ++y) blend_row(source, y);
   if (everything_) {
-    coverage_.count_pixels(Decision::kNone, pixels - work_.blended_pixels - work_.left_pixels);
+    coverage_.count_pixels(Decision::kNone, pixels - work_.blended_pixels - work_.bypassed_pixels);
   }
 }
 
-void MorphologicalGolden::process_axis(AxisShares& axis) {
+void MorphologicalGolden::process_axis(AxisWeights& axis) {
   axis.count_edges();
   std::uint64_t& runs = axis.edges.axis == spec::morphological::Axis::kHorizontal
                             ? work_.horizontal_runs
@@ -159,24 +159,24 @@ void MorphologicalGolden::process_axis(AxisShares& axis) {
   for (int line = 0; line < axis.edges.along.height(); ++line) {
     for_each_run(axis.edges, parameters_.ends, line, [&](int first, int end) {
       ++runs;
-      const RunParts parts = records_of(parameters_, axis.edges, line, first, end);
-      process_record(axis, parts.record[0]);
+      const RunParts parts = descriptors_of(parameters_, axis.edges, line, first, end);
+      process_descriptor(axis, parts.descriptor[0]);
       if (parts.count == 1) return;
       ++work_.long_runs;
-      const spec::morphological::RunRecord& tail = parts.record[1];
-      const int between = tail.start - (first + parts.record[0].length);
-      share_gap(axis, between);
-      process_record(axis, tail);
+      const spec::morphological::RunDescriptor& tail = parts.descriptor[1];
+      const int between = tail.start - (first + parts.descriptor[0].length);
+      weight_gap(axis, between);
+      process_descriptor(axis, tail);
     });
   }
 }
 
-void MorphologicalGolden::process_record(AxisShares& axis,
-                                         const spec::morphological::RunRecord& run) {
+void MorphologicalGolden::process_descriptor(AxisWeights& axis,
+                                         const spec::morphological::RunDescriptor& run) {
   const Prediction prediction = predict(parameters_, axis.edges, run);
   const bool learned = is_learned(run, prediction);
-  const spec::morphological::LineRecord line =
-      learned ? without_line(axis.edges, run, reach(parameters_, run.axis))
+  const spec::morphological::LineDescriptor line =
+      learned ? without_line(axis.edges, run, search_range(parameters_, run.axis))
               : line_through(parameters_, run, prediction);
   const int steps = prediction.left.steps + prediction.right.steps;
   if (run.part == spec::morphological::RunPart::kWhole &&
@@ -186,16 +186,16 @@ void MorphologicalGolden::process_record(AxisShares& axis,
   work_.steps += static_cast<std::uint64_t>(steps);
   work_.probes += static_cast<std::uint64_t>(prediction.probes);
   if (learned) {
-    share_learned(axis, line);
+    weight_learned(axis, line);
   } else if (line.before != spec::morphological::Side::kNone ||
              line.after != spec::morphological::Side::kNone) {
     ++work_.divides;
-    share(axis, line);
+    weight(axis, line);
   } else {
-    axis.shares.resize(axis.shares.size() + run.length);
+    axis.weights.resize(axis.weights.size() + run.length);
   }
   if (!everything_) return;
-  if (learned) learned_coverage_.count_record(line);
+  if (learned) learned_coverage_.count_descriptor(line);
   count_searches(line, axis.edges.along.width());
   coverage_.count_run(run, prediction, axis.edges.along.width(), axis.edges.along.height());
   runs_.push_back({line, static_cast<std::int16_t>(prediction.left.end),
@@ -205,7 +205,7 @@ void MorphologicalGolden::process_record(AxisShares& axis,
                    prediction.right.outcome, prediction.left.why, prediction.right.why});
 }
 
-bool MorphologicalGolden::is_learned(const spec::morphological::RunRecord& run,
+bool MorphologicalGolden::is_learned(const spec::morphological::RunDescriptor& run,
                                      const Prediction& prediction) const {
   if (parameters_.area != spec::morphological::AreaSource::kLearned) return false;
   if (run.part != spec::morphological::RunPart::kWhole ||
@@ -215,59 +215,59 @@ bool MorphologicalGolden::is_learned(const spec::morphological::RunRecord& run,
          run.length < spec::morphological::kLongZ;
 }
 
-void MorphologicalGolden::share_learned(AxisShares& axis,
-                                        const spec::morphological::LineRecord& line) {
+void MorphologicalGolden::weight_learned(AxisWeights& axis,
+                                        const spec::morphological::LineDescriptor& line) {
   const LearnedEnds first(line, spec::morphological::Side::kFirst);
   const LearnedEnds second(line, spec::morphological::Side::kSecond);
-  const auto look_up = [&](const ShareIndices& i) {
-    if (everything_) learned_coverage_.count_share(i);
-    return static_cast<std::uint8_t>(learned_share(tables_, i));
+  const auto look_up = [&](const WeightIndices& i) {
+    if (everything_) learned_coverage_.count_weight(i);
+    return static_cast<std::uint8_t>(learned_weight(tables_, i));
   };
   for (int k = 0; k < line.run.length; ++k)
-    axis.shares.push_back({look_up(first.of_pixel(k)), look_up(second.of_pixel(k)), 0});
+    axis.weights.push_back({look_up(first.of_pixel(k)), look_up(second.of_pixel(k)), 0});
 }
 
 // Edges between the head and the tail of a long run, one at least.
-void MorphologicalGolden::share_gap(AxisShares& axis, int edges) {
-  Share share;
+void MorphologicalGolden::weight_gap(AxisWeights& axis, int edges) {
+  Weight weight;
   if (parameters_.area == spec::morphological::AreaSource::kLearned) {
-    share.first = share.second = static_cast<std::uint8_t>(learned_share(tables_, kGapIndices));
-    if (everything_) learned_coverage_.count_share(kGapIndices);
+    weight.first = weight.second = static_cast<std::uint8_t>(learned_weight(tables_, kGapIndices));
+    if (everything_) learned_coverage_.count_weight(kGapIndices);
   }
-  axis.shares.resize(axis.shares.size() + static_cast<std::size_t>(edges), share);
+  axis.weights.resize(axis.weights.size() + static_cast<std::size_t>(edges), weight);
 }
 
-void MorphologicalGolden::share(AxisShares& axis,
-                                const spec::morphological::LineRecord& line) const {
-  const auto put = [&](const EdgeShares& s) {
-    axis.shares.push_back({s.first, s.second, line.span});
+void MorphologicalGolden::weight(AxisWeights& axis,
+                                const spec::morphological::LineDescriptor& line) const {
+  const auto put = [&](const EdgeWeights& s) {
+    axis.weights.push_back({s.first, s.second, line.span});
   };
-  const auto rounded = [&](const EdgeShares& s, int far, int before, int after) {
+  const auto rounded = [&](const EdgeWeights& s, int far, int before, int after) {
     return far == 0 ? s : rounded_at_corners(s, far, parameters_.corner_rounding, before, after);
   };
   if (from_table(parameters_)) {
     const LineEnds ends = line_ends(line);
     for (int k = 0; k < line.run.length; ++k) {
       const TableAddress address = table_address(line, ends, parameters_.search_steps, k);
-      put(rounded(table_shares(address, parameters_.area_values), address.far_seen(line.run.far),
+      put(rounded(table_weights(address, parameters_.area_values), address.far_seen(line.run.far),
                   address.before, address.after));
     }
     return;
   }
   // Of a long run the other end lies as far away as the reach.
   using spec::morphological::RunPart;
-  const int rest = reach(parameters_, line.run.axis) - line.run.length;
+  const int rest = search_range(parameters_, line.run.axis) - line.run.length;
   const int start = line.run.part == RunPart::kTail ? rest : 0,
             end = line.run.length + (line.run.part == RunPart::kHead ? rest : 0);
   for (int k = 0; k < line.run.length; ++k)
-    put(rounded(shares(line, k), line.run.far, k + start, end - 1 - k));
+    put(rounded(weights(line, k), line.run.far, k + start, end - 1 - k));
 }
 
 // Of every record, with sides or without.
-void MorphologicalGolden::count_searches(const spec::morphological::LineRecord& line, int extent) {
+void MorphologicalGolden::count_searches(const spec::morphological::LineDescriptor& line, int extent) {
   if (!from_table(parameters_)) return;
   if (parameters_.border == spec::morphological::Border::kClamp)
-    smaa_coverage_.count_record(line.run, extent);
+    smaa_coverage_.count_descriptor(line.run, extent);
   const LineEnds ends = line_ends(line);
   for (int k = 0; k < line.run.length; ++k) {
     const TableAddress address = table_address(line, ends, parameters_.search_steps, k);
@@ -315,14 +315,14 @@ void MorphologicalGolden::process_diagonals() {
           smaa_coverage_.count_diagonal(false, falling,
                                         y + falling.d2 >= height || x + falling.d2 >= width);
         }
-        const DiagonalShares found = diagonal_shares(rising, falling, parameters_.area_values);
+        const DiagonalWeights found = diagonal_weights(rising, falling, parameters_.area_values);
         if (!found.taken()) continue;
         ++work_.diagonal_pixels;
-        horizontal_.shares[horizontal_.index(x, y)] = {
+        horizontal_.weights[horizontal_.index(x, y)] = {
             static_cast<std::uint8_t>(std::min(most, found.first)),
             static_cast<std::uint8_t>(std::min(most, found.second)),
             static_cast<std::uint16_t>(found.span)};
-        if (edges_.left.at(x, y)) vertical_.shares[vertical_.index(y, x)] = {};
+        if (edges_.left.at(x, y)) vertical_.weights[vertical_.index(y, x)] = {};
       }
     }
   }
@@ -336,25 +336,25 @@ void MorphologicalGolden::put_runs_in_order(std::size_t first_vertical) {
                    });
 }
 
-PixelShares MorphologicalGolden::gather(int x, int y) const {
-  const Share up = horizontal_.at(x, y), down = horizontal_.at(x, y + 1);
-  const Share left = vertical_.at(y, x), right = vertical_.at(y, x + 1);
-  PixelShares s{up.second, down.first, left.second, right.first, 0, 0};
+PixelWeights MorphologicalGolden::gather(int x, int y) const {
+  const Weight up = horizontal_.at(x, y), down = horizontal_.at(x, y + 1);
+  const Weight left = vertical_.at(y, x), right = vertical_.at(y, x + 1);
+  PixelWeights s{up.second, down.first, left.second, right.first, 0, 0};
   s.span_horizontal = std::max(s.up != 0 ? up.span : 0, s.down != 0 ? down.span : 0);
   s.span_vertical = std::max(s.left != 0 ? left.span : 0, s.right != 0 ? right.span : 0);
   return s;
 }
 
-// The text guard and the rule `leave`, for a pixel that has a share.
-spec::morphological::BlendTap MorphologicalGolden::remaining_tap(
-    const ImageView& image, int x, int y, const spec::morphological::BlendTap& tap) {
+// The text guard and the rule `leave`, for a pixel that has a weight.
+spec::morphological::BlendProbe MorphologicalGolden::remaining_probe(
+    const ImageView& image, int x, int y, const spec::morphological::BlendProbe& probe) {
   const Marks marks = marks_of(parameters_.leave, image, x, y);
   if (parameters_.text_guard && guard_.at(x, y).guarded()) {
     if (everything_) guard_coverage_.count_kept(is_left(parameters_.leave, marks));
     return {};
   }
-  if (everything_) leave_coverage_.count_pixel(parameters_.leave, marks, tap, image, x, y);
-  return remaining(parameters_.leave, marks, tap);
+  if (everything_) bypass_coverage_.count_pixel(parameters_.leave, marks, probe, image, x, y);
+  return remaining(parameters_.leave, marks, probe);
 }
 
 // Only pixels beside an edge can change colour; they are visited a word of bits at a time.
@@ -375,7 +375,7 @@ void MorphologicalGolden::blend_row(const ImageView& image, int y) {
       blend_pixel(image, 64 * i + std::countr_zero(rest), y);
     }
   }
-  if (parameters_.leave != spec::morphological::Leave::kNone) {
+  if (parameters_.leave != spec::morphological::Bypass::kNone) {
     std::for_each_n(row_start, image.width, [](spec::morphological::Rgba8& pixel) {
       pixel[3] = static_cast<std::uint8_t>(pixel[3] | 1);
     });
@@ -383,31 +383,31 @@ void MorphologicalGolden::blend_row(const ImageView& image, int y) {
 }
 
 void MorphologicalGolden::blend_pixel(const ImageView& image, int x, int y) {
-  const PixelShares shares = gather(x, y);
+  const PixelWeights weights = gather(x, y);
   const bool strongest = parameters_.blend == spec::morphological::BlendRule::kStrongest;
-  const Decision decision = strongest ? decide_by_strength(shares) : decide_by_length(shares);
-  spec::morphological::BlendTap tap = tap_of(shares, decision);
-  if (decision != Decision::kNone) tap = remaining_tap(image, x, y, tap);
-  const bool left = (tap.first | tap.second) == 0;
+  const Decision decision = strongest ? decide_by_strength(weights) : decide_by_length(weights);
+  spec::morphological::BlendProbe probe = probe_of(weights, decision);
+  if (decision != Decision::kNone) probe = remaining_probe(image, x, y, probe);
+  const bool left = (probe.first | probe.second) == 0;
   const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                             static_cast<std::size_t>(x);
   if (everything_) {
-    tap.edges =
+    probe.edges =
         static_cast<std::uint8_t>((edges_.left.at(x, y) ? 1 : 0) | (edges_.top.at(x, y) ? 2 : 0));
-    taps_[index] = tap;
+    probes_[index] = probe;
     decisions_[index] = decision;
   }
   if (decision == Decision::kNone) return;
   if (everything_) coverage_.count_pixel(decision);
-  ++(left ? work_.left_pixels : work_.blended_pixels);
+  ++(left ? work_.bypassed_pixels : work_.blended_pixels);
   if (left) return;
-  // A neighbour without a share may lie outside the frame; the pixel itself stands in for it.
+  // A neighbour without a weight may lie outside the frame; the pixel itself stands in for it.
   const spec::morphological::Rgba8& pixel = image.at(x, y);
-  const int dx = tap.horizontal ? 1 : 0, dy = tap.horizontal ? 0 : 1;
-  const spec::morphological::Rgba8& first = tap.first != 0 ? image.at(x - dx, y - dy) : pixel;
-  const spec::morphological::Rgba8& second = tap.second != 0 ? image.at(x + dx, y + dy) : pixel;
+  const int dx = probe.horizontal ? 1 : 0, dy = probe.horizontal ? 0 : 1;
+  const spec::morphological::Rgba8& first = probe.first != 0 ? image.at(x - dx, y - dy) : pixel;
+  const spec::morphological::Rgba8& second = probe.second != 0 ? image.at(x + dx, y + dy) : pixel;
   pixels_[index] = blend(parameters_.linear_light, pixel, first, second,
-                         strongest ? mixed_by_squares(tap) : unmixed(tap));
+                         strongest ? mixed_by_squares(probe) : unmixed(probe));
 }
 
 std::vector<spec::morphological::FrameAccess> MorphologicalGolden::traffic(

@@ -5,7 +5,7 @@
 // No time, no SystemC, integers only (docs/reference/morphological/algorithm.md,
 // docs/reference/morphological/smaa.md, docs/reference/morphological/formats.md; papers 000, 001
 // and 003). The blocks are pure functions: luma.h or colour.h, edges.h, runs.h, predictor.h,
-// line.h, area.h or area_table.h or learned_shares.h, corners.h, diagonals.h, blend.h, leave.h,
+// line.h, area.h or area_table.h or learned_weights.h, corners.h, diagonals.h, blend.h, bypass.h,
 // text_guard.h, traffic.h; conversion of other images to codes: convert.h. MorphologicalGolden
 // strings them together over a frame. Edges are found for all pixels, row by row; after that only
 // edges and the pixels beside them cost time.
@@ -18,8 +18,8 @@
 #include "golden/morphological/area.h"
 #include "golden/morphological/blend.h"
 #include "golden/morphological/configuration.h"
-#include "golden/morphological/learned_shares.h"
-#include "golden/morphological/leave.h"
+#include "golden/morphological/learned_weights.h"
+#include "golden/morphological/bypass.h"
 #include "golden/morphological/planes.h"
 #include "golden/morphological/predictor.h"
 #include "golden/morphological/run_coverage.h"
@@ -33,7 +33,7 @@ namespace deburr::golden::morphological {
 // One record and what the predictor made of it. Positions count from line.run.start, before any
 // extension; the outermost corners lie at far_left <= 0 and far_right >= 1.
 struct PredictedRun {
-  spec::morphological::LineRecord line;
+  spec::morphological::LineDescriptor line;
   std::int16_t far_left = 0, far_right = 0;
   std::uint16_t probes = 0;
   std::uint8_t iterations = 0;
@@ -65,13 +65,13 @@ class MorphologicalGolden {
   int height() const { return edges_.left.height(); }
   const std::vector<spec::morphological::Rgba8>& pixels() const { return pixels_; }
   const EdgePlanes& edges() const { return edges_; }
-  // Shares of the top and of the left edge of a pixel, as the blender reads them.
-  EdgeShares top_shares(int x, int y) const { return horizontal_.at(x, y).of_edge(); }
-  EdgeShares left_shares(int x, int y) const { return vertical_.at(y, x).of_edge(); }
+  // Weights of the top and of the left edge of a pixel, as the blender reads them.
+  EdgeWeights top_weights(int x, int y) const { return horizontal_.at(x, y).of_edge(); }
+  EdgeWeights left_weights(int x, int y) const { return vertical_.at(y, x).of_edge(); }
   // Counters of this frame alone; hardware adds up until its counters are cleared.
   const spec::morphological::Work& work() const { return work_; }
   // With kEverything, else empty. Taps are the engine's, edge bits included.
-  const std::vector<spec::morphological::BlendTap>& taps() const { return taps_; }
+  const std::vector<spec::morphological::BlendProbe>& probes() const { return probes_; }
   const std::vector<Decision>& decisions() const { return decisions_; }
   // Every record in canonical order: horizontal by (row, start), then vertical by (start row,
   // column).
@@ -82,12 +82,12 @@ class MorphologicalGolden {
   // ---- of all frames ------------------------------------------------------------------------
   const RunCoverage& coverage() const { return coverage_; }
   const SmaaCoverage& smaa_coverage() const { return smaa_coverage_; }
-  const LeaveCoverage& leave_coverage() const { return leave_coverage_; }
+  const BypassCoverage& bypass_coverage() const { return bypass_coverage_; }
   const LearnedCoverage& learned_coverage() const { return learned_coverage_; }
   const GuardCoverage& guard_coverage() const { return guard_coverage_; }
   void clear_coverage() {
     coverage_ = {};
-    leave_coverage_ = {};
+    bypass_coverage_ = {};
     smaa_coverage_ = {};
     learned_coverage_ = {};
     guard_coverage_ = {};
@@ -100,40 +100,40 @@ class MorphologicalGolden {
   std::uint64_t memory_errors() const { return memory_errors_; }  // of the last frame
 
   // From the next frame on, as if written to the registers.
-  void set_share_tables(const ShareTables& tables) { tables_ = tables; }
+  void set_weight_tables(const WeightTables& tables) { tables_ = tables; }
 
   const spec::morphological::Parameters& parameters() const { return parameters_; }
 
  private:
-  struct Share {  // of one edge
+  struct Weight {  // of one edge
     std::uint8_t first = 0, second = 0;
     std::uint16_t span = 0;
-    EdgeShares of_edge() const { return {first, second}; }
+    EdgeWeights of_edge() const { return {first, second}; }
   };
-  // Shares of all edges of one axis, in the order of the bits of `edges.along`: nothing is stored
+  // Weights of all edges of one axis, in the order of the bits of `edges.along`: nothing is stored
   // for pixels without an edge.
-  struct AxisShares {
+  struct AxisWeights {
     AxisEdges edges;
-    std::vector<Share> shares;
+    std::vector<Weight> weights;
     std::vector<std::uint32_t> edges_before;  // each word of edges.along
     void count_edges();
-    std::size_t index(int position, int line) const;  // of the share of an edge
-    Share at(int position, int line) const;           // zero where there is no edge
+    std::size_t index(int position, int line) const;  // of the weight of an edge
+    Weight at(int position, int line) const;           // zero where there is no edge
   };
   void smooth(const ImageView& image);
-  void process_axis(AxisShares& axis);
-  void process_record(AxisShares& axis, const spec::morphological::RunRecord& run);
-  void share(AxisShares& axis, const spec::morphological::LineRecord& line) const;
-  void share_learned(AxisShares& axis, const spec::morphological::LineRecord& line);
-  void share_gap(AxisShares& axis, int edges);
-  bool is_learned(const spec::morphological::RunRecord& run, const Prediction& prediction) const;
-  void count_searches(const spec::morphological::LineRecord& line, int extent);
+  void process_axis(AxisWeights& axis);
+  void process_descriptor(AxisWeights& axis, const spec::morphological::RunDescriptor& run);
+  void weight(AxisWeights& axis, const spec::morphological::LineDescriptor& line) const;
+  void weight_learned(AxisWeights& axis, const spec::morphological::LineDescriptor& line);
+  void weight_gap(AxisWeights& axis, int edges);
+  bool is_learned(const spec::morphological::RunDescriptor& run, const Prediction& prediction) const;
+  void count_searches(const spec::morphological::LineDescriptor& line, int extent);
   void count_thresholds(const ImageView& image);
   void process_diagonals();
   void put_runs_in_order(std::size_t first_vertical);
-  PixelShares gather(int x, int y) const;
-  spec::morphological::BlendTap remaining_tap(const ImageView& image, int x, int y,
-                                              const spec::morphological::BlendTap& tap);
+  PixelWeights gather(int x, int y) const;
+  spec::morphological::BlendProbe remaining_probe(const ImageView& image, int x, int y,
+                                              const spec::morphological::BlendProbe& probe);
   void blend_row(const ImageView& image, int y);
   void blend_pixel(const ImageView& image, int x, int y);
   ImageView as_read_back(const ImageView& image);
@@ -142,18 +142,18 @@ class MorphologicalGolden {
   bool everything_;
   EdgePlanes edges_;
   TextGuard guard_;  // with text_guard
-  AxisShares horizontal_, vertical_;
+  AxisWeights horizontal_, vertical_;
   std::vector<spec::morphological::Rgba8> pixels_, read_back_;
-  std::vector<spec::morphological::BlendTap> taps_;
+  std::vector<spec::morphological::BlendProbe> probes_;
   std::vector<Decision> decisions_;
   std::vector<PredictedRun> runs_;
   spec::morphological::Work work_;
   RunCoverage coverage_;
   SmaaCoverage smaa_coverage_;
-  LeaveCoverage leave_coverage_;
+  BypassCoverage bypass_coverage_;
   LearnedCoverage learned_coverage_;
   GuardCoverage guard_coverage_;
-  ShareTables tables_;
+  WeightTables tables_;
   LinePredicate error_;
   std::uint32_t pixel_base_ = 0;
   std::uint64_t memory_errors_ = 0;

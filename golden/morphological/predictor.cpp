@@ -30,10 +30,10 @@ Candidates candidates(int length, int other) {
 class Trials {
  public:
   Trials(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
-         const spec::morphological::RunRecord& run)
+         const spec::morphological::RunDescriptor& run)
       : edges_(edges),
         contiguous_(parameters.contiguous),
-        reach_(reach(parameters, edges.axis)),
+        search_range_(search_range(parameters, edges.axis)),
         line_(run.line),
         origin_(run.start),
         length_(run.length),
@@ -45,7 +45,7 @@ class Trials {
   int right(int k, int x, const Candidates& steps) const {
     const int row = line_ + direction_ * (k + 1);
     for (const int s : steps) {
-      if (x + s <= reach_ && code(x + s, row) == end_code_ &&
+      if (x + s <= search_range_ && code(x + s, row) == end_code_ &&
           (!contiguous_ || (code(x, row) == start_code_ && unbroken(x, x + s, row)))) {
         return s;
       }
@@ -56,7 +56,7 @@ class Trials {
   int left(int k, int x, const Candidates& steps) const {
     const int row = line_ - direction_ * (k + 1);
     for (const int s : steps) {
-      if (x - s >= length_ - reach_ && code(x - s, row) == start_code_ &&
+      if (x - s >= length_ - search_range_ && code(x - s, row) == start_code_ &&
           (!contiguous_ || (code(x, row) == end_code_ && unbroken(x - s, x, row)))) {
         return s;
       }
@@ -66,8 +66,8 @@ class Trials {
 
   // The largest candidate of the next step lies beyond the reach: had the trial none, the window
   // ended and not the line.
-  bool out_of_reach_right(int x, int largest) const { return x + largest > reach_; }
-  bool out_of_reach_left(int x, int largest) const { return x - largest < length_ - reach_; }
+  bool out_of_search_range_right(int x, int largest) const { return x + largest > search_range_; }
+  bool out_of_search_range_left(int x, int largest) const { return x - largest < length_ - search_range_; }
 
  private:
   int code(int x, int row) const { return edges_.corner(origin_ + x, row); }
@@ -80,7 +80,7 @@ class Trials {
 
   const AxisEdges& edges_;
   bool contiguous_;
-  int reach_, line_, origin_, length_, start_code_, end_code_, direction_;
+  int search_range_, line_, origin_, length_, start_code_, end_code_, direction_;
 };
 
 // A side of the run while it grows.
@@ -105,7 +105,7 @@ struct Growth {
 
 // The paper, corrected: each side by itself.
 void extend_alone(const Trials& trials, int n, int length, Prediction& p) {
-  const auto extend = [&](Extension& side, auto&& trial, auto&& out_of_reach, int sign) {
+  const auto extend = [&](Extension& side, auto&& trial, auto&& out_of_search_range, int sign) {
     Growth growth{side, length};
     int other = 0;
     for (int k = 0; k < n; ++k) {
@@ -114,7 +114,7 @@ void extend_alone(const Trials& trials, int n, int length, Prediction& p) {
       p.iterations = std::max(p.iterations, k + 1);
       const int s = trial(k, side.end, steps);
       if (s == 0) {
-        return growth.close(out_of_reach(side.end, steps.largest()) ? SideEnd::kReach
+        return growth.close(out_of_search_range(side.end, steps.largest()) ? SideEnd::kReach
                                                                     : SideEnd::kNoHit);
       }
       growth.take(s, sign * s);
@@ -124,10 +124,10 @@ void extend_alone(const Trials& trials, int n, int length, Prediction& p) {
   };
   extend(
       p.right, [&](int k, int x, const Candidates& c) { return trials.right(k, x, c); },
-      [&](int x, int largest) { return trials.out_of_reach_right(x, largest); }, 1);
+      [&](int x, int largest) { return trials.out_of_search_range_right(x, largest); }, 1);
   extend(
       p.left, [&](int k, int x, const Candidates& c) { return trials.left(k, x, c); },
-      [&](int x, int largest) { return trials.out_of_reach_left(x, largest); }, -1);
+      [&](int x, int largest) { return trials.out_of_search_range_left(x, largest); }, -1);
 }
 
 // Ours: both sides in lockstep with one L', as far as one line explains every corner. The numbers
@@ -163,14 +163,14 @@ void extend_together(const Trials& trials, int n, int length, Prediction& p) {
     }
     if (s_r != 0) corners.add(r);  // 5
     if (s_l != 0) corners.add(l);
-    const auto settle = [&](Growth& growth, int s, int sign, bool out_of_reach) {
+    const auto settle = [&](Growth& growth, int s, int sign, bool out_of_search_range) {
       if (!growth.open) return;
-      if (s == 0) return growth.close(out_of_reach ? SideEnd::kReach : SideEnd::kNoHit);
+      if (s == 0) return growth.close(out_of_search_range ? SideEnd::kReach : SideEnd::kNoHit);
       growth.take(s, sign * s);
       if (s != length) other = s;
     };
-    settle(right, s_r, 1, trials.out_of_reach_right(p.right.end, steps.largest()));
-    settle(left, s_l, -1, trials.out_of_reach_left(p.left.end, steps.largest()));
+    settle(right, s_r, 1, trials.out_of_search_range_right(p.right.end, steps.largest()));
+    settle(left, s_l, -1, trials.out_of_search_range_left(p.left.end, steps.largest()));
   }
   close_both(SideEnd::kSteps);
 }
@@ -232,7 +232,7 @@ bool ConsistentSet::consistent_with(Corner a, Corner b) const {
 }
 
 Prediction predict(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
-                   const spec::morphological::RunRecord& run) {
+                   const spec::morphological::RunDescriptor& run) {
   Prediction p;
   p.right.end = run.length;
   if (parameters.predictor == spec::morphological::Predictor::kNone || parameters.steps == 0 ||

@@ -88,6 +88,6 @@ class ConsistentSet {
 // Extends `run` (of edges.axis). Without extension (see Outcome::kUntried) both ends are the run's
 // own.
 Prediction predict(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
-                   const spec::morphological::RunRecord& run);
+                   const spec::morphological::RunDescriptor& run);
 
 }  // namespace deburr::golden::morphological

@@ -62,7 +62,7 @@ std::size_t RunCoverage::length_bin(int length) {
                                   kUpTo.begin());
 }
 
-void RunCoverage::count_run(const spec::morphological::RunRecord& run, const Prediction& prediction,
+void RunCoverage::count_run(const spec::morphological::RunDescriptor& run, const Prediction& prediction,
                             int extent, int lines) {
   const std::size_t axis = index(run.axis), length = length_bin(run.length);
   if (run.part == spec::morphological::RunPart::kWhole) {

@@ -35,7 +35,7 @@ struct CoverageBin {
 class RunCoverage {
  public:
   // `extent`: pixels of the frame along the run; `lines`: across it.
-  void count_run(const spec::morphological::RunRecord& run, const Prediction& prediction,
+  void count_run(const spec::morphological::RunDescriptor& run, const Prediction& prediction,
                  int extent, int lines);
   void count_pixel(Decision decision) { count_pixels(decision, 1); }
   void count_pixels(Decision decision, std::uint64_t pixels) {

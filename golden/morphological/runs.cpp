@@ -33,11 +33,11 @@ int run_shape(const AxisEdges& edges, int line, int first, int end) {
   return edges.end_crossings(first, line) + 4 * edges.end_crossings(end, line);
 }
 
-RunParts records_of(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
+RunParts descriptors_of(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
                     int line, int first, int end) {
-  const auto record = [&](spec::morphological::RunPart part, int start, int length, int shape,
+  const auto descriptor = [&](spec::morphological::RunPart part, int start, int length, int shape,
                           int far, int endless) {
-    return spec::morphological::RunRecord{edges.axis,
+    return spec::morphological::RunDescriptor{edges.axis,
                                           part,
                                           static_cast<std::uint16_t>(line),
                                           static_cast<std::uint16_t>(start),
@@ -52,32 +52,32 @@ RunParts records_of(const spec::morphological::Parameters& parameters, const Axi
     return parameters.round_corners && !beyond ? edges.far_crossings(position, line) : 0;
   };
   const int far = far_of(first, (endless & 1) != 0) + 4 * far_of(end, (endless & 2) != 0);
-  const int longest = reach(parameters, edges.axis);
+  const int longest = search_range(parameters, edges.axis);
   if (end - first <= longest) {
     return {
-        {record(spec::morphological::RunPart::kWhole, first, end - first, shape, far, endless), {}},
+        {descriptor(spec::morphological::RunPart::kWhole, first, end - first, shape, far, endless), {}},
         1};
   }
   const int half = longest / 2;
   return {
-      {record(spec::morphological::RunPart::kHead, first, half, shape & 3, far & 3, endless & 1),
-       record(spec::morphological::RunPart::kTail, end - half, half, shape & 12, far & 12,
+      {descriptor(spec::morphological::RunPart::kHead, first, half, shape & 3, far & 3, endless & 1),
+       descriptor(spec::morphological::RunPart::kTail, end - half, half, shape & 12, far & 12,
               endless & 2)},
       2};
 }
 
-std::vector<spec::morphological::RunRecord> find_runs(
+std::vector<spec::morphological::RunDescriptor> find_runs(
     const spec::morphological::Parameters& parameters, const AxisEdges& edges) {
-  std::vector<spec::morphological::RunRecord> records;
+  std::vector<spec::morphological::RunDescriptor> descriptors;
   for (int line = 0; line < edges.along.height(); ++line) {
     for_each_run(edges, parameters.ends, line, [&](int first, int end) {
-      for (const spec::morphological::RunRecord& record :
-           records_of(parameters, edges, line, first, end)) {
-        records.push_back(record);
+      for (const spec::morphological::RunDescriptor& descriptor :
+           descriptors_of(parameters, edges, line, first, end)) {
+        descriptors.push_back(descriptor);
       }
     });
   }
-  return records;
+  return descriptors;
 }
 
 }  // namespace deburr::golden::morphological

@@ -67,16 +67,16 @@ int run_shape(const AxisEdges& edges, int line, int first, int end);
 
 // The records of one run, start first: one, or the head and the tail of a run beyond the reach.
 struct RunParts {
-  spec::morphological::RunRecord record[2];
+  spec::morphological::RunDescriptor descriptor[2];
   int count = 0;
-  const spec::morphological::RunRecord* begin() const { return record; }
-  const spec::morphological::RunRecord* end() const { return record + count; }
+  const spec::morphological::RunDescriptor* begin() const { return descriptor; }
+  const spec::morphological::RunDescriptor* end() const { return descriptor + count; }
 };
-RunParts records_of(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
+RunParts descriptors_of(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
                     int line, int first, int end);
 
 // Every record of the axis, by line, then by start.
-std::vector<spec::morphological::RunRecord> find_runs(
+std::vector<spec::morphological::RunDescriptor> find_runs(
     const spec::morphological::Parameters& parameters, const AxisEdges& edges);
 
 }  // namespace deburr::golden::morphological

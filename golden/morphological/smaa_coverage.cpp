@@ -54,7 +54,7 @@ void SmaaCoverage::count_pixel(spec::morphological::Axis axis, const TableAddres
   }
 }
 
-void SmaaCoverage::count_record(const spec::morphological::RunRecord& run, int extent) {
+void SmaaCoverage::count_descriptor(const spec::morphological::RunDescriptor& run, int extent) {
   auto& bins = endless_[static_cast<std::size_t>(run.axis)];
   if (run.endless != 0) ++bins[run.endless - 1u];
   const bool meets_end =

@@ -37,7 +37,7 @@ class SmaaCoverage {
  public:
   void count_pixel(spec::morphological::Axis axis, const TableAddress& address);
   // `extent`: pixels of the frame along the run.
-  void count_record(const spec::morphological::RunRecord& run, int extent);
+  void count_descriptor(const spec::morphological::RunDescriptor& run, int extent);
   // Of a record with far bits.
   void count_corner(spec::morphological::Axis axis, const TableAddress& address, int far);
   void count_diagonal(bool rising, const DiagonalEnds& ends, bool beyond_frame);

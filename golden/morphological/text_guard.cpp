@@ -49,8 +49,8 @@ void spread(const PlaneLine<Value>& line, Join&& join) {
   std::vector<Value> old(static_cast<std::size_t>(line.length));
   for (int i = 0; i < line.length; ++i) old[static_cast<std::size_t>(i)] = line[i];
   for (int i = 0; i < line.length; ++i) {
-    const int first = std::max(0, i - kGuardReach),
-              last = std::min(line.length - 1, i + kGuardReach);
+    const int first = std::max(0, i - kGuardSearchRange),
+              last = std::min(line.length - 1, i + kGuardSearchRange);
     Value all{};
     for (int k = first; k <= last; ++k)
       all = static_cast<Value>(join(all, old[static_cast<std::size_t>(k)]));

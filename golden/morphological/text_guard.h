@@ -12,7 +12,7 @@
 //   text/few                     all holds but the sum of both
 //   text/just/<which>            guarded with the least number in rows, in columns, of both; not
 //                                guarded for one fewer
-//   text/kept/<which>            guarded with a share: by the guard alone, by `leave` as well
+//   text/kept/<which>            guarded with a weight: by the guard alone, by `leave` as well
 //   text-border/<border>         guarded on the frame's border
 // Every bin can be reached (tb/unit/golden/morphological/text_guard_test.cpp).
 #pragma once
@@ -31,7 +31,7 @@ namespace deburr::golden::morphological {
 // Six bits.
 int colour_hash(const spec::morphological::Rgba8& pixel);
 
-inline constexpr int kGuardReach = 5;    // pixels from the middle of a window to its sides
+inline constexpr int kGuardSearchRange = 5;    // pixels from the middle of a window to its sides
 inline constexpr int kMostStroke = 3;    // pixels
 inline constexpr int kLeastStrokes = 3;  // pixels of a window in strokes, each way
 inline constexpr int kLeastOfBoth = 24;  // the sum of both ways
@@ -65,7 +65,7 @@ class TextGuard {
 class GuardCoverage {
  public:
   void count_frame(const TextGuard& guard, int width, int height);
-  // A guarded pixel that has a share; `left`: `leave` leaves it, too.
+  // A guarded pixel that has a weight; `left`: `leave` leaves it, too.
   void count_kept(bool left) { ++kept_[left ? 1 : 0]; }
   // Every bin, hit or not, always in the same order.
   std::vector<CoverageBin> bins() const;

@@ -5,7 +5,7 @@
 // holds, in the memory and in the registers.
 module fifo #(
   parameter integer BITS = 8,
-  parameter integer PLACES = 64
+  parameter integer ENTRIES = 64
 ) (
   input  logic            clk,
   input  logic            rst_n,
@@ -16,20 +16,20 @@ module fifo #(
   output logic [BITS-1:0] front,
   output logic            can_pop
 );
-  localparam integer COUNT_BITS = $clog2(PLACES + 1);
-  localparam integer PLACE_BITS = PLACES > 1 ? $clog2(PLACES) : 1;
-  localparam logic [COUNT_BITS-1:0] FULL = PLACES[COUNT_BITS-1:0];
-  localparam integer LAST_INDEX = PLACES - 1;
-  localparam logic [PLACE_BITS-1:0] LAST = LAST_INDEX[PLACE_BITS-1:0];
+  localparam integer COUNT_BITS = $clog2(ENTRIES + 1);
+  localparam integer ENTRY_BITS = ENTRIES > 1 ? $clog2(ENTRIES) : 1;
+  localparam logic [COUNT_BITS-1:0] FULL = ENTRIES[COUNT_BITS-1:0];
+  localparam integer LAST_INDEX = ENTRIES - 1;
+  localparam logic [ENTRY_BITS-1:0] LAST = LAST_INDEX[ENTRY_BITS-1:0];
 
   // All beats, and those that stand in the memory and are not being read.
   logic [COUNT_BITS-1:0] count, stored;
-  logic [PLACE_BITS-1:0] write_place, read_place;
+  logic [ENTRY_BITS-1:0] write_place, read_place;
   // Two output registers, the oldest in first; a read of the clock before brings `word`.
   logic [1:0] ready;  // beats in the registers, 0 to 2
   logic reading;      // `word` holds a beat that no register has
   logic [BITS-1:0] first, second, word;
-  logic [BITS-1:0] memory[0:PLACES-1];
+  logic [BITS-1:0] memory[0:ENTRIES-1];
 
   // What is there after this clock's pop, and who fills it.
   wire [1:0] left = ready + {1'b0, reading} - {1'b0, pop};
@@ -49,8 +49,8 @@ module fifo #(
     if (!rst_n) begin
       count <= {COUNT_BITS{1'b0}};
       stored <= {COUNT_BITS{1'b0}};
-      write_place <= {PLACE_BITS{1'b0}};
-      read_place <= {PLACE_BITS{1'b0}};
+      write_place <= {ENTRY_BITS{1'b0}};
+      read_place <= {ENTRY_BITS{1'b0}};
       ready <= 2'd0;
       reading <= 1'b0;
       can_push <= 1'b1;
@@ -60,8 +60,8 @@ module fifo #(
       can_push <= next_count != FULL;
       can_pop <= next_count != {COUNT_BITS{1'b0}};
       stored <= stored + {{(COUNT_BITS - 1) {1'b0}}, write} - {{(COUNT_BITS - 1) {1'b0}}, read};
-      if (write) write_place <= write_place == LAST ? {PLACE_BITS{1'b0}} : write_place + 1'b1;
-      if (read) read_place <= read_place == LAST ? {PLACE_BITS{1'b0}} : read_place + 1'b1;
+      if (write) write_place <= write_place == LAST ? {ENTRY_BITS{1'b0}} : write_place + 1'b1;
+      if (read) read_place <= read_place == LAST ? {ENTRY_BITS{1'b0}} : read_place + 1'b1;
       reading <= read;
       ready <= left + {1'b0, past};
     end
@@ -123,13 +123,13 @@ module fifo #(
     end
   // Where the beat stands that has f_ahead before it.
   wire [COUNT_BITS-1:0] f_out = {{(COUNT_BITS - 2) {1'b0}}, ready} + {{(COUNT_BITS - 1) {1'b0}}, reading};
-  wire [COUNT_BITS:0] f_far = {1'b0, f_ahead} - {1'b0, f_out} + {{(COUNT_BITS + 1 - PLACE_BITS) {1'b0}}, read_place};
+  wire [COUNT_BITS:0] f_far = {1'b0, f_ahead} - {1'b0, f_out} + {{(COUNT_BITS + 1 - ENTRY_BITS) {1'b0}}, read_place};
   wire [COUNT_BITS:0] f_wrapped = f_far >= {1'b0, FULL} ? f_far - {1'b0, FULL} : f_far;
-  wire [BITS-1:0] f_stored = memory[f_wrapped[PLACE_BITS-1:0]];
+  wire [BITS-1:0] f_stored = memory[f_wrapped[ENTRY_BITS-1:0]];
   wire [BITS-1:0] f_where = f_ahead >= f_out ? f_stored :
                             f_ahead >= {{(COUNT_BITS - 2) {1'b0}}, ready} ? word :
                             f_ahead == {COUNT_BITS{1'b0}} ? first : second;
-  wire [COUNT_BITS:0] f_next = {{(COUNT_BITS + 1 - PLACE_BITS) {1'b0}}, read_place} + {1'b0, stored};
+  wire [COUNT_BITS:0] f_next = {{(COUNT_BITS + 1 - ENTRY_BITS) {1'b0}}, read_place} + {1'b0, stored};
   wire [COUNT_BITS:0] f_write = f_next >= {1'b0, FULL} ? f_next - {1'b0, FULL} : f_next;
   wire [31:0] f_difference = f_pushed - f_popped;
   always @* if (f_past && rst_n) begin
@@ -139,7 +139,7 @@ module fifo #(
     a_registers: assert (f_out <= 2 && stored <= count);
     a_waiting: assert (stored == {COUNT_BITS{1'b0}} || f_out != {COUNT_BITS{1'b0}});
     a_places: assert (read_place <= LAST && write_place <= LAST);
-    a_write: assert (write_place == f_write[PLACE_BITS-1:0]);
+    a_write: assert (write_place == f_write[ENTRY_BITS-1:0]);
     a_can_push: assert (can_push == (count != FULL));
     a_can_pop: assert (can_pop == (count != {COUNT_BITS{1'b0}}));
     a_ahead: assert (!f_held || f_ahead < count);

@@ -7,7 +7,7 @@
 // without can_pop breaks the protocol, which the assertions say under `ifdef FORMAL.
 module link #(
   parameter integer BITS = 8,
-  parameter integer PLACES = 2
+  parameter integer ENTRIES = 2
 ) (
   input  logic            clk,
   input  logic            rst_n,
@@ -18,8 +18,8 @@ module link #(
   output logic [BITS-1:0] front,
   output logic            can_pop
 );
-  localparam integer COUNT_BITS = $clog2(PLACES + 1);
-  localparam logic [COUNT_BITS-1:0] FULL = PLACES[COUNT_BITS-1:0];
+  localparam integer COUNT_BITS = $clog2(ENTRIES + 1);
+  localparam logic [COUNT_BITS-1:0] FULL = ENTRIES[COUNT_BITS-1:0];
 
   logic [COUNT_BITS-1:0] count;
   wire  [COUNT_BITS-1:0] next_count = count + {{(COUNT_BITS - 1) {1'b0}}, push} -
@@ -36,14 +36,14 @@ module link #(
     end
 
   // The oldest beat stands in place 0; a pop moves the others down, and a push goes behind them.
-  logic [BITS-1:0] place[0:PLACES-1];
+  logic [BITS-1:0] place[0:ENTRIES-1];
   wire  [COUNT_BITS-1:0] behind = count - {{(COUNT_BITS - 1) {1'b0}}, pop};
   assign front = place[0];
   genvar i;
   generate
-    for (i = 0; i < PLACES; i = i + 1) begin : g_place
+    for (i = 0; i < ENTRIES; i = i + 1) begin : g_place
       localparam logic [COUNT_BITS-1:0] HERE = i[COUNT_BITS-1:0];
-      if (i + 1 < PLACES) begin : g_inner
+      if (i + 1 < ENTRIES) begin : g_inner
         always_ff @(posedge clk)
           if (push && behind == HERE) place[i] <= push_data;
           else if (pop) place[i] <= place[i+1];

@@ -12,7 +12,7 @@ module address_unit #(
   parameter integer CAP = `CHOSEN_CAP,
   parameter integer KERNEL = `CHOSEN_KERNEL,
   parameter integer SPREAD = `CHOSEN_SPREAD,
-  parameter integer AXIS_CLOCKS = `CHOSEN_AXIS_CLOCKS
+  parameter integer AXIS_CYCLES = `CHOSEN_AXIS_CYCLES
 ) (
   input  logic                         clk,
   input  logic                         rst_n,
@@ -56,7 +56,7 @@ module address_unit #(
         .clk, .rst_n, .in_valid(derivative_valid), .in_pop(derivative_pop), .in_data(derivative_out),
         .out_push(footprint_push), .out_ready(footprint_ready), .out_data(footprint_in));
     end else begin : g_axis
-      axis_unit #(.AXES(AXES), .RULE(FOOTPRINT), .AXIS_CLOCKS(AXIS_CLOCKS)) axis (
+      axis_unit #(.AXES(AXES), .RULE(FOOTPRINT), .AXIS_CYCLES(AXIS_CYCLES)) axis (
         .clk, .rst_n, .in_valid(derivative_valid), .in_pop(derivative_pop), .in_data(derivative_out),
         .out_push(footprint_push), .out_ready(footprint_ready), .out_data(footprint_in));
     end

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The major axis among four or eight directions, and the area of the footprint (`axes = four`, `eight`).
-// `axis_clocks` measures the candidates in groups, one group a clock (docs/reference/datasheets.md, "AxisUnit").
+// `axis_cycles` measures the candidates in groups, one group a clock (docs/reference/datasheets.md, "AxisUnit").
 `include "tokens.svh"
 `include "tables.svh"
 module axis_unit #(
   parameter integer AXES = `CHOSEN_AXES,
   parameter integer RULE = `CHOSEN_FOOTPRINT,
-  parameter integer AXIS_CLOCKS = `CHOSEN_AXIS_CLOCKS
+  parameter integer AXIS_CYCLES = `CHOSEN_AXIS_CYCLES
 ) (
   input  logic                              clk,
   input  logic                              rst_n,
@@ -19,13 +19,13 @@ module axis_unit #(
 );
   localparam integer CANDIDATES = AXES == `AXES_EIGHT ? 8 : 4;
   localparam integer STEP = 8 / CANDIDATES;  // directions from one candidate to the next
-  localparam integer SLOTS = CANDIDATES / AXIS_CLOCKS;  // candidates a group
+  localparam integer SLOTS = CANDIDATES / AXIS_CYCLES;  // candidates a group
   localparam integer GROUP_DIRECTIONS = SLOTS * STEP;
   localparam logic [2:0] SLOT_STEP = STEP[2:0], GROUP_STEP = GROUP_DIRECTIONS[2:0];
   localparam integer EXACT = RULE == `FOOTPRINT_EXACT ? 1 : 0;
   localparam integer REGISTERS = EXACT != 0 ? 21 : 7;
   localparam integer MEASURE_BITS = EXACT != 0 ? 63 : 32;
-  localparam integer LAST_GROUP_INDEX = AXIS_CLOCKS - 1;
+  localparam integer LAST_GROUP_INDEX = AXIS_CYCLES - 1;
   localparam logic [1:0] LAST_GROUP = LAST_GROUP_INDEX[1:0];
 
   // A fragment stays in the first register while its groups leave it; a group is valid in registers 2 to
@@ -162,7 +162,7 @@ module axis_unit #(
     end
   endgenerate
 
-  // 5: the longest of up to four; 6: of both halves of a group and of the clocks before. The smallest
+  // 5: the longest of up to four; 6: of both halves of a group and of the cycles before. The smallest
   // candidate of equals, so only a longer one replaces another.
   localparam integer PARTS = SLOTS > 4 ? 2 : 1;
   localparam integer EACH = SLOTS / PARTS;

@@ -22,8 +22,8 @@ module data_stage #(
   output logic [`TEXEL_QUAD_TOKEN_BITS-1:0] out_data
 );
   localparam integer OFFSET_BITS = $clog2(LINE_BYTES);
-  localparam integer PLACE_BITS = $clog2(BYTES);
-  localparam integer SLOT_BITS = PLACE_BITS - OFFSET_BITS;
+  localparam integer ENTRY_BITS = $clog2(BYTES);
+  localparam integer SLOT_BITS = ENTRY_BITS - OFFSET_BITS;
   localparam integer LINES = BYTES / LINE_BYTES;
   localparam integer BANKS = LINE_BYTES / 4;
   localparam integer BANK_BITS = OFFSET_BITS - 2;
@@ -34,17 +34,17 @@ module data_stage #(
   assign out_push = valid_2 && out_ready;
 
   // ---- 1: passes over the banks, then fills; the first fill in the clock of the last pass
-  wire [4*PLACE_BITS-1:0] places = in_data[`CACHE_TOKEN_PLACE];
+  wire [4*ENTRY_BITS-1:0] places = in_data[`CACHE_TOKEN_PLACE];
   wire [11:0] sources = in_data[`CACHE_TOKEN_SOURCE];
   wire [4*SLOT_BITS-1:0] victims = in_data[`CACHE_TOKEN_VICTIM];
   wire [3:0] turned = in_data[`CACHE_TOKEN_TURNED];
   wire [2:0] fills = in_data[`CACHE_TOKEN_FILLS];
   wire asks = in_data[`CACHE_TOKEN_TICKET_VALID];
   wire [3:0] hit;
-  wire [4*(PLACE_BITS-2)-1:0] words;
+  wire [4*(ENTRY_BITS-2)-1:0] words;
   wire [7:0] pass_of;
   wire [2:0] passes;
-  bank_passes #(.WORD_BITS(PLACE_BITS - 2), .BANK_BITS(BANK_BITS)) order (.hit, .words, .pass(pass_of), .passes);
+  bank_passes #(.WORD_BITS(ENTRY_BITS - 2), .BANK_BITS(BANK_BITS)) order (.hit, .words, .pass(pass_of), .passes);
 
   logic [2:0] pass, fill;  // that are done
   wire works = in_valid && move;
@@ -83,13 +83,13 @@ module data_stage #(
       wire [3:0] wants;
       for (k = 0; k < 4; k = k + 1) begin : g_wants
         assign wants[k] = hit[k] && {1'b0, pass_of[2*k +: 2]} == pass &&
-                          places[k*PLACE_BITS + 2 +: BANK_BITS] == HERE;
+                          places[k*ENTRY_BITS + 2 +: BANK_BITS] == HERE;
       end
       wire [SLOT_BITS-1:0] slot =
-          wants[0] ? places[0*PLACE_BITS + OFFSET_BITS +: SLOT_BITS] :
-          wants[1] ? places[1*PLACE_BITS + OFFSET_BITS +: SLOT_BITS] :
-          wants[2] ? places[2*PLACE_BITS + OFFSET_BITS +: SLOT_BITS] :
-                     places[3*PLACE_BITS + OFFSET_BITS +: SLOT_BITS];
+          wants[0] ? places[0*ENTRY_BITS + OFFSET_BITS +: SLOT_BITS] :
+          wants[1] ? places[1*ENTRY_BITS + OFFSET_BITS +: SLOT_BITS] :
+          wants[2] ? places[2*ENTRY_BITS + OFFSET_BITS +: SLOT_BITS] :
+                     places[3*ENTRY_BITS + OFFSET_BITS +: SLOT_BITS];
       wire [BANK_BITS-1:0] from = HERE ^ turn;
       sram_1r1w #(.BITS(32), .WORDS(LINES), .ADDRESS_BITS(SLOT_BITS)) bank (
         .clk, .read(read && |wants), .read_address(slot), .word(bank_words[32*i +: 32]),
@@ -108,10 +108,10 @@ module data_stage #(
   wire [127:0] texels;
   generate
     for (k = 0; k < 4; k = k + 1) begin : g_texel
-      wire [OFFSET_BITS-1:0] offset = places[k*PLACE_BITS +: OFFSET_BITS];
+      wire [OFFSET_BITS-1:0] offset = places[k*ENTRY_BITS +: OFFSET_BITS];
       wire [2:0] source = sources[3*k +: 3];
       assign hit[k] = asks && source == 3'd0;
-      assign words[k*(PLACE_BITS-2) +: PLACE_BITS-2] = places[k*PLACE_BITS + 2 +: PLACE_BITS-2];
+      assign words[k*(ENTRY_BITS-2) +: ENTRY_BITS-2] = places[k*ENTRY_BITS + 2 +: ENTRY_BITS-2];
       wire from_fill = use_line && asks && source == fill + 3'd1;
       wire [31:0] line_word = line[32*offset[OFFSET_BITS-1:2] +: 32];
       logic fresh;  // its word is on a bank's output register

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Lines on their way from memory (docs/reference/datasheets.md, "FillBuffer"): places are reserved one after the
 // other, filled in any order, and used in the order of their reservation. The oldest line is read ahead:
-// it is on the output register two clocks after the beat that completes it.
+// it is on the output register two cycles after the beat that completes it.
 `include "tokens.svh"
 `include "tables.svh"
 module fill_buffer #(
   parameter integer LINE_BYTES = `CHOSEN_CACHE_LINE_BYTES,
-  parameter integer PLACES = `CHOSEN_CACHE_OUTSTANDING,
-  parameter integer PLACE_BITS = $clog2(PLACES),
+  parameter integer ENTRIES = `CHOSEN_CACHE_OUTSTANDING,
+  parameter integer ENTRY_BITS = $clog2(ENTRIES),
   parameter integer BEAT_BYTES = LINE_BYTES < 64 ? LINE_BYTES : 64,
   parameter integer BEATS = LINE_BYTES / BEAT_BYTES
 ) (
@@ -16,10 +16,10 @@ module fill_buffer #(
   // A place for a line that is asked of memory.
   input  logic                     reserve,
   output logic                     can_reserve,
-  output logic [PLACE_BITS-1:0]    reserved,
+  output logic [ENTRY_BITS-1:0]    reserved,
   // A beat of the line of a place.
   input  logic                     arrive,
-  input  logic [PLACE_BITS-1:0]    arrive_place,
+  input  logic [ENTRY_BITS-1:0]    arrive_place,
   input  logic [BEATS-1:0]         arrive_beat,  // one of them
   input  logic                     arrive_last,  // completes the line
   input  logic [8*BEAT_BYTES-1:0]  arrive_data,
@@ -28,14 +28,14 @@ module fill_buffer #(
   output logic [8*LINE_BYTES-1:0]  line,
   input  logic                     use_line
 );
-  localparam integer COUNT_BITS = $clog2(PLACES + 1);
-  localparam logic [COUNT_BITS-1:0] FULL = PLACES[COUNT_BITS-1:0];
-  localparam integer LAST_INDEX = PLACES - 1;
-  localparam logic [PLACE_BITS-1:0] LAST = LAST_INDEX[PLACE_BITS-1:0];
+  localparam integer COUNT_BITS = $clog2(ENTRIES + 1);
+  localparam logic [COUNT_BITS-1:0] FULL = ENTRIES[COUNT_BITS-1:0];
+  localparam integer LAST_INDEX = ENTRIES - 1;
+  localparam logic [ENTRY_BITS-1:0] LAST = LAST_INDEX[ENTRY_BITS-1:0];
 
   logic [COUNT_BITS-1:0] held;  // reserved and not used
-  logic [PLACE_BITS-1:0] read_place;
-  logic [PLACES-1:0] arrived;   // and not read yet
+  logic [ENTRY_BITS-1:0] read_place;
+  logic [ENTRIES-1:0] arrived;   // and not read yet
   wire read = arrived[read_place] && (!line_valid || use_line);
   wire [COUNT_BITS-1:0] next_held = held + {{(COUNT_BITS - 1) {1'b0}}, reserve} -
                                     {{(COUNT_BITS - 1) {1'b0}}, use_line};
@@ -43,18 +43,18 @@ module fill_buffer #(
     if (!rst_n) begin
       held <= {COUNT_BITS{1'b0}};
       can_reserve <= 1'b1;
-      reserved <= {PLACE_BITS{1'b0}};
-      read_place <= {PLACE_BITS{1'b0}};
-      arrived <= {PLACES{1'b0}};
+      reserved <= {ENTRY_BITS{1'b0}};
+      read_place <= {ENTRY_BITS{1'b0}};
+      arrived <= {ENTRIES{1'b0}};
       line_valid <= 1'b0;
     end else begin
       held <= next_held;
       can_reserve <= next_held != FULL;
-      if (reserve) reserved <= reserved == LAST ? {PLACE_BITS{1'b0}} : reserved + 1'b1;
+      if (reserve) reserved <= reserved == LAST ? {ENTRY_BITS{1'b0}} : reserved + 1'b1;
       if (arrive && arrive_last) arrived[arrive_place] <= 1'b1;
       if (read) begin
         arrived[read_place] <= 1'b0;
-        read_place <= read_place == LAST ? {PLACE_BITS{1'b0}} : read_place + 1'b1;
+        read_place <= read_place == LAST ? {ENTRY_BITS{1'b0}} : read_place + 1'b1;
       end
       line_valid <= read || (line_valid && !use_line);
     end
@@ -62,7 +62,7 @@ module fill_buffer #(
   genvar i;
   generate
     for (i = 0; i < BEATS; i = i + 1) begin : g_beat
-      sram_1r1w #(.BITS(8 * BEAT_BYTES), .WORDS(PLACES), .ADDRESS_BITS(PLACE_BITS)) lines (
+      sram_1r1w #(.BITS(8 * BEAT_BYTES), .WORDS(ENTRIES), .ADDRESS_BITS(ENTRY_BITS)) lines (
         .clk, .read, .read_address(read_place), .word(line[8*BEAT_BYTES*i +: 8*BEAT_BYTES]),
         .write(arrive && arrive_beat[i]), .write_address(arrive_place), .write_data(arrive_data));
     end

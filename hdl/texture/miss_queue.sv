@@ -6,8 +6,8 @@
 `include "tables.svh"
 module miss_queue #(
   parameter integer LINE_BYTES = `CHOSEN_CACHE_LINE_BYTES,
-  parameter integer PLACES = `CHOSEN_CACHE_OUTSTANDING,
-  parameter integer PLACE_BITS = $clog2(PLACES)
+  parameter integer ENTRIES = `CHOSEN_CACHE_OUTSTANDING,
+  parameter integer ENTRY_BITS = $clog2(ENTRIES)
 ) (
   input  logic                            clk,
   input  logic                            rst_n,
@@ -19,30 +19,30 @@ module miss_queue #(
   output logic [`MEMORY_REQUEST_BITS-1:0] request_data,
   output logic                            reserve,
   input  logic                            can_reserve,
-  input  logic [PLACE_BITS-1:0]           reserved
+  input  logic [ENTRY_BITS-1:0]           reserved
 );
   localparam integer LINE_BITS = 32 - $clog2(LINE_BYTES);
-  localparam integer COUNT_BITS = $clog2(PLACES + 1);
+  localparam integer COUNT_BITS = $clog2(ENTRIES + 1);
   localparam integer LINES_A_BURST = LINE_BYTES < 64 ? 1 : LINE_BYTES / 64;
 
-  logic [LINE_BITS-1:0] lines[0:PLACES-1];
+  logic [LINE_BITS-1:0] lines[0:ENTRIES-1];
   logic [COUNT_BITS-1:0] waiting;
-  logic [PLACE_BITS-1:0] read_place, write_place;
+  logic [ENTRY_BITS-1:0] read_place, write_place;
 
   wire send = waiting != {COUNT_BITS{1'b0}} && request_ready && can_reserve;
   wire [2:0] count = in_data[`MISS_TOKEN_COUNT];
   wire [COUNT_BITS:0] left = {1'b0, waiting} - {{COUNT_BITS{1'b0}}, send};
   wire [COUNT_BITS:0] with_these = left + {{(COUNT_BITS - 2) {1'b0}}, count};
-  localparam logic [COUNT_BITS:0] FULL = PLACES[COUNT_BITS:0];
+  localparam logic [COUNT_BITS:0] FULL = ENTRIES[COUNT_BITS:0];
   assign in_pop = in_valid && with_these <= FULL;
 
   // The place i behind another one.
-  function automatic [PLACE_BITS-1:0] behind(input [PLACE_BITS-1:0] place, input [2:0] i);
-    logic [PLACE_BITS:0] sum;
+  function automatic [ENTRY_BITS-1:0] behind(input [ENTRY_BITS-1:0] place, input [2:0] i);
+    logic [ENTRY_BITS:0] sum;
     begin
-      sum = {1'b0, place} + {{(PLACE_BITS - 2) {1'b0}}, i};
-      if (sum >= PLACES[PLACE_BITS:0]) sum = sum - PLACES[PLACE_BITS:0];
-      behind = sum[PLACE_BITS-1:0];
+      sum = {1'b0, place} + {{(ENTRY_BITS - 2) {1'b0}}, i};
+      if (sum >= ENTRIES[ENTRY_BITS:0]) sum = sum - ENTRIES[ENTRY_BITS:0];
+      behind = sum[ENTRY_BITS-1:0];
     end
   endfunction
   wire [4*LINE_BITS-1:0] missed = in_data[`MISS_TOKEN_LINE];
@@ -56,8 +56,8 @@ module miss_queue #(
   always_ff @(posedge clk)
     if (!rst_n) begin
       waiting <= {COUNT_BITS{1'b0}};
-      read_place <= {PLACE_BITS{1'b0}};
-      write_place <= {PLACE_BITS{1'b0}};
+      read_place <= {ENTRY_BITS{1'b0}};
+      write_place <= {ENTRY_BITS{1'b0}};
     end else begin
       waiting <= in_pop ? with_these[COUNT_BITS-1:0] : left[COUNT_BITS-1:0];
       if (send) read_place <= behind(read_place, 3'd1);
@@ -78,7 +78,7 @@ module miss_queue #(
 
 `ifdef FORMAL
   // A proof looks into one place (tb/hdl/formal/miss_path_proof.sv).
-  wire [PLACE_BITS-1:0] f_place;
+  wire [ENTRY_BITS-1:0] f_place;
   wire [LINE_BITS-1:0] f_line = lines[f_place];
 `endif
 endmodule

@@ -32,7 +32,7 @@ module texture_cache #(
   output logic [2:0]                        link_push,
   output logic [2:0]                        link_pop
 );
-  localparam integer PLACE_BITS = $clog2(OUTSTANDING);
+  localparam integer ENTRY_BITS = $clog2(OUTSTANDING);
   localparam integer BEATS = LINE_BYTES < 64 ? 1 : LINE_BYTES / 64;
 
   logic miss_push, miss_ready, miss_valid, miss_pop;
@@ -53,14 +53,14 @@ module texture_cache #(
   link #(.BITS(`CACHE_TOKEN_BITS)) requests (
     .clk, .rst_n, .push(tagged_push), .push_data(tagged_in), .can_push(tagged_ready),
     .pop(entry_push), .front(tagged_out), .can_pop(tagged_valid));
-  fifo #(.BITS(`CACHE_TOKEN_BITS), .PLACES(FIFO_DEPTH)) entries (
+  fifo #(.BITS(`CACHE_TOKEN_BITS), .ENTRIES(FIFO_DEPTH)) entries (
     .clk, .rst_n, .push(entry_push), .push_data(tagged_out), .can_push(entry_ready),
     .pop(entry_pop), .front(entry), .can_pop(entry_valid));
 
   logic reserve, can_reserve, line_valid, use_line;
-  logic [PLACE_BITS-1:0] reserved;
+  logic [ENTRY_BITS-1:0] reserved;
   logic [8*LINE_BYTES-1:0] line;
-  miss_queue #(.LINE_BYTES(LINE_BYTES), .PLACES(OUTSTANDING)) queue (
+  miss_queue #(.LINE_BYTES(LINE_BYTES), .ENTRIES(OUTSTANDING)) queue (
     .clk, .rst_n, .in_valid(miss_valid), .in_pop(miss_pop), .in_data(miss_out), .request_push, .request_ready,
     .request_data, .reserve, .can_reserve, .reserved);
 
@@ -74,7 +74,7 @@ module texture_cache #(
       assign beat_at[i] = beat == i[`MEMORY_RESPONSE_LINE_BITS-1:0];
     end
   endgenerate
-  fill_buffer #(.LINE_BYTES(LINE_BYTES), .PLACES(OUTSTANDING)) fills (
+  fill_buffer #(.LINE_BYTES(LINE_BYTES), .ENTRIES(OUTSTANDING)) fills (
     .clk, .rst_n, .reserve, .can_reserve, .reserved, .arrive(response_valid),
     .arrive_place(response_data[`MEMORY_RESPONSE_TAG]), .arrive_beat(beat_at),
     .arrive_last(response_data[`MEMORY_RESPONSE_LAST]),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reference filters and truth in real numbers, behind deburr.ideal.
+// Reference filters and reference in real numbers, behind deburr.ideal.
 #include <pybind11/stl.h>
 
 #include <algorithm>

@@ -103,24 +103,24 @@ py::array edges_of(const MorphologicalFrame& frame) {
   return owned(std::move(edges), frame.shape());
 }
 
-py::array shares_of(const MorphologicalFrame& frame) {
+py::array weights_of(const MorphologicalFrame& frame) {
   const MorphologicalGolden& golden = *frame.golden;
-  std::vector<std::uint8_t> shares;
-  shares.reserve(4 * golden.pixels().size());
+  std::vector<std::uint8_t> weights;
+  weights.reserve(4 * golden.pixels().size());
   for (int y = 0; y < golden.height(); ++y) {
     for (int x = 0; x < golden.width(); ++x) {
-      const auto top = golden.top_shares(x, y), left = golden.left_shares(x, y);
-      shares.insert(shares.end(), {top.first, top.second, left.first, left.second});
+      const auto top = golden.top_weights(x, y), left = golden.left_weights(x, y);
+      weights.insert(weights.end(), {top.first, top.second, left.first, left.second});
     }
   }
-  return owned(std::move(shares), frame.shape(4));
+  return owned(std::move(weights), frame.shape(4));
 }
 
 py::dict coverage_of(const MorphologicalGolden& golden) {
   py::dict bins;
   add_bins(bins, golden.coverage().bins());
   add_bins(bins, golden.smaa_coverage().bins());
-  add_bins(bins, golden.leave_coverage().bins());
+  add_bins(bins, golden.bypass_coverage().bins());
   add_bins(bins, golden.learned_coverage().bins());
   add_bins(bins, golden.guard_coverage().bins());
   return bins;
@@ -144,7 +144,7 @@ void add_morphological(py::module_& module) {
                              "uint8 of (height, width): bit 0 an edge to the left neighbour, bit 1 "
                              "to the upper one.")
       .def_property_readonly(
-          "shares", shares_of,
+          "weights", weights_of,
           "uint8 of (height, width, 4), U0.8: of the upper edge what the upper pixel and what this "
           "one takes, of the left edge what the left pixel and what this one takes.")
       .def_property_readonly(

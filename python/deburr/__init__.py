@@ -2,7 +2,7 @@
 """Deburr from Python: models of anti-aliasing hardware on numpy arrays.
 
 golden    bit-exact golden models of the engines as functions
-ideal     reference filters and truth in real numbers
+ideal     reference filters and reference in real numbers
 run       one run of a cycle-accurate model, in a process of its own
 sweep     many runs, as a table
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kUsualMegahertz = 250;
 
-// But for the clocks of this build, where a text stands in their place.
+// But for the cycles of this build, where a text stands in their place.
 bool say_the_same(const Datasheet& a, const Datasheet& b) {
   return a.does == b.does && a.latency.shown() == b.latency.shown() &&
          a.interval.shown() == b.interval.shown() && a.stages == b.stages &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The datasheet of a unit: what it does in which stage, in how many clocks, on which longest path,
+// The datasheet of a unit: what it does in which stage, in how many cycles, on which longest path,
 // with which formats, at which cost. docs/reference/datasheets.md is made of them, and timing tests
 // expect what they say of the simulated hardware, so no number of them is taken from the model's
 // code.
@@ -19,13 +19,13 @@
 
 namespace deburr::rtl {
 
-// A number of clocks. `text` says what it depends on, and is printed in its place; the number is
+// A number of cycles. `text` says what it depends on, and is printed in its place; the number is
 // that of the build that the datasheet was asked for, and the least where tokens differ.
-struct Clocks {
-  std::uint64_t clocks = 0;
+struct Cycles {
+  std::uint64_t cycles = 0;
   std::string text{};
-  std::string shown() const { return text.empty() ? std::to_string(clocks) : text; }
-  friend bool operator==(const Clocks&, const Clocks&) = default;
+  std::string shown() const { return text.empty() ? std::to_string(cycles) : text; }
+  friend bool operator==(const Cycles&, const Cycles&) = default;
 };
 
 struct Stage {
@@ -41,7 +41,7 @@ struct Datasheet {
   std::string does{};     // a sentence
   // From the clock in which a token is taken to the clock in which the next unit can take its
   // result; one token behind the other.
-  Clocks latency{}, interval{1};
+  Cycles latency{}, interval{1};
   std::vector<Stage> stages{};
   std::string formats{}, cost{};
   int megahertz = 250;  // the clock that it is made for

@@ -12,7 +12,7 @@
 //     bool idle() const override { return ...; }
 //
 // A clear command (CONTROL) resets every Counter below the engine, whether a register shows it or
-// not, and nothing else: the account of clocks and the histograms are instruments of the model and
+// not, and nothing else: the account of cycles and the histograms are instruments of the model and
 // go on. A reset gives every register its reset value, and lowers the interrupt.
 #pragma once
 

@@ -2,7 +2,7 @@
 // Measures how long each item (a beat, a fragment) is inside an engine that keeps their order, and
 // knows how many are inside. A measuring instrument: no hardware.
 //
-// Items come in consecutive clocks most of the time, so it keeps (clock - number of the item) and
+// Items come in consecutive cycles most of the time, so it keeps (clock - number of the item) and
 // only notes where that changes.
 #pragma once
 
@@ -33,7 +33,7 @@ class LatencyProbe {
     }
     ++entered_;
   }
-  // The oldest item inside leaves in this cycle: clocks since it entered.
+  // The oldest item inside leaves in this cycle: cycles since it entered.
   Cycle leaves(Cycle cycle) {
     DEBURR_CHECK(left_ != entered_, "something leaves that never entered");
     if (left_ == next_) {

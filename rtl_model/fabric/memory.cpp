@@ -55,10 +55,10 @@ MemoryBase::MemoryBase(const char* name, MemoryShape shape)
                            s.mask_bits, s.word_bits));
   const std::string wrong = find_build();
   if (wrong.empty()) return;
-  if (s.idealised.empty())
+  if (s.not_implementable.empty())
     throw spec::ConfigError(fmt::format("{}: {} bits as {} {}: {}", this->name(), logical_bits(),
                                         name_of(s.kind), ports(), wrong));
-  idealised_ = s.idealised;
+  not_implementable_ = s.not_implementable;
   macro_ = "idealised " + ports();
   copies_ = 1;
 }

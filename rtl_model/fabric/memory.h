@@ -67,7 +67,7 @@ struct MemoryShape {
   std::uint32_t word_bits = 0;
   MemoryKind kind = MemoryKind::kSram;
   std::uint32_t read_ports = 1, write_ports = 1, shared_ports = 0;  // shared: reads or writes
-  std::uint32_t latency = 1;                                        // clocks, 0..kMostLatency
+  std::uint32_t latency = 1;                                        // cycles, 0..kMostLatency
   ReadDuringWrite read_during_write = ReadDuringWrite::kForbidden;
   std::uint32_t banks = 1;
   BankOrder order = BankOrder::kInterleaved;
@@ -88,7 +88,7 @@ struct MemoryShape {
   // Flip-flops beside the words: of a FIFO its output registers, of a fill store its arrived bits.
   std::uint64_t register_bits = 0;
   // Why the memory may be one that nobody sells; of no account if it can be built.
-  std::string idealised = {};
+  std::string not_implementable = {};
 };
 
 // What reports see. Find them all with for_each<MemoryBase>.
@@ -122,7 +122,7 @@ class MemoryBase : public sc_core::sc_object {
   // "3 copies of 1R1W, 4 banks"
   std::string built_as() const;
   // Empty if it can be built; if not, why it stands here all the same.
-  const std::string& idealised() const { return idealised_; }
+  const std::string& not_implementable() const { return not_implementable_; }
   bool follows_width() const { return shape_.columns != 0; }
   // Logical bits that frames of this width need; all, if the words do not go with the width.
   std::uint64_t bits_at(std::uint64_t width) const;
@@ -153,7 +153,7 @@ class MemoryBase : public sc_core::sc_object {
   MemoryShape shape_;
   std::string ports_;
   std::uint32_t copies_ = 1;
-  std::string idealised_;
+  std::string not_implementable_;
   std::string macro_;  // what a copy of a bank is: "1R1W"
 };
 

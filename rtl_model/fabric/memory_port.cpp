@@ -195,7 +195,7 @@ void MemoryPort::send(Transaction& t, Cycle cycle) {
   t.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
   t.sent = cycle;
   in_flight_.push_back(&t);
-  most_outstanding.raise_to(in_flight_.size());
+  max_outstanding.raise_to(in_flight_.size());
   if (t.write) {
     ++writes;
     bytes_written += t.bytes;

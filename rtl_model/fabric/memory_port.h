@@ -137,7 +137,7 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   Counter bytes_read{"bytes_read", "bytes", "bytes requested from memory"};
   Counter bytes_written{"bytes_written", "bytes", "bytes enabled in write transactions"};
   Counter errors{"errors", "transactions", "transactions with an error response"};
-  Counter most_outstanding{"most_outstanding", "transactions", "largest number in flight"};
+  Counter max_outstanding{"max_outstanding", "transactions", "largest number in flight"};
   Histogram latency{"latency", "clk", "from sending a request to having its response"};
 
   static Datasheet datasheet();

@@ -58,10 +58,10 @@ class WireBase : public sc_core::sc_object {
     since_ = edge + 1;
   }
 
-  // Since reset: how often the driven value changed, and in how many clocks before `now` readers
+  // Since reset: how often the driven value changed, and in how many cycles before `now` readers
   // saw another value than zero.
   std::uint64_t changes() const { return changes_; }
-  std::uint64_t high_clocks(Cycle now) const {
+  std::uint64_t high_cycles(Cycle now) const {
     return high_ + (level_ && now > since_ ? now - since_ : 0);
   }
 

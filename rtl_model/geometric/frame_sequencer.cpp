@@ -4,9 +4,9 @@
 namespace deburr::rtl::geometric {
 namespace {
 
-void hold(Counter& counter, Cycle clocks) {
+void hold(Counter& counter, Cycle cycles) {
   counter.reset();
-  counter += clocks;
+  counter += cycles;
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ Activity FrameSequencer::tick(Cycle cycle) {
     case Phase::kIdle:
       if (!start_in.read(cycle)) return kIdle;
       latch_out.raise(cycle);
-      if (refusal_in.read(cycle) != spec::geometric::Refusal::kNone) return kBusy;
+      if (rejection_in.read(cycle) != spec::geometric::Rejection::kNone) return kBusy;
       begun_ = cycle;
       enter(cycle, Phase::kBegin);
       break;
@@ -62,7 +62,7 @@ Datasheet FrameSequencer::datasheet() {
           .interval = {1, "-"},
           .stages = {{"1",
                       "checks START in the clock after the write: products of SIZE are shifts and "
-                      "one 11 x 11 multiply over two clocks (ParameterStore)",
+                      "one 11 x 11 multiply over two cycles (ParameterStore)",
                       "11 x 11 multiply"}},
           .cost = "a state of two bits, a 32-bit counter."};
 }

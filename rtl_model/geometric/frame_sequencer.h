@@ -23,7 +23,7 @@ class FrameSequencer final : public Unit {
   // START; the registers become the rules; whether they did, in the same clock.
   PulseIn start_in{"start_in"};
   PulseOut latch_out{"latch_out"};
-  WireIn<spec::geometric::Refusal, WireKind::kCombinational> refusal_in{"refusal_in"};
+  WireIn<spec::geometric::Rejection, WireKind::kCombinational> rejection_in{"rejection_in"};
   WireOut<Phase> phase_out{"phase_out"};
   // What ends the begin, the edges and the resolve.
   WireIn<bool> facing_loaded_in{"facing_loaded_in"}, vertices_cleared_in{"vertices_cleared_in"},
@@ -39,7 +39,7 @@ class FrameSequencer final : public Unit {
   // Between edges.
   bool idle() const { return state_ == Phase::kIdle; }
 
-  Counter frame_cycles{"frame_cycles", "clk", "clocks of the last frame"};
+  Counter frame_cycles{"frame_cycles", "clk", "cycles of the last frame"};
   Counter edge_cycles{"edge_cycles", "clk", "of these until every edge was drawn"};
   Counter resolve_cycles{"resolve_cycles", "clk", "of these the rest"};
 
@@ -50,7 +50,7 @@ class FrameSequencer final : public Unit {
   void enter(Cycle cycle, Phase next);
 
   Phase state_ = Phase::kIdle;   // on phase_out a clock later
-  Cycle begun_ = 0, drawn_ = 0;  // clocks
+  Cycle begun_ = 0, drawn_ = 0;  // cycles
 };
 
 }  // namespace deburr::rtl::geometric

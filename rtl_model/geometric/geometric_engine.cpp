@@ -29,7 +29,7 @@ MemoryPortParameters port_of(const spec::geometric::Parameters& p) {
 
 GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
                                  const spec::geometric::Parameters& parameters,
-                                 const MemoryClocks& memory)
+                                 const MemoryCycles& memory)
     : Engine(name, clock, spec::geometric::kRegisters, control_layout()),
       parameters_(sized(check_build(parameters), memory)),
       walkers_(lanes(parameters_.walkers)),
@@ -79,7 +79,7 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
     memory_arbiter.connect(Client::kPairs, pair_fetch->memory);
     pair_fetch->invalid_pair_out(*invalid_pair_);
     (*parameter_store.invalid_pair_in)(*invalid_pair_);
-    pair_fetch->rules_in(rules_);
+    pair_fetch->configuration_in(configuration_);
     pair_fetch->phase_in(phase_);
   } else {
     (*edge_classifier.edges_out)(kept_);
@@ -99,7 +99,7 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
     depth_screen->screened_out(*screened_);
     depth_test.candidates_in(*screened_);
     memory_arbiter.connect(Client::kCoarse, depth_screen->memory);
-    depth_screen->rules_in(rules_);
+    depth_screen->configuration_in(configuration_);
     depth_screen->phase_in(phase_);
   } else {
     depth_test.candidates_in(candidates_);
@@ -128,8 +128,8 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
   frame_sequencer.start_in(start_);
   frame_sequencer.latch_out(latch_);
   parameter_store.latch_in(latch_);
-  parameter_store.refusal_out(refusal_);
-  frame_sequencer.refusal_in(refusal_);
+  parameter_store.rejection_out(rejection_);
+  frame_sequencer.rejection_in(rejection_);
   frame_sequencer.frame_done_out(frame_done_);
   parameter_store.frame_done_in(frame_done_);
   edge_classifier.invalid_edge_out(invalid_edge_);
@@ -137,19 +137,19 @@ GeometricEngine::GeometricEngine(const sc_core::sc_module_name& name, ClockDomai
   memory_arbiter.memory_error_out(memory_error_);
   parameter_store.memory_error_in(memory_error_);
 
-  parameter_store.rules_out(rules_);
-  facing_store.rules_in(rules_);
-  edge_reader.rules_in(rules_);
-  edge_classifier.rules_in(rules_);
-  vertex_fetch.rules_in(rules_);
-  line_setup.rules_in(rules_);
-  coverage_unit.rules_in(rules_);
-  depth_test.rules_in(rules_);
-  weight_combiner.rules_in(rules_);
-  frame_copier.rules_in(rules_);
-  block_scanner.rules_in(rules_);
-  block_fetch.rules_in(rules_);
-  resolver.rules_in(rules_);
+  parameter_store.configuration_out(configuration_);
+  facing_store.configuration_in(configuration_);
+  edge_reader.configuration_in(configuration_);
+  edge_classifier.configuration_in(configuration_);
+  vertex_fetch.configuration_in(configuration_);
+  line_setup.configuration_in(configuration_);
+  coverage_unit.configuration_in(configuration_);
+  depth_test.configuration_in(configuration_);
+  weight_combiner.configuration_in(configuration_);
+  frame_copier.configuration_in(configuration_);
+  block_scanner.configuration_in(configuration_);
+  block_fetch.configuration_in(configuration_);
+  resolver.configuration_in(configuration_);
   frame_sequencer.phase_out(phase_);
   facing_store.phase_in(phase_);
   edge_reader.phase_in(phase_);

@@ -25,7 +25,7 @@
 //                       +- lines -> ColourStore ---+
 //
 //   wires: ParameterStore -- rules, FrameSequencer -- phase --> units of the pipe
-//          ParameterStore -- start, refusal --> FrameSequencer
+//          ParameterStore -- start, rejection --> FrameSequencer
 //          FrameSequencer -- latch, frame_done --> ParameterStore
 //          EdgeClassifier -- invalid_edge, PairFetch -- invalid_pair,
 //          MemoryArbiter -- memory_error --> ParameterStore
@@ -45,7 +45,7 @@
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/engine.h"
 #include "rtl_model/fabric/fifo.h"
-#include "rtl_model/fabric/memory_clocks.h"
+#include "rtl_model/fabric/memory_cycles.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/common/edge_latency.h"
@@ -78,7 +78,7 @@ class GeometricEngine final : public Engine {
   // ConfigError for what cannot be built (spec/geometric/check_build.h). What the memory takes
   // sizes places that are ordered as 0 (common/sizing.h).
   GeometricEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
-                  const spec::geometric::Parameters& parameters, const MemoryClocks& memory = {});
+                  const spec::geometric::Parameters& parameters, const MemoryCycles& memory = {});
   const char* kind() const override { return "deburr_geometric_engine"; }
 
  private:
@@ -120,9 +120,9 @@ class GeometricEngine final : public Engine {
 
  private:
   // From the registers to the units, and what sets their sticky bits.
-  Wire<FrameRules> rules_{"rules", FrameRules{}, rules_shape(parameters_)};
+  Wire<FrameConfiguration> configuration_{"rules", FrameConfiguration{}, configuration_shape(parameters_)};
   Pulse start_{"start"}, latch_{"latch"};
-  CombinationalWire<spec::geometric::Refusal> refusal_{"refusal", refusal_shape()};
+  CombinationalWire<spec::geometric::Rejection> rejection_{"rejection", rejection_shape()};
   Pulse frame_done_{"frame_done"}, invalid_edge_{"invalid_edge"}, memory_error_{"memory_error"};
   std::unique_ptr<Pulse> invalid_pair_;
   // From the FrameSequencer to the units, and back to it.

@@ -10,17 +10,17 @@ std::vector<Datasheet> datasheets(const spec::morphological::Parameters& p) {
                                    EdgeDetector::datasheet()};
   if (p.text_guard) sheets.push_back(TextGuard::datasheet(p));
   sheets.insert(sheets.end(),
-                {RunExtractor::slot_datasheet(), RunExtractor::record_datasheet(),
+                {RunExtractor::slot_datasheet(), RunExtractor::descriptor_datasheet(),
                  EndpointPredictor::datasheet(), EndpointPredictor::trial_datasheet(p)});
   const bool learned = p.area == spec::morphological::AreaSource::kLearned;
   if (learned) sheets.push_back(EndpointPredictor::class_datasheet(p));
   sheets.push_back(LineUnit::datasheet(p));
   if (learned) sheets.push_back(LineUnit::learned_datasheet());
-  sheets.insert(sheets.end(), {AreaUnit::datasheet(p), RecordStore::datasheet(p),
-                               RecordWalk::datasheet(), AnalyticShares::datasheet()});
-  if (has_table(p)) sheets.push_back(TableShares::datasheet());
-  if (learned) sheets.push_back(LearnedShares::datasheet());
-  sheets.push_back(ShareRows::datasheet());
+  sheets.insert(sheets.end(), {AreaUnit::datasheet(p), DescriptorStore::datasheet(p),
+                               DescriptorWalk::datasheet(), AnalyticWeights::datasheet()});
+  if (has_table(p)) sheets.push_back(TableWeights::datasheet());
+  if (learned) sheets.push_back(LearnedWeights::datasheet());
+  sheets.push_back(WeightRows::datasheet());
   if (p.diagonals) sheets.push_back(DiagonalUnit::datasheet(p));
   sheets.insert(sheets.end(), {PixelStore::datasheet(), Blender::datasheet()});
   return sheets;

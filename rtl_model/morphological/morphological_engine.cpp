@@ -23,8 +23,8 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
       divider_h("divider_h", clock, parameters_, spec::morphological::Axis::kHorizontal),
       divider_v("divider_v", clock, parameters_, spec::morphological::Axis::kVertical),
       area("area", clock, parameters_),
-      shares_loader(parameters_.area == spec::morphological::AreaSource::kLearned
-                        ? std::make_unique<SharesLoader>(control, area.shares_port().value())
+      weights_loader(parameters_.area == spec::morphological::AreaSource::kLearned
+                        ? std::make_unique<WeightsLoader>(control, area.weights_port().value())
                         : nullptr),
       diagonals(parameters_.diagonals
                     ? std::make_unique<DiagonalUnit>("diagonals", clock, parameters_)
@@ -50,8 +50,8 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   extractor.area_slots_out(area_slots_);
   extractor.fetches_out(fetches_);
   for (std::size_t lane = 0; lane < built_lanes_.lanes; ++lane) {
-    predictor_h.records_in[lane](extractor.records(spec::morphological::Axis::kHorizontal, lane));
-    predictor_v.records_in[lane](extractor.records(spec::morphological::Axis::kVertical, lane));
+    predictor_h.descriptors_in[lane](extractor.descriptors(spec::morphological::Axis::kHorizontal, lane));
+    predictor_v.descriptors_in[lane](extractor.descriptors(spec::morphological::Axis::kVertical, lane));
   }
   predictor_h.sums_out.bind(sums_h_);
   predictor_v.sums_out.bind(sums_v_);
@@ -62,30 +62,30 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   area.lines_h_in.bind(lines_h_);
   area.lines_v_in.bind(lines_v_);
   area.slots_in(area_slots_);
-  area.shares_out(shares_);
+  area.weights_out(weights_);
   area.finished_out(finished_);
   extractor.finished_in(finished_);
   pixel_store.beats_in(beats_);
   pixel_store.fetches_in(fetches_);
   pixel_store.pixels_out(pixels_);
-  blender.shares_in(shares_);
+  blender.weights_in(weights_);
   blender.pixels_in(pixels_);
   blender.pixels_out(pixels_out);
   blender.frames_done_out(frames_done_);
   sequencer.frames_done_in(frames_done_);
 
-  parameter_store.rules_out(rules_);
-  sequencer.rules_in(rules_);
-  luma.rules_in(rules_);
-  edges.rules_in(rules_);
-  extractor.rules_in(rules_);
-  predictor_h.rules_in(rules_);
-  predictor_v.rules_in(rules_);
-  divider_h.rules_in(rules_);
-  divider_v.rules_in(rules_);
-  area.rules_in(rules_);
-  pixel_store.rules_in(rules_);
-  blender.rules_in(rules_);
+  parameter_store.configuration_out(configuration_);
+  sequencer.configuration_in(configuration_);
+  luma.configuration_in(configuration_);
+  edges.configuration_in(configuration_);
+  extractor.configuration_in(configuration_);
+  predictor_h.configuration_in(configuration_);
+  predictor_v.configuration_in(configuration_);
+  divider_h.configuration_in(configuration_);
+  divider_v.configuration_in(configuration_);
+  area.configuration_in(configuration_);
+  pixel_store.configuration_in(configuration_);
+  blender.configuration_in(configuration_);
   sequencer.first_beat_out(first_beat_);
   parameter_store.first_beat_in(first_beat_);
   parameter_store.enabled_out(enabled_);
@@ -100,16 +100,16 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   parameter_store.framing_in(framing_);
 
   if (diagonals) {
-    diagonals->rules_in(rules_);
+    diagonals->configuration_in(configuration_);
     columns_ = std::make_unique<Link<DiagonalColumnsToken>>(
         "diagonal_columns", 2, diagonal_columns_shape(parameters_, built_lanes(parameters_)));
     (*extractor.columns_out)(*columns_);
     diagonals->columns_in(*columns_);
-    (*area.diagonals_in)(diagonals->shares());
+    (*area.diagonals_in)(diagonals->weights());
     control.show(spec::morphological::reg::kDiagonals, diagonals->diagonal_pixels);
   }
   if (text_guard) {
-    text_guard->rules_in(rules_);
+    text_guard->configuration_in(configuration_);
     guard_slots_ = std::make_unique<Link<GuardSlotToken>>("guard_slots", 2, built_lanes_);
     (*sequencer.guard_slots_out)(*guard_slots_);
     text_guard->slots_in(*guard_slots_);
@@ -141,9 +141,9 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
       {reg::kLongRuns, &extractor.long_runs},
       {reg::kZRuns, &extractor.z_runs},
       {reg::kBlendedPixels, &blender.blended_pixels},
-      {reg::kLeftPixels, &blender.left_pixels},
+      {reg::kBypassedPixels, &blender.bypassed_pixels},
       {reg::kFrameCycles, &sequencer.frame_cycles},
-      {reg::kRecordStalls, &extractor.record_stalls},
+      {reg::kDescriptorStalls, &extractor.descriptor_stalls},
       {reg::kMemoryErrors, &pixel_store.memory_errors}};
   for (const auto& [offset, counter] : shown) control.show(offset, *counter);
   // Both axes count for themselves; the register shows the sum.
@@ -170,18 +170,18 @@ spec::morphological::Work MorphologicalEngine::work() const {
   work.probes = predictor_h.probes.value() + predictor_v.probes.value();
   work.divides = divider_h.divides.value() + divider_v.divides.value();
   work.blended_pixels = blender.blended_pixels.value();
-  work.left_pixels = blender.left_pixels.value();
+  work.bypassed_pixels = blender.bypassed_pixels.value();
   if (diagonals) work.diagonal_pixels = diagonals->diagonal_pixels.value();
   return work;
 }
 
 void MorphologicalEngine::observe_runs(
-    std::function<void(const spec::morphological::RunRecord&)> observer) {
+    std::function<void(const spec::morphological::RunDescriptor&)> observer) {
   extractor.observer = std::move(observer);
 }
 
 void MorphologicalEngine::observe_lines(
-    std::function<void(const spec::morphological::LineRecord&)> observer) {
+    std::function<void(const spec::morphological::LineDescriptor&)> observer) {
   area.observe_lines(std::move(observer));
 }
 

@@ -16,7 +16,7 @@
 //                    |            LineUnit h, v ------------ lines --|--|------+   |        |
 //                    |                                               |  |          |        |
 //                    |            DiagonalUnit <------ columns ------+  |          |        |
-//                    |                +------------------ shares -------|----------+        |
+//                    |                +------------------ weights -------|----------+        |
 //                    |                                                  |                   |
 //                    +- guard slots --> TextGuard ------- guards -------|-------------------+
 //                    |                                                  |                   |
@@ -24,7 +24,7 @@
 //                                   |   +--------------------- pixels ----------------------+
 //      registers (TLM-2.0 target)   |
 //          |          |             v
-//   ParameterStore  SharesLoader  MemoryPort: memory (TLM-2.0 initiator)
+//   ParameterStore  WeightsLoader  MemoryPort: memory (TLM-2.0 initiator)
 //                       |
 //                       +- words --> tables of the AreaUnit
 //
@@ -33,8 +33,8 @@
 //          PixelStore -- memory_error --> ParameterStore
 //          ParameterStore -- enabled, latched --> SlotSequencer
 //
-// DiagonalUnit, TextGuard, MemoryPort and SharesLoader are there if diagonals, text_guard, storage
-// = memory and learned shares are built.
+// DiagonalUnit, TextGuard, MemoryPort and WeightsLoader are there if diagonals, text_guard, storage
+// = memory and learned weights are built.
 //
 // A frame is a sequence of slots, one a clock at most. Unstalled, beat j popped in clock c is
 // pushed out in clock c + (R + 5) x BPR + kPipelineLatency; one beat (1, 2 or 4 pixels) a clock.
@@ -57,7 +57,7 @@
 #include "rtl_model/morphological/blend/blender.h"
 #include "rtl_model/morphological/blend/diagonal_unit.h"
 #include "rtl_model/morphological/blend/pixel_store.h"
-#include "rtl_model/morphological/blend/shares_loader.h"
+#include "rtl_model/morphological/blend/weights_loader.h"
 #include "rtl_model/morphological/common/parameter_store.h"
 #include "rtl_model/morphological/front/edge_detector.h"
 #include "rtl_model/morphological/front/luma_unit.h"
@@ -99,7 +99,7 @@ class MorphologicalEngine final : public Engine {
   EndpointPredictor predictor_h, predictor_v;
   LineUnit divider_h, divider_v;
   AreaUnit area;
-  std::unique_ptr<SharesLoader> shares_loader;  // only with learned shares
+  std::unique_ptr<WeightsLoader> weights_loader;  // only with learned weights
   std::unique_ptr<DiagonalUnit> diagonals;      // only with diagonals
   std::unique_ptr<TextGuard> text_guard;        // only with text_guard
   PixelStore pixel_store;
@@ -110,23 +110,23 @@ class MorphologicalEngine final : public Engine {
   bool idle() const override;
   // Counts since the last reset or clear command; of one frame if there was one.
   spec::morphological::Work work() const;
-  // Clocks from a beat being popped to the same beat being pushed.
+  // Cycles from a beat being popped to the same beat being pushed.
   const Histogram& beat_latency = blender.beat_latency;
 
   // For checks: every run as it is found, every line as it is stored (canonical order is the
   // receiver's business). Costs nothing when not set. A line is made for records with a side
   // only, and for learned ones.
-  void observe_runs(std::function<void(const spec::morphological::RunRecord&)> observer);
-  void observe_lines(std::function<void(const spec::morphological::LineRecord&)> observer);
+  void observe_runs(std::function<void(const spec::morphological::RunDescriptor&)> observer);
+  void observe_lines(std::function<void(const spec::morphological::LineDescriptor&)> observer);
 
   const spec::morphological::Parameters& parameters() const { return parameters_; }
 
  private:
   // From the registers to the units, and what sets their sticky bits.
-  Wire<FrameRules> rules_{"rules", FrameRules{}, rules_shape(parameters_)};
+  Wire<FrameConfiguration> configuration_{"rules", FrameConfiguration{}, configuration_shape(parameters_)};
   Pulse first_beat_{"first_beat"}, latch_{"latch"};
   CombinationalWire<bool> enabled_{"enabled"};
-  CombinationalWire<Decoded> latched_{"latched", rules_shape(parameters_, "rules.")};
+  CombinationalWire<Decoded> latched_{"latched", configuration_shape(parameters_, "rules.")};
   Pulse frame_done_{"frame_done"}, framing_{"framing"};
   std::unique_ptr<Pulse> memory_error_;
   const PayloadShape built_lanes_{.lanes = static_cast<std::uint32_t>(built_lanes(parameters_))};
@@ -137,8 +137,8 @@ class MorphologicalEngine final : public Engine {
   Link<AreaSlotToken> area_slots_{"area_slots", 2,
                                   area_slot_shape(parameters_, built_lanes(parameters_))};
   Link<FetchToken> fetches_{"fetches"};
-  Link<ShareToken> shares_{"shares", 2, built_lanes_};
-  // The pixels of a slot wait here for its shares.
+  Link<WeightToken> weights_{"weights", 2, built_lanes_};
+  // The pixels of a slot wait here for its weights.
   Link<PixelToken> pixels_{
       "pixels", spec::morphological::kAreaLatency - spec::morphological::kPixelStoreLatency + 2,
       built_lanes_};

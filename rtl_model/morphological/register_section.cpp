@@ -13,13 +13,13 @@ RegisterSection register_section(const spec::morphological::Parameters& paramete
   RegisterSection section{"MorphologicalEngine", "DEBURR_MORPHOLOGICAL", {}};
   section.loaded.assign(loaded.begin(), loaded.end());
   section.busy_ignores_writes = spec::morphological::kBusyIgnoresWrites;
-  // Without learned shares their registers read 0 and keep nothing.
+  // Without learned weights their registers read 0 and keep nothing.
   static constexpr std::array kNotBuilt = spec::number(spec::Access::kConstant);
   const bool learned = parameters.area == spec::morphological::AreaSource::kLearned;
   for (spec::RegisterInfo info : spec::morphological::kRegisters) {
     const bool is_built =
-        learned || (info.offset != reg::kSharesAddress && info.offset != reg::kSharesData &&
-                    info.offset != reg::kSharesSum);
+        learned || (info.offset != reg::kWeightsAddress && info.offset != reg::kWeightsData &&
+                    info.offset != reg::kWeightsSum);
     if (!is_built) info.fields = kNotBuilt;
     section.rows.push_back(info);
   }

@@ -92,15 +92,15 @@ std::uint64_t GeometricRegions::end_of(std::uint64_t address) const {
 // ---- a frame ------------------------------------------------------------------------------------
 
 GeometricDriver::GeometricDriver(RegisterBus& registers, HostMemory& memory,
-                                 const spec::geometric::Parameters& rules)
+                                 const spec::geometric::Parameters& configuration)
     : EngineDriver(registers, {"geometric engine", spec::geometric::kRegisters}),
       memory_(memory),
-      rules_(rules) {}
+      configuration_(configuration) {}
 
-void GeometricDriver::set_rules(const spec::geometric::Parameters& rules) {
+void GeometricDriver::set_configuration(const spec::geometric::Parameters& configuration) {
   require_idle("new rules");
-  registers_.write(spec::geometric::reg::kRules, spec::geometric::rules_word(rules));
-  rules_ = rules;
+  registers_.write(spec::geometric::reg::kConfiguration, spec::geometric::configuration_word(configuration));
+  configuration_ = configuration;
 }
 
 void GeometricDriver::require_pixels(std::string_view what, std::size_t count,
@@ -119,7 +119,7 @@ void GeometricDriver::check(const GeometricFrame& frame) const {
   require_range("edges", sizes.edges, 0, spec::geometric::kMaxEdges);
   require_range("vertices", sizes.vertices, 0, spec::geometric::kMaxVertices);
   // Nobody reads facing bits where edges are not selected by them.
-  const bool unread = rules_.select != spec::geometric::Select::kEdges;
+  const bool unread = configuration_.select != spec::geometric::Select::kEdges;
   require_range("faces", sizes.faces, 0,
                 unread ? spec::geometric::kIndexMask + 1 : spec::geometric::kMaxFaces);
   if (frame.facing.size() < (sizes.faces + 7) / 8)
@@ -127,7 +127,7 @@ void GeometricDriver::check(const GeometricFrame& frame) const {
                        sizes.faces));
   if (!frame.depths.empty()) require_pixels("depths", frame.depths.size(), sizes);
   if (!frame.colours.empty()) require_pixels("colours", frame.colours.size(), sizes);
-  const GeometricRegions::Bytes bytes = GeometricRegions::needed(sizes, rules_);
+  const GeometricRegions::Bytes bytes = GeometricRegions::needed(sizes, configuration_);
   std::array<NamedRegion, GeometricRegions::kCount> regions;
   for (std::size_t i = 0; i < regions.size(); ++i)
     regions[i] = {spec::geometric::kRegionNames[i],
@@ -142,7 +142,7 @@ void GeometricDriver::load(const GeometricFrame& frame) {
   check(frame);
   sizes_ = frame.sizes();
   fill(spec::geometric::Region::kFaces, frame.facing.first((sizes_.faces + 7) / 8));
-  if (rules_.records == spec::geometric::RecordsLayout::kSplit) {
+  if (configuration_.records == spec::geometric::RecordsLayout::kSplit) {
     fill(spec::geometric::Region::kEdges, face_records(frame.edges));
     fill(spec::geometric::Region::kPairs, pair_records(frame.edges, true));
     memory_.write(regions_.other_pairs(sizes_.boundaries), pair_records(frame.edges, false));
@@ -157,7 +157,7 @@ void GeometricDriver::load(const GeometricFrame& frame) {
 void GeometricDriver::load_depths(std::span<const std::uint32_t> depths) {
   require_pixels("depths", depths.size(), sizes_);
   fill(spec::geometric::Region::kDepth, depth_buffer(layout(), depths));
-  if (rules_.coarse_lines != spec::geometric::CoarseLines::kNone)
+  if (configuration_.coarse_lines != spec::geometric::CoarseLines::kNone)
     fill(spec::geometric::Region::kCoarse, coarse_depth(sizes_.width, sizes_.height, depths));
 }
 
@@ -196,12 +196,12 @@ void GeometricDriver::start() {
 }
 
 void GeometricDriver::require_accepted() {
-  const spec::geometric::Refusal why = refusal();
-  if (why == spec::geometric::Refusal::kNone) return;
+  const spec::geometric::Rejection why = rejection();
+  if (why == spec::geometric::Rejection::kNone) return;
   const auto code = static_cast<std::size_t>(why);
   throw spec::SimulationError(fmt::format(
       "the geometric engine rejected the start: {}",
-      code < spec::geometric::kRefusalNames.size() ? spec::geometric::kRefusalNames[code] : "?"));
+      code < spec::geometric::kRejectionNames.size() ? spec::geometric::kRejectionNames[code] : "?"));
 }
 
 // ---- results ------------------------------------------------------------------------------------
@@ -213,7 +213,7 @@ spec::geometric::Work GeometricDriver::work() {
   return work;
 }
 
-GeometricClocks GeometricDriver::clocks() {
+GeometricCycles GeometricDriver::cycles() {
   return {registers_.read(spec::geometric::reg::kFrameCycles),
           registers_.read(spec::geometric::reg::kEdgeCycles),
           registers_.read(spec::geometric::reg::kResolveCycles)};

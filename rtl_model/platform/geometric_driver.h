@@ -86,8 +86,8 @@ class GeometricRegions {
   std::uint64_t end_ = 0;
 };
 
-// Clocks of the last frame.
-struct GeometricClocks {
+// Cycles of the last frame.
+struct GeometricCycles {
   std::uint32_t frame = 0, edges = 0, resolve = 0;
 };
 
@@ -95,11 +95,11 @@ class GeometricDriver final : public EngineDriver {
  public:
   // Both must outlive the driver. `rules`: those that the engine has from its reset on.
   GeometricDriver(RegisterBus& registers, HostMemory& memory,
-                  const spec::geometric::Parameters& rules);
+                  const spec::geometric::Parameters& configuration);
 
   // The rules of the next frame, `layout` and `frame_copy` among them.
-  void set_rules(const spec::geometric::Parameters& rules);
-  const spec::geometric::Parameters& rules() const { return rules_; }
+  void set_configuration(const spec::geometric::Parameters& configuration);
+  const spec::geometric::Parameters& configuration() const { return configuration_; }
   void place(const GeometricRegions& regions) { regions_ = regions; }
   const GeometricRegions& regions() const { return regions_; }
 
@@ -121,20 +121,20 @@ class GeometricDriver final : public EngineDriver {
     start();
   }
   // Of the last start, from the clock after it on.
-  spec::geometric::Refusal refusal() {
-    return static_cast<spec::geometric::Refusal>(registers_.read(spec::geometric::reg::kRefusal));
+  spec::geometric::Rejection rejection() {
+    return static_cast<spec::geometric::Rejection>(registers_.read(spec::geometric::reg::kRejection));
   }
   // SimulationError, with the reason, if it was rejected.
   void require_accepted();
 
   // Since the counters were cleared.
   spec::geometric::Work work();
-  GeometricClocks clocks();
+  GeometricCycles cycles();
   // The frame as it is in memory.
   std::vector<spec::geometric::Rgba8> picture() const;
   spec::geometric::Rgba8 pixel(int x, int y) const;
   std::uint32_t colour_address(int x, int y) const;
-  PixelLayout layout() const { return {rules_.layout, sizes_.width, sizes_.height}; }
+  PixelLayout layout() const { return {configuration_.layout, sizes_.width, sizes_.height}; }
 
  private:
   void check(const GeometricFrame& frame) const;
@@ -144,7 +144,7 @@ class GeometricDriver final : public EngineDriver {
   }
 
   HostMemory& memory_;
-  spec::geometric::Parameters rules_;
+  spec::geometric::Parameters configuration_;
   GeometricRegions regions_;
   GeometricSizes sizes_;  // of the frame that was loaded last
 };

@@ -115,10 +115,10 @@ void MemoryModel::clear_statistics() {
   forget_lines();
 }
 
-std::uint64_t MemoryModel::transfer_clocks(std::uint64_t bytes) const {
-  if (parameters_.bytes_per_clock == 0) return 1;
+std::uint64_t MemoryModel::transfer_cycles(std::uint64_t bytes) const {
+  if (parameters_.bytes_per_cycle == 0) return 1;
   return std::max<std::uint64_t>(
-      1, (bytes + parameters_.bytes_per_clock - 1) / parameters_.bytes_per_clock);
+      1, (bytes + parameters_.bytes_per_cycle - 1) / parameters_.bytes_per_cycle);
 }
 
 std::uint32_t MemoryModel::draw_latency() {
@@ -284,13 +284,13 @@ void MemoryModel::land_answered() {
 // When the last byte of a transaction is there whose first one may come at `ready`. The bus goes to
 // whoever is ready first.
 std::uint64_t MemoryModel::take_bus(std::uint64_t ready, const tlm::tlm_generic_payload& payload) {
-  const std::uint64_t clocks = transfer_clocks(payload.get_data_length());
+  const std::uint64_t cycles = transfer_cycles(payload.get_data_length());
   std::uint64_t start = ready;
-  if (parameters_.bytes_per_clock != 0) {
+  if (parameters_.bytes_per_cycle != 0) {
     start = std::max(start, bus_free_);
-    bus_free_ = start + clocks * period_;
+    bus_free_ = start + cycles * period_;
   }
-  return start + (clocks - 1) * period_;
+  return start + (cycles - 1) * period_;
 }
 
 void MemoryModel::schedule(std::uint64_t time, Step step, const Request& request) {
@@ -372,8 +372,8 @@ void MemoryModel::b_transport(int, tlm::tlm_generic_payload& payload, sc_core::s
   land_answered();
   land((sc_core::sc_time_stamp() + delay).value() + 1);
   if (admit(payload, requests_++, true)) transfer(payload, payload.get_address());
-  const std::uint64_t clocks = draw_latency() + transfer_clocks(payload.get_data_length()) - 1;
-  delay += sc_core::sc_time::from_value(clocks * period_);
+  const std::uint64_t cycles = draw_latency() + transfer_cycles(payload.get_data_length()) - 1;
+  delay += sc_core::sc_time::from_value(cycles * period_);
 }
 
 unsigned MemoryModel::transport_dbg(int, tlm::tlm_generic_payload& payload) {

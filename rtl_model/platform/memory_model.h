@@ -5,7 +5,7 @@
 // predicts.
 //
 // A transaction that begins at time t and finds its bank free has its last byte at
-//   t + latency + (bytes / bytes_per_clock, rounded up, - 1) clocks,
+//   t + latency + (bytes / bytes_per_cycle, rounded up, - 1) cycles,
 // later if its bank or the data bus is busy. With a random latency responses overtake each other.
 // A read takes its data when it begins, a write gives them up when its last byte is there: who
 // reads a line before its write was answered gets the old one. b_transport() does both at once.
@@ -70,7 +70,7 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   std::uint64_t bytes_read() const { return bytes_read_; }
   std::uint64_t bytes_written() const { return bytes_written_; }
   std::uint64_t errors() const { return errors_; }
-  std::uint32_t most_outstanding() const { return most_outstanding_; }
+  std::uint32_t max_outstanding() const { return most_outstanding_; }
   // Addresses in the order of requests; of a burst, one for each 64 bytes.
   const std::vector<std::uint64_t>& lines_read() const { return lines_read_; }
   const std::vector<std::uint64_t>& lines_written() const { return lines_written_; }
@@ -143,7 +143,7 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   bool admit(tlm::tlm_generic_payload& payload, std::uint64_t number, bool counted);
   // Reads or writes the contents.
   void transfer(tlm::tlm_generic_payload& payload, std::uint64_t address);
-  std::uint64_t transfer_clocks(std::uint64_t bytes) const;
+  std::uint64_t transfer_cycles(std::uint64_t bytes) const;
   std::uint32_t draw_latency();
 
   MemoryModelParameters parameters_;

@@ -11,7 +11,7 @@ struct MemoryModelParameters {
   std::uint32_t latency_min = 20;       // clk from request to the first byte
   std::uint32_t latency_max = 20;       // clk; above latency_min: drawn evenly for each transaction
   std::uint64_t seed = 1;               // of the latencies
-  std::uint32_t bytes_per_clock = 64;   // of the data bus; 0: no limit
+  std::uint32_t bytes_per_cycle = 64;   // of the data bus; 0: no limit
   std::uint32_t banks = 1;              // lines of interleave_bytes go round the banks
   std::uint32_t interleave_bytes = 64;  // bytes
   std::uint32_t bank_busy = 0;          // clk from a request until its bank takes another; 0: none

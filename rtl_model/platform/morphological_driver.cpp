@@ -16,7 +16,7 @@ DriverLayout MorphologicalDriver::layout() {
   return {"morphological engine", spec::morphological::kRegisters};
 }
 
-void MorphologicalDriver::set_rules(const spec::morphological::Parameters& p) {
+void MorphologicalDriver::set_configuration(const spec::morphological::Parameters& p) {
   require_idle("new rules");
   const std::pair<std::uint32_t, std::int32_t> thresholds[] = {
       {spec::morphological::reg::kThreshold, p.threshold},
@@ -25,7 +25,7 @@ void MorphologicalDriver::set_rules(const spec::morphological::Parameters& p) {
       {spec::morphological::reg::kAlpha, p.alpha},
       {spec::morphological::reg::kFloor, p.floor},
       {spec::morphological::reg::kDepthThreshold, p.depth_threshold}};
-  registers_.write(spec::morphological::reg::kRules, spec::morphological::rules_word(p));
+  registers_.write(spec::morphological::reg::kConfiguration, spec::morphological::configuration_word(p));
   for (const auto& [offset, value] : thresholds)
     registers_.write(offset, static_cast<std::uint32_t>(value));
   registers_.write(spec::morphological::reg::kSmaa, spec::morphological::smaa_word(p));
@@ -61,20 +61,20 @@ void MorphologicalDriver::set_size(int width, int height) {
                                                   static_cast<std::uint32_t>(height)));
 }
 
-void MorphologicalDriver::load_shares(std::span<const std::int8_t> entries) {
+void MorphologicalDriver::load_weights(std::span<const std::int8_t> entries) {
   if (built_.area != spec::morphological::AreaSource::kLearned)
-    reject("it was built without learned shares: area = learned");
-  if (entries.size() != kShareEntries)
-    reject(fmt::format("{} learned shares, expected {}", entries.size(), kShareEntries));
-  require_idle("learned shares");
-  registers_.write(spec::morphological::reg::kSharesAddress, 0);
+    reject("it was built without learned weights: area = learned");
+  if (entries.size() != kWeightEntries)
+    reject(fmt::format("{} learned weights, expected {}", entries.size(), kWeightEntries));
+  require_idle("learned weights");
+  registers_.write(spec::morphological::reg::kWeightsAddress, 0);
   for (const std::int8_t entry : entries)
-    registers_.write(spec::morphological::reg::kSharesData, static_cast<std::uint8_t>(entry));
-  const std::uint32_t sum = registers_.read(spec::morphological::reg::kSharesSum),
-                      expected = shares_sum(entries);
+    registers_.write(spec::morphological::reg::kWeightsData, static_cast<std::uint8_t>(entry));
+  const std::uint32_t sum = registers_.read(spec::morphological::reg::kWeightsSum),
+                      expected = weights_sum(entries);
   if (sum != expected)
     throw spec::SimulationError(fmt::format(
-        "learned shares were loaded, and SHARES_SUM reads {:#x}, expected {:#x}", sum, expected));
+        "learned weights were loaded, and WEIGHTS_SUM reads {:#x}, expected {:#x}", sum, expected));
 }
 
 spec::morphological::Work MorphologicalDriver::work() {
@@ -84,7 +84,7 @@ spec::morphological::Work MorphologicalDriver::work() {
   return work;
 }
 
-std::uint32_t MorphologicalDriver::frame_clocks() {
+std::uint32_t MorphologicalDriver::frame_cycles() {
   return registers_.read(spec::morphological::reg::kFrameCycles);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The morphological engine as software sees it: rules, size and place of its frames, the learned
-// shares, counters. Pixels come and go over its links, a beat at a time (pixel_beat()).
+// weights, counters. Pixels come and go over its links, a beat at a time (pixel_beat()).
 //
 //   MorphologicalDriver driver(registers, parameters, &memory);   // as the engine was built
 //   driver.identify();
@@ -33,20 +33,20 @@ class MorphologicalDriver final : public EngineDriver {
       : EngineDriver(registers, layout()), built_(built), memory_(memory) {}
 
   // The rules and thresholds of the frames to come; of blocks that are not built they stay off.
-  void set_rules(const spec::morphological::Parameters& rules);
+  void set_configuration(const spec::morphological::Parameters& configuration);
   // Where frames lie with storage = memory. ConfigError unless it is a multiple of 64.
   void place(std::uint32_t base);
   // ConfigError for 0, over 8192, wider than line_pixels, or more than fits into memory from the
   // base on.
   void set_size(int width, int height);
-  // All of the learned shares, as they are from the next frame on; a reset leaves them.
+  // All of the learned weights, as they are from the next frame on; a reset leaves them.
   // SimulationError if the engine's sum of them is another one.
-  void load_shares(std::span<const std::int8_t> entries);
+  void load_weights(std::span<const std::int8_t> entries);
 
   // Since the counters were cleared.
   spec::morphological::Work work();
-  // Clocks of the last frame, from its first input beat to its last output beat.
-  std::uint32_t frame_clocks();
+  // Cycles of the last frame, from its first input beat to its last output beat.
+  std::uint32_t frame_cycles();
 
  private:
   static DriverLayout layout();

@@ -21,7 +21,7 @@ std::uint64_t frame_bytes(int width, int height) {
   return (row + kLine - 1) / kLine * kLine * static_cast<std::uint64_t>(height);
 }
 
-std::uint32_t shares_sum(std::span<const std::int8_t> entries) {
+std::uint32_t weights_sum(std::span<const std::int8_t> entries) {
   std::uint32_t sum = 0, place = 0;
   for (const std::int8_t entry : entries)
     sum += ++place * std::uint32_t{static_cast<std::uint8_t>(entry)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What software gives to the morphological engine: beats of pixels, learned shares; and the room
+// What software gives to the morphological engine: beats of pixels, learned weights; and the room
 // that a frame takes in memory.
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "spec/morphological/learned_shares.h"
+#include "spec/morphological/learned_weights.h"
 #include "spec/morphological/packets.h"
 #include "spec/morphological/parameters.h"
 
@@ -48,11 +48,11 @@ std::vector<spec::morphological::PixelBeat> beats_of(const PixelFrame& frame, in
 // Of a frame with storage = memory: rows begin at multiples of 64 bytes.
 std::uint64_t frame_bytes(int width, int height);
 
-// All entries, in the order of SHARES_ADDRESS: A, B, C.
-inline constexpr std::size_t kShareEntries = spec::morphological::kSharesOfCodes.size() +
-                                             spec::morphological::kSharesOfNear.size() +
-                                             spec::morphological::kSharesOfFar.size();
-// What SHARES_SUM says of them.
-std::uint32_t shares_sum(std::span<const std::int8_t> entries);
+// All entries, in the order of WEIGHTS_ADDRESS: A, B, C.
+inline constexpr std::size_t kWeightEntries = spec::morphological::kWeightsOfCodes.size() +
+                                             spec::morphological::kWeightsOfNear.size() +
+                                             spec::morphological::kWeightsOfFar.size();
+// What WEIGHTS_SUM says of them.
+std::uint32_t weights_sum(std::span<const std::int8_t> entries);
 
 }  // namespace deburr::platform

@@ -13,7 +13,7 @@ AddressUnit::AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock
                     : nullptr),
       axis(footprint
                ? nullptr
-               : std::make_unique<AxisUnit>("axis", clock, p.axes, p.footprint, p.axis_clocks)),
+               : std::make_unique<AxisUnit>("axis", clock, p.axes, p.footprint, p.axis_cycles)),
       log2("log2", clock, p.log2),
       level("level", clock, descriptors.for_levels, p.axes, p.count, p.count_cap),
       walker("walker", clock, p.count, p.kernel, p.spread),
@@ -48,12 +48,12 @@ Datasheet AddressUnit::datasheet(const spec::texture::Parameters& p) {
       .does =
           "From quads to bilinear requests: the blocks above, one after the "
           "other.",
-      .interval = {1, "N x (1 or 2) clocks a fragment, or `axis_clocks` if that is more"}};
+      .interval = {1, "N x (1 or 2) cycles a fragment, or `axis_cycles` if that is more"}};
   for (const Datasheet& block :
        {DerivativeUnit::datasheet(), two ? FootprintUnit::datasheet(p) : AxisUnit::datasheet(p),
         Log2Unit::datasheet(p), LevelUnit::datasheet(), SampleWalker::datasheet(p),
         TexelAddresser::datasheet()})
-    sheet.latency.clocks += block.latency.clocks;
+    sheet.latency.cycles += block.latency.cycles;
   return sheet;
 }
 

@@ -45,11 +45,11 @@ std::int64_t with_sign(std::uint32_t size, std::int64_t difference) {
 
 AxisUnit::AxisUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                    spec::texture::Axes axes, spec::texture::FootprintRule rule,
-                   std::int32_t axis_clocks)
+                   std::int32_t axis_cycles)
     : Unit(name, clock),
       rule_(rule),
       step_(axes == spec::texture::Axes::kEight ? 1 : 2),
-      more_clocks_(axis_clocks - 1) {}
+      more_cycles_(axis_cycles - 1) {}
 
 Activity AxisUnit::tick(Cycle cycle) {
   return rule_ == spec::texture::FootprintRule::kExact ? advance(cycle, root_stages_)
@@ -58,20 +58,20 @@ Activity AxisUnit::tick(Cycle cycle) {
 
 template <std::size_t kLength>
 Activity AxisUnit::advance(Cycle cycle, Pipe<FootprintToken, kLength>& stages) {
-  const bool arrives = clocks_left_ == 0 && derivatives_in.can_pop(cycle);
-  if (stages.empty() && clocks_left_ == 0 && !arrives) return kIdle;
+  const bool arrives = cycles_left_ == 0 && derivatives_in.can_pop(cycle);
+  if (stages.empty() && cycles_left_ == 0 && !arrives) return kIdle;
   if (stages.leaves() && !footprints_out.can_push(cycle)) return kStalledDownstream;
   stages.move();
   if (const FootprintToken* done = stages.at(kLength)) footprints_out.push(cycle, *done);
   if (arrives) {
     const DerivativeToken& in = derivatives_in.take(cycle);
-    if (more_clocks_ == 0) {
+    if (more_cycles_ == 0) {
       turn(in, stages.enter());
     } else {
       turn(in, in_hand_);
-      clocks_left_ = more_clocks_;
+      cycles_left_ = more_cycles_;
     }
-  } else if (clocks_left_ != 0 && --clocks_left_ == 0) {
+  } else if (cycles_left_ != 0 && --clocks_left_ == 0) {
     stages.enter() = in_hand_;
   }
   return kBusy;
@@ -112,7 +112,7 @@ std::uint64_t AxisUnit::measure(std::uint64_t s, std::uint64_t t) const {
 }
 
 void AxisUnit::reset() {
-  clocks_left_ = 0;
+  cycles_left_ = 0;
   stages_.reset();
   root_stages_.reset();
 }
@@ -131,16 +131,16 @@ std::uint64_t AxisUnit::area(const DerivativeToken& in) {
 
 Datasheet AxisUnit::datasheet(const spec::texture::Parameters& p) {
   const bool exact = p.footprint == spec::texture::FootprintRule::kExact;
-  const auto clocks = static_cast<std::uint64_t>(p.axis_clocks);
+  const auto cycles = static_cast<std::uint64_t>(p.axis_cycles);
   Datasheet sheet = {
       .unit = "AxisUnit",
       .variant = exact ? "`footprint = exact`" : "other `footprint`",
       .does =
           "The major axis among four or eight directions, and the area of the footprint "
           "(`axes = four`, `eight`, in place of the FootprintUnit).",
-      .latency = exact ? Clocks{22 + clocks - 1, "22, and `axis_clocks` - 1"}
-                       : Clocks{8 + clocks - 1, "8, and `axis_clocks` - 1"},
-      .interval = {clocks, "`axis_clocks`"},
+      .latency = exact ? Cycles{22 + cycles - 1, "22, and `axis_cycles` - 1"}
+                       : Cycles{8 + cycles - 1, "8, and `axis_cycles` - 1"},
+      .interval = {cycles, "`axis_cycles`"},
       .stages = {{"1",
                   "multiples 118/128, 90/128 and 49/128 of the derivatives in texels; two products "
                   "of the area",
@@ -154,7 +154,7 @@ Datasheet AxisUnit::datasheet(const spec::texture::Parameters& p) {
           "31-bit squarer: 1.29 of the multiply, as the FootprintUnit's"},
          {"4", "their sums", "62-bit addition"},
          {"5", "the longest of four", "two comparisons of 63 bits with a choice"},
-         {"6", "of those and of the clocks before", "two comparisons of 63 bits with a choice"},
+         {"6", "of those and of the cycles before", "two comparisons of 63 bits with a choice"},
          {"7-22",
           "two root bits each; beside 7 the same multiples of the coordinate differences, those of "
           "the direction found, beside 8 their sum, rounded",
@@ -166,7 +166,7 @@ Datasheet AxisUnit::datasheet(const spec::texture::Parameters& p) {
         {{"3", "measure of each candidate", "31-bit comparison with a choice, 32-bit addition"},
          {"4", "`two_segment`'s longer line", "32-bit comparison with a choice"},
          {"5", "the longest of four", "two comparisons of 32 bits with a choice"},
-         {"6", "of those and of the clocks before", "two comparisons of 32 bits with a choice"},
+         {"6", "of those and of the cycles before", "two comparisons of 32 bits with a choice"},
          {"7", "the same multiples of the coordinate differences, those of the direction found"},
          {"8", "their sum, rounded",
           "two 41-bit additions and the rounding: 1.46 of the multiply"}});

@@ -4,7 +4,7 @@
 // coordinates, and the area of the footprint, which gives the minor axis.
 //
 // Where: after the DerivativeUnit, in place of the FootprintUnit, with `axes = four | eight`.
-// `axis_clocks` puts the candidates through the stages that measure them in so many groups. With
+// `axis_cycles` puts the candidates through the stages that measure them in so many groups. With
 // `exact` there is one root however many the candidates are, since squares are compared. The model
 // does all at once, then delays. Stalled by `downstream`, and then holds still as a whole. Source:
 // ours; lengths as in paper 1.2.
@@ -28,7 +28,7 @@ class AxisUnit final : public Unit {
   Out<FootprintToken> footprints_out{"footprints_out"};
 
   AxisUnit(const sc_core::sc_module_name& name, ClockDomain& clock, spec::texture::Axes axes,
-           spec::texture::FootprintRule rule, std::int32_t axis_clocks);
+           spec::texture::FootprintRule rule, std::int32_t axis_cycles);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -49,9 +49,9 @@ class AxisUnit final : public Unit {
 
   spec::texture::FootprintRule rule_;
   unsigned step_;             // between candidates, x 22.5 degrees
-  std::int32_t more_clocks_;  // beyond the first, for the candidates of a fragment
+  std::int32_t more_cycles_;  // beyond the first, for the candidates of a fragment
   // Registers.
-  std::int32_t clocks_left_ = 0;  // U2, that the fragment in hand still takes
+  std::int32_t cycles_left_ = 0;  // U2, that the fragment in hand still takes
   FootprintToken in_hand_{};
   Pipe<FootprintToken, kStages> stages_;
   Pipe<FootprintToken, kRootStages> root_stages_;  // `exact`

@@ -81,7 +81,7 @@ Activity DataStage::work(Cycle cycle) {
   return kBusy;
 }
 
-// Stage 1 of a request that takes several clocks, or may.
+// Stage 1 of a request that takes several cycles, or may.
 Activity DataStage::advance(Cycle cycle, const CacheToken& request) {
   if (!started_) {
     started_ = true;
@@ -200,7 +200,7 @@ Datasheet DataStage::datasheet() {
       .unit = "DataStage",
       .does = "Reads the texels of a request from the banks and writes the fills it ordered.",
       .latency = {2, "2 in the last clock of a request"},
-      .interval = {1, "max(1, bank passes) + max(1, lines to write) - 1 clocks a request"},
+      .interval = {1, "max(1, bank passes) + max(1, lines to write) - 1 cycles a request"},
       .stages = {{"1",
                   "waits for the fills of its own request and takes each as it arrives in order, "
                   "addresses the texels that hit before it writes its fills",

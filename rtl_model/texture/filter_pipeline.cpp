@@ -42,17 +42,17 @@ constexpr unsigned kToByte = 20, kToLight = 16;
 }  // namespace
 
 FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain& clock,
-                               const spec::texture::Rules& rules, LatencyProbe& probe)
+                               const spec::texture::Configuration& configuration, LatencyProbe& probe)
     : Unit(name, clock),
-      occupancy{Counter{"stage_1", "clk", "clocks in which stage 1, fields, had a request"},
-                Counter{"stage_2", "clk", "clocks in which stage 2, unpack, had a request"},
-                Counter{"stage_3", "clk", "clocks in which stage 3, products, had a request"},
-                Counter{"stage_4", "clk", "clocks in which stage 4, sums, had a request"},
-                Counter{"stage_5", "clk", "clocks in which stage 5, vertical lerp, had a request"},
-                Counter{"stage_6", "clk", "clocks in which stage 6, level lerp, had a request"},
-                Counter{"stage_7", "clk", "clocks in which stage 7, accumulate, had a sample"},
-                Counter{"stage_8", "clk", "clocks in which stage 8, round, had a fragment"},
-                Counter{"stage_9", "clk", "clocks in which stage 9, encode, had a fragment"}},
+      occupancy{Counter{"stage_1", "clk", "cycles in which stage 1, fields, had a request"},
+                Counter{"stage_2", "clk", "cycles in which stage 2, unpack, had a request"},
+                Counter{"stage_3", "clk", "cycles in which stage 3, products, had a request"},
+                Counter{"stage_4", "clk", "cycles in which stage 4, sums, had a request"},
+                Counter{"stage_5", "clk", "cycles in which stage 5, vertical lerp, had a request"},
+                Counter{"stage_6", "clk", "cycles in which stage 6, level lerp, had a request"},
+                Counter{"stage_7", "clk", "cycles in which stage 7, accumulate, had a sample"},
+                Counter{"stage_8", "clk", "cycles in which stage 8, round, had a fragment"},
+                Counter{"stage_9", "clk", "cycles in which stage 9, encode, had a fragment"}},
       probe_(probe),
       srgb_("srgb",
             {.words = spec::texture::kSrgbToLinear.size(),
@@ -65,8 +65,8 @@ FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain&
             spec::texture::kSrgbToLinear) {
   for (std::uint32_t i = 0; i < kCodedChannels; ++i)
     linear_.emplace_back(srgb_, "texel_" + std::to_string(i / 3) + "_" + "rgb"[i % 3]);
-  if (rules.kernel != spec::texture::Kernel::kBox ||
-      rules.count == spec::texture::CountRule::kAny) {
+  if (configuration.kernel != spec::texture::Kernel::kBox ||
+      configuration.count == spec::texture::CountRule::kAny) {
     weights_ =
         std::make_unique<Memory<std::uint16_t>>("weights",
                                                 MemoryShape{.words = kMostSamples * kMostSamples,
@@ -76,10 +76,10 @@ FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain&
                                                             .write_ports = 0,
                                                             .latency = 1,
                                                             .content = "weight of sample i of N"},
-                                                weight_words(rules.kernel));
+                                                weight_words(configuration.kernel));
     weight_read_.emplace(*weights_, "sample");
   }
-  if (rules.srgb_output == spec::texture::SrgbOutput::kEncoded) {
+  if (configuration.srgb_output == spec::texture::SrgbOutput::kEncoded) {
     codes_ = std::make_unique<Memory<std::uint8_t>>(
         "codes",
         MemoryShape{.words = spec::texture::kLinearToSrgb.size(),

@@ -37,14 +37,14 @@ class FilterPipeline final : public Unit {
   Out<spec::texture::Colour> colours_out{"colours_out"};
 
   FilterPipeline(const sc_core::sc_module_name& name, ClockDomain& clock,
-                 const spec::texture::Rules& rules, LatencyProbe& probe);
+                 const spec::texture::Configuration& configuration, LatencyProbe& probe);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
   Counter fragments{"fragments", "fragments", "colours delivered"};
   Histogram fragment_latency{"fragment_latency", "clk",
                              "from a quad being taken to a colour of it being delivered"};
-  // Clocks in which a stage had a token to work on.
+  // Cycles in which a stage had a token to work on.
   std::array<Counter, kStages> occupancy;
 
   static Datasheet datasheet(const spec::texture::Parameters& parameters);

@@ -20,7 +20,7 @@ Datasheet LatencyFifo::datasheet() {
       .unit = "LatencyFifo",
       .does = "Keeps requests between tag check and data read while lines come from memory.",
       .latency = {1, "at least 1"},
-      .stages = {{"-", "requests, as deep as memory's latency in clocks",
+      .stages = {{"-", "requests, as deep as memory's latency in cycles",
                   "SRAM read into an output register"}},
       .cost = "depth x request bits, flip-flops up to 32 requests and 16 kbit, SRAM 1R1W above."};
 }

@@ -2,7 +2,7 @@
 // Keeps requests between tag check and data read while their lines come from memory.
 //
 // Where: between TagStage and DataStage. Stalled by `downstream` when full. As deep as the memory's
-// latency in clocks, misses overlap with work and cost no time. Source: Igehy et al., 1998.
+// latency in cycles, misses overlap with work and cost no time. Source: Igehy et al., 1998.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/fifo.h"
-#include "rtl_model/fabric/memory_clocks.h"
+#include "rtl_model/fabric/memory_cycles.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/parameters.h"
@@ -32,7 +32,7 @@ class LatencyFifo final : public Unit {
   // request stays for the time of a miss, without the stages around the FIFO, and may miss four
   // lines, which come one behind the other.
   static constexpr std::int32_t depth(const spec::texture::Build& build,
-                                      const MemoryClocks& memory) {
+                                      const MemoryCycles& memory) {
     if (build.cache_fifo_depth != 0) return build.cache_fifo_depth;
     constexpr std::int32_t kAroundMemory = 3;
     return std::min(memory.latency + 4 * memory.transfer + kAroundMemory,

@@ -92,7 +92,7 @@ inline bool MissQueue::accept(Cycle cycle) {
     const std::uint32_t place = head_ + waiting_++;
     new_lines_[i].write(cycle, place < places ? place : place - places, missed.line[i]);
   }
-  most_waiting.raise_to(waiting_);
+  max_waiting.raise_to(waiting_);
   misses_in.pop(cycle);
   return true;
 }

@@ -123,7 +123,7 @@ Datasheet SampleWalker::datasheet(const spec::texture::Parameters& p) {
       .unit = "SampleWalker",
       .does = "Walks N samples along the major axis and emits the bilinear requests of each.",
       .interval =
-          {1, "N x (1 or 2) clocks a fragment (1 for an invalid descriptor), a request a clock"},
+          {1, "N x (1 or 2) cycles a fragment (1 for an invalid descriptor), a request a clock"},
       .formats =
           "axis S9.24, spread U2.6, 1/N U1.16, step S10.46, offset rounded to S9.24, position "
           "exact in S9.24.",

@@ -9,7 +9,7 @@ namespace deburr::rtl::texture {
 TagStage::TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
                    const spec::texture::Parameters& p)
     : Unit(name, clock),
-      LookUps(static_cast<std::uint32_t>(p.cache_line_bytes)),
+      Lookups(static_cast<std::uint32_t>(p.cache_line_bytes)),
       tags_("tags", p),
       line_log2_(log2_of(p.cache_line_bytes)),
       turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),

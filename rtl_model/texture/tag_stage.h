@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/datasheet.h"
-#include "rtl_model/fabric/look_ups.h"
+#include "rtl_model/fabric/lookups.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/texture/tag_store.h"
@@ -28,7 +28,7 @@ namespace deburr::rtl::texture {
 
 using rtl::LookUp;
 
-class TagStage final : public Unit, public LookUps {
+class TagStage final : public Unit, public Lookups {
  public:
   In<TexelToken> texels_in{"texels_in"};
   Out<CacheToken> requests_out{"requests_out"};

@@ -67,7 +67,7 @@ Datasheet TextureCache::datasheet() {
                    "words"}};
   for (const Datasheet& block :
        {TagStage::datasheet(), LatencyFifo::datasheet(), DataStage::datasheet()})
-    sheet.latency.clocks += block.latency.clocks;
+    sheet.latency.cycles += block.latency.cycles;
   return sheet;
 }
 

@@ -6,7 +6,7 @@
 namespace deburr::rtl::texture {
 namespace {
 
-spec::texture::Parameters sized(spec::texture::Parameters p, const MemoryClocks& memory) {
+spec::texture::Parameters sized(spec::texture::Parameters p, const MemoryCycles& memory) {
   p.cache_fifo_depth = LatencyFifo::depth(p, memory);
   return p;
 }
@@ -14,7 +14,7 @@ spec::texture::Parameters sized(spec::texture::Parameters p, const MemoryClocks&
 }  // namespace
 
 TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const spec::texture::Parameters& parameters, const MemoryClocks& memory,
+                         const spec::texture::Parameters& parameters, const MemoryCycles& memory,
                          const StandIns& stand_ins)
     : Engine(name, clock, register_table(), control_layout()),
       parameters_(sized(check_build(parameters), memory)),
@@ -53,10 +53,10 @@ Datasheet TextureUnit::datasheet(const spec::texture::Parameters& p) {
   Datasheet sheet = {
       .unit = "TextureUnit",
       .does = "From a quad taken to its first colour: one sample, nearest, warm cache.",
-      .interval = {1, "N x (1 or 2) clocks a fragment, or `axis_clocks` if that is more"}};
+      .interval = {1, "N x (1 or 2) cycles a fragment, or `axis_cycles` if that is more"}};
   for (const Datasheet& part :
        {AddressUnit::datasheet(p), TextureCache::datasheet(), FilterPipeline::datasheet(p)})
-    sheet.latency.clocks += part.latency.clocks;
+    sheet.latency.cycles += part.latency.cycles;
   return sheet;
 }
 

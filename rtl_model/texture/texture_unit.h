@@ -42,7 +42,7 @@ class TextureUnit final : public Engine {
   // ConfigError for what cannot be built (spec/texture/check_build.h). What the memory takes sizes
   // a latency FIFO whose depth is ordered as 0.
   TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::texture::Parameters& parameters, const MemoryClocks& memory = {},
+              const spec::texture::Parameters& parameters, const MemoryCycles& memory = {},
               const StandIns& stand_ins = {});
   ~TextureUnit() override;
 

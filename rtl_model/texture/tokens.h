@@ -230,11 +230,11 @@ inline std::uint32_t turn_bytes(std::uint32_t line_bytes) {
 
 // What of the tokens from the footprint to the walker is built. Without a turned axis an axis is a
 // difference of coordinates, S8.24, and the minor side a length, U16.16.
-inline PayloadShape axis_shape(const spec::texture::Rules& p) {
+inline PayloadShape axis_shape(const spec::texture::Configuration& p) {
   if (p.axes != spec::texture::Axes::kTwo) return {};
   return {.widths = {{"axis_s", 33}, {"axis_t", 33}}};
 }
-inline PayloadShape footprint_shape(const spec::texture::Rules& p) {
+inline PayloadShape footprint_shape(const spec::texture::Configuration& p) {
   PayloadShape shape = axis_shape(p);
   if (p.axes == spec::texture::Axes::kTwo) shape.widths.emplace_back("minor", 32);
   return shape;

@@ -20,17 +20,17 @@ def cache_hits(f):
     mesh = roof(f)
     runs = [f.run(f"texture --in {mesh} --texture brick --size 320x320 --set memory.latency=200 --set"
                   f" texture.cache.bytes={kib * 1024} --set texture.cache.ways=2") for kib in (1, 2, 32)]
-    for key in ("texel_hits_percent", "look_up_hits_percent"):
+    for key in ("texel_hits_percent", "lookup_hits_percent"):
         yield [f"`work.{key}`"] + [f"{run['work'][key]:.2f}" for run in runs]
 
 
 @recipe("lanes-of-2160p")
 def lanes(f):
     for count in (1, 2, 4):
-        run = f.run("morphological --scene cylinders --size 3840x2160 --check none --set frame.truth_samples=0"
+        run = f.run("morphological --scene cylinders --size 3840x2160 --check none --set frame.reference_samples=0"
                     f" --lanes {count}")
-        clocks = run["work"]["frame_clocks"]
-        yield [str(count), spaced(clocks), f"{60 * clocks / 1e6:.1f}",
+        cycles = run["work"]["frame_cycles"]
+        yield [str(count), spaced(cycles), f"{60 * cycles / 1e6:.1f}",
                spaced(run["memory_bits"]["total"]["physical"])]
 
 
@@ -60,7 +60,7 @@ def methods(f):
         head, _, *rows = [[cell.strip().replace("**", "") for cell in line.strip("|").split("|")]
                           for line in section.splitlines() if line.startswith("|")]
         scenes[title] = {row[0]: dict(zip(head, row)) for row in rows}
-    means, hardest, clocks = scenes["Mean of all scenes"], scenes["object"], "clocks, M = 100"
+    means, hardest, cycles = scenes["Mean of all scenes"], scenes["object"], "cycles, M = 100"
     ours = "`deburr`, geometric"
     for name, needs in (("none", ""), ("`mlaa`", "the picture"), ("`smaa`", "the picture"),
                         ("`deburr`, morphological", "the picture"), (ours, "picture, depth, mesh"),
@@ -68,5 +68,5 @@ def methods(f):
         if name not in means:
             raise Problem(f"docs/measurements/comparison.md has no mean of {name}")
         mean = means[name]
-        yield [name, needs, mean["edges, dB"], hardest[name]["blended pixels"], hardest[name][clocks],
-               mean["blended pixels"], mean[clocks], mean["memory, bits"]]
+        yield [name, needs, mean["edges, dB"], hardest[name]["blended pixels"], hardest[name][cycles],
+               mean["blended pixels"], mean[cycles], mean["memory, bits"]]

@@ -64,7 +64,7 @@ def geometric_banks(f):
     """A memory that takes a request every clock, and one of banks."""
     line = "geometric --scene object --size 1920x1080 --preset deburr"
     for memory, given in (("takes a line a clock", ""),
-                          ("16 banks, each busy for 12 clocks",
+                          ("16 banks, each busy for 12 cycles",
                            " --set memory.banks=16 --set memory.bank_busy=12")):
         result = f.run(line + given)
         work = result["work"]

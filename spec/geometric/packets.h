@@ -117,7 +117,7 @@ struct Work {
   std::uint64_t empty_edges = 0;       // no column of the frame
   std::uint64_t lines = 0;             // set up and walked
   std::uint64_t columns = 0;           // walked
-  std::uint64_t groups = 0;            // clocks of the walkers; goes with their number
+  std::uint64_t groups = 0;            // cycles of the walkers; goes with their number
   std::uint64_t candidates = 0;        // pixels of the frame with a neighbour and a coverage
   std::uint64_t passed = 0;            // of these the depth test
   std::uint64_t blocks = 0;            // touched

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parameters, presets and limits of the geometric engine: rules, which change pixels, and build
-// choices, which change clocks, traffic and cost. Meaning: docs/reference/geometric/index.md;
-// formats and rounding, to the bit: docs/reference/geometric/formats.md; clocks:
+// choices, which change cycles, traffic and cost. Meaning: docs/reference/geometric/index.md;
+// formats and rounding, to the bit: docs/reference/geometric/formats.md; cycles:
 // docs/reference/geometric/hardware.md.
 #pragma once
 
@@ -94,7 +94,7 @@ inline constexpr std::int32_t kMinCopyLines = 2, kMaxCopyLines = 256;
 inline constexpr std::int32_t kMaxColourLines = 256, kMaxWriteBuffer = 128;
 
 // Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
-struct Rules {
+struct Configuration {
   Preset preset = Preset::kDeburr;
   Select select = Select::kEdges;
   Crease crease = Crease::kShading;
@@ -108,7 +108,7 @@ struct Rules {
   bool mark = false;
 };
 
-// Build choices: what changes clocks, traffic and cost, and no pixel. Runs that differ in these
+// Build choices: what changes cycles, traffic and cost, and no pixel. Runs that differ in these
 // alone share one golden picture. `layout` and `frame_copy` are registers all the same.
 struct Build {
   Layout layout = Layout::kTiled;
@@ -138,10 +138,10 @@ struct Build {
   std::int32_t memory_outstanding = 128;
 };
 
-struct Parameters : Rules, Build {};
+struct Parameters : Configuration, Build {};
 
 template <class Visitor>
-void describe(Rules& p, Visitor& v) {
+void describe(Configuration& p, Visitor& v) {
   v.choice("preset", p.preset, kPresetNames,
            "Named set of what follows; parameters given beside it override it.");
   v.choice("select", p.select, kSelectNames,
@@ -230,7 +230,7 @@ void describe(Build& p, Visitor& v) {
 
 template <class Visitor>
 void describe(Parameters& p, Visitor& v) {
-  describe(static_cast<Rules&>(p), v);
+  describe(static_cast<Configuration&>(p), v);
   describe(static_cast<Build&>(p), v);
 }
 
@@ -258,12 +258,12 @@ inline constexpr std::array<PresetRow, 3> kPresets = {{
 template <class Set>
 constexpr void for_each_of(Preset preset, Set&& set) {
   const PresetRow& row = row_of(kPresets, &PresetRow::preset, preset);
-  set("select", &Rules::select, row.select);
-  set("crease", &Rules::crease, row.crease);
-  set("cull", &Rules::cull, row.cull);
-  set("coverage", &Rules::coverage, row.coverage);
-  set("crease_depth", &Rules::crease_depth, row.crease_depth);
-  set("combine", &Rules::combine, row.combine);
+  set("select", &Configuration::select, row.select);
+  set("crease", &Configuration::crease, row.crease);
+  set("cull", &Configuration::cull, row.cull);
+  set("coverage", &Configuration::coverage, row.coverage);
+  set("crease_depth", &Configuration::crease_depth, row.crease_depth);
+  set("combine", &Configuration::combine, row.combine);
   set("frame_copy", &Build::frame_copy, row.frame_copy);
 }
 

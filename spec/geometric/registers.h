@@ -12,7 +12,7 @@
 namespace deburr::spec::geometric {
 
 // Why the last start was rejected: the first that holds. Nothing is read or written then.
-enum class Refusal : std::uint8_t {
+enum class Rejection : std::uint8_t {
   kNone,
   kDisabled,      // enable is 0 in the same write
   kSize,          // a side of 0 or over 8192
@@ -23,7 +23,7 @@ enum class Refusal : std::uint8_t {
   kFaceCount,     // over face_limit, with select = edges
   kBoundaryCount  // over EDGE_COUNT, with records = split
 };
-inline constexpr std::array<std::string_view, 9> kRefusalNames = {
+inline constexpr std::array<std::string_view, 9> kRejectionNames = {
     "none",       "disabled",     "size",       "width",         "touched_words",
     "edge_count", "vertex_count", "face_count", "boundary_count"};
 
@@ -32,7 +32,7 @@ inline constexpr std::uint32_t kId = 0x00;
 inline constexpr std::uint32_t kControl = 0x04;
 inline constexpr std::uint32_t kStatus = 0x08;
 inline constexpr std::uint32_t kSize = 0x0C;
-inline constexpr std::uint32_t kRules = 0x10;
+inline constexpr std::uint32_t kConfiguration = 0x10;
 inline constexpr std::uint32_t kEdgeCount = 0x14;
 inline constexpr std::uint32_t kVertexCount = 0x18;
 inline constexpr std::uint32_t kFaceCount = 0x1C;
@@ -43,7 +43,7 @@ inline constexpr std::uint32_t kDepthBase = 0x2C;
 inline constexpr std::uint32_t kColourBase = 0x30;
 inline constexpr std::uint32_t kWeightBase = 0x34;
 inline constexpr std::uint32_t kCopyBase = 0x38;
-inline constexpr std::uint32_t kRefusal = 0x3C;
+inline constexpr std::uint32_t kRejection = 0x3C;
 inline constexpr std::uint32_t kEdges = 0x40;
 inline constexpr std::uint32_t kBoundaryEdges = 0x44;
 inline constexpr std::uint32_t kSilhouetteEdges = 0x48;
@@ -86,8 +86,8 @@ inline constexpr std::array kFields = {kEnable, kClearCounters, kStart};
 namespace status {
 inline constexpr Field kIdle{"idle", 0, 0, Access::kReadOnly, "no frame under way", {}, 1};
 inline constexpr Field kFrameDone{"frame_done", 1, 1, Access::kWriteOneToClear, "a frame is done"};
-inline constexpr Field kRefused{"refused", 2, 2, Access::kWriteOneToClear,
-                                "a start was rejected, see REFUSAL"};
+inline constexpr Field kRejected{"refused", 2, 2, Access::kWriteOneToClear,
+                                "a start was rejected, see REJECTION"};
 inline constexpr Field kMemoryError{"memory_error", 3, 3, Access::kWriteOneToClear,
                                     "memory answered with an error"};
 inline constexpr Field kWrittenWhileBusy{
@@ -95,7 +95,7 @@ inline constexpr Field kWrittenWhileBusy{
     "a register was written while a frame was under way; the write is ignored"};
 inline constexpr Field kInvalidEdge{"invalid_edge", 5, 5, Access::kWriteOneToClear,
                                     "an edge has an index out of range"};
-inline constexpr std::array kFields = {kIdle,        kFrameDone,        kRefused,
+inline constexpr std::array kFields = {kIdle,        kFrameDone,        kRejected,
                                        kMemoryError, kWrittenWhileBusy, kInvalidEdge};
 }  // namespace status
 namespace size {
@@ -103,7 +103,7 @@ inline constexpr Field kWidth{"width", 13, 0, Access::kReadWrite, "pixels, 1..81
 inline constexpr Field kHeight{"height", 29, 16, Access::kReadWrite, "pixels, 1..8192"};
 inline constexpr std::array kFields = {kWidth, kHeight};
 }  // namespace size
-namespace rules {
+namespace configuration {
 inline constexpr Field kSelect{"select", 1, 0, Access::kReadWrite, {}, kSelectNames};
 inline constexpr Field kCrease{"crease", 3, 2, Access::kReadWrite, {}, kCreaseNames};
 inline constexpr Field kDepthTest{"depth_test", 5, 4, Access::kReadWrite, {}, kDepthTestNames};
@@ -129,17 +129,17 @@ namespace line_base {
 inline constexpr Field kAddress = kLineAddress;
 inline constexpr std::array kFields = {kAddress};
 }  // namespace line_base
-namespace refusal {
-inline constexpr Field kReason{"reason", 3, 0, Access::kReadOnly, {}, kRefusalNames};
+namespace rejection {
+inline constexpr Field kReason{"reason", 3, 0, Access::kReadOnly, {}, kRejectionNames};
 inline constexpr std::array kFields = {kReason};
-}  // namespace refusal
+}  // namespace rejection
 
 inline constexpr std::uint32_t kControlEnable = control::kEnable.mask();
 inline constexpr std::uint32_t kControlClearCounters = control::kClearCounters.mask();
 inline constexpr std::uint32_t kControlStart = control::kStart.mask();
 inline constexpr std::uint32_t kStatusIdle = status::kIdle.mask();
 inline constexpr std::uint32_t kStatusFrameDone = status::kFrameDone.mask();
-inline constexpr std::uint32_t kStatusRefused = status::kRefused.mask();
+inline constexpr std::uint32_t kStatusRejected = status::kRejected.mask();
 inline constexpr std::uint32_t kStatusMemoryError = status::kMemoryError.mask();
 inline constexpr std::uint32_t kStatusWrittenWhileBusy = status::kWrittenWhileBusy.mask();
 inline constexpr std::uint32_t kStatusInvalidEdge = status::kInvalidEdge.mask();
@@ -152,7 +152,7 @@ inline constexpr std::array<RegisterInfo, 42> kRegisters = {{
     {reg::kControl, "CONTROL", "Switch and commands.", reg::control::kFields},
     {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
     {reg::kSize, "SIZE", "Size of the frame.", reg::size::kFields},
-    {reg::kRules, "RULES", "The rules of the frame, and where it lies.", reg::rules::kFields},
+    {reg::kConfiguration, "RULES", "The rules of the frame, and where it lies.", reg::configuration::kFields},
     {reg::kEdgeCount, "EDGE_COUNT", "Records of the edge table, 0..2^24.", kNumber},
     {reg::kVertexCount, "VERTEX_COUNT", "Vertices, 0..2^24.", kNumber},
     {reg::kFaceCount, "FACE_COUNT", "Facing bits, 0..face_limit.", kNumber},
@@ -167,9 +167,9 @@ inline constexpr std::array<RegisterInfo, 42> kRegisters = {{
      reg::line_base::kFields},
     {reg::kCopyBase, "COPY_BASE", "Byte address of room for a copy of the frame (frame_copy).",
      reg::line_base::kFields},
-    {reg::kRefusal, "REFUSAL",
+    {reg::kRejection, "REJECTION",
      "Why the last start was rejected: the first reason that holds; 0 if it was accepted.",
-     reg::refusal::kFields},
+     reg::rejection::kFields},
     {reg::kEdges, "EDGES", "Edges read.", kCounter},
     {reg::kBoundaryEdges, "BOUNDARY_EDGES", "Edges of a single face.", kCounter},
     {reg::kSilhouetteEdges, "SILHOUETTE_EDGES",
@@ -187,13 +187,13 @@ inline constexpr std::array<RegisterInfo, 42> kRegisters = {{
     {reg::kEmptyEdges, "EMPTY_EDGES", "Kept edges without a column of the frame.", kCounter},
     {reg::kLines, "LINES", "Lines set up and walked.", kCounter},
     {reg::kColumns, "COLUMNS", "Columns walked.", kCounter},
-    {reg::kGroups, "GROUPS", "Clocks in which the walkers stepped.", kCounter},
+    {reg::kGroups, "GROUPS", "Cycles in which the walkers stepped.", kCounter},
     {reg::kCandidates, "CANDIDATES", "Pixels that a line would blend with a neighbour.", kCounter},
     {reg::kPassed, "PASSED", "Candidates that passed the depth test.", kCounter},
     {reg::kBlocks, "BLOCKS", "Blocks of 4 x 4 pixels that were touched.", kCounter},
     {reg::kBlendedPixels, "BLENDED_PIXELS", "Pixels that were blended.", kCounter},
     {reg::kMemoryErrors, "MEMORY_ERRORS", "Memory responses with an error.", kCounter},
-    {reg::kFrameCycles, "FRAME_CYCLES", "Clocks of the last frame, from its start to its end.",
+    {reg::kFrameCycles, "FRAME_CYCLES", "Cycles of the last frame, from its start to its end.",
      kCounter},
     {reg::kEdgeCycles, "EDGE_CYCLES",
      "Of these until every edge was drawn and every weight written back.", kCounter},
@@ -210,19 +210,19 @@ inline constexpr std::array<RegisterInfo, 42> kRegisters = {{
 static_assert(fields_are_in_order(kRegisters));
 
 // RULES of a build after a reset.
-constexpr std::uint32_t rules_word(const Parameters& p) {
+constexpr std::uint32_t configuration_word(const Parameters& p) {
   const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };
-  namespace rules = reg::rules;
-  return rules::kSelect.in(code(p.select)) | rules::kCrease.in(code(p.crease)) |
-         rules::kDepthTest.in(code(p.depth_test)) | rules::kCombine.in(code(p.combine)) |
-         rules::kLinearLight.in(code(p.linear_light)) | rules::kDepthBias.in(code(p.depth_bias)) |
-         rules::kMark.in(code(p.mark)) | rules::kLayout.in(code(p.layout)) |
-         rules::kFrameCopy.in(code(p.frame_copy)) | rules::kCoverage.in(code(p.coverage)) |
-         rules::kCull.in(code(p.cull)) | rules::kCreaseDepth.in(code(p.crease_depth));
+  namespace configuration = reg::configuration;
+  return configuration::kSelect.in(code(p.select)) | configuration::kCrease.in(code(p.crease)) |
+         configuration::kDepthTest.in(code(p.depth_test)) | configuration::kCombine.in(code(p.combine)) |
+         configuration::kLinearLight.in(code(p.linear_light)) | configuration::kDepthBias.in(code(p.depth_bias)) |
+         configuration::kMark.in(code(p.mark)) | configuration::kLayout.in(code(p.layout)) |
+         configuration::kFrameCopy.in(code(p.frame_copy)) | configuration::kCoverage.in(code(p.coverage)) |
+         configuration::kCull.in(code(p.cull)) | configuration::kCreaseDepth.in(code(p.crease_depth));
 }
 // What a reset loads from the parameters.
 constexpr std::array<LoadedRegister, 1> loaded_registers(const Parameters& p) {
-  return {{{reg::kRules, rules_word(p)}}};
+  return {{{reg::kConfiguration, configuration_word(p)}}};
 }
 constexpr std::uint32_t size_word(std::uint32_t width, std::uint32_t height) {
   return reg::size::kWidth.in(width) | reg::size::kHeight.in(height);

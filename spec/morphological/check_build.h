@@ -42,10 +42,10 @@ inline constexpr std::array<BuildRule<Parameters>, 10> kBuildRules = {{
        return "use edges.threshold_mode = fixed, or edges.source = luma";
      }},
     {{"area", "diagonals"},
-     "must not be learned with diagonals, without which shares were learned",
+     "must not be learned with diagonals, without which weights were learned",
      [](const Parameters& p) { return p.area != AreaSource::kLearned || !p.diagonals; }},
     {{"area", "round_corners"},
-     "must not be learned with round_corners, without which shares were learned",
+     "must not be learned with round_corners, without which weights were learned",
      [](const Parameters& p) { return p.area != AreaSource::kLearned || !p.round_corners; }},
     {{"diagonal_steps", "window_rows"},
      "must be at most window_rows / 2 - 1 with diagonals, beyond which no row is in the window",

@@ -33,7 +33,7 @@ struct PixelBeat {
   }
 };
 
-// How a pixel was blended, for checks and pictures: first = share of the upper (left) neighbour,
+// How a pixel was blended, for checks and pictures: first = weight of the upper (left) neighbour,
 // second = of the lower (right) one, U0.8, before blend = strongest mixes them; both 0 where the
 // pixel passed unchanged.
 struct BlendTap {
@@ -79,7 +79,7 @@ enum class RunPart : std::uint8_t { kWhole, kHead, kTail };
 // end; 0 without round_corners.
 // `endless` says which ends lie beyond the frame with border = clamp (smaa.md, "Border"): bit 0 the
 // start, bit 1 the end; such an end has no crossings.
-struct RunRecord {
+struct RunDescriptor {
   Axis axis = Axis::kHorizontal;
   RunPart part = RunPart::kWhole;
   std::uint16_t line = 0;
@@ -88,7 +88,7 @@ struct RunRecord {
   std::uint8_t shape = 0;    // index of kRunShapes
   std::uint8_t far = 0;
   std::uint8_t endless = 0;
-  friend bool operator==(const RunRecord&, const RunRecord&) = default;
+  friend bool operator==(const RunDescriptor&, const RunDescriptor&) = default;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("axis", self.axis, 1, "0 horizontal, 1 vertical");
@@ -104,9 +104,9 @@ struct RunRecord {
 
 // The line through a run. t(X) = (scale * X - offset) * slope + shift * 2^23, U/S x.24, X counted
 // from the record's start; t < 0 belongs to `before`, t > 0 to `after`.
-struct LineRecord {
-  RunRecord run{};
-  bool learned = false;  // its shares come from the ROMs; then it has no line and no sides
+struct LineDescriptor {
+  RunDescriptor run{};
+  bool learned = false;  // its weights come from the ROMs; then it has no line and no sides
   std::uint8_t start_class = 0, end_class = 0;  // of its crossings, 0..8; 0 if not learned
   Side before = Side::kNone, after = Side::kNone;
   std::uint8_t left_steps = 0, right_steps = 0;  // extensions kept: up or left, down or right
@@ -116,7 +116,7 @@ struct LineRecord {
   std::uint32_t slope = 0;    // U0.24
   std::uint32_t inverse = 0;  // U12.12, pixels a step
   std::uint16_t span = 0;     // pixels between the two outermost corners: decides between axes
-  friend bool operator==(const LineRecord&, const LineRecord&) = default;
+  friend bool operator==(const LineDescriptor&, const LineDescriptor&) = default;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("run", self.run);
@@ -155,9 +155,9 @@ struct Work {
   std::uint64_t steps = 0;            // extensions kept
   std::uint64_t probes = 0;           // corners tested
   std::uint64_t divides = 0;          // records that have a line and a side
-  std::uint64_t blended_pixels = 0;   // pixels with a share of a neighbour
-  std::uint64_t diagonal_pixels = 0;  // pixels whose top edge took its shares from a diagonal
-  std::uint64_t left_pixels = 0;  // would have taken a share, took none by `leave` or `text_guard`
+  std::uint64_t blended_pixels = 0;   // pixels with a weight of a neighbour
+  std::uint64_t diagonal_pixels = 0;  // pixels whose top edge took its weights from a diagonal
+  std::uint64_t bypassed_pixels = 0;  // would have taken a weight, took none by `leave` or `text_guard`
   friend bool operator==(const Work&, const Work&) = default;
 };
 
@@ -178,7 +178,7 @@ inline constexpr WorkCount kWorkCounts[] = {{&Work::pixels, reg::kPixels},
                                             {&Work::divides, reg::kDivides},
                                             {&Work::blended_pixels, reg::kBlendedPixels},
                                             {&Work::diagonal_pixels, reg::kDiagonals},
-                                            {&Work::left_pixels, reg::kLeftPixels}};
+                                            {&Work::bypassed_pixels, reg::kBypassedPixels}};
 static_assert(sizeof(Work) == std::size(kWorkCounts) * sizeof(std::uint64_t),
               "a count is not in the list");
 

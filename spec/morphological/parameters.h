@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Parameters and presets of the morphological engine: rules, which change pixels, and build
-// choices, which change clocks and cost. Meaning: docs/reference/morphological/index.md and
+// choices, which change cycles and cost. Meaning: docs/reference/morphological/index.md and
 // docs/reference/morphological/smaa.md; formats and rounding, to the bit:
 // docs/reference/morphological/formats.md.
 #pragma once
@@ -54,7 +54,7 @@ enum class Predictor : std::uint8_t { kNone, kChord, kFit };
 inline constexpr std::array<std::string_view, 3> kPredictorNames = {"none", "chord", "fit"};
 
 // The three tables are layouts of one: they give the same pixels. Learned: the line of a clean Z
-// that was extended or is long, ROMs elsewhere (docs/reference/morphological/learned_shares.md).
+// that was extended or is long, ROMs elsewhere (docs/reference/morphological/learned_weights.md).
 enum class AreaSource : std::uint8_t {
   kAnalytic,
   kTableFull,
@@ -75,8 +75,8 @@ inline constexpr std::array<std::string_view, 2> kBlendRuleNames = {"longest", "
 // Whose pixels are left as they are: none, marked ones, or those beside a marked one too; or marked
 // ones, and others take half of what they would take of a marked one; or marked ones, which make no
 // edge (a mask). A pixel is marked if bit 0 of its alpha is 0.
-enum class Leave : std::uint8_t { kNone, kMarked, kBeside, kHalf, kMasked };
-inline constexpr std::array<std::string_view, 5> kLeaveNames = {"none", "marked", "beside", "half",
+enum class Bypass : std::uint8_t { kNone, kMarked, kBeside, kHalf, kMasked };
+inline constexpr std::array<std::string_view, 5> kBypassNames = {"none", "marked", "beside", "half",
                                                                 "masked"};
 
 enum class Storage : std::uint8_t { kLineBuffers, kMemory };
@@ -90,12 +90,12 @@ inline constexpr int kMaxDiagonalSteps = 16;    // M
 inline constexpr int kMaxCornerRounding = 256;  // 1/256: all of the weight stays
 inline constexpr int kFrameLineBytes = 64;      // memory line of storage = memory
 inline constexpr int kFramePixelBytes = 4;      // R, G, B, A
-inline constexpr int kRecipFractionBits = 24;   // of LineRecord::slope
+inline constexpr int kRecipFractionBits = 24;   // of LineDescriptor::slope
 inline constexpr int kInverseFractionBits = 12;
-inline constexpr int kMaxWeight = 128;  // U0.8: a half, the largest share that a run gives
-// Of a diagonal with blend = strongest, which normalises shares.
+inline constexpr int kMaxWeight = 128;  // U0.8: a half, the largest weight that a run gives
+// Of a diagonal with blend = strongest, which normalises weights.
 inline constexpr int kMaxDiagonalWeight = 255;
-inline constexpr int kMixFractionBits = 4;       // more than U0.8 that strongest's shares have
+inline constexpr int kMixFractionBits = 4;       // more than U0.8 that strongest's weights have
 inline constexpr int kThresholdBits = 24;        // U8.16 codes; alpha U0.24
 inline constexpr std::int32_t kOneCode = 65536;  // of a threshold
 // No step reaches it, not even one of 255 codes.
@@ -104,7 +104,7 @@ inline constexpr int kLongZ = 16;  // pixels of a clean Z that keeps its line wi
 inline constexpr int kRowLag = 5;  // rows of delay beyond the reach
 inline constexpr int kLeastDividerLatency = 14;
 
-// Clocks from a slot being taken by a block to it being taken by the next one; of the Blender, to
+// Cycles from a slot being taken by a block to it being taken by the next one; of the Blender, to
 // its output beat being pushed.
 inline constexpr int kSequencerLatency = 1;
 inline constexpr int kLumaLatency = 2;
@@ -122,7 +122,7 @@ inline constexpr std::array<std::uint32_t, 3> kLumaWeights = {13933, 46871, 4732
 
 // Rules: what changes pixels. Golden and hardware obey them.
 // The defaults are the preset `deburr`.
-struct Rules {
+struct Configuration {
   Preset preset = Preset::kDeburr;
   Quality quality = Quality::kHigh;
   EdgeSource edge_source = EdgeSource::kColour;
@@ -150,43 +150,43 @@ struct Rules {
   bool round_corners = false;
   std::int32_t corner_rounding = 64;
   BlendRule blend = BlendRule::kLongest;
-  Leave leave = Leave::kNone;
+  Bypass leave = Bypass::kNone;
   bool text_guard = false;
   bool linear_light = true;
   std::int32_t window_rows = 66;
-  std::int32_t reach_columns = 256;
+  std::int32_t search_columns = 256;
 };
 
 // What a frame sets that the geometric engine has smoothed before, beside any preset with a fixed
 // threshold: edges of luma, but only where depth has one, and none of what was blended. The preset
-// is the one that nothing else was named for: learned shares were not learned for what geometry has
+// is the one that nothing else was named for: learned weights were not learned for what geometry has
 // left over.
 struct FollowingRules {
   Preset preset = Preset::kDeburrLine;
   EdgeSource edge_source = EdgeSource::kPredicated;
   std::int32_t threshold_on_depth_edge = 501330;  // U8.16: 0.03 of 255
   std::int32_t threshold_off_depth_edge = kMaxThreshold;
-  Leave leave = Leave::kMasked;
+  Bypass leave = Bypass::kMasked;
 };
 
-// Build choices: what changes clocks and cost, and no pixel. Runs that differ in these alone share
+// Build choices: what changes cycles and cost, and no pixel. Runs that differ in these alone weight
 // one golden picture.
 struct Build {
   Lanes lanes = Lanes::kOne;
   std::int32_t line_pixels = kMaxFrameSize;
-  std::int32_t record_fifo = 256;
+  std::int32_t descriptor_fifo = 256;
   std::int32_t predictor_units = 2;
-  std::int32_t trial_clocks = 4;
+  std::int32_t trial_cycles = 4;
   std::int32_t divider_latency = 24;
   std::int32_t divider_interval = 1;
   Storage storage = Storage::kLineBuffers;
   std::int32_t memory_outstanding = 32;
 };
 
-struct Parameters : Rules, Build {};
+struct Parameters : Configuration, Build {};
 
 template <class Visitor>
-void describe(Rules& p, Visitor& v) {
+void describe(Configuration& p, Visitor& v) {
   v.choice("preset", p.preset, kPresetNames,
            "Named set of the rules below; rules given beside it override it.");
   v.choice("quality", p.quality, kQualityNames,
@@ -205,7 +205,7 @@ void describe(Rules& p, Visitor& v) {
            "smaller or the mean of the pair.");
   v.integer(
       "edges.threshold", p.threshold, 1, kMaxThreshold, "code / 65536",
-      "T: the smallest step that is an edge. A share of full scale times 16711680. Where a T or "
+      "T: the smallest step that is an edge. A weight of full scale times 16711680. Where a T or "
       "edges.floor is below 65536, a code, noise makes edges.");
   v.integer("edges.threshold_on_depth_edge", p.threshold_on_depth_edge, 1, kMaxThreshold,
             "code / 65536", "T of source = predicated where depth has an edge.");
@@ -233,7 +233,7 @@ void describe(Rules& p, Visitor& v) {
   v.boolean("contiguous", p.contiguous,
             "A step must be an unbroken run with the codes of the first at both corners.");
   v.boolean("safe", p.safe,
-            "Both sides grow in lockstep, share L', and stop where no line fits all corners.");
+            "Both sides grow in lockstep, weight L', and stop where no line fits all corners.");
   v.boolean("trim", p.trim,
             "A side that lost its line before N steps and the end of the reach gives back its last "
             "step; one that no line fits, half of its steps.");
@@ -255,25 +255,25 @@ void describe(Rules& p, Visitor& v) {
             "Corner rounding of SMAA: less weight where a crossing edge goes on for a second "
             "pixel.");
   v.integer("corner_rounding", p.corner_rounding, 0, kMaxCornerRounding, "1/256",
-            "Share of a weight that stays at such a corner.");
+            "Weight of a weight that stays at such a corner.");
   v.choice("blend", p.blend, kBlendRuleNames,
-           "Axis of a pixel and its weights: the longer line's, or the stronger share's with "
-           "shares in proportion to their squares (SMAA).");
+           "Axis of a pixel and its weights: the longer line's, or the stronger weight's with "
+           "weights in proportion to their squares (SMAA).");
   v.choice(
-      "leave", p.leave, kLeaveNames,
-      "Pixels that take no share: none, those that the geometric engine marked (bit 0 of alpha "
+      "leave", p.leave, kBypassNames,
+      "Pixels that take no weight: none, those that the geometric engine marked (bit 0 of alpha "
       "is 0), or these and the four beside each; half: marked ones, and others take half of "
-      "a marked one's share; masked: marked ones, which make no edge either. Other than none, it "
+      "a marked one's weight; masked: marked ones, which make no edge either. Other than none, it "
       "ends the mark.");
   v.boolean("text_guard", p.text_guard,
-            "Pixels of aliased text of two colours take no share: those with strokes of 1 to 3 "
+            "Pixels of aliased text of two colours take no weight: those with strokes of 1 to 3 "
             "pixels around them both ways.");
   v.boolean("linear_light", p.linear_light, "Blend in linear light (sRGB) instead of codes.");
   v.integer(
       "window_rows", p.window_rows, 10, 258, "row",
       "Rows of edges held; even. What a run gives a pixel depends on edges of window_rows / 2 - 1 "
       "rows each way.");
-  v.integer("reach_columns", p.reach_columns, 4, 2048, "pixel",
+  v.integer("search_columns", p.search_columns, 4, 2048, "pixel",
             "Longest horizontal run, and how far it may be extended.");
 }
 
@@ -283,15 +283,15 @@ void describe(Build& p, Visitor& v) {
   v.integer("line_pixels", p.line_pixels, 1, kMaxFrameSize, "pixel",
             "Widest frame that the line buffers hold.");
   v.integer(
-      "record_fifo", p.record_fifo, 2, 4096, "record",
+      "descriptor_fifo", p.descriptor_fifo, 2, 4096, "record",
       "Runs waiting for a predictor, for each axis and lane; a tenth of a row bears a burst.");
   v.integer("predictor_units", p.predictor_units, 1, 16, "unit",
             "Predictors for each axis and lane; each tries one step of both sides at a time.");
-  v.integer("trial_clocks", p.trial_clocks, 1, 8, "clock",
-            "Clocks from one trial of a predictor to its next; below 4 stages share a clock.");
+  v.integer("trial_cycles", p.trial_cycles, 1, 8, "clock",
+            "Cycles from one trial of a predictor to its next; below 4 stages weight a clock.");
   v.integer(
       "divider.latency", p.divider_latency, kLeastDividerLatency, 64, "clock",
-      "Latency of the divider: two clocks of products, then at most two of 24 quotient bits a "
+      "Latency of the divider: two cycles of products, then at most two of 24 quotient bits a "
       "clock.");
   v.integer("divider.interval", p.divider_interval, 1, 64, "clock",
             "Initiation interval of the divider.");
@@ -303,7 +303,7 @@ void describe(Build& p, Visitor& v) {
 
 template <class Visitor>
 void describe(Parameters& p, Visitor& v) {
-  describe(static_cast<Rules&>(p), v);
+  describe(static_cast<Configuration&>(p), v);
   describe(static_cast<Build&>(p), v);
 }
 
@@ -383,27 +383,27 @@ constexpr void for_each_of(Preset preset, Quality quality, Set&& set) {
     diagonals = of.diagonals;
     round_corners = of.round_corners;
     if (threshold == 0) threshold = of.threshold;
-    set("search_steps", &Rules::search_steps, of.search_steps);
-    set("diagonal_steps", &Rules::diagonal_steps, of.diagonal_steps);
-    set("corner_rounding", &Rules::corner_rounding, of.corner_rounding);
-    set("window_rows", &Rules::window_rows, of.window_rows);
+    set("search_steps", &Configuration::search_steps, of.search_steps);
+    set("diagonal_steps", &Configuration::diagonal_steps, of.diagonal_steps);
+    set("corner_rounding", &Configuration::corner_rounding, of.corner_rounding);
+    set("window_rows", &Configuration::window_rows, of.window_rows);
   }
-  set("edges.source", &Rules::edge_source, row.edge_source);
-  set("edges.threshold_mode", &Rules::threshold_mode, row.threshold_mode);
-  set("edges.dynamic_luma", &Rules::dynamic_luma, row.dynamic_luma);
-  set("edges.threshold", &Rules::threshold, threshold);
-  set("edges.local_contrast", &Rules::local_contrast, row.local_contrast);
-  set("ends", &Rules::ends, row.ends);
-  set("border", &Rules::border, row.border);
-  set("predictor", &Rules::predictor, row.predictor);
-  set("steps", &Rules::steps, row.steps);
-  set("contiguous", &Rules::contiguous, row.contiguous);
-  set("safe", &Rules::safe, row.safe);
-  set("trim", &Rules::trim, row.trim);
-  set("area", &Rules::area, row.area);
-  set("diagonals", &Rules::diagonals, diagonals);
-  set("round_corners", &Rules::round_corners, round_corners);
-  set("blend", &Rules::blend, row.blend);
+  set("edges.source", &Configuration::edge_source, row.edge_source);
+  set("edges.threshold_mode", &Configuration::threshold_mode, row.threshold_mode);
+  set("edges.dynamic_luma", &Configuration::dynamic_luma, row.dynamic_luma);
+  set("edges.threshold", &Configuration::threshold, threshold);
+  set("edges.local_contrast", &Configuration::local_contrast, row.local_contrast);
+  set("ends", &Configuration::ends, row.ends);
+  set("border", &Configuration::border, row.border);
+  set("predictor", &Configuration::predictor, row.predictor);
+  set("steps", &Configuration::steps, row.steps);
+  set("contiguous", &Configuration::contiguous, row.contiguous);
+  set("safe", &Configuration::safe, row.safe);
+  set("trim", &Configuration::trim, row.trim);
+  set("area", &Configuration::area, row.area);
+  set("diagonals", &Configuration::diagonals, diagonals);
+  set("round_corners", &Configuration::round_corners, round_corners);
+  set("blend", &Configuration::blend, row.blend);
 }
 
 // The defaults with the rules of a preset and of its quality. ConfigError for one that there is

@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kId = 0x00;
 inline constexpr std::uint32_t kControl = 0x04;
 inline constexpr std::uint32_t kStatus = 0x08;
 inline constexpr std::uint32_t kSize = 0x0C;
-inline constexpr std::uint32_t kRules = 0x10;
+inline constexpr std::uint32_t kConfiguration = 0x10;
 inline constexpr std::uint32_t kThreshold = 0x14;
 inline constexpr std::uint32_t kThresholdOn = 0x18;
 inline constexpr std::uint32_t kThresholdOff = 0x1C;
@@ -36,13 +36,13 @@ inline constexpr std::uint32_t kProbes = 0x60;
 inline constexpr std::uint32_t kDivides = 0x64;
 inline constexpr std::uint32_t kBlendedPixels = 0x68;
 inline constexpr std::uint32_t kFrameCycles = 0x6C;
-inline constexpr std::uint32_t kRecordStalls = 0x70;
+inline constexpr std::uint32_t kDescriptorStalls = 0x70;
 inline constexpr std::uint32_t kMemoryErrors = 0x74;
 inline constexpr std::uint32_t kDiagonals = 0x78;
-inline constexpr std::uint32_t kLeftPixels = 0x7C;
-inline constexpr std::uint32_t kSharesAddress = 0x80;
-inline constexpr std::uint32_t kSharesData = 0x84;
-inline constexpr std::uint32_t kSharesSum = 0x88;
+inline constexpr std::uint32_t kBypassedPixels = 0x7C;
+inline constexpr std::uint32_t kWeightsAddress = 0x80;
+inline constexpr std::uint32_t kWeightsData = 0x84;
+inline constexpr std::uint32_t kWeightsSum = 0x88;
 inline constexpr std::uint32_t kIdValue = 0xDEB00104;
 
 // Fields, from the lowest bit on. Codes are those of the enumerations of spec/morphological/.
@@ -73,7 +73,7 @@ inline constexpr Field kWidth{"width", 13, 0, Access::kReadWrite, "pixels, 1..81
 inline constexpr Field kHeight{"height", 29, 16, Access::kReadWrite, "pixels, 1..8192"};
 inline constexpr std::array kFields = {kWidth, kHeight};
 }  // namespace size
-namespace rules {
+namespace configuration {
 inline constexpr Field kSource{"edges.source", 1, 0, Access::kReadWrite, {}, kEdgeSourceNames};
 inline constexpr Field kThresholdMode{"threshold_mode",   2,  2,
                                       Access::kReadWrite, {}, kThresholdModeNames};
@@ -102,7 +102,7 @@ inline constexpr Field kRoundCorners{"round_corners", 21, 21, Access::kReadWrite
 inline constexpr Field kStrongest{"blend", 22, 22, Access::kReadWrite, {}, kBlendRuleNames};
 inline constexpr Field kLearned{"area_learned", 23, 23, Access::kReadWrite,
                                 "1: areas are learned, where the ROMs are built"};
-inline constexpr Field kLeave{"leave", 26, 24, Access::kReadWrite, {}, kLeaveNames};
+inline constexpr Field kBypass{"leave", 26, 24, Access::kReadWrite, {}, kBypassNames};
 inline constexpr Field kBorder{
     "border", 27, 27, Access::kReadWrite, "end where clamp is not built", kBorderNames};
 inline constexpr Field kTextGuard{"text_guard", 28, 28, Access::kReadWrite,
@@ -110,7 +110,7 @@ inline constexpr Field kTextGuard{"text_guard", 28, 28, Access::kReadWrite,
 inline constexpr std::array kFields = {
     kSource,    kThresholdMode, kDynamicLuma, kLocalContrast, kPredictor, kSteps,     kContiguous,
     kSafe,      kLinearLight,   kTrim,        kCrossings,     kTable,     kDiagonals, kRoundCorners,
-    kStrongest, kLearned,       kLeave,       kBorder,        kTextGuard};
+    kStrongest, kLearned,       kBypass,       kBorder,        kTextGuard};
 }  // namespace rules
 namespace threshold {
 inline constexpr Field kValue{"value", kThresholdBits - 1, 0, Access::kReadWrite, "codes, U8.16"};
@@ -136,19 +136,19 @@ inline constexpr Field kCornerRounding{"corner_rounding", 24, 16, Access::kReadW
                                        "in 1/256, 0..256"};
 inline constexpr std::array kFields = {kSearchSteps, kDiagonalSteps, kCornerRounding};
 }  // namespace smaa
-namespace shares_address {
+namespace weights_address {
 inline constexpr Field kEntry{"entry", 11, 0, Access::kShared,
                               "A 0..1023, B 1024..1663, C 1664..2303"};
 inline constexpr std::array kFields = {kEntry};
-}  // namespace shares_address
-namespace shares_data {
-inline constexpr Field kShare{"share", 7,           0, Access::kShared, "S3.4; a reset leaves it",
+}  // namespace weights_address
+namespace weights_data {
+inline constexpr Field kWeight{"weight", 7,           0, Access::kShared, "S3.4; a reset leaves it",
                               {},      std::nullopt};
-inline constexpr std::array kFields = {kShare};
-}  // namespace shares_data
-namespace shares_sum {
+inline constexpr std::array kFields = {kWeight};
+}  // namespace weights_data
+namespace weights_sum {
 inline constexpr std::array kFields = number(Access::kReadOnly, std::nullopt);
-}  // namespace shares_sum
+}  // namespace weights_sum
 
 inline constexpr std::uint32_t kControlEnable = control::kEnable.mask();
 inline constexpr std::uint32_t kControlClearCounters = control::kClearCounters.mask();
@@ -166,8 +166,8 @@ inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
     {reg::kControl, "CONTROL", "Switch and command.", reg::control::kFields},
     {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
     {reg::kSize, "SIZE", "Size of the frame.", reg::size::kFields},
-    {reg::kRules, "RULES", "The rules of the frame. Blocks that are not built count as off.",
-     reg::rules::kFields},
+    {reg::kConfiguration, "RULES", "The rules of the frame. Blocks that are not built count as off.",
+     reg::configuration::kFields},
     {reg::kThreshold, "THRESHOLD", "T.", reg::threshold::kFields},
     {reg::kThresholdOn, "THRESHOLD_ON", "T of predicated edges where depth has an edge.",
      reg::threshold::kFields},
@@ -190,44 +190,44 @@ inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
     {reg::kSteps, "STEPS", "Extensions kept.", kCounter},
     {reg::kProbes, "PROBES", "Corners tested.", kCounter},
     {reg::kDivides, "DIVIDES", "Divisions.", kCounter},
-    {reg::kBlendedPixels, "BLENDED_PIXELS", "Pixels that took a share of a neighbour.", kCounter},
+    {reg::kBlendedPixels, "BLENDED_PIXELS", "Pixels that took a weight of a neighbour.", kCounter},
     {reg::kFrameCycles, "FRAME_CYCLES",
-     "Clocks from the first input beat to the last output beat of the last frame, both counted.",
+     "Cycles from the first input beat to the last output beat of the last frame, both counted.",
      kCounter},
-    {reg::kRecordStalls, "RECORD_STALLS", "Clocks in which the slot waited for records.", kCounter},
+    {reg::kDescriptorStalls, "DESCRIPTOR_STALLS", "Cycles in which the slot waited for records.", kCounter},
     {reg::kMemoryErrors, "MEMORY_ERRORS", "Memory responses with an error.", kCounter},
-    {reg::kDiagonals, "DIAGONALS", "Pixels whose top edge took its shares from a diagonal.",
+    {reg::kDiagonals, "DIAGONALS", "Pixels whose top edge took its weights from a diagonal.",
      kCounter},
-    {reg::kLeftPixels, "LEFT_PIXELS",
-     "Pixels that would have taken a share and took none, by the rules leave and text_guard.",
+    {reg::kBypassedPixels, "BYPASSED_PIXELS",
+     "Pixels that would have taken a weight and took none, by the rules leave and text_guard.",
      kCounter},
-    {reg::kSharesAddress, "SHARES_ADDRESS", "Entry of the learned shares that SHARES_DATA names.",
-     reg::shares_address::kFields},
-    {reg::kSharesData, "SHARES_DATA", "The entry; a write moves SHARES_ADDRESS on by one.",
-     reg::shares_data::kFields},
-    {reg::kSharesSum, "SHARES_SUM",
+    {reg::kWeightsAddress, "WEIGHTS_ADDRESS", "Entry of the learned weights that WEIGHTS_DATA names.",
+     reg::weights_address::kFields},
+    {reg::kWeightsData, "WEIGHTS_DATA", "The entry; a write moves WEIGHTS_ADDRESS on by one.",
+     reg::weights_data::kFields},
+    {reg::kWeightsSum, "WEIGHTS_SUM",
      "Sum over all entries of (index + 1) x the entry as an unsigned byte, mod 2^32.",
-     reg::shares_sum::kFields},
+     reg::weights_sum::kFields},
 }};
 static_assert(fields_are_in_order(kRegisters));
 
 // RULES and SMAA of a build after a reset.
-constexpr std::uint32_t rules_word(const Parameters& p) {
+constexpr std::uint32_t configuration_word(const Parameters& p) {
   const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };
-  namespace rules = reg::rules;
+  namespace configuration = reg::configuration;
   const bool learned = p.area == AreaSource::kLearned;
   const bool table = p.area != AreaSource::kAnalytic && !learned;
-  return rules::kSource.in(code(p.edge_source)) | rules::kThresholdMode.in(code(p.threshold_mode)) |
-         rules::kDynamicLuma.in(code(p.dynamic_luma)) |
-         rules::kLocalContrast.in(code(p.local_contrast)) |
-         rules::kPredictor.in(code(p.predictor)) | rules::kSteps.in(code(p.steps)) |
-         rules::kContiguous.in(code(p.contiguous)) | rules::kSafe.in(code(p.safe)) |
-         rules::kLinearLight.in(code(p.linear_light)) | rules::kTrim.in(code(p.trim)) |
-         rules::kCrossings.in(code(p.ends)) | rules::kTable.in(code(table)) |
-         rules::kLearned.in(code(learned)) | rules::kDiagonals.in(code(p.diagonals)) |
-         rules::kRoundCorners.in(code(p.round_corners)) | rules::kStrongest.in(code(p.blend)) |
-         rules::kLeave.in(code(p.leave)) | rules::kBorder.in(code(p.border)) |
-         rules::kTextGuard.in(code(p.text_guard));
+  return configuration::kSource.in(code(p.edge_source)) | configuration::kThresholdMode.in(code(p.threshold_mode)) |
+         configuration::kDynamicLuma.in(code(p.dynamic_luma)) |
+         configuration::kLocalContrast.in(code(p.local_contrast)) |
+         configuration::kPredictor.in(code(p.predictor)) | configuration::kSteps.in(code(p.steps)) |
+         configuration::kContiguous.in(code(p.contiguous)) | configuration::kSafe.in(code(p.safe)) |
+         configuration::kLinearLight.in(code(p.linear_light)) | configuration::kTrim.in(code(p.trim)) |
+         configuration::kCrossings.in(code(p.ends)) | configuration::kTable.in(code(table)) |
+         configuration::kLearned.in(code(learned)) | configuration::kDiagonals.in(code(p.diagonals)) |
+         configuration::kRoundCorners.in(code(p.round_corners)) | configuration::kStrongest.in(code(p.blend)) |
+         configuration::kBypass.in(code(p.leave)) | configuration::kBorder.in(code(p.border)) |
+         configuration::kTextGuard.in(code(p.text_guard));
 }
 constexpr std::uint32_t smaa_word(const Parameters& p) {
   const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };
@@ -238,7 +238,7 @@ constexpr std::uint32_t smaa_word(const Parameters& p) {
 // What a reset loads from the parameters.
 constexpr std::array<LoadedRegister, 8> loaded_registers(const Parameters& p) {
   const auto word = [](std::int64_t value) { return static_cast<std::uint32_t>(value); };
-  return {{{reg::kRules, rules_word(p)},
+  return {{{reg::kConfiguration, configuration_word(p)},
            {reg::kThreshold, word(p.threshold)},
            {reg::kThresholdOn, word(p.threshold_on_depth_edge)},
            {reg::kThresholdOff, word(p.threshold_off_depth_edge)},

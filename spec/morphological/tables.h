@@ -14,7 +14,7 @@ namespace deburr::spec::morphological {
 inline constexpr int kTableRoots = 16;         // entries each way of a tile, at squares 0..15
 inline constexpr int kTableDistances = 225;    // distances that the last tile entry reaches: 0..224
 inline constexpr int kDiagonalDistances = 20;  // of the diagonal table, each way
-inline constexpr int kMixSums = 511;           // sums of two shares, 0..510; words are U0.20
+inline constexpr int kMixSums = 511;           // sums of two weights, 0..510; words are U0.20
 
 // clang-format off
 // U0.8 sRGB code -> linear light, U0.12 scaled so that 4095 is one: round(4095 * decode(i / 255)).
@@ -261,9 +261,9 @@ inline constexpr std::array<std::uint32_t, 34> kChordInverseSlope = {
     3355443, 3195660, 3050403, 2917777, 2796203, 2684355, 2581110, 2485513, 2396745, 2314099,
     2236962, 2164802, 2097152, 2033602};
 
-// U0.8: the share of a sum z of learned shares, index z + 128: min(128, round(256 / (1 + e^(-z /
+// U0.8: the weight of a sum z of learned weights, index z + 128: min(128, round(256 / (1 + e^(-z /
 // 16)))), below 4: 0.
-inline constexpr std::array<std::uint8_t, 256> kShareOfSum = {
+inline constexpr std::array<std::uint8_t, 256> kWeightOfSum = {
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4, 4,
     4, 4, 5, 5, 5, 6, 6, 6, 7, 7, 8, 8, 8, 9, 10, 10, 11, 11, 12, 13, 14, 15, 15, 16, 17, 18,

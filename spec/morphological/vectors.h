@@ -21,7 +21,7 @@ inline constexpr std::array<std::string_view, 5> kVectorImageNames = {"noise", "
 struct FrameResult {
   std::uint64_t hash = 0;
   std::uint64_t edge_pixels = 0, runs = 0, long_runs = 0, z_runs = 0, extended_runs = 0, steps = 0,
-                probes = 0, diagonal_pixels = 0, blended_pixels = 0, left_pixels = 0;
+                probes = 0, diagonal_pixels = 0, blended_pixels = 0, bypassed_pixels = 0;
 
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -35,7 +35,7 @@ struct FrameResult {
     visit("probes", self.probes);
     visit("taken", self.diagonal_pixels);
     visit("blended", self.blended_pixels);
-    visit("left", self.left_pixels);
+    visit("left", self.bypassed_pixels);
   }
 };
 
@@ -108,19 +108,19 @@ inline constexpr std::array<FrameVector, 22> kFrameVectors = {{
      VectorImage::kBlocks,
      Preset::kMlaa,
      Quality::kHigh,
-     "window_rows=20 reach_columns=9",
+     "window_rows=20 search_columns=9",
      {0xfd1df0fe5908eab2, 1595, 1036, 19, 470, 0, 0, 0, 0, 1186}},
     {"blocks_slope",
      VectorImage::kBlocks,
      Preset::kMlaaSlope,
      Quality::kHigh,
-     "steps=4 window_rows=20 reach_columns=9",
+     "steps=4 window_rows=20 search_columns=9",
      {0x5f03ca34a84ea782, 1595, 1036, 19, 470, 238, 626, 4119, 0, 1193}},
     {"blocks_deburr_line",
      VectorImage::kBlocks,
      Preset::kDeburrLine,
      Quality::kHigh,
-     "steps=4 window_rows=20 reach_columns=9",
+     "steps=4 window_rows=20 search_columns=9",
      {0xbc2f9325b6057e5e, 1870, 1198, 24, 536, 204, 528, 4235, 0, 1386}},
     {"blocks_chord_safe",
      VectorImage::kBlocks,
@@ -128,25 +128,25 @@ inline constexpr std::array<FrameVector, 22> kFrameVectors = {{
      Quality::kHigh,
      "safe=true edges.threshold=334305 edges.local_contrast=paper linear_light=false "
      "window_rows=20 "
-     "reach_columns=9",
+     "search_columns=9",
      {0xdda27397e1d7e1a8, 1808, 1213, 15, 531, 262, 655, 4442, 0, 1354}},
     {"blocks_deburr_line_small",
      VectorImage::kBlocks,
      Preset::kDeburrLine,
      Quality::kHigh,
-     "steps=3 window_rows=10 reach_columns=7",
+     "steps=3 window_rows=10 search_columns=7",
      {0xa765ccb0279eaaf0, 1870, 1198, 28, 536, 204, 314, 3587, 0, 1364}},
     {"blocks_slope_wide",
      VectorImage::kBlocks,
      Preset::kMlaaSlope,
      Quality::kHigh,
-     "steps=8 window_rows=20 reach_columns=30",
+     "steps=8 window_rows=20 search_columns=30",
      {0xdc30d70a15925762, 1595, 1036, 14, 470, 239, 1315, 5984, 0, 1268}},
     {"blocks_slope_trim",
      VectorImage::kBlocks,
      Preset::kMlaaSlope,
      Quality::kHigh,
-     "steps=8 trim=true window_rows=20 reach_columns=30",
+     "steps=8 trim=true window_rows=20 search_columns=30",
      {0x4a46970faa1de0ac, 1595, 1036, 14, 470, 180, 992, 5984, 0, 1276}},
     {"blocks_deburr_line_default",
      VectorImage::kBlocks,
@@ -182,7 +182,7 @@ inline constexpr std::array<FrameVector, 22> kFrameVectors = {{
      VectorImage::kBlocks,
      Preset::kDeburr,
      Quality::kHigh,
-     "steps=3 window_rows=10 reach_columns=7",
+     "steps=3 window_rows=10 search_columns=7",
      {0x61b4c3d8f248be80, 1926, 1217, 26, 547, 227, 352, 3770, 0, 2890}},
 }};
 
@@ -299,7 +299,7 @@ inline constexpr std::array<FrameVector, 38> kSmaaFrameVectors = {{
      VectorImage::kBlocks,
      Preset::kSmaa,
      Quality::kHigh,
-     "window_rows=20 reach_columns=9 diagonal_steps=8",
+     "window_rows=20 search_columns=9 diagonal_steps=8",
      {0x1062555c2f28f16b, 1549, 1127, 13, 451, 0, 0, 0, 4, 1282}},
     {"smaa_blocks_blunt",
      VectorImage::kBlocks,
@@ -453,7 +453,7 @@ inline constexpr std::array<FrameVector, 10> kGuardFrameVectors = {{
      VectorImage::kText,
      Preset::kDeburr,
      Quality::kHigh,
-     "text_guard=true steps=3 window_rows=10 reach_columns=7",
+     "text_guard=true steps=3 window_rows=10 search_columns=7",
      {0xa649bfc23ae27b05, 4479, 1314, 242, 559, 0, 0, 3088, 0, 4783, 1837}},
     {"text_line_guarded",
      VectorImage::kText,
@@ -569,7 +569,7 @@ struct RunVector {
   int count;
   int start;  // index of the corner where the run starts; it ends at the next one
   RunResult result;
-  std::string_view shares;  // of each pixel: b before, a after
+  std::string_view weights;  // of each pixel: b before, a after
 };
 
 inline constexpr std::array<RunVector, 6> kRunVectors = {{
@@ -581,7 +581,7 @@ inline constexpr std::array<RunVector, 6> kRunVectors = {{
     {{0, 5, 11, 16}, 4, 0, {4, 32, 776723, 22118, 2, 16}, "b100 b52 b9/a4 a43 a90"},
 }};
 
-// ---- SMAA: shares of every edge -----------------------------------------------------------------
+// ---- SMAA: weights of every edge -----------------------------------------------------------------
 
 struct PatternResult {
   std::uint64_t hash = 0, diagonal_pixels = 0;
@@ -597,7 +597,7 @@ struct PatternVector {
   std::string_view name;
   Quality quality;
   std::string_view rows;    // a digit a pixel, 0 black and 1 white; a space between two rows
-  std::string_view shares;  // t(x,y), l(x,y) first/second: of the top and left edges that have some
+  std::string_view weights;  // t(x,y), l(x,y) first/second: of the top and left edges that have some
   PatternResult result;
 };
 
@@ -693,7 +693,7 @@ struct LimitResult {
 // A Z alone in a frame, with quality low.
 struct LimitVector {
   int length;
-  std::string_view shares;  // first/second of each pixel
+  std::string_view weights;  // first/second of each pixel
   LimitResult result;
 };
 
@@ -751,7 +751,7 @@ inline constexpr TableHashes kTableHashes = {
     0x08fb6f2f5185e12b, 0x4091cb22adf7523a, 0x0cdd319ff9fc3614, 0xf381b9d2ae2402d1,
     0xbd207affdb832b8f, 0x1ac3518888e5fed9, 0xd27dea44d582a429, 0xa682f0d6f6e9e26e};
 
-// Shares after interpolation, of the distances l and r.
+// Weights after interpolation, of the distances l and r.
 struct TableResult {
   std::uint64_t half = 0, dip = 0;
 

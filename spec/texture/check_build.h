@@ -17,8 +17,8 @@ namespace deburr::spec::texture {
 constexpr bool is_power_of_two(std::int32_t value) {
   return value > 0 && std::has_single_bit(static_cast<std::uint32_t>(value));
 }
-// Clocks that leave two directions for each: 1, 2, 4 of two, four, eight.
-constexpr std::int32_t most_axis_clocks(Axes axes) { return 1 << static_cast<std::int32_t>(axes); }
+// Cycles that leave two directions for each: 1, 2, 4 of two, four, eight.
+constexpr std::int32_t most_axis_cycles(Axes axes) { return 1 << static_cast<std::int32_t>(axes); }
 
 inline constexpr std::array<BuildRule<Parameters>, 8> kBuildRules = {{
     {{"cache.bytes"},
@@ -41,15 +41,15 @@ inline constexpr std::array<BuildRule<Parameters>, 8> kBuildRules = {{
      "must be at least 2 places, since one is read and one written in every clock; 0 sizes it from "
      "the latency of memory",
      [](const Parameters& p) { return p.cache_fifo_depth != 1; }},
-    {{"axis_clocks"},
+    {{"axis_cycles"},
      "must be a power of two",
-     [](const Parameters& p) { return is_power_of_two(p.axis_clocks); }},
-    {{"axis_clocks", "axes"},
+     [](const Parameters& p) { return is_power_of_two(p.axis_cycles); }},
+    {{"axis_cycles", "axes"},
      "must be at most half of the directions, since at least two are measured in a clock",
-     [](const Parameters& p) { return p.axis_clocks <= most_axis_clocks(p.axes); },
+     [](const Parameters& p) { return p.axis_cycles <= most_axis_cycles(p.axes); },
      [](const Parameters& p) {
-       return "make it at most " + std::to_string(most_axis_clocks(p.axes)) + " for " +
-              std::to_string(2 * most_axis_clocks(p.axes)) + " directions";
+       return "make it at most " + std::to_string(most_axis_cycles(p.axes)) + " for " +
+              std::to_string(2 * most_axis_cycles(p.axes)) + " directions";
      }},
     {{"cache.bytes", "cache.line_bytes"},
      "must be at most 512 lines, whose tags stand in flip-flops: four sets are read and written in "

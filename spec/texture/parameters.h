@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Parameters of the texture unit: rules, which change pixels, and build choices, which change
-// clocks and cost. Meaning: docs/reference/texture/index.md; formats and rounding:
+// cycles and cost. Meaning: docs/reference/texture/index.md; formats and rounding:
 // docs/reference/texture/formats.md.
 #pragma once
 
@@ -44,7 +44,7 @@ inline constexpr std::int32_t kLeastCacheBytes = 256;
 inline constexpr std::int32_t kLeastCacheLineBytes = 32, kMostCacheLineBytes = 128;
 
 // Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
-struct Rules {
+struct Configuration {
   Preset preset = Preset::kDeburr;
   Axes axes = Axes::kFour;
   FootprintRule footprint = FootprintRule::kExact;
@@ -56,7 +56,7 @@ struct Rules {
   SrgbOutput srgb_output = SrgbOutput::kLinear;
 };
 
-// Build choices: what changes clocks and cost, and no pixel. Runs that differ in these alone share
+// Build choices: what changes cycles and cost, and no pixel. Runs that differ in these alone share
 // one golden picture.
 struct Build {
   std::int32_t cache_bytes = 16384;
@@ -65,13 +65,13 @@ struct Build {
   Replacement cache_replacement = Replacement::kLru;
   std::int32_t cache_outstanding = 64;
   std::int32_t cache_fifo_depth = 0;  // 0: sized from the latency of memory
-  std::int32_t axis_clocks = 1;
+  std::int32_t axis_cycles = 1;
 };
 
-struct Parameters : Rules, Build {};
+struct Parameters : Configuration, Build {};
 
 template <class Visitor>
-void describe(Rules& p, Visitor& v) {
+void describe(Configuration& p, Visitor& v) {
   v.choice("preset", p.preset, kPresetNames,
            "Named set of the rules below; rules given beside it override it.");
   v.choice(
@@ -108,14 +108,14 @@ void describe(Build& p, Visitor& v) {
   v.integer("cache.fifo_depth", p.cache_fifo_depth, 0, kMostFifoDepth, "request",
             "Depth of the latency FIFO between tag check and data read, 2 or more; 0 sizes it from "
             "the latency of memory.");
-  v.integer("axis_clocks", p.axis_clocks, 1, 4, "clk",
-            "Clocks in which the candidates of axes = four or eight are measured, fewer operators "
+  v.integer("axis_cycles", p.axis_cycles, 1, 4, "clk",
+            "Cycles in which the candidates of axes = four or eight are measured, fewer operators "
             "at a time; a power of two, at most half the candidates.");
 }
 
 template <class Visitor>
 void describe(Parameters& p, Visitor& v) {
-  describe(static_cast<Rules&>(p), v);
+  describe(static_cast<Configuration&>(p), v);
   describe(static_cast<Build&>(p), v);
 }
 
@@ -136,10 +136,10 @@ inline constexpr std::array<PresetRow, 2> kPresets = {{
 template <class Set>
 constexpr void for_each_of(Preset preset, Set&& set) {
   const PresetRow& row = row_of(kPresets, &PresetRow::preset, preset);
-  set("axes", &Rules::axes, row.axes);
-  set("footprint", &Rules::footprint, row.footprint);
-  set("log2", &Rules::log2, row.log2);
-  set("count", &Rules::count, row.count);
+  set("axes", &Configuration::axes, row.axes);
+  set("footprint", &Configuration::footprint, row.footprint);
+  set("log2", &Configuration::log2, row.log2);
+  set("count", &Configuration::count, row.count);
 }
 
 // The defaults with the rules of a preset. ConfigError for a preset that there is not.

@@ -16,7 +16,7 @@ namespace reg {
 inline constexpr std::uint32_t kId = 0x00;
 inline constexpr std::uint32_t kControl = 0x04;
 inline constexpr std::uint32_t kStatus = 0x08;
-inline constexpr std::uint32_t kRules = 0x0C;
+inline constexpr std::uint32_t kConfiguration = 0x0C;
 inline constexpr std::uint32_t kFragments = 0x40;
 inline constexpr std::uint32_t kBilinears = 0x44;
 inline constexpr std::uint32_t kLineFills = 0x48;
@@ -56,7 +56,7 @@ inline constexpr Field kWrittenWhileBusy{"written_while_busy", 3, 3, Access::kWr
                                          "a descriptor was written while busy"};
 inline constexpr std::array kFields = {kIdle, kMemoryError, kInvalidTexture, kWrittenWhileBusy};
 }  // namespace status
-namespace rules {
+namespace configuration {
 inline constexpr Field kFootprint{"footprint", 2, 0, Access::kConstant, {}, kFootprintNames};
 inline constexpr Field kLog2{"log2", 5, 4, Access::kConstant, {}, kLog2Names};
 inline constexpr Field kAxes{"axes", 7, 6, Access::kConstant, {}, kAxesNames};
@@ -110,7 +110,7 @@ inline constexpr std::array<RegisterInfo, 11> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit and the version of its register map.", reg::id::kFields},
     {reg::kControl, "CONTROL", "Switch and commands.", reg::control::kFields},
     {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
-    {reg::kRules, "RULES", "The variant built.", reg::rules::kFields},
+    {reg::kConfiguration, "RULES", "The variant built.", reg::configuration::kFields},
     {reg::kFragments, "FRAGMENTS", "Colours delivered.", kCounter},
     {reg::kBilinears, "BILINEARS", "Bilinear requests sent to the cache.", kCounter},
     {reg::kLineFills, "LINE_FILLS", "Cache lines requested.", kCounter},
@@ -135,17 +135,17 @@ inline constexpr std::array<RegisterInfo, 4> kDescriptorRegisters = {{
 static_assert(fields_are_in_order(kDescriptorRegisters));
 
 // RULES of a build.
-constexpr std::uint32_t rules_word(const Parameters& p) {
+constexpr std::uint32_t configuration_word(const Parameters& p) {
   const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };
-  namespace rules = reg::rules;
-  return rules::kFootprint.in(code(p.footprint)) | rules::kLog2.in(code(p.log2)) |
-         rules::kAxes.in(code(p.axes)) | rules::kCount.in(code(p.count)) |
-         rules::kCountCap.in(code(p.count_cap)) | rules::kKernel.in(code(p.kernel)) |
-         rules::kSrgbOutput.in(code(p.srgb_output)) | rules::kSpread.in(code(p.spread));
+  namespace configuration = reg::configuration;
+  return configuration::kFootprint.in(code(p.footprint)) | configuration::kLog2.in(code(p.log2)) |
+         configuration::kAxes.in(code(p.axes)) | configuration::kCount.in(code(p.count)) |
+         configuration::kCountCap.in(code(p.count_cap)) | configuration::kKernel.in(code(p.kernel)) |
+         configuration::kSrgbOutput.in(code(p.srgb_output)) | configuration::kSpread.in(code(p.spread));
 }
 // What a build has of its parameters.
 constexpr std::array<LoadedRegister, 1> loaded_registers(const Parameters& p) {
-  return {{{reg::kRules, rules_word(p)}}};
+  return {{{reg::kConfiguration, configuration_word(p)}}};
 }
 // The words of a descriptor before its bases.
 constexpr std::uint32_t size_word(const Descriptor& d) {

@@ -12,7 +12,7 @@
 #include "spec/error.h"
 #include "studies/papers/papers.h"
 #include "tb/base/interrupt.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tool/command/command_papers.h"
 #include "tool/pages/run_directory.h"
 

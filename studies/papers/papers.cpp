@@ -12,7 +12,7 @@
 #include "tb/base/interrupt.h"
 #include "tb/run/progress.h"
 #include "tb/scene/image_io.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tool/pages/build_info.h"
 #include "tool/pages/embedded.h"
 #include "tool/pages/page.h"

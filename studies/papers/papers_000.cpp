@@ -22,7 +22,7 @@
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/scenes.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tb/stimuli/discs.h"
 #include "tb/stimuli/line_fans.h"
 
@@ -43,7 +43,7 @@ using tb::stimuli::FanOptions;
 using tb::stimuli::FanRow;
 
 constexpr int kPaperLoops = 4;    // "all results use 4"
-constexpr int kTruthSamples = 8;  // each way, of a pixel
+constexpr int kReferenceSamples = 8;  // each way, of a pixel
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
@@ -281,7 +281,7 @@ PaperTable probes(const PaperOptions& options) {
     for (const int length : {1, 2, 4, 8, 16}) {
       Parameters p = preset_parameters(Preset::kMlaaSlope);
       p.steps = loops;
-      p.reach_columns = 2048;
+      p.search_columns = 2048;
       double pixels = 0, tested = 0, walked = 0;
       for (int i = 0; i < lines; ++i) {
         const double slope = 1 / (length + random.uniform(0, 1)), phase = random.uniform(0, 1);
@@ -493,9 +493,9 @@ Image zooms(const std::vector<Method>& list, const Mask& silhouettes, int strips
 }
 
 // Rendered scenes whose edges are mostly geometry.
-std::vector<tb::LitFrames> frames_of_rules(const PaperOptions& options) {
+std::vector<tb::LitFrames> frames_of_configuration(const PaperOptions& options) {
   std::vector<tb::LitFrames> frames;
-  tb::Waiting waiting("paper 000: rendering scenes and truth", options.quiet);
+  tb::Waiting waiting("paper 000: rendering scenes and reference", options.quiet);
   for (const char* scene : {"cylinders", "object", "road"})
     frames.push_back(tb::render_lit_frames(tb::make_scene(scene), options.size, options.size,
                                            options.quick ? 4 : 8, options.watching(waiting)));
@@ -516,7 +516,7 @@ std::optional<std::size_t> made_of(const std::vector<FanRow>& rows, std::size_t 
 }
 
 // What each rule of deburr adds.
-PaperTable rules(const PaperOptions& options) {
+PaperTable configuration(const PaperOptions& options) {
   PaperTable table{
       "The rules of deburr, one by one",
       "RMSE × 1000 to exact coverage on straight lines (n = 2..20, u in [0.05, 0.95]) and on "
@@ -536,7 +536,7 @@ PaperTable rules(const PaperOptions& options) {
   FanOptions fan;
   if (options.quick) fan.lines = 8;
   fan.seeds = 1;
-  const std::vector<tb::LitFrames> frames = frames_of_rules(options);
+  const std::vector<tb::LitFrames> frames = frames_of_configuration(options);
   std::vector<FanRow> rows = tb::stimuli::rule_rows();
   std::vector<Figures> figures;
   tb::Progress progress("paper 000", rows.size(), "row", options.quiet);
@@ -544,10 +544,10 @@ PaperTable rules(const PaperOptions& options) {
     options.go_on();
     double edges = 0, silhouettes = 0;
     for (const tb::LitFrames& lit : frames) {
-      const Mask edge = tb::edge_mask(lit.truth, lit.noaa);
+      const Mask edge = tb::edge_mask(lit.reference, lit.noaa);
       const Image image = smoothed(lit.noaa, rows[r].parameters);
-      edges += psnr(image, lit.truth, edge) / static_cast<double>(frames.size());
-      silhouettes += psnr(image, lit.truth, tb::silhouette_mask(edge, lit.depth)) /
+      edges += psnr(image, lit.reference, edge) / static_cast<double>(frames.size());
+      silhouettes += psnr(image, lit.reference, tb::silhouette_mask(edge, lit.depth)) /
                      static_cast<double>(frames.size());
     }
     rows[r].parameters.linear_light = false;  // coverage is measured in codes
@@ -595,8 +595,8 @@ Compared rendered_scenes(const PaperOptions& options) {
   Compared compared;
   PaperTable& table = compared.table;
   table = {
-      "Rendered frames against supersampled truth, PSNR in dB",
-      "Edge pixels: truth and frame differ by more than 2/255; silhouettes: with a depth step "
+      "Rendered frames against supersampled reference, PSNR in dB",
+      "Edge pixels: reference and frame differ by more than 2/255; silhouettes: with a depth step "
       "of 5 % to a neighbour. The verdict of MSAA 4x and mlaa says whether they are better than "
       "none on both, that of mlaa-slope whether it is better than mlaa; those of deburr-line and "
       "deburr "
@@ -618,22 +618,22 @@ Compared rendered_scenes(const PaperOptions& options) {
        {"quad", nullptr},
        {"tunnel", nullptr},
        {"plane", nullptr}}};
-  tb::Waiting waiting("paper 000: rendering scenes and truth, and smoothing", options.quiet);
+  tb::Waiting waiting("paper 000: rendering scenes and reference, and smoothing", options.quiet);
   for (const Shown& shown : kScenes) {
     const tb::Scene scene = tb::make_scene(shown.scene);
     const tb::LitFrames lit = tb::render_lit_frames(scene, options.size, options.size,
-                                                    kTruthSamples, options.watching(waiting));
-    const Mask edges = tb::edge_mask(lit.truth, lit.noaa);
+                                                    kReferenceSamples, options.watching(waiting));
+    const Mask edges = tb::edge_mask(lit.reference, lit.noaa);
     const Mask silhouettes = tb::silhouette_mask(edges, lit.depth);
     const std::vector<Method> list = methods(scene, lit.noaa, true);
     std::vector<Scores> scores;
     for (const Method& m : list) {
-      scores.push_back({psnr(m.image, lit.truth, edges), psnr(m.image, lit.truth, silhouettes)});
+      scores.push_back({psnr(m.image, lit.reference, edges), psnr(m.image, lit.reference, silhouettes)});
       waiting.update();
     }
     for (std::size_t i = 0; i < list.size(); ++i)
       table.rows.push_back(
-          {shown.scene, list[i].name, decimals(psnr(list[i].image, lit.truth), 2),
+          {shown.scene, list[i].name, decimals(psnr(list[i].image, lit.reference), 2),
            decimals(scores[i].edges, 2),
            std::isnan(scores[i].silhouettes) ? "-" : decimals(scores[i].silhouettes, 2),
            scene_verdict(list, scores, i)});
@@ -645,13 +645,13 @@ Compared rendered_scenes(const PaperOptions& options) {
       figure.images.push_back({file, m.name, m.caption, m.image, false});
     }
     std::vector<Method> columns = list;
-    columns.push_back({"truth", "", lit.truth});
+    columns.push_back({"reference", "", lit.reference});
     figure.images.push_back(
         {fmt::format("{}_zooms", shown.scene), "Zooms",
-         fmt::format("columns: none, MSAA 4x, mlaa, mlaa-slope, deburr-line, deburr, truth ({} "
+         fmt::format("columns: none, MSAA 4x, mlaa, mlaa-slope, deburr-line, deburr, reference ({} "
                      "samples a pixel); "
                      "rows: as it is, then 4 x and 8 x at {} silhouettes from left to right",
-                     kTruthSamples * kTruthSamples, shown.strips),
+                     kReferenceSamples * kReferenceSamples, shown.strips),
          zooms(columns, silhouettes, shown.strips, shown.rows), true});
     compared.figures.push_back(figure);
   }
@@ -675,15 +675,15 @@ PaperTable held_out(const PaperOptions& options) {
   for (const training::FrameSource& source : training::held_out_set(frames)) {
     options.go_on();
     waiting.update();
-    const training::TruthFrame frame = source.make();
-    const Mask edges = tb::edge_mask(frame.truth, frame.frame);
+    const training::ReferenceFrame frame = source.make();
+    const Mask edges = tb::edge_mask(frame.reference, frame.frame);
     const Mask silhouettes = frame.depth.empty() ? Mask(edges.width, edges.height)
                                                  : tb::silhouette_mask(edges, frame.depth);
     std::vector<std::string> cells = {frame.name};
     std::vector<Scores> scores;
     const auto add = [&](const Image& image) {
       waiting.update();
-      scores.push_back({psnr(image, frame.truth, edges), psnr(image, frame.truth, silhouettes)});
+      scores.push_back({psnr(image, frame.reference, edges), psnr(image, frame.reference, silhouettes)});
       cells.push_back(std::isnan(scores.back().silhouettes)
                           ? decimals(scores.back().edges, 2)
                           : fmt::format("{} / {}", decimals(scores.back().edges, 2),
@@ -701,7 +701,7 @@ PaperTable held_out(const PaperOptions& options) {
 
 PaperTable cost_of_a_loop(const PaperOptions& options) {
   PaperTable table{"Cost of one more loop",
-                   "Paper: 0.07 ms on a GTX 560 Ti, size of the frame not given. Ours: clocks of "
+                   "Paper: 0.07 ms on a GTX 560 Ti, size of the frame not given. Ours: cycles of "
                    "all predictors of both axes "
                    "for the frame of five cylinders, at 148.5 MHz; they run beside the raster, so "
                    "that the frame takes no "
@@ -731,12 +731,12 @@ PaperTable cost_of_a_loop(const PaperOptions& options) {
     for (const auto& run : golden.runs()) sum += run.iterations;
     return static_cast<double>(sum);
   };
-  constexpr double kClocksAMs = 148500;
-  const double frame_ms = (side + 37.0) * side / kClocksAMs;
+  constexpr double kCyclesAMs = 148500;
+  const double frame_ms = (side + 37.0) * side / kCyclesAMs;
   double before = trials(frame, 0), before_most = trials(noisy, 0);
   for (int loops = 1; loops <= 8; ++loops) {
     const double now = trials(frame, loops), most = trials(noisy, loops);
-    const double more = (now - before) / kClocksAMs, more_most = (most - before_most) / kClocksAMs;
+    const double more = (now - before) / kCyclesAMs, more_most = (most - before_most) / kCyclesAMs;
     table.rows.push_back({fmt::format("{}", loops), decimals(now, 0), decimals(more, 4),
                           decimals(most, 0), decimals(more_most, 4), decimals(frame_ms, 3),
                           below(more, 0.07, "less", "more")});
@@ -765,7 +765,7 @@ Paper build(const PaperOptions& options) {
   add(probes(options));
   add(quality(options, 0.05, 0.95));
   add(quality(options, 0, 1));
-  add(rules(options));
+  add(configuration(options));
   Compared scenes = rendered_scenes(options);
   add(std::move(scenes.table));
   add(held_out(options));

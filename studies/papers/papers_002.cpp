@@ -316,16 +316,16 @@ std::array<Drawing, 3> drawings() {
            {"selected", preset_parameters(Preset::kGpaaOptimised)}}};
 }
 
-// Clocks of the hardware's edges phase by the bounds of docs/reference/geometric/clocks.md,
-// "Clocks".
-struct EdgeClocks {
+// Cycles of the hardware's edges phase by the bounds of docs/reference/geometric/cycles.md,
+// "Cycles".
+struct EdgeCycles {
   std::uint64_t kept = 0, blended = 0;
   double rebuilt = 0;                     // a record a clock read, a kept one a clock written
   std::array<double, 2> until_line{};     // classify, vertices, setup; by one and by two lanes
   double until_group = 0, with_copy = 0;  // without and with the copy of the frame
 };
 
-EdgeClocks edge_clocks(const Frame& frame, const Parameters& parameters) {
+EdgeCycles edge_cycles(const Frame& frame, const Parameters& parameters) {
   GeometricGolden golden(parameters);
   golden.process(frame.input());
   const spec::geometric::Work& work = golden.work();
@@ -352,12 +352,12 @@ EdgeClocks edge_clocks(const Frame& frame, const Parameters& parameters) {
       beat[lanes - 1] = 0;
     }
   }
-  EdgeClocks clocks;
-  clocks.kept = work.kept_edges;
-  clocks.blended = work.blended_pixels;
-  clocks.rebuilt = static_cast<double>(work.edges + work.kept_edges);
+  EdgeCycles cycles;
+  cycles.kept = work.kept_edges;
+  cycles.blended = work.blended_pixels;
+  cycles.rebuilt = static_cast<double>(work.edges + work.kept_edges);
   for (std::size_t i = 0; i < 2; ++i)
-    clocks.until_line[i] = static_cast<double>(std::max({classify[i], vertices, work.lines}));
+    cycles.until_line[i] = static_cast<double>(std::max({classify[i], vertices, work.lines}));
   std::uint64_t port = 0;
   for (const Region region : {Region::kEdges, Region::kVertices, Region::kDepth, Region::kWeights})
     port += golden.traffic().read(region).size();
@@ -367,30 +367,30 @@ EdgeClocks edge_clocks(const Frame& frame, const Parameters& parameters) {
       golden.traffic().read(Region::kColour).size() + golden.traffic().write(Region::kCopy).size();
   const auto until_group = [&](std::uint64_t lines) {
     return std::max(
-        {clocks.until_line[1], static_cast<double>(work.groups), static_cast<double>(lines)});
+        {cycles.until_line[1], static_cast<double>(work.groups), static_cast<double>(lines)});
   };
-  clocks.until_group = until_group(port);
-  clocks.with_copy = until_group(port + copy);
-  return clocks;
+  cycles.until_group = until_group(port);
+  cycles.with_copy = until_group(port + copy);
+  return cycles;
 }
 
 PaperTable table_1() {
   PaperTable table{
       "Table 1: edge detection, all edges against fewer",
       "The paper's times are of a program and lost in the scan; their mean saving is printed. Ours "
-      "are clocks, and savings over all edges. (a) The list is built each frame, a record read and "
+      "are cycles, and savings over all edges. (a) The list is built each frame, a record read and "
       "a kept one written a clock: (edges + kept) / (2 edges), at most 50 % whatever is left out. "
       "(b) It is built once a mesh, until the last line is set up: the saving is of lines, not of "
       "classifying, which takes a clock an edge with one lane and half with two. (c) Until the "
       "last group of pixels is in, with two lanes: without the copy of the frame that these "
       "presets "
-      "make, and with the 115 200 lines of memory that it takes, most of all clocks. Prefiltered: "
+      "make, and with the 115 200 lines of memory that it takes, most of all cycles. Prefiltered: "
       "boundaries and creases by their angle, found once a mesh, whatever the view. 1280 x 720; "
       "bounds of the units, whatever the memory's latency. Counterparts of the models, not the "
       "models.",
-      {"model", "edges drawn", "kept", "blended pixels", "saving (a), %", "clocks (b), one lane",
-       "saving, one lane, %", "clocks (b), two lanes", "saving, two lanes, %",
-       "clocks (c), no copy", "saving, no copy, %", "clocks (c), with the copy",
+      {"model", "edges drawn", "kept", "blended pixels", "saving (a), %", "cycles (b), one lane",
+       "saving, one lane, %", "cycles (b), two lanes", "saving, two lanes, %",
+       "cycles (c), no copy", "saving, no copy, %", "cycles (c), with the copy",
        "saving, with the copy, %", "verdict"},
       {}};
   struct Savings {
@@ -399,10 +399,10 @@ PaperTable table_1() {
   std::array<Savings, 3> means;
   for (const Model& model : kModels) {
     const Frame frame = make_frame(make_scene(model.scene), 1280, 720);
-    EdgeClocks all;
+    EdgeCycles all;
     std::size_t which = 0;
     for (const Drawing& drawing : drawings()) {
-      const EdgeClocks some = edge_clocks(frame, drawing.parameters);
+      const EdgeCycles some = edge_cycles(frame, drawing.parameters);
       if (which == 0) all = some;
       const auto saving = [](double before, double after) {
         return 100.0 * (1.0 - after / before);
@@ -449,8 +449,8 @@ struct Compared {
 Compared pictures(const PaperOptions& options) {
   Compared compared;
   compared.table = {
-      "Figures 3 to 6: rendered models against supersampled truth",
-      "PSNR in dB on edge pixels (truth and frame differ by more than 2/255) and on silhouettes "
+      "Figures 3 to 6: rendered models against supersampled reference",
+      "PSNR in dB on edge pixels (reference and frame differ by more than 2/255) and on silhouettes "
       "(with a step of depth of 5 %). The paper says that selection saves time; it improves "
       "quality, too, since an inner line blends pixels that belong to a silhouette. gpaa draws "
       "every edge, as the method's demonstration of 2011 does; prefiltered, boundaries and creases "
@@ -460,7 +460,7 @@ Compared pictures(const PaperOptions& options) {
       "six.",
       {"scene", "method", "edges drawn", "edges", "silhouettes", "verdict"},
       {}};
-  tb::Waiting waiting("paper 002: rendering models and truth, and smoothing", options.quiet);
+  tb::Waiting waiting("paper 002: rendering models and reference, and smoothing", options.quiet);
   std::vector<std::pair<std::string, std::string>> scenes;
   scenes.reserve(std::size(kModels) + 3);
   for (const Model& model : kModels) scenes.emplace_back(model.scene, model.figure);
@@ -507,7 +507,7 @@ Compared pictures(const PaperOptions& options) {
       std::replace(file.begin(), file.end(), ' ', '_');
       figure.images.push_back({file, method.name, "", method.image, false});
     }
-    figure.images.push_back({name + "_truth", "truth", "supersampled", checker.truth, false});
+    figure.images.push_back({name + "_reference", "reference", "supersampled", checker.reference, false});
     compared.figures.push_back(std::move(figure));
     waiting.update();
   }
@@ -526,12 +526,12 @@ PaperTable order_of_edges(const PaperOptions& options) {
       {}};
   for (const char* scene : {"wheelcover", "object"}) {
     Frame frame = make_frame(make_scene(scene), options.size, options.size);
-    constexpr std::array kRules = {Combine::kLast, Combine::kMax, Combine::kOutermost};
-    std::array<std::int64_t, kRules.size()> changed{};
+    constexpr std::array kConfiguration = {Combine::kLast, Combine::kMax, Combine::kOutermost};
+    std::array<std::int64_t, kConfiguration.size()> changed{};
     std::uint64_t blended = 0;
-    for (std::size_t rule = 0; rule < kRules.size(); ++rule) {
+    for (std::size_t rule = 0; rule < kConfiguration.size(); ++rule) {
       Parameters p = preset_parameters(Preset::kGpaaOptimised);
-      p.combine = kRules[rule];
+      p.combine = kConfiguration[rule];
       const tb::geometric::Smoothed before = smoothed(frame, p);
       blended = before.work.blended_pixels;
       tb::Random random(7);

@@ -26,7 +26,7 @@
 #include "tb/run/progress.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/scenes.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tb/stimuli/discs.h"
 #include "tb/stimuli/frames.h"
 #include "tb/stimuli/line_fans.h"
@@ -319,7 +319,7 @@ PaperTable matrix_of_lines(const PaperOptions& options) {
 PaperTable matrix_of_frames(const PaperOptions& options) {
   PaperTable table{
       "Quality matrix: frames",
-      "PSNR in dB against supersampled truth over edge pixels; last the means over all frames: on "
+      "PSNR in dB against supersampled reference over edge pixels; last the means over all frames: on "
       "edges, on silhouettes (where a frame has any), edge pixels in %. Textured frames are "
       "tunnel and plane.",
       {"rules"},
@@ -338,11 +338,11 @@ PaperTable matrix_of_frames(const PaperOptions& options) {
     const tb::Scene scene = tb::make_scene(scenes[s]);
     const tb::LitFrames lit =
         tb::render_lit_frames(scene, options.size, options.size, options.quick ? 4 : 8);
-    const tb::Mask edges = tb::edge_mask(lit.truth, lit.noaa);
+    const tb::Mask edges = tb::edge_mask(lit.reference, lit.noaa);
     const tb::Mask silhouettes = tb::silhouette_mask(edges, lit.depth);
     const auto check = [&](Sum& sum, const Image& image) {
-      const double on_edges = psnr(image, lit.truth, edges),
-                   on_silhouettes = psnr(image, lit.truth, silhouettes);
+      const double on_edges = psnr(image, lit.reference, edges),
+                   on_silhouettes = psnr(image, lit.reference, silhouettes);
       sum.edges += on_edges;
       if (!std::isnan(on_silhouettes)) sum.silhouettes += on_silhouettes, ++sum.with_silhouettes;
       sum.cells.push_back(decimals(on_edges, 2));
@@ -376,7 +376,7 @@ PaperTable matrix_of_frames(const PaperOptions& options) {
 }
 
 struct Cost {
-  std::uint64_t clocks, unstalled;   // of a frame, measured and by formula
+  std::uint64_t cycles, unstalled;   // of a frame, measured and by formula
   std::uint64_t rom_bits, ram_bits;  // physical
 };
 
@@ -397,7 +397,7 @@ Cost cost_of(const Parameters& parameters, const Image& image) {
     tb::Result result;
     simulation.collect(result);
     Cost cost{environment.engine().sequencer.frame_cycles.value(),
-              tb::frame_clocks_by_formula(parameters, image.width, image.height), 0, 0};
+              tb::frame_cycles_by_formula(parameters, image.width, image.height), 0, 0};
     for (const tb::MemoryFigures& memory : result.memories)
       (memory.kind == "rom" ? cost.rom_bits : cost.ram_bits) += memory.physical_bits;
     return cost;
@@ -407,12 +407,12 @@ Cost cost_of(const Parameters& parameters, const Image& image) {
 PaperTable matrix_of_costs(const PaperOptions& options) {
   PaperTable table{
       "Quality matrix: cost",
-      "The hardware model, one lane, lines of up to 1920 pixels. Clocks of a frame (object, of the "
+      "The hardware model, one lane, lines of up to 1920 pixels. Cycles of a frame (object, of the "
       "size of the pictures) and physical bits, which include copies for more ports, and the "
-      "predictor's memories, which every engine has; then clocks over those of an engine that "
+      "predictor's memories, which every engine has; then cycles over those of an engine that "
       "never waits, for 256 x 144 pixels at random of which 20 % have an edge, and 37 %, which is "
       "what the paper's threshold gives. The verdict: is it a pixel a clock up to 20 %?",
-      {"rules", "clocks", "ROM, bits", "flip-flops and SRAM, bits", "20 %", "37 %", "verdict"},
+      {"rules", "cycles", "ROM, bits", "flip-flops and SRAM, bits", "20 %", "37 %", "verdict"},
       {}};
   tb::RenderOptions render_options;
   render_options.width = render_options.height = options.size;
@@ -427,11 +427,11 @@ PaperTable matrix_of_costs(const PaperOptions& options) {
     options.go_on();
     const auto slowdown = [&](const Image& image) {
       const Cost cost = cost_of(method.parameters, image);
-      return static_cast<double>(cost.clocks) / static_cast<double>(cost.unstalled);
+      return static_cast<double>(cost.cycles) / static_cast<double>(cost.unstalled);
     };
     const Cost cost = cost_of(method.parameters, frame);
     const double at_fifth = slowdown(fifth);
-    table.rows.push_back({method.name, fmt::format("{}", cost.clocks),
+    table.rows.push_back({method.name, fmt::format("{}", cost.cycles),
                           fmt::format("{}", cost.rom_bits), fmt::format("{}", cost.ram_bits),
                           decimals(at_fifth, 3), decimals(slowdown(paper), 3),
                           below(at_fifth, 1.005)});

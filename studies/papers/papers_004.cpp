@@ -42,7 +42,7 @@ constexpr double kLog2One = 4096;   // S5.12
 constexpr double kSideOne = 65536;  // U16.16
 constexpr double kAlphas[] = {0.5, 0.25, 0.3284};
 
-spec::texture::Parameters papers_rules() {
+spec::texture::Parameters papers_configuration() {
   return spec::texture::preset_parameters(spec::texture::Preset::kPaper);
 }
 
@@ -181,7 +181,7 @@ PaperTable equation_23() {
 
 PaperTable figure_1() {
   // Sides (6, 3) and (1, 2) texels: d_x = 3 sqrt 5, d_y = sqrt 5, as printed.
-  const spec::texture::Parameters parameters = papers_rules();
+  const spec::texture::Parameters parameters = papers_configuration();
   spec::texture::Descriptor descriptor;
   descriptor.width = descriptor.height = 1024;
   descriptor.levels = 11;
@@ -302,7 +302,7 @@ PaperTable design_space(const std::vector<TextureScene>& scenes, const PaperOpti
                                  static_cast<std::uint32_t>(std::lround(b * kSideOne)));
         return gold::log2_fixed(log2, side) / kLog2One;
       });
-      spec::texture::Parameters parameters = papers_rules();
+      spec::texture::Parameters parameters = papers_configuration();
       parameters.footprint = rule;
       parameters.log2 = log2;
       std::vector<std::string> row = {
@@ -389,7 +389,7 @@ PaperTable quality(const PaperOptions& options) {
     for (std::size_t g = 0; g < spec::texture::kLog2Names.size(); ++g)
       for (const CountRule count : {CountRule::kFloor, CountRule::kCeil})
         for (std::size_t k = 0; k < spec::texture::kKernelNames.size(); ++k) {
-          spec::texture::Parameters p = papers_rules();
+          spec::texture::Parameters p = papers_configuration();
           p.footprint = static_cast<FootprintRule>(f);
           p.log2 = static_cast<Log2Rule>(g);
           p.count = count;
@@ -398,7 +398,7 @@ PaperTable quality(const PaperOptions& options) {
           variants.push_back(p);
         }
   for (const std::int32_t spread : {64, 77, 90, 112, 120, 128}) {
-    spec::texture::Parameters p = papers_rules();
+    spec::texture::Parameters p = papers_configuration();
     p.count = CountRule::kCeil;
     p.kernel = spec::texture::Kernel::kTent;
     p.spread = spread;
@@ -453,8 +453,8 @@ PaperTable over_roll(const PaperOptions& options) {
     p.count = count;
     return p;
   };
-  const Rule rules[] = {{"trilinear", papers_rules(), 0},
-                        {"the paper", papers_rules()},
+  const Rule configuration[] = {{"trilinear", papers_configuration(), 0},
+                        {"the paper", papers_configuration()},
                         {"two, ceil", own(Axes::kTwo, CountRule::kCeil)},
                         {"four, floor", own(Axes::kFour, CountRule::kFloor)},
                         {"four, ceil", own(Axes::kFour, CountRule::kCeil)},
@@ -484,9 +484,9 @@ PaperTable over_roll(const PaperOptions& options) {
   std::uint64_t done = 0;
   for (const char* const texture_name : kTextures) {
     std::vector<std::vector<std::string>> rows;
-    std::vector<double> worst(std::size(rules), 1e9);
-    std::vector<std::array<double, 4>> work(std::size(rules));
-    for (const Rule& rule : rules) rows.push_back({texture_name, rule.name});
+    std::vector<double> worst(std::size(configuration), 1e9);
+    std::vector<std::array<double, 4>> work(std::size(configuration));
+    for (const Rule& rule : configuration) rows.push_back({texture_name, rule.name});
     for (const double roll : kRolls) {
       tb::SceneParameters scene_parameters;
       scene_parameters.source = "plane";
@@ -501,21 +501,21 @@ PaperTable over_roll(const PaperOptions& options) {
         texels.insert(texels.end(), texel.begin(), texel.end());
       const ideal::TextureImage image(texture.image.width, texture.image.height, texels,
                                       texture.wrap_s, texture.wrap_t);
-      const std::vector<ideal::Colour> truth = ideal::box_image(
+      const std::vector<ideal::Colour> reference = ideal::box_image(
           image,
           ideal::pixel_footprints(scene.stream().quads, texture.image.width, texture.image.height),
           24);
-      for (std::size_t r = 0; r < std::size(rules); ++r) {
+      for (std::size_t r = 0; r < std::size(configuration); ++r) {
         gold::TextureGolden golden =
-            tb::make_golden(scene, rules[r].parameters, gold::TextureGolden::Traffic::kPredict);
+            tb::make_golden(scene, configuration[r].parameters, gold::TextureGolden::Traffic::kPredict);
         spec::texture::Descriptor descriptor = golden.texture(0);
-        descriptor.max_anisotropy_log2 = static_cast<std::uint8_t>(rules[r].lb_n_max);
+        descriptor.max_anisotropy_log2 = static_cast<std::uint8_t>(configuration[r].lb_n_max);
         golden.set_texture(0, descriptor);
         std::vector<std::uint8_t> rgba;
         for (const spec::texture::Quad& quad : scene.stream().quads)
           for (const spec::texture::Colour& colour : golden.process(quad))
             rgba.insert(rgba.end(), colour.rgba.begin(), colour.rgba.end());
-        const double decibels = ideal::psnr(truth, rgba);
+        const double decibels = ideal::psnr(reference, rgba);
         worst[r] = std::min(worst[r], decibels);
         rows[r].push_back(decimals(decibels, 1));
         const auto fragments = static_cast<double>(golden.work().fragments);
@@ -526,7 +526,7 @@ PaperTable over_roll(const PaperOptions& options) {
       progress.update(++done);
       options.go_on();
     }
-    for (std::size_t r = 0; r < std::size(rules); ++r) {
+    for (std::size_t r = 0; r < std::size(configuration); ++r) {
       rows[r].push_back(decimals(worst[r], 1));
       for (std::size_t i = 0; i < 4; ++i) rows[r].push_back(decimals(work[r][i], i < 2 ? 1 : 3));
       table.rows.push_back(std::move(rows[r]));
@@ -549,7 +549,7 @@ tb::Image picture(const char* source, const char* texture, int texture_size, int
   sampler.anisotropy = static_cast<std::uint8_t>(lb_anisotropy);
   if (mode == spec::texture::MinFilter::kNearest)
     sampler.magnification = spec::texture::MagFilter::kNearest;
-  return tb::golden_frame(TextureScene(scene, sampler, 1), papers_rules()).image;
+  return tb::golden_frame(TextureScene(scene, sampler, 1), papers_configuration()).image;
 }
 
 std::vector<PaperFigure> figures(const PaperOptions& options) {

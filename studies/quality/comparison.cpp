@@ -34,8 +34,8 @@ namespace {
 
 using tb::geometric::Checker;
 using tb::geometric::Frame;
-using MorphologicalRules = spec::morphological::Parameters;
-using GeometricRules = spec::geometric::Parameters;
+using MorphologicalConfiguration = spec::morphological::Parameters;
+using GeometricConfiguration = spec::geometric::Parameters;
 
 constexpr int kWidth = 640, kHeight = 480, kSamples = 16;
 constexpr int kLinePixels = 1920;
@@ -44,8 +44,8 @@ constexpr double kDepthBytes = 4;
 
 struct Method {
   std::string name, label;
-  std::optional<GeometricRules> geometric;
-  std::optional<MorphologicalRules> morphological;
+  std::optional<GeometricConfiguration> geometric;
+  std::optional<MorphologicalConfiguration> morphological;
 };
 
 std::vector<Method> compared_methods() {
@@ -53,7 +53,7 @@ std::vector<Method> compared_methods() {
   namespace g = spec::geometric;
   std::vector<Method> all;
   const auto morphological = [](m::Preset preset) {
-    MorphologicalRules p = golden::morphological::preset_parameters(preset);
+    MorphologicalConfiguration p = golden::morphological::preset_parameters(preset);
     p.line_pixels = kLinePixels;
     return p;
   };
@@ -82,13 +82,13 @@ std::vector<Method> compared_methods() {
   return all;
 }
 
-Image drawn(const Frame& frame, const GeometricRules& rules) {
-  return tb::geometric::smoothed(frame, rules).image;
+Image drawn(const Frame& frame, const GeometricConfiguration& configuration) {
+  return tb::geometric::smoothed(frame, configuration).image;
 }
 
-Image smoothed(const Frame& frame, const Image& image, const MorphologicalRules& rules) {
+Image smoothed(const Frame& frame, const Image& image, const MorphologicalConfiguration& configuration) {
   golden::morphological::MorphologicalGolden golden(
-      rules, golden::morphological::MorphologicalGolden::Detail::kPixels);
+      configuration, golden::morphological::MorphologicalGolden::Detail::kPixels);
   Image result = image;
   result.pixels = golden.process({image.pixels, image.width, image.height},
                                  {frame.depths, image.width, image.height});
@@ -121,11 +121,11 @@ ComparisonCost cost_of(Make make, Measure measure) {
   });
 }
 
-ComparisonCost cost_of(const GeometricRules& rules, const Frame& frame) {
+ComparisonCost cost_of(const GeometricConfiguration& configuration, const Frame& frame) {
   return cost_of(
       [&](tb::Simulation& simulation) {
         tb::GeometricSetup setup;
-        setup.geometric = rules;
+        setup.geometric = configuration;
         return std::make_unique<tb::GeometricEnvironment>(simulation, std::span(&frame, 1), setup);
       },
       [](const tb::GeometricEnvironment& environment) {
@@ -138,13 +138,13 @@ ComparisonCost cost_of(const GeometricRules& rules, const Frame& frame) {
       });
 }
 
-ComparisonCost cost_of(const MorphologicalRules& rules, const tb::MorphologicalInput& input) {
-  const bool depth = rules.edge_source == spec::morphological::EdgeSource::kDepth ||
-                     rules.edge_source == spec::morphological::EdgeSource::kPredicated;
+ComparisonCost cost_of(const MorphologicalConfiguration& configuration, const tb::MorphologicalInput& input) {
+  const bool depth = configuration.edge_source == spec::morphological::EdgeSource::kDepth ||
+                     configuration.edge_source == spec::morphological::EdgeSource::kPredicated;
   return cost_of(
       [&](tb::Simulation& simulation) {
         tb::MorphologicalSetup setup;
-        setup.morphological = rules;
+        setup.morphological = configuration;
         return std::make_unique<tb::MorphologicalEnvironment>(simulation, std::span(&input, 1),
                                                               setup);
       },
@@ -159,7 +159,7 @@ ComparisonCost cost_of(const Method& method, const Frame& frame) {
   ComparisonCost sum;
   const auto add = [&](const ComparisonCost& cost) {
     sum.blended += cost.blended;
-    sum.clocks += cost.clocks;
+    sum.cycles += cost.cycles;
     sum.bytes += cost.bytes;
     sum.bits += cost.bits;
   };
@@ -195,17 +195,17 @@ constexpr Column kColumns[] = {{"PSNR, dB", &ComparisonRow::psnr, 2, false},
                                {"FLIP", &ComparisonRow::flip, 4, true},
                                {"SSIM", &ComparisonRow::ssim, 4, false}};
 
-bool is_truth(const ComparisonRow& row) { return !std::isfinite(row.psnr); }
+bool is_reference(const ComparisonRow& row) { return !std::isfinite(row.psnr); }
 
-// Of the truth there is nothing to say.
+// Of the reference there is nothing to say.
 std::string cell(const ComparisonRow& row, const Column& column) {
-  return is_truth(row) ? "-" : fmt::format("{:.{}f}", row.*column.value, column.digits);
+  return is_reference(row) ? "-" : fmt::format("{:.{}f}", row.*column.value, column.digits);
 }
 
 // The best cell of a column.
 std::string best(std::span<const ComparisonRow> rows, const Column& column) {
   const auto rank = [&](const ComparisonRow& row) {
-    if (is_truth(row)) return -std::numeric_limits<double>::infinity();
+    if (is_reference(row)) return -std::numeric_limits<double>::infinity();
     return row.*column.value * (column.least_is_best ? -1 : 1);
   };
   return cell(*std::max_element(rows.begin(), rows.end(),
@@ -230,7 +230,7 @@ std::vector<ComparisonRow> compare_methods(const std::string& scene) {
   const auto add = [&](const std::string& name, Image image) -> ComparisonRow& {
     ComparisonRow row;
     row.method = name;
-    row.psnr = psnr(image, checker.truth);
+    row.psnr = psnr(image, checker.reference);
     row.edges = checker.edge_psnr(image);
     row.silhouettes = checker.silhouette_psnr(image);
     images.push_back(std::move(image));
@@ -243,12 +243,12 @@ std::vector<ComparisonRow> compare_methods(const std::string& scene) {
     add(reference.name, reference.filter(checker.frame.image, true));
   for (const Method& method : compared_methods())
     add(method.name, picture_of(method, checker.frame)).cost = cost_of(method, checker.frame);
-  add("supersampled, 256 samples", checker.truth);
+  add("supersampled, 256 samples", checker.reference);
   std::vector<const Image*> tests;
   tests.reserve(images.size());
   for (const Image& image : images) tests.push_back(&image);
-  const std::vector<double> flips = tb::flip(checker.truth, tests),
-                            similar = ssim(checker.truth, tests);
+  const std::vector<double> flips = tb::flip(checker.reference, tests),
+                            similar = ssim(checker.reference, tests);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].flip = flips[i];
     rows[i].ssim = similar[i];
@@ -259,7 +259,7 @@ std::vector<ComparisonRow> compare_methods(const std::string& scene) {
 std::string comparison_section(const std::string& name, std::span<const ComparisonRow> rows) {
   std::string text = fmt::format("### {}\n\n|", name), line = "|";
   for (const Column& column : kColumns) text += fmt::format(" | {}", column.title);
-  text += fmt::format(" | blended pixels | clocks, M = {} | bytes a pixel | memory, bits |\n",
+  text += fmt::format(" | blended pixels | cycles, M = {} | bytes a pixel | memory, bits |\n",
                       tb::GeometricSetup().memory.latency);
   for (std::size_t i = 0; i < std::size(kColumns) + 5; ++i) line += "---|";
   text += line + "\n";
@@ -271,7 +271,7 @@ std::string comparison_section(const std::string& name, std::span<const Comparis
     }
     if (row.cost)
       text += fmt::format(" | {} | {} | {:.1f} | {} |\n", grouped_digits(row.cost->blended),
-                          grouped_digits(row.cost->clocks), row.cost->bytes,
+                          grouped_digits(row.cost->cycles), row.cost->bytes,
                           grouped_digits(static_cast<double>(row.cost->bits)));
     else
       text += " | - | - | - | - |\n";
@@ -288,14 +288,14 @@ std::vector<ComparisonRow> means_of(std::span<const std::vector<ComparisonRow>> 
       for (const Column& column : kColumns) mean.*column.value += rows[i].*column.value;
       if (!mean.cost) continue;
       mean.cost->blended += rows[i].cost->blended;
-      mean.cost->clocks += rows[i].cost->clocks;
+      mean.cost->cycles += rows[i].cost->cycles;
       mean.cost->bytes += rows[i].cost->bytes;
       DEBURR_CHECK(mean.cost->bits == rows[i].cost->bits, "memory that depends on the scene");
     }
     for (const Column& column : kColumns) mean.*column.value /= n;
     if (!mean.cost) continue;
     mean.cost->blended /= n;
-    mean.cost->clocks /= n;
+    mean.cost->cycles /= n;
     mean.cost->bytes /= n;
   }
   return means;
@@ -349,7 +349,7 @@ Image comparison_sheet() {
       add(reference.name, reference.filter(checker.frame.image, true));
     for (const Method& method : compared_methods())
       add(method.label, picture_of(method, checker.frame));
-    add("truth", checker.truth);
+    add("reference", checker.reference);
     // The next place begins a row.
     while (cells.size() % kAcross != 0)
       cells.emplace_back(cells.front().width, cells.front().height, tb::Rgba8{255, 255, 255, 255});

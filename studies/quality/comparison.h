@@ -18,14 +18,14 @@ namespace deburr::studies {
 // Of a frame, by the hardware model, compared with golden throughout.
 struct ComparisonCost {
   double blended = 0;  // pixels that took a share of a neighbour; of two engines the sum
-  double clocks = 0;
+  double cycles = 0;
   double bytes = 0;        // a pixel of the frame, streams and memory
   std::uint64_t bits = 0;  // of all memories, physical
 };
 
 struct ComparisonRow {
   std::string method;
-  double psnr = 0, edges = 0, silhouettes = 0;  // dB; infinite for the truth
+  double psnr = 0, edges = 0, silhouettes = 0;  // dB; infinite for the reference
   double flip = 0, ssim = 0;                    // over the frame
   std::optional<ComparisonCost> cost;           // of what the project has hardware for
 };

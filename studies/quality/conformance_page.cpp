@@ -2,7 +2,7 @@
 // Keeps the generated part of docs/measurements/filtering_conformance.md current.
 //   conformance_page write PAGE           replaces the part between the two marker lines
 //   conformance_page check PAGE [STALE]   exit code 1 when that part is not what would be written;
-//       STALE is a page with a planted wrong table, and it is a failure when that is not noticed
+//       STALE is a page with a injected wrong table, and it is a failure when that is not noticed
 #include <exception>
 #include <filesystem>
 #include <fstream>

@@ -21,7 +21,7 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/ssim.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tb/stimuli/reference_filters.h"
 
 namespace deburr::studies::harm {
@@ -81,21 +81,21 @@ struct Figures {
   double psnr = 0, flip = 0, ssim = 0;
 };
 
-// Against the truth, or, without one, against the frame, all of which is right then.
-std::vector<Figures> measure(const Image& frame, const Image& truth,
+// Against the reference, or, without one, against the frame, all of which is right then.
+std::vector<Figures> measure(const Image& frame, const Image& reference,
                              std::span<const Image> smoothed) {
-  const tb::Mask right = inverted(tb::edge_mask(truth, frame));
+  const tb::Mask right = inverted(tb::edge_mask(reference, frame));
   const auto of_right = static_cast<double>(count(right));
   std::vector<const Image*> tests;
   for (const Image& image : smoothed) tests.push_back(&image);
-  const std::vector<double> flips = tb::flip(truth, tests), similar = ssim(truth, tests);
+  const std::vector<double> flips = tb::flip(reference, tests), similar = ssim(reference, tests);
   std::vector<Figures> all;
   for (std::size_t i = 0; i < tests.size(); ++i) {
     const auto changed = [&](int codes) {
       const auto pixels = static_cast<double>(tb::count_different(*tests[i], frame, right, codes));
       return 100 * pixels / of_right;
     };
-    all.push_back({changed(2), changed(16), psnr(*tests[i], truth), flips[i], similar[i]});
+    all.push_back({changed(2), changed(16), psnr(*tests[i], reference), flips[i], similar[i]});
   }
   return all;
 }
@@ -160,9 +160,9 @@ std::string textured_table(std::span<const Filter> filters) {
     const Textured textured = textured_frame(view, 2 * kWidth, 2 * kHeight);
     std::vector<Image> images = smoothed_by(filters, textured.frame);
     images.insert(images.begin(), textured.frame);
-    const std::vector<Figures> figures = measure(textured.frame, textured.truth, images);
+    const std::vector<Figures> figures = measure(textured.frame, textured.reference, images);
     const auto right =
-        static_cast<double>(count(inverted(tb::edge_mask(textured.truth, textured.frame))));
+        static_cast<double>(count(inverted(tb::edge_mask(textured.reference, textured.frame))));
     titles.push_back(fmt::format("view {}, {:.1f} % right: changed, %", view + 1,
                                  100 * right / static_cast<double>(textured.frame.pixels.size())));
     titles.insert(titles.end(), {"PSNR, dB", "FLIP / SSIM"});
@@ -174,15 +174,15 @@ std::string textured_table(std::span<const Filter> filters) {
   return text;
 }
 
-// ---- frames with truth --------------------------------------------------------------------------
+// ---- frames with reference --------------------------------------------------------------------------
 
 struct Pair {
-  Image frame, truth;
+  Image frame, reference;
 };
 
 Pair rendered(const tb::Scene& scene, int width, int height) {
   tb::LitFrames lit = tb::render_lit_frames(scene, width, height, 8);
-  return {std::move(lit.noaa), std::move(lit.truth)};
+  return {std::move(lit.noaa), std::move(lit.reference)};
 }
 
 // A column: the mean over some frames.
@@ -201,7 +201,7 @@ std::string perceptual_table(std::span<const Filter> filters, std::span<const Co
     for (const Pair& pair : column.pairs) {
       std::vector<Image> images = smoothed_by(filters, pair.frame);
       images.insert(images.begin(), pair.frame);
-      const std::vector<Figures> figures = measure(pair.frame, pair.truth, images);
+      const std::vector<Figures> figures = measure(pair.frame, pair.reference, images);
       const auto frames = static_cast<double>(column.pairs.size());
       for (std::size_t i = 0; i < mean.size(); ++i) {
         mean[i].psnr += figures[i].psnr / frames;
@@ -280,7 +280,7 @@ std::string difference(double decibels) {
   return text == "-0.00" ? "0.00" : text;
 }
 
-// Of frames with truth: PSNR over edges and over the frame with the guard less that without it, of
+// Of frames with reference: PSNR over edges and over the frame with the guard less that without it, of
 // each preset that of the frame that loses most; and the largest share of guarded pixels.
 std::string worst_with_guard(const std::string& name, std::span<const Pair> pairs,
                              std::span<const Filter> filters) {
@@ -288,14 +288,14 @@ std::string worst_with_guard(const std::string& name, std::span<const Pair> pair
   std::vector<std::pair<double, double>> worst(kGuardedPresets.size(), {1000, 1000});
   for (const Pair& pair : pairs) {
     guarded = std::max(guarded, guarded_percent(pair.frame));
-    const tb::Mask edges = tb::edge_mask(pair.truth, pair.frame);
+    const tb::Mask edges = tb::edge_mask(pair.reference, pair.frame);
     const std::vector<Image> smoothed = smoothed_by(filters, pair.frame);
     for (std::size_t i = 0; i < worst.size(); ++i) {
       const Image &without = smoothed[2 * i], &with = smoothed[2 * i + 1];
       worst[i].first = std::min(worst[i].first,
-                                psnr(with, pair.truth, edges) - psnr(without, pair.truth, edges));
+                                psnr(with, pair.reference, edges) - psnr(without, pair.reference, edges));
       worst[i].second =
-          std::min(worst[i].second, psnr(with, pair.truth) - psnr(without, pair.truth));
+          std::min(worst[i].second, psnr(with, pair.reference) - psnr(without, pair.reference));
     }
   }
   std::vector<std::string> cells = {name, fmt::format("{:.2f}", guarded)};
@@ -304,7 +304,7 @@ std::string worst_with_guard(const std::string& name, std::span<const Pair> pair
   return row(cells);
 }
 
-std::string guard_truth_head() {
+std::string guard_reference_head() {
   std::vector<std::string> titles = {"", "guarded, %"};
   for (const m::Preset which : kGuardedPresets)
     titles.emplace_back(m::kPresetNames[static_cast<std::size_t>(which)]);
@@ -315,13 +315,13 @@ std::string guard_truth_head() {
 
 constexpr std::array<const char*, 3> kPhotos = {"brick", "gravel", "grass"};
 struct FramePair {
-  const char *title, *frame, *truth;
+  const char *title, *frame, *reference;
 };
 constexpr std::array<FramePair, 2> kFrames = {
     {{"`track` 720p", "frames/track_720p_noaa.png", "frames/track_720p_ssaa256.png"},
      {"`track` 1080p", "frames/track_1080p_noaa.png", "frames/track_1080p_ssaa64.png"}}};
 // Never learned from, and looked at once (docs/measurements/morphological_quality.md, "Frames with
-// truth").
+// reference").
 constexpr std::array<const char*, 17> kHeldOut = {"kenney/city/models/building-small-b.glb",
                                                   "kenney/city/models/building-small-d.glb",
                                                   "kenney/city/models/grass-trees.glb",
@@ -415,9 +415,9 @@ std::string guard_tables() {
     of_scenes.push_back(rendered(tb::make_scene(scene.name), 512, 512));
   for (int view = 0; view < 3; ++view) {
     Textured t = textured_frame(view, 2 * kWidth, 2 * kHeight);
-    textured.push_back({std::move(t.frame), std::move(t.truth)});
+    textured.push_back({std::move(t.frame), std::move(t.reference)});
   }
-  text += "\nFrames with truth:\n\n" + guard_truth_head();
+  text += "\nFrames with reference:\n\n" + guard_reference_head();
   text += worst_with_guard(fmt::format("{} scenes", of_scenes.size()), of_scenes, all);
   text += worst_with_guard("nine stand-ins", stand_ins(), all);
   text += worst_with_guard("textured frames, three views", textured, all);
@@ -437,7 +437,7 @@ std::string wires_table() {
       const Textured frames = wires(thickness, degrees, 256, 256);
       const std::vector<Image> smoothed = smoothed_by(all, frames.frame);
       const auto of = [&](const Image& image) {
-        return fmt::format("{:.2f}", psnr(image, frames.truth));
+        return fmt::format("{:.2f}", psnr(image, frames.reference));
       };
       std::vector<std::string> cells = {fmt::format("{} px at {}°", thickness, degrees),
                                         fmt::format("{:.1f}", guarded_percent(frames.frame)),
@@ -449,7 +449,7 @@ std::string wires_table() {
   return text + "\n";
 }
 
-std::string formula_frames_with_truth() {
+std::string formula_frames_with_reference() {
   std::vector<Column> columns;
   columns.push_back({"five scenes", {}});
   for (const char* const scene : {"cylinders", "object", "road", "quad", "tunnel"})
@@ -463,7 +463,7 @@ std::string missing_data(const fs::path& data) {
   files.reserve(kPhotos.size() + 2 * kFrames.size() + kHeldOut.size());
   for (const char* const name : kPhotos) files.push_back(photo_file(data, name));
   for (const FramePair& pair : kFrames)
-    files.insert(files.end(), {data / pair.frame, data / pair.truth});
+    files.insert(files.end(), {data / pair.frame, data / pair.reference});
   for (const char* const name : kHeldOut) files.push_back(data / name);
   for (const fs::path& file : files)
     if (!fs::exists(file)) return file.string();
@@ -507,21 +507,21 @@ std::vector<Pair> held_out(const fs::path& data) {
 std::string data_guard_table(const fs::path& data) {
   require(data);
   const std::vector<Filter> all = guarded_filters();
-  std::string text = "\n" + guard_truth_head();
+  std::string text = "\n" + guard_reference_head();
   for (const FramePair& pair : kFrames) {
-    const Pair one = {tb::read_image(data / pair.frame), tb::read_image(data / pair.truth)};
+    const Pair one = {tb::read_image(data / pair.frame), tb::read_image(data / pair.reference)};
     text += worst_with_guard(pair.title, {&one, 1}, all);
   }
   return text + worst_with_guard("17 held-out meshes", held_out(data), all) + "\n";
 }
 
-std::string data_frames_with_truth(const fs::path& data) {
+std::string data_frames_with_reference(const fs::path& data) {
   require(data);
   std::vector<Column> columns;
   columns.reserve(kFrames.size() + 1);
   for (const FramePair& pair : kFrames)
     columns.push_back(
-        {pair.title, {{tb::read_image(data / pair.frame), tb::read_image(data / pair.truth)}}});
+        {pair.title, {{tb::read_image(data / pair.frame), tb::read_image(data / pair.reference)}}});
   columns.push_back({"17 held-out meshes", held_out(data)});
   return "\n" + perceptual_table(filters(), columns);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What smoothing does to what is right: tables of docs/measurements/morphological_harm.md. And what
-// FLIP and SSIM say of frames with truth: of docs/measurements/morphological_quality.md. One part
+// FLIP and SSIM say of frames with reference: of docs/measurements/morphological_quality.md. One part
 // of each is of frames by formula, which every clone has; the other of frames that others made
 // (DEBURR_DATA).
 #pragma once
@@ -18,8 +18,8 @@ std::string formula_tables();
 std::string data_tables(const std::filesystem::path& data);
 
 // PSNR, FLIP and SSIM over the frame.
-std::string formula_frames_with_truth();
-std::string data_frames_with_truth(const std::filesystem::path& data);
+std::string formula_frames_with_reference();
+std::string data_frames_with_reference(const std::filesystem::path& data);
 // What of that is not there; empty: all is.
 std::string missing_data(const std::filesystem::path& data);
 

@@ -21,7 +21,7 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/label.h"
 #include "tb/scene/textures.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tb/stimuli/frames.h"
 
 namespace deburr::studies::harm {
@@ -505,14 +505,14 @@ Textured wires(double thickness, double degrees, int width, int height) {
   }
   Image frame = tb::stimuli::draw(
       width, height, [&](int x, int y) { return on_wire(x + 0.5, y + 0.5) ? kWire : kSky; });
-  Image truth = tb::stimuli::draw(width, height, [&](int x, int y) {
+  Image reference = tb::stimuli::draw(width, height, [&](int x, int y) {
     std::size_t samples = 0;
     for (int j = 0; j < kSide; ++j)
       for (int i = 0; i < kSide; ++i)
         samples += on_wire(x + (i + 0.5) / kSide, y + (j + 0.5) / kSide) ? 1 : 0;
     return mixes[samples];
   });
-  return {std::move(frame), std::move(truth)};
+  return {std::move(frame), std::move(reference)};
 }
 
 Image pixel_art(int size, int width, int height) {

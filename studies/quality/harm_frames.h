@@ -15,7 +15,7 @@ namespace deburr::studies::harm {
 tb::Scene textured_hall(int view);
 // The frame with one sample a pixel, and the same with smoothed edges.
 struct Textured {
-  tb::Image frame, truth;
+  tb::Image frame, reference;
 };
 Textured textured_frame(int view, int width, int height);
 // The hall, supersampled with all that is in it, as a renderer with good anti-aliasing has it.
@@ -37,7 +37,7 @@ tb::Image text_page(Text kind, int width, int height);
 // The aliased page's letters over the landscape.
 tb::Image text_over_scene(int width, int height);
 
-// Straight wires of two flat colours, 40 pixels apart, one sample a pixel; the truth is the mean of
+// Straight wires of two flat colours, 40 pixels apart, one sample a pixel; the reference is the mean of
 // 8 x 8 samples in linear light. `thickness` is in pixels across the wire.
 Textured wires(double thickness, double degrees, int width, int height);
 

@@ -13,7 +13,7 @@
 namespace deburr::studies {
 namespace {
 
-constexpr int kBox = 24;  // points each way in a pixel of the truth
+constexpr int kBox = 24;  // points each way in a pixel of the reference
 
 std::vector<std::uint8_t> bytes_of(const tb::Image& image) {
   std::vector<std::uint8_t> bytes;
@@ -65,7 +65,7 @@ TurnedPhoto::TurnedPhoto(const PhotoTexture& photo, const Turn& turn) : photo_(p
     }
   }
   footprints_ = golden::ideal::pixel_footprints(quads_, photo.image().width, photo.image().height);
-  truth_ = golden::ideal::box_image(photo.ideal(), footprints_, kBox);
+  reference_ = golden::ideal::box_image(photo.ideal(), footprints_, kBox);
   for (const golden::ideal::PixelFootprint& f : footprints_)
     blurred_.push_back(
         golden::ideal::trilinear(photo.ideal(), f.s, f.t, std::log2(turn.ratio * turn.width)));
@@ -98,11 +98,11 @@ FilterFigures TurnedPhoto::ellipse(const spec::texture::Parameters& parameters,
 
 FilterFigures TurnedPhoto::check(std::span<const std::uint8_t> rgba) const {
   FilterFigures figures;
-  figures.psnr = golden::ideal::psnr(truth_, rgba);
+  figures.psnr = golden::ideal::psnr(reference_, rgba);
   double kept = 0, there = 0;
-  for (std::size_t i = 0; i < truth_.size(); ++i)
+  for (std::size_t i = 0; i < reference_.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
-      const double detail = truth_[i][c] - blurred_[i][c];
+      const double detail = reference_[i][c] - blurred_[i][c];
       kept += (rgba[4 * i + c] - blurred_[i][c]) * detail;
       there += detail * detail;
     }

@@ -43,7 +43,7 @@ struct Turn {
 
 struct FilterFigures {
   double psnr = 0;  // dB against the supersampled parallelogram, R, G and B
-  // Share of the detail that a trilinear filter loses and this one keeps; 1: as much as the truth.
+  // Share of the detail that a trilinear filter loses and this one keeps; 1: as much as the reference.
   double detail = 0;
   double samples = 0;  // a fragment
   double bilinears = 0;
@@ -58,13 +58,13 @@ class TurnedPhoto {
   // Of colours one a pixel in the order of the quads.
   FilterFigures check(std::span<const std::uint8_t> rgba) const;
   const std::vector<spec::texture::Quad>& quads() const { return quads_; }
-  const std::vector<golden::ideal::Colour>& truth() const { return truth_; }
+  const std::vector<golden::ideal::Colour>& reference() const { return reference_; }
 
  private:
   const PhotoTexture& photo_;
   std::vector<spec::texture::Quad> quads_;
   std::vector<golden::ideal::PixelFootprint> footprints_;
-  std::vector<golden::ideal::Colour> truth_, blurred_;  // blurred: trilinear
+  std::vector<golden::ideal::Colour> reference_, blurred_;  // blurred: trilinear
 };
 
 }  // namespace deburr::studies

@@ -10,12 +10,12 @@
 #include "golden/morphological/morphological_golden.h"
 #include "spec/error.h"
 #include "tb/base/fnv.h"
-#include "tb/stimuli/share_file.h"
+#include "tb/stimuli/weight_file.h"
 
 namespace deburr::studies::training {
 namespace {
 
-using golden::morphological::ShareTables;
+using golden::morphological::WeightTables;
 
 constexpr std::string_view kFrame = "frame ";
 
@@ -57,11 +57,11 @@ int least_step() {
 
 }  // namespace
 
-std::uint64_t hash_of(const TruthFrame& frame) {
+std::uint64_t hash_of(const ReferenceFrame& frame) {
   tb::FnvHash hash;
   for (const char c : frame.name) hash.byte(static_cast<unsigned char>(c));
   add(hash, frame.frame);
-  add(hash, frame.truth);
+  add(hash, frame.reference);
   return hash.value();
 }
 
@@ -89,11 +89,11 @@ std::vector<HashedFrame> frames_of_recipe(const std::string& text) {
   return frames;
 }
 
-std::string header_of(const ShareTables& tables, const std::string& recipe) {
+std::string header_of(const WeightTables& tables, const std::string& recipe) {
   return fmt::format(
       R"(// SPDX-License-Identifier: MIT
-// Contents of the ROMs of learned shares (docs/reference/morphological/learned_shares.md) as an
-// engine is built with them. Written by scripts/train-shares; do not edit.
+// Contents of the ROMs of learned weights (docs/reference/morphological/learned_weights.md) as an
+// engine is built with them. Written by scripts/train-weights; do not edit.
 #pragma once
 
 #include <array>
@@ -102,22 +102,22 @@ std::string header_of(const ShareTables& tables, const std::string& recipe) {
 namespace deburr::spec::morphological {{
 
 // FNV-1a (64 bits) of the recipe that these were trained by.
-inline constexpr std::uint64_t kSharesRecipe = 0x{:016x};
+inline constexpr std::uint64_t kWeightsRecipe = 0x{:016x};
 
-// Of all entries, as the register SHARES_SUM has it.
-inline constexpr std::uint32_t kSharesSum = {};
+// Of all entries, as the register WEIGHTS_SUM has it.
+inline constexpr std::uint32_t kWeightsSum = {};
 
 // clang-format off
 // A, S3.4: ((code_near * 4 + code_far) * 8 + D(d_near)) * 8 + D(d_far).
-inline constexpr std::array<std::int8_t, 1024> kSharesOfCodes = {{
+inline constexpr std::array<std::int8_t, 1024> kWeightsOfCodes = {{
 {}}};
 
 // B, S3.4: (E_near * 8 + D(d_near)) * 4 + Lambda(L).
-inline constexpr std::array<std::int8_t, 640> kSharesOfNear = {{
+inline constexpr std::array<std::int8_t, 640> kWeightsOfNear = {{
 {}}};
 
 // C, S3.4: (E_far * 8 + D(d_far)) * 4 + Lambda(L).
-inline constexpr std::array<std::int8_t, 640> kSharesOfFar = {{
+inline constexpr std::array<std::int8_t, 640> kWeightsOfFar = {{
 {}}};
 // clang-format on
 

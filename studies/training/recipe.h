@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the ROMs of learned shares were made of, as text: the trainer's version, its options, the
+// What the ROMs of learned weights were made of, as text: the trainer's version, its options, the
 // rules that frames are looked at by, every frame with a hash of its pixels.
-// spec/morphological/learned_shares.h has the hash of that text (kSharesRecipe).
+// spec/morphological/learned_weights.h has the hash of that text (kWeightsRecipe).
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@
 #include <utility>
 #include <vector>
 
-#include "golden/morphological/learned_shares.h"
-#include "studies/training/share_trainer.h"
+#include "golden/morphological/learned_weights.h"
+#include "studies/training/weight_trainer.h"
 #include "studies/training/training_frames.h"
 
 namespace deburr::studies::training {
 
 // To be raised with everything that changes tables and stands in no other line of the recipe
-// (ShareTrainer.GivesTheTablesOfItsVersion says when).
+// (WeightTrainer.GivesTheTablesOfItsVersion says when).
 inline constexpr int kTrainerVersion = 2;
 
-// Of name, size and colours of frame and truth.
-std::uint64_t hash_of(const TruthFrame& frame);
+// Of name, size and colours of frame and reference.
+std::uint64_t hash_of(const ReferenceFrame& frame);
 
 // A frame is its name and hash, in the order of the training.
 using HashedFrame = std::pair<std::string, std::uint64_t>;
@@ -30,7 +30,7 @@ std::string recipe_text(const Recipe& recipe, const FrameOptions& options,
 // The frames of such a text.
 std::vector<HashedFrame> frames_of_recipe(const std::string& text);
 
-// spec/morphological/learned_shares.h.
-std::string header_of(const golden::morphological::ShareTables& tables, const std::string& recipe);
+// spec/morphological/learned_weights.h.
+std::string header_of(const golden::morphological::WeightTables& tables, const std::string& recipe);
 
 }  // namespace deburr::studies::training

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "studies/training/title_shares.h"
+#include "studies/training/title_weights.h"
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
 #include "tb/base/interrupt.h"
@@ -19,7 +19,7 @@
 #include "tb/env/sequence.h"
 #include "tb/run/progress.h"
 #include "tb/scene/image_io.h"
-#include "tb/stimuli/share_file.h"
+#include "tb/stimuli/weight_file.h"
 #include "tool/command/command_train.h"
 
 namespace deburr::studies {
@@ -28,17 +28,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 using training::KeptBack;
 using training::TitlePair;
-using training::TitleShares;
+using training::TitleWeights;
 
 constexpr double kLeastGain = 0.05;  // dB; what is below is noise
 
 std::vector<TitlePair> read_pairs(const tool::TrainOptions& options, bool quiet) {
   const std::vector<std::string> frames = tb::listed_files("--in", options.in),
-                                 truths = tb::listed_files("--truth", options.truth);
-  if (frames.size() != truths.size())
+                                 references = tb::listed_files("--truth", options.reference);
+  if (frames.size() != references.size())
     throw spec::ConfigError(
-        fmt::format("--in names {} frames and --truth {}: expected a truth a frame, in one order",
-                    frames.size(), truths.size()));
+        fmt::format("--in names {} frames and --truth {}: expected a reference a frame, in one order",
+                    frames.size(), references.size()));
   std::vector<TitlePair> pairs;
   const auto read = [&](const std::string& file) {
     tb::ReadReport report;
@@ -49,7 +49,7 @@ std::vector<TitlePair> read_pairs(const tool::TrainOptions& options, bool quiet)
     return image;
   };
   for (std::size_t i = 0; i < frames.size(); ++i)
-    pairs.push_back({frames[i], read(frames[i]), read(truths[i])});
+    pairs.push_back({frames[i], read(frames[i]), read(references[i])});
   return pairs;
 }
 
@@ -57,7 +57,7 @@ std::vector<TitlePair> read_pairs(const tool::TrainOptions& options, bool quiet)
 // is an error now.
 void check_output(const tool::TrainOptions& options) {
   const std::filesystem::path out = options.out;
-  for (const std::string& text : {options.in, options.truth})
+  for (const std::string& text : {options.in, options.reference})
     for (const std::string& file : tb::listed_files("--in", text))
       if (tb::is_there(out) && tb::is_there(file) && std::filesystem::equivalent(out, file))
         throw spec::ConfigError(
@@ -70,13 +70,13 @@ void check_output(const tool::TrainOptions& options) {
     throw spec::FileError(fmt::format("cannot write '{}': it is a folder", options.out));
   if (tb::is_there(out)) {
     try {
-      tb::stimuli::read_share_file(out);
+      tb::stimuli::read_weight_file(out);
     } catch (const spec::FileError&) {
       throw spec::ConfigError(fmt::format(
-          "'{}' stands there and holds no shares: remove it, or give another --out", options.out));
+          "'{}' stands there and holds no weights: remove it, or give another --out", options.out));
     }
   }
-  tb::try_to_write(out, tb::stimuli::share_file_text({}, {}));
+  tb::try_to_write(out, tb::stimuli::weight_file_text({}, {}));
 }
 
 std::string row(const KeptBack& k) {
@@ -87,9 +87,9 @@ std::string row(const KeptBack& k) {
       k.trained_frame - k.shipped_frame);
 }
 
-Json to_json(const TitleShares& shares, double seconds) {
+Json to_json(const TitleWeights& weights, double seconds) {
   Json kept = Json::array();
-  for (const KeptBack& k : shares.kept_back)
+  for (const KeptBack& k : weights.kept_back)
     kept.push_back({{"name", k.name},
                     {"edges_none_db", k.none},
                     {"edges_shipped_db", k.shipped},
@@ -97,9 +97,9 @@ Json to_json(const TitleShares& shares, double seconds) {
                     {"frame_shipped_db", k.shipped_frame},
                     {"frame_trained_db", k.trained_frame}});
   return {{"training",
-           {{"gain_db", shares.gain},
-            {"frame_gain_db", shares.frame_gain},
-            {"trained_on", shares.trained_on},
+           {{"gain_db", weights.gain},
+            {"frame_gain_db", weights.frame_gain},
+            {"trained_on", weights.trained_on},
             {"kept_back", kept},
             {"seconds", seconds}}}};
 }
@@ -110,7 +110,7 @@ tool::Outcome train(const tool::TrainOptions& options, const tool::CommandLine& 
   const std::vector<TitlePair> pairs = read_pairs(options, quiet);
   tb::catch_interrupts();
   const auto begun = std::chrono::steady_clock::now();
-  TitleShares shares;
+  TitleWeights weights;
   const auto ask = [] {
     if (tb::interrupted()) throw tb::Interrupted();
   };
@@ -120,24 +120,24 @@ tool::Outcome train(const tool::TrainOptions& options, const tool::CommandLine& 
       ask();
       progress.update(static_cast<std::uint64_t>(done));
     };
-    shares = training::train_title(pairs, {options.batches, options.seed, batch_done, ask});
+    weights = training::train_title(pairs, {options.batches, options.seed, batch_done, ask});
     ask();
   } catch (const tb::Interrupted&) {
-    return {tb::kInterruptedExit, "INTERRUPTED train: no shares were written"};
+    return {tb::kInterruptedExit, "INTERRUPTED train: no weights were written"};
   }
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   if (!quiet)
-    for (const KeptBack& k : shares.kept_back) tb::print_wrapped(row(k));
+    for (const KeptBack& k : weights.kept_back) tb::print_wrapped(row(k));
   tool::Outcome outcome;
-  outcome.details = tb::json_text(to_json(shares, seconds));
+  outcome.details = tb::json_text(to_json(weights, seconds));
   const std::string gain =
-      fmt::format("{:+.2f} dB on edges of what was kept back, {:+.2f} on all of it", shares.gain,
-                  shares.frame_gain);
-  if (!(shares.gain >= kLeastGain)) {
+      fmt::format("{:+.2f} dB on edges of what was kept back, {:+.2f} on all of it", weights.gain,
+                  weights.frame_gain);
+  if (!(weights.gain >= kLeastGain)) {
     fmt::print(stderr,
-               "deburr: no shares were written: {}, expected at least {:+.2f} on edges; the "
-               "shipped shares serve these frames as well\n",
+               "deburr: no weights were written: {}, expected at least {:+.2f} on edges; the "
+               "shipped weights serve these frames as well\n",
                gain, kLeastGain);
     outcome.code = static_cast<int>(spec::ExitCode::kMismatch);
     outcome.text = fmt::format("FAIL no gain: {}", gain);
@@ -145,8 +145,8 @@ tool::Outcome train(const tool::TrainOptions& options, const tool::CommandLine& 
   }
   std::vector<std::string> notes = {
       fmt::format("{}; {} batches, seed {}", gain, options.batches, options.seed)};
-  for (const std::string& name : shares.trained_on) notes.push_back("trained on " + name);
-  tb::write_file_atomically(options.out, tb::stimuli::share_file_text(shares.tables, notes));
+  for (const std::string& name : weights.trained_on) notes.push_back("trained on " + name);
+  tb::write_file_atomically(options.out, tb::stimuli::weight_file_text(weights.tables, notes));
   outcome.text = fmt::format("PASS train: {}, in {:.1f} s, {}", gain, seconds, options.out);
   return outcome;
 }

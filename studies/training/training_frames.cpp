@@ -17,7 +17,7 @@
 #include "tb/scene/exact_math.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/label.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 
 namespace deburr::studies::training {
 
@@ -42,14 +42,14 @@ class Renderer {
  public:
   explicit Renderer(const FrameOptions& options) : options_(options) {}
 
-  // The truth smooths edges and textures, or edges alone.
-  enum class Truth : std::uint8_t { kAll, kEdges };
+  // The reference smooths edges and textures, or edges alone.
+  enum class Reference : std::uint8_t { kAll, kEdges };
 
   FrameSource source(const std::string& name, const std::string& group,
-                     const std::function<tb::Scene()>& make, Truth truth = Truth::kAll) const {
+                     const std::function<tb::Scene()>& make, Reference reference = Reference::kAll) const {
     return {name, group,
-            [options = options_, name, group, make, truth] {
-              return rendered(options, name, group, make, truth);
+            [options = options_, name, group, make, reference] {
+              return rendered(options, name, group, make, reference);
             },
             [make] { return make().mesh; }};
   }
@@ -70,19 +70,19 @@ class Renderer {
   }
 
  private:
-  static TruthFrame rendered(const FrameOptions& options, const std::string& name,
+  static ReferenceFrame rendered(const FrameOptions& options, const std::string& name,
                              const std::string& group, const std::function<tb::Scene()>& make,
-                             Truth truth) {
+                             Reference reference) {
     const std::filesystem::path kept =
         options.cache / fmt::format("{}_{}.frames", name, options.samples);
     const int size = options.size;
-    TruthFrame frame{name, group, tb::Image(size, size), tb::Image(size, size),
+    ReferenceFrame frame{name, group, tb::Image(size, size), tb::Image(size, size),
                      tb::DepthImage(size, size)};
     if (read(options, kept, frame)) return frame;
     const tb::Scene scene = make();
     tb::LitFrames lit =
-        tb::render_lit_frames(scene, size, size, truth == Truth::kAll ? options.samples : 1);
-    frame.truth = truth == Truth::kAll ? std::move(lit.truth)
+        tb::render_lit_frames(scene, size, size, reference == Reference::kAll ? options.samples : 1);
+    frame.reference = reference == Reference::kAll ? std::move(lit.reference)
                                        : tb::render_covered(scene, size, size, options.samples);
     frame.frame = std::move(lit.noaa);
     frame.depth = std::move(lit.depth);
@@ -99,18 +99,18 @@ class Renderer {
                                             from.z * angle.cos - from.x * angle.sin);
   }
   static bool read(const FrameOptions& options, const std::filesystem::path& kept,
-                   TruthFrame& frame) {
+                   ReferenceFrame& frame) {
     if (options.cache.empty()) return false;
     std::ifstream file(kept, std::ios::binary);
-    return file && get(file, frame.frame) && get(file, frame.truth) && get(file, frame.depth);
+    return file && get(file, frame.frame) && get(file, frame.reference) && get(file, frame.depth);
   }
   static void write(const FrameOptions& options, const std::filesystem::path& kept,
-                    const TruthFrame& frame) {
+                    const ReferenceFrame& frame) {
     if (options.cache.empty()) return;
     std::filesystem::create_directories(options.cache);
     std::ofstream file(kept, std::ios::binary);
     put(file, frame.frame);
-    put(file, frame.truth);
+    put(file, frame.reference);
     put(file, frame.depth);
   }
 
@@ -167,7 +167,7 @@ void add_shapes(std::vector<FrameSource>& frames, const FrameOptions& options,
   }
 }
 
-// Of the kinds with textures some come with a truth, too, in which the textures stay as they are:
+// Of the kinds with textures some come with a reference, too, in which the textures stay as they are:
 // that teaches to leave them.
 void add_training_scenes(std::vector<FrameSource>& frames, const FrameOptions& options,
                          std::uint64_t first_seed, int seeds, int views, int kept_textures) {
@@ -181,7 +181,7 @@ void add_training_scenes(std::vector<FrameSource>& frames, const FrameOptions& o
         const std::string name = fmt::format("{}_{}", group, view);
         frames.push_back(renderer.source(name, group, make));
         if (i < kept_textures && (kind == "room" || kind == "signs"))
-          frames.push_back(renderer.source(name + "_edges", group, make, Renderer::Truth::kEdges));
+          frames.push_back(renderer.source(name + "_edges", group, make, Renderer::Reference::kEdges));
       }
     }
   }
@@ -216,7 +216,7 @@ std::uint8_t encoded(double l) {
 
 }  // namespace
 
-TruthFrame shapes_frame(int width, int height, int samples, std::uint64_t seed) {
+ReferenceFrame shapes_frame(int width, int height, int samples, std::uint64_t seed) {
   tb::Random random(seed, "shapes");
   const auto colour = [&] {
     Rgba8 c{0, 0, 0, 255};
@@ -240,9 +240,9 @@ TruthFrame shapes_frame(int width, int height, int samples, std::uint64_t seed) 
       if (shape->covers(x, y)) return shape->colour;
     return ground;
   };
-  TruthFrame result;
+  ReferenceFrame result;
   result.group = result.name = fmt::format("shapes{}", seed);
-  result.frame = result.truth = tb::Image(width, height);
+  result.frame = result.reference = tb::Image(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       result.frame.at(x, y) = at(x + 0.5, y + 0.5);
@@ -254,14 +254,14 @@ TruthFrame shapes_frame(int width, int height, int samples, std::uint64_t seed) 
         }
       }
       for (std::size_t k = 0; k < 3; ++k)
-        result.truth.at(x, y)[k] = encoded(sum[k] / (samples * samples));
-      result.truth.at(x, y)[3] = 255;
+        result.reference.at(x, y)[k] = encoded(sum[k] / (samples * samples));
+      result.reference.at(x, y)[3] = 255;
     }
   }
   return result;
 }
 
-Overlaid overlaid(const TruthFrame& frame) {
+Overlaid overlaid(const ReferenceFrame& frame) {
   Overlaid result{frame, tb::Mask(frame.frame.width, frame.frame.height)};
   result.frame.name += "_text";
   tb::Random random(3, frame.name);
@@ -276,7 +276,7 @@ Overlaid overlaid(const TruthFrame& frame) {
     for (int j = 0; j < line.height && y + j < frame.frame.height; ++j) {
       for (int i = 0; i < line.width && x0 + i < frame.frame.width; ++i) {
         if (line.at(i, j) != kInk) continue;
-        result.frame.frame.at(x0 + i, y + j) = result.frame.truth.at(x0 + i, y + j) = colour;
+        result.frame.frame.at(x0 + i, y + j) = result.frame.reference.at(x0 + i, y + j) = colour;
         result.ink.at(x0 + i, y + j) = 1;
       }
     }
@@ -321,7 +321,7 @@ std::vector<FrameSource> held_out_set(const FrameOptions& options) {
   add_shapes(frames, options, 1, 3);
   add_training_scenes(frames, options, 901, 1, 1, 0);
   if (options.data.empty()) return frames;
-  const auto add_track = [&](const std::string& size, const char* truth, bool depth) {
+  const auto add_track = [&](const std::string& size, const char* reference, bool depth) {
     const auto file = [folder = options.data / "frames", size](const std::string& what) {
       std::filesystem::path path = folder / fmt::format("track_{}_{}.png", size, what);
       if (!std::filesystem::exists(path))
@@ -329,12 +329,12 @@ std::vector<FrameSource> held_out_set(const FrameOptions& options) {
             "there is no frame '{}': name a folder that has it by --data", path.string()));
       return path;
     };
-    const std::filesystem::path noaa = file("noaa"), ssaa = file(truth),
+    const std::filesystem::path noaa = file("noaa"), ssaa = file(reference),
                                 depths = depth ? file("depth24") : std::filesystem::path();
     const std::string name = "track_" + size;
     frames.push_back({name, "track",
                       [name, noaa, ssaa, depths] {
-                        return TruthFrame{
+                        return ReferenceFrame{
                             name, "track", tb::read_image(noaa), tb::read_image(ssaa),
                             depths.empty() ? tb::DepthImage() : tb::read_depth(depths)};
                       },

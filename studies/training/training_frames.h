@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The frames that learned shares are trained and measured on. All that the ROMs are trained on is
+// The frames that learned weights are trained and measured on. All that the ROMs are trained on is
 // made by formula: scenes and shapes of the project's own. Meshes of a data folder are measured,
 // and trained on in experiments alone.
 #pragma once
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/training/share_samples.h"
+#include "studies/training/weight_samples.h"
 #include "tb/scene/scenes.h"
 
 namespace deburr::studies::training {
@@ -18,7 +18,7 @@ namespace deburr::studies::training {
 struct FrameOptions {
   std::filesystem::path data = {};   // of meshes, kenney and frames; empty: none
   std::filesystem::path cache = {};  // rendered frames are kept there; empty: nowhere
-  int samples = 8;                   // of a pixel's truth, each way
+  int samples = 8;                   // of a pixel's reference, each way
   int size = 512;                    // pixels a side of the rendered ones
 };
 
@@ -26,7 +26,7 @@ struct FrameOptions {
 struct FrameSource {
   std::string name;   // unique
   std::string group;  // frames of one mesh or scene
-  std::function<TruthFrame()> make;
+  std::function<ReferenceFrame()> make;
   std::function<tb::Mesh()> mesh = nullptr;  // what is seen; null: no mesh, or not known
 };
 
@@ -38,13 +38,13 @@ std::vector<FrameSource> held_out_set(const FrameOptions& options);
 std::vector<FrameSource> mesh_set(const FrameOptions& options);
 
 // Discs, bars and triangles of flat colours at random.
-TruthFrame shapes_frame(int width, int height, int samples, std::uint64_t seed);
+ReferenceFrame shapes_frame(int width, int height, int samples, std::uint64_t seed);
 
-// The frame with lines of text over all of it, the same in its truth, and where the text is.
+// The frame with lines of text over all of it, the same in its reference, and where the text is.
 struct Overlaid {
-  TruthFrame frame;
+  ReferenceFrame frame;
   tb::Mask ink;
 };
-Overlaid overlaid(const TruthFrame& frame);
+Overlaid overlaid(const ReferenceFrame& frame);
 
 }  // namespace deburr::studies::training

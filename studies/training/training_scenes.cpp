@@ -635,35 +635,35 @@ tb::Image pattern(Random& random, int kind, int size) {
   for (double& value : board) value = shade.uniform(0, 1);
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
-      double share = 0;
+      double weight = 0;
       const int i = x / cell, j = y / cell, u = x % cell, v = y % cell;
       switch (kind) {
         case 0:  // boards
-          share =
+          weight =
               v < cell / 12 + 1
                   ? 1
                   : 0.7 * board[static_cast<std::size_t>(j * 7 + (x + 37 * j) / (size / 2)) % 64];
           break;
         case 1:  // plaster
-          share = 0.5;
+          weight = 0.5;
           break;
         case 2:  // cloth
-          share = ((x * 16 / size) % 2 + (y * 24 / size) % 2) * 0.5;
+          weight = ((x * 16 / size) % 2 + (y * 24 / size) % 2) * 0.5;
           break;
         case 3: {  // paper with discs
           const int dx = 2 * u - cell, dy = 2 * v - cell;
-          share = dx * dx + dy * dy < cell * cell * ((i + j) % 2 == 0 ? 3 : 1) / 8 ? 1 : 0;
+          weight = dx * dx + dy * dy < cell * cell * ((i + j) % 2 == 0 ? 3 : 1) / 8 ? 1 : 0;
           break;
         }
         default:  // slabs
-          share = u < cell / 16 + 1 || v < cell / 16 + 1
+          weight = u < cell / 16 + 1 || v < cell / 16 + 1
                       ? 1
                       : 0.4 * board[static_cast<std::size_t>(i * 11 + j * 5) % 64];
       }
       const double noise = shade.uniform(-grain, grain);
       tb::Rgba8& pixel = image.at(x, y);
       for (std::size_t c = 0; c < 3; ++c)
-        pixel[c] = code(light[c] + (dark[c] - light[c]) * share + noise);
+        pixel[c] = code(light[c] + (dark[c] - light[c]) * weight + noise);
       pixel[3] = 255;
     }
   }

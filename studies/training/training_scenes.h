@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes by formula that learned shares are trained on: what frames of games have, each kind in
+// Scenes by formula that learned weights are trained on: what frames of games have, each kind in
 // as many forms as there are seeds. Arithmetic as of tb/scene: the same bytes everywhere.
 #pragma once
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Compares runs with recorded ones, count by count: clocks, every unit's busy, stalled (by cause) and
-idle clocks, latencies, traffic, work, and how full FIFOs were. A model gives the same counts on every
+"""Compares runs with recorded ones, count by count: cycles, every unit's busy, stalled (by cause) and
+idle cycles, latencies, traffic, work, and how full FIFOs were. A model gives the same counts on every
 machine, so any difference fails, a better one too until it is recorded.
 
   tb/baselines/check.py build/release/deburr            every baseline of every engine

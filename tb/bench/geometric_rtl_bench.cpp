@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Clocks of the geometric engine's hardware model, and frames for counting its instructions.
+// Cycles of the geometric engine's hardware model, and frames for counting its instructions.
 //
 //   geometric_rtl_bench --frames <n> [preset [walkers [edge_lanes [layout [passes [latency
 //       [parameters]]]]]]]
 //       n frames of 1280 x 720: 33 000 edges, a fifth of them kept, some 24 000 columns, passing
-//       the same places so many times (1), with a memory of so many clocks (20), and other
-//       parameters as "fills=128 coverage=area"; cycles, then clocks of both phases and what the
+//       the same places so many times (1), with a memory of so many cycles (20), and other
+//       parameters as "fills=128 coverage=area"; cycles, then cycles of both phases and what the
 //       port alone would take, work, stalls, memories
-//   geometric_rtl_bench --idle <n>      n clocks of an engine that waits for a frame
-//   geometric_rtl_bench --dividers      JSON, a row a build and latency: dividers, clocks of the
-//       memory, blended pixels, clocks of the edges, of the resolve, in all
+//   geometric_rtl_bench --idle <n>      n cycles of an engine that waits for a frame
+//   geometric_rtl_bench --dividers      JSON, a row a build and latency: dividers, cycles of the
+//       memory, blended pixels, cycles of the edges, of the resolve, in all
 //   geometric_rtl_bench --ratio <n>     how many times as fast the golden model draws the same
 //   frame,
 //       turn and turn about with the hardware model, so that it means something on a busy machine
@@ -139,8 +139,8 @@ void frames(int count, const std::vector<std::string>& arguments) {
            arguments.size() > 5 ? std::stoi(arguments[5]) : 20);
   for (int i = 0; i < count; ++i) f.run();
   std::cout << fmt::format("{} cycles\n", f.clock.cycle());
-  std::cout << fmt::format("last frame: {} clocks, edges {}, resolve {}\n", f.driver.clocks().frame,
-                           f.driver.clocks().edges, f.driver.clocks().resolve);
+  std::cout << fmt::format("last frame: {} cycles, edges {}, resolve {}\n", f.driver.cycles().frame,
+                           f.driver.cycles().edges, f.driver.cycles().resolve);
   const std::uint64_t frames = static_cast<std::uint64_t>(count),
                       all =
                           f.engine.memory_port.reads.value() + f.engine.memory_port.writes.value(),
@@ -191,9 +191,9 @@ void dividers() {
     p.pipelined = setup.pipelined;
     Frames f(p, 1, latency);
     f.run();
-    const auto clocks = f.driver.clocks();
+    const auto cycles = f.driver.cycles();
     return fmt::format("[\"{}\", {}, {}, {}, {}, {}]", setup.name, latency,
-                       f.engine.work().blended_pixels, clocks.edges, clocks.resolve, clocks.frame);
+                       f.engine.work().blended_pixels, cycles.edges, cycles.resolve, cycles.frame);
   };
   std::vector<std::string> rows;
   for (const std::int32_t latency : {100, 20})

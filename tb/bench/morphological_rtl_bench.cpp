@@ -6,8 +6,8 @@
 //       and how many times as fast the golden model smooths the same frame
 //   morphological_rtl_bench --frames <image> <preset> <lanes> <n> [memory]   n frames and nothing
 //       else: cycles, stalls, edges, memory bits; for counting instructions with callgrind
-//   morphological_rtl_bench --trade                            bits of the edge memories and clocks
-//       of a frame by predictors and trial_clocks: the table of
+//   morphological_rtl_bench --trade                            bits of the edge memories and cycles
+//       of a frame by predictors and trial_cycles: the table of
 //       docs/reference/morphological/throughput.md
 // Images: facets (slanted halves in cells of 32 pixels, some 10 % edge pixels), noise, flat,
 // stripes.
@@ -136,7 +136,7 @@ struct Setup {
   }
 };
 
-// SystemC elaborates once in a process, so all benchmarks share the engine.
+// SystemC elaborates once in a process, so all benchmarks weight the engine.
 Setup& setup_of(const std::string& image) {
   static Setup setup(parameters("deburr-line", 1));
   setup.frame = beats(image, 1);
@@ -198,7 +198,7 @@ int count_instructions(const std::string& image, const std::string& preset, int 
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const spec::morphological::Work work = setup.engine.work();
   std::cout << fmt::format(
-      "{} cycles, {:.2f} Mcycle/s; last frame {} clocks; {:.1f} % edge pixels, {} record stalls "
+      "{} cycles, {:.2f} Mcycle/s; last frame {} cycles; {:.1f} % edge pixels, {} record stalls "
       "({} interlock), latency {}..{}\n",
       cycles, static_cast<double>(cycles) / seconds.count() / 1e6,
       setup.engine.sequencer.frame_cycles.value(),
@@ -218,18 +218,18 @@ int count_instructions(const std::string& image, const std::string& preset, int 
   return 0;
 }
 
-// A row of the trade: what the edge memories are built of, and the clocks of frames over those of
+// A row of the trade: what the edge memories are built of, and the cycles of frames over those of
 // the formula. In a process of its own.
-std::string trade(int predictors, int trial_clocks) {
+std::string trade(int predictors, int trial_cycles) {
   Parameters p = parameters("deburr-line", 1);
   p.predictor_units = predictors;
-  p.trial_clocks = trial_clocks;
+  p.trial_cycles = trial_cycles;
   Setup setup(p);
   const auto& engine = setup.engine;
   std::uint64_t bits = engine.window.memory.physical_bits();
   for (const auto& rows : engine.rows.memory) bits += rows.physical_bits();
   std::string row =
-      fmt::format("| {} | {} | {} | {:.0f}", predictors, trial_clocks,
+      fmt::format("| {} | {} | {} | {:.0f}", predictors, trial_cycles,
                   engine.rows.memory[0].shape().read_ports, static_cast<double>(bits) / 1000);
   const std::uint64_t unstalled =
       (kHeight + static_cast<std::uint64_t>(p.window_rows / 2 - 1) + spec::morphological::kRowLag) *
@@ -256,8 +256,8 @@ int print_trade() {
   std::cout << "| predictors | T | ports | kbit | 1 % | 10 % | 20 % | 50 % | 40 records |\n"
                "|---|---|---|---|---|---|---|---|---|\n";
   for (const int predictors : {1, 2, 4})
-    for (int clocks = 1; clocks <= 8; ++clocks)
-      std::cout << forked_text([=] { return trade(predictors, clocks); }) << std::flush;
+    for (int cycles = 1; cycles <= 8; ++cycles)
+      std::cout << forked_text([=] { return trade(predictors, cycles); }) << std::flush;
   return 0;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Speed of the texture unit's hardware model: the whole unit with cache, memory port and a TLM
-// memory of 100 clocks latency, tracing off.
+// memory of 100 cycles latency, tracing off.
 //
 //   texture_rtl_bench    Mcycle/s, bilinears/s, instructions per cycle where the processor's
 //   counters
@@ -162,7 +162,7 @@ struct System {
   platform::TextureDriver driver{host, memory};
 
   // The first call says by which rules.
-  static System& only(const spec::texture::Parameters& parameters = stimuli::paper_rules()) {
+  static System& only(const spec::texture::Parameters& parameters = stimuli::paper_configuration()) {
     static System system(parameters);
     return system;
   }
@@ -228,7 +228,7 @@ void bm_golden_over_rtl(benchmark::State& state, Workload workload,
   System& system = System::only();
   system.start(workload);
   const std::vector<std::uint8_t> memory = noise();
-  golden::texture::TextureGolden golden(stimuli::paper_rules(), memory, traffic);
+  golden::texture::TextureGolden golden(stimuli::paper_configuration(), memory, traffic);
   golden.set_texture(static_cast<int>(workload), texture_of(workload));
   std::clock_t rtl_time = 0, golden_time = 0;
   std::uint32_t count = 0;
@@ -263,10 +263,10 @@ int main(int argc, char** argv) {
   if (argc == 4 && std::string(argv[1]) == "--cycles") {
     constexpr std::string_view kPreset = "deburr_";
     std::string name = argv[2];
-    const bool own_rules = name.starts_with(kPreset);
-    if (own_rules) name.erase(0, kPreset.size());
+    const bool own_configuration = name.starts_with(kPreset);
+    if (own_configuration) name.erase(0, kPreset.size());
     System& system =
-        System::only(own_rules ? deburr::spec::texture::Parameters{} : stimuli::paper_rules());
+        System::only(own_configuration ? deburr::spec::texture::Parameters{} : stimuli::paper_configuration());
     for (std::size_t i = 0; i < kWorkloads.size(); ++i)
       if (name == kWorkloads[i]) system.start(static_cast<Workload>(i));
     const std::uint64_t before = system.bilinears();

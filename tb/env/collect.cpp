@@ -68,7 +68,7 @@ MemoryFigures memory_figures(std::string name, const rtl::MemoryBase& memory, in
   f.physical_bits = memory.physical_bits();
   f.register_bits = memory.register_bits();
   f.high_water = memory.high_water();
-  f.idealised = memory.idealised();
+  f.not_implementable = memory.not_implementable();
   return f;
 }
 

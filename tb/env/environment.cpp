@@ -44,46 +44,46 @@ void Environment::drain_memory() const {
 
 // ---- faults -------------------------------------------------------------------------------------
 
-void Environment::plant_in(platform::MemoryModel& memory,
+void Environment::inject_in(platform::MemoryModel& memory,
                            const MemoryParameters& parameters) const {
-  if (planted("lost-response")) memory.lose_request(kFaultyRequest);
-  if (planted("memory-error")) memory.fail_request(kFaultyRequest);
+  if (injected("lost-response")) memory.lose_request(kFaultyRequest);
+  if (injected("memory-error")) memory.fail_request(kFaultyRequest);
   if (const auto range = error_range(parameters)) memory.fail_range(range->from, range->to);
 }
 
 void Environment::let_blind(std::initializer_list<ScoreboardBase*> boards) {
-  std::vector<PlantedFault> faults;
+  std::vector<InjectedFault> faults;
   for (ScoreboardBase* board : boards) {
     std::string name = fault_name("blind", board->name());
-    if (planted(name)) board->look_away();
+    if (injected(name)) board->look_away();
     faults.push_back({std::move(name), fmt::format("Compares nothing of: {}.", board->name())});
   }
   know(std::move(faults));
 }
 
 void Environment::let_miscount(RegisterScoreboard& board, std::span<const std::uint32_t> offsets) {
-  std::vector<PlantedFault> faults;
+  std::vector<InjectedFault> faults;
   for (const std::uint32_t offset : offsets) {
     std::string name = fault_name("miscount", board.name_of(offset));
-    if (planted(name)) board.misread(offset);
+    if (injected(name)) board.misread(offset);
     faults.push_back({std::move(name), fmt::format("{} is wrong by one.", board.name_of(offset))});
   }
   know(std::move(faults));
 }
 
 void Environment::let_miscount(FigureScoreboard& board) {
-  if (planted("wrong-figures")) board.miscount();
+  if (injected("wrong-figures")) board.miscount();
   know({{"wrong-figures", "Every counter that has a second source is one too large."}});
 }
 
 void Environment::let_misdecode(rtl::ControlRegisters& control,
                                 std::span<const std::uint32_t> offsets, const std::string& needs) {
-  std::vector<PlantedFault> faults;
+  std::vector<InjectedFault> faults;
   for (const spec::RegisterInfo& info : control.registers.table()) {
     if (std::find(offsets.begin(), offsets.end(), info.offset) == offsets.end()) continue;
     for (const spec::Field& field : info.fields) {
       std::string name = fault_name("misdecode", fmt::format("{}-{}", info.name, field.name));
-      if (planted(name)) {
+      if (injected(name)) {
         const auto written = std::make_shared<std::uint32_t>(control.value(info.offset));
         control.on_read(info.offset, [written] { return *written; });
         control.on_taken(info.offset,

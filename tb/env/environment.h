@@ -79,7 +79,7 @@ class Environment {
   // Begins a piece of work (a frame of several) that is done before the next begins; false: there
   // are no more.
   virtual bool begin(std::size_t piece) = 0;
-  // Between clocks: checks what has been recorded meanwhile.
+  // Between cycles: checks what has been recorded meanwhile.
   virtual void watch() {}
   // Everything of this piece was sent and nothing is inside any more.
   virtual bool done() const = 0;
@@ -135,12 +135,12 @@ class Environment {
   bool programs() const { return simulation_.options().program; }
 
   // ---- faults
-  void know(std::vector<PlantedFault> faults) {
+  void know(std::vector<InjectedFault> faults) {
     simulation_.faults().know(name_, std::move(faults));
   }
-  bool planted(std::string_view fault) const { return simulation_.faults().planted(name_, fault); }
+  bool injected(std::string_view fault) const { return simulation_.faults().injected(name_, fault); }
   // memory_faults(), and the range of `error_address`.
-  void plant_in(platform::MemoryModel& memory, const MemoryParameters& parameters) const;
+  void inject_in(platform::MemoryModel& memory, const MemoryParameters& parameters) const;
   // `blind-NAME` for each scoreboard of this run: it compares nothing, which is no pass.
   void let_blind(std::initializer_list<ScoreboardBase*> boards);
   // `miscount-NAME` for each register that is checked: the engine counted one too many or too few.
@@ -149,7 +149,7 @@ class Environment {
   void let_miscount(FigureScoreboard& board);
   // `misdecode-REGISTER-FIELD` for each field of these registers: of what software writes there the
   // hardware takes a choice for the next one, a number for its half, and 0 for all ones. It reads
-  // back as it was written. `needs`: why none can be planted in this run.
+  // back as it was written. `needs`: why none can be injected in this run.
   void let_misdecode(rtl::ControlRegisters& control, std::span<const std::uint32_t> offsets,
                      const std::string& needs);
   static void reject_untouched(const platform::MemoryModel& memory,

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "rtl_model/fabric/memory_clocks.h"
+#include "rtl_model/fabric/memory_cycles.h"
 #include "rtl_model/platform/memory_model_parameters.h"
 #include "tb/run/parameter_set.h"
 
@@ -15,7 +15,7 @@ namespace deburr::tb {
 
 struct MemoryTiming {
   std::int32_t latency = 100, latency_max = 0;
-  std::int32_t bytes_per_clock = 64;
+  std::int32_t bytes_per_cycle = 64;
   std::int32_t banks = 1, interleave_bytes = 64, bank_busy = 0;
   std::int32_t outstanding = 256;
 };
@@ -32,7 +32,7 @@ void describe(MemoryTiming& p, Visitor& v) {
   v.integer("latency", p.latency, 1, 100000, "clk", "From a request to the first byte.");
   v.integer("latency_max", p.latency_max, 0, 100000, "clk",
             "Above latency: each latency is drawn evenly from latency to this; 0: fixed.");
-  v.integer("bytes_per_clock", p.bytes_per_clock, 0, 4096, "byte/clk",
+  v.integer("bytes_per_cycle", p.bytes_per_cycle, 0, 4096, "byte/clk",
             "Width of the data bus; 0: no limit.");
   v.integer("banks", p.banks, 1, 1024, "bank", "Banks that interleaved addresses go round.");
   v.integer("interleave_bytes", p.interleave_bytes, 64, 1 << 20, "byte",
@@ -64,7 +64,7 @@ inline platform::MemoryModelParameters memory_model_parameters(const MemoryParam
   m.latency_min = static_cast<std::uint32_t>(p.latency);
   m.latency_max = static_cast<std::uint32_t>(std::max(p.latency, p.latency_max));
   m.seed = seed;
-  m.bytes_per_clock = static_cast<std::uint32_t>(p.bytes_per_clock);
+  m.bytes_per_cycle = static_cast<std::uint32_t>(p.bytes_per_cycle);
   m.banks = static_cast<std::uint32_t>(p.banks);
   m.interleave_bytes = static_cast<std::uint32_t>(p.interleave_bytes);
   m.bank_busy = static_cast<std::uint32_t>(p.bank_busy);
@@ -73,9 +73,9 @@ inline platform::MemoryModelParameters memory_model_parameters(const MemoryParam
 }
 
 // What it takes at most, for a line of so many bytes.
-inline rtl::MemoryClocks memory_clocks(const MemoryTiming& p, std::int32_t line_bytes) {
+inline rtl::MemoryCycles memory_cycles(const MemoryTiming& p, std::int32_t line_bytes) {
   const std::int32_t transfer =
-      p.bytes_per_clock == 0 ? 1 : std::max(1, line_bytes / p.bytes_per_clock);
+      p.bytes_per_cycle == 0 ? 1 : std::max(1, line_bytes / p.bytes_per_cycle);
   return {std::max(p.latency, p.latency_max), transfer};
 }
 

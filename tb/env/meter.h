@@ -55,6 +55,6 @@ inline double number(std::uint64_t value) { return static_cast<double>(value); }
 inline double ratio(double a, double b) { return b > 0 ? a / b : 0.0; }
 inline double ratio(std::uint64_t a, std::uint64_t b) { return ratio(number(a), number(b)); }
 // The clock that 60 frames a second need, in MHz.
-inline double clock_for_60(std::uint64_t frame_clocks) { return number(frame_clocks) * 60 / 1e6; }
+inline double clock_for_60(std::uint64_t frame_cycles) { return number(frame_cycles) * 60 / 1e6; }
 
 }  // namespace deburr::tb

@@ -28,7 +28,7 @@ template <class Visitor>
 void describe(SequenceParameters& p, Visitor& v) {
   v.integer("frames", p.frames, 1, 1000, "frame",
             "Frames of a moving camera whose flicker is measured, by the golden model, against "
-            "their truths; the hardware model runs the first. 1: none.");
+            "their references; the hardware model runs the first. 1: none.");
   v.is_work("frames", GivenWork::kSetting);
   v.choice("motion", p.motion, kMotionNames,
            "How the camera moves: zoom (1 % a frame), roll (3 degrees), pan (1/400 of the view).");

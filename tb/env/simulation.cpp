@@ -15,7 +15,7 @@ namespace {
 
 constexpr rtl::Cycle kResetCycles = 4;
 constexpr rtl::Cycle kReportPeriod = 4096;
-constexpr std::size_t kLostWindow = 2;  // of the fault lose-window, counted from 0
+constexpr std::size_t kLostInterval = 2;  // of the fault lose-window, counted from 0
 constexpr rtl::Cycle kNoLimit = rtl::Cycle{1} << 50;
 
 sc_core::sc_time clock_period(double mhz) {  // rounded to picoseconds
@@ -70,7 +70,7 @@ class HostClock {
 Simulation::Simulation(const SimulationOptions& options)
     : options_(options), clock_("clock", clock_period(options.clock_mhz)), faults_(options.faults) {
   faults_.know("", {{"lose-window", "Forgets what the third window counted.", "",
-                     options.window_cycles > 0 ? "" : "run.window_cycles"}});
+                     options.interval_cycles > 0 ? "" : "run.interval_cycles"}});
 }
 
 Simulation::~Simulation() = default;
@@ -84,12 +84,12 @@ void Simulation::elaborate(Environment& environment) {
     return out_of_cycles(options_.max_cycles, amount.delivered, amount.total, amount.unit);
   };
   bench_ = std::make_unique<Bench>(clock_, bench);
-  if (options_.window_cycles > 0) {
-    WindowOptions windows;
-    windows.cycles = options_.window_cycles;
-    if (faults_.planted("", "lose-window")) windows.lose = kLostWindow;
-    windows_ = std::make_unique<WindowRecorder>(clock_, windows);
-    environment.show_parts(*windows_);
+  if (options_.interval_cycles > 0) {
+    IntervalOptions intervals;
+    intervals.cycles = options_.interval_cycles;
+    if (faults_.injected("", "lose-window")) intervals.lose = kLostInterval;
+    intervals_ = std::make_unique<IntervalRecorder>(clock_, intervals);
+    environment.show_parts(*intervals_);
   }
   if (options_.timeline) {
     timeline_ = std::make_unique<Timeline>(clock_, *options_.timeline);
@@ -115,7 +115,7 @@ void Simulation::run(const GoOn& go_on) {
 }
 
 void Simulation::finish_records() {
-  if (windows_) windows_->finish();
+  if (intervals_) intervals_->finish();
   if (timeline_) timeline_->finish();
 }
 
@@ -200,10 +200,10 @@ void Simulation::collect(Result& result) const {
   sum(environment_->traffic(), result.traffic_comparisons, result.traffic_mismatches);
   sum(environment_->counters(), result.comparisons, result.mismatches);
   environment_->collect(result);
-  if (windows_)
-    for (WindowRecorder::Occupancy& link : windows_->occupancy())
+  if (intervals_)
+    for (IntervalRecorder::Occupancy& link : intervals_->occupancy())
       result.links.push_back(
-          {std::move(link.name), std::move(link.full_name), link.beats, std::move(link.clocks)});
+          {std::move(link.name), std::move(link.full_name), link.beats, std::move(link.cycles)});
   if (options_.pixel) result.pixel = environment_->pixel_history();
   if (options_.coverage) result.coverage = environment_->coverage().bins();
   environment_->collect_headline(result);

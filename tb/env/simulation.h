@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One simulation, whatever engine it is of: clock, reset, random stalls, planted faults, waves,
+// One simulation, whatever engine it is of: clock, reset, random stalls, injected faults, waves,
 // progress, limits and time.
 //
 //   Simulation simulation(options);
@@ -19,10 +19,10 @@
 #include <vector>
 
 #include "rtl_model/fabric/clock_domain.h"
-#include "tb/env/planted_faults.h"
+#include "tb/env/injected_faults.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/timeline.h"
-#include "tb/harness/window_recorder.h"
+#include "tb/harness/interval_recorder.h"
 #include "tb/run/result.h"
 
 namespace deburr::tb {
@@ -48,7 +48,7 @@ struct SimulationOptions {
   rtl::Cycle reset_after = 0;  // resets once, so many cycles into the first piece; 0: never
   std::string trace_file, trace_scope;  // empty: none
   rtl::Cycle trace_from = 0, trace_to = 2000;
-  rtl::Cycle window_cycles = 0;  // 0: no windows
+  rtl::Cycle interval_cycles = 0;  // 0: no windows
   bool maps = false;             // pixel by pixel, what was done
   bool coverage = false;         // bins of functional coverage, with their hits
   std::optional<TimelineOptions> timeline;
@@ -78,12 +78,12 @@ class Simulation {
   void run(const GoOn& go_on = {});
 
   bool complete() const { return complete_; }  // false when ended early
-  // Clocks of all pieces so far; of one that a reset broke off, only those behind the reset.
+  // Cycles of all pieces so far; of one that a reset broke off, only those behind the reset.
   rtl::Cycle cycles() const;
   rtl::Cycle begun() const { return begun_; }  // the clock in which the last piece began
   std::uint64_t activations() const { return clock_.activations(); }
   // nullptr unless asked for. Complete once run() is over, however it ended.
-  const WindowRecorder* windows() const { return windows_.get(); }
+  const IntervalRecorder* intervals() const { return intervals_.get(); }
   const Timeline* timeline() const { return timeline_.get(); }
   // Everything measured so far, also after an exception from run().
   void collect(Result& result) const;
@@ -100,7 +100,7 @@ class Simulation {
   FaultPlan faults_;
   Environment* environment_ = nullptr;
   std::unique_ptr<Bench> bench_;
-  std::unique_ptr<WindowRecorder> windows_;
+  std::unique_ptr<IntervalRecorder> intervals_;
   std::unique_ptr<Timeline> timeline_;
   rtl::Cycle cycles_ = 0, begun_ = 0, next_report_ = 0;
   double host_seconds_ = 0, cpu_seconds_ = 0;

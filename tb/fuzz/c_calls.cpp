@@ -66,7 +66,7 @@ constexpr std::array<const char*, 46> kWords = {"preset",
                                                 "edges",
                                                 "taps",
                                                 "weights",
-                                                "shares",
+                                                "weights",
                                                 "samples"};
 constexpr std::array<const char*, 20> kFields = {"width",
                                                  "height",

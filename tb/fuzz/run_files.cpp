@@ -85,7 +85,7 @@ Result small_result() {
   r.maps = {{"a", "A", "clk", "m", 0, 5, 9, 6, ""}};
   r.work = {{"samples", std::uint64_t{7}, "", "m"}};
   r.figures = {{"Samples", "work.samples", "cycles", "cycles", true}};
-  r.quality = Quality{"truth", 30, 20, {}, 29, 19, {}, 0.1, 0.2, 0.9, 0.8};
+  r.quality = Quality{"reference", 30, 20, {}, 29, 19, {}, 0.1, 0.2, 0.9, 0.8};
   r.change = Change{1, 2, {}, {}, 40};
   return r;
 }

@@ -22,7 +22,7 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/mesh.h"
 #include "tb/scene/png.h"
-#include "tb/stimuli/share_file.h"
+#include "tb/stimuli/weight_file.h"
 #include "tb/traces/fragment_reader.h"
 #include "tb/traces/fragment_writer.h"
 
@@ -128,14 +128,14 @@ void configurations(std::string_view bytes) {
   });
 }
 
-void shares(std::string_view bytes) {
+void weights(std::string_view bytes) {
   taken_or_rejected([&] {
     // What was taken is written as what is taken again.
-    const auto read = stimuli::parse_share_file("input", bytes);
-    const std::string text = stimuli::share_file_text(read, {});
-    const auto again = stimuli::parse_share_file("again", text);
+    const auto read = stimuli::parse_weight_file("input", bytes);
+    const std::string text = stimuli::weight_file_text(read, {});
+    const auto again = stimuli::parse_weight_file("again", text);
     require(stimuli::entries_of(again) == stimuli::entries_of(read),
-            "other shares than were written");
+            "other weights than were written");
   });
 }
 
@@ -315,8 +315,8 @@ std::vector<std::string> configurations_seeds() {
   return {few, set.yaml()};
 }
 
-std::vector<std::string> shares_seeds() {
-  return {stimuli::share_file_text({}, {}), stimuli::share_file_text({}, {"a note"})};
+std::vector<std::string> weights_seeds() {
+  return {stimuli::weight_file_text({}, {}), stimuli::weight_file_text({}, {"a note"})};
 }
 
 constexpr std::array<FuzzTarget, 9> kTargets{
@@ -327,7 +327,7 @@ constexpr std::array<FuzzTarget, 9> kTargets{
      {"traces", read_traces, traces_seeds},
      {"configurations", configurations, configurations_seeds},
      {"run_files", run_files, run_files_seeds},
-     {"shares", shares, shares_seeds},
+     {"weights", weights, weights_seeds},
      {"c_calls", c_calls, c_calls_seeds}}};
 
 }  // namespace

@@ -18,7 +18,7 @@ struct FuzzTarget {
   std::vector<std::string> (*seeds)();  // small inputs that are taken; others are made of them
 };
 
-// pictures, depths, obj, gltf, traces, configurations, run_files, shares, c_calls
+// pictures, depths, obj, gltf, traces, configurations, run_files, weights, c_calls
 std::span<const FuzzTarget> fuzz_targets();
 // Throws for an unknown name.
 const FuzzTarget& fuzz_target(std::string_view name);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What every simulation of this repository has around its design: link checkers and a watchdog
-// always; random stalls, planted faults, poison, shuffled evaluation and waves if asked for.
+// always; random stalls, injected faults, poison, shuffled evaluation and waves if asked for.
 //
 //   MyDesign design("design"); Driver..., Sink..., bindings
 //   Bench bench(clock, options);               // after the design
@@ -45,7 +45,7 @@ class Bench {
   Bench(rtl::ClockDomain& clock, const BenchOptions& options = {});
 
   // Until `done`, at most `limit` cycles; OutOfCycles if it is not done by then. Then the links
-  // must be empty (unless `drained` is false), the accounts right, and every planted fault reached.
+  // must be empty (unless `drained` is false), the accounts right, and every injected fault reached.
   // Returns the cycles it took.
   rtl::Cycle run(const std::function<bool()>& done, rtl::Cycle limit, bool drained = true);
 

@@ -41,7 +41,7 @@ std::string NamedWords::difference(const NamedWords& was, const NamedWords& is) 
 std::string difference(const Outcome& was, const Outcome& is, Compared what) {
   std::string text = difference(was.data, is.data);
   if (what != Compared::kData) text += difference(was.counted, is.counted);
-  if (what == Compared::kAll) text += difference(was.clocks, is.clocks);
+  if (what == Compared::kAll) text += difference(was.cycles, is.cycles);
   return text;
 }
 
@@ -51,7 +51,7 @@ std::string text_of(const Outcome& outcome, Compared what) {
   if (what == Compared::kData) return text;
   for (const NamedWords& words : outcome.counted) text += words.text();
   if (what == Compared::kAll)
-    for (const NamedWords& words : outcome.clocks) text += words.text();
+    for (const NamedWords& words : outcome.cycles) text += words.text();
   return text;
 }
 

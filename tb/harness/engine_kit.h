@@ -20,14 +20,14 @@
 //     bool done();                           // all of it has come out
 //     Outcome outcome();                     // of the last job
 //     void expect_enough(Job);               // it has done what it is there for
-//     void reset(rtl::Cycle clocks);
+//     void reset(rtl::Cycle cycles);
 //     // What sticks is set, everything has counted; registers that are not to be inverted then.
 //     void spoil();
 //     static constexpr std::array kKept;
-//     // Of register noise: accesses, clocks between two of them at most, offsets; what is done
+//     // Of register noise: accesses, cycles between two of them at most, offsets; what is done
 //     // after one: work, starts, whatever comes in.
 //     static constexpr int kAccesses;
-//     static constexpr std::uint32_t kClocks, kMostOffset;
+//     static constexpr std::uint32_t kCycles, kMostOffset;
 //     static constexpr std::uint64_t kNoiseSeeds;
 //     void disturb(Random&);
 //     // Tokens of the links inside; how many of their fields have a number format, at least; a
@@ -59,7 +59,7 @@ enum class Job { kWhole, kBroken };
 // What a bench has around the engine.
 struct Disturbance {
   BenchOptions bench = {};
-  std::uint32_t scatter = 0;  // answers of memory come up to so many clocks later
+  std::uint32_t scatter = 0;  // answers of memory come up to so many cycles later
   // The driver writes the rules after each reset to an engine that is built with others
   // (other_rules.h); else they are its reset values.
   bool program = false;
@@ -72,13 +72,13 @@ struct EngineKit {
   static constexpr bool kPrograms = false;
   // Offsets beside those of the engine's table.
   static std::vector<std::uint32_t> more_registers() { return {}; }
-  // Between the clocks at which resets are tried; after a long reset memory owes nothing.
+  // Between the cycles at which resets are tried; after a long reset memory owes nothing.
   static constexpr rtl::Cycle kStep = 1;
   static constexpr rtl::Cycle short_reset() { return 1; }
   static constexpr rtl::Cycle long_reset() { return 1; }
   // Kinds of jobs that the engine does not take; starts one, runs, expects what is to be seen.
   static constexpr int kRejected = 0;
-  void reject(int /*kind*/, rtl::Cycle /*clocks*/) {}
+  void reject(int /*kind*/, rtl::Cycle /*cycles*/) {}
   // These come: their input may wait in front.
   void queue(std::span<const Job> /*jobs*/) {}
   // Of register noise; memory has answered all that garbage asked after kNoiseReset.
@@ -143,7 +143,7 @@ class NamedWords {
 struct Outcome {
   std::vector<NamedWords> data;     // whatever was before it, and however slow things were
   std::vector<NamedWords> counted;  // the same after any reset: sums since then, and what caches do
-  std::vector<NamedWords> clocks;   // when, from its start on, with nothing left of before
+  std::vector<NamedWords> cycles;   // when, from its start on, with nothing left of before
 };
 
 enum class Compared { kData, kCounted, kAll };

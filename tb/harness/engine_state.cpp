@@ -52,7 +52,7 @@ std::vector<std::string> engine_state(rtl::Engine& engine, platform::RegisterHos
   rtl::for_each<rtl::WireBase>(engine, [&](const rtl::WireBase& wire) {
     add(inner_name(engine, wire) + ".changes", wire.changes());
     add(inner_name(engine, wire) + ".high",
-        wire.high_clocks(engine.units().front()->clock().cycle()));
+        wire.high_cycles(engine.units().front()->clock().cycle()));
   });
   for (const rtl::MemoryBase* memory : engine.memories())
     if (const auto high_water = memory->high_water())

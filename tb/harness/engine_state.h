@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // All that can be read of an engine, to compare two of them, or one after a reset with a new one:
-// registers, counters, histograms, every unit's account of clocks, beats of links, levels of wires,
+// registers, counters, histograms, every unit's account of cycles, beats of links, levels of wires,
 // how full memories have been.
 #pragma once
 
@@ -24,8 +24,8 @@ std::vector<std::string> engine_state(rtl::Engine& engine, platform::RegisterHos
 std::string state_difference(const std::vector<std::string>& was,
                              const std::vector<std::string>& is);
 
-// Of the clocks at which resets are tried, sanitizers, which look for other faults and are ten
+// Of the cycles at which resets are tried, sanitizers, which look for other faults and are ten
 // times slower, take every ninth: odd ones and even ones.
-inline constexpr int kClocksApart = kSanitized ? 9 : 1;
+inline constexpr int kCyclesApart = kSanitized ? 9 : 1;
 
 }  // namespace deburr::tb

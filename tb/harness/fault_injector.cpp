@@ -73,14 +73,14 @@ FaultInjector::FaultInjector(rtl::ClockDomain& clock, const std::vector<Fault>& 
         throw spec::ConfigError(fmt::format("fault on {}: {}", fault.link, error.what()));
       }
     }
-    planted_.push_back({fault, found, bit});
+    injected_.push_back({fault, found, bit});
   }
   clock.add_before(*this);
 }
 
-bool FaultInjector::act(const Planted& planted, rtl::Cycle cycle) {
-  const Fault& fault = planted.fault;
-  rtl::LinkBase& link = *planted.link;
+bool FaultInjector::act(const Injected& injected, rtl::Cycle cycle) {
+  const Fault& fault = injected.fault;
+  rtl::LinkBase& link = *injected.link;
   if (fault.kind == Fault::Kind::kStuckReady) {
     if (cycle < fault.at) return false;
     link.hold_push(cycle);
@@ -90,7 +90,7 @@ bool FaultInjector::act(const Planted& planted, rtl::Cycle cycle) {
   if (link.pushes() != fault.at + 1 || link.empty()) return false;
   if (fault.kind == Fault::Kind::kDrop) return link.drop_newest();
   if (fault.kind == Fault::Kind::kFlip) {
-    link.payload().flip(link.beat(fault.at), planted.bit);
+    link.payload().flip(link.beat(fault.at), injected.bit);
     return true;
   }
   if (link.duplicate_newest(cycle)) return true;
@@ -99,23 +99,23 @@ bool FaultInjector::act(const Planted& planted, rtl::Cycle cycle) {
 }
 
 rtl::Activity FaultInjector::tick(rtl::Cycle cycle) {
-  for (Planted& planted : planted_)
-    if (!planted.fired || planted.fault.kind == Fault::Kind::kStuckReady)
-      planted.fired = act(planted, cycle);
+  for (Injected& injected : injected_)
+    if (!injected.fired || injected.fault.kind == Fault::Kind::kStuckReady)
+      injected.fired = act(injected, cycle);
   return rtl::kIdle;
 }
 
 std::size_t FaultInjector::fired() const {
   return static_cast<std::size_t>(
-      std::count_if(planted_.begin(), planted_.end(), [](const Planted& p) { return p.fired; }));
+      std::count_if(injected_.begin(), injected_.end(), [](const Injected& p) { return p.fired; }));
 }
 
 void FaultInjector::check_fired() const {
-  for (const Planted& planted : planted_)
-    if (!planted.fired)
+  for (const Injected& injected : injected_)
+    if (!injected.fired)
       throw spec::SimulationError(fmt::format(
-          "the fault planted on {} at {} was never reached: the run was too short to show anything",
-          planted.fault.link, planted.fault.at));
+          "the fault injected on {} at {} was never reached: the run was too short to show anything",
+          injected.fault.link, injected.fault.at));
 }
 
 }  // namespace deburr::tb

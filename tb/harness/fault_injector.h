@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Planted faults on named links, to show that the checks can fail. A fault acts between two cycles,
+// Injected faults on named links, to show that the checks can fail. A fault acts between two cycles,
 // on a beat that has been pushed and that the consumer has not seen.
 #pragma once
 
@@ -38,14 +38,14 @@ class FaultInjector final : public rtl::Clocked {
   void check_fired() const;
 
  private:
-  struct Planted {
+  struct Injected {
     Fault fault;
     rtl::LinkBase* link;
     rtl::Payload::Bit bit;
     bool fired = false;
   };
-  static bool act(const Planted& planted, rtl::Cycle cycle);
-  std::vector<Planted> planted_;
+  static bool act(const Injected& injected, rtl::Cycle cycle);
+  std::vector<Injected> injected_;
 };
 
 }  // namespace deburr::tb

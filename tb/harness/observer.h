@@ -14,7 +14,7 @@
 
 namespace deburr::tb {
 
-// A rate that a reader looks at: what a counter counts, over clocks.
+// A rate that a reader looks at: what a counter counts, over cycles.
 struct ThroughputSeries {
   std::string label, counter, unit;  // counter: its name; unit: of the rate
   double bound = 0;                  // a clock; 0: no such bound

@@ -92,7 +92,7 @@ std::string left_by_noise(std::uint64_t seed) {
   for (int i = 0; i < Kit::kAccesses; ++i) {
     noise.access(kit.bus());
     kit.disturb(random);
-    kit.clock().run(random.below(Kit::kClocks));
+    kit.clock().run(random.below(Kit::kCycles));
   }
   if (std::string wrong = kit.noise_ends(); !wrong.empty()) return wrong;
   kit.reset(Kit::kNoiseReset);

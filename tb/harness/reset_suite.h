@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reset of an engine, of every build of its Kit (engine_kit.h): what comes after it is, to the bit
 // and to the clock, what comes of a new engine; every register, counter, histogram and account of
-// clocks is as new. And a job after another is what it is by itself.
+// cycles is as new. And a job after another is what it is by itself.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ class ResetSuite {
  public:
   explicit ResetSuite(const typename Kit::Build& build) : kit_(build) {}
 
-  // A reset in half of the clocks that are tried, odd and even ones; `half`, 0 or 1, says in which.
+  // A reset in half of the cycles that are tried, odd and even ones; `half`, 0 or 1, says in which.
   void any_clock_of_a_job_may_be_the_last(rtl::Cycle half) {
     const Outcome fresh = first();
     kit_.expect_enough(Job::kWhole);
@@ -30,9 +30,9 @@ class ResetSuite {
     kit_.expect_enough(Job::kBroken);
     const rtl::Cycle last = kit_.clock().cycle() - begin;
     bool long_reset = true;
-    for (rtl::Cycle tried = 0, at = 0; at < last; at = ++tried * Kit::kStep * kClocksApart) {
+    for (rtl::Cycle tried = 0, at = 0; at < last; at = ++tried * Kit::kStep * kCyclesApart) {
       if (((tried + 1) / 2 + half) % 2 != 0) continue;
-      SCOPED_TRACE("reset " + std::to_string(at) + " clocks into a job");
+      SCOPED_TRACE("reset " + std::to_string(at) + " cycles into a job");
       kit_.reset(kit_.short_reset());
       kit_.start(Job::kBroken);
       kit_.clock().run(at);
@@ -49,7 +49,7 @@ class ResetSuite {
     const Outcome fresh = first();
     for (int kind = 0; kind < Kit::kRejected; ++kind)
       for (const rtl::Cycle at : {0u, 1u, 2u, 3u, 9u, 20u}) {
-        SCOPED_TRACE("reset " + std::to_string(at) + " clocks after a job of kind " +
+        SCOPED_TRACE("reset " + std::to_string(at) + " cycles after a job of kind " +
                      std::to_string(kind));
         kit_.reset(kit_.short_reset());
         kit_.reject(kind, at);

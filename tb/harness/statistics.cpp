@@ -71,7 +71,7 @@ Json statistics(const rtl::ClockDomain& clock, const std::string& prefix) {
     } else if (const auto* wire = dynamic_cast<const rtl::WireBase*>(&object); own(wire)) {
       json["wires"][*name] = {{"bits", wire->bits()},
                               {"changes", wire->changes()},
-                              {"high", wire->high_clocks(clock.cycle())}};
+                              {"high", wire->high_cycles(clock.cycle())}};
     }
   });
   return json;

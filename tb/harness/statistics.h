@@ -14,7 +14,7 @@ namespace deburr::tb {
 // {"cycles", "units": {name: {busy, idle, stalls: {cause: cycles}}}, "counters": {name: {value,
 // unit, meaning}}, "histograms": {name: see below}, "memories": {name: {kind, ports, logical_bits,
 // physical_bits}}, "links": {name: {depth, payload_bits, beats}}, "wires": {name: {bits, changes,
-// high}}}; high: clocks in which it was not zero. Names are full, without `prefix`
+// high}}}; high: cycles in which it was not zero. Names are full, without `prefix`
 // and a dot if they begin with it; objects outside of `prefix` are left out.
 nlohmann::ordered_json statistics(const rtl::ClockDomain& clock, const std::string& prefix = "");
 

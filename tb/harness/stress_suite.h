@@ -25,7 +25,7 @@ class StressSuite {
     for (const std::uint32_t permille : {50u, 300u, 600u}) {
       const Seen slow = see(disturbed(permille, permille));
       EXPECT_EQ(slow.data, quiet.data) << permille;
-      EXPECT_GT(slow.clocks, quiet.clocks) << permille;
+      EXPECT_GT(slow.cycles, quiet.cycles) << permille;
     }
     Disturbance late;
     late.scatter = 90;
@@ -62,7 +62,7 @@ class StressSuite {
     }
   }
 
-  void the_same_seed_gives_the_same_clocks() {
+  void the_same_seed_gives_the_same_cycles() {
     const std::string once = see(disturbed(150, 5)).all;
     EXPECT_EQ(see(disturbed(150, 5)).all, once);
     EXPECT_NE(see(disturbed(150, 6)).all, once);
@@ -71,7 +71,7 @@ class StressSuite {
  private:
   struct Seen {
     std::string data, all;
-    rtl::Cycle clocks = 0;
+    rtl::Cycle cycles = 0;
   };
   static Disturbance disturbed(std::uint32_t permille, std::uint64_t seed, bool all = true) {
     Disturbance disturbance;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a test of one unit needs: a Source and a Sink, which stall when the test says so and note
-// clocks (driver.h has ends for whole runs, with random stalls); both as Ends with their links; and
+// cycles (driver.h has ends for whole runs, with random stalls); both as Ends with their links; and
 // what is asked of units: stalls by cause, what a memory rejects.
 //
 //   unit_bench::Ends<Token, Result> ends(clock);   // source -> in -> [unit] -> out -> sink
@@ -8,7 +8,7 @@
 //   halver.halves_out(ends.out);
 //   ends.source.add(token);
 //   clock.run(10);
-//   clocks_of(ends.sink);                          // those in which its results were taken
+//   cycles_of(ends.sink);                          // those in which its results were taken
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@
 
 namespace deburr::tb::unit_bench {
 
-// The clock of tests that ask for clocks alone.
+// The clock of tests that ask for cycles alone.
 inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
 
 // Pushes its tokens in order, each in its clock, or as soon as there is room.
@@ -84,10 +84,10 @@ class Sink final : public rtl::Unit {
 };
 
 template <class T>
-std::vector<rtl::Cycle> clocks_of(const Sink<T>& sink) {
-  std::vector<rtl::Cycle> clocks;
-  for (const auto& taken : sink.taken) clocks.push_back(taken.cycle);
-  return clocks;
+std::vector<rtl::Cycle> cycles_of(const Sink<T>& sink) {
+  std::vector<rtl::Cycle> cycles;
+  for (const auto& taken : sink.taken) cycles.push_back(taken.cycle);
+  return cycles;
 }
 
 template <class T>
@@ -97,7 +97,7 @@ std::vector<T> tokens_of(const Sink<T>& sink) {
   return tokens;
 }
 
-// Clocks that a unit lost to a cause. CheckFailed if it knows none of this name.
+// Cycles that a unit lost to a cause. CheckFailed if it knows none of this name.
 inline std::uint64_t stalls(const rtl::Unit& unit, std::string_view cause) {
   for (const rtl::Unit::StallCause& stall : unit.stalls())
     if (stall.name == cause) return stall.cycles;
@@ -138,7 +138,7 @@ struct Ends {
   Sink<To> sink;
 };
 
-// Clocks from the first to the last of what has come out.
+// Cycles from the first to the last of what has come out.
 template <class From, class To>
 rtl::Cycle spread(const Ends<From, To>& ends) {
   return ends.sink.taken.back().cycle - ends.sink.taken.front().cycle;

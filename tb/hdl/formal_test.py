@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Proves one property of the units in hdl/, and that the proof can fail: with a fault planted in the
-source it must be refuted. Sequential properties are proved by induction over one to three clocks with
+"""Proves one property of the units in hdl/, and that the proof can fail: with a fault injected in the
+source it must be refuted. Sequential properties are proved by induction over one to three cycles with
 invariants by hand (yosys-smtbmc, z3), combinational ones for all inputs by yosys' SAT solver. Invariants
 stand in the unit, or in a proof module that names the unit's registers by wires with the attribute
 `hierconn`.
@@ -24,11 +24,11 @@ SECONDS = 120  # a proof
 @dataclasses.dataclass
 class Proof:
     top: str
-    method: str      # "sat": for all inputs; "induction": all clocks; "bmc": the first STEPS clocks, from any state
+    method: str      # "sat": for all inputs; "induction": all cycles; "bmc": the first STEPS cycles, from any state
     fault: tuple     # (file, from, to)
     steps: int = 3
     parameters: dict = dataclasses.field(default_factory=dict)
-    base: int = 0    # clocks of the base case of an induction; as many as the steps where it says none
+    base: int = 0    # cycles of the base case of an induction; as many as the steps where it says none
     free: str = ""   # modules whose outputs the solver picks, in each clock anew
     registers: bool = False  # memories as registers, so that invariants can name a word
 
@@ -169,7 +169,7 @@ def proved(proof, source, headers, fault):
             return (False if "Called with -verify and proof did fail!" in said else None), said
         if code != 0:
             return None, said
-        # A base case beside the step: from a reset on nothing goes wrong in the first clocks.
+        # A base case beside the step: from a reset on nothing goes wrong in the first cycles.
         # Without arrays each step is one question to z3's solver of bits, which is much faster.
         solver = ["yosys-smtbmc", "-s", "z3", "--unroll"] + ["--noincr", "--logic", "QF_BV"] * proof.registers
         commands = [[*solver, "-t", str(proof.base or proof.steps), smt]]
@@ -215,7 +215,7 @@ def main():
     for fault, wanted in ((False, True), (True, False)):
         start = time.monotonic()
         verdict, said = proved(proof, source, headers, fault)
-        what = "with a planted fault" if fault else "as it is"
+        what = "with a injected fault" if fault else "as it is"
         print(f"{sys.argv[3]} {what}: {dict([(True, 'proved'), (False, 'refuted'), (None, 'undecided')])[verdict]}, "
               f"{time.monotonic() - start:.1f} s")
         if verdict is not wanted:

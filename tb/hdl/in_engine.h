@@ -12,7 +12,7 @@
 #include "rtl_model/texture/texture_unit.h"
 #include "spec/texture/registers.h"
 #include "tb/engines/texture/texture_setup.h"
-#include "tb/engines/texture/texture_twins.h"
+#include "tb/engines/texture/texture_counterparts.h"
 #include "tb/hdl/adapter.h"
 #include "tb/hdl/settings.h"
 #include "tb/hdl/verilated_cache.h"
@@ -150,8 +150,8 @@ class FilterInEngine final
 
 // For the list that the build makes (cmake/Hdl.cmake). `settings` are those of the model.
 template <class InEngine>
-void add_twin(const char* unit, const char* settings) {
-  add_texture_twin({unit, as_built(parameters_of(settings), {}),
+void add_counterpart(const char* unit, const char* settings) {
+  add_texture_counterpart({unit, as_built(parameters_of(settings), {}),
                     [](rtl::texture::TextureUnit& around, rtl::LatencyProbe& probe,
                        std::uint64_t seed) -> std::unique_ptr<sc_core::sc_module> {
                       return std::make_unique<InEngine>(around, probe, seed);
@@ -159,15 +159,15 @@ void add_twin(const char* unit, const char* settings) {
 }
 template <class Model>
 void add_address_unit(const char* settings) {
-  add_twin<AddressInEngine<Model>>("address", settings);
+  add_counterpart<AddressInEngine<Model>>("address", settings);
 }
 template <class Model>
 void add_texture_cache(const char* settings) {
-  add_twin<CacheInEngine<Model>>("cache", settings);
+  add_counterpart<CacheInEngine<Model>>("cache", settings);
 }
 template <class Model>
 void add_filter_pipeline(const char* settings) {
-  add_twin<FilterInEngine<Model>>("filter", settings);
+  add_counterpart<FilterInEngine<Model>>("filter", settings);
 }
 
 }  // namespace deburr::tb::hdl

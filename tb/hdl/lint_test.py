@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The modules of hdl/ that no other one builds, and all below them, in each configuration that is printed:
 Verilator reads them (-Wall, with the named waivers of hdl/lint.vlt), Icarus Verilog does, and yosys builds
-them (no latch, no loop, nothing driven twice). A planted fault is rejected by each. No file of hdl/ is left
+them (no latch, no loop, nothing driven twice). A injected fault is rejected by each. No file of hdl/ is left
 over that none of these configurations builds (Verilator) or reads (Icarus Verilog).
 
 usage: lint_test.py SOURCE VERILATOR|ICARUS|YOSYS HEADERS..."""

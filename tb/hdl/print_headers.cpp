@@ -99,24 +99,24 @@ void token(Header& header, const std::string& name, const PayloadShape& shape = 
   ranges(header, name, payload.node());
 }
 
-void print_tokens(const texture::Parameters& rules, const std::filesystem::path& folder) {
+void print_tokens(const texture::Parameters& configuration, const std::filesystem::path& folder) {
   Header header("tokens");
   token<hw::Ticket>(header, "TICKET");
   token<texture::Quad>(header, "QUAD");
   token<hw::DerivativeToken>(header, "DERIVATIVE_TOKEN");
-  token<hw::FootprintToken>(header, "FOOTPRINT_TOKEN", hw::footprint_shape(rules));
-  token<hw::Log2Token>(header, "LOG2_TOKEN", hw::axis_shape(rules));
-  token<hw::LevelToken>(header, "LEVEL_TOKEN", hw::axis_shape(rules));
+  token<hw::FootprintToken>(header, "FOOTPRINT_TOKEN", hw::footprint_shape(configuration));
+  token<hw::Log2Token>(header, "LOG2_TOKEN", hw::axis_shape(configuration));
+  token<hw::LevelToken>(header, "LEVEL_TOKEN", hw::axis_shape(configuration));
   token<hw::SampleToken>(header, "SAMPLE_TOKEN");
   token<hw::TexelToken>(header, "TEXEL_TOKEN");
   token<hw::TexelQuadToken>(header, "TEXEL_QUAD_TOKEN");
   token<texture::Colour>(header, "COLOUR");
-  token<hw::MissToken>(header, "MISS_TOKEN", hw::miss_shape(rules));
-  token<hw::CacheToken>(header, "CACHE_TOKEN", hw::cache_shape(rules));
+  token<hw::MissToken>(header, "MISS_TOKEN", hw::miss_shape(configuration));
+  token<hw::CacheToken>(header, "CACHE_TOKEN", hw::cache_shape(configuration));
   token<deburr::rtl::MemoryRequest>(header, "MEMORY_REQUEST",
-                                    deburr::tb::hdl::memory_request_shape(rules));
+                                    deburr::tb::hdl::memory_request_shape(configuration));
   token<deburr::rtl::MemoryResponse>(header, "MEMORY_RESPONSE",
-                                     deburr::tb::hdl::memory_response_shape(rules));
+                                     deburr::tb::hdl::memory_response_shape(configuration));
   header.write(folder / "tokens.svh");
 }
 
@@ -191,7 +191,7 @@ void print_tables(const texture::Parameters& chosen, const std::filesystem::path
   choose("CAP", chosen.count_cap);
   choose("KERNEL", chosen.kernel);
   choose("SPREAD", chosen.spread);
-  choose("AXIS_CLOCKS", chosen.axis_clocks);
+  choose("AXIS_CYCLES", chosen.axis_cycles);
   choose("SRGB_OUTPUT", chosen.srgb_output);
   choose("CACHE_BYTES", chosen.cache_bytes);
   choose("CACHE_LINE_BYTES", chosen.cache_line_bytes);

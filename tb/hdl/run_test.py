@@ -38,7 +38,7 @@ class Run(unittest.TestCase):
                     self.assertEqual({name for name in result["units"] if name.endswith("_hdl")},
                                      {f"{name}_hdl" for name in named})
                     self.assertEqual("tag_stage" in result["units"], "cache" not in named)
-                    self.assertEqual("look_up_hits_percent" in result["work"], "cache" not in named)
+                    self.assertEqual("lookup_hits_percent" in result["work"], "cache" not in named)
                     self.assertEqual(result["cycles"], plain["cycles"])
                     self.assertEqual(result["latency"], plain["latency"])
                     for key in ("fragments", "bilinears", "misses_per_texel"):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A unit of the SystemC model and its twin of hdl/ beside each other: the same beats, the same
+// A unit of the SystemC model and its counterpart of hdl/ beside each other: the same beats, the same
 // stalls at both ends, and in every clock the question whether both did the same.
 #pragma once
 
@@ -27,7 +27,7 @@ struct Stalls {
   std::uint64_t seed = 1;
   bool at(rtl::Cycle cycle) const {
     Random coarse(seed + cycle / 64), fine(seed ^ (cycle * Random::kStride));
-    // Of each 64 clocks some are free, some half, and some as dense as stalls get.
+    // Of each 64 cycles some are free, some half, and some as dense as stalls get.
     const std::uint32_t density[] = {0, permille, permille, 1000 - permille / 4};
     return permille != 0 && fine.chance(density[coarse.below(4)]);
   }
@@ -47,7 +47,7 @@ typename Driver<T>::Generator those_of(const std::vector<T>& beats) {
   };
 }
 
-// Counts the clocks in which one of two links had a push or a pop and the other one had not, and
+// Counts the cycles in which one of two links had a push or a pop and the other one had not, and
 // the beats that differ. Ticked after the units, so that it sees what they did in this clock.
 template <class T>
 class LinkComparison final : public rtl::Unit {
@@ -55,63 +55,63 @@ class LinkComparison final : public rtl::Unit {
   // Fields that mean something in a beat, out of both; all of them without it.
   using Normal = std::function<T(const T&)>;
   LinkComparison(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
-                 const rtl::Link<T>& model, const rtl::Link<T>& twin, Normal normal = {})
-      : Unit(name, clock), model_(model), twin_(twin), normal_(std::move(normal)) {}
+                 const rtl::Link<T>& model, const rtl::Link<T>& counterpart, Normal normal = {})
+      : Unit(name, clock), model_(model), counterpart_(counterpart), normal_(std::move(normal)) {}
 
   std::uint64_t beats() const { return beats_; }
-  std::uint64_t clocks_that_differ() const { return clocks_; }
+  std::uint64_t cycles_that_differ() const { return cycles_; }
   std::uint64_t payloads_that_differ() const { return payloads_; }
   // Of the first difference.
   const std::string& first() const { return first_; }
 
   rtl::Activity tick(rtl::Cycle cycle) override {
-    if (model_.pushes() != twin_.pushes() || model_.pops() != twin_.pops()) {
-      if (clocks_++ == 0)
+    if (model_.pushes() != counterpart_.pushes() || model_.pops() != counterpart_.pops()) {
+      if (cycles_++ == 0)
         note(cycle, "pushes " + std::to_string(model_.pushes()) + "/" +
-                        std::to_string(twin_.pushes()) + ", pops " + std::to_string(model_.pops()) +
-                        "/" + std::to_string(twin_.pops()));
+                        std::to_string(counterpart_.pushes()) + ", pops " + std::to_string(model_.pops()) +
+                        "/" + std::to_string(counterpart_.pops()));
     }
     // A beat stays where it is until its place is filled again, a clock after its pop at the
     // earliest.
-    for (; beats_ < std::min(model_.pushes(), twin_.pushes()); ++beats_) compare(cycle);
+    for (; beats_ < std::min(model_.pushes(), counterpart_.pushes()); ++beats_) compare(cycle);
     return rtl::kIdle;
   }
   void reset() override { beats_ = 0; }
 
  private:
   void compare(rtl::Cycle cycle) {
-    T model, twin;
+    T model, counterpart;
     std::memcpy(static_cast<void*>(&model), model_.beat(beats_), sizeof(T));
-    std::memcpy(static_cast<void*>(&twin), twin_.beat(beats_), sizeof(T));
-    if (normal_) model = normal_(model), twin = normal_(twin);
+    std::memcpy(static_cast<void*>(&counterpart), counterpart_.beat(beats_), sizeof(T));
+    if (normal_) model = normal_(model), counterpart = normal_(counterpart);
     const std::string difference = static_cast<const rtl::LinkBase&>(model_).payload().difference(
-        reinterpret_cast<const std::byte*>(&model), reinterpret_cast<const std::byte*>(&twin));
+        reinterpret_cast<const std::byte*>(&model), reinterpret_cast<const std::byte*>(&counterpart));
     if (!difference.empty() && payloads_++ == 0)
       note(cycle, "beat " + std::to_string(beats_) + ": " + difference);
   }
   void note(rtl::Cycle cycle, const std::string& what) {
-    if (first_.empty()) first_ = "clock " + std::to_string(cycle) + ": model/twin " + what;
+    if (first_.empty()) first_ = "clock " + std::to_string(cycle) + ": model/counterpart " + what;
   }
 
   const rtl::Link<T>& model_;
-  const rtl::Link<T>& twin_;
+  const rtl::Link<T>& counterpart_;
   Normal normal_;
-  std::uint64_t beats_ = 0, clocks_ = 0, payloads_ = 0;
+  std::uint64_t beats_ = 0, cycles_ = 0, payloads_ = 0;
   std::string first_;
 };
 
-// The links inside of a unit and of its twin: the clocks in which one of them had a push or a pop
-// and its counterpart had not. The twin says what its links do by a bit each.
+// The links inside of a unit and of its counterpart: the cycles in which one of them had a push or a pop
+// and its counterpart had not. The counterpart says what its links do by a bit each.
 class InnerLinks final : public rtl::Unit {
  public:
   InnerLinks(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
              std::vector<const rtl::LinkBase*> model)
       : Unit(name, clock), model_(std::move(model)), pushes_(model_.size()), pops_(model_.size()) {}
-  void twin_does(std::uint32_t pushes, std::uint32_t pops) {
+  void counterpart_does(std::uint32_t pushes, std::uint32_t pops) {
     for (std::size_t i = 0; i < model_.size(); ++i)
       pushes_[i] += pushes >> i & 1, pops_[i] += pops >> i & 1;
   }
-  std::uint64_t clocks_that_differ() const { return clocks_; }
+  std::uint64_t cycles_that_differ() const { return cycles_; }
   std::uint64_t beats() const { return beats_; }
   const std::string& first() const { return first_; }
 
@@ -121,12 +121,12 @@ class InnerLinks final : public rtl::Unit {
       const bool equal = model_[i]->pushes() == pushes_[i] && model_[i]->pops() == pops_[i];
       if (!equal && first_.empty())
         first_ = "clock " + std::to_string(cycle) + ": " + model_[i]->basename() +
-                 " of model/twin: pushes " + std::to_string(model_[i]->pushes()) + "/" +
+                 " of model/counterpart: pushes " + std::to_string(model_[i]->pushes()) + "/" +
                  std::to_string(pushes_[i]) + ", pops " + std::to_string(model_[i]->pops()) + "/" +
                  std::to_string(pops_[i]);
       same &= equal;
     }
-    clocks_ += !same;
+    cycles_ += !same;
     return rtl::kIdle;
   }
   void reset() override {
@@ -138,7 +138,7 @@ class InnerLinks final : public rtl::Unit {
  private:
   std::vector<const rtl::LinkBase*> model_;
   std::vector<std::uint64_t> pushes_, pops_;
-  std::uint64_t clocks_ = 0, beats_ = 0;
+  std::uint64_t cycles_ = 0, beats_ = 0;
   std::string first_;
 };
 

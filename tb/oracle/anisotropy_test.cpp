@@ -18,9 +18,9 @@ const EncodedTexture& checker() {
   return texture;
 }
 
-const std::vector<golden::ideal::Rgba>& truth() {
+const std::vector<golden::ideal::Rgba>& reference() {
   static const std::vector<golden::ideal::Rgba> pixels =
-      plane_truth({}, ideal_texture(checker()), 16);
+      plane_reference({}, ideal_texture(checker()), 16);
   return pixels;
 }
 
@@ -31,7 +31,7 @@ Errors errors(const std::function<QuadFilter(int lb_n)>& unit) {
   const CoordinateImage image = plane({});
   Errors result;
   for (int lb_n = 0; lb_n <= 4; ++lb_n)
-    result.push_back(rms(filter_image(image, unit(lb_n)), truth()));
+    result.push_back(rms(filter_image(image, unit(lb_n)), reference()));
   std::printf("RMS to the supersampled plane at 1x 2x 4x 8x 16x: %.2f %.2f %.2f %.2f %.2f\n",
               result[0], result[1], result[2], result[3], result[4]);
   return result;

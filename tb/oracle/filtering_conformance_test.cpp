@@ -60,7 +60,7 @@ TEST_P(EveryFormat, IsHighInEveryModeWrapLayoutAndSize) {
 }
 
 // The project's own rules: the ellipse's axis is longer than row and column, and still legal.
-TEST(DefaultRules, AreHighInEveryModeAndSize) {
+TEST(DefaultConfiguration, AreHighInEveryModeAndSize) {
   for (const spec::texture::Axes axes :
        {spec::texture::Axes::kTwo, spec::texture::Axes::kFour, spec::texture::Axes::kEight}) {
     spec::texture::Parameters parameters;
@@ -113,7 +113,7 @@ TEST(Golden, IsHighWithBiasAndClamps) {
 
 // What each footprint and logarithm rule gets: the paper never asks. The footprint rules all stay
 // inside the legal interval, the logarithm decides.
-TEST(Rules, TheLogarithmDecidesTheVerdict) {
+TEST(Configuration, TheLogarithmDecidesTheVerdict) {
   const std::vector<ConformanceRow> rows = conformance_table();
   ASSERT_EQ(rows.size(), 20u);
   std::printf("%s", conformance_markdown(rows).c_str());

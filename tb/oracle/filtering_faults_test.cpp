@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Negative tests of the filtering criterion: a plain sampler must pass, the same with a planted
+// Negative tests of the filtering criterion: a plain sampler must pass, the same with a injected
 // fault must not. Where Khronos's tolerance is wide enough for a fault, that is stated here too.
 #include <gmock/gmock.h>
 
@@ -61,9 +61,9 @@ struct Expectation {
   }
 };
 
-class PlantedFault : public testing::TestWithParam<Expectation> {};
+class InjectedFault : public testing::TestWithParam<Expectation> {};
 
-TEST_P(PlantedFault, GetsItsVerdict) {
+TEST_P(InjectedFault, GetsItsVerdict) {
   const Outcome outcome = check_everywhere(plain_filter(GetParam().fault));
   std::printf("%d of %d cases are not high, largest deviation %.1f, verdict %s\n", outcome.not_high,
               outcome.cases, outcome.deviation, std::string(verdict_name(outcome.verdict)).c_str());
@@ -71,7 +71,7 @@ TEST_P(PlantedFault, GetsItsVerdict) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Criterion, PlantedFault,
+    Criterion, InjectedFault,
     testing::Values(Expectation{Fault::kNone, Verdict::kHigh},
                     // Rounded to b bits a weight is wrong by 2^-(b+1), truncated by 2^-b:
                     // truncation costs a class. 3 bits rounded are exactly what `low` tolerates.

@@ -253,7 +253,7 @@ Compared compare(const Frame& frame, const Parameters& parameters) {
   return result;
 }
 
-Parameters with_rules(Combine combine, CoverageRule coverage, int crease_depth) {
+Parameters with_configuration(Combine combine, CoverageRule coverage, int crease_depth) {
   Parameters p = preset_parameters(Preset::kDeburr);
   p.combine = combine;
   p.coverage = coverage;
@@ -270,8 +270,8 @@ TEST_P(Scenes, GoldenIsTheIdealRounded) {
   for (const Preset preset : {Preset::kGpaa, Preset::kGpaaOptimised, Preset::kDeburr})
     all.emplace_back(spec::geometric::kPresetNames[static_cast<std::size_t>(preset)],
                      preset_parameters(preset));
-  all.emplace_back("rules on", with_rules(Combine::kOutermost, CoverageRule::kArea, 4));
-  all.emplace_back("rules off", with_rules(Combine::kMax, CoverageRule::kDistance, 0));
+  all.emplace_back("rules on", with_configuration(Combine::kOutermost, CoverageRule::kArea, 4));
+  all.emplace_back("rules off", with_configuration(Combine::kMax, CoverageRule::kDistance, 0));
   for (const auto& [name, parameters] : all) {
     const Compared c = compare(frame, parameters);
     std::cout << GetParam() << ' ' << name << ": " << c.weights << " weights, " << c.off

@@ -20,20 +20,20 @@ using golden::ideal::Verdict;
 using spec::texture::Format;
 using spec::texture::MinFilter;
 
-spec::texture::Parameters papers_rules() {
+spec::texture::Parameters papers_configuration() {
   return spec::texture::preset_parameters(spec::texture::Preset::kPaper);
 }
 
 // The rules nearest to what Mesa does; the paper's are printed beside them.
-spec::texture::Parameters exact_rules() {
-  spec::texture::Parameters parameters = papers_rules();
+spec::texture::Parameters exact_configuration() {
+  spec::texture::Parameters parameters = papers_configuration();
   parameters.footprint = spec::texture::FootprintRule::kExact;
   parameters.log2 = spec::texture::Log2Rule::kExact;
   return parameters;
 }
 
-spec::texture::Parameters segments_rules() {
-  spec::texture::Parameters parameters = papers_rules();
+spec::texture::Parameters segments_configuration() {
+  spec::texture::Parameters parameters = papers_configuration();
   parameters.log2 = spec::texture::Log2Rule::kSegments;
   return parameters;
 }
@@ -152,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(Mesa, MesaDriver, testing::Values("llvmpipe", "softpipe
 TEST_F(Mesa, MipModesAgree) {
   ASSERT_NO_FATAL_FAILURE(open("llvmpipe"));
   if (device_ == nullptr) return;
-  struct Rules {
+  struct Configuration {
     const char* name;
     spec::texture::Parameters parameters;
     double margin;  // error of the level of detail, and what llvmpipe's own adds
@@ -160,9 +160,9 @@ TEST_F(Mesa, MipModesAgree) {
   };
   // The goal is for the rules that compute the same level of detail. `half` is up to 0.16 above it,
   // which costs more than 35 dB allows on noise: a floor for these, the number is in the docs.
-  const std::array<Rules, 3> rules = {Rules{"exact, exact", exact_rules(), 0.05, 35.0},
-                                      Rules{"half, segments", segments_rules(), 0.2, 30.0},
-                                      Rules{"half, mitchell", papers_rules(), 0.2, 30.0}};
+  const std::array<Configuration, 3> configuration = {Configuration{"exact, exact", exact_configuration(), 0.05, 35.0},
+                                      Configuration{"half, segments", segments_configuration(), 0.2, 30.0},
+                                      Configuration{"half, mitchell", papers_configuration(), 0.2, 30.0}};
   for (const MinFilter filter : {MinFilter::kNearestMipmapNearest, MinFilter::kLinearMipmapNearest,
                                  MinFilter::kNearestMipmapLinear, MinFilter::kLinearMipmapLinear}) {
     for (const bool with_quads : {true, false}) {
@@ -170,23 +170,23 @@ TEST_F(Mesa, MipModesAgree) {
       draw_all(filter, Pattern::kPyramid, with_quads,
                [&](const CoordinateImage& image, const EncodedTexture& texture, const Size& size,
                    const spec::texture::Descriptor& state, const Pixels& mesa) {
-                 for (std::size_t r = 0; r < rules.size(); ++r) {
+                 for (std::size_t r = 0; r < configuration.size(); ++r) {
                    const Pixels ours =
-                       filter_image(image, golden_filter(rules[r].parameters)(texture, state));
+                       filter_image(image, golden_filter(configuration[r].parameters)(texture, state));
                    for (std::size_t i = 0; i < ours.size(); ++i) {
                      all[r].add(ours[i], mesa[i]);
-                     if (!at_threshold(fragment_at(image, i), size, filter, rules[r].margin))
+                     if (!at_threshold(fragment_at(image, i), size, filter, configuration[r].margin))
                        kept[r].add(ours[i], mesa[i]);
                    }
                  }
                });
-      for (std::size_t r = 0; r < rules.size(); ++r) {
+      for (std::size_t r = 0; r < configuration.size(); ++r) {
         std::printf(
             "%s, %s, %s: %.1f dB over %.0f pixels away from thresholds, %.1f dB over all\n",
             std::string(spec::texture::kMinFilterNames[static_cast<std::size_t>(filter)]).c_str(),
-            with_quads ? "quads" : "plane", rules[r].name, kept[r].psnr(), kept[r].pixels,
+            with_quads ? "quads" : "plane", configuration[r].name, kept[r].psnr(), kept[r].pixels,
             all[r].psnr());
-        EXPECT_GE(kept[r].psnr(), rules[r].goal_db);
+        EXPECT_GE(kept[r].psnr(), configuration[r].goal_db);
         EXPECT_GT(kept[r].pixels, 0.5 * all[r].pixels);
       }
     }
@@ -239,8 +239,8 @@ TEST_F(Mesa, AnisotropyFallsAsSoftpipesDoes) {
     const PlaneView view;
     const CoordinateImage image = plane(view);
     const EncodedTexture texture = make_texture(pattern, Format::kRgba8, 128, 128, 1);
-    const auto truth = plane_truth(view, ideal_texture(texture), 16);
-    spec::texture::Parameters ceil = exact_rules();
+    const auto reference = plane_reference(view, ideal_texture(texture), 16);
+    spec::texture::Parameters ceil = exact_configuration();
     ceil.count = spec::texture::CountRule::kCeil;
     std::array<double, 5> paper{}, ceiling{}, theirs{};
     for (std::uint8_t lb_n = 0; lb_n <= 4; ++lb_n) {
@@ -248,13 +248,13 @@ TEST_F(Mesa, AnisotropyFallsAsSoftpipesDoes) {
       state.max_anisotropy_log2 = lb_n;
       const Pixels mesa = device_->draw(image, texture, state);
       const Pixels ours = filter_image(image, golden_filter(ceil)(texture, state));
-      paper[lb_n] = rms(filter_image(image, golden_filter(papers_rules())(texture, state)), truth);
-      ceiling[lb_n] = rms(ours, truth);
-      theirs[lb_n] = rms(mesa, truth);
+      paper[lb_n] = rms(filter_image(image, golden_filter(papers_configuration())(texture, state)), reference);
+      ceiling[lb_n] = rms(ours, reference);
+      theirs[lb_n] = rms(mesa, reference);
       Agreement agreement;
       for (std::size_t i = 0; i < ours.size(); ++i) agreement.add(ours[i], mesa[i]);
       std::printf(
-          "%s %2d x: RMS to truth %.2f (paper's rules) %.2f (exact, ceil) %.2f (softpipe); "
+          "%s %2d x: RMS to reference %.2f (paper's rules) %.2f (exact, ceil) %.2f (softpipe); "
           "exact, ceil against softpipe %.1f dB\n",
           pattern == Pattern::kChecker ? "checker" : "noise", 1 << lb_n, paper[lb_n], ceiling[lb_n],
           theirs[lb_n], agreement.psnr());
@@ -288,7 +288,7 @@ TEST_F(Mesa, PlantedFaultsAreSeen) {
            [&](const CoordinateImage& image, const EncodedTexture& texture, const Size& size,
                spec::texture::Descriptor state, const Pixels& mesa) {
              state.lod_bias = 128;  // half a level
-             const Pixels ours = filter_image(image, golden_filter(exact_rules())(texture, state));
+             const Pixels ours = filter_image(image, golden_filter(exact_configuration())(texture, state));
              for (std::size_t i = 0; i < ours.size(); ++i)
                if (!at_threshold(fragment_at(image, i), size, state.min_filter, 0.05))
                  level.add(ours[i], mesa[i]);

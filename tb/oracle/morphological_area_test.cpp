@@ -19,13 +19,13 @@ namespace {
 using golden::ideal::CutAreas;
 using golden::ideal::StepCorner;
 using golden::ideal::StepLine;
-using golden::morphological::EdgeShares;
+using golden::morphological::EdgeWeights;
 using golden::morphological::line_through;
 using golden::morphological::Prediction;
-using golden::morphological::shares;
+using golden::morphological::weights;
 using tb::Random;
 
-// In units of a share, 1/256. Half of it is the rounding to 8 bits.
+// In units of a weight, 1/256. Half of it is the rounding to 8 bits.
 constexpr double kBound = 0.57;
 // The rounded slope is multiplied by up to 34 times the distance to the middle of the extended
 // line.
@@ -33,7 +33,7 @@ constexpr double kBoundOfExtendedLines = 0.8;
 // A U whose middle pixel holds both triangles rounds twice.
 constexpr double kBoundOfTwoTriangles = 1.07;
 
-double share_of(spec::morphological::Side side, const spec::morphological::LineRecord& line,
+double weight_of(spec::morphological::Side side, const spec::morphological::LineDescriptor& line,
                 const CutAreas& areas) {
   const double sum =
       (line.before == side ? areas.before : 0) + (line.after == side ? areas.after : 0);
@@ -42,13 +42,13 @@ double share_of(spec::morphological::Side side, const spec::morphological::LineR
 
 struct Worst {
   double single = 0, two_triangles = 0;
-  void look(const spec::morphological::LineRecord& line, const StepLine& ideal) {
+  void look(const spec::morphological::LineDescriptor& line, const StepLine& ideal) {
     for (int k = 0; k < line.run.length; ++k) {
-      const EdgeShares integer = shares(line, k);
+      const EdgeWeights integer = weights(line, k);
       const CutAreas areas = cut_areas(ideal, k);
       const double error = std::max(
-          std::abs(integer.first - share_of(spec::morphological::Side::kFirst, line, areas)),
-          std::abs(integer.second - share_of(spec::morphological::Side::kSecond, line, areas)));
+          std::abs(integer.first - weight_of(spec::morphological::Side::kFirst, line, areas)),
+          std::abs(integer.second - weight_of(spec::morphological::Side::kSecond, line, areas)));
       const bool two = line.before == line.after && areas.before > 0 && areas.after > 0;
       double& worst = two ? two_triangles : single;
       worst = std::max(worst, error);
@@ -56,8 +56,8 @@ struct Worst {
   }
 };
 
-spec::morphological::RunRecord whole_run(int length, int shape) {
-  spec::morphological::RunRecord run;
+spec::morphological::RunDescriptor whole_run(int length, int shape) {
+  spec::morphological::RunDescriptor run;
   run.length = static_cast<std::uint16_t>(length);
   run.shape = static_cast<std::uint8_t>(shape);
   return run;
@@ -66,7 +66,7 @@ spec::morphological::RunRecord whole_run(int length, int shape) {
 spec::morphological::Parameters with(spec::morphological::Predictor predictor) {
   spec::morphological::Parameters p;
   p.predictor = predictor;
-  p.reach_columns = 2048;
+  p.search_columns = 2048;
   p.steps = 16;
   return p;
 }
@@ -96,16 +96,16 @@ TEST(MorphologicalArea, OfEveryRunLengthAndShapeIsWithinTheBound) {
 
 TEST(MorphologicalArea, OfTheEndsOfLongRunsIsWithinTheBound) {
   Worst worst;
-  for (int reach = 4; reach <= 2048; ++reach) {
+  for (int search_range = 4; search_range <= 2048; ++search_range) {
     spec::morphological::Parameters p = with(spec::morphological::Predictor::kNone);
-    p.reach_columns = reach;
+    p.search_columns = search_range;
     for (const spec::morphological::RunPart part :
          {spec::morphological::RunPart::kHead, spec::morphological::RunPart::kTail}) {
       const bool tail = part == spec::morphological::RunPart::kTail;
       for (int code = 0; code < 4; ++code) {
-        spec::morphological::RunRecord run = whole_run(reach / 2, tail ? 4 * code : code);
+        spec::morphological::RunDescriptor run = whole_run(search_range / 2, tail ? 4 * code : code);
         run.part = part;
-        worst.look(line_through(p, run, {}), golden::ideal::long_end(reach, tail, reach / 2));
+        worst.look(line_through(p, run, {}), golden::ideal::long_end(search_range, tail, search_range / 2));
       }
     }
   }
@@ -148,10 +148,10 @@ TEST(MorphologicalArea, OfExtendedLinesIsWithinTheBound) {
   Worst fit, chord;
   for (int i = 0; i < 100000; ++i) {
     const DigitalRun run(random);
-    const spec::morphological::RunRecord record = whole_run(run.length, 9);  // Z
-    fit.look(line_through(with(spec::morphological::Predictor::kFit), record, run.prediction),
+    const spec::morphological::RunDescriptor descriptor = whole_run(run.length, 9);  // Z
+    fit.look(line_through(with(spec::morphological::Predictor::kFit), descriptor, run.prediction),
              golden::ideal::fitted(run.corners));
-    chord.look(line_through(with(spec::morphological::Predictor::kChord), record, run.prediction),
+    chord.look(line_through(with(spec::morphological::Predictor::kChord), descriptor, run.prediction),
                golden::ideal::chord(run.corners));
   }
   std::cout << "worst error: fit " << fit.single << " / 256, chord " << chord.single << " / 256\n";
@@ -161,9 +161,9 @@ TEST(MorphologicalArea, OfExtendedLinesIsWithinTheBound) {
 
 TEST(MorphologicalArea, AnErrorOfOneShareIsCaught) {
   const std::array<StepCorner, 2> corners = {{{0, 0}, {1, 7}}};
-  spec::morphological::LineRecord line =
+  spec::morphological::LineDescriptor line =
       line_through(with(spec::morphological::Predictor::kNone), whole_run(7, 9), not_extended(7));
-  line.slope += line.slope / 64;  // the planted fault: 1/128 of a pixel at the ends
+  line.slope += line.slope / 64;  // the injected fault: 1/128 of a pixel at the ends
   Worst worst;
   worst.look(line, golden::ideal::fitted(corners));
   EXPECT_GT(worst.single, kBound);

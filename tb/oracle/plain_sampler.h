@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A small texture sampler with an exact level of detail and 8-bit weights, into which faults can be
-// planted: what the filtering criterion must accept without a fault and reject with one.
+// injected: what the filtering criterion must accept without a fault and reject with one.
 //
 // Written for the negative tests of the criterion and for nothing else; it shares no code with the
 // golden model nor with the criterion.

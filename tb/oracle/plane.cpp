@@ -78,11 +78,11 @@ Pixels filter_image(const CoordinateImage& image, const QuadFilter& filter) {
   return pixels;
 }
 
-std::vector<golden::ideal::Rgba> plane_truth(const PlaneView& view,
+std::vector<golden::ideal::Rgba> plane_reference(const PlaneView& view,
                                              const golden::ideal::Texture& texture, int n) {
   golden::ideal::Sampler sampler;
   sampler.min_filter = spec::texture::MinFilter::kLinear;
-  std::vector<golden::ideal::Rgba> truth;
+  std::vector<golden::ideal::Rgba> reference;
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
       golden::ideal::Rgba sum{};
@@ -94,18 +94,18 @@ std::vector<golden::ideal::Rgba> plane_truth(const PlaneView& view,
           for (std::size_t c = 0; c < 4; ++c) sum[c] += colour[c] / (n * n);
         }
       }
-      truth.push_back(sum);
+      reference.push_back(sum);
     }
   }
-  return truth;
+  return reference;
 }
 
-double rms(const Pixels& pixels, const std::vector<golden::ideal::Rgba>& truth) {
-  DEBURR_CHECK(pixels.size() == truth.size() && !truth.empty(), "images differ in size");
+double rms(const Pixels& pixels, const std::vector<golden::ideal::Rgba>& reference) {
+  DEBURR_CHECK(pixels.size() == reference.size() && !reference.empty(), "images differ in size");
   double sum = 0.0;
   for (std::size_t i = 0; i < pixels.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
-      sum += (pixels[i][c] - truth[i][c]) * (pixels[i][c] - truth[i][c]);
+      sum += (pixels[i][c] - reference[i][c]) * (pixels[i][c] - reference[i][c]);
   return std::sqrt(sum / (3.0 * static_cast<double>(pixels.size())));
 }
 

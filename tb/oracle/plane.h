@@ -41,9 +41,9 @@ using Pixels = std::vector<std::array<std::uint8_t, 4>>;  // row-major
 Pixels filter_image(const CoordinateImage& image, const QuadFilter& filter);
 
 // What the plane's pixels show when n x n points of each are averaged over bilinear level 0.
-std::vector<golden::ideal::Rgba> plane_truth(const PlaneView& view,
+std::vector<golden::ideal::Rgba> plane_reference(const PlaneView& view,
                                              const golden::ideal::Texture& texture, int n);
 // Root mean square difference over R, G and B, 8-bit steps.
-double rms(const Pixels& pixels, const std::vector<golden::ideal::Rgba>& truth);
+double rms(const Pixels& pixels, const std::vector<golden::ideal::Rgba>& reference);
 
 }  // namespace deburr::tb::texture

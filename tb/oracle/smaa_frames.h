@@ -10,7 +10,7 @@
 #include "golden/ideal/smaa.h"
 #include "spec/morphological/parameters.h"
 #include "tb/base/random.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tb/stimuli/frames.h"
 
 namespace deburr::tb {

@@ -21,7 +21,7 @@ namespace deburr::tb {
 
 // Of a pixel: an edge at its left and one above it, 255 or 0, as in the shader's target.
 using SmaaEdgeImage = ImageOf<std::array<std::uint8_t, 2>>;
-// Of a pixel: shares of its top edge, second and first pixel, and of its left edge.
+// Of a pixel: weights of its top edge, second and first pixel, and of its left edge.
 using SmaaWeightImage = ImageOf<std::array<float, 4>>;
 
 // What is run. The default is as published.

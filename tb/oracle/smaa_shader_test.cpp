@@ -36,7 +36,7 @@ using golden::ideal::SmaaMargins;
 using golden::ideal::SmaaPixelWeights;
 using golden::ideal::SmaaSettings;
 using golden::ideal::SmaaWeights;
-using golden::morphological::EdgeShares;
+using golden::morphological::EdgeWeights;
 using golden::morphological::MorphologicalGolden;
 using spec::morphological::AreaValues;
 using spec::morphological::Border;
@@ -221,12 +221,12 @@ struct Comparison {
   WeightFigures port, published, preset;
 };
 
-// Shares of an edge by its sides; a target of codes holds one at most.
+// Weights of an edge by its sides; a target of codes holds one at most.
 double difference(const SmaaWeights& a, const SmaaWeights& b) {
   return 255 * std::max(std::abs(std::min(1.0, a.first) - std::min(1.0, b.first)),
                         std::abs(std::min(1.0, a.second) - std::min(1.0, b.second)));
 }
-SmaaWeights weights_of(EdgeShares shares) { return {shares.first / 256.0, shares.second / 256.0}; }
+SmaaWeights weights_of(EdgeWeights weights) { return {weights.first / 256.0, weights.second / 256.0}; }
 SmaaWeights weights_of(const std::array<float, 4>& texel, bool top) {
   return top ? SmaaWeights{texel[1], texel[0]} : SmaaWeights{texel[3], texel[2]};
 }
@@ -287,7 +287,7 @@ class Frame {
     }
     figures.unexplained += off > within;
     const auto golden = [&](const MorphologicalGolden& of) {
-      return difference(shader, weights_of(top ? of.top_shares(x, y) : of.left_shares(x, y)));
+      return difference(shader, weights_of(top ? of.top_weights(x, y) : of.left_weights(x, y)));
     };
     figures.port.add(off);
     figures.published.add(golden(*published_));
@@ -382,7 +382,7 @@ TEST_F(PublishedShader, HasTheseWeightsAtOtherSizesByEveryQuality) {
   expect_weights_at_other_sizes(kSmaaQualities);
 }
 
-// ---- planted faults -----------------------------------------------------------------------------
+// ---- injected faults -----------------------------------------------------------------------------
 
 TEST_F(PublishedShader, IsNotOfAnotherThreshold) {
   const std::vector<Image> frames = smaa_frames();

@@ -37,8 +37,8 @@ enum class ParameterKind : std::uint8_t {
   kRun,           // how it is simulated and checked: nothing of the hardware
   kInput,         // what the engine is given
   kRule,          // pixels
-  kBuild,         // clocks and cost, and no pixel
-  kSurroundings,  // clocks: what is around the engine, such as memory
+  kBuild,         // cycles and cost, and no pixel
+  kSurroundings,  // cycles: what is around the engine, such as memory
 };
 inline constexpr std::array<std::string_view, 5> kParameterKindNames = {"run", "input", "rule",
                                                                         "build", "surroundings"};

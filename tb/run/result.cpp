@@ -185,7 +185,7 @@ std::vector<MemoryBits> memory_bits(std::span<const MemoryFigures> memories,
   return all;
 }
 
-std::vector<std::string> idealised_memories(const Json& result) {
+std::vector<std::string> not_implementable_memories(const Json& result) {
   std::vector<std::string> all;
   const auto found = result.find("idealised");
   if (found == result.end() || !found->is_object()) return all;

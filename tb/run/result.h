@@ -67,7 +67,7 @@ std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
                                           std::string_view output);
 
 struct LatencyBin {
-  std::uint64_t from = 0, count = 0;  // clocks >= from, below the next bin's
+  std::uint64_t from = 0, count = 0;  // cycles >= from, below the next bin's
 };
 
 struct Latency {
@@ -75,7 +75,7 @@ struct Latency {
   std::vector<LatencyBin> histogram;
 };
 
-// Against a picture taken as truth, with the picture that went in beside it; a value that does not
+// Against a picture taken as reference, with the picture that went in beside it; a value that does not
 // exist (no edge pixels) is absent, and one of identical pictures is infinite.
 struct Quality {
   std::string reference;
@@ -89,7 +89,7 @@ struct Quality {
 struct Change {
   static constexpr int kSmall = 2, kLarge = 16;  // codes
   double small_percent = 0, large_percent = 0;
-  std::optional<double> right_small_percent, right_large_percent;  // there was a truth
+  std::optional<double> right_small_percent, right_large_percent;  // there was a reference
   double psnr_db = 0;                                              // to what went in
 };
 
@@ -100,7 +100,7 @@ struct MemoryFigures {
   std::string kind;  // "flops", "sram" or "rom"
   std::uint64_t words = 0, word_bits = 0;
   std::string ports;               // "2R1W"
-  std::uint64_t read_latency = 0;  // clocks
+  std::uint64_t read_latency = 0;  // cycles
   std::string built_as;            // "2 copies of 1R1W, 4 banks"
   std::uint64_t copies = 1, banks = 1;
   std::uint64_t logical_bits = 0, physical_bits = 0;
@@ -108,14 +108,14 @@ struct MemoryFigures {
   // Logical bits for frames of the width that this run had, where the size goes with the width.
   std::uint64_t logical_bits_at_frame_width = 0;
   std::optional<std::uint64_t> high_water;  // most words in a clock, of a FIFO
-  std::string idealised;                    // why no technology offers it; empty: it can be built
+  std::string not_implementable;                    // why no technology offers it; empty: it can be built
 };
 
-// A link or a FIFO: clocks by the number of beats inside, from 0 to its depth.
+// A link or a FIFO: cycles by the number of beats inside, from 0 to its depth.
 struct LinkFigures {
   std::string name, full_name;  // full_name: what waves are chosen by
   std::uint64_t beats = 0;      // in all
-  std::vector<std::uint64_t> clocks;
+  std::vector<std::uint64_t> cycles;
 };
 
 // A map over the picture: its files are map_NAME.png and map_NAME.pfm.
@@ -140,7 +140,7 @@ struct MemoryBits {
 // Of every kind that there is, and the total.
 std::vector<MemoryBits> memory_bits(std::span<const MemoryFigures> memories, const LinkBits& links);
 
-// What a reader looks for first: a value of the result by its key ("work.frame_clocks"), beside
+// What a reader looks for first: a value of the result by its key ("work.frame_cycles"), beside
 // one that it should be compared with; without such a key, against_label is a remark.
 struct Figure {
   std::string label, key;
@@ -194,7 +194,7 @@ struct Result {
   std::optional<Quality> quality;
   std::optional<Change> change;
   double host_seconds = 0, host_cpu_seconds = 0;
-  std::vector<std::string> faults;  // that can be planted; of a model that is described, not run
+  std::vector<std::string> faults;  // that can be injected; of a model that is described, not run
 
   double mcycles_per_s() const {
     return host_seconds > 0 ? static_cast<double>(cycles) / host_seconds / 1e6 : 0;
@@ -210,7 +210,7 @@ struct Result {
 nlohmann::ordered_json to_json(const Result& result);
 
 // "name (why)" of each idealised memory of a result.json.
-std::vector<std::string> idealised_memories(const nlohmann::ordered_json& result);
+std::vector<std::string> not_implementable_memories(const nlohmann::ordered_json& result);
 
 // Reads DIR/result.json (or the file itself) and checks that it is a complete result of this
 // schema: FileError otherwise.

@@ -47,7 +47,7 @@ inline std::vector<PsnrFigure> psnr_figures(const Quality& q) {
   return {
       {"psnr_db", q.psnr_db, "PSNR over the frame; null where quality.identical.psnr_db is true."},
       {"psnr_edge_db", q.psnr_edge_db,
-       "PSNR over edge pixels: truth and unfiltered input differ by more than 2/255."},
+       "PSNR over edge pixels: reference and unfiltered input differ by more than 2/255."},
       {"psnr_silhouette_db", q.psnr_silhouette_db,
        "PSNR over edge pixels with a relative depth step of 5 % to a neighbour."},
       {"psnr_before_db", q.psnr_before_db, kBefore},
@@ -61,7 +61,7 @@ inline std::vector<PsnrFigure> psnr_figures(const Change& change) {
            "change.identical.psnr_db is true."}};
 }
 
-// What follows from the clocks of a link.
+// What follows from the cycles of a link.
 struct LinkOccupancy {
   std::uint64_t depth = 0, occupancy = 0, most = 0;
   double mean = 0, full_percent = 0;
@@ -69,19 +69,19 @@ struct LinkOccupancy {
 
 inline LinkOccupancy occupancy_of(const LinkFigures& link) {
   LinkOccupancy o;
-  if (link.clocks.empty()) return o;
+  if (link.cycles.empty()) return o;
   std::uint64_t all = 0;
-  for (std::size_t beats = 0; beats < link.clocks.size(); ++beats) {
-    all += link.clocks[beats];
-    o.occupancy += beats * link.clocks[beats];
-    if (link.clocks[beats] > 0) o.most = beats;
+  for (std::size_t beats = 0; beats < link.cycles.size(); ++beats) {
+    all += link.cycles[beats];
+    o.occupancy += beats * link.cycles[beats];
+    if (link.cycles[beats] > 0) o.most = beats;
   }
-  const auto over_clocks = [&](std::uint64_t sum) {
+  const auto over_cycles = [&](std::uint64_t sum) {
     return all > 0 ? static_cast<double>(sum) / static_cast<double>(all) : 0.0;
   };
-  o.depth = link.clocks.size() - 1;
-  o.mean = over_clocks(o.occupancy);
-  o.full_percent = 100 * over_clocks(link.clocks.back());
+  o.depth = link.cycles.size() - 1;
+  o.mean = over_cycles(o.occupancy);
+  o.full_percent = 100 * over_cycles(link.cycles.back());
   return o;
 }
 
@@ -115,15 +115,15 @@ void describe(const LinkFigures& link, Visitor& v) {
   const LinkOccupancy o = occupancy_of(link);
   v.value("link", link.full_name, "",
           "Full name of a link or of what is inside a FIFO, to choose waves by. Links are there in "
-          "runs with run.window_cycles.");
+          "runs with run.interval_cycles.");
   v.value("depth", o.depth, "beat", "Beats that it holds.");
   v.value("beats", link.beats, "beat", "Beats that went in.");
   v.value("occupancy", o.occupancy, "beat x clk", "Beats inside at the end of each clock, summed.");
-  v.value("mean", o.mean, "beat", "Occupancy over clocks.");
+  v.value("mean", o.mean, "beat", "Occupancy over cycles.");
   v.value("most", o.most, "beat", "Most beats inside at the end of a clock.");
-  v.value("full_percent", o.full_percent, "%", "Clocks at whose end it was full.");
-  v.value("histogram", link.clocks, "clk",
-          "Clocks by the number of beats inside, from 0 to depth.");
+  v.value("full_percent", o.full_percent, "%", "Cycles at whose end it was full.");
+  v.value("histogram", link.cycles, "clk",
+          "Cycles by the number of beats inside, from 0 to depth.");
 }
 
 template <class Visitor>
@@ -185,8 +185,8 @@ void describe(const Change& c, Visitor& v) {
           "Pixels that differ from what went in by more than 2 codes in R, G or B.");
   v.value("over_16_percent", c.large_percent, "%", "The same by more than 16 codes.");
   v.value("right_over_2_percent", c.right_small_percent, "%",
-          "Of the pixels that were right before, within 2 codes of the truth: those that differ "
-          "from what went in by more than 2 codes; null without a truth.");
+          "Of the pixels that were right before, within 2 codes of the reference: those that differ "
+          "from what went in by more than 2 codes; null without a reference.");
   v.value("right_over_16_percent", c.right_large_percent, "%", "The same by more than 16 codes.");
   const std::vector<PsnrFigure> figures = psnr_figures(c);
   for (const PsnrFigure& psnr : figures) v.value(psnr.name, psnr.finite(), "dB", psnr.meaning);
@@ -282,11 +282,11 @@ void describe(const Result& r, Visitor& v) {
     v.value("logical_at_frame_width", bits.logical_at_frame_width, "bit",
             "Their logical bits for the width of this frame.");
   });
-  std::vector<MemoryFigures> idealised = r.memories;
-  std::erase_if(idealised, [](const MemoryFigures& m) { return m.idealised.empty(); });
-  if (v.has(!idealised.empty()))
-    v.each("idealised", idealised, &MemoryFigures::name, [&](const MemoryFigures& m) {
-      v.item(m.idealised, "",
+  std::vector<MemoryFigures> not_implementable = r.memories;
+  std::erase_if(not_implementable, [](const MemoryFigures& m) { return m.not_implementable.empty(); });
+  if (v.has(!not_implementable.empty()))
+    v.each("idealised", not_implementable, &MemoryFigures::name, [&](const MemoryFigures& m) {
+      v.item(m.not_implementable, "",
              "Why no technology offers this memory. Such a result is of no hardware that can be "
              "built.");
     });

@@ -65,9 +65,9 @@ double mean_squared_error(const Image& a, const Image& b, const Mask& mask) {
                        : static_cast<double>(sum) / (3.0 * static_cast<double>(selected));
 }
 
-double flicker_square(const Image& before, const Image& after, const Image& truth_before,
-                      const Image& truth_after, const Mask& mask) {
-  for (const Image* image : {&after, &truth_before, &truth_after})
+double flicker_square(const Image& before, const Image& after, const Image& reference_before,
+                      const Image& reference_after, const Mask& mask) {
+  for (const Image* image : {&after, &reference_before, &reference_after})
     require_same_size(before, *image);
   require_same_size(before, mask);
   std::int64_t sum = 0, selected = 0;
@@ -75,7 +75,7 @@ double flicker_square(const Image& before, const Image& after, const Image& trut
     if (mask.pixels[i] == 0) continue;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::int64_t error = (after.pixels[i][c] - before.pixels[i][c]) -
-                                 (truth_after.pixels[i][c] - truth_before.pixels[i][c]);
+                                 (reference_after.pixels[i][c] - reference_before.pixels[i][c]);
       sum += error * error;
     }
     ++selected;
@@ -97,14 +97,14 @@ double psnr(const Image& a, const Image& b, const Mask& mask) {
 
 Mask FlickerMeter::everywhere(const Image& image) { return Mask(image.width, image.height, 1); }
 
-void FlickerMeter::add(Image picture, Image truth, Mask drawn) {
+void FlickerMeter::add(Image picture, Image reference, Mask drawn) {
   if (frames_ > 0) {
     require_same_size(drawn, drawn_);
     Mask both = drawn;
     for (std::size_t i = 0; i < both.pixels.size(); ++i)
       both.pixels[i] = drawn.pixels[i] != 0 && drawn_.pixels[i] != 0;
     if (count(both) > 0) {
-      const double square = flicker_square(picture_, picture, truth_, truth, both);
+      const double square = flicker_square(picture_, picture, reference_, reference, both);
       sum_ += square;
       ++pairs_;
       if (std::sqrt(square) > worst_) {
@@ -114,7 +114,7 @@ void FlickerMeter::add(Image picture, Image truth, Mask drawn) {
     }
   }
   picture_ = std::move(picture);
-  truth_ = std::move(truth);
+  reference_ = std::move(reference);
   drawn_ = std::move(drawn);
   ++frames_;
 }
@@ -152,11 +152,11 @@ int max_difference(const Image& a, const Image& b) {
   return largest;
 }
 
-Mask edge_mask(const Image& truth, const Image& input, int threshold) {
-  require_same_size(truth, input);
-  Mask mask(truth.width, truth.height);
+Mask edge_mask(const Image& reference, const Image& input, int threshold) {
+  require_same_size(reference, input);
+  Mask mask(reference.width, reference.height);
   for (std::size_t i = 0; i < mask.pixels.size(); ++i)
-    mask.pixels[i] = largest_difference(truth.pixels[i], input.pixels[i]) > threshold ? 1 : 0;
+    mask.pixels[i] = largest_difference(reference.pixels[i], input.pixels[i]) > threshold ? 1 : 0;
   return mask;
 }
 

@@ -28,10 +28,10 @@ double psnr(const Image& a, const Image& b);
 double psnr(const Image& a, const Image& b, const Mask& mask);
 double psnr_from_mse(double mse);
 
-// Mean square over R, G and B of what two pictures in a row change more or less than their truths
+// Mean square over R, G and B of what two pictures in a row change more or less than their references
 // do, in units of 1/255; NaN: mask is empty.
-double flicker_square(const Image& before, const Image& after, const Image& truth_before,
-                      const Image& truth_after, const Mask& mask);
+double flicker_square(const Image& before, const Image& after, const Image& reference_before,
+                      const Image& reference_after, const Mask& mask);
 
 // The same over frames in a row, one after the other.
 class FlickerMeter {
@@ -39,7 +39,7 @@ class FlickerMeter {
   static Mask everywhere(const Image& image);
   // `drawn`: pixels that count where the frame before drew them too; a pair of frames without any
   // does not count. Sizes must agree.
-  void add(Image picture, Image truth, Mask drawn);
+  void add(Image picture, Image reference, Mask drawn);
   int frames() const { return frames_; }
   int width() const { return picture_.width; }  // of the last frame
   int height() const { return picture_.height; }
@@ -48,7 +48,7 @@ class FlickerMeter {
   int worst_frame() const { return worst_frame_; }  // its second frame
 
  private:
-  Image picture_, truth_;
+  Image picture_, reference_;
   Mask drawn_;
   int frames_ = 0, pairs_ = 0, worst_frame_ = 0;
   double sum_ = 0, worst_ = 0;
@@ -60,8 +60,8 @@ std::int64_t count_different(const Image& a, const Image& b, int tolerance = 0);
 std::int64_t count_different(const Image& a, const Image& b, const Mask& mask, int tolerance = 0);
 int max_difference(const Image& a, const Image& b);
 
-// Edge pixels: truth and unfiltered input differ by more than 2/255 in a channel.
-Mask edge_mask(const Image& truth, const Image& input, int threshold = 2);
+// Edge pixels: reference and unfiltered input differ by more than 2/255 in a channel.
+Mask edge_mask(const Image& reference, const Image& input, int threshold = 2);
 // All others: pixels that were right as they were.
 Mask inverted(const Mask& mask);
 // Those of `mask` that are not of `other`.

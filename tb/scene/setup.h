@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From a mesh and a camera to clipped, snapped screen triangles, and who is in front. Internal to
-// tb/scene: the rasteriser and the truth renderer share it.
+// tb/scene: the rasteriser and the reference renderer share it.
 //
 // Formats: screen positions 24.8 (1/256 of a sample cell), edge functions exact in 64 bits. A
 // position lies within +-kGuardBand cells, so a coordinate has 27 bits, a difference 28 and an edge

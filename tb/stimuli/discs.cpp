@@ -30,9 +30,9 @@ void measure_disc(const Smoothing& smoothing, const Disc& disc, int side, Errors
   const Image result = smoothing(sampled);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      const double truth = disc_coverage(disc, x, y);
-      if (truth <= 0 || truth >= 1) continue;
-      const double error = result.at(x, y)[0] / 255.0 - truth;
+      const double reference = disc_coverage(disc, x, y);
+      if (reference <= 0 || reference >= 1) continue;
+      const double error = result.at(x, y)[0] / 255.0 - reference;
       errors.squares += error * error;
       ++errors.count;
     }

@@ -65,10 +65,10 @@ void measure_line(const Smoothing& smoothing, int n, double slope, double phase,
   for (int x = margin; x < width - margin; ++x) {
     double column = 0;
     for (int y = 0; y < height; ++y) {
-      const double truth = coverage(above, x, y);
-      const double error = result.at(x, y)[0] / 255.0 - truth;
+      const double reference = coverage(above, x, y);
+      const double error = result.at(x, y)[0] / 255.0 - reference;
       column += error;
-      if (truth > 0 && truth < 1) sums.pixels[static_cast<std::size_t>(n)].add(error);
+      if (reference > 0 && reference < 1) sums.pixels[static_cast<std::size_t>(n)].add(error);
     }
     if (n >= 2) {
       sums.columns.add(column);

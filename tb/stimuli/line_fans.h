@@ -52,7 +52,7 @@ struct FanRow {
   spec::morphological::Parameters parameters;
 };
 // none, mlaa, chord N = 1, 2, 4, 8, fit N = 2, 4, deburr-line (N = 8), deburr, fit N = 16;
-// linear_light off, reach_columns 256.
+// linear_light off, search_columns 256.
 std::vector<FanRow> fan_rows();
 Smoothing smoothing_of(const FanRow& row);
 

@@ -35,7 +35,7 @@ inline spec::texture::Parameters paper_rules() {
 inline spec::texture::Parameters random_rules(Random& random) {
   spec::texture::Parameters p;
   p.axes = any_code<spec::texture::Axes>(random, spec::texture::kAxesNames);
-  p.axis_clocks = 1 << random.below(1 + static_cast<std::uint32_t>(p.axes));
+  p.axis_cycles = 1 << random.below(1 + static_cast<std::uint32_t>(p.axes));
   p.srgb_output = any_code<spec::texture::SrgbOutput>(random, spec::texture::kSrgbOutputNames);
   p.footprint = any_code<spec::texture::FootprintRule>(random, spec::texture::kFootprintNames);
   p.log2 = any_code<spec::texture::Log2Rule>(random, spec::texture::kLog2Names);

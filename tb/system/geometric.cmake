@@ -9,5 +9,5 @@ foreach(suite system stress coverage)
               SOURCE geometric_${suite}_test.cpp
               LINK deburr::geometric_environment TIMEOUT 300)
 endforeach()
-deburr_script_test(geometric_clocks ARGUMENTS $<TARGET_FILE:geometric_rtl_bench>)
+deburr_script_test(geometric_cycles ARGUMENTS $<TARGET_FILE:geometric_rtl_bench>)
 add_dependencies(deburr_system_tests geometric_rtl_bench)

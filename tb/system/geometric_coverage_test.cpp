@@ -159,7 +159,7 @@ void run_frames(Coverage& coverage) {
             seed % 5 < 2 ? spec::geometric::CoarseLines::kNone : spec::geometric::CoarseLines::k4;
         options.memory.latency = 3 + static_cast<int>(number * 7 % 50);
         options.memory.latency_max = number % 3 == 0 ? 150 : 0;
-        options.memory.bytes_per_clock = number % 2 == 0 ? 64 : 16;
+        options.memory.bytes_per_cycle = number % 2 == 0 ? 64 : 16;
         options.stall_permille = number % 3 == 1 ? 250 : 0;
         add_text(coverage, run({random_frame(70, 50, seed)}, options));
         ++number;
@@ -195,7 +195,7 @@ void run_errors(Coverage& coverage) {
 }
 
 // A start with one value that the engine does not take.
-void run_refusals(Coverage& coverage) {
+void run_rejections(Coverage& coverage) {
   struct Row {
     std::uint32_t offset, value;
   };
@@ -218,8 +218,8 @@ void run_refusals(Coverage& coverage) {
                  environment.host().write(reg::kControl, reg::kControlEnable | reg::kControlStart);
                simulation.clock().run(2);
                return fmt::format(
-                   "geometric/refusal/{} 1",
-                   spec::geometric::kRefusalNames.at(environment.host().read(reg::kRefusal)));
+                   "geometric/rejection/{} 1",
+                   spec::geometric::kRejectionNames.at(environment.host().read(reg::kRejection)));
              }));
 }
 
@@ -227,7 +227,7 @@ TEST(GeometricCoverage, EveryBinIsHit) {
   Coverage coverage = declared();
   run_frames(coverage);
   run_errors(coverage);
-  run_refusals(coverage);
+  run_rejections(coverage);
   EXPECT_GT(coverage.size(), 150u);
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
@@ -239,7 +239,7 @@ TEST(GeometricCoverage, HolesAreListed) {
   const std::vector<std::string> holes = coverage.holes();
   const std::set<std::string> empty(holes.begin(), holes.end());
   for (const char* const bin :
-       {"geometric/group-lines/raster/8", "geometric/lines/raster/10", "geometric/refusal/width",
+       {"geometric/group-lines/raster/8", "geometric/lines/raster/10", "geometric/rejection/width",
         "geometric/error/copy", "geometric/block/replaced", "geometric/stall/line_setup/divider",
         "geometric/class/all/off/unclassified", "geometric/line/left-up/below-pixel"})
     EXPECT_TRUE(empty.contains(bin)) << bin;

@@ -77,7 +77,7 @@ inline Parameters preset(Preset which) { return golden::geometric::preset_parame
 
 // What a run leaves behind that is worth comparing with another run.
 struct GeometricOutcome {
-  std::uint64_t cycles = 0, edge_clocks = 0, resolve_clocks = 0, hash = 0, activations = 0;
+  std::uint64_t cycles = 0, edge_cycles = 0, resolve_cycles = 0, hash = 0, activations = 0;
   std::uint64_t lines = 0, candidates = 0, blended = 0, spilled = 0;
   std::uint64_t comparisons = 0, mismatches = 0, traffic_comparisons = 0, traffic_mismatches = 0;
 };

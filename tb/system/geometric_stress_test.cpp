@@ -60,7 +60,7 @@ TEST_P(GeometricStress, NothingOutsideChangesThePicture) {
     });
   }
   expect_same("little bandwidth", [](GeometricRunOptions& o) {
-    o.memory.bytes_per_clock = 8;
+    o.memory.bytes_per_cycle = 8;
     o.memory.outstanding = 2;
   });
   const GeometricOutcome shuffled =
@@ -109,7 +109,7 @@ TEST_P(GeometricStress, ARunThatIsResetBeginsAgain) {
 // A narrow bus still carries writes of before the reset when their latency is long over.
 TEST_P(GeometricStress, NothingThatWasWrittenBeforeAResetSpoilsTheFrame) {
   GeometricRunOptions options = calm();
-  options.memory.bytes_per_clock = 4;
+  options.memory.bytes_per_cycle = 4;
   options.memory.outstanding = 96;
   const GeometricOutcome quiet = run(options);
   constexpr rtl::Cycle kParts = 16;

@@ -168,7 +168,7 @@ struct Rule {
   const char* name;
   void (*set)(Parameters&);
 };
-constexpr Rule kRules[] = {
+constexpr Rule kConfiguration[] = {
     {"none", [](Parameters&) {}},
     {"outermost", [](Parameters& p) { p.combine = spec::geometric::Combine::kOutermost; }},
     {"area", [](Parameters& p) { p.coverage = spec::geometric::CoverageRule::kArea; }},
@@ -193,7 +193,7 @@ TEST_P(RuledFrame, IsIdenticalToGoldenInAnyOrderOfEdges) {
       p.coverage = spec::geometric::CoverageRule::kDistance;
       p.crease_depth = 0;
       p.cull = spec::geometric::Cull::kBack;
-      kRules[rule].set(p);
+      kConfiguration[rule].set(p);
       options.memory.latency = 30;
       options.memory.latency_max = 90;
       options.stall_permille = shuffle != 0 ? 100 : 0;
@@ -210,10 +210,10 @@ TEST_P(RuledFrame, IsIdenticalToGoldenInAnyOrderOfEdges) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Geometric, RuledFrame,
-                         testing::Combine(testing::Range(std::size_t{0}, std::size(kRules)),
+                         testing::Combine(testing::Range(std::size_t{0}, std::size(kConfiguration)),
                                           testing::Values("wheelcover", "object", "terrain")),
                          [](const auto& row) {
-                           return fmt::format("{}_{}", kRules[std::get<0>(row.param)].name,
+                           return fmt::format("{}_{}", kConfiguration[std::get<0>(row.param)].name,
                                               std::get<1>(row.param));
                          });
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Of the presets two have full frames of 1080 lines every time, all of them those of 720.
 set(LONG_system "Morphological/RenderedFrame[.].*/(mlaa_1|mlaa_slope_3|smaa_dynamic_7|deburr_line_9)")
-foreach(suite system stress coverage records shares)
+foreach(suite system stress coverage records weights)
   if(suite STREQUAL stress)
     set(label stress)
   elseif(suite STREQUAL records)

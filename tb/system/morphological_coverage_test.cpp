@@ -77,7 +77,7 @@ spec::morphological::Parameters wide() {
 spec::morphological::Parameters narrow() {
   spec::morphological::Parameters p = preset(Preset::kMlaaSlope);
   p.window_rows = 50;
-  p.reach_columns = 24;
+  p.search_columns = 24;
   p.line_pixels = 512;
   return p;
 }
@@ -89,8 +89,8 @@ constexpr std::string_view kRuns[] = {"shape",          "long-end", "prediction"
 constexpr std::string_view kSmaa[] = {
     "table",    "table-entry",   "search",          "endless",         "corner",
     "diagonal", "diagonal-ends", "diagonal-length", "diagonal-beyond", "threshold"};
-constexpr std::string_view kLeave[] = {"left", "leave-border", "half"};
-constexpr std::string_view kShares[] = {"class"};
+constexpr std::string_view kBypass[] = {"left", "leave-border", "half"};
+constexpr std::string_view kWeights[] = {"class"};
 constexpr std::string_view kText[] = {"text", "text-border"};
 
 Coverage part_of(const Coverage& all, Groups groups) {
@@ -154,7 +154,7 @@ void run(Coverage& coverage, const spec::morphological::Parameters& parameters,
 TEST(MorphologicalCoverage, EveryBinIsInOneOfTheParts) {
   std::size_t bins = 0;
   for (const Groups groups :
-       {Groups(kRuns), Groups(kSmaa), Groups(kLeave), Groups(kShares), Groups(kText)})
+       {Groups(kRuns), Groups(kSmaa), Groups(kBypass), Groups(kWeights), Groups(kText)})
     bins += part_of(declared(), groups).size();
   EXPECT_EQ(bins, declared().size());
 }
@@ -214,7 +214,7 @@ std::vector<SmaaCase> smaa_cases() {
   // Far enough for the last entries of the table.
   spec::morphological::Parameters far = preset(Preset::kSmaa);
   far.search_steps = 112;
-  far.reach_columns = 1000;
+  far.search_columns = 1000;
   add_case("far", far);
   return cases;
 }
@@ -271,7 +271,7 @@ TEST(SmaaCoverage, EveryBinIsHit) {
 
 // ---- marks --------------------------------------------------------------------------------------
 
-// Marks at random, of pixels at the borders too. Lines have the smallest shares.
+// Marks at random, of pixels at the borders too. Lines have the smallest weights.
 std::vector<MorphologicalInput> marked_frames() {
   Random random(13);
   std::vector<MorphologicalInput> frames;
@@ -285,24 +285,24 @@ std::vector<MorphologicalInput> marked_frames() {
   return frames;
 }
 
-TEST(LeaveCoverage, EveryBinIsHit) {
-  using spec::morphological::Leave;
+TEST(BypassCoverage, EveryBinIsHit) {
+  using spec::morphological::Bypass;
   Coverage all = declared();
-  for (const Leave leave : {Leave::kMarked, Leave::kBeside, Leave::kHalf}) {
+  for (const Bypass leave : {Bypass::kMarked, Bypass::kBeside, Bypass::kHalf}) {
     spec::morphological::Parameters p = preset(Preset::kDeburrLine);
     p.line_pixels = 512;
     p.leave = leave;
     run(all, p, marked_frames());
   }
-  const Coverage coverage = part_of(all, kLeave);
+  const Coverage coverage = part_of(all, kBypass);
   EXPECT_EQ(coverage.size(), 2u + 6 + 4 * 2 + 5);
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
 
-TEST(LeaveCoverage, WithoutTheRuleNothingIsHit) {
+TEST(BypassCoverage, WithoutTheRuleNothingIsHit) {
   Coverage all = declared();
   run(all, narrow(), marked_frames());
-  const Coverage coverage = part_of(all, kLeave);
+  const Coverage coverage = part_of(all, kBypass);
   EXPECT_EQ(coverage.holes().size(), coverage.size());
 }
 
@@ -329,7 +329,7 @@ TEST(TextCoverage, EveryBinIsHit) {
   Coverage all = declared();
   spec::morphological::Parameters p = preset(Preset::kDeburr);
   p.line_pixels = 512;
-  p.leave = spec::morphological::Leave::kMarked;
+  p.leave = spec::morphological::Bypass::kMarked;
   p.text_guard = true;
   run(all, p, frames);
   const Coverage coverage = part_of(all, kText);
@@ -344,9 +344,9 @@ TEST(TextCoverage, WithoutTheGuardNothingIsHit) {
   EXPECT_EQ(coverage.holes().size(), coverage.size());
 }
 
-// ---- learned shares -----------------------------------------------------------------------------
+// ---- learned weights -----------------------------------------------------------------------------
 
-TEST(SharesCoverage, EveryClassIsMet) {
+TEST(WeightsCoverage, EveryClassIsMet) {
   Coverage all = declared();
   Random random(17);
   std::vector<MorphologicalInput> frames;
@@ -358,7 +358,7 @@ TEST(SharesCoverage, EveryClassIsMet) {
   spec::morphological::Parameters p = preset(Preset::kDeburr);
   p.line_pixels = 512;
   run(all, p, frames);
-  const Coverage coverage = part_of(all, kShares);
+  const Coverage coverage = part_of(all, kWeights);
   EXPECT_EQ(coverage.size(), 2u * 2 * 9);
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }

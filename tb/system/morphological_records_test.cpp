@@ -53,7 +53,7 @@ TEST(Records, WithoutAFaultPass) {
   EXPECT_EQ(j.mismatches, 0u);
 }
 
-// Steps that were kept move no share: pixels stay perfect.
+// Steps that were kept move no weight: pixels stay perfect.
 TEST(Records, OnlyTheLineScoreboardFindsTheStepsOfALine) {
   const Checked j = checked("flip:morphological.lines_h0:5:line.left_steps.0");
   EXPECT_THAT(j.checks, ElementsAre("lines"));

@@ -14,7 +14,7 @@
 #include "tb/engines/morphological/morphological_environment.h"
 #include "tb/engines/morphological/morphological_frames.h"
 #include "tb/scene/scenes.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 
 namespace deburr::tb::morphological_system {
 
@@ -123,7 +123,7 @@ inline MorphologicalInput rendered(const std::string& scene, int width, int heig
   p.source = scene;
   p.width = width;
   p.height = height;
-  p.truth_samples = 0;
+  p.reference_samples = 0;
   return load_frame(p, 1).input;
 }
 
@@ -140,7 +140,7 @@ inline Parameters preset(Preset which,
 
 // What a run leaves behind that is worth comparing with another run.
 struct MorphologicalOutcome {
-  std::uint64_t cycles = 0, frame_clocks = 0, input_clocks = 0, hash = 0, pixels = 0,
+  std::uint64_t cycles = 0, frame_cycles = 0, input_cycles = 0, hash = 0, pixels = 0,
                 activations = 0;
   std::uint64_t record_stalls = 0, edge_pixels = 0, latency_min = 0, latency_max = 0;
   std::uint64_t comparisons = 0, mismatches = 0, traffic_comparisons = 0, traffic_mismatches = 0;
@@ -164,7 +164,7 @@ inline MorphologicalOutcome simulate(const std::vector<MorphologicalInput>& fram
   const auto& engine = environment.engine();
   return {simulation.cycles(),
           engine.sequencer.frame_cycles.value(),
-          environment.input_clocks(),
+          environment.input_cycles(),
           environment.pixel_hash(),
           environment.delivered_in_all(),
           simulation.activations(),

@@ -118,7 +118,7 @@ TEST(MorphologicalMemory, RandomLatencyBanksAndNarrowBusChangeNoData) {
     options.memory.banks = 4;
     options.memory.bank_busy = 6;
     options.memory.outstanding = 8;
-    options.memory.bytes_per_clock = 16;
+    options.memory.bytes_per_cycle = 16;
     options.stall_permille = 100;
     options.poison = true;
     options.shuffle = true;

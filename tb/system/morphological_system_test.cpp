@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Whole frames through the hardware model of the morphological engine: every pixel, tap, run, line,
-// counter and memory line equal to the golden model, for every preset, and the clocks that
+// counter and memory line equal to the golden model, for every preset, and the cycles that
 // docs/reference/morphological/throughput.md promises.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -65,8 +65,8 @@ TEST_P(RenderedFrame, IsIdenticalToGolden) {
   const Frames frames = {rendered("road", size.first, size.second)};
   const MorphologicalOutcome outcome = expect_identical(frames, options);
   // Not one stall: the frame takes what the formula says, and every pixel the same time.
-  EXPECT_EQ(outcome.frame_clocks,
-            frame_clocks_by_formula(options.morphological, size.first, size.second));
+  EXPECT_EQ(outcome.frame_cycles,
+            frame_cycles_by_formula(options.morphological, size.first, size.second));
   EXPECT_EQ(outcome.latency_min, latency_by_formula(options.morphological, size.first));
   EXPECT_EQ(outcome.latency_max, outcome.latency_min);
   EXPECT_GT(outcome.edge_pixels, outcome.pixels / 1000);
@@ -105,10 +105,10 @@ TEST(Morphological, TheHashIsOfEveryChannelAndTapOfEveryPixel) {
 
 TEST(Morphological, FullHdAt60FramesFitsIn148MHz) {
   const Parameters p;
-  EXPECT_EQ(frame_clocks_by_formula(p, 1920, 1080), 2144663u);
-  EXPECT_LT(60e-6 * static_cast<double>(frame_clocks_by_formula(p, 1920, 1080)), 148.5);
+  EXPECT_EQ(frame_cycles_by_formula(p, 1920, 1080), 2144663u);
+  EXPECT_LT(60e-6 * static_cast<double>(frame_cycles_by_formula(p, 1920, 1080)), 148.5);
   const Parameters four = preset(Preset::kDeburr, spec::morphological::Lanes::kFour);
-  EXPECT_LT(60e-6 * static_cast<double>(frame_clocks_by_formula(four, 3840, 2160)), 148.5);
+  EXPECT_LT(60e-6 * static_cast<double>(frame_cycles_by_formula(four, 3840, 2160)), 148.5);
 }
 
 // ---- frames that others rendered ----------------------------------------------------------------
@@ -235,7 +235,7 @@ TEST_P(EveryRule, IsIdenticalToGolden) {
   p.safe = line >= 3;
   p.linear_light = line != 2;
   p.window_rows = line == 1 ? 10 : 2 * p.steps + 4 + (line == 5 ? 200 : 30);
-  p.reach_columns = line == 1 ? 4 : 60 + 100 * line;
+  p.search_columns = line == 1 ? 4 : 60 + 100 * line;
   p.line_pixels = 400;
   options.records = true;
   if (p.window_rows > 258) p.window_rows = 258;
@@ -302,10 +302,10 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
   p.steps = below(9);
   p.window_rows =
       2 * (std::max({p.steps + 1, p.diagonals ? p.diagonal_steps : 0, 4}) + 1) + 2 * below(12);
-  p.reach_columns = 4 + below(80);
+  p.search_columns = 4 + below(80);
   p.line_pixels = 400;
   p.storage = static_cast<spec::morphological::Storage>(below(2));
-  p.leave = static_cast<spec::morphological::Leave>(below(5));
+  p.leave = static_cast<spec::morphological::Bypass>(below(5));
   if (p.edge_source == spec::morphological::EdgeSource::kColour)
     p.threshold_mode = spec::morphological::ThresholdMode::kFixed;
   if (p.area == spec::morphological::AreaSource::kLearned) p.diagonals = p.round_corners = false;
@@ -327,7 +327,7 @@ INSTANTIATE_TEST_SUITE_P(Morphological, EveryMix, testing::Range(0, 60));
 
 // ---- pixels that another engine marked ----------------------------------------------------------
 
-using Marks = std::tuple<Preset, spec::morphological::Lanes, spec::morphological::Leave>;
+using Marks = std::tuple<Preset, spec::morphological::Lanes, spec::morphological::Bypass>;
 class MarkedFrames : public testing::TestWithParam<Marks> {};
 
 // Marks at random, as lines of them, and at the borders.
@@ -351,7 +351,7 @@ TEST_P(MarkedFrames, AreIdenticalToGolden) {
   p = preset(which, lanes);
   p.leave = leave;
   p.line_pixels = 512;
-  if (leave == spec::morphological::Leave::kBeside)
+  if (leave == spec::morphological::Bypass::kBeside)
     p.storage = spec::morphological::Storage::kMemory;
   options.records = true;
   expect_identical({marked(blocks(133, 90, 5), 1), marked(fans(15, 2), 2), marked(noise(67, 50), 3),
@@ -364,10 +364,10 @@ INSTANTIATE_TEST_SUITE_P(Morphological, MarkedFrames,
                                           testing::Values(spec::morphological::Lanes::kOne,
                                                           spec::morphological::Lanes::kTwo,
                                                           spec::morphological::Lanes::kFour),
-                                          testing::Values(spec::morphological::Leave::kMarked,
-                                                          spec::morphological::Leave::kBeside,
-                                                          spec::morphological::Leave::kHalf,
-                                                          spec::morphological::Leave::kMasked)),
+                                          testing::Values(spec::morphological::Bypass::kMarked,
+                                                          spec::morphological::Bypass::kBeside,
+                                                          spec::morphological::Bypass::kHalf,
+                                                          spec::morphological::Bypass::kMasked)),
                          name_of<Marks>);
 
 TEST(Morphological, AddressesBeginAtPixelBase) {
@@ -397,7 +397,7 @@ TEST_P(LateRecords, SeeTheRowsThatTheyWereFoundIn) {
   p = preset(GetParam().preset, GetParam().lanes);
   p.contiguous = GetParam().contiguous;
   p.window_rows = 10;
-  p.reach_columns = 64;
+  p.search_columns = 64;
   p.steps = 3;
   p.predictor_units = 1;
   p.record_fifo = 4096;
@@ -438,10 +438,10 @@ TEST_P(Throughput, IsSustainedWithAFifthOfThePixelsOnEdges) {
   EXPECT_LE(outcome.edge_pixels * 5, outcome.pixels);
   EXPECT_GE(outcome.edge_pixels * 1000, outcome.pixels * 198);
   EXPECT_EQ(
-      outcome.input_clocks,
+      outcome.input_cycles,
       platform::beats_a_row(640, spec::morphological::kLaneCount[static_cast<std::size_t>(lanes)]) *
           120);
-  EXPECT_EQ(outcome.frame_clocks, frame_clocks_by_formula(options.morphological, 640, 120));
+  EXPECT_EQ(outcome.frame_cycles, frame_cycles_by_formula(options.morphological, 640, 120));
   EXPECT_EQ(outcome.record_stalls, 0u);
 }
 
@@ -454,7 +454,7 @@ TEST_P(Throughput, PressesBackWithEveryPixelOnEdges) {
   options.morphological.predictor_units = 1;
   options.morphological.divider_interval = 4;
   const MorphologicalOutcome outcome = expect_identical({noise(400, 60)}, options);
-  EXPECT_GT(outcome.frame_clocks, frame_clocks_by_formula(options.morphological, 400, 60));
+  EXPECT_GT(outcome.frame_cycles, frame_cycles_by_formula(options.morphological, 400, 60));
   EXPECT_GT(outcome.record_stalls, 0u);
 }
 
@@ -478,17 +478,17 @@ TEST_P(Clustered, DiagonalsWithinTheBoundAreSustainedAFifthOfARowWaits) {
     return forked<MorphologicalOutcome>(
         [&] { return simulate({clustered(1920, 16, first, columns)}, options); });
   };
-  const std::uint64_t formula = frame_clocks_by_formula(options.morphological, 1920, 16);
+  const std::uint64_t formula = frame_cycles_by_formula(options.morphological, 1920, 16);
   for (const int first : {0, 601, 1920 * 3 / 5}) {
     const MorphologicalOutcome within = run(first, 200);  // 100 records an axis and row
     EXPECT_EQ(within.mismatches, 0u);
     EXPECT_EQ(within.record_stalls, 0u);
-    EXPECT_EQ(within.frame_clocks, formula);
+    EXPECT_EQ(within.frame_cycles, formula);
     const MorphologicalOutcome fifth = run(first, 1920 * 2 / 5 - 4);
     EXPECT_EQ(fifth.mismatches, 0u);
     EXPECT_GE(fifth.edge_pixels * 1000, fifth.pixels * 195);
     EXPECT_GT(fifth.record_stalls, 0u);
-    EXPECT_EQ(fifth.frame_clocks, formula + fifth.record_stalls);
+    EXPECT_EQ(fifth.frame_cycles, formula + fifth.record_stalls);
   }
 }
 INSTANTIATE_TEST_SUITE_P(
@@ -504,14 +504,14 @@ INSTANTIATE_TEST_SUITE_P(
 // ----------------------------------------------------------------------------
 
 // The sizing rule of docs/reference/morphological/throughput.md: so many lines in flight each way
-// keep up with a memory of 100 clocks, one less does not.
+// keep up with a memory of 100 cycles, one less does not.
 struct Sizing {
   spec::morphological::Lanes lanes;
   int lines;
 };
 class FrameMemory : public testing::TestWithParam<Sizing> {
  protected:
-  // Clocks above the formula.
+  // Cycles above the formula.
   static std::uint64_t lost(spec::morphological::Lanes lanes, int lines) {
     const Frames frames = {flat(1280, 48, 90)};
     MorphologicalRunOptions options;
@@ -519,7 +519,7 @@ class FrameMemory : public testing::TestWithParam<Sizing> {
     options.morphological.storage = spec::morphological::Storage::kMemory;
     if (lines > 0) options.morphological.memory_outstanding = lines;
     const MorphologicalOutcome outcome = expect_identical(frames, options);
-    return outcome.frame_clocks - frame_clocks_by_formula(options.morphological, 1280, 48);
+    return outcome.frame_cycles - frame_cycles_by_formula(options.morphological, 1280, 48);
   }
 };
 

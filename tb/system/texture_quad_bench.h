@@ -51,7 +51,7 @@ class QuadBench {
             platform::MemoryModelParameters memory = {}, const BenchOptions& options = {},
             const rtl::texture::TextureUnit::StandIns& stand_ins = {})
       : input_(input),
-        unit_("texture", clock_, parameters, memory_clocks(memory), stand_ins),
+        unit_("texture", clock_, parameters, memory_cycles(memory), stand_ins),
         memory_("memory", clock_.period(), sized(memory, input)),
         parameters_(parameters) {
     driver_.beats_out(quads_);
@@ -79,7 +79,7 @@ class QuadBench {
   }
   // Sends the same quads once more, without a reset.
   void repeat() { driver_.send(input_.quads); }
-  // The first `cycles` clocks of a run.
+  // The first `cycles` cycles of a run.
   void run_for(rtl::Cycle cycles) { clock_.run(cycles); }
   // From now on expects other parameters than were built.
   void order(const spec::texture::Parameters& parameters) { parameters_ = parameters; }
@@ -130,7 +130,7 @@ class QuadBench {
 
   rtl::texture::TextureUnit& unit() { return unit_; }
 
-  static rtl::MemoryClocks memory_clocks(const platform::MemoryModelParameters& memory) {
+  static rtl::MemoryCycles memory_cycles(const platform::MemoryModelParameters& memory) {
     return {static_cast<std::int32_t>(std::max(memory.latency_min, memory.latency_max)), 1};
   }
 

@@ -42,7 +42,7 @@ QuadInput random_input(Random& random) {
 }
 
 spec::texture::Parameters random_parameters(Random& random) {
-  spec::texture::Parameters p = stimuli::random_rules(random);
+  spec::texture::Parameters p = stimuli::random_configuration(random);
   p.cache_line_bytes = any_of(random, std::array{32, 64, 128});
   p.cache_ways = any_of(random, std::array{1, 2, 4, 8});
   p.cache_bytes = any_of(random, std::array{1024, 4096, 16384});
@@ -58,7 +58,7 @@ platform::MemoryModelParameters random_memory(Random& random) {
   m.latency_min = 1 + random.below(60);
   m.latency_max = m.latency_min + (random.chance(500) ? 0 : random.below(200));
   m.seed = random.next();
-  m.bytes_per_clock = any_of(random, std::array{0u, 16u, 64u});
+  m.bytes_per_cycle = any_of(random, std::array{0u, 16u, 64u});
   m.banks = any_of(random, std::array{1u, 4u});
   m.bank_busy = random.below(8);
   m.outstanding = any_of(random, std::array{4u, 64u, 256u});
@@ -98,7 +98,7 @@ TEST_P(RandomQuads, AreIdenticalToGolden) {
 
 INSTANTIATE_TEST_SUITE_P(Texture, RandomQuads, testing::Range<std::uint64_t>(1, 37));
 
-// Planted: what the golden model is told differs from what the hardware gets.
+// Injected: what the golden model is told differs from what the hardware gets.
 enum class Wrong { kNothing, kByte, kBias, kWrap, kBase, kInvalid, kCoverage };
 constexpr std::array kWrongNames = {"nothing", "byte",    "bias",    "wrap",
                                     "base",    "invalid", "coverage"};

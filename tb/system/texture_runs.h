@@ -12,7 +12,7 @@
 #include "golden/texture/texture_golden.h"
 #include "tb/engines/texture/texture_environment.h"
 #include "tb/engines/texture/texture_scene.h"
-#include "tb/engines/texture/texture_twins.h"
+#include "tb/engines/texture/texture_counterparts.h"
 #include "tb/stimuli/texture_quads.h"
 
 namespace deburr::tb {
@@ -38,31 +38,31 @@ struct TextureRunOptions : SimulationOptions, TextureSetup {};
 // By the paper's rules.
 inline TextureRunOptions paper_options() {
   TextureRunOptions options;
-  options.texture = stimuli::paper_rules();
+  options.texture = stimuli::paper_configuration();
   return options;
 }
 
 // The suites run a second time with units of hdl/ in their places, where the build has their
-// configuration (tb/hdl/suites_with_twins_test.cpp).
-inline bool& twins_do_the_work() {
+// configuration (tb/hdl/suites_with_counterparts_test.cpp).
+inline bool& counterparts_do_the_work() {
   static bool they_do = false;
   return they_do;
 }
 inline rtl::texture::TextureUnit::StandIns stand_ins_of_suite(
-    const spec::texture::Parameters& parameters, const rtl::MemoryClocks& memory,
+    const spec::texture::Parameters& parameters, const rtl::MemoryCycles& memory,
     std::uint64_t seed) {
-  if (!twins_do_the_work()) return {};
-  return texture_twins_there_are(as_built(parameters, memory), seed);
+  if (!counterparts_do_the_work()) return {};
+  return texture_counterparts_there_are(as_built(parameters, memory), seed);
 }
 // Units of the suite that runs which may stay SystemC, since the build has not all of its
 // configurations.
 inline std::vector<std::string> (*not_all_built)() = nullptr;
 // After a run: throws where a unit in SystemVerilog should have taken part and moved no beat.
-inline void expect_twins_of_suite(const rtl::texture::TextureUnit& unit) {
-  if (!twins_do_the_work()) return;
+inline void expect_counterparts_of_suite(const rtl::texture::TextureUnit& unit) {
+  if (!counterparts_do_the_work()) return;
   const std::vector<std::string> may_be =
       not_all_built ? not_all_built() : std::vector<std::string>();
-  for (const std::string& idle : idle_twins(unit))
+  for (const std::string& idle : idle_counterparts(unit))
     if (std::find(may_be.begin(), may_be.end(), idle) == may_be.end())
       throw std::runtime_error("the unit " + idle + " in SystemVerilog has moved no beat");
 }
@@ -70,7 +70,7 @@ inline void expect_twins_of_suite(const rtl::texture::TextureUnit& unit) {
 // Simulates and checks: throws what Simulation::run() throws, and a Mismatch.
 inline TextureOutcome simulate(const SceneParameters& scene, const SamplerParameters& sampler,
                                TextureRunOptions options) {
-  options.stand_ins = stand_ins_of_suite(options.texture, memory_clocks(options), options.seed);
+  options.stand_ins = stand_ins_of_suite(options.texture, memory_cycles(options), options.seed);
   constexpr std::uint32_t kTextureSeed =
       1;  // the options' seed is for the weather, not the picture
   const TextureScene built(scene, sampler, kTextureSeed);
@@ -80,9 +80,9 @@ inline TextureOutcome simulate(const SceneParameters& scene, const SamplerParame
   try {
     simulation.run();
     environment.check();
-    expect_twins_of_suite(environment.unit());
+    expect_counterparts_of_suite(environment.unit());
   } catch (...) {
-    if (twins_do_the_work())
+    if (counterparts_do_the_work())
       std::cerr << "seed of the run and of the units in SystemVerilog: " << options.seed << "\n";
     throw;
   }

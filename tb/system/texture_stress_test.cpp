@@ -78,10 +78,10 @@ TEST_P(EveryModeInAStorm, IsIdenticalToGolden) {
   options.memory.bank_busy = 5;
   // The paper's rules and the project's own in turn, directions in time and encoded output too.
   if ((mode + lb_n) % 2 == 0) {
-    options.texture = stimuli::paper_rules();
+    options.texture = stimuli::paper_configuration();
   } else {
     options.texture.axes = spec::texture::Axes::kEight;
-    options.texture.axis_clocks = 1 << lb_n % 3;
+    options.texture.axis_cycles = 1 << lb_n % 3;
     options.texture.srgb_output = spec::texture::SrgbOutput::kEncoded;
     sampler.format = spec::texture::Format::kSrgb8A8;
   }
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
 class FrameReset : public testing::TestWithParam<std::tuple<const char*, int>> {};
 
 // However far the frame had come, afterwards the same frame is as if nothing had been: colours,
-// fills, status registers; and every counter and the number of clocks too, once what memory still
+// fills, status registers; and every counter and the number of cycles too, once what memory still
 // answers to the frame that was broken off is over.
 TEST_P(FrameReset, LeavesNothing) {
   const auto [source, stall_permille] = GetParam();
@@ -129,11 +129,11 @@ TEST_P(FrameReset, LeavesNothing) {
   options.stall_permille = static_cast<std::uint32_t>(stall_permille);
   options.poison = true;
   QuadBench bench(input, parameters, memory, options,
-                  stand_ins_of_suite(parameters, QuadBench::memory_clocks(memory), options.seed));
+                  stand_ins_of_suite(parameters, QuadBench::memory_cycles(memory), options.seed));
   bench.reset();
   const QuadOutcome fresh = bench.run();
   EXPECT_EQ(bench.check(input, fresh), "");
-  expect_twins_of_suite(bench.unit());
+  expect_counterparts_of_suite(bench.unit());
   ASSERT_GT(fresh.colours.size(), 1000u);
 
   constexpr rtl::Cycle kShort = 4, kDrained = 400;
@@ -163,19 +163,19 @@ INSTANTIATE_TEST_SUITE_P(TextureStress, FrameReset,
                                               std::get<1>(p.param) ? "stalled" : "calm");
                          });
 
-// Planted: no reset between two frames. The cache is warm and the counters go on, and both show.
+// Injected: no reset between two frames. The cache is warm and the counters go on, and both show.
 TEST(FrameReset, IsMissedWhenThereIsNone) {
   const TextureScene scene(picture("plane", 64), {}, 1);
   const QuadInput input = {scene.memory().descriptors(), scene.memory().bytes(),
                            scene.stream().quads};
   // By rules whose lines fit into the cache.
-  const spec::texture::Parameters paper = stimuli::paper_rules();
+  const spec::texture::Parameters paper = stimuli::paper_configuration();
   QuadBench bench(input, paper, {}, {},
-                  stand_ins_of_suite(paper, QuadBench::memory_clocks({}), BenchOptions{}.seed));
+                  stand_ins_of_suite(paper, QuadBench::memory_cycles({}), BenchOptions{}.seed));
   bench.reset();
   const QuadOutcome fresh = bench.run();
   EXPECT_EQ(bench.check(input, fresh), "");
-  expect_twins_of_suite(bench.unit());
+  expect_counterparts_of_suite(bench.unit());
   bench.repeat();
   QuadOutcome again = bench.run();
   EXPECT_NE(bench.check(input, again), "");
@@ -249,7 +249,7 @@ TEST(TextureStress, RandomMemoryLatencyChangesNoData) {
     options.memory.banks = 4;
     options.memory.bank_busy = 6;
     options.memory.outstanding = 16;
-    options.memory.bytes_per_clock = 16;
+    options.memory.bytes_per_cycle = 16;
     options.stall_permille = 100;
     options.poison = true;
     options.shuffle = true;
@@ -276,9 +276,9 @@ class HiddenLatency : public testing::TestWithParam<const char*> {};
 TEST_P(HiddenLatency, HundredCyclesKeepNinetySevenPercent) {
   TextureRunOptions none, hundred;
   none.memory.latency = 1;
-  none.memory.bytes_per_clock = 0;
+  none.memory.bytes_per_cycle = 0;
   hundred.memory.latency = 100;
-  hundred.memory.bytes_per_clock = 0;
+  hundred.memory.bytes_per_cycle = 0;
   const TextureOutcome a = run(none, GetParam(), 256), b = run(hundred, GetParam(), 256);
   expect_same_data(a, b);
   EXPECT_LE(static_cast<double>(b.cycles) * 0.97, static_cast<double>(a.cycles))

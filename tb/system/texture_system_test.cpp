@@ -34,14 +34,14 @@ void expect_identical(const TextureOutcome& outcome, int line_bytes = 64) {
 // here alone.
 TEST(Texture, TheHashIsOfEveryChannelAndPlaceOfEveryColour) {
   TextureRunOptions options;
-  options.stand_ins = stand_ins_of_suite(options.texture, memory_clocks(options), options.seed);
+  options.stand_ins = stand_ins_of_suite(options.texture, memory_cycles(options), options.seed);
   const TextureScene scene(picture("tunnel", 32), {}, 1);
   Simulation simulation(options);
   TextureEnvironment environment(simulation, scene, options);
   simulation.elaborate(environment);
   simulation.run();
   environment.check();
-  expect_twins_of_suite(environment.unit());
+  expect_counterparts_of_suite(environment.unit());
   OutputHash hash;
   const TextureExpectation expected = expected_of(scene, options.texture);
   for (const spec::texture::Colour& colour : expected.colours) {
@@ -110,12 +110,12 @@ INSTANTIATE_TEST_SUITE_P(Texture, EveryFormat,
 // ---- axes x count x kernel x footprint x log x output -------------------------------------------
 
 // Axes, count and footprint in all 45 combinations with both kernels; the logarithm, the cap, the
-// spread, the output and the clocks of the directions go round them.
-using Rules = std::tuple<int, int, int, int>;
-class EveryRule : public testing::TestWithParam<Rules> {};
+// spread, the output and the cycles of the directions go round them.
+using Configuration = std::tuple<int, int, int, int>;
+class EveryRule : public testing::TestWithParam<Configuration> {};
 
-spec::texture::Parameters rules_of(const Rules& rules) {
-  const auto [axes, count, footprint, kernel] = rules;
+spec::texture::Parameters configuration_of(const Configuration& configuration) {
+  const auto [axes, count, footprint, kernel] = configuration;
   const int round = axes + 2 * count + footprint + 3 * kernel;
   spec::texture::Parameters p;
   p.axes = static_cast<spec::texture::Axes>(axes);
@@ -126,13 +126,13 @@ spec::texture::Parameters rules_of(const Rules& rules) {
   p.count_cap = static_cast<spec::texture::CountCap>(round / 2 % 2);
   p.spread = round % 3 == 0 ? 102 : 64;
   p.srgb_output = static_cast<spec::texture::SrgbOutput>(round % 2);
-  p.axis_clocks = 1 << round % (axes + 1);
+  p.axis_cycles = 1 << round % (axes + 1);
   return p;
 }
 
 TEST_P(EveryRule, IsIdenticalToGolden) {
   TextureRunOptions options;
-  options.texture = rules_of(GetParam());
+  options.texture = configuration_of(GetParam());
   SamplerParameters sampler;
   sampler.format = spec::texture::Format::kSrgb8A8;
   expect_identical(simulate(picture("tunnel", 64), sampler, options));
@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(Texture, EveryRule,
                                           testing::Range(0, 5), testing::Range(0, 2)),
                          [](const auto& p) {
                            const auto i = [](auto e) { return static_cast<std::size_t>(e); };
-                           const spec::texture::Parameters r = rules_of(p.param);
+                           const spec::texture::Parameters r = configuration_of(p.param);
                            return fmt::format("{}_{}_{}_{}_{}_cap_{}_{}",
                                               spec::texture::kAxesNames[i(r.axes)],
                                               spec::texture::kCountNames[i(r.count)],
@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
 // ---- depth of the latency FIFO
 
 std::int32_t fifo_depth(const TextureRunOptions& options) {
-  return rtl::texture::LatencyFifo::depth(options.texture, memory_clocks(options));
+  return rtl::texture::LatencyFifo::depth(options.texture, memory_cycles(options));
 }
 
 std::uint64_t cycles_with(TextureRunOptions options, std::int32_t fifo_depth) {
@@ -229,10 +229,10 @@ TEST(FifoDepthOfAMemoryThatVaries, IsThatOfTheSlowestAnswer) {
   EXPECT_EQ(fifo_depth(options), 33);
 }
 
-// A line that takes several clocks has no knee but a bend: what is lost is below half a percent.
+// A line that takes several cycles has no knee but a bend: what is lost is below half a percent.
 TEST(FifoDepthOfANarrowMemory, LosesLittle) {
   TextureRunOptions options;
-  options.memory.bytes_per_clock = 16;
+  options.memory.bytes_per_cycle = 16;
   const std::int32_t depth = fifo_depth(options);
   EXPECT_EQ(depth, options.memory.latency + 4 * 4 + 3);
   const auto most = static_cast<double>(cycles_with(options, 4 * depth));

@@ -20,7 +20,7 @@ namespace {
 
 using rtl::ResponseEnd;
 
-// "CYCLES clocks, HASH", or what went wrong. Without `end` as the engine is made.
+// "CYCLES cycles, HASH", or what went wrong. Without `end` as the engine is made.
 std::string frame(const ProtocolTargetParameters& parameters,
                   std::optional<ResponseEnd> end = std::nullopt) {
   return forked_text([&] {
@@ -50,14 +50,14 @@ std::string frame(const ProtocolTargetParameters& parameters,
     if (target->ended() != target->begun() || target->referenced() != 0)
       return fmt::format("{} of {} ended, {} referenced", target->ended(), target->begun(),
                          target->referenced());
-    return fmt::format("{} clocks, {:#x}", simulation.cycles(), environment.colour_hash());
+    return fmt::format("{} cycles, {:#x}", simulation.cycles(), environment.colour_hash());
   });
 }
 
 TEST(TextureTargets, EveryAnswerIsTaken) {
   for (const Answer answer : {Answer::kFourPhases, Answer::kEndRequest, Answer::kNoEndRequest,
                               Answer::kAnnotated, Answer::kBeginResponse, Answer::kComplete})
-    EXPECT_THAT(frame({.answer = answer}), testing::HasSubstr(" clocks, "))
+    EXPECT_THAT(frame({.answer = answer}), testing::HasSubstr(" cycles, "))
         << static_cast<int>(answer);
 }
 

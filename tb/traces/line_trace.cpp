@@ -7,7 +7,7 @@
 #include <bit>
 #include <iterator>
 
-#include "rtl_model/fabric/look_ups.h"
+#include "rtl_model/fabric/lookups.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "spec/error.h"
 
@@ -33,7 +33,7 @@ std::string padded(std::string text, std::size_t bytes) {
 LineTrace::LineTrace(const std::filesystem::path& file, const LineTraceOptions& options)
     : options_(options), output_(file) {
   attach_ports();
-  if (options.look_ups) attach_caches();
+  if (options.lookups) attach_caches();
   begin();
 }
 
@@ -67,7 +67,7 @@ void LineTrace::attach_ports() {
 
 void LineTrace::attach_caches() {
   bool any = false;
-  rtl::for_each<rtl::LookUps>([&](rtl::LookUps& cache) {
+  rtl::for_each<rtl::Lookups>([&](rtl::Lookups& cache) {
     const std::uint32_t line_bytes = cache.watched_line_bytes();
     const auto number = static_cast<std::uint8_t>(ports_.size());
     ports_.push_back({dynamic_cast<sc_core::sc_object&>(cache).name(), line_bytes, true});
@@ -83,13 +83,13 @@ void LineTrace::attach_caches() {
   });
   if (!any)
     throw spec::ConfigError(
-        "run.line_trace_look_ups: no cache that is built shows its look-ups: build one that does, "
+        "run.line_trace_lookups: no cache that is built shows its look-ups: build one that does, "
         "or leave it out");
 }
 
 void LineTrace::detach() {
   rtl::for_each<rtl::MemoryPort>([](rtl::MemoryPort& port) { port.observer = nullptr; });
-  rtl::for_each<rtl::LookUps>([](rtl::LookUps& cache) { cache.observer = nullptr; });
+  rtl::for_each<rtl::Lookups>([](rtl::Lookups& cache) { cache.observer = nullptr; });
 }
 
 void LineTrace::begin() {
@@ -101,7 +101,7 @@ void LineTrace::begin() {
   out += fmt::format("# deburr-lines {}\n# engine {}\n# clock_mhz {}\n", kVersion, options_.engine,
                      options_.clock_mhz);
   for (std::size_t i = 0; i < ports_.size(); ++i)
-    out += fmt::format("# port {} {} {} {}\n", i, ports_[i].cache ? "look_ups" : "memory",
+    out += fmt::format("# port {} {} {} {}\n", i, ports_[i].cache ? "lookups" : "memory",
                        ports_[i].line_bytes, ports_[i].name);
   out += "# clock event address bytes port\n";
 }

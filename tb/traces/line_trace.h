@@ -3,7 +3,7 @@
 // caches, written for simulators of memories and caches (docs/reference/traces.md).
 //
 //   LineTrace trace(file, options);   // after elaboration
-//   ...                               // clocks
+//   ...                               // cycles
 //   trace.finish();
 //
 // Bounded memory. Costs nothing where there is none.
@@ -23,7 +23,7 @@ struct LineTraceOptions {
   std::string engine;  // as `deburr run` calls it
   double clock_mhz = 0;
   TraceFormat format = TraceFormat::kText;
-  bool look_ups = false;
+  bool lookups = false;
 };
 
 enum class LineEvent : std::uint8_t { kRead, kWrite, kHit, kMerged, kMiss };

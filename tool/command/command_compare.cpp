@@ -277,10 +277,10 @@ Outcome of_written_files(const std::vector<std::string>& paths,
 Outcome compare_results(const CompareOptions& options, bool json) {
   check_page(options);
   const Json comparison = comparison_of(options);
-  std::string idealised;
+  std::string not_implementable;
   for (const Json& warning : comparison.at("warnings")) {
     fmt::print(stderr, "deburr: warning: {}\n", text(warning));
-    if (text(warning).find("idealised") != std::string::npos) idealised = ", IDEALISED";
+    if (text(warning).find("idealised") != std::string::npos) not_implementable = ", IDEALISED";
   }
   if (!json)
     comparison.at("kind") == "runs" ? print_runs(comparison, options.all)
@@ -293,9 +293,9 @@ Outcome compare_results(const CompareOptions& options, bool json) {
   if (comparison.at("worse").get<bool>()) {
     outcome.code = static_cast<int>(spec::ExitCode::kMismatch);
     outcome.text =
-        fmt::format("FAIL worse: {}{}", fmt::join(what_is_worse(comparison), ", "), idealised);
+        fmt::format("FAIL worse: {}{}", fmt::join(what_is_worse(comparison), ", "), not_implementable);
   } else {
-    outcome.text = "PASS compare: nothing is worse by more than its tolerance" + idealised;
+    outcome.text = "PASS compare: nothing is worse by more than its tolerance" + not_implementable;
   }
   if (json) outcome.details = tb::json_text(Json{{"comparison", comparison}});
   return outcome;

@@ -180,7 +180,7 @@ class Regression {
     return settings;
   }
 
-  // Failures are few behind buckets: their waves are made here, whoever ran the points.
+  // Failures are few behind signatures: their waves are made here, whoever ran the points.
   RegressionResult collect() const {
     RegressionResult result = collect_regression(testplan_, place_);
     const std::vector<PlannedPoint> runs = runs_with_waves(result, place_);
@@ -206,13 +206,13 @@ class Regression {
 
   Outcome outcome_of(const RegressionResult& result) const {
     const std::string figures =
-        fmt::format("{}: {}, {} passed, {} failed in {} bucket{}, {} missing; {}", what_,
+        fmt::format("{}: {}, {} passed, {} failed in {} signature{}, {} missing; {}", what_,
                     points_of(plan_.points), grouped(result.passed), grouped(result.failed),
-                    grouped(result.buckets.size()), result.buckets.size() == 1 ? "" : "s",
+                    grouped(result.signatures.size()), result.signatures.size() == 1 ? "" : "s",
                     grouped(result.missing), (place_.directory / "index.html").string());
-    for (const FailureBucket& bucket : result.buckets)
-      say(options_, fmt::format("failed      {} x {}: {}: {}", grouped(bucket.runs.size()),
-                                bucket.engine, bucket.kind, bucket.message));
+    for (const FailureSignature& signature : result.signatures)
+      say(options_, fmt::format("failed      {} x {}: {}: {}", grouped(signature.runs.size()),
+                                signature.engine, signature.kind, signature.message));
     for (const FeatureResult& feature : result.features)
       if (!feature.holds()) say(options_, "broken      " + reasons(feature));
     for (const CoverageResult& covered : result.merged)
@@ -227,15 +227,15 @@ class Regression {
               fmt::format("FAIL {}: 'run' it again for what is missing", figures)};
     if (!result.holds()) {
       Outcome outcome{static_cast<int>(ExitCode::kMismatch), "FAIL " + figures};
-      if (!result.buckets.empty()) outcome.repro = arguments_of_example(result);
+      if (!result.signatures.empty()) outcome.repro = arguments_of_example(result);
       return outcome;
     }
     return {0, "PASS " + figures};
   }
 
-  // Of the bucket with the most runs.
+  // Of the signature with the most runs.
   static std::string arguments_of_example(const RegressionResult& result) {
-    const PlannedPoint& point = result.runs[result.buckets.front().runs.front()].point;
+    const PlannedPoint& point = result.runs[result.signatures.front().runs.front()].point;
     return arguments_of(point.engine, point.settings);
   }
 

@@ -114,11 +114,11 @@ std::string summary_of(const tb::Result& r, const std::filesystem::path& directo
                         tb::grouped(r.mismatches + r.traffic_mismatches));
   text +=
       fmt::format("{} cycles, {:.3f} {}", tb::grouped(r.cycles), r.throughput, r.throughput_unit);
-  std::string idealised;
+  std::string not_implementable;
   for (const tb::MemoryFigures& memory : r.memories)
-    if (!memory.idealised.empty())
-      idealised += fmt::format("{} {}", idealised.empty() ? ", IDEALISED" : ",", memory.name);
-  text += idealised;
+    if (!memory.not_implementable.empty())
+      not_implementable += fmt::format("{} {}", not_implementable.empty() ? ", IDEALISED" : ",", memory.name);
+  text += not_implementable;
   return text + fmt::format(", {}", (directory / "report.html").string());
 }
 
@@ -213,9 +213,9 @@ Outcome run_engine(Engine& engine, const RunOptions& options, CommandLine& line)
                         result.unit)};
   }
   for (const tb::MemoryFigures& memory : result.memories)
-    if (!memory.idealised.empty() && !context.quiet())
+    if (!memory.not_implementable.empty() && !context.quiet())
       fmt::print(stderr, "deburr: warning: this hardware cannot be built: memory {}: {}\n",
-                 memory.name, memory.idealised);
+                 memory.name, memory.not_implementable);
   context.finish(result);
   if (!context.quiet()) tb::print_wrapped(figures_of(result));
   if (result.pixel && !context.quiet())

@@ -11,7 +11,7 @@
 namespace deburr::tool {
 
 struct TrainOptions {
-  std::string in, truth, out;
+  std::string in, reference, out;
   std::uint64_t seed = 1;
   int batches = 600;
   bool quiet = false;

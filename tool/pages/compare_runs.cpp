@@ -76,7 +76,7 @@ void reject_different_engines(const std::vector<Run>& runs) {
 Json warnings_of(const std::vector<Run>& runs) {
   Json warnings = Json::array();
   for (const Run& run : runs) {
-    for (const std::string& memory : tb::idealised_memories(run.result))
+    for (const std::string& memory : tb::not_implementable_memories(run.result))
       warnings.push_back(
           fmt::format("{} cannot be built: idealised memory {}", run.letter, memory));
     if (run.result.value("interrupted", false))

@@ -73,7 +73,7 @@ class ReportBuilder {
     fill_summary();
     fill_pixel(source, page_);
     maps_ = fill_pictures(source, page_);
-    windows_ = fill_over_time(source, page_);
+    intervals_ = fill_over_time(source, page_);
     fill_figures();
     fill_quality();
     fill_units();
@@ -86,8 +86,8 @@ class ReportBuilder {
   std::string render() {
     page_.set("script", std::string(embedded::report_js()));
     page_.set("data",
-              fmt::format(R"({{"result":{},"windows":{},"maps":{},"map_colours":{}}})",
-                          json_for_script(result_), json_for_script(windows_),
+              fmt::format(R"({{"result":{},"intervals":{},"maps":{},"map_colours":{}}})",
+                          json_for_script(result_), json_for_script(intervals_),
                           json_for_script(maps_), json_for_script(Json(tb::map_colours()))));
     return filled_page(embedded::report_template(), "report.mustache", page_);
   }
@@ -134,8 +134,8 @@ class ReportBuilder {
            : interrupted ? ""
                          : "good");
     const double cycles = number(result_, "cycles");
-    const auto time = [&](double clocks) {
-      return mhz > 0 ? fmt::format("{:.2f} ms at {:g} MHz", clocks / mhz / 1e3, mhz) : "";
+    const auto time = [&](double cycles) {
+      return mhz > 0 ? fmt::format("{:.2f} ms at {:g} MHz", cycles / mhz / 1e3, mhz) : "";
     };
     // What an engine shows among the tiles takes the place of what all of them have.
     bool own_cycles = false, own_latency = false, own_memory = false;
@@ -343,7 +343,7 @@ class ReportBuilder {
     page_.set("has_change", change != result_.end());
     if (change == result_.end()) return;
     HtmlTable table(
-        "Pixels, against what went in|All:n|Right before:n:within 2 codes of the truth before|Unit",
+        "Pixels, against what went in|All:n|Right before:n:within 2 codes of the reference before|Unit",
         "after");
     const auto text = [&](const char* key) { return two_digits(change->value(key, Json())); };
     table.row({"Changed by more than 2 codes", text("over_2_percent"), text("right_over_2_percent"),
@@ -452,10 +452,10 @@ class ReportBuilder {
     page_.set("memory_note", megabits(logical));
     page_.set("memory_physical_note", megabits(total("physical")));
     page_.set("memory_width_note", megabits(at_width));
-    mustache::data idealised{mustache::data::type::list};
-    for (const std::string& memory : tb::idealised_memories(result_)) idealised << memory;
-    page_.set("idealised", idealised);
-    page_.set("is_idealised", !tb::idealised_memories(result_).empty());
+    mustache::data not_implementable{mustache::data::type::list};
+    for (const std::string& memory : tb::not_implementable_memories(result_)) not_implementable << memory;
+    page_.set("idealised", not_implementable);
+    page_.set("is_not_implementable", !tb::not_implementable_memories(result_).empty());
   }
 
   void fill_origin() {
@@ -474,7 +474,7 @@ class ReportBuilder {
     return value.is_string() ? value.get<std::string>() : tb::json_text(value);
   }
 
-  Json result_, manifest_, windows_, maps_;
+  Json result_, manifest_, intervals_, maps_;
   mustache::data page_;
 };
 

@@ -337,33 +337,33 @@
   let charts = [];
 
   // ---- windows ----
-  const windows = data.windows;
+  const intervals = data.intervals;
   const links = Object.entries(data.result.links || {});
   let chosen = -1;  // window
-  if (windows) {
+  if (intervals) {
     const units = byId('time-unit');
-    for (const name of Object.keys(windows.series.units)) units.add(new Option(name));
+    for (const name of Object.keys(intervals.series.units)) units.add(new Option(name));
     const worst = (data.result.bottleneck || {}).unit;
-    if (worst in windows.series.units) units.value = worst;
+    if (worst in intervals.series.units) units.value = worst;
     // FIFOs first, the fullest of them.
     const order = [...links].sort(([, a], [, b]) => (b.depth > 2) - (a.depth > 2) ||
         b.mean / b.depth - a.mean / a.depth);
     for (const [name, link] of order) byId('link').add(new Option(`${name}, depth ${link.depth}`, name));
     for (const select of [units, byId('link')]) select.addEventListener('change', drawCharts);
     const linked = () => Number((location.hash.match(/^#window-(\d+)$/) || [])[1]);
-    choose(linked() < windows.from.length ? linked() : 0);
+    choose(linked() < intervals.from.length ? linked() : 0);
     addEventListener('hashchange', () => {
-      if (!(linked() < windows.from.length)) return;
+      if (!(linked() < intervals.from.length)) return;
       choose(linked());
       byId('window-chosen').scrollIntoView({block: 'nearest'});
     });
   }
   function choose(window) {
     chosen = window;
-    const from = windows.from[window], to = from + windows.cycles[window];
+    const from = intervals.from[window], to = from + intervals.cycles[window];
     byId('window-chosen').textContent = `Window ${window}: cycles ${number.format(from)} to ${number.format(to)}.`;
     byId('window-command').textContent =
-        `${windows.command} --trace '*' --trace-from ${from} --trace-to ${to}`;
+        `${intervals.command} --trace '*' --trace-from ${from} --trace-to ${to}`;
     for (const chart of charts) if (chart.options.overTime) chart.draw();
   }
 
@@ -494,7 +494,7 @@
       }));
     }
 
-    if (windows) drawWindows();
+    if (intervals) drawIntervals();
 
     // Bits of the memories: for the width of this frame, beyond it what was built for wider ones,
     // and beyond that copies and filled-up banks.
@@ -515,9 +515,9 @@
   }
 
   // Everything over the windows shares an axis, and a mark at the one that is chosen.
-  function drawWindows() {
-    const cycles = windows.cycles;
-    const labels = windows.from.map((from) => number.format(from));
+  function drawIntervals() {
+    const cycles = intervals.cycles;
+    const labels = intervals.from.map((from) => number.format(from));
     const mark = {
       id: 'chosen',
       afterDatasetsDraw(chart) {
@@ -532,8 +532,8 @@
       }
     };
     const lastWindow = labels.length - 1;
-    const cycleTicks = roundTicks([...windows.from, windows.from[lastWindow] + cycles[lastWindow]]);
-    const range = (i) => `cycles ${labels[i]} to ${number.format(windows.from[i] + cycles[i])}`;
+    const cycleTicks = roundTicks([...intervals.from, intervals.from[lastWindow] + cycles[lastWindow]]);
+    const range = (i) => `cycles ${labels[i]} to ${number.format(intervals.from[i] + cycles[i])}`;
     const add = (id, type, datasets, y, more = {}) => charts.push(new Chart(byId(id), {
       type,
       data: {labels, datasets},
@@ -564,15 +564,15 @@
     const bars = (label, colour, values) => series(label, colour, values, {categoryPercentage: 1, barPercentage: 1});
     const over = (values, by) => values.map((value, i) => value / by[i]);
 
-    const rates = windows.throughput.filter((rate) => rate.key.slice(5) in windows.series.work);
+    const rates = intervals.throughput.filter((rate) => rate.key.slice(5) in intervals.series.work);
     add('rate-time', 'line', rates.flatMap((rate, i) => [
-      line(`${rate.label}, ${rate.unit}`, colours[i], over(windows.series.work[rate.key.slice(5)], cycles)),
+      line(`${rate.label}, ${rate.unit}`, colours[i], over(intervals.series.work[rate.key.slice(5)], cycles)),
       ...(rate.bound > 0 ? [line(`bound ${rate.bound} ${rate.unit}`, colours[i],
           labels.map(() => rate.bound),
           {borderDash: [5, 4], borderWidth: 1, pointRadius: 0, backgroundColor: 'transparent'})] : [])
     ]), 'throughput');
 
-    const unit = windows.series.units[byId('time-unit').value];
+    const unit = intervals.series.units[byId('time-unit').value];
     const share = (values) => over(values, cycles).map((value) => 100 * value);
     const causes = Object.entries(unit.stalls || {}).filter(([, values]) => values.some((v) => v > 0));
     add('unit-time', 'bar', [
@@ -582,12 +582,12 @@
       bars('idle', css('--idle'), share(unit.idle))
     ], '% of cycles', {stacked: true, max: 100});
 
-    const ports = Object.entries(windows.series.ports || {});
+    const ports = Object.entries(intervals.series.ports || {});
     if (ports.length > 0)
       add('port-time', 'line', ports.flatMap(([name, port], i) => [
         line(`${name}: in flight, mean`, colours[3 * i % colours.length], over(port.outstanding, cycles)),
         ...[['read', '_bytes_read'], ['written', '_bytes_written']]
-            .map(([what, key], k) => [what, windows.series.work[name + key], k])
+            .map(([what, key], k) => [what, intervals.series.work[name + key], k])
             .filter(([, bytes]) => bytes && bytes.some((b) => b > 0))
             .map(([what, bytes, k]) => line(`${name}: ${what}, byte/clk`,
                 colours[(3 * i + 1 + k) % colours.length], over(bytes, cycles), {yAxisID: 'bytes'}))
@@ -595,21 +595,21 @@
                                                 {beginAtZero: true, position: 'right', grid: {display: false}})}});
 
     if (links.length === 0) return;
-    const name = byId('link').value, link = data.result.links[name], watched = windows.series.links[name];
+    const name = byId('link').value, link = data.result.links[name], watched = intervals.series.links[name];
     add('link-time', 'line', [
       line('mean', css('--busy'), over(watched.occupancy, cycles)),
       line('most', css('--warn'), watched.most)
     ], 'beats', {suggestedMax: link.depth});
-    const clocks = link.histogram.reduce((a, b) => a + b, 0);
+    const cycles = link.histogram.reduce((a, b) => a + b, 0);
     const beatTicks = roundTicks([...link.histogram.map((_, i) => i), link.histogram.length]);
     charts.push(new Chart(byId('link-histogram'), {
       type: 'bar',
       data: {labels: link.histogram.map((_, i) => i),
-             datasets: [bars('clocks', css('--busy'), link.histogram.map((count) => 100 * count / clocks))]},
+             datasets: [bars('cycles', css('--busy'), link.histogram.map((count) => 100 * count / cycles))]},
       options: {
         scales: {
           x: axis(`beats inside, of ${link.depth}`, {grid: {display: false}, ticks: beatTicks, afterBuildTicks: beatTicks.build}),
-          y: axis('% of clocks', {beginAtZero: true})
+          y: axis('% of cycles', {beginAtZero: true})
         },
         plugins: {
           legend: {display: false},

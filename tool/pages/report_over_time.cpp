@@ -17,47 +17,47 @@ namespace fs = std::filesystem;
 namespace mustache = kainjow::mustache;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMaxWindowsBytes = 64u << 20;
+constexpr std::size_t kMaxIntervalsBytes = 64u << 20;
 
 }  // namespace
 
 Json fill_over_time(const ReportSource& source, mustache::data& page) {
   const std::string name = source.manifest.value("records", Json::object()).value("windows", "");
-  page.set("has_windows", !name.empty());
+  page.set("has_intervals", !name.empty());
   if (name.empty()) return Json();
   reject_path(source.directory, name);
   const fs::path file = source.directory / name;
-  Json windows = tb::try_parse_json(tb::read_file(file, kMaxWindowsBytes));
+  Json intervals = tb::try_parse_json(tb::read_file(file, kMaxIntervalsBytes));
   const auto demand = [&](bool valid) {
     if (!valid)
       throw spec::FileError(fmt::format("'{}' is not a valid file of windows", file.string()));
   };
-  demand(windows.is_object() && windows.contains("series"));
-  Json& series = windows["series"];
-  const std::size_t count = windows["from"].size();
+  demand(intervals.is_object() && intervals.contains("series"));
+  Json& series = intervals["series"];
+  const std::size_t count = intervals["from"].size();
   const auto column = [&](const Json& values) {
     demand(values.is_array() && values.size() == count);
     for (const Json& value : values) demand(value.is_number_unsigned());
     return values.get<std::vector<std::uint64_t>>();
   };
-  const std::vector<std::uint64_t> from = column(windows["from"]),
-                                   cycles = column(windows["cycles"]);
-  page.set("windows_note",
+  const std::vector<std::uint64_t> from = column(intervals["from"]),
+                                   cycles = column(intervals["cycles"]);
+  page.set("intervals_note",
            fmt::format("{} windows of {} cycles{}.", tb::grouped(from.size()),
-                       report_text(windows["window_cycles"]),
-                       windows["window_cycles"] == windows["asked_cycles"]
+                       report_text(intervals["interval_cycles"]),
+                       intervals["interval_cycles"] == intervals["asked_cycles"]
                            ? ""
                            : fmt::format("; {} were asked for, which would be too many windows",
-                                         report_text(windows["asked_cycles"]))));
-  windows["command"] = without_options(source.manifest.value("command", ""),
+                                         report_text(intervals["asked_cycles"]))));
+  intervals["command"] = without_options(source.manifest.value("command", ""),
                                        {"--trace", "--trace-from", "--trace-to"});
-  page.set("windows_command", windows["command"].get<std::string>());
+  page.set("intervals_command", intervals["command"].get<std::string>());
 
   // A rate is a series over cycles.
   std::vector<std::vector<std::uint64_t>> columns;
   HtmlTable table("Cycles", "narrow");
   Json kept = Json::object();
-  for (const Json& rate : windows["throughput"]) {
+  for (const Json& rate : intervals["throughput"]) {
     const std::string key = rate.value("key", "");
     const std::string counter = key.substr(key.find('.') + 1);
     if (!series["work"].contains(counter)) continue;
@@ -73,7 +73,7 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
       if (series["work"].contains(port + bytes)) kept[port + bytes] = series["work"][port + bytes];
   }
   series["work"] = kept;  // the page needs no more of them
-  windows.erase("units");
+  intervals.erase("units");
   page.set("has_ports", !of_ports.empty());
   for (std::size_t i = 0; i < from.size(); ++i) {
     std::vector<HtmlCell> cells{HtmlCell::link(
@@ -87,7 +87,7 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
   page.set("windows", table.html());
 
   HtmlTable links(
-      "Link:name|Of waves:name mono muted|Depth:n|Beats:n|Mean:n|Most:n|Full, % of clocks:n");
+      "Link:name|Of waves:name mono muted|Depth:n|Beats:n|Mean:n|Most:n|Full, % of cycles:n");
   const Json of_links = source.result.value("links", Json::object());
   for (const auto& [link, figures] : of_links.items())
     links.row({link, figures.value("link", ""), report_text(figures, "depth"),
@@ -95,7 +95,7 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
                report_text(figures, "most"),
                fmt::format("{:.1f}", number(figures, "full_percent"))});
   page.set("links", links.html());
-  return windows;
+  return intervals;
 }
 
 }  // namespace deburr::tool

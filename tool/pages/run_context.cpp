@@ -19,7 +19,7 @@
 #include "tb/base/json_text.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/png.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tool/pages/build_info.h"
 #include "tool/pages/report.h"
 
@@ -101,7 +101,7 @@ void RunContext::claim(IfTaken if_taken) {
       {{"run.trace", "", "trace.vcd"},
        {"run.line_trace", "none", "lines.trace"},
        {"run.fragment_trace", "none", "fragments.trace"},
-       {"run.window_cycles", "0", kWindowsFile},
+       {"run.interval_cycles", "0", kIntervalsFile},
        {"run.timeline", "false", kTimelineFile}}};
   const auto is_set = [this](std::string_view parameter, std::string_view nothing) {
     const Parameter* found = parameters_.find(parameter);

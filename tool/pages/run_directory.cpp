@@ -24,7 +24,7 @@
 #include "tb/base/file.h"
 #include "tb/base/interrupt.h"
 #include "tb/base/json_text.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 
 namespace deburr::tool {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What runs have in common and what takes long to make: scenes, mip chains, truths. Kept by key
+// What runs have in common and what takes long to make: scenes, mip chains, references. Kept by key
 // within a process, so that the children of a sweep's worker inherit it, and, where it can be
 // written as bytes, in a folder that all processes of a sweep share.
 //

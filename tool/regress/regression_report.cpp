@@ -93,13 +93,13 @@ Json whole_of(const RegressionResult& result) {
   return json;
 }
 
-Json to_json(const FailureBucket& bucket, const RegressionResult& result, const SweepPlace& place) {
-  const RegressionRun& example = result.runs[bucket.runs.front()];
+Json to_json(const FailureSignature& signature, const RegressionResult& result, const SweepPlace& place) {
+  const RegressionRun& example = result.runs[signature.runs.front()];
   Json json = {
-      {"engine", bucket.engine},
-      {"kind", bucket.kind},
-      {"message", bucket.message},
-      {"runs", bucket.runs.size()},
+      {"engine", signature.engine},
+      {"kind", signature.kind},
+      {"message", signature.message},
+      {"runs", signature.runs.size()},
       {"example",
        {{"name", origin_of(example.point).name()},
         {"reason", example.failure.reason},
@@ -109,9 +109,9 @@ Json to_json(const FailureBucket& bucket, const RegressionResult& result, const 
   const fs::path result_file = point_directory(place.points(), example.point.name) / "result.json";
   if (std::error_code error; fs::exists(result_file, error))
     json["example"]["result"] = seen_from(place, result_file);
-  if (!bucket.directory.empty())
-    json["waves"] = {{"file", seen_from(place, bucket.directory / "trace.vcd")},
-                     {"report", seen_from(place, bucket.directory / "report.html")}};
+  if (!signature.directory.empty())
+    json["waves"] = {{"file", seen_from(place, signature.directory / "trace.vcd")},
+                     {"report", seen_from(place, signature.directory / "report.html")}};
   return json;
 }
 
@@ -143,15 +143,15 @@ Json json_of(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan
                {"left_out", plan.left_out},
                {"features", Json::array()},
                {"whole", whole_of(result)},
-               {"buckets", Json::array()},
+               {"signatures", Json::array()},
                {"coverage", Json::object()},
                {"trend", Json::array()},
                {"runs", Json::array()}};
   for (const fs::path& page : testplan.pages)
     json["inputs"].push_back(input_entry(fs::proximate(page), content_of(page), "page"));
   for (const FeatureResult& feature : result.features) json["features"].push_back(to_json(feature));
-  for (const FailureBucket& bucket : result.buckets)
-    json["buckets"].push_back(to_json(bucket, result, place));
+  for (const FailureSignature& signature : result.signatures)
+    json["signatures"].push_back(to_json(signature, result, place));
   for (const auto& [engine, bins] : result.coverage) json["coverage"][engine] = to_json(bins);
   // A glob of bins is a check too, as in JUnit.
   std::uint64_t checks = 0, failed_checks = 0, holes = 0;
@@ -344,20 +344,20 @@ std::string figures_of(const Json& json) {
   return text;
 }
 
-mustache::data card_of(const Json& bucket) {
+mustache::data card_of(const Json& signature) {
   mustache::data card;
   for (const char* key : {"engine", "kind", "message"})
-    card.set(key, bucket.at(key).get<std::string>());
-  card.set("runs", grouped(bucket.at("runs").get<std::uint64_t>()));
-  const Json& example = bucket.at("example");
+    card.set(key, signature.at(key).get<std::string>());
+  card.set("runs", grouped(signature.at("runs").get<std::uint64_t>()));
+  const Json& example = signature.at("example");
   for (const char* key : {"name", "reason", "command"})
     card.set(std::string("example_") + key, example.at(key).get<std::string>());
   card.set("has_result", example.contains("result"));
   card.set("example_result", example.value("result", ""));
-  card.set("has_waves", bucket.contains("waves"));
-  if (bucket.contains("waves")) {
-    card.set("waves", bucket.at("waves").at("file").get<std::string>());
-    card.set("waves_report", bucket.at("waves").at("report").get<std::string>());
+  card.set("has_waves", signature.contains("waves"));
+  if (signature.contains("waves")) {
+    card.set("waves", signature.at("waves").at("file").get<std::string>());
+    card.set("waves_report", signature.at("waves").at("report").get<std::string>());
   }
   return card;
 }
@@ -365,7 +365,7 @@ mustache::data card_of(const Json& bucket) {
 // Of the last nights; the drawing has them all.
 void tell_trend(const std::vector<Night>& nights, mustache::data& page) {
   HtmlTable rows(
-      "Night|Base seed|Commit:mono|Runs:n|Rate:n|Bins met:n|Seconds:n|Thousand clocks a second:n|"
+      "Night|Base seed|Commit:mono|Runs:n|Rate:n|Bins met:n|Seconds:n|Thousand cycles a second:n|"
       "Worse than before");
   const std::size_t shown = std::min(nights.size(), kMostNights);
   for (std::size_t i = nights.size(); i > nights.size() - shown; --i) {
@@ -376,7 +376,7 @@ void tell_trend(const std::vector<Night>& nights, mustache::data& page) {
               grouped(night.runs), percent(night.passed, night.runs),
               fmt::format("{} of {}", grouped(night.met), grouped(night.bins)),
               grouped(static_cast<std::uint64_t>(night.seconds)),
-              grouped(static_cast<std::uint64_t>(night.clocks_a_second() / 1e3)),
+              grouped(static_cast<std::uint64_t>(night.cycles_a_second() / 1e3)),
               fmt::format("{}", fmt::join(falls, "; "))},
              falls.empty() ? "" : "broken");
   }
@@ -407,7 +407,7 @@ std::string page_of(const Json& json, const std::vector<Night>& nights) {
   page.set("left_out", list_of(json.at("left_out")));
   // The page draws the features' rates; what it lists, it has as text.
   Json drawn = Json::array();
-  mustache::data features{mustache::data::type::list}, buckets{mustache::data::type::list},
+  mustache::data features{mustache::data::type::list}, signatures{mustache::data::type::list},
       coverage{mustache::data::type::list};
   HtmlTable rates("Feature|Runs:n|Passed:n|Failed:n|Missing:n|Rate:n|Checks:n|Bins:n");
   for (const Json& feature : json.at("features")) {
@@ -417,7 +417,7 @@ std::string page_of(const Json& json, const std::vector<Night>& nights) {
                      {"failed", feature.at("failed")},
                      {"missing", feature.at("missing")}});
   }
-  for (const Json& bucket : json.at("buckets")) buckets << card_of(bucket);
+  for (const Json& signature : json.at("signatures")) signatures << card_of(signature);
   for (const auto& [engine, bins] : json.at("coverage").items()) {
     mustache::data entry;
     entry.set("engine", engine);
@@ -430,8 +430,8 @@ std::string page_of(const Json& json, const std::vector<Night>& nights) {
   }
   page.set("features", features);
   page.set("rates", rates.html());
-  page.set("has_buckets", !json.at("buckets").empty());
-  page.set("buckets", buckets);
+  page.set("has_signatures", !json.at("signatures").empty());
+  page.set("signatures", signatures);
   page.set("coverage", coverage);
   tell_whole(json.at("whole"), page);
   page.set("has_coverage",
@@ -442,7 +442,7 @@ std::string page_of(const Json& json, const std::vector<Night>& nights) {
     trend.push_back({{"date", night.date},
                      {"passed", rate_of(night.passed, night.runs)},
                      {"met", night.bins == 0 ? Json() : Json(rate_of(night.met, night.bins))},
-                     {"speed", night.clocks_a_second() / 1e3}});
+                     {"speed", night.cycles_a_second() / 1e3}});
   page.set("data", json_for_script({{"features", std::move(drawn)}, {"trend", std::move(trend)}}));
   return filled_page(embedded::regression_template(), "regression.mustache", page);
 }

@@ -59,7 +59,7 @@ class RunCollector {
     for_each_point(points_file(place_.directory), [&](const PlannedPoint& point) { add(point); });
     for (std::size_t i = 0; i < all_.features.size(); ++i) check(all_.features[i], seen_[i]);
     check_all();
-    fill_buckets();
+    fill_signatures();
     return std::move(all_);
   }
 
@@ -98,7 +98,7 @@ class RunCollector {
   void read(const SortedJson& result, Seen& seen, RegressionRun& run) {
     if (!result.is_object()) return;
     run.seconds = result.value("/host/seconds"_json_pointer, 0.0);
-    run.clocks = result.value("cycles", std::uint64_t{0});
+    run.cycles = result.value("cycles", std::uint64_t{0});
     if (run.state != PointState::kDone) return;
     const SortedJson boards = result.value("scoreboards", SortedJson::object());
     for (const auto& [name, board] : boards.items())
@@ -163,21 +163,21 @@ class RunCollector {
   }
 
   // The most frequent first.
-  void fill_buckets() {
-    std::map<std::tuple<std::string, std::string, std::string>, FailureBucket> buckets;
+  void fill_signatures() {
+    std::map<std::tuple<std::string, std::string, std::string>, FailureSignature> signatures;
     for (std::size_t i = 0; i < all_.runs.size(); ++i) {
       const RegressionRun& run = all_.runs[i];
       if (run.state != PointState::kFailed) continue;
       const std::string message = without_particulars(run.failure.reason);
-      FailureBucket& bucket = buckets[{run.point.engine, run.failure.kind, message}];
-      bucket.engine = run.point.engine;
-      bucket.kind = run.failure.kind;
-      bucket.message = message;
-      bucket.runs.push_back(i);
+      FailureSignature& signature = signatures[{run.point.engine, run.failure.kind, message}];
+      signature.engine = run.point.engine;
+      signature.kind = run.failure.kind;
+      signature.message = message;
+      signature.runs.push_back(i);
     }
-    for (auto& [key, bucket] : buckets) all_.buckets.push_back(std::move(bucket));
-    std::stable_sort(all_.buckets.begin(), all_.buckets.end(),
-                     [](const FailureBucket& a, const FailureBucket& b) {
+    for (auto& [key, signature] : signatures) all_.signatures.push_back(std::move(signature));
+    std::stable_sort(all_.signatures.begin(), all_.signatures.end(),
+                     [](const FailureSignature& a, const FailureSignature& b) {
                        return a.runs.size() > b.runs.size();
                      });
   }
@@ -212,8 +212,8 @@ RegressionResult collect_regression(const Testplan& testplan, const SweepPlace& 
 std::vector<PlannedPoint> runs_with_waves(const RegressionResult& result, const SweepPlace& place) {
   std::vector<PlannedPoint> runs;
   PointNamer namer;
-  for (const FailureBucket& bucket : result.buckets) {
-    const PlannedPoint& failed = result.runs[bucket.runs.front()].point;
+  for (const FailureSignature& signature : result.signatures) {
+    const PlannedPoint& failed = result.runs[signature.runs.front()].point;
     const SortedJson found = result_in(point_directory(place.points(), failed.name));
     if (!found.is_object()) continue;  // it was rejected or killed: there is nothing to watch
     const WaveWindow window = wave_window(failing_cycle(found));
@@ -239,8 +239,8 @@ void add_waves(RegressionResult& result, const std::vector<PlannedPoint>& runs,
     const fs::path directory = point_directory(place.points(), run.name);
     std::error_code error;
     if (!fs::exists(directory / "trace.vcd", error)) continue;
-    for (FailureBucket& bucket : result.buckets)
-      if (result.runs[bucket.runs.front()].point.sample == run.sample) bucket.directory = directory;
+    for (FailureSignature& signature : result.signatures)
+      if (result.runs[signature.runs.front()].point.sample == run.sample) signature.directory = directory;
   }
 }
 

@@ -25,7 +25,7 @@ struct RegressionRun {
   PointState state = PointState::kMissing;
   Failure failure;     // of one that failed
   double seconds = 0;  // of the host
-  std::uint64_t clocks = 0;
+  std::uint64_t cycles = 0;
 };
 
 struct CheckResult {
@@ -61,7 +61,7 @@ struct FeatureResult {
 };
 
 // Failures of one engine with the same message, numbers aside.
-struct FailureBucket {
+struct FailureSignature {
   std::string engine, kind, message;
   std::vector<std::size_t> runs;    // indices; the first one is the example
   std::filesystem::path directory;  // of the example run again with waves; empty: there are none
@@ -70,7 +70,7 @@ struct FailureBucket {
 struct RegressionResult {
   std::vector<RegressionRun> runs;
   std::vector<FeatureResult> features;
-  std::vector<FailureBucket> buckets;
+  std::vector<FailureSignature> signatures;
   std::map<std::string, Bins> coverage;  // by the engine that bins are of, whatever ran it
   std::vector<CoverageResult> merged;    // what the plan demands of all runs together
   std::vector<UnmetBin> unmet;           // what it excepts
@@ -83,7 +83,7 @@ struct RegressionResult {
 // Reads what is there. `testplan` must outlive the result.
 RegressionResult collect_regression(const Testplan& testplan, const SweepPlace& place);
 
-// The first run of each bucket once more, with waves around the cycle in which it failed.
+// The first run of each signature once more, with waves around the cycle in which it failed.
 std::vector<PlannedPoint> runs_with_waves(const RegressionResult& result, const SweepPlace& place);
 // Finds the waves that these runs have left.
 void add_waves(RegressionResult& result, const std::vector<PlannedPoint>& runs,

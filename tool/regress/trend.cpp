@@ -48,7 +48,7 @@ std::optional<Night> night_in(const std::string& line) {
                  .passed = count("passed"),
                  .bins = count("bins"),
                  .met = count("met"),
-                 .clocks = count("clocks"),
+                 .cycles = count("cycles"),
                  .seconds = json.at("seconds").get<double>()};
   } catch (const Json::exception&) {
     return std::nullopt;
@@ -57,8 +57,8 @@ std::optional<Night> night_in(const std::string& line) {
 
 }  // namespace
 
-double Night::clocks_a_second() const {
-  return seconds > 0 ? static_cast<double>(clocks) / seconds : 0;
+double Night::cycles_a_second() const {
+  return seconds > 0 ? static_cast<double>(cycles) / seconds : 0;
 }
 
 Night night_of(const RegressionResult& result, std::uint64_t base_seed) {
@@ -75,7 +75,7 @@ Night night_of(const RegressionResult& result, std::uint64_t base_seed) {
       night.met += hits > 0 ? 1 : 0;
     }
   for (const RegressionRun& run : result.runs) {
-    night.clocks += run.clocks;
+    night.cycles += run.cycles;
     night.seconds += run.seconds;
   }
   return night;
@@ -84,7 +84,7 @@ Night night_of(const RegressionResult& result, std::uint64_t base_seed) {
 Json to_json(const Night& night) {
   return {{"date", night.date},      {"commit", night.commit}, {"seed", night.seed},
           {"holds", night.holds},    {"runs", night.runs},     {"passed", night.passed},
-          {"bins", night.bins},      {"met", night.met},       {"clocks", night.clocks},
+          {"bins", night.bins},      {"met", night.met},       {"cycles", night.cycles},
           {"seconds", night.seconds}};
 }
 
@@ -96,9 +96,9 @@ std::vector<std::string> falls_between(const Night& before, const Night& after) 
   if (share(after.met, after.bins) < share(before.met, before.bins))
     falls.push_back(fmt::format("bins met from {} of {} to {} of {}", before.met, before.bins,
                                 after.met, after.bins));
-  const double fast = before.clocks_a_second(), slow = after.clocks_a_second();
+  const double fast = before.cycles_a_second(), slow = after.cycles_a_second();
   if (std::min(before.seconds, after.seconds) >= kSecondsOfASpeed && slow < kSlower * fast)
-    falls.push_back(fmt::format("speed from {:.0f} to {:.0f} thousand clocks a second", fast / 1e3,
+    falls.push_back(fmt::format("speed from {:.0f} to {:.0f} thousand cycles a second", fast / 1e3,
                                 slow / 1e3));
   return falls;
 }

@@ -21,10 +21,10 @@ struct Night {
   bool holds = false;
   std::uint64_t runs = 0, passed = 0;
   std::uint64_t bins = 0, met = 0;  // of all engines, as all runs together met them
-  std::uint64_t clocks = 0;         // that were simulated
+  std::uint64_t cycles = 0;         // that were simulated
   double seconds = 0;               // of simulation
 
-  double clocks_a_second() const;
+  double cycles_a_second() const;
 };
 
 Night night_of(const RegressionResult& result, std::uint64_t base_seed);

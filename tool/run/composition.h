@@ -26,7 +26,7 @@
 #include "tb/scene/drawn_scene.h"
 #include "tb/scene/image.h"
 #include "tb/scene/mesh.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tool/pages/run_context.h"
 #include "tool/run/engine.h"
 #include "tool/run/pictures.h"
@@ -70,8 +70,8 @@ class DrawingStage : public Stage {
   virtual std::unique_ptr<ColoursPort> colours_port(const char* name) = 0;
   // The golden model's picture of the scene.
   virtual tb::Image golden_picture() const = 0;
-  // Clocks that it needs at least.
-  virtual std::uint64_t clocks_bound() const = 0;
+  // Cycles that it needs at least.
+  virtual std::uint64_t cycles_bound() const = 0;
   // Figures beside those of its environment, under its name, and what a report shows of them.
   virtual void collect(tb::Result& result) const = 0;
   virtual std::vector<tb::Figure> figures() const = 0;
@@ -85,8 +85,8 @@ class SmoothingStage : public Stage {
   virtual tb::Latency latency() const = 0;
   // The unit that the others wait for.
   virtual std::string_view last_unit() const = 0;
-  // Clocks that it needs at least for this frame.
-  virtual std::uint64_t clocks_bound(int width, int height) const = 0;
+  // Cycles that it needs at least for this frame.
+  virtual std::uint64_t cycles_bound(int width, int height) const = 0;
   virtual std::vector<tb::Figure> work_figures() const = 0;
   // What a user should know of the run that is over.
   virtual std::vector<std::string> notes() const { return {}; }
@@ -162,10 +162,10 @@ class CompositionRole {
   CompositionRole& operator=(const CompositionRole&) = default;
 };
 
-// "texturing": what is said of its clocks.
+// "texturing": what is said of its cycles.
 struct DrawingWords {
   std::string_view doing, from;  // "texturing", from the first "quad"
-  std::string_view label;        // of its clocks in a report, beside ...
+  std::string_view label;        // of its cycles in a report, beside ...
   std::string_view bound_label, bound_key, bound_meaning;
 };
 
@@ -185,12 +185,12 @@ class PictureDrawer : public CompositionRole {
   // To elaborate with.
   virtual std::shared_ptr<const tb::DrawnScene> smallest() const = 0;
 
-  // The supersampled truth, made once for all runs of a scene, and what results are compared with,
+  // The supersampled reference, made once for all runs of a scene, and what results are compared with,
   // as of compare_with_scene().
-  virtual std::string truth_caption() const = 0;
-  virtual void prepare_truth(const tb::DrawnScene& scene, const tb::RenderOptions& options,
+  virtual std::string reference_caption() const = 0;
+  virtual void prepare_reference(const tb::DrawnScene& scene, const tb::RenderOptions& options,
                              const RunContext& context) const = 0;
-  virtual tb::Image compare_with_truth(const tb::DrawnScene& scene,
+  virtual tb::Image compare_with_reference(const tb::DrawnScene& scene,
                                        const tb::RenderOptions& options, const tb::Image& before,
                                        const tb::Image& after, tb::Result& result,
                                        const RunContext& context) const = 0;
@@ -199,14 +199,14 @@ class PictureDrawer : public CompositionRole {
                                               const tb::DrawnScene& scene) const = 0;
 
   // Of several frames, whose flicker is measured: how many, the scene of one, and without a
-  // simulation what the golden model draws and the truth of it. An engine without them has one.
+  // simulation what the golden model draws and the reference of it. An engine without them has one.
   virtual int frames() const { return 1; }
   virtual std::shared_ptr<const tb::DrawnScene> scene_of(int /*frame*/,
                                                          std::uint32_t /*seed*/) const {
     return nullptr;
   }
   virtual tb::Image golden_picture(const tb::DrawnScene& /*scene*/) const { return {}; }
-  virtual tb::Image truth_of(const tb::DrawnScene& /*scene*/,
+  virtual tb::Image reference_of(const tb::DrawnScene& /*scene*/,
                              const tb::RenderOptions& /*options*/) const {
     return {};
   }

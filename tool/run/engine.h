@@ -40,7 +40,7 @@ struct RunParameters {
   bool poison = false;
   std::string trace;
   std::int64_t trace_from = 0, trace_to = 2000;
-  std::int64_t window_cycles = 0;
+  std::int64_t interval_cycles = 0;
   bool maps = false;
   std::string pixel;
   bool coverage = false;
@@ -48,7 +48,7 @@ struct RunParameters {
   std::int64_t timeline_from = 0, timeline_to = 2000;
   tb::traces::TraceChoice line_trace = tb::traces::TraceChoice::kNone;
   std::string fault;
-  bool truth = false;
+  bool reference = false;
   bool images = true;
 };
 
@@ -74,7 +74,7 @@ void describe(RunParameters& p, Visitor& v) {
   v.boolean("shuffle", p.shuffle, "Evaluate the units in a random order; must change nothing.");
   v.boolean("fast_path", p.fast_path, "Let the clock domain run on; must change nothing.");
   v.boolean("check_links", p.check_links,
-            "Protocol checkers on every link; off by default where a fault is planted.");
+            "Protocol checkers on every link; off by default where a fault is injected.");
   v.boolean("poison", p.poison,
             "Fields that nobody wrote hold noise in every link, and each must fit its width; must "
             "change nothing.");
@@ -82,7 +82,7 @@ void describe(RunParameters& p, Visitor& v) {
   v.integer("trace_from", p.trace_from, 0, std::int64_t{1} << 40, "clk", "First cycle traced.");
   v.integer("trace_to", p.trace_to, 0, std::int64_t{1} << 40, "clk",
             "Cycle after the last traced.");
-  v.integer("window_cycles", p.window_cycles, 0, std::int64_t{1} << 40, "clk",
+  v.integer("interval_cycles", p.interval_cycles, 0, std::int64_t{1} << 40, "clk",
             "Cuts the run into windows of so many cycles and keeps what each unit, link and port "
             "did in them: windows.json, result.json's links, the report's curves; 0: none.");
   v.boolean("maps", p.maps,
@@ -105,8 +105,8 @@ void describe(RunParameters& p, Visitor& v) {
   v.choice("line_trace", p.line_trace, tb::traces::kTraceChoiceNames,
            "Leaves lines.trace: every line that is asked of memory (docs/reference/traces.md).");
   v.text("fault", p.fault, "name",
-         "Plants a fault that the checks must catch (docs/reference/planted_faults.md).");
-  v.boolean("truth", p.truth, "Compare the picture with the scene's supersampled truth.");
+         "Plants a fault that the checks must catch (docs/reference/injected_faults.md).");
+  v.boolean("reference", p.reference, "Compare the picture with the scene's supersampled reference.");
   v.boolean("images", p.images, "Leave pictures, and show them in the report.");
 }
 

@@ -32,7 +32,7 @@ void measure_flicker(int frames, const RunContext& context, tb::Result& result,
                      const std::function<SequencePicture(int)>& picture) {
   tb::Progress progress("flicker", static_cast<std::uint64_t>(frames), "picture", context.quiet());
   tb::FlickerMeter after, before;
-  bool truth = true;
+  bool reference = true;
   try {
     for (int i = 0; i < frames; ++i) {
       progress.update(static_cast<std::uint64_t>(i));
@@ -44,10 +44,10 @@ void measure_flicker(int frames, const RunContext& context, tb::Result& result,
                         "is measured between frames of one size",
                         i, now.after.width, now.after.height, after.width(), after.height()));
       const tb::Mask drawn = now.drawn ? *now.drawn : tb::FlickerMeter::everywhere(now.after);
-      truth = truth && !now.truth.empty();
-      if (now.truth.empty()) now.truth = now.before;
-      after.add(std::move(now.after), now.truth, drawn);
-      before.add(std::move(now.before), now.truth, drawn);
+      reference = reference && !now.reference.empty();
+      if (now.reference.empty()) now.reference = now.before;
+      after.add(std::move(now.after), now.reference, drawn);
+      before.add(std::move(now.before), now.reference, drawn);
     }
   } catch (const tb::Interrupted&) {
     result.interrupted = true;
@@ -59,11 +59,11 @@ void measure_flicker(int frames, const RunContext& context, tb::Result& result,
                               after.worst() > 0 ? fmt::format(" (worst {:.2f}, at frame {})",
                                                               after.worst(), after.worst_frame())
                                                 : "",
-                              truth ? fmt::format("against {:.2f} of what went in", before.mean())
+                              reference ? fmt::format("against {:.2f} of what went in", before.mean())
                                     : "beyond what went in")});
-  result.figures.push_back({truth ? "Flicker over the frames" : "Flicker beyond what went in",
+  result.figures.push_back({reference ? "Flicker over the frames" : "Flicker beyond what went in",
                             "work.flicker", "worst pair of frames", "work.flicker_worst"});
-  if (truth)
+  if (reference)
     result.figures.push_back(
         {"Flicker, against what went in", "work.flicker", "went in", "work.flicker_before"});
 }

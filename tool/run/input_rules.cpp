@@ -47,18 +47,18 @@ void reject_nothing_drawn(const tb::DepthImage& depth, std::string_view source) 
 void reject_slow_memory(const tb::ParameterSet& set, std::string_view prefix,
                         const tb::MemoryParameters& memory) {
   const std::string patience = set.find("run.watchdog_cycles")->text();
-  std::int64_t clocks = 0;
-  std::from_chars(patience.data(), patience.data() + patience.size(), clocks);
+  std::int64_t cycles = 0;
+  std::from_chars(patience.data(), patience.data() + patience.size(), cycles);
   const bool drawn = memory.latency_max > memory.latency;
   const std::int64_t slowest = std::max(memory.latency, memory.latency_max);
-  if (slowest + memory.bank_busy >= clocks)
+  if (slowest + memory.bank_busy >= cycles)
     throw spec::ConfigError(fmt::format(
         "{0}.{1} = {2}{3} is not below run.watchdog_cycles = {4}, after which a run without "
         "progress counts as dead: raise that (--set run.watchdog_cycles={5}), or make the memory "
         "faster",
         prefix, drawn ? "latency_max" : "latency", slowest,
         memory.bank_busy > 0 ? fmt::format(" and {}.bank_busy = {}", prefix, memory.bank_busy) : "",
-        clocks, 2 * (slowest + memory.bank_busy)));
+        cycles, 2 * (slowest + memory.bank_busy)));
 }
 
 void reject_unused_memory(const tb::ParameterSet& set, std::string_view prefix,

@@ -31,21 +31,21 @@ std::optional<double> value_of(double measure) {
 }  // namespace
 
 tb::Quality measure_quality(std::string reference, const Image& before, const Image& after,
-                            const Image& truth, const tb::DepthImage* depth) {
-  const tb::Mask edges = tb::edge_mask(truth, before);
+                            const Image& reference, const tb::DepthImage* depth) {
+  const tb::Mask edges = tb::edge_mask(reference, before);
   tb::Quality quality;
   quality.reference = std::move(reference);
-  quality.psnr_db = value_of(psnr(after, truth));
-  quality.psnr_before_db = value_of(psnr(before, truth));
-  quality.psnr_edge_db = value_of(psnr(after, truth, edges));
-  quality.psnr_edge_before_db = value_of(psnr(before, truth, edges));
+  quality.psnr_db = value_of(psnr(after, reference));
+  quality.psnr_before_db = value_of(psnr(before, reference));
+  quality.psnr_edge_db = value_of(psnr(after, reference, edges));
+  quality.psnr_edge_before_db = value_of(psnr(before, reference, edges));
   if (depth) {
     const tb::Mask silhouettes = tb::silhouette_mask(edges, *depth);
-    quality.psnr_silhouette_db = value_of(psnr(after, truth, silhouettes));
-    quality.psnr_silhouette_before_db = value_of(psnr(before, truth, silhouettes));
+    quality.psnr_silhouette_db = value_of(psnr(after, reference, silhouettes));
+    quality.psnr_silhouette_before_db = value_of(psnr(before, reference, silhouettes));
   }
   const Image* const both[] = {&after, &before};
-  const std::vector<double> flips = tb::flip(truth, both), similar = ssim(truth, both);
+  const std::vector<double> flips = tb::flip(reference, both), similar = ssim(reference, both);
   quality.flip = flips[0];
   quality.flip_before = flips[1];
   quality.ssim = value_of(similar[0]);
@@ -53,7 +53,7 @@ tb::Quality measure_quality(std::string reference, const Image& before, const Im
   return quality;
 }
 
-Change measure_change(const Image& before, const Image& after, const Image* truth) {
+Change measure_change(const Image& before, const Image& after, const Image* reference) {
   const auto percent = [](std::int64_t part, std::size_t whole) {
     return 100 * static_cast<double>(part) / static_cast<double>(whole);
   };
@@ -62,8 +62,8 @@ Change measure_change(const Image& before, const Image& after, const Image* trut
   change.small_percent = percent(tb::count_different(after, before, Change::kSmall), all);
   change.large_percent = percent(tb::count_different(after, before, Change::kLarge), all);
   change.psnr_db = psnr(after, before);
-  if (!truth) return change;
-  const tb::Mask right = inverted(tb::edge_mask(*truth, before));
+  if (!reference) return change;
+  const tb::Mask right = inverted(tb::edge_mask(*reference, before));
   const auto there = static_cast<std::size_t>(count(right));
   if (there == 0) return change;
   change.right_small_percent =
@@ -105,21 +105,21 @@ void add_frame_pictures(RunContext& context, const SmoothedFrame& frame) {
                             : "hardware against golden: any difference is bright") +
                           unknown);
   }
-  if (frame.truth) {
-    context.add_image("truth", *frame.truth, "Truth", frame.truth_caption);
-    context.add_image("error", compared(*frame.truth, kDifferenceGain), "Error",
-                      fmt::format("after against truth, {} times{}", kDifferenceGain, unknown));
+  if (frame.reference) {
+    context.add_image("reference", *frame.reference, "Reference", frame.reference_caption);
+    context.add_image("error", compared(*frame.reference, kDifferenceGain), "Error",
+                      fmt::format("after against reference, {} times{}", kDifferenceGain, unknown));
   }
   context.add_image("change", compared(frame.before, kDifferenceGain), "Change",
                     fmt::format("after against before, {} times{}", kDifferenceGain, unknown));
 }
 
-Image shares_picture(int width, int height, const std::vector<Shares>& shares) {
-  const auto bright = [](int share) { return static_cast<std::uint8_t>(std::min(255, 2 * share)); };
+Image weights_picture(int width, int height, const std::vector<Weights>& weights) {
+  const auto bright = [](int weight) { return static_cast<std::uint8_t>(std::min(255, 2 * weight)); };
   Image picture(width, height);
-  for (std::size_t i = 0; i < shares.size(); ++i)
-    picture.pixels[i] = {bright(shares[i].first), bright(shares[i].second),
-                         static_cast<std::uint8_t>(shares[i].horizontal ? 160 : 0), 255};
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    picture.pixels[i] = {bright(weights[i].first), bright(weights[i].second),
+                         static_cast<std::uint8_t>(weights[i].horizontal ? 160 : 0), 255};
   return picture;
 }
 

@@ -27,12 +27,12 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 // Of every engine.
 constexpr std::array<std::string_view, 16> kFixed = {
     // A run that is not compared, that ends by design, or that leaves pictures and waves.
-    "run.check", "run.max_cycles", "run.fault", "run.truth", "run.images", "run.pixel", "run.trace",
+    "run.check", "run.max_cycles", "run.fault", "run.reference", "run.images", "run.pixel", "run.trace",
     "run.trace_from", "run.trace_to", "run.timeline_from",
     // Cameras that mostly see nothing.
     "scene.eye", "scene.target",
-    // Truths are supersampled, and nothing of the hardware.
-    "scene.truth_samples",
+    // References are supersampled, and nothing of the hardware.
+    "scene.reference_samples",
     // No run that meets an error of memory passes.
     "memory.error_address", "memory.error_bytes",
     // Below the patience of a watchdog, memory that is slow and stalls would be a deadlock.
@@ -61,7 +61,7 @@ const std::map<std::string_view, Draw>& common_draws() {
        }},
       {"run.stalls", permille},
       {"run.reset_after", magnitude<1, 16000>},
-      {"run.window_cycles", evenly<40, 4000>},
+      {"run.interval_cycles", evenly<40, 4000>},
       {"run.timeline_to", evenly<1, 3000>},
       {"scene.source", name_of_scene},
       {"scene.texture", texture},
@@ -77,7 +77,7 @@ const std::map<std::string_view, Draw>& common_draws() {
       {"scene.count", evenly<2, 3>},
       {"memory.latency", magnitude<1, 300>},
       {"memory.latency_max", magnitude<2, 600>},
-      {"memory.bytes_per_clock",
+      {"memory.bytes_per_cycle",
        [](Random& r) {
          return one_of(r, {"0", "4", "8", "16", "31", "32", "100", "128"});
        }},
@@ -127,7 +127,7 @@ std::uint32_t how_often(const RandomDraws& engine, std::string_view name) {
   if (name.ends_with(".source") || name.ends_with(".preset") || name == "run.stalls" ||
       has(engine.frequent, name))
     return 700;
-  if (name == "run.maps" || name == "run.window_cycles" || name == "run.timeline" ||
+  if (name == "run.maps" || name == "run.interval_cycles" || name == "run.timeline" ||
       name.ends_with("_trace"))
     return 60;
   if (name.starts_with(kRun)) return 400;
@@ -162,7 +162,7 @@ std::string drawn(const RandomDraws& engine, const tb::Parameter& parameter, Ran
 
 // What would take minutes of any memory.
 bool is_quick(const tb::ParameterSet& set) {
-  constexpr std::int64_t kMostClocks = 60, kMostBusy = 10;  // of a transaction
+  constexpr std::int64_t kMostCycles = 60, kMostBusy = 10;  // of a transaction
   constexpr std::string_view kLatency = "memory.latency", kOfMemory = ".latency";
   for (const tb::Parameter& parameter : set.all()) {
     if (!parameter.name.ends_with(kLatency)) continue;
@@ -170,7 +170,7 @@ bool is_quick(const tb::ParameterSet& set) {
     const auto of = [&](const char* name) {
       return number_of(set, fmt::format("{}.{}", memory, name));
     };
-    if (std::max(of("latency"), of("latency_max")) > kMostClocks * of("outstanding")) return false;
+    if (std::max(of("latency"), of("latency_max")) > kMostCycles * of("outstanding")) return false;
     if (of("bank_busy") > kMostBusy * of("banks")) return false;
   }
   return true;

@@ -8,7 +8,7 @@
 
 #include "spec/error.h"
 #include "tb/base/interrupt.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tool/run/simulate.h"
 
 namespace deburr::tool {

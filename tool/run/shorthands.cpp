@@ -13,7 +13,7 @@ std::vector<Shorthand> common_shorthands() {
           {"--trace", "run.trace", "Write waves of these units and links (glob) to trace.vcd"},
           {"--trace-from", "run.trace_from", "First cycle traced"},
           {"--trace-to", "run.trace_to", "Cycle after the last one traced"},
-          {"--windows", "run.window_cycles", "Keep what happened in each window of so many cycles"},
+          {"--windows", "run.interval_cycles", "Keep what happened in each window of so many cycles"},
           {"--maps", "run.maps", "Leave maps of what was done for each pixel"},
           {"--pixel", "run.pixel", "Keep everything that happens to this pixel"},
           {"--timeline", "run.timeline", "Write timeline.json for trace viewers such as Perfetto"},
@@ -23,10 +23,10 @@ std::vector<Shorthand> common_shorthands() {
           {"--max-cycles", "run.max_cycles", "End with an error after so many cycles"},
           {"--stalls", "run.stalls", "Random stalls: probability in each cycle"},
           {"--shuffle", "run.shuffle", "Evaluate units in random order"},
-          {"--truth", "run.truth", "Compare with the scene's supersampled truth"},
+          {"--truth", "run.reference", "Compare with the scene's supersampled reference"},
           {"--no-images", "run.images", "Leave no pictures", "", "false"},
           {"--fault", "run.fault",
-           "Plant a fault that the checks must catch (docs/reference/planted_faults.md)"}};
+           "Plant a fault that the checks must catch (docs/reference/injected_faults.md)"}};
 }
 
 }  // namespace

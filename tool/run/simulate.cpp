@@ -14,7 +14,7 @@
 #include "tb/base/interrupt.h"
 #include "tb/base/json_text.h"
 #include "tb/run/progress.h"
-#include "tb/run/windows.h"
+#include "tb/run/intervals.h"
 #include "tb/traces/line_trace.h"
 
 namespace deburr::tool {
@@ -42,7 +42,7 @@ tb::SimulationOptions simulation_options(const RunParameters& run, const RunCont
   o.trace_file = context.trace_file().string();
   o.trace_from = static_cast<rtl::Cycle>(run.trace_from);
   o.trace_to = static_cast<rtl::Cycle>(run.trace_to);
-  o.window_cycles = static_cast<rtl::Cycle>(run.window_cycles);
+  o.interval_cycles = static_cast<rtl::Cycle>(run.interval_cycles);
   o.maps = run.maps;
   if (run.coverage && !o.golden)
     throw spec::ConfigError(
@@ -74,14 +74,14 @@ void reject_empty_trace(tb::Simulation& simulation) {
 
 // What was watched over time, whatever ended the run; only where no cycle was broken off does it
 // add up.
-void leave_windows(const tb::Simulation& simulation, RunContext& context, const tb::Result& result,
+void leave_intervals(const tb::Simulation& simulation, RunContext& context, const tb::Result& result,
                    bool whole_cycles) {
   if (simulation.timeline())
     context.add_record("timeline", kTimelineFile, simulation.timeline()->json());
-  if (!simulation.windows()) return;
-  const nlohmann::ordered_json windows = simulation.windows()->json();
-  context.add_record("windows", kWindowsFile, tb::json_text(windows) + "\n");
-  if (whole_cycles) tb::check_windows(windows, to_json(result));
+  if (!simulation.intervals()) return;
+  const nlohmann::ordered_json intervals = simulation.intervals()->json();
+  context.add_record("windows", kIntervalsFile, tb::json_text(intervals) + "\n");
+  if (whole_cycles) tb::check_intervals(intervals, to_json(result));
 }
 
 // Where something differs from the golden model, or is missing, counts differ too.
@@ -111,7 +111,7 @@ std::unique_ptr<tb::traces::LineTrace> line_trace(const tb::Simulation& simulati
   options.clock_mhz = simulation.options().clock_mhz;
   options.format =
       wanted == "binary" ? tb::traces::TraceFormat::kBinary : tb::traces::TraceFormat::kText;
-  options.look_ups = value("run.line_trace_look_ups") == "true";
+  options.lookups = value("run.line_trace_lookups") == "true";
   return std::make_unique<tb::traces::LineTrace>(context.line_trace_file(), options);
 }
 
@@ -159,7 +159,7 @@ void simulate(tb::Simulation& simulation, tb::Environment& environment, RunConte
     leave([&] { simulation.collect(result); });
     if (lines) leave([&] { lines->finish(); });
     leave(add_pictures);
-    leave([&] { leave_windows(simulation, context, result, false); });
+    leave([&] { leave_intervals(simulation, context, result, false); });
     leave([&] { leave_maps(simulation, environment, context, result); });
     throw;
   }
@@ -168,7 +168,7 @@ void simulate(tb::Simulation& simulation, tb::Environment& environment, RunConte
   result.interrupted = !simulation.complete();
   if (result.interrupted && result.cycles == 0) throw tb::Interrupted();  // while golden worked
   add_pictures();
-  leave_windows(simulation, context, result, true);
+  leave_intervals(simulation, context, result, true);
   leave_maps(simulation, environment, context, result);
   if (!simulation.complete()) return;
   environment.check();

@@ -24,7 +24,7 @@
 
 #include "spec/error.h"
 #include "tb/base/interrupt.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tool/run/random_configuration.h"
 #include "tool/run/run_once.h"
 #include "tool/soak/flat_memory.h"
@@ -243,7 +243,7 @@ class Soak {
     std::string tenth;
     for (const std::uint64_t bytes : tenths(ended.resident))
       tenth += fmt::format(" {}", megabytes(bytes));
-    fmt::print("long run  {}, seed {}: {} frames, {} clocks, MB in each tenth{}{}\n", engine, seed,
+    fmt::print("long run  {}, seed {}: {} frames, {} cycles, MB in each tenth{}{}\n", engine, seed,
                ended.said.frames, ended.said.cycles, tenth, grown.empty() ? "" : " GREW");
     ++long_runs_;
     if (is_checked(ended.resident)) ++checked_;
@@ -303,7 +303,7 @@ class Soak {
 
   int verdict() const {
     fmt::print(
-        "\n| engine | runs | frames | resets in mid-run | clocks | comparisons | mismatches "
+        "\n| engine | runs | frames | resets in mid-run | cycles | comparisons | mismatches "
         "| failures |\n|---|---|---|---|---|---|---|---|\n");
     for (const auto& [engine, t] : totals_)
       fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} |\n", engine, t.runs, t.frames, t.resets,

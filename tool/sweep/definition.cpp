@@ -449,7 +449,7 @@ class Reader {
         fail(node, fmt::format("limit '{}' is no comparison of a metric by < <= > >=: give several "
                                "limits one by one",
                                limit.text()));
-      limit.truth(Trial());  // of which kind it is, and that it does not always divide by zero
+      limit.reference(Trial());  // of which kind it is, and that it does not always divide by zero
       sweep_.limits.push_back(std::move(limit));
     }
   }

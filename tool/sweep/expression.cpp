@@ -133,7 +133,7 @@ class Expression::Parser {
       return origin->as<double>(term(lookup), "a number");
     };
   }
-  std::function<bool(const Lookup&)> truth(const Operand& operand) const {
+  std::function<bool(const Lookup&)> reference(const Operand& operand) const {
     return [origin = origin_, term = settled(operand)](const Lookup& lookup) {
       return origin->as<bool>(term(lookup), "true or false");
     };
@@ -142,7 +142,7 @@ class Expression::Parser {
   Operand disjunction() {
     Operand left = conjunction();
     while (take("or")) {
-      left = {[a = truth(left), b = truth(conjunction())](const Lookup& l) -> Value {
+      left = {[a = reference(left), b = reference(conjunction())](const Lookup& l) -> Value {
         return a(l) || b(l);
       }};
       is_comparison_ = false;
@@ -153,7 +153,7 @@ class Expression::Parser {
   Operand conjunction() {
     Operand left = negation();
     while (take("and")) {
-      left = {[a = truth(left), b = truth(negation())](const Lookup& l) -> Value {
+      left = {[a = reference(left), b = reference(negation())](const Lookup& l) -> Value {
         return a(l) && b(l);
       }};
       is_comparison_ = false;
@@ -176,7 +176,7 @@ class Expression::Parser {
   Operand negation() {
     if (!take("not")) return comparison();
     const Inside inside(*this);
-    Operand right = {[a = truth(negation())](const Lookup& l) -> Value { return !a(l); }};
+    Operand right = {[a = reference(negation())](const Lookup& l) -> Value { return !a(l); }};
     is_comparison_ = false;
     return right;
   }
@@ -306,9 +306,9 @@ double Expression::number(const Lookup& lookup) const {
   return origin_->as<double>(term_(lookup), "a number");
 }
 
-bool Expression::truth(const Lookup& lookup) const {
+bool Expression::reference(const Lookup& lookup) const {
   const Value value = term_(lookup);
-  if (const bool* truth = std::get_if<bool>(&value)) return *truth;
+  if (const bool* reference = std::get_if<bool>(&value)) return *reference;
   origin_->fail(fmt::format("it is {}, not true or false", kind_of(value)));
 }
 
@@ -339,7 +339,7 @@ Constraint::Constraint(std::string text, std::string where, const tb::ParameterS
 }
 
 bool Constraint::holds(const tb::ParameterSet& set) const {
-  return condition_.truth(
+  return condition_.reference(
       [&](const std::string& name) { return value_of(set.find(name)->text()); });
 }
 

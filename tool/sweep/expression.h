@@ -52,7 +52,7 @@ class Expression {
 
   // DivisionByZero; ConfigError where it is of another kind.
   double number(const Lookup& lookup) const;
-  bool truth(const Lookup& lookup) const;
+  bool reference(const Lookup& lookup) const;
   // How far a comparison by < <= > >= is from what it demands, over the absolute value of its right
   // side; 0: it holds. Infinite where a side has no value.
   double violation(const Lookup& lookup) const;

@@ -11,7 +11,7 @@ namespace deburr::tool {
 
 class KnownFaults {
  public:
-  // ConfigError for a name that no run of the engine takes (run.fault; empty: none is planted). A
+  // ConfigError for a name that no run of the engine takes (run.fault; empty: none is injected). A
   // link and what a fault needs are seen by the run alone. The first name of an engine elaborates
   // its model, in a process of its own.
   void require(const std::string& engine, const std::string& fault);

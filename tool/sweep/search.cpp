@@ -14,7 +14,7 @@
 #include "tb/base/interrupt.h"
 #include "tb/run/amount.h"
 #include "tb/scene/image_io.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tool/sweep/collection.h"
 #include "tool/sweep/evolution.h"
 #include "tool/sweep/sampling.h"

@@ -25,7 +25,7 @@
 #include "tb/base/file.h"
 #include "tb/base/headline.h"
 #include "tb/base/interrupt.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tool/sweep/plan.h"
 #include "tool/sweep/point.h"
 

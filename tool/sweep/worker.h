@@ -2,7 +2,7 @@
 // A chunk of a sweep in one process: `deburr sweep-worker OUT SWEEP POINTS OFFSET COUNT`, started
 // by Ninja.
 //
-// Scene, mip chain and truth are made once; for each point a child is forked before anything of
+// Scene, mip chain and reference are made once; for each point a child is forked before anything of
 // SystemC is made, inherits them, simulates and leaves its results. So a point pays for no start of
 // a program and no input.
 #pragma once

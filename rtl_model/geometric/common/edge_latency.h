@@ -4,7 +4,7 @@
 //
 // Each unit says in its turn what became of the oldest token in front of it; everything is in
 // order, so nothing else is needed to know whose it is. A measuring instrument: no hardware. Tokens
-// that were never announced (planted faults) end it until the next frame.
+// that were never announced (injected faults) end it until the next frame.
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,7 @@ namespace deburr::rtl::geometric {
 namespace {
 
 namespace reg = spec::geometric::reg;
-using spec::geometric::Refusal;
+using spec::geometric::Rejection;
 
 }  // namespace
 
@@ -15,28 +15,28 @@ ControlLayout control_layout() {
   return rtl::control_layout(spec::geometric::kRegisters, spec::geometric::kBusyIgnoresWrites);
 }
 
-FrameRules decode(const ControlRegisters& registers) {
-  const std::uint32_t size = registers.value(reg::kSize), rules = registers.value(reg::kRules);
-  FrameRules f;
+FrameConfiguration decode(const ControlRegisters& registers) {
+  const std::uint32_t size = registers.value(reg::kSize), configuration = registers.value(reg::kConfiguration);
+  FrameConfiguration f;
   const std::uint32_t width = reg::size::kWidth.of(size), height = reg::size::kHeight.of(size);
   f.width = width;
   f.height = height;
-  namespace field = reg::rules;
-  f.select = choice_of<spec::geometric::Select>(field::kSelect, rules);
-  f.crease = choice_of<spec::geometric::Crease>(field::kCrease, rules);
-  f.cull = choice_of<spec::geometric::Cull>(field::kCull, rules);
-  f.depth_test = choice_of<spec::geometric::DepthTest>(field::kDepthTest, rules);
-  f.combine = choice_of<spec::geometric::Combine>(field::kCombine, rules);
-  f.linear_light = field::kLinearLight.of(rules) != 0;
+  namespace field = reg::configuration;
+  f.select = choice_of<spec::geometric::Select>(field::kSelect, configuration);
+  f.crease = choice_of<spec::geometric::Crease>(field::kCrease, configuration);
+  f.cull = choice_of<spec::geometric::Cull>(field::kCull, configuration);
+  f.depth_test = choice_of<spec::geometric::DepthTest>(field::kDepthTest, configuration);
+  f.combine = choice_of<spec::geometric::Combine>(field::kCombine, configuration);
+  f.linear_light = field::kLinearLight.of(configuration) != 0;
   f.depth_bias =
-      std::clamp(field::kDepthBias.of(rules), 1U, std::uint32_t{spec::geometric::kDepthBits});
+      std::clamp(field::kDepthBias.of(configuration), 1U, std::uint32_t{spec::geometric::kDepthBits});
   f.crease_depth =
-      std::min(field::kCreaseDepth.of(rules), std::uint32_t{spec::geometric::kDepthBits});
-  f.area = choice_of<spec::geometric::CoverageRule>(field::kCoverage, rules) ==
+      std::min(field::kCreaseDepth.of(configuration), std::uint32_t{spec::geometric::kDepthBits});
+  f.area = choice_of<spec::geometric::CoverageRule>(field::kCoverage, configuration) ==
            spec::geometric::CoverageRule::kArea;
-  f.mark = field::kMark.of(rules) != 0;
-  f.tiled = field::kLayout.of(rules) != 0;
-  f.frame_copy = field::kFrameCopy.of(rules) != 0;
+  f.mark = field::kMark.of(configuration) != 0;
+  f.tiled = field::kLayout.of(configuration) != 0;
+  f.frame_copy = field::kFrameCopy.of(configuration) != 0;
   f.edge_count = registers.value(reg::kEdgeCount);
   f.vertex_count = registers.value(reg::kVertexCount);
   f.face_count = registers.value(reg::kFaceCount);
@@ -59,23 +59,23 @@ FrameRules decode(const ControlRegisters& registers) {
   return f;
 }
 
-Refusal refusal(const FrameRules& f, bool enabled, const spec::geometric::Parameters& p) {
+Rejection rejection(const FrameConfiguration& f, bool enabled, const spec::geometric::Parameters& p) {
   const auto over = [](std::uint32_t value, std::int32_t limit) {
     return value > static_cast<std::uint32_t>(limit);
   };
-  if (!enabled) return Refusal::kDisabled;
+  if (!enabled) return Rejection::kDisabled;
   if (f.width < 1 || f.height < 1 || over(f.width, spec::geometric::kMaxFrameSize) ||
       over(f.height, spec::geometric::kMaxFrameSize))
-    return Refusal::kSize;
-  if (over(f.width, p.line_pixels)) return Refusal::kWidth;
-  if (over(f.touched_words, p.touched_words)) return Refusal::kTouchedWords;
-  if (f.edge_count > spec::geometric::kMaxEdges) return Refusal::kEdgeCount;
-  if (f.vertex_count > spec::geometric::kMaxVertices) return Refusal::kVertexCount;
+    return Rejection::kSize;
+  if (over(f.width, p.line_pixels)) return Rejection::kWidth;
+  if (over(f.touched_words, p.touched_words)) return Rejection::kTouchedWords;
+  if (f.edge_count > spec::geometric::kMaxEdges) return Rejection::kEdgeCount;
+  if (f.vertex_count > spec::geometric::kMaxVertices) return Rejection::kVertexCount;
   if (f.select == spec::geometric::Select::kEdges && over(f.face_count, p.face_limit))
-    return Refusal::kFaceCount;
+    return Rejection::kFaceCount;
   if (p.records == spec::geometric::RecordsLayout::kSplit && f.boundary_count > f.edge_count)
-    return Refusal::kBoundaryCount;
-  return Refusal::kNone;
+    return Rejection::kBoundaryCount;
+  return Rejection::kNone;
 }
 
 ParameterStore::ParameterStore(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -96,10 +96,10 @@ ParameterStore::ParameterStore(const sc_core::sc_module_name& name, ClockDomain&
     });
   registers.set_resets(spec::geometric::loaded_registers(p));
   registers.on_command(reg::kControlStart, [this] { start(); });
-  registers.on_read(reg::kRefusal, [this] { return static_cast<std::uint32_t>(refusal_); });
+  registers.on_read(reg::kRejection, [this] { return static_cast<std::uint32_t>(rejection_); });
   clock.on_reset([this] {
     starting_ = start_enabled_ = false;
-    refusal_ = Refusal::kNone;
+    rejection_ = Rejection::kNone;
   });
 }
 
@@ -113,13 +113,13 @@ void ParameterStore::start() {
 void ParameterStore::latch(Cycle cycle) {
   starting_ = false;
   registers_.mask_values();
-  const FrameRules rules = decode(registers_);
-  refusal_ = refusal(rules, start_enabled_, parameters_);
-  refusal_out.drive(cycle, refusal_);
-  if (refusal_ == Refusal::kNone)
-    rules_out.drive(cycle, rules);
+  const FrameConfiguration configuration = decode(registers_);
+  rejection_ = rejection(configuration, start_enabled_, parameters_);
+  rejection_out.drive(cycle, rejection_);
+  if (rejection_ == Rejection::kNone)
+    configuration_out.drive(cycle, configuration);
   else
-    registers_.set_sticky(reg::kStatusRefused);
+    registers_.set_sticky(reg::kStatusRejected);
 }
 
 }  // namespace deburr::rtl::geometric

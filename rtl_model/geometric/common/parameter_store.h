@@ -4,8 +4,8 @@
 //
 // Where: beside the pipe, in front of the registers. A write counts from the next clock edge on:
 // START is on `start` in the clock after its write. In that clock the FrameSequencer answers with
-// `latch`, and gets `refusal`: the registers as they are then become the rules, which units read
-// from the next clock on, or the frame is rejected, which has an effect on REFUSAL and STATUS
+// `latch`, and gets `rejection`: the registers as they are then become the rules, which units read
+// from the next clock on, or the frame is rejected, which has an effect on REJECTION and STATUS
 // alone. A write while a frame is under way is ignored (CONTROL and STATUS excepted) and sets a
 // sticky bit. Codes of RULES that no choice has count as code 0. A pulse of a sticky bit sets it in
 // its clock. Nothing in here is ticked. Cost: the registers, and 60 bits of sizes. Made for 250
@@ -19,7 +19,7 @@
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/control_registers.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/frame_configuration.h"
 #include "spec/geometric/parameters.h"
 #include "spec/geometric/registers.h"
 
@@ -29,18 +29,18 @@ namespace deburr::rtl::geometric {
 ControlLayout control_layout();
 
 // What the registers say of a frame.
-FrameRules decode(const ControlRegisters& registers);
+FrameConfiguration decode(const ControlRegisters& registers);
 // Why it is not drawn.
-spec::geometric::Refusal refusal(const FrameRules& rules, bool enabled,
+spec::geometric::Rejection rejection(const FrameConfiguration& configuration, bool enabled,
                                  const spec::geometric::Parameters& parameters);
-inline PayloadShape refusal_shape() { return {.widths = {{"value", 4}}}; }
+inline PayloadShape rejection_shape() { return {.widths = {{"value", 4}}}; }
 
 class ParameterStore final : public sc_core::sc_module {
  public:
-  WireOut<FrameRules> rules_out{"rules_out"};
+  WireOut<FrameConfiguration> configuration_out{"configuration_out"};
   PulseOut start_out{"start_out"};
   OnPulse latch_in{"latch_in", [this](Cycle cycle) { latch(cycle); }};
-  WireOut<spec::geometric::Refusal, WireKind::kCombinational> refusal_out{"refusal_out"};
+  WireOut<spec::geometric::Rejection, WireKind::kCombinational> rejection_out{"rejection_out"};
   // Each sets its bit of STATUS.
   OnPulse frame_done_in, invalid_edge_in, memory_error_in;
   std::optional<OnPulse> invalid_pair_in;  // with records = split
@@ -60,7 +60,7 @@ class ParameterStore final : public sc_core::sc_module {
   ControlRegisters& registers_;
   const spec::geometric::Parameters parameters_;
   bool starting_ = false, start_enabled_ = false;  // the latter as START was written
-  spec::geometric::Refusal refusal_{};
+  spec::geometric::Rejection rejection_{};
 };
 
 }  // namespace deburr::rtl::geometric

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "rtl_model/fabric/memory_clocks.h"
+#include "rtl_model/fabric/memory_cycles.h"
 #include "spec/geometric/parameters.h"
 
 namespace deburr::rtl::geometric {
@@ -18,7 +18,7 @@ inline constexpr std::int32_t kAroundMemory = 8;
 
 // The parameters with these sizes, as ordered or as this memory asks for.
 constexpr spec::geometric::Parameters sized(spec::geometric::Parameters p,
-                                            const MemoryClocks& memory) {
+                                            const MemoryCycles& memory) {
   const std::int32_t round_trip = memory.latency + memory.transfer - 1 + kAroundMemory;
   // A line a clock, if the port has so many transactions.
   if (p.fills == 0)
@@ -28,7 +28,7 @@ constexpr spec::geometric::Parameters sized(spec::geometric::Parameters p,
   if (p.resolve_lines == 0)
     p.resolve_lines = std::clamp(2 * round_trip, spec::geometric::kMinResolveLines,
                                  spec::geometric::kMaxResolveLines);
-  // A line in two clocks, since each is written, too.
+  // A line in two cycles, since each is written, too.
   if (p.copy_lines == 0)
     p.copy_lines = std::clamp((round_trip + 1) / 2, spec::geometric::kMinCopyLines,
                               spec::geometric::kMaxCopyLines);

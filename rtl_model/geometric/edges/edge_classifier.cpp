@@ -30,11 +30,11 @@ EdgeClassifier::EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain&
 }
 
 // The number of an edge in the array of its pair, of every edge that is read.
-void EdgeClassifier::give_number(const FrameRules& rules, Beat& beat, std::size_t lane) {
+void EdgeClassifier::give_number(const FrameConfiguration& configuration, Beat& beat, std::size_t lane) {
   const bool other = !(beat.edges.edge[lane].flags & flag::kBoundary);
   NextPair& next = next_[other];
   const std::uint32_t there =
-      other ? rules.edge_count - rules.boundary_count : rules.boundary_count;
+      other ? configuration.edge_count - configuration.boundary_count : configuration.boundary_count;
   beat.number[lane] = {next.line, next.place, other, false, false, false};
   beat.unpaired |= static_cast<std::uint8_t>((next.count >= there) << lane);
   ++next.count;
@@ -45,16 +45,16 @@ void EdgeClassifier::give_number(const FrameRules& rules, Beat& beat, std::size_
 
 // Stage 1.
 void EdgeClassifier::look(Cycle cycle, Beat& beat) {
-  const FrameRules& rules = rules_in.read(cycle);
-  const bool selects = rules.select == Select::kEdges;
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
+  const bool selects = configuration.select == Select::kEdges;
   beat.valid = beat.looked = beat.unpaired = 0;
   if (split_ && beat.edges.end) next_ = {};
   for (std::size_t lane = 0; lane < beat.edges.count; ++lane) {
     const EdgeFields& edge = beat.edges.edge[lane];
     const bool boundary = edge.flags & flag::kBoundary;
-    if (split_) give_number(rules, beat, lane);
-    const bool vertices = split_ || (edge.v0 < rules.vertex_count && edge.v1 < rules.vertex_count);
-    const bool faces = edge.f0 < rules.face_count && (boundary || edge.f1 < rules.face_count);
+    if (split_) give_number(configuration, beat, lane);
+    const bool vertices = split_ || (edge.v0 < configuration.vertex_count && edge.v1 < configuration.vertex_count);
+    const bool faces = edge.f0 < configuration.face_count && (boundary || edge.f1 < configuration.face_count);
     if (!vertices || (selects && !faces)) continue;
     const auto bit = static_cast<std::uint8_t>(1u << lane);
     beat.valid |= bit;
@@ -80,19 +80,19 @@ void EdgeClassifier::choose_bits(Cycle cycle, Beat& beat) {
 }
 
 // Stage 3, of one lane.
-EdgeClass EdgeClassifier::class_of(const FrameRules& rules, const EdgeFields& edge, bool valid,
+EdgeClass EdgeClassifier::class_of(const FrameConfiguration& configuration, const EdgeFields& edge, bool valid,
                                    bool facing0, bool facing1) {
   if (!valid) return EdgeClass::kInvalid;
   if (edge.flags & flag::kBoundary) return EdgeClass::kBoundary;
-  if (rules.select == Select::kAll) return EdgeClass::kUnclassified;
-  if (rules.select == Select::kEdges) {
+  if (configuration.select == Select::kAll) return EdgeClass::kUnclassified;
+  if (configuration.select == Select::kEdges) {
     if (facing0 != facing1) return EdgeClass::kSilhouette;
-    if (!facing0 && rules.cull == spec::geometric::Cull::kBack) return EdgeClass::kBack;
+    if (!facing0 && configuration.cull == spec::geometric::Cull::kBack) return EdgeClass::kBack;
   }
   const bool angle = edge.flags & flag::kAngle, split = edge.flags & flag::kSplitNormals,
              seam = edge.flags & flag::kSeam;
-  const bool crease = (rules.crease == Crease::kPaper && angle) ||
-                      (rules.crease == Crease::kShading && ((angle && split) || seam));
+  const bool crease = (configuration.crease == Crease::kPaper && angle) ||
+                      (configuration.crease == Crease::kShading && ((angle && split) || seam));
   return crease ? EdgeClass::kCrease : EdgeClass::kFlat;
 }
 
@@ -117,12 +117,12 @@ Counter* EdgeClassifier::counter_of(EdgeClass c) {
 }
 
 void EdgeClassifier::classify(Cycle cycle, const Beat& beat) {
-  const FrameRules& rules = rules_in.read(cycle);
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
   edges += beat.edges.count;
   bool invalid = std::popcount(beat.valid) != beat.edges.count;
   creases_ = 0;
   for (std::size_t lane = 0; lane < beat.edges.count; ++lane) {
-    const EdgeClass c = class_of(rules, beat.edges.edge[lane], beat.valid >> lane & 1,
+    const EdgeClass c = class_of(configuration, beat.edges.edge[lane], beat.valid >> lane & 1,
                                  beat.facing0 >> lane & 1, beat.facing1 >> lane & 1);
     if (Counter* const counter = counter_of(c)) ++*counter;
     const bool kept = c != EdgeClass::kInvalid && c != EdgeClass::kBack && c != EdgeClass::kFlat;

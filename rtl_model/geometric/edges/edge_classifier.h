@@ -18,7 +18,7 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/common/edge_latency.h"
-#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/frame_configuration.h"
 #include "rtl_model/geometric/common/tokens.h"
 #include "spec/geometric/records.h"
 
@@ -26,7 +26,7 @@ namespace deburr::rtl::geometric {
 
 class EdgeClassifier final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   In<EdgeBeat> edges_in{"edges_in"};
   std::optional<Out<KeptEdge>> edges_out;      // with records = joined
   std::optional<Out<PairNumber>> numbers_out;  // with records = split
@@ -73,14 +73,14 @@ class EdgeClassifier final : public Unit {
     std::uint8_t place = 0;   // U4, 0..9
     std::uint32_t count = 0;  // U24
   };
-  void give_number(const FrameRules& rules, Beat& beat, std::size_t lane);
+  void give_number(const FrameConfiguration& configuration, Beat& beat, std::size_t lane);
   bool can_leave(Cycle cycle) const {
     return split_ ? numbers_out->can_push(cycle) : edges_out->can_push(cycle);
   }
   void look(Cycle cycle, Beat& beat);
   void choose_bits(Cycle cycle, Beat& beat);
   void classify(Cycle cycle, const Beat& beat);
-  static spec::geometric::EdgeClass class_of(const FrameRules& rules, const EdgeFields& edge,
+  static spec::geometric::EdgeClass class_of(const FrameConfiguration& configuration, const EdgeFields& edge,
                                              bool valid, bool facing0, bool facing1);
   Counter* counter_of(spec::geometric::EdgeClass c);
   void leave(Cycle cycle);

@@ -22,11 +22,11 @@ EdgeReader::EdgeReader(const sc_core::sc_module_name& name, ClockDomain& clock,
       stalled_edges_(declare_stall("edges", "the next line of edges has not come")) {}
 
 bool EdgeReader::ask(Cycle cycle) {
-  const FrameRules& rules = rules_in.read(cycle);
-  if (asked_edges_ >= rules.edge_count || !buffer_.can_reserve(cycle) ||
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
+  if (asked_edges_ >= configuration.edge_count || !buffer_.can_reserve(cycle) ||
       !memory.requests_out.can_push(cycle))
     return false;
-  memory.read(cycle, rules.edge_base + asked_ * kLineBytes, buffer_.reserve());
+  memory.read(cycle, configuration.edge_base + asked_ * kLineBytes, buffer_.reserve());
   ++asked_;
   asked_edges_ += in_line_;
   ++lines_read;
@@ -52,7 +52,7 @@ void EdgeReader::decode(const Line& line, std::size_t place, EdgeFields& edge) c
 }
 
 Activity EdgeReader::hand_on(Cycle cycle) {
-  const std::uint32_t left = rules_in.read(cycle).edge_count - handed_;
+  const std::uint32_t left = configuration_in.read(cycle).edge_count - handed_;
   if (phase_in.read(cycle) != Phase::kEdges) return left ? stalled_facing_ : kIdle;
   if (left != 0 && !buffer_.ready(cycle)) return stalled_edges_;
   if (!edges_out.can_push(cycle)) return kStalledDownstream;

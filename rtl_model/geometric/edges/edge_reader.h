@@ -15,7 +15,7 @@
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/common/edge_latency.h"
 #include "rtl_model/geometric/common/fill_store.h"
-#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/frame_configuration.h"
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/tokens.h"
 
@@ -23,7 +23,7 @@ namespace deburr::rtl::geometric {
 
 class EdgeReader final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   WireIn<Phase> phase_in{"phase_in"};
   MemoryClient memory;
   Out<EdgeBeat> edges_out{"edges_out"};

@@ -49,14 +49,14 @@ Activity FacingStore::work(Cycle cycle) {
     }
     return did ? kBusy : kIdle;
   }
-  const FrameRules& rules = rules_in.read(cycle);
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
   const std::uint32_t lines =
-      rules.select != spec::geometric::Select::kEdges
+      configuration.select != spec::geometric::Select::kEdges
           ? 0
-          : (rules.face_count + spec::geometric::kFacesInLine - 1) / spec::geometric::kFacesInLine;
+          : (configuration.face_count + spec::geometric::kFacesInLine - 1) / spec::geometric::kFacesInLine;
   if (asked_ < lines) {
     if (!memory.requests_out.can_push(cycle)) return did ? kBusy : kStalledDownstream;
-    memory.read(cycle, rules.face_base + asked_ * spec::geometric::kLineBytes, asked_);
+    memory.read(cycle, configuration.face_base + asked_ * spec::geometric::kLineBytes, asked_);
     ++asked_;
     ++lines_read;
     return kBusy;

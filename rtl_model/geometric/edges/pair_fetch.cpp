@@ -34,8 +34,8 @@ Activity PairFetch::look_up(Cycle cycle) {
   if (!number.end && !number.invalid) {
     cache_.find(cycle, 0, number.other, number.line | kPairValid);
     const Activity done = cache_.look_up(cycle, memory, [&](std::size_t) {
-      const FrameRules& rules = rules_in.read(cycle);
-      return (number.other ? rules.other_pair_base : rules.pair_base) +
+      const FrameConfiguration& configuration = configuration_in.read(cycle);
+      return (number.other ? configuration.other_pair_base : configuration.pair_base) +
              number.line * spec::geometric::kLineBytes;
     });
     if (done != kIdle) return done;
@@ -54,9 +54,9 @@ Activity PairFetch::look_up(Cycle cycle) {
 // Stages 3 and 2.
 Activity PairFetch::deliver(Cycle cycle) {
   if (!fifo_.can_pop(cycle) && pipe_.empty()) return kIdle;
-  const FrameRules& rules = rules_in.read(cycle);
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
   const auto is_kept = [&](const Work& work) {
-    return !work.invalid && work.edge.v0 < rules.vertex_count && work.edge.v1 < rules.vertex_count;
+    return !work.invalid && work.edge.v0 < configuration.vertex_count && work.edge.v1 < configuration.vertex_count;
   };
   if (const Work* const next = pipe_.at(1))
     if ((next->edge.end || is_kept(*next)) && !edges_out.can_push(cycle)) return kStalledDownstream;

@@ -17,7 +17,7 @@
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/common/edge_latency.h"
-#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/frame_configuration.h"
 #include "rtl_model/geometric/common/line_cache.h"
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/tokens.h"
@@ -26,7 +26,7 @@ namespace deburr::rtl::geometric {
 
 class PairFetch final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   WireIn<Phase> phase_in{"phase_in"};
   In<PairNumber> numbers_in{"numbers_in"};
   Out<KeptEdge> edges_out{"edges_out"};

@@ -19,14 +19,14 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/common/edge_latency.h"
-#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/frame_configuration.h"
 #include "rtl_model/geometric/common/tokens.h"
 
 namespace deburr::rtl::geometric {
 
 class CoverageUnit final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   In<GroupToken> groups_in{"groups_in"};
   Out<CandidateToken> candidates_out{"candidates_out"};
 

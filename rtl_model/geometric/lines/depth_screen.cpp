@@ -33,12 +33,12 @@ DepthScreen::DepthScreen(const sc_core::sc_module_name& name, ClockDomain& clock
 
 // Stage 1.
 void DepthScreen::find_tiles(Cycle cycle, const CandidateToken& group) {
-  const FrameRules& rules = rules_in.read(cycle);
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
   Lookup& l = lookup_;
   l.group = group;
   l.missed = l.crossing = 0;
   l.two_lines = false;
-  l.looks = !group.end && rules.depth_test != spec::geometric::DepthTest::kOff;
+  l.looks = !group.end && configuration.depth_test != spec::geometric::DepthTest::kOff;
   if (!l.looks) return;
   const auto find = [&](std::size_t which, std::uint32_t tx, std::uint32_t ty) {
     line_[which] = {static_cast<std::uint16_t>(tx / spec::geometric::kCoarseAcross),
@@ -56,7 +56,7 @@ void DepthScreen::find_tiles(Cycle cycle, const CandidateToken& group) {
   };
   const std::uint32_t tx = group.block_x >> 1, ty = group.block_y >> 1;
   find(0, tx, ty);
-  if (rules.depth_test != spec::geometric::DepthTest::kFarther) return;
+  if (configuration.depth_test != spec::geometric::DepthTest::kFarther) return;
   // A block touches one border of its tile each way, so all neighbours beyond it are in one tile.
   const std::uint32_t block = group.vertical ? group.block_x : group.block_y;
   const bool forward = block & 1;
@@ -77,12 +77,12 @@ Activity DepthScreen::look_up(Cycle cycle) {
     if (!fifo_.can_push(cycle)) return kStalledDownstream;
     if (lookup_.looks) {
       const Activity done = cache_.look_up(cycle, memory, [&](std::size_t which) {
-        const FrameRules& rules = rules_in.read(cycle);
+        const FrameConfiguration& configuration = configuration_in.read(cycle);
         const Place line = line_[which];
         ++misses;
         // A multiply 8 x 8.
-        const std::uint32_t across = (rules.width + 63) >> 6;
-        return rules.coarse_base + ((line.v * across + line.u) << 6);
+        const std::uint32_t across = (configuration.width + 63) >> 6;
+        return configuration.coarse_base + ((line.v * across + line.u) << 6);
       });
       const std::uint32_t decided = cache_.decided(cycle);
       groups += decided != 0;
@@ -113,7 +113,7 @@ void DepthScreen::screen(Cycle cycle, Work& work) {
   CandidateToken& group = work.lookup.group;
   group.dropped = 0;
   if (!l.looks) return;
-  const std::uint32_t bias = rules_in.read(cycle).depth_bias;
+  const std::uint32_t bias = configuration_in.read(cycle).depth_bias;
   for (std::uint32_t left = group.candidates; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
     const bool two = l.crossing >> lane & 1;

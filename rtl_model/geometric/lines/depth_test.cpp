@@ -57,18 +57,18 @@ std::uint8_t DepthTest::add_line(Wanted& wanted, Place line, bool tiled) const {
 
 // Stage 1.
 void DepthTest::find_lines(Cycle cycle, const CandidateToken& group, Wanted& out) const {
-  const FrameRules& rules = rules_in.read(cycle);
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
   Lookup& l = out.lookup;
   l.group = group;
   l.count = l.missed = 0;
-  if (group.end || rules.depth_test == spec::geometric::DepthTest::kOff) return;
+  if (group.end || configuration.depth_test == spec::geometric::DepthTest::kOff) return;
   const auto find = [&](std::uint32_t x, std::uint32_t y, std::uint8_t& line, std::uint8_t& word) {
     const auto at = [&](std::uint32_t u, std::uint32_t v, std::uint32_t w) {
       line = add_line(out, {static_cast<std::uint16_t>(u), static_cast<std::uint16_t>(v)},
-                      rules.tiled);
+                      configuration.tiled);
       word = static_cast<std::uint8_t>(w);
     };
-    if (rules.tiled)
+    if (configuration.tiled)
       at(x >> 2, y >> 2, (y & 3) << 2 | (x & 3));
     else
       at(x >> 4, y, x & 15);
@@ -77,7 +77,7 @@ void DepthTest::find_lines(Cycle cycle, const CandidateToken& group, Wanted& out
     const std::uint32_t x = group.block_x * 4u + (group.place[lane] & 3),
                         y = group.block_y * 4u + (group.place[lane] >> 2);
     find(x, y, l.own_line[lane], l.own_word[lane]);
-    if (rules.depth_test != spec::geometric::DepthTest::kFarther) return;
+    if (configuration.depth_test != spec::geometric::DepthTest::kFarther) return;
     const std::uint32_t step = group.forward >> lane & 1 ? 1 : ~0u;
     find(group.vertical ? x + step : x, group.vertical ? y : y + step, l.other_line[lane],
          l.other_word[lane]);
@@ -89,17 +89,17 @@ void DepthTest::read_tags(Cycle cycle) {
   for (std::size_t port = 0; port < 2 && pair_ + port < looking_.lookup.count; ++port) {
     const Place line = looking_.line[pair_ + port];
     cache_.find(cycle, port, looking_.lookup.index[pair_ + port],
-                depth_tag_of(line.u, line.v, rules_in.read(cycle).tiled));
+                depth_tag_of(line.u, line.v, configuration_in.read(cycle).tiled));
   }
 }
 
 // Stage 3; kIdle: the pair is done.
 Activity DepthTest::look_up_pair(Cycle cycle) {
   const Activity done = cache_.look_up(cycle, memory, [&](std::size_t port) {
-    const FrameRules& rules = rules_in.read(cycle);
+    const FrameConfiguration& configuration = configuration_in.read(cycle);
     const Place line = looking_.line[pair_ + port];
     ++misses;
-    return rules.depth_base + rules.line_offset(line.u, line.v);
+    return configuration.depth_base + configuration.line_offset(line.u, line.v);
   });
   lookups += cache_.decided(cycle);
   if (done == kIdle) looking_.lookup.missed |= static_cast<std::uint8_t>(cache_.missed() << pair_);
@@ -141,7 +141,7 @@ Activity DepthTest::look_up(Cycle cycle) {
 
 void DepthTest::capture(Cycle cycle, Work& work, std::size_t which, const DepthLine& line) const {
   const Lookup& l = work.lookup;
-  const bool farther = rules_in.read(cycle).depth_test == spec::geometric::DepthTest::kFarther;
+  const bool farther = configuration_in.read(cycle).depth_test == spec::geometric::DepthTest::kFarther;
   for_each_lane(not_dropped(l.group), [&](std::size_t lane) {
     if (l.own_line[lane] == which) work.own[lane] = line[l.own_word[lane]];
     if (farther && l.other_line[lane] == which) work.other[lane] = line[l.other_word[lane]];
@@ -162,7 +162,7 @@ void DepthTest::capture_words(Cycle cycle) {
 // Stage 6.
 void DepthTest::compare(Cycle cycle, Work& work) const {
   work.nearer = work.farther = 0;
-  const bool farther = rules_in.read(cycle).depth_test == spec::geometric::DepthTest::kFarther;
+  const bool farther = configuration_in.read(cycle).depth_test == spec::geometric::DepthTest::kFarther;
   for_each_lane(not_dropped(work.lookup.group), [&](std::size_t lane) {
     const std::uint32_t own = work.own[lane], other = work.other[lane];
     work.far[lane] = farther ? std::min(own, other) : own;
@@ -189,15 +189,15 @@ void DepthTest::show(const CandidateToken& group, std::size_t lane, bool passes)
 
 // Stage 7.
 void DepthTest::test(Cycle cycle, const Work& work) {
-  const FrameRules& rules = rules_in.read(cycle);
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
   const CandidateToken& group = work.lookup.group;
-  const bool off = rules.depth_test == spec::geometric::DepthTest::kOff,
-             limited = group.crease && rules.crease_depth != 0;
+  const bool off = configuration.depth_test == spec::geometric::DepthTest::kOff,
+             limited = group.crease && configuration.crease_depth != 0;
   std::uint8_t passing = 0;
   for_each_lane(group.candidates, [&](std::size_t lane) {
     const std::uint32_t far = work.far[lane], depth = group.depth[lane];
-    const bool before = depth >= far - (far >> rules.depth_bias),
-               near = !limited || far >= depth - (depth >> rules.crease_depth),
+    const bool before = depth >= far - (far >> configuration.depth_bias),
+               near = !limited || far >= depth - (depth >> configuration.crease_depth),
                passes = off || (before && near && !(group.dropped >> lane & 1));
     passing |= static_cast<std::uint8_t>(passes << lane);
     if (observer) show(group, lane, passes);

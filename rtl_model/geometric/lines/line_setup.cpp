@@ -78,9 +78,9 @@ void LineSetup::find_axis(Cycle cycle, Beat& beat) {
                       down = static_cast<std::uint32_t>(std::abs(dy));
   const bool horizontal = across > down;
   if ((horizontal ? dx : dy) < 0) std::swap(a, b);
-  const FrameRules& rules = rules_in.read(cycle);
-  const auto columns = static_cast<std::int32_t>(horizontal ? rules.width : rules.height),
-             rows = static_cast<std::int32_t>(horizontal ? rules.height : rules.width);
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
+  const auto columns = static_cast<std::int32_t>(horizontal ? configuration.width : configuration.height),
+             rows = static_cast<std::int32_t>(horizontal ? configuration.height : configuration.width);
   const std::int32_t major1 = horizontal ? b->x : b->y, minor1 = horizontal ? b->y : b->x;
   beat.major0 = horizontal ? a->x : a->y;
   beat.minor0 = horizontal ? a->y : a->x;
@@ -171,10 +171,10 @@ bool LineSetup::advance_front(Cycle cycle) {
       } else if (!pipelined_) {
         std::uint64_t* const divider = free_divider();
         if (divider == nullptr) return false;
-        *divider = moves_ + kDivideClocks;
-        divider_clocks += kDivideClocks;
+        *divider = moves_ + kDivideCycles;
+        divider_cycles += kDivideCycles;
       } else {
-        divider_clocks += kDivideClocks;
+        divider_cycles += kDivideCycles;
       }
     }
   }
@@ -222,8 +222,8 @@ Datasheet LineSetup::datasheet(const spec::geometric::Parameters& p) {
       .does = "Turns a kept edge into a line: axis, columns, slope, position and depth.",
       .latency = {22},
       .interval = p.pipelined
-                      ? Clocks{1}
-                      : Clocks{(kDivision + dividers - 1) / dividers,
+                      ? Cycles{1}
+                      : Cycles{(kDivision + dividers - 1) / dividers,
                                "13 / dividers; lines of the table and edges that are dropped 1"},
       .stages = {{"1", "differences"},
                  {"2", "axis, ends, first and last column, drops",
@@ -232,7 +232,7 @@ Datasheet LineSetup::datasheet(const spec::geometric::Parameters& p) {
                  {"4", "shift, address of the table"},
                  {"5-17", "quotient, two bits a clock, a 27th where L is a power of two",
                   "choice of 4 multiples + 26-bit add"},
-                 {"18, 19", "slope, t, depth step", "23 x 27 multiply over two clocks"},
+                 {"18, 19", "slope, t, depth step", "23 x 27 multiply over two cycles"},
                  {"20, 21", "start: slope x offset, D x t", "24 x 24 multiply"},
                  {"22", "sums"}},
       .cost =

@@ -19,14 +19,14 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/common/edge_latency.h"
-#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/frame_configuration.h"
 #include "rtl_model/geometric/common/tokens.h"
 
 namespace deburr::rtl::geometric {
 
 class LineSetup final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   In<EdgeEnds> ends_in{"ends_in"};
   Out<LineToken> lines_out{"lines_out"};
 
@@ -42,13 +42,13 @@ class LineSetup final : public Unit {
   Counter empty_edges{"empty_edges", "edges", "kept edges without a column of the frame"};
   Counter lines{"lines", "lines", "lines set up"};
   Counter table_lines{"table_lines", "lines", "lines whose reciprocal came from the table"};
-  Counter divider_clocks{"divider_clocks", "clk", "clocks of dividers in use, all dividers"};
+  Counter divider_cycles{"divider_cycles", "clk", "cycles of dividers in use, all dividers"};
 
   static Datasheet datasheet(const spec::geometric::Parameters& parameters);
 
  private:
   static constexpr std::size_t kFront = 4, kBack = 18;  // stages before and from the quotient on
-  static constexpr std::uint64_t kDivideClocks = 13;
+  static constexpr std::uint64_t kDivideCycles = 13;
 
   struct Beat {
     EdgeEnds ends;
@@ -86,7 +86,7 @@ class LineSetup final : public Unit {
   Activity stalled_divider_;
   Pipe<Beat, kFront + 1> front_;  // its last stage is the first one of the quotient
   Pipe<Beat, kBack> back_;
-  std::uint64_t moves_ = 0;                   // clocks in which the stages moved
+  std::uint64_t moves_ = 0;                   // cycles in which the stages moved
   std::array<std::uint64_t, 8> free_from_{};  // of each divider, in moves
   const std::size_t dividers_;
 };

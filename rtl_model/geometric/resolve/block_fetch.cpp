@@ -41,10 +41,10 @@ Activity BlockFetch::look_up(Cycle cycle) {
       if (!lookup.cached) {
         if (!weights_.can_reserve(cycle)) return stalled_weights_;
         if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
-        const FrameRules& rules = rules_in.read(cycle);
+        const FrameConfiguration& configuration = configuration_in.read(cycle);
         memory.read(cycle,
-                    rules.weight_base +
-                        spec::geometric::kLineBytes * (block_.y * rules.blocks_across + block_.x),
+                    configuration.weight_base +
+                        spec::geometric::kLineBytes * (block_.y * configuration.blocks_across + block_.x),
                     weights_.reserve());
         ++weights_read;
       }
@@ -81,13 +81,13 @@ std::uint32_t BlockFetch::lines_of_pixel(bool tiled, const BlockToken& block, st
 }
 
 // What memory gives as weights may be anything.
-void BlockFetch::limit(const FrameRules& rules, BlockToken& block) {
+void BlockFetch::limit(const FrameConfiguration& configuration, BlockToken& block) {
   for (spec::geometric::Weights& weights : block.weights)
     for (std::uint8_t& weight : weights)
       weight = std::min<std::uint8_t>(weight, spec::geometric::kMaxWeight);
   // Only a block at the frame's border has pixels without a neighbour.
-  const auto last_x = static_cast<std::int32_t>(rules.width) - 1,
-             last_y = static_cast<std::int32_t>(rules.height) - 1;
+  const auto last_x = static_cast<std::int32_t>(configuration.width) - 1,
+             last_y = static_cast<std::int32_t>(configuration.height) - 1;
   if (block.x != 0 && block.y != 0 && 4 * block.x + 3 < last_x && 4 * block.y + 3 < last_y) return;
   for (std::int32_t pixel = 0; pixel < spec::geometric::kBlockPixels; ++pixel) {
     const std::int32_t x = 4 * block.x + (pixel & 3), y = 4 * block.y + (pixel >> 2);
@@ -100,8 +100,8 @@ void BlockFetch::limit(const FrameRules& rules, BlockToken& block) {
 }
 
 // Stage 4.
-void BlockFetch::choose(const FrameRules& rules, BlockToken& block) {
-  limit(rules, block);
+void BlockFetch::choose(const FrameConfiguration& configuration, BlockToken& block) {
+  limit(configuration, block);
   block.blended = block.horizontal = 0;
   block.lines = 0;
   for (std::uint32_t pixel = 0; pixel < spec::geometric::kBlockPixels; ++pixel) {
@@ -111,18 +111,18 @@ void BlockFetch::choose(const FrameRules& rules, BlockToken& block) {
     block.blended = static_cast<std::uint16_t>(block.blended | 1u << pixel);
     block.horizontal =
         static_cast<std::uint16_t>(block.horizontal | std::uint32_t{horizontal} << pixel);
-    block.lines |= lines_of_pixel(rules.tiled, block, pixel, horizontal);
+    block.lines |= lines_of_pixel(configuration.tiled, block, pixel, horizontal);
   }
 }
 
 // The first line that is left: kept, or asked for; kIdle: done.
 Activity BlockFetch::ask_for_line(Cycle cycle) {
-  const FrameRules& rules = rules_in.read(cycle);
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
   const auto line = static_cast<std::uint32_t>(std::countr_zero(to_ask_));
   const std::uint32_t i = line / 3, j = line % 3;
-  const std::uint32_t u = (rules.tiled ? asking_.x : asking_.x >> 2) + j - 1,
-                      v = (rules.tiled ? asking_.y : asking_.y * 4u) + i - 1;
-  const std::uint32_t tag = ColourStore::Filler::tag_of(rules.tiled, u, v);
+  const std::uint32_t u = (configuration.tiled ? asking_.x : asking_.x >> 2) + j - 1,
+                      v = (configuration.tiled ? asking_.y : asking_.y * 4u) + i - 1;
+  const std::uint32_t tag = ColourStore::Filler::tag_of(configuration.tiled, u, v);
   if (const auto kept = colours_.find(tag)) {
     if (!colours_.can_order_kept(cycle)) return stalled_colours_;
     colours_.order_kept(cycle, *kept);
@@ -132,7 +132,7 @@ Activity BlockFetch::ask_for_line(Cycle cycle) {
     if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
     const ColourStore::Filler::Ordered ordered = colours_.order_read(cycle, tag);
     memory.read(cycle,
-                (rules.frame_copy ? rules.copy_base : rules.colour_base) + rules.line_offset(u, v),
+                (configuration.frame_copy ? configuration.copy_base : configuration.colour_base) + configuration.line_offset(u, v),
                 ordered.place | kColourPlace);
     ++lines_read;
     lines_replaced += ordered.replaces;
@@ -160,7 +160,7 @@ Activity BlockFetch::deliver(Cycle cycle) {
   if (is_fetched_ && !is_asking_) {
     if (!token_.end) {
       if (fetched_.cached) token_.weights = data_port_.at(cycle, fetched_.index);
-      choose(rules_in.read(cycle), token_);
+      choose(configuration_in.read(cycle), token_);
     }
     asking_ = token_;
     to_ask_ = token_.lines;

@@ -18,7 +18,7 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/common/fill_store.h"
-#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/frame_configuration.h"
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/tokens.h"
 #include "rtl_model/geometric/resolve/colour_store.h"
@@ -28,7 +28,7 @@ namespace deburr::rtl::geometric {
 
 class BlockFetch final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   WireIn<Phase> phase_in{"phase_in"};
   In<TouchedBlock> blocks_in{"blocks_in"};
   Out<BlockToken> blocks_out{"blocks_out"};
@@ -63,8 +63,8 @@ class BlockFetch final : public Unit {
   Activity deliver(Cycle cycle);
   Activity ask(Cycle cycle);
   Activity ask_for_line(Cycle cycle);
-  static void choose(const FrameRules& rules, BlockToken& block);
-  static void limit(const FrameRules& rules, BlockToken& block);
+  static void choose(const FrameConfiguration& configuration, BlockToken& block);
+  static void limit(const FrameConfiguration& configuration, BlockToken& block);
   static std::uint32_t lines_of_pixel(bool tiled, const BlockToken& block, std::uint32_t pixel,
                                       bool horizontal);
 

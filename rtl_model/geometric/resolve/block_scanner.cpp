@@ -20,14 +20,14 @@ BlockScanner::BlockScanner(const sc_core::sc_module_name& name, ClockDomain& clo
 
 // Stage 2.
 void BlockScanner::load(Cycle cycle) {
-  const FrameRules& rules = rules_in.read(cycle);
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
   left_ = touched_port_.at(cycle, taken_);
   above_word_ = row_ == 0 ? TouchedWord{} : above_read_.now(cycle, column_);
   above_write_.write(cycle, column_, left_);
   block_x_ = column_ * kBlocksInWord;
   block_y_ = row_;
   ++taken_;
-  if (++column_ == rules.words_across) {
+  if (++column_ == configuration.words_across) {
     column_ = 0;
     ++row_;
   }
@@ -39,7 +39,7 @@ Activity BlockScanner::tick(Cycle cycle) {
     return kIdle;
   }
   if (ended_) return kIdle;
-  const std::uint32_t words = rules_in.read(cycle).touched_words;
+  const std::uint32_t words = configuration_in.read(cycle).touched_words;
   const bool any = left_.bits[0] | left_.bits[1];
   const bool finished = !any && taken_ == words;
   if ((any || finished) && !blocks_out.can_push(cycle)) return kStalledDownstream;

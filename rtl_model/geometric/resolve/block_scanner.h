@@ -12,7 +12,7 @@
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/frame_configuration.h"
 #include "rtl_model/geometric/common/tokens.h"
 #include "rtl_model/geometric/weights/weight_memories.h"
 
@@ -20,7 +20,7 @@ namespace deburr::rtl::geometric {
 
 class BlockScanner final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   WireIn<Phase> phase_in{"phase_in"};
   Out<TouchedBlock> blocks_out{"blocks_out"};
 

@@ -27,8 +27,8 @@ Activity FrameCopier::work(Cycle cycle) {
     asked_ = written_ = answered_ = 0;
     return kIdle;
   }
-  const FrameRules& rules = rules_in.read(cycle);
-  const std::uint32_t lines = rules.frame_copy ? rules.frame_lines() : 0;
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
+  const std::uint32_t lines = configuration.frame_copy ? configuration.frame_lines() : 0;
   bool did = false;
   if (memory.responses_in.can_pop(cycle)) {
     const MemoryResponse& response = memory.responses_in.take(cycle);
@@ -43,10 +43,10 @@ Activity FrameCopier::work(Cycle cycle) {
              blocked = !memory.requests_out.can_push(cycle);
   if ((reads || buffer_.ready(cycle)) && !blocked) {
     if (reads) {
-      memory.read(cycle, rules.colour_base + asked_ * kLineBytes, buffer_.reserve());
+      memory.read(cycle, configuration.colour_base + asked_ * kLineBytes, buffer_.reserve());
       ++asked_;
     } else {
-      memory.write(cycle, rules.copy_base + written_ * kLineBytes, 0, ~std::uint64_t{0}) =
+      memory.write(cycle, configuration.copy_base + written_ * kLineBytes, 0, ~std::uint64_t{0}) =
           buffer_.line(cycle);
       buffer_.release(cycle);
       ++written_;
@@ -72,7 +72,7 @@ Datasheet FrameCopier::datasheet() {
       .latency = {0, "-"},
       .interval =
           {2,
-           "2 clocks of the port a line, while M + 8 <= 2 copy_lines; then (M + 8) / copy_lines"},
+           "2 cycles of the port a line, while M + 8 <= 2 copy_lines; then (M + 8) / copy_lines"},
       .stages = {{"1", "a line is read while a place is free, else one is written in its turn",
                   "26-bit add"}},
       .cost = "copy_buffer, two 32-bit addresses."};

@@ -12,7 +12,7 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/geometric/common/fill_store.h"
-#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/frame_configuration.h"
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/tokens.h"
 #include "spec/geometric/parameters.h"
@@ -21,7 +21,7 @@ namespace deburr::rtl::geometric {
 
 class FrameCopier final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   WireIn<Phase> phase_in{"phase_in"};
   // Every line is copied, or none is to be.
   WireOut<bool> copied_out{"copied_out"};

@@ -105,7 +105,7 @@ Activity Resolver::load(Cycle cycle) {
   }
   if (to_load_ == 0) return kStalledDownstream;
   if (!colours_.ready(cycle)) return stalled_colours_;
-  place(rules_in.read(cycle).tiled, colours_.line(cycle),
+  place(configuration_in.read(cycle).tiled, colours_.line(cycle),
         static_cast<std::uint32_t>(std::countr_zero(to_load_)));
   colours_.release(cycle);
   to_load_ &= to_load_ - 1;
@@ -135,7 +135,7 @@ void Resolver::move_on(Cycle cycle) {
     has_left_ = false;
     return;
   }
-  if (!rules_in.read(cycle).frame_copy) restore(cycle, token);
+  if (!configuration_in.read(cycle).frame_copy) restore(cycle, token);
   Originals below;
   left_.blended = 0;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -153,7 +153,7 @@ void Resolver::move_on(Cycle cycle) {
 // Stage 3.
 void Resolver::take_pixels(Cycle cycle, Beat& beat) {
   const BlockToken& token = block(blended_block_);
-  const bool linear = rules_in.read(cycle).linear_light;
+  const bool linear = configuration_in.read(cycle).linear_light;
   beat.block = static_cast<std::uint8_t>(blended_block_ % kBlocks);
   beat.count = 0;
   auto light = light_.begin();
@@ -186,7 +186,7 @@ void Resolver::take_pixels(Cycle cycle, Beat& beat) {
 
 // Stage 4.
 void Resolver::subtract(Cycle cycle, Beat& beat) {
-  const bool linear = rules_in.read(cycle).linear_light;
+  const bool linear = configuration_in.read(cycle).linear_light;
   auto port = light_.begin();
   for (std::size_t lane = 0; lane < beat.count; ++lane) {
     Operands& o = beat.operands[lane];
@@ -213,7 +213,7 @@ void Resolver::multiply(Beat& beat) {
 
 // Stage 6.
 void Resolver::round(Cycle cycle, Beat& beat) {
-  const bool linear = rules_in.read(cycle).linear_light;
+  const bool linear = configuration_in.read(cycle).linear_light;
   auto code = codes_.begin();
   for (std::size_t lane = 0; lane < beat.count; ++lane) {
     Operands& o = beat.operands[lane];
@@ -227,18 +227,18 @@ void Resolver::round(Cycle cycle, Beat& beat) {
 
 // Stage 7.
 void Resolver::encode(Cycle cycle, const Beat& beat) {
-  const FrameRules& rules = rules_in.read(cycle);
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
   auto code = codes_.begin();
   for (std::size_t lane = 0; lane < beat.count; ++lane) {
     const Operands& o = beat.operands[lane];
     Rgba& result = results_[o.pixel];
     for (std::size_t c = 0; c < 3; ++c)
-      result[c] = rules.linear_light ? (code++)->at(cycle, o.value[c])
+      result[c] = configuration.linear_light ? (code++)->at(cycle, o.value[c])
                                      : static_cast<std::uint8_t>(o.value[c]);
-    result[3] = static_cast<std::uint8_t>(rules.mark ? o.code[0][3] & 0xFE : o.code[0][3]);
+    result[3] = static_cast<std::uint8_t>(configuration.mark ? o.code[0][3] & 0xFE : o.code[0][3]);
   }
   blended_pixels += beat.count;
-  if (beat.last) close(beat.block, rules.tiled);
+  if (beat.last) close(beat.block, configuration.tiled);
 }
 
 // A block is complete.
@@ -271,17 +271,17 @@ void Resolver::close(std::uint32_t number, bool tiled) {
 // Stage 8; false: the link takes nothing.
 bool Resolver::write(Cycle cycle) {
   if (!memory.requests_out.can_push(cycle)) return false;
-  const FrameRules& rules = rules_in.read(cycle);
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
   const BlockToken& token = block(written_block_);
   const auto row = static_cast<std::uint32_t>(std::countr_zero(to_write_));
-  const std::uint32_t first_pixel = rules.tiled ? 0 : 4 * row, pixels = rules.tiled ? 16 : 4,
-                      at = rules.tiled ? 0 : 4u * (token.x & 3);  // in the line
-  const std::uint32_t offset = rules.tiled ? rules.line_offset(token.x, token.y)
-                                           : rules.line_offset(token.x >> 2, token.y * 4u + row);
+  const std::uint32_t first_pixel = configuration.tiled ? 0 : 4 * row, pixels = configuration.tiled ? 16 : 4,
+                      at = configuration.tiled ? 0 : 4u * (token.x & 3);  // in the line
+  const std::uint32_t offset = configuration.tiled ? configuration.line_offset(token.x, token.y)
+                                           : configuration.line_offset(token.x >> 2, token.y * 4u + row);
   std::uint64_t mask = 0;
   for (std::uint32_t k = 0; k < pixels; ++k)
     if (token.blended >> (first_pixel + k) & 1) mask |= std::uint64_t{0xF} << (4 * (at + k));
-  Line& line = memory.write(cycle, rules.colour_base + offset, 0, mask);
+  Line& line = memory.write(cycle, configuration.colour_base + offset, 0, mask);
   line.fill(0);
   for (std::uint32_t k = 0; k < pixels; ++k)
     std::copy_n(written_[first_pixel + k].begin(), 4,

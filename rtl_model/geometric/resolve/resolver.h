@@ -5,7 +5,7 @@
 // A neighbour that was blended before is replaced by what it was: `originals` keeps the last row of
 // each block column, registers the last column of the block to the left. With frame_copy neighbours
 // come from the copy, and nothing is replaced. Results are rounded by magnitude. Stalls: `colours`
-// (the next line has not come), `downstream`. A block counts max(1, lines, beats) clocks as busy,
+// (the next line has not come), `downstream`. A block counts max(1, lines, beats) cycles as busy,
 // however long its lines are waited for. Source: paper 002, eq (8).
 #pragma once
 
@@ -20,7 +20,7 @@
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/frame_configuration.h"
 #include "rtl_model/geometric/common/memory_arbiter.h"
 #include "rtl_model/geometric/common/tokens.h"
 #include "rtl_model/geometric/resolve/colour_store.h"
@@ -29,7 +29,7 @@ namespace deburr::rtl::geometric {
 
 class Resolver final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   WireIn<Phase> phase_in{"phase_in"};
   // The frame's end has come, and every write is answered.
   WireOut<bool> resolved_out{"resolved_out"};

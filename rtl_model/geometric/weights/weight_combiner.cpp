@@ -57,7 +57,7 @@ WeightCombiner::WeightCombiner(const sc_core::sc_module_name& name, ClockDomain&
 }
 
 Activity WeightCombiner::clear(Cycle cycle) {
-  const std::uint32_t words = rules_in.read(cycle).touched_words,
+  const std::uint32_t words = configuration_in.read(cycle).touched_words,
                       all = std::max(words, cache_.lines());
   if (clearing_ == all) return kIdle;
   if (buffer_ && clearing_ == 0) buffer_->clear();
@@ -68,8 +68,8 @@ Activity WeightCombiner::clear(Cycle cycle) {
 }
 
 std::uint32_t WeightCombiner::address_of(Cycle cycle, std::uint32_t x, std::uint32_t y) const {
-  const FrameRules& rules = rules_in.read(cycle);
-  return rules.weight_base + spec::geometric::kLineBytes * (y * rules.blocks_across + x);
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
+  return configuration.weight_base + spec::geometric::kLineBytes * (y * configuration.blocks_across + x);
 }
 
 bool WeightCombiner::spilling(std::uint32_t tag) const {
@@ -194,7 +194,7 @@ void WeightCombiner::address(Cycle cycle) {
   if (lookup_.group.end) return;
   const std::uint32_t x = lookup_.group.block_x, y = lookup_.group.block_y;
   lookup_.index = static_cast<std::uint16_t>(places_.index_of(x, y));
-  touched_at_ = y * rules_in.read(cycle).words_across + x / spec::geometric::kBlocksInWord;
+  touched_at_ = y * configuration_in.read(cycle).words_across + x / spec::geometric::kBlocksInWord;
   cache_.find(cycle, 0, lookup_.index, WeightPlaces::tag_of(x, y));
   touched_port_.read(cycle, touched_at_);
 }
@@ -228,7 +228,7 @@ void WeightCombiner::combine(Cycle cycle, Work& work) {
     if (!l.missed) work.block = there;
   }
   using spec::geometric::Combine;
-  const Combine rule = rules_in.read(cycle).combine;
+  const Combine rule = configuration_in.read(cycle).combine;
   const auto set = [&](std::uint8_t place, bool forward, std::uint8_t coverage, bool nearer) {
     Weights& weights = work.block[place];
     if (rule == Combine::kLast) weights = {};
@@ -361,7 +361,7 @@ Datasheet WeightCombiner::datasheet() {
       .cost =
           "tags, touched map and data 1R1W, the blocks on their way, the FIFO; the spill "
           "list, 23 bits each, compared with a tag at once: `fills` compares of 23 bits (108 "
-          "for a memory of 100 clocks) and a choice of its first free place; two 11 x 11 "
+          "for a memory of 100 cycles) and a choice of its first free place; two 11 x 11 "
           "multiplies; a lane, of each "
           "of its two candidates, a 16 : 1 place and an 8-bit compare. `write_buffer` = N: N "
           "blocks 1R1W, N compares of 23 bits, 9 bits more of the FIFO."};

@@ -34,7 +34,7 @@ int of_byte(int v) { return nearest(512 * v, 255); }
 struct Entries {
   bool published;
 
-  // The share of the nearer half of a line from half a pixel at the end to nothing in the middle.
+  // The weight of the nearer half of a line from half a pixel at the end to nothing in the middle.
   int half(int i, int j) const {
     const int l = i * i, r = j * j, d = l + r + 1;
     if (l > r) return 0;
@@ -223,7 +223,7 @@ std::array<std::uint16_t, AreaTable::kParities> AreaTable::entries(Cycle cycle, 
   return words;
 }
 
-AreaTable::Shares AreaTable::shares(Cycle cycle, std::size_t reader, const Query& query) {
+AreaTable::Weights AreaTable::weights(Cycle cycle, std::size_t reader, const Query& query) {
   const int from = tile(query.shape);
   if (from < 0) return {};
   // Between the entries at fractions f of the first root, g of the second one.
@@ -241,14 +241,14 @@ AreaTable::Shares AreaTable::shares(Cycle cycle, std::size_t reader, const Query
   const std::uint8_t before = between(there, 0, query.f, query.g);
   const std::uint8_t after = between(back, 0, query.g, query.f);
   const spec::morphological::RunShape& sides = spec::morphological::kRunShapes[query.shape];
-  Shares shares;
-  const auto give = [&](spec::morphological::Side side, std::uint8_t share) {
-    if (side == spec::morphological::Side::kFirst) shares.first = share;
-    if (side == spec::morphological::Side::kSecond) shares.second = share;
+  Weights weights;
+  const auto give = [&](spec::morphological::Side side, std::uint8_t weight) {
+    if (side == spec::morphological::Side::kFirst) weights.first = weight;
+    if (side == spec::morphological::Side::kSecond) weights.second = weight;
   };
   give(sides.after, after);
   give(sides.before, before);
-  return shares;
+  return weights;
 }
 
 }  // namespace deburr::rtl::morphological

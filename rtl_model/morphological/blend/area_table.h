@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// SMAA's table of areas: the shares of a pixel by its distances to both ends of its run, as ROMs of
+// SMAA's table of areas: the weights of a pixel by its distances to both ends of its run, as ROMs of
 // the layout that is built.
 //
-// Where: in the TableShares (its datasheet has formats and cost), which ask in three of its stages:
-// the roots of both distances, the four entries about them, the shares between these. A reader is a
+// Where: in the TableWeights (its datasheet has formats and cost), which ask in three of its stages:
+// the roots of both distances, the four entries about them, the weights between these. A reader is a
 // lane and axis. The four entries lie in four ROMs, by the parities of both roots, so each gives
 // one a read. Layouts: full: 16 tiles of two values, by the pattern; merged: 8 tiles, patterns 0,
 // 5, 10 and 15 are not read, 7 and 14 read 6, 11 and 13 read 9; minimal: two tiles of one value, T,
-// read for both sides, and U. All give the same shares. Every word is computed from the formulas of
+// read for both sides, and U. All give the same weights. Every word is computed from the formulas of
 // docs/reference/morphological/formats.md when the engine is built: the area, or with area_values =
 // published that of the published byte.
 // Source: SMAA (Jimenez et al. 2012); paper 003 (merged); minimal is ours.
@@ -32,7 +32,7 @@ class AreaTable {
     // Integer part of the roots, and their fractions U0.8.
     std::uint8_t i = 0, j = 0, f = 0, g = 0;
   };
-  struct Shares {
+  struct Weights {
     std::uint8_t first = 0, second = 0;
   };
 
@@ -43,7 +43,7 @@ class AreaTable {
   // The roots come.
   void address_entries(Cycle cycle, std::size_t reader, Query& query);
   // The entries come.
-  Shares shares(Cycle cycle, std::size_t reader, const Query& query);
+  Weights weights(Cycle cycle, std::size_t reader, const Query& query);
 
  private:
   static constexpr std::size_t kParities = 4;

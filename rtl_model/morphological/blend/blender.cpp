@@ -13,7 +13,7 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-using spec::morphological::Leave;
+using spec::morphological::Bypass;
 
 template <class Visit>
 void for_each_lane(std::uint8_t lanes, Visit&& visit) {
@@ -24,10 +24,10 @@ void for_each_lane(std::uint8_t lanes, Visit&& visit) {
 // By the geometric engine.
 bool is_marked(const spec::morphological::Rgba8& pixel) { return (pixel[3] & 1) == 0; }
 
-// More than those of shares as they come: of shares as they are blended, U0.12.
+// More than those of weights as they come: of weights as they are blended, U0.12.
 constexpr int kMoreBits = 4;
 constexpr int kBlendBits = 8 + kMoreBits;
-// R(s), U1.20: what squares are multiplied by to be shares of s again.
+// R(s), U1.20: what squares are multiplied by to be weights of s again.
 constexpr std::uint32_t kMixBits = 21;
 std::vector<std::uint32_t> mix_words() {
   std::vector<std::uint32_t> words(spec::morphological::kMixSums);
@@ -41,7 +41,7 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
                  const spec::morphological::Parameters& p, LatencyProbe& probe)
     : Unit(name, clock),
       lanes_(built_lanes(p)),
-      first_row_(reach_rows_of(p) + spec::morphological::kRowLag),
+      first_row_(search_range_rows_of(p) + spec::morphological::kRowLag),
       probe_(probe),
       mix_rom_("mix_rom",
                {.words = spec::morphological::kMixSums,
@@ -49,7 +49,7 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
                 .kind = MemoryKind::kRom,
                 .read_ports = static_cast<std::uint32_t>(lanes_),
                 .write_ports = 0,
-                .content = "2^20 over a sum of shares"},
+                .content = "2^20 over a sum of weights"},
                mix_words()),
       linear_rom_("linear_rom",
                   {.words = spec::morphological::kLinear12FromSrgb.size(),
@@ -80,13 +80,13 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
 }
 
 // Stage 1.
-void Blender::choose(Cycle cycle, const FrameRules& rules, const ShareToken& token,
+void Blender::choose(Cycle cycle, const FrameConfiguration& configuration, const WeightToken& token,
                      const PixelToken& around, Beat& beat) {
   const Slot slot = token.slot;
-  const bool end = slot.beat + 1u == rules.beats;
-  const auto count = static_cast<std::size_t>(end ? rules.last_count : lanes_);
+  const bool end = slot.beat + 1u == configuration.beats;
+  const auto count = static_cast<std::size_t>(end ? configuration.last_count : lanes_);
   beat.slot = slot.number;
-  beat.last = end && slot.row + 1u == rules.rows;
+  beat.last = end && slot.row + 1u == configuration.rows;
   beat.blend = beat.left = 0;
   spec::morphological::BlendedBeat& result = beat.result;
   result = {};  // what leaves the engine is defined in every lane
@@ -95,43 +95,43 @@ void Blender::choose(Cycle cycle, const FrameRules& rules, const ShareToken& tok
   result.start_of_frame = slot.row == first_row_ && slot.beat == 0;
   for (std::size_t i = 0; i < count; ++i) {
     result.pixel[i] = around.centre[i];
-    result.tap[i].edges =
+    result.probe[i].edges =
         static_cast<std::uint8_t>((token.left >> i & 1) | (token.top >> i & 1) << 1);
   }
   std::uint32_t guarded = 0;
-  if (rules.text_guard) [[unlikely]]
+  if (configuration.text_guard) [[unlikely]]
     guarded = guards_in->take(cycle).guarded;
   if (token.any) choose_axes(cycle, token, around, guarded, beat);
 }
 
 // By its own mark, or with `beside` those of its neighbours in the frame.
-bool Blender::is_left(const FrameRules& rules, const Slot& slot, const PixelToken& around,
+bool Blender::is_left(const FrameConfiguration& configuration, const Slot& slot, const PixelToken& around,
                       std::size_t lane, std::size_t count) const {
   if (is_marked(around.centre[lane])) return true;
-  if (rules.leave != Leave::kBeside) return false;
-  const bool first_row = slot.row == first_row_, last_row = slot.row + 1u == rules.rows,
+  if (configuration.leave != Bypass::kBeside) return false;
+  const bool first_row = slot.row == first_row_, last_row = slot.row + 1u == configuration.rows,
              first_column = slot.beat == 0 && lane == 0, last_lane = lane + 1 == count,
-             last_column = last_lane && slot.beat + 1u == rules.beats;
+             last_column = last_lane && slot.beat + 1u == configuration.beats;
   return (!first_row && is_marked(around.above[lane])) ||
          (!last_row && is_marked(around.below[lane])) ||
          (!first_column && is_marked(lane == 0 ? around.before : around.centre[lane - 1])) ||
          (!last_column && is_marked(last_lane ? around.after : around.centre[lane + 1]));
 }
 
-void Blender::choose_axes(Cycle cycle, const ShareToken& token, const PixelToken& around,
+void Blender::choose_axes(Cycle cycle, const WeightToken& token, const PixelToken& around,
                           std::uint32_t guarded, Beat& beat) {
-  const FrameRules& rules = rules_in.read(cycle);
-  const bool strongest = rules.strongest;
-  const Leave leave = rules.leave;
-  const bool by_marks = leave != Leave::kNone && leave != Leave::kMasked,
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
+  const bool strongest = configuration.strongest;
+  const Bypass leave = configuration.leave;
+  const bool by_marks = leave != Bypass::kNone && leave != Bypass::kMasked,
              leaves = by_marks || guarded != 0;
   const std::size_t count = beat.result.count;
   for (std::size_t i = 0; i < count; ++i) {
-    const Shares& s = token.shares[i];
+    const Weights& s = token.weights[i];
     const int vertical_sum = s.up + s.down, horizontal_sum = s.left + s.right;
     if (vertical_sum + horizontal_sum == 0) continue;
     if (leaves &&
-        ((guarded >> i & 1) != 0 || (by_marks && is_left(rules, token.slot, around, i, count)))) {
+        ((guarded >> i & 1) != 0 || (by_marks && is_left(configuration, token.slot, around, i, count)))) {
       beat.left = static_cast<std::uint8_t>(beat.left | 1u << i);
       continue;
     }
@@ -151,45 +151,45 @@ void Blender::choose_axes(Cycle cycle, const ShareToken& token, const PixelToken
     const spec::morphological::Rgba8& second = !horizontal      ? around.below[i]
                                                : i + 1 == count ? around.after
                                                                 : around.centre[i + 1];
-    std::uint8_t first_share = horizontal ? s.left : s.up,
-                 second_share = horizontal ? s.right : s.down;
-    if (leave == Leave::kHalf) {
-      first_share = static_cast<std::uint8_t>(first_share >> is_marked(first));
-      second_share = static_cast<std::uint8_t>(second_share >> is_marked(second));
-      if (first_share + second_share == 0) {
+    std::uint8_t first_weight = horizontal ? s.left : s.up,
+                 second_weight = horizontal ? s.right : s.down;
+    if (leave == Bypass::kHalf) {
+      first_weight = static_cast<std::uint8_t>(first_weight >> is_marked(first));
+      second_weight = static_cast<std::uint8_t>(second_weight >> is_marked(second));
+      if (first_weight + second_weight == 0) {
         beat.left = static_cast<std::uint8_t>(beat.left | 1u << i);
         continue;
       }
     }
-    spec::morphological::BlendTap& tap = beat.result.tap[i];
-    tap.horizontal = horizontal;
-    tap.first = first_share;
-    tap.second = second_share;
+    spec::morphological::BlendProbe& probe = beat.result.probe[i];
+    probe.horizontal = horizontal;
+    probe.first = first_weight;
+    probe.second = second_weight;
     Operands& operands = beat.operands[i];
     operands.code = {around.centre[i], first, second};
-    operands.share = {static_cast<std::uint16_t>(first_share << kMoreBits),
-                      static_cast<std::uint16_t>(second_share << kMoreBits)};
+    operands.weight = {static_cast<std::uint16_t>(first_weight << kMoreBits),
+                      static_cast<std::uint16_t>(second_weight << kMoreBits)};
     beat.blend = static_cast<std::uint8_t>(beat.blend | 1u << i);
-    if (strongest) mix_[i].read(cycle, std::uint64_t{tap.first} + tap.second);
+    if (strongest) mix_[i].read(cycle, std::uint64_t{probe.first} + probe.second);
   }
   blending_ += beat.blend != 0;
 }
 
-// Stages 2 and 3: each share becomes its square over the sum of both.
+// Stages 2 and 3: each weight becomes its square over the sum of both.
 void Blender::mix(Cycle cycle, Beat& beat) {
   for_each_lane(beat.blend, [&](std::size_t lane) {
-    const spec::morphological::BlendTap& tap = beat.result.tap[lane];
-    const std::uint32_t word = mix_[lane].at(cycle, std::uint64_t{tap.first} + tap.second);
-    const auto mixed = [&](std::uint32_t share) {
-      return static_cast<std::uint16_t>((std::uint64_t{share} * share * word + (1u << 15)) >> 16);
+    const spec::morphological::BlendProbe& probe = beat.result.probe[lane];
+    const std::uint32_t word = mix_[lane].at(cycle, std::uint64_t{probe.first} + probe.second);
+    const auto mixed = [&](std::uint32_t weight) {
+      return static_cast<std::uint16_t>((std::uint64_t{weight} * weight * word + (1u << 15)) >> 16);
     };
-    beat.operands[lane].share = {mixed(tap.first), mixed(tap.second)};
+    beat.operands[lane].weight = {mixed(probe.first), mixed(probe.second)};
   });
 }
 
 // Stage 2.
 void Blender::address_light(Cycle cycle, const Beat& beat) {
-  if (!rules_in.read(cycle).linear_light) return;
+  if (!configuration_in.read(cycle).linear_light) return;
   for_each_lane(beat.blend, [&](std::size_t lane) {
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t operand = 0; operand < 3; ++operand)
@@ -199,7 +199,7 @@ void Blender::address_light(Cycle cycle, const Beat& beat) {
 
 // Stage 3.
 void Blender::subtract(Cycle cycle, Beat& beat) {
-  const bool linear = rules_in.read(cycle).linear_light;
+  const bool linear = configuration_in.read(cycle).linear_light;
   for_each_lane(beat.blend, [&](std::size_t lane) {
     Operands& o = beat.operands[lane];
     for (std::size_t c = 0; c < 3; ++c) {
@@ -214,18 +214,18 @@ void Blender::subtract(Cycle cycle, Beat& beat) {
   });
 }
 
-// Stage 4. A neighbour without a share may lie outside the frame.
+// Stage 4. A neighbour without a weight may lie outside the frame.
 void Blender::multiply(Beat& beat) {
   for_each_lane(beat.blend, [&](std::size_t lane) {
     Operands& o = beat.operands[lane];
     for (std::size_t c = 0; c < 3; ++c)
-      o.sum[c] = o.share[0] * o.first[c] + o.share[1] * o.second[c];
+      o.sum[c] = o.weight[0] * o.first[c] + o.weight[1] * o.second[c];
   });
 }
 
 // Stage 5.
 void Blender::round(Cycle cycle, Beat& beat) {
-  const bool linear = rules_in.read(cycle).linear_light;
+  const bool linear = configuration_in.read(cycle).linear_light;
   for_each_lane(beat.blend, [&](std::size_t lane) {
     Operands& o = beat.operands[lane];
     for (std::size_t c = 0; c < 3; ++c) {
@@ -238,22 +238,22 @@ void Blender::round(Cycle cycle, Beat& beat) {
 }
 
 // Stage 6.
-void Blender::deliver(Cycle cycle, const FrameRules& rules, const Beat& beat) {
+void Blender::deliver(Cycle cycle, const FrameConfiguration& configuration, const Beat& beat) {
   spec::morphological::BlendedBeat& out = pixels_out.emplace(cycle);
   out = beat.result;
   if ((beat.blend | beat.left) != 0) {
     encode(cycle, beat, out);
-    left_pixels += static_cast<std::uint64_t>(std::popcount(beat.left));
+    bypassed_pixels += static_cast<std::uint64_t>(std::popcount(beat.left));
   }
-  if (rules.leave != Leave::kNone)
+  if (configuration.leave != Bypass::kNone)
     for (std::size_t i = 0; i < out.count; ++i) out.pixel[i][3] |= 1;
   pixels += out.count;
-  beat_latency.record(probe_.leaves(cycle));
+  beat_latency.descriptor(probe_.leaves(cycle));
   if (beat.last) frames_done_out.push(cycle, {beat.slot});
 }
 
 void Blender::encode(Cycle cycle, const Beat& beat, spec::morphological::BlendedBeat& out) {
-  const bool linear = rules_in.read(cycle).linear_light;
+  const bool linear = configuration_in.read(cycle).linear_light;
   for_each_lane(beat.blend, [&](std::size_t lane) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint16_t value = beat.operands[lane].value[c];
@@ -264,7 +264,7 @@ void Blender::encode(Cycle cycle, const Beat& beat, spec::morphological::Blended
   });
 }
 
-// Stages 5 to 2, which have nothing to do for a beat of which no lane takes a share.
+// Stages 5 to 2, which have nothing to do for a beat of which no lane takes a weight.
 void Blender::blend(Cycle cycle) {
   if (Beat* beat = pipe_.at(5); beat && beat->blend) {
     round(cycle, *beat);
@@ -274,22 +274,22 @@ void Blender::blend(Cycle cycle) {
   if (Beat* beat = pipe_.at(3)) subtract(cycle, *beat);
   if (Beat* beat = pipe_.at(2)) {
     address_light(cycle, *beat);
-    if (rules_in.read(cycle).strongest) mix(cycle, *beat);
+    if (configuration_in.read(cycle).strongest) mix(cycle, *beat);
   }
 }
 
 Activity Blender::tick(Cycle cycle) {
-  const FrameRules& rules = rules_in.read(cycle);
-  const bool arrives = shares_in.can_pop(cycle) && pixels_in.can_pop(cycle) &&
-                       (!rules.text_guard || guards_in->can_pop(cycle));
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
+  const bool arrives = weights_in.can_pop(cycle) && pixels_in.can_pop(cycle) &&
+                       (!configuration.text_guard || guards_in->can_pop(cycle));
   if (!arrives && pipe_.empty()) return kIdle;
   if (pipe_.leaves() &&
       (!pixels_out.can_push(cycle) || (pipe_.at(5)->last && !frames_done_out.can_push(cycle))))
     return kStalledDownstream;
   pipe_.move();
-  if (const Beat* beat = pipe_.at(6)) deliver(cycle, rules, *beat);
+  if (const Beat* beat = pipe_.at(6)) deliver(cycle, configuration, *beat);
   if (blending_ != 0) blend(cycle);
-  if (arrives) choose(cycle, rules, shares_in.take(cycle), pixels_in.take(cycle), pipe_.enter());
+  if (arrives) choose(cycle, configuration, weights_in.take(cycle), pixels_in.take(cycle), pipe_.enter());
   return kBusy;
 }
 
@@ -301,13 +301,13 @@ Datasheet Blender::datasheet() {
                       "sums, spans, axis, neighbours, marks, text guard; address of mix_rom, of "
                       "the chosen sum "
                       "(`strongest`: two maxima, compare, sums of both pairs)"},
-                     {"2", "address of linear_rom; word of mix_rom, squares of both shares"},
+                     {"2", "address of linear_rom; word of mix_rom, squares of both weights"},
                      {"3", "linear light, differences; squares x word, rounded",
                       "21 x 16 multiply + 37-bit add"},
                      {"4", "products, their sum", "signed 13 x 13 multiply"},
                      {"5", "rounding, new value, address of encode_rom"},
                      {"6", "codes", "ROM read"}},
-          .formats = "shares U0.8, as blended U0.12; linear light U0.12, its differences S13.",
+          .formats = "weights U0.8, as blended U0.12; linear light U0.12, its differences S13.",
           .cost =
               "a lane: nine reads of linear_rom, 256 x 12 bits (three a channel, after the "
               "choice of the axis), three of encode_rom, 4096 x 8 bits (two reads a copy), two "

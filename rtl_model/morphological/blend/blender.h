@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Decides the axis of each pixel and blends it with its two neighbours on that axis.
 //
-// Where: last block. Stalls: `downstream`. Rule `longest`: the axis that has shares at all; else
+// Where: last block. Stalls: `downstream`. Rule `longest`: the axis that has weights at all; else
 // the longer line; else the larger sum, ties to up and down. Rule `strongest`: the axis of the
-// largest share, ties to up and down; each share w of the pair becomes w^2 / (w1 + w2). Rule
-// `leave`: a pixel that is marked (bit 0 of its alpha is 0), or beside one that is, takes no share;
+// largest weight, ties to up and down; each weight w of the pair becomes w^2 / (w1 + w2). Rule
+// `leave`: a pixel that is marked (bit 0 of its alpha is 0), or beside one that is, takes no weight;
 // or it takes half of a marked one's. A mask is the EdgeDetector's. The mark ends here. Rule
-// `text_guard`: a pixel that is guarded takes no share; its bit is there before its shares are.
+// `text_guard`: a pixel that is guarded takes no weight; its bit is there before its weights are.
 // Results are rounded by magnitude. Source: paper 000, section 2 (D sums), SMAA 1x (strongest); the
 // tie rules are ours.
 #pragma once
@@ -24,15 +24,15 @@
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/morphological/common/frame_rules.h"
+#include "rtl_model/morphological/common/frame_configuration.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 
 class Blender final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
-  In<ShareToken> shares_in{"shares_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
+  In<WeightToken> weights_in{"weights_in"};
   In<PixelToken> pixels_in{"pixels_in"};
   std::optional<In<GuardToken>> guards_in;  // from the TextGuard, if it is built
   Out<spec::morphological::BlendedBeat> pixels_out{"pixels_out"};
@@ -47,38 +47,38 @@ class Blender final : public Unit {
   }
 
   Counter pixels{"pixels", "pixels", "pixels delivered"};
-  Counter blended_pixels{"blended_pixels", "pixels", "pixels that took a share of a neighbour"};
-  Counter left_pixels{"left_pixels", "pixels", "pixels that a rule left without a share"};
+  Counter blended_pixels{"blended_pixels", "pixels", "pixels that took a weight of a neighbour"};
+  Counter bypassed_pixels{"bypassed_pixels", "pixels", "pixels that a rule left without a weight"};
   Histogram beat_latency{"beat_latency", "clk", "from a beat being popped to it being pushed"};
 
   static Datasheet datasheet();
 
  private:
   static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;
-  // A pixel that takes a share.
+  // A pixel that takes a weight.
   struct Operands {
     std::array<spec::morphological::Rgba8, 3> code;     // centre, first, second
     std::array<std::int32_t, 3> centre, first, second;  // differences to centre; S13
-    std::array<std::uint16_t, 2> share;                 // U0.12, first, second
+    std::array<std::uint16_t, 2> weight;                 // U0.12, first, second
     std::array<std::int32_t, 3> sum;                    // S25
     std::array<std::uint16_t, 3> value;                 // U0.12
   };
   struct Beat {
     std::uint32_t slot;  // number
     bool last;           // of the frame
-    std::uint8_t blend;  // bit k: lane k takes a share
+    std::uint8_t blend;  // bit k: lane k takes a weight
     std::uint8_t left;   // bit k: it had one, and the rule took it
     spec::morphological::BlendedBeat result;
     std::array<Operands, kLanes> operands;
   };
 
   // Once a clock each, from one place: inline.
-  inline void choose(Cycle cycle, const FrameRules& rules, const ShareToken& shares,
+  inline void choose(Cycle cycle, const FrameConfiguration& configuration, const WeightToken& weights,
                      const PixelToken& around, Beat& beat);
-  inline void deliver(Cycle cycle, const FrameRules& rules, const Beat& beat);
-  bool is_left(const FrameRules& rules, const Slot& slot, const PixelToken& around,
+  inline void deliver(Cycle cycle, const FrameConfiguration& configuration, const Beat& beat);
+  bool is_left(const FrameConfiguration& configuration, const Slot& slot, const PixelToken& around,
                std::size_t lane, std::size_t count) const;
-  void choose_axes(Cycle cycle, const ShareToken& shares, const PixelToken& around,
+  void choose_axes(Cycle cycle, const WeightToken& weights, const PixelToken& around,
                    std::uint32_t guarded, Beat& beat);
   void blend(Cycle cycle);
   void mix(Cycle cycle, Beat& beat);
@@ -100,7 +100,7 @@ class Blender final : public Unit {
   Memory<std::uint8_t> encode_rom_;
   std::vector<ReadPort<std::uint8_t>> codes_;  // lane, channel
   Pipe<Beat, spec::morphological::kBlenderLatency + 1> pipe_;
-  std::uint32_t blending_ = 0;  // beats up to stage 5 of which a lane takes a share
+  std::uint32_t blending_ = 0;  // beats up to stage 5 of which a lane takes a weight
 };
 
 }  // namespace deburr::rtl::morphological

@@ -49,7 +49,7 @@ int below(unsigned ends, int n, int x, int y) {
   return count;
 }
 
-// The same as a share of all points in double precision, in which those on the line fall on a side
+// The same as a weight of all points in double precision, in which those on the line fall on a side
 // by rounding.
 double published_area(unsigned ends, int n, int x, int y) {
   const double x1 = ends >> 3, y1 = ends >> 2 & 1, x2 = n + static_cast<int>(ends >> 1 & 1),
@@ -66,7 +66,7 @@ double published_area(unsigned ends, int n, int x, int y) {
 }
 
 // Entry of the published byte v of both lines, which is v / 255: of what lies above them, or below.
-unsigned published_share(const std::array<std::uint8_t, 2>& lines, int n, int x, int y,
+unsigned published_weight(const std::array<std::uint8_t, 2>& lines, int n, int x, int y,
                          bool above) {
   double sum = 0;
   for (const std::uint8_t line : lines) {
@@ -78,7 +78,7 @@ unsigned published_share(const std::array<std::uint8_t, 2>& lines, int n, int x,
 }
 
 // Of both lines' points, U0.8, to nearest.
-unsigned share(int points) {
+unsigned weight(int points) {
   return static_cast<unsigned>((256 * points + kPoints) / (2 * kPoints));
 }
 
@@ -93,9 +93,9 @@ std::vector<std::uint16_t> computed_words(bool published) {
           return below(lines[0], n, x, y) + below(lines[1], n, x, y);
         };
         words.push_back(static_cast<std::uint16_t>(
-            published ? published_share(lines, n, x, d1, true) |
-                            published_share(lines, n, x, 1 + d1, false) << 8
-                      : share(2 * kPoints - of_both(d1)) | share(of_both(1 + d1)) << 8));
+            published ? published_weight(lines, n, x, d1, true) |
+                            published_weight(lines, n, x, 1 + d1, false) << 8
+                      : weight(2 * kPoints - of_both(d1)) | weight(of_both(1 + d1)) << 8));
       }
   return words;
 }

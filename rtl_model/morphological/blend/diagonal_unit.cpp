@@ -19,7 +19,7 @@ DiagonalUnit::DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clo
                            const spec::morphological::Parameters& p)
     : Unit(name, clock),
       lanes_(static_cast<std::size_t>(built_lanes(p))),
-      lag_(reach_rows_of(p) + spec::morphological::kRowLag - 2),
+      lag_(search_range_rows_of(p) + spec::morphological::kRowLag - 2),
       steps_(p.diagonal_steps),
       delay_(static_cast<std::size_t>(diagonal_delay(p.diagonal_steps, built_lanes(p)))),
       clamp_(p.border == spec::morphological::Border::kClamp),
@@ -39,7 +39,7 @@ DiagonalUnit::DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clo
             .write_ports = 0,
             .content = "areas of diagonals, by crossing codes and distances of both ends"},
            diagonal_words(p.area_values)),
-      shares_("diagonal_shares",
+      weights_("diagonal_weights",
               static_cast<std::uint32_t>(
                   (static_cast<std::size_t>(p.line_pixels) + lanes_ - 1) / lanes_ + 16),
               PayloadShape{.lanes = static_cast<std::uint32_t>(lanes_)}) {
@@ -51,7 +51,7 @@ DiagonalUnit::DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clo
 
 // Rows beyond the frame as its first and its last one, of a column of that slot row.
 std::uint64_t DiagonalUnit::repeat_rows(std::uint64_t rows, std::int32_t row) const {
-  const std::int32_t y = row - lag_, first = steps_ - y, last = first + rules_->height - 1;
+  const std::int32_t y = row - lag_, first = steps_ - y, last = first + configuration_->height - 1;
   if (first > 0 && (rows >> first & 1) != 0) rows |= (std::uint64_t{1} << first) - 1;
   if (last < 2 * steps_ && (rows >> last & 1) != 0) rows |= ~std::uint64_t{0} << last;
   return rows;
@@ -63,16 +63,16 @@ void DiagonalUnit::shift(Cycle cycle, const DiagonalColumnsToken* token) {
   const std::size_t first = token ? token->slot.beat * lanes_ : 0;
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
     Column& column = window_[newest_++ % kPlaces];
-    column.valid = token && first + lane < static_cast<std::size_t>(rules_->width);
+    column.valid = token && first + lane < static_cast<std::size_t>(configuration_->width);
     if (!column.valid) continue;
     column.left = token->left[lane];
     column.top = token->top[lane];
     column.row = static_cast<std::uint8_t>(token->slot.row & kRowMask);
-    if (!clamp_ || !rules_->clamp) continue;
+    if (!clamp_ || !configuration_->clamp) continue;
     column.left = repeat_rows(column.left, token->slot.row);
     column.top = repeat_rows(column.top, token->slot.row);
     if (first + lane == 0) first_[column.row & 1] = column;
-    if (first + lane + 1 == static_cast<std::size_t>(rules_->width)) last_[column.row & 1] = column;
+    if (first + lane + 1 == static_cast<std::size_t>(configuration_->width)) last_[column.row & 1] = column;
   }
 }
 
@@ -97,7 +97,7 @@ template <class Good>
 DiagonalUnit::End DiagonalUnit::first_gap(Good&& good) const {
   std::uint32_t steps = 0;
   for (int i = 1; i <= steps_; ++i) steps |= std::uint32_t{good(i)} << (i - 1);
-  const int most = rules_->diagonal_steps;
+  const int most = configuration_->diagonal_steps;
   const int found = std::min(std::countr_one(steps), most);
   return {std::min(found, most - 1), found == most};
 }
@@ -150,8 +150,8 @@ void DiagonalUnit::address(Cycle cycle, const Beat& beat) {
 // Stage 5.
 void DiagonalUnit::deliver(Cycle cycle, const Beat& beat) {
   const std::uint32_t most =
-      rules_->strongest ? spec::morphological::kMaxDiagonalWeight : spec::morphological::kMaxWeight;
-  DiagonalSharesToken token{};
+      configuration_->strongest ? spec::morphological::kMaxDiagonalWeight : spec::morphological::kMaxWeight;
+  DiagonalWeightsToken token{};
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
     if (!(beat.searched >> lane & 1)) continue;
     std::uint32_t first = 0, second = 0;
@@ -176,14 +176,14 @@ void DiagonalUnit::deliver(Cycle cycle, const Beat& beat) {
     token.span[lane] = static_cast<std::uint8_t>(span);
     ++diagonal_pixels;
   }
-  shares_.push(cycle, token);
+  weights_.push(cycle, token);
 }
 
 Activity DiagonalUnit::tick(Cycle cycle) {
   const bool arrives = columns_in.can_pop(cycle);
   if (!arrives && drains_ == 0 && pipe_.empty()) return kIdle;
-  rules_ = &rules_in.read(cycle);
-  if (!shares_.can_push(cycle) && pipe_.leaves() && pipe_.at(kStages - 1)->valid)
+  configuration_ = &configuration_in.read(cycle);
+  if (!weights_.can_push(cycle) && pipe_.leaves() && pipe_.at(kStages - 1)->valid)
     return kStalledDownstream;
   pipe_.move();
   if (const Beat* beat = pipe_.at(5); beat && beat->valid) deliver(cycle, *beat);
@@ -194,7 +194,7 @@ Activity DiagonalUnit::tick(Cycle cycle) {
   if (token) {
     if (token->slot.row == lag_ && token->slot.beat == 0)
       for (Column& column : window_) column.valid = false;
-    drains_ = token->slot.beat + 1u == rules_->beats ? delay_ : 0;
+    drains_ = token->slot.beat + 1u == configuration_->beats ? delay_ : 0;
   } else {
     --drains_;
   }
@@ -205,7 +205,7 @@ Activity DiagonalUnit::tick(Cycle cycle) {
 
 void DiagonalUnit::reset() {
   pipe_.reset();
-  shares_.reset();
+  weights_.reset();
   drains_ = 0;
   for (Column& column : window_) column.valid = false;
 }
@@ -214,7 +214,7 @@ Datasheet DiagonalUnit::datasheet(const spec::morphological::Parameters& p) {
   const std::uint64_t lanes = spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
   const std::uint64_t behind = (static_cast<std::uint64_t>(p.diagonal_steps) + lanes) / lanes;
   return {.unit = "DiagonalUnit",
-          .does = "Shares of the pixels that lie on a diagonal (`diagonals`).",
+          .does = "Weights of the pixels that lie on a diagonal (`diagonals`).",
           .latency = {behind + 5, "D + 5, D = ceil((diagonal_steps + 1) / lanes)"},
           .stages = {{"1",
                       "shift (D beats until the pixels are in hand); with border = clamp rows "
@@ -226,11 +226,11 @@ Datasheet DiagonalUnit::datasheet(const spec::morphological::Parameters& p) {
                       "32 : 1 choice + 5-bit add"},
                      {"4", "addresses of `diagonal_rom`", "three small adds (400 e, 20 d1, d2)"},
                      {"5", "words, sum, limit, push", "ROM read + 9-bit add"}},
-          .formats = "shares U0.8, span U6.",
+          .formats = "weights U0.8, span U6.",
           .cost =
               "a lane: four first-gap circuits of M bits, eight choices of M + 1 : 1, two reads "
               "of diagonal_rom (6400 x 16); diagonal_window, (D + 1) lanes + M + 1 columns x (4 "
-              "M + 2 + 7) bits; diagonal_shares, a word of 23 lanes bits a beat; with border = "
+              "M + 2 + 7) bits; diagonal_weights, a word of 23 lanes bits a beat; with border = "
               "clamp once registers of the first and the last column of two rows, 4 x (4 M + 2) "
               "bits, and a choice of two a bit of the window that a search reads."};
 }

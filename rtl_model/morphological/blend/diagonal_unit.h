@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Diagonal patterns of SMAA: follows steps of one pixel both ways from every top edge and gives the
-// shares of the pixels that lie on one.
+// weights of the pixels that lie on one.
 //
 // Where: beside the AreaUnit. In stage 2 of a slot the RunExtractor hands on the columns of its
 // beat, 2 M + 1 rows about row y = s - R - 3, M = diagonal_steps; in a window of them in flip-flops
@@ -9,7 +9,7 @@
 // of another row, or none, reads as 0, which is the frame's border; with border = clamp as the
 // first or the last column of its own row, which registers keep from the clock in which it is
 // shifted in, and rows beyond the frame are shifted in as the nearest one. Behind the last beat of
-// a row, and only there, columns that are not valid are shifted in clocks in which no beat has
+// a row, and only there, columns that are not valid are shifted in cycles in which no beat has
 // come, so that the row is finished. Results go, a word a beat, in raster order, into a FIFO that
 // the AreaUnit takes them from a row later.
 //
@@ -28,17 +28,17 @@
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/morphological/common/frame_rules.h"
+#include "rtl_model/morphological/common/frame_configuration.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 
 class DiagonalUnit final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   In<DiagonalColumnsToken> columns_in{"columns_in"};
   // For the AreaUnit.
-  Link<DiagonalSharesToken>& shares() { return shares_.link(); }
+  Link<DiagonalWeightsToken>& weights() { return weights_.link(); }
 
   DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                const spec::morphological::Parameters& parameters);
@@ -46,7 +46,7 @@ class DiagonalUnit final : public Unit {
   void reset() override;
 
   Counter diagonal_pixels{"diagonal_pixels", "pixels",
-                          "pixels whose top edge took its shares from a diagonal"};
+                          "pixels whose top edge took its weights from a diagonal"};
 
   static Datasheet datasheet(const spec::morphological::Parameters& parameters);
 
@@ -94,7 +94,7 @@ class DiagonalUnit final : public Unit {
   }
   // What a column beyond the border reads as: the row's first or last one.
   std::uint64_t beyond(std::uint64_t Column::*plane, std::uint8_t row, bool before) const {
-    return rules_->clamp ? (before ? first_ : last_)[row & 1].*plane : 0;
+    return configuration_->clamp ? (before ? first_ : last_)[row & 1].*plane : 0;
   }
   // Once a clock each, from one place: inline.
   inline void shift(Cycle cycle, const DiagonalColumnsToken* token);
@@ -117,14 +117,14 @@ class DiagonalUnit final : public Unit {
   WritePort<void> columns_{window_memory_, "columns"};
   Memory<std::uint16_t> rom_;
   std::vector<ReadPort<std::uint16_t>> read_;  // a lane: rising, falling
-  Fifo<DiagonalSharesToken> shares_;
+  Fifo<DiagonalWeightsToken> weights_;
   std::array<Column, kPlaces> window_{};
   // Of rows by the parity of their slot's, for the next row's come while pixels are in hand.
   std::array<Column, 2> first_{}, last_{};
   std::size_t newest_ = 0;  // place behind the newest column
   std::size_t drains_ = 0;  // shifts that finish the row whose last beat has come
   Pipe<Beat, kStages> pipe_;
-  const FrameRules* rules_ = nullptr;  // on the wire in this clock
+  const FrameConfiguration* configuration_ = nullptr;  // on the wire in this clock
 };
 
 }  // namespace deburr::rtl::morphological

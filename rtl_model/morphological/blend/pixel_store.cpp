@@ -33,10 +33,10 @@ PixelStore::PixelStore(const sc_core::sc_module_name& name, ClockDomain& clock,
                        const spec::morphological::Parameters& p)
     : Unit(name, clock),
       lanes_(built_lanes(p)),
-      lag_(reach_rows_of(p) + spec::morphological::kRowLag),
+      lag_(search_range_rows_of(p) + spec::morphological::kRowLag),
       rows_(p.storage == spec::morphological::Storage::kMemory
                 ? kLines
-                : (reach_rows_of(p) + 7 + kLines - 1) / kLines * kLines),
+                : (search_range_rows_of(p) + 7 + kLines - 1) / kLines * kLines),
       stride_(stride_of(p.line_pixels, lanes_)),
       memory_stall_(declare_stall("memory", "a line of memory has not come, or cannot be sent")),
       rows_stall_(declare_stall("rows", "the place of a beat still holds a pixel to be blended")) {
@@ -67,30 +67,30 @@ void PixelStore::connect(Link<MemoryRequest>& requests, Link<MemoryResponse>& re
 // ---- Out ----------------------------------------------------------------------------------------
 
 // storage = memory: have the lines come that the slot needs?
-bool PixelStore::is_loaded(const FrameRules& rules, const Slot& slot) const {
+bool PixelStore::is_loaded(const FrameConfiguration& configuration, const Slot& slot) const {
   const std::int32_t y = slot.row - lag_;
-  if (y + 1 == rules.height) return memory_->loaded.row >= rules.height;
-  const std::int32_t end = std::min<std::int32_t>((slot.beat + 1) * lanes_, rules.width);
+  if (y + 1 == configuration.height) return memory_->loaded.row >= configuration.height;
+  const std::int32_t end = std::min<std::int32_t>((slot.beat + 1) * lanes_, configuration.width);
   const LinePlace needed = {y + 1, static_cast<std::uint32_t>((end - 1) / kLinePixels)};
   return needed.before(memory_->loaded);
 }
 
-void PixelStore::look_around(const FrameRules& rules, std::int32_t slot_row) {
+void PixelStore::look_around(const FrameConfiguration& configuration, std::int32_t slot_row) {
   const std::int32_t y = slot_row - lag_;
   above_ = y > 0 ? row(y - 1) : Row{};
   centre_ = row(y);
-  below_ = y + 1 == rules.height ? Row{} : row(y + 1);
+  below_ = y + 1 == configuration.height ? Row{} : row(y + 1);
   around_row_ = slot_row;
 }
 
 // Stage 1.
-void PixelStore::address(Cycle cycle, const FrameRules& rules) {
+void PixelStore::address(Cycle cycle, const FrameConfiguration& configuration) {
   words_.before = words_.centre[static_cast<std::size_t>(lanes_) - 1];
   if (above_.lines) {
     above_.lines->read.read(cycle, above_.from + beat_);
     words_.above = above_.lines->words[above_.from + beat_];
   }
-  const bool goes_on = beat_ + 1 < rules.beats;
+  const bool goes_on = beat_ + 1 < configuration.beats;
   centre_.lines->read.read(cycle, centre_.from + beat_, goes_on ? 2 : 1);
   const Word* const centre = &centre_.lines->words[centre_.from + beat_];
   words_.centre = centre[0];
@@ -102,13 +102,13 @@ void PixelStore::address(Cycle cycle, const FrameRules& rules) {
 }
 
 // Stage 2. The rows are those of the slot still: the next one comes into stage 1 after this.
-void PixelStore::send(Cycle cycle, const FrameRules& rules) {
+void PixelStore::send(Cycle cycle, const FrameConfiguration& configuration) {
   const std::uint32_t beat = beat_;
   PixelToken& out = pixels_out.emplace(cycle);
   centre_.lines->read.check(cycle, centre_.from + beat);
   out.before = words_.before;
   out.centre = words_.centre;
-  if (beat + 1 < rules.beats) out.after = words_.after;
+  if (beat + 1 < configuration.beats) out.after = words_.after;
   if (above_.lines) {
     above_.lines->read.check(cycle, above_.from + beat);
     out.above = words_.above;
@@ -120,20 +120,20 @@ void PixelStore::send(Cycle cycle, const FrameRules& rules) {
   fetched_ = false;
 }
 
-PixelStore::Did PixelStore::fetch(Cycle cycle, const FrameRules& rules) {
+PixelStore::Did PixelStore::fetch(Cycle cycle, const FrameConfiguration& configuration) {
   Did did = Did::kNothing;
   if (fetched_) {
     if (!pixels_out.can_push(cycle)) return Did::kWaitsDownstream;
-    send(cycle, rules);
+    send(cycle, configuration);
     did = Did::kWork;
   }
   if (!fetches_in.can_pop(cycle)) return did;
-  if (memory_ && !is_loaded(rules, fetches_in.front(cycle).slot))
+  if (memory_ && !is_loaded(configuration, fetches_in.front(cycle).slot))
     return did == Did::kWork ? did : Did::kWaitsForMemory;
   const Slot slot = fetches_in.take(cycle).slot;
-  if (slot.row != around_row_) look_around(rules, slot.row);
+  if (slot.row != around_row_) look_around(configuration, slot.row);
   beat_ = slot.beat;
-  address(cycle, rules);
+  address(cycle, configuration);
   fetched_ = true;
   asked_row_ = slot.row;
   asked_beat_ = slot.beat + 1u;
@@ -142,14 +142,14 @@ PixelStore::Did PixelStore::fetch(Cycle cycle, const FrameRules& rules) {
 
 // ---- In -----------------------------------------------------------------------------------------
 
-PixelStore::Did PixelStore::store(Cycle cycle, const FrameRules& rules) {
+PixelStore::Did PixelStore::store(Cycle cycle, const FrameConfiguration& configuration) {
   if (!beats_in.can_pop(cycle)) return Did::kNothing;
   const BeatToken& beat = beats_in.front(cycle);
   const Slot slot = beat.slot;
-  if (slot.number == 0) begin_frame(rules);
+  if (slot.number == 0) begin_frame(configuration);
   if (memory_) {
     const std::int32_t first = slot.beat * lanes_;
-    if (!gather(cycle, rules, beat, first, std::min(lanes_, rules.width - first)))
+    if (!gather(cycle, configuration, beat, first, std::min(lanes_, configuration.width - first)))
       return Did::kWaitsForMemory;
   } else {
     if (!is_free(slot.row, slot.beat)) return Did::kWaitsForRows;
@@ -162,14 +162,14 @@ PixelStore::Did PixelStore::store(Cycle cycle, const FrameRules& rules) {
 }
 
 Activity PixelStore::tick(Cycle cycle) {
-  const FrameRules& rules = rules_in.read(cycle);
-  const Did fetched = fetch(cycle, rules);
-  const Did stored = store(cycle, rules);
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
+  const Did fetched = fetch(cycle, configuration);
+  const Did stored = store(cycle, configuration);
   bool did = fetched == Did::kWork || stored == Did::kWork;
   if (memory_) {
     did |= receive(cycle);
     did |= settle(cycle);
-    did |= request(cycle, rules);
+    did |= request(cycle, configuration);
   }
   if (did) return kBusy;
   if (fetched == Did::kWaitsForMemory || stored == Did::kWaitsForMemory) return memory_stall_;
@@ -177,21 +177,21 @@ Activity PixelStore::tick(Cycle cycle) {
   return stored == Did::kWaitsForRows ? rows_stall_ : kIdle;
 }
 
-void PixelStore::begin_frame(const FrameRules& rules) {
+void PixelStore::begin_frame(const FrameConfiguration& configuration) {
   around_row_ = -1;
   asked_row_ = 0;
   if (!memory_) return;
-  memory_->row_lines = static_cast<std::uint32_t>((rules.width + kLinePixels - 1) / kLinePixels);
+  memory_->row_lines = static_cast<std::uint32_t>((configuration.width + kLinePixels - 1) / kLinePixels);
   memory_->sent = memory_->answered = memory_->asked = memory_->loaded = {};
   memory_->writes.reset();
   memory_->reads.reset();
 }
 
 // Puts a beat into the line in hand and sends the line if it is complete; false if it could not.
-bool PixelStore::gather(Cycle cycle, const FrameRules& rules, const BeatToken& beat, std::int32_t x,
+bool PixelStore::gather(Cycle cycle, const FrameConfiguration& configuration, const BeatToken& beat, std::int32_t x,
                         std::int32_t count) {
   InMemory& m = *memory_;
-  const bool completes = (x + count) % kLinePixels == 0 || x + count == rules.width;
+  const bool completes = (x + count) % kLinePixels == 0 || x + count == configuration.width;
   if (completes && (!m.requests->can_push(cycle) || m.writes.full())) return false;
   constexpr std::size_t kPixelBytes = spec::morphological::kFramePixelBytes;
   const std::size_t at = static_cast<std::size_t>(x % kLinePixels) * kPixelBytes;
@@ -202,7 +202,7 @@ bool PixelStore::gather(Cycle cycle, const FrameRules& rules, const BeatToken& b
   m.send.read(cycle, 0);
   MemoryRequest& request = m.requests->emplace(cycle);
   // 32 bits: a frame that begins below 4 GiB and ends above goes on at 0.
-  request.address = rules.pixel_base + m.sent.address;
+  request.address = configuration.pixel_base + m.sent.address;
   request.tag = tag_of(m.writes.send(), m.sent.line, 0);
   request.lines = 1;
   request.write = true;
@@ -256,15 +256,15 @@ bool PixelStore::settle(Cycle cycle) {
 }
 
 // Asks for the next line, if it has been written and there is a place for it.
-bool PixelStore::request(Cycle cycle, const FrameRules& rules) {
+bool PixelStore::request(Cycle cycle, const FrameConfiguration& configuration) {
   InMemory& m = *memory_;
   if (!m.asked.before(m.answered) || m.reads.full() || !m.requests->can_push(cycle)) return false;
   const std::uint32_t last_beat =
-      std::min(rules.beats - 1, ((m.asked.line + 1) * static_cast<std::uint32_t>(kLinePixels) - 1) /
+      std::min(configuration.beats - 1, ((m.asked.line + 1) * static_cast<std::uint32_t>(kLinePixels) - 1) /
                                     static_cast<std::uint32_t>(lanes_));
   if (!is_free(m.asked.row, last_beat)) return false;
   MemoryRequest& request = m.requests->emplace(cycle);
-  request.address = rules.pixel_base + m.asked.address;
+  request.address = configuration.pixel_base + m.asked.address;
   request.tag = tag_of(m.reads.send(), m.asked.line, m.asked.row % rows_);
   request.lines = 1;
   request.write = false;

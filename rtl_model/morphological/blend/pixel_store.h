@@ -8,7 +8,7 @@
 // sends each when its last pixel has come (latency 1 to the memory port), the out side loads rows y
 // + 1, a line a request, into the rows on the chip as soon as their place is free and their write
 // has been answered; writes go before reads. A line that comes is stored eight words a clock (two
-// clocks with one lane). Answers may come in any order; that all before a line have come is seen a
+// cycles with one lane). Answers may come in any order; that all before a line have come is seen a
 // line a clock.
 // Neighbouring rows lie in different memories, so that each is read and written once a clock; two
 // beats of the middle row come from two banks.
@@ -30,14 +30,14 @@
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/morphological/common/frame_rules.h"
+#include "rtl_model/morphological/common/frame_configuration.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 
 class PixelStore final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   In<BeatToken> beats_in{"beats_in"};
   In<FetchToken> fetches_in{"fetches_in"};
   Out<PixelToken> pixels_out{"pixels_out"};
@@ -164,19 +164,19 @@ class PixelStore final : public Unit {
   static constexpr std::int32_t kLines = 4;
 
   // Once a clock each, from one place: inline.
-  inline Did fetch(Cycle cycle, const FrameRules& rules);
-  inline void address(Cycle cycle, const FrameRules& rules);
-  inline void send(Cycle cycle, const FrameRules& rules);
-  inline Did store(Cycle cycle, const FrameRules& rules);
-  bool is_loaded(const FrameRules& rules, const Slot& slot) const;
-  void look_around(const FrameRules& rules, std::int32_t slot_row);
-  bool gather(Cycle cycle, const FrameRules& rules, const BeatToken& beat, std::int32_t x,
+  inline Did fetch(Cycle cycle, const FrameConfiguration& configuration);
+  inline void address(Cycle cycle, const FrameConfiguration& configuration);
+  inline void send(Cycle cycle, const FrameConfiguration& configuration);
+  inline Did store(Cycle cycle, const FrameConfiguration& configuration);
+  bool is_loaded(const FrameConfiguration& configuration, const Slot& slot) const;
+  void look_around(const FrameConfiguration& configuration, std::int32_t slot_row);
+  bool gather(Cycle cycle, const FrameConfiguration& configuration, const BeatToken& beat, std::int32_t x,
               std::int32_t count);
   bool receive(Cycle cycle);
   bool load(Cycle cycle, const MemoryResponse& response);
   bool settle(Cycle cycle);
-  bool request(Cycle cycle, const FrameRules& rules);
-  void begin_frame(const FrameRules& rules);
+  bool request(Cycle cycle, const FrameConfiguration& configuration);
+  void begin_frame(const FrameConfiguration& configuration);
   // Has the row whose place row y takes been asked for up to this beat for the last time?
   bool is_free(std::int32_t y, std::uint32_t beat) const {
     const std::int32_t last = y - rows_ + 1 + lag_;

@@ -16,30 +16,30 @@ ControlLayout control_layout() {
 }
 
 Decoded decode(const ControlRegisters& registers, const spec::morphological::Parameters& p) {
-  const std::uint32_t size = registers.value(reg::kSize), rules = registers.value(reg::kRules);
-  const std::int32_t lanes = built_lanes(p), reach_rows = reach_rows_of(p);
+  const std::uint32_t size = registers.value(reg::kSize), configuration = registers.value(reg::kConfiguration);
+  const std::int32_t lanes = built_lanes(p), search_rows = search_range_rows_of(p);
   const auto u16 = [](std::int32_t value) { return static_cast<std::uint16_t>(value); };
   Decoded decoded;
-  FrameRules& f = decoded.rules;
+  FrameConfiguration& f = decoded.configuration;
   f.width = static_cast<std::uint16_t>(reg::size::kWidth.of(size));
   f.height = static_cast<std::uint16_t>(reg::size::kHeight.of(size));
   decoded.valid = f.width >= 1 && f.height >= 1 && f.width <= spec::morphological::kMaxFrameSize &&
                   f.height <= spec::morphological::kMaxFrameSize && f.width <= p.line_pixels;
   f.beats = static_cast<std::uint32_t>((f.width + lanes - 1) / lanes);
-  f.rows = static_cast<std::uint32_t>(f.height + reach_rows + spec::morphological::kRowLag);
+  f.rows = static_cast<std::uint32_t>(f.height + search_rows + spec::morphological::kRowLag);
   f.last_count = u16(f.width - (static_cast<std::int32_t>(f.beats) - 1) * lanes);
 
-  namespace field = reg::rules;
-  const auto is_set = [&](const spec::Field& flag) { return flag.of(rules) != 0; };
-  f.source = choice_of<spec::morphological::EdgeSource>(field::kSource, rules);
+  namespace field = reg::configuration;
+  const auto is_set = [&](const spec::Field& flag) { return flag.of(configuration) != 0; };
+  f.source = choice_of<spec::morphological::EdgeSource>(field::kSource, configuration);
   f.dynamic = is_set(field::kThresholdMode) && f.source == spec::morphological::EdgeSource::kLuma;
-  f.dynamic_luma = choice_of<spec::morphological::DynamicLuma>(field::kDynamicLuma, rules);
-  f.local_contrast = choice_of<spec::morphological::LocalContrast>(field::kLocalContrast, rules);
+  f.dynamic_luma = choice_of<spec::morphological::DynamicLuma>(field::kDynamicLuma, configuration);
+  f.local_contrast = choice_of<spec::morphological::LocalContrast>(field::kLocalContrast, configuration);
   if (f.source == spec::morphological::EdgeSource::kDepth)
     f.local_contrast = spec::morphological::LocalContrast::kOff;
-  f.predictor = choice_of<spec::morphological::Predictor>(field::kPredictor, rules);
-  f.steps = u16(std::min({static_cast<std::int32_t>(field::kSteps.of(rules)),
-                          spec::morphological::kMaxSteps, reach_rows - 1}));
+  f.predictor = choice_of<spec::morphological::Predictor>(field::kPredictor, configuration);
+  f.steps = u16(std::min({static_cast<std::int32_t>(field::kSteps.of(configuration)),
+                          spec::morphological::kMaxSteps, search_rows - 1}));
   if (f.predictor == spec::morphological::Predictor::kNone) f.steps = 0;
   f.contiguous = is_set(field::kContiguous) && p.contiguous;
   f.safe = is_set(field::kSafe);
@@ -59,12 +59,12 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
       u16(std::clamp(number(reg::smaa::kSearchSteps), 1, spec::morphological::kMaxSearchSteps));
   if (is_set(field::kDiagonals) && p.diagonals)
     f.diagonal_steps =
-        u16(std::min({number(reg::smaa::kDiagonalSteps), p.diagonal_steps, reach_rows}));
+        u16(std::min({number(reg::smaa::kDiagonalSteps), p.diagonal_steps, search_rows}));
   f.corners = is_set(field::kRoundCorners) && p.round_corners;
   f.corner_loss = u16(
       std::max(spec::morphological::kMaxCornerRounding - number(reg::smaa::kCornerRounding), 0));
   f.strongest = is_set(field::kStrongest);
-  f.leave = choice_of<spec::morphological::Leave>(field::kLeave, rules);
+  f.leave = choice_of<spec::morphological::Bypass>(field::kBypass, configuration);
   f.text_guard = is_set(field::kTextGuard) && p.text_guard;
 
   f.threshold = registers.value(reg::kThreshold);
@@ -93,10 +93,10 @@ ParameterStore::ParameterStore(const sc_core::sc_module_name& name, ControlRegis
       registers_.set_sticky(reg::kStatusMemoryError);
     });
   if (p.area != spec::morphological::AreaSource::kLearned)
-    for (const std::uint32_t offset : {reg::kSharesAddress, reg::kSharesData})
+    for (const std::uint32_t offset : {reg::kWeightsAddress, reg::kWeightsData})
       registers.set_mask(offset, 0);
   registers.set_resets(spec::morphological::loaded_registers(p));
-  for (const std::uint32_t offset : {reg::kSharesAddress, reg::kSharesData, reg::kSharesSum})
+  for (const std::uint32_t offset : {reg::kWeightsAddress, reg::kWeightsData, reg::kWeightsSum})
     registers.on_read(offset, [] { return 0u; });
 }
 
@@ -105,7 +105,7 @@ void ParameterStore::latch(Cycle cycle) {
   const Decoded decoded = decode(registers_, parameters_);
   latched_out.drive(cycle, decoded);
   if (decoded.valid)
-    rules_out.drive(cycle, decoded.rules);
+    configuration_out.drive(cycle, decoded.configuration);
   else
     registers_.set_sticky(reg::kStatusFraming);
 }

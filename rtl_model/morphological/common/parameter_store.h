@@ -11,7 +11,7 @@
 // window_rows / 2 - 2, those of SMAA's searches to their ranges; what was not built (depth lines
 // with source = luma) reads as 0, and `contiguous`, crossings, clamp, tables, diagonals, corners
 // and the text guard count as off in an engine that was built without them, and so do learned
-// shares, whose registers read 0 then (else: SharesLoader). A reset gives every register its reset
+// weights, whose registers read 0 then (else: WeightsLoader). A reset gives every register its reset
 // value; SIZE is 0 then and must be written again. Nothing in here is ticked. Cost: 15 x 32
 // flip-flops. Made for 300 MHz; longest path: the least of three 5-bit numbers.
 #pragma once
@@ -22,7 +22,7 @@
 
 #include "rtl_model/fabric/control_registers.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/morphological/common/frame_rules.h"
+#include "rtl_model/morphological/common/frame_configuration.h"
 #include "spec/morphological/parameters.h"
 #include "spec/morphological/registers.h"
 
@@ -35,7 +35,7 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
 
 class ParameterStore final : public sc_core::sc_module {
  public:
-  WireOut<FrameRules> rules_out{"rules_out"};
+  WireOut<FrameConfiguration> configuration_out{"configuration_out"};
   OnPulse first_beat_in;
   WireOut<bool, WireKind::kCombinational> enabled_out{"enabled_out"};
   OnPulse latch_in{"latch_in", [this](Cycle cycle) { latch(cycle); }};

@@ -107,7 +107,7 @@ struct EdgeToken {
 };
 
 // RunExtractor -> AreaUnit: edges of row slot.row - R - 5, which is being blended, and with learned
-// shares of the row below, whose shares are being found.
+// weights of the row below, whose weights are being found.
 struct AreaSlotToken {
   Slot slot;
   std::uint8_t left, top;
@@ -157,8 +157,8 @@ inline PayloadShape diagonal_columns_shape(const spec::morphological::Parameters
 // Beats from a column to the pixels that need no later one.
 inline int diagonal_delay(int steps, int lanes) { return (steps + 1 + lanes - 1) / lanes; }
 
-// DiagonalUnit -> AreaUnit: of each lane whose top edge takes its shares from a diagonal.
-struct DiagonalSharesToken {
+// DiagonalUnit -> AreaUnit: of each lane whose top edge takes its weights from a diagonal.
+struct DiagonalWeightsToken {
   std::uint8_t taken;  // bit k: lane k
   Lanes8 first, second;
   Lanes8 span;
@@ -171,8 +171,8 @@ struct DiagonalSharesToken {
   }
 };
 
-// Shares of the neighbours of one pixel, and the spans of the lines that give them.
-struct Shares {
+// Weights of the neighbours of one pixel, and the spans of the lines that give them.
+struct Weights {
   std::uint8_t up, down, left, right;                       // U0.8
   std::uint16_t span_up, span_down, span_left, span_right;  // U12
   template <class Self, class Visit>
@@ -189,18 +189,18 @@ struct Shares {
 };
 
 // AreaUnit -> Blender.
-struct ShareToken {
+struct WeightToken {
   Slot slot;
-  bool any;  // one of the shares below is not 0; if not, they hold old bits
+  bool any;  // one of the weights below is not 0; if not, they hold old bits
   std::uint8_t left, top;
-  std::array<Shares, spec::morphological::kMaxLanes> shares;
+  std::array<Weights, spec::morphological::kMaxLanes> weights;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("slot", self.slot);
     visit("any", self.any);
     visit.lane_bits("left", self.left, spec::morphological::kMaxLanes);
     visit.lane_bits("top", self.top, spec::morphological::kMaxLanes);
-    visit.lanes("shares", self.shares);
+    visit.lanes("weights", self.weights);
   }
 };
 
@@ -224,8 +224,8 @@ struct PixelToken {
 inline constexpr std::uint32_t kSlotMask = (1u << 15) - 1;
 
 // Fields of a record that not every engine has, by where in its token the RunToken is ("run.") and
-// the RunRecord in that.
-inline PayloadShape record_shape(const spec::morphological::Parameters& p, const std::string& token,
+// the RunDescriptor in that.
+inline PayloadShape descriptor_shape(const spec::morphological::Parameters& p, const std::string& token,
                                  const std::string& run) {
   PayloadShape shape;
   if (!p.round_corners) shape.widths.emplace_back(run + "far", 0);
@@ -236,8 +236,8 @@ inline PayloadShape record_shape(const spec::morphological::Parameters& p, const
   return shape;
 }
 
-// Fields of learned shares, by where in its token they are.
-inline void leave_out_shares(PayloadShape& shape, const spec::morphological::Parameters& p,
+// Fields of learned weights, by where in its token they are.
+inline void leave_out_weights(PayloadShape& shape, const spec::morphological::Parameters& p,
                              const std::string& line) {
   if (p.area != spec::morphological::AreaSource::kLearned)
     for (const char* const field : {"learned", "start_class", "end_class"})
@@ -245,14 +245,14 @@ inline void leave_out_shares(PayloadShape& shape, const spec::morphological::Par
 }
 
 inline PayloadShape sums_shape(const spec::morphological::Parameters& p) {
-  PayloadShape shape = record_shape(p, "run.", "run.run.");
-  leave_out_shares(shape, p, "");
+  PayloadShape shape = descriptor_shape(p, "run.", "run.run.");
+  leave_out_weights(shape, p, "");
   return shape;
 }
 
 inline PayloadShape line_shape(const spec::morphological::Parameters& p) {
   PayloadShape shape;
-  leave_out_shares(shape, p, "line.");
+  leave_out_weights(shape, p, "line.");
   if (!p.round_corners) shape.widths.emplace_back("line.run.far", 0);
   if (p.border != spec::morphological::Border::kClamp)
     shape.widths.emplace_back("line.run.endless", 0);
@@ -262,7 +262,7 @@ inline PayloadShape line_shape(const spec::morphological::Parameters& p) {
 
 // RunExtractor -> EndpointPredictor.
 struct RunToken {
-  spec::morphological::RunRecord run;
+  spec::morphological::RunDescriptor run;
   // With crossings: which of its column's two it is, vertical; edges along the run go on, bit 0
   // before its start, bit 1 behind its end.
   std::uint8_t entry, beyond;
@@ -301,7 +301,7 @@ struct SumsToken {
 
 // LineUnit -> AreaUnit.
 struct LineToken {
-  spec::morphological::LineRecord line;
+  spec::morphological::LineDescriptor line;
   std::uint32_t slot;  // U15
   std::uint8_t entry;  // U1
   template <class Self, class Visit>

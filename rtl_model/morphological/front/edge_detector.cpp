@@ -86,30 +86,30 @@ inline EdgeDetector::Edges EdgeDetector::plain_steps(std::int32_t first, std::in
 }
 
 [[gnu::always_inline]] inline void EdgeDetector::decide(EdgeToken& out) {
-  const FrameRules& rules = *rules_;
-  const bool colour = rules.source == spec::morphological::EdgeSource::kColour;
-  const bool plain = (rules.source == spec::morphological::EdgeSource::kLuma || colour) &&
-                     rules.leave != spec::morphological::Leave::kMasked;
+  const FrameConfiguration& configuration = *configuration_;
+  const bool colour = configuration.source == spec::morphological::EdgeSource::kColour;
+  const bool plain = (configuration.source == spec::morphological::EdgeSource::kLuma || colour) &&
+                     configuration.leave != spec::morphological::Bypass::kMasked;
   const auto lanes = static_cast<std::int32_t>(lanes_);
   const std::int32_t y = out.slot.row - 1, first = out.slot.beat * lanes;
-  const std::int32_t count = std::min(lanes, rules.width - first);
+  const std::int32_t count = std::min(lanes, configuration.width - first);
   const auto fixed = [&](std::uint32_t a, std::uint32_t b) {
-    return distance(a, b) >= rules.threshold;
+    return distance(a, b) >= configuration.threshold;
   };
   const auto fixed_colour = [&](std::uint32_t a, std::uint32_t b) {
-    return colour_distance(a, b) >= rules.threshold;
+    return colour_distance(a, b) >= configuration.threshold;
   };
   const auto dynamic = [&](std::uint32_t a, std::uint32_t b) {
     return is_dynamic_edge(distance(a, b), a, b);
   };
   Edges edges = !plain          ? steps(first, count, y)
                 : colour        ? plain_steps(first, count, y, fixed_colour)
-                : rules.dynamic ? plain_steps(first, count, y, dynamic)
+                : configuration.dynamic ? plain_steps(first, count, y, dynamic)
                                 : plain_steps(first, count, y, fixed);
   if (first == 0) edges.left &= ~1u;
   if (y == 0) edges.top = 0;
   if ((edges.left | edges.top) == 0) return;
-  if (rules.local_contrast != spec::morphological::LocalContrast::kOff)
+  if (configuration.local_contrast != spec::morphological::LocalContrast::kOff)
     keep_strong(edges, first, y);
   out.left = static_cast<std::uint8_t>(edges.left);
   out.top = static_cast<std::uint8_t>(edges.top);
@@ -122,8 +122,8 @@ Activity EdgeDetector::tick(Cycle cycle) {
   if (pipe_.leaves() && !edges_out.can_push(cycle)) return kStalledDownstream;
   pipe_.move();
   if (const EdgeToken* edges = pipe_.at(4)) edges_out.push(cycle, *edges);
-  rules_ = &rules_in.read(cycle);
-  const std::int32_t height = rules_->height;
+  configuration_ = &configuration_in.read(cycle);
+  const std::int32_t height = configuration_->height;
   if (EdgeToken* edges = pipe_.at(2)) {
     edges->left = edges->top = 0;
     if (edges->slot.row <= height) {
@@ -164,16 +164,16 @@ void EdgeDetector::keep_strong(Edges& edges, std::int32_t first, std::int32_t y)
 
 // Both pixels are inside.
 bool EdgeDetector::is_edge(Position p, Position q) const {
-  const FrameRules& rules = *rules_;
+  const FrameConfiguration& configuration = *configuration_;
   const std::uint32_t c = contrast(p, q);
-  switch (rules.source) {
+  switch (configuration.source) {
     case spec::morphological::EdgeSource::kDepth:
       return depth_edge(p, q);
     case spec::morphological::EdgeSource::kPredicated:
-      return c >= (depth_edge(p, q) ? rules.threshold_on : rules.threshold_off);
+      return c >= (depth_edge(p, q) ? configuration.threshold_on : configuration.threshold_off);
     case spec::morphological::EdgeSource::kLuma:
     case spec::morphological::EdgeSource::kColour:
-      if (!rules.dynamic) return c >= rules.threshold;
+      if (!configuration.dynamic) return c >= configuration.threshold;
   }
   return is_dynamic_edge(c, luma_[p], luma_[q]);
 }
@@ -181,14 +181,14 @@ bool EdgeDetector::is_edge(Position p, Position q) const {
 // U9.40: both sides are products with U0.24, of twice the luma.
 bool EdgeDetector::is_dynamic_edge(std::uint32_t c, std::uint32_t here,
                                    std::uint32_t across) const {
-  const FrameRules& rules = *rules_;
-  return c >= rules.floor &&
-         (std::uint64_t{c} << 25) > std::uint64_t{rules.alpha} * doubled_luma(here, across);
+  const FrameConfiguration& configuration = *configuration_;
+  return c >= configuration.floor &&
+         (std::uint64_t{c} << 25) > std::uint64_t{configuration.alpha} * doubled_luma(here, across);
 }
 
 // Twice the luma that alpha multiplies, U9.16: the mean is exact.
 std::uint32_t EdgeDetector::doubled_luma(std::uint32_t here, std::uint32_t across) const {
-  switch (rules_->dynamic_luma) {
+  switch (configuration_->dynamic_luma) {
     case spec::morphological::DynamicLuma::kMax:
       return 2 * std::max(here, across);
     case spec::morphological::DynamicLuma::kMin:
@@ -206,13 +206,13 @@ bool EdgeDetector::depth_edge(Position p, Position q) const {
   if ((luma_[p] | luma_[q]) & kMarkedLuma) return false;
   const std::uint32_t a = (*depth_)[p], b = (*depth_)[q];
   return a != b && (std::uint64_t{distance(a, b)} << 16) >=
-                       std::uint64_t{rules_->depth_threshold} * std::max(a, b);
+                       std::uint64_t{configuration_->depth_threshold} * std::max(a, b);
 }
 
 std::uint32_t EdgeDetector::contrast(Position p, Position q) const {
   const std::uint32_t a = luma_[p], b = luma_[q];
   if ((a | b) & kMarkedLuma) return 0;
-  return rules_->source == spec::morphological::EdgeSource::kColour ? colour_distance(a, b)
+  return configuration_->source == spec::morphological::EdgeSource::kColour ? colour_distance(a, b)
                                                                     : distance(a, b);
 }
 
@@ -230,7 +230,7 @@ bool EdgeDetector::survives(Position p, Position across, Position along) const {
   const std::uint32_t c = step(p, across);
   std::uint32_t most = std::max({c, step(p, opposite), step(across, beyond)});
   const std::uint32_t beside = std::max(step(p, along), step(p, after));
-  const spec::morphological::LocalContrast rule = rules_->local_contrast;
+  const spec::morphological::LocalContrast rule = configuration_->local_contrast;
   if (rule != spec::morphological::LocalContrast::kSymmetric) {
     most = std::max({most, beside, step(along, {along.x - bx, along.y - by})});
   } else {

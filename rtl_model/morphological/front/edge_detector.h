@@ -23,14 +23,14 @@
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/morphological/common/frame_rules.h"
+#include "rtl_model/morphological/common/frame_configuration.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 
 class EdgeDetector final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   In<LumaToken> lumas_in{"lumas_in"};
   Out<EdgeToken> edges_out{"edges_out"};
 
@@ -93,7 +93,7 @@ class EdgeDetector final : public Unit {
     const auto below = [](std::int32_t at, std::int32_t end) {  // and not negative
       return static_cast<std::uint32_t>(at) < static_cast<std::uint32_t>(end);
     };
-    return below(p.x, rules_->width) && below(p.y, rules_->height);
+    return below(p.x, configuration_->width) && below(p.y, configuration_->height);
   }
   // c of two pixels, U8.16: their step of luma or colour; 0 if one is masked.
   std::uint32_t contrast(Position p, Position q) const;
@@ -101,7 +101,7 @@ class EdgeDetector final : public Unit {
   std::uint32_t step(Position p, Position q) const;
 
   const std::uint32_t lanes_;
-  const FrameRules* rules_ = nullptr;  // on the wire in this clock
+  const FrameConfiguration* configuration_ = nullptr;  // on the wire in this clock
   Lines luma_;
   std::optional<Lines> depth_;
   Pipe<EdgeToken, spec::morphological::kEdgeLatency> pipe_;

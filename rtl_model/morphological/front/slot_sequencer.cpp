@@ -12,10 +12,10 @@ SlotSequencer::SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& c
   if (p.text_guard) guard_slots_out.emplace("guard_slots_out");
 }
 
-[[gnu::always_inline]] inline void SlotSequencer::take_beat(Cycle cycle, const FrameRules& rules) {
+[[gnu::always_inline]] inline void SlotSequencer::take_beat(Cycle cycle, const FrameConfiguration& configuration) {
   const spec::morphological::PixelBeat& beat = pixels_in.take(cycle);
-  const bool end = next_.beat + 1u == rules.beats;
-  const int count = end ? rules.last_count : lanes_;
+  const bool end = next_.beat + 1u == configuration.beats;
+  const int count = end ? configuration.last_count : lanes_;
   if (beat.count != count || beat.end_of_row != end || beat.start_of_frame != (next_.number == 0))
       [[unlikely]] {
     ++framing_errors;
@@ -49,7 +49,7 @@ bool SlotSequencer::send_to_guard(Cycle cycle, std::int32_t height) {
 }
 
 Activity SlotSequencer::tick(Cycle cycle) {
-  const FrameRules* rules = &rules_in.read(cycle);
+  const FrameConfiguration* configuration = &configuration_in.read(cycle);
   if (slots_ != Slots::kSome) [[unlikely]] {
     if (slots_ == Slots::kSent) {
       if (!frames_done_in.can_pop(cycle)) return kIdle;  // it is on its way out
@@ -71,27 +71,27 @@ Activity SlotSequencer::tick(Cycle cycle) {
       latch_out.raise(cycle);
       const Decoded& latched = latched_in.read(cycle);
       if (!latched.valid) return kIdle;
-      rules = &latched.rules;
-      slots_ = rules->text_guard ? Slots::kGuarded : Slots::kSome;
+      configuration = &latched.configuration;
+      slots_ = configuration->text_guard ? Slots::kGuarded : Slots::kSome;
       next_ = {};
       first_cycle_ = cycle;
     }
-    if (slots_ == Slots::kGuarded && !send_to_guard(cycle, rules->height))
+    if (slots_ == Slots::kGuarded && !send_to_guard(cycle, configuration->height))
       return kStalledDownstream;
   }
-  const bool input = next_.row < rules->height;
+  const bool input = next_.row < configuration->height;
   if (input && !pixels_in.can_pop(cycle)) return upstream_;
   if (!slots_out.can_push(cycle) || (input && !beats_out.can_push(cycle)))
     return kStalledDownstream;
   if (input) {
-    take_beat(cycle, *rules);
+    take_beat(cycle, *configuration);
   } else {
     slots_out.emplace(cycle).slot = next_;
   }
   ++next_.number;
-  if (++next_.beat == rules->beats) {
+  if (++next_.beat == configuration->beats) {
     next_.beat = 0;
-    if (++next_.row == rules->rows) slots_ = Slots::kSent;
+    if (++next_.row == configuration->rows) slots_ = Slots::kSent;
   }
   return kBusy;
 }

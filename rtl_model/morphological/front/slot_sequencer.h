@@ -16,7 +16,7 @@
 #include "rtl_model/fabric/latency_probe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/morphological/common/frame_rules.h"
+#include "rtl_model/morphological/common/frame_configuration.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
@@ -28,7 +28,7 @@ class SlotSequencer final : public Unit {
   Out<SlotToken> slots_out{"slots_out"};
   Out<BeatToken> beats_out{"beats_out"};
   std::optional<Out<GuardSlotToken>> guard_slots_out;  // for the TextGuard, if it is built
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   // The first beat of a frame waits; whether it may be taken, in the same clock.
   PulseOut first_beat_out{"first_beat_out"};
   WireIn<bool, WireKind::kCombinational> enabled_in{"enabled_in"};
@@ -58,7 +58,7 @@ class SlotSequencer final : public Unit {
   // TextGuard, too.
   enum class Slots : std::uint8_t { kNone, kSent, kSome, kGuarded };
 
-  void take_beat(Cycle cycle, const FrameRules& rules);
+  void take_beat(Cycle cycle, const FrameConfiguration& configuration);
   bool send_to_guard(Cycle cycle, std::int32_t height);
 
   const std::int32_t lanes_;

@@ -22,7 +22,7 @@ constexpr std::uint32_t kHBits = kCountRows + kRunRows - 1, kVBits = kCountRows 
 constexpr std::int32_t kColourRows =
     kGuardRows - kWindow;  // that two colours are known before the counts
 // More than the slots on their way from the SlotSequencer to the Blender: 27, two in each of five
-// links (slots, lumas, edge_bits, area_slots, shares) and one a stage of the four units between.
+// links (slots, lumas, edge_bits, area_slots, weights) and one a stage of the four units between.
 constexpr std::int32_t kUnderWay = 32;
 static_assert(kUnderWay >
               5 * 2 + spec::morphological::kLumaLatency + spec::morphological::kEdgeLatency +
@@ -56,7 +56,7 @@ std::int32_t column_stage_of(std::int32_t lanes) {
 std::int32_t last_stage_of(std::int32_t lanes) { return column_stage_of(lanes) + 2; }
 
 std::uint32_t fifo_words(const spec::morphological::Parameters& p) {
-  const std::int32_t rows = reach_rows_of(p) + spec::morphological::kRowLag - kGuardRows;
+  const std::int32_t rows = search_range_rows_of(p) + spec::morphological::kRowLag - kGuardRows;
   return static_cast<std::uint32_t>(rows * beats_for(p.line_pixels, built_lanes(p)) + kUnderWay);
 }
 MemoryShape row_shape(const spec::morphological::Parameters& p, std::int32_t lanes) {
@@ -99,14 +99,14 @@ TextGuard::TextGuard(const sc_core::sc_module_name& name, ClockDomain& clock,
 // In. Flush rows have no pixels.
 void TextGuard::store(Cycle cycle) {
   const GuardSlotToken& token = slots_in.take(cycle);
-  const FrameRules& rules = *rules_;
+  const FrameConfiguration& configuration = *configuration_;
   if (token.row == 0 && token.beat == 0) complete_ = next_row_ = next_beat_ = 0;
-  if (token.row < rules.height) {
+  if (token.row < configuration.height) {
     Hashes word{};
     for (std::size_t lane = 0; lane < lanes_; ++lane) word[lane] = hash_of(token.pixel[lane]);
     row_in_.write(cycle, token.beat, word);
   }
-  if (token.beat + 1u == rules.beats) complete_ = token.row + 1;
+  if (token.beat + 1u == configuration.beats) complete_ = token.row + 1;
 }
 
 // Stage 1.
@@ -118,7 +118,7 @@ void TextGuard::enter(Cycle cycle) {
   beat.row = next_row_;
   beat.beat = next_beat_;
   if (is_row(beat.row)) row_out_.read(cycle, static_cast<std::uint64_t>(beat.beat));
-  if (static_cast<std::uint32_t>(++next_beat_) != rules_->beats) return;
+  if (static_cast<std::uint32_t>(++next_beat_) != configuration_->beats) return;
   next_beat_ = 0;
   ++next_row_;
 }
@@ -259,7 +259,7 @@ void TextGuard::deliver(Cycle cycle, Beat& beat) {
 Activity TextGuard::tick(Cycle cycle) {
   const bool arrives = slots_in.can_pop(cycle);
   if (!arrives && inside_ == 0 && next_row_ == complete_) return kIdle;
-  rules_ = &rules_in.read(cycle);
+  configuration_ = &configuration_in.read(cycle);
   const Beat& leaves = at(last_stage_ - 1);
   if (leaves.valid && leaves.row >= kGuardRows && !guards_.can_push(cycle))
     return kStalledDownstream;

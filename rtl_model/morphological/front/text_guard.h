@@ -25,14 +25,14 @@
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/morphological/common/frame_rules.h"
+#include "rtl_model/morphological/common/frame_configuration.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 
 class TextGuard final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   In<GuardSlotToken> slots_in{"slots_in"};
   // For the Blender.
   Link<GuardToken>& guards() { return guards_.link(); }
@@ -81,8 +81,8 @@ class TextGuard final : public Unit {
   Beat& at(std::int32_t stage) {
     return beats_[(newest_ + 1 - static_cast<std::size_t>(stage)) % kPlaces];
   }
-  bool is_row(std::int32_t y) const { return y >= 0 && y < rules_->height; }
-  bool is_column(std::int32_t x) const { return x >= 0 && x < rules_->width; }
+  bool is_row(std::int32_t y) const { return y >= 0 && y < configuration_->height; }
+  bool is_column(std::int32_t x) const { return x >= 0 && x < configuration_->width; }
   std::uint64_t first_of(const Beat& beat) const {
     return static_cast<std::uint64_t>(beat.beat) * lanes_;
   }
@@ -113,7 +113,7 @@ class TextGuard final : public Unit {
   WritePort<std::uint8_t> two_shift_{colours_, "shift"};
   Fifo<GuardToken> guards_;
 
-  const FrameRules* rules_ = nullptr;  // on the wire in this clock
+  const FrameConfiguration* configuration_ = nullptr;  // on the wire in this clock
   std::array<Beat, kPlaces> beats_{};
   std::size_t newest_ = 0;                     // place of the beat in stage 1
   std::uint32_t inside_ = 0;                   // beats in the stages

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "rtl_model/fabric/clocked.h"
-#include "rtl_model/morphological/common/frame_rules.h"
+#include "rtl_model/morphological/common/frame_configuration.h"
 #include "rtl_model/morphological/runs/trial.h"
 
 namespace deburr::rtl::morphological {
@@ -20,11 +20,11 @@ class EdgeMemory {
   virtual ~EdgeMemory() = default;
 
   // The edges that the trial asks for; it keeps which those are.
-  virtual void read(Cycle cycle, const FrameRules& rules, std::size_t port, Trial& trial) = 0;
+  virtual void read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port, Trial& trial) = 0;
   // In the clock after.
-  virtual std::uint8_t hits(Cycle cycle, const FrameRules& rules, std::size_t port,
+  virtual std::uint8_t hits(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                             const Trial& trial) const = 0;
-  virtual std::uint8_t crossing_class(Cycle cycle, const FrameRules& rules, std::size_t port,
+  virtual std::uint8_t crossing_class(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                                       const Trial& trial) const = 0;
 };
 
@@ -32,14 +32,14 @@ class EdgePort {
  public:
   EdgePort(EdgeMemory& memory, int port) : memory_(memory), port_(static_cast<std::size_t>(port)) {}
 
-  void read(Cycle cycle, const FrameRules& rules, Trial& trial) {
-    memory_.read(cycle, rules, port_, trial);
+  void read(Cycle cycle, const FrameConfiguration& configuration, Trial& trial) {
+    memory_.read(cycle, configuration, port_, trial);
   }
-  std::uint8_t hits(Cycle cycle, const FrameRules& rules, const Trial& trial) const {
-    return memory_.hits(cycle, rules, port_, trial);
+  std::uint8_t hits(Cycle cycle, const FrameConfiguration& configuration, const Trial& trial) const {
+    return memory_.hits(cycle, configuration, port_, trial);
   }
-  std::uint8_t crossing_class(Cycle cycle, const FrameRules& rules, const Trial& trial) const {
-    return memory_.crossing_class(cycle, rules, port_, trial);
+  std::uint8_t crossing_class(Cycle cycle, const FrameConfiguration& configuration, const Trial& trial) const {
+    return memory_.crossing_class(cycle, configuration, port_, trial);
   }
 
  private:

@@ -22,9 +22,9 @@ std::int32_t words_of_a_row(const spec::morphological::Parameters& p) {
 }
 
 MemoryShape shape(const spec::morphological::Parameters& p) {
-  std::int32_t columns = p.contiguous ? (p.reach_columns + 1) / 2 + 2 : 4;
+  std::int32_t columns = p.contiguous ? (p.search_columns + 1) / 2 + 2 : 4;
   if (p.area == spec::morphological::AreaSource::kLearned)
-    columns = std::max((p.reach_columns + 1) / 2 + 2, kMostLooks + 1);
+    columns = std::max((p.search_columns + 1) / 2 + 2, kMostLooks + 1);
   const auto words = static_cast<std::uint32_t>((columns + kWordColumns - 2) / kWordColumns + 1);
   MemoryShape shape;
   shape.banks = std::bit_ceil(words);
@@ -98,48 +98,48 @@ EdgeRows::EdgeRows(const spec::morphological::Parameters& p)
 
 // From the corner before the step to the one behind its longest candidate, and to the last edge of
 // its class.
-inline void EdgeRows::find_columns(const FrameRules& rules, Trial& trial) const {
+inline void EdgeRows::find_columns(const FrameConfiguration& configuration, Trial& trial) const {
   const std::int32_t most = trial.tries ? std::min(trial.length + 1, trial.room) : 0;
-  const std::int32_t least = rules.contiguous || trial.classes ? 0 : trial.length - 1;
+  const std::int32_t least = configuration.contiguous || trial.classes ? 0 : trial.length - 1;
   const std::int32_t first = trial.to_the_right
                                  ? trial.at(least) - 1
                                  : std::min(trial.at(most) - 1, trial.at(trial.looks));
   const std::int32_t last =
       trial.to_the_right ? std::max(trial.at(most), trial.at(trial.looks) - 1) : trial.at(least);
   trial.first = std::max(first, 0);
-  trial.last = std::min(last, rules.width - 1);
+  trial.last = std::min(last, configuration.width - 1);
 }
 
-void EdgeRows::read(Cycle cycle, const FrameRules& rules, std::size_t port, Trial& trial) {
-  find_columns(rules, trial);
+void EdgeRows::read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port, Trial& trial) {
+  find_columns(configuration, trial);
   if (trial.first > trial.last) return;  // beyond the frame's border
   const auto words =
       static_cast<std::uint32_t>(trial.last / kWordColumns - trial.first / kWordColumns + 1);
   for (const std::int32_t y : {trial.line, trial.line - 1})
-    if (in_frame(rules, y)) steps_of_[parity(y)][port].read(cycle, address(y, trial.first), words);
+    if (in_frame(configuration, y)) steps_of_[parity(y)][port].read(cycle, address(y, trial.first), words);
 }
 
 template <class Ask>
-std::uint8_t EdgeRows::ask(Cycle cycle, const FrameRules& rules, std::size_t port,
+std::uint8_t EdgeRows::ask(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                            const Trial& trial, Ask&& ask) const {
   if (trial.first > trial.last) return 0;
   const auto words_of = [&](std::int32_t y) {
-    return in_frame(rules, y) ? &steps_of_[parity(y)][port].at(cycle, address(y, trial.first))
+    return in_frame(configuration, y) ? &steps_of_[parity(y)][port].at(cycle, address(y, trial.first))
                               : nullptr;
   };
   return ask(StepEdges{words_of(trial.line), words_of(trial.line - 1), trial.first, trial.last,
-                       rules.width});
+                       configuration.width});
 }
 
-std::uint8_t EdgeRows::hits(Cycle cycle, const FrameRules& rules, std::size_t port,
+std::uint8_t EdgeRows::hits(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                             const Trial& trial) const {
-  return ask(cycle, rules, port, trial,
-             [&](const StepEdges& edges) { return hits_of(trial, edges, rules.contiguous); });
+  return ask(cycle, configuration, port, trial,
+             [&](const StepEdges& edges) { return hits_of(trial, edges, configuration.contiguous); });
 }
 
-std::uint8_t EdgeRows::crossing_class(Cycle cycle, const FrameRules& rules, std::size_t port,
+std::uint8_t EdgeRows::crossing_class(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                                       const Trial& trial) const {
-  return ask(cycle, rules, port, trial,
+  return ask(cycle, configuration, port, trial,
              [&](const StepEdges& edges) { return class_of(trial, edges); });
 }
 

@@ -5,8 +5,8 @@
 // lies in one row: its corners are made of the edges of that row and the left edges of the row
 // above. Words are 64 columns of a row, both planes; even and odd rows are memories of their own,
 // so that a read shows both rows at once, and neighbouring words lie in banks, so that it shows all
-// columns of a step: up to (reach_columns + 1) / 2 + 2 if the engine is built with `contiguous`
-// or learned shares (a side has reach - L columns, and its step is L + 1 at most; a class asks for
+// columns of a step: up to (search_columns + 1) / 2 + 2 if the engine is built with `contiguous`
+// or learned weights (a side has reach - L columns, and its step is L + 1 at most; a class asks for
 // eleven), else the four at its end. Holds
 // the rows that predictors look at: with N = min(16, R - 1) steps N + 1 above and N below the row
 // in hand, one for the records that are still under way when the next slot row has begun, one ahead
@@ -41,7 +41,7 @@ class EdgeRows final : public EdgeMemory {
   // While the runs of row y are found, row y + ahead() is written.
   std::int32_t ahead() const { return steps_ + 1; }
   // A beat of row y, from left to right; bit k: lane k.
-  void write(Cycle cycle, const FrameRules& rules, std::int32_t y, std::int32_t column,
+  void write(Cycle cycle, const FrameConfiguration& configuration, std::int32_t y, std::int32_t column,
              std::uint32_t left, std::uint32_t top) {
     const auto place = static_cast<std::uint32_t>(column) % kWordColumns;
     if (place == 0) gathered_ = {};
@@ -49,28 +49,28 @@ class EdgeRows final : public EdgeMemory {
       gathered_.left |= std::uint64_t{left} << place;
       gathered_.top |= std::uint64_t{top} << place;
     }
-    if (place + lanes_ == kWordColumns || column + lanes_ >= rules.width)
+    if (place + lanes_ == kWordColumns || column + lanes_ >= configuration.width)
       update_[parity(y)].write(cycle, address(y, column), gathered_);
   }
 
   // --- A predictor of horizontal runs: the columns of a step, of its row and of the one above ---
-  void read(Cycle cycle, const FrameRules& rules, std::size_t port, Trial& trial) override;
-  std::uint8_t hits(Cycle cycle, const FrameRules& rules, std::size_t port,
+  void read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port, Trial& trial) override;
+  std::uint8_t hits(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                     const Trial& trial) const override;
-  std::uint8_t crossing_class(Cycle cycle, const FrameRules& rules, std::size_t port,
+  std::uint8_t crossing_class(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                               const Trial& trial) const override;
 
   std::array<Memory<EdgeWord>, 2> memory;  // even and odd rows
 
  private:
   static constexpr std::int32_t kWordColumns = 64;
-  void find_columns(const FrameRules& rules, Trial& trial) const;
+  void find_columns(const FrameConfiguration& configuration, Trial& trial) const;
   // `ask` gets what has been read.
   template <class Ask>
-  std::uint8_t ask(Cycle cycle, const FrameRules& rules, std::size_t port, const Trial& trial,
+  std::uint8_t ask(Cycle cycle, const FrameConfiguration& configuration, std::size_t port, const Trial& trial,
                    Ask&& ask) const;
-  static bool in_frame(const FrameRules& rules, std::int32_t y) {
-    return y >= 0 && y < rules.height;
+  static bool in_frame(const FrameConfiguration& configuration, std::int32_t y) {
+    return y >= 0 && y < configuration.height;
   }
   static std::size_t parity(std::int32_t y) { return static_cast<std::size_t>(y & 1); }
   // In the memory of the row's parity.

@@ -40,14 +40,14 @@ class EdgeWindow final : public EdgeMemory {
   EdgeWindow(const char* name, const spec::morphological::Parameters& parameters);
 
   // --- The extractor: the columns of a beat, which begins at `column` ---
-  void read_beat(Cycle cycle, const FrameRules& rules, std::int32_t column) {
-    beat_.read(cycle, at(column), columns(rules, column));
+  void read_beat(Cycle cycle, const FrameConfiguration& configuration, std::int32_t column) {
+    beat_.read(cycle, at(column), columns(configuration, column));
   }
   // In a clock after: the words of that beat go back in slot row `row`, moved on by the row above.
-  void write_beat(Cycle cycle, const FrameRules& rules, std::int32_t column, std::int32_t row,
+  void write_beat(Cycle cycle, const FrameConfiguration& configuration, std::int32_t column, std::int32_t row,
                   EdgeBits newest) {
     beat_.check(cycle, at(column));
-    update_.write(cycle, at(column), columns(rules, column));
+    update_.write(cycle, at(column), columns(configuration, column));
     progress_ = {row, column + lanes_};
     if (row == 0) [[unlikely]]
       clear(column >> lane_bits_);
@@ -72,10 +72,10 @@ class EdgeWindow final : public EdgeMemory {
   void turn_entry(std::int32_t x) { entries_[static_cast<std::size_t>(x)] ^= 1; }
 
   // --- A predictor of vertical runs: both columns beside the trial's lattice line ---
-  void read(Cycle cycle, const FrameRules& rules, std::size_t port, Trial& trial) override;
-  std::uint8_t hits(Cycle cycle, const FrameRules& rules, std::size_t port,
+  void read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port, Trial& trial) override;
+  std::uint8_t hits(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                     const Trial& trial) const override;
-  std::uint8_t crossing_class(Cycle cycle, const FrameRules& rules, std::size_t port,
+  std::uint8_t crossing_class(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                               const Trial& trial) const override;
 
   Memory<void> memory;
@@ -95,8 +95,8 @@ class EdgeWindow final : public EdgeMemory {
     return static_cast<std::uint32_t>(x) & ((1u << lane_bits_) - 1);
   }
   static std::uint64_t at(std::int32_t column) { return static_cast<std::uint64_t>(column); }
-  std::uint32_t columns(const FrameRules& rules, std::int32_t first) const {
-    return static_cast<std::uint32_t>(std::min(lanes_, rules.width - first));
+  std::uint32_t columns(const FrameConfiguration& configuration, std::int32_t first) const {
+    return static_cast<std::uint32_t>(std::min(lanes_, configuration.width - first));
   }
 
   const std::int32_t lanes_, rows_;

@@ -7,16 +7,16 @@ namespace deburr::rtl::morphological {
 
 EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
                                      const spec::morphological::Parameters& p, EdgeMemory& edges,
-                                     std::int32_t reach, bool vertical)
+                                     std::int32_t search_range, bool vertical)
     : Unit(name, clock),
-      records_in("records_in", built_lanes(p)),
+      descriptors_in("descriptors_in", built_lanes(p)),
       sums_out("sums_out", built_lanes(p)),
       schedule_(p),
       lanes_(static_cast<std::size_t>(built_lanes(p))),
       units_(static_cast<std::size_t>(p.predictor_units)),
       turn_(lanes_) {
   const Predictor::Counters counters{extended_runs, steps, probes, iterations};
-  // Those of a lane do not follow each other in the schedule: they begin in different clocks, so
+  // Those of a lane do not follow each other in the schedule: they begin in different cycles, so
   // that a FIFO that gives a record a clock serves all of them in time.
   const int lanes = built_lanes(p);
   for (int lane = 0; lane < lanes; ++lane)
@@ -24,22 +24,22 @@ EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockD
       const int number = unit * lanes + lane;
       places_.push_back(
           {Predictor(schedule_, number, EdgePort(edges, schedule_.port(number, 0)),
-                     EdgePort(edges, schedule_.port(number, 1)), reach, vertical, counters)});
+                     EdgePort(edges, schedule_.port(number, 1)), search_range, vertical, counters)});
     }
 }
 
 EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
                                      const spec::morphological::Parameters& p, EdgeRows& rows)
-    : EndpointPredictor(name, clock, p, rows, p.reach_columns, false) {}
+    : EndpointPredictor(name, clock, p, rows, p.search_columns, false) {}
 
 EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
                                      const spec::morphological::Parameters& p, EdgeWindow& window)
-    : EndpointPredictor(name, clock, p, window, reach_rows_of(p), true) {}
+    : EndpointPredictor(name, clock, p, window, search_range_rows_of(p), true) {}
 
 Activity EndpointPredictor::work(Cycle cycle) {
   bool did = false, blocked = false;
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
-    In<RunToken>& in = records_in[lane];
+    In<RunToken>& in = descriptors_in[lane];
     const bool arrives = in.can_pop(cycle);
     if (held_ == 0 && !arrives) continue;
     Place* const group = &places_[lane * units_];
@@ -88,7 +88,7 @@ Activity EndpointPredictor::work(Cycle cycle) {
       const bool takes = predictor.free() && !taken;
       if (takes) {
         taken = did = true;
-        predictor.take(cycle, rules_in.read(cycle), clock().cycles_since_reset(), in.take(cycle));
+        predictor.take(cycle, configuration_in.read(cycle), clock().cycles_since_reset(), in.take(cycle));
         ++held_;
         join();
       }
@@ -118,7 +118,7 @@ Datasheet EndpointPredictor::datasheet() {
 }
 
 Datasheet EndpointPredictor::trial_datasheet(const spec::morphological::Parameters& p) {
-  const auto trial = static_cast<std::uint64_t>(p.trial_clocks);
+  const auto trial = static_cast<std::uint64_t>(p.trial_cycles);
   const std::uint64_t over = trial >= 3 ? trial : trial == 2 ? 4 : 3;
   return {
       .unit = "EndpointPredictor",
@@ -126,7 +126,7 @@ Datasheet EndpointPredictor::trial_datasheet(const spec::morphological::Paramete
       .does = datasheet().does,
       .latency = {trial + 5,
                   "T x trials + 5, and up to T - 1 that it waits for its first trial (T = "
-                  "`trial_clocks`)"},
+                  "`trial_cycles`)"},
       .interval =
           {trial + over,
            "T x (trials + 1) of one of predictor_units (T = 2: T x trials + 4, T = 1: trials "
@@ -157,7 +157,7 @@ Datasheet EndpointPredictor::trial_datasheet(const spec::morphological::Paramete
 }
 
 Datasheet EndpointPredictor::class_datasheet(const spec::morphological::Parameters& p) {
-  const auto trial = static_cast<std::uint64_t>(p.trial_clocks);
+  const auto trial = static_cast<std::uint64_t>(p.trial_cycles);
   return {
       .unit = "EndpointPredictor",
       .variant = "classes of crossings alone",

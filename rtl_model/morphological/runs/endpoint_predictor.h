@@ -3,7 +3,7 @@
 //
 // Where: between the record FIFOs and the LineUnit, one of these an axis. For each lane a FIFO
 // feeds predictor_units predictors, a record a clock to the first that is free; each has a result
-// register, and one of these a lane and clock goes to the LineUnit. The predictors share the read
+// register, and one of these a lane and clock goes to the LineUnit. The predictors weight the read
 // ports of their axis' memory by a fixed schedule (PortSchedule). A result is sent in the clock
 // after the one in which its record is let go (Predictor). Stalls: `downstream` (the result
 // registers are still full).
@@ -17,7 +17,7 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/morphological/common/frame_rules.h"
+#include "rtl_model/morphological/common/frame_configuration.h"
 #include "rtl_model/morphological/common/tokens.h"
 #include "rtl_model/morphological/runs/edge_port.h"
 #include "rtl_model/morphological/runs/edge_rows.h"
@@ -29,8 +29,8 @@ namespace deburr::rtl::morphological {
 
 class EndpointPredictor final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
-  LanePorts<In<RunToken>> records_in;
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
+  LanePorts<In<RunToken>> descriptors_in;
   LanePorts<Out<SumsToken>> sums_out;
 
   // Of horizontal runs, which read rows; of vertical runs, which read columns.
@@ -39,7 +39,7 @@ class EndpointPredictor final : public Unit {
   EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
                     const spec::morphological::Parameters& parameters, EdgeWindow& window);
   Activity tick(Cycle cycle) override {
-    return held_ == 0 && !records_in.any_arrives(cycle, lanes_) ? kIdle : work(cycle);
+    return held_ == 0 && !descriptors_in.any_arrives(cycle, lanes_) ? kIdle : work(cycle);
   }
   void reset() override;
 
@@ -47,7 +47,7 @@ class EndpointPredictor final : public Unit {
   Counter steps{"steps", "steps", "extensions kept"};
   Counter probes{"probes", "corners", "corners tested"};
   Counter iterations{"iterations", "trials", "trials, of one side or both"};
-  Counter occupancy{"occupancy", "clk", "clocks in which a predictor held a record, summed"};
+  Counter occupancy{"occupancy", "clk", "cycles in which a predictor held a record, summed"};
 
   static Datasheet datasheet();  // of a record that is not extended and has no class to be found
   // Of a record that is extended by one step of both sides.
@@ -64,7 +64,7 @@ class EndpointPredictor final : public Unit {
 
   EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
                     const spec::morphological::Parameters& parameters, EdgeMemory& edges,
-                    std::int32_t reach, bool vertical);
+                    std::int32_t search_range, bool vertical);
   Activity work(Cycle cycle);
 
   const PortSchedule schedule_;

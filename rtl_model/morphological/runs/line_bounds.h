@@ -13,14 +13,14 @@
 // corners that fit alone fit together, unless both turn it and lie on the same side: a bend. The
 // quadratic definition says the same in every case (test).
 //
-// Schedule, of a trial every four clocks: in the clock `bounds` right(), left() and together(),
+// Schedule, of a trial every four cycles: in the clock `bounds` right(), left() and together(),
 // each an adder and two comparators of 7 bits; beside them the new a and b of the right corner. In
 // the next clock the remainders, two products of 6 x 6 bits; then the same for the left corner. The
 // state is there for the next trial's `bounds`.
 // Cost: 8 x 12 flip-flops of corners, 4 x 6 of slope and remainders; 2 products of 6 x 6 bits, 8
 // adders of 7. (By the definition: 34 products of 13 x 6 bits and a running maximum and minimum
 // over them, a corner.) Made for 250 MHz; longest path: 6 x 6 multiply, 12-bit add; with
-// trial_clocks below 4 two and more of these steps share a clock.
+// trial_cycles below 4 two and more of these steps weight a clock.
 #pragma once
 
 #include <cstdint>

@@ -49,7 +49,7 @@ LineUnit::LineUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       sums_in("sums_in", built_lanes(p)),
       lines_out("lines_out", built_lanes(p)),
       lanes_(static_cast<std::size_t>(built_lanes(p))),
-      reach_(axis == spec::morphological::Axis::kVertical ? reach_rows_of(p) : p.reach_columns),
+      search_range_(axis == spec::morphological::Axis::kVertical ? search_range_rows_of(p) : p.search_columns),
       latency_(static_cast<Cycle>(p.divider_latency)),
       interval_(static_cast<Cycle>(p.divider_interval)),
       interval_stall_(declare_stall("interval", "the divider cannot start again yet")),
@@ -133,7 +133,7 @@ LineToken LineUnit::begun(const SumsToken& sums) {
   LineToken token{};
   token.slot = sums.run.slot;
   token.entry = sums.run.entry;
-  spec::morphological::LineRecord& line = token.line;
+  spec::morphological::LineDescriptor& line = token.line;
   line.run = sums.run.run;
   line.learned = sums.learned;
   line.start_class = sums.start_class;
@@ -144,22 +144,22 @@ LineToken LineUnit::begun(const SumsToken& sums) {
 
 // Stage 1, and the quotient that comes of it.
 void LineUnit::begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Division& division) {
-  const spec::morphological::RunRecord& run = sums.run.run;
+  const spec::morphological::RunDescriptor& run = sums.run.run;
   const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[run.shape];
   division.pixels = 0;
   LineToken& token = division.result;
   token = begun(sums);
-  spec::morphological::LineRecord& line = token.line;
+  spec::morphological::LineDescriptor& line = token.line;
   line.before = shape.before;
   line.after = shape.after;
   if (run.part != spec::morphological::RunPart::kWhole) {
     // One end of a run of `reach` pixels.
     line.scale = 2;
     line.offset =
-        run.part == spec::morphological::RunPart::kHead ? reach_ : 2 * run.length - reach_;
-    line.slope = divide(1, std::int64_t{2} * reach_);
-    line.inverse = static_cast<std::uint32_t>(reach_) << spec::morphological::kInverseFractionBits;
-    line.span = static_cast<std::uint16_t>(reach_ + 1);
+        run.part == spec::morphological::RunPart::kHead ? search_range_ : 2 * run.length - search_range_;
+    line.slope = divide(1, std::int64_t{2} * search_range_);
+    line.inverse = static_cast<std::uint32_t>(search_range_) << spec::morphological::kInverseFractionBits;
+    line.span = static_cast<std::uint16_t>(search_range_ + 1);
     return;
   }
   const std::int32_t left = sums.left, right = sums.right, corners = left + right + 2;
@@ -169,7 +169,7 @@ void LineUnit::begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Divis
   line.right_steps = sums.right;
   line.shift = right - left;
   line.span = static_cast<std::uint16_t>(span);
-  if (rules_in.read(cycle).predictor == spec::morphological::Predictor::kChord) {
+  if (configuration_in.read(cycle).predictor == spec::morphological::Predictor::kChord) {
     line.scale = 2;
     line.offset = sums.first + sums.last;
     line.slope = divide(steps, std::int64_t{2} * span);

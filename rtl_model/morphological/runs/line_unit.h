@@ -3,7 +3,7 @@
 // division, its inverse by a table.
 //
 // Where: between an EndpointPredictor and the AreaUnit, one of these an axis, with one divider a
-// lane. divider.latency is at least kLeastLatency: two clocks of products, and at most two of 24
+// lane. divider.latency is at least kLeastLatency: two cycles of products, and at most two of 24
 // quotient bits a clock (radix 4); a longer one takes fewer bits a clock. Stalls: `interval` (the
 // divider cannot start again yet), `downstream` (its pipe of latency / interval places, rounded up,
 // is full; a result leaves in its clock). A learned record has no line: it passes the divider, in
@@ -19,17 +19,17 @@
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/morphological/common/frame_rules.h"
+#include "rtl_model/morphological/common/frame_configuration.h"
 #include "rtl_model/morphological/common/tokens.h"
 
 namespace deburr::rtl::morphological {
 
 class LineUnit final : public Unit {
  public:
-  // Two clocks of products, 24 quotient bits in twelve.
+  // Two cycles of products, 24 quotient bits in twelve.
   static constexpr std::int32_t kLeastLatency = spec::morphological::kLeastDividerLatency;
 
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   LanePorts<In<SumsToken>> sums_in;
   LanePorts<Out<LineToken>> lines_out;
 
@@ -43,9 +43,9 @@ class LineUnit final : public Unit {
   void reset() override;
 
   Counter divides{"divides", "divisions", "divisions started"};
-  // Against lanes x clocks: how full the dividers are.
+  // Against lanes x cycles: how full the dividers are.
   Counter occupancy{"occupancy", "clk",
-                    "clocks in which a divider could not start another, summed"};
+                    "cycles in which a divider could not start another, summed"};
 
   static Datasheet datasheet(const spec::morphological::Parameters& parameters);
   static Datasheet learned_datasheet();  // of a record without a line
@@ -70,7 +70,7 @@ class LineUnit final : public Unit {
   void begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Division& division);
 
   const std::size_t lanes_;
-  const std::int32_t reach_;
+  const std::int32_t search_range_;
   const Cycle latency_, interval_;
   Activity interval_stall_;
   Memory<std::uint32_t> inverse_rom_;

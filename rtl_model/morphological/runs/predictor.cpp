@@ -17,26 +17,26 @@ constexpr Cycle kJoinAfter = 2;
 }  // namespace
 
 Predictor::Predictor(const PortSchedule& schedule, int number, EdgePort right, EdgePort left,
-                     std::int32_t reach, bool vertical, Counters counters)
+                     std::int32_t search_range, bool vertical, Counters counters)
     : schedule_(schedule),
       phase_(schedule.phase(number, 0)),
-      clocks_(static_cast<Cycle>(schedule.clocks())),
+      cycles_(static_cast<Cycle>(schedule.cycles())),
       left_after_(static_cast<Cycle>(schedule.phase(number, 1) - schedule.phase(number, 0))),
-      reach_(reach),
+      search_range_(search_range),
       vertical_(vertical),
       counters_(counters),
       right_{right, true},
       left_{left, false} {}
 
-void Predictor::take(Cycle cycle, const FrameRules& rules, Cycle since_reset,
+void Predictor::take(Cycle cycle, const FrameConfiguration& configuration, Cycle since_reset,
                      const RunToken& token) {
-  rules_ = &rules;
-  const spec::morphological::RunRecord& run = token.run;
+  configuration_ = &configuration;
+  const spec::morphological::RunDescriptor& run = token.run;
   run_ = token;
   length_ = run.length;
   const bool whole_z = run.part == spec::morphological::RunPart::kWhole &&
                        spec::morphological::kRunShapes[run.shape].clean_z;
-  const bool extends = whole_z && rules_->steps > 0;
+  const bool extends = whole_z && configuration_->steps > 0;
   long_z_ = whole_z && length_ >= spec::morphological::kLongZ;
   right_.keep = left_.keep = kAll;
   right_.reached[kAll] = {0, length_, 0, 0};
@@ -49,7 +49,7 @@ void Predictor::take(Cycle cycle, const FrameRules& rules, Cycle since_reset,
     side->trial.classes = false;
     side->trial.looks = 0;
   }
-  if (rules_->learned && !long_z_) {
+  if (configuration_->learned && !long_z_) {
     look_at(right_, end_code);
     look_at(left_, start_code);
     if (right_.trial.classes || left_.trial.classes) state_ = State::kLooks;
@@ -82,7 +82,7 @@ void Predictor::take(Cycle cycle, const FrameRules& rules, Cycle since_reset,
 
 // The class of an end's crossing, if it has a single one.
 void Predictor::look_at(End& end, int code) {
-  const spec::morphological::RunRecord& run = run_.run;
+  const spec::morphological::RunDescriptor& run = run_.run;
   end.crossing_class = 0;
   if (code != kFirstSide && code != kSecondSide) return;
   const bool whole = run.part == spec::morphological::RunPart::kWhole;
@@ -90,7 +90,7 @@ void Predictor::look_at(End& end, int code) {
   end.trial.line = run.line + (code == kFirstSide ? -1 : 1);
   end.trial.crossing = code == kFirstSide ? kFirstBit : kSecondBit;
   end.trial.classes = true;
-  end.trial.looks = whole ? std::min(kMostLooks, reach_ - length_) : 0;
+  end.trial.looks = whole ? std::min(kMostLooks, search_range_ - length_) : 0;
 }
 
 // The reads of a record's classes alone.
@@ -100,7 +100,7 @@ void Predictor::look(Cycle cycle) {
   if (clock == left_after_ + 1) see(cycle, left_);
   if (clock == 0) read(cycle, right_);
   if (clock == left_after_) read(cycle, left_);
-  if (clock < std::max(clocks_ - 1, left_after_ + 1)) return;
+  if (clock < std::max(cycles_ - 1, left_after_ + 1)) return;
   state_ = State::kJoins;
   join_at_ = cycle;
 }
@@ -110,7 +110,7 @@ void Predictor::run_trial(Cycle cycle) {
   Cycle clock = cycle - trial_at_;
   if (clock == 1) see(cycle, right_);
   if (clock == left_after_ + 1) see(cycle, left_);
-  if (clock == clocks_) {
+  if (clock == cycles_) {
     if (!decide()) {
       state_ = State::kJoins;
       join_at_ = cycle + kJoinAfter;
@@ -126,11 +126,11 @@ void Predictor::run_trial(Cycle cycle) {
 // The longest step that stays within the reach.
 std::int32_t Predictor::room(const End& end) const {
   const std::int32_t x = end.reached[kAll].position;
-  return reach_ - (end.to_the_right ? x : length_ - x);
+  return search_range_ - (end.to_the_right ? x : length_ - x);
 }
 
 void Predictor::read(Cycle cycle, End& end) {
-  const FrameRules& rules = *rules_;
+  const FrameConfiguration& configuration = *configuration_;
   Trial& trial = end.trial;
   if (end.open) {
     const std::int32_t lines = (step_ + 1) * drift_;
@@ -139,33 +139,33 @@ void Predictor::read(Cycle cycle, End& end) {
   trial.from = run_.run.start + end.reached[kAll].position;
   trial.room = room(end);
   trial.tries = end.open && trial.line >= 0 &&
-                trial.line <= (vertical_ ? rules.width : rules.height) &&
+                trial.line <= (vertical_ ? configuration.width : configuration.height) &&
                 trial.room >= std::max(1, length_ - 1);
   if (step_ != 0 && trial.classes) {
     trial.classes = false;
     trial.looks = 0;
   }
   end.reads = trial.tries || trial.classes;
-  if (end.reads) end.port.read(cycle, rules, trial);
+  if (end.reads) end.port.read(cycle, configuration, trial);
 }
 
 [[gnu::always_inline]] inline void Predictor::see(Cycle cycle, End& end) {
   end.hits = 0;
   if (!end.reads) return;
-  if (end.trial.tries) end.hits = end.port.hits(cycle, *rules_, end.trial);
-  if (end.trial.classes) end.crossing_class = end.port.crossing_class(cycle, *rules_, end.trial);
+  if (end.trial.tries) end.hits = end.port.hits(cycle, *configuration_, end.trial);
+  if (end.trial.classes) end.crossing_class = end.port.crossing_class(cycle, *configuration_, end.trial);
 }
 
 bool Predictor::decide() {
   ++counters_.trials;
   for (const End* const end : {&right_, &left_})
     if (end->open) counters_.probes += end->other != 0 || length_ == 1 ? 2 : 3;
-  if (rules_->safe)
+  if (configuration_->safe)
     decide_together();
   else
     decide_apart();
   ++step_;
-  return (right_.open || left_.open) && step_ < rules_->steps;
+  return (right_.open || left_.open) && step_ < configuration_->steps;
 }
 
 // The first candidate that hits, or 0.
@@ -190,7 +190,7 @@ void Predictor::decide_apart() {
   }
 }
 
-// Both ends share L', and every corner must lie on one line with all the others.
+// Both ends weight L', and every corner must lie on one line with all the others.
 void Predictor::decide_together() {
   using Fit = LineBounds::Fit;
   std::int32_t right = chosen(right_), left = chosen(left_);
@@ -245,7 +245,7 @@ void Predictor::lose(End& end) {
 
 void Predictor::close(End& end, Keep keep) {
   end.open = false;
-  end.keep = rules_->trim ? keep : kAll;
+  end.keep = configuration_->trim ? keep : kAll;
 }
 
 SumsToken Predictor::join() {
@@ -255,7 +255,7 @@ SumsToken Predictor::join() {
   counters_.steps += static_cast<std::uint64_t>(kept);
   if (kept != 0) ++counters_.extended_runs;
   state_ = State::kFree;
-  const bool learned = rules_->learned && kept == 0 && !long_z_;
+  const bool learned = configuration_->learned && kept == 0 && !long_z_;
   return {run_,
           learned,
           learned ? left_.crossing_class : std::uint8_t{0},

@@ -10,7 +10,7 @@ namespace {
 
 using spec::morphological::Axis;
 using spec::morphological::RunPart;
-using spec::morphological::RunRecord;
+using spec::morphological::RunDescriptor;
 
 constexpr std::uint8_t code(bool first, bool second) {
   return static_cast<std::uint8_t>(int{first} | int{second} << 1);
@@ -29,14 +29,14 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
       window_(window),
       rows_(rows),
       lanes_(built_lanes(p)),
-      reach_rows_(reach_rows_of(p)),
-      reach_columns_(p.reach_columns),
+      search_rows_(search_range_rows_of(p)),
+      search_columns_(p.search_columns),
       crossings_(p.ends == spec::morphological::Ends::kCrossings),
       corners_(p.round_corners),
       smaa_(crossings_ || corners_ || p.diagonals),
       spare_(crossings_ || corners_ || p.area == spec::morphological::AreaSource::kLearned ? 1 : 0),
       diagonal_delay_(static_cast<Cycle>(diagonal_delay(p.diagonal_steps, built_lanes(p)))),
-      records_(declare_stall("records",
+      descriptors_(declare_stall("records",
                              "a record FIFO is full, or records of two slot rows before are not "
                              "finished")),
       about_(p.diagonals ? static_cast<std::size_t>(2 * p.diagonal_steps + 1) : 0) {
@@ -45,24 +45,24 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
     diagonals_ =
         declare_stall("diagonals", "a short row waits for the diagonals of the one before");
   }
-  const auto depth = static_cast<std::uint32_t>(p.record_fifo);
-  const PayloadShape shape = record_shape(p, "", "run.");
+  const auto depth = static_cast<std::uint32_t>(p.descriptor_fifo);
+  const PayloadShape shape = descriptor_shape(p, "", "run.");
   for (int lane = 0; lane < built_lanes(p); ++lane) {
-    h_.fifo.emplace_back(("record_fifo_h" + std::to_string(lane)).c_str(), depth, shape);
-    v_.fifo.emplace_back(("record_fifo_v" + std::to_string(lane)).c_str(), depth, shape);
+    h_.fifo.emplace_back(("descriptor_fifo_h" + std::to_string(lane)).c_str(), depth, shape);
+    v_.fifo.emplace_back(("descriptor_fifo_v" + std::to_string(lane)).c_str(), depth, shape);
   }
 }
 
-inline bool RunExtractor::take_slot(Cycle cycle, const FrameRules& rules) {
+inline bool RunExtractor::take_slot(Cycle cycle, const FrameConfiguration& configuration) {
   const EdgeToken& token = edges_in.front(cycle);
   const std::size_t parity = token.slot.row & 1;
   if (token.slot.beat == 0 && unfinished_[parity] + finding_[parity] != 0) {
-    ++record_stalls;
+    ++descriptor_stalls;
     ++interlock_stalls;
     return false;
   }
   token_ = token;
-  window_.read_beat(cycle, rules, token.slot.beat * lanes_);
+  window_.read_beat(cycle, configuration, token.slot.beat * lanes_);
   reads_ = true;
   edges_in.pop(cycle);
   return true;
@@ -70,8 +70,8 @@ inline bool RunExtractor::take_slot(Cycle cycle, const FrameRules& rules) {
 
 // In a row of fewer beats than a diagonal takes nothing else would bring the row before to an end
 // before it is needed: behind it columns are shifted only where no slot comes.
-bool RunExtractor::waits_for_diagonals(Cycle cycle, const FrameRules& rules) const {
-  return rules.diagonal_steps != 0 && rules.beats < diagonal_delay_ &&
+bool RunExtractor::waits_for_diagonals(Cycle cycle, const FrameConfiguration& configuration) const {
+  return configuration.diagonal_steps != 0 && configuration.beats < diagonal_delay_ &&
          edges_in.front(cycle).slot.beat == 0 && cycle <= passed_ + diagonal_delay_;
 }
 
@@ -88,48 +88,48 @@ Activity RunExtractor::work(Cycle cycle) {
     drain(v_, cycle);
     // Records without room in their FIFOs hold all that is behind them.
     if (std::max(h_.count, v_.count) > spare_) {
-      if (arrives) ++record_stalls;
-      return records_;
+      if (arrives) ++descriptor_stalls;
+      return descriptors_;
     }
   }
-  const FrameRules& rules = rules_in.read(cycle);
+  const FrameConfiguration& configuration = configuration_in.read(cycle);
   ++step_;
   bool did = false;
-  if (found_ != 0 && finds_[oldest_].begun + kFindClocks == step_) {
+  if (found_ != 0 && finds_[oldest_].begun + kFindCycles == step_) {
     deliver(finds_[oldest_]);
     oldest_ = (oldest_ + 1) % finds_.size();
     --found_;
     did = true;
   }
   if (reads_) {
-    const bool blends = token_.slot.row >= reach_rows_ + spec::morphological::kRowLag;
+    const bool blends = token_.slot.row >= search_rows_ + spec::morphological::kRowLag;
     if (!area_slots_out.can_push(cycle) || (blends && !fetches_out.can_push(cycle)) ||
         (kSmaa && columns_out && !columns_out->can_push(cycle)))
       return did ? kBusy : kStalledDownstream;
-    pass<kSmaa>(cycle, rules);
+    pass<kSmaa>(cycle, configuration);
     if (blends) fetches_out.emplace(cycle).slot = token_.slot;
     reads_ = false;
     did = true;
   }
   if (!arrives) return did || found_ != 0 ? kBusy : kIdle;
-  if (kSmaa && waits_for_diagonals(cycle, rules)) return *diagonals_;
-  if (!take_slot(cycle, rules)) return records_;
+  if (kSmaa && waits_for_diagonals(cycle, configuration)) return *diagonals_;
+  if (!take_slot(cycle, configuration)) return descriptors_;
   return kBusy;
 }
 
-void RunExtractor::begin_row(const FrameRules& rules) {
-  rules_ = &rules;
-  row_ = token_.slot.row - reach_rows_ - 2;
+void RunExtractor::begin_row(const FrameConfiguration& configuration) {
+  configuration_ = &configuration;
+  row_ = token_.slot.row - search_rows_ - 2;
   constexpr std::int32_t kBlended = spec::morphological::kRowLag - 2;  // rows above row y
   blended_ = window_.beats(row_ - kBlended);
   shared_ = window_.beats(row_ - kBlended + 1);
   const auto in_frame = [&](std::int32_t y) {
-    return y >= 0 && y < rules_->height ? window_.beats(y) : nullptr;
+    return y >= 0 && y < configuration_->height ? window_.beats(y) : nullptr;
   };
   ahead_ = in_frame(row_ + rows_.ahead());
   searched_ = in_frame(row_);
   const std::int32_t most = static_cast<std::int32_t>(about_.size() / 2), row = row_ - 1;
-  sends_columns_ = rules_->diagonal_steps != 0 && row >= 0 && row < rules_->height;
+  sends_columns_ = configuration_->diagonal_steps != 0 && row >= 0 && row < configuration_->height;
   if (!sends_columns_) return;
   for (std::int32_t k = 0; k <= 2 * most; ++k)
     about_[static_cast<std::size_t>(k)] = window_.beats(row + k - most);
@@ -137,16 +137,16 @@ void RunExtractor::begin_row(const FrameRules& rules) {
 
 // The words of the slot's columns are here.
 template <bool kSmaa>
-[[gnu::always_inline]] inline void RunExtractor::pass(Cycle cycle, const FrameRules& rules) {
+[[gnu::always_inline]] inline void RunExtractor::pass(Cycle cycle, const FrameConfiguration& configuration) {
   const Slot& slot = token_.slot;
   const std::int32_t first = slot.beat * lanes_,
-                     end = std::min<std::int32_t>(first + lanes_, rules.width);
-  const bool comes = slot.row >= 1 && slot.row <= rules.height;
+                     end = std::min<std::int32_t>(first + lanes_, configuration.width);
+  const bool comes = slot.row >= 1 && slot.row <= configuration.height;
   const unsigned inside = comes ? (1u << (end - first)) - 1 : 0;
-  window_.write_beat(cycle, rules, first, slot.row,
+  window_.write_beat(cycle, configuration, first, slot.row,
                      {static_cast<std::uint8_t>(token_.left & inside),
                       static_cast<std::uint8_t>(token_.top & inside)});
-  if (slot.beat == 0) begin_row(rules);
+  if (slot.beat == 0) begin_row(configuration);
   const EdgeBits blended = blended_[slot.beat];
   AreaSlotToken& out = area_slots_out.emplace(cycle);
   out.slot = slot;
@@ -161,7 +161,7 @@ template <bool kSmaa>
   }
   if (ahead_ != nullptr) {
     const EdgeBits bits = ahead_[slot.beat];
-    rows_.write(cycle, rules, row_ + rows_.ahead(), first, bits.left, bits.top);
+    rows_.write(cycle, configuration, row_ + rows_.ahead(), first, bits.left, bits.top);
   }
   if (searched_ == nullptr) return;
   here_ = searched_[slot.beat];
@@ -200,14 +200,14 @@ void RunExtractor::send_columns(Cycle cycle) {
 
 // Columns first..end - 1 of row y, and the end of the row.
 void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) {
-  const bool crossings = rules_->crossings;
+  const bool crossings = configuration_->crossings;
   for (std::int32_t x = first; x < end; ++x) {
     if (here_.top >> (x - first) & 1) {
       if (!open_) {
         open_ = true;
         start_ = x;
         start_corner_ = corner_of_row(x);
-        start_corner_.endless = x == 0 && rules_->clamp;
+        start_corner_.endless = x == 0 && configuration_->clamp;
       } else if (crossings && (window_.left(x, row_ - 1) || window_.left(x, row_))) {
         Corner corner = corner_of_row(x);
         corner.beyond = true;
@@ -215,31 +215,31 @@ void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) 
         open_ = true;
         start_ = x;
         start_corner_ = corner;
-      } else if (x - start_ == reach_columns_) {
+      } else if (x - start_ == search_columns_) {
         // One edge longer than the reach: the head is known.
         found(find,
-              {Axis::kHorizontal, RunPart::kHead, u16(row_), u16(start_), u16(reach_columns_ / 2)},
+              {Axis::kHorizontal, RunPart::kHead, u16(row_), u16(start_), u16(search_columns_ / 2)},
               start_corner_, {});
       }
     } else if (open_) {
       close(find, x, corner_of_row(x));
     }
   }
-  if (open_ && end == rules_->width) close(find, end, right_border());
+  if (open_ && end == configuration_->width) close(find, end, right_border());
 }
 
 // The corner behind the last column, whose edges are those of that column.
 RunExtractor::Corner RunExtractor::right_border() const {
-  if (!rules_->clamp) return {};
-  const Corner corner = corner_of_row(rules_->width - 1);
+  if (!configuration_->clamp) return {};
+  const Corner corner = corner_of_row(configuration_->width - 1);
   return corner.code != 0 ? corner : Corner{.endless = true};
 }
 
 // The run ends in front of column `end`.
 void RunExtractor::close(Find& find, std::int32_t end, Corner corner) {
   open_ = false;
-  const std::int32_t length = end - start_, half = reach_columns_ / 2;
-  if (length > reach_columns_)
+  const std::int32_t length = end - start_, half = search_columns_ / 2;
+  if (length > search_columns_)
     found(find, {Axis::kHorizontal, RunPart::kTail, u16(row_), u16(end - half), u16(half)}, {},
           corner);
   else
@@ -249,12 +249,12 @@ void RunExtractor::close(Find& find, std::int32_t end, Corner corner) {
 
 // Corner (x, y) of the row in hand: from its column.
 RunExtractor::Corner RunExtractor::corner_of_row(std::int32_t x) const {
-  const FrameRules& rules = *rules_;
+  const FrameConfiguration& configuration = *configuration_;
   Corner corner{code(window_.left(x, row_ - 1), window_.left(x, row_))};
-  if (rules.corners) {
+  if (configuration.corners) {
     corner.far = code(window_.left(x, row_ - 2), window_.left(x, row_ + 1));
-    if (rules.clamp)
-      corner.far = either(corner.far, corner.code & code(row_ == 1, row_ + 1 == rules.height));
+    if (configuration.clamp)
+      corner.far = either(corner.far, corner.code & code(row_ == 1, row_ + 1 == configuration.height));
   }
   return corner;
 }
@@ -263,15 +263,15 @@ RunExtractor::Corner RunExtractor::corner_of_row(std::int32_t x) const {
 // nothing, with border = clamp the first one again.
 RunExtractor::Corner RunExtractor::corner_of_column(std::int32_t x, std::int32_t y,
                                                     bool far) const {
-  const FrameRules& rules = *rules_;
-  const bool below = rules.clamp && y == rules.height;
+  const FrameConfiguration& configuration = *configuration_;
+  const bool below = configuration.clamp && y == configuration.height;
   if (below) --y;
   Corner corner{code(window_.top(x - 1, y), window_.top(x, y))};
   if (below && corner.code == 0) return {.endless = true};
   if (far) {
-    corner.far = code(window_.top(x - 2, y), x + 1 < rules.width && window_.top(x + 1, y));
-    if (rules.clamp)
-      corner.far = either(corner.far, corner.code & code(x == 1, x + 1 == rules.width));
+    corner.far = code(window_.top(x - 2, y), x + 1 < configuration.width && window_.top(x + 1, y));
+    if (configuration.clamp)
+      corner.far = either(corner.far, corner.code & code(x == 1, x + 1 == configuration.width));
   }
   return corner;
 }
@@ -280,7 +280,7 @@ RunExtractor::Corner RunExtractor::corner_of_column(std::int32_t x, std::int32_t
 void RunExtractor::vertical(Find& find, std::int32_t first) {
   for (unsigned lanes = here_.left; lanes != 0; lanes &= lanes - 1) {
     const std::int32_t x = first + std::countr_zero(lanes);
-    const std::int32_t half = reach_rows_ / 2;
+    const std::int32_t half = search_rows_ / 2;
     const auto edge = [&](std::int32_t below) { return window_.left(x, row_ + below); };
     const bool starts = !edge(-1);
     // A tail ends where its half of the reach ends, and the run began at least R rows before that.
@@ -290,21 +290,21 @@ void RunExtractor::vertical(Find& find, std::int32_t first) {
 }
 
 void RunExtractor::vertical_at(Find& find, std::int32_t x, bool starts) {
-  const FrameRules& rules = *rules_;
-  const bool crossings = rules.crossings, far = rules.corners;
-  const std::int32_t half = reach_rows_ / 2;
+  const FrameConfiguration& configuration = *configuration_;
+  const bool crossings = configuration.crossings, far = configuration.corners;
+  const std::int32_t half = search_rows_ / 2;
   // Does the run go on from the pixel above corner `below` to the one beneath it, or back?
   const auto goes_on = [&](std::int32_t below, std::int32_t to) {
     return window_.left(x, row_ + to) && !(crossings && crosses(x, row_ + below));
   };
   const auto corner = [&](std::int32_t below) { return corner_of_column(x, row_ + below, far); };
-  RunRecord run{Axis::kVertical, RunPart::kWhole, u16(x), u16(row_), u16(half)};
+  RunDescriptor run{Axis::kVertical, RunPart::kWhole, u16(x), u16(row_), u16(half)};
   std::int32_t length = 1;
   if (starts) {
-    while (length <= reach_rows_ && goes_on(length, length)) ++length;
+    while (length <= search_rows_ && goes_on(length, length)) ++length;
     Corner start = corner(0);
-    start.endless = rules.clamp && row_ == 0;
-    if (length > reach_rows_) {
+    start.endless = configuration.clamp && row_ == 0;
+    if (length > search_rows_) {
       run.part = RunPart::kHead;
       found(find, run, start, {});
     } else {
@@ -315,8 +315,8 @@ void RunExtractor::vertical_at(Find& find, std::int32_t x, bool starts) {
       found(find, run, start, end);
     }
   } else {
-    while (length <= reach_rows_ && goes_on(half - length, half - 1 - length)) ++length;
-    if (length <= reach_rows_) return;  // the end of a run that is not long
+    while (length <= search_rows_ && goes_on(half - length, half - 1 - length)) ++length;
+    if (length <= search_rows_) return;  // the end of a run that is not long
     run.part = RunPart::kTail;
     found(find, run, {}, corner(half));
   }
@@ -326,8 +326,8 @@ void RunExtractor::vertical_at(Find& find, std::int32_t x, bool starts) {
 // column behind then, in the last slot of a row at its last column as well. In which entry a run
 // lies is known with its own column.
 void RunExtractor::smaa_vertical(Find& find, std::int32_t first, std::int32_t end) {
-  const bool crossings = rules_->crossings;
-  const std::int32_t half = reach_rows_ / 2;
+  const bool crossings = configuration_->crossings;
+  const std::int32_t half = search_rows_ / 2;
   const auto starts = [&](std::int32_t x) {
     return !window_.left(x, row_ - 1) || (crossings && crosses(x, row_));
   };
@@ -339,14 +339,14 @@ void RunExtractor::smaa_vertical(Find& find, std::int32_t first, std::int32_t en
     if (begins || ends) vertical_at(find, x, begins);
   };
   if (corners_ && first != 0) find_at(first - 1);
-  const std::int32_t last = corners_ && end != rules_->width ? end - 1 : end;
+  const std::int32_t last = corners_ && end != configuration_->width ? end - 1 : end;
   for (std::int32_t x = first; x < end; ++x) {
     if (crossings_ && window_.left(x, row_) && starts(x)) window_.turn_entry(x);
     if (x < last) find_at(x);
   }
 }
 
-void RunExtractor::found(Find& find, RunRecord run, Corner start, Corner end) const {
+void RunExtractor::found(Find& find, RunDescriptor run, Corner start, Corner end) const {
   run.shape = static_cast<std::uint8_t>(start.code + 4 * end.code);
   run.far = static_cast<std::uint8_t>(start.far + 4 * end.far);
   run.endless = code(start.endless, end.endless);
@@ -360,7 +360,7 @@ void RunExtractor::found(Find& find, RunRecord run, Corner start, Corner end) co
 void RunExtractor::deliver(const Find& find) {
   --finding_[find.parity];
   for (std::size_t i = 0; i < find.count; ++i) {
-    const RunRecord& run = find.run[i].run;
+    const RunDescriptor& run = find.run[i].run;
     const bool horizontal = run.axis == Axis::kHorizontal;
     const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[run.shape];
     if (observer) observer(run);
@@ -370,13 +370,13 @@ void RunExtractor::deliver(const Find& find) {
       if (run.part != RunPart::kWhole) ++long_runs;
     }
     if (run.part == RunPart::kWhole && shape.clean_z) ++z_runs;
-    if (!rules_->learned && shape.before == spec::morphological::Side::kNone &&
+    if (!configuration_->learned && shape.before == spec::morphological::Side::kNone &&
         shape.after == spec::morphological::Side::kNone)
       continue;
     AxisSide& to = horizontal ? h_ : v_;
     to.waiting[to.count++] = find.run[i];
     ++unfinished_[find.parity];
-    ++records_sent;
+    ++descriptors_sent;
   }
 }
 
@@ -416,7 +416,7 @@ Datasheet RunExtractor::slot_datasheet() {
                   "SRAM read"}}};
 }
 
-Datasheet RunExtractor::record_datasheet() {
+Datasheet RunExtractor::descriptor_datasheet() {
   return {
       .unit = "RunExtractor",
       .variant = "records",
@@ -437,7 +437,7 @@ Datasheet RunExtractor::record_datasheet() {
           "counters, 3 columns of flip-flops (window_rows + 1 pairs of bits; with corners 5, "
           "and a circuit more); registers of 12 records that are being looked for and of 4 "
           "that wait for their FIFOs; with border = clamp a register of R + 1 bits that says "
-          "where the frame ends, and a gate of each code below it. Memory: record_fifo entries an "
+          "where the frame ends, and a gate of each code below it. Memory: descriptor_fifo entries an "
           "axis and lane."};
 }
 

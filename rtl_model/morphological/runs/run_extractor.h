@@ -17,7 +17,7 @@
 // beyond the frame are those of the nearest pixel: a run that meets the border ends there with the
 // code of its last pixel's corner, or is endless if that is none.
 //
-// Records without a side are counted and, but with learned shares, go nowhere. Rows of a single
+// Records without a side are counted and, but with learned weights, go nowhere. Rows of a single
 // beat read a word that is being written: it is taken from the register that it was written from.
 // Stalls: `records` (a FIFO is full, or the interlock: slot row s waits until all records found in
 // slot row s - 2 are finished, and those that are being looked for found), `diagonals` (a row of
@@ -37,7 +37,7 @@
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/morphological/common/frame_rules.h"
+#include "rtl_model/morphological/common/frame_configuration.h"
 #include "rtl_model/morphological/common/tokens.h"
 #include "rtl_model/morphological/runs/edge_rows.h"
 #include "rtl_model/morphological/runs/edge_window.h"
@@ -46,7 +46,7 @@ namespace deburr::rtl::morphological {
 
 class RunExtractor final : public Unit {
  public:
-  WireIn<FrameRules> rules_in{"rules_in"};
+  WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   In<EdgeToken> edges_in{"edges_in"};
   In<FinishToken> finished_in{"finished_in"};
   Out<AreaSlotToken> area_slots_out{"area_slots_out"};
@@ -54,7 +54,7 @@ class RunExtractor final : public Unit {
   // For the DiagonalUnit, if it is built.
   std::optional<Out<DiagonalColumnsToken>> columns_out;
   // For the predictors, one a lane: bind to records(axis, lane).
-  Link<RunToken>& records(spec::morphological::Axis axis, std::size_t lane) {
+  Link<RunToken>& descriptors(spec::morphological::Axis axis, std::size_t lane) {
     return side(axis).fifo[lane].link();
   }
 
@@ -68,19 +68,19 @@ class RunExtractor final : public Unit {
   Counter vertical_runs{"vertical_runs", "runs", "maximal runs of left edges"};
   Counter long_runs{"long_runs", "runs", "runs longer than the reach of their axis"};
   Counter z_runs{"z_runs", "runs", "clean Z runs within the reach"};
-  Counter records_sent{"records", "records", "records put into the FIFOs"};
+  Counter descriptors_sent{"records", "records", "records put into the FIFOs"};
   Counter interlock_stalls{"interlock_stalls", "clk",
                            "slot waited for records of two slot rows before"};
-  Counter record_stalls{"record_stalls", "clk", "slot waited for records, FIFO or interlock"};
+  Counter descriptor_stalls{"descriptor_stalls", "clk", "slot waited for records, FIFO or interlock"};
 
-  std::function<void(const spec::morphological::RunRecord&)> observer;
+  std::function<void(const spec::morphological::RunDescriptor&)> observer;
 
   static Datasheet slot_datasheet();
-  static Datasheet record_datasheet();  // from the slot in which the run is found
+  static Datasheet descriptor_datasheet();  // from the slot in which the run is found
 
  private:
   // From the clock in which a slot's words come to the one in which its records are known.
-  static constexpr std::uint64_t kFindClocks = 3;
+  static constexpr std::uint64_t kFindCycles = 3;
 
   // Records of an axis on their way into the FIFOs.
   struct AxisSide {
@@ -92,7 +92,7 @@ class RunExtractor final : public Unit {
   AxisSide& side(spec::morphological::Axis axis) {
     return axis == spec::morphological::Axis::kHorizontal ? h_ : v_;
   }
-  // A slot with runs that begin or end in it, in clocks 1 to 4.
+  // A slot with runs that begin or end in it, in cycles 1 to 4.
   struct Find {
     std::uint64_t begun;  // step of the pipe
     std::size_t parity;   // of the slot's row
@@ -111,18 +111,18 @@ class RunExtractor final : public Unit {
   // kSmaa: of an engine with crossings, corners or diagonals; others do not pay for them.
   template <bool kSmaa>
   Activity work(Cycle cycle);
-  bool waits_for_diagonals(Cycle cycle, const FrameRules& rules) const;
-  bool take_slot(Cycle cycle, const FrameRules& rules);  // false: it waits for records
-  void begin_row(const FrameRules& rules);
+  bool waits_for_diagonals(Cycle cycle, const FrameConfiguration& configuration) const;
+  bool take_slot(Cycle cycle, const FrameConfiguration& configuration);  // false: it waits for records
+  void begin_row(const FrameConfiguration& configuration);
   template <bool kSmaa>
-  void pass(Cycle cycle, const FrameRules& rules);
+  void pass(Cycle cycle, const FrameConfiguration& configuration);
   void send_columns(Cycle cycle);
   void horizontal(Find& find, std::int32_t first, std::int32_t end);
   void close(Find& find, std::int32_t end, Corner corner);
   void vertical(Find& find, std::int32_t first);
   void smaa_vertical(Find& find, std::int32_t first, std::int32_t end);
   void vertical_at(Find& find, std::int32_t x, bool starts);
-  void found(Find& find, spec::morphological::RunRecord run, Corner start, Corner end) const;
+  void found(Find& find, spec::morphological::RunDescriptor run, Corner start, Corner end) const;
   Corner right_border() const;
   bool crosses(std::int32_t x, std::int32_t y) const {
     return window_.top(x - 1, y) || window_.top(x, y);
@@ -134,30 +134,30 @@ class RunExtractor final : public Unit {
 
   EdgeWindow& window_;
   EdgeRows& rows_;
-  const std::int32_t lanes_, reach_rows_, reach_columns_;
+  const std::int32_t lanes_, search_rows_, search_columns_;
   const bool crossings_, corners_, smaa_;  // built with; smaa_: with any of these, or diagonals
-  // Records of an axis that may wait another clock: with crossings or learned shares the last slot
+  // Records of an axis that may wait another clock: with crossings or learned weights the last slot
   // of a row may find one more than there are lanes, the first of the next one fewer.
   const std::size_t spare_;
-  // Rows of a frame whose diagonals take more clocks to come than a row has beats begin when those
+  // Rows of a frame whose diagonals take more cycles to come than a row has beats begin when those
   // of the row before are there.
   const Cycle diagonal_delay_;
   Cycle passed_ = 0;  // the last slot in clock 1
-  Activity records_;
+  Activity descriptors_;
   std::optional<Activity> diagonals_;
   AxisSide h_, v_;
   std::array<std::uint32_t, 2> unfinished_{};  // records, by parity of the row of their slot
-  std::array<std::uint32_t, 2> finding_{};     // slots in clocks 2 to 4, alike
+  std::array<std::uint32_t, 2> finding_{};     // slots in cycles 2 to 4, alike
 
   bool reads_ = false;  // a slot is in clock 1
   EdgeToken token_{};
 
-  std::array<Find, kFindClocks + 1> finds_{};
+  std::array<Find, kFindCycles + 1> finds_{};
   std::size_t oldest_ = 0, found_ = 0;
-  std::uint64_t step_ = 0;  // clocks in which clocks 2 to 4 went on
+  std::uint64_t step_ = 0;  // cycles in which cycles 2 to 4 went on
 
   std::int32_t row_ = 0;               // y
-  const FrameRules* rules_ = nullptr;  // that it began with
+  const FrameConfiguration* configuration_ = nullptr;  // that it began with
   // Of the words of the window: the row that is blended, the one below, the one for EdgeRows and
   // row y; the latter two nullptr outside the frame.
   const EdgeBits *blended_ = nullptr, *shared_ = nullptr, *ahead_ = nullptr, *searched_ = nullptr;

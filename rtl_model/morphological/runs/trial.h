@@ -36,7 +36,7 @@ inline constexpr std::uint8_t kShorter = 1, kEqual = 2, kLonger = 4;
 
 // `edges` shows what has been read: code(p) of the corner at p on the trial's line; unbroken(from,
 // end): are the edges along the axis at from..end - 1 all set? In hardware: four comparators of 4
-// bits and, contiguous, an AND over the edges that all candidates share (a corner's code holds the
+// bits and, contiguous, an AND over the edges that all candidates weight (a corner's code holds the
 // last edge of its step).
 template <class Edges>
 std::uint8_t hits_of(const Trial& trial, const Edges& edges, bool contiguous) {

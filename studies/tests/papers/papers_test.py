@@ -166,7 +166,7 @@ class Papers(unittest.TestCase):
             self.assertLess(saving[", two lanes"], 51)
             self.assertGreater(saving[", no copy"], 30)
             self.assertLess(saving[", with the copy"], 20)
-            copy = {int(r["clocks (c), with the copy"]) for r in (row, whole)}
+            copy = {int(r["cycles (c), with the copy"]) for r in (row, whole)}
             self.assertGreater(min(copy), 2 * 1280 * 720 / 16)
 
     def test_004_says_what_is_known(self):
@@ -270,7 +270,7 @@ class Papers(unittest.TestCase):
             pass
         os.close(leader)
         self.assertEqual(process.wait(300), 0)
-        for what in (b"rendering scenes and truth, and smoothing", b"row/s"):
+        for what in (b"rendering scenes and reference, and smoothing", b"row/s"):
             self.assertIn(what, shown)
 
 

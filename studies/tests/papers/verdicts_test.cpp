@@ -114,7 +114,7 @@ TEST(Methods, AreBestOnlyIfTheyBeatNoneAndMsaaToo) {
   EXPECT_EQ(place(alone, 0), "best");
 }
 
-TEST(Rules, BringWhatIsShown) {
+TEST(Configuration, BringWhatIsShown) {
   const Figures before = {{10.0, 5.0}, {30.00, 20.00}};
   EXPECT_EQ(brings(before, {{10.0, 5.0}, {30.00, 20.00}}, 1, 2), "same");
   EXPECT_EQ(brings(before, {{9.9, 5.0}, {30.00, 20.00}}, 1, 2), "better");

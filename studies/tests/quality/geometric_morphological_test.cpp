@@ -31,7 +31,7 @@ using golden::ideal::NearestEdges;
 using golden::ideal::SideWeights;
 using golden::morphological::EdgePlanes;
 using golden::morphological::MorphologicalGolden;
-using spec::morphological::Leave;
+using spec::morphological::Bypass;
 using spec::morphological::Parameters;
 using spec::morphological::Preset;
 using tb::Image;
@@ -39,15 +39,15 @@ using tb::geometric::Checker;
 
 constexpr int kWidth = 640, kHeight = 480;
 
-Parameters rules(Preset preset, Leave leave = Leave::kNone) {
+Parameters configuration(Preset preset, Bypass leave = Bypass::kNone) {
   Parameters p = golden::morphological::preset_parameters(preset);
   p.leave = leave;
   return p;
 }
 
 // Edges of luma where depth has one, by the fitted line.
-Parameters at_depth(Leave leave) {
-  Parameters p = rules(Preset::kDeburrLine, leave);
+Parameters at_depth(Bypass leave) {
+  Parameters p = configuration(Preset::kDeburrLine, leave);
   p.edge_source = spec::morphological::EdgeSource::kPredicated;
   const spec::morphological::FollowingRules following;
   p.threshold_on_depth_edge = following.threshold_on_depth_edge;
@@ -132,7 +132,7 @@ EdgePlanes edges_of(const std::vector<NearestEdges>& channels, int width, int he
 
 // Luma's edges where one of the two pixels has a channel.
 EdgePlanes luma_edges_at(const std::vector<NearestEdges>& channels, const Image& frame) {
-  MorphologicalGolden golden(rules(Preset::kDeburrLine), MorphologicalGolden::Detail::kPixels);
+  MorphologicalGolden golden(configuration(Preset::kDeburrLine), MorphologicalGolden::Detail::kPixels);
   golden.process({frame.pixels, frame.width, frame.height});
   EdgePlanes result;
   for (auto* plane : {&result.left, &result.top}) plane->resize(frame.width, frame.height);
@@ -160,12 +160,12 @@ using Table = std::map<std::string, Figures>;
 
 double better_by(double a, double than) { return 20 * std::log10(than / a); }  // dB
 
-// By learned shares and their own edges.
-constexpr std::pair<const char*, Leave> kFollowers[] = {{"nothing left", Leave::kNone},
-                                                        {"marked", Leave::kMarked},
-                                                        {"beside", Leave::kBeside},
-                                                        {"half", Leave::kHalf},
-                                                        {"masked", Leave::kMasked}};
+// By learned weights and their own edges.
+constexpr std::pair<const char*, Bypass> kFollowers[] = {{"nothing left", Bypass::kNone},
+                                                        {"marked", Bypass::kMarked},
+                                                        {"beside", Bypass::kBeside},
+                                                        {"half", Bypass::kHalf},
+                                                        {"masked", Bypass::kMasked}};
 
 Table measure(const tb::Scene& scene, const std::string& name, int width, int height, int samples) {
   const Checker checker(scene, width, height, samples);
@@ -177,7 +177,7 @@ Table measure(const tb::Scene& scene, const std::string& name, int width, int he
                table[way].silhouettes);
   };
   const auto with_edges = [&](const EdgePlanes& edges) {
-    MorphologicalGolden golden(rules(Preset::kDeburrLine), MorphologicalGolden::Detail::kPixels);
+    MorphologicalGolden golden(configuration(Preset::kDeburrLine), MorphologicalGolden::Detail::kPixels);
     Image result = frame;
     result.pixels = golden.process({frame.pixels, width, height}, edges);
     return result;
@@ -190,14 +190,14 @@ Table measure(const tb::Scene& scene, const std::string& name, int width, int he
 
   add("none", frame);
   add("msaa4", checker.msaa);
-  add("morphological", smoothed(frame, checker.frame, rules(Preset::kDeburr)));
+  add("morphological", smoothed(frame, checker.frame, configuration(Preset::kDeburr)));
   add("geometric", geometric);
   for (const auto& [way, leave] : kFollowers)
-    add(way, smoothed(geometric, checker.frame, rules(Preset::kDeburr, leave)));
-  add("depth, half", smoothed(geometric, checker.frame, at_depth(Leave::kHalf)));
+    add(way, smoothed(geometric, checker.frame, configuration(Preset::kDeburr, leave)));
+  add("depth, half", smoothed(geometric, checker.frame, at_depth(Bypass::kHalf)));
   add("as built", smoothed(geometric, checker.frame,
                            golden::morphological::following_geometric(
-                               rules(spec::morphological::FollowingRules().preset))));
+                               configuration(spec::morphological::FollowingRules().preset))));
   add("two channels", blended_by(channels, frame));
   add("channels as edges", with_edges(edges_of(channels, width, height)));
   add("luma edges at channels", with_edges(luma_edges_at(channels, frame)));
@@ -261,28 +261,28 @@ TEST(Joined, TracksToo) {
 
 struct Way {
   const char* name;
-  Parameters rules;
+  Parameters configuration;
 };
 
 std::vector<Way> followers() {
   const Parameters following = golden::morphological::following_geometric(
-      rules(spec::morphological::FollowingRules().preset));
+      configuration(spec::morphological::FollowingRules().preset));
   std::vector<Way> ways;
   for (const auto& [name, leave] : kFollowers)
-    ways.push_back({name, rules(Preset::kDeburr, leave)});
-  Parameters luma = rules(Preset::kDeburr, Leave::kMasked);
+    ways.push_back({name, configuration(Preset::kDeburr, leave)});
+  Parameters luma = configuration(Preset::kDeburr, Bypass::kMasked);
   luma.edge_source = spec::morphological::EdgeSource::kLuma;
-  luma.threshold = rules(Preset::kDeburrLine).threshold;
-  Parameters both = at_depth(Leave::kMasked);
+  luma.threshold = configuration(Preset::kDeburrLine).threshold;
+  Parameters both = at_depth(Bypass::kMasked);
   both.area = spec::morphological::AreaSource::kLearned;
-  Parameters depth = rules(Preset::kDeburr, Leave::kMasked);
+  Parameters depth = configuration(Preset::kDeburr, Bypass::kMasked);
   depth.edge_source = spec::morphological::EdgeSource::kDepth;
   ways.push_back({"masked, luma", luma});
   ways.push_back({"masked, luma at depth", both});
   ways.push_back({"masked, depth", depth});
-  ways.push_back({"masked, line", rules(Preset::kDeburrLine, Leave::kMasked)});
-  ways.push_back({"beside, line, luma at depth", at_depth(Leave::kBeside)});
-  ways.push_back({"half, line, luma at depth", at_depth(Leave::kHalf)});
+  ways.push_back({"masked, line", configuration(Preset::kDeburrLine, Bypass::kMasked)});
+  ways.push_back({"beside, line, luma at depth", at_depth(Bypass::kBeside)});
+  ways.push_back({"half, line, luma at depth", at_depth(Bypass::kHalf)});
   ways.push_back({"as built", following});
   return ways;
 }
@@ -311,11 +311,11 @@ std::map<std::string, Gains> gains_of_followers(Half half, const std::filesystem
     const Image drawn = tb::geometric::smoothed(checker.frame, p).image;
     const auto geometric = figures(drawn),
                morphological =
-                   figures(smoothed(checker.frame.image, checker.frame, rules(Preset::kDeburr)));
+                   figures(smoothed(checker.frame.image, checker.frame, configuration(Preset::kDeburr)));
     std::string row = fmt::format("| {} | {:.2f} / {:.2f} | {:.2f} / {:.2f} |", view.name,
                                   geometric[0], geometric[1], morphological[0], morphological[1]);
     for (const Way& way : followers()) {
-      const auto after = figures(smoothed(drawn, checker.frame, way.rules));
+      const auto after = figures(smoothed(drawn, checker.frame, way.configuration));
       row += fmt::format(" {:.2f} / {:.2f} |", after[0], after[1]);
       for (std::size_t i = 0; i < 2; ++i) {
         const auto add = [&](Gain& gain, double before) {
@@ -376,7 +376,7 @@ TEST(Outermost, MendsHiddenLines) {
     for (const int degrees : {0, 25, -50, 77}) {
       const Checker checker(turned(tb::make_scene(name), degrees), kWidth, kHeight, 8);
       const auto followed = [&](const Image& image) {
-        return smoothed(image, checker.frame, at_depth(Leave::kHalf));
+        return smoothed(image, checker.frame, at_depth(Bypass::kHalf));
       };
       const auto combined = [&](spec::geometric::Combine combine) {
         p.combine = combine;

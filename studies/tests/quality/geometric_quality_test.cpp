@@ -22,7 +22,7 @@ using spec::geometric::DepthTest;
 using spec::geometric::Parameters;
 using spec::geometric::Preset;
 using spec::geometric::Work;
-using spec::morphological::Leave;
+using spec::morphological::Bypass;
 using tb::Image;
 using tb::geometric::Checker;
 using tb::geometric::smoothed;
@@ -32,12 +32,12 @@ constexpr int kWidth = 640, kHeight = 480;
 
 // The morphological engine behind the geometric one. More ways of joining the two:
 // geometric_morphological_test.cpp.
-Image morphological_after(const Image& geometric, Leave leave) {
-  spec::morphological::Parameters rules =
+Image morphological_after(const Image& geometric, Bypass leave) {
+  spec::morphological::Parameters configuration =
       golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
-  rules.leave = leave;
+  configuration.leave = leave;
   golden::morphological::MorphologicalGolden golden(
-      rules, golden::morphological::MorphologicalGolden::Detail::kPixels);
+      configuration, golden::morphological::MorphologicalGolden::Detail::kPixels);
   Image result = geometric;
   result.pixels = golden.process({geometric.pixels, geometric.width, geometric.height});
   return result;
@@ -69,7 +69,7 @@ Table measure(const tb::Scene& scene, int width, int height, int samples) {
   };
   add("none", checker.frame.image);
   add("msaa4", checker.msaa);
-  add("morphological", morphological_after(checker.frame.image, Leave::kNone));
+  add("morphological", morphological_after(checker.frame.image, Bypass::kNone));
   for (const Preset preset : {Preset::kGpaa, Preset::kGpaaOptimised, Preset::kDeburr}) {
     const Smoothed result = smoothed(checker.frame, preset_parameters(preset));
     add(std::string(spec::geometric::kPresetNames[static_cast<std::size_t>(preset)]), result.image);
@@ -78,8 +78,8 @@ Table measure(const tb::Scene& scene, int width, int height, int samples) {
   Parameters marked = preset_parameters(Preset::kDeburr);
   marked.mark = true;
   const Smoothed both = smoothed(checker.frame, marked);
-  add("both", morphological_after(both.image, Leave::kMarked));
-  add("both, beside", morphological_after(both.image, Leave::kBeside));
+  add("both", morphological_after(both.image, Bypass::kMarked));
+  add("both, beside", morphological_after(both.image, Bypass::kBeside));
   fmt::print("| {} | edges {} -> {} -> {} | columns {}, {}, {} | blended {} of {} edge pixels |\n",
              scene.name, table.table_edges, table.work[Preset::kGpaaOptimised].kept_edges,
              table.work[Preset::kDeburr].kept_edges, table.work[Preset::kGpaa].columns,
@@ -160,7 +160,7 @@ TEST(Goals, TheTrackIsKept) {
 // ---- what the rules are for ---------------------------------------------------------------------
 
 // The checks above can fail: each rule that is taken away costs what the page says.
-TEST(Rules, EachPays) {
+TEST(Configuration, EachPays) {
   struct Case {
     const char* scene;
     const char* name;
@@ -244,11 +244,11 @@ TEST(WeakSpot, EdgesOfATexture) {
   Parameters marked = preset_parameters(Preset::kDeburr);
   marked.mark = true;
   const Image geometric = smoothed(checker.frame, marked).image;
-  spec::morphological::Parameters rules =
+  spec::morphological::Parameters configuration =
       golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
-  rules.leave = Leave::kMasked;
+  configuration.leave = Bypass::kMasked;
   golden::morphological::MorphologicalGolden golden(
-      rules, golden::morphological::MorphologicalGolden::Detail::kPixels);
+      configuration, golden::morphological::MorphologicalGolden::Detail::kPixels);
   Image both = geometric;
   both.pixels = golden.process({geometric.pixels, geometric.width, geometric.height});
   const double none = checker.edge_psnr(checker.frame.image);

@@ -48,7 +48,7 @@ TEST(MorphologicalHarm, OfFramesOfOthers) {
 
 TEST(MorphologicalHarm, OfFramesWithTruth) {
   expect_generated(kQualityPage, "MorphologicalHarm.OfFramesWithTruth",
-                   harm::formula_frames_with_truth());
+                   harm::formula_frames_with_reference());
 }
 
 TEST(MorphologicalHarm, OfFramesOfOthersWithTruth) {
@@ -56,7 +56,7 @@ TEST(MorphologicalHarm, OfFramesOfOthersWithTruth) {
     GTEST_SKIP() << "no " << missing
                  << ": set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/";
   expect_generated(kQualityPage, "MorphologicalHarm.OfFramesOfOthersWithTruth",
-                   harm::data_frames_with_truth(data_folder()));
+                   harm::data_frames_with_reference(data_folder()));
 }
 
 TEST(MorphologicalHarm, OfTheTextGuard) { expect_generated(kPage, kGuard, harm::guard_tables()); }
@@ -102,7 +102,7 @@ void expect_row(const char* generated, std::string (*table)(Text)) {
   const auto [head, row] = head_and_last_row(table(Text::kAliased));
   EXPECT_NE(part.find(head), std::string::npos) << head;
   EXPECT_NE(part.find(row), std::string::npos) << row;
-  // The planted fault: another page gives another row, even under the same name.
+  // The injected fault: another page gives another row, even under the same name.
   const auto [other_head, other_row] = head_and_last_row(table(Text::kBitmapFont));
   EXPECT_EQ(other_head, head);
   EXPECT_EQ(part.find(other_row), std::string::npos) << other_row;
@@ -140,7 +140,7 @@ TEST(HarmFrames, OfTextOverASceneHaveLettersAndTheScene) {
   EXPECT_GT(letters, 1000);
 }
 
-// Both have two colours, and the truth between them what a wire covers of a pixel: its mean is that
+// Both have two colours, and the reference between them what a wire covers of a pixel: its mean is that
 // of the wires' area.
 TEST(HarmFrames, OfWiresAreTheWiresAndTheirCoverage) {
   const Image upright = harm::wires(2, 90, 80, 40).frame;
@@ -150,14 +150,14 @@ TEST(HarmFrames, OfWiresAreTheWiresAndTheirCoverage) {
   for (const double thickness : {1.0, 1.5, 3.0}) {
     const harm::Textured t = harm::wires(thickness, 30, 256, 256);
     EXPECT_EQ(colours(t.frame).size(), 2u);
-    EXPECT_GT(colours(t.truth).size(), 30u);
+    EXPECT_GT(colours(t.reference).size(), 30u);
     double covered = 0, sampled = 0;
-    for (std::size_t i = 0; i < t.truth.pixels.size(); ++i) {
+    for (std::size_t i = 0; i < t.reference.pixels.size(); ++i) {
       const auto light = [](const Image& image, std::size_t at) {
         return tb::srgb_to_linear(image.pixels[at][0] / 255.0);
       };
       const double sky = tb::srgb_to_linear(150 / 255.0), wire = tb::srgb_to_linear(40 / 255.0);
-      covered += (sky - light(t.truth, i)) / (sky - wire);
+      covered += (sky - light(t.reference, i)) / (sky - wire);
       sampled += (sky - light(t.frame, i)) / (sky - wire);
     }
     const double pixels = 256 * 256;
@@ -178,7 +178,7 @@ TEST(HarmFrames, OfPixelArtHaveSixteenColoursAndBlocks) {
 TEST(HarmFrames, OfTexturesAreRightButAtEdges) {
   for (int view = 0; view < 3; ++view) {
     const harm::Textured t = harm::textured_frame(view, 240, 180);
-    const double edges = static_cast<double>(count(tb::edge_mask(t.truth, t.frame))) / (240 * 180);
+    const double edges = static_cast<double>(count(tb::edge_mask(t.reference, t.frame))) / (240 * 180);
     EXPECT_GT(edges, 0.01) << view;
     EXPECT_LT(edges, 0.2) << view;
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Does deburr come nearer to supersampled truth than every other preset and than no filter, on
+// Does deburr come nearer to supersampled reference than every other preset and than no filter, on
 // edges and on silhouettes, on every frame? On frames and meshes that others made (DEBURR_DATA, or
 // data beside the repository) and on the scenes that every clone has. Where it does not, is that
-// said (docs/measurements/morphological_quality.md, "Learned shares")?
+// said (docs/measurements/morphological_quality.md, "Learned weights")?
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -26,7 +26,7 @@
 #include "tb/harness/test_paths.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/quality.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tb/stimuli/reference_filters.h"
 
 namespace deburr::studies::morphological_frames_test {
@@ -53,14 +53,14 @@ struct Figures {
 
 class Checker {
  public:
-  Checker(std::string name, const Image& frame, const Image& truth,
+  Checker(std::string name, const Image& frame, const Image& reference,
           const std::optional<tb::DepthImage>& depth)
-      : name_(std::move(name)), frame_(frame), truth_(truth), edges_(tb::edge_mask(truth, frame)) {
+      : name_(std::move(name)), frame_(frame), reference_(reference), edges_(tb::edge_mask(reference, frame)) {
     if (depth) silhouettes_ = tb::silhouette_mask(edges_, *depth);
   }
   Figures check(const std::string& method, const Image& image) const {
-    const Figures f{psnr(image, truth_, edges_),
-                    silhouettes_ ? psnr(image, truth_, *silhouettes_) : std::nan("")};
+    const Figures f{psnr(image, reference_, edges_),
+                    silhouettes_ ? psnr(image, reference_, *silhouettes_) : std::nan("")};
     std::cout << fmt::format("{:<12} {:<17} edges {:.2f} dB, silhouettes {:.2f} dB\n", name_,
                              method, f.edges, f.silhouettes);
     return f;
@@ -69,8 +69,8 @@ class Checker {
     return check(std::string(spec::morphological::kPresetNames[static_cast<std::size_t>(preset)]),
                  preset_parameters(preset));
   }
-  Figures check(const std::string& method, const spec::morphological::Parameters& rules) const {
-    return check(method, smoothed(frame_, rules));
+  Figures check(const std::string& method, const spec::morphological::Parameters& configuration) const {
+    return check(method, smoothed(frame_, configuration));
   }
   const std::string& name() const { return name_; }
   const Image& frame() const { return frame_; }
@@ -80,13 +80,13 @@ class Checker {
 
  private:
   std::string name_;
-  const Image &frame_, &truth_;
+  const Image &frame_, &reference_;
   tb::Mask edges_;
   std::optional<tb::Mask> silhouettes_;
 };
 
 // SMAA in its qualities, and with the dynamic threshold of paper 003.
-std::vector<std::pair<std::string, spec::morphological::Parameters>> smaa_rules() {
+std::vector<std::pair<std::string, spec::morphological::Parameters>> smaa_configuration() {
   std::vector<std::pair<std::string, spec::morphological::Parameters>> all;
   for (const auto quality :
        {spec::morphological::Quality::kLow, spec::morphological::Quality::kMedium,
@@ -105,7 +105,7 @@ std::vector<std::pair<std::string, spec::morphological::Parameters>> smaa_rules(
 }
 
 // SMAA's blocks in deburr-line.
-std::vector<std::pair<std::string, spec::morphological::Parameters>> mixed_rules() {
+std::vector<std::pair<std::string, spec::morphological::Parameters>> mixed_configuration() {
   const spec::morphological::Parameters line = preset_parameters(Preset::kDeburrLine);
   std::vector<std::pair<std::string, spec::morphological::Parameters>> all;
   const auto add = [&](const char* name, auto&&... changes) {
@@ -164,10 +164,10 @@ void expect_deburr_best(const Checker& checker, double margin) {
   ahead("mlaa", mlaa);
   ahead("mlaa-slope", checker.check(Preset::kMlaaSlope));
   ahead("deburr-line", checker.check(Preset::kDeburrLine));
-  for (const auto& [name, rules] : smaa_rules()) ahead(name, checker.check(name, rules));
+  for (const auto& [name, configuration] : smaa_configuration()) ahead(name, checker.check(name, configuration));
   for (const tb::stimuli::ReferenceFilter& reference : tb::stimuli::kReferenceFilters)
     ahead(reference.name, checker.check(reference));
-  for (const auto& [name, rules] : mixed_rules()) checker.check(name, rules);
+  for (const auto& [name, configuration] : mixed_configuration()) checker.check(name, configuration);
 }
 
 std::filesystem::path data(const char* name) { return tb::data_folder() / name; }
@@ -177,9 +177,9 @@ TEST(MorphologicalFrames, DeburrIsBestOnTrackAt720p) {
     GTEST_SKIP() << "no " << data("frames/track_720p_noaa.png")
                  << ": set DEBURR_DATA to the folder that holds frames/";
   const Image frame = read_image(data("frames/track_720p_noaa.png")),
-              truth = read_image(data("frames/track_720p_ssaa256.png"));
+              reference = read_image(data("frames/track_720p_ssaa256.png"));
   expect_deburr_best(
-      {"track 720p", frame, truth, tb::read_depth(data("frames/track_720p_depth24.png"))}, 0.75);
+      {"track 720p", frame, reference, tb::read_depth(data("frames/track_720p_depth24.png"))}, 0.75);
 }
 
 TEST(MorphologicalFrames, DeburrIsBestOnTrackAt1080p) {
@@ -187,8 +187,8 @@ TEST(MorphologicalFrames, DeburrIsBestOnTrackAt1080p) {
     GTEST_SKIP() << "no " << data("frames/track_1080p_noaa.png")
                  << ": set DEBURR_DATA to the folder that holds frames/";
   const Image frame = read_image(data("frames/track_1080p_noaa.png")),
-              truth = read_image(data("frames/track_1080p_ssaa64.png"));
-  expect_deburr_best({"track 1080p", frame, truth, std::nullopt}, 0.75);
+              reference = read_image(data("frames/track_1080p_ssaa64.png"));
+  expect_deburr_best({"track 1080p", frame, reference, std::nullopt}, 0.75);
 }
 
 // The same scene from four other cameras.
@@ -209,7 +209,7 @@ TEST(MorphologicalFrames, DeburrIsBestOnTrackFromOtherSides) {
     options.camera->target = view.target;
     options.camera->fov_y = view.fov;
     const tb::LitFrames lit = tb::render_lit_frames(tb::import_scene(mesh, options), 960, 540, 8);
-    const Checker checker("track", lit.noaa, lit.truth, lit.depth);
+    const Checker checker("track", lit.noaa, lit.reference, lit.depth);
     expect_deburr_best(checker, 0.2);
   }
 }
@@ -230,7 +230,7 @@ class RenderedFrames : public testing::TestWithParam<Rendered> {
       GTEST_SKIP() << "no " << data(r.source) << ": set DEBURR_DATA to the folder that holds it";
     const tb::Scene scene = file ? tb::import_scene(data(r.source)) : tb::make_scene(r.source);
     lit_ = tb::render_lit_frames(scene, r.width, r.height, 8);
-    check_.emplace(std::filesystem::path(r.source).stem().string(), lit_.noaa, lit_.truth,
+    check_.emplace(std::filesystem::path(r.source).stem().string(), lit_.noaa, lit_.reference,
                    lit_.depth);
     check_->check("MSAA 4x", tb::render_msaa4(scene, r.width, r.height));
   }
@@ -247,7 +247,7 @@ std::string name_of(const testing::TestParamInfo<Rendered>& info) {
   return name + "_" + std::to_string(info.param.width);
 }
 
-// Every clone has these. The shares were learned on them too.
+// Every clone has these. The weights were learned on them too.
 INSTANTIATE_TEST_SUITE_P(
     Scenes, DeburrIsBest,
     testing::Values(Rendered{"cylinders", 640, 480, 3}, Rendered{"cylinders", 512, 512, 3},
@@ -256,7 +256,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Rendered{"quad", 512, 512, 0}),
     name_of);
 
-// Meshes that others made, from the camera that frames them. The shares were learned on them too.
+// Meshes that others made, from the camera that frames them. The weights were learned on them too.
 INSTANTIATE_TEST_SUITE_P(
     Meshes, DeburrIsBest,
     testing::Values(Rendered{"meshes/teapot.obj", 512, 512, 0.2},
@@ -318,7 +318,7 @@ TEST_P(StandIns, DeburrIsBestToo) {
       tb::import_scene(write_stand_in(folder, GetParam().kind, GetParam().seed));
   std::filesystem::remove_all(folder);
   const tb::LitFrames lit = tb::render_lit_frames(scene, 512, 512, 8);
-  const Checker checker(fmt::format("{} {}", GetParam().kind, GetParam().seed), lit.noaa, lit.truth,
+  const Checker checker(fmt::format("{} {}", GetParam().kind, GetParam().seed), lit.noaa, lit.reference,
                         lit.depth);
   expect_deburr_best(checker, 0.2);
 }
@@ -336,30 +336,30 @@ INSTANTIATE_TEST_SUITE_P(Texture, DeburrIsBest,
                                          Rendered{"meshes/terrain_open.obj", 512, 512, 2}),
                          name_of);
 
-// What is asked of shares that were learned without these frames.
+// What is asked of weights that were learned without these frames.
 TEST(MorphologicalFrames, LearnedSharesKeepTheirFiguresOutOfSample) {
   if (!std::filesystem::exists(data("frames/track_720p_noaa.png")))
     GTEST_SKIP() << "no " << data("frames/track_720p_noaa.png")
                  << ": set DEBURR_DATA to the folder that holds frames/";
   const Image small = read_image(data("frames/track_720p_noaa.png")),
-              small_truth = read_image(data("frames/track_720p_ssaa256.png"));
-  const Checker track("track 720p", small, small_truth,
+              small_reference = read_image(data("frames/track_720p_ssaa256.png"));
+  const Checker track("track 720p", small, small_reference,
                       tb::read_depth(data("frames/track_720p_depth24.png")));
   const Figures figures = track.check(Preset::kDeburr);
   EXPECT_GT(figures.edges, 30.55);
   EXPECT_GT(figures.silhouettes, 27.95);
   const Image large = read_image(data("frames/track_1080p_noaa.png")),
-              large_truth = read_image(data("frames/track_1080p_ssaa64.png"));
-  EXPECT_GT(Checker("track 1080p", large, large_truth, std::nullopt).check(Preset::kDeburr).edges,
+              large_reference = read_image(data("frames/track_1080p_ssaa64.png"));
+  EXPECT_GT(Checker("track 1080p", large, large_reference, std::nullopt).check(Preset::kDeburr).edges,
             31.5);
 }
 
 // The check can fail: without the line fit and its edges there is nothing to be better by.
 TEST(MorphologicalFrames, AWorseFilterIsCaught) {
   const tb::LitFrames lit = tb::render_lit_frames(tb::make_scene("cylinders"), 320, 240, 8);
-  const Checker checker("cylinders", lit.noaa, lit.truth, lit.depth);
+  const Checker checker("cylinders", lit.noaa, lit.reference, lit.depth);
   spec::morphological::Parameters worse = preset_parameters(Preset::kDeburrLine);
-  worse.predictor = spec::morphological::Predictor::kNone;  // the planted fault
+  worse.predictor = spec::morphological::Predictor::kNone;  // the injected fault
   worse.threshold = preset_parameters(Preset::kMlaa).threshold;
   EXPECT_LT(checker.check("worse", smoothed(lit.noaa, worse)).edges,
             checker.check(Preset::kMlaa).edges + 0.5);

@@ -102,7 +102,7 @@ TEST(MorphologicalQuality, CurvesLoseNothingByTheFit) {
   for (const int radius : tb::stimuli::kDiscRadii) std::cout << "     " << radius;
   std::cout << "   all\n";
   for (const char* name : {"mlaa", "mlaa-slope", "+ N = 8", "+ trim", "+ T = 0.03 = deburr-line",
-                           "+ learned shares = deburr"}) {
+                           "+ learned weights = deburr"}) {
     figures[name] = measure_discs(smoothing_of(rule_row(name)));
     std::cout << to_text(name, figures[name]) << '\n';
   }
@@ -110,8 +110,8 @@ TEST(MorphologicalQuality, CurvesLoseNothingByTheFit) {
                     &untrimmed = figures["+ N = 8"], &deburr = figures["+ trim"];
   EXPECT_LT(deburr.all, mlaa.all);
   EXPECT_LT(deburr.all, untrimmed.all);
-  // Learned shares leave curves no worse.
-  EXPECT_LT(figures["+ learned shares = deburr"].all, figures["+ T = 0.03 = deburr-line"].all);
+  // Learned weights leave curves no worse.
+  EXPECT_LT(figures["+ learned weights = deburr"].all, figures["+ T = 0.03 = deburr-line"].all);
   for (std::size_t i = 0; i < deburr.by_radius.size(); ++i) {
     EXPECT_LT(deburr.by_radius[i], paper.by_radius[i]);
     EXPECT_LT(deburr.by_radius[i], 1.08 * mlaa.by_radius[i]);  // small discs: 6 %
@@ -123,7 +123,7 @@ TEST(MorphologicalQuality, CurvesLoseNothingByTheFit) {
 
 TEST(MorphologicalQuality, AWorseFilterIsCaught) {
   FanRow row = tb::stimuli::fan_rows().back();
-  row.parameters.predictor = spec::morphological::Predictor::kChord;  // the planted fault
+  row.parameters.predictor = spec::morphological::Predictor::kChord;  // the injected fault
   const FanFigures figures = measure_fans(smoothing_of(row), {.lines = 8, .seeds = 1});
   EXPECT_THAT(exceeded(tb::stimuli::asked_of_ours(), figures), testing::Not(testing::IsEmpty()));
 }

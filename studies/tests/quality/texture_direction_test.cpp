@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The texture unit sees equally well in every direction: on photographs (those of the data folder,
-// or the one that ships) under a camera that turns, against a supersampled truth and beside the
+// or the one that ships) under a camera that turns, against a supersampled reference and beside the
 // exact ellipse. The paper's two axes do not, and show that the check can fail.
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ const std::map<std::string, PhotoTexture>& photos() {
   return all;
 }
 
-Parameters rules(Axes axes, CountRule count) {
+Parameters configuration(Axes axes, CountRule count) {
   Parameters p = preset_parameters(Preset::kDeburr);
   p.axes = axes;
   p.count = count;
@@ -113,7 +113,7 @@ TEST_P(TextureDirection, EveryDirectionIsAsGoodAsTheEllipse) {
   EXPECT_LT(blind.detail, 0.25) << name;
   for (const Axes axes : {Axes::kFour, Axes::kEight}) {
     for (const CountRule count : {CountRule::kFloor, CountRule::kCeil, CountRule::kAny}) {
-      const Parameters p = rules(axes, count);
+      const Parameters p = configuration(axes, count);
       const std::string label =
           std::string(spec::texture::kAxesNames[static_cast<std::size_t>(axes)]) + " " +
           std::string(spec::texture::kCountNames[static_cast<std::size_t>(count)]);
@@ -138,8 +138,8 @@ TEST_P(TextureDirection, AnyCountHasNoStepInTheRatio) {
       const auto step = [&](const Parameters& p) {
         return std::abs(high.golden(p).psnr - low.golden(p).psnr);
       };
-      EXPECT_LE(step(rules(Axes::kFour, CountRule::kAny)), 1) << name << " " << below;
-      EXPECT_LE(step(rules(Axes::kEight, CountRule::kAny)), 1) << name << " " << below;
+      EXPECT_LE(step(configuration(Axes::kFour, CountRule::kAny)), 1) << name << " " << below;
+      EXPECT_LE(step(configuration(Axes::kEight, CountRule::kAny)), 1) << name << " " << below;
       if (degrees == 0) {
         EXPECT_GT(step(preset_parameters(Preset::kPaper)), 5) << name;
       }
@@ -171,7 +171,7 @@ TEST_P(TextureDirection, AliasingFallsWithEverySampleMoreAtEveryRoll) {
   EXPECT_FALSE(paper_falls) << name;
 }
 
-// ---- planted faults -----------------------------------------------------------------------------
+// ---- injected faults -----------------------------------------------------------------------------
 
 // The samples along P_x cos - P_y sin instead of P_x cos + P_y sin, in real arithmetic: what a sine
 // of the wrong sign, or the partner taken for the major axis, does at 45 degrees.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A camera that zooms, rolls and pans over a photograph: how much the filtered pictures flicker
-// more than their truth. The paper's rules flicker most on roll, where its axes come and go.
+// more than their reference. The paper's rules flicker most on roll, where its axes come and go.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ struct Row {
   bool ellipse = false;
 };
 
-Parameters rules(Axes axes, CountRule count) {
+Parameters configuration(Axes axes, CountRule count) {
   Parameters p = preset_parameters(Preset::kDeburr);
   p.axes = axes;
   p.count = count;
@@ -54,18 +54,18 @@ enum Which : std::size_t {
 
 std::vector<Row> rows() {
   return {{"the paper", preset_parameters(Preset::kPaper)},
-          {"two, ceil", rules(Axes::kTwo, CountRule::kCeil)},
-          {"four, ceil", rules(Axes::kFour, CountRule::kCeil)},
-          {"four, any", rules(Axes::kFour, CountRule::kAny)},
-          {"eight, any", rules(Axes::kEight, CountRule::kAny)},
-          {"eight, ceil", rules(Axes::kEight, CountRule::kCeil)},
-          {"ellipse, ceil", rules(Axes::kEight, CountRule::kCeil), true},
-          {"ellipse, any", rules(Axes::kEight, CountRule::kAny), true}};
+          {"two, ceil", configuration(Axes::kTwo, CountRule::kCeil)},
+          {"four, ceil", configuration(Axes::kFour, CountRule::kCeil)},
+          {"four, any", configuration(Axes::kFour, CountRule::kAny)},
+          {"eight, any", configuration(Axes::kEight, CountRule::kAny)},
+          {"eight, ceil", configuration(Axes::kEight, CountRule::kCeil)},
+          {"ellipse, ceil", configuration(Axes::kEight, CountRule::kCeil), true},
+          {"ellipse, any", configuration(Axes::kEight, CountRule::kAny), true}};
 }
 
 // The picture with the true ellipse of every pixel, in real arithmetic: what candidate axes and
 // fixed-point logarithms stand in for. Of scenes with one texture.
-tb::Image ellipse_frame(const tb::TextureScene& scene, const Parameters& rules) {
+tb::Image ellipse_frame(const tb::TextureScene& scene, const Parameters& configuration) {
   namespace ideal = golden::ideal;
   const tb::Image& image = scene.scene().mesh.textures.front().image;
   std::vector<std::uint8_t> bytes;
@@ -76,7 +76,7 @@ tb::Image ellipse_frame(const tb::TextureScene& scene, const Parameters& rules) 
     for (int lane = 0; lane < 4; ++lane) {
       if (!(quad.coverage >> lane & 1)) continue;
       const ideal::Colour colour =
-          ideal::along_ellipse(texture, rules, scene.memory().descriptors().front(),
+          ideal::along_ellipse(texture, configuration, scene.memory().descriptors().front(),
                                ideal::pixel_footprint(quad, lane, image.width, image.height));
       spec::texture::Colour rounded;
       rounded.tag = quad.tag;
@@ -107,7 +107,7 @@ std::vector<tb::Flicker> flicker(const std::string& texture, Motion motion, int 
                          : tb::golden_frame(moved, row.parameters).image;
     });
   tb::SequenceOptions options;
-  options.truth_samples = 8;
+  options.reference_samples = 8;
   const std::vector<tb::Flicker> result =
       tb::flicker_of(scene, sampler, 1, {frames, motion}, all, options);
   std::printf("%s, %s, %d frames, bias %g:", texture.c_str(),

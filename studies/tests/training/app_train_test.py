@@ -23,13 +23,13 @@ class Base(CommandTest):
         """A scene without and with supersampling, as a run leaves it."""
         self.expect(0, "run", "morphological", "--size", size, "--check", "none", "--quiet", "--out", self.path(name),
                     *arguments)
-        return self.path(f"{name}/before.png"), self.path(f"{name}/truth.png")
+        return self.path(f"{name}/before.png"), self.path(f"{name}/reference.png")
 
-    def train(self, code, frame, truth, *arguments, says=(), out="title.shares"):
-        return self.expect(code, "train", "--in", frame, "--truth", truth, "--out", self.path(out), *arguments,
+    def train(self, code, frame, reference, *arguments, says=(), out="title.weights"):
+        return self.expect(code, "train", "--in", frame, "--truth", reference, "--out", self.path(out), *arguments,
                            says=says)
 
-    def nothing_written(self, name="title.shares"):
+    def nothing_written(self, name="title.weights"):
         self.assertFalse(os.path.exists(self.path(name)))
 
 
@@ -37,64 +37,64 @@ class Trains(Base):
     """What it writes, and what a run makes of it."""
 
     def test_a_frame_of_textures_gains_on_its_kept_back_half(self):
-        frame, truth = self.rendered("tunnel", "--scene", "tunnel", size="384x288")
-        done = self.train(0, frame, truth, "--batches", "200",
+        frame, reference = self.rendered("tunnel", "--scene", "tunnel", size="384x288")
+        done = self.train(0, frame, reference, "--batches", "200",
                           says=["kept back: ", "right half: edges ", "RESULT: PASS train: +"])
-        with open(self.path("title.shares")) as file:
-            self.assertEqual(file.readline(), "deburr-shares 1\n")
-        said = json.loads(self.run_command("train", "--in", frame, "--truth", truth, "--out", self.path("again"),
+        with open(self.path("title.weights")) as file:
+            self.assertEqual(file.readline(), "deburr-weights 1\n")
+        said = json.loads(self.run_command("train", "--in", frame, "--truth", reference, "--out", self.path("again"),
                                            "--batches", "200", "--json").stdout)
         self.assertGreater(said["training"]["gain_db"], 0.5)
         self.assertEqual(said["outcome"].split(" in ")[0].split(": ")[1], done.stdout.split("train: ")[1].split(" in ")[0])
         kept = said["training"]["kept_back"]
         self.assertEqual([picture["name"] for picture in kept], [f"{frame}, right half"])
         self.assertAlmostEqual(kept[0]["edges_trained_db"] - kept[0]["edges_shipped_db"], said["training"]["gain_db"])
-        with open(self.path("title.shares")) as first, open(self.path("again")) as second:
+        with open(self.path("title.weights")) as first, open(self.path("again")) as second:
             self.assertEqual(first.read(), second.read())
 
         # Golden and hardware agree on them, and the run gains what was said.
         quality = {}
-        for name, more in (("shipped", ()), ("title", ("--shares", self.path("title.shares")))):
-            self.expect(0, "run", "morphological", "--in", frame, "--truth", truth, "--out", self.path("out"), *more)
+        for name, more in (("shipped", ()), ("title", ("--shares", self.path("title.weights")))):
+            self.expect(0, "run", "morphological", "--in", frame, "--truth", reference, "--out", self.path("out"), *more)
             quality[name] = self.result()["quality"]["psnr_edge_db"]
         self.assertGreater(quality["title"], quality["shipped"] + 0.5)
 
     def test_several_frames_and_another_run_of_its_own_file(self):
         for i in range(4):
-            frame, truth = self.rendered(f"run{i}", "--scene", "tunnel", "--seed", str(i + 1))
-            for folder, file in (("plain", frame), ("smooth", truth)):
+            frame, reference = self.rendered(f"run{i}", "--scene", "tunnel", "--seed", str(i + 1))
+            for folder, file in (("plain", frame), ("smooth", reference)):
                 os.makedirs(self.path(folder), exist_ok=True)
                 shutil.copy(file, self.path(f"{folder}/f{i}.png"))
         given = (self.path("plain/*.png"), self.path("smooth/*.png"))
         done = self.train(0, *given, *self.QUICK)
         for i, kept in enumerate((False, True, False, True)):
             self.assertEqual(f"kept back: {self.path('plain')}/f{i}.png" in done.stdout.replace("\n", " "), kept)
-        with open(self.path("title.shares")) as file:
+        with open(self.path("title.weights")) as file:
             text = file.read()
         for i, trained_on in enumerate((True, False, True, False)):
             self.assertEqual(f"# trained on {self.path('plain')}/f{i}.png\n" in text, trained_on)
         self.train(0, *given, *self.QUICK)  # in its place
 
     def test_where_it_does_not_gain_nothing_is_written(self):
-        frame, truth = self.rendered("road", "--scene", "road")
-        self.train(1, frame, truth, *self.QUICK, says=["RESULT: FAIL no gain: -", "no shares were written",
+        frame, reference = self.rendered("road", "--scene", "road")
+        self.train(1, frame, reference, *self.QUICK, says=["RESULT: FAIL no gain: -", "no weights were written",
                                                        "expected at least +0.05"])
         self.nothing_written()
-        said = json.loads(self.run_command("train", "--in", frame, "--truth", truth, "--out", self.path("x"), "--json",
+        said = json.loads(self.run_command("train", "--in", frame, "--truth", reference, "--out", self.path("x"), "--json",
                                            *self.QUICK).stdout)
         self.assertEqual(said["exit_code"], 1)
         self.assertLess(said["training"]["gain_db"], 0.05)
         self.nothing_written("x")
 
     def test_an_interrupt_ends_it_without_a_file(self):
-        frame, truth = self.rendered("tunnel", "--scene", "tunnel")
-        process = subprocess.Popen([DEBURR, "train", "--in", frame, "--truth", truth, "--out", self.path("title.shares"),
+        frame, reference = self.rendered("tunnel", "--scene", "tunnel")
+        process = subprocess.Popen([DEBURR, "train", "--in", frame, "--truth", reference, "--out", self.path("title.weights"),
                                     "--batches", "100000"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.assertIn("training", process.stderr.readline())  # after some seconds
         process.send_signal(signal.SIGINT)
         out, _ = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130)
-        self.assertIn("RESULT: INTERRUPTED train: no shares were written", out)
+        self.assertIn("RESULT: INTERRUPTED train: no weights were written", out)
         self.nothing_written()
 
     def checkers(self, name, side, codes):
@@ -111,7 +111,7 @@ class Trains(Base):
         wait = 0.5
         while True:  # a fast machine has ended by then
             process = subprocess.Popen([DEBURR, "train", "--in", pairs[0], "--truth", pairs[1], "--out",
-                                        self.path("title.shares"), "--batches", "1"], stdout=subprocess.PIPE,
+                                        self.path("title.weights"), "--batches", "1"], stdout=subprocess.PIPE,
                                        stderr=subprocess.PIPE, text=True)
             self.wait_until_caught(process)
             time.sleep(wait)
@@ -121,7 +121,7 @@ class Trains(Base):
                 break
             wait /= 2
         self.assertEqual(process.returncode, 130, out + err)
-        self.assertIn("RESULT: INTERRUPTED train: no shares were written", out)
+        self.assertIn("RESULT: INTERRUPTED train: no weights were written", out)
         self.assertNotIn("kept back: ", out)
         self.nothing_written()
 
@@ -141,61 +141,61 @@ class Rejects(Base):
 
     def setUp(self):
         super().setUp()
-        self.frame, self.truth = self.rendered("tunnel", "--scene", "tunnel", size="96x64")
+        self.frame, self.reference = self.rendered("tunnel", "--scene", "tunnel", size="96x64")
 
     def test_names(self):
-        self.expect(2, "train", "--truth", self.truth, "--out", "x", says="--in is required")
+        self.expect(2, "train", "--truth", self.reference, "--out", "x", says="--in is required")
         self.expect(2, "train", "--in", self.frame, "--out", "x", says="--truth is required")
-        self.expect(2, "train", "--in", self.frame, "--truth", self.truth, says="--out is required")
-        self.train(2, self.frame, self.truth, "--batches", "0", says="--batches")
-        self.train(2, self.frame, self.truth, "--seed", "x", says="--seed")
-        self.train(2, self.frame, self.truth, "--frobnicate", says="unknown option '--frobnicate'")
+        self.expect(2, "train", "--in", self.frame, "--truth", self.reference, says="--out is required")
+        self.train(2, self.frame, self.reference, "--batches", "0", says="--batches")
+        self.train(2, self.frame, self.reference, "--seed", "x", says="--seed")
+        self.train(2, self.frame, self.reference, "--frobnicate", says="unknown option '--frobnicate'")
 
     def test_pictures(self):
-        self.train(5, self.path("missing.png"), self.truth, says="missing.png")
+        self.train(5, self.path("missing.png"), self.reference, says="missing.png")
         self.train(5, self.frame, self.path("missing.png"), says="missing.png")
-        self.train(5, self.write("text.png", b"no picture"), self.truth, says="text.png")
-        self.train(2, self.path("no*.png"), self.truth, says="no*.png")
-        self.train(2, f"{self.frame};{self.frame}", self.truth, says=["names 2 frames and --truth 1"])
+        self.train(5, self.write("text.png", b"no picture"), self.reference, says="text.png")
+        self.train(2, self.path("no*.png"), self.reference, says="no*.png")
+        self.train(2, f"{self.frame};{self.frame}", self.reference, says=["names 2 frames and --truth 1"])
         self.train(2, self.frame, self.write("small.png", png(48, 40)), says=["96 x 64", "48 x 40"])
         self.train(2, self.write("tiny.png", png(31, 31)), self.write("tiny2.png", png(31, 31)), says="at least 64")
-        self.train(2, self.frame, self.frame, says="is its truth within 2 codes")
+        self.train(2, self.frame, self.frame, says="is its reference within 2 codes")
         self.nothing_written()
 
     def test_output(self):
-        self.train(2, self.frame, self.truth, out="tunnel/before.png", says="is read, too")
+        self.train(2, self.frame, self.reference, out="tunnel/before.png", says="is read, too")
         self.write("mine.txt", "a letter\n")
-        self.train(2, self.frame, self.truth, out="mine.txt", says=["mine.txt", "holds no shares"])
+        self.train(2, self.frame, self.reference, out="mine.txt", says=["mine.txt", "holds no weights"])
         with open(self.path("mine.txt")) as file:
             self.assertEqual(file.read(), "a letter\n")
-        self.train(5, self.frame, self.truth, out="nowhere/x", says="there is no folder")
-        self.train(5, self.frame, self.truth, out="tunnel", says="it is a folder")
+        self.train(5, self.frame, self.reference, out="nowhere/x", says="there is no folder")
+        self.train(5, self.frame, self.reference, out="tunnel", says="it is a folder")
 
     def test_where_nothing_can_be_written_it_says_so_before_the_work(self):
-        done = self.expect(5, "train", "--in", self.frame, "--truth", self.truth, "--out", "/proc/title.shares",
-                           says="cannot create a file in the folder of '/proc/title.shares'")
+        done = self.expect(5, "train", "--in", self.frame, "--truth", self.reference, "--out", "/proc/title.weights",
+                           says="cannot create a file in the folder of '/proc/title.weights'")
         self.assertNotIn("kept back: ", done.stdout)
 
     def test_a_full_disk_leaves_the_file_of_before(self):
         self.rendered("gains", "--scene", "tunnel", size="384x288")
-        self.train(0, self.path("gains/before.png"), self.path("gains/truth.png"), "--batches", "200")
-        with open(self.path("title.shares")) as file:
+        self.train(0, self.path("gains/before.png"), self.path("gains/reference.png"), "--batches", "200")
+        with open(self.path("title.weights")) as file:
             before = file.read()
         for size in (0, 1000, 4096):
-            done = self.expect(5, "train", "--in", self.frame, "--truth", self.truth, "--out", self.path("title.shares"),
+            done = self.expect(5, "train", "--in", self.frame, "--truth", self.reference, "--out", self.path("title.weights"),
                                says="File too large",
                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
             self.assertNotIn("kept back: ", done.stdout)
-            with open(self.path("title.shares")) as file:
+            with open(self.path("title.weights")) as file:
                 self.assertEqual(file.read(), before)
         self.assertEqual([name for name in os.listdir(self.directory) if name.endswith(".tmp")], [])
 
     def test_a_run_of_a_file_that_holds_no_shares(self):
         run = ("run", "morphological", "--in", self.frame, "--out", self.path("out"))
         self.expect(5, *run, "--shares", self.path("missing"), says="missing")
-        self.expect(5, *run, "--shares", self.write("spoilt", "deburr-shares 1\ncodes 1024\n1 2 x\n"),
+        self.expect(5, *run, "--shares", self.write("spoilt", "deburr-weights 1\ncodes 1024\n1 2 x\n"),
                     says=["spoilt", "line 3", "got 'x'"])
-        self.expect(2, *run, "--preset", "mlaa", "--shares", self.path("spoilt"), says=["frame.shares", "analytic"])
+        self.expect(2, *run, "--preset", "mlaa", "--shares", self.path("spoilt"), says=["frame.weights", "analytic"])
 
 
 if __name__ == "__main__":

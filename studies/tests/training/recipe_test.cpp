@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Are the ROMs those of their recipe, and is the recipe that of this trainer and these frames?
-// Whether a training gives them, byte for byte, takes minutes: shares_from_their_recipe.
+// Whether a training gives them, byte for byte, takes minutes: weights_from_their_recipe.
 #include "studies/training/recipe.h"
 
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "spec/error.h"
-#include "spec/morphological/learned_shares.h"
+#include "spec/morphological/learned_weights.h"
 #include "tb/base/file.h"
 #include "tb/base/sanitized.h"
 #include "tb/harness/test_paths.h"
@@ -22,9 +22,9 @@ std::string text_of(const char* file) { return tb::read_file(tb::source_folder()
 std::string kept() { return text_of("studies/training/recipe.txt"); }
 
 TEST(Recipe, IsTheOneThatTheRomsWereTrainedBy) {
-  EXPECT_EQ(hash_of(kept()), spec::morphological::kSharesRecipe);
-  EXPECT_EQ(header_of(golden::morphological::ShareTables(), kept()),
-            text_of("spec/morphological/learned_shares.h"));
+  EXPECT_EQ(hash_of(kept()), spec::morphological::kWeightsRecipe);
+  EXPECT_EQ(header_of(golden::morphological::WeightTables(), kept()),
+            text_of("spec/morphological/learned_weights.h"));
 }
 
 // Version, options and rules.
@@ -41,7 +41,7 @@ TEST(Recipe, HasTheFramesOfTheTraining) {
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
 }
 
-// A few of each sort; all of them: shares_from_their_recipe.
+// A few of each sort; all of them: weights_from_their_recipe.
 TEST(Recipe, HashesThePixelsOfItsFrames) {
   const std::vector<HashedFrame> frames = frames_of_recipe(kept());
   const std::vector<FrameSource> sources = training_set({});
@@ -53,7 +53,7 @@ TEST(Recipe, HashesThePixelsOfItsFrames) {
     const auto found = std::find_if(sources.begin(), sources.end(),
                                     [&](const FrameSource& source) { return source.name == name; });
     ASSERT_NE(found, sources.end()) << name;
-    const TruthFrame frame = found->make();
+    const ReferenceFrame frame = found->make();
     EXPECT_EQ(frame.name, name);
     EXPECT_EQ(hash_of(frame), frames[static_cast<std::size_t>(found - sources.begin())].second)
         << name;
@@ -61,13 +61,13 @@ TEST(Recipe, HashesThePixelsOfItsFrames) {
 }
 
 TEST(Recipe, AnotherPixelNameOrSizeIsAnotherFrame) {
-  const TruthFrame frame = shapes_frame(40, 30, 2, 1);
+  const ReferenceFrame frame = shapes_frame(40, 30, 2, 1);
   const std::uint64_t hash = hash_of(frame);
-  TruthFrame other = frame;
+  ReferenceFrame other = frame;
   other.frame.at(39, 29)[2] ^= 1;
   EXPECT_NE(hash_of(other), hash);
   other = frame;
-  other.truth.at(0, 0)[0] ^= 1;
+  other.reference.at(0, 0)[0] ^= 1;
   EXPECT_NE(hash_of(other), hash);
   other = frame;
   other.name += 'x';

@@ -200,7 +200,7 @@ std::vector<std::pair<std::uint32_t, std::uint64_t>> GeometricChecks::expected_r
       {reg::kStatus, status},
       {reg::kSize, spec::geometric::size_word(static_cast<std::uint32_t>(frame.image.width),
                                               static_cast<std::uint32_t>(frame.image.height))},
-      {reg::kRules, spec::geometric::rules_word(setup_.geometric)},
+      {reg::kConfiguration, spec::geometric::configuration_word(setup_.geometric)},
       {reg::kEdgeCount, frame.screen.edges.size()},
       {reg::kVertexCount, frame.screen.vertices.size()},
       {reg::kFaceCount, frame.screen.faces},
@@ -215,17 +215,17 @@ std::vector<std::pair<std::uint32_t, std::uint64_t>> GeometricChecks::expected_r
       {reg::kPairBase, regions_.base(Region::kPairs)},
       {reg::kOtherPairBase, regions_.other_pairs(boundaries)},
       {reg::kCoarseBase, regions_.base(Region::kCoarse)},
-      {reg::kRefusal, 0}};
+      {reg::kRejection, 0}};
   for (const WorkCount& each : spec::geometric::kWorkCounts)
     expected.emplace_back(each.offset, work_.*each.count);
   expected.emplace_back(reg::kMemoryErrors, errors_);
-  // Clocks are the model's own; that the registers show them is checked, and that they add up.
+  // Cycles are the model's own; that the registers show them is checked, and that they add up.
   const rtl::geometric::FrameSequencer& sequencer = engine.frame_sequencer;
-  const std::uint64_t edge_clocks = sequencer.edge_cycles.value(),
-                      resolve_clocks = sequencer.resolve_cycles.value();
-  expected.emplace_back(reg::kFrameCycles, edge_clocks + resolve_clocks);
-  expected.emplace_back(reg::kEdgeCycles, edge_clocks);
-  expected.emplace_back(reg::kResolveCycles, resolve_clocks);
+  const std::uint64_t edge_cycles = sequencer.edge_cycles.value(),
+                      resolve_cycles = sequencer.resolve_cycles.value();
+  expected.emplace_back(reg::kFrameCycles, edge_cycles + resolve_cycles);
+  expected.emplace_back(reg::kEdgeCycles, edge_cycles);
+  expected.emplace_back(reg::kResolveCycles, resolve_cycles);
   return expected;
 }
 

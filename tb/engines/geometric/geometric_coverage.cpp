@@ -53,11 +53,11 @@ constexpr std::array kGroups = {
     CoverageGroup{"geometric/resolve", "Blended pixels by the neighbours that are taken."},
     CoverageGroup{"geometric/original", "Where the colour before blending was taken from."},
     CoverageGroup{"geometric/lines", "Blocks by layout and the lines of colours that they read."},
-    CoverageGroup{"geometric/stall", "Clocks that a unit lost, by cause."},
+    CoverageGroup{"geometric/stall", "Cycles that a unit lost, by cause."},
     CoverageGroup{"geometric/error",
                   "Lines that memory answered with an error, by region (memory.error_address). "
                   "Such a run fails, so that only tests ask for all of them."},
-    CoverageGroup{"geometric/refusal",
+    CoverageGroup{"geometric/rejection",
                   "Starts that are rejected, in tests alone: a run is checked before it starts."}};
 
 // Causes that a unit can lose a clock to, as docs/reference/geometric/hardware.md has them. The
@@ -187,8 +187,8 @@ void declare_directed_geometric_coverage(Coverage& coverage) {
     coverage.declare(fmt::format("geometric/pair-look-up/{}", what));
   for (const std::string_view region : spec::geometric::kRegionNames)
     coverage.declare(fmt::format("geometric/error/{}", region));
-  for (std::size_t i = 1; i < spec::geometric::kRefusalNames.size(); ++i)
-    coverage.declare(fmt::format("geometric/refusal/{}", spec::geometric::kRefusalNames[i]));
+  for (std::size_t i = 1; i < spec::geometric::kRejectionNames.size(); ++i)
+    coverage.declare(fmt::format("geometric/rejection/{}", spec::geometric::kRejectionNames[i]));
 }
 
 Coverage geometric_coverage(const rtl::geometric::GeometricEngine& e,

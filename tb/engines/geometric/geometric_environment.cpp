@@ -53,7 +53,7 @@ GeometricEnvironment::GeometricEnvironment(Simulation& simulation,
       setup_(setup),
       faults_(simulation.faults(), this->name(), frames, setup_),
       regions_(regions_of(frames, setup.geometric)),
-      engine_("geometric", simulation.clock(), as_built(), memory_clocks(setup_)),
+      engine_("geometric", simulation.clock(), as_built(), memory_cycles(setup_)),
       memory_(memory_name().c_str(), simulation.clock().period(),
               memory_of(setup, regions_, simulation.options().seed)),
       host_("geometric_host"),
@@ -65,8 +65,8 @@ GeometricEnvironment::GeometricEnvironment(Simulation& simulation,
         setup.geometric, {frame.image.width, frame.image.height, frame.screen.edges.size(),
                           frame.screen.vertices.size(), frame.screen.faces});
   know(faults_.list());
-  faults_.plant(engine_);
-  let_misdecode(engine_.control, std::array{spec::geometric::reg::kRules},
+  faults_.inject(engine_);
+  let_misdecode(engine_.control, std::array{spec::geometric::reg::kConfiguration},
                 programs() ? "" : "run.program = registers");
   driver_.place(regions_);
   let_blind({&checks_.lines, &checks_.candidates, &checks_.blocks, &checks_.pixels,
@@ -78,7 +78,7 @@ GeometricEnvironment::GeometricEnvironment(Simulation& simulation,
   let_miscount(checks_.registers, checked);
   engine_.memory()->bind(memory_.ports);
   host_.bus.bind(engine_.registers);
-  plant_in(memory_, setup.memory);
+  inject_in(memory_, setup.memory);
   if (simulation.options().maps) maps_.emplace();
   if (const std::optional<PixelAddress>& pixel = simulation.options().pixel) {
     for (const geometric::Frame& frame : frames)
@@ -118,7 +118,7 @@ void GeometricEnvironment::observe() {
 
 void GeometricEnvironment::configure() {
   driver_.identify();
-  if (programs()) driver_.set_rules(faults_.as_built());
+  if (programs()) driver_.set_configuration(faults_.as_built());
   checks_.clear_counters();
 }
 

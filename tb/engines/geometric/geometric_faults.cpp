@@ -53,7 +53,7 @@ std::optional<std::uint32_t> GeometricFaults::face_of_a_fault() const {
 std::optional<std::size_t> GeometricFaults::block_that_takes_from_above() const {
   constexpr int kInside = 16;  // blocks in the stages of the resolve
   if (frames_.empty() || setup_.geometric.frame_copy) return std::nullopt;
-  const rtl::MemoryClocks memory = memory_clocks(setup_);
+  const rtl::MemoryCycles memory = memory_cycles(setup_);
   const std::int32_t ahead =
       kInside + rtl::geometric::sized(setup_.geometric, memory).resolve_lines / 4 + memory.latency;
   const geometric::Frame& frame = frames_.front();
@@ -66,13 +66,13 @@ std::optional<std::size_t> GeometricFaults::block_that_takes_from_above() const 
     const auto above = numbers.find({block.y - 1, block.x});
     if (above == numbers.end() || above->second + ahead > i) continue;
     for (std::size_t k = 0; k < spec::geometric::kBlockSize; ++k) {
-      const golden::geometric::Tap tap = golden::geometric::tap_of(block.weights[k]);
-      if (tap.left_right || tap.first == 0) continue;
+      const golden::geometric::Probe probe = golden::geometric::probe_of(block.weights[k]);
+      if (probe.left_right || probe.first == 0) continue;
       const int x = 4 * block.x + static_cast<int>(k), y = 4 * block.y;
       const Rgba8 &pixel = frame.image.at(x, y),
-                  &below = tap.second != 0 ? frame.image.at(x, y + 1) : pixel;
+                  &below = probe.second != 0 ? frame.image.at(x, y + 1) : pixel;
       const Rgba8& stale = after[frame.image.index(x, y - 1)];
-      if (golden::geometric::resolve(setup_.geometric, tap, pixel, stale, below) !=
+      if (golden::geometric::resolve(setup_.geometric, probe, pixel, stale, below) !=
           after[frame.image.index(x, y)])
         return static_cast<std::size_t>(i);
     }
@@ -80,7 +80,7 @@ std::optional<std::size_t> GeometricFaults::block_that_takes_from_above() const 
   return std::nullopt;
 }
 
-std::vector<PlantedFault> GeometricFaults::list() const {
+std::vector<InjectedFault> GeometricFaults::list() const {
   const Parameters& p = setup_.geometric;
   const auto unless = [](bool there, std::string needs) {
     return there ? std::string() : std::move(needs);
@@ -92,10 +92,10 @@ std::vector<PlantedFault> GeometricFaults::list() const {
   const std::string split =
       unless(p.records == spec::geometric::RecordsLayout::kSplit, "geometric.records = split");
   std::string stale_neighbour;
-  if (planted("stale-neighbour"))
+  if (injected("stale-neighbour"))
     if (const auto block = block_that_takes_from_above())
       stale_neighbour = fmt::format("flip:geometric.touched_blocks:{}:above", *block);
-  std::vector<PlantedFault> list = {
+  std::vector<InjectedFault> list = {
       {"wrong-facing", "Flips the facing bit of a face.", "",
        unless(face_of_a_fault().has_value(), "geometric.select = edges, an edge of two faces")},
       {"wrong-slope", "Flips the lowest bit of every reciprocal in the table.", "",
@@ -138,7 +138,7 @@ std::vector<PlantedFault> GeometricFaults::list() const {
        unless(p.write_buffer > 0, "geometric.write_buffer of at least 1")},
       {"stale-neighbour", "A block takes from the block above as that was blended.",
        stale_neighbour,
-       unless(!planted("stale-neighbour") || !stale_neighbour.empty(),
+       unless(!injected("stale-neighbour") || !stale_neighbour.empty(),
               "geometric.frame_copy = false, a pixel that takes from one above that was written "
               "long before (a "
               "larger frame, a faster memory)")},
@@ -149,34 +149,34 @@ std::vector<PlantedFault> GeometricFaults::list() const {
        fmt::format("duplicate:geometric.requests:{}", kFaultyRequest)},
       {"stuck-ready", "Holds back the touched blocks.",
        "stuck_ready:geometric.touched_blocks:100"}};
-  for (PlantedFault& fault : memory_faults()) list.push_back(std::move(fault));
+  for (InjectedFault& fault : memory_faults()) list.push_back(std::move(fault));
   return list;
 }
 
 Parameters GeometricFaults::as_built() const {
   Parameters p = setup_.geometric;
-  if (planted("wrong-replacement"))
+  if (injected("wrong-replacement"))
     for (spec::geometric::CacheLines* const lines :
          {&p.vertex_lines, &p.depth_lines, &p.weight_blocks})
       *lines = other_size(*lines);
-  if (planted("wrong-cull"))
+  if (injected("wrong-cull"))
     p.cull = p.cull == spec::geometric::Cull::kNone ? spec::geometric::Cull::kBack
                                                     : spec::geometric::Cull::kNone;
   const auto other = [](std::int32_t places) { return places <= 1 ? places + 1 : places - 1; };
-  if (planted("wrong-kept")) p.colour_lines = other(p.colour_lines);
-  if (planted("wrong-buffer")) p.write_buffer = other(p.write_buffer);
-  if (planted("wrong-nearer")) p.combine = spec::geometric::Combine::kMax;
+  if (injected("wrong-kept")) p.colour_lines = other(p.colour_lines);
+  if (injected("wrong-buffer")) p.write_buffer = other(p.write_buffer);
+  if (injected("wrong-nearer")) p.combine = spec::geometric::Combine::kMax;
   return p;
 }
 
-void GeometricFaults::plant(rtl::geometric::GeometricEngine& engine) const {
-  if (planted("wrong-slope")) flip_rom<std::uint32_t>(engine, "reciprocal_rom");
-  if (planted("wrong-area")) flip_rom<std::uint8_t>(engine, "near_area_rom");
+void GeometricFaults::inject(rtl::geometric::GeometricEngine& engine) const {
+  if (injected("wrong-slope")) flip_rom<std::uint32_t>(engine, "reciprocal_rom");
+  if (injected("wrong-area")) flip_rom<std::uint8_t>(engine, "near_area_rom");
 }
 
 std::vector<std::uint8_t> GeometricFaults::facing(const geometric::Frame& frame) const {
   std::vector<std::uint8_t> bits = frame.screen.facing;
-  if (planted("wrong-facing"))
+  if (injected("wrong-facing"))
     if (const auto face = face_of_a_fault(); face && *face / 8 < bits.size())
       bits[*face / 8] = static_cast<std::uint8_t>(bits[*face / 8] ^ 1u << (*face % 8));
   return bits;

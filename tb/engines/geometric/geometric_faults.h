@@ -14,7 +14,7 @@
 #include "spec/geometric/parameters.h"
 #include "tb/engines/geometric/geometric_setup.h"
 #include "tb/engines/geometric/geometric_stimuli.h"
-#include "tb/env/planted_faults.h"
+#include "tb/env/injected_faults.h"
 
 namespace deburr::tb {
 
@@ -25,10 +25,10 @@ class GeometricFaults : public EngineFaults {
                   std::span<const geometric::Frame> frames, const GeometricSetup& setup)
       : EngineFaults(plan, std::move(environment)), frames_(frames), setup_(setup) {}
 
-  std::vector<PlantedFault> list() const;
+  std::vector<InjectedFault> list() const;
   // What the engine is built with; the golden model always gets what was ordered.
   spec::geometric::Parameters as_built() const;
-  void plant(rtl::geometric::GeometricEngine& engine) const;
+  void inject(rtl::geometric::GeometricEngine& engine) const;
   // The facing bits that go to memory.
   std::vector<std::uint8_t> facing(const geometric::Frame& frame) const;
 

@@ -59,7 +59,7 @@ GeometricSceneParameters in_frame(GeometricSceneParameters scene, const FrameLis
   return scene;
 }
 
-Image geometric_truth(const Scene& scene, int width, int height, int samples,
+Image geometric_reference(const Scene& scene, int width, int height, int samples,
                       const std::function<bool()>& interrupted) {
   RenderOptions options;
   options.width = width;
@@ -79,7 +79,7 @@ void shuffle_edges(geometric::Frame& frame, std::uint64_t seed) {
 }
 
 LoadedGeometricFrame load_geometric_frame(const GeometricSceneParameters& p, std::uint32_t seed,
-                                          bool truth, const std::function<bool()>& interrupted,
+                                          bool reference, const std::function<bool()>& interrupted,
                                           const std::function<void(const Scene&)>& accept) {
   if (!is_scene_name(p.source)) reject_what_has_no_edges(p.source);
   LoadedGeometricFrame loaded;
@@ -93,9 +93,9 @@ LoadedGeometricFrame load_geometric_frame(const GeometricSceneParameters& p, std
   loaded.notes = loaded.scene.mesh.notes;
   for (std::string& note : notes_of(loaded.frame.table)) loaded.notes.push_back(std::move(note));
   loaded.inputs = loaded.scene.mesh.files;
-  if (truth) {
-    loaded.truth = geometric_truth(loaded.scene, p.width, p.height, p.truth_samples, interrupted);
-    loaded.truth_name = fmt::format("supersampled-{}", p.truth_samples * p.truth_samples);
+  if (reference) {
+    loaded.reference = geometric_reference(loaded.scene, p.width, p.height, p.reference_samples, interrupted);
+    loaded.reference_name = fmt::format("supersampled-{}", p.reference_samples * p.reference_samples);
   }
   return loaded;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the geometric engine is given: a scene or a mesh file, lit without anti-aliasing, with its
-// depth, its edges and, if asked for, its supersampled truth.
+// depth, its edges and, if asked for, its supersampled reference.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ struct GeometricSceneParameters : CameraParameters {
   std::int32_t width = 640, height = 480;
   bool crossings = false;
   EdgeOrder edge_order = EdgeOrder::kTable;
-  std::int32_t truth_samples = 16;
+  std::int32_t reference_samples = 16;
   std::int32_t count = 1;
   CameraMove move{};  // of its camera; no parameter
 };
@@ -48,11 +48,11 @@ void describe(GeometricSceneParameters& p, Visitor& v) {
             "Draw the lines, too, along which faces pass through each other.");
   v.choice("edge_order", p.edge_order, kEdgeOrderNames,
            "Order of the edge table: its own, or shuffled by run.seed.");
-  v.integer("truth_samples", p.truth_samples, 1, 32, "",
-            "N of the N x N samples a pixel of the truth.");
+  v.integer("reference_samples", p.reference_samples, 1, 32, "",
+            "N of the N x N samples a pixel of the reference.");
   v.integer("count", p.count, 1, 100, "frame", "How often the frame is smoothed.");
   v.is_work("source", GivenWork::kSource);
-  for (const char* const name : {"width", "height", "truth_samples", "count"})
+  for (const char* const name : {"width", "height", "reference_samples", "count"})
     v.is_work(name, GivenWork::kSetting);
 }
 
@@ -64,8 +64,8 @@ GeometricSceneParameters in_frame(GeometricSceneParameters scene, const FrameLis
 struct LoadedGeometricFrame {
   Scene scene;
   geometric::Frame frame;
-  std::optional<Image> truth;
-  std::string truth_name;                     // "supersampled-256"
+  std::optional<Image> reference;
+  std::string reference_name;                     // "supersampled-256"
   std::vector<std::string> notes;             // what had to be decided about the mesh
   std::vector<std::filesystem::path> inputs;  // files that it was made of, or looked for in vain
 };
@@ -73,7 +73,7 @@ struct LoadedGeometricFrame {
 // `accept` may throw for a scene that nothing is rendered of then. ConfigError for what is neither
 // a scene nor a mesh, and for a mesh without edges; FileError as of import_mesh(); Interrupted.
 LoadedGeometricFrame load_geometric_frame(
-    const GeometricSceneParameters& parameters, std::uint32_t seed, bool truth,
+    const GeometricSceneParameters& parameters, std::uint32_t seed, bool reference,
     const std::function<bool()>& interrupted = nullptr,
     const std::function<void(const Scene&)>& accept = nullptr);
 
@@ -83,7 +83,7 @@ std::vector<std::filesystem::path> frame_files(const GeometricSceneParameters& p
 
 // The picture that a frame of the scene is compared with: as it is lit, N x N samples a pixel,
 // averaged in linear light.
-Image geometric_truth(const Scene& scene, int width, int height, int samples,
+Image geometric_reference(const Scene& scene, int width, int height, int samples,
                       const std::function<bool()>& interrupted = nullptr);
 
 // The records of the edge table in another order.

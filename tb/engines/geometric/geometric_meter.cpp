@@ -20,7 +20,7 @@ using spec::geometric::Region;
 
 constexpr std::uint64_t kLine = spec::geometric::kLineBytes;
 constexpr double kPortBound = 0.9;  // from here on the port is what a run waits for
-constexpr std::uint64_t kDividerClocks = 13;
+constexpr std::uint64_t kDividerCycles = 13;
 
 constexpr std::size_t index_of(Region region) { return static_cast<std::size_t>(region); }
 
@@ -68,12 +68,12 @@ GeometricMeter::GeometricMeter(std::string name, const rtl::geometric::Geometric
 void GeometricMeter::end() {
   ++frames_done_;
   edges_done_ += frames_[frame_].screen.edges.size();
-  edge_clocks_ += engine_.frame_sequencer.edge_cycles.value();
-  resolve_clocks_ += engine_.frame_sequencer.resolve_cycles.value();
+  edge_cycles_ += engine_.frame_sequencer.edge_cycles.value();
+  resolve_cycles_ += engine_.frame_sequencer.resolve_cycles.value();
 }
 
 // From what the engine counted in frames of the same size.
-std::uint64_t GeometricMeter::clocks_bound() const {
+std::uint64_t GeometricMeter::cycles_bound() const {
   const rtl::geometric::GeometricEngine& e = engine_;
   const geometric::Frame& frame = frames_[frame_];
   const Parameters& p = setup_.geometric;
@@ -98,7 +98,7 @@ std::uint64_t GeometricMeter::clocks_bound() const {
   const std::uint64_t edges_phase = std::max(
       {lines_for(work.edges, count_of(p.edge_lanes)), e.edge_classifier.kept_edges.value(),
        read(Region::kVertices),
-       p.pipelined ? work.lines : kDividerClocks * divided / static_cast<std::uint64_t>(p.dividers),
+       p.pipelined ? work.lines : kDividerCycles * divided / static_cast<std::uint64_t>(p.dividers),
        work.groups, e.weight_combiner.lookups.value(), lines_for(e.depth_test.lookups.value(), 2),
        read(Region::kDepth), screened,
        read(Region::kEdges) + read(Region::kPairs) + read(Region::kCoarse) +
@@ -132,19 +132,19 @@ void GeometricMeter::collect_traffic(Result& result) const {
     add(result, fmt::format("lines_written_{}", name), lines.written[index_of(region)], "line",
         fmt::format("Lines of the region {} written.", name));
   }
-  add(result, "bytes_a_blended_pixel",
+  add(result, "bytes_per_blended_pixel",
       ratio(e.memory_port.bytes_read.value() + e.memory_port.bytes_written.value(),
             work.blended_pixels),
       kBytes, "All bytes read and enabled in writes over blended pixels.");
-  add(result, "frame_bytes_a_blended_pixel", ratio(frame_bytes, work.blended_pixels), kBytes,
+  add(result, "frame_bytes_per_blended_pixel", ratio(frame_bytes, work.blended_pixels), kBytes,
       "The same of depth, weights, colours and copy alone: without the mesh.");
 }
 
 void GeometricMeter::collect_hits(Result& result) const {
   const rtl::geometric::GeometricEngine& e = engine_;
   const spec::geometric::Work work = e.work();
-  add(result, "columns_a_clock", ratio(work.columns, work.groups), "column/clk",
-      "Columns over the clocks in which the walkers stepped.");
+  add(result, "columns_per_cycle", ratio(work.columns, work.groups), "column/clk",
+      "Columns over the cycles in which the walkers stepped.");
   const auto hits = [&](const char* name, const rtl::Counter& lookups, const rtl::Counter& misses,
                         const char* meaning) {
     add(result, name, 100 * ratio(lookups.value() - misses.value(), lookups.value()), "%", meaning);
@@ -181,15 +181,15 @@ void GeometricMeter::collect(Result& result) const {
   collect_traffic(result);
   collect_hits(result);
   const std::uint64_t dividers =
-      p.pipelined ? kDividerClocks : static_cast<std::uint64_t>(p.dividers);
+      p.pipelined ? kDividerCycles : static_cast<std::uint64_t>(p.dividers);
   add(result, "divider_occupancy_percent",
-      100 * ratio(e.line_setup.divider_clocks.value(), dividers * edge_clocks_), "%",
-      "Clocks of dividers (of their stages, if pipelined) in use over those of the edges' phase; "
+      100 * ratio(e.line_setup.divider_cycles.value(), dividers * edge_cycles_), "%",
+      "Cycles of dividers (of their stages, if pipelined) in use over those of the edges' phase; "
       "at 100 % they are the limit.");
   add(result, "port_occupancy_percent",
       100 * ratio(e.memory_port.reads.value() + e.memory_port.writes.value(),
-                  edge_clocks_ + resolve_clocks_),
-      "%", "Requests to memory over clocks; at 100 % the port is the limit.");
+                  edge_cycles_ + resolve_cycles_),
+      "%", "Requests to memory over cycles; at 100 % the port is the limit.");
   add_counters(result, e);
 }
 
@@ -206,46 +206,46 @@ std::vector<Figure> GeometricMeter::work_figures() const {
            key(engine_.pair_fetch ? "pair_fetch_kept_edges" : "edge_classifier_kept_edges"), "of",
            key("edge_classifier_edges")},
           {"Lines", key("line_setup_lines")},
-          {"Pixels walked a clock", key("columns_a_clock"), "walkers, at most"},
+          {"Pixels walked a clock", key("columns_per_cycle"), "walkers, at most"},
           {"Vertices found in the cache", key("vertex_hits_percent")},
           {"Depths found in the cache", key("depth_hits_percent")},
           {"Weights found in the cache", key("weight_hits_percent")},
           {"Divider occupancy", key("divider_occupancy_percent")},
           {"Memory port occupancy", key("port_occupancy_percent")},
           {"Blended pixels", key("resolver_blended_pixels")},
-          {"Traffic of frame buffers alone", key("frame_bytes_a_blended_pixel")}};
+          {"Traffic of frame buffers alone", key("frame_bytes_per_blended_pixel")}};
 }
 
 void GeometricMeter::collect_headline(Result& result, double clock_mhz) const {
   const rtl::geometric::GeometricEngine& e = engine_;
-  const std::uint64_t edges = e.work().edges, frame_clocks = e.frame_sequencer.frame_cycles.value();
+  const std::uint64_t edges = e.work().edges, frame_cycles = e.frame_sequencer.frame_cycles.value();
   result.latency = latency_of(e.edge_latency);
 
   result.throughput = ratio(edges, result.cycles);
   result.throughput_unit = "edge/clk";
-  result.throughput_bound = ratio(edges, frames_done_ > 0 ? clocks_bound() : 0);
+  result.throughput_bound = ratio(edges, frames_done_ > 0 ? cycles_bound() : 0);
   result.throughput_bound_meaning =
-      "Edges over the clocks of the begin and of both phases, each as its slowest unit or the port "
+      "Edges over the cycles of the begin and of both phases, each as its slowest unit or the port "
       "needs for this work.";
 
-  add(result, "frame_clocks", frame_clocks, "clk", "Of the last frame, from its start to its end.");
-  add(result, "frame_clocks_bound", frame_clocks_bound(), "clk",
-      "The bound of the throughput, in clocks of a frame.");
-  add(result, "frame_rate", frame_clocks ? clock_mhz * 1e6 / number(frame_clocks) : 0.0, "frame/s",
+  add(result, "frame_cycles", frame_cycles, "clk", "Of the last frame, from its start to its end.");
+  add(result, "frame_cycles_bound", frame_cycles_bound(), "clk",
+      "The bound of the throughput, in cycles of a frame.");
+  add(result, "frame_rate", frame_cycles ? clock_mhz * 1e6 / number(frame_cycles) : 0.0, "frame/s",
       "Frames like this a second at the stated clock.");
   add(result, "clock_for_60_frames",
-      frame_clocks ? WorkValue(clock_for_60(frame_clocks)) : WorkValue(), "MHz",
+      frame_cycles ? WorkValue(clock_for_60(frame_cycles)) : WorkValue(), "MHz",
       "Clock that 60 frames like this a second need.");
 
   result.figures.clear();
-  if (frame_clocks)
-    result.figures = {{"Frame", "work.frame_clocks", "bound", "work.frame_clocks_bound", true},
+  if (frame_cycles)
+    result.figures = {{"Frame", "work.frame_cycles", "bound", "work.frame_cycles_bound", true},
                       {"Edges drawn", "work.edge_cycles"},
                       {"Pixels resolved", "work.resolve_cycles"},
                       {"Clock for 60 frames", "work.clock_for_60_frames", "", "", true},
                       {"Frames like this", "work.frame_rate"}};
   result.figures.push_back(
-      {"Traffic of a blended pixel", "work.bytes_a_blended_pixel", "", "", true});
+      {"Traffic of a blended pixel", "work.bytes_per_blended_pixel", "", "", true});
   for (Figure& figure : work_figures()) result.figures.push_back(std::move(figure));
 
   result.bottleneck = bottleneck(result);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Figures of the geometric engine: units and counters, traffic by region, and the clocks below
-// which no frame of this work can be drawn (docs/reference/geometric/clocks.md, "Clocks").
+// Figures of the geometric engine: units and counters, traffic by region, and the cycles below
+// which no frame of this work can be drawn (docs/reference/geometric/cycles.md, "Cycles").
 #pragma once
 
 #include <cstdint>
@@ -40,12 +40,12 @@ class GeometricMeter : public Meter {
   void collect_headline(Result& result, double clock_mhz) const;
   std::vector<Figure> work_figures() const;
   // Of a frame, from the work of all frames so far.
-  std::uint64_t frame_clocks_bound() const {
-    return frames_done_ > 0 ? clocks_bound() / frames_done_ : 0;
+  std::uint64_t frame_cycles_bound() const {
+    return frames_done_ > 0 ? cycles_bound() / frames_done_ : 0;
   }
 
  private:
-  std::uint64_t clocks_bound() const;
+  std::uint64_t cycles_bound() const;
   void collect_traffic(Result& result) const;
   void collect_hits(Result& result) const;
   std::optional<Bottleneck> bottleneck(const Result& result) const;
@@ -55,7 +55,7 @@ class GeometricMeter : public Meter {
   std::span<const geometric::Frame> frames_;
   const GeometricSetup& setup_;
   std::size_t frame_ = 0;
-  std::uint64_t frames_done_ = 0, edges_done_ = 0, edge_clocks_ = 0, resolve_clocks_ = 0;
+  std::uint64_t frames_done_ = 0, edges_done_ = 0, edge_cycles_ = 0, resolve_cycles_ = 0;
 };
 
 }  // namespace deburr::tb

@@ -18,8 +18,8 @@ struct GeometricSetup {
   MemoryParameters memory;
 };
 // What this memory takes at most.
-inline rtl::MemoryClocks memory_clocks(const GeometricSetup& setup) {
-  return memory_clocks(setup.memory, spec::geometric::kLineBytes);
+inline rtl::MemoryCycles memory_cycles(const GeometricSetup& setup) {
+  return memory_cycles(setup.memory, spec::geometric::kLineBytes);
 }
 
 }  // namespace deburr::tb

@@ -37,21 +37,21 @@ Checker::Checker(const Scene& scene, int width, int height, int samples,
   options.shading = Shading::kPhong;
   options.averaging = Averaging::kLinear;
   options.interrupted = interrupted;
-  truth = render(scene, options);
+  reference = render(scene, options);
   msaa = render_msaa4(scene, width, height, Shading::kPhong);
-  edges = edge_mask(truth, frame.image);
+  edges = edge_mask(reference, frame.image);
   silhouettes = silhouette_mask(edges, frame.depth);
 }
 
 double Checker::edge_rmse(const Image& image) const {
-  return std::sqrt(mean_squared_error(image, truth, edges));
+  return std::sqrt(mean_squared_error(image, reference, edges));
 }
 double Checker::silhouette_rmse(const Image& image) const {
-  return std::sqrt(mean_squared_error(image, truth, silhouettes));
+  return std::sqrt(mean_squared_error(image, reference, silhouettes));
 }
-double Checker::edge_psnr(const Image& image) const { return psnr(image, truth, edges); }
+double Checker::edge_psnr(const Image& image) const { return psnr(image, reference, edges); }
 double Checker::silhouette_psnr(const Image& image) const {
-  return psnr(image, truth, silhouettes);
+  return psnr(image, reference, silhouettes);
 }
 
 Smoothed smoothed(const Frame& frame, const spec::geometric::Parameters& parameters) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Frames for the geometric engine: a scene, lit, with the edges, depths and facing bits that belong
-// to it; and how well a smoothing of such a frame agrees with the supersampled truth.
+// to it; and how well a smoothing of such a frame agrees with the supersampled reference.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 #include "tb/scene/image.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/scenes.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 
 namespace deburr::tb::geometric {
 
@@ -28,10 +28,10 @@ struct Frame {
 };
 Frame make_frame(const Scene& scene, int width, int height, const EdgeTableOptions& options = {});
 
-// A frame beside its truth.
+// A frame beside its reference.
 struct Checker {
   Frame frame;
-  Image truth, msaa;
+  Image reference, msaa;
   Mask edges, silhouettes;
   Checker(const Scene& scene, int width, int height, int samples,
           const std::function<bool()>& interrupted = nullptr, const EdgeTableOptions& options = {});

@@ -2,15 +2,15 @@
 #pragma once
 
 #include "spec/geometric/parameters.h"
-#include "tb/harness/other_rules.h"
+#include "tb/harness/other_configuration.h"
 
 namespace deburr::tb {
 
 // The same hardware with other rules as reset values, of which software must write each.
 inline spec::geometric::Parameters unprogrammed(spec::geometric::Parameters p) {
   using spec::geometric::CoarseLines, spec::geometric::DepthTest, spec::geometric::Layout;
-  OtherRules other;
-  describe(static_cast<spec::geometric::Rules&>(p), other);
+  OtherConfiguration other;
+  describe(static_cast<spec::geometric::Configuration&>(p), other);
   p.layout = p.layout == Layout::kTiled ? Layout::kRaster : Layout::kTiled;
   p.frame_copy = !p.frame_copy;
   // With coarse depth no engine is built without a test.

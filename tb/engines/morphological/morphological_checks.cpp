@@ -17,38 +17,38 @@ namespace {
 using golden::morphological::DepthView;
 using golden::morphological::ImageView;
 using spec::morphological::FrameAccess;
-using spec::morphological::LineRecord;
-using spec::morphological::RunRecord;
+using spec::morphological::LineDescriptor;
+using spec::morphological::RunDescriptor;
 namespace reg = spec::morphological::reg;
 
 std::string describe_pixel(const spec::morphological::Rgba8& p) {
   return fmt::format("RGBA ({}, {}, {}, {})", p[0], p[1], p[2], p[3]);
 }
-std::string describe_tap(const spec::morphological::BlendTap& t) {
-  return fmt::format("{} shares {} {}, edges{}{}", t.horizontal ? "left/right" : "up/down", t.first,
+std::string describe_probe(const spec::morphological::BlendProbe& t) {
+  return fmt::format("{} weights {} {}, edges{}{}", t.horizontal ? "left/right" : "up/down", t.first,
                      t.second, t.edges & 1 ? " left" : "", t.edges & 2 ? " top" : "");
 }
-std::string describe_run(const RunRecord& r) {
+std::string describe_run(const RunDescriptor& r) {
   constexpr std::array<std::string_view, 3> kParts = {"", " head", " tail"};
   return fmt::format("{} run{} line {} start {} length {} {}",
                      r.axis == spec::morphological::Axis::kHorizontal ? "horizontal" : "vertical",
                      kParts[static_cast<std::size_t>(r.part)], r.line, r.start, r.length,
                      spec::morphological::kRunShapes[r.shape & 15].name);
 }
-std::string describe_line(const LineRecord& l) {
+std::string describe_line(const LineDescriptor& l) {
   return fmt::format("{}: steps {} {}, scale {} offset {} shift {} slope {} inverse {} span {}",
                      describe_run(l.run), l.left_steps, l.right_steps, l.scale, l.offset, l.shift,
                      l.slope, l.inverse, l.span);
 }
 
 // Any order that both sides can be brought into.
-auto order_of(const RunRecord& r) { return std::tuple(r.axis, r.line, r.start, r.part); }
+auto order_of(const RunDescriptor& r) { return std::tuple(r.axis, r.line, r.start, r.part); }
 
 }  // namespace
 
 MorphologicalChecks::MorphologicalChecks(const MorphologicalSetup& setup, bool golden)
     : pixels("pixels", describe_pixel),
-      taps("taps", describe_tap),
+      probes("taps", describe_probe),
       runs("runs", 0, describe_run),
       lines("lines", 0, describe_line),
       traffic(
@@ -61,7 +61,7 @@ MorphologicalChecks::MorphologicalChecks(const MorphologicalSetup& setup, bool g
       setup_(setup),
       used_(golden),
       golden_(setup.morphological) {
-  if (setup.shares) golden_.set_share_tables(*setup.shares);
+  if (setup.weights) golden_.set_weight_tables(*setup.weights);
   if (const auto range = error_range(setup.memory); range && in_memory())
     golden_.set_read_errors(
         [range = *range](std::uint32_t line) {
@@ -88,7 +88,7 @@ void MorphologicalChecks::begin(const MorphologicalInput& frame) {
   if (!setup_.expectation)
     golden_.process(ImageView(image.pixels, image.width, image.height), depth);
   pixels.expect(golden_model().pixels(), image.width);
-  taps.expect(golden_model().taps(), image.width);
+  probes.expect(golden_model().probes(), image.width);
 }
 
 // All writes ascending, all reads ascending; how they interleave is timing.
@@ -103,7 +103,7 @@ void MorphologicalChecks::restart() {
   runs_.clear();
   lines_.clear();
   pixels.restart();
-  taps.restart();
+  probes.restart();
   traffic.restart();
   if (used_) expect_traffic();
 }
@@ -131,7 +131,7 @@ void MorphologicalChecks::got_frame(rtl::Cycle cycle, std::size_t position, std:
 
 void MorphologicalChecks::go_on_at(std::size_t position) {
   pixels.go_on_at(position);
-  taps.go_on_at(position);
+  probes.go_on_at(position);
 }
 
 void MorphologicalChecks::check_traffic(platform::MemoryModel& memory, rtl::Cycle cycle) {
@@ -153,9 +153,9 @@ void MorphologicalChecks::end(rtl::Cycle cycle, std::size_t frame) {
   for (const golden::morphological::PredictedRun& run : golden_model().runs())
     iterations_[static_cast<std::size_t>(run.line.run.axis)] += run.iterations;
   unreadable_lines_ += golden_model().memory_errors();
-  if (!setup_.records) return;
-  std::vector<RunRecord> all_runs;
-  std::vector<LineRecord> all_lines;
+  if (!setup_.descriptors) return;
+  std::vector<RunDescriptor> all_runs;
+  std::vector<LineDescriptor> all_lines;
   for (const golden::morphological::PredictedRun& run : golden_model().runs()) {
     all_runs.push_back(run.line.run);
     const spec::morphological::RunShape& shape =
@@ -164,20 +164,20 @@ void MorphologicalChecks::end(rtl::Cycle cycle, std::size_t frame) {
         shape.after != spec::morphological::Side::kNone)
       all_lines.push_back(run.line);
   }
-  const auto by_run = [](const RunRecord& a, const RunRecord& b) {
+  const auto by_run = [](const RunDescriptor& a, const RunDescriptor& b) {
     return order_of(a) < order_of(b);
   };
-  const auto by_line = [&](const LineRecord& a, const LineRecord& b) {
+  const auto by_line = [&](const LineDescriptor& a, const LineDescriptor& b) {
     return by_run(a.run, b.run);
   };
   for (auto* list : {&all_runs, &runs_}) std::sort(list->begin(), list->end(), by_run);
   for (auto* list : {&all_lines, &lines_}) std::sort(list->begin(), list->end(), by_line);
-  for (const RunRecord& run : all_runs) runs.expect(run);
-  for (const LineRecord& line : all_lines) lines.expect(line);
-  // In the order of the frame, which is not that of clocks.
+  for (const RunDescriptor& run : all_runs) runs.expect(run);
+  for (const LineDescriptor& line : all_lines) lines.expect(line);
+  // In the order of the frame, which is not that of cycles.
   const std::string where = fmt::format("cycle {}, the end of frame {}", cycle, frame);
-  for (const RunRecord& run : runs_) runs.got(run, where);
-  for (const LineRecord& line : lines_) lines.got(line, where);
+  for (const RunDescriptor& run : runs_) runs.got(run, where);
+  for (const LineDescriptor& line : lines_) lines.got(line, where);
 }
 
 // As much as the frames have; of runs and lines as many as the engine counted, since a frame may
@@ -191,22 +191,22 @@ void MorphologicalChecks::require(std::span<const MorphologicalInput> frames,
              spec::morphological::kFrameLineBytes * static_cast<std::uint64_t>(frame.image.height);
   }
   pixels.require(area);
-  taps.require(area);
+  probes.require(area);
   if (in_memory()) traffic.require(2 * moved);
-  if (!setup_.records) return;
+  if (!setup_.descriptors) return;
   runs.require(work.horizontal_runs + work.vertical_runs);
   lines.require(work.z_runs);
 }
 
 void MorphologicalChecks::finish(std::span<const MorphologicalInput> frames,
-                                 const spec::morphological::Work& work, std::uint64_t frame_clocks,
+                                 const spec::morphological::Work& work, std::uint64_t frame_cycles,
                                  platform::RegisterBus& bus) {
   if (!used_) return;
   require(frames, work);
   std::vector<std::pair<std::uint32_t, std::uint64_t>> expected;
   for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
     expected.emplace_back(each.offset, work_.*each.count);
-  expected.emplace_back(reg::kFrameCycles, frame_clocks);
+  expected.emplace_back(reg::kFrameCycles, frame_cycles);
   // What cannot be read could not be written before.
   expected.emplace_back(reg::kMemoryErrors, 2 * unreadable_lines_);
   registers.check(bus, expected);

@@ -36,24 +36,24 @@ class MorphologicalChecks {
   // What a beat says of the frame, `left` pixels before its row's end.
   void got_frame(rtl::Cycle cycle, std::size_t position, std::size_t left,
                  const spec::morphological::BlendedBeat& beat);
-  void got(const spec::morphological::Rgba8& pixel, const spec::morphological::BlendTap& tap,
+  void got(const spec::morphological::Rgba8& pixel, const spec::morphological::BlendProbe& probe,
            rtl::Cycle cycle) {
     if (!used_) return;
     pixels.got(pixel, cycle);
-    taps.got(tap, cycle);
+    probes.got(probe, cycle);
   }
   // The order is broken; from here on it is that of this pixel.
   void go_on_at(std::size_t position);
   // With records alone: checked at the frame's end.
-  void got(const spec::morphological::RunRecord& run) { runs_.push_back(run); }
-  void got(const spec::morphological::LineRecord& line) { lines_.push_back(line); }
+  void got(const spec::morphological::RunDescriptor& run) { runs_.push_back(run); }
+  void got(const spec::morphological::LineDescriptor& line) { lines_.push_back(line); }
   // What memory has recorded, and forgets then.
   void check_traffic(platform::MemoryModel& memory, rtl::Cycle cycle);
   // The frame of this number is done.
   void end(rtl::Cycle cycle, std::size_t frame);
   // All of them are: how much must have been compared, and the counters.
   void finish(std::span<const MorphologicalInput> frames, const spec::morphological::Work& work,
-              std::uint64_t frame_clocks, platform::RegisterBus& registers);
+              std::uint64_t frame_cycles, platform::RegisterBus& registers);
   // The same of counters that are not registers; no memory with line buffers.
   void check_figures(std::span<const MorphologicalInput> frames,
                      const rtl::morphological::MorphologicalEngine& engine,
@@ -64,9 +64,9 @@ class MorphologicalChecks {
   }
 
   RasterScoreboard<spec::morphological::Rgba8> pixels;
-  RasterScoreboard<spec::morphological::BlendTap> taps;
-  Scoreboard<spec::morphological::RunRecord> runs;
-  Scoreboard<spec::morphological::LineRecord> lines;
+  RasterScoreboard<spec::morphological::BlendProbe> probes;
+  Scoreboard<spec::morphological::RunDescriptor> runs;
+  Scoreboard<spec::morphological::LineDescriptor> lines;
   Scoreboard<spec::morphological::FrameAccess> traffic;
   RegisterScoreboard registers;
   FigureScoreboard figures;
@@ -85,8 +85,8 @@ class MorphologicalChecks {
   std::array<std::uint64_t, 2> iterations_{};  // the same, by axis
   std::uint64_t unreadable_lines_ = 0;         // the same
   const MorphologicalInput* frame_ = nullptr;
-  std::vector<spec::morphological::RunRecord> runs_;
-  std::vector<spec::morphological::LineRecord> lines_;
+  std::vector<spec::morphological::RunDescriptor> runs_;
+  std::vector<spec::morphological::LineDescriptor> lines_;
 };
 
 }  // namespace deburr::tb

@@ -42,14 +42,14 @@ constexpr std::array kGroups = {
     CoverageGroup{"morphological/left", "Pixels that keep their colour by the rule of marks."},
     CoverageGroup{"morphological/leave-border",
                   "With leave = beside, pixels on the frame's border."},
-    CoverageGroup{"morphological/half", "Shares that a mark halves."},
+    CoverageGroup{"morphological/half", "Weights that a mark halves."},
     CoverageGroup{"morphological/class",
-                  "Lines with learned shares, by axis, end and class of what lies beside it."},
+                  "Lines with learned weights, by axis, end and class of what lies beside it."},
     CoverageGroup{
         "morphological/text",
         "With text_guard, pixels by what guards them or what alone is missing for it; "
         "just: by the number of strokes that decides; kept: guarded ones that had a "
-        "share. In tests alone: those that leave keeps, too, since what geometry marks has "
+        "weight. In tests alone: those that leave keeps, too, since what geometry marks has "
         "a colour of its own."},
     CoverageGroup{"morphological/text-border", "Guarded pixels on the frame's border."}};
 
@@ -71,7 +71,7 @@ Coverage morphological_coverage(const golden::morphological::MorphologicalGolden
   add(golden.coverage().bins(), same);
   add(golden.smaa_coverage().bins(), same);
   // Runs have bins called border, too.
-  add(golden.leave_coverage().bins(),
+  add(golden.bypass_coverage().bins(),
       [](const std::string& name) { return name.starts_with("border/") ? "leave-" + name : name; });
   add(golden.guard_coverage().bins(), same);
   add(golden.learned_coverage().bins(),

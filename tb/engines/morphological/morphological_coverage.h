@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Functional coverage of the morphological engine: what the golden model met in the frames of a
-// run, in runs and predictions, in SMAA's blocks, in marks, in learned shares and in the text
+// run, in runs and predictions, in SMAA's blocks, in marks, in learned weights and in the text
 // guard.
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace deburr::tb {
 
-// Every bin, with the golden model's hits. Single words of the share tables are no bins: some can
-// be named by records that no frame is known to have (tb/system/morphological_shares_test.cpp says
+// Every bin, with the golden model's hits. Single words of the weight tables are no bins: some can
+// be named by records that no frame is known to have (tb/system/morphological_weights_test.cpp says
 // how many frames reach).
 Coverage morphological_coverage(const golden::morphological::MorphologicalGolden& golden);
 std::span<const CoverageGroup> morphological_coverage_groups();

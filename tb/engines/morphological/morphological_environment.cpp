@@ -11,7 +11,7 @@
 #include "spec/error.h"
 #include "spec/morphological/registers.h"
 #include "tb/engines/morphological/morphological_unprogrammed.h"
-#include "tb/stimuli/share_file.h"
+#include "tb/stimuli/weight_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -57,21 +57,21 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
       meter_(this->name(), engine_, progress_, setup_),
       checks_(setup_, golden()) {
   know(faults_.list());
-  faults_.plant(engine_);
+  faults_.inject(engine_);
   let_misdecode(engine_.control,
-                std::array{reg::kRules, reg::kThreshold, reg::kThresholdOn, reg::kThresholdOff,
+                std::array{reg::kConfiguration, reg::kThreshold, reg::kThresholdOn, reg::kThresholdOff,
                            reg::kAlpha, reg::kFloor, reg::kDepthThreshold, reg::kSmaa},
                 programs() ? "" : "run.program = registers");
   progress_.source = source_.get();
   progress_.memory = memory_.get();
-  let_blind({&checks_.pixels, &checks_.taps, &checks_.registers.board(), &checks_.figures.board()});
+  let_blind({&checks_.pixels, &checks_.probes, &checks_.registers.board(), &checks_.figures.board()});
   let_miscount(checks_.figures);
   std::vector<std::uint32_t> checked;
   for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
     checked.push_back(each.offset);
   checked.insert(checked.end(), {reg::kFrameCycles, reg::kMemoryErrors});
   let_miscount(checks_.registers, checked);
-  if (setup.records) let_blind({&checks_.runs, &checks_.lines});
+  if (setup.descriptors) let_blind({&checks_.runs, &checks_.lines});
   if (in_memory()) let_blind({&checks_.traffic});
   if (source_) source_->pixels_out(pixels);
   engine_.pixels_in(pixels);
@@ -80,7 +80,7 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
   host_.bus.bind(engine_.registers);
   if (memory_) {
     engine_.memory()->bind(memory_->ports);
-    plant_in(*memory_, setup.memory);
+    inject_in(*memory_, setup.memory);
   }
   sink_.keep(false);
   sink_.on_beat = [this](rtl::Cycle cycle, const spec::morphological::BlendedBeat& beat) {
@@ -92,16 +92,16 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
       reject_outside(*pixel, frame.image.width, frame.image.height);
     history_.emplace(*pixel);
   }
-  const bool records = golden() && setup.records;
-  if (!records && !maps_ && !history_) return;
+  const bool descriptors = golden() && setup.descriptors;
+  if (!descriptors && !maps_ && !history_) return;
   const auto cycle = [this] { return this->simulation().clock().cycle(); };
-  engine_.observe_runs([this, records, cycle](const spec::morphological::RunRecord& run) {
-    if (records) checks_.got(run);
+  engine_.observe_runs([this, descriptors, cycle](const spec::morphological::RunDescriptor& run) {
+    if (descriptors) checks_.got(run);
     if (maps_) maps_->see(run);
     if (history_) history_->see(run, cycle());
   });
-  engine_.observe_lines([this, records, cycle](const spec::morphological::LineRecord& line) {
-    if (records) checks_.got(line);
+  engine_.observe_lines([this, descriptors, cycle](const spec::morphological::LineDescriptor& line) {
+    if (descriptors) checks_.got(line);
     if (maps_) maps_->see(line);
     if (history_) history_->see(line, cycle());
   });
@@ -115,7 +115,7 @@ std::unique_ptr<platform::MemoryModel> MorphologicalEnvironment::memory_for(
     bytes = std::max(bytes, platform::frame_bytes(frame.image.width, frame.image.height));
   platform::MemoryModelParameters m = memory_model_parameters(
       setup_.memory, setup_.pixel_base + bytes, simulation().options().seed);
-  m.record_writes = true;
+  m.descriptor_writes = true;
   return std::make_unique<platform::MemoryModel>(memory_name().c_str(),
                                                  simulation().clock().period(), m);
 }
@@ -129,8 +129,8 @@ spec::morphological::Parameters MorphologicalEnvironment::as_built() const {
 
 void MorphologicalEnvironment::configure() {
   driver_.identify();
-  if (programs()) driver_.set_rules(faults_.as_built());
-  if (setup_.shares) driver_.load_shares(stimuli::entries_of(*setup_.shares));
+  if (programs()) driver_.set_configuration(faults_.as_built());
+  if (setup_.weights) driver_.load_weights(stimuli::entries_of(*setup_.weights));
   checks_.clear_counters();
 }
 
@@ -141,7 +141,7 @@ bool MorphologicalEnvironment::begin(std::size_t piece) {
   frame_ = Image(image.width, image.height);
   progress_.width = image.width;
   progress_.height = image.height;
-  taps_.assign(frame_.pixels.size(), {});
+  probes_.assign(frame_.pixels.size(), {});
   position_ = 0;
   checks_.begin(frames_[piece]);
   start();
@@ -216,8 +216,8 @@ Amount MorphologicalEnvironment::amount() const {
 // ------------------------------------------------------------------------------------
 
 Environment::Boards MorphologicalEnvironment::outputs() const {
-  Boards boards = {&checks_.pixels, &checks_.taps};
-  if (setup_.records) boards.insert(boards.end(), {&checks_.runs, &checks_.lines});
+  Boards boards = {&checks_.pixels, &checks_.probes};
+  if (setup_.descriptors) boards.insert(boards.end(), {&checks_.runs, &checks_.lines});
   return boards;
 }
 
@@ -234,7 +234,7 @@ void MorphologicalEnvironment::check_output(rtl::Cycle cycle,
   for (std::size_t i = 0; i < std::min<std::size_t>(beat.count, spec::morphological::kMaxLanes);
        ++i) {
     const spec::morphological::Rgba8& p = beat.pixel[i];
-    const spec::morphological::BlendTap& t = beat.tap[i];
+    const spec::morphological::BlendProbe& t = beat.probe[i];
     const std::uint64_t word = std::uint64_t{p[0]} | std::uint64_t{p[1]} << 8 |
                                std::uint64_t{p[2]} << 16 | std::uint64_t{p[3]} << 24 |
                                std::uint64_t{t.first} << 32 | std::uint64_t{t.second} << 40 |
@@ -243,7 +243,7 @@ void MorphologicalEnvironment::check_output(rtl::Cycle cycle,
     checks_.got(p, t, cycle);
     if (position_ < frame_.pixels.size()) {
       frame_.pixels[position_] = p;
-      taps_[position_] = t;
+      probes_[position_] = t;
     }
     if (maps_) maps_->see(position_, t);
     if (history_)

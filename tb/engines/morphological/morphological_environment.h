@@ -7,7 +7,7 @@
 //                            MemoryModel (storage = memory) ─► lines written, lines read
 //
 // The golden model works on a frame before it is sent. Every pixel that leaves the engine is
-// checked as it comes, with its tap (axis, shares, edge bits); runs and lines inside too, if asked
+// checked as it comes, with its tap (axis, weights, edge bits); runs and lines inside too, if asked
 // for.
 #pragma once
 
@@ -79,11 +79,11 @@ class MorphologicalEnvironment final : public Environment {
 
   const MorphologicalMeter& meter() const { return meter_; }
   std::uint64_t delivered_in_all() const { return progress_.delivered; }
-  // Of the last frame: what the engine delivered, and clocks from its first to its last input beat.
+  // Of the last frame: what the engine delivered, and cycles from its first to its last input beat.
   const Image& frame() const { return frame_; }
   std::size_t delivered() const { return position_; }
-  const std::vector<spec::morphological::BlendTap>& taps() const { return taps_; }
-  rtl::Cycle input_clocks() const { return progress_.input_clocks(); }
+  const std::vector<spec::morphological::BlendProbe>& probes() const { return probes_; }
+  rtl::Cycle input_cycles() const { return progress_.input_cycles(); }
   // The golden model, which has seen every frame (none without golden).
   const golden::morphological::MorphologicalGolden& golden_model() const {
     return checks_.golden_model();
@@ -126,7 +126,7 @@ class MorphologicalEnvironment final : public Environment {
 
   std::size_t current_ = 0;  // of frames_
   Image frame_;
-  std::vector<spec::morphological::BlendTap> taps_;
+  std::vector<spec::morphological::BlendProbe> probes_;
   std::size_t position_ = 0;        // of the next pixel in the frame
   std::uint64_t taken_before_ = 0;  // beats that were taken before this frame's
   rtl::Cycle first_taken_ = 0;      // when the engine took the first of this frame

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "rtl_model/platform/morphological_records.h"
+#include "rtl_model/platform/morphological_descriptors.h"
 #include "spec/error.h"
 
 namespace deburr::tb {
@@ -18,7 +18,7 @@ constexpr std::int32_t kMostThreshold = (1 << spec::morphological::kThresholdBit
 
 }  // namespace
 
-std::vector<PlantedFault> MorphologicalFaults::list() const {
+std::vector<InjectedFault> MorphologicalFaults::list() const {
   const int width = frames_.empty() ? 1 : frames_.front().image.width;
   const std::uint64_t row = platform::beats_a_row(width, platform::lanes_of(setup_.morphological));
   const std::string memory = setup_.morphological.storage == spec::morphological::Storage::kMemory
@@ -26,7 +26,7 @@ std::vector<PlantedFault> MorphologicalFaults::list() const {
                                  : "morphological.storage = memory";
   const std::string guard =
       setup_.morphological.text_guard ? "" : "morphological.text_guard = true";
-  std::vector<PlantedFault> list = {
+  std::vector<InjectedFault> list = {
       {"flip-bit", "Flips a bit of the red channel of output beat 100.",
        "flip:blended:100:pixel.0.r.4"},
       {"drop-pixel", "Drops output beat 100.", "drop:blended:100"},
@@ -44,14 +44,14 @@ std::vector<PlantedFault> MorphologicalFaults::list() const {
        "stuck_ready:morphological.slots:500"},
       {"duplicate-fetch", "Sends memory request 20 twice.",
        fmt::format("duplicate:morphological.requests:{}", kFaultyRequest), memory}};
-  for (PlantedFault& fault : memory_faults(memory)) list.push_back(std::move(fault));
-  for (PlantedFault& fault : smaa_faults()) list.push_back(std::move(fault));
-  for (PlantedFault& fault : shares_faults()) list.push_back(std::move(fault));
+  for (InjectedFault& fault : memory_faults(memory)) list.push_back(std::move(fault));
+  for (InjectedFault& fault : smaa_faults()) list.push_back(std::move(fault));
+  for (InjectedFault& fault : weights_faults()) list.push_back(std::move(fault));
   return list;
 }
 
-// Of edges from colour and learned shares.
-std::vector<PlantedFault> MorphologicalFaults::shares_faults() const {
+// Of edges from colour and learned weights.
+std::vector<InjectedFault> MorphologicalFaults::weights_faults() const {
   const spec::morphological::Parameters& p = setup_.morphological;
   const std::string needs =
       p.area == spec::morphological::AreaSource::kLearned ? "" : "morphological.area = learned";
@@ -60,24 +60,24 @@ std::vector<PlantedFault> MorphologicalFaults::shares_faults() const {
        p.edge_source == spec::morphological::EdgeSource::kColour
            ? ""
            : "morphological.edges.source = colour"},
-      {"wrong-share",
-       "Flips a bit of the word of shares_a for a single pixel between crossings on its side.", "",
+      {"wrong-weight",
+       "Flips a bit of the word of weights_a for a single pixel between crossings on its side.", "",
        needs},
-      {"wrong-near", "Flips a bit of the words of shares_b for crossings that go on.", "", needs},
-      {"wrong-far", "Flips a bit of the words of shares_c for crossings that go on.", "", needs},
-      {"wrong-sum", "Flips a bit of the word of share_rom for a sum of -2.0.", "", needs},
+      {"wrong-near", "Flips a bit of the words of weights_b for crossings that go on.", "", needs},
+      {"wrong-far", "Flips a bit of the words of weights_c for crossings that go on.", "", needs},
+      {"wrong-sum", "Flips a bit of the word of weight_rom for a sum of -2.0.", "", needs},
       {"wrong-class", "Flips a bit of the class of the crossing at the end of a vertical run.",
        "flip:morphological.lines_v0:20:line.end_class.1", needs},
       {"wrong-code", "Flips a bit of the codes of the ends of a horizontal run.",
        "flip:morphological.lines_h0:20:line.run.shape.0", needs},
-      {"wrong-axis", "The line of a share from above counts as the longest one.",
-       "flip:morphological.shares:500:shares.0.span_up.11", needs},
+      {"wrong-axis", "The line of a weight from above counts as the longest one.",
+       "flip:morphological.weights:500:weights.0.span_up.11", needs},
       {"drop-line", "Drops a record after the dividers of horizontal runs.",
        "drop:morphological.lines_h0:20", needs}};
 }
 
-// Of SMAA's blocks. Those without a link are planted by as_built() and plant().
-std::vector<PlantedFault> MorphologicalFaults::smaa_faults() const {
+// Of SMAA's blocks. Those without a link are injected by as_built() and plant().
+std::vector<InjectedFault> MorphologicalFaults::smaa_faults() const {
   const spec::morphological::Parameters& p = setup_.morphological;
   const auto unless = [](bool built, std::string needs) {
     return built ? std::string() : "morphological." + std::move(needs);
@@ -123,44 +123,44 @@ std::vector<PlantedFault> MorphologicalFaults::smaa_faults() const {
               "diagonals = true, diagonal_steps of at least 2")},
       {"wrong-diagonal-area",
        "Flips a bit of the words of diagonal_rom for two pixels to either end.", "", for_diagonals},
-      {"drop-diagonals", "Drops the shares of the diagonals of beat 200.",
-       "drop:morphological.diagonals.diagonal_shares_entries:200", for_diagonals},
+      {"drop-diagonals", "Drops the weights of the diagonals of beat 200.",
+       "drop:morphological.diagonals.diagonal_weights_entries:200", for_diagonals},
       {"wrong-corner", "Sharp corners keep 1/256 less of a weight.", "",
        unless(p.round_corners && p.corner_rounding > 0,
               "round_corners = true, corner_rounding of at least 1")},
-      {"wrong-mix", "Flips a bit of the word of mix_rom for shares that sum up to 64.", "",
+      {"wrong-mix", "Flips a bit of the word of mix_rom for weights that sum up to 64.", "",
        unless(p.blend == spec::morphological::BlendRule::kStrongest, "blend = strongest")}};
 }
 
 spec::morphological::Parameters MorphologicalFaults::as_built() const {
   spec::morphological::Parameters p = setup_.morphological;
   // A fault that would change nothing is rejected by what it needs.
-  if (planted("wrong-rule")) p.steps = std::max(0, p.steps - 1);
-  if (planted("wrong-guard")) p.text_guard = false;
-  if (planted("wrong-threshold")) {
+  if (injected("wrong-rule")) p.steps = std::max(0, p.steps - 1);
+  if (injected("wrong-guard")) p.text_guard = false;
+  if (injected("wrong-threshold")) {
     if (p.threshold_mode == spec::morphological::ThresholdMode::kDynamic)
       p.alpha = std::max(0, p.alpha - 1);
     else
       p.threshold = std::min(kMostThreshold, p.threshold + 1);
   }
-  if (planted("wrong-floor")) p.floor = std::min(kMostThreshold, p.floor + 1);
-  if (planted("wrong-contrast"))
+  if (injected("wrong-floor")) p.floor = std::min(kMostThreshold, p.floor + 1);
+  if (injected("wrong-contrast"))
     p.local_contrast = p.local_contrast == spec::morphological::LocalContrast::kSmaa
                            ? spec::morphological::LocalContrast::kPaper
                            : spec::morphological::LocalContrast::kSmaa;
-  if (planted("wrong-search")) p.search_steps = std::max(1, p.search_steps - 1);
-  if (planted("wrong-diagonal")) p.diagonal_steps = std::max(1, p.diagonal_steps - 1);
-  if (planted("wrong-border")) p.border = spec::morphological::Border::kEnd;
-  if (planted("wrong-values"))
+  if (injected("wrong-search")) p.search_steps = std::max(1, p.search_steps - 1);
+  if (injected("wrong-diagonal")) p.diagonal_steps = std::max(1, p.diagonal_steps - 1);
+  if (injected("wrong-border")) p.border = spec::morphological::Border::kEnd;
+  if (injected("wrong-values"))
     p.area_values = p.area_values == spec::morphological::AreaValues::kExact
                         ? spec::morphological::AreaValues::kPublished
                         : spec::morphological::AreaValues::kExact;
-  if (planted("wrong-colour")) p.edge_source = spec::morphological::EdgeSource::kLuma;
-  if (planted("wrong-corner")) p.corner_rounding = std::max(0, p.corner_rounding - 1);
+  if (injected("wrong-colour")) p.edge_source = spec::morphological::EdgeSource::kLuma;
+  if (injected("wrong-corner")) p.corner_rounding = std::max(0, p.corner_rounding - 1);
   return p;
 }
 
-void MorphologicalFaults::plant(rtl::morphological::MorphologicalEngine& engine) const {
+void MorphologicalFaults::inject(rtl::morphological::MorphologicalEngine& engine) const {
   const auto in_rom = [&]<class Word>(const char* name, Word, auto&& change) {
     rtl::for_each<rtl::MemoryBase>(engine, [&](rtl::MemoryBase& memory) {
       if (memory.basename() != std::string_view(name)) return;
@@ -178,40 +178,40 @@ void MorphologicalFaults::plant(rtl::morphological::MorphologicalEngine& engine)
                                   : layout == AreaSource::kTableMerged ? 4
                                                                        : 0;
   constexpr std::uint64_t kTileWords = 64, kMergedTileOf9 = 6;
-  if (planted("wrong-area"))
+  if (injected("wrong-area"))
     in_rom("area_rom0", kHalf, [&](auto& rom) { rom.backdoor(tile_of_6 * kTileWords) ^= 1u << 5; });
-  if (planted("wrong-root"))
+  if (injected("wrong-root"))
     in_rom("sqrt_rom", kHalf, [](auto& rom) { rom.backdoor(2) ^= 1u << 6; });
-  if (planted("wrong-decode"))
+  if (injected("wrong-decode"))
     for (const char* const name : {"area_rom0", "area_rom1", "area_rom2", "area_rom3"})
       in_rom(name, kHalf, [&](auto& rom) {
         for (std::uint64_t i = 0; i < kTileWords; ++i)
           rom.backdoor(tile_of_6 * kTileWords + i) = rom.backdoor(kMergedTileOf9 * kTileWords + i);
       });
-  if (planted("wrong-diagonal-area"))
+  if (injected("wrong-diagonal-area"))
     in_rom("diagonal_rom", kHalf, [](auto& rom) {
       constexpr std::uint64_t kDistances = spec::morphological::kDiagonalDistances;
       for (std::uint64_t codes = 0; codes < 16; ++codes)
         rom.backdoor((codes * kDistances + 2) * kDistances + 2) ^= 1u << 4;
     });
   constexpr std::int8_t kEntry = 0;
-  constexpr std::uint8_t kShare = 0;
-  if (planted("wrong-share"))
-    in_rom("shares_a", kEntry, [](auto& rom) {
+  constexpr std::uint8_t kWeight = 0;
+  if (injected("wrong-weight"))
+    in_rom("weights_a", kEntry, [](auto& rom) {
       // Codes 1 and 1, at distances 0 and 0.
       rom.backdoor(5 * 64) = static_cast<std::int8_t>(rom.backdoor(5 * 64) ^ 1 << 4);
     });
   for (const auto& [fault, name] :
-       {std::pair{"wrong-near", "shares_b"}, std::pair{"wrong-far", "shares_c"}})
-    if (planted(fault))
+       {std::pair{"wrong-near", "weights_b"}, std::pair{"wrong-far", "weights_c"}})
+    if (injected(fault))
       in_rom(name, kEntry, [](auto& rom) {
         constexpr std::uint64_t kGoesOn = 4, kWords = 32;  // class 2 of code 1
         for (std::uint64_t i = kGoesOn * kWords; i < (kGoesOn + 1) * kWords; ++i)
           rom.backdoor(i) = static_cast<std::int8_t>(rom.backdoor(i) ^ 1 << 4);
       });
-  if (planted("wrong-sum"))
-    in_rom("share_rom", kShare, [](auto& rom) { rom.backdoor(128 - 32) ^= 1u << 2; });
-  if (planted("wrong-mix"))
+  if (injected("wrong-sum"))
+    in_rom("weight_rom", kWeight, [](auto& rom) { rom.backdoor(128 - 32) ^= 1u << 2; });
+  if (injected("wrong-mix"))
     in_rom("mix_rom", kWord, [](auto& rom) { rom.backdoor(64) ^= 1u << 13; });
 }
 

@@ -12,7 +12,7 @@
 #include "spec/morphological/parameters.h"
 #include "tb/engines/morphological/morphological_input.h"
 #include "tb/engines/morphological/morphological_setup.h"
-#include "tb/env/planted_faults.h"
+#include "tb/env/injected_faults.h"
 
 namespace deburr::tb {
 
@@ -23,14 +23,14 @@ class MorphologicalFaults : public EngineFaults {
                       std::span<const MorphologicalInput> frames, const MorphologicalSetup& setup)
       : EngineFaults(plan, std::move(environment)), frames_(frames), setup_(setup) {}
 
-  std::vector<PlantedFault> list() const;
+  std::vector<InjectedFault> list() const;
   // What the engine is built with; the golden model always gets what was ordered.
   spec::morphological::Parameters as_built() const;
-  void plant(rtl::morphological::MorphologicalEngine& engine) const;
+  void inject(rtl::morphological::MorphologicalEngine& engine) const;
 
  private:
-  std::vector<PlantedFault> smaa_faults() const;
-  std::vector<PlantedFault> shares_faults() const;
+  std::vector<InjectedFault> smaa_faults() const;
+  std::vector<InjectedFault> weights_faults() const;
 
   std::span<const MorphologicalInput> frames_;
   const MorphologicalSetup& setup_;

@@ -16,8 +16,8 @@
 #include "tb/scene/mesh.h"
 #include "tb/scene/motion.h"
 #include "tb/scene/scenes.h"
-#include "tb/scene/truth.h"
-#include "tb/stimuli/share_file.h"
+#include "tb/scene/reference.h"
+#include "tb/stimuli/weight_file.h"
 
 namespace deburr::tb {
 namespace {
@@ -38,14 +38,14 @@ LoadedFrame rendered(const FrameParameters& p, std::uint32_t seed,
   LoadedFrame frame;
   frame.conversions = scene.mesh.notes;
   const auto make = [&] {
-    return render_lit_frames(scene, p.width, p.height, std::max(1, p.truth_samples), interrupted);
+    return render_lit_frames(scene, p.width, p.height, std::max(1, p.reference_samples), interrupted);
   };
   const LitFrames lit = kept ? kept(make) : make();
   frame.input.image = lit.noaa;
   frame.depth = lit.depth;
-  if (p.truth_samples > 0) {
-    frame.truth = lit.truth;
-    frame.truth_name = fmt::format("supersampled-{}", p.truth_samples * p.truth_samples);
+  if (p.reference_samples > 0) {
+    frame.reference = lit.reference;
+    frame.reference_name = fmt::format("supersampled-{}", p.reference_samples * p.reference_samples);
   }
   frame.inputs = scene.mesh.files;
   return frame;
@@ -72,7 +72,7 @@ FrameLists lists_of(const FrameParameters& p) {
   FrameLists lists;
   for (const auto& [name, text] :
        {std::pair("frame.source", &p.source), std::pair("frame.depth", &p.depth),
-        std::pair("frame.truth", &p.truth), std::pair("frame.mask", &p.mask)})
+        std::pair("frame.reference", &p.reference), std::pair("frame.mask", &p.mask)})
     lists.add(name, listed_files(name, *text));
   return lists;
 }
@@ -80,7 +80,7 @@ FrameLists lists_of(const FrameParameters& p) {
 FrameParameters in_frame(FrameParameters p, const FrameLists& lists, int frame) {
   p.source = lists.at("frame.source", frame);
   p.depth = lists.at("frame.depth", frame);
-  p.truth = lists.at("frame.truth", frame);
+  p.reference = lists.at("frame.reference", frame);
   p.mask = lists.at("frame.mask", frame);
   return p;
 }
@@ -118,9 +118,9 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
                        const std::function<bool()>& interrupted, const KeptFrames& kept) {
   LoadedFrame frame;
   if (is_scene(p.source)) {
-    if (!p.truth.empty() || !p.depth.empty())
+    if (!p.reference.empty() || !p.depth.empty())
       throw spec::ConfigError(
-          "frame.truth and frame.depth go with an image file; a scene has its own");
+          "frame.reference and frame.depth go with an image file; a scene has its own");
     frame = rendered(p, seed, interrupted, kept);
   } else {
     if (std::filesystem::path(p.source).extension().empty() && !is_there(p.source)) {
@@ -149,29 +149,29 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
             "alike",
             p.depth));
     }
-    if (!p.truth.empty()) {
-      frame.truth = read_image(p.truth, &report);
-      note(p.truth);
-      require_size("truth", p.truth, frame.truth->width, frame.truth->height, image);
-      frame.truth_name = std::filesystem::path(p.truth).filename().string();
-      add_once(frame.inputs, p.truth);
+    if (!p.reference.empty()) {
+      frame.reference = read_image(p.reference, &report);
+      note(p.reference);
+      require_size("reference", p.reference, frame.reference->width, frame.reference->height, image);
+      frame.reference_name = std::filesystem::path(p.reference).filename().string();
+      add_once(frame.inputs, p.reference);
     }
   }
   if (frame.depth) frame.input.depth = depth_codes(*frame.depth);
   if (!p.mask.empty()) apply_mask(p.mask, frame);
-  if (!p.shares.empty()) {
-    frame.shares = stimuli::read_share_file(p.shares);
-    add_once(frame.inputs, p.shares);
+  if (!p.weights.empty()) {
+    frame.weights = stimuli::read_weight_file(p.weights);
+    add_once(frame.inputs, p.weights);
   }
   return frame;
 }
 
 golden::morphological::MorphologicalGolden golden_frame(
     const MorphologicalInput& input, const spec::morphological::Parameters& parameters,
-    const golden::morphological::ShareTables* shares) {
+    const golden::morphological::WeightTables* weights) {
   const Image& image = input.image;
   golden::morphological::MorphologicalGolden golden(parameters);
-  if (shares != nullptr) golden.set_share_tables(*shares);
+  if (weights != nullptr) golden.set_weight_tables(*weights);
   golden.process({image.pixels, image.width, image.height},
                  input.depth.empty()
                      ? golden::morphological::DepthView()
@@ -184,10 +184,10 @@ std::vector<std::filesystem::path> frame_files(const FrameParameters& p, MeshFil
   if (is_scene(p.source)) {
     files = scene_files(p.source, {}, meshes);
   } else {
-    for (const std::string& file : {p.source, p.depth, p.truth})
+    for (const std::string& file : {p.source, p.depth, p.reference})
       if (!file.empty()) add_once(files, file);
   }
-  for (const std::string& file : {p.mask, p.shares})
+  for (const std::string& file : {p.mask, p.weights})
     if (!file.empty()) add_once(files, file);
   return files;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the morphological engine is given: an image file with depth and truth beside it, or a scene
-// rendered without anti-aliasing, with its depth and its supersampled truth. Files become codes by
+// What the morphological engine is given: an image file with depth and reference beside it, or a scene
+// rendered without anti-aliasing, with its depth and its supersampled reference. Files become codes by
 // the rules of docs/reference/morphological/formats.md, "Conversion of images".
 #pragma once
 
@@ -18,15 +18,15 @@
 #include "tb/env/sequence.h"
 #include "tb/run/given_work.h"
 #include "tb/scene/image.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 
 namespace deburr::tb {
 
 struct FrameParameters {
   std::string source = "cylinders";
-  std::string depth, truth, mask, shares;
+  std::string depth, reference, mask, weights;
   std::int32_t width = 640, height = 480;
-  std::int32_t truth_samples = 8;
+  std::int32_t reference_samples = 8;
   std::int32_t count = 1;
   CameraMove move{};  // of a scene's camera; no parameter
 };
@@ -40,22 +40,22 @@ void describe(FrameParameters& p, Visitor& v) {
          "Depth of an image: 24 bits in R, G, B, 16 bits of grey, or one float channel; grows "
          "towards the "
          "eye.");
-  v.text("truth", p.truth, "file or list", "Anti-aliased picture that an image is compared with.");
+  v.text("reference", p.reference, "file or list", "Anti-aliased picture that an image is compared with.");
   v.text("mask", p.mask, "file or list",
          "Pixels to leave as they are, where red is 128 or more: bit 0 of their alpha becomes 0, "
          "that of "
          "all others 1, and the rule leave becomes masked.");
   v.text(
-      "shares", p.shares, "file",
-      "Learned shares in place of those that the engine was built with, as `deburr train` writes "
+      "weights", p.weights, "file",
+      "Learned weights in place of those that the engine was built with, as `deburr train` writes "
       "them; they are loaded through its registers.");
   v.integer("width", p.width, 1, 8192, "pixel", "Width of a rendered scene.");
   v.integer("height", p.height, 1, 8192, "pixel", "Height of a rendered scene.");
-  v.integer("truth_samples", p.truth_samples, 0, 32, "",
-            "N of the N x N samples a pixel of a scene's truth; 0: no truth.");
+  v.integer("reference_samples", p.reference_samples, 0, 32, "",
+            "N of the N x N samples a pixel of a scene's reference; 0: no reference.");
   v.integer("count", p.count, 1, 1000, "frame", "How often the frame is sent.");
   v.is_work("source", GivenWork::kSource);
-  for (const char* const name : {"width", "height", "count", "truth_samples"})
+  for (const char* const name : {"width", "height", "count", "reference_samples"})
     v.is_work(name, GivenWork::kSetting);
 }
 
@@ -68,11 +68,11 @@ bool is_rendered(const FrameParameters& parameters);
 
 struct LoadedFrame {
   MorphologicalInput input;
-  std::optional<Image> truth;
+  std::optional<Image> reference;
   std::optional<DepthImage> depth;
-  std::string truth_name;                // "supersampled-64", or the file's name
+  std::string reference_name;                // "supersampled-64", or the file's name
   std::vector<std::string> conversions;  // what the reader of images or meshes changed
-  std::optional<golden::morphological::ShareTables> shares;  // else those of the ROMs
+  std::optional<golden::morphological::WeightTables> weights;  // else those of the ROMs
   std::vector<std::filesystem::path> inputs;  // files that it was made of, or looked for in vain
 };
 
@@ -88,10 +88,10 @@ LoadedFrame load_frame(const FrameParameters& parameters, std::uint32_t seed,
 std::vector<std::filesystem::path> frame_files(const FrameParameters& parameters,
                                                MeshFiles& meshes);
 
-// What the golden model makes of a frame; null: with the shares that it is built with.
+// What the golden model makes of a frame; null: with the weights that it is built with.
 golden::morphological::MorphologicalGolden golden_frame(
     const MorphologicalInput& input, const spec::morphological::Parameters& parameters,
-    const golden::morphological::ShareTables* shares = nullptr);
+    const golden::morphological::WeightTables* weights = nullptr);
 
 // Whether 24-bit depths, taken apart into R, G and B, change from pixel to pixel as a picture does:
 // two of them alike. Of depth, G and B are the lower digits of R: they fall as it rises.

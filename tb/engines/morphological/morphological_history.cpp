@@ -15,10 +15,10 @@ namespace deburr::tb {
 using golden::morphological::MorphologicalGolden;
 using golden::morphological::PredictedRun;
 using spec::morphological::Axis;
-using spec::morphological::BlendTap;
-using spec::morphological::LineRecord;
+using spec::morphological::BlendProbe;
+using spec::morphological::LineDescriptor;
 using spec::morphological::Rgba8;
-using spec::morphological::RunRecord;
+using spec::morphological::RunDescriptor;
 
 struct MorphologicalHistory::Side {
   std::string_view name;
@@ -32,25 +32,25 @@ std::string text_of(const Rgba8& p) {
   return fmt::format("{}, {}, {}, {}", p[0], p[1], p[2], p[3]);
 }
 
-std::string edges_of(const BlendTap& tap) {
+std::string edges_of(const BlendProbe& probe) {
   constexpr std::array<std::string_view, 4> kNames = {"none", "left", "top", "left and top"};
-  return std::string(kNames[tap.edges & 3]);
+  return std::string(kNames[probe.edges & 3]);
 }
-std::string shares_of(const BlendTap& tap) {
-  if (tap.first == 0 && tap.second == 0) return "none";
-  return fmt::format("{} {}, {}", tap.horizontal ? "left, right" : "up, down", tap.first,
-                     tap.second);
+std::string weights_of(const BlendProbe& probe) {
+  if (probe.first == 0 && probe.second == 0) return "none";
+  return fmt::format("{} {}, {}", probe.horizontal ? "left, right" : "up, down", probe.first,
+                     probe.second);
 }
 std::string signals_of(bool first, bool last) {
   return fmt::format("{}, {}", first ? "yes" : "no", last ? "yes" : "no");
 }
-std::string text_of(const RunRecord& r) {
+std::string text_of(const RunDescriptor& r) {
   constexpr std::array<std::string_view, 3> kParts = {"", " (head)", " (tail)"};
   return fmt::format("{}..{} {}{}", r.start, r.start + r.length - 1,
                      spec::morphological::kRunShapes[r.shape & 15].name,
                      kParts[static_cast<std::size_t>(r.part)]);
 }
-std::string text_of(const LineRecord& l) {
+std::string text_of(const LineDescriptor& l) {
   if (l.learned)
     return fmt::format("{}..{} learned, crossings {} and {}", l.run.start,
                        l.run.start + l.run.length - 1, l.start_class, l.end_class);
@@ -60,35 +60,35 @@ std::string text_of(const LineRecord& l) {
 }
 
 // The others have no line.
-bool has_line(const LineRecord& line) {
+bool has_line(const LineDescriptor& line) {
   const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[line.run.shape & 15];
   return line.learned || shape.before != spec::morphological::Side::kNone ||
          shape.after != spec::morphological::Side::kNone;
 }
 
-const RunRecord& run_of(const RunRecord& run) { return run; }
-const RunRecord& run_of(const LineRecord& line) { return line.run; }
+const RunDescriptor& run_of(const RunDescriptor& run) { return run; }
+const RunDescriptor& run_of(const LineDescriptor& line) { return line.run; }
 
 // Those of one side, one a record of its runs, in the order of the runs.
-template <class Record, class Wanted>
-void add_records(const std::string& step, const std::string& item,
-                 const std::vector<std::pair<Record, rtl::Cycle>>& seen,
-                 std::vector<Record> expected, const Wanted& wanted, const PixelSides& came,
+template <class Descriptor, class Wanted>
+void add_descriptors(const std::string& step, const std::string& item,
+                 const std::vector<std::pair<Descriptor, rtl::Cycle>>& seen,
+                 std::vector<Descriptor> expected, const Wanted& wanted, const PixelSides& came,
                  PixelHistory& all) {
-  std::vector<std::pair<Record, rtl::Cycle>> here;
+  std::vector<std::pair<Descriptor, rtl::Cycle>> here;
   for (const auto& one : seen)
     if (wanted(run_of(one.first))) here.push_back(one);
-  std::erase_if(expected, [&](const Record& one) { return !wanted(run_of(one)); });
-  const auto before = [](const Record& a, const Record& b) {
+  std::erase_if(expected, [&](const Descriptor& one) { return !wanted(run_of(one)); });
+  const auto before = [](const Descriptor& a, const Descriptor& b) {
     return std::pair(run_of(a).start, run_of(a).part) < std::pair(run_of(b).start, run_of(b).part);
   };
   std::stable_sort(here.begin(), here.end(),
                    [&](const auto& a, const auto& b) { return before(a.first, b.first); });
   std::stable_sort(expected.begin(), expected.end(), before);
-  all.compare_records(
+  all.compare_descriptors(
       expected.size(), here.size(),
       [&](std::size_t g, std::size_t h) { return expected[g] == here[h].first; },
-      [&](PixelHistory::Record g, PixelHistory::Record h) {
+      [&](PixelHistory::Descriptor g, PixelHistory::Descriptor h) {
         PixelStep row{.part = {},
                       .step = step,
                       .item = item,
@@ -121,20 +121,20 @@ int position_of(Axis axis, const PixelAddress& pixel) {
 }  // namespace
 
 // The pixel is one of those along the run.
-bool MorphologicalHistory::is_near(const RunRecord& run) const {
+bool MorphologicalHistory::is_near(const RunDescriptor& run) const {
   const int position = position_of(run.axis, pixel_), line = line_of(run.axis, pixel_);
   return (run.line == line || run.line == line + 1) && position >= run.start &&
          position < run.start + run.length;
 }
-bool MorphologicalHistory::is_at(const Side& side, const RunRecord& run) const {
+bool MorphologicalHistory::is_at(const Side& side, const RunDescriptor& run) const {
   return run.axis == side.axis && run.line == line_of(run.axis, pixel_) + side.beyond &&
          is_near(run);
 }
 
-void MorphologicalHistory::see(const RunRecord& run, rtl::Cycle cycle) {
+void MorphologicalHistory::see(const RunDescriptor& run, rtl::Cycle cycle) {
   if (is_near(run)) runs_.emplace_back(run, cycle);
 }
-void MorphologicalHistory::see(const LineRecord& line, rtl::Cycle cycle) {
+void MorphologicalHistory::see(const LineDescriptor& line, rtl::Cycle cycle) {
   if (is_near(line.run)) lines_.emplace_back(line, cycle);
 }
 void MorphologicalHistory::see(std::size_t position, const Delivered& pixel) {
@@ -145,17 +145,17 @@ void MorphologicalHistory::see(std::size_t position, const Delivered& pixel) {
 
 void MorphologicalHistory::add_side(const Side& side, const MorphologicalGolden* golden,
                                     const PixelSides& came, PixelHistory& all) const {
-  std::vector<RunRecord> runs;
-  std::vector<LineRecord> lines;
+  std::vector<RunDescriptor> runs;
+  std::vector<LineDescriptor> lines;
   if (golden)
     for (const PredictedRun& run : golden->runs()) {
       runs.push_back(run.line.run);
       if (has_line(run.line)) lines.push_back(run.line);
     }
-  const auto here = [&](const RunRecord& run) { return is_at(side, run); };
+  const auto here = [&](const RunDescriptor& run) { return is_at(side, run); };
   const std::string step = fmt::format("{} edge", side.name);
-  add_records(step, "run", runs_, runs, here, came, all);
-  add_records(step, "line", lines_, lines, here, came, all);
+  add_descriptors(step, "run", runs_, runs, here, came, all);
+  add_descriptors(step, "line", lines_, lines, here, came, all);
 }
 
 PixelHistory MorphologicalHistory::history(const MorphologicalInput& frame, bool ended,
@@ -173,10 +173,10 @@ PixelHistory MorphologicalHistory::history(const MorphologicalInput& frame, bool
   // A part of what is delivered, once.
   const auto add_delivered = [&](const std::string& step, const std::string& item, bool known,
                                  const auto& expected, const auto& got) {
-    all.compare_records(
+    all.compare_descriptors(
         known ? 1 : 0, delivered_.size(),
         [&](std::size_t, std::size_t h) { return expected() == got(delivered_[h]); },
-        [&](PixelHistory::Record g, PixelHistory::Record h) {
+        [&](PixelHistory::Descriptor g, PixelHistory::Descriptor h) {
           PixelStep row{.part = {},
                         .step = step,
                         .item = item,
@@ -198,26 +198,26 @@ PixelHistory MorphologicalHistory::history(const MorphologicalInput& frame, bool
     const std::string depth = fmt::format("{:#x}", frame.depth[at] & 0xFFFFFF);
     add("input", "depth", depth, depth);
   }
-  const bool taps = golden && at < golden->taps().size();
+  const bool probes = golden && at < golden->probes().size();
   add_delivered(
-      "edges", "left, top", taps, [&] { return edges_of(golden->taps()[at]); },
-      [](const Delivered& one) { return edges_of(one.tap); });
+      "edges", "left, top", probes, [&] { return edges_of(golden->probes()[at]); },
+      [](const Delivered& one) { return edges_of(one.probe); });
   constexpr std::array<Side, 4> kSides = {{{"top", Axis::kHorizontal, 0},
                                            {"bottom", Axis::kHorizontal, 1},
                                            {"left", Axis::kVertical, 0},
                                            {"right", Axis::kVertical, 1}}};
   for (const Side& side : kSides) add_side(side, golden, came, all);
-  if (taps && golden->taps()[at].edges != 0) {
-    const auto top = golden->top_shares(pixel_.x, pixel_.y);
-    const auto left = golden->left_shares(pixel_.x, pixel_.y);
-    add("shares", "of its top edge: upper, lower", fmt::format("{}, {}", top.first, top.second),
+  if (probes && golden->probes()[at].edges != 0) {
+    const auto top = golden->top_weights(pixel_.x, pixel_.y);
+    const auto left = golden->left_weights(pixel_.x, pixel_.y);
+    add("weights", "of its top edge: upper, lower", fmt::format("{}, {}", top.first, top.second),
         "");
-    add("shares", "of its left edge: left, right", fmt::format("{}, {}", left.first, left.second),
+    add("weights", "of its left edge: left, right", fmt::format("{}, {}", left.first, left.second),
         "");
   }
   add_delivered(
-      "blend", "shares of neighbours", taps, [&] { return shares_of(golden->taps()[at]); },
-      [](const Delivered& one) { return shares_of(one.tap); });
+      "blend", "weights of neighbours", probes, [&] { return weights_of(golden->probes()[at]); },
+      [](const Delivered& one) { return weights_of(one.probe); });
   add_delivered(
       "signals", "start of frame, end of row", golden != nullptr,
       [&] { return signals_of(at == 0, pixel_.x == width_ - 1); },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Everything that happens to one pixel in the morphological engine: edges, runs and lines of its
-// four sides, shares, blend; golden beside the hardware (docs/reference/run.md, "One pixel").
+// four sides, weights, blend; golden beside the hardware (docs/reference/run.md, "One pixel").
 #pragma once
 
 #include <optional>
@@ -21,11 +21,11 @@ class MorphologicalHistory {
 
   // The next frame, so wide; what was seen of the one before is forgotten.
   void begin(int width);
-  void see(const spec::morphological::RunRecord& run, rtl::Cycle cycle);
-  void see(const spec::morphological::LineRecord& line, rtl::Cycle cycle);
+  void see(const spec::morphological::RunDescriptor& run, rtl::Cycle cycle);
+  void see(const spec::morphological::LineDescriptor& line, rtl::Cycle cycle);
   struct Delivered {
     spec::morphological::Rgba8 pixel;
-    spec::morphological::BlendTap tap;
+    spec::morphological::BlendProbe probe;
     bool first = false, last = false;  // what its beat says: of the frame, of its row
     rtl::Cycle cycle;
   };
@@ -41,15 +41,15 @@ class MorphologicalHistory {
   using Seen = std::vector<std::pair<T, rtl::Cycle>>;
   // Runs along one of the pixel's sides.
   struct Side;
-  bool is_at(const Side& side, const spec::morphological::RunRecord& run) const;
-  bool is_near(const spec::morphological::RunRecord& run) const;
+  bool is_at(const Side& side, const spec::morphological::RunDescriptor& run) const;
+  bool is_near(const spec::morphological::RunDescriptor& run) const;
   void add_side(const Side& side, const golden::morphological::MorphologicalGolden* golden,
                 const PixelSides& came, PixelHistory& all) const;
 
   PixelAddress pixel_;
   int width_ = 0;
-  Seen<spec::morphological::RunRecord> runs_;
-  Seen<spec::morphological::LineRecord> lines_;
+  Seen<spec::morphological::RunDescriptor> runs_;
+  Seen<spec::morphological::LineDescriptor> lines_;
   std::vector<Delivered> delivered_;  // one, of an engine that is right
 };
 

@@ -10,11 +10,11 @@ namespace {
 
 enum : std::size_t { kEdges, kRunLength, kSteps };
 
-using spec::morphological::RunRecord;
+using spec::morphological::RunDescriptor;
 
 // Pixels at the lower or right side of a run.
 template <class Visit>
-void each_pixel(const RunRecord& run, Visit&& visit) {
+void each_pixel(const RunDescriptor& run, Visit&& visit) {
   const bool horizontal = run.axis == spec::morphological::Axis::kHorizontal;
   for (int i = run.start; i < run.start + run.length; ++i)
     horizontal ? visit(i, run.line) : visit(run.line, i);
@@ -42,12 +42,12 @@ void MorphologicalMaps::begin(int width, int height) {
     std::fill(maps_[map].values.begin(), maps_[map].values.end(), 0.0F);
 }
 
-void MorphologicalMaps::see(std::size_t position, const spec::morphological::BlendTap& tap) {
+void MorphologicalMaps::see(std::size_t position, const spec::morphological::BlendProbe& probe) {
   if (!maps_.empty() && position < maps_[kEdges].values.size())
-    maps_[kEdges].values[position] = static_cast<float>(std::popcount(tap.edges));
+    maps_[kEdges].values[position] = static_cast<float>(std::popcount(probe.edges));
 }
 
-void MorphologicalMaps::see(const RunRecord& run) {
+void MorphologicalMaps::see(const RunDescriptor& run) {
   if (maps_.empty()) return;
   PictureMap& map = maps_[kRunLength];
   each_pixel(run, [&](int x, int y) {
@@ -57,7 +57,7 @@ void MorphologicalMaps::see(const RunRecord& run) {
   });
 }
 
-void MorphologicalMaps::see(const spec::morphological::LineRecord& line) {
+void MorphologicalMaps::see(const spec::morphological::LineDescriptor& line) {
   if (maps_.empty()) return;
   const int steps = line.left_steps + line.right_steps;
   each_pixel(line.run, [&](int x, int y) {

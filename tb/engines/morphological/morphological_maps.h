@@ -16,9 +16,9 @@ class MorphologicalMaps {
  public:
   // The next frame; what was seen of the one before is forgotten.
   void begin(int width, int height);
-  void see(std::size_t position, const spec::morphological::BlendTap& tap);
-  void see(const spec::morphological::RunRecord& run);
-  void see(const spec::morphological::LineRecord& line);
+  void see(std::size_t position, const spec::morphological::BlendProbe& probe);
+  void see(const spec::morphological::RunDescriptor& run);
+  void see(const spec::morphological::LineDescriptor& line);
   // `only_frame`: the engine's counters are of this frame, and its maps must come to them.
   std::vector<PictureMap> maps(const rtl::morphological::MorphologicalEngine& engine,
                                bool only_frame) const;

@@ -14,13 +14,13 @@ constexpr double kPixelClock1080p60 = 148.5;  // MHz
 }  // namespace
 
 std::uint64_t latency_by_formula(const spec::morphological::Parameters& p, int width) {
-  const auto reach = static_cast<std::uint64_t>(p.window_rows / 2 - 1);
-  return (reach + spec::morphological::kRowLag) *
+  const auto search_range = static_cast<std::uint64_t>(p.window_rows / 2 - 1);
+  return (search_range + spec::morphological::kRowLag) *
              platform::beats_a_row(width, platform::lanes_of(p)) +
          spec::morphological::kPipelineLatency;
 }
 
-std::uint64_t frame_clocks_by_formula(const spec::morphological::Parameters& p, int width,
+std::uint64_t frame_cycles_by_formula(const spec::morphological::Parameters& p, int width,
                                       int height) {
   return latency_by_formula(p, width) +
          static_cast<std::uint64_t>(height) * platform::beats_a_row(width, platform::lanes_of(p));
@@ -37,13 +37,13 @@ void MorphologicalMeter::collect(Result& result) const {
   add(result, "edge_pixels_percent", 100 * ratio(work.edge_pixels, work.pixels), "%",
       "Pixels with a left or a top edge.");
   add(result, "blended_pixels_percent", 100 * ratio(work.blended_pixels, work.pixels), "%",
-      "Pixels that took a share of a neighbour.");
+      "Pixels that took a weight of a neighbour.");
   for (const auto* divider : {&engine.divider_h, &engine.divider_v}) {
-    const double clocks =
+    const double cycles =
         number(divider->busy_cycles() + divider->idle_cycles() + divider->stalled_cycles());
     add(result, name_within(engine, *divider) + "_occupancy_percent",
-        100 * ratio(number(divider->occupancy.value()), lanes() * clocks), "%",
-        "Occupancy: divisions x divider.interval over clocks x lanes, the clocks in which a "
+        100 * ratio(number(divider->occupancy.value()), lanes() * cycles), "%",
+        "Occupancy: divisions x divider.interval over cycles x lanes, the cycles in which a "
         "divider could not start another; at 100 % it is the limit. The unit is busy for longer, "
         "while a division is under way.");
   }
@@ -60,7 +60,7 @@ void MorphologicalMeter::show_parts(Observer& observer, const rtl::LinkBase& in,
 }
 
 std::vector<Figure> MorphologicalMeter::work_figures() const {
-  constexpr const char* kOccupancy = "divisions x interval, of clocks x lanes";
+  constexpr const char* kOccupancy = "divisions x interval, of cycles x lanes";
   return {{"Divider occupancy, horizontal runs", key("divider_h_occupancy_percent"), kOccupancy},
           {"Divider occupancy, vertical runs", key("divider_v_occupancy_percent"), kOccupancy},
           {"Pixels on edges", key("edge_pixels_percent")},
@@ -76,50 +76,50 @@ void MorphologicalMeter::collect_headline(Result& result, double clock_mhz) cons
   result.throughput_bound_meaning =
       "A beat a clock, a pixel a lane; filling and flushing the window not counted.";
 
-  collect_clocks(result, clock_mhz);
+  collect_cycles(result, clock_mhz);
   result.figures = headline_figures();
   result.bottleneck = find_bottleneck(result.units, figure("blender"));
 }
 
-void MorphologicalMeter::collect_clocks(Result& result, double clock_mhz) const {
+void MorphologicalMeter::collect_cycles(Result& result, double clock_mhz) const {
   const spec::morphological::Parameters& p = setup_.morphological;
   const int width = std::max(1, progress_.width), height = std::max(1, progress_.height);
-  const std::uint64_t frame_clocks = engine_.sequencer.frame_cycles.value();
-  const std::uint64_t by_formula = frame_clocks_by_formula(p, width, height);
-  add(result, "frame_clocks", frame_clocks, "clk",
+  const std::uint64_t frame_cycles = engine_.sequencer.frame_cycles.value();
+  const std::uint64_t by_formula = frame_cycles_by_formula(p, width, height);
+  add(result, "frame_cycles", frame_cycles, "clk",
       "Of the last frame, from its first input beat to its last output beat.");
-  add(result, "frame_clocks_by_formula", by_formula, "clk", "The same if nothing stalls.");
+  add(result, "frame_cycles_by_formula", by_formula, "clk", "The same if nothing stalls.");
   add(result, "latency_by_formula", latency_by_formula(p, width), "clk",
-      "From a pixel going in to it coming out if nothing stalls: (R + 5) rows and the clocks of "
+      "From a pixel going in to it coming out if nothing stalls: (R + 5) rows and the cycles of "
       "the pipe.");
-  add(result, "input_pixels_per_clock",
+  add(result, "input_pixels_per_cycle",
       progress_.source->done()
           ? ratio(number(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height)),
-                  number(progress_.input_clocks()))
+                  number(progress_.input_cycles()))
           : 0.0,
-      "pixel/clk", "Pixels of the last frame over clocks from its first to its last input beat.");
+      "pixel/clk", "Pixels of the last frame over cycles from its first to its last input beat.");
   add(result, "memory_bytes_per_pixel",
       ratio(number(result.bytes_read + result.bytes_written), number(progress_.delivered)),
       "byte/pixel", "Written and read again; 0 with line buffers.");
-  add(result, "frame_rate", frame_clocks ? clock_mhz * 1e6 / number(frame_clocks) : 0.0, "frame/s",
+  add(result, "frame_rate", frame_cycles ? clock_mhz * 1e6 / number(frame_cycles) : 0.0, "frame/s",
       "Frames of this size a second at the stated clock.");
-  // As slow for its clocks as this frame was, if that was slower than the formula; unknown before
+  // As slow for its cycles as this frame was, if that was slower than the formula; unknown before
   // the first frame is through.
-  const double slowness = std::max(1.0, ratio(number(frame_clocks), number(by_formula)));
-  const double hd = slowness * clock_for_60(frame_clocks_by_formula(p, 1920, 1080));
-  add(result, "clock_for_1080p60", frame_clocks ? WorkValue(hd) : WorkValue(), "MHz",
+  const double slowness = std::max(1.0, ratio(number(frame_cycles), number(by_formula)));
+  const double hd = slowness * clock_for_60(frame_cycles_by_formula(p, 1920, 1080));
+  add(result, "clock_for_1080p60", frame_cycles ? WorkValue(hd) : WorkValue(), "MHz",
       "Clock that 60 frames of 1920 x 1080 need, stalls of this run in proportion.");
   add(result, "pixel_clock_of_1080p60", kPixelClock1080p60, "MHz",
       "Of the standard, blanking included.");
-  add(result, "fits_1080p60", frame_clocks ? WorkValue(hd <= kPixelClock1080p60) : WorkValue(), "",
+  add(result, "fits_1080p60", frame_cycles ? WorkValue(hd <= kPixelClock1080p60) : WorkValue(), "",
       "Whether clock_for_1080p60 is at most the pixel clock of 1080p60, 148.5 MHz.");
 }
 
 std::vector<Figure> MorphologicalMeter::headline_figures() const {
-  const std::uint64_t frame_clocks = engine_.sequencer.frame_cycles.value();
+  const std::uint64_t frame_cycles = engine_.sequencer.frame_cycles.value();
   std::vector<Figure> figures;
-  if (frame_clocks)
-    figures = {{"Frame", "work.frame_clocks", "formula", "work.frame_clocks_by_formula", true},
+  if (frame_cycles)
+    figures = {{"Frame", "work.frame_cycles", "formula", "work.frame_cycles_by_formula", true},
                {"Clock for 1080p60", "work.clock_for_1080p60", "pixel clock",
                 "work.pixel_clock_of_1080p60", true},
                {"Fits 1080p60", "work.fits_1080p60"},
@@ -127,8 +127,8 @@ std::vector<Figure> MorphologicalMeter::headline_figures() const {
   if (engine_.beat_latency.count() > 0)
     figures.push_back(
         {"Latency of a pixel", "latency.max", "formula", "work.latency_by_formula", true});
-  if (progress_.source->done() && frame_clocks)
-    figures.push_back({"Input rate", "work.input_pixels_per_clock", "lanes", "throughput.bound"});
+  if (progress_.source->done() && frame_cycles)
+    figures.push_back({"Input rate", "work.input_pixels_per_cycle", "lanes", "throughput.bound"});
   if (progress_.memory)
     figures.push_back({"Memory traffic", "work.memory_bytes_per_pixel", "", "", true});
   for (Figure& figure : work_figures()) figures.push_back(std::move(figure));

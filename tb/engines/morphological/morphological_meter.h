@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figures of the morphological engine: units and counters, and its clocks against those of the
+// Figures of the morphological engine: units and counters, and its cycles against those of the
 // formulas (docs/reference/morphological/hardware.md).
 #pragma once
 
@@ -17,10 +17,10 @@ namespace deburr::tb {
 
 // ---- figures of the engine by formula (docs/reference/morphological/hardware.md) ----------------
 
-// Unstalled clocks from a beat being popped to the same beat being pushed.
+// Unstalled cycles from a beat being popped to the same beat being pushed.
 std::uint64_t latency_by_formula(const spec::morphological::Parameters& parameters, int width);
-// Unstalled clocks of a frame, from its first pop to its last push.
-std::uint64_t frame_clocks_by_formula(const spec::morphological::Parameters& parameters, int width,
+// Unstalled cycles of a frame, from its first pop to its last push.
+std::uint64_t frame_cycles_by_formula(const spec::morphological::Parameters& parameters, int width,
                                       int height);
 
 // How far the environment is.
@@ -29,8 +29,8 @@ struct MorphologicalProgress {
   std::uint64_t delivered = 0;                    // pixels of all frames
   const FrameSource* source = nullptr;            // none in a composition
   const platform::MemoryModel* memory = nullptr;  // none with line buffers
-  // Clocks of the last frame from its first to its last input beat.
-  rtl::Cycle input_clocks() const { return source->last_cycle() - source->first_cycle() + 1; }
+  // Cycles of the last frame from its first to its last input beat.
+  rtl::Cycle input_cycles() const { return source->last_cycle() - source->first_cycle() + 1; }
 };
 
 class MorphologicalMeter : public Meter {
@@ -47,7 +47,7 @@ class MorphologicalMeter : public Meter {
 
  private:
   int lanes() const { return platform::lanes_of(setup_.morphological); }
-  void collect_clocks(Result& result, double clock_mhz) const;
+  void collect_cycles(Result& result, double clock_mhz) const;
   std::vector<Figure> headline_figures() const;
 
   const rtl::morphological::MorphologicalEngine& engine_;

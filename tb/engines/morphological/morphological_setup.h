@@ -18,10 +18,10 @@ inline constexpr std::string_view kMorphologicalMemory = "frame_memory";
 struct MorphologicalSetup {
   spec::morphological::Parameters morphological;
   MemoryParameters memory;  // storage = memory only
-  bool records = false;     // runs and lines inside the engine are compared too
+  bool descriptors = false;     // runs and lines inside the engine are compared too
   std::uint32_t pixel_base = 0;
   // Loaded before the first frame; else the engine has those that it was built with.
-  std::optional<golden::morphological::ShareTables> shares = std::nullopt;
+  std::optional<golden::morphological::WeightTables> weights = std::nullopt;
   // A golden model that has worked on the frames, which are all the same, already; null: it works
   // here. Its parameters may differ in what is built. Never with errors of memory.
   std::shared_ptr<const golden::morphological::MorphologicalGolden> expectation = nullptr;

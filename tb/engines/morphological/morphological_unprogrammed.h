@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "spec/morphological/parameters.h"
-#include "tb/harness/other_rules.h"
+#include "tb/harness/other_configuration.h"
 
 namespace deburr::tb {
 
@@ -16,9 +16,9 @@ inline spec::morphological::Parameters unprogrammed(spec::morphological::Paramet
   constexpr std::array<std::string_view, 13> kBuilt = {
       "edges.source", "edges.threshold_mode", "ends",         "border",         "contiguous",
       "area",         "area_values",          "diagonals",    "diagonal_steps", "round_corners",
-      "text_guard",   "window_rows",          "reach_columns"};
-  OtherRules other(kBuilt);
-  describe(static_cast<spec::morphological::Rules&>(p), other);
+      "text_guard",   "window_rows",          "search_columns"};
+  OtherConfiguration other(kBuilt);
+  describe(static_cast<spec::morphological::Configuration&>(p), other);
   // Luma and colour are built alike, so are depth and predicated; the first of each has a dynamic
   // threshold.
   const bool fixed = p.threshold_mode == ThresholdMode::kFixed;

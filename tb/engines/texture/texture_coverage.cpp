@@ -25,7 +25,7 @@ constexpr std::array kGroups = {
                   "Fragments with the kernel tent: of fewer than four samples, which it leaves as "
                   "they are, and of more."},
     CoverageGroup{"texture/cache",
-                  "Look-ups by outcome, and clocks in which the miss queue was full."}};
+                  "Look-ups by outcome, and cycles in which the miss queue was full."}};
 
 constexpr std::array<std::string_view, 4> kCache = {"hit", "miss", "merged", "queue_full"};
 constexpr int kMaxSamples = 16;
@@ -96,14 +96,14 @@ Coverage TextureCoverage::bins(const rtl::texture::TextureUnit& unit) const {
     coverage.hit(fmt::format("texture/magnified/{}", spec::texture::kMagFilterNames[filter]),
                  magnified_[filter]);
   coverage.hit(
-      fmt::format("texture/output/{}", spec::texture::kSrgbOutputNames[index(rules_.srgb_output)]),
+      fmt::format("texture/output/{}", spec::texture::kSrgbOutputNames[index(configuration_.srgb_output)]),
       formats_[index(spec::texture::Format::kSrgb8A8)]);
   for (std::size_t n = 1; n < samples_.size(); ++n) {
     coverage.hit(fmt::format("texture/samples/{}", n), samples_[n]);
-    if (rules_.kernel == Kernel::kTent)
+    if (configuration_.kernel == Kernel::kTent)
       coverage.hit(n < 4 ? "texture/tent/narrow" : "texture/tent/wide", samples_[n]);
   }
-  const int axes = golden::texture::candidates(rules_.axes);
+  const int axes = golden::texture::candidates(configuration_.axes);
   for (int k = 0; k < axes; ++k)
     coverage.hit(fmt::format("texture/major/{}/{}", axes, k), major_[index(k)]);
   const auto& tags = unit.cache.tag_stage;

@@ -18,11 +18,11 @@ namespace deburr::tb {
 
 class TextureCoverage {
  public:
-  explicit TextureCoverage(const spec::texture::Rules& rules) : rules_(rules) {}
+  explicit TextureCoverage(const spec::texture::Configuration& configuration) : configuration_(configuration) {}
 
   // A quad that the unit is given.
   void see(const golden::texture::TextureGolden& golden, const spec::texture::Quad& quad);
-  void clear() { *this = TextureCoverage(rules_); }
+  void clear() { *this = TextureCoverage(configuration_); }
   // With what the unit counted itself.
   Coverage bins(const rtl::texture::TextureUnit& unit) const;
 
@@ -36,7 +36,7 @@ class TextureCoverage {
   using ByWrap = Counts<decltype(spec::texture::kWrapNames)>;
   using ByMode = std::array<ByWrap, spec::texture::kMinFilterNames.size()>;
 
-  spec::texture::Rules rules_;
+  spec::texture::Configuration configuration_;
   std::array<ByMode, spec::texture::kLayoutNames.size()> modes_{};
   Counts<decltype(spec::texture::kFormatNames)> formats_{};
   Counts<decltype(spec::texture::kMagFilterNames)> magnified_{};

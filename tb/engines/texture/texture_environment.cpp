@@ -25,7 +25,7 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
       setup_(setup),
       faults_(simulation.faults(), this->name(), setup_),
       quad_driver_("driver", simulation.clock()),
-      unit_("texture", simulation.clock(), faults_.as_built(), memory_clocks(setup_),
+      unit_("texture", simulation.clock(), faults_.as_built(), memory_cycles(setup_),
             setup_.stand_ins),
       memory_("memory", simulation.clock().period(),
               memory_model_parameters(setup.memory, scene.memory().bytes().size(),
@@ -74,7 +74,7 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
     DEBURR_CHECK(!setup.expectation, "a pixel is followed through a golden model of its own");
     history_ = std::make_unique<TextureHistory>(simulation.clock(), unit_, quads_, colours, *pixel);
   }
-  plant_in(memory_, setup.memory);
+  inject_in(memory_, setup.memory);
   fetch_again_ = faults_.fetches_again();
   faults_.load(driver_, scene.memory());
 
@@ -133,7 +133,7 @@ void TextureEnvironment::configure() {
 
 void TextureEnvironment::watch() {
   if (fetch_again_ && memory_.lines_read().size() > kFaultyRequest) fetch_again();
-  if (!memory_.lines_read().empty())  // in most clocks it is
+  if (!memory_.lines_read().empty())  // in most cycles it is
     checks_.check_traffic(memory_, simulation().clock().cycle(), !fetch_again_);
 }
 

@@ -6,8 +6,8 @@
 
 namespace deburr::tb {
 
-std::vector<PlantedFault> TextureFaults::list() {
-  std::vector<PlantedFault> list = {
+std::vector<InjectedFault> TextureFaults::list() {
+  std::vector<InjectedFault> list = {
       {"flip-bit", "Flips a bit of the red channel of colour 100.", "flip:colours:100:rgba.r.4"},
       {"drop-colour", "Drops colour 100.", "drop:colours:100"},
       {"duplicate-colour", "Delivers colour 100 twice.", "duplicate:colours:100"},
@@ -27,19 +27,19 @@ std::vector<PlantedFault> TextureFaults::list() {
       {"wrong-sample", "Gives request 401 the weight of another number of samples.",
        "flip:texture.texel_quads:401:control.last_index.2"},
       {"wrong-replacement", "The cache replaces by FIFO where LRU was ordered."}};
-  for (PlantedFault& fault : memory_faults()) list.push_back(std::move(fault));
+  for (InjectedFault& fault : memory_faults()) list.push_back(std::move(fault));
   return list;
 }
 
 spec::texture::Parameters TextureFaults::as_built() const {
   spec::texture::Parameters p = setup_.texture;
-  if (planted("wrong-replacement")) p.cache_replacement = spec::texture::Replacement::kFifo;
+  if (injected("wrong-replacement")) p.cache_replacement = spec::texture::Replacement::kFifo;
   return p;
 }
 
 void TextureFaults::load(platform::TextureDriver& driver,
                          const platform::TextureMemory& textures) const {
-  if (!planted("wrong-texel")) return driver.load(textures.bytes());
+  if (!injected("wrong-texel")) return driver.load(textures.bytes());
   std::vector<std::uint8_t> bytes = textures.bytes();
   for (std::uint8_t& byte : bytes) byte ^= 0x10;
   driver.load(bytes);

@@ -11,7 +11,7 @@
 #include "rtl_model/platform/texture_memory.h"
 #include "spec/texture/parameters.h"
 #include "tb/engines/texture/texture_setup.h"
-#include "tb/env/planted_faults.h"
+#include "tb/env/injected_faults.h"
 
 namespace deburr::tb {
 
@@ -21,12 +21,12 @@ class TextureFaults : public EngineFaults {
   TextureFaults(const FaultPlan& plan, std::string environment, const TextureSetup& setup)
       : EngineFaults(plan, std::move(environment)), setup_(setup) {}
 
-  static std::vector<PlantedFault> list();
+  static std::vector<InjectedFault> list();
   // What the unit is built with; the golden model always gets what was ordered.
   spec::texture::Parameters as_built() const;
   // The textures, as they go to memory.
   void load(platform::TextureDriver& driver, const platform::TextureMemory& textures) const;
-  bool fetches_again() const { return planted("duplicate-fetch"); }
+  bool fetches_again() const { return injected("duplicate-fetch"); }
 
  private:
   const TextureSetup& setup_;

@@ -75,9 +75,9 @@ TextureHistory::TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUni
       [this](rtl::Cycle cycle, const CacheToken& token) {
         Fragment* const fragment = find(token.ticket.tag, token.ticket.lane);
         if (!fragment) return;
-        fragment->look_ups.emplace_back(std::vector<LookedUp>(), cycle);
+        fragment->lookups.emplace_back(std::vector<LookedUp>(), cycle);
         if (!looked_up_.empty() && looked_up_.front().cycle == cycle)
-          fragment->look_ups.back().first = looked_up_;
+          fragment->lookups.back().first = looked_up_;
       }));
   see_all(clock, link_of<TexelQuadToken>(unit, "texel_quads"), &Fragment::data);
   // As they are taken: what happens to a colour while it waits has happened to it.
@@ -161,7 +161,7 @@ class TextureHistory::Writer {
     footprint();
     level();
     const std::size_t requests =
-        std::max({f_.requests.size(), f_.samples.size(), f_.texels.size(), f_.look_ups.size()});
+        std::max({f_.requests.size(), f_.samples.size(), f_.texels.size(), f_.lookups.size()});
     for (std::size_t i = 0; i < requests; ++i) request(i);
     colour();
   }
@@ -293,7 +293,7 @@ class TextureHistory::Writer {
   void lines(std::size_t i, const std::string& step, const BilinearRequest* golden) {
     constexpr std::array<const char*, 3> kOutcomes = {"hit", "merged", "miss"};
     const std::vector<LookedUp> seen =
-        i < f_.look_ups.size() ? f_.look_ups[i].first : std::vector<LookedUp>();
+        i < f_.lookups.size() ? f_.lookups[i].first : std::vector<LookedUp>();
     const std::vector<std::uint32_t> expected =
         golden ? lines_of(*golden, from_.line_bytes_) : std::vector<std::uint32_t>();
     const auto misses = [&](std::size_t g) {

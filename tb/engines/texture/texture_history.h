@@ -65,7 +65,7 @@ class TextureHistory {
     Seen<rtl::texture::LevelToken> level{};
     AllSeen<rtl::texture::SampleToken> samples{};
     AllSeen<rtl::texture::TexelToken> texels{};
-    AllSeen<std::vector<LookedUp>> look_ups{};  // by request
+    AllSeen<std::vector<LookedUp>> lookups{};  // by request
     AllSeen<rtl::texture::TexelQuadToken> data{};
     AllSeen<spec::texture::Colour> delivered{};  // one, of a unit that is right
   };

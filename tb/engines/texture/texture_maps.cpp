@@ -26,12 +26,12 @@ TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& uni
               height),
       latency_(
           "latency", "Latency", "clk",
-          "Clocks from a fragment's quad being taken to its colour; of several in a pixel the sum.",
+          "Cycles from a fragment's quad being taken to its colour; of several in a pixel the sum.",
           width, height) {
   const auto add = [this](std::uint32_t tag, std::uint8_t lane, PictureMap& map, double value,
                           double* unplaced) {
     const traces::TracedQuad* quad = sent_.find(tag);
-    if (!quad || lane >= 4) return;  // of a planted fault
+    if (!quad || lane >= 4) return;  // of a injected fault
     if (quad->placed)
       map.add(quad->x(lane), quad->y(lane), value);
     else if (unplaced)

@@ -22,13 +22,13 @@ void TextureMeter::collect(Result& result) const {
   add(result, "fragments", fragments, "fragment", "Colours delivered.");
   add(result, "bilinears", bilinears, "request", "Bilinear requests, one a sample and level.");
   add(result, "bilinears_per_fragment", ratio(bilinears, fragments), "request/fragment",
-      "Cost of a fragment in clocks while nothing stalls.");
+      "Cost of a fragment in cycles while nothing stalls.");
   add(result, "misses_per_texel", ratio(number(lines), 4 * number(bilinears)), "line/texel",
       "Line fills over texels asked for.");
   const double texel_hits = 100 - 100 * ratio(number(lines), 4 * number(bilinears));
   add(result, "texel_hits_percent", texel_hits, "%",
       "Texels asked for that ordered no line: 100 - 100 x misses_per_texel.");
-  if (looks_up()) collect_look_ups(result, texel_hits);
+  if (looks_up()) collect_lookups(result, texel_hits);
   add(result, "texels_fetched_per_fragment",
       ratio(number(lines) * unit_.parameters().cache_line_bytes / texel_bytes, number(fragments)),
       "texel/fragment", "Texels of all lines fetched over fragments.");
@@ -37,23 +37,23 @@ void TextureMeter::collect(Result& result) const {
   add_counters(result, unit_);
 }
 
-void TextureMeter::collect_look_ups(Result& result, double texel_hits) const {
+void TextureMeter::collect_lookups(Result& result, double texel_hits) const {
   const rtl::texture::TagStage& tags = unit_.cache.tag_stage;
-  const std::uint64_t look_ups = tags.hits.value() + tags.merged.value() + tags.misses.value();
-  const auto of_look_ups = [&](const rtl::Counter& count) {
-    return 100 * ratio(count.value(), look_ups);
+  const std::uint64_t lookups = tags.hits.value() + tags.merged.value() + tags.misses.value();
+  const auto of_lookups = [&](const rtl::Counter& count) {
+    return 100 * ratio(count.value(), lookups);
   };
-  add(result, "look_up_hits_percent", of_look_ups(tags.hits), "%",
+  add(result, "lookup_hits_percent", of_lookups(tags.hits), "%",
       "Look-ups of tags, one a line of a request, that found their line in the data banks.");
-  add(result, "look_up_merged_percent", of_look_ups(tags.merged), "%",
+  add(result, "lookup_merged_percent", of_lookups(tags.merged), "%",
       "Look-ups that found the fill of their line under way: they order none, and wait for it.");
-  add(result, "look_up_misses_percent", of_look_ups(tags.misses), "%",
+  add(result, "lookup_misses_percent", of_lookups(tags.misses), "%",
       "Look-ups that ordered a fill.");
   result.terminal.push_back(
       {"hits",
        fmt::format("{:.2f} % of look-ups, {:.2f} % more merged with a fill under way; {:.2f} "
                    "% of texels",
-                   of_look_ups(tags.hits), of_look_ups(tags.merged), texel_hits)});
+                   of_lookups(tags.hits), of_lookups(tags.merged), texel_hits)});
 }
 
 void TextureMeter::show_parts(Observer& observer, const rtl::LinkBase& in,
@@ -75,8 +75,8 @@ void TextureMeter::collect_headline(Result& result) const {
                     {"Line fills of a texel", key("misses_per_texel")},
                     {"Texels without a line fill", key("texel_hits_percent")}};
   if (looks_up()) {
-    result.figures.push_back({"Look-ups that hit", key("look_up_hits_percent")});
-    result.figures.push_back({"Look-ups of a line under way", key("look_up_merged_percent")});
+    result.figures.push_back({"Look-ups that hit", key("lookup_hits_percent")});
+    result.figures.push_back({"Look-ups of a line under way", key("lookup_merged_percent")});
   }
   result.figures.push_back({"Texels fetched for a fragment", key("texels_fetched_per_fragment")});
   if (!unit_.address.derivative.replaced() && looks_up() && !unit_.filter.replaced())

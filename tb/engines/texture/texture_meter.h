@@ -27,7 +27,7 @@ class TextureMeter : public Meter {
  private:
   // The look-ups are counted; nobody counts those of a cache that is replaced.
   bool looks_up() const { return !unit_.cache.tag_stage.replaced(); }
-  void collect_look_ups(Result& result, double texel_hits) const;
+  void collect_lookups(Result& result, double texel_hits) const;
 
   const rtl::texture::TextureUnit& unit_;
   const platform::MemoryModel& memory_;

@@ -36,7 +36,7 @@ Scene load(const SceneParameters& p, WrapChoice wrap, std::uint32_t seed, const 
   options.seed = seed;
   Scene scene = load_scene(p.source, options);
   // Before anything is made of it: the rasteriser (which shifts coordinates by whole repeats) and
-  // the truth go by it as well.
+  // the reference go by it as well.
   for (Texture& texture : scene.mesh.textures) {
     texture.wrap_s = chosen(wrap, texture.wrap_s);
     texture.wrap_t = chosen(wrap, texture.wrap_t);

@@ -107,7 +107,7 @@ class TextureScene final : public DrawnScene {
                                         const SamplerParameters& sampler, std::uint32_t seed,
                                         int width, int height);
 
-  // With the wrap modes of the sampler, so that its truth is what the unit is asked for.
+  // With the wrap modes of the sampler, so that its reference is what the unit is asked for.
   const Scene& scene() const override { return scene_; }
   const FragmentStream& stream() const override { return stream_; }
   const platform::TextureMemory& memory() const { return memory_; }

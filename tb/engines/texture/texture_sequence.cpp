@@ -20,13 +20,13 @@ std::vector<Flicker> flicker_of(const SceneParameters& scene_parameters,
   std::vector<FlickerMeter> meters(filters.size());
   for (int i = 0; i < sequence.frames; ++i) {
     const TextureScene scene(scene_parameters, sampler, seed, {sequence.motion, i});
-    RenderOptions options_of_truth = options.truth;
-    options_of_truth.width = scene.stream().width;
-    options_of_truth.height = scene.stream().height;
-    options_of_truth.samples = options.truth_samples;
-    const Image truth = render(scene.scene(), options_of_truth);
+    RenderOptions options_of_reference = options.reference;
+    options_of_reference.width = scene.stream().width;
+    options_of_reference.height = scene.stream().height;
+    options_of_reference.samples = options.reference_samples;
+    const Image reference = render(scene.scene(), options_of_reference);
     for (std::size_t r = 0; r < filters.size(); ++r)
-      meters[r].add(filters[r](scene), truth, drawn_pixels(scene));
+      meters[r].add(filters[r](scene), reference, drawn_pixels(scene));
   }
   std::vector<Flicker> flicker;
   flicker.reserve(meters.size());
@@ -36,10 +36,10 @@ std::vector<Flicker> flicker_of(const SceneParameters& scene_parameters,
 
 std::vector<Flicker> flicker_of(const SceneParameters& scene, const SamplerParameters& sampler,
                                 std::uint32_t seed, const SequenceParameters& sequence,
-                                std::span<const spec::texture::Parameters> rules,
+                                std::span<const spec::texture::Parameters> configuration,
                                 const SequenceOptions& options) {
   std::vector<FrameFilter> filters;
-  for (const spec::texture::Parameters& parameters : rules)
+  for (const spec::texture::Parameters& parameters : configuration)
     filters.emplace_back(
         [&parameters](const TextureScene& moved) { return golden_frame(moved, parameters).image; });
   return flicker_of(scene, sampler, seed, sequence, filters, options);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Flicker of many filters at once over the same moving camera: how much more or less a pixel
-// changes from frame to frame than its truth does. What a single picture's PSNR does not show.
+// changes from frame to frame than its reference does. What a single picture's PSNR does not show.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include "spec/texture/parameters.h"
 #include "tb/engines/texture/texture_scene.h"
 #include "tb/env/sequence.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 
 namespace deburr::tb {
 
@@ -22,8 +22,8 @@ struct Flicker {
 };
 
 struct SequenceOptions {
-  int truth_samples = 16;  // each way in a pixel
-  RenderOptions truth{};   // sampling and averaging of the truth
+  int reference_samples = 16;  // each way in a pixel
+  RenderOptions reference{};   // sampling and averaging of the reference
 };
 
 // Those that hold a surface.
@@ -41,7 +41,7 @@ std::vector<Flicker> flicker_of(const SceneParameters& scene, const SamplerParam
 // The same of the golden model by each set of rules.
 std::vector<Flicker> flicker_of(const SceneParameters& scene, const SamplerParameters& sampler,
                                 std::uint32_t seed, const SequenceParameters& sequence,
-                                std::span<const spec::texture::Parameters> rules,
+                                std::span<const spec::texture::Parameters> configuration,
                                 const SequenceOptions& options = {});
 
 }  // namespace deburr::tb

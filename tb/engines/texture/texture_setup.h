@@ -33,16 +33,16 @@ struct TextureSetup {
   std::shared_ptr<const TextureExpectation> expectation = nullptr;
   // Connects the engine with its memory; null: directly.
   std::function<void(rtl::Engine&, platform::MemoryModel&)> connect{};
-  // What does the work of units of the engine; null: nothing (texture_twins.h).
+  // What does the work of units of the engine; null: nothing (texture_counterparts.h).
   rtl::texture::TextureUnit::StandIns stand_ins{};
 };
 // What this memory takes at most.
-inline rtl::MemoryClocks memory_clocks(const TextureSetup& setup) {
-  return memory_clocks(setup.memory, setup.texture.cache_line_bytes);
+inline rtl::MemoryCycles memory_cycles(const TextureSetup& setup) {
+  return memory_cycles(setup.memory, setup.texture.cache_line_bytes);
 }
 // With the depth of the FIFO that is built.
 inline spec::texture::Parameters as_built(spec::texture::Parameters parameters,
-                                          const rtl::MemoryClocks& memory) {
+                                          const rtl::MemoryCycles& memory) {
   parameters.cache_fifo_depth = rtl::texture::LatencyFifo::depth(parameters, memory);
   return parameters;
 }

@@ -10,9 +10,9 @@
 namespace deburr::tb {
 
 void TextureTestbench::add_parameters(ParameterSet& set) {
-  set.add("run", ParameterKind::kRun, look_up_trace_);
+  set.add("run", ParameterKind::kRun, lookup_trace_);
   set.add("run", ParameterKind::kRun, trace_out_);
-  set.add("run", ParameterKind::kRun, twins_);
+  set.add("run", ParameterKind::kRun, counterparts_);
   set.add("scene", ParameterKind::kInput, scene_);
   set.add("scene", ParameterKind::kInput, trace_in_);
   add_sampler(set, sampler_);

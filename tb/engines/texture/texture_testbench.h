@@ -5,7 +5,7 @@
 #include "spec/texture/parameters.h"
 #include "tb/engines/texture/texture_scene.h"
 #include "tb/engines/texture/texture_traces.h"
-#include "tb/engines/texture/texture_twins.h"
+#include "tb/engines/texture/texture_counterparts.h"
 #include "tb/env/engine_testbench.h"
 #include "tb/env/memory_parameters.h"
 #include "tb/env/sequence.h"
@@ -26,8 +26,8 @@ class TextureTestbench : public virtual EngineTestbench {
  protected:
   std::vector<std::filesystem::path> with_trace(std::vector<std::filesystem::path> files) const;
 
-  LookUpTrace look_up_trace_;
-  TwinParameters twins_;
+  LookupTrace lookup_trace_;
+  CounterpartParameters counterparts_;
   FragmentTraceOut trace_out_;
   FragmentTraceIn trace_in_;
   SceneParameters scene_;

@@ -9,13 +9,13 @@
 namespace deburr::tb {
 
 // Of every engine with a texture unit in it.
-struct LookUpTrace {
-  bool look_ups = false;
+struct LookupTrace {
+  bool lookups = false;
 };
 
 template <class Visitor>
-void describe(LookUpTrace& p, Visitor& v) {
-  v.boolean("line_trace_look_ups", p.look_ups,
+void describe(LookupTrace& p, Visitor& v) {
+  v.boolean("line_trace_lookups", p.lookups,
             "lines.trace has every look-up of the texture cache too, and what came of it.");
 }
 

@@ -2,7 +2,7 @@
 // For every pair of logarithms and every valid descriptor: N, level, fraction and filter are what the page says
 // (docs/reference/texture/formats.md, "Level and count"), reckoned here with bits to spare; L, E and l keep their
 // formats; the level exists, and so does the next one where a fraction asks for it; N is 1 to N_max; magnification
-// reads level 0. The token stays at the link until it leaves, so three clocks from any state are all that there is.
+// reads level 0. The token stays at the link until it leaves, so three cycles from any state are all that there is.
 `include "tokens.svh"
 `include "tables.svh"
 `include "descriptor.svh"
@@ -23,8 +23,8 @@ module level_bounds_proof #(
   level_unit #(.AXES(AXES), .COUNT(COUNT), .CAP(CAP)) unit (
     .clk, .rst_n(1'b1), .in_valid(1'b1), .in_pop, .in_data(token), .out_push, .out_ready(1'b1),
     .out_data(out), .handle, .descriptor);
-  reg [1:0] clocks = 2'd0;
-  always @(posedge clk) if (clocks != 2'd3) clocks <= clocks + 2'd1;
+  reg [1:0] cycles = 2'd0;
+  always @(posedge clk) if (cycles != 2'd3) cycles <= cycles + 2'd1;
   wire [3:0] last = out[`LEVEL_TOKEN_LAST_INDEX];
   wire [3:0] level = out[`LEVEL_TOKEN_LEVEL];
   wire [7:0] fraction = out[`LEVEL_TOKEN_FRACTION];
@@ -79,7 +79,7 @@ module level_bounds_proof #(
     assume (lb_minor <= (AXES == `AXES_TWO ? 65536 : 126976));
   end
   always @*
-    if (clocks >= 2'd2) begin
+    if (cycles >= 2'd2) begin
       a_e: assert (e == page_e);
       a_formats: assert (l_of < 262144 && page_e >= 0 && page_e < 32768 && detail >= -1048576 && detail < 1048576);
       a_samples: assert ({1'b0, last} + 5'd1 == samples);

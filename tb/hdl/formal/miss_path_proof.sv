@@ -6,7 +6,7 @@
 `include "tables.svh"
 module miss_path_proof #(
   parameter integer LINE_BYTES = `CHOSEN_CACHE_LINE_BYTES,
-  parameter integer PLACES = `CHOSEN_CACHE_OUTSTANDING
+  parameter integer ENTRIES = `CHOSEN_CACHE_OUTSTANDING
 ) (
   input logic                        clk,
   input logic                        rst_n,
@@ -15,49 +15,49 @@ module miss_path_proof #(
   input logic                        request_ready,
   input logic                        use_line,
   input logic                        arrive,
-  input logic [$clog2(PLACES)-1:0]   arrive_place,
+  input logic [$clog2(ENTRIES)-1:0]   arrive_place,
   input logic                        arrive_second,  // of two beats
   input logic [15:0]                 arrive_data
 );
-  localparam integer PLACE_BITS = $clog2(PLACES);
-  localparam integer COUNT_BITS = $clog2(PLACES + 1);
+  localparam integer ENTRY_BITS = $clog2(ENTRIES);
+  localparam integer COUNT_BITS = $clog2(ENTRIES + 1);
   localparam integer LINE_BITS = 32 - $clog2(LINE_BYTES);
   localparam integer BEATS = LINE_BYTES > 64 ? 2 : 1;
   localparam integer DATA_BITS = 16 * BEATS;
-  localparam logic [COUNT_BITS:0] ALL = PLACES[COUNT_BITS:0];
+  localparam logic [COUNT_BITS:0] ALL = ENTRIES[COUNT_BITS:0];
 
   logic in_pop, request_push, reserve, can_reserve, line_valid;
   logic [`MEMORY_REQUEST_BITS-1:0] request_data;
-  logic [PLACE_BITS-1:0] reserved;
+  logic [ENTRY_BITS-1:0] reserved;
   logic [DATA_BITS-1:0] line;
-  miss_queue #(.LINE_BYTES(LINE_BYTES), .PLACES(PLACES)) queue (
+  miss_queue #(.LINE_BYTES(LINE_BYTES), .ENTRIES(ENTRIES)) queue (
     .clk, .rst_n, .in_valid, .in_pop, .in_data, .request_push, .request_ready, .request_data, .reserve,
     .can_reserve, .reserved);
-  reg [PLACES-1:0] owed_first, owed_second;  // beats that memory has still to send, by place
+  reg [ENTRIES-1:0] owed_first, owed_second;  // beats that memory has still to send, by place
   wire last = BEATS == 1 || !(arrive_second ? owed_first[arrive_place] : owed_second[arrive_place]);
   wire [1:0] beat = arrive_second ? 2'd2 : 2'd1;
-  fill_buffer #(.LINE_BYTES(2 * BEATS), .BEAT_BYTES(2), .PLACES(PLACES)) fills (
+  fill_buffer #(.LINE_BYTES(2 * BEATS), .BEAT_BYTES(2), .ENTRIES(ENTRIES)) fills (
     .clk, .rst_n, .reserve, .can_reserve, .reserved, .arrive, .arrive_place, .arrive_beat(beat[BEATS-1:0]),
     .arrive_last(last), .arrive_data(arrive_data), .line_valid, .line, .use_line);
 
   // Registers of both units.
   (* hierconn *) wire [COUNT_BITS-1:0] \queue.waiting ;
-  (* hierconn *) wire [PLACE_BITS-1:0] \queue.read_place , \queue.write_place , \queue.f_place ;
+  (* hierconn *) wire [ENTRY_BITS-1:0] \queue.read_place , \queue.write_place , \queue.f_place ;
   (* hierconn *) wire [LINE_BITS-1:0] \queue.f_line ;
   (* hierconn *) wire [COUNT_BITS-1:0] \fills.held ;
-  (* hierconn *) wire [PLACE_BITS-1:0] \fills.read_place ;
-  (* hierconn *) wire [PLACES-1:0] \fills.arrived ;
-  (* hierconn *) wire [PLACE_BITS-1:0] \fills.g_beat[0].lines.f_address , \fills.g_beat[1].lines.f_address ;
+  (* hierconn *) wire [ENTRY_BITS-1:0] \fills.read_place ;
+  (* hierconn *) wire [ENTRIES-1:0] \fills.arrived ;
+  (* hierconn *) wire [ENTRY_BITS-1:0] \fills.g_beat[0].lines.f_address , \fills.g_beat[1].lines.f_address ;
   (* hierconn *) wire [15:0] \fills.g_beat[0].lines.f_word , \fills.g_beat[1].lines.f_word ;
   wire [DATA_BITS-1:0] word;
 
   // The place i behind another one.
-  function automatic [PLACE_BITS-1:0] behind(input [PLACE_BITS-1:0] place, input [COUNT_BITS-1:0] i);
+  function automatic [ENTRY_BITS-1:0] behind(input [ENTRY_BITS-1:0] place, input [COUNT_BITS-1:0] i);
     logic [COUNT_BITS:0] sum;
     begin
-      sum = {{(COUNT_BITS + 1 - PLACE_BITS) {1'b0}}, place} + {1'b0, i};
+      sum = {{(COUNT_BITS + 1 - ENTRY_BITS) {1'b0}}, place} + {1'b0, i};
       if (sum >= ALL) sum = sum - ALL;
-      behind = sum[PLACE_BITS-1:0];
+      behind = sum[ENTRY_BITS-1:0];
     end
   endfunction
 
@@ -79,13 +79,13 @@ module miss_path_proof #(
       came <= 16'd0;
       asked <= 16'd0;
       used <= 16'd0;
-      owed_first <= {PLACES{1'b0}};
-      owed_second <= {PLACES{1'b0}};
+      owed_first <= {ENTRIES{1'b0}};
+      owed_second <= {ENTRIES{1'b0}};
     end else begin
       came <= came + (in_pop ? {13'd0, count} : 16'd0);
       asked <= asked + {15'd0, request_push};
       used <= used + {15'd0, use_line};
-      for (i = 0; i < PLACES; i = i + 1) begin
+      for (i = 0; i < ENTRIES; i = i + 1) begin
         if (request_push && request_data[`MEMORY_REQUEST_TAG] == i) owed_first[i] <= 1'b1;
         else if (arrive && !arrive_second && arrive_place == i) owed_first[i] <= 1'b0;
         if (request_push && request_data[`MEMORY_REQUEST_TAG] == i) owed_second[i] <= BEATS == 2;
@@ -101,7 +101,7 @@ module miss_path_proof #(
   reg followed = 1'b0, sent, done;  // done: used
   reg [15:0] number;
   reg [LINE_BITS-1:0] address;
-  reg [PLACE_BITS-1:0] place;
+  reg [ENTRY_BITS-1:0] place;
   wire its_request = followed && !sent && request_push && asked == number;
   wire its_turn = followed && sent && !done && used == number;
   wire [4*LINE_BITS-1:0] missed = in_data[`MISS_TOKEN_LINE];
@@ -148,11 +148,11 @@ module miss_path_proof #(
   wire [COUNT_BITS-1:0] unread = \fills.held - {{(COUNT_BITS - 1) {1'b0}}, line_valid};
   wire [COUNT_BITS-1:0] front = in_front[COUNT_BITS-1:0] - {{(COUNT_BITS - 1) {1'b0}}, line_valid};
   wire on_register = line_valid && in_front == 16'd0;
-  reg [PLACES-1:0] ring;  // places that are reserved and not read
+  reg [ENTRIES-1:0] ring;  // places that are reserved and not read
   always @*
-    for (i = 0; i < PLACES; i = i + 1)
-      ring[i] = (i >= \fills.read_place ? i - \fills.read_place : i + PLACES - \fills.read_place ) < unread;
-  wire [PLACES-1:0] owed = owed_first | owed_second;
+    for (i = 0; i < ENTRIES; i = i + 1)
+      ring[i] = (i >= \fills.read_place ? i - \fills.read_place : i + ENTRIES - \fills.read_place ) < unread;
+  wire [ENTRIES-1:0] owed = owed_first | owed_second;
   always @* if (past && rst_n) begin
     i_waiting: assert (\queue.waiting <= ALL && came - asked == \queue.waiting );
     i_held: assert (\fills.held <= ALL && asked - used == \fills.held );

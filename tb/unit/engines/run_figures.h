@@ -77,14 +77,14 @@ inline double sum_of(const std::vector<Json>& runs, const std::string& key) {
 }
 
 // What a run of several frames counted against what each of them counts alone, the last one last.
-// Clocks of a frame may differ by `clocks`.
+// Cycles of a frame may differ by `cycles`.
 struct SeveralFrames {
   std::set<std::string> of_the_last{}, largest{};  // figures of `work`; all other counts are sums
   std::set<std::string> by_formula{};              // ratios, which the test works out itself
 };
 inline void expect_sums(const Json& run, const std::vector<Json>& alone,
-                        const SeveralFrames& figures, double clocks = 0) {
-  const double in_all = clocks * static_cast<double>(alone.size());
+                        const SeveralFrames& figures, double cycles = 0) {
+  const double in_all = cycles * static_cast<double>(alone.size());
   EXPECT_NEAR(number_at(run, "/cycles"), sum_of(alone, "/cycles"), in_all);
   for (const char* const key : {"/memory/bytes_read", "/memory/bytes_written",
                                 "/memory/lines_filled", "/checks/traffic_comparisons"})
@@ -97,7 +97,7 @@ inline void expect_sums(const Json& run, const std::vector<Json>& alone,
   for (const auto& [name, value] : run["work"].items()) {
     const std::string key = "/work/" + name;
     if (figures.of_the_last.contains(name)) {
-      EXPECT_NEAR(value.get<double>(), number_at(alone.back(), key), clocks) << name;
+      EXPECT_NEAR(value.get<double>(), number_at(alone.back(), key), cycles) << name;
     } else if (figures.largest.contains(name)) {
       double most = 0;
       for (const Json& one : alone) most = std::max(most, number_at(one, key));
@@ -115,7 +115,7 @@ inline void expect_sums(const Json& run, const std::vector<Json>& alone,
                   2 * in_all)
           << name << cause;
   }
-  // A merge of runs is a sum; bins of stalls are clocks. A run names what it met of bins of tests.
+  // A merge of runs is a sum; bins of stalls are cycles. A run names what it met of bins of tests.
   std::set<std::string> bins;
   for (const Json& one : alone)
     for (const auto& [bin, hits] : one["coverage"]["bins"].items()) bins.insert(bin);
@@ -123,8 +123,8 @@ inline void expect_sums(const Json& run, const std::vector<Json>& alone,
   for (const std::string& bin : bins) {
     double hits = 0;
     for (const Json& one : alone) hits += one["coverage"]["bins"].value(bin, 0.0);
-    const bool in_clocks = bin.find("/stall/") != std::string::npos || bin.ends_with("/waited-for");
-    EXPECT_NEAR(run["coverage"]["bins"].value(bin, 0.0), hits, in_clocks ? 2 * in_all : 0) << bin;
+    const bool in_cycles = bin.find("/stall/") != std::string::npos || bin.ends_with("/waited-for");
+    EXPECT_NEAR(run["coverage"]["bins"].value(bin, 0.0), hits, in_cycles ? 2 * in_all : 0) << bin;
   }
   double count = 0;
   for (const Json& bin : run["latency"]["histogram"]) count += bin["count"].get<double>();
@@ -134,7 +134,7 @@ inline void expect_sums(const Json& run, const std::vector<Json>& alone,
 }
 
 // The history of a pixel, whatever came before its frame.
-inline Json without_clocks(Json pixel) {
+inline Json without_cycles(Json pixel) {
   for (Json& step : pixel["steps"]) step.erase("clock");
   return pixel;
 }

@@ -126,7 +126,7 @@ TEST(MemoryParameters, ReachTheModelEachInItsPlace) {
   MemoryParameters p;
   p.latency = 11;
   p.latency_max = 17;
-  p.bytes_per_clock = 32;
+  p.bytes_per_cycle = 32;
   p.banks = 8;
   p.interleave_bytes = 128;
   p.bank_busy = 5;
@@ -135,7 +135,7 @@ TEST(MemoryParameters, ReachTheModelEachInItsPlace) {
   EXPECT_EQ(m.bytes, 4096u);
   EXPECT_EQ(m.latency_min, 11u);
   EXPECT_EQ(m.latency_max, 17u);
-  EXPECT_EQ(m.bytes_per_clock, 32u);
+  EXPECT_EQ(m.bytes_per_cycle, 32u);
   EXPECT_EQ(m.banks, 8u);
   EXPECT_EQ(m.interleave_bytes, 128u);
   EXPECT_EQ(m.bank_busy, 5u);
@@ -149,19 +149,19 @@ TEST(MemoryParameters, ReachTheModelEachInItsPlace) {
 
 TEST(MemoryParameters, ALineTakesLatencyAndItsTransfer) {
   MemoryTiming p;
-  const auto clocks = [&](std::int32_t latency, std::int32_t most, std::int32_t bytes_per_clock,
+  const auto cycles = [&](std::int32_t latency, std::int32_t most, std::int32_t bytes_per_cycle,
                           std::int32_t line) {
     p.latency = latency;
     p.latency_max = most;
-    p.bytes_per_clock = bytes_per_clock;
-    const rtl::MemoryClocks c = memory_clocks(p, line);
+    p.bytes_per_cycle = bytes_per_cycle;
+    const rtl::MemoryCycles c = memory_cycles(p, line);
     return std::pair<int, int>(c.latency, c.transfer);
   };
-  EXPECT_EQ(clocks(30, 0, 64, 64), std::pair(30, 1));
-  EXPECT_EQ(clocks(30, 40, 16, 64), std::pair(40, 4));
-  EXPECT_EQ(clocks(30, 20, 16, 128), std::pair(30, 8));
-  EXPECT_EQ(clocks(30, 0, 128, 64), std::pair(30, 1)) << "no less than a clock";
-  EXPECT_EQ(clocks(30, 0, 0, 64), std::pair(30, 1)) << "no limit";
+  EXPECT_EQ(cycles(30, 0, 64, 64), std::pair(30, 1));
+  EXPECT_EQ(cycles(30, 40, 16, 64), std::pair(40, 4));
+  EXPECT_EQ(cycles(30, 20, 16, 128), std::pair(30, 8));
+  EXPECT_EQ(cycles(30, 0, 128, 64), std::pair(30, 1)) << "no less than a clock";
+  EXPECT_EQ(cycles(30, 0, 0, 64), std::pair(30, 1)) << "no limit";
 }
 
 TEST(ErrorRange, TouchesWhatItHasAByteOf) {

@@ -20,7 +20,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// Busy for as many clocks as each of its pieces has.
+// Busy for as many cycles as each of its pieces has.
 class Scripted final : public Environment {
  public:
   Scripted(Simulation& simulation, std::vector<rtl::Cycle> pieces)
@@ -109,7 +109,7 @@ TEST(Simulation, RunsPieceAfterPiece) {
   EXPECT_EQ(b.result().cycles, 37u);
 }
 
-// Once, in the first piece, which begins again: its clocks until then do not count.
+// Once, in the first piece, which begins again: its cycles until then do not count.
 TEST(Simulation, AResetBreaksTheFirstPieceOffOnce) {
   SimulationOptions options;
   options.reset_after = 6;
@@ -143,7 +143,7 @@ TEST(Simulation, EndsAtItsLimit) {
     error = over.what();
   }
   EXPECT_THAT(error, HasSubstr("not done after 25 cycles"));
-  EXPECT_THAT(error, HasSubstr("25 of 1,000 clocks are done"));
+  EXPECT_THAT(error, HasSubstr("25 of 1,000 cycles are done"));
   EXPECT_FALSE(b.simulation.complete());
   EXPECT_EQ(b.simulation.cycles(), 25u);
   EXPECT_EQ(b.scripted.notes.back(), "begin@21");
@@ -157,7 +157,7 @@ TEST(Simulation, MayTakeAllOfItsLimit) {
   EXPECT_TRUE(b.simulation.complete());
 }
 
-// Every few thousand clocks, with what came so far; it may end there.
+// Every few thousand cycles, with what came so far; it may end there.
 TEST(Simulation, AsksWhetherToGoOn) {
   Bench b({5000, 5000, 5000});
   std::vector<std::pair<std::uint64_t, std::uint64_t>> asked;

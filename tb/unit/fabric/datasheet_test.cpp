@@ -50,7 +50,7 @@ TEST(Datasheets, OneTitleSaysOneThing) {
   EXPECT_THROW(rtl::merged(builds), spec::CheckFailed);
 }
 
-// Where a text says what the clocks depend on, they may differ from build to build.
+// Where a text says what the cycles depend on, they may differ from build to build.
 TEST(Datasheets, ClocksByATextMayDiffer) {
   Datasheet one = halver("", 3), other = halver("", 4);
   one.latency.text = other.latency.text = "2, and `more`";
@@ -116,8 +116,8 @@ TEST(Datasheets, EachUnitSaysItsOwn) {
 }
 
 TEST(Datasheets, OfTheMemoryPortIsTheContracts) {
-  EXPECT_EQ(rtl::MemoryPort::datasheet().latency.clocks, 2u);
-  EXPECT_EQ(rtl::MemoryPort::datasheet().interval.clocks, 1u);
+  EXPECT_EQ(rtl::MemoryPort::datasheet().latency.cycles, 2u);
+  EXPECT_EQ(rtl::MemoryPort::datasheet().interval.cycles, 1u);
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ TEST_P(MemoryLatency, OneAccessAClockIsPipelined) {
   EXPECT_EQ(p.memory.reads(), 200U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Clocks, MemoryLatency, testing::Values(1, 2, 3, 7));
+INSTANTIATE_TEST_SUITE_P(Cycles, MemoryLatency, testing::Values(1, 2, 3, 7));
 
 // A unit asks for a word in the clock in which it needs it, a clock too late for the memory.
 TEST(Memory, AReadIssuedTooLateIsCaught) {
@@ -298,7 +298,7 @@ TEST(Memory, ShowsWhatAPlainArrayHasInItsTime) {
                                                                 : ReadDuringWrite::kOldWord,
                                   .banks = span,
                                   .span = span,
-                                  .idealised = "any ports, so that their numbers are compared"});
+                                  .not_implementable = "any ports, so that their numbers are compared"});
     std::deque<ReadPort<int>> read_ports;
     std::deque<WritePort<int>> write_ports;
     std::deque<SharedPort<int>> shared_ports;
@@ -442,7 +442,7 @@ TEST(Memory, SharedPortReadsOrWrites) {
                                    .read_ports = 2,
                                    .write_ports = 1,
                                    .shared_ports = 3,
-                                   .idealised = "three kinds of ports"});
+                                   .not_implementable = "three kinds of ports"});
   EXPECT_EQ(mixed.ports(), "2R1W3RW");
 }
 
@@ -453,7 +453,7 @@ TEST(Memory, AnIdealisedAccessMeetsItself) {
                                 .banks = 2,
                                 .span = 3,
                                 .separate_banks = true,
-                                .idealised = "more words an access than banks"});
+                                .not_implementable = "more words an access than banks"});
   ReadPort<int> read(memory, "read");
   WritePort<int> write(memory, "write");
   read.read(0, 4, 2);
@@ -860,7 +860,7 @@ TEST(MemoryCost, IsThatOfRealMemories) {
     EXPECT_EQ(memory.physical_bits(), cost.physical) << cost.built_as;
     EXPECT_EQ(memory.copies(), cost.copies) << cost.built_as;
     EXPECT_EQ(memory.built_as(), cost.built_as);
-    EXPECT_TRUE(memory.idealised().empty());
+    EXPECT_TRUE(memory.not_implementable().empty());
   }
 }
 
@@ -958,11 +958,11 @@ TEST(MemoryCost, IdealisedSaysSoAndWhy) {
                                  .word_bits = 288,
                                  .read_ports = 13,
                                  .write_ports = 2,
-                                 .idealised = "shows what unlimited ports would give"});
-  EXPECT_EQ(wide.idealised(), "shows what unlimited ports would give");
+                                 .not_implementable = "shows what unlimited ports would give"});
+  EXPECT_EQ(wide.not_implementable(), "shows what unlimited ports would give");
   EXPECT_EQ(wide.built_as(), "idealised 13R2W");
-  const MemoryBase small("small", {.words = 16, .word_bits = 8, .idealised = "not needed"});
-  EXPECT_TRUE(small.idealised().empty());
+  const MemoryBase small("small", {.words = 16, .word_bits = 8, .not_implementable = "not needed"});
+  EXPECT_TRUE(small.not_implementable().empty());
 }
 
 TEST(MemoryCost, TwoNeighboursAreNamedToo) {

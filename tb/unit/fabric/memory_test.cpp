@@ -50,7 +50,7 @@ TEST(MemoryPort, LatencyIsExact) {
       });
       // Pushed in 0, popped in 1.
       EXPECT_EQ(text,
-                fmt::format("{} 1x{}", 1 + rtl::MemoryPort::datasheet().latency.clocks + latency,
+                fmt::format("{} 1x{}", 1 + rtl::MemoryPort::datasheet().latency.cycles + latency,
                             latency + 1))
           << write;
     }
@@ -79,19 +79,19 @@ TEST(MemoryPort, OneRequestAClockWhenEnoughMayBeOutstanding) {
     EXPECT_EQ(s.sink.cycles()[i], 23U + i);
     EXPECT_TRUE(right(s.sink.beats()[i]));
   }
-  EXPECT_EQ(s.port.most_outstanding.value(), 21U);
+  EXPECT_EQ(s.port.max_outstanding.value(), 21U);
   EXPECT_EQ(s.port.bytes_read.value(), 500U * 64);
   EXPECT_EQ(s.memory.bytes_read(), 500U * 64);
 }
 
-// With n outstanding, n requests go every latency + 1 clocks: a beat that leaves counts no more.
+// With n outstanding, n requests go every latency + 1 cycles: a beat that leaves counts no more.
 TEST(MemoryPort, RateIsLimitedByOutstanding) {
   MemoryPortParameters parameters;
   parameters.outstanding = 4;
   System s(parameters, with_latency(19));
   for (std::uint32_t i = 0; i < 400; ++i) s.driver.send(read_of(i));
   ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 400; }, 10'000));
-  EXPECT_EQ(s.port.most_outstanding.value(), 4U);
+  EXPECT_EQ(s.port.max_outstanding.value(), 4U);
   EXPECT_NEAR(static_cast<double>(s.sink.cycles()[399] - s.sink.cycles()[199]), 200.0 * 20 / 4, 3);
   EXPECT_GT(s.port.stalls()[1].cycles, 1000U);
   EXPECT_EQ(s.port.stalls()[1].name, "outstanding");
@@ -99,7 +99,7 @@ TEST(MemoryPort, RateIsLimitedByOutstanding) {
 
 TEST(MemoryPort, BandwidthOfTheMemoryLimits) {
   platform::MemoryModelParameters parameters = with_latency(10);
-  parameters.bytes_per_clock = 16;
+  parameters.bytes_per_cycle = 16;
   System s({}, parameters);
   for (std::uint32_t i = 0; i < 100; ++i) s.driver.send(read_of(i));
   ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 100; }, 10'000));
@@ -213,7 +213,7 @@ TEST(MemoryModel, CountsNoRequestThatWasWithheldBefore) {
 TEST(MemoryModel, IsAtRestWhenTheLastWriteIsDone) {
   platform::MemoryModelParameters parameters = with_latency(10);
   parameters.write_at_response = true;
-  parameters.bytes_per_clock = 1;
+  parameters.bytes_per_cycle = 1;
   parameters.outstanding = 2;
   System s({}, parameters);
   EXPECT_TRUE(s.memory.at_rest());
@@ -273,7 +273,7 @@ TEST(MemoryModel, ClearsAllThatItHasCounted) {
                                         s.memory.bytes_read(),
                                         s.memory.bytes_written(),
                                         s.memory.errors(),
-                                        s.memory.most_outstanding(),
+                                        s.memory.max_outstanding(),
                                         s.memory.lines_read().size(),
                                         s.memory.lines_written().size()};
   };
@@ -297,9 +297,9 @@ TEST(MemoryModel, WhatWasAnsweredAheadIsNotOutstandingWhenItIsCleared) {
     ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == number; }, 1000));
   }
   s.clock.run(10);
-  ASSERT_EQ(s.memory.most_outstanding(), 1U);
+  ASSERT_EQ(s.memory.max_outstanding(), 1U);
   s.memory.clear_statistics();
-  EXPECT_EQ(s.memory.most_outstanding(), 0U);
+  EXPECT_EQ(s.memory.max_outstanding(), 0U);
 }
 
 TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
@@ -375,7 +375,7 @@ TEST(MemoryModel, ResponsesSentAheadComeAtTheirTime) {
       const std::string text = in_child([&] {
         Random random(seed, "parameters");
         platform::MemoryModelParameters memory = with_latency(random.below(40));
-        memory.bytes_per_clock = std::array{0U, 16U, 64U}[random.below(3)];
+        memory.bytes_per_cycle = std::array{0U, 16U, 64U}[random.below(3)];
         memory.banks = random.chance(500) ? 1 : 4;
         memory.bank_busy = memory.banks == 1 ? random.below(4) : 0;
         memory.outstanding = free ? 64 : 1 + random.below(24);
@@ -409,7 +409,7 @@ TEST(MemoryModel, ResponsesSentAheadComeAtTheirTime) {
             "{}\n{} {} {} {} {} {} {} {} {} {} {} {} {}", s.clock.activations(), bytes_written,
             fmt::join(halfway, ","), fmt::join(reset, ","), s.fingerprint(), s.memory.reads(),
             s.memory.writes(), s.memory.bytes_read(), s.memory.bytes_written(), s.memory.errors(),
-            s.memory.most_outstanding(), fmt::join(s.memory.lines_read(), ","),
+            s.memory.max_outstanding(), fmt::join(s.memory.lines_read(), ","),
             fmt::join(s.memory.lines_written(), ","), fmt::join(s.memory.dump(0, 64 * 64), ","));
       });
       const std::size_t line = text.find('\n');
@@ -556,7 +556,7 @@ struct Writer final : sc_core::sc_module, tlm::tlm_mm_interface {
 // the second one is not there for a look.
 TEST(MemoryModel, AWriteAnsweredAheadIsNotThereBeforeItsAnswer) {
   platform::MemoryModelParameters parameters = with_latency(10);
-  parameters.bytes_per_clock = 0;
+  parameters.bytes_per_cycle = 0;
   platform::MemoryModel memory("memory", kPeriod, parameters);
   Writer writer("writer");
   writer.out.bind(memory.ports);
@@ -578,7 +578,7 @@ TEST(MemoryModel, AWriteAnsweredAheadIsNotThereBeforeItsAnswer) {
 // A request comes when the last byte of a write does, a picosecond before that of the next one.
 TEST(MemoryModel, ARequestLetsInWhatWasWrittenByItsTime) {
   platform::MemoryModelParameters parameters = with_latency(10);
-  parameters.bytes_per_clock = 0;
+  parameters.bytes_per_cycle = 0;
   platform::MemoryModel memory("memory", kPeriod, parameters);
   Writer writer("writer");
   writer.out.bind(memory.ports);
@@ -837,7 +837,7 @@ TEST(MemoryPort, RequestsBeyondTheMemorysLimitAreHeldBack) {
   System s({}, parameters);
   for (std::uint32_t i = 0; i < 60; ++i) s.driver.send(read_of(i));
   ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 60; }, 10'000));
-  EXPECT_EQ(s.memory.most_outstanding(), 3U);
+  EXPECT_EQ(s.memory.max_outstanding(), 3U);
   for (const MemoryResponse& response : s.sink.beats()) EXPECT_TRUE(right(response));
   EXPECT_EQ(s.port.stalls()[2].name, "request_channel");
   EXPECT_GT(s.port.stalls()[2].cycles, 100U);
@@ -850,7 +850,7 @@ TEST(MemoryPort, NobodyCanTellWhetherTheDomainRunsOn) {
         return in_child([&] {
           platform::MemoryModelParameters parameters = with_latency(20, latency_max);
           parameters.outstanding = limit;
-          parameters.bytes_per_clock = 48;
+          parameters.bytes_per_cycle = 48;
           System s({}, parameters, 200);
           s.clock.set_fast_path(fast);
           s.clock.shuffle(shuffle);

@@ -125,10 +125,10 @@ TEST(Pulse, CountsBothItsEdges) {
   Pulse pulse("pulse");
   for (const Cycle cycle : {0, 3, 4, 5, 9}) pulse.raise(cycle);
   EXPECT_EQ(pulse.changes(), 6u);
-  EXPECT_EQ(pulse.high_clocks(20), 5u);
+  EXPECT_EQ(pulse.high_cycles(20), 5u);
   pulse.reset();
   EXPECT_EQ(pulse.changes(), 0u);
-  EXPECT_EQ(pulse.high_clocks(20), 0u);
+  EXPECT_EQ(pulse.high_cycles(20), 0u);
 }
 
 // ---- Units
@@ -167,7 +167,7 @@ using DriverNow = CountDriver<WireKind::kCombinational>;
 using ReaderNow = CountReader<WireKind::kCombinational>;
 const sc_core::sc_time kPeriod(10, sc_core::SC_NS);
 
-// What both readers saw, in six clocks around a reset; they stand on both sides of the driver.
+// What both readers saw, in six cycles around a reset; they stand on both sides of the driver.
 std::string counted(std::uint64_t shuffle) {
   return in_child([shuffle] {
     ClockDomain clock("clock", kPeriod);
@@ -458,26 +458,26 @@ TEST(Wire, GoesThroughThePortsOfAModuleAround) {
 
 TEST(Wire, CountsChangesAndClocksHigh) {
   Wire<bool> wire("wire", false);
-  EXPECT_EQ(wire.high_clocks(10), 0u);
+  EXPECT_EQ(wire.high_cycles(10), 0u);
   wire.drive(2, true);  // read from 3 on
-  EXPECT_EQ(wire.high_clocks(3), 0u);
-  EXPECT_EQ(wire.high_clocks(10), 7u);
+  EXPECT_EQ(wire.high_cycles(3), 0u);
+  EXPECT_EQ(wire.high_cycles(10), 7u);
   wire.drive(9, true);  // no change
   wire.drive(11, false);
   EXPECT_EQ(wire.changes(), 2u);
-  EXPECT_EQ(wire.high_clocks(100), 9u);
+  EXPECT_EQ(wire.high_cycles(100), 9u);
   wire.drive(19, true);
-  EXPECT_EQ(wire.high_clocks(25), 14u);
+  EXPECT_EQ(wire.high_cycles(25), 14u);
   EXPECT_EQ(wire.changes(), 3u);
   wire.reset();
   EXPECT_EQ(wire.changes(), 0u);
-  EXPECT_EQ(wire.high_clocks(30), 0u);
+  EXPECT_EQ(wire.high_cycles(30), 0u);
 
   CombinationalWire<bool> moves("moves");
   Cycle cycle = 10;
   for (const bool value : {true, true, false, true}) moves.drive(cycle++, value);
   EXPECT_EQ(moves.changes(), 2u);
-  EXPECT_EQ(moves.high_clocks(99), 3u);
+  EXPECT_EQ(moves.high_cycles(99), 3u);
 }
 TEST(Wire, CountsClocksHighFromItsResetOn) {
   ClockDomain clock("clock", kPeriod);
@@ -486,13 +486,13 @@ TEST(Wire, CountsClocksHighFromItsResetOn) {
   driver.count_out(wire);
   driver.asleep = true;
   clock.run(5);
-  EXPECT_EQ(wire.high_clocks(clock.cycle()), 5u);
+  EXPECT_EQ(wire.high_cycles(clock.cycle()), 5u);
   clock.set_reset_n(false);
   clock.run(2);
-  EXPECT_EQ(wire.high_clocks(clock.cycle()), 0u);
+  EXPECT_EQ(wire.high_cycles(clock.cycle()), 0u);
   clock.set_reset_n(true);
   clock.run(3);
-  EXPECT_EQ(wire.high_clocks(clock.cycle()), 3u);
+  EXPECT_EQ(wire.high_cycles(clock.cycle()), 3u);
 }
 TEST(Wire, StandsInTheStatistics) {
   EXPECT_EQ(in_child([] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Planted faults: each check of the harness must be able to fail, with the right exit code and a
+// Injected faults: each check of the harness must be able to fail, with the right exit code and a
 // text that says where.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -15,7 +15,7 @@
 #include "rtl_model/platform/memory_model.h"
 #include "tb/harness/bench.h"
 #include "tb/harness/timeline.h"
-#include "tb/harness/window_recorder.h"
+#include "tb/harness/interval_recorder.h"
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb::observers_test {
@@ -44,20 +44,20 @@ std::uint64_t sum(const std::vector<std::uint64_t>& values) {
   return std::accumulate(values.begin(), values.end(), std::uint64_t{0});
 }
 
-std::map<std::string, std::vector<std::uint64_t>> series(const WindowRecorder& recorder) {
+std::map<std::string, std::vector<std::uint64_t>> series(const IntervalRecorder& recorder) {
   std::map<std::string, std::vector<std::uint64_t>> all;
-  for (const WindowRecorder::Series& each : recorder.series()) all[each.key] = each.values;
+  for (const IntervalRecorder::Series& each : recorder.series()) all[each.key] = each.values;
   return all;
 }
 
-TEST(WindowRecorder, AddsUpToWhatTheUnitsCount) {
+TEST(IntervalRecorder, AddsUpToWhatTheUnitsCount) {
   Watched w;
-  WindowRecorder recorder(w.p.clock, {300, 1024, {}});
+  IntervalRecorder recorder(w.p.clock, {300, 1024, {}});
   w.show(recorder);
   w.p.clock.run(kRun);
   recorder.finish();
   EXPECT_THAT(recorder.from(), ElementsAre(0, 300, 600, 900));
-  EXPECT_THAT(recorder.clocks(), ElementsAre(300, 300, 300, 100));
+  EXPECT_THAT(recorder.cycles(), ElementsAre(300, 300, 300, 100));
   const auto all = series(recorder);
   const rtl::Unit& unit = *w.p.adders[1];
   EXPECT_GT(unit.cycles_of(rtl::kStalledDownstream), 300U);
@@ -67,13 +67,13 @@ TEST(WindowRecorder, AddsUpToWhatTheUnitsCount) {
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_EQ(all.at("units.second.busy")[i] + all.at("units.second.idle")[i] +
                   all.at("units.second.stalls.downstream")[i],
-              recorder.clocks()[i]);
+              recorder.cycles()[i]);
   EXPECT_EQ(sum(all.at("links.link.beats")), w.p.links[1]->pushes());
 }
 
-TEST(WindowRecorder, RecordsHowFullALinkWas) {
+TEST(IntervalRecorder, RecordsHowFullALinkWas) {
   Watched w;
-  WindowRecorder recorder(w.p.clock, {300, 1024, {}});
+  IntervalRecorder recorder(w.p.clock, {300, 1024, {}});
   w.show(recorder);
   std::uint64_t occupied = 0;
   for (Cycle i = 0; i < kRun; ++i) {
@@ -81,35 +81,35 @@ TEST(WindowRecorder, RecordsHowFullALinkWas) {
     occupied += w.p.links[1]->occupancy();
   }
   recorder.finish();
-  const WindowRecorder::Occupancy link = recorder.occupancy().at(0);
+  const IntervalRecorder::Occupancy link = recorder.occupancy().at(0);
   EXPECT_EQ(link.full_name, "link_1");
-  EXPECT_EQ(link.clocks.size(), w.p.links[1]->depth() + 1U);
-  EXPECT_EQ(sum(link.clocks), kRun);
-  EXPECT_EQ(link.clocks[1] + 2 * link.clocks[2], occupied);
+  EXPECT_EQ(link.cycles.size(), w.p.links[1]->depth() + 1U);
+  EXPECT_EQ(sum(link.cycles), kRun);
+  EXPECT_EQ(link.cycles[1] + 2 * link.cycles[2], occupied);
   EXPECT_EQ(sum(series(recorder).at("links.link.occupancy")), occupied);
   EXPECT_THAT(series(recorder).at("links.link.most"), testing::Each(2));
 }
 
-TEST(WindowRecorder, KeepsAsManyWindowsAsItMay) {
+TEST(IntervalRecorder, KeepsAsManyWindowsAsItMay) {
   Watched w;
-  WindowRecorder recorder(w.p.clock, {10, 8, {}});
+  IntervalRecorder recorder(w.p.clock, {10, 8, {}});
   w.show(recorder);
   w.p.clock.run(kRun);
   recorder.finish();
   EXPECT_LT(recorder.from().size(), 8U);
-  EXPECT_EQ(recorder.window_cycles(), 160U);  // 8 x 80 would hold 640
+  EXPECT_EQ(recorder.interval_cycles(), 160U);  // 8 x 80 would hold 640
   EXPECT_THAT(recorder.from(), ElementsAre(0, 160, 320, 480, 640, 800, 960));
-  EXPECT_EQ(sum(recorder.clocks()), kRun);
+  EXPECT_EQ(sum(recorder.cycles()), kRun);
   EXPECT_EQ(sum(series(recorder).at("units.second.busy")), w.p.adders[1]->busy_cycles());
   EXPECT_THAT(series(recorder).at("links.link.most"), testing::Each(2));
 }
 
 // Of two windows that become one the larger most stays, wherever it was.
-TEST(WindowRecorder, MergedWindowsHaveTheLargestOfBoth) {
+TEST(IntervalRecorder, MergedWindowsHaveTheLargestOfBoth) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   rtl::Link<Token> link("link", 8);
   clock.add(link);
-  WindowRecorder recorder(clock, {2, 4, {}});
+  IntervalRecorder recorder(clock, {2, 4, {}});
   recorder.see("link", link);
   clock.run(2);  // 0
   for (int i = 0; i < 3; ++i) {
@@ -126,9 +126,9 @@ TEST(WindowRecorder, MergedWindowsHaveTheLargestOfBoth) {
   EXPECT_THAT(series(recorder).at("links.link.most"), ElementsAre(2, 3, 0));
 }
 
-TEST(WindowRecorder, CanForgetAWindow) {
+TEST(IntervalRecorder, CanForgetAWindow) {
   Watched w;
-  WindowRecorder recorder(w.p.clock, {300, 1024, 2});
+  IntervalRecorder recorder(w.p.clock, {300, 1024, 2});
   w.show(recorder);
   w.p.clock.run(kRun);
   recorder.finish();
@@ -136,9 +136,9 @@ TEST(WindowRecorder, CanForgetAWindow) {
   EXPECT_LT(sum(series(recorder).at("units.second.busy")), w.p.adders[1]->busy_cycles());
 }
 
-TEST(WindowRecorder, AResetForgetsAllWindows) {
+TEST(IntervalRecorder, AResetForgetsAllIntervals) {
   Watched w;
-  WindowRecorder recorder(w.p.clock, {10, 8, {}});
+  IntervalRecorder recorder(w.p.clock, {10, 8, {}});
   w.show(recorder);
   w.p.clock.run(kRun);
   w.p.clock.set_reset_n(false);
@@ -147,17 +147,17 @@ TEST(WindowRecorder, AResetForgetsAllWindows) {
   w.p.clock.run(25);
   recorder.finish();
   EXPECT_THAT(recorder.from(), ElementsAre(kRun + 2, kRun + 12, kRun + 22));
-  EXPECT_THAT(recorder.clocks(), ElementsAre(10, 10, 5));
+  EXPECT_THAT(recorder.cycles(), ElementsAre(10, 10, 5));
   EXPECT_EQ(sum(series(recorder).at("units.first.idle")), w.p.adders[0]->idle_cycles());
 }
 
 // What was seen of links before a reset is forgotten, and each window's most is its own.
-TEST(WindowRecorder, AResetForgetsWhatLinksHeld) {
+TEST(IntervalRecorder, AResetForgetsWhatLinksHeld) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   rtl::Link<Token> deep("deep", 8), other("other", 4);
   clock.add(deep);
   clock.add(other);
-  WindowRecorder recorder(clock, {4, 1024, {}});
+  IntervalRecorder recorder(clock, {4, 1024, {}});
   recorder.see("first", deep);
   recorder.see("second", other);
   const auto push = [&](rtl::Link<Token>& link, int beats) {
@@ -181,8 +181,8 @@ TEST(WindowRecorder, AResetForgetsWhatLinksHeld) {
   EXPECT_THAT(all.at("links.second.occupancy"), ElementsAre(0, 0, 3));
   EXPECT_THAT(all.at("links.second.most"), ElementsAre(0, 0, 2));
   ASSERT_EQ(recorder.occupancy().size(), 2U);
-  EXPECT_THAT(recorder.occupancy()[0].clocks, ElementsAre(0, 7, 2, 1, 0, 0, 0, 0, 0));
-  EXPECT_THAT(recorder.occupancy()[1].clocks, ElementsAre(8, 1, 1, 0, 0));
+  EXPECT_THAT(recorder.occupancy()[0].cycles, ElementsAre(0, 7, 2, 1, 0, 0, 0, 0, 0));
+  EXPECT_THAT(recorder.occupancy()[1].cycles, ElementsAre(8, 1, 1, 0, 0));
   EXPECT_EQ(recorder.occupancy()[0].name, "first");
   EXPECT_EQ(recorder.occupancy()[0].full_name, "deep");
   EXPECT_EQ(recorder.occupancy()[0].beats, 3U);
@@ -198,14 +198,14 @@ TEST(WindowRecorder, AResetForgetsWhatLinksHeld) {
   EXPECT_THAT(all.at("links.first.occupancy"), ElementsAre(1));
   EXPECT_THAT(all.at("links.first.most"), ElementsAre(1));
   EXPECT_THAT(all.at("links.second.most"), ElementsAre(0));
-  EXPECT_THAT(recorder.occupancy()[0].clocks, ElementsAre(0, 1, 0, 0, 0, 0, 0, 0, 0));
-  EXPECT_THAT(recorder.occupancy()[1].clocks, ElementsAre(1, 0, 0, 0, 0));
+  EXPECT_THAT(recorder.occupancy()[0].cycles, ElementsAre(0, 1, 0, 0, 0, 0, 0, 0, 0));
+  EXPECT_THAT(recorder.occupancy()[1].cycles, ElementsAre(1, 0, 0, 0, 0));
 }
 
 // Codes that count as the same are one series; each part has its own.
-TEST(WindowRecorder, AddsCodesThatCountAsTheSame) {
+TEST(IntervalRecorder, AddsCodesThatCountAsTheSame) {
   Watched w;
-  WindowRecorder recorder(w.p.clock, {100, 1024, {}});
+  IntervalRecorder recorder(w.p.clock, {100, 1024, {}});
   recorder.see("joined", *w.p.adders[1], {"idle", "busy", "idle"});
   recorder.see("apart", *w.p.adders[0], kActivities);
   recorder.see({"Beats", "beats", "beat/clk", 0.5});
@@ -222,7 +222,7 @@ TEST(WindowRecorder, AddsCodesThatCountAsTheSame) {
   EXPECT_NE(unit.busy_cycles(), w.p.adders[0]->busy_cycles());
   const auto json = recorder.json();
   EXPECT_EQ(json["asked_cycles"], 100);
-  EXPECT_EQ(json["window_cycles"], 100);
+  EXPECT_EQ(json["interval_cycles"], 100);
   EXPECT_EQ(json["windows"], 10);
   EXPECT_EQ(json["from"].size(), 10U);
   EXPECT_EQ(json["units"]["units.joined.idle"], "clk");
@@ -232,7 +232,7 @@ TEST(WindowRecorder, AddsCodesThatCountAsTheSame) {
                 R"([{"label":"Beats","key":"work.beats","unit":"beat/clk","bound":0.5}])"));
 }
 
-// Requests in flight of two ports, whose memories answer after 20 and after 7 clocks.
+// Requests in flight of two ports, whose memories answer after 20 and after 7 cycles.
 struct Ports {
   struct One {
     Driver<rtl::MemoryRequest> driver;
@@ -274,9 +274,9 @@ struct Ports {
   }
 };
 
-TEST(WindowRecorder, CountsWhatWaitsForEachMemory) {
+TEST(IntervalRecorder, CountsWhatWaitsForEachMemory) {
   Ports p;
-  WindowRecorder recorder(p.clock, {10, 1024, {}});
+  IntervalRecorder recorder(p.clock, {10, 1024, {}});
   recorder.see("slow", p.slow.port);
   recorder.see("quick", p.quick.port);
   std::vector<std::uint64_t> slow(5), quick(5), most(5);
@@ -296,7 +296,7 @@ TEST(WindowRecorder, CountsWhatWaitsForEachMemory) {
   EXPECT_GT(sum(quick), 0U);
 }
 
-// Every transaction begins and ends once, at its clocks, on its port; what is under way at the end
+// Every transaction begins and ends once, at its cycles, on its port; what is under way at the end
 // is not answered.
 TEST(Timeline, FollowsEveryTransaction) {
   struct Seen {
@@ -348,11 +348,11 @@ TEST(Timeline, FollowsEveryTransaction) {
   EXPECT_EQ(seen(9, 100), "S0x0 9..22;S0x40 9..23;S0x80 9..24;S@9=3 Q@9=0 S@22=2 S@23=1 S@24=0 ");
 }
 
-TEST(WindowRecorder, LeavesOutWhatIsNoSum) {
+TEST(IntervalRecorder, LeavesOutWhatIsNoSum) {
   Watched w;
   rtl::Counter beats("beats", "beats", "beats seen"), most("most", "beats", "most at a time"),
       again("again", "clk", "of the last frame");
-  WindowRecorder recorder(w.p.clock, {10, 1024, {}});
+  IntervalRecorder recorder(w.p.clock, {10, 1024, {}});
   for (const rtl::Counter* counter : {&beats, &most, &again})
     recorder.see(counter->basename(), *counter);
   beats += 5;
@@ -370,7 +370,7 @@ TEST(WindowRecorder, LeavesOutWhatIsNoSum) {
 TEST(Timeline, HasASliceForEveryCycleThatIsNotIdle) {
   constexpr Cycle kFrom = 200, kTo = 500;
   Watched w;
-  WindowRecorder recorder(w.p.clock, {100, 1024, {}});
+  IntervalRecorder recorder(w.p.clock, {100, 1024, {}});
   Timeline timeline(w.p.clock, {kFrom, kTo});
   w.show(recorder);
   w.show(timeline);
@@ -379,21 +379,21 @@ TEST(Timeline, HasASliceForEveryCycleThatIsNotIdle) {
   timeline.finish();
   const auto json = nlohmann::json::parse(timeline.json());
   std::map<int, std::string> tracks;
-  std::map<std::string, std::uint64_t> clocks;
+  std::map<std::string, std::uint64_t> cycles;
   for (const auto& event : json["traceEvents"]) {
     if (event["name"] == "thread_name") tracks[event["tid"]] = event["args"]["name"];
     if (event["ph"] != "X") continue;
     EXPECT_GE(event["ts"], kFrom);
     EXPECT_LE(event["ts"].get<Cycle>() + event["dur"].get<Cycle>(), kTo);
-    clocks[tracks[event["tid"]] + "." + event["name"].get<std::string>()] +=
+    cycles[tracks[event["tid"]] + "." + event["name"].get<std::string>()] +=
         event["dur"].get<std::uint64_t>();
   }
   const auto all = series(recorder);
   for (const std::string unit : {"first", "second"})
     for (const auto& [key, name] :
          {std::pair("busy", ".busy"), std::pair("stalls.downstream", ".downstream")}) {
-      const std::vector<std::uint64_t>& windows = all.at("units." + unit + "." + key);
-      EXPECT_EQ(clocks[unit + name], windows[2] + windows[3] + windows[4]) << unit << name;
+      const std::vector<std::uint64_t>& intervals = all.at("units." + unit + "." + key);
+      EXPECT_EQ(cycles[unit + name], intervals[2] + intervals[3] + intervals[4]) << unit << name;
     }
 }
 

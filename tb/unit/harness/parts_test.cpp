@@ -241,7 +241,7 @@ TEST(StallInjector, LeavesOneClockOfAThousandAtLeast) {
   EXPECT_THROW(StallInjector(p.clock, {0, 1000, 1, "*"}), spec::ConfigError);
 }
 
-// Clocks in which an end that is always willing did nothing, although the other one let it.
+// Cycles in which an end that is always willing did nothing, although the other one let it.
 struct Held final : rtl::Clocked {
   Held(rtl::ClockDomain& clock, Pipeline& p) : pipeline(p) { clock.add_after(*this); }
   rtl::Activity tick(Cycle cycle) override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ends of a unit that a test looks at alone: in which clocks they push and take.
+// The ends of a unit that a test looks at alone: in which cycles they push and take.
 #include "tb/harness/unit_bench.h"
 
 #include <gmock/gmock.h>
@@ -20,9 +20,9 @@ struct Pair {
     source.out(link);
     sink.in(link);
   }
-  std::vector<Cycle> clocks(Cycle run) {
+  std::vector<Cycle> cycles(Cycle run) {
     clock.run(run);
-    return unit_bench::clocks_of(sink);
+    return unit_bench::cycles_of(sink);
   }
   rtl::ClockDomain clock{"clock", unit_bench::period()};
   rtl::Link<Token> link;
@@ -33,10 +33,10 @@ struct Pair {
 TEST(UnitBench, TokensWithoutAClockAreSentAsFastAsTheyAreTaken) {
   Pair pair;
   for (std::uint32_t i = 0; i < 4; ++i) pair.source.add({i, i});
-  EXPECT_THAT(pair.clocks(3), ElementsAre(1, 2));
+  EXPECT_THAT(pair.cycles(3), ElementsAre(1, 2));
   EXPECT_EQ(pair.source.sent(), 3u);
   EXPECT_FALSE(pair.source.done());
-  EXPECT_THAT(pair.clocks(7), ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(pair.cycles(7), ElementsAre(1, 2, 3, 4));
   EXPECT_TRUE(pair.source.done());
   EXPECT_EQ(unit_bench::tokens_of(pair.sink)[3], (Token{3, 3}));
 }
@@ -48,7 +48,7 @@ TEST(UnitBench, ClockedTokensWaitForTheirClocks) {
   pair.source.add(3, {1, 1});
   pair.source.add(9, {2, 2});
   pair.source.add({3, 3});
-  EXPECT_THAT(pair.clocks(20), ElementsAre(4, 5, 10, 11));
+  EXPECT_THAT(pair.cycles(20), ElementsAre(4, 5, 10, 11));
 }
 
 TEST(UnitBench, DelayedTokensComeInOneClockAndThoseBeforeStay) {
@@ -57,7 +57,7 @@ TEST(UnitBench, DelayedTokensComeInOneClockAndThoseBeforeStay) {
   pair.source.add(2, {1, 1});
   pair.source.add(9, {2, 2});
   pair.source.delay(1, 6);
-  EXPECT_THAT(pair.clocks(20), ElementsAre(2, 7, 8));
+  EXPECT_THAT(pair.cycles(20), ElementsAre(2, 7, 8));
 }
 
 // Nothing is taken before, and the link is as full as it gets.
@@ -66,7 +66,7 @@ TEST(UnitBench, ASinkOpensInItsClock) {
   for (std::uint32_t i = 0; i < 4; ++i) pair.source.add({i, i});
   pair.clock.run(8);
   EXPECT_EQ(pair.source.sent(), 2u);
-  EXPECT_THAT(pair.clocks(12), ElementsAre(8, 9, 10, 11));
+  EXPECT_THAT(pair.cycles(12), ElementsAre(8, 9, 10, 11));
 }
 
 TEST(UnitBench, ASinkHoldsFromOneClockToAnother) {
@@ -74,7 +74,7 @@ TEST(UnitBench, ASinkHoldsFromOneClockToAnother) {
   for (std::uint32_t i = 0; i < 5; ++i) pair.source.add({i, i});
   pair.sink.hold_from = 2;
   pair.sink.hold_to = 6;
-  EXPECT_THAT(pair.clocks(20), ElementsAre(1, 6, 7, 8, 9));
+  EXPECT_THAT(pair.cycles(20), ElementsAre(1, 6, 7, 8, 9));
 }
 
 // driver.h: one that has ended goes on with the next index by another generator.
@@ -111,7 +111,7 @@ TEST(UnitBench, AResetEmptiesBothEnds) {
   pair.clock.run(1);
   pair.clock.set_reset_n(true);
   EXPECT_TRUE(pair.source.done());
-  EXPECT_THAT(pair.clocks(60), ElementsAre());
+  EXPECT_THAT(pair.cycles(60), ElementsAre());
 }
 
 }  // namespace

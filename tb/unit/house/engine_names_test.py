@@ -37,7 +37,7 @@ NAMED = {
         "each pair of engines is tested in clock domains of its own": ["tb/unit/platform/engine_domains_test.cpp"],
         "the rule `leave` is about what it has marked": [
             "golden/morphological/configuration.cpp", "golden/morphological/configuration.h",
-            "golden/morphological/leave.h", "rtl_model/morphological/blend/blender.cpp",
+            "golden/morphological/bypass.h", "rtl_model/morphological/blend/blender.cpp",
             "spec/morphological/parameters.h", "tool/engines/morphological/morphological_role.cpp",
             "tb/unit/golden/morphological/frames_test.cpp"],
         "methods are compared there, each by its name": ["studies/quality/comparison.cpp"],
@@ -62,17 +62,17 @@ NAMED = {
             "golden/ideal/cmaa2.h", "golden/ideal/coverage.h", "golden/ideal/smaa.h", "studies/quality/comparison.cpp",
             "studies/quality/harm.cpp", "tb/oracle/smaa_frames.h",
             "tb/oracle/smaa_published_test.cpp", "tb/oracle/smaa_shader_test.cpp", "tb/oracle/smaa_test.cpp",
-            "tb/scene/truth.h"],
+            "tb/scene/reference.h"],
         "papers whose methods it has": ["studies/papers/papers_000.cpp", "studies/papers/papers_003.cpp"],
         "lines and discs that its shares are measured and learned by": [
             "scripts/train-shares", "tb/stimuli/line_fans.cpp",
-            "tb/stimuli/line_fans.h", "studies/training/recipe.cpp", "studies/training/recipe.h", "tb/stimuli/share_file.cpp",
-            "tb/stimuli/share_file.h", "studies/training/share_samples.cpp", "studies/training/share_samples.h",
-            "studies/training/share_trainer.cpp", "studies/training/share_trainer.h", "studies/training/title_shares.cpp",
-            "studies/training/title_shares.h", "studies/training/train_shares.cpp", "tb/unit/stimuli/share_file_test.cpp"],
+            "tb/stimuli/line_fans.h", "studies/training/recipe.cpp", "studies/training/recipe.h", "tb/stimuli/weight_file.cpp",
+            "tb/stimuli/weight_file.h", "studies/training/weight_samples.cpp", "studies/training/weight_samples.h",
+            "studies/training/weight_trainer.cpp", "studies/training/weight_trainer.h", "studies/training/title_weights.cpp",
+            "studies/training/title_weights.h", "studies/training/train_weights.cpp", "tb/unit/stimuli/weight_file_test.cpp"],
         "values of its tables that its contract takes from doubles": ["tb/unit/house/layers_test.py"],
         "an example of an engine, in tests of what every engine has": [
-            "tb/unit/env/planted_faults_test.cpp"],
+            "tb/unit/env/injected_faults_test.cpp"],
         "an example of an engine, in what is built from installed files": [
             "examples/c/draw.c", "examples/installed_test.py", "examples/platform/expected.cpp",
             "examples/platform/expected.h", "examples/platform/main.cpp", "examples/platform/painter.cpp",
@@ -176,7 +176,7 @@ def complaints(root, named):
             yield f"{name} does not name {engine} any more: take it off the list"
 
 
-def planted_faults_are_caught():
+def injected_faults_are_caught():
     """A small tree: what must be found, and what must not."""
     def tree(folder, **changed):
         texts = {LIST: "# engines\nfoo\nfrobber\n", "spec/frobber/parameters.h": "namespace spec::frobber",
@@ -218,4 +218,4 @@ def planted_faults_are_caught():
 
 
 if __name__ == "__main__":
-    house_main(__doc__, planted_faults_are_caught(), lambda root: [*complaints(root, NAMED), *not_made(root, MADE)])
+    house_main(__doc__, injected_faults_are_caught(), lambda root: [*complaints(root, NAMED), *not_made(root, MADE)])

@@ -28,7 +28,7 @@ def wide_lines(root):
                 yield f"{page.relative_to(root)}:{number}: {len(line)} columns, {COLUMNS} at most"
 
 
-def planted_lines_are_caught():
+def injected_lines_are_caught():
     """True if exactly the wide prose is found: none in a table, in code or on a generated page."""
     wide = "x" * (COLUMNS + 1)
     with tempfile.TemporaryDirectory() as folder:
@@ -44,8 +44,8 @@ def planted_lines_are_caught():
 
 
 def check_pages(root):
-    if not planted_lines_are_caught():
-        sys.exit("the planted wide lines were not caught")
+    if not injected_lines_are_caught():
+        sys.exit("the injected wide lines were not caught")
     found = list(wide_lines(root))
     if found:
         sys.exit("\n".join(found))
@@ -57,9 +57,9 @@ def check_code(root):
         print("skipped: clang-format is not installed")
         return
     check = [formatter, "--dry-run", "-Werror", f"--style=file:{root / '.clang-format'}"]
-    planted = subprocess.run(check, input="int  x ;\n", capture_output=True, text=True, check=False)
-    if planted.returncode == 0:
-        sys.exit("the planted fault was not caught")
+    injected = subprocess.run(check, input="int  x ;\n", capture_output=True, text=True, check=False)
+    if injected.returncode == 0:
+        sys.exit("the injected fault was not caught")
     files = [str(path) for layer in ("spec", "golden", "rtl_model", "tb", "tool", "studies", "examples")
              for path in sorted((root / layer).rglob("*")) if path.suffix in {".h", ".cpp"}]
     sys.exit(subprocess.run([*check, *files], check=False).returncode)

@@ -6,10 +6,10 @@ import sys
 
 
 def house_main(doc, missed, check):
-    """Exits with an error if planted faults were missed, or if `check` finds something in the checkout."""
+    """Exits with an error if injected faults were missed, or if `check` finds something in the checkout."""
     parser = argparse.ArgumentParser(description=doc.splitlines()[0])
     parser.add_argument("root", type=pathlib.Path, help="the checkout")
-    found = [*(f"planted fault not caught, or said of what is fine: {fault}" for fault in missed),
+    found = [*(f"injected fault not caught, or said of what is fine: {fault}" for fault in missed),
              *check(parser.parse_args().root)]
     for complaint in found:
         print(complaint)

@@ -217,7 +217,7 @@ def violations(root):
                     yield f"{where}:{number}: compile-time configuration in {layer}"
 
 
-def planted_faults_are_caught():
+def injected_faults_are_caught():
     """Plants one fault of each kind and returns the kinds that were missed."""
     faults = {
         "golden/a.cpp": '#include "rtl_model/fabric/link.h"',
@@ -295,4 +295,4 @@ def planted_faults_are_caught():
 
 
 if __name__ == "__main__":
-    house_main(__doc__, planted_faults_are_caught(), violations)
+    house_main(__doc__, injected_faults_are_caught(), violations)

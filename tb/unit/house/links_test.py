@@ -169,7 +169,7 @@ def problems(root):
     yield from unreachable(root, pages, links)
 
 
-def planted_faults_are_caught():
+def injected_faults_are_caught():
     """True if a dead link, a dead anchor, orphans, a placeholder, paths and names that are not there, other
     versions, and pages and headings that a comment names are each found, and nothing else."""
     with tempfile.TemporaryDirectory() as folder:
@@ -207,9 +207,9 @@ def main():
     found = list(problems(root))
     for problem in found:
         print(problem)
-    caught = planted_faults_are_caught()
+    caught = injected_faults_are_caught()
     if not caught:
-        print("planted faults were not caught")
+        print("injected faults were not caught")
     sys.exit(0 if caught and not found else 1)
 
 

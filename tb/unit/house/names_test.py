@@ -170,7 +170,7 @@ def classes_without_a_test_are_caught():
     return True
 
 
-def planted_faults_are_caught():
+def injected_faults_are_caught():
     labelled = [{"name": name, "properties": [{"name": "LABELS", "value": value}]}
                 for name, value in (("a", ["unit"]), ("b", ["long", "unit"]), ("c", ["units"]), ("d", []))]
     if len(list(mislabelled([*labelled, {"name": "e"}], {"unit", "long"}))) != 3:
@@ -226,9 +226,9 @@ def main():
              *misnamed(programs, options.source)]
     for problem in found:
         print(problem)
-    caught = planted_faults_are_caught() and classes_without_a_test_are_caught()
+    caught = injected_faults_are_caught() and classes_without_a_test_are_caught()
     if not caught:
-        print("planted faults were not caught")
+        print("injected faults were not caught")
     sys.exit(0 if caught and not found else 1)
 
 

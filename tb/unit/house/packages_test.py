@@ -88,7 +88,7 @@ def faults_that_are_not_found(root):
             shutil.copy(root / "scripts/packages.txt", copy / "scripts")
             (copy / "CMakeLists.txt").write_text("deburr_find_package(fmt libfmt-dev)\n" * 20 + fault + "\n", encoding="utf-8")
             if len(list(problems(copy))) != 1:
-                yield f"planted fault not found: {fault}"
+                yield f"injected fault not found: {fault}"
 
 
 def main():

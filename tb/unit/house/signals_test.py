@@ -135,7 +135,7 @@ def not_shared(root):
         yield f"PARTS names {name}, which nothing holds: drop it"
 
 
-def planted_faults_are_caught():
+def injected_faults_are_caught():
     """Plants one fault of each kind and returns those that were missed."""
     unit = ("class Other final : public Unit {\n public:\n  void reset();\n};\n"
             "class Store final : public sc_core::sc_module {\n  int x_;\n};\n")
@@ -180,4 +180,4 @@ def planted_faults_are_caught():
 
 
 if __name__ == "__main__":
-    house_main(__doc__, planted_faults_are_caught(), lambda root: [*violations(root), *not_shared(root)])
+    house_main(__doc__, injected_faults_are_caught(), lambda root: [*violations(root), *not_shared(root)])

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""scripts/tidy on a tree of two files: it finds what is planted, and looks again at what has changed and at nothing
+"""scripts/tidy on a tree of two files: it finds what is injected, and looks again at what has changed and at nothing
 else. usage: tidy_test.py SOURCE [unittest options]"""
 import json
 import os
@@ -13,7 +13,7 @@ import unittest
 
 SOURCE = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else ".").resolve()
 CLEAN = "// a header\ninline int* nothing() { return nullptr; }\n"
-PLANTED = "// a header\ninline int* nothing() { return 0; }\n"
+INJECTED = "// a header\ninline int* nothing() { return 0; }\n"
 
 
 class Tidy(unittest.TestCase):
@@ -50,7 +50,7 @@ class Tidy(unittest.TestCase):
         code, _, text = self.tidy()
         self.assertEqual(code, 0)
         self.assertIn("0 of 2 files looked at", text)
-        self.header(PLANTED)
+        self.header(INJECTED)
         code, clean, text = self.tidy()
         self.assertEqual((code, clean), (1, 2))
         self.assertEqual(text.count("[modernize-use-nullptr"), 1)
@@ -66,7 +66,7 @@ class Tidy(unittest.TestCase):
             [{"directory": str(self.root), "file": str(batch),
               "command": f"c++ -std=c++20 -Werror --param=large-unit-insns=9 -I. -o x.o -c {batch}"}]), encoding="utf-8")
         self.assertEqual(self.tidy()[:2], (0, 2))
-        self.header(PLANTED)
+        self.header(INJECTED)
         code, clean, text = self.tidy(self.root / "golden/a.cpp")
         self.assertEqual((code, clean, text.count("[modernize-use-nullptr")), (1, 2, 1))
         self.assertIn("1 of 1 files looked at", text)
@@ -89,7 +89,7 @@ class Tidy(unittest.TestCase):
         self.git("branch", "upstream")
         self.git("branch", "-q", "--set-upstream-to=upstream")
         self.assertIn("0 of 0 files looked at", self.tidy("--changed")[2])
-        self.header(PLANTED)
+        self.header(INJECTED)
         self.git("commit", "-q", "-a", "-m", "second")
         code, _, text = self.tidy("--changed")
         self.assertEqual((code, text.count("[modernize-use-nullptr")), (1, 1))

@@ -332,9 +332,9 @@ Parameters of_nearest_lines() {
 
 TEST(GeometricDriver, WritesRulesAsFieldsOfARegister) {
   Bed b;
-  const auto written = [&](const Parameters& rules) {
-    b.driver.set_rules(rules);
-    return b.registers.values[reg::kRules];
+  const auto written = [&](const Parameters& configuration) {
+    b.driver.set_configuration(configuration);
+    return b.registers.values[reg::kConfiguration];
   };
   // edges 1, linear light, shading 2, farther 2, max 0, bias 9, tiled, cull back
   Parameters p = of_nearest_lines();
@@ -378,9 +378,9 @@ TEST(GeometricDriver, ReadsWhatTheEngineShows) {
   b.registers.values[reg::kMemoryErrors] = 3;
   EXPECT_EQ(b.driver.work().edges, 300u);
   EXPECT_EQ(b.driver.work().blended_pixels, 7u);
-  EXPECT_EQ(b.driver.clocks().frame, 1000u);
-  EXPECT_EQ(b.driver.clocks().edges, 600u);
-  EXPECT_EQ(b.driver.clocks().resolve, 400u);
+  EXPECT_EQ(b.driver.cycles().frame, 1000u);
+  EXPECT_EQ(b.driver.cycles().edges, 600u);
+  EXPECT_EQ(b.driver.cycles().resolve, 400u);
   EXPECT_EQ(b.driver.memory_errors(), 3u);
   b.registers.values[reg::kControl] = 1;
   b.driver.clear_counters();
@@ -406,7 +406,7 @@ TEST(GeometricDriver, NothingIsWrittenToABusyEngine) {
             "driver of the geometric engine: START while it is busy: wait until STATUS says idle");
   EXPECT_THAT(error_of<spec::SimulationError>([&] { b.driver.program(); }),
               HasSubstr("sizes and bases while it is busy"));
-  EXPECT_THAT(error_of<spec::SimulationError>([&] { b.driver.set_rules({}); }),
+  EXPECT_THAT(error_of<spec::SimulationError>([&] { b.driver.set_configuration({}); }),
               HasSubstr("new rules while it is busy"));
   EXPECT_TRUE(b.registers.written.empty());
 }
@@ -414,12 +414,12 @@ TEST(GeometricDriver, NothingIsWrittenToABusyEngine) {
 TEST(GeometricDriver, ARejectedStartSaysWhy) {
   Bed b;
   EXPECT_NO_THROW(b.driver.require_accepted());
-  b.registers.values[reg::kRefusal] = 4;
+  b.registers.values[reg::kRejection] = 4;
   EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.require_accepted(); }),
             "the geometric engine rejected the start: touched_words");
   // The first code without a name, and the last.
-  for (const std::size_t code : {spec::geometric::kRefusalNames.size(), std::size_t{15}}) {
-    b.registers.values[reg::kRefusal] = static_cast<std::uint32_t>(code);
+  for (const std::size_t code : {spec::geometric::kRejectionNames.size(), std::size_t{15}}) {
+    b.registers.values[reg::kRejection] = static_cast<std::uint32_t>(code);
     EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.require_accepted(); }),
               "the geometric engine rejected the start: ?");
   }
@@ -443,7 +443,7 @@ TEST(GeometricDriver, SizesOutOfRangeAreRejected) {
   EXPECT_THAT(with([](GeometricFrame& f) { f.faces = (1 << 20) + 1; }), HasSubstr("faces"));
   Parameters every = Bed::raster();
   every.select = spec::geometric::Select::kAll;
-  b.driver.set_rules(every);
+  b.driver.set_configuration(every);
   EXPECT_THAT(with([](GeometricFrame& f) { f.faces = (1 << 20) + 1; }), HasSubstr("too few for"));
   EXPECT_THAT(with([](GeometricFrame& f) { f.faces = (1 << 24) + 1; }),
               HasSubstr("faces: expected 0..16777216"));
@@ -500,7 +500,7 @@ TEST(GeometricDriver, TheCopyNeedsRoomOnlyWhereFramesAreCopied) {
   Bed b(p);
   b.driver.place(GeometricRegions({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0x6000, 0x6000}));
   EXPECT_THAT(rejection(b, b.frame()), HasSubstr("overlaps"));
-  b.driver.set_rules(Bed::raster());
+  b.driver.set_configuration(Bed::raster());
   EXPECT_EQ(b.registers.written.back(), (std::pair{0x10u, 0x8D09A9u}));
   EXPECT_EQ(rejection(b, b.frame()), "");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Beats, registers and learned shares that the driver of the morphological engine gives to it,
-// against docs/reference/registers.md and docs/reference/morphological/learned_shares.md by hand,
+// Beats, registers and learned weights that the driver of the morphological engine gives to it,
+// against docs/reference/registers.md and docs/reference/morphological/learned_weights.md by hand,
 // and what it rejects.
 #include "rtl_model/platform/morphological_driver.h"
 
@@ -93,8 +93,8 @@ TEST(MorphologicalDriver, WritesEachRuleAsAField) {
   const auto with = [&](auto&& change) {
     Parameters p = nothing();
     change(p);
-    b.driver.set_rules(p);
-    return b.registers.values[reg::kRules];
+    b.driver.set_configuration(p);
+    return b.registers.values[reg::kConfiguration];
   };
   using namespace spec::morphological;  // NOLINT: the choices
   EXPECT_EQ(with([](Parameters&) {}), 0u);
@@ -116,8 +116,8 @@ TEST(MorphologicalDriver, WritesEachRuleAsAField) {
   EXPECT_EQ(with([](Parameters& p) { p.diagonals = true; }), 1u << 20);
   EXPECT_EQ(with([](Parameters& p) { p.round_corners = true; }), 1u << 21);
   EXPECT_EQ(with([](Parameters& p) { p.blend = BlendRule::kStrongest; }), 1u << 22);
-  EXPECT_EQ(with([](Parameters& p) { p.leave = static_cast<Leave>(3); }), 3u << 24);
-  EXPECT_EQ(with([](Parameters& p) { p.leave = static_cast<Leave>(4); }), 4u << 24);
+  EXPECT_EQ(with([](Parameters& p) { p.leave = static_cast<Bypass>(3); }), 3u << 24);
+  EXPECT_EQ(with([](Parameters& p) { p.leave = static_cast<Bypass>(4); }), 4u << 24);
   EXPECT_EQ(with([](Parameters& p) { p.area = AreaSource::kLearned; }), 1u << 23);
   EXPECT_EQ(with([](Parameters& p) { p.text_guard = true; }), 1u << 28);
 }
@@ -135,7 +135,7 @@ TEST(MorphologicalDriver, WritesRulesAndThresholds) {
   p.search_steps = 0x70;
   p.diagonal_steps = 0x1F;
   p.corner_rounding = 0x100;
-  b.driver.set_rules(p);
+  b.driver.set_configuration(p);
   EXPECT_THAT(b.registers.written,
               ElementsAre(Write{0x10, 1u << 17}, Write{0x14, 1}, Write{0x18, 2}, Write{0x1C, 3},
                           Write{0x20, 4}, Write{0x24, 5}, Write{0x28, 6}, Write{0x30, 0x1001F70}));
@@ -153,40 +153,40 @@ TEST(MorphologicalDriver, ReadsWhatTheEngineShows) {
   Bed b;
   b.registers.values[reg::kPixels] = 100;
   b.registers.values[reg::kDiagonals] = 7;
-  b.registers.values[reg::kLeftPixels] = 9;
+  b.registers.values[reg::kBypassedPixels] = 9;
   b.registers.values[reg::kFrameCycles] = 1234;
   b.registers.values[reg::kMemoryErrors] = 2;
   EXPECT_EQ(b.driver.work().pixels, 100u);
   EXPECT_EQ(b.driver.work().diagonal_pixels, 7u);
-  EXPECT_EQ(b.driver.work().left_pixels, 9u);
-  EXPECT_EQ(b.driver.frame_clocks(), 1234u);
+  EXPECT_EQ(b.driver.work().bypassed_pixels, 9u);
+  EXPECT_EQ(b.driver.frame_cycles(), 1234u);
   EXPECT_EQ(b.driver.memory_errors(), 2u);
 }
 
 TEST(MorphologicalDriver, LoadsLearnedSharesAndChecksTheirSum) {
-  EXPECT_EQ(platform::kShareEntries, 2304u);
-  EXPECT_EQ(platform::shares_sum(std::vector<std::int8_t>{1, -1, 2}), 1u + 2 * 255 + 3 * 2);
+  EXPECT_EQ(platform::kWeightEntries, 2304u);
+  EXPECT_EQ(platform::weights_sum(std::vector<std::int8_t>{1, -1, 2}), 1u + 2 * 255 + 3 * 2);
   Parameters p = nothing();
   p.area = spec::morphological::AreaSource::kLearned;
   Bed b(p);
-  std::vector<std::int8_t> shares(2304, 1);
-  shares.back() = -1;
-  b.registers.values[reg::kSharesSum] = 2303u * 2304 / 2 + 2304 * 255;
-  b.driver.load_shares(shares);
+  std::vector<std::int8_t> weights(2304, 1);
+  weights.back() = -1;
+  b.registers.values[reg::kWeightsSum] = 2303u * 2304 / 2 + 2304 * 255;
+  b.driver.load_weights(weights);
   ASSERT_EQ(b.registers.written.size(), 2305u);
   EXPECT_EQ(b.registers.written.front(), (Write{0x80, 0}));
   EXPECT_EQ(b.registers.written[1], (Write{0x84, 1}));
   EXPECT_EQ(b.registers.written.back(), (Write{0x84, 255}));
-  b.registers.values[reg::kSharesSum] = 5;
-  EXPECT_THAT(error_of<spec::SimulationError>([&] { b.driver.load_shares(shares); }),
-              HasSubstr("SHARES_SUM reads 0x5"));
-  shares.pop_back();
-  EXPECT_THAT(error_of<spec::ConfigError>([&] { b.driver.load_shares(shares); }),
-              HasSubstr("2303 learned shares, expected 2304"));
+  b.registers.values[reg::kWeightsSum] = 5;
+  EXPECT_THAT(error_of<spec::SimulationError>([&] { b.driver.load_weights(weights); }),
+              HasSubstr("WEIGHTS_SUM reads 0x5"));
+  weights.pop_back();
+  EXPECT_THAT(error_of<spec::ConfigError>([&] { b.driver.load_weights(weights); }),
+              HasSubstr("2303 learned weights, expected 2304"));
   Bed without;
   EXPECT_THAT(error_of<spec::ConfigError>(
-                  [&] { without.driver.load_shares(std::vector<std::int8_t>(2304)); }),
-              HasSubstr("built without learned shares"));
+                  [&] { without.driver.load_weights(std::vector<std::int8_t>(2304)); }),
+              HasSubstr("built without learned weights"));
 }
 
 // ---- wrong use
@@ -201,9 +201,9 @@ TEST(MorphologicalDriver, NothingIsWrittenToABusyEngine) {
             "driver of the morphological engine: SIZE while it is busy: wait until STATUS says "
             "idle");
   EXPECT_THAT(busy([&] { b.driver.place(0); }), HasSubstr("PIXEL_BASE while it is busy"));
-  EXPECT_THAT(busy([&] { b.driver.set_rules(p); }), HasSubstr("new rules while it is busy"));
-  EXPECT_THAT(busy([&] { b.driver.load_shares(std::vector<std::int8_t>(2304)); }),
-              HasSubstr("learned shares while it is busy"));
+  EXPECT_THAT(busy([&] { b.driver.set_configuration(p); }), HasSubstr("new rules while it is busy"));
+  EXPECT_THAT(busy([&] { b.driver.load_weights(std::vector<std::int8_t>(2304)); }),
+              HasSubstr("learned weights while it is busy"));
   EXPECT_TRUE(b.registers.written.empty());
 }
 

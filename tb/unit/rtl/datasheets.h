@@ -21,30 +21,30 @@
 
 namespace deburr::tb {
 
-// `seen`: the clocks in which tokens can be popped behind a unit that may take one after the other
+// `seen`: the cycles in which tokens can be popped behind a unit that may take one after the other
 // and has popped the first of them in `taken`.
-inline void expect_clocks(const rtl::Datasheet& sheet, const std::vector<rtl::Cycle>& seen,
+inline void expect_cycles(const rtl::Datasheet& sheet, const std::vector<rtl::Cycle>& seen,
                           rtl::Cycle taken) {
   ASSERT_FALSE(seen.empty());
   std::vector<rtl::Cycle> expected;
   for (std::size_t i = 0; i < seen.size(); ++i)
-    expected.push_back(taken + sheet.latency.clocks + i * sheet.interval.clocks);
+    expected.push_back(taken + sheet.latency.cycles + i * sheet.interval.cycles);
   EXPECT_EQ(seen, expected) << "by the datasheet of " << title(sheet);
 }
 inline void expect_latency(const rtl::Datasheet& sheet, rtl::Cycle measured) {
-  EXPECT_EQ(measured, sheet.latency.clocks) << "by the datasheet of " << title(sheet);
+  EXPECT_EQ(measured, sheet.latency.cycles) << "by the datasheet of " << title(sheet);
 }
 inline void expect_interval(const rtl::Datasheet& sheet, rtl::Cycle measured) {
-  EXPECT_EQ(measured, sheet.interval.clocks) << "by the datasheet of " << title(sheet);
+  EXPECT_EQ(measured, sheet.interval.cycles) << "by the datasheet of " << title(sheet);
 }
 
-// A planted fault: with a datasheet that is a clock off in either direction the check must fail.
+// A injected fault: with a datasheet that is a clock off in either direction the check must fail.
 template <class Check>
-void expect_notices_a_clock(const rtl::Datasheet& sheet, rtl::Clocks rtl::Datasheet::*which,
+void expect_notices_a_clock(const rtl::Datasheet& sheet, rtl::Cycles rtl::Datasheet::*which,
                             const Check& check) {
   rtl::Datasheet less = sheet, more = sheet;
-  --(less.*which).clocks;
-  ++(more.*which).clocks;
+  --(less.*which).cycles;
+  ++(more.*which).cycles;
   check(sheet);
   EXPECT_NONFATAL_FAILURE(check(less), "by the datasheet of");
   EXPECT_NONFATAL_FAILURE(check(more), "by the datasheet of");
@@ -100,8 +100,8 @@ inline void expect_contract(const std::vector<rtl::Datasheet>& sheets,
       ADD_FAILURE() << "no number by hand of " << title(sheet);
       continue;
     }
-    EXPECT_EQ(sheet.latency.clocks, row->latency) << row->title;
-    EXPECT_EQ(sheet.interval.clocks, row->interval) << row->title;
+    EXPECT_EQ(sheet.latency.cycles, row->latency) << row->title;
+    EXPECT_EQ(sheet.interval.cycles, row->interval) << row->title;
     expect_stages_in_order(sheet);
   }
   EXPECT_EQ(sheets.size(), contract.size());

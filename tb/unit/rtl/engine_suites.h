@@ -66,10 +66,10 @@ bool register_suites(const char* file = __builtin_FILE(), int line = __builtin_L
   each("Stress", "StallsCostTimeAndNothingElse", &Stress::stalls_cost_time_and_nothing_else);
   each("Stress", "OrderFastPathCheckersAndNoiseAreInvisible",
        &Stress::order_fast_path_checkers_and_noise_are_invisible);
-  each("Stress", "TheSameSeedGivesTheSameClocks", &Stress::the_same_seed_gives_the_same_clocks);
+  each("Stress", "TheSameSeedGivesTheSameClocks", &Stress::the_same_seed_gives_the_same_cycles);
   if constexpr (Kit::kPrograms)
     each("Stress", "WrittenRulesGiveTheSameRunAsResetValues",
-         &Stress::written_rules_give_the_same_run_as_reset_values);
+         &Stress::written_configuration_give_the_same_run_as_reset_values);
   using Registers = RegisterSuite<Kit>;
   each("RegisterFile", "EveryFieldIsAsTheExportedFileSays",
        &Registers::every_field_is_as_the_exported_file_says);

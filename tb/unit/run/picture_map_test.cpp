@@ -47,10 +47,10 @@ TEST(PictureMap, AddsFromNothing) {
 TEST(PictureMap, IsCheckedAgainstACount) {
   PictureMap map = ramp(4, 3);
   EXPECT_NO_THROW(check_map(map));  // nothing to check
-  map.account = {"work.clocks", 55, map.sum()};
+  map.account = {"work.cycles", 55, map.sum()};
   EXPECT_NO_THROW(check_map(map));
   map.add(0, 0, 1);
-  map.account = {"work.clocks", 55, map.sum()};
+  map.account = {"work.cycles", 55, map.sum()};
   EXPECT_THROW(check_map(map), spec::CheckFailed);
 }
 

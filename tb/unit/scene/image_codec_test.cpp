@@ -6,7 +6,7 @@
 
 #include "tb/scene/image_io.h"
 #include "tb/scene/textures.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tb/unit/scene/fixtures.h"
 
 namespace deburr::tb::image_codec_test {

@@ -40,11 +40,11 @@ TEST(Quality, PsnrKnownAnswers) {
 }
 
 TEST(Quality, EdgesAndSilhouettes) {
-  Image truth(5, 1, {50, 50, 50, 255}), input = truth;
+  Image reference(5, 1, {50, 50, 50, 255}), input = reference;
   input.at(1, 0)[2] = 52;  // 2: not an edge
   input.at(2, 0)[0] = 47;  // 3: an edge
   input.at(4, 0)[1] = 60;
-  const Mask edges = edge_mask(truth, input);
+  const Mask edges = edge_mask(reference, input);
   EXPECT_EQ(edges.pixels, (std::vector<std::uint8_t>{0, 0, 1, 0, 1}));
   EXPECT_EQ(count(edges), 2);
   EXPECT_EQ(inverted(edges).pixels, (std::vector<std::uint8_t>{1, 1, 0, 1, 0}));
@@ -92,7 +92,7 @@ TEST(Flicker, KnownAnswers) {
   };
   meter.add(frame(10, 50), frame(10, 50), all);
   EXPECT_EQ(meter.mean(), 0);
-  meter.add(frame(16, 50), frame(10, 52), all);  // 6 and -2 more than the truth
+  meter.add(frame(16, 50), frame(10, 52), all);  // 6 and -2 more than the reference
   EXPECT_DOUBLE_EQ(meter.mean(), std::sqrt((36.0 + 4.0) / 2));
   meter.add(frame(10, 50), frame(10, 50), all);  // the same back: the first of equals is the worst
   EXPECT_DOUBLE_EQ(meter.worst(), std::sqrt(20.0));

@@ -72,23 +72,23 @@ inline void expect_generated(const std::string& page, const std::string& name,
                                  << name;
 }
 
-// The planted fault of a table: each value of a row's result, changed, changes the table.
+// The injected fault of a table: each value of a row's result, changed, changes the table.
 template <class Rows, class Table>
 void expect_table_has_each_value(const Rows& rows, const Table& table) {
   const std::string kept = table(rows);
   for (std::size_t row = 0; row < rows.size(); ++row) {
     std::size_t count = 1;
-    for (std::size_t planted = 0; planted < count; ++planted) {
+    for (std::size_t injected = 0; injected < count; ++injected) {
       Rows changed = rows;
       std::size_t at = 0;
       std::remove_reference_t<decltype(changed[row].result)>::fields(changed[row].result,
                                                                      [&](auto title, auto& value) {
-                                                                       if (at++ == planted)
+                                                                       if (at++ == injected)
                                                                          value ^= 1;
                                                                        static_cast<void>(title);
                                                                      });
       count = at;
-      EXPECT_NE(table(changed), kept) << "row " << row << ", value " << planted;
+      EXPECT_NE(table(changed), kept) << "row " << row << ", value " << injected;
     }
   }
 }

@@ -34,24 +34,24 @@ std::string differences(const Result& expected, const Result& got) {
   return all;
 }
 
-// The planted fault of a runner: each value of a vector, changed, is seen.
+// The injected fault of a runner: each value of a vector, changed, is seen.
 template <class Result>
 void expect_each_value_is_compared(const Result& expected, const Result& got) {
   ASSERT_EQ(differences(expected, got), "");
-  std::size_t count = 0, planted = 0;
+  std::size_t count = 0, injected = 0;
   Result::fields(expected, [&](std::string_view, const auto&) { ++count; });
-  for (; planted < count; ++planted) {
+  for (; injected < count; ++injected) {
     Result changed = expected;
     std::size_t at = 0;
     std::string name;
     Result::fields(changed, [&](std::string_view title, auto& value) {
-      if (at++ != planted) return;
+      if (at++ != injected) return;
       value ^= 1;
       name = title;
     });
     EXPECT_TRUE(differences(changed, got).starts_with(name + ": ")) << name;
   }
-  EXPECT_GT(planted, 0u);
+  EXPECT_GT(injected, 0u);
 }
 
 }  // namespace deburr::tb

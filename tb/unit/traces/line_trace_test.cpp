@@ -135,7 +135,7 @@ TEST_F(Lines, OfLookUpsHaveTheClockOfTheLookUp) {
   // miss queue takes the miss in 3 and asks for the line in 4.
   EXPECT_EQ(bytes(),
             "# deburr-lines 1\n# engine some_unit\n# clock_mhz 148.5\n"
-            "# port 0 memory 64 cache.memory_port\n# port 1 look_ups 64 cache.tag_stage\n"
+            "# port 0 memory 64 cache.memory_port\n# port 1 lookups 64 cache.tag_stage\n"
             "# clock event address bytes port\n2 miss 0x000000c0 64 1\n"
             "3 merged 0x000000c0 64 1\n5 read 0x000000c0 64 0\n"
             "102 hit 0x000000c0 64 1\n# end 4\n");

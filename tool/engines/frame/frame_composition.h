@@ -85,7 +85,7 @@ class FrameComposition final : public tb::Environment {
   std::vector<tb::Environment*> parts();
   std::vector<const tb::Environment*> parts() const;
   Boards boards(Boards (tb::Environment::*of)() const) const;
-  // Between clocks: engines that begin when the one before them is done.
+  // Between cycles: engines that begin when the one before them is done.
   void hand_on();
   // As it lies in the frame buffer: nothing is marked before the first engine marks it.
   tb::Rgba8 unmarked(tb::Rgba8 colour) const;

@@ -75,7 +75,7 @@ class FrameCommand final : public Engine {
 
   void prepare(const RunParameters& run, RunContext& context) override {
     const std::shared_ptr<const DrawnScene> scene = load(run, context);
-    if (run.truth) drawer().prepare_truth(*scene, truth_options(), context);
+    if (run.reference) drawer().prepare_reference(*scene, reference_options(), context);
   }
 
   // Of all engines at once.
@@ -95,7 +95,7 @@ class FrameCommand final : public Engine {
   }
   std::vector<std::string_view> pictures() const override {
     std::vector<std::string_view> all = {"before", "after", "golden", "difference",
-                                         "truth",  "error", "change"};
+                                         "reference",  "error", "change"};
     for (const CompositionRole* role : roles().all())
       for (const std::string_view picture : role->pictures())
         if (std::find(all.begin(), all.end(), picture) == all.end()) all.push_back(picture);
@@ -147,9 +147,9 @@ class FrameCommand final : public Engine {
             "the {} has no golden picture of a frame alone: no flicker is measured through it",
             smoother->title()));
     }
-    tb::RenderOptions options = truth_options();
+    tb::RenderOptions options = reference_options();
     options.interrupted = [] { return tb::interrupted(); };
-    return {before, std::move(after), drawer().truth_of(*scene, options)};
+    return {before, std::move(after), drawer().reference_of(*scene, options)};
   }
 
   std::string engines_line() const {
@@ -161,7 +161,7 @@ class FrameCommand final : public Engine {
                                          : " on one clock, overlapped row by row");
   }
 
-  tb::RenderOptions truth_options() const {
+  tb::RenderOptions reference_options() const {
     tb::RenderOptions options;
     // Coverage is averaged in the light in which the last engine blends.
     options.averaging = roles().chosen_smoothers().back()->linear_light() ? tb::Averaging::kLinear
@@ -174,20 +174,20 @@ class FrameCommand final : public Engine {
     const tb::Image& before = frame.buffer().frame();
     const tb::Image after = frame.frame();
     const bool whole = frame.delivered() == after.pixels.size();
-    tb::Image expected, truth;
+    tb::Image expected, reference;
     if (after.pixels.size() != before.pixels.size()) return;  // nothing was begun
     const bool golden = run.check == CheckMode::kGolden;
     if (golden) expected = frame.expected_frame();
-    if (run.truth && whole)
-      truth = drawer().compare_with_truth(scene, truth_options(), before, after, result, context);
-    if (whole) result.change = measure_change(before, after, truth.empty() ? nullptr : &truth);
+    if (run.reference && whole)
+      reference = drawer().compare_with_reference(scene, reference_options(), before, after, result, context);
+    if (whole) result.change = measure_change(before, after, reference.empty() ? nullptr : &reference);
     const SmoothedFrame smoothed{before,
                                  after,
                                  frame.delivered(),
                                  golden ? &expected : nullptr,
-                                 truth.empty() ? nullptr : &truth,
+                                 reference.empty() ? nullptr : &reference,
                                  std::string(drawer().caption()),
-                                 drawer().truth_caption()};
+                                 drawer().reference_caption()};
     if (frame.rows())
       frame.rows()->add_pictures(context, smoothed);
     else

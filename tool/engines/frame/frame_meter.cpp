@@ -36,74 +36,74 @@ void FrameMeter::show_parts(tb::Observer& observer) const {
   observer.see("frame_buffer_bytes_read", parts_.buffer.bytes_read);
 }
 
-FrameMeter::Clocks FrameMeter::clocks(const tb::Result& result,
+FrameMeter::Cycles FrameMeter::cycles(const tb::Result& result,
                                       const FrameProgress& progress) const {
   const auto since_begin = [&](rtl::Cycle cycle) {
     return cycle - std::min(cycle, progress.begun);
   };
   const FrameBuffer& buffer = parts_.buffer;
-  Clocks c;
+  Cycles c;
   const int width = buffer.frame().width, height = buffer.frame().height;
   c.colours = since_begin(buffer.last_colour());
-  c.colours_bound = parts_.drawing.clocks_bound();
+  c.colours_bound = parts_.drawing.cycles_bound();
   if (parts_.mesh) {
-    c.drawing = progress.drawing_clocks;
-    c.drawing_bound = parts_.mesh->clocks_bound(width, height);
+    c.drawing = progress.drawing_cycles;
+    c.drawing_bound = parts_.mesh->cycles_bound(width, height);
   }
   if (parts_.rows) {
     c.smoothing = result.cycles - std::min(result.cycles, since_begin(buffer.first_beat()));
-    c.smoothing_bound = parts_.rows->clocks_bound(width, height);
+    c.smoothing_bound = parts_.rows->cycles_bound(width, height);
   }
   return c;
 }
 
-std::uint64_t FrameMeter::bound(const Clocks& c) const {
+std::uint64_t FrameMeter::bound(const Cycles& c) const {
   return parts_.mesh ? c.colours_bound + c.drawing_bound + c.smoothing_bound
                      : std::max(c.colours_bound, c.smoothing_bound);
 }
 
-std::string FrameMeter::meaning_of_bound(const Clocks& c) const {
+std::string FrameMeter::meaning_of_bound(const Cycles& c) const {
   if (parts_.mesh)
     return fmt::format(
-        "Pixels of the frame over the clocks that the engines need one after the other: {} {}, "
+        "Pixels of the frame over the cycles that the engines need one after the other: {} {}, "
         "drawing edges {}{}.",
         words_.doing, tb::grouped(c.colours_bound), tb::grouped(c.drawing_bound),
         parts_.rows ? fmt::format(", smoothing {}", tb::grouped(c.smoothing_bound)) : "");
   return fmt::format(
-      "Pixels of the frame over the clocks of the slower engine alone ({0}), the other one at the "
-      "same time: {1} takes {2} clocks at least, smoothing {3}.",
+      "Pixels of the frame over the cycles of the slower engine alone ({0}), the other one at the "
+      "same time: {1} takes {2} cycles at least, smoothing {3}.",
       c.smoothing_bound >= c.colours_bound ? "smoothing" : words_.doing, words_.doing,
       tb::grouped(c.colours_bound), tb::grouped(c.smoothing_bound));
 }
 
-std::string FrameMeter::colours_key() const { return fmt::format("{}_clocks", words_.doing); }
+std::string FrameMeter::colours_key() const { return fmt::format("{}_cycles", words_.doing); }
 
-void FrameMeter::collect_clocks(tb::Result& result, const Clocks& c) const {
+void FrameMeter::collect_cycles(tb::Result& result, const Cycles& c) const {
   add(result, colours_key(), c.colours, "clk",
       fmt::format("From the first {} to the last colour.", words_.from));
   if (parts_.mesh)
-    add(result, "drawing_clocks", c.drawing, "clk",
+    add(result, "drawing_cycles", c.drawing, "clk",
         fmt::format("From the last colour in the frame buffer until the {} is done.",
                     parts_.mesh_title));
   if (parts_.rows) {
-    add(result, "smoothing_clocks", c.smoothing, "clk",
+    add(result, "smoothing_cycles", c.smoothing, "clk",
         "From the first row out of the frame buffer to the last pixel.");
-    add(result, "smoothing_clocks_by_formula", c.smoothing_bound, "clk",
+    add(result, "smoothing_cycles_by_formula", c.smoothing_bound, "clk",
         fmt::format("Of the {} alone, if nothing stalls.", parts_.rows_title));
   }
   if (!parts_.mesh)
-    add(result, "overlapped_clocks", c.together() - std::min(c.together(), result.cycles), "clk",
-        "Clocks in which both engines were at this frame.");
-  add(result, parts_.mesh ? "engine_clocks_bound" : "slower_engine_clocks", bound(c), "clk",
+    add(result, "overlapped_cycles", c.together() - std::min(c.together(), result.cycles), "clk",
+        "Cycles in which both engines were at this frame.");
+  add(result, parts_.mesh ? "engine_cycles_bound" : "slower_engine_cycles", bound(c), "clk",
       parts_.mesh ? "Of all engines, one after the other, if nothing stalls."
                   : fmt::format("Of the slower engine alone if nothing stalls: {}, or "
-                                "smoothing_clocks_by_formula.",
+                                "smoothing_cycles_by_formula.",
                                 words_.bound_meaning));
 }
 
 void FrameMeter::collect_headline(tb::Result& result, const FrameProgress& progress) const {
-  const Clocks c = clocks(result, progress);
-  collect_clocks(result, c);
+  const Cycles c = cycles(result, progress);
+  collect_cycles(result, c);
   const SmoothingStage& last = parts_.rows ? static_cast<const SmoothingStage&>(*parts_.rows)
                                            : static_cast<const SmoothingStage&>(*parts_.mesh);
   result.latency = last.latency();
@@ -124,15 +124,15 @@ std::vector<Figure> FrameMeter::headline_figures(bool complete) const {
   if (complete) {
     figures.push_back(
         parts_.mesh
-            ? Figure{"Frame", "cycles", "engines alone", "work.engine_clocks_bound", true}
-            : Figure{"Frame", "cycles", "slower engine alone", "work.slower_engine_clocks", true});
+            ? Figure{"Frame", "cycles", "engines alone", "work.engine_cycles_bound", true}
+            : Figure{"Frame", "cycles", "slower engine alone", "work.slower_engine_cycles", true});
     figures.push_back({std::string(words_.label), "work." + colours_key(),
                        std::string(words_.bound_label), std::string(words_.bound_key)});
-    if (parts_.mesh) figures.push_back({"Edges", "work.drawing_clocks"});
+    if (parts_.mesh) figures.push_back({"Edges", "work.drawing_cycles"});
     if (parts_.rows)
       figures.push_back(
-          {"Smoothing", "work.smoothing_clocks", "formula", "work.smoothing_clocks_by_formula"});
-    if (!parts_.mesh) figures.push_back({"Both at once", "work.overlapped_clocks"});
+          {"Smoothing", "work.smoothing_cycles", "formula", "work.smoothing_cycles_by_formula"});
+    if (!parts_.mesh) figures.push_back({"Both at once", "work.overlapped_cycles"});
   }
   append(parts_.drawing.figures());
   append({{"Frame buffer, not among the memories", "work.frame_buffer_bytes"},

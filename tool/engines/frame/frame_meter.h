@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figures of a whole frame: those of its engines, the frame buffer between them, and the clocks of
+// Figures of a whole frame: those of its engines, the frame buffer between them, and the cycles of
 // each against what it needs at least.
 #pragma once
 
@@ -30,7 +30,7 @@ struct FrameParts {
 // How far the composition is.
 struct FrameProgress {
   rtl::Cycle begun = 0;              // when the run began
-  std::uint64_t drawing_clocks = 0;  // along edges of the mesh; 0 before that is done
+  std::uint64_t drawing_cycles = 0;  // along edges of the mesh; 0 before that is done
   bool complete = false;             // the run
 };
 
@@ -43,17 +43,17 @@ class FrameMeter : public tb::Meter {
   void collect_headline(tb::Result& result, const FrameProgress& progress) const;
 
  private:
-  // Clocks of each engine at this frame, and what it needs at least.
-  struct Clocks {
+  // Cycles of each engine at this frame, and what it needs at least.
+  struct Cycles {
     std::uint64_t colours = 0, drawing = 0, smoothing = 0;
     std::uint64_t colours_bound = 0, drawing_bound = 0, smoothing_bound = 0;
     std::uint64_t together() const { return colours + drawing + smoothing; }
   };
-  Clocks clocks(const tb::Result& result, const FrameProgress& progress) const;
+  Cycles cycles(const tb::Result& result, const FrameProgress& progress) const;
   // Engines behind each other add up; who draws and who smooths rows overlap.
-  std::uint64_t bound(const Clocks& clocks) const;
-  std::string meaning_of_bound(const Clocks& clocks) const;
-  void collect_clocks(tb::Result& result, const Clocks& clocks) const;
+  std::uint64_t bound(const Cycles& cycles) const;
+  std::string meaning_of_bound(const Cycles& cycles) const;
+  void collect_cycles(tb::Result& result, const Cycles& cycles) const;
   std::vector<tb::Figure> headline_figures(bool complete) const;
   std::uint64_t pixels() const { return parts_.buffer.frame().pixels.size(); }
   std::string colours_key() const;

@@ -17,9 +17,9 @@
 #include "tool/engines/geometric/geometric_draws.h"
 #include "tool/engines/geometric/geometric_pictures.h"
 #include "tool/engines/geometric/geometric_role.h"
-#include "tool/engines/geometric/geometric_rules.h"
+#include "tool/engines/geometric/geometric_configuration.h"
 #include "tool/run/flicker.h"
-#include "tool/run/input_rules.h"
+#include "tool/run/input_configuration.h"
 #include "tool/run/pictures.h"
 #include "tool/run/shorthands.h"
 #include "tool/run/simulate.h"
@@ -43,11 +43,11 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
     lists_ = lists_of(scene_);
     frames_ = frames_of(set, sequence_, lists_);
     imply_crossings(set, "scene.crossings", parameters_);
-    reject_unused_rules(set, parameters_);
+    reject_unused_configuration(set, parameters_);
     reject_unused_memory(set, "memory", memory_);
     reject_slow_memory(set, "memory", memory_);
-    if (set.find("run.truth")->text() == "false" && frames_ == 1)
-      set.reject("scene.truth_samples", "nothing is compared without run.truth (--truth)");
+    if (set.find("run.reference")->text() == "false" && frames_ == 1)
+      set.reject("scene.reference_samples", "nothing is compared without run.reference (--truth)");
     preset_label_ = preset_label(set, parameters_);
   }
 
@@ -77,7 +77,7 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
         summary_line(frame));
     for (const std::string& note : loaded.notes) context.add_note(note);
     for (const std::string& note : build_notes(rtl::geometric::sized(
-             parameters_, memory_clocks(tb::GeometricSetup{parameters_, memory_}))))
+             parameters_, memory_cycles(tb::GeometricSetup{parameters_, memory_}))))
       context.add_note(note);
     const std::vector<tb::geometric::Frame> frames(static_cast<std::size_t>(scene_.count), frame);
     tb::Simulation simulation(simulation_options(run, context));
@@ -95,7 +95,7 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
   void prepare(const RunParameters& run, RunContext& context) override { load(run, context); }
 
   std::vector<std::string_view> pictures() const override {
-    return {"before", "after",  "golden",  "difference", "truth",
+    return {"before", "after",  "golden",  "difference", "reference",
             "error",  "change", "weights", "classes"};
   }
   std::vector<std::string_view> maps() const override {
@@ -127,12 +127,12 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
 
   std::shared_ptr<const LoadedGeometricFrame> load(const RunParameters& run,
                                                    const RunContext& context) const {
-    const bool truth = run.truth && !context.checking_only();
-    return context.shared<LoadedGeometricFrame>("geometric frame", {"scene.", "run.truth"}, [&] {
-      tb::Waiting waiting(truth ? "rendering frame and truth" : "rendering the frame",
+    const bool reference = run.reference && !context.checking_only();
+    return context.shared<LoadedGeometricFrame>("geometric frame", {"scene.", "run.reference"}, [&] {
+      tb::Waiting waiting(reference ? "rendering frame and reference" : "rendering the frame",
                           context.quiet());
       return tb::load_geometric_frame(
-          in_frame(scene_, lists_, 0), static_cast<std::uint32_t>(run.seed), truth,
+          in_frame(scene_, lists_, 0), static_cast<std::uint32_t>(run.seed), reference,
           [&] {
             waiting.update();
             return tb::interrupted();
@@ -148,7 +148,7 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
         tb::load_geometric_frame(wanted, seed, true, [] { return tb::interrupted(); });
     check(loaded);
     return {loaded.frame.image, tb::geometric::smoothed(loaded.frame, parameters_).image,
-            *loaded.truth};
+            *loaded.reference};
   }
 
   std::string summary_line(const tb::geometric::Frame& frame) const {
@@ -184,14 +184,14 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
                         engine.golden_model().pixels().size() == expected.pixels.size();
     if (golden) expected.pixels = engine.golden_model().pixels();
     add_frame_pictures(context, {before, after, after.pixels.size(), golden ? &expected : nullptr,
-                                 loaded.truth ? &*loaded.truth : nullptr,
-                                 "the lit frame as it was rendered", loaded.truth_name});
+                                 loaded.reference ? &*loaded.reference : nullptr,
+                                 "the lit frame as it was rendered", loaded.reference_name});
     add_edge_pictures(context, loaded.frame, parameters_, engine.blocks());
     if (!engine.done()) return;
-    result.change = measure_change(before, after, loaded.truth ? &*loaded.truth : nullptr);
-    if (loaded.truth)
+    result.change = measure_change(before, after, loaded.reference ? &*loaded.reference : nullptr);
+    if (loaded.reference)
       result.quality =
-          measure_quality(loaded.truth_name, before, after, *loaded.truth, &loaded.frame.depth);
+          measure_quality(loaded.reference_name, before, after, *loaded.reference, &loaded.frame.depth);
   }
 
   tb::FrameLists lists_;

@@ -68,17 +68,17 @@ void walk(const LineRecord& line, int rows, Visit&& visit) {
 tb::Image weight_picture(int width, int height,
                          std::span<const spec::geometric::BlockRecord> blocks) {
   const tb::Image shape(width, height);
-  std::vector<Shares> shares(shape.pixels.size());
+  std::vector<Weights> weights(shape.pixels.size());
   for (const spec::geometric::BlockRecord& block : blocks)
     for (std::size_t i = 0; i < block.weights.size(); ++i) {
       const int x = 4 * block.x + static_cast<int>(i % 4),
                 y = 4 * block.y + static_cast<int>(i / 4);
       if (!(block.blended >> i & 1) || x >= width || y >= height) continue;
-      const golden::geometric::Tap tap = golden::geometric::tap_of(block.weights[i]);
-      shares[shape.index(x, y)] = {static_cast<std::uint8_t>(tap.first),
-                                   static_cast<std::uint8_t>(tap.second), tap.left_right};
+      const golden::geometric::Probe probe = golden::geometric::probe_of(block.weights[i]);
+      weights[shape.index(x, y)] = {static_cast<std::uint8_t>(probe.first),
+                                   static_cast<std::uint8_t>(probe.second), probe.left_right};
     }
-  return shares_picture(width, height, shares);
+  return weights_picture(width, height, weights);
 }
 
 tb::Image class_picture(const tb::geometric::Frame& frame,
@@ -115,7 +115,7 @@ void add_edge_pictures(RunContext& context, const tb::geometric::Frame& frame,
                        const std::string& weights) {
   context.add_image(weights, weight_picture(frame.image.width, frame.image.height, blocks),
                     "Weights",
-                    "share of the upper or left neighbour red, of the lower or right one green, "
+                    "weight of the upper or left neighbour red, of the lower or right one green, "
                     "blue where the two are left and right");
   context.add_image("classes", class_picture(frame, parameters), "Lines",
                     "boundaries yellow, silhouettes red, creases cyan, edges that are not "

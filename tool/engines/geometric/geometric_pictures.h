@@ -19,7 +19,7 @@ void add_edge_pictures(RunContext& context, const tb::geometric::Frame& frame,
                        std::span<const spec::geometric::BlockRecord> blocks,
                        const std::string& weights = "weights");
 
-// Shares of neighbours, twice as bright: up or left red, down or right green; blue where the pair
+// Weights of neighbours, twice as bright: up or left red, down or right green; blue where the pair
 // is left and right.
 tb::Image weight_picture(int width, int height,
                          std::span<const spec::geometric::BlockRecord> blocks);

@@ -11,8 +11,8 @@
 #include "tb/env/collect.h"
 #include "tb/scene/depth_codes.h"
 #include "tool/engines/geometric/geometric_pictures.h"
-#include "tool/engines/geometric/geometric_rules.h"
-#include "tool/run/input_rules.h"
+#include "tool/engines/geometric/geometric_configuration.h"
+#include "tool/run/input_configuration.h"
 
 namespace deburr::tool {
 
@@ -60,8 +60,8 @@ class GeometricStage final : public MeshStage {
     return tb::latency_of(environment_.engine().edge_latency);
   }
   std::string_view last_unit() const override { return "geometric_resolver"; }
-  std::uint64_t clocks_bound(int /*width*/, int /*height*/) const override {
-    return environment_.meter().frame_clocks_bound();
+  std::uint64_t cycles_bound(int /*width*/, int /*height*/) const override {
+    return environment_.meter().frame_cycles_bound();
   }
   std::vector<tb::Figure> work_figures() const override {
     return environment_.meter().work_figures();
@@ -106,7 +106,7 @@ class GeometricRole final : public MeshSmoother {
   }
   void resolve(tb::ParameterSet& set) override {
     imply_crossings(set, "geometric.crossings", parameters_);
-    reject_unused_rules(set, parameters_);
+    reject_unused_configuration(set, parameters_);
     reject_unused_memory(set, tb::kGeometricMemory, memory_);
     reject_slow_memory(set, tb::kGeometricMemory, memory_);
     label_ = preset_label(set, parameters_);
@@ -114,7 +114,7 @@ class GeometricRole final : public MeshSmoother {
   std::string label() const override { return label_; }
   std::vector<std::string> notes() const override {
     return build_notes(rtl::geometric::sized(
-        parameters_, memory_clocks(tb::GeometricSetup{parameters_, memory_})));
+        parameters_, memory_cycles(tb::GeometricSetup{parameters_, memory_})));
   }
   std::vector<std::string_view> pictures() const override {
     return {"weights", "classes", "edge_weights"};

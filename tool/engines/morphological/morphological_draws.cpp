@@ -24,13 +24,13 @@ RandomDraws morphological_draws() {
                {"frame.count", evenly<2, 3>},
                {"morphological.window_rows",
                 [](tb::Random& r) { return std::to_string(2 * by_magnitude(r, 5, 129)); }},
-               {"morphological.reach_columns", magnitude<4, 2048>},
+               {"morphological.search_columns", magnitude<4, 2048>},
                {"morphological.line_pixels", evenly<96, 1100>},
                {"morphological.memory.outstanding", magnitude<4, 256>}};
-  // Files; and a truth and frames behind each other, which are nothing of the hardware.
-  all.fixed = {"frame.depth",         "frame.truth",     "frame.mask",     "frame.shares",
-               "frame.truth_samples", "sequence.frames", "sequence.motion"};
-  all.given = {{"frame.truth_samples", "0"}};
+  // Files; and a reference and frames behind each other, which are nothing of the hardware.
+  all.fixed = {"frame.depth",         "frame.reference",     "frame.mask",     "frame.weights",
+               "frame.reference_samples", "sequence.frames", "sequence.motion"};
+  all.given = {{"frame.reference_samples", "0"}};
   all.wanted = {traces_something};
   return all;
 }

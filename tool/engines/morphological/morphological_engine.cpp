@@ -16,13 +16,13 @@
 #include "tb/engines/morphological/morphological_testbench.h"
 #include "tb/run/progress.h"
 #include "tb/scene/image_bytes.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tool/engines/morphological/morphological_draws.h"
 #include "tool/engines/morphological/morphological_pictures.h"
 #include "tool/engines/morphological/morphological_role.h"
-#include "tool/engines/morphological/morphological_rules.h"
+#include "tool/engines/morphological/morphological_configuration.h"
 #include "tool/run/flicker.h"
-#include "tool/run/input_rules.h"
+#include "tool/run/input_configuration.h"
 #include "tool/run/pictures.h"
 #include "tool/run/shorthands.h"
 #include "tool/run/simulate.h"
@@ -52,19 +52,19 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
           "--in 'frames/*.png'");
     if (!frame_.mask.empty()) {
       set.imply("morphological.leave", "masked", "frame.mask");
-      if (parameters_.leave == spec::morphological::Leave::kNone)
+      if (parameters_.leave == spec::morphological::Bypass::kNone)
         set.reject("frame.mask", "morphological.leave = none looks at no mask");
     }
-    reject_unused_rules(set, parameters_, "memory");
+    reject_unused_configuration(set, parameters_, "memory");
     reject_unused_memory(set, "memory", memory_);
     if (parameters_.storage == spec::morphological::Storage::kMemory)
       reject_slow_memory(set, "memory", memory_);
     else if (set.find("run.line_trace")->text() != "none")
       set.reject("run.line_trace",
                  "nothing is asked of memory: morphological.storage = memory asks for lines");
-    if (!frame_.shares.empty() && parameters_.area != spec::morphological::AreaSource::kLearned)
-      set.reject("frame.shares",
-                 fmt::format("morphological.area = {} has no learned shares",
+    if (!frame_.weights.empty() && parameters_.area != spec::morphological::AreaSource::kLearned)
+      set.reject("frame.weights",
+                 fmt::format("morphological.area = {} has no learned weights",
                              name_of(parameters_.area, spec::morphological::kAreaSourceNames)));
     reject_unused_frame(set);
     preset_label_ = preset_label(set, parameters_);
@@ -80,10 +80,10 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
         {{"--in", "frame.source",
           "Image file of any format that OpenImageIO reads, or a mesh file"},
          {"--scene", "frame.source", "Scene instead of a file: cylinders (default), road, ..."},
-         {"--truth", "frame.truth", "Anti-aliased picture to compare with"},
+         {"--truth", "frame.reference", "Anti-aliased picture to compare with"},
          {"--depth", "frame.depth", "Depth of the image: quality of silhouettes too"},
          {"--mask", "frame.mask", "Picture of what to leave as it is: white is masked"},
-         {"--shares", "frame.shares", "Learned shares of `deburr train` instead of those shipped"},
+         {"--shares", "frame.weights", "Learned weights of `deburr train` instead of those shipped"},
          {"--size", "frame.width", "Size of a rendered scene, WxH (640x480)", "frame.height"}},
         joined(smoothing_shorthands(), sequence_shorthands()));
   }
@@ -109,7 +109,7 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
     tb::MorphologicalEnvironment environment(simulation, frames,
                                              {.morphological = parameters_,
                                               .memory = memory_,
-                                              .shares = loaded.shares,
+                                              .weights = loaded.weights,
                                               .expectation = golden_of(loaded, context)});
     simulate(simulation, environment, context, result,
              [&] { add_pictures(run, context, loaded, environment, result); });
@@ -124,11 +124,11 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
   }
 
   std::vector<std::string_view> pictures() const override {
-    return {"before", "after",  "golden", "difference", "truth",
+    return {"before", "after",  "golden", "difference", "reference",
             "error",  "change", "edges",  "weights"};
   }
   std::string_view pixel_history() const override {
-    return "edges, runs and lines of its four sides, shares, blend, colour";
+    return "edges, runs and lines of its four sides, weights, blend, colour";
   }
   std::vector<std::string_view> maps() const override { return {"edges", "run_length", "steps"}; }
 
@@ -138,9 +138,9 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
  private:
   void check(const RunParameters& run, const LoadedFrame& loaded) const {
     if (is_rendered(first())) reject_nothing_drawn(*loaded.depth, first().source);
-    if (run.truth && !loaded.truth)
+    if (run.reference && !loaded.reference)
       throw spec::ConfigError(
-          "run.truth: this image comes without a truth; name one with --truth FILE");
+          "run.reference: this image comes without a reference; name one with --truth FILE");
     const Image& image = loaded.input.image;
     golden::morphological::check_frame(parameters_, image.width, image.height);
   }
@@ -148,25 +148,25 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
   std::shared_ptr<const LoadedFrame> load(const RunParameters& run,
                                           const RunContext& context) const {
     tb::FrameParameters wanted = first();
-    if (context.checking_only()) wanted.truth_samples = std::min(1, wanted.truth_samples);
+    if (context.checking_only()) wanted.reference_samples = std::min(1, wanted.reference_samples);
     const auto render = [&](const std::function<tb::LitFrames()>& make) {
       const std::string bytes = context.shared_bytes("lit frames", {"frame."}, [&] {
         const tb::LitFrames frames = make();
         std::string made;
         append_bytes(made, frames.noaa);
-        append_bytes(made, frames.truth);
+        append_bytes(made, frames.reference);
         append_bytes(made, frames.depth);
         return made;
       });
       std::string_view rest = bytes;
       tb::LitFrames frames;
       frames.noaa = tb::take_image<tb::Rgba8>(rest);
-      frames.truth = tb::take_image<tb::Rgba8>(rest);
+      frames.reference = tb::take_image<tb::Rgba8>(rest);
       frames.depth = tb::take_image<float>(rest);
       return frames;
     };
     return context.shared<LoadedFrame>("loaded frame", {"frame."}, [&] {
-      tb::Waiting waiting("rendering scene and truth", context.quiet());
+      tb::Waiting waiting("rendering scene and reference", context.quiet());
       return tb::load_frame(
           wanted, static_cast<std::uint32_t>(run.seed),
           [&] {
@@ -181,12 +181,12 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
       const LoadedFrame& loaded, const RunContext& context) const {
     using golden::morphological::MorphologicalGolden;
     return context.shared_golden<MorphologicalGolden>(built_for_golden(), [&] {
-      return tb::golden_frame(loaded.input, parameters_, shares_of(loaded));
+      return tb::golden_frame(loaded.input, parameters_, weights_of(loaded));
     });
   }
 
-  static const golden::morphological::ShareTables* shares_of(const LoadedFrame& loaded) {
-    return loaded.shares ? &*loaded.shares : nullptr;
+  static const golden::morphological::WeightTables* weights_of(const LoadedFrame& loaded) {
+    return loaded.weights ? &*loaded.weights : nullptr;
   }
 
   tb::FrameParameters first() const { return in_frame(frame_, lists_, 0); }
@@ -198,24 +198,24 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
     const Image& image = loaded.input.image;
     golden::morphological::check_frame(parameters_, image.width, image.height);
     Image after(image.width, image.height);
-    after.pixels = tb::golden_frame(loaded.input, parameters_, shares_of(loaded)).pixels();
-    return {image, std::move(after), loaded.truth ? *loaded.truth : Image()};
+    after.pixels = tb::golden_frame(loaded.input, parameters_, weights_of(loaded)).pixels();
+    return {image, std::move(after), loaded.reference ? *loaded.reference : Image()};
   }
 
   void reject_unused_frame(const tb::ParameterSet& set) const {
     const bool depth_used = parameters_.edge_source == spec::morphological::EdgeSource::kDepth ||
                             parameters_.edge_source == spec::morphological::EdgeSource::kPredicated;
-    // load_frame() has its own words for a truth beside a scene, and for a file that is not there.
+    // load_frame() has its own words for a reference beside a scene, and for a file that is not there.
     if (is_rendered(first()) || !tb::is_there(first().source)) return;
     for (const char* name : {"frame.width", "frame.height"})
       set.reject(name, "frame.source is an image file, which has a size of its own");
-    set.reject("frame.truth_samples",
-               "an image file is compared with the file frame.truth (--truth)");
+    set.reject("frame.reference_samples",
+               "an image file is compared with the file frame.reference (--truth)");
     if (depth_used && frame_.depth.empty())
       throw spec::ConfigError(fmt::format(
           "morphological.edges.source = {} needs the depth of the image: name it with --depth FILE",
           name_of(parameters_.edge_source, spec::morphological::kEdgeSourceNames)));
-    if (!depth_used && frame_.truth.empty())
+    if (!depth_used && frame_.reference.empty())
       set.reject(
           "frame.depth",
           "edges come from colours, and silhouettes are measured only against a --truth FILE");
@@ -248,12 +248,12 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
     add_smoothing_pictures(
         context,
         {before, after, engine.delivered(), golden ? &expected : nullptr,
-         loaded.truth ? &*loaded.truth : nullptr, "the frame as it came", loaded.truth_name},
-        engine.taps());
+         loaded.reference ? &*loaded.reference : nullptr, "the frame as it came", loaded.reference_name},
+        engine.probes());
     if (engine.delivered() < after.pixels.size()) return;
-    result.change = measure_change(before, after, loaded.truth ? &*loaded.truth : nullptr);
-    if (loaded.truth)
-      result.quality = measure_quality(loaded.truth_name, before, after, *loaded.truth,
+    result.change = measure_change(before, after, loaded.reference ? &*loaded.reference : nullptr);
+    if (loaded.reference)
+      result.quality = measure_quality(loaded.reference_name, before, after, *loaded.reference,
                                        loaded.depth ? &*loaded.depth : nullptr);
   }
 

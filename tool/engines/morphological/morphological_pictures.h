@@ -13,10 +13,10 @@ namespace deburr::tool {
 
 // add_frame_pictures(), and edges and weights.
 void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame,
-                            const std::vector<spec::morphological::BlendTap>& taps);
+                            const std::vector<spec::morphological::BlendProbe>& probes);
 
 // Left edges red, top edges green, over the frame in grey.
 tb::Image edge_picture(const tb::Image& frame,
-                       const std::vector<spec::morphological::BlendTap>& taps);
+                       const std::vector<spec::morphological::BlendProbe>& probes);
 
 }  // namespace deburr::tool

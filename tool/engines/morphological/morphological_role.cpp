@@ -12,8 +12,8 @@
 #include "tb/env/collect.h"
 #include "tb/scene/depth_codes.h"
 #include "tool/engines/morphological/morphological_pictures.h"
-#include "tool/engines/morphological/morphological_rules.h"
-#include "tool/run/input_rules.h"
+#include "tool/engines/morphological/morphological_configuration.h"
+#include "tool/run/input_configuration.h"
 
 namespace deburr::tool {
 
@@ -65,8 +65,8 @@ class MorphologicalStage final : public RowStage {
     return tb::latency_of(environment_.engine().beat_latency);
   }
   std::string_view last_unit() const override { return "morphological_blender"; }
-  std::uint64_t clocks_bound(int width, int height) const override {
-    return tb::frame_clocks_by_formula(environment_.engine().parameters(), width, height);
+  std::uint64_t cycles_bound(int width, int height) const override {
+    return tb::frame_cycles_by_formula(environment_.engine().parameters(), width, height);
   }
   std::vector<tb::Figure> work_figures() const override {
     return environment_.meter().work_figures();
@@ -75,7 +75,7 @@ class MorphologicalStage final : public RowStage {
   void expect(Image image) override { frames_.front().image = std::move(image); }
   std::uint64_t delivered_in_all() const override { return environment_.delivered_in_all(); }
   void add_pictures(RunContext& context, const SmoothedFrame& frame) const override {
-    add_smoothing_pictures(context, frame, environment_.taps());
+    add_smoothing_pictures(context, frame, environment_.probes());
   }
 
  private:
@@ -105,19 +105,19 @@ class MorphologicalRole final : public RowSmoother {
               why);
   }
   void follow(tb::ParameterSet& set, std::string_view why) override {
-    const spec::morphological::Parameters rules =
+    const spec::morphological::Parameters configuration =
         golden::morphological::following_geometric(parameters_);
     std::vector<std::string> names = {"leave"};
-    if (rules.edge_source != parameters_.edge_source) names.push_back("edges.source");
-    if (rules.edge_source == spec::morphological::EdgeSource::kPredicated &&
+    if (configuration.edge_source != parameters_.edge_source) names.push_back("edges.source");
+    if (configuration.edge_source == spec::morphological::EdgeSource::kPredicated &&
         !set.given("morphological.edges.source"))
       names.insert(names.end(),
                    {"edges.threshold_on_depth_edge", "edges.threshold_off_depth_edge"});
     for (const std::string& name : names)
-      set.imply("morphological." + name, spec::value_text(rules, name), why);
+      set.imply("morphological." + name, spec::value_text(configuration, name), why);
   }
   void resolve(tb::ParameterSet& set) override {
-    reject_unused_rules(set, parameters_, tb::kMorphologicalMemory);
+    reject_unused_configuration(set, parameters_, tb::kMorphologicalMemory);
     reject_unused_memory(set, tb::kMorphologicalMemory, memory_);
     if (parameters_.storage == spec::morphological::Storage::kMemory)
       reject_slow_memory(set, tb::kMorphologicalMemory, memory_);

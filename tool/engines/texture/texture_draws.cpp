@@ -12,7 +12,7 @@ RandomDraws texture_draws() {
                {"texture.cache.line_bytes", power_of_two<5, 7>},
                {"texture.cache.ways", power_of_two<0, 3>},
                {"texture.cache.fifo_depth", magnitude<2, 300>},
-               {"texture.axis_clocks", power_of_two<0, 2>}};
+               {"texture.axis_cycles", power_of_two<0, 2>}};
   // A file; and what is of frames behind each other, by the golden model alone.
   // Units in SystemVerilog, which most builds lack.
   all.fixed = {"scene.fragments", "sequence.frames", "sequence.motion", "run.hdl"};

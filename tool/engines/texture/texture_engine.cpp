@@ -20,15 +20,15 @@
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/textures.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tb/traces/fragment_reader.h"
 #include "tb/traces/fragment_writer.h"
 #include "tool/engines/texture/texture_draws.h"
 #include "tool/engines/texture/texture_role.h"
-#include "tool/engines/texture/texture_rules.h"
-#include "tool/engines/texture/texture_truth.h"
+#include "tool/engines/texture/texture_configuration.h"
+#include "tool/engines/texture/texture_reference.h"
 #include "tool/run/flicker.h"
-#include "tool/run/input_rules.h"
+#include "tool/run/input_configuration.h"
 #include "tool/run/pictures.h"
 #include "tool/run/preset_help.h"
 #include "tool/run/shorthands.h"
@@ -57,7 +57,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
     return joined(
         joined(scene_shorthands("plane"), sequence_shorthands()),
         {{"--preset", "texture.preset",
-          preset_help(spec::texture::kPresetNames, spec::texture::Rules().preset)},
+          preset_help(spec::texture::kPresetNames, spec::texture::Configuration().preset)},
          {"--roll", "scene.roll", "Degrees by which the camera is turned"},
          {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
          {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},
@@ -77,9 +77,9 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
     reject_unused_memory(set, "memory", memory_);
     reject_slow_memory(set, "memory", memory_);
     reject_empty_lod_range(sampler_);
-    reject_unused_look_ups(set);
-    twin_units_ = tb::twin_units(twins_.units);
-    if (!twin_units_.empty()) {
+    reject_unused_lookups(set);
+    counterpart_units_ = tb::counterpart_units(counterparts_.units);
+    if (!counterpart_units_.empty()) {
       reject_views_inside(set);
       stand_ins(0);  // rejects what the build does not have
     }
@@ -135,12 +135,12 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
 
   void prepare(const RunParameters& run, RunContext& context) override {
     const std::shared_ptr<const TextureScene> scene = load(run, context);
-    if (run.truth) scene_truth(*scene, truth_options(), context);
+    if (run.reference) scene_reference(*scene, reference_options(), context);
     expectation(*scene, context);
   }
 
   std::vector<std::string_view> pictures() const override {
-    return {"before", "after", "golden", "difference", "truth", "error"};
+    return {"before", "after", "golden", "difference", "reference", "error"};
   }
   std::vector<std::string_view> maps() const override {
     return {"samples", "level", "misses", "latency"};
@@ -170,8 +170,8 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
   bool foreign() const { return !trace_in_.file.empty(); }
 
   rtl::texture::TextureUnit::StandIns stand_ins(std::uint64_t seed) const {
-    return tb::texture_twins(
-        twin_units_, tb::as_built(texture_, memory_clocks(memory_, texture_.cache_line_bytes)),
+    return tb::texture_counterparts(
+        counterpart_units_, tb::as_built(texture_, memory_cycles(memory_, texture_.cache_line_bytes)),
         seed);
   }
 
@@ -206,7 +206,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
         built_for_golden(), [&] { return expected_of(scene, texture_); });
   }
 
-  tb::RenderOptions truth_options() const {
+  tb::RenderOptions reference_options() const {
     tb::RenderOptions options;
     options.sampling = tb::Sampling::kBilinear;
     options.averaging = sampler_.format == spec::texture::Format::kSrgb8A8 ? tb::Averaging::kLinear
@@ -240,7 +240,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
         name(texture_.count, spec::texture::kCountNames),
         name(texture_.kernel, spec::texture::kKernelNames), texture_.cache_bytes,
         texture_.cache_ways, memory_.latency,
-        twin_units_.empty() ? "" : "; in SystemVerilog: ", fmt::join(twin_units_, ", "));
+        counterpart_units_.empty() ? "" : "; in SystemVerilog: ", fmt::join(counterpart_units_, ", "));
   }
 
   bool linear_light() const {
@@ -303,30 +303,30 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
                                         : "hardware against golden: any difference is bright") +
                             (over || lost == 0 ? "" : "; black where nothing was delivered"));
     }
-    if (run.truth && !result.interrupted) {
-      const Image truth =
-          compare_with_scene(scene, truth_options(), before, after, result, context);
-      if (truth.empty()) return;
-      context.add_image("truth", truth, "Truth", truth_caption());
-      context.add_image("error", tb::difference(after, truth, kDifferenceGain), "Error",
-                        fmt::format("hardware against truth, {} times", kDifferenceGain));
+    if (run.reference && !result.interrupted) {
+      const Image reference =
+          compare_with_scene(scene, reference_options(), before, after, result, context);
+      if (reference.empty()) return;
+      context.add_image("reference", reference, "Reference", reference_caption());
+      context.add_image("error", tb::difference(after, reference, kDifferenceGain), "Error",
+                        fmt::format("hardware against reference, {} times", kDifferenceGain));
     }
   }
 
   SequencePicture picture_of(int frame, std::uint32_t seed) const {
     const TextureScene scene(in_frame(scene_, lists_, frame), sampler_, seed,
                              move_of(sequence_, lists_, frame));
-    tb::RenderOptions options = truth_options();
+    tb::RenderOptions options = reference_options();
     options.width = scene.stream().width;
     options.height = scene.stream().height;
-    options.samples = kTruthSamples;
+    options.samples = kReferenceSamples;
     options.interrupted = [] { return tb::interrupted(); };
     const tb::Mask drawn = drawn_pixels(scene);
     return {unfiltered(scene), stored(tb::golden_frame(scene, texture_).image, drawn),
             render(scene.scene(), options), drawn};
   }
 
-  std::vector<std::string> twin_units_;
+  std::vector<std::string> counterpart_units_;
   tb::FrameLists lists_;
   int frames_ = 1;
   std::string preset_label_;

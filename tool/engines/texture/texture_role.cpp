@@ -7,10 +7,10 @@
 #include "spec/texture/check_build.h"
 #include "tb/engines/texture/texture_environment.h"
 #include "tb/engines/texture/texture_traces.h"
-#include "tool/engines/texture/texture_rules.h"
-#include "tool/engines/texture/texture_truth.h"
+#include "tool/engines/texture/texture_configuration.h"
+#include "tool/engines/texture/texture_reference.h"
 #include "tool/run/flicker.h"
-#include "tool/run/input_rules.h"
+#include "tool/run/input_configuration.h"
 #include "tool/run/shorthands.h"
 
 namespace deburr::tool {
@@ -62,7 +62,7 @@ class TextureStage final : public DrawingStage {
   Image golden_picture() const override {
     return tb::golden_frame(scene_, setup_.texture, error_range(setup_.memory)).image;
   }
-  std::uint64_t clocks_bound() const override {
+  std::uint64_t cycles_bound() const override {
     return environment_.unit().address.addresser.bilinears.value();
   }
   void collect(tb::Result& result) const override {
@@ -101,7 +101,7 @@ class TextureRole final : public PictureDrawer {
   }
 
   void add_scene(tb::ParameterSet& set) override {
-    set.add("run", tb::ParameterKind::kRun, look_up_trace_);
+    set.add("run", tb::ParameterKind::kRun, lookup_trace_);
     set.add("scene", tb::ParameterKind::kInput, scene_);
     add_sampler(set, sampler_);
     set.add("sequence", tb::ParameterKind::kInput, sequence_);
@@ -115,7 +115,7 @@ class TextureRole final : public PictureDrawer {
   void resolve(tb::ParameterSet& set) override {
     lists_ = lists_of(scene_);
     frames_ = frames_of(set, sequence_, lists_);
-    reject_unused_look_ups(set);
+    reject_unused_lookups(set);
     reject_unused_memory(set, "memory", memory_);
     reject_slow_memory(set, "memory", memory_);
     reject_empty_lod_range(sampler_);
@@ -145,12 +145,12 @@ class TextureRole final : public PictureDrawer {
     return std::make_shared<TextureScene>(tb::smallest(scene_, sampler_));
   }
 
-  std::string truth_caption() const override { return tool::truth_caption(); }
-  void prepare_truth(const DrawnScene& scene, const tb::RenderOptions& options,
+  std::string reference_caption() const override { return tool::reference_caption(); }
+  void prepare_reference(const DrawnScene& scene, const tb::RenderOptions& options,
                      const RunContext& context) const override {
-    scene_truth(textured(scene), options, context);
+    scene_reference(textured(scene), options, context);
   }
-  Image compare_with_truth(const DrawnScene& scene, const tb::RenderOptions& options,
+  Image compare_with_reference(const DrawnScene& scene, const tb::RenderOptions& options,
                            const Image& before, const Image& after, tb::Result& result,
                            const RunContext& context) const override {
     return compare_with_scene(textured(scene), options, before, after, result, context);
@@ -164,11 +164,11 @@ class TextureRole final : public PictureDrawer {
   Image golden_picture(const DrawnScene& scene) const override {
     return tb::golden_frame(textured(scene), texture_).image;
   }
-  Image truth_of(const DrawnScene& scene, const tb::RenderOptions& options) const override {
+  Image reference_of(const DrawnScene& scene, const tb::RenderOptions& options) const override {
     tb::RenderOptions sampled = options;
     sampled.width = scene.stream().width;
     sampled.height = scene.stream().height;
-    sampled.samples = kTruthSamples;
+    sampled.samples = kReferenceSamples;
     return render(scene.scene(), sampled);
   }
 
@@ -179,7 +179,7 @@ class TextureRole final : public PictureDrawer {
   }
 
  private:
-  tb::LookUpTrace look_up_trace_;
+  tb::LookupTrace lookup_trace_;
   tb::SceneParameters scene_;
   tb::SamplerParameters sampler_;
   tb::SequenceParameters sequence_;

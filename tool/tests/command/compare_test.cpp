@@ -30,12 +30,12 @@ void run(const RunParameters& p, RunContext& /*context*/, tb::Result& r) {
   memory.name = "cache";
   memory.kind = "sram";
   memory.logical_bits = memory.physical_bits = worse ? 1100 : 1000;
-  if (better) memory.idealised = "nine ports";
+  if (better) memory.not_implementable = "nine ports";
   r.memories = {memory};
   r.work = {{"hits", std::uint64_t{worse ? 7u : 5u}, "line", "Hits."},
             {"other", std::uint64_t{worse ? 8u : 4u}, "line", "Others."}};
   r.figures = {{"Hits", "work.hits"}};
-  r.quality.emplace().reference = "truth";
+  r.quality.emplace().reference = "reference";
   r.quality->psnr_db = worse ? 29.0 : 30.0;
   r.quality->flip = worse ? 0.0875 : 0.0625;
   r.quality->ssim = worse ? 0.90 : 0.95;
@@ -116,13 +116,13 @@ cycles                       10000   10400   +4.00 %  WORSE        9000  -10.00 
 throughput.value                 1     0.9  -10.00 %  WORSE           1
 )"));
   EXPECT_THAT(text, HasSubstr(R"(
-idealised.cache                  -       -                   nine ports             WORSE
+not_implementable.cache                  -       -                   nine ports             WORSE
 8 more values differ: --all shows counters and the rest
 out/all.html
 REPRO: deburr compare out/1 out/2 out/3 --html out/all.html
 RESULT: FAIL worse: cycles, )"));
-  EXPECT_THAT(text, testing::EndsWith(R"(, idealised.cache, IDEALISED
-! deburr: warning: C cannot be built: idealised memory cache (nine ports)
+  EXPECT_THAT(text, testing::EndsWith(R"(, not_implementable.cache, NOT_IMPLEMENTABLE
+! deburr: warning: C cannot be built: not_implementable memory cache (nine ports)
 = 1
 )"));
   EXPECT_THAT(read("out/all.html"), HasSubstr("cycles"));

@@ -56,7 +56,7 @@ TEST_F(RegressCommand, MissingRunsFailTheRegression) {
 broken      first: 3 of 4 runs passed; colours: 27 comparisons of 30
 broken      second: 0 of 1 runs passed; colours: 0 comparisons of 1; pixels: 0 comparisons of 5
 REPRO: deburr regress night.yaml collect --seed 7
-RESULT: FAIL regression night --seed 7: 5 points, 3 passed, 1 failed in 1 bucket, 1 missing; out/regressions/night-7/index.html: 'run' it again for what is missing
+RESULT: FAIL regression night --seed 7: 5 points, 3 passed, 1 failed in 1 signature, 1 missing; out/regressions/night-7/index.html: 'run' it again for what is missing
 = 3
 )");
 }
@@ -66,7 +66,7 @@ TEST_F(RegressCommand, FailuresAndUnknownScoreboardsBreakFeatures) {
   check("second/one/base/0", {{"colours", 2}});
   const std::string end =
       R"(REPRO: deburr run made --set made.lanes=4 --set run.images=false --set run.coverage=true --set run.seed=772064060 --set run.stall_seed=820843390
-RESULT: FAIL regression night --seed 7: 5 points, 4 passed, 1 failed in 1 bucket, 0 missing; out/regressions/night-7/index.html
+RESULT: FAIL regression night --seed 7: 5 points, 4 passed, 1 failed in 1 signature, 0 missing; out/regressions/night-7/index.html
 = 1
 )";
   EXPECT_EQ(printed("regress night.yaml run --seed 7"),
@@ -90,7 +90,7 @@ TEST_F(RegressCommand, RerunUsesSeedOfLastReport) {
   check("second/one/base/0", {{"colours", 2}, {"pixels", 5}});
   EXPECT_EQ(printed("regress night.yaml rerun --failed"),
             R"(rerun       1 of 1 runs that had failed pass now, 0 fail
-RESULT: PASS regression night --seed 7: 5 points, 5 passed, 0 failed in 0 buckets, 0 missing; out/regressions/night-7/index.html
+RESULT: PASS regression night --seed 7: 5 points, 5 passed, 0 failed in 0 signatures, 0 missing; out/regressions/night-7/index.html
 )");
 }
 
@@ -134,15 +134,15 @@ TEST_F(RunRegression, FailuresGetWaves) {
 failed      1 x made: mismatch: N of N outputs and N of N memory accesses differ from the golden model
 broken      lanes: 2 of 4 runs passed; )" +
                       kBroken + "REPRO: " + kDeadlock + R"(
-RESULT: FAIL regression faulty --seed 5: 4 points, 2 passed, 2 failed in 2 buckets, 0 missing; out/regressions/faulty-5/index.html
+RESULT: FAIL regression faulty --seed 5: 4 points, 2 passed, 2 failed in 2 signatures, 0 missing; out/regressions/faulty-5/index.html
 = 1
 )");
   const std::filesystem::path place = "out/regressions/faulty-5";
   const Json collected = Json::parse(read(place / "collected.json"));
-  ASSERT_EQ(collected["buckets"].size(), 2u);
-  for (const Json& bucket : collected["buckets"]) {
-    EXPECT_EQ(read(place / bucket["waves"]["file"].get<std::string>()), "412..912\n");
-    EXPECT_TRUE(std::filesystem::exists(place / bucket["waves"]["report"].get<std::string>()));
+  ASSERT_EQ(collected["signatures"].size(), 2u);
+  for (const Json& signature : collected["signatures"]) {
+    EXPECT_EQ(read(place / signature["waves"]["file"].get<std::string>()), "412..912\n");
+    EXPECT_TRUE(std::filesystem::exists(place / signature["waves"]["report"].get<std::string>()));
   }
 }
 
@@ -157,7 +157,7 @@ rerun       0 of 1 runs that had failed pass now, 1 fail
 failed      1 x made: deadlock: nothing moves, cycle N
 broken      lanes: 2 of 3 runs passed; )" +
           kBroken + "REPRO: " + kDeadlock + R"(
-RESULT: FAIL regression faulty --seed 5: 3 points, 2 passed, 1 failed in 1 bucket, 0 missing; out/regressions/faulty-5/index.html
+RESULT: FAIL regression faulty --seed 5: 3 points, 2 passed, 1 failed in 1 signature, 0 missing; out/regressions/faulty-5/index.html
 = 1
 )");
 }

@@ -21,11 +21,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-tb::MemoryFigures memory(const std::string& name, const std::string& idealised) {
+tb::MemoryFigures memory(const std::string& name, const std::string& not_implementable) {
   tb::MemoryFigures m;
   m.name = name;
   m.kind = "sram";
-  m.idealised = idealised;
+  m.not_implementable = not_implementable;
   return m;
 }
 
@@ -44,7 +44,7 @@ void fill(tb::Result& r) {
   r.bytes_written = 160000;
   r.memories = {memory("rom", ""), memory("cache", "nine ports"), memory("queue", "no clock")};
   r.quality =
-      tb::Quality{"truth", 31.5, 28.25, 27.125, 30.25, 29.5, 25, 0.0625, 0.125, 0.96875, 0.9375};
+      tb::Quality{"reference", 31.5, 28.25, 27.125, 30.25, 29.5, 25, 0.0625, 0.125, 0.96875, 0.9375};
   r.change = tb::Change{12.25, 3.5, 0.75, 0.125, 33.75};
 }
 
@@ -56,7 +56,7 @@ void run(const RunParameters& p, RunContext& context, tb::Result& r) {
       r.cycles = 1000;
       r.throughput = 0.5;
       r.throughput_unit = "pixel/clk";
-      r.quality.emplace().reference = "truth";
+      r.quality.emplace().reference = "reference";
       r.quality->psnr_db = kInfinity;
       r.quality->flip = 0.5;
       r.quality->ssim = 0.25;
@@ -87,7 +87,7 @@ void run(const RunParameters& p, RunContext& context, tb::Result& r) {
     case 10:
       throw std::bad_alloc();
     case 11:
-      r.quality.emplace().reference = "truth";
+      r.quality.emplace().reference = "reference";
       r.quality->psnr_edge_db = 30;
       r.quality->psnr_before_db = 20;
       r.quality->psnr_edge_before_db = kInfinity;
@@ -121,26 +121,26 @@ limited by  walker, full in 22.5 % of the cycles: Its queue is full.
 hits        98.1 % of look-ups
 a long name of it 7
 memory      3.2 GB/s read, 0.8 written at 200 MHz
-quality     31.50 dB (+1.25), edges 28.25 dB (-1.25), silhouettes 27.12 dB (+2.12), FLIP 0.0625 (-0.0625), SSIM 0.9688 (+0.0312) against truth
+quality     31.50 dB (+1.25), edges 28.25 dB (-1.25), silhouettes 27.12 dB (+2.12), FLIP 0.0625 (-0.0625), SSIM 0.9688 (+0.0312) against reference
 changed     12.25 % of the pixels by more than 2 codes, 3.50 % by more than 16 (of those that were right before 0.75 % and 0.12 %); 33.75 dB to what went in
-RESULT: PASS made: 12,345 outputs and 2,345 memory accesses compared, 0 mismatches, 40,000 cycles, 1.250 pixel/clk, IDEALISED cache, queue, out/made/report.html
+RESULT: PASS made: 12,345 outputs and 2,345 memory accesses compared, 0 mismatches, 40,000 cycles, 1.250 pixel/clk, NOT_IMPLEMENTABLE cache, queue, out/made/report.html
 ! deburr: warning: this hardware cannot be built: memory cache: nine ports
 ! deburr: warning: this hardware cannot be built: memory queue: no clock
 )"},
     {"WithoutOptionalValues", "run other --seed 2", R"(rate        0.500 pixel/clk
-quality     identical, FLIP 0.5000, SSIM 0.2500 against truth
+quality     identical, FLIP 0.5000, SSIM 0.2500 against reference
 changed     1.00 % of the pixels by more than 2 codes, 0.00 % by more than 16; identical to what went in
 RESULT: PASS other: 1,000 cycles, 0.500 pixel/clk, out/other/report.html
 )"},
     {"Unchecked", "run made --seed 2 --quiet --check none",
      "RESULT: UNCHECKED made: 1,000 cycles, 0.500 pixel/clk, out/made/report.html\n"},
     {"Mismatch", "run made --quiet --seed 3", R"(REPRO: deburr run made --quiet --seed 3
-RESULT: FAIL mismatch: 3 of 12345 outputs and 4 of 2345 memory accesses differ from the golden model (made: 12,345 outputs and 2,345 memory accesses compared, 7 mismatches, 40,000 cycles, 1.250 pixel/clk, IDEALISED cache, queue, out/made/report.html)
+RESULT: FAIL mismatch: 3 of 12345 outputs and 4 of 2345 memory accesses differ from the golden model (made: 12,345 outputs and 2,345 memory accesses compared, 7 mismatches, 40,000 cycles, 1.250 pixel/clk, NOT_IMPLEMENTABLE cache, queue, out/made/report.html)
 = 1
 )"},
     {"MismatchAndInterrupted", "run made --seed 11",
      "rate        0.000 \n"
-     R"(quality     -, edges 30.00 dB against truth
+     R"(quality     -, edges 30.00 dB against reference
 REPRO: deburr run made --seed 11
 RESULT: FAIL mismatch: 1 of 0 outputs and 0 of 0 memory accesses differ from the golden model (made: 1,000 cycles, 0.000 , out/made/report.html)
 = 1
@@ -159,7 +159,7 @@ RESULT: FAIL simulation: a limit (made: 0 cycles, 0.000 , out/made/report.html)
 = 3
 )"},
     {"Interrupted", "run made --quiet --seed 8", R"(REPRO: deburr run made --quiet --seed 8
-RESULT: INTERRUPTED made: 12,345 outputs and 2,345 memory accesses compared, 0 mismatches, 40,000 cycles, 1.250 pixel/clk, IDEALISED cache, queue, out/made/report.html
+RESULT: INTERRUPTED made: 12,345 outputs and 2,345 memory accesses compared, 0 mismatches, 40,000 cycles, 1.250 pixel/clk, NOT_IMPLEMENTABLE cache, queue, out/made/report.html
 ! deburr: interrupted; the partial results are kept. Run the same command again for all of it.
 = 130
 )"},

@@ -48,8 +48,8 @@ TEST(Soak, CountsRunsOfEveryEngineInTurn) {
   const Ended ended = soaked(options);
   EXPECT_THAT(ended.out, ContainsRegex("\\| made \\| 2 \\| 2 \\| 0 \\| [0-9]+ \\| 18 \\| "));
   EXPECT_THAT(ended.out, ContainsRegex("\\| other \\| 2 \\| 2 \\| 0 \\| [0-9]+ \\| 18 \\| "));
-  EXPECT_THAT(ended.out, ContainsRegex("\nlong run  made, seed 6: 1 frames, [0-9]+ clocks"));
-  EXPECT_THAT(ended.out, ContainsRegex("\nlong run  other, seed 6: 1 frames, [0-9]+ clocks"));
+  EXPECT_THAT(ended.out, ContainsRegex("\nlong run  made, seed 6: 1 frames, [0-9]+ cycles"));
+  EXPECT_THAT(ended.out, ContainsRegex("\nlong run  other, seed 6: 1 frames, [0-9]+ cycles"));
   EXPECT_THAT(ended.out, HasSubstr(" soak: 4 runs in "));
   EXPECT_THAT(ended.out, HasSubstr(" s, 2 of them long, 0 of these long enough to check their "
                                    "memory; 36 comparisons, "));

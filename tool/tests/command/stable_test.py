@@ -63,7 +63,7 @@ def updated(text, there):
     return TITLE + "\n".join(sorted({*kept, *there})) + "\n"
 
 
-def planted(header, page, manual):
+def injected(header, page, manual):
     """What the promise forbids, and a word of what has to be missed."""
     return (("a function is gone", header.replace("int deburr_reset(deburr_golden* golden);", ""), page, manual),
             ("a parameter has another type", header.replace("uint32_t index, char* text", "uint64_t index, char* text"), page, manual),
@@ -96,7 +96,7 @@ def main():
     for kind, least in (("C ", 40), ("result.json ", 60), ("command ", 150), ("exit code ", 7)):
         if sum(line.startswith(kind) for line in promised(listed)) < least:
             wrong.append(f"{LIST} has fewer than {least} lines that begin with '{kind.strip()}'")
-    for what, *changed in planted(*texts):
+    for what, *changed in injected(*texts):
         if tuple(changed) == texts:
             wrong.append(f"nothing to plant a fault in: {what}")
         elif set(promised(listed)) <= set(what_there_is(*changed)):

@@ -22,9 +22,9 @@ axes:
   made.lanes: [2, 4, 8, 16]
   made.filter: [near, wide]
 refused: skip
-metrics: {clocks: cycles, rate: throughput.value, ratio: cycles / memory.lines_filled}
-limits: [clocks < 350]
-objectives: {minimise: [clocks], maximise: [rate]}
+metrics: {cycles: cycles, rate: throughput.value, ratio: cycles / memory.lines_filled}
+limits: [cycles < 350]
+objectives: {minimise: [cycles], maximise: [rate]}
 )";
 const std::string kLeftOut =
     "left out    2 that the engine rejects, the first: made.lanes = 16, made.filter = near: "
@@ -46,7 +46,7 @@ class SweepCommand : public PlannedPoints {
                 {"memory", {{"lines_filled", lines}}},
                 {"memory_bits", {{"total", {{"physical", 512}}}}},
                 {"meaning",
-                 {{"cycles", {{"unit", "clk"}, {"meaning", "Clocks."}}},
+                 {{"cycles", {{"unit", "clk"}, {"meaning", "Cycles."}}},
                   {"throughput.value", {{"unit", "see"}, {"meaning", "Rate."}}}}}});
   }
   void keep_all() const {
@@ -127,8 +127,8 @@ TEST_F(SweepCommand, CollectReportsFrontLimitsAndMissingValues) {
   fail_wide();
   EXPECT_EQ(printed("sweep first.yaml collect"),
             R"(no value    ratio in 1 of 5 points: division by zero
-front       made.lanes = 2, made.filter = near: clocks = 100 clk, rate = 1 see, ratio = 2
-front       made.lanes = 4, made.filter = near: clocks = 200 clk, rate = 1.5 see, ratio = none
+front       made.lanes = 2, made.filter = near: cycles = 100 clk, rate = 1 see, ratio = 2
+front       made.lanes = 4, made.filter = near: cycles = 200 clk, rate = 1.5 see, ratio = none
 RESULT: PASS sweep first: 5 of 6 points collected, 1 failed, 0 missing, 2 on the front, 2 beyond the limits; out/sweeps/first/index.html
 )");
   write("second.yaml", std::string(kSweep) + "reports: false\n");
@@ -166,9 +166,9 @@ TEST_F(SweepCommand, SearchReportsItsFront) {
       kLeftOut +
           R"(left out    all but 6 of 8 combinations, by a search (NSGA-II, population 8, seed 1)
 no value    ratio in 1 of 6 points: division by zero
-front       made.lanes = 2, made.filter = wide: clocks = 310 clk, rate = 2 see, ratio = 10
-front       made.lanes = 4, made.filter = near: clocks = 200 clk, rate = 1.5 see, ratio = none
-front       made.lanes = 2, made.filter = near: clocks = 100 clk, rate = 1 see, ratio = 2
+front       made.lanes = 2, made.filter = wide: cycles = 310 clk, rate = 2 see, ratio = 10
+front       made.lanes = 4, made.filter = near: cycles = 200 clk, rate = 1.5 see, ratio = none
+front       made.lanes = 2, made.filter = near: cycles = 100 clk, rate = 1 see, ratio = 2
 RESULT: PASS search first: 6 points, 6 done (0 in this run), 0 failed, 0 missing; out/searches/first
 )");
   EXPECT_EQ(result("search first.yaml status"), "PASS search first: 6 of 6 points done");
@@ -184,7 +184,7 @@ TEST_F(SweepCommand, CompareCountsBetterAndWorsePoints) {
   printed("sweep first.yaml collect");
   write("second.yaml",
         "engine: made\nbase: {frame: {width: 8}}\naxes: {made.filter: [near, wide]}\n"
-        "metrics: {clocks: cycles, rate: throughput.value}\n");
+        "metrics: {cycles: cycles, rate: throughput.value}\n");
   keep("4 wide", 1300, 2.25, 40);
   printed("sweep second.yaml plan");
   printed("sweep second.yaml collect");
@@ -194,11 +194,11 @@ A: 4 of its points are on the front of all together
 B: 1 of its points are on the front of all together
 
           better  equal  worse  mean change    least     most
-B clocks       0      1      1      +4.17 %  +0.00 %  +8.33 %
+B cycles       0      1      1      +4.17 %  +0.00 %  +8.33 %
 B rate         0      2      0      +0.00 %  +0.00 %  +0.00 %
 WORSE at made.lanes = 4, made.filter = wide
 REPRO: deburr compare out/sweeps/first out/sweeps/second
-RESULT: FAIL worse: clocks at 1 points of B
+RESULT: FAIL worse: cycles at 1 points of B
 = 1
 )");
   printed("run made --quiet --out out/run");
@@ -211,7 +211,7 @@ RESULT: FAIL worse: clocks at 1 points of B
 TEST_F(SweepCommand, CompareListsAtMostTenWorsePoints) {
   write("many.yaml",
         "engine: made\naxes: {made.depth: {from: 4, to: 15}}\n"
-        "metrics: {clocks: cycles, bits: memory_bits.total.physical}\n");
+        "metrics: {cycles: cycles, bits: memory_bits.total.physical}\n");
   printed("sweep many.yaml plan");
   name_points("out/sweeps/many");
   for (int depth = 4; depth <= 15; ++depth) keep(std::to_string(depth), 100 * depth, 1, 10);
@@ -230,7 +230,7 @@ WORSE at made.depth = 11
 WORSE at made.depth = 7
 and at others
 REPRO: deburr compare out/sweeps/many out/sweeps/slower
-RESULT: FAIL worse: clocks at 12 points of B
+RESULT: FAIL worse: cycles at 12 points of B
 = 1
 )"));
   EXPECT_EQ(result("compare out/sweeps/slower out/sweeps/many"),
@@ -238,7 +238,7 @@ RESULT: FAIL worse: clocks at 12 points of B
   for (int depth = 4; depth <= 15; ++depth) fail(std::to_string(depth), "deadlock", "so");
   printed("sweep many.yaml collect");
   EXPECT_THAT(printed("compare out/sweeps/slower out/sweeps/many"), EndsWith(R"(
-B clocks       0      0      0            -      -     -
+B cycles       0      0      0            -      -     -
 B bits         0      0      0            -      -     -
 REPRO: deburr compare out/sweeps/slower out/sweeps/many
 RESULT: FAIL worse: 12 points that A has failed
@@ -254,8 +254,8 @@ class RunSweep : public PlannedPoints {
   RunSweep() {
     write("real.yaml",
           "engine: made\naxes: {made.lanes: [2, 3], frame.gain: [0.5, 1.5, 2]}\n"
-          "metrics: {clocks: cycles, rate: throughput.value}\n"
-          "objectives: {minimise: [clocks], maximise: [rate], for_each: [frame.gain]}\n");
+          "metrics: {cycles: cycles, rate: throughput.value}\n"
+          "objectives: {minimise: [cycles], maximise: [rate], for_each: [frame.gain]}\n");
     printed("sweep real.yaml plan");
     name_points("out/sweeps/real");
   }
@@ -282,7 +282,7 @@ RESULT: PASS sweep real: 1 of 6 points done
   EXPECT_THAT(
       printed("sweep real.yaml collect"),
       StartsWith(
-          "front       made.lanes = 2, frame.gain = 0.5: clocks = 600 clk, rate = 2 pixel/clk\n"));
+          "front       made.lanes = 2, frame.gain = 0.5: cycles = 600 clk, rate = 2 pixel/clk\n"));
   fail("2 2", "deadlock", "as it was");
   EXPECT_THAT(printed("sweep real.yaml run"), HasSubstr(": as it was\n"))
       << "failures are not run again";

@@ -191,7 +191,7 @@ TEST_F(TestplanParts, DividedPlanHasFewerSeedsAndItsOwnFolder) {
             "PASS regression t-of-2 --seed 3: 2 points over 2 inputs, 0 of them done; "
             "out/regressions/t-of-2-3");
   EXPECT_EQ(result("regress t.yaml collect --seed 3 --divide 2"),
-            "FAIL regression t-of-2 --seed 3: 2 points, 0 passed, 0 failed in 0 buckets, 2 "
+            "FAIL regression t-of-2 --seed 3: 2 points, 0 passed, 0 failed in 0 signatures, 2 "
             "missing; out/regressions/t-of-2-3/index.html: 'run' it again for what is missing");
   EXPECT_EQ(
       list_points("out/regressions/t-of-2-3"),

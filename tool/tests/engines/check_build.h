@@ -283,8 +283,8 @@ class BuildChecks {
       for (const auto& [name, value] : row.settings)
         out << "  " << engine_ << "." << name << ": " << value << "\n";
       out << "axes: {run.seed: [1, 2], run.stall_seed: [1, 2, 3]}\nrefused: " << rejected
-          << "\nmetrics: {clocks: cycles, bytes: memory.bytes_read}\n"
-          << "objectives: {minimise: [clocks, bytes]}\n";
+          << "\nmetrics: {cycles: cycles, bytes: memory.bytes_read}\n"
+          << "objectives: {minimise: [cycles, bytes]}\n";
       out.close();
       const SweepDefinition sweep = read_sweep(file);
       EXPECT_THAT(text_of_error([&] { make_plan(sweep, place_of(folder, "plan")); }),

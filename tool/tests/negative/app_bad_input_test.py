@@ -672,14 +672,14 @@ class Interruption(CommandTest):
         return os.path.exists(self.path("out/.deburr_run/claim.json"))
 
     def test_ctrl_c_before_the_simulation(self):
-        """The truth of a scene takes minutes here; the run ends without it and leaves nothing."""
+        """The reference of a scene takes minutes here; the run ends without it and leaves nothing."""
         _, out = self.interrupt(self.claimed, "morphological", "--scene", "object", "--size",
-                                "4096x4096", "--set", "frame.truth_samples=16")
+                                "4096x4096", "--set", "frame.reference_samples=16")
         self.assertIn("before the simulation began", out)
         self.assertFalse(os.path.exists(self.path("out")))
 
     def test_ctrl_c_in_the_truth(self):
-        """Few fragments in a large picture: the truth begins when the other pictures are there."""
+        """Few fragments in a large picture: the reference begins when the other pictures are there."""
         self.interrupt(lambda: os.path.exists(self.path("out/.deburr_run/difference.png")),
                        "texture", "--scene", "quad", "--size", "4096x4096", "--set",
                        "scene.fov=3.1", "--truth")
@@ -688,7 +688,7 @@ class Interruption(CommandTest):
         self.assertTrue(result["interrupted"])
         self.assertEqual(result["checks"]["mismatches"], 0)
         self.assertGreater(result["checks"]["comparisons"], 0)
-        self.assertNotIn("truth.png", os.listdir(self.path("out")))
+        self.assertNotIn("reference.png", os.listdir(self.path("out")))
 
 
 class Results(CommandTest):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Planted faults (deburr run texture --fault NAME): each must be caught, by the right check and
+"""Injected faults (deburr run texture --fault NAME): each must be caught, by the right check and
 with the right exit code. By default the link checkers are off, so that the scoreboards must see
 it; both ways are tried."""
 import html

@@ -133,7 +133,7 @@ class Definitions(Sweeps):
                     "has 4294967296 values")
 
     def test_points_that_the_engine_rejects(self):
-        text = ("engine: morphological\nbase: {frame: {width: 16, height: 16, truth_samples: 1}}\n"
+        text = ("engine: morphological\nbase: {frame: {width: 16, height: 16, reference_samples: 1}}\n"
                 "axes: {morphological.predictor: [none, fit], morphological.steps: [4, 8]}\n")
         self.reject(text, "the engine rejects the point morphological.predictor = none",
                     "has no effect", "refused: skip")
@@ -142,7 +142,7 @@ class Definitions(Sweeps):
 
     def test_axes_under_a_condition(self):
         def axis(text):
-            return ("engine: morphological\nbase: {frame: {width: 16, height: 16, truth_samples: 1}}\n"
+            return ("engine: morphological\nbase: {frame: {width: 16, height: 16, reference_samples: 1}}\n"
                     "axes:\n  morphological.predictor: [none, fit]\n"
                     f"  morphological.steps: {text}\n")
 
@@ -192,10 +192,10 @@ class Searches(Sweeps):
             self.expect(2, "search", "s.yaml", option, value, says=option)
 
     def test_unknown_metric(self):
-        self.write("s.yaml", BASE + AXES + "metrics: {clocks: cicles, bits: memory_bits.total.physical}\n"
-                   "objectives: {minimise: [clocks, bits]}\n")
+        self.write("s.yaml", BASE + AXES + "metrics: {cycles: cicles, bits: memory_bits.total.physical}\n"
+                   "objectives: {minimise: [cycles, bits]}\n")
         self.expect(2, "search", "s.yaml", "--runs", "8",
-                    says="s.yaml:4: metric 'clocks': no result of 'texture' has the key 'cicles': did you mean 'cycles'")
+                    says="s.yaml:4: metric 'cycles': no result of 'texture' has the key 'cicles': did you mean 'cycles'")
 
     def test_nothing_there_and_something_else(self):
         self.write("s.yaml", BASE + AXES + self.GOALS)
@@ -216,10 +216,10 @@ class Searches(Sweeps):
 class Surroundings(Sweeps):
     def test_unknown_metric(self):
         """Found before anything is run; one that runs of another kind would have, when it is collected."""
-        self.write("s.yaml", BASE + AXES + "metrics: {clocks: cicles}\n")
+        self.write("s.yaml", BASE + AXES + "metrics: {cycles: cicles}\n")
         for action in ("plan", "run"):
             self.expect(2, "sweep", "s.yaml", action,
-                        says="s.yaml:4: metric 'clocks': no result of 'texture' has the key 'cicles': did you mean 'cycles'")
+                        says="s.yaml:4: metric 'cycles': no result of 'texture' has the key 'cicles': did you mean 'cycles'")
         for key, near in (("units.filter.buzy", "units.filter.busy"), ("/units/filtre/busy", "units.filter.busy"),
                           ("work.bilinear", "work.bilinears"), ("1 + work.bilinear", "work.bilinears")):
             self.write("s.yaml", BASE + AXES + f"metrics: {{it: '{key}'}}\n")
@@ -240,12 +240,12 @@ class Surroundings(Sweeps):
 
     def test_limits(self):
         def limit(text, *says):
-            self.reject(BASE + AXES + f"metrics: {{clocks: cycles}}\nlimits: ['{text}']\n", "s.yaml:5: ", *says)
+            self.reject(BASE + AXES + f"metrics: {{cycles: cycles}}\nlimits: ['{text}']\n", "s.yaml:5: ", *says)
 
-        limit("clock < 10", "limit 'clock < 10': 'clock' is neither a metric nor a number: did you mean 'clocks'")
-        limit("clocks", "limit 'clocks' is no comparison of a metric by < <= > >=")
-        limit("clocks == 10", "is no comparison of a metric")
-        limit("clocks > 1 and clocks < 3", "give several limits one by one")
+        limit("clock < 10", "limit 'clock < 10': 'clock' is neither a metric nor a number: did you mean 'cycles'")
+        limit("cycles", "limit 'cycles' is no comparison of a metric by < <= > >=")
+        limit("cycles == 10", "is no comparison of a metric")
+        limit("cycles > 1 and cycles < 3", "give several limits one by one")
         limit("1 < 2", "is no comparison of a metric")
         self.reject(BASE + AXES + "limits: cycles\n", "'limits' wants a list of comparisons of metrics, such as 'cycles <= 10'")
 

@@ -128,7 +128,7 @@ class Fragments(CommandTest):
 
 class Lines(CommandTest):
     def test_what_has_no_effect(self):
-        self.run_texture(2, "--set", "run.line_trace_look_ups=true", says="no trace without run.line_trace")
+        self.run_texture(2, "--set", "run.line_trace_lookups=true", says="no trace without run.line_trace")
         for more in ((), ("--show-config",)):
             self.expect(2, "run", "morphological", "--size", "32x32", "--line-trace", "text", "--out", "out",
                         *more, says="morphological.storage = memory")
@@ -158,9 +158,9 @@ class Lines(CommandTest):
             result = file.read()
         for what in ("--line-trace", "--fragment-trace"):
             for form in ("text", "binary"):
-                look_ups = ["--set", "run.line_trace_look_ups=true"] if "line" in what else []
+                lookups = ["--set", "run.line_trace_lookups=true"] if "line" in what else []
                 done = self.expect(
-                    5, "run", "texture", "--size", "128x128", "--no-images", what, form, *look_ups,
+                    5, "run", "texture", "--size", "128x128", "--no-images", what, form, *lookups,
                     "--out", self.path("out"),
                     preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (260_000, 260_000)),
                     says=["File too large", ".trace", "make room there"])

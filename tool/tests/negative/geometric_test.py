@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Bad input and planted faults of `deburr run geometric`: each has its exit code and says what is wrong; awkward but
+"""Bad input and injected faults of `deburr run geometric`: each has its exit code and says what is wrong; awkward but
 legal meshes pass. See --help of unittest."""
 import os
 import resource
@@ -97,7 +97,7 @@ class Configuration(Base):
         self.rejected(["16128 faces", "8192", "face_limit"], "geometric.face_limit=8192", scene=("--scene", "sphere"))
 
     def test_too_many_faces_are_rejected_before_anything_is_rendered(self):
-        """The truth of this frame takes many minutes; rejected in seconds of a processor."""
+        """The reference of this frame takes many minutes; rejected in seconds of a processor."""
         for engine, smoothing in (("geometric", ()), ("frame", ("--smoothing", "geometric"))):
             size = "4096x4096" if engine == "geometric" else "64x64"
             command = ("run", engine, *smoothing, "--scene", "sphere", "--size", size, "--truth", "--out", self.path("out"))
@@ -127,7 +127,7 @@ class Configuration(Base):
                          f"geometric.depth_test={test}")
         self.rejected(["depth_bias", "no effect"], "geometric.depth_test=off", "geometric.depth_bias=4")
         self.rejected(["depth_lines", "no effect"], "geometric.depth_test=off", "geometric.depth_lines=64")
-        self.rejected(["scene.truth_samples", "no effect", "--truth"], "scene.truth_samples=4")
+        self.rejected(["scene.reference_samples", "no effect", "--truth"], "scene.reference_samples=4")
         self.rejected(["memory.error_bytes", "no effect"], "memory.error_bytes=64")
         self.rejected(["memory.interleave_bytes", "no effect"], "memory.interleave_bytes=256")
 
@@ -186,10 +186,10 @@ class Configuration(Base):
         self.run_engine(2, *self.SMALL, "--trace", "geometric.nothing*", says=["nothing*", "geometric.line_setup"])
 
     def test_pictures(self):
-        self.run_engine(0, *self.SMALL, "--truth", "--set", "scene.truth_samples=4", says=["PASS", "supersampled-16"])
+        self.run_engine(0, *self.SMALL, "--truth", "--set", "scene.reference_samples=4", says=["PASS", "supersampled-16"])
         pictures = {name for name in os.listdir(self.path("out")) if name.endswith(".png")}
         self.assertEqual(pictures, {f"{name}.png" for name in (
-            "before", "after", "golden", "difference", "truth", "error", "change", "weights", "classes")})
+            "before", "after", "golden", "difference", "reference", "error", "change", "weights", "classes")})
         self.assertGreater(self.result()["quality"]["psnr_silhouette_db"],
                            self.result()["quality"]["psnr_silhouette_before_db"])
 
@@ -337,7 +337,7 @@ class Faults(Base):
 class Registers(Base):
     """Each status register that is checked can fail the run by itself."""
     CHECKED = ["id", "control", "status", "size", "rules", "edge-count", "vertex-count", "face-count", "edge-base",
-                 "vertex-base", "face-base", "depth-base", "colour-base", "weight-base", "copy-base", "refusal", "edges",
+                 "vertex-base", "face-base", "depth-base", "colour-base", "weight-base", "copy-base", "rejection", "edges",
                  "boundary-edges", "silhouette-edges", "back-edges", "crease-edges", "flat-edges", "invalid-edges",
                  "kept-edges", "outside-edges", "degenerate-edges", "empty-edges", "lines", "columns", "groups",
                  "candidates", "passed", "blocks", "blended-pixels", "memory-errors", "frame-cycles", "edge-cycles",

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Bad input and planted faults of `deburr run morphological` and `deburr run frame`: each has its exit code and
+"""Bad input and injected faults of `deburr run morphological` and `deburr run frame`: each has its exit code and
 says what is wrong; awkward but legal frames pass. See --help of unittest."""
 import json
 import os
@@ -224,7 +224,7 @@ class Configuration(Base):
                                 says="PASS")
 
     def test_thresholds_below_a_code_are_noted(self):
-        """Legal, and most likely of the time when thresholds were shares of full scale."""
+        """Legal, and most likely of the time when thresholds were weights of full scale."""
         predicated = ("--set", "morphological.edges.source=predicated")
         dynamic = ("--preset", "smaa-dynamic")
         for name, least, rules in (("edges.threshold", 65536, ()), ("edges.threshold_on_depth_edge", 65536, predicated),
@@ -293,7 +293,7 @@ class Configuration(Base):
         image = ("--in", self.write("a.png", noisy_png(16, 16)))
         morphological = [
             (image, "--size", "10x10", "size of its own"),
-            (image, "--set", "frame.truth_samples=8", "--truth"),
+            (image, "--set", "frame.reference_samples=8", "--truth"),
             (image, "--depth", self.write("d.png", noisy_png(16, 16)), "--truth FILE"),
             ((), "--set", "memory.latency=100", "line_buffers"),
             ((), "--set", "morphological.memory.outstanding=8", "line_buffers"),
@@ -375,12 +375,12 @@ class Configuration(Base):
     def test_frame(self):
         self.run_engine(0, *self.SMALL, engine="frame", says="PASS")
         work = self.result()["work"]
-        self.assertGreater(work["texturing_clocks"], 0)
-        self.assertGreater(work["smoothing_clocks"], 0)
+        self.assertGreater(work["texturing_cycles"], 0)
+        self.assertGreater(work["smoothing_cycles"], 0)
 
 
 class Faults(Base):
-    """What is planted must be found, by the right check; without link checkers by the scoreboards."""
+    """What is injected must be found, by the right check; without link checkers by the scoreboards."""
     SMALL = ("--size", "64x48", "--set", "run.watchdog_cycles=2000")
     CHECKED = SMALL + ("--set", "run.check_links=true")
     UNCHECKED = SMALL + ("--set", "run.check_links=false")
@@ -545,14 +545,14 @@ class BlockFaults(Base):
         return ("--in", self.write(name, content), "--set", "run.watchdog_cycles=2000")
 
 
-class SharesFaults(BlockFaults):
-    """Faults in edges from colour and in learned shares, and what a mask does."""
+class WeightsFaults(BlockFaults):
+    """Faults in edges from colour and in learned weights, and what a mask does."""
 
     def noise(self):
         return self.picture("noise.png", noisy_png(48, 40))
 
     def test_a_bit_of_each_table(self):
-        for name in ("wrong-share", "wrong-near", "wrong-far", "wrong-sum"):
+        for name in ("wrong-weight", "wrong-near", "wrong-far", "wrong-sum"):
             with self.subTest(name):
                 self.fault(name, *self.noise())
 
@@ -568,7 +568,7 @@ class SharesFaults(BlockFaults):
         self.fault("drop-line", *self.noise(), code=3, unchecked=4, says="vanished")
 
     def test_what_is_not_there_cannot_fail(self):
-        for name in ("wrong-share", "wrong-near", "wrong-far", "wrong-sum", "wrong-class", "wrong-code",
+        for name in ("wrong-weight", "wrong-near", "wrong-far", "wrong-sum", "wrong-class", "wrong-code",
                      "wrong-axis", "drop-line"):
             self.run_engine(2, *self.SMALL, "--preset", "deburr-line", "--fault", name,
                             says=[name, "needs", "area = learned"])

@@ -686,7 +686,7 @@ TEST_F(Sweeps, AnIdenticalPictureIsTheBestOfAll) {
   leave("c", with(point({"1"}, {100, 99.0, 1}), point({"2"}, {200, nullptr, 1})));
   const Json lost = compared({"a", "b"});
   EXPECT_EQ(lost["points"][1]["judgements"][0], (Json{"better", "worse", ""}));
-  EXPECT_EQ(lost["sweeps"][0]["joint_front"], 1) << "the identical one, whatever its clocks";
+  EXPECT_EQ(lost["sweeps"][0]["joint_front"], 1) << "the identical one, whatever its cycles";
   EXPECT_EQ(lost["sweeps"][1]["joint_front"], 1);
   EXPECT_EQ(compared({"b", "a"})["points"][1]["judgements"][0], (Json{"worse", "better", ""}));
   const Json missing = compared({"a", "c"});

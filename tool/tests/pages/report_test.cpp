@@ -78,7 +78,7 @@ constexpr const char* kResult = R"json({
     {"label": "Switch", "key": "work.on"},
     {"label": "More", "key": "work.hits", "against": {"label": "Lines", "key": "memory.lines_filled"}},
     {"label": "Nothing", "key": "work.unknown", "against": {"label": "Lines", "key": "memory.lines_filled"}}],
-  "quality": {"reference": "truth-16", "psnr_db": 41.256, "psnr_edge_db": 31.5, "psnr_silhouette_db": 22.126,
+  "quality": {"reference": "reference-16", "psnr_db": 41.256, "psnr_edge_db": 31.5, "psnr_silhouette_db": 22.126,
     "psnr_before_db": 35.5, "psnr_edge_before_db": 33.25, "psnr_silhouette_before_db": null,
     "identical": {"psnr_db": false}, "flip": 0.0125, "flip_before": 0.05, "ssim": 0.98765, "ssim_before": null},
   "change": {"over_2_percent": 12.5, "over_16_percent": 3.25, "right_over_2_percent": 1.5,
@@ -88,7 +88,7 @@ constexpr const char* kResult = R"json({
     "checks.mismatches": {"unit": "", "meaning": "Wrong."},
     "memory.bytes_read": {"unit": "byte", "meaning": "Read."}, "memory.lines_filled": {"unit": "line", "meaning": "Lines"},
     "memory.bytes_written": {"unit": "byte", "meaning": "Written."},
-    "work.hits": {"unit": "hit", "meaning": "Found there."}, "cycles": {"unit": "clk", "meaning": "All clocks."}}
+    "work.hits": {"unit": "hit", "meaning": "Found there."}, "cycles": {"unit": "clk", "meaning": "All cycles."}}
 })json";
 
 constexpr const char* kManifest = R"json({
@@ -106,7 +106,7 @@ constexpr const char* kManifest = R"json({
     {"name": "rate", "kind": "run", "value": "8", "default": "8", "range": "1..9", "unit": "byte/clk", "meaning": "Rate."}]
 })json";
 
-constexpr const char* kWindows = R"json({
+constexpr const char* kIntervals = R"json({
   "schema": 1, "asked_cycles": 500, "window_cycles": 1000, "windows": 2, "from": [0, 1000], "cycles": [1000, 400],
   "throughput": [{"key": "work.pixels", "label": "Pixels", "unit": "pixel/clk", "bound": 1},
                  {"key": "work.absent", "label": "Absent", "unit": "x/clk", "bound": 0}],
@@ -124,7 +124,7 @@ A &lt;title&gt;|badge fail|fail
 of a test
 Note: 16 bits made 8
 Note: &lt;b&gt;
-Idealised:
+NotImplementable:
 this hardware cannot be built as it is.|Memories that no technology offers:
 lines (nine ports);
 ring (no latency);
@@ -176,12 +176,12 @@ empty|0|0|0|u|0|0|map_empty.pfm|map_empty.pfm|None.
 Key figures
 What|Value|Unit|Against
 Found there.|Hits|12,345|hit|a remark
-All clocks.|Whole run|400,000|clk
+All cycles.|Whole run|400,000|clk
 Share|0.1235|= formula
 Switch|yes
 Found there.|More|12,345|hit|Lines 7,000, +76.4 %
 Nothing|-
-Quality against|truth-16
+Quality against|reference-16
 Measure|Before|After|Gain|Unit
 PSNR, whole frame|35.50|41.26|+5.76|dB
 PSNR, edge pixels|33.25|31.50|-1.75|dB
@@ -236,7 +236,7 @@ Unit|Busy|Idle|Stalled, by cause
 luma|1,000|2,000|wait_fill 4,000, late 1
 blend|7|8|-
 Over time
-2 windows of 1,000 cycles; 500 were asked for, which would be too many windows.
+2 intervals of 1,000 cycles; 500 were asked for, which would be too many intervals.
 Choose a window in a chart for the command that writes its waves.
 Unit
 Memory
@@ -251,7 +251,7 @@ Links and FIFOs
 Beats inside at the end of each clock.
 Link
 Every link
-Link|Of waves|Depth|Beats|Mean|Most|Full, % of clocks
+Link|Of waves|Depth|Beats|Mean|Most|Full, % of cycles
 codes|top.codes|4|9,000|1.26|3|2.6
 Memories
 1.49 Mbit of words (0.34 Mbit for frames of this width), 2.51 Mbit built:
@@ -276,7 +276,7 @@ deburr run texture --trace &apos;a b&apos; --size 4x3 --pixel=3,0 --maps
 Parameters
 Marked rows differ from the default.
 A rule changes pixels;
-a build choice changes clocks and cost;
+a build choice changes cycles and cost;
 runs that agree in inputs and rules share one golden result.
 Name|Kind|Value|Default|Range|Unit|Meaning
 changed|cache.ways|build|4|2|1..8|way|Ways.
@@ -300,7 +300,7 @@ class Pages : public testing::Test {
   Pages()
       : path_(fs::temp_directory_path() / ("deburr_report_page_" + std::to_string(::getpid()))) {
     fs::create_directories(path_);
-    put("windows.json", kWindows);
+    put("windows.json", kIntervals);
     write_image(path_ / "after.png", tb::Image(4, 3, {10, 20, 30, 255}));
     write_image(path_ / "map_work.png", tb::Image(6, 9, {10, 20, 30, 255}));
     put("map_work.pfm", pfm_of(values()));
@@ -343,7 +343,7 @@ TEST_F(Pages, HaveTheDataOfTheirCharts) {
   const Json data = data_of(page_of(result_, manifest_));
   Json expected = result_;
   EXPECT_EQ(data["result"].dump(1), expected.dump(1));
-  expected = Json::parse(kWindows);
+  expected = Json::parse(kIntervals);
   expected.erase("units");
   expected["series"]["work"].erase("hits");
   expected["command"] = "deburr run texture --size 4x3 --pixel=3,0 --maps";
@@ -456,18 +456,18 @@ TEST_F(Pages, AreNotMadeOfDamagedFiles) {
     }
     put(file, before);
   };
-  const auto windows = [](const char* at, Json value) {
-    Json changed = Json::parse(kWindows);
+  const auto intervals = [](const char* at, Json value) {
+    Json changed = Json::parse(kIntervals);
     changed[Json::json_pointer(at)] = std::move(value);
     return changed.dump();
   };
   const std::string is_none = "is not a valid file of windows";
   says("windows.json", "[]", is_none);
   says("windows.json", "{}", is_none);
-  says("windows.json", windows("/cycles", {1000}), is_none);
-  says("windows.json", windows("/cycles/1", -400), is_none);
-  says("windows.json", windows("/series/work/pixels", {900, 100, 1}), is_none);
-  says("windows.json", windows("/series/ports/port/outstanding/0", "1"), is_none);
+  says("windows.json", intervals("/cycles", {1000}), is_none);
+  says("windows.json", intervals("/cycles/1", -400), is_none);
+  says("windows.json", intervals("/series/work/pixels", {900, 100, 1}), is_none);
+  says("windows.json", intervals("/series/ports/port/outstanding/0", "1"), is_none);
   for (const char* const map :
        {"", "Pf 4", "Pf 0 3\n-1.0\n", "Pf 4 0\n-1.0\n", "Pf 4 3\n-1.0\n1234"})
     says("map_work.pfm", map, "is not a portable float map");

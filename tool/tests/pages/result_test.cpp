@@ -115,7 +115,7 @@ Result full_result() {
   r.memories[1].high_water = 7;
   r.memories[1].register_bits = 130;
   r.link_bits = {3, 700};
-  r.memories[1].idealised = "nine ports";
+  r.memories[1].not_implementable = "nine ports";
   r.links = {{"cache_in", "engine.cache.in", 30, {5, 10, 25}}, {"empty", "engine.empty", 0, {0}}};
   r.maps = {{"samples", "Samples", "sample", "Samples of each pixel.", 1, 16, 48, 12, "the walker"},
             {"nothing", "Nothing", "", "Of no pixel.", 0, 0, 0, 0, ""}};
@@ -388,10 +388,10 @@ TEST(Results, MemoriesAddUpByKind) {
 
 TEST(Results, AnIdealisedMemoryIsNamedEverywhere) {
   Result ideal = sample_result();
-  EXPECT_THAT(tb::idealised_memories(to_json(ideal)), testing::IsEmpty());
+  EXPECT_THAT(tb::not_implementable_memories(to_json(ideal)), testing::IsEmpty());
   EXPECT_FALSE(to_json(ideal).contains("idealised"));
-  ideal.memories[1].idealised = "nine ports";
-  EXPECT_THAT(tb::idealised_memories(to_json(ideal)),
+  ideal.memories[1].not_implementable = "nine ports";
+  EXPECT_THAT(tb::not_implementable_memories(to_json(ideal)),
               testing::ElementsAre("cache_lines (nine ports)"));
   const Comparison worse = compare(to_json(sample_result()), to_json(ideal), {});
   EXPECT_TRUE(worse.worse) << "what B counts could not be built";
@@ -647,7 +647,7 @@ TEST_F(Page, OfAnInterruptedRunSaysWhatWasCompared) {
 TEST_F(Page, SaysThatAMemoryIsIdealised) {
   EXPECT_THAT(page_of(sample_result()), Not(HasSubstr("cannot be built")));
   Result ideal = sample_result();
-  ideal.memories[1].idealised = "nine ports";
+  ideal.memories[1].not_implementable = "nine ports";
   const std::string page = page_of(ideal);
   EXPECT_THAT(page, HasSubstr("cannot be built as it is"));
   EXPECT_THAT(page, HasSubstr("cache_lines (nine ports)"));

@@ -169,7 +169,7 @@ Night night(std::uint64_t seed, const std::string& commit = "a") {
           .passed = 12,
           .bins = 81,
           .met = 80,
-          .clocks = 6'000'000,
+          .cycles = 6'000'000,
           .seconds = 60};
 }
 
@@ -193,13 +193,13 @@ TEST(Trend, SaysWhatIsWorse) {
 TEST(Trend, SaysFromAFifthOnThatItIsSlower) {
   const Night before = night(1);
   Night after = before;
-  after.clocks = 4'800'000;
+  after.cycles = 4'800'000;
   EXPECT_THAT(falls_between(before, after), testing::IsEmpty());
-  after.clocks = 4'790'000;
+  after.cycles = 4'790'000;
   EXPECT_THAT(falls_between(before, after),
-              ElementsAre("speed from 100 to 80 thousand clocks a second"));
+              ElementsAre("speed from 100 to 80 thousand cycles a second"));
   after.seconds = 59.9;  // too short
-  after.clocks = 1'000;
+  after.cycles = 1'000;
   EXPECT_THAT(falls_between(before, after), testing::IsEmpty());
   EXPECT_THAT(falls_between(after, before), testing::IsEmpty());
 }
@@ -227,12 +227,12 @@ TEST(Trend, IsReadAsItWasWritten) {
                .passed = 6,
                .bins = 5,
                .met = 4,
-               .clocks = 3,
+               .cycles = 3,
                .seconds = 2.5};
   const std::string text = trend_text({night(1), second});
   EXPECT_THAT(text,
               HasSubstr("\"seed\":18446744073709551615,\"holds\":false,\"runs\":7,\"passed\":6,"
-                        "\"bins\":5,\"met\":4,\"clocks\":3,\"seconds\":2.5}\n"));
+                        "\"bins\":5,\"met\":4,\"cycles\":3,\"seconds\":2.5}\n"));
   tb::write_file_atomically(file, text);
   EXPECT_EQ(trend_text(read_trend(file)), text);
   tb::write_file_atomically(file, text + "{}\n");

@@ -23,9 +23,9 @@ using testing::HasSubstr;
 
 constexpr std::uint64_t kSeed = 7;
 
-Json result(std::uint64_t clocks, double seconds, std::uint64_t colours,
+Json result(std::uint64_t cycles, double seconds, std::uint64_t colours,
             const std::map<std::string, std::uint64_t>& bins) {
-  return {{"cycles", clocks},
+  return {{"cycles", cycles},
           {"host", {{"seconds", seconds}}},
           {"scoreboards", {{"colours", {{"comparisons", colours}}}, {"a/b", {{"comparisons", 1}}}}},
           {"coverage", {{"bins", bins}}}};
@@ -129,9 +129,9 @@ TEST_F(RegressionReport, CoverageOfAllRunsIsASumByTheEngineOfTheBins) {
 TEST_F(RegressionReport, FailuresThatAreTheSameAreOneBucket) {
   write_failure(folder_of("a3"), {"mismatch", "frame: 3 mismatches", false});
   std::vector<std::string> told;
-  for (const FailureBucket& bucket : collected().buckets) {
-    std::string text = bucket.engine + " " + bucket.kind + " " + bucket.message + ":";
-    for (const std::size_t run : bucket.runs) text += " " + std::to_string(run);
+  for (const FailureSignature& signature : collected().signatures) {
+    std::string text = signature.engine + " " + signature.kind + " " + signature.message + ":";
+    for (const std::size_t run : signature.runs) text += " " + std::to_string(run);
     told.push_back(text);
   }
   EXPECT_THAT(told, ElementsAre("texture deadlock at N: 5 7",
@@ -140,8 +140,8 @@ TEST_F(RegressionReport, FailuresThatAreTheSameAreOneBucket) {
   fail("b0", "mismatch", "colours: 2 mismatches in 2 <comparisons>");
   fail("a0", "simulation", "at 13");
   const RegressionResult more = collected();
-  EXPECT_EQ(more.buckets[0].runs, (std::vector<std::size_t>{2, 4, 6}));
-  EXPECT_EQ(more.buckets.size(), 4u) << "the same words, another kind";
+  EXPECT_EQ(more.signatures[0].runs, (std::vector<std::size_t>{2, 4, 6}));
+  EXPECT_EQ(more.signatures.size(), 4u) << "the same words, another kind";
 }
 
 TEST_F(RegressionReport, TheJsonHasTheCounts) {
@@ -174,12 +174,12 @@ TEST_F(RegressionReport, TheJsonHasTheCounts) {
                   {"seconds", 8.0},
                   {"failure", "mismatch: colours: 7 mismatches in 9 <comparisons>"}}));
   EXPECT_EQ(all["runs"][3]["state"], "missing");
-  const Json& example = all["buckets"][1]["example"];
+  const Json& example = all["signatures"][1]["example"];
   EXPECT_EQ(example["name"], "first/runs/size=3/a2");
   EXPECT_EQ(example["directory"], "../../points/a2/a2");
   EXPECT_EQ(example["result"], "../../points/a2/a2/result.json");
   EXPECT_EQ(example["command"], "deburr run texture --set scene.width=24 --set run.seed=a2");
-  EXPECT_FALSE(all["buckets"][0]["example"].contains("result"));
+  EXPECT_FALSE(all["signatures"][0]["example"].contains("result"));
   EXPECT_EQ(failed_in_report(place()),
             (std::set<std::string>{"first/runs/size=3/a2", "second/runs/size=3/b1",
                                    "second/runs/size=3/b2", "second/runs/size=3/b3"}));
@@ -218,8 +218,8 @@ TEST_F(RegressionReport, ANightIsWhatAllRunsTook) {
   EXPECT_EQ(std::tuple(night.seed, night.holds, night.runs, night.passed),
             std::tuple(kSeed, false, 8u, 3u));
   EXPECT_EQ(std::tuple(night.bins, night.met), std::tuple(3u, 3u));
-  EXPECT_EQ(std::tuple(night.clocks, night.seconds), std::tuple(1305u, 8.875));
-  EXPECT_DOUBLE_EQ(night.clocks_a_second(), 1305 / 8.875);
+  EXPECT_EQ(std::tuple(night.cycles, night.seconds), std::tuple(1305u, 8.875));
+  EXPECT_DOUBLE_EQ(night.cycles_a_second(), 1305 / 8.875);
   Night before = night, best = night;
   before.seed = 5;
   before.passed = 4;

@@ -26,7 +26,7 @@ tb::Image picture(int left, int right) {
 
 // Left and right pixel of what goes in, comes out and is true.
 struct Frame {
-  tb::Image before, after, truth;
+  tb::Image before, after, reference;
   std::optional<tb::Mask> drawn{};
 };
 
@@ -43,7 +43,7 @@ Measured measured(const std::vector<Frame>& frames) {
   measure_flicker(static_cast<int>(frames.size()), context, m.result, [&](int i) {
     asked.push_back(i);
     const Frame& frame = frames[static_cast<std::size_t>(i)];
-    return SequencePicture{frame.before, frame.after, frame.truth, frame.drawn};
+    return SequencePicture{frame.before, frame.after, frame.reference, frame.drawn};
   });
   for (std::size_t i = 0; i < asked.size(); ++i) EXPECT_EQ(asked[i], static_cast<int>(i));
   for (const tb::WorkItem& item : m.result.work) {
@@ -54,7 +54,7 @@ Measured measured(const std::vector<Frame>& frames) {
   return m;
 }
 
-// The picture's steps are -4, 0 and +6, 0 off the truth's, and then 0, 3; what went in is off by
+// The picture's steps are -4, 0 and +6, 0 off the reference's, and then 0, 3; what went in is off by
 // 10, 0 and 0, 0 and 0, 20.
 TEST(Flicker, IsOfEachPairOfFramesAgainstItsTruth) {
   const Measured m = measured({{picture(10, 10), picture(10, 20), picture(10, 50)},
@@ -76,7 +76,7 @@ TEST(Flicker, IsOfEachPairOfFramesAgainstItsTruth) {
   EXPECT_FALSE(m.result.interrupted);
 }
 
-// Without a truth what went in is taken for it, of the frames that have none.
+// Without a reference what went in is taken for it, of the frames that have none.
 TEST(Flicker, WithoutATruthIsBeyondWhatWentIn) {
   const Measured m = measured({{picture(10, 10), picture(10, 10), {}},
                                {picture(20, 10), picture(23, 10), {}},

@@ -35,7 +35,7 @@ class InputFilesOfEngines : public testing::Test {
 
 // What a parameter needs beside it to be looked at.
 const std::map<std::string, std::string> kBeside = {{"frame.depth", "frame.source"},
-                                                    {"frame.truth", "frame.source"}};
+                                                    {"frame.reference", "frame.source"}};
 
 TEST_F(InputFilesOfEngines, AreAllThatParametersName) {
   int parameters = 0;

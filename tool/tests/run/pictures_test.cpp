@@ -29,33 +29,33 @@ constexpr Rgba8 kGrey = {128, 128, 128, 255}, kBlack = {0, 0, 0, 255},
                 kWhite = {255, 255, 255, 255};
 
 TEST(Quality, IsOfBothPicturesWhereThereIsSomethingToCompare) {
-  Image truth(8, 8, {100, 100, 100, 255}), before = truth, after = truth;
+  Image reference(8, 8, {100, 100, 100, 255}), before = reference, after = reference;
   before.at(3, 3) = {110, 100, 100, 255};
   after.at(3, 3) = {101, 100, 100, 255};
-  const tb::Quality q = measure_quality("x", before, after, truth, nullptr);
+  const tb::Quality q = measure_quality("x", before, after, reference, nullptr);
   // One channel of one edge pixel: mse 100 / 3 and 1 / 3.
   EXPECT_NEAR(*q.psnr_edge_before_db, 32.90, 0.01);
   EXPECT_NEAR(*q.psnr_edge_db, 52.90, 0.01);
   EXPECT_NEAR(*q.psnr_db - *q.psnr_before_db, 20.0, 0.01);
   EXPECT_FALSE(q.psnr_silhouette_db || q.psnr_silhouette_before_db) << "no depth";
   const tb::DepthImage flat(8, 8, 1.0f);
-  EXPECT_FALSE(measure_quality("x", before, after, truth, &flat).psnr_silhouette_db);
-  const tb::Quality same = measure_quality("x", truth, truth, truth, nullptr);
+  EXPECT_FALSE(measure_quality("x", before, after, reference, &flat).psnr_silhouette_db);
+  const tb::Quality same = measure_quality("x", reference, reference, reference, nullptr);
   EXPECT_EQ(*same.psnr_db, std::numeric_limits<double>::infinity());
   EXPECT_FALSE(same.psnr_edge_db) << "no edge pixels";
 }
 
 TEST(Quality, HasFlipAndSsimOfBothPictures) {
-  const Image truth(16, 16, {100, 100, 100, 255});
-  Image before = truth, after = truth;
+  const Image reference(16, 16, {100, 100, 100, 255});
+  Image before = reference, after = reference;
   before.at(3, 8) = {200, 100, 100, 255};
   after.at(3, 8) = {120, 100, 100, 255};
-  const tb::Quality q = measure_quality("x", before, after, truth, nullptr);
-  EXPECT_EQ(*q.flip, tb::flip(truth, after));
-  EXPECT_EQ(*q.flip_before, tb::flip(truth, before));
+  const tb::Quality q = measure_quality("x", before, after, reference, nullptr);
+  EXPECT_EQ(*q.flip, tb::flip(reference, after));
+  EXPECT_EQ(*q.flip_before, tb::flip(reference, before));
   EXPECT_GT(*q.flip_before, *q.flip);
-  EXPECT_EQ(*q.ssim, ssim(truth, after));
-  EXPECT_EQ(*q.ssim_before, ssim(truth, before));
+  EXPECT_EQ(*q.ssim, ssim(reference, after));
+  EXPECT_EQ(*q.ssim_before, ssim(reference, before));
   EXPECT_LT(*q.ssim_before, *q.ssim);
   const Image small(10, 40);
   EXPECT_FALSE(measure_quality("x", small, small, small, nullptr).ssim) << "no window fits";
@@ -63,24 +63,24 @@ TEST(Quality, HasFlipAndSsimOfBothPictures) {
 
 TEST(Change, CountsPixelsByCodesAndOfTheRightOnes) {
   const Image before(10, 2, {100, 100, 100, 255});
-  Image after = before, truth = before;
+  Image after = before, reference = before;
   after.at(0, 0)[0] = 102;  // 2: not more than 2
   after.at(1, 0)[1] = 97;   // 3
   after.at(2, 0)[2] = 116;  // 16
   after.at(3, 0)[0] = 117;  // 17, and this one was wrong
   after.at(4, 0)[3] = 0;    // alpha does not count
-  truth.at(3, 0)[0] = 120;
-  truth.at(5, 0)[0] = 98;  // right within 2 codes, and left
+  reference.at(3, 0)[0] = 120;
+  reference.at(5, 0)[0] = 98;  // right within 2 codes, and left
   tb::Change change = measure_change(before, after, nullptr);
   EXPECT_DOUBLE_EQ(change.small_percent, 15);
   EXPECT_DOUBLE_EQ(change.large_percent, 5);
-  EXPECT_FALSE(change.right_small_percent || change.right_large_percent) << "no truth";
+  EXPECT_FALSE(change.right_small_percent || change.right_large_percent) << "no reference";
   EXPECT_NEAR(change.psnr_db, 10 * std::log10(65025.0 * 60 / (4 + 9 + 256 + 289)), 1e-9);
-  change = measure_change(before, after, &truth);
+  change = measure_change(before, after, &reference);
   EXPECT_DOUBLE_EQ(*change.right_small_percent, 100 * 2.0 / 19);
   EXPECT_DOUBLE_EQ(*change.right_large_percent, 0);
   after.at(6, 0)[0] = 120;  // 20, and it was right
-  change = measure_change(before, after, &truth);
+  change = measure_change(before, after, &reference);
   EXPECT_DOUBLE_EQ(*change.right_small_percent, 100 * 3.0 / 19);
   EXPECT_DOUBLE_EQ(*change.right_large_percent, 100 * 1.0 / 19);
   const Image wrong(10, 2, {0, 0, 0, 255});
@@ -98,7 +98,7 @@ class Pictures : public testing::Test {
 
   // Leaves the pictures of a 4 x 3 frame of which so much was delivered.
   void leave(std::size_t delivered) {
-    const Image before(4, 3, {10, 10, 10, 255}), truth(4, 3, {14, 10, 10, 255});
+    const Image before(4, 3, {10, 10, 10, 255}), reference(4, 3, {14, 10, 10, 255});
     Image after(4, 3);  // what was not delivered is not initialised to anything sensible
     for (std::size_t i = 0; i < delivered; ++i) after.pixels[i] = {12, 10, 10, 255};
     Image golden(4, 3, {12, 10, 10, 255});
@@ -106,9 +106,9 @@ class Pictures : public testing::Test {
     tb::ParameterSet parameters;
     RunContext context(path_, parameters, "x", 0);
     context.set_leaves(
-        {{"before", "after", "golden", "difference", "truth", "error", "change"}, {}});
+        {{"before", "after", "golden", "difference", "reference", "error", "change"}, {}});
     context.claim();
-    add_frame_pictures(context, {before, after, delivered, &golden, &truth, "", ""});
+    add_frame_pictures(context, {before, after, delivered, &golden, &reference, "", ""});
     tb::Result result;
     result.unit = "smoother";
     context.finish(result);
@@ -159,9 +159,9 @@ TEST_F(Pictures, OfOtherNamesAreNotLeft) {
                spec::CheckFailed);
 }
 
-TEST(SharesPicture, IsTwiceAsBrightAndBlueWhereLeftAndRight) {
-  const Image shares = shares_picture(3, 1, {{40, 10, false}, {200, 3, true}, {}});
-  EXPECT_EQ(shares.pixels,
+TEST(WeightsPicture, IsTwiceAsBrightAndBlueWhereLeftAndRight) {
+  const Image weights = weights_picture(3, 1, {{40, 10, false}, {200, 3, true}, {}});
+  EXPECT_EQ(weights.pixels,
             (std::vector<Rgba8>{{80, 20, 0, 255}, {255, 6, 160, 255}, {0, 0, 0, 255}}));
 }
 

@@ -126,12 +126,12 @@ TEST(RandomConfigurations, GoWithWhatIsGiven) {
     const std::string drawn = bound.set.find("texture.axes")->text();
     axes.insert(drawn);
     if (drawn == "two") {
-      EXPECT_EQ(bound.set.find("texture.axis_clocks")->text(), "1") << seed;
+      EXPECT_EQ(bound.set.find("texture.axis_cycles")->text(), "1") << seed;
     }
   }
   EXPECT_GT(axes.size(), 1u);
   EXPECT_THROW(
-      random_configuration("texture", 1, {{"texture.axes", "two"}, {"texture.axis_clocks", "4"}}),
+      random_configuration("texture", 1, {{"texture.axes", "two"}, {"texture.axis_cycles", "4"}}),
       spec::ConfigError);
 }
 

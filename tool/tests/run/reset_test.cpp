@@ -62,7 +62,7 @@ std::uint64_t frames_of(const Settings& settings) {
 }
 
 // All figures of a run, but those of the host; what was compared before the reset is counted, too,
-// and the reset takes clocks of its own, in which units are idle.
+// and the reset takes cycles of its own, in which units are idle.
 struct Run {
   Figures figures;
   std::uint64_t compared = 0;
@@ -118,7 +118,7 @@ TEST_P(ResetOfDraws, LeavesNothing) {
         const std::string got = figure == again.end() ? "none" : figure->second;
         if (got != value) different += name + ": " + value + ", " + got + "\n";
       }
-      EXPECT_EQ(different, "") << "reset " << at << " clocks into " << cycles << ", of seed "
+      EXPECT_EQ(different, "") << "reset " << at << " cycles into " << cycles << ", of seed "
                                << seed << text_of(settings);
     }
   }

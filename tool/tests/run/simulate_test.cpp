@@ -147,7 +147,7 @@ TEST(SimulationOptions, AreThoseOfTheRun) {
   EXPECT_FALSE(options_of(run).golden);
 }
 
-// Checkers of links look away from a planted fault, unless they were asked for.
+// Checkers of links look away from a injected fault, unless they were asked for.
 TEST(SimulationOptions, OfAFaultAskForNoCheckersOfLinks) {
   RunParameters run;
   ParameterSet set;

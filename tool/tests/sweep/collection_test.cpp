@@ -34,12 +34,12 @@ axes:
     wide: {scene.width: 32}
   texture.cache.ways: [4, 1, 2]
 metrics:
-  clocks: cycles
+  cycles: cycles
   rate: throughput.value
   lines: /memory/lines_filled
   ratio: cycles / memory.lines_filled
-limits: [clocks < 500, lines <= 90]
-objectives: {minimise: [clocks], maximise: [rate], for_each: [picture]}
+limits: [cycles < 500, lines <= 90]
+objectives: {minimise: [cycles], maximise: [rate], for_each: [picture]}
 )";
 const std::string kSmall = "small, <b>\"one\"</b>", kWide = "wide";
 
@@ -48,7 +48,7 @@ Json result(std::uint64_t cycles, double rate, std::uint64_t lines) {
           {"throughput", {{"value", rate}, {"unit", "texel/clk"}}},
           {"memory", {{"lines_filled", lines}}},
           {"meaning",
-           {{"cycles", {{"unit", "clk"}, {"meaning", "Clocks."}}},
+           {{"cycles", {{"unit", "clk"}, {"meaning", "Cycles."}}},
             {"throughput.value", {{"unit", "see throughput.unit"}, {"meaning", "Rate."}}},
             {"memory.lines_filled", {{"unit", "line"}, {"meaning", "Lines."}}}}}};
 }
@@ -131,7 +131,7 @@ TEST_F(SweepCollection, MetricsHaveTheUnitsOfTheirKeys) {
   for (const MetricInfo& metric : collected().metrics)
     told.push_back(metric.name + "|" + metric.key + "|" + metric.unit + "|" + metric.meaning);
   EXPECT_THAT(told,
-              ElementsAre("clocks|cycles|clk|Clocks.", "rate|throughput.value|texel/clk|Rate.",
+              ElementsAre("cycles|cycles|clk|Cycles.", "rate|throughput.value|texel/clk|Rate.",
                           "lines|/memory/lines_filled|line|Lines.",
                           "ratio|cycles / memory.lines_filled||cycles / memory.lines_filled"));
 }
@@ -143,7 +143,7 @@ TEST_F(SweepCollection, AFrontIsOfEachPictureAndWithinTheLimits) {
               ElementsAre("a0fine", "a1tied", "b0fine", "b1none"));
   EXPECT_EQ(all.front, 4u);
   EXPECT_EQ(all.points[6].beyond, "lines <= 90");
-  EXPECT_EQ(all.points[7].beyond, "clocks < 500");
+  EXPECT_EQ(all.points[7].beyond, "cycles < 500");
   EXPECT_EQ(all.points[3].beyond, "");
   EXPECT_EQ(all.beyond, 2u);
   EXPECT_EQ(beyond_limits(sweep_, {499, 1, 90, 1}), 0);
@@ -151,7 +151,7 @@ TEST_F(SweepCollection, AFrontIsOfEachPictureAndWithinTheLimits) {
   EXPECT_GT(once, 0);
   EXPECT_GT(beyond_limits(sweep_, {1000, 1, 180, 1}), once) << "of both limits";
   keep("c1edge", result(600, 99, 95));
-  EXPECT_EQ(collected().points[7].beyond, "clocks < 500") << "the first of both";
+  EXPECT_EQ(collected().points[7].beyond, "cycles < 500") << "the first of both";
   EXPECT_THAT(values_of(sweep_, folder_of("a1tied")), ElementsAre(100, 2.5, 80, 1.25));
 }
 
@@ -169,12 +169,12 @@ TEST_F(SweepCollection, EffectsAreMeansOfThePointsWithAValue) {
   EXPECT_THAT(
       told,
       ElementsAre(
-          "picture clocks small:170.2 wide:306.6666666666667",
+          "picture cycles small:170.2 wide:306.6666666666667",
           "picture rate small:23.1 wide:" + Json(4.75 / 3).dump(),
           "picture lines small:64.2 wide:" + Json(130.0 / 3).dump(),
           "picture ratio small:" + Json((2 + 1.25 + 10.1 + 50.0 / 91 + 500.0 / 90) / 5).dump() +
               " wide:" + Json((300.0 / 90 + 7.75) / 2).dump(),
-          "texture.cache.ways clocks 4:150.0 1:" + Json(910.0 / 3).dump() + " 2:205.5",
+          "texture.cache.ways cycles 4:150.0 1:" + Json(910.0 / 3).dump() + " 2:205.5",
           "texture.cache.ways rate 4:" + Json(13.0 / 3).dump() +
               " 1:" + Json((2.5 + 1.75 + 99) / 3).dump() + " 2:2.0",
           "texture.cache.ways lines 4:77.0 1:" + Json(170.0 / 3).dump() + " 2:25.0",
@@ -191,7 +191,7 @@ TEST_F(SweepCollection, TheTableHasEveryPointAndQuotesWhatIsNoPlainCell) {
   ASSERT_EQ(lines.size(), 11u);
   const std::string small = R"("small, <b>""one""</b>")";
   EXPECT_EQ(lines[0],
-            "point,state,picture,texture.cache.ways,clocks,rate,lines,ratio,front,beyond,"
+            "point,state,picture,texture.cache.ways,cycles,rate,lines,ratio,front,beyond,"
             "failure,directory");
   EXPECT_EQ(lines[1],
             "a0fine,done," + small + ",4,100,2.5,50,2,1,,," + folder_of("a0fine").string());
@@ -212,8 +212,8 @@ TEST_F(SweepCollection, TheJsonAndThePageSayTheSame) {
                                  {"front", 4},
                                  {"beyond", 2}}));
   EXPECT_EQ(all["for_each"], Json({"picture"}));
-  EXPECT_EQ(all["limits"], Json({"clocks < 500", "lines <= 90"}));
-  EXPECT_EQ(all["objectives"], Json({{{"metric", "clocks"}, {"maximise", false}},
+  EXPECT_EQ(all["limits"], Json({"cycles < 500", "lines <= 90"}));
+  EXPECT_EQ(all["objectives"], Json({{{"metric", "cycles"}, {"maximise", false}},
                                      {{"metric", "rate"}, {"maximise", true}}}));
   EXPECT_EQ(all["axes"][0]["labels"], Json({kSmall, kWide}));
   EXPECT_EQ(all["axes"][0]["choices"], Json({{kSmall, {"24"}}, {kWide, {"32"}}}));

@@ -32,12 +32,12 @@ ExpressionNames names() {
 }
 Expression made(const std::string& text) { return Expression(text, "here", names()); }
 double number(const std::string& text) { return made(text).number(kLookup); }
-bool truth(const std::string& text) { return made(text).truth(kLookup); }
+bool reference(const std::string& text) { return made(text).reference(kLookup); }
 double violation(const std::string& text) { return made(text).violation(kLookup); }
 std::string complaint(const std::string& text) {
   try {
     const Expression expression = made(text);
-    expression.truth(kLookup);
+    expression.reference(kLookup);
   } catch (const spec::ConfigError& error) {
     return error.what();
   }
@@ -70,7 +70,7 @@ TEST(Expression, Compares) {
            {"mode == fast", true},    {"mode != fast", false},   {"mode == slow", false},
            {"slow != mode", true},    {"on == true", true},      {"on == off", false},
            {"a + 1 > b.c * 3", true}, {"a - 1 > b.c * 3", false}})
-    EXPECT_EQ(truth(text), holds) << text;
+    EXPECT_EQ(reference(text), holds) << text;
 }
 
 TEST(Expression, JoinsConditions) {
@@ -92,7 +92,7 @@ TEST(Expression, JoinsConditions) {
                                                  {"a > 3 and b.c > 3 or on", true},
                                                  {"a > 3 and (b.c > 3 or off)", false},
                                                  {"off or a > 3 and b.c < 3", true}})
-    EXPECT_EQ(truth(text), holds) << text;
+    EXPECT_EQ(reference(text), holds) << text;
 }
 
 // How far from what is demanded, over the right side's size.

@@ -30,14 +30,14 @@ std::string text_of(const Genes& genes) {
   return text;
 }
 
-// A design of four choices, as a filter and its cache are: the first costs clocks for quality, the
-// second has one best value, the third costs bits for clocks, the fourth is good at its first two.
+// A design of four choices, as a filter and its cache are: the first costs cycles for quality, the
+// second has one best value, the third costs bits for cycles, the fourth is good at its first two.
 Costs costs_of(const Genes& g) {
   const double off = g[1] - 2.0;
   const double quality = 2.0 * g[0] - off * off;
   const double bits = std::exp2(g[2]) + 0.5 * g[3];
-  const double clocks = (3 + g[0]) * (10 + 40 / std::exp2(g[2])) + 30 * std::abs(1.0 - g[3]);
-  return {-quality, bits, clocks};
+  const double cycles = (3 + g[0]) * (10 + 40 / std::exp2(g[2])) + 30 * std::abs(1.0 - g[3]);
+  return {-quality, bits, cycles};
 }
 
 bool dominates(const Costs& a, const Costs& b) {

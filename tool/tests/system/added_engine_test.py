@@ -177,9 +177,9 @@ class Added(unittest.TestCase):
                         says="PASS frame")
             result = json.loads((self.folder / "out/result.json").read_text())
             self.assertEqual(result["work"]["posteriser_levels_pixels"], 32 * 24)
-            self.assertGreaterEqual(result["work"]["smoothing_clocks"], 32 * 24)
+            self.assertGreaterEqual(result["work"]["smoothing_cycles"], 32 * 24)
             self.assertIn("frame_buffer", result["units"])
-            self.assertEqual("drawing_clocks" in result["work"], smoothing == pair)
+            self.assertEqual("drawing_cycles" in result["work"], smoothing == pair)
         self.deburr(1, "run", "frame", *small, "--smoothing", NAME, "--fault", "posteriser.flip-bit", says="FAIL mismatch")
         for smoothing in (NAME, pair):
             self.deburr(0, "run", "frame", *small, "--smoothing", smoothing, "--set", "run.reset_after=900", says="PASS frame")

@@ -18,7 +18,7 @@ import unittest
 UNSEEN = {"another order of units": ["run.shuffle=true"], "noise": ["run.poison=true"],
           "no fast path": ["run.fast_path=false"], "no checks of links": ["run.check_links=false"],
           "all of them": ["run.shuffle=true", "run.poison=true", "run.fast_path=false"]}
-# The same comparisons in other clocks.
+# The same comparisons in other cycles.
 SLOWER = {"stalls": ["run.stalls=0.3"], "dense stalls": ["run.stalls=0.8", "run.poison=true", "run.shuffle=true"]}
 # Clock by clock the same run, whether rules are written to registers or are reset values.
 PROGRAMMED = {"nothing": [], "stalls": ["run.stalls=0.2", "run.poison=true", "run.shuffle=true"],
@@ -88,8 +88,8 @@ class Reset(Disturbed):
             for name, (comparisons, mismatches) in self.compared(quiet).items():
                 self.assertGreaterEqual(disturbed["scoreboards"][name]["comparisons"], comparisons, name)
                 self.assertEqual(disturbed["scoreboards"][name]["mismatches"], mismatches, name)
-        self.compare_each({f"reset after {clocks} clocks": [f"run.reset_after={clocks}", "run.poison=true"]
-                           for clocks in RESETS}, compare)
+        self.compare_each({f"reset after {cycles} cycles": [f"run.reset_after={cycles}", "run.poison=true"]
+                           for cycles in RESETS}, compare)
         # What was compared before a reset is all that shows that there was one.
         while more:
             self.assertGreater(sum(more[:len(RESETS)]), 0, "no reset took place")

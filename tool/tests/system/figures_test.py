@@ -97,8 +97,8 @@ class Texture(Figures):
         self.assertEqual(r["memory"]["read_gb_per_s"], 64 * lines * 166.67 / (1000 * r["cycles"]))
         self.assertEqual(r["memory"]["written_gb_per_s"], 0)
         self.assert_row("Texels without a line fill", work["texel_hits_percent"], "%")
-        self.assert_row("Look-ups that hit", work["look_up_hits_percent"], "%")
-        self.assert_row("Look-ups of a line under way", work["look_up_merged_percent"], "%")
+        self.assert_row("Look-ups that hit", work["lookup_hits_percent"], "%")
+        self.assert_row("Look-ups of a line under way", work["lookup_merged_percent"], "%")
         self.assert_row("Mean rate of reads at clock_mhz, over the whole run; 10^9 bytes a second",
                         r["memory"]["read_gb_per_s"], "GB/s")
         self.assert_row("Mean rate of writes at clock_mhz, over the whole run; 10^9 bytes a second", 0, "GB/s")
@@ -162,7 +162,7 @@ class Morphological(Figures):
         return self.run_engine("morphological", "--in", self.frame, "--preset", "mlaa-slope", "--lanes", str(lanes),
                                *arguments)
 
-    def clocks(self, width, height, lanes):
+    def cycles(self, width, height, lanes):
         beats = -(-width // lanes)
         return (height + self.ROWS) * beats + 23
 
@@ -170,20 +170,20 @@ class Morphological(Figures):
         for lanes in (1, 2, 4):
             width = 40 * lanes  # shorter rows wait for their records
             r = self.step(lanes=lanes, width=width)
-            work, clocks = r["work"], self.clocks(width, self.HEIGHT, lanes)
+            work, cycles = r["work"], self.cycles(width, self.HEIGHT, lanes)
             latency = self.ROWS * 40 + 23
-            self.assertEqual((work["frame_clocks"], work["frame_clocks_by_formula"]), (clocks, clocks))
+            self.assertEqual((work["frame_cycles"], work["frame_cycles_by_formula"]), (cycles, cycles))
             self.assertEqual((r["latency"]["min"], r["latency"]["max"]), (latency, latency))
             self.assertEqual(work["latency_by_formula"], latency)
             self.assertEqual(r["throughput"]["value"], 24 * width / r["cycles"])
             self.assertEqual(r["throughput"]["bound"], lanes)
-            self.assertEqual(work["input_pixels_per_clock"], lanes)
+            self.assertEqual(work["input_pixels_per_cycle"], lanes)
             self.assertEqual(work["memory_bytes_per_pixel"], 0)
-            self.assertAlmostEqual(work["frame_rate"], 148.5e6 / clocks)
+            self.assertAlmostEqual(work["frame_rate"], 148.5e6 / cycles)
             # 60 of 1920 x 1080.
-            self.assertAlmostEqual(work["clock_for_1080p60"], 60 * self.clocks(1920, 1080, lanes) / 1e6)
+            self.assertAlmostEqual(work["clock_for_1080p60"], 60 * self.cycles(1920, 1080, lanes) / 1e6)
             self.assertIs(work["fits_1080p60"], True)
-            self.assert_tile("Frame", f"{clocks:,}", "clk", f"= formula; {clocks / 148.5e3:.2f} ms at 148.5 MHz")
+            self.assert_tile("Frame", f"{cycles:,}", "clk", f"= formula; {cycles / 148.5e3:.2f} ms at 148.5 MHz")
             self.assert_tile("Latency of a pixel", f"{latency:,}", "clk", "= formula")
 
     def test_counts_of_a_frame(self):
@@ -200,7 +200,7 @@ class Morphological(Figures):
             self.assertAlmostEqual(work["blended_pixels_percent"], 100 * work["blender_blended_pixels"] / 960)
 
     def test_occupancy_of_the_dividers(self):
-        """Divisions x interval over clocks x lanes; idle is a clock without a division under way."""
+        """Divisions x interval over cycles x lanes; idle is a clock without a division under way."""
         for lanes, interval in ((1, 1), (1, 4), (4, 4)):
             r = self.step("--set", f"morphological.divider.interval={interval}", lanes=lanes)
             for name, divisions in (("divider_h", 5), ("divider_v", 6)):
@@ -214,20 +214,20 @@ class Morphological(Figures):
 
     def test_traffic_and_stalls_of_memory(self):
         r = self.step("--storage", "memory")
-        work, clocks = r["work"], self.clocks(self.WIDTH, self.HEIGHT, 1)
+        work, cycles = r["work"], self.cycles(self.WIDTH, self.HEIGHT, 1)
         # 160 bytes a row are three lines; each is written and read.
         self.assertEqual((r["memory"]["bytes_written"], r["memory"]["bytes_read"]), (24 * 192, 24 * 192))
         self.assertEqual(r["memory"]["lines_filled"], 24 * 3)
         self.assertEqual(work["memory_bytes_per_pixel"], 2 * 192 / 40)
         # Rows of 40 pixels are too short for memory: 1080p is as slow in proportion.
-        self.assertGreater(work["frame_clocks"], clocks)
-        hd = work["frame_clocks"] / clocks * 60 * self.clocks(1920, 1080, 1) / 1e6
+        self.assertGreater(work["frame_cycles"], cycles)
+        hd = work["frame_cycles"] / cycles * 60 * self.cycles(1920, 1080, 1) / 1e6
         self.assertAlmostEqual(work["clock_for_1080p60"], hd)
         self.assertIs(work["fits_1080p60"], hd <= 148.5)
         self.assertGreater(hd, 148.5, "a frame that does not fit")
-        slower = 100 * (work["frame_clocks"] - clocks) / clocks
-        self.assert_tile("Frame", f"{work['frame_clocks']:,}", "clk",
-                         f"formula {clocks:,}, {slower:+.1f} %; {work['frame_clocks'] / 148.5e3:.2f} ms at 148.5 MHz")
+        slower = 100 * (work["frame_cycles"] - cycles) / cycles
+        self.assert_tile("Frame", f"{work['frame_cycles']:,}", "clk",
+                         f"formula {cycles:,}, {slower:+.1f} %; {work['frame_cycles'] / 148.5e3:.2f} ms at 148.5 MHz")
         self.assert_tile("Clock for 1080p60", f"{hd:.4g}", "MHz",
                          f"pixel clock 148.5, {100 * (hd / 148.5 - 1):+.1f} %")
         self.assert_tile("Memory traffic", "9.6", "byte/pixel")

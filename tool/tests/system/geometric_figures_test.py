@@ -34,15 +34,15 @@ f 1 2 3\nf 1 3 4\n"""
 
     def test_figures_of_a_frame(self):
         r = self.square()
-        work, clocks = r["work"], r["work"]["frame_clocks"]
+        work, cycles = r["work"], r["work"]["frame_cycles"]
         expected = {"edge_classifier_edges": 5, "edge_classifier_boundary_edges": 4, "edge_classifier_flat_edges": 1,
                     "edge_classifier_kept_edges": 4, "line_setup_lines": 4, "line_walker_columns": 128,
                     "coverage_unit_candidates": 128, "depth_test_passed": 128, "resolver_blocks": self.BLOCKS,
-                    "resolver_blended_pixels": self.PIXELS, "line_setup_divider_clocks": 4 * 13}
+                    "resolver_blended_pixels": self.PIXELS, "line_setup_divider_cycles": 4 * 13}
         self.assertEqual({name: work[name] for name in expected}, expected)
         # From column 17 on in fours: 3, seven times 4, and 1; a look-up each, and a line each of the depth behind it.
         self.assertEqual(work["line_walker_groups"], 4 * 9)
-        self.assertAlmostEqual(work["columns_a_clock"], 32 / 9)
+        self.assertAlmostEqual(work["columns_per_cycle"], 32 / 9)
         self.assertEqual(work["vertex_hits_percent"], 75, "four vertices are one line")
         for name in ("depth_hits_percent", "weight_hits_percent"):
             self.assertAlmostEqual(work[name], 100 * (1 - self.BLOCKS / (4 * 9)))
@@ -53,30 +53,30 @@ f 1 2 3\nf 1 3 4\n"""
         self.assertEqual({name: work[f"lines_written_{name}"] for name in written}, written)
         lines, enabled = sum(read.values()), 4 * self.PIXELS
         self.assertEqual((r["memory"]["bytes_read"], r["memory"]["bytes_written"]), (64 * lines, enabled))
-        self.assertAlmostEqual(work["bytes_a_blended_pixel"], (64 * lines + enabled) / self.PIXELS)
-        self.assertAlmostEqual(work["frame_bytes_a_blended_pixel"], (64 * 2 * self.BLOCKS + enabled) / self.PIXELS)
-        self.assertEqual(clocks, work["edge_cycles"] + work["resolve_cycles"])
-        self.assertEqual(r["cycles"], clocks)
+        self.assertAlmostEqual(work["bytes_per_blended_pixel"], (64 * lines + enabled) / self.PIXELS)
+        self.assertAlmostEqual(work["frame_bytes_per_blended_pixel"], (64 * 2 * self.BLOCKS + enabled) / self.PIXELS)
+        self.assertEqual(cycles, work["edge_cycles"] + work["resolve_cycles"])
+        self.assertEqual(r["cycles"], cycles)
         self.assertAlmostEqual(work["divider_occupancy_percent"], 100 * 4 / work["edge_cycles"])
-        self.assertAlmostEqual(work["port_occupancy_percent"], 100 * (lines + self.BLOCKS) / clocks)
-        self.assertAlmostEqual(work["frame_rate"], 250e6 / clocks)
-        self.assertAlmostEqual(work["clock_for_60_frames"], 60 * clocks / 1e6)
+        self.assertAlmostEqual(work["port_occupancy_percent"], 100 * (lines + self.BLOCKS) / cycles)
+        self.assertAlmostEqual(work["frame_rate"], 250e6 / cycles)
+        self.assertAlmostEqual(work["clock_for_60_frames"], 60 * cycles / 1e6)
         # 256 tags are cleared; 36 groups; two lines of colours a block.
         bound = 256 + 36 + 2 * self.BLOCKS
-        self.assertEqual(work["frame_clocks_bound"], bound)
+        self.assertEqual(work["frame_cycles_bound"], bound)
         self.assertAlmostEqual(r["throughput"]["bound"], 5 / bound)
-        self.assertAlmostEqual(r["throughput"]["value"], 5 / clocks)
+        self.assertAlmostEqual(r["throughput"]["value"], 5 / cycles)
         self.assertEqual(sum(b["count"] for b in r["latency"]["histogram"]), 4, "the lines")
-        slower = 100 * (clocks - bound) / bound
-        self.assert_tile("Frame", f"{clocks:,}", "clk", f"bound {bound}, {slower:+.1f} %; {clocks / 250e3:.2f} ms at 250 MHz")
-        self.assert_tile("Clock for 60 frames", f"{60 * clocks / 1e6:.4g}", "MHz")
-        self.assert_tile("Traffic of a blended pixel", f"{work['bytes_a_blended_pixel']:.4g}", "byte/pixel")
+        slower = 100 * (cycles - bound) / bound
+        self.assert_tile("Frame", f"{cycles:,}", "clk", f"bound {bound}, {slower:+.1f} %; {cycles / 250e3:.2f} ms at 250 MHz")
+        self.assert_tile("Clock for 60 frames", f"{60 * cycles / 1e6:.4g}", "MHz")
+        self.assert_tile("Traffic of a blended pixel", f"{work['bytes_per_blended_pixel']:.4g}", "byte/pixel")
 
     def test_walkers(self):
         for walkers, groups in ((1, 32), (2, 17), (4, 9)):
             work = self.square("--walkers", str(walkers))["work"]
             self.assertEqual(work["line_walker_groups"], 4 * groups)
-            self.assertAlmostEqual(work["columns_a_clock"], 32 / groups)
+            self.assertAlmostEqual(work["columns_per_cycle"], 32 / groups)
 
     def test_columns_without_a_candidate(self):
         """A quarter of a pixel further left, both upright lines lie between two columns of pixels and cover none."""
@@ -84,7 +84,7 @@ f 1 2 3\nf 1 3 4\n"""
         work = self.square(mesh=mesh)["work"]
         self.assertEqual((work["line_walker_columns"], work["coverage_unit_candidates"]), (128, 64))
         self.assertEqual(work["line_walker_groups"], 4 * 9)
-        self.assertAlmostEqual(work["columns_a_clock"], 32 / 9)
+        self.assertAlmostEqual(work["columns_per_cycle"], 32 / 9)
 
     def test_the_first_line_of_an_idle_engine(self):
         """Two edges a clock wait for nothing but vertices and depth, behind each other: the sum of the units'
@@ -105,7 +105,7 @@ f 1 2 3\nf 1 3 4\n"""
         two = self.square("--set", "scene.count=2")["work"]
         for name in ("edge_classifier_edges", "resolver_blended_pixels", "lines_read_depth"):
             self.assertEqual(two[name], 2 * one[name])
-        for name in ("frame_clocks", "frame_clocks_bound", "columns_a_clock", "bytes_a_blended_pixel",
+        for name in ("frame_cycles", "frame_cycles_bound", "columns_per_cycle", "bytes_per_blended_pixel",
                      "divider_occupancy_percent", "port_occupancy_percent"):
             self.assertAlmostEqual(two[name], one[name])
 

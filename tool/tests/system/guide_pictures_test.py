@@ -27,7 +27,7 @@ class Picture:
 
 
 PICTURES = {
-    "before_after.png": Picture("which_engine", "deburr run ", ("before", "after", "truth"), (70, 150, 44, 36), 6),
+    "before_after.png": Picture("which_engine", "deburr run ", ("before", "after", "reference"), (70, 150, 44, 36), 6),
 }
 
 
@@ -103,9 +103,9 @@ def main():
         kept = read_png(file)
         differ = len(kept) != len(now) or sum(a != b for old, new in zip(kept, now) for a, b in zip(old, new))
         # The comparison finds a pixel that is another.
-        planted = [list(row) for row in now]
-        planted[len(now) // 2][3] = (1, 2, 3)
-        if differ or planted == kept:
+        injected = [list(row) for row in now]
+        injected[len(now) // 2][3] = (1, 2, 3)
+        if differ or injected == kept:
             print(f"docs/images/{name}: {differ} pixels are others than after the command of howto/{picture.page}.md; "
                   f"if that is meant: {' '.join(sys.argv)} --write")
             wrong += 1

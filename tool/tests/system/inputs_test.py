@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """What a run reads is what its keys and its manifest say: a file that another file names counts as
 much as one that a parameter names. After a texture, a material file or a buffer that was replaced,
-sweeps, searches and regressions repeat their points, and compare with the truth of the new one; a
+sweeps, searches and regressions repeat their points, and compare with the reference of the new one; a
 tracer holds the files that the command opens against those that it lists.
 
 usage: inputs_test.py DEBURR [CLASS]
@@ -158,7 +158,7 @@ class Replaced(InputsTest):
         self.run_sweep(2)
         replaced = self.check_against_fresh_runs()
         self.assertNotEqual(replaced, [r["quality"]["psnr_db"] for r, _ in before.values()])
-        # A new point has the new truth.
+        # A new point has the new reference.
         self.write_sweep(engine, mesh, 3)
         self.run_sweep(1)
         self.check_against_fresh_runs()
@@ -483,7 +483,7 @@ class Traced(InputsTest):
         times = []
         for latencies in (2, 12):
             self.write("s.yaml", "engine: texture\nchunk: 100\n"
-                       "base: {scene: {width: 16, height: 16}, run.truth: true, run.images: false}\n"
+                       "base: {scene: {width: 16, height: 16}, run.reference: true, run.images: false}\n"
                        "axes: {scene.source: [meshes/m.obj, meshes/m.gltf], "
                        f"memory.latency: {{from: 50, to: {49 + latencies}}}}}\n")
             opened = self.opened("sweep", "s.yaml", "run")
@@ -507,7 +507,7 @@ class Traced(InputsTest):
     def test_points(self):
         self.write_obj()
         self.write_gltf()
-        base = "{scene: {width: 16, height: 16}, run.truth: true, run.images: false}"
+        base = "{scene: {width: 16, height: 16}, run.reference: true, run.images: false}"
         axes = "axes: {scene.source: [meshes/m.obj, meshes/m.gltf], memory.latency: [50, 60]}\n"
         goals = "objectives: {minimise: [cycles, memory_bits]}\n"
         self.write("s.yaml", f"engine: texture\nbase: {base}\n{axes}{goals}")

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What a run leaves of its time and of its picture: windows that add up to the result, a timeline that obeys the
-rules of the Trace Event format and says the same as the windows, maps that come to the counters.
+"""What a run leaves of its time and of its picture: intervals that add up to the result, a timeline that obeys the
+rules of the Trace Event format and says the same as the intervals, maps that come to the counters.
 
 usage: observers_test.py DEBURR [CLASS]"""
 import array
@@ -51,37 +51,37 @@ def at(node, key):
     return node
 
 
-class Windows(unittest.TestCase):
-    def check(self, windows, result):
+class Intervals(unittest.TestCase):
+    def check(self, intervals, result):
         """Every sum over windows is what the result has."""
-        series = dict(flat(windows["series"]))
+        series = dict(flat(intervals["series"]))
         self.assertGreater(len(series), 10)  # an engine of one unit has as many
         for key, values in series.items():
-            self.assertEqual(len(values), len(windows["cycles"]), key)
+            self.assertEqual(len(values), len(intervals["cycles"]), key)
             if not key.startswith("ports.") and not key.endswith(".most"):
                 self.assertEqual(sum(values), at(result, key), key)
-        for name, unit in windows["series"]["units"].items():
+        for name, unit in intervals["series"]["units"].items():
             lists = [values for _, values in flat(unit)]
-            self.assertEqual([sum(each) for each in zip(*lists)], windows["cycles"], name)
-        for end, begin in zip(map(sum, zip(windows["from"], windows["cycles"])), windows["from"][1:]):
+            self.assertEqual([sum(each) for each in zip(*lists)], intervals["cycles"], name)
+        for end, begin in zip(map(sum, zip(intervals["from"], intervals["cycles"])), intervals["from"][1:]):
             self.assertEqual(end, begin)
 
     def test_every_engine_adds_up(self):
         for name, arguments in ENGINES.items():
             with self.subTest(name), tempfile.TemporaryDirectory() as out:
                 run(out, *arguments, "--windows", "300", "--stalls", "0.1")
-                windows, result = load(out, "windows.json"), load(out)
-                self.assertGreater(len(windows["from"]), 5)
-                self.check(windows, result)
-                self.assertEqual(sum(windows["cycles"]), result["cycles"])
-                work = windows["series"]["work"]
+                intervals, result = load(out, "windows.json"), load(out)
+                self.assertGreater(len(intervals["from"]), 5)
+                self.check(intervals, result)
+                self.assertEqual(sum(intervals["cycles"]), result["cycles"])
+                work = intervals["series"]["work"]
                 for kind in ("read", "written"):
                     ports = [sum(values) for key, values in work.items() if key.endswith(f"memory_port_bytes_{kind}")]
                     self.assertEqual(sum(ports), result["memory"][f"bytes_{kind}"])
-                for rate in windows["throughput"]:
-                    self.assertGreater(sum(at(windows["series"], rate["key"])), 0)
+                for rate in intervals["throughput"]:
+                    self.assertGreater(sum(at(intervals["series"], rate["key"])), 0)
                     if rate["bound"]:
-                        for count, cycles in zip(at(windows["series"], rate["key"]), windows["cycles"]):
+                        for count, cycles in zip(at(intervals["series"], rate["key"]), intervals["cycles"]):
                             # What a FIFO held back may come in the window behind.
                             self.assertLessEqual(count, (cycles + 1) * rate["bound"] * 1.001)
 
@@ -119,11 +119,11 @@ class Windows(unittest.TestCase):
     def test_a_long_run_has_no_more_windows_than_fit(self):
         with tempfile.TemporaryDirectory() as out:
             run(out, *ENGINES["texture"], "--windows", "1", "--check", "none")
-            windows, result = load(out, "windows.json"), load(out)
-            self.assertLess(len(windows["from"]), 1024)
-            self.assertGreater(len(windows["from"]), 500)
-            self.assertEqual(windows["window_cycles"] & windows["window_cycles"] - 1, 0)
-            self.check(windows, result)
+            intervals, result = load(out, "windows.json"), load(out)
+            self.assertLess(len(intervals["from"]), 1024)
+            self.assertGreater(len(intervals["from"]), 500)
+            self.assertEqual(intervals["window_cycles"] & intervals["window_cycles"] - 1, 0)
+            self.check(intervals, result)
 
     def test_a_lost_window_is_noticed(self):
         for name, arguments in ENGINES.items():
@@ -206,38 +206,38 @@ class Timeline(unittest.TestCase):
     def test_obeys_the_rules_and_says_what_windows_say(self):
         for name, arguments in ENGINES.items():
             with self.subTest(name), tempfile.TemporaryDirectory() as out:
-                trace, windows = self.trace(out, *arguments)
+                trace, intervals = self.trace(out, *arguments)
                 self.assertEqual(problems(trace), [])
-                inside = [i for i, at in enumerate(windows["from"]) if self.FROM <= at < self.TO]
-                self.assertEqual(windows["from"][inside[0]], self.FROM)
+                inside = [i for i, at in enumerate(intervals["from"]) if self.FROM <= at < self.TO]
+                self.assertEqual(intervals["from"][inside[0]], self.FROM)
                 self.assertEqual(len(inside), (self.TO - self.FROM) // self.WINDOW)
                 events = trace["traceEvents"]
                 tracks = {e["tid"]: e["args"]["name"] for e in events if e["name"] == "thread_name"}
-                clocks = {}
+                cycles = {}
                 for event in events:
                     if event["ph"] == "X":
                         key = tracks[event["tid"]], event["cat"], event["name"]
-                        clocks[key] = clocks.get(key, 0) + event["dur"]
+                        cycles[key] = cycles.get(key, 0) + event["dur"]
                 expected = {}
-                for unit, activities in windows["series"]["units"].items():
+                for unit, activities in intervals["series"]["units"].items():
                     for cause, values in [("busy", activities["busy"]), *activities.get("stalls", {}).items()]:
                         count = sum(values[i] for i in inside)
                         if count:
                             expected[unit, "busy" if cause == "busy" else "stall", cause] = count
-                self.assertEqual(clocks, expected)
+                self.assertEqual(cycles, expected)
                 self.assertTrue(expected)
                 begun = {}
-                flights = {port: 0 for port in windows["series"].get("ports", {})}
+                flights = {port: 0 for port in intervals["series"].get("ports", {})}
                 for event in events:
                     if event["ph"] == "b":
                         begun[event["id"]] = event["ts"]
                     elif event["ph"] == "e":
                         flights[event["cat"]] += event["ts"] - begun[event["id"]]
-                for port, series in windows["series"].get("ports", {}).items():
+                for port, series in intervals["series"].get("ports", {}).items():
                     self.assertEqual(flights[port], sum(series["outstanding"][i] for i in inside), port)
-                if windows["series"].get("ports"):
+                if intervals["series"].get("ports"):
                     self.assertTrue(begun)
-                self.check_levels(events, windows["series"], inside, load(out)["links"])
+                self.check_levels(events, intervals["series"], inside, load(out)["links"])
 
     def check_levels(self, events, series, inside, links):
         """A counter of each FIFO and of each port, whose area is what the windows say."""

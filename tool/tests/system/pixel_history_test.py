@@ -53,17 +53,17 @@ class PixelHistory(unittest.TestCase):
             self.assertLessEqual(set(entry["steps"]), both)
             for step in history["steps"]:
                 self.assertFalse(step["differs"], step)
-            clocks = [step["clock"] for step in history["steps"] if step["clock"] is not None]
-            self.assertGreater(len(clocks), 2)
+            cycles = [step["clock"] for step in history["steps"] if step["clock"] is not None]
+            self.assertGreater(len(cycles), 2)
             self.assertEqual(history["steps"][-1]["step"], "colour")
-            self.assertEqual(history["steps"][-1]["clock"], max(clocks))
+            self.assertEqual(history["steps"][-1]["clock"], max(cycles))
             self.assertIn(f"pixel       ({pixel.replace(',', ', ')}): {len(history['steps'])} steps, 0 of them differ",
                           self.said)
             self.assertIn(f'<h2 id="pixel">What happened to pixel {pixel}</h2>', self.page)
             for step in history["steps"]:
                 self.assertIn(f">{step['item']}</td>", self.page.replace("<wbr>", ""))
             waves = re.search(r'id="pixel-waves">(.*?)</pre>', self.page).group(1)
-            self.assertIn(f"--trace-from {min(clocks)} --trace-to {max(clocks) + 2}", waves)
+            self.assertIn(f"--trace-from {min(cycles)} --trace-to {max(cycles) + 2}", waves)
 
     def test_it_changes_nothing(self):
         for engine, run, pixel, _ in self.followed():
@@ -162,7 +162,7 @@ class PixelHistory(unittest.TestCase):
     # The look-ups are those of another instrument.
     def test_look_ups_are_those_of_the_trace(self):
         steps = self.run_engine("texture", "--size", "32x32", "--no-images", "--pixel", "9,20", "--line-trace", "text",
-                                "--set", "run.line_trace_look_ups=true")["pixel"]["steps"]
+                                "--set", "run.line_trace_lookups=true")["pixel"]["steps"]
         with open(os.path.join(self.out, "lines.trace"), encoding="utf-8") as file:
             trace = {tuple(line.split()[:3]) for line in file if not line.startswith("#")}
         lines = [step for step in steps if step["item"] == "line"]
@@ -176,7 +176,7 @@ class PixelHistory(unittest.TestCase):
         for engine, run, _, entry in self.followed():
             for note in entry["notes"]:
                 with self.subTest(engine=engine, note=note["says"]):
-                    cut = ["--max-cycles", str(note["clocks"])] if "clocks" in note else []
+                    cut = ["--max-cycles", str(note["cycles"])] if "cycles" in note else []
                     history = self.run_engine(engine, *run, "--pixel", ",".join(map(str, note["pixel"])), *cut,
                                               code=CUT_SHORT if cut else 0)["pixel"]
                     self.assertTrue(history["note"].startswith(note["says"]), history["note"])

@@ -64,7 +64,7 @@ class Printed(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         self.call("deburr run morphological --scene cylinders --size 256x256 --out out/one")
         shutil.copy(self.folder / "out/one/before.png", self.folder / "frame.png")
-        shutil.copy(self.folder / "out/one/truth.png", self.folder / "truth.png")
+        shutil.copy(self.folder / "out/one/reference.png", self.folder / "reference.png")
         write_png(self.folder / "mask.png", 256, 256, lambda x, y: 255 if x < 128 else 0)
         mesh = [part for part in parts_of((ROOT / "docs/tutorial/first_run.md").read_text(encoding="utf-8"))
                 if part[1] == "roof.obj"]

@@ -123,7 +123,7 @@ class Vectors(unittest.TestCase):
         mixed = (frame.taps["first"] | frame.taps["second"]) != 0
         self.assertEqual(numpy.count_nonzero(mixed), frame.work.blended_pixels)
         self.assertTrue((frame.pixels[~mixed] == vector_image("blocks")[~mixed]).all())
-        self.assertTrue((frame.shares[:, :, :2][(frame.edges & 2) == 0] == 0).all())
+        self.assertTrue((frame.weights[:, :, :2][(frame.edges & 2) == 0] == 0).all())
         runs = frame.runs
         whole = runs["line"]["run"]["part"] == 0
         self.assertEqual(numpy.count_nonzero(whole) + numpy.count_nonzero(runs["line"]["run"]["part"] == 1),
@@ -384,13 +384,13 @@ class Texture(unittest.TestCase):
 
 class Ideal(unittest.TestCase):
     def test_filters(self):
-        """A slanted edge, whose truth is known: each filter comes nearer to it; what has no edge stays."""
-        truth = ideal.half_plane(0.25, -1, 10.3, 96, 64)
-        jagged = numpy.where(truth > 0.5, 255, 0)
+        """A slanted edge, whose reference is known: each filter comes nearer to it; what has no edge stays."""
+        reference = ideal.half_plane(0.25, -1, 10.3, 96, 64)
+        jagged = numpy.where(reference > 0.5, 255, 0)
         frame = opaque(jagged, jagged, jagged)
 
         def error(pixels):
-            return float(numpy.mean((pixels[4:-4, 4:-4, 0] / 255.0 - truth[4:-4, 4:-4]) ** 2))
+            return float(numpy.mean((pixels[4:-4, 4:-4, 0] / 255.0 - reference[4:-4, 4:-4]) ** 2))
         worst = error(frame)
         smaa = golden.morphological(frame, preset="smaa", linear_light=False).pixels
         for pixels in (ideal.fxaa(frame, linear_light=False), ideal.cmaa2(frame, linear_light=False), smaa):
@@ -405,8 +405,8 @@ class Ideal(unittest.TestCase):
         self.assertAlmostEqual(float(ideal.half_plane(1, 0, -3.25, 8, 4).sum()), 4 * (8 - 3.25), places=9)
 
     def test_smaa(self):
-        truth = ideal.half_plane(0.25, -1, 10.3, 96, 64)
-        luma = numpy.where(truth > 0.5, 1.0, 0.0)
+        reference = ideal.half_plane(0.25, -1, 10.3, 96, 64)
+        luma = numpy.where(reference > 0.5, 1.0, 0.0)
         edges = ideal.smaa_edges(luma)
         self.assertTrue((edges == golden.morphological(opaque(*3 * [255 * luma]), preset="smaa").edges).all())
         weights = ideal.smaa_weights(edges)

@@ -47,7 +47,7 @@ class Scratch(unittest.TestCase):
 
 class Runs(Scratch):
     def test_figures_are_those_of_the_file(self):
-        run = deburr.run("texture", **TINY, memory_latency=50, windows=500, maps=True, out="out")
+        run = deburr.run("texture", **TINY, memory_latency=50, intervals=500, maps=True, out="out")
         file = json.loads((self.folder / "out/result.json").read_text(encoding="utf-8"))
         self.assertEqual(run.cycles, file["cycles"])
         self.assertEqual(run.verdict, "pass")
@@ -58,14 +58,14 @@ class Runs(Scratch):
         self.assertIn("[line/texel]", run.explain("work.misses_per_texel"))
         self.assertEqual(run.directory, (self.folder / "out").absolute())
         # Windows add up to the run.
-        windows = run.windows
-        self.assertEqual(int(windows.cycles.sum()), run.cycles)
-        self.assertEqual(int(windows["series.work.derivative_fragments"].sum()), run.work.fragments)
-        self.assertEqual(windows["series.units.filter.busy"].shape, (windows.windows,))
+        intervals = run.intervals
+        self.assertEqual(int(intervals.cycles.sum()), run.cycles)
+        self.assertEqual(int(intervals["series.work.derivative_fragments"].sum()), run.work.fragments)
+        self.assertEqual(intervals["series.units.filter.busy"].shape, (intervals.intervals,))
         for page in ("docs/reference/python.md", "examples/python/notebook.ipynb"):
             named = set(re.findall(r"series\.[a-z_.]+", (SOURCE / page).read_text(encoding="utf-8")))
             self.assertNotEqual(named, set(), page)
-            self.assertEqual([series for series in named if series not in windows], [], page)
+            self.assertEqual([series for series in named if series not in intervals], [], page)
         histogram = run.latency.histogram
         self.assertEqual(int(histogram[:, 1].sum()), run.work.fragments)
         for link in run.links.values():

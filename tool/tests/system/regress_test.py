@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Regressions: a planted fault is found, put into a bucket, reproduced and waved; seeds follow from
+"""Regressions: a injected fault is found, put into a signature, reproduced and waved; seeds follow from
 names; kill -9 loses nothing.
 
 usage: regress_test.py DEBURR [CLASS]
@@ -45,7 +45,7 @@ features:
 """
 POINTS = 9
 FAULT = """  - id: broken
-    title: A planted fault
+    title: A injected fault
     traces: [docs/unit.md#stalls]
     stimuli:
       - name: fault
@@ -96,30 +96,30 @@ class RegressTest(unittest.TestCase):
                 for path in glob.glob(self.path("out/points/*/*/result.json"))}
 
     def check_fault(self, passed):
-        """Buckets, the line that reproduces each, its waves, the page and JUnit of FAULT, whose three
+        """Signatures, the line that reproduces each, its waves, the page and JUnit of FAULT, whose three
         runs fail while `passed` others pass."""
         collected = self.collected()
-        buckets = {b["kind"]: b for b in collected["buckets"]}
-        self.assertEqual({kind: b["runs"] for kind, b in buckets.items()}, {"mismatch": 2, "deadlock": 1})
-        self.assertEqual(buckets["mismatch"]["message"], "colours: N mismatches in N comparisons")
-        for kind, bucket in buckets.items():
+        signatures = {b["kind"]: b for b in collected["signatures"]}
+        self.assertEqual({kind: b["runs"] for kind, b in signatures.items()}, {"mismatch": 2, "deadlock": 1})
+        self.assertEqual(signatures["mismatch"]["message"], "colours: N mismatches in N comparisons")
+        for kind, signature in signatures.items():
             # One line, as the page's button copies it.
-            command = bucket["example"]["command"]
+            command = signature["example"]["command"]
             self.assertNotIn("\n", command)
             again = subprocess.run(["bash", "-c", command.replace("deburr", f"'{DEBURR}'", 1)],
                                    cwd=self.directory, text=True, capture_output=True)
             self.assertEqual(again.returncode, {"mismatch": 1, "deadlock": 4}[kind], again.stdout)
-            self.assertIn(bucket["example"]["reason"], again.stdout)
+            self.assertIn(signature["example"]["reason"], again.stdout)
             with open(self.path("out/texture/result.json")) as file:
                 alone = json.load(file)
             place = self.path("out/regressions/small-7")
-            with open(os.path.join(place, bucket["example"]["directory"], "result.json")) as file:
+            with open(os.path.join(place, signature["example"]["directory"], "result.json")) as file:
                 self.assertEqual(alone["first_mismatches" if kind == "mismatch" else "cycles"],
                                  json.load(file)["first_mismatches" if kind == "mismatch" else "cycles"])
-            self.check_waves(os.path.join(place, bucket["waves"]["file"]), kind, alone)
+            self.check_waves(os.path.join(place, signature["waves"]["file"]), kind, alone)
         with open(self.path("out/regressions/small-7/index.html")) as file:
             page = file.read()
-        self.assertIn(buckets["mismatch"]["waves"]["file"], page)
+        self.assertIn(signatures["mismatch"]["waves"]["file"], page)
         self.assertIn(">FAILED</span>", page)
         self.assertIn(f"{passed} of {passed + 3} runs passed, 3 failed; 1 of 6 checks failed;", page)
         root = xml.etree.ElementTree.parse(self.path("out/regressions/small-7/junit.xml")).getroot()
@@ -219,7 +219,7 @@ class Passing(RegressTest):
         self.assertIn(f"{POINTS} of {POINTS} points done", status)
         collected = self.regress("collect", code=3)
         self.assertIn(changed + "points that are as before keep their results", collected)
-        self.assertIn(f"{POINTS + 3} points, {POINTS} passed, 0 failed in 0 buckets, 3 missing", collected)
+        self.assertIn(f"{POINTS + 3} points, {POINTS} passed, 0 failed in 0 signatures, 3 missing", collected)
         # Nothing failed, and what there is was checked and covered: it is the missing runs that count.
         report = self.collected()
         self.assertEqual([report["counts"][k] for k in ("failed", "failed_checks", "holes")], [0, 0, 0])
@@ -305,11 +305,11 @@ class Passing(RegressTest):
         self.assertRegex(night["date"], r"^20\d\d-[01]\d-[0-3]\d$")
         texture = report["coverage"]["texture"]
         self.assertEqual([night["bins"], night["met"]], [texture["bins"], texture["hit"]])
-        clocks = 0
+        cycles = 0
         for path in self.inodes():
             with open(path) as file:
-                clocks += json.load(file)["cycles"]
-        self.assertEqual(night["clocks"], clocks)
+                cycles += json.load(file)["cycles"]
+        self.assertEqual(night["cycles"], cycles)
         self.assertEqual(night["seconds"], report["counts"]["simulated_seconds"])
         self.regress("collect")
         self.assertEqual(self.nights(), [night], "one of each seed and commit")
@@ -343,11 +343,11 @@ class Failing(RegressTest):
     def test_a_fault_is_found_sorted_reproduced_and_waved(self):
         self.write("plans/small.yaml", TESTPLAN + FAULT)
         out = self.regress("-j2", code=1)
-        self.assertIn(f"{POINTS} passed, 3 failed in 2 buckets, 0 missing", out)
+        self.assertIn(f"{POINTS} passed, 3 failed in 2 signatures, 0 missing", out)
         self.check_fault(POINTS)
-        # The line that shows it again is the example of the largest bucket, and no other run.
+        # The line that shows it again is the example of the largest signature, and no other run.
         repro = out[out.index("REPRO: "):].splitlines()[0].removeprefix("REPRO: ")
-        self.assertEqual(repro.removeprefix(DEBURR), self.collected()["buckets"][0]["example"]["command"].removeprefix("deburr"))
+        self.assertEqual(repro.removeprefix(DEBURR), self.collected()["signatures"][0]["example"]["command"].removeprefix("deburr"))
         before = self.inodes()
         self.regress("run", code=1)
         self.assertEqual(self.inodes(), before, "neither failures nor waves are made again")
@@ -378,7 +378,7 @@ class Failing(RegressTest):
     checks: {colours: 1}
 """
         self.write("plans/small.yaml", TESTPLAN + FAULT + unread)
-        self.assertIn("failed in 3 buckets", self.regress("-j2", code=1))
+        self.assertIn("failed in 3 signatures", self.regress("-j2", code=1))
         page = self.page()
         self.assertIn("Coverage of all runs", page)
         self.assertEqual(page.count(">result.json</a>"), 2)

@@ -534,7 +534,7 @@ features:
     checks: {colours: 100}
     coverage: [texture/cache/hit, texture/cache/miss]
   - id: broken
-    title: A planted fault
+    title: A injected fault
     traces: [docs/unit.md#unit]
     stimuli:
       - {name: fault, engine: texture, base: {scene: {width: 24, height: 16, texture_size: 32}, run.fault: flip-bit}}

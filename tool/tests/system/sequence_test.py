@@ -68,12 +68,12 @@ def read_png(path):
     return pixels
 
 
-def flicker(pictures, truths, drawn=None):
+def flicker(pictures, references, drawn=None):
     """(mean, worst, the worst pair's second frame), as docs/reference/texture/choices.md says."""
     squares = []
     for i in range(1, len(pictures)):
         total = count = 0
-        for p, (a, b, s, t) in enumerate(zip(pictures[i - 1], pictures[i], truths[i - 1], truths[i])):
+        for p, (a, b, s, t) in enumerate(zip(pictures[i - 1], pictures[i], references[i - 1], references[i])):
             if drawn and not (drawn[i - 1][p] and drawn[i][p]):
                 continue
             count += 3
@@ -103,14 +103,14 @@ class SequenceTest(unittest.TestCase):
         with open(self.path(f"{name}/result.json"), encoding="utf-8") as file:
             return json.load(file)
 
-    def check(self, result, pictures, befores, truths, drawn=None):
+    def check(self, result, pictures, befores, references, drawn=None):
         work = result["work"]
-        mean, worst, frame = flicker(pictures, truths, drawn)
+        mean, worst, frame = flicker(pictures, references, drawn)
         self.assertGreater(mean, 0)
         self.assertAlmostEqual(work["flicker"], mean, places=6)
         self.assertAlmostEqual(work["flicker_worst"], worst, places=6)
         self.assertEqual(work["flicker_worst_frame"], frame)
-        self.assertAlmostEqual(work["flicker_before"], flicker(befores, truths, drawn)[0], places=6)
+        self.assertAlmostEqual(work["flicker_before"], flicker(befores, references, drawn)[0], places=6)
 
     def pictures(self, name, count):
         return [read_png(self.path(f"{name}{i}/after.png")) for i in range(count)]
@@ -162,7 +162,7 @@ class Images(SequenceTest):
                               cwd=self.directory, text=True, capture_output=True, check=True).stdout
         self.assertRegex(said, r"flicker +0\.00/255 over 2 frames, beyond what went in\n")
 
-    def test_with_truths(self):
+    def test_with_references(self):
         result = self.result(self.ENGINE, "all", "--in", "f*.png", "--truth", "t_f*.png")
         for i, name in enumerate(self.NAMES):
             self.result(self.ENGINE, f"one{i}", "--in", name)
@@ -173,7 +173,7 @@ class Images(SequenceTest):
 
     def test_a_list_in_a_configuration_is_that_of_the_command_line(self):
         with open(self.path("run.yaml"), "w", encoding="utf-8") as file:
-            file.write("frame: {source: [f10.png, f1.png], truth: [t_f10.png, t_f1.png]}\n")
+            file.write("frame: {source: [f10.png, f1.png], reference: [t_f10.png, t_f1.png]}\n")
         given = self.result(self.ENGINE, "given", "--in", "f10.png; f1.png", "--truth", "t_f10.png;t_f1.png")
         read = self.result(self.ENGINE, "read", "--config", "run.yaml")
         self.assertEqual(given["work"], read["work"])
@@ -227,7 +227,7 @@ class Meshes(SequenceTest):
                                       for y in range(30) for x in range(40)])
                 self.check(result, self.pictures(kind, 2),
                            *([read_png(self.path(f"{kind}{i}/{name}.png")) for i in range(2)]
-                             for name in ("before", "truth")), masks or None)
+                             for name in ("before", "reference")), masks or None)
 
     def test_every_engine(self):
         for engine, given in trials("sequence_of_meshes").items():

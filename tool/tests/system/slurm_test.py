@@ -313,7 +313,7 @@ class Slurm(OnCluster, unittest.TestCase):
 
 class Regress(OnCluster, regress_test.RegressTest):
     def test_a_fault_is_found_on_nodes(self):
-        """Runs of a killed task are submitted again, and only they; buckets, waves and the page are
+        """Runs of a killed task are submitted again, and only they; signatures, waves and the page are
         those of a run on this machine."""
         self.write("plans/small.yaml",
                    regress_test.TESTPLAN.replace("seeds: 3", "seeds: 40", 1) + regress_test.FAULT)
@@ -329,7 +329,7 @@ class Regress(OnCluster, regress_test.RegressTest):
         self.wait_until_over(self.submit())
         after = self.inodes()
         self.assertEqual({path: after[path] for path in before}, before, "what was there stayed")
-        self.assertIn("83 passed, 3 failed in 2 buckets, 0 missing",
+        self.assertIn("83 passed, 3 failed in 2 signatures, 0 missing",
                       self.regress("collect", code=1))
         self.check_fault(83)
         on_nodes, after = self.collected(), self.inodes()

@@ -112,12 +112,12 @@ class Points(SweepTest):
         """Expressions by hand from the results; beyond a limit nothing is on the front, also of a search."""
         text = SWEEP.split("metrics:")[0] + """
 metrics:
-  hits: work.look_up_hits_percent
+  hits: work.lookup_hits_percent
   kib: memory_bits.total.physical / 0x2000
-  clocks_a_fragment: cycles / work.fragments - 0
+  cycles_a_fragment: cycles / work.fragments - 0
   read: memory.read_gb_per_s
-limits: [hits >= LEAST, clocks_a_fragment < 1e6]
-objectives: {minimise: [kib, clocks_a_fragment]}
+limits: [hits >= LEAST, cycles_a_fragment < 1e6]
+objectives: {minimise: [kib, cycles_a_fragment]}
 """
         self.write("limits.yaml", text.replace("LEAST", "-1"))
         self.run_sweep("limits.yaml", "run")
@@ -131,12 +131,12 @@ objectives: {minimise: [kib, clocks_a_fragment]}
                 result = json.load(file)
             work = result["work"]
             self.assertEqual(float(row["kib"]), result["memory_bits"]["total"]["physical"] / 8192)
-            self.assertEqual(float(row["clocks_a_fragment"]), result["cycles"] / work["fragments"])
+            self.assertEqual(float(row["cycles_a_fragment"]), result["cycles"] / work["fragments"])
             self.assertEqual(float(row["read"]), result["memory"]["read_gb_per_s"])
             self.assertEqual(row["beyond"], "" if float(row["hits"]) >= least else f"hits >= {least!r}")
         within = [row for row in rows if row["beyond"] == ""]
         self.assertTrue(0 < len(within) < POINTS, within)
-        cost = [(float(row["kib"]), float(row["clocks_a_fragment"])) for row in within]
+        cost = [(float(row["kib"]), float(row["cycles_a_fragment"])) for row in within]
         self.assertEqual([row["front"] for row in within],
                          ["0" if any(o[0] <= c[0] and o[1] <= c[1] and o != c for o in cost) else "1" for c in cost])
         self.assertNotIn("1", [row["front"] for row in rows if row["beyond"]])
@@ -220,7 +220,7 @@ objectives: {minimise: [kib, clocks_a_fragment]}
         self.assertEqual(len(after), 18)
 
     def test_other_engines_named_choices_and_seeds(self):
-        for engine, base in (("morphological", "frame.truth_samples: 2"), ("frame", "run.check: none")):
+        for engine, base in (("morphological", "frame.reference_samples: 2"), ("frame", "run.check: none")):
             source = "frame" if engine == "morphological" else "scene"
             self.write(f"{engine}.yaml", f"""
 engine: {engine}
@@ -265,7 +265,7 @@ sample: {SAMPLE: 8, seed: 3}
     def test_an_axis_is_given_where_it_has_an_effect(self):
         self.write("when.yaml", """
 engine: morphological
-base: {frame: {width: 24, height: 16, truth_samples: 1}, run.images: false}
+base: {frame: {width: 24, height: 16, reference_samples: 1}, run.images: false}
 axes:
   morphological.steps: {from: 4, to: 8, times: 2, when: morphological.predictor != none}
   morphological.predictor: [none, fit]
@@ -303,7 +303,7 @@ axes:
         self.assertEqual({n: e for n, e in self.results().items() if n in first}, first)
 
     def identical_pictures(self):
-        """One colour everywhere is its own truth; a chessboard is not."""
+        """One colour everywhere is its own reference; a chessboard is not."""
         for name, pixels in (("flat.pgm", [200] * 64),
                              ("chess.pgm", [255 * ((i + i // 8) % 2) for i in range(64)])):
             with open(os.path.join(self.directory, name), "wb") as file:
@@ -312,7 +312,7 @@ axes:
 engine: texture
 base:
   scene: {source: plane, width: 32, height: 32}
-  run: {images: false, truth: true}
+  run: {images: false, reference: true}
 axes:
   scene.texture: [chess.pgm, flat.pgm]
   texture.cache.bytes: [1024, 4096]
@@ -365,7 +365,7 @@ base:
   run.images: false
 axes:
   scene.texture: [chess.pgm, flat.pgm]
-  run.truth: [true, false]
+  run.reference: [true, false]
 metrics:
   inverse: 1 / quality.flip
   edges: quality.psnr_edge_db
@@ -380,10 +380,10 @@ objectives: {minimise: [inverse, cycles]}
         flat = {"inverse": "division by zero", "edges": "quality.psnr_edge_db is null",
                 "gain": "not defined for the infinite PSNR of identical pictures", "less": "minus infinity"}
         always = {"huge": "too large for a number", "name": "throughput.unit is no number"}
-        no_truth = {name: f"no key '{key}' in the result" for name, key in
+        no_reference = {name: f"no key '{key}' in the result" for name, key in
                     (("inverse", "quality.flip"), ("edges", "quality.psnr_edge_db"), ("gain", "quality.psnr_db"),
                      ("less", "quality.psnr_db"))}
-        counts = {(name, reason): points for reasons, points in ((flat, 1), (always, 4), (no_truth, 2))
+        counts = {(name, reason): points for reasons, points in ((flat, 1), (always, 4), (no_reference, 2))
                   for name, reason in reasons.items()}
         self.run_sweep("none.yaml", "run")
         for command in ("sweep", "search"):
@@ -398,8 +398,8 @@ objectives: {minimise: [inverse, cycles]}
             self.assertEqual({(e["metric"], e["reason"]): e["points"] for e in answer["no_value"]}, counts)
             names = [metric["name"] for metric in answer["metrics"]]
             for point in answer["points"]:
-                texture, truth = point["at"]
-                self.assertEqual(point["no_value"], always | (no_truth if truth == "false" else
+                texture, reference = point["at"]
+                self.assertEqual(point["no_value"], always | (no_reference if reference == "false" else
                                                               flat if texture == "flat.pgm" else {}))
                 self.assertEqual({name for name, value in zip(names, point["values"]) if value is None},
                                  set(point["no_value"]))
@@ -421,9 +421,9 @@ objectives: {minimise: [inverse, cycles]}
         return self.run_sweep(*arguments, code=code, command="compare")
 
     def test_a_damaged_cache_is_made_again(self):
-        text = SWEEP.replace("run.images: false", "run.images: false\n  run.truth: true")
-        self.write("truth.yaml", text.replace("metrics: {", "metrics: {psnr: quality.psnr_db, "))
-        self.run_sweep("truth.yaml", "run")
+        text = SWEEP.replace("run.images: false", "run.images: false\n  run.reference: true")
+        self.write("reference.yaml", text.replace("metrics: {", "metrics: {psnr: quality.psnr_db, "))
+        self.run_sweep("reference.yaml", "run")
         before = self.results()
         kept = [f for f in glob.glob(os.path.join(self.directory, "out/cache/*/*"))
                 if not f.endswith(".lock")]
@@ -432,7 +432,7 @@ objectives: {minimise: [inverse, cycles]}
             file.seek(200)
             file.write(b"damage")
         shutil.rmtree(os.path.join(self.directory, "out/points"))
-        self.run_sweep("truth.yaml", "run")
+        self.run_sweep("reference.yaml", "run")
         after = self.results()
         self.assertEqual({n: e[1] for n, e in after.items()}, {n: e[1] for n, e in before.items()})
 

@@ -77,8 +77,8 @@ class Terminal(unittest.TestCase):
             f"limited by  {limit['unit']}, {limit['cause']} in "
             f"{100 * limit['cycles'] / result['cycles']:.1f} % of the cycles"), lines[1])
         work, memory = result["work"], result["memory"]
-        self.assertEqual(lines[2], f"hits        {work['look_up_hits_percent']:.2f} % of look-ups, "
-                         f"{work['look_up_merged_percent']:.2f} % more merged with a fill under way; "
+        self.assertEqual(lines[2], f"hits        {work['lookup_hits_percent']:.2f} % of look-ups, "
+                         f"{work['lookup_merged_percent']:.2f} % more merged with a fill under way; "
                          f"{work['texel_hits_percent']:.2f} % of texels")
         self.assertEqual(lines[3], f"memory      {memory['read_gb_per_s']:.3g} GB/s read, 0 written at 166.67 MHz")
         quality = result["quality"]
@@ -88,25 +88,25 @@ class Terminal(unittest.TestCase):
         self.assertTrue(lines[4].endswith("against supersampled-256"), lines[4])
         self.assertTrue(lines[5].startswith("RESULT: PASS texture: "), lines[5])
         self.assertEqual(len(lines), 6)
-        self.assertEqual(len(self.run_texture().stdout.splitlines()), 5, "no truth, no quality")
+        self.assertEqual(len(self.run_texture().stdout.splitlines()), 5, "no reference, no quality")
 
     def test_it_says_what_was_changed(self):
         frame = os.path.join(os.path.dirname(self.out), "frame.png")
         self.run_texture()
         os.rename(os.path.join(self.out, "after.png"), frame)
-        for truth in ((), ("--truth", frame)):
+        for reference in ((), ("--truth", frame)):
             done = subprocess.run([DEBURR, "run", "morphological", "--in", frame, "--out", self.out,
-                                   *truth], text=True, capture_output=True, timeout=300)
+                                   *reference], text=True, capture_output=True, timeout=300)
             self.assertEqual(done.returncode, 0, done.stderr)
             lines = done.stdout.splitlines()
             change = self.result()["change"]
             self.assertGreater(change["over_2_percent"], 0)
             right = (f" (of those that were right before {change['right_over_2_percent']:.2f} % and "
-                     f"{change['right_over_16_percent']:.2f} %)" if truth else "")
+                     f"{change['right_over_16_percent']:.2f} %)" if reference else "")
             self.assertEqual(lines[-2], f"changed     {change['over_2_percent']:.2f} % of the pixels by "
                              f"more than 2 codes, {change['over_16_percent']:.2f} % by more than 16"
                              f"{right}; {change['psnr_db']:.2f} dB to what went in")
-            if truth:  # the frame is its own truth: all of it was right
+            if reference:  # the frame is its own reference: all of it was right
                 self.assertEqual(change["right_over_2_percent"], change["over_2_percent"])
                 quality = self.result()["quality"]
                 self.assertEqual(quality["flip_before"], 0)
@@ -146,7 +146,7 @@ class Terminal(unittest.TestCase):
             self.assertNotIn("data:image/png;base64", file.read())
 
     def test_two_seeds(self):
-        """The stall seed moves clocks and no pixel; the seed changes what goes in."""
+        """The stall seed moves cycles and no pixel; the seed changes what goes in."""
         def run(*arguments):
             self.run_texture("--stalls", "0.2", "--set", "scene.texture=noise", *arguments)
             with open(os.path.join(self.out, "after.png"), "rb") as file:
@@ -350,8 +350,8 @@ class Documents(Many):
         self.assertEqual({p["engine"] for p in modes} & {engine}, {engine})
         self.assertEqual((modes[0]["default"], modes[0]["aliases"]), ("linear_mipmap_linear", ["trilinear"]))
         self.assertTrue(any("texture.cache.bytes" in rule["parameters"] for rule in answer["limits"]))
-        clocks = {p["engine"]: p["default"] for p in answer["parameters"] if p["name"] == "run.clock_mhz"}
-        self.assertEqual(set(clocks), set(engines()))
+        cycles = {p["engine"]: p["default"] for p in answer["parameters"] if p["name"] == "run.clock_mhz"}
+        self.assertEqual(set(cycles), set(engines()))
         some, _ = self.answer("params", "memory")
         self.assertTrue(all(p["name"].startswith("memory.") for p in some["parameters"]))
         self.answer("params", "memry", code=2)
@@ -455,7 +455,7 @@ class Bar(Many):
         screen.show("".join(self.run_on(20, "run", "texture", "--scene", "object", "--size",
                                         "200x150", "--truth")).replace("\r\n", "\n"))
         self.assertEqual(screen.wraps, 0, screen.rows)
-        self.assertIn("rendering the truth", screen.rows)
+        self.assertIn("rendering the reference", screen.rows)
 
     def test_what_is_said_after_a_search_begins_a_row(self):
         mine, its = pty.openpty()

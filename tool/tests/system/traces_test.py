@@ -44,7 +44,7 @@ def read_binary(file):
               ["clock_mhz", f"{mhz:g}"]]
     for port in range(ports):
         line, kind, name = struct.unpack_from("<II56s", data, 64 + 64 * port)
-        header.append(["port", str(port), ["memory", "look_ups"][kind], str(line),
+        header.append(["port", str(port), ["memory", "lookups"][kind], str(line),
                        name.rstrip(b"\0").decode()])
     assert magic == b"DEBURRLT" and size == 24 and begin == 64 + 64 * ports
     assert len(data) == begin + count * size
@@ -121,7 +121,7 @@ class Lines(TracesTest):
     def test_every_engine_in_both_formats(self):
         for engine, trial in trials("lines").items():
             arguments = trial["run"]
-            without = [a for a in arguments if "look_ups" not in a and a != "--set"]
+            without = [a for a in arguments if "lookups" not in a and a != "--set"]
             plain = self.run_engine(engine, "plain", "--no-images", *without)
             result = self.run_engine(engine, "text", "--no-images", "--line-trace", "text", *arguments)
             self.run_engine(engine, "binary", "--no-images", "--line-trace", "binary", *arguments)
@@ -149,7 +149,7 @@ class Lines(TracesTest):
             what = f"{size} {line} {ways} {replacement}"
             result = self.run_engine(
                 "texture", "cache", "--scene", "tunnel", "--size", "64x64", "--no-images",
-                "--line-trace", "binary", "--set", "run.line_trace_look_ups=true",
+                "--line-trace", "binary", "--set", "run.line_trace_lookups=true",
                 "--set", f"texture.cache.bytes={size}", "--set", f"texture.cache.line_bytes={line}",
                 "--set", f"texture.cache.ways={ways}",
                 "--set", f"texture.cache.replacement={replacement}")
@@ -189,7 +189,7 @@ class Forms(TracesTest):
                 "LD": "read", "ST": "write", "R": "read", "W": "write"}
 
     def commands_of_the_page(self):
-        """The commands of the block by the file that each writes, and its clocks in ns."""
+        """The commands of the block by the file that each writes, and its cycles in ns."""
         with open(PAGE) as file:
             block = next(b for b in re.findall(r"^```\n(.*?)^```", file.read(), re.M | re.S)
                          if "ramulator" in b)
@@ -228,18 +228,18 @@ class Forms(TracesTest):
 
     def test_reads_alone(self):
         self.run_engine("texture", "lines", "--size", "48x48", "--no-images", "--line-trace", "text",
-                        "--set", "run.line_trace_look_ups=true")
+                        "--set", "run.line_trace_lookups=true")
         self.check_forms("lines", "166.67")
 
     def test_reads_and_writes_at_another_clock(self):
-        clocks = set()
+        cycles = set()
         for engine, trial in trials("lines").items():
             result = self.run_engine(engine, "lines", *trial["run"], "--no-images", "--line-trace", "text")
             clock = dict(line for line in self.lines("lines")[0] if len(line) == 2)["clock_mhz"]
             if result["memory"]["bytes_written"] > 0 and clock != "166.67":
-                clocks.add(clock)
+                cycles.add(clock)
                 self.check_forms("lines", clock)
-        self.assertIn("250", clocks)
+        self.assertIn("250", cycles)
 
     def test_the_example_of_the_page(self):
         with open(PAGE) as file:
@@ -277,7 +277,7 @@ class Fragments(TracesTest):
         return result, pictures, self.lines(name)
 
     def check_round_trip(self, *arguments, drawn=()):
-        common = ["--line-trace", "text", "--set", "run.line_trace_look_ups=true", "--maps", *arguments]
+        common = ["--line-trace", "text", "--set", "run.line_trace_lookups=true", "--maps", *arguments]
         self.run_engine("texture", "first", "--fragment-trace", "text", *common, *drawn)
         wanted = self.outcome("first")
         self.assertEqual(wanted[0]["verdict"], "pass")

@@ -177,7 +177,7 @@ TEST(GeometricEnvironment, FiguresOfACopyHaveEachLineOnce) {
       const auto* whole = std::get_if<std::uint64_t>(&work.value);
       const auto* real = std::get_if<double>(&work.value);
       const double value = whole ? static_cast<double>(*whole) : real ? *real : 0;
-      if (work.name == "frame_clocks_bound") f.bound = value;
+      if (work.name == "frame_cycles_bound") f.bound = value;
       if (work.name.starts_with("lines_read_")) f.read += value;
       if (work.name.starts_with("lines_written_")) f.written += value;
     }
@@ -244,7 +244,7 @@ TEST(GeometricEnvironment, WhatTheEngineDoesNotTakeIsRejected) {
   EXPECT_THROW(GeometricEnvironment(simulation, frames, setup), spec::ConfigError);
 }
 
-// A part that gets its colours from elsewhere: here a row of pixels every few clocks.
+// A part that gets its colours from elsewhere: here a row of pixels every few cycles.
 class Painted final : public Environment {
  public:
   Painted(Simulation& simulation, std::span<const geometric::Frame> frames,

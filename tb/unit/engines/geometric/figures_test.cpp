@@ -59,9 +59,9 @@ const std::vector<GeometricSetup>& setups() {
   static const std::vector<GeometricSetup> all = {plain(), saving(), copying()};
   return all;
 }
-// Whose turn it is at the port stays from frame to frame: clocks that a copy may differ by for each
+// Whose turn it is at the port stays from frame to frame: cycles that a copy may differ by for each
 // frame.
-double clocks_of_turns(const GeometricSetup& setup) { return setup.geometric.frame_copy ? 2 : 0; }
+double cycles_of_turns(const GeometricSetup& setup) { return setup.geometric.frame_copy ? 2 : 0; }
 
 struct Options : SimulationOptions {
   Options() {
@@ -90,7 +90,7 @@ Json run(const std::vector<Frame>& of, const GeometricSetup& setup,
     const Amount amount = environment.amount();
     json["amount"] = {amount.delivered, amount.taken, amount.total, std::string(amount.unit)};
     json["hash"] = environment.pixel_hash();
-    json["bound"] = environment.meter().frame_clocks_bound();
+    json["bound"] = environment.meter().frame_cycles_bound();
     // Lines of memory by region, as golden asked for them in the last frame.
     const golden::geometric::Traffic& traffic = environment.golden_model().traffic();
     for (std::size_t i = 0; i < traffic.reads.size(); ++i) {
@@ -110,13 +110,13 @@ std::vector<Json> each_alone(const GeometricSetup& setup) {
 }
 
 const SeveralFrames kFigures = {
-    .of_the_last = {"edge_cycles", "resolve_cycles", "frame_clocks", "frame_sequencer_frame_cycles",
+    .of_the_last = {"edge_cycles", "resolve_cycles", "frame_cycles", "frame_sequencer_frame_cycles",
                     "frame_sequencer_edge_cycles", "frame_sequencer_resolve_cycles"},
     .largest = {"memory_port_most_outstanding"},
-    .by_formula = {"bytes_a_blended_pixel", "frame_bytes_a_blended_pixel", "columns_a_clock",
+    .by_formula = {"bytes_per_blended_pixel", "frame_bytes_per_blended_pixel", "columns_per_cycle",
                    "vertex_hits_percent", "depth_hits_percent", "weight_hits_percent",
                    "colour_hits_percent", "write_buffer_hits_percent", "divider_occupancy_percent",
-                   "port_occupancy_percent", "frame_clocks_bound", "frame_rate",
+                   "port_occupancy_percent", "frame_cycles_bound", "frame_rate",
                    "clock_for_60_frames"}};
 
 void expect_formulas(const Json& r, const std::vector<Json>& alone, double dividers) {
@@ -128,38 +128,38 @@ void expect_formulas(const Json& r, const std::vector<Json>& alone, double divid
   EXPECT_DOUBLE_EQ(w("depth_hits_percent"), hits("depth_test_lookups", "depth_test_misses"));
   EXPECT_DOUBLE_EQ(w("weight_hits_percent"),
                    hits("weight_combiner_lookups", "weight_combiner_misses"));
-  EXPECT_DOUBLE_EQ(w("columns_a_clock"), w("line_walker_columns") / w("line_walker_groups"));
-  EXPECT_DOUBLE_EQ(w("bytes_a_blended_pixel"),
+  EXPECT_DOUBLE_EQ(w("columns_per_cycle"), w("line_walker_columns") / w("line_walker_groups"));
+  EXPECT_DOUBLE_EQ(w("bytes_per_blended_pixel"),
                    (number_at(r, "/memory/bytes_read") + number_at(r, "/memory/bytes_written")) /
                        w("resolver_blended_pixels"));
-  EXPECT_DOUBLE_EQ(w("frame_bytes_a_blended_pixel"),
+  EXPECT_DOUBLE_EQ(w("frame_bytes_per_blended_pixel"),
                    (64 * (w("lines_read_depth") + w("lines_read_coarse") + w("lines_read_weights") +
                           w("lines_read_colour") + w("lines_read_copy")) +
                     number_at(r, "/memory/bytes_written")) /
                        w("resolver_blended_pixels"));
-  // Exactly the clocks that ran; those alone differ from them by turns.
-  const double clocks = number_at(r, "/cycles"),
-               edge_clocks = clocks - sum_of(alone, "/work/resolve_cycles");
+  // Exactly the cycles that ran; those alone differ from them by turns.
+  const double cycles = number_at(r, "/cycles"),
+               edge_cycles = cycles - sum_of(alone, "/work/resolve_cycles");
   EXPECT_DOUBLE_EQ(w("divider_occupancy_percent"),
-                   100 * w("line_setup_divider_clocks") / (dividers * edge_clocks));
+                   100 * w("line_setup_divider_cycles") / (dividers * edge_cycles));
   EXPECT_DOUBLE_EQ(w("port_occupancy_percent"),
-                   100 * (w("memory_port_reads") + w("memory_port_writes")) / clocks);
-  const double last = w("frame_clocks");
-  EXPECT_EQ(w("frame_clocks"), w("edge_cycles") + w("resolve_cycles"));
+                   100 * (w("memory_port_reads") + w("memory_port_writes")) / cycles);
+  const double last = w("frame_cycles");
+  EXPECT_EQ(w("frame_cycles"), w("edge_cycles") + w("resolve_cycles"));
   EXPECT_DOUBLE_EQ(w("frame_rate"), kMhz * 1e6 / last);
   EXPECT_DOUBLE_EQ(w("clock_for_60_frames"), last * 60 / 1e6);
   EXPECT_DOUBLE_EQ(number_at(r, "/throughput/value"),
                    w("edge_classifier_edges") / number_at(r, "/cycles"));
   EXPECT_NEAR(number_at(r, "/throughput/bound"),
-              w("edge_classifier_edges") / (3 * w("frame_clocks_bound")), 1e-3);
-  EXPECT_LE(w("frame_clocks_bound"), clocks / 3);
+              w("edge_classifier_edges") / (3 * w("frame_cycles_bound")), 1e-3);
+  EXPECT_LE(w("frame_cycles_bound"), cycles / 3);
 }
 
 TEST(GeometricFigures, OfThreeFramesAreSumsRatiosOfSumsOrOfTheLast) {
   for (const GeometricSetup& setup : setups()) {
     const std::vector<Json> alone = each_alone(setup);
     const Json all = run(frames(), setup);
-    expect_sums(all, alone, kFigures, clocks_of_turns(setup));
+    expect_sums(all, alone, kFigures, cycles_of_turns(setup));
     expect_formulas(all, alone, setup.geometric.pipelined ? 13 : 2);
     EXPECT_EQ(all["latency"]["min"],
               std::min({number_at(alone[0], "/latency/min"), number_at(alone[1], "/latency/min"),
@@ -202,19 +202,19 @@ void expect_bins(const Json& r, const GeometricSetup& setup) {
     return r["work"].contains(name) ? work(r, name) : 0;
   };
   const auto bin = [&](const std::string& name) { return hits(r, "geometric/" + name); };
-  const auto expect_look_ups = [&](const std::string& cache, double lookups, double misses) {
+  const auto expect_lookups = [&](const std::string& cache, double lookups, double misses) {
     EXPECT_EQ(bin(cache + "/hit"), lookups - misses) << cache;
     EXPECT_EQ(bin(cache + "/miss"), misses) << cache;
   };
   const double weights = w("weight_combiner_lookups"), missed = w("weight_combiner_misses"),
                read_back = w("weight_combiner_blocks_read");
-  expect_look_ups("look-up/vertex", w("vertex_fetch_lookups"), w("vertex_fetch_misses"));
-  expect_look_ups("look-up/depth", w("depth_test_lookups"), w("depth_test_misses"));
-  expect_look_ups("look-up/weight", weights, missed);
+  expect_lookups("look-up/vertex", w("vertex_fetch_lookups"), w("vertex_fetch_misses"));
+  expect_lookups("look-up/depth", w("depth_test_lookups"), w("depth_test_misses"));
+  expect_lookups("look-up/weight", weights, missed);
   const double boundaries = w("pair_fetch_boundary_lookups"),
                boundary_lines = w("pair_fetch_boundary_lines");
-  expect_look_ups("pair-look-up/boundary", boundaries, boundary_lines);
-  expect_look_ups("pair-look-up/other", w("pair_fetch_lookups") - boundaries,
+  expect_lookups("pair-look-up/boundary", boundaries, boundary_lines);
+  expect_lookups("pair-look-up/other", w("pair_fetch_lookups") - boundaries,
                   w("pair_fetch_lines_read") - boundary_lines);
   EXPECT_EQ(bin("block/fresh"), missed - read_back);
   EXPECT_EQ(bin("block/cached"), weights - missed);
@@ -252,9 +252,9 @@ void expect_bins(const Json& r, const GeometricSetup& setup) {
     EXPECT_EQ(bin(std::string("screen/") + hardware), bin(std::string("coarse/") + golden))
         << golden;
   for (const auto& [unit, figures] : r["units"].items())
-    for (const auto& [cause, clocks] : figures["stalls"].items()) {
-      if (clocks == 0) continue;
-      EXPECT_EQ(bin("stall/" + unit + '/' + cause), clocks) << unit << cause;
+    for (const auto& [cause, cycles] : figures["stalls"].items()) {
+      if (cycles == 0) continue;
+      EXPECT_EQ(bin("stall/" + unit + '/' + cause), cycles) << unit << cause;
     }
 }
 
@@ -304,7 +304,7 @@ TEST(GeometricFigures, LinesOfEachRegionAreThoseThatGoldenAskedFor) {
     }
 }
 
-// docs/reference/geometric/clocks.md: what each part needs at least, of which the slowest counts.
+// docs/reference/geometric/cycles.md: what each part needs at least, of which the slowest counts.
 double bound_of(const Json& r, const Frame& frame, const GeometricSetup& setup, double times) {
   const auto w = [&](const std::string& name) {
     return r["work"].contains(name) ? work(r, name) : 0;
@@ -356,8 +356,8 @@ TEST(GeometricFigures, BoundIsThatOfTheSlowestPartOfEachPhase) {
         setup.geometric.select = select;
         setup.memory.latency = 150;
         const Json one = run({frame}, setup);
-        EXPECT_EQ(work(one, "frame_clocks_bound"), bound_of(one, frame, setup, 1));
-        EXPECT_LE(work(one, "frame_clocks_bound"), work(one, "frame_clocks"));
+        EXPECT_EQ(work(one, "frame_cycles_bound"), bound_of(one, frame, setup, 1));
+        EXPECT_LE(work(one, "frame_cycles_bound"), work(one, "frame_cycles"));
       }
 }
 
@@ -378,7 +378,7 @@ TEST(GeometricFigures, OfOneFrameThreeTimesAreThoseOfTheFrame) {
       EXPECT_NEAR(number_at(three, "/throughput/value") / number_at(one, "/throughput/value"), 1,
                   1e-3);
       EXPECT_NEAR(number_at(three, "/cycles"), 3 * number_at(one, "/cycles"),
-                  3 * clocks_of_turns(setup));
+                  3 * cycles_of_turns(setup));
     }
 }
 
@@ -393,7 +393,7 @@ TEST(GeometricFigures, MapsAndHistoryAreThoseOfTheLastFrame) {
                all = run(several, plain(), options);
     ASSERT_EQ(alone["maps"].size(), 4u);
     expect_maps_of_the_last(all, alone, several.back().image.width, several.back().image.height);
-    EXPECT_EQ(without_clocks(all["pixel"]), without_clocks(alone["pixel"]));
+    EXPECT_EQ(without_cycles(all["pixel"]), without_cycles(alone["pixel"]));
   }
 }
 
@@ -406,7 +406,7 @@ TEST(GeometricFigures, AHistoryOfAFrameThatIsBrokenOffIsItsOwn) {
   options.max_cycles = 200;
   const Json alone = run({two[1]}, plain(), options);
   options.max_cycles += before;
-  EXPECT_EQ(without_clocks(run(two, plain(), options)["pixel"]), without_clocks(alone["pixel"]));
+  EXPECT_EQ(without_cycles(run(two, plain(), options)["pixel"]), without_cycles(alone["pixel"]));
 }
 
 TEST(GeometricFigures, AResetInTheFirstOfTwoFramesChangesNoFigure) {

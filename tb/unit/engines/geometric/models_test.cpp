@@ -9,7 +9,7 @@
 
 #include "tb/engines/geometric/edge_table.h"
 #include "tb/scene/quality.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 #include "tb/unit/scene/fixtures.h"
 
 namespace deburr::tb::models_test {
@@ -137,8 +137,8 @@ TEST(Phong, SuperAndMultisamplingUseIt) {
   const Scene scene = make_scene("sphere");
   const LitFrames frames = render_lit_frames(scene, 128, 96, 8, nullptr, Shading::kPhong);
   const Image msaa = render_msaa4(scene, 128, 96, Shading::kPhong);
-  EXPECT_GT(psnr(msaa, frames.truth), psnr(frames.noaa, frames.truth) + 4.0);
-  EXPECT_LT(count(edge_mask(frames.truth, frames.noaa)), 128 * 96 / 20);
+  EXPECT_GT(psnr(msaa, frames.reference), psnr(frames.noaa, frames.reference) + 4.0);
+  EXPECT_LT(count(edge_mask(frames.reference, frames.noaa)), 128 * 96 / 20);
   EXPECT_NE(frames.noaa, render_lit_frames(scene, 128, 96, 1).noaa);
 }
 

@@ -69,13 +69,13 @@ TEST(MorphologicalChecks, NameThePixelOfAFrameThatIsNotSquare) {
   checks.begin(frame);
   for (std::size_t i = 0; i < 15; ++i) {
     spec::morphological::Rgba8 pixel = checks.golden_model().pixels()[i];
-    spec::morphological::BlendTap tap = checks.golden_model().taps()[i];
+    spec::morphological::BlendProbe probe = checks.golden_model().probes()[i];
     if (i == 13) pixel[3] ^= 1;
-    if (i == 7) tap.first ^= 1;
-    checks.got(pixel, tap, 4);
+    if (i == 7) probe.first ^= 1;
+    checks.got(pixel, probe, 4);
   }
-  ASSERT_EQ(checks.taps.mismatches(), 1u);
-  EXPECT_EQ(checks.taps.differences()[0].item, "pixel (2, 1)");
+  ASSERT_EQ(checks.probes.mismatches(), 1u);
+  EXPECT_EQ(checks.probes.differences()[0].item, "pixel (2, 1)");
   ASSERT_EQ(checks.pixels.mismatches(), 1u);
   EXPECT_EQ(checks.pixels.differences()[0].item, "pixel (3, 2)");
 }
@@ -84,7 +84,7 @@ TEST(MorphologicalChecks, NameThePixelOfAFrameThatIsNotSquare) {
 TEST(MorphologicalChecks, NeedWhatAllFramesHave) {
   MorphologicalSetup setup;
   setup.morphological.storage = spec::morphological::Storage::kMemory;
-  setup.records = true;
+  setup.descriptors = true;
   MorphologicalChecks checks(setup, true);
   const std::vector<MorphologicalInput> frames = {{Image(16, 4), {}}, {Image(20, 3), {}}};
   spec::morphological::Work work;
@@ -98,13 +98,13 @@ TEST(MorphologicalChecks, NeedWhatAllFramesHave) {
   };
   using testing::HasSubstr;
   EXPECT_THAT(needed(checks.pixels), HasSubstr("at least 124 are needed"));
-  EXPECT_THAT(needed(checks.taps), HasSubstr("at least 124 are needed"));
+  EXPECT_THAT(needed(checks.probes), HasSubstr("at least 124 are needed"));
   EXPECT_THAT(needed(checks.traffic), HasSubstr("at least 20 are needed"));
   EXPECT_THAT(needed(checks.runs), HasSubstr("at least 7 are needed"));
   EXPECT_THAT(needed(checks.lines), HasSubstr("at least 5 are needed"));
 }
 
-// Each count of the work of all frames against its own register, clocks and errors too.
+// Each count of the work of all frames against its own register, cycles and errors too.
 TEST(MorphologicalChecks, EachCounterIsThatOfItsWork) {
   MorphologicalSetup setup;
   const std::vector<MorphologicalInput> frames(1, {Image(8, 4), {}});

@@ -10,7 +10,7 @@ namespace deburr::tb::morphological::discs_test {
 namespace {
 
 // Of all pixels that a straight line crosses, over all its directions and places: the root of the
-// mean square of (share on its side - whether the middle is), and of (1 - share). A circle is
+// mean square of (weight on its side - whether the middle is), and of (1 - weight). A circle is
 // nearly straight.
 constexpr double kSampled = 246.9, kUncovered = 608.0;  // x 1000
 

@@ -30,7 +30,7 @@ const std::vector<MorphologicalInput>& frames() {
 MorphologicalSetup lines_on_chip() {
   MorphologicalSetup setup;
   setup.morphological = morphological_system::preset(Preset::kDeburr);
-  setup.records = true;
+  setup.descriptors = true;
   return setup;
 }
 MorphologicalSetup in_memory() {
@@ -79,7 +79,7 @@ Json run(const std::vector<MorphologicalInput>& of, const MorphologicalSetup& se
     json["taken"] = amount.taken;
     json["hash"] = environment.pixel_hash();
     json["delivered"] = environment.delivered();
-    json["input_clocks"] = environment.input_clocks();
+    json["input_cycles"] = environment.input_cycles();
     Json& colours = json["frame"] = Json::array();
     for (const Rgba8& pixel : environment.frame().pixels) colours.push_back(pixel);
     return json.dump();
@@ -93,11 +93,11 @@ std::vector<Json> each_alone(const MorphologicalSetup& setup) {
 }
 
 const SeveralFrames kFigures = {
-    .of_the_last = {"frame_clocks", "frame_clocks_by_formula", "latency_by_formula",
+    .of_the_last = {"frame_cycles", "frame_cycles_by_formula", "latency_by_formula",
                     "sequencer_frame_cycles"},
     .largest = {"memory_port_most_outstanding"},
     .by_formula = {"edge_pixels_percent", "blended_pixels_percent", "divider_h_occupancy_percent",
-                   "divider_v_occupancy_percent", "input_pixels_per_clock",
+                   "divider_v_occupancy_percent", "input_pixels_per_cycle",
                    "memory_bytes_per_pixel", "frame_rate", "clock_for_1080p60",
                    "pixel_clock_of_1080p60", "fits_1080p60"}};
 
@@ -115,10 +115,10 @@ void expect_formulas(const Json& r, double lanes) {
   EXPECT_DOUBLE_EQ(w("blended_pixels_percent"), 100 * w("blender_blended_pixels") / pixels);
   for (const std::string divider : {"divider_h", "divider_v"}) {
     const Json& unit = r["units"][divider];
-    double clocks = unit["busy"].get<double>() + unit["idle"].get<double>();
-    for (const auto& [cause, stalled] : unit["stalls"].items()) clocks += stalled.get<double>();
+    double cycles = unit["busy"].get<double>() + unit["idle"].get<double>();
+    for (const auto& [cause, stalled] : unit["stalls"].items()) cycles += stalled.get<double>();
     EXPECT_DOUBLE_EQ(work(r, divider + "_occupancy_percent"),
-                     100 * work(r, divider + "_occupancy") / (lanes * clocks));
+                     100 * work(r, divider + "_occupancy") / (lanes * cycles));
   }
   EXPECT_DOUBLE_EQ(
       w("memory_bytes_per_pixel"),
@@ -126,17 +126,17 @@ void expect_formulas(const Json& r, double lanes) {
   EXPECT_DOUBLE_EQ(number_at(r, "/throughput/value"), pixels / number_at(r, "/cycles"));
   EXPECT_EQ(number_at(r, "/throughput/bound"), lanes);
   const MorphologicalInput& last = frames().back();
-  EXPECT_DOUBLE_EQ(w("input_pixels_per_clock"),
-                   last.image.width * last.image.height / number_at(r, "/input_clocks"));
-  EXPECT_DOUBLE_EQ(w("frame_rate"), kMhz * 1e6 / w("frame_clocks"));
-  // docs/reference/morphological/hardware.md: R + 5 rows and the clocks of the pipe.
+  EXPECT_DOUBLE_EQ(w("input_pixels_per_cycle"),
+                   last.image.width * last.image.height / number_at(r, "/input_cycles"));
+  EXPECT_DOUBLE_EQ(w("frame_rate"), kMhz * 1e6 / w("frame_cycles"));
+  // docs/reference/morphological/hardware.md: R + 5 rows and the cycles of the pipe.
   const morphological_system::Parameters p = lines_on_chip().morphological;
   const int rows = p.window_rows / 2 - 1 + 5;
   const double beats = std::ceil(last.image.width / lanes),
                latency = rows * beats + spec::morphological::kPipelineLatency;
   EXPECT_EQ(w("latency_by_formula"), latency);
-  EXPECT_EQ(w("frame_clocks_by_formula"), latency + last.image.height * beats);
-  const double hd = 1920 / lanes, slowness = w("frame_clocks") / w("frame_clocks_by_formula");
+  EXPECT_EQ(w("frame_cycles_by_formula"), latency + last.image.height * beats);
+  const double hd = 1920 / lanes, slowness = w("frame_cycles") / w("frame_cycles_by_formula");
   EXPECT_GE(slowness, 1);
   EXPECT_DOUBLE_EQ(
       w("clock_for_1080p60"),
@@ -149,11 +149,11 @@ TEST(MorphologicalFigures, OfThreeFramesAreSumsRatiosOfSumsOrOfTheLast) {
     const std::vector<Json> alone = each_alone(setup);
     const Json all = run(frames(), setup);
     const double lanes = platform::lanes_of(setup.morphological);
-    // With memory, when a unit's inputs come may differ by a few clocks after another frame.
+    // With memory, when a unit's inputs come may differ by a few cycles after another frame.
     const bool stored = setup.morphological.storage == Storage::kMemory;
     SeveralFrames figures = kFigures;
     if (stored)
-      figures.by_formula.insert({"extractor_interlock_stalls", "extractor_record_stalls",
+      figures.by_formula.insert({"extractor_interlock_stalls", "extractor_descriptor_stalls",
                                  "predictor_h_occupancy", "predictor_v_occupancy",
                                  "area_bank_conflicts"});
     expect_sums(all, alone, figures, stored ? 10 : 0);
@@ -164,7 +164,7 @@ TEST(MorphologicalFigures, OfThreeFramesAreSumsRatiosOfSumsOrOfTheLast) {
       beats += std::ceil(frame.image.width / lanes) * frame.image.height;
     EXPECT_EQ(all["taken"], beats * lanes);
     if (!stored) {
-      EXPECT_EQ(all["input_clocks"], frames().back().image.pixels.size()) << "a pixel a clock";
+      EXPECT_EQ(all["input_cycles"], frames().back().image.pixels.size()) << "a pixel a clock";
     }
     if (stored) {
       EXPECT_GT(work(all, "divider_h_occupancy"), 0);
@@ -207,7 +207,7 @@ TEST(MorphologicalFigures, TheHashIsOfEveryFrame) {
                        : golden::morphological::DepthView(frame.depth, image.width, image.height));
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
       const auto& p = golden.pixels()[i];
-      const auto& t = golden.taps()[i];
+      const auto& t = golden.probes()[i];
       std::uint64_t word = 0;
       for (const std::uint64_t byte :
            {std::uint64_t{t.horizontal}, std::uint64_t{t.edges}, std::uint64_t{t.second},
@@ -220,13 +220,13 @@ TEST(MorphologicalFigures, TheHashIsOfEveryFrame) {
   EXPECT_EQ(run(frames(), setup)["hash"], hash.value());
 }
 
-// As slow for its clocks as the frame was: by how much stalls lengthened it.
+// As slow for its cycles as the frame was: by how much stalls lengthened it.
 TEST(MorphologicalFigures, AFrameThatStallsNeedsAFasterClock) {
   Options options;
   options.stall_permille = 200;
   const Json r = run(frames(), lines_on_chip(), options);
-  EXPECT_GT(work(r, "frame_clocks"), 1.1 * work(r, "frame_clocks_by_formula"));
-  EXPECT_GT(number_at(r, "/input_clocks"), 1.1 * area({frames().back()}));
+  EXPECT_GT(work(r, "frame_cycles"), 1.1 * work(r, "frame_cycles_by_formula"));
+  EXPECT_GT(number_at(r, "/input_cycles"), 1.1 * area({frames().back()}));
   expect_formulas(r, 1);
 }
 
@@ -280,7 +280,7 @@ TEST(MorphologicalFigures, MapsAndHistoryAreThoseOfTheLastFrame) {
                all = run(several, in_memory(), options);
     ASSERT_EQ(alone["maps"].size(), 3u);
     expect_maps_of_the_last(all, alone, several.back().image.width, several.back().image.height);
-    EXPECT_EQ(without_clocks(all["pixel"]), without_clocks(alone["pixel"]));
+    EXPECT_EQ(without_cycles(all["pixel"]), without_cycles(alone["pixel"]));
   }
 }
 
@@ -294,7 +294,7 @@ TEST(MorphologicalFigures, AHistoryOfAFrameThatIsBrokenOffIsItsOwn) {
   const Json alone = run({two[1]}, lines_on_chip(), options);
   options.max_cycles += before;
   const Json all = run(two, lines_on_chip(), options);
-  EXPECT_EQ(without_clocks(all["pixel"]), without_clocks(alone["pixel"]));
+  EXPECT_EQ(without_cycles(all["pixel"]), without_cycles(alone["pixel"]));
   EXPECT_EQ(all["delivered"], alone["delivered"]);
   EXPECT_EQ(all["frame"], alone["frame"]);
 }

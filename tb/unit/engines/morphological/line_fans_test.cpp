@@ -36,7 +36,7 @@ TEST(Fans, WithoutSmoothingAreThoseOfTheContract) {
   for (std::size_t c = 0; c < f.by_class.size(); ++c)
     EXPECT_NEAR(f.by_class[c], stimuli::contract_figures()[0].figures.by_class[c], 6)
         << stimuli::kSlopeClasses[c];
-  // The error of a column is a sawtooth of height 1, which falls by 1 in a share s of all columns,
+  // The error of a column is a sawtooth of height 1, which falls by 1 in a weight s of all columns,
   // the line's slope, and rises by s from column to column: of jumps the mean square is s (1 - s).
   double squares = 0;
   for (int n = 2; n <= 20; ++n)

@@ -103,8 +103,8 @@ TEST(TextureFigures, AResetChangesNoFigure) {
   SimulationOptions options = watched();
   const Json whole = run(scene(), small_setup(), options);
   const auto cycles = static_cast<rtl::Cycle>(number_at(whole, "/cycles"));
-  // Clocks are counted from the first clock of the run on.
-  const auto without_clocks = [](Json json) {
+  // Cycles are counted from the first clock of the run on.
+  const auto without_cycles = [](Json json) {
     for (Json& step : json["pixel"]["steps"]) step.erase("clock");
     return json;
   };
@@ -114,7 +114,7 @@ TEST(TextureFigures, AResetChangesNoFigure) {
     for (const char* const key : {"checks", "scoreboards"}) again[key] = whole[key];
     for (const auto& [name, unit] : whole["units"].items())
       again["units"][name]["idle"] = unit["idle"];
-    EXPECT_EQ(Json::diff(without_clocks(whole), without_clocks(again)), Json::array()) << at;
+    EXPECT_EQ(Json::diff(without_cycles(whole), without_cycles(again)), Json::array()) << at;
   }
 }
 
@@ -137,10 +137,10 @@ TEST(TextureFigures, AreOfEveryFragmentAndLine) {
       EXPECT_DOUBLE_EQ(w("misses_per_texel"), lines / (4 * bilinears));
       EXPECT_DOUBLE_EQ(w("texel_hits_percent"), 100 - 100 * lines / (4 * bilinears));
       EXPECT_DOUBLE_EQ(w("texels_fetched_per_fragment"), lines * line / bytes / fragments);
-      const double look_ups = w("tag_stage_hits") + w("tag_stage_merged") + w("tag_stage_misses");
-      EXPECT_DOUBLE_EQ(w("look_up_hits_percent"), 100 * w("tag_stage_hits") / look_ups);
-      EXPECT_DOUBLE_EQ(w("look_up_merged_percent"), 100 * w("tag_stage_merged") / look_ups);
-      EXPECT_DOUBLE_EQ(w("look_up_misses_percent"), 100 * w("tag_stage_misses") / look_ups);
+      const double lookups = w("tag_stage_hits") + w("tag_stage_merged") + w("tag_stage_misses");
+      EXPECT_DOUBLE_EQ(w("lookup_hits_percent"), 100 * w("tag_stage_hits") / lookups);
+      EXPECT_DOUBLE_EQ(w("lookup_merged_percent"), 100 * w("tag_stage_merged") / lookups);
+      EXPECT_DOUBLE_EQ(w("lookup_misses_percent"), 100 * w("tag_stage_misses") / lookups);
       EXPECT_EQ(number_at(r, "/memory/lines_filled"), lines);
       EXPECT_EQ(number_at(r, "/memory/bytes_read"), lines * line);
       EXPECT_EQ(number_at(r, "/memory/bytes_written"), 0);

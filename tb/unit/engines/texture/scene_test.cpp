@@ -17,7 +17,7 @@
 #include "tb/engines/texture/texture_scene.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/textures.h"
-#include "tb/scene/truth.h"
+#include "tb/scene/reference.h"
 
 namespace deburr::tb::scene_test {
 namespace {
@@ -129,19 +129,19 @@ TEST(TextureScene, GivesTheSamplerItsState) {
   EXPECT_TRUE(scene.inputs().empty()) << "made by formula";
 }
 
-// Fragments, hardware and truth must go by the same wrap mode, or a picture is compared with the
-// truth of another one.
-TEST(TextureScene, AChosenWrapModeIsThatOfFragmentsAndTruth) {
+// Fragments, hardware and reference must go by the same wrap mode, or a picture is compared with the
+// reference of another one.
+TEST(TextureScene, AChosenWrapModeIsThatOfFragmentsAndReference) {
   SceneParameters p = small("plane");
   p.texture = "gradient";
-  const auto picture = [&](WrapChoice wrap, bool truth) {
+  const auto picture = [&](WrapChoice wrap, bool reference) {
     SamplerParameters sampler;
     sampler.wrap = wrap;
     const TextureScene scene(p, sampler, 1);
     RenderOptions options;
     options.width = options.height = 32;
     options.samples = 8;
-    return truth ? render(scene.scene(), options)
+    return reference ? render(scene.scene(), options)
                  : golden_frame(scene, spec::texture::Parameters{}).image;
   };
   const std::vector<WrapChoice> choices = {WrapChoice::kRepeat, WrapChoice::kMirroredRepeat,

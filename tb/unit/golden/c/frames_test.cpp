@@ -109,13 +109,13 @@ std::vector<std::uint32_t> random_depth(const Image& image, tb::Random& random) 
 
 void expect_same(deburr_golden* handle, const MorphologicalGolden& golden) {
   EXPECT_EQ(plane_of(handle, "pixels", 0), bytes_of(golden.pixels()));
-  std::vector<std::uint8_t> edges, shares, taps, decisions;
+  std::vector<std::uint8_t> edges, weights, taps, decisions;
   for (int y = 0; y < golden.height(); ++y) {
     for (int x = 0; x < golden.width(); ++x) {
       edges.push_back(static_cast<std::uint8_t>((golden.edges().left.at(x, y) ? 1 : 0) +
                                                 (golden.edges().top.at(x, y) ? 2 : 0)));
-      for (const auto& [first, second] : {golden.top_shares(x, y), golden.left_shares(x, y)})
-        shares.insert(shares.end(),
+      for (const auto& [first, second] : {golden.top_weights(x, y), golden.left_weights(x, y)})
+        weights.insert(weights.end(),
                       {static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(second)});
     }
   }
@@ -126,14 +126,14 @@ void expect_same(deburr_golden* handle, const MorphologicalGolden& golden) {
   for (const auto decision : golden.decisions())
     decisions.push_back(static_cast<std::uint8_t>(decision));
   EXPECT_EQ(plane_of(handle, "edges", 3), edges);
-  EXPECT_EQ(plane_of(handle, "shares", 1), shares);
+  EXPECT_EQ(plane_of(handle, "weights", 1), weights);
   EXPECT_EQ(plane_of(handle, "taps", 5), taps);
   EXPECT_EQ(plane_of(handle, "decisions", 0), decisions);
   EXPECT_EQ(counter_of(handle, "pixels"), golden.work().pixels);
   EXPECT_EQ(counter_of(handle, "edge_pixels"), golden.work().edge_pixels);
   EXPECT_EQ(counter_of(handle, "blended_pixels"), golden.work().blended_pixels);
   EXPECT_EQ(counter_of(handle, "diagonals"), golden.work().diagonal_pixels);
-  EXPECT_EQ(counter_of(handle, "left_pixels"), golden.work().left_pixels);
+  EXPECT_EQ(counter_of(handle, "bypassed_pixels"), golden.work().bypassed_pixels);
 }
 
 TEST(Morphological, FramesAreThoseOfTheGoldenModelWithEveryPreset) {
@@ -494,7 +494,7 @@ TEST(Detail, CountsFromTheNextFrameOn) {
       DEBURR_EXPECT_TAKEN(golden, deburr_frame_put(golden, 0, 0, 0xFFFFFFFF, 1));
       DEBURR_EXPECT_TAKEN(golden, deburr_frame_process(golden));
     }
-    for (const char* plane : {"pixels", "edges", "shares"})
+    for (const char* plane : {"pixels", "edges", "weights"})
       DEBURR_EXPECT_TAKEN(smoother, deburr_plane_pixel(smoother.get(), plane, 0, 0, &value));
     for (const char* plane : {"pixels", "weights"})
       DEBURR_EXPECT_TAKEN(drawn, deburr_plane_pixel(drawn.get(), plane, 0, 0, &value));

@@ -52,13 +52,13 @@ def main():
     found = list(problems(header, compiler, cxx))
     for problem in found:
         print(problem)
-    planted = {"C++ alone": (header.replace("typedef struct deburr_golden deburr_golden;", "struct deburr_golden;"), 2),
+    injected = {"C++ alone": (header.replace("typedef struct deburr_golden deburr_golden;", "struct deburr_golden;"), 2),
                "no language": (header.replace('extern "C"', 'extern "C++"'), 2),
                "no guard": (header.replace("#pragma once\n", ""), 4),
                "a type that is not there": (header.replace("#include <stdint.h>\n", ""), 4)}
-    missed = [what for what, (text, count) in planted.items() if len(list(problems(text, compiler, cxx))) != count]
+    missed = [what for what, (text, count) in injected.items() if len(list(problems(text, compiler, cxx))) != count]
     for what in missed:
-        print(f"planted fault not caught: {what}")
+        print(f"injected fault not caught: {what}")
     sys.exit(1 if found or missed else 0)
 
 

@@ -166,7 +166,7 @@ def problems(header, texts, page):
             yield f"{PAGE} does not name {function.name}"
 
 
-def planted_faults_are_caught(header, texts, page):
+def injected_faults_are_caught(header, texts, page):
     """A change of the header alone, of a file alone, of the page alone."""
     changes = [("uint32_t* count);", "uint64_t* count);"), ("size_t lines_size,", "uint32_t lines_size,"),
                ("const int32_t s[4]", "const int32_t s[8]"), ("DEBURR_BUSY = 3", "DEBURR_BUSY = 4"),
@@ -202,9 +202,9 @@ def main():
     found = list(problems(header, texts, page))
     for problem in found:
         print(problem)
-    missed = [] if found else planted_faults_are_caught(header, texts, page)
+    missed = [] if found else injected_faults_are_caught(header, texts, page)
     for fault in missed:
-        print(f"planted fault not caught: {fault}")
+        print(f"injected fault not caught: {fault}")
     sys.exit(1 if found or missed else 0)
 
 

@@ -96,7 +96,7 @@ TEST(Quads, AreThoseOfTheGoldenModelWithEveryRuleAndTexture) {
   for (std::uint8_t& byte : memory) byte = static_cast<std::uint8_t>(random.next());
   std::uint64_t fills = 0, coloured = 0;
   for (int trial = 0; trial < 40; ++trial) {
-    auto parameters = tb::stimuli::random_rules(random);
+    auto parameters = tb::stimuli::random_configuration(random);
     parameters.cache_bytes = 1 << random.between(10, 13);
     parameters.cache_replacement =
         tb::stimuli::any_code<spec::texture::Replacement>(random, spec::texture::kReplacementNames);

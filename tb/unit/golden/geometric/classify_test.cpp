@@ -18,7 +18,7 @@ using golden::geometric::FacingBits;
 using golden::geometric::FrameCounts;
 using golden::geometric::is_kept;
 using golden::geometric::preset_parameters;
-using golden::geometric::refusal;
+using golden::geometric::rejection;
 using spec::geometric::CoarseLines;
 using spec::geometric::Crease;
 using spec::geometric::Cull;
@@ -27,8 +27,8 @@ using spec::geometric::EdgeClass;
 using spec::geometric::Parameters;
 using spec::geometric::Preset;
 using spec::geometric::RecordsLayout;
-using spec::geometric::Refusal;
-using spec::geometric::Rules;
+using spec::geometric::Rejection;
+using spec::geometric::Configuration;
 using spec::geometric::Select;
 namespace flag = spec::geometric::flag;
 
@@ -36,16 +36,16 @@ constexpr Select kSelects[] = {Select::kAll, Select::kEdges, Select::kMesh};
 constexpr Crease kCreases[] = {Crease::kOff, Crease::kPaper, Crease::kShading};
 
 // The page's table of classes, read as a list of rows.
-EdgeClass from_the_page(const Rules& rules, int flags, bool front0, bool front1) {
+EdgeClass from_the_page(const Configuration& configuration, int flags, bool front0, bool front1) {
   if ((flags & 1) != 0) return EdgeClass::kBoundary;
-  if (rules.select == Select::kAll) return EdgeClass::kUnclassified;
-  const bool edges = rules.select == Select::kEdges;
+  if (configuration.select == Select::kAll) return EdgeClass::kUnclassified;
+  const bool edges = configuration.select == Select::kEdges;
   if (edges && front0 != front1) return EdgeClass::kSilhouette;
-  if (edges && !front0 && rules.cull == Cull::kBack) return EdgeClass::kBack;
+  if (edges && !front0 && configuration.cull == Cull::kBack) return EdgeClass::kBack;
   const bool paper = (flags & 2) != 0;
   const bool shading = (flags & 6) == 6 || (flags & 8) != 0;
-  const bool crease = rules.crease == Crease::kPaper     ? paper
-                      : rules.crease == Crease::kShading ? shading
+  const bool crease = configuration.crease == Crease::kPaper     ? paper
+                      : configuration.crease == Crease::kShading ? shading
                                                          : false;
   return crease ? EdgeClass::kCrease : EdgeClass::kFlat;
 }
@@ -55,10 +55,10 @@ TEST(Classify, AllFlagsFacingsAndRules) {
   for (const Select select : kSelects) {
     for (const Crease crease : kCreases) {
       for (const Cull cull : {Cull::kNone, Cull::kBack}) {
-        Rules rules;
-        rules.select = select;
-        rules.crease = crease;
-        rules.cull = cull;
+        Configuration configuration;
+        configuration.select = select;
+        configuration.crease = crease;
+        configuration.cull = cull;
         for (int flags = 0; flags < 256; ++flags) {
           for (int facings = 0; facings < 4; ++facings) {
             // Faces 3 and 10: bits of different bytes.
@@ -67,11 +67,11 @@ TEST(Classify, AllFlagsFacingsAndRules) {
                 static_cast<std::uint8_t>((facings & 2) != 0 ? 4 : 0)};
             const Edge edge{0, 1, 3, 10, static_cast<std::uint8_t>(flags)};
             const EdgeClass expected =
-                from_the_page(rules, flags, (facings & 1) != 0, (facings & 2) != 0);
-            EXPECT_EQ(classify(rules, edge, 2, {bytes, 11}), expected) << flags << ' ' << facings;
+                from_the_page(configuration, flags, (facings & 1) != 0, (facings & 2) != 0);
+            EXPECT_EQ(classify(configuration, edge, 2, {bytes, 11}), expected) << flags << ' ' << facings;
             // Vertices that are not there matter to the one that checks them alone.
-            EXPECT_EQ(classify_faces(rules, edge, {bytes, 11}), expected);
-            EXPECT_EQ(classify(rules, edge, 1, {bytes, 11}), EdgeClass::kInvalid);
+            EXPECT_EQ(classify_faces(configuration, edge, {bytes, 11}), expected);
+            EXPECT_EQ(classify(configuration, edge, 1, {bytes, 11}), EdgeClass::kInvalid);
             ++seen;
           }
         }
@@ -84,11 +84,11 @@ TEST(Classify, AllFlagsFacingsAndRules) {
 TEST(Classify, IndicesEndWhereTheCountsEnd) {
   const std::array<std::uint8_t, 1> bytes = {0xFF};
   const FacingBits facing{bytes, 5};
-  Rules edges, all, mesh;
+  Configuration edges, all, mesh;
   all.select = Select::kAll;
   mesh.select = Select::kMesh;
-  const auto is_valid = [&](const Rules& rules, const Edge& edge) {
-    return classify(rules, edge, 4, facing) != EdgeClass::kInvalid;
+  const auto is_valid = [&](const Configuration& configuration, const Edge& edge) {
+    return classify(configuration, edge, 4, facing) != EdgeClass::kInvalid;
   };
   EXPECT_TRUE(is_valid(edges, {3, 3, 4, 4, 0}));
   EXPECT_FALSE(is_valid(edges, {4, 3, 4, 4, 0}));
@@ -99,11 +99,11 @@ TEST(Classify, IndicesEndWhereTheCountsEnd) {
   EXPECT_TRUE(is_valid(edges, {3, 3, 4, 5, flag::kBoundary}));
   EXPECT_FALSE(is_valid(edges, {3, 3, 5, 0, flag::kBoundary}));
   // Without a choice by the view no face matters.
-  for (const Rules& rules : {all, mesh}) {
-    EXPECT_TRUE(is_valid(rules, {3, 3, 5, 5, 0}));
-    EXPECT_TRUE(is_valid(rules, {3, 3, 5, 5, flag::kBoundary}));
-    EXPECT_FALSE(is_valid(rules, {4, 3, 0, 0, 0}));
-    EXPECT_FALSE(is_valid(rules, {3, 4, 0, 0, flag::kBoundary}));
+  for (const Configuration& configuration : {all, mesh}) {
+    EXPECT_TRUE(is_valid(configuration, {3, 3, 5, 5, 0}));
+    EXPECT_TRUE(is_valid(configuration, {3, 3, 5, 5, flag::kBoundary}));
+    EXPECT_FALSE(is_valid(configuration, {4, 3, 0, 0, 0}));
+    EXPECT_FALSE(is_valid(configuration, {3, 4, 0, 0, flag::kBoundary}));
   }
 }
 
@@ -186,37 +186,37 @@ TEST(Configuration, RejectsByName) {
 
 TEST(Configuration, FramesEndWhereTheBuildEnds) {
   Parameters p;  // 2048 pixels, 1088 words, 32768 faces
-  const auto why = [&](FrameCounts counts) { return refusal(p, counts); };
-  EXPECT_EQ(why({1920, 1080, 1, 1, 1}), Refusal::kNone);
-  EXPECT_EQ(why({2048, 1088, 1, 1, 1}), Refusal::kNone);
-  EXPECT_EQ(why({2048, 1089, 1, 1, 1}), Refusal::kTouchedWords);
-  EXPECT_EQ(why({2049, 1080, 1, 1, 1}), Refusal::kWidth);
-  EXPECT_EQ(why({0, 10, 0, 0, 0}), Refusal::kSize);
-  EXPECT_EQ(why({10, 0, 0, 0, 0}), Refusal::kSize);
-  EXPECT_EQ(why({10, 8193, 0, 0, 0}), Refusal::kSize);
-  EXPECT_EQ(why({512, 4352, 0, 0, 0}), Refusal::kNone);
-  EXPECT_EQ(why({513, 4352, 0, 0, 0}), Refusal::kTouchedWords);
-  EXPECT_EQ(why({8, 8, 1u << 24, 1u << 24, 32768}), Refusal::kNone);
-  EXPECT_EQ(why({8, 8, (1u << 24) + 1, 0, 0}), Refusal::kEdgeCount);
-  EXPECT_EQ(why({8, 8, 0, (1u << 24) + 1, 0}), Refusal::kVertexCount);
-  EXPECT_EQ(why({8, 8, 0, 0, 32769}), Refusal::kFaceCount);
+  const auto why = [&](FrameCounts counts) { return rejection(p, counts); };
+  EXPECT_EQ(why({1920, 1080, 1, 1, 1}), Rejection::kNone);
+  EXPECT_EQ(why({2048, 1088, 1, 1, 1}), Rejection::kNone);
+  EXPECT_EQ(why({2048, 1089, 1, 1, 1}), Rejection::kTouchedWords);
+  EXPECT_EQ(why({2049, 1080, 1, 1, 1}), Rejection::kWidth);
+  EXPECT_EQ(why({0, 10, 0, 0, 0}), Rejection::kSize);
+  EXPECT_EQ(why({10, 0, 0, 0, 0}), Rejection::kSize);
+  EXPECT_EQ(why({10, 8193, 0, 0, 0}), Rejection::kSize);
+  EXPECT_EQ(why({512, 4352, 0, 0, 0}), Rejection::kNone);
+  EXPECT_EQ(why({513, 4352, 0, 0, 0}), Rejection::kTouchedWords);
+  EXPECT_EQ(why({8, 8, 1u << 24, 1u << 24, 32768}), Rejection::kNone);
+  EXPECT_EQ(why({8, 8, (1u << 24) + 1, 0, 0}), Rejection::kEdgeCount);
+  EXPECT_EQ(why({8, 8, 0, (1u << 24) + 1, 0}), Rejection::kVertexCount);
+  EXPECT_EQ(why({8, 8, 0, 0, 32769}), Rejection::kFaceCount);
   for (const Select select : {Select::kAll, Select::kMesh}) {
     p.select = select;
-    EXPECT_EQ(why({8, 8, 0, 0, 32769}), Refusal::kNone);
+    EXPECT_EQ(why({8, 8, 0, 0, 32769}), Rejection::kNone);
   }
   p.select = Select::kEdges;
-  EXPECT_EQ(why({8, 8, 5, 0, 0, 6}), Refusal::kNone);
+  EXPECT_EQ(why({8, 8, 5, 0, 0, 6}), Rejection::kNone);
   p.records = RecordsLayout::kSplit;
-  EXPECT_EQ(why({8, 8, 5, 0, 0, 6}), Refusal::kBoundaryCount);
-  EXPECT_EQ(why({8, 8, 5, 0, 0, 5}), Refusal::kNone);
-  EXPECT_EQ(why({8, 8, 0, 0, 0, 0}), Refusal::kNone);
+  EXPECT_EQ(why({8, 8, 5, 0, 0, 6}), Rejection::kBoundaryCount);
+  EXPECT_EQ(why({8, 8, 5, 0, 0, 5}), Rejection::kNone);
+  EXPECT_EQ(why({8, 8, 0, 0, 0, 0}), Rejection::kNone);
   p.line_pixels = 8192;
   p.touched_words = 1 << 20;
-  EXPECT_EQ(why({1, 1, 0, 0, 0}), Refusal::kNone);
-  EXPECT_EQ(why({8192, 1, 0, 0, 0}), Refusal::kNone);
-  EXPECT_EQ(why({1, 8192, 0, 0, 0}), Refusal::kNone);
-  EXPECT_EQ(why({8193, 1, 0, 0, 0}), Refusal::kSize);
-  EXPECT_EQ(why({-1, 1, 0, 0, 0}), Refusal::kSize);
+  EXPECT_EQ(why({1, 1, 0, 0, 0}), Rejection::kNone);
+  EXPECT_EQ(why({8192, 1, 0, 0, 0}), Rejection::kNone);
+  EXPECT_EQ(why({1, 8192, 0, 0, 0}), Rejection::kNone);
+  EXPECT_EQ(why({8193, 1, 0, 0, 0}), Rejection::kSize);
+  EXPECT_EQ(why({-1, 1, 0, 0, 0}), Rejection::kSize);
 }
 
 // Of several reasons the first counts: each is the reason once those before it are mended.
@@ -224,21 +224,21 @@ TEST(Configuration, RejectsForTheFirstReason) {
   Parameters p;  // 2048 pixels, 1088 words, 32768 faces
   p.records = RecordsLayout::kSplit;
   FrameCounts f = {8193, 8192, (1u << 24) + 1, (1u << 24) + 1, 32769, (1u << 24) + 2};
-  EXPECT_EQ(refusal(p, f), Refusal::kSize);
+  EXPECT_EQ(rejection(p, f), Rejection::kSize);
   f.width = 2049;
-  EXPECT_EQ(refusal(p, f), Refusal::kWidth);
+  EXPECT_EQ(rejection(p, f), Rejection::kWidth);
   f.width = 2048;
-  EXPECT_EQ(refusal(p, f), Refusal::kTouchedWords);
+  EXPECT_EQ(rejection(p, f), Rejection::kTouchedWords);
   f.height = 1;
-  EXPECT_EQ(refusal(p, f), Refusal::kEdgeCount);
+  EXPECT_EQ(rejection(p, f), Rejection::kEdgeCount);
   f.edge_count = 1u << 24;
-  EXPECT_EQ(refusal(p, f), Refusal::kVertexCount);
+  EXPECT_EQ(rejection(p, f), Rejection::kVertexCount);
   f.vertex_count = 1u << 24;
-  EXPECT_EQ(refusal(p, f), Refusal::kFaceCount);
+  EXPECT_EQ(rejection(p, f), Rejection::kFaceCount);
   f.face_count = 32768;
-  EXPECT_EQ(refusal(p, f), Refusal::kBoundaryCount);
+  EXPECT_EQ(rejection(p, f), Rejection::kBoundaryCount);
   f.boundary_count = 1u << 24;
-  EXPECT_EQ(refusal(p, f), Refusal::kNone);
+  EXPECT_EQ(rejection(p, f), Rejection::kNone);
 }
 
 // What is wrong and what would be possible, in words.

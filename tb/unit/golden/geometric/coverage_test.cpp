@@ -139,7 +139,7 @@ TEST(Coverage, EveryBinCanBeReached) {
 
 // A test of depth looks up the line of the neighbour only if it is another one than the pixel's.
 TEST(Coverage, TwoDepthsOfOneLineAreOneLookUp) {
-  const auto look_ups_of_eight = [](std::int32_t y) {
+  const auto lookups_of_eight = [](std::int32_t y) {
     Parameters p;
     p.layout = Layout::kTiled;
     p.coverage = spec::geometric::CoverageRule::kDistance;
@@ -150,14 +150,14 @@ TEST(Coverage, TwoDepthsOfOneLineAreOneLookUp) {
     GeometricGolden golden(p);
     golden.process(d.input());
     EXPECT_EQ(golden.candidates().size(), 8u);
-    std::uint64_t look_ups = 0;
+    std::uint64_t lookups = 0;
     for (const CoverageBin& bin : golden.coverage().bins())
       if (bin.name.rfind("fetch/depth/", 0) == 0 && bin.name != "fetch/depth/replaced")
-        look_ups += bin.hits;
-    return look_ups;
+        lookups += bin.hits;
+    return lookups;
   };
-  EXPECT_EQ(look_ups_of_eight(9 * 256 + 64), 8u);   // rows 9 and 8, both of a line
-  EXPECT_EQ(look_ups_of_eight(8 * 256 + 64), 16u);  // rows 8 and 7
+  EXPECT_EQ(lookups_of_eight(9 * 256 + 64), 8u);   // rows 9 and 8, both of a line
+  EXPECT_EQ(lookups_of_eight(8 * 256 + 64), 16u);  // rows 8 and 7
 }
 
 TEST(Coverage, BinsCountWhatTheWorkCounts) {
@@ -519,9 +519,9 @@ TEST(Coverage, WeightsAreRaisedKeptOverwrittenOrLowered) {
 }
 
 TEST(Coverage, TapsAreOfTheHeavierAxis) {
-  const auto tap = [](const spec::geometric::Weights& weights) {
+  const auto probe = [](const spec::geometric::Weights& weights) {
     EdgeCoverage coverage;
-    coverage.count_tap(weights);
+    coverage.count_probe(weights);
     return hits_of(coverage);
   };
   for (const bool swapped : {false, true}) {
@@ -530,11 +530,11 @@ TEST(Coverage, TapsAreOfTheHeavierAxis) {
       return swapped ? spec::geometric::Weights{byte(b), byte(a), byte(d), byte(c)}
                      : spec::geometric::Weights{byte(a), byte(b), byte(c), byte(d)};
     };
-    EXPECT_EQ(tap(w(10, 20, 15, 14)), once("resolve/up-down"));
-    EXPECT_EQ(tap(w(10, 20, 15, 15)), once("resolve/tie"));
-    EXPECT_EQ(tap(w(10, 20, 15, 16)), once("resolve/left-right"));
-    EXPECT_EQ(tap(w(1, 0, 0, 0)), once("resolve/up-down"));
-    EXPECT_EQ(tap(w(0, 0, 1, 0)), once("resolve/left-right"));
+    EXPECT_EQ(probe(w(10, 20, 15, 14)), once("resolve/up-down"));
+    EXPECT_EQ(probe(w(10, 20, 15, 15)), once("resolve/tie"));
+    EXPECT_EQ(probe(w(10, 20, 15, 16)), once("resolve/left-right"));
+    EXPECT_EQ(probe(w(1, 0, 0, 0)), once("resolve/up-down"));
+    EXPECT_EQ(probe(w(0, 0, 1, 0)), once("resolve/left-right"));
   }
 }
 

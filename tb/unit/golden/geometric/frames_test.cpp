@@ -48,7 +48,7 @@ Drawing one_line(int x0, int y0, int x1, int y1, int width = 16, int height = 16
 }
 
 // `max` of distances, creases of any depth, nothing that is turned away.
-Parameters plain_rules() {
+Parameters plain_configuration() {
   Parameters p;
   p.cull = spec::geometric::Cull::kBack;
   p.coverage = spec::geometric::CoverageRule::kDistance;
@@ -58,7 +58,7 @@ Parameters plain_rules() {
 }
 
 // What costs more than that.
-Parameters all_rules() {
+Parameters all_configuration() {
   Parameters p;
   p.cull = spec::geometric::Cull::kNone;
   p.coverage = spec::geometric::CoverageRule::kArea;
@@ -93,7 +93,7 @@ TEST(Frame, ASteepLineBlendsTheSecondPixelOfAColumnToo) {
       const Weights& w = golden.weights()[swapped ? at(row, column) : at(column, row)];
       return swapped ? Weights{w[2], w[3], w[0], w[1]} : w;  // before, behind
     };
-    Parameters p = plain_rules();
+    Parameters p = plain_configuration();
     GeometricGolden plain(p);
     plain.process(d.input());
     EXPECT_EQ(weight(plain, 1, 4), (Weights{0, 32, 0, 0}));
@@ -233,7 +233,7 @@ TEST(Frame, WithoutCullingEdgesThatAreTurnedAwayAreClassified) {
   for (const auto& [flags, kept] :
        {std::pair{std::uint8_t{0}, false}, {spec::geometric::flag::kSeam, true}}) {
     d.edges[0].flags = flags;
-    Parameters p = plain_rules();
+    Parameters p = plain_configuration();
     GeometricGolden culled(p);
     culled.process(d.input());
     EXPECT_EQ(culled.work().back_edges, 1u);
@@ -263,7 +263,7 @@ TEST(Frame, OnlyWithLastTheOrderOfEdgesMatters) {
   Drawing d = vector_drawing();
   tb::Random random(8);
   for (const Combine combine : {Combine::kMax, Combine::kLast, Combine::kOutermost}) {
-    Parameters p = all_rules();
+    Parameters p = all_configuration();
     p.combine = combine;
     GeometricGolden golden(p);
     golden.process(d.input());
@@ -283,13 +283,13 @@ TEST(Frame, OnlyWithLastTheOrderOfEdgesMatters) {
 // What is built changes traffic and groups, and nothing else.
 TEST(Frame, PixelsDoNotDependOnTheBuild) {
   const Drawing d = vector_drawing();
-  GeometricGolden reference(all_rules());
+  GeometricGolden reference(all_configuration());
   reference.process(d.input());
   for (const Layout layout : {Layout::kRaster, Layout::kTiled}) {
     for (const Lanes walkers : {Lanes::kOne, Lanes::kTwo, Lanes::kFour}) {
       for (const CacheLines lines : {CacheLines::k16, CacheLines::k1024}) {
         for (const bool copy : {false, true}) {
-          Parameters p = all_rules();
+          Parameters p = all_configuration();
           p.layout = layout;
           p.walkers = walkers;
           p.depth_lines = p.weight_blocks = p.vertex_lines = lines;
@@ -507,7 +507,7 @@ TEST(Traffic, WeightsComeBackAsOftenAsTheyWent) {
 // that of the second ones: the same lines in the same order as column by column.
 TEST(Traffic, GroupsHaveTwoBlocksAtMostTheFirstOnesFirst) {
   const Drawing d = vector_drawing();
-  Parameters p = all_rules();
+  Parameters p = all_configuration();
   p.weight_blocks = CacheLines::k16;
   std::uint64_t pairs = 0;
   for (const auto test : {spec::geometric::DepthTest::kOwn, spec::geometric::DepthTest::kFarther}) {
@@ -747,7 +747,7 @@ TEST(MemoryErrors, NeedNoDetail) {
 // larger ones.
 TEST(MemoryErrors, LoseTheWeightsOfOneBlock) {
   const Drawing d = vector_drawing();
-  Parameters p = plain_rules();
+  Parameters p = plain_configuration();
   p.weight_blocks = CacheLines::k16;
   GeometricGolden clean(p);
   clean.process(d.input(kVectorBases));

@@ -23,13 +23,13 @@ using golden::geometric::point_at;
 using golden::geometric::reciprocal;
 using golden::geometric::resolve;
 using golden::geometric::set_up_line;
-using golden::geometric::tap_of;
+using golden::geometric::probe_of;
 using spec::geometric::Axis;
 using spec::geometric::Combine;
 using spec::geometric::DepthTest;
 using spec::geometric::Direction;
 using spec::geometric::LineRecord;
-using spec::geometric::Rules;
+using spec::geometric::Configuration;
 using spec::geometric::Vertex;
 using spec::geometric::Weights;
 
@@ -345,28 +345,28 @@ TEST(Direction, OfAllSidesAndTies) {
 // ---- depth --------------------------------------------------------------------------------------
 
 TEST(DepthTest, AtEqualityAndOneOnEitherSide) {
-  Rules rules;
-  rules.crease_depth = 0;
+  Configuration configuration;
+  configuration.crease_depth = 0;
   tb::Random random(5);
   for (int bias = 1; bias <= 24; ++bias) {
-    rules.depth_bias = bias;
+    configuration.depth_bias = bias;
     for (int i = 0; i < 200; ++i) {
       const std::uint32_t own = i == 0 ? 0xFFFFFF : i == 1 ? 1 : random.below(1u << 24);
       const std::uint32_t other = i == 2 ? own : random.below(1u << 24);
       for (const DepthTest test : {DepthTest::kOwn, DepthTest::kFarther}) {
-        rules.depth_test = test;
+        configuration.depth_test = test;
         const std::uint32_t f = test == DepthTest::kOwn ? own : std::min(own, other);
         const std::uint32_t limit = f - static_cast<std::uint32_t>(f / std::exp2(bias));
         for (const bool crease : {false, true}) {  // whose depth is not limited
-          EXPECT_TRUE(passes(rules, crease, limit, own, other)) << bias << ' ' << f;
-          EXPECT_TRUE(passes(rules, crease, limit + 1, own, other));
+          EXPECT_TRUE(passes(configuration, crease, limit, own, other)) << bias << ' ' << f;
+          EXPECT_TRUE(passes(configuration, crease, limit + 1, own, other));
           if (limit > 0) {
-            EXPECT_FALSE(passes(rules, crease, limit - 1, own, other)) << bias << ' ' << f;
+            EXPECT_FALSE(passes(configuration, crease, limit - 1, own, other)) << bias << ' ' << f;
           }
         }
       }
-      rules.depth_test = DepthTest::kOff;
-      EXPECT_TRUE(passes(rules, false, 0, own, other));
+      configuration.depth_test = DepthTest::kOff;
+      EXPECT_TRUE(passes(configuration, false, 0, own, other));
     }
   }
 }
@@ -374,43 +374,43 @@ TEST(DepthTest, AtEqualityAndOneOnEitherSide) {
 // What a crease is compared with may lie behind it by a share of the crease's depth; other lines
 // have no such limit.
 TEST(DepthTest, CreasesHaveALimitOfTheirOwn) {
-  Rules rules;
+  Configuration configuration;
   tb::Random random(9);
   for (int n = 1; n <= 24; ++n) {
-    rules.crease_depth = n;
+    configuration.crease_depth = n;
     for (int i = 0; i < 200; ++i) {
       const std::uint32_t d = i == 0 ? 0xFFFFFF : i == 1 ? 1 : 1 + random.below((1u << 24) - 1);
       const std::uint32_t limit = d - static_cast<std::uint32_t>(d / std::exp2(n));
       for (const DepthTest test : {DepthTest::kOwn, DepthTest::kFarther}) {
-        rules.depth_test = test;
+        configuration.depth_test = test;
         for (const std::uint32_t f : {limit - 1, limit, limit + 1}) {
           const std::uint32_t other = test == DepthTest::kOwn ? 0 : 0xFFFFFF;
           if (f > d) continue;  // the line must be seen
-          EXPECT_EQ(passes(rules, true, d, f, other), f >= limit) << n << ' ' << d << ' ' << f;
-          EXPECT_TRUE(passes(rules, false, d, f, other));
+          EXPECT_EQ(passes(configuration, true, d, f, other), f >= limit) << n << ' ' << d << ' ' << f;
+          EXPECT_TRUE(passes(configuration, false, d, f, other));
         }
       }
-      rules.depth_test = DepthTest::kFarther;
-      EXPECT_FALSE(passes(rules, true, d, 0xFFFFFF, limit - 1));  // the neighbour is the farther
-      rules.depth_test = DepthTest::kOff;
-      EXPECT_TRUE(passes(rules, true, d, 0, 0));
+      configuration.depth_test = DepthTest::kFarther;
+      EXPECT_FALSE(passes(configuration, true, d, 0xFFFFFF, limit - 1));  // the neighbour is the farther
+      configuration.depth_test = DepthTest::kOff;
+      EXPECT_TRUE(passes(configuration, true, d, 0, 0));
     }
-    rules.depth_test = DepthTest::kFarther;
-    EXPECT_TRUE(passes(rules, true, 0, 0, 0));
+    configuration.depth_test = DepthTest::kFarther;
+    EXPECT_TRUE(passes(configuration, true, 0, 0, 0));
     // The other test holds for creases, too.
-    EXPECT_FALSE(passes(rules, true, 1000, 8000000, 8000000));
+    EXPECT_FALSE(passes(configuration, true, 1000, 8000000, 8000000));
   }
 }
 
 TEST(DepthTest, NearerIsKnownWithTheNeighboursDepthAlone) {
   using golden::geometric::is_nearer;
-  Rules rules;
-  EXPECT_TRUE(is_nearer(rules, 6, 5));
-  EXPECT_FALSE(is_nearer(rules, 5, 5));
-  EXPECT_FALSE(is_nearer(rules, 5, 6));
+  Configuration configuration;
+  EXPECT_TRUE(is_nearer(configuration, 6, 5));
+  EXPECT_FALSE(is_nearer(configuration, 5, 5));
+  EXPECT_FALSE(is_nearer(configuration, 5, 6));
   for (const DepthTest test : {DepthTest::kOff, DepthTest::kOwn}) {
-    rules.depth_test = test;
-    EXPECT_FALSE(is_nearer(rules, 6, 5));
+    configuration.depth_test = test;
+    EXPECT_FALSE(is_nearer(configuration, 6, 5));
   }
 }
 
@@ -444,16 +444,16 @@ TEST(Weights, OutermostKeepsTheSmallerOfANearerPixel) {
 
 // Every pair of weights of an axis, against the division-free form written out; and which axis.
 TEST(Resolve, AllPairsOfWeights) {
-  Rules rules;
+  Configuration configuration;
   const spec::geometric::Rgba8 own = {10, 200, 77, 201}, one = {250, 3, 90, 1},
                                two = {0, 255, 76, 2};
   for (const bool linear : {false, true}) {
-    rules.linear_light = linear;
+    configuration.linear_light = linear;
     for (const bool mark : {false, true}) {
-      rules.mark = mark;
+      configuration.mark = mark;
       for (int a = 0; a <= 128; ++a) {
         for (int b = 0; b <= 128; ++b) {
-          const auto result = resolve(rules, {false, a, b}, own, one, two);
+          const auto result = resolve(configuration, {false, a, b}, own, one, two);
           for (std::size_t c = 0; c < 3; ++c) {
             const auto decode = [&](int code) {
               return linear
@@ -477,10 +477,10 @@ TEST(Resolve, AllPairsOfWeights) {
 }
 
 TEST(Resolve, TheHeavierAxisAndUpDownOnATie) {
-  EXPECT_TRUE(tap_of({10, 20, 15, 16}).left_right);
-  EXPECT_FALSE(tap_of({10, 20, 15, 15}).left_right);
-  EXPECT_FALSE(tap_of({10, 20, 15, 14}).left_right);
-  const auto vertical = tap_of({10, 20, 1, 2}), horizontal = tap_of({1, 2, 30, 40});
+  EXPECT_TRUE(probe_of({10, 20, 15, 16}).left_right);
+  EXPECT_FALSE(probe_of({10, 20, 15, 15}).left_right);
+  EXPECT_FALSE(probe_of({10, 20, 15, 14}).left_right);
+  const auto vertical = probe_of({10, 20, 1, 2}), horizontal = probe_of({1, 2, 30, 40});
   EXPECT_EQ(vertical.first, 10);
   EXPECT_EQ(vertical.second, 20);
   EXPECT_EQ(horizontal.first, 30);

@@ -827,7 +827,7 @@ Drawing random_drawing(std::uint64_t seed) {
   return d;
 }
 
-Parameters random_rules(tb::Random& random) {
+Parameters random_configuration(tb::Random& random) {
   Parameters p;
   p.select = static_cast<Select>(random.below(3));
   p.crease = static_cast<spec::geometric::Crease>(random.below(3));
@@ -860,7 +860,7 @@ TEST(LessTraffic, ChangesNoPixelAndNoCount) {
   std::array<std::size_t, std::size(kChoices)> left_out{};
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const Drawing d = random_drawing(seed);
-    const Parameters plain = random_rules(random);
+    const Parameters plain = random_configuration(random);
     const GeometricGolden reference = golden_of(plain, d);
     const auto reads = [](const GeometricGolden& golden) {
       std::size_t sum = 0;

@@ -26,7 +26,7 @@ namespace {
 using golden::ideal::smaa_area;
 using golden::ideal::SmaaWeights;
 using golden::morphological::AreaEntry;
-using golden::morphological::EdgeShares;
+using golden::morphological::EdgeWeights;
 using golden::morphological::FullAreaTable;
 using golden::morphological::line_ends;
 using golden::morphological::line_through;
@@ -37,13 +37,13 @@ using golden::morphological::MorphologicalGolden;
 using golden::morphological::pattern_of_shape;
 using golden::morphological::preset_parameters;
 using golden::morphological::table_address;
-using golden::morphological::table_shares;
-using spec::morphological::LineRecord;
+using golden::morphological::table_weights;
+using spec::morphological::LineDescriptor;
 using spec::morphological::Parameters;
 using spec::morphological::Preset;
 using spec::morphological::Quality;
 using spec::morphological::RunPart;
-using spec::morphological::RunRecord;
+using spec::morphological::RunDescriptor;
 using tb::morphological::Frame;
 
 // ---- entries ------------------------------------------------------------------------------------
@@ -107,8 +107,8 @@ TEST(AreaTable, HoldsThePublishedBytesIfAsked) {
     differing += entry != exact.entry(pattern, i, j);
   });
   EXPECT_GT(differing, 1000);
-  EXPECT_EQ(table_shares(1, 0, 224), (EdgeShares{128, 0}));
-  EXPECT_EQ(table_shares(1, 0, 224, AreaValues::kPublished), (EdgeShares{127, 0}));
+  EXPECT_EQ(table_weights(1, 0, 224), (EdgeWeights{128, 0}));
+  EXPECT_EQ(table_weights(1, 0, 224, AreaValues::kPublished), (EdgeWeights{127, 0}));
 }
 
 // Patterns that the merged layout reads together differ from those that it does not.
@@ -175,15 +175,15 @@ TEST(AreaTable, IsReadBetweenRoots) {
     const double root = 256 * std::sqrt(d);
     EXPECT_EQ(golden::morphological::table_root(d), std::floor(root)) << d;
   }
-  // At squares the share is the entry itself, halved.
+  // At squares the weight is the entry itself, halved.
   const FullAreaTable table;
   for (int shape = 0; shape < 16; ++shape) {
     for (int i = 0; i < 15; ++i) {
       for (int j = 0; j < 15; ++j) {
         const AreaEntry entry = table.entry(pattern_of_shape(shape), i, j);
-        const EdgeShares shares = table_shares(shape, i * i, j * j);
-        EXPECT_EQ(shares.first, (entry.first + 1) / 2);
-        EXPECT_EQ(shares.second, (entry.second + 1) / 2);
+        const EdgeWeights weights = table_weights(shape, i * i, j * j);
+        EXPECT_EQ(weights.first, (entry.first + 1) / 2);
+        EXPECT_EQ(weights.second, (entry.second + 1) / 2);
       }
     }
   }
@@ -194,7 +194,7 @@ TEST(AreaTable, NeverGivesMoreThanAHalf) {
   for (int shape = 0; shape < 16; ++shape) {
     for (int l = 0; l < spec::morphological::kTableDistances; ++l) {
       for (int r = 0; r < spec::morphological::kTableDistances; ++r) {
-        const EdgeShares s = table_shares(shape, l, r);
+        const EdgeWeights s = table_weights(shape, l, r);
         most = std::max({most, int{s.first}, int{s.second}});
       }
     }
@@ -202,7 +202,7 @@ TEST(AreaTable, NeverGivesMoreThanAHalf) {
   EXPECT_EQ(most, spec::morphological::kMaxWeight);
 }
 
-// The same run from its other end: codes and distances change places, shares stay.
+// The same run from its other end: codes and distances change places, weights stay.
 TEST(AreaTable, IsSymmetric) {
   for (int shape = 0; shape < 16; ++shape) {
     const int reversed = shape >> 2 | (shape & 3) << 2;
@@ -210,9 +210,9 @@ TEST(AreaTable, IsSymmetric) {
     const int upside_down = swapped(shape & 3) | swapped(shape >> 2) << 2;
     for (int l = 0; l < 225; l += 3) {
       for (int r = 0; r < 225; r += 2) {
-        const EdgeShares s = table_shares(shape, l, r);
-        EXPECT_EQ(table_shares(reversed, r, l), s);
-        EXPECT_EQ(table_shares(upside_down, l, r), (EdgeShares{s.second, s.first}));
+        const EdgeWeights s = table_weights(shape, l, r);
+        EXPECT_EQ(table_weights(reversed, r, l), s);
+        EXPECT_EQ(table_weights(upside_down, l, r), (EdgeWeights{s.second, s.first}));
       }
     }
   }
@@ -220,8 +220,8 @@ TEST(AreaTable, IsSymmetric) {
 
 // ---- distances and limits -----------------------------------------------------------------------
 
-LineRecord whole_run(int length, int shape) {
-  RunRecord run;
+LineDescriptor whole_run(int length, int shape) {
+  RunDescriptor run;
   run.length = static_cast<std::uint16_t>(length);
   run.shape = static_cast<std::uint8_t>(shape);
   golden::morphological::Prediction none;
@@ -229,18 +229,18 @@ LineRecord whole_run(int length, int shape) {
   return line_through(preset_parameters(Preset::kSmaa), run, none);
 }
 
-LineRecord part_of_long_run(RunPart part, int reach, int shape) {
-  RunRecord run;
+LineDescriptor part_of_long_run(RunPart part, int search_range, int shape) {
+  RunDescriptor run;
   run.part = part;
-  run.length = static_cast<std::uint16_t>(reach / 2);
+  run.length = static_cast<std::uint16_t>(search_range / 2);
   run.shape = static_cast<std::uint8_t>(shape);
   Parameters p = preset_parameters(Preset::kSmaa);
-  p.reach_columns = reach;
+  p.search_columns = search_range;
   return line_through(p, run, {});
 }
 
 TEST(LineEnds, AreTheRunsOwnAtEveryLength) {
-  const auto ends = [](const LineRecord& line) {
+  const auto ends = [](const LineDescriptor& line) {
     const LineEnds e = line_ends(line);
     return std::pair(e.first, e.last);
   };
@@ -257,7 +257,7 @@ TEST(LineEnds, AreTheRunsOwnAtEveryLength) {
 // Of an extended run they lie where its line leaves the strip: the chord of -6, -3, [0, 4] is at
 // -1/5 of a step at the start and takes 10/3 pixels a step.
 TEST(LineEnds, FollowTheLineOfAnExtendedRun) {
-  RunRecord run;
+  RunDescriptor run;
   run.length = 4;
   run.shape = 9;
   golden::morphological::Prediction p;
@@ -276,7 +276,7 @@ TEST(LineEnds, FollowTheLineOfAnExtendedRun) {
 TEST(LineEnds, AreRoundedAndLimited) {
   // t = above - 2^23, which is `above` over the lower end; 2^12 of it are a step of 1/4096.
   const auto ends = [](std::int32_t above, std::uint32_t inverse) {
-    LineRecord line;
+    LineDescriptor line;
     line.scale = 0;
     line.slope = 1;
     line.offset = (1 << 23) - above;
@@ -310,9 +310,9 @@ TEST(Searches, EndAtTheirLimits) {
           int seen = shape;
           if (before > left) seen &= 12;
           if (after > right) seen &= 3;
-          const LineRecord line = whole_run(before + after + 1, shape);
-          EXPECT_EQ(table_shares(table_address(line, line_ends(line), steps, before)),
-                    table_shares(seen, std::min(before, left), std::min(after, right)))
+          const LineDescriptor line = whole_run(before + after + 1, shape);
+          EXPECT_EQ(table_weights(table_address(line, line_ends(line), steps, before)),
+                    table_weights(seen, std::min(before, left), std::min(after, right)))
               << steps << ' ' << shape << ' ' << before << ' ' << after;
         }
       }
@@ -325,7 +325,7 @@ TEST(Searches, GoToTheirLimitAtAnEndlessEnd) {
   for (const int steps : {1, 4, 112}) {
     for (const int length : {1, 2, 9, 400}) {
       for (int endless = 0; endless < 4; ++endless) {
-        LineRecord line = whole_run(length, 9);
+        LineDescriptor line = whole_run(length, 9);
         line.run.endless = static_cast<std::uint8_t>(endless);
         const LineEnds ends = line_ends(line);
         EXPECT_EQ(ends.first, endless % 2 != 0 ? -4096 : 0);
@@ -352,14 +352,14 @@ TEST(Searches, GoToTheirLimitAtAnEndlessEnd) {
 // What one pixel more or less would do, on a Z: the far end is seen or not.
 TEST(Searches, SeeTheCrossingAtTheLimitOnly) {
   constexpr int kSteps = 4, kLeft = 7, kRight = 8;
-  const auto shares = [](int before, int after) {
-    const LineRecord line = whole_run(before + after + 1, 9);  // Z-first-second
-    return table_shares(table_address(line, line_ends(line), kSteps, before));
+  const auto weights = [](int before, int after) {
+    const LineDescriptor line = whole_run(before + after + 1, 9);  // Z-first-second
+    return table_weights(table_address(line, line_ends(line), kSteps, before));
   };
-  EXPECT_NE(shares(kLeft, 20).first, 0);      // starts just in sight
-  EXPECT_EQ(shares(kLeft + 1, 20).first, 0);  // a pixel too far
-  EXPECT_NE(shares(20, kRight).second, 0);
-  EXPECT_EQ(shares(20, kRight + 1).second, 0);
+  EXPECT_NE(weights(kLeft, 20).first, 0);      // starts just in sight
+  EXPECT_EQ(weights(kLeft + 1, 20).first, 0);  // a pixel too far
+  EXPECT_NE(weights(20, kRight).second, 0);
+  EXPECT_EQ(weights(20, kRight + 1).second, 0);
 }
 
 // ---- whole frames -------------------------------------------------------------------------------
@@ -386,37 +386,37 @@ TEST(AreaTable, GivesTheSameFramesInEveryLayout) {
 
 // With a chord or a fitted line the table is read where that line ends, to the pixel.
 TEST(AreaTable, GoesWithEveryPredictor) {
-  const auto shares = [&](const Frame& frame, const Parameters& p) {
+  const auto weights = [&](const Frame& frame, const Parameters& p) {
     MorphologicalGolden golden(p);
     golden.process(frame.view());
-    std::vector<EdgeShares> all;
+    std::vector<EdgeWeights> all;
     for (int y = 0; y < frame.height; ++y)
-      for (int x = 0; x < frame.width; ++x) all.push_back(golden.top_shares(x, y));
+      for (int x = 0; x < frame.width; ++x) all.push_back(golden.top_weights(x, y));
     return all;
   };
   const Frame blocks = tb::morphological::blocks_image();
   for (const auto preset : {Preset::kMlaaSlope, Preset::kDeburrLine}) {
     Parameters p = preset_parameters(preset);
     p.area = spec::morphological::AreaSource::kTableFull;
-    const auto table = shares(blocks, p);
+    const auto table = weights(blocks, p);
     for (const auto layout : {spec::morphological::AreaSource::kTableMerged,
                               spec::morphological::AreaSource::kTableMinimal}) {
       p.area = layout;
-      EXPECT_EQ(shares(blocks, p), table);
+      EXPECT_EQ(weights(blocks, p), table);
     }
     p.predictor = spec::morphological::Predictor::kNone;
-    EXPECT_NE(shares(blocks, p), table);
+    EXPECT_NE(weights(blocks, p), table);
   }
   // On a true line the chord's ends bring the table nearer to the chord's own areas; those of a fit
   // lie within half a pixel of the run's, so that it is the table of the run alone.
   const Frame line = tb::morphological::line_image();
   const auto off = [&](Parameters p) {
     p.area = spec::morphological::AreaSource::kAnalytic;
-    const auto analytic = shares(line, p);
+    const auto analytic = weights(line, p);
     const auto distance = [&](spec::morphological::Predictor predictor) {
       p.area = spec::morphological::AreaSource::kTableFull;
       p.predictor = predictor;
-      const auto table = shares(line, p);
+      const auto table = weights(line, p);
       int sum = 0;
       for (std::size_t i = 0; i < table.size(); ++i)
         sum += std::abs(table[i].first - analytic[i].first) +
@@ -436,27 +436,27 @@ TEST(AreaTable, GoesWithEveryPredictor) {
 // or more. Its tail holds 2N pixels with a reach of 4N + 1 and misses one that the search still
 // sees; with N = 32 the table has nothing for that pixel, so that a reach of 4N does as well.
 TEST(Searches, LoseNothingByTheReachOf4NPlus2) {
-  const auto shares = [](Quality quality, int length, int reach) {
+  const auto weights = [](Quality quality, int length, int search_range) {
     const Frame frame(length + 2, 4, [&](int x, int y) {
       const bool white = y == 3 || (y == 2 && x > 0) || (y == 1 && x > length);
       return tb::morphological::grey(white ? 255 : 0);
     });
     Parameters p = preset_parameters(Preset::kSmaa, quality);
-    p.reach_columns = reach;
+    p.search_columns = search_range;
     MorphologicalGolden golden(p);
     golden.process(frame.view());
-    EXPECT_EQ(golden.work().long_runs, reach < length ? 1u : 0u);
-    std::vector<EdgeShares> all;
-    for (int x = 1; x <= length; ++x) all.push_back(golden.top_shares(x, 2));
+    EXPECT_EQ(golden.work().long_runs, search_range < length ? 1u : 0u);
+    std::vector<EdgeWeights> all;
+    for (int x = 1; x <= length; ++x) all.push_back(golden.top_weights(x, 2));
     return all;
   };
-  const auto low = shares(Quality::kLow, 60, 100);
-  for (int reach = 18; reach < 60; ++reach) EXPECT_EQ(shares(Quality::kLow, 60, reach), low);
-  EXPECT_NE(shares(Quality::kLow, 60, 17), low);
-  const auto ultra = shares(Quality::kUltra, 300, 400);
-  EXPECT_EQ(shares(Quality::kUltra, 300, 130), ultra);
-  EXPECT_EQ(shares(Quality::kUltra, 300, 128), ultra);
-  EXPECT_NE(shares(Quality::kUltra, 300, 126), ultra);
+  const auto low = weights(Quality::kLow, 60, 100);
+  for (int search_range = 18; search_range < 60; ++search_range) EXPECT_EQ(weights(Quality::kLow, 60, search_range), low);
+  EXPECT_NE(weights(Quality::kLow, 60, 17), low);
+  const auto ultra = weights(Quality::kUltra, 300, 400);
+  EXPECT_EQ(weights(Quality::kUltra, 300, 130), ultra);
+  EXPECT_EQ(weights(Quality::kUltra, 300, 128), ultra);
+  EXPECT_NE(weights(Quality::kUltra, 300, 126), ultra);
 }
 
 // ---- border -------------------------------------------------------------------------------------
@@ -478,7 +478,7 @@ golden::morphological::EdgePlanes with_margin(const golden::morphological::EdgeP
   return large;
 }
 
-// With border = clamp every edge has the shares that it has in such a frame, whose margin no search
+// With border = clamp every edge has the weights that it has in such a frame, whose margin no search
 // crosses.
 TEST(Border, ClampedIsAFrameWhoseEdgesGoOn) {
   using golden::morphological::BitPlane;
@@ -510,13 +510,13 @@ TEST(Border, ClampedIsAFrameWhoseEdgesGoOn) {
         larger.process(outer.view(), with_margin(small, margin));
         for (int y = 0; y < height; ++y)
           for (int x = 0; x < width; ++x) {
-            ASSERT_EQ(clamped.top_shares(x, y), larger.top_shares(x + margin, y + margin))
+            ASSERT_EQ(clamped.top_weights(x, y), larger.top_weights(x + margin, y + margin))
                 << width << " x " << height << ", " << x << ' ' << y;
-            ASSERT_EQ(clamped.left_shares(x, y), larger.left_shares(x + margin, y + margin))
+            ASSERT_EQ(clamped.left_weights(x, y), larger.left_weights(x + margin, y + margin))
                 << width << " x " << height << ", " << x << ' ' << y;
             edges += small.left.at(x, y) + small.top.at(x, y);
-            differing += clamped.top_shares(x, y) != ended.top_shares(x, y) ||
-                         clamped.left_shares(x, y) != ended.left_shares(x, y);
+            differing += clamped.top_weights(x, y) != ended.top_weights(x, y) ||
+                         clamped.left_weights(x, y) != ended.left_weights(x, y);
           }
       }
     }
@@ -528,9 +528,9 @@ TEST(Border, ClampedIsAFrameWhoseEdgesGoOn) {
 // ---- corners ------------------------------------------------------------------------------------
 
 TEST(Corners, KeepTheirShareOfTheWeightBesideASharpCorner) {
-  const EdgeShares shares{100, 60};
+  const EdgeWeights weights{100, 60};
   const auto at = [&](int far, int stays, int k) {
-    const EdgeShares s = golden::morphological::rounded_at_corners(shares, far, stays, k, 4 - k);
+    const EdgeWeights s = golden::morphological::rounded_at_corners(weights, far, stays, k, 4 - k);
     return std::pair(int{s.first}, int{s.second});
   };
   for (int k = 0; k < 5; ++k) {
@@ -547,9 +547,9 @@ TEST(Corners, KeepTheirShareOfTheWeightBesideASharpCorner) {
 
 // Seven at 329 / 512 are 4.498, one at 257 / 512 is 0.502, a hundred and 64 at a half are whole.
 TEST(Corners, RoundToTheNearestShare) {
-  const auto middle = [&](int share, int stays) {
-    const EdgeShares shares{static_cast<std::uint8_t>(share), 0};
-    return int{golden::morphological::rounded_at_corners(shares, 1, stays, 1, 1).first};
+  const auto middle = [&](int weight, int stays) {
+    const EdgeWeights weights{static_cast<std::uint8_t>(weight), 0};
+    return int{golden::morphological::rounded_at_corners(weights, 1, stays, 1, 1).first};
   };
   EXPECT_EQ(middle(7, 73), 4);  // 2303 / 512
   EXPECT_EQ(middle(1, 1), 1);   // 257 / 512
@@ -569,33 +569,33 @@ TEST(Corners, SplitAnEvenRunInTwo) {
 // Near and far are told after the limit, which hides the far bits of an end beyond it: with N = 4
 // the pixels at l = r = 7 of a run of more than 15 are in the middle, and lose half.
 TEST(Corners, AreDecidedAfterTheLimitOfTheSearches) {
-  const auto shares = [&](int length, int k, int far, bool rounded) {
-    const LineRecord line = whole_run(length, 9);
+  const auto weights = [&](int length, int k, int far, bool rounded) {
+    const LineDescriptor line = whole_run(length, 9);
     const auto address = table_address(line, line_ends(line), 4, k);
-    const EdgeShares s = table_shares(address);
+    const EdgeWeights s = table_weights(address);
     if (!rounded) return std::pair(int{s.first}, int{s.second});
-    const EdgeShares kept = golden::morphological::rounded_at_corners(
+    const EdgeWeights kept = golden::morphological::rounded_at_corners(
         s, address.far_seen(far), 0, address.before, address.after);
     return std::pair(int{kept.first}, int{kept.second});
   };
   for (const int length : {17, 18, 30}) {
     for (int k = 0; k < length; ++k) {
       const int l = k, r = length - 1 - k;
-      const auto [first, second] = shares(length, k, 15, false);
-      const auto kept = shares(length, k, 15, true);
+      const auto [first, second] = weights(length, k, 15, false);
+      const auto kept = weights(length, k, 15, true);
       // A start beyond 7 pixels or an end beyond 8 gives nothing.
       const bool start = l <= 7, end = r <= 8;
       const int seen_l = std::min(l, 7), seen_r = std::min(r, 8);
       const int halves = seen_l < seen_r   ? (start ? 2 : 0)
                          : seen_l > seen_r ? (end ? 2 : 0)
                                            : (start ? 1 : 0) + (end ? 1 : 0);
-      const auto rest = [&](int share) { return (share * (512 - 256 * halves) + 256) >> 9; };
+      const auto rest = [&](int weight) { return (weight * (512 - 256 * halves) + 256) >> 9; };
       EXPECT_EQ(kept, std::pair(rest(first), rest(second))) << length << ' ' << k;
     }
   }
-  // The pixel with l beyond and r = 7: it has a share, and loses half of it.
-  EXPECT_EQ(shares(30, 22, 15, false).second, 11);
-  EXPECT_EQ(shares(30, 22, 15, true).second, 6);  // 5.5
+  // The pixel with l beyond and r = 7: it has a weight, and loses half of it.
+  EXPECT_EQ(weights(30, 22, 15, false).second, 11);
+  EXPECT_EQ(weights(30, 22, 15, true).second, 6);  // 5.5
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ using golden::morphological::blend;
 using golden::morphological::blend_channel;
 using golden::morphological::decide_by_length;
 using golden::morphological::Decision;
-using golden::morphological::PixelShares;
-using golden::morphological::tap_of;
+using golden::morphological::PixelWeights;
+using golden::morphological::probe_of;
 using tb::Random;
 
 TEST(Blender, DecidesTheAxisByThreeRules) {
@@ -49,7 +49,7 @@ TEST(Blender, DecidesTheAxisByTheStrongestShare) {
   EXPECT_EQ(decide_by_strength({10, 0, 9, 10, 2, 90}), Decision::kTie);
 }
 
-// Two shares in proportion to their squares, for every pair; a single one as it is.
+// Two weights in proportion to their squares, for every pair; a single one as it is.
 TEST(Blender, MixesSharesBySquares) {
   using golden::morphological::mixed_by_squares;
   using golden::morphological::Weights;
@@ -57,20 +57,20 @@ TEST(Blender, MixesSharesBySquares) {
     EXPECT_EQ(golden::morphological::mix_reciprocal(a),
               a == 0 ? 0u : static_cast<std::uint32_t>(std::floor(1048576.0 / a + 0.5)));
     for (int b = 0; b < 256; ++b) {
-      spec::morphological::BlendTap tap;
-      tap.horizontal = true;
-      tap.edges = 2;
-      tap.first = static_cast<std::uint8_t>(a);
-      tap.second = static_cast<std::uint8_t>(b);
-      const Weights mixed = mixed_by_squares(tap);
+      spec::morphological::BlendProbe probe;
+      probe.horizontal = true;
+      probe.edges = 2;
+      probe.first = static_cast<std::uint8_t>(a);
+      probe.second = static_cast<std::uint8_t>(b);
+      const Weights mixed = mixed_by_squares(probe);
       EXPECT_LE(mixed.first + mixed.second, 4096);
       const double sum = std::max(1, a + b);
       // The rounded reciprocal is off by half of 2^-20, of up to 255^2 at most.
       EXPECT_NEAR(mixed.first, 16 * a * a / sum, 0.5 + a * a / 131072.0) << a << ' ' << b;
       EXPECT_NEAR(mixed.second, 16 * b * b / sum, 0.5 + b * b / 131072.0) << a << ' ' << b;
-      EXPECT_EQ(golden::morphological::unmixed(tap), (Weights{16 * a, 16 * b}));
+      EXPECT_EQ(golden::morphological::unmixed(probe), (Weights{16 * a, 16 * b}));
       if (a == 0 || b == 0) {
-        EXPECT_EQ(mixed, golden::morphological::unmixed(tap));
+        EXPECT_EQ(mixed, golden::morphological::unmixed(probe));
       }
     }
   }
@@ -91,11 +91,11 @@ TEST(Blender, MixesWithinACodeInLinearLight) {
           const double exact = linear(c) + (a * a * d1 + b * b * d2) / (256 * sum);
           const int wanted =
               spec::morphological::kSrgbFromLinear12[static_cast<std::size_t>(std::lround(exact))];
-          spec::morphological::BlendTap tap;
-          tap.first = static_cast<std::uint8_t>(a);
-          tap.second = static_cast<std::uint8_t>(b);
+          spec::morphological::BlendProbe probe;
+          probe.first = static_cast<std::uint8_t>(a);
+          probe.second = static_cast<std::uint8_t>(b);
           const int got =
-              blend_channel(true, c, n1, n2, golden::morphological::mixed_by_squares(tap));
+              blend_channel(true, c, n1, n2, golden::morphological::mixed_by_squares(probe));
           most = std::max(most, std::abs(got - wanted));
           off += got != wanted;
         }
@@ -107,10 +107,10 @@ TEST(Blender, MixesWithinACodeInLinearLight) {
 }
 
 TEST(Blender, TakesTheSharesOfTheChosenAxisOnly) {
-  const PixelShares s{3, 4, 5, 6, 1, 2};
-  EXPECT_EQ(tap_of(s, Decision::kLongerLeftRight), (spec::morphological::BlendTap{true, 5, 6, 0}));
-  EXPECT_EQ(tap_of(s, Decision::kTie), (spec::morphological::BlendTap{false, 3, 4, 0}));
-  EXPECT_EQ(tap_of({}, Decision::kNone), spec::morphological::BlendTap{});
+  const PixelWeights s{3, 4, 5, 6, 1, 2};
+  EXPECT_EQ(probe_of(s, Decision::kLongerLeftRight), (spec::morphological::BlendProbe{true, 5, 6, 0}));
+  EXPECT_EQ(probe_of(s, Decision::kTie), (spec::morphological::BlendProbe{false, 3, 4, 0}));
+  EXPECT_EQ(probe_of({}, Decision::kNone), spec::morphological::BlendProbe{});
 }
 
 // Against the formula in real numbers: within half a code, halves away from the pixel.

@@ -82,7 +82,7 @@ TEST(RunCoverage, EveryBinCanBeReached) {
   wide.window_rows = 258;
   spec::morphological::Parameters narrow = preset_parameters(Preset::kMlaaSlope);
   narrow.window_rows = 50;
-  narrow.reach_columns = 24;
+  narrow.search_columns = 24;
   MorphologicalGolden a(wide), b(narrow);
   std::map<std::string, std::uint64_t> hits;
   const auto collect = [&] {
@@ -140,7 +140,7 @@ TEST(SmaaCoverage, EveryBinCanBeReached) {
   // Runs that reach the last entries of the table: a step, and a bar on a floor.
   spec::morphological::Parameters far = preset_parameters(Preset::kSmaa);
   far.search_steps = 112;
-  far.reach_columns = 1000;
+  far.search_columns = 1000;
   goldens.emplace_back(far);
   const Frame step = tb::stimuli::long_step(420), bar = tb::stimuli::long_bar(420);
   const Frame stairs = tb::stimuli::diagonals(60, 60, 3),
@@ -231,7 +231,7 @@ Hits once(Names... names) {
 
 using spec::morphological::Axis;
 using spec::morphological::RunPart;
-using spec::morphological::RunRecord;
+using spec::morphological::RunDescriptor;
 
 constexpr std::array<const char*, 2> kAxisNames = {"horizontal", "vertical"};
 
@@ -249,8 +249,8 @@ std::string shape_name(int shape) {
 }
 
 // A run that touches no border of a frame of 40 x 40.
-RunRecord inner_run(std::size_t axis, int length, int shape, RunPart part = RunPart::kWhole) {
-  RunRecord run;
+RunDescriptor inner_run(std::size_t axis, int length, int shape, RunPart part = RunPart::kWhole) {
+  RunDescriptor run;
   run.axis = static_cast<Axis>(axis);
   run.part = part;
   run.start = 3, run.line = 4;
@@ -259,7 +259,7 @@ RunRecord inner_run(std::size_t axis, int length, int shape, RunPart part = RunP
   return run;
 }
 
-Hits hits_of_run(const RunRecord& run, const golden::morphological::Prediction& prediction = {},
+Hits hits_of_run(const RunDescriptor& run, const golden::morphological::Prediction& prediction = {},
                  int extent = 40, int lines = 40) {
   RunCoverage coverage;
   coverage.count_run(run, prediction, extent, lines);
@@ -331,7 +331,7 @@ TEST(RunCoverage, SidesThatWereTriedHaveAnOutcomeAndAReason) {
 TEST(RunCoverage, RunsTouchTheFramesBorders) {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const auto borders = [&](int start, int line) {
-      RunRecord run = inner_run(axis, 5, 0);
+      RunDescriptor run = inner_run(axis, 5, 0);
       run.start = static_cast<std::uint16_t>(start);
       run.line = static_cast<std::uint16_t>(line);
       Hits hits = hits_of_run(run, {}, 12, 9);
@@ -480,21 +480,21 @@ TEST(SmaaCoverage, DiagonalsHaveCodesEndsAndALength) {
 TEST(SmaaCoverage, RecordsAreEndlessOrRepeatACrossing) {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const std::string of_axis = std::string("endless/") + kAxisNames[axis] + '/';
-    const auto record = [&](int endless, int shape, int extent, RunPart part = RunPart::kWhole) {
-      RunRecord run = inner_run(axis, 5, shape, part);
+    const auto descriptor = [&](int endless, int shape, int extent, RunPart part = RunPart::kWhole) {
+      RunDescriptor run = inner_run(axis, 5, shape, part);
       run.endless = static_cast<std::uint8_t>(endless);
       SmaaCoverage coverage;
-      coverage.count_record(run, extent);
+      coverage.count_descriptor(run, extent);
       return hits_of(coverage.bins());
     };
-    EXPECT_EQ(record(0, 9, 40), Hits{});
-    EXPECT_EQ(record(1, 8, 40), once(of_axis + "start"));
-    EXPECT_EQ(record(2, 1, 8), once(of_axis + "end"));
-    EXPECT_EQ(record(3, 0, 8), once(of_axis + "both"));
-    EXPECT_EQ(record(0, 5, 8), once(of_axis + "repeated"));
-    EXPECT_EQ(record(0, 5, 9), Hits{});  // does not meet the border
-    EXPECT_EQ(record(0, 4, 8, RunPart::kTail), once(of_axis + "repeated"));
-    EXPECT_EQ(record(0, 1, 8, RunPart::kHead), Hits{});
+    EXPECT_EQ(descriptor(0, 9, 40), Hits{});
+    EXPECT_EQ(descriptor(1, 8, 40), once(of_axis + "start"));
+    EXPECT_EQ(descriptor(2, 1, 8), once(of_axis + "end"));
+    EXPECT_EQ(descriptor(3, 0, 8), once(of_axis + "both"));
+    EXPECT_EQ(descriptor(0, 5, 8), once(of_axis + "repeated"));
+    EXPECT_EQ(descriptor(0, 5, 9), Hits{});  // does not meet the border
+    EXPECT_EQ(descriptor(0, 4, 8, RunPart::kTail), once(of_axis + "repeated"));
+    EXPECT_EQ(descriptor(0, 1, 8, RunPart::kHead), Hits{});
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Are diagonals found as docs/reference/morphological/smaa.md says? Staircases of every length with
 // every code at their ends, both ways, open or not, at borders; the table against the areas of its
-// lines; and what a pixel that is taken does to the shares of its edges.
+// lines; and what a pixel that is taken does to the weights of its edges.
 #include "golden/morphological/diagonals.h"
 
 #include <gmock/gmock.h>
@@ -17,11 +17,11 @@ namespace deburr::diagonals_test {
 namespace {
 
 using golden::morphological::BitPlane;
-using golden::morphological::diagonal_shares;
+using golden::morphological::diagonal_weights;
 using golden::morphological::diagonal_table;
 using golden::morphological::DiagonalAreas;
 using golden::morphological::DiagonalEnds;
-using golden::morphological::DiagonalShares;
+using golden::morphological::DiagonalWeights;
 using golden::morphological::EdgePlanes;
 using golden::morphological::falling_diagonal;
 using golden::morphological::MorphologicalGolden;
@@ -343,7 +343,7 @@ TEST(DiagonalTable, CostsTheContractsBits) {
   EXPECT_EQ(golden::morphological::DiagonalTable::kBits, 102400);
 }
 
-TEST(DiagonalShares, AddUpBothDirectionsAndSwapTheFallingOnes) {
+TEST(DiagonalWeights, AddUpBothDirectionsAndSwapTheFallingOnes) {
   DiagonalEnds up;
   up.d1 = 3;
   up.d2 = 1;
@@ -355,17 +355,17 @@ TEST(DiagonalShares, AddUpBothDirectionsAndSwapTheFallingOnes) {
   const DiagonalAreas a = diagonal_table().at(2, 0, 3, 1), b = diagonal_table().at(0, 3, 2, 4);
   ASSERT_NE(a.a, a.b);
   ASSERT_NE(b.a, b.b);
-  const DiagonalShares both = diagonal_shares(up, down);
+  const DiagonalWeights both = diagonal_weights(up, down);
   EXPECT_EQ(both.second, a.a + b.b);
   EXPECT_EQ(both.first, a.b + b.a);
   EXPECT_EQ(both.span, 7);
-  const DiagonalShares one = diagonal_shares(up, {});
+  const DiagonalWeights one = diagonal_weights(up, {});
   EXPECT_EQ(one.second, a.a);
   EXPECT_EQ(one.first, a.b);
   EXPECT_EQ(one.span, 5);
   down.d2 = 1;  // the rising one is the longer now
-  EXPECT_EQ(diagonal_shares(up, down).span, 5);
-  EXPECT_FALSE(diagonal_shares({}, {}).taken());
+  EXPECT_EQ(diagonal_weights(up, down).span, 5);
+  EXPECT_FALSE(diagonal_weights({}, {}).taken());
 }
 
 // ---- frames -------------------------------------------------------------------------------------
@@ -382,20 +382,20 @@ TEST(DiagonalPixels, TakeTheirSharesFromTheRuns) {
   std::uint64_t taken = 0, of_left = 0;
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
-      const DiagonalShares found =
+      const DiagonalWeights found =
           with.edges().top.at(x, y)
-              ? diagonal_shares(rising_diagonal(with.edges(), p.diagonal_steps, x, y, p.border),
+              ? diagonal_weights(rising_diagonal(with.edges(), p.diagonal_steps, x, y, p.border),
                                 falling_diagonal(with.edges(), p.diagonal_steps, x, y, p.border))
-              : DiagonalShares{};
+              : DiagonalWeights{};
       if (found.taken()) {
         ++taken;
-        of_left += without.left_shares(x, y) != golden::morphological::EdgeShares{};
-        EXPECT_EQ(with.top_shares(x, y).first, std::min(255, found.first));
-        EXPECT_EQ(with.top_shares(x, y).second, std::min(255, found.second));
-        EXPECT_EQ(with.left_shares(x, y), golden::morphological::EdgeShares{});
+        of_left += without.left_weights(x, y) != golden::morphological::EdgeWeights{};
+        EXPECT_EQ(with.top_weights(x, y).first, std::min(255, found.first));
+        EXPECT_EQ(with.top_weights(x, y).second, std::min(255, found.second));
+        EXPECT_EQ(with.left_weights(x, y), golden::morphological::EdgeWeights{});
       } else {
-        EXPECT_EQ(with.top_shares(x, y), without.top_shares(x, y));
-        EXPECT_EQ(with.left_shares(x, y), without.left_shares(x, y));
+        EXPECT_EQ(with.top_weights(x, y), without.top_weights(x, y));
+        EXPECT_EQ(with.left_weights(x, y), without.left_weights(x, y));
       }
     }
   }
@@ -404,7 +404,7 @@ TEST(DiagonalPixels, TakeTheirSharesFromTheRuns) {
   EXPECT_GT(of_left, 10u);
 }
 
-// The rule of the longest line keeps every share below a half.
+// The rule of the longest line keeps every weight below a half.
 TEST(DiagonalPixels, KeepWithinTheLimitOfTheBlendRule) {
   Parameters p = preset_parameters(Preset::kSmaa);
   const Frame frame = tb::morphological::noise_image();
@@ -415,7 +415,7 @@ TEST(DiagonalPixels, KeepWithinTheLimitOfTheBlendRule) {
     for (int y = 0; y < frame.height; ++y)
       for (int x = 0; x < frame.width; ++x)
         result = std::max(
-            {result, int{golden.top_shares(x, y).first}, int{golden.top_shares(x, y).second}});
+            {result, int{golden.top_weights(x, y).first}, int{golden.top_weights(x, y).second}});
     return result;
   };
   EXPECT_GT(most(), 128);

@@ -43,14 +43,14 @@ std::vector<Frame> frames() {
           tb::morphological::blocks_image(), tb::morphological::rendered_like(180, 120, 60)};
 }
 
-std::vector<spec::morphological::Parameters> rules() {
+std::vector<spec::morphological::Parameters> configuration() {
   std::vector<spec::morphological::Parameters> result;
   for (const auto preset :
        {Preset::kMlaa, Preset::kMlaaSlope, Preset::kDeburrLine, Preset::kDeburr}) {
     result.push_back(preset_parameters(preset));
     result.push_back(preset_parameters(preset));
     result.back().window_rows = 22;
-    result.back().reach_columns = 12;
+    result.back().search_columns = 12;
   }
   return result;
 }
@@ -59,7 +59,7 @@ std::vector<spec::morphological::Parameters> rules() {
 
 TEST(Symmetry, MirroringTheInputMirrorsTheOutput) {
   for (const Frame& frame : frames()) {
-    for (const auto& p : rules()) {
+    for (const auto& p : configuration()) {
       const Frame output = smooth(p, frame);
       EXPECT_EQ(smooth(p, mirrored_x(frame)), mirrored_x(output));
       EXPECT_EQ(smooth(p, mirrored_y(frame)), mirrored_y(output));
@@ -123,8 +123,8 @@ struct TransposedComparison {
 TEST(Symmetry, TransposingTransposesAllButTies) {
   int ties = 0, differing_ties = 0;
   for (const Frame& frame : frames()) {
-    for (auto p : rules()) {
-      p.reach_columns = golden::morphological::reach_rows(p);
+    for (auto p : configuration()) {
+      p.search_columns = golden::morphological::search_rows(p);
       for (const auto contrast :
            {p.local_contrast,
             spec::morphological::LocalContrast::kPaper}) {  // the paper's form transposes too
@@ -144,7 +144,7 @@ TEST(Symmetry, TransposingTransposesAllButTies) {
 TEST(Symmetry, TransposingTransposesSmaaButItsDiagonals) {
   using spec::morphological::DynamicLuma;
   spec::morphological::Parameters p = preset_parameters(Preset::kSmaa);
-  p.reach_columns = golden::morphological::reach_rows(p);
+  p.search_columns = golden::morphological::search_rows(p);
   const auto differing = [&] {
     int sum = 0;
     for (const Frame& frame : frames()) sum += TransposedComparison(p, frame).differing;
@@ -164,7 +164,7 @@ TEST(Symmetry, TransposingTransposesSmaaButItsDiagonals) {
 
 TEST(Symmetry, TransposingNeedsEqualReaches) {
   spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
-  p.reach_columns = 64;  // R = 32
+  p.search_columns = 64;  // R = 32
   const Frame frame(100, 20, [](int x, int y) { return grey(20 * y > 3 * x + 100 ? 255 : 0); });
   const Frame flat(100, 6, [](int x, int y) { return grey(y > (x < 50 ? 2 : 3) ? 255 : 0); });
   EXPECT_EQ(TransposedComparison(p, frame).differing, 0);
@@ -173,7 +173,7 @@ TEST(Symmetry, TransposingNeedsEqualReaches) {
 
 TEST(Symmetry, InvertingCodesInvertsInGammaSpace) {
   for (const Frame& frame : frames()) {
-    for (auto p : rules()) {
+    for (auto p : configuration()) {
       p.linear_light = false;
       EXPECT_EQ(smooth(p, inverted(frame)), inverted(smooth(p, frame)));
       p.linear_light = true;
@@ -192,7 +192,7 @@ TEST(Symmetry, InvertingCodesInvertsInGammaSpace) {
 // ---- extreme frames -----------------------------------------------------------------------------
 
 TEST(ExtremeFrames, WithoutEdgesPassUntouched) {
-  for (const auto& p : rules()) {
+  for (const auto& p : configuration()) {
     for (const auto& [w, h] : {std::pair(1, 1), {1, 40}, {40, 1}, {64, 64}, {130, 7}}) {
       for (const int code : {0, 17, 255}) {
         const Frame frame(w, h, [&](int, int) { return grey(code); });
@@ -208,7 +208,7 @@ TEST(ExtremeFrames, WithoutEdgesPassUntouched) {
 
 TEST(ExtremeFrames, OfOneRowOrColumnHaveRunsOfOne) {
   Random random(1);
-  for (const auto& p : rules()) {
+  for (const auto& p : configuration()) {
     if (p.area == spec::morphological::AreaSource::kLearned) continue;  // blends them a little
     const Frame row(200, 1, [&](int, int) { return grey(static_cast<int>(random.word() & 255)); });
     MorphologicalGolden golden(p);
@@ -224,7 +224,7 @@ TEST(ExtremeFrames, OfOneRowOrColumnHaveRunsOfOne) {
 
 TEST(ExtremeFrames, CheckerboardIsAllEdgesAndNothingElse) {
   const Frame frame(70, 66, [](int x, int y) { return grey((x + y) % 2 == 0 ? 0 : 255); });
-  for (const auto& p : rules()) {
+  for (const auto& p : configuration()) {
     if (p.area == spec::morphological::AreaSource::kLearned) continue;  // blends them a little
     MorphologicalGolden golden(p);
     golden.process(frame.view());
@@ -311,7 +311,7 @@ int changes(int columns, int rows) {
   Random random(3);
   spec::morphological::Parameters p = preset_parameters(Preset::kDeburrLine);
   p.window_rows = 12;  // R = 5
-  p.reach_columns = 6;
+  p.search_columns = 6;
   p.steps = 4;
   constexpr int kSize = 60, kX = 30, kY = 30;
   int result = 0;
@@ -341,7 +341,7 @@ int changes_by_edges(Preset preset, int columns, int rows) {
   Random random(5);
   spec::morphological::Parameters p = preset_parameters(preset);
   p.window_rows = 12;  // R = 5
-  p.reach_columns = 6;
+  p.search_columns = 6;
   p.steps = 4;
   MorphologicalGolden golden(p);
   constexpr int kSize = 24, kAt = 12;
@@ -366,15 +366,15 @@ int changes_by_edges(Preset preset, int columns, int rows) {
     }
     return result;
   };
-  const auto tap = [&](const golden::morphological::EdgePlanes& edges) {
+  const auto probe = [&](const golden::morphological::EdgePlanes& edges) {
     golden.process(frame.view(), edges);
-    return golden.taps()[kAt * kSize + kAt];
+    return golden.probes()[kAt * kSize + kAt];
   };
   int result = 0;
   for (int i = 0; i < 3000; ++i) {
     const golden::morphological::EdgePlanes edges = draw(), others = draw();
     result +=
-        tap(edges) != tap({near_as_in(edges.left, others.left), near_as_in(edges.top, others.top)});
+        probe(edges) != probe({near_as_in(edges.left, others.left), near_as_in(edges.top, others.top)});
   }
   return result;
 }
@@ -394,7 +394,7 @@ TEST(Locality, NoEdgeBeyondTheReachMatters) {
 
 TEST(Intermediates, AgreeWithEachOther) {
   for (const Frame& frame : frames()) {
-    for (const auto& p : rules()) {
+    for (const auto& p : configuration()) {
       MorphologicalGolden golden(p);
       golden.process(frame.view());
       const spec::morphological::Work& work = golden.work();
@@ -403,19 +403,19 @@ TEST(Intermediates, AgreeWithEachOther) {
       for (int y = 0; y < frame.height; ++y) {
         for (int x = 0; x < frame.width; ++x) {
           const auto i = static_cast<std::size_t>(y * frame.width + x);
-          const spec::morphological::BlendTap& tap = golden.taps()[i];
-          EXPECT_EQ(tap.edges,
+          const spec::morphological::BlendProbe& probe = golden.probes()[i];
+          EXPECT_EQ(probe.edges,
                     (golden.edges().left.at(x, y) ? 1 : 0) | (golden.edges().top.at(x, y) ? 2 : 0));
-          counted.edge_pixels += tap.edges != 0;
-          counted.blended_pixels += (tap.first | tap.second) != 0;
-          EXPECT_EQ(golden.decisions()[i] != Decision::kNone, (tap.first | tap.second) != 0);
-          if ((tap.first | tap.second) == 0) {
+          counted.edge_pixels += probe.edges != 0;
+          counted.blended_pixels += (probe.first | probe.second) != 0;
+          EXPECT_EQ(golden.decisions()[i] != Decision::kNone, (probe.first | probe.second) != 0);
+          if ((probe.first | probe.second) == 0) {
             EXPECT_EQ(golden.pixels()[i], frame.pixels[i]);
           }
         }
       }
       for (const PredictedRun& run : golden.runs()) {
-        const spec::morphological::RunRecord& r = run.line.run;
+        const spec::morphological::RunDescriptor& r = run.line.run;
         const bool whole = r.part == spec::morphological::RunPart::kWhole;
         if (r.part != spec::morphological::RunPart::kTail) {
           ++(r.axis == spec::morphological::Axis::kHorizontal ? counted.horizontal_runs
@@ -429,7 +429,7 @@ TEST(Intermediates, AgreeWithEachOther) {
         counted.probes += run.probes;
         counted.divides += run.line.before != spec::morphological::Side::kNone ||
                            run.line.after != spec::morphological::Side::kNone;
-        EXPECT_LE(run.line.span, golden::morphological::reach(p, r.axis) * 2 + 1);
+        EXPECT_LE(run.line.span, golden::morphological::search_range(p, r.axis) * 2 + 1);
         EXPECT_LE(run.iterations, p.steps);
       }
       EXPECT_EQ(counted, work);
@@ -442,7 +442,7 @@ TEST(Intermediates, RunsComeInCanonicalOrder) {
   const Frame frame = tb::morphological::blocks_image();
   golden.process(frame.view());
   const auto key = [](const PredictedRun& run) {
-    const spec::morphological::RunRecord& r = run.line.run;
+    const spec::morphological::RunDescriptor& r = run.line.run;
     return r.axis == spec::morphological::Axis::kHorizontal ? std::tuple(0, r.line, r.start)
                                                             : std::tuple(1, r.start, r.line);
   };
@@ -457,7 +457,7 @@ TEST(Intermediates, FewerWhenOnlyPixelsAreAsked) {
   MorphologicalGolden everything(p), pixels(p, MorphologicalGolden::Detail::kPixels);
   EXPECT_EQ(everything.process(frame.view()), pixels.process(frame.view()));
   EXPECT_EQ(everything.work(), pixels.work());
-  EXPECT_TRUE(pixels.taps().empty() && pixels.runs().empty() && pixels.decisions().empty());
+  EXPECT_TRUE(pixels.probes().empty() && pixels.runs().empty() && pixels.decisions().empty());
 }
 
 // ---- memory -------------------------------------------------------------------------------------
@@ -489,7 +489,7 @@ TEST(FrameMemory, LinesThatCannotBeReadAreZeros) {
   for (int x = 0; x < 40; ++x) {
     const auto i = static_cast<std::size_t>(3 * 40 + x);
     if (x >= 16 && x < 32) {
-      if ((golden.taps()[i].first | golden.taps()[i].second) == 0) {
+      if ((golden.probes()[i].first | golden.probes()[i].second) == 0) {
         EXPECT_EQ(bad[i], spec::morphological::Rgba8{});
       }
       EXPECT_EQ(bad[i][3], 0);
@@ -570,7 +570,7 @@ TEST(NamedErrors, OfParameters) {
             }),
             "");
   EXPECT_EQ(error_of([](P& p) { p.window_rows = 20; }), "");
-  EXPECT_THAT(error_of([](P& p) { p.reach_columns = 3; }), HasSubstr("outside 4..2048"));
+  EXPECT_THAT(error_of([](P& p) { p.search_columns = 3; }), HasSubstr("outside 4..2048"));
   EXPECT_THAT(error_of([](P& p) { p.threshold = 0; }), HasSubstr("edges.threshold"));
   EXPECT_THAT(error_of([](P& p) {
                 p.edge_source = spec::morphological::EdgeSource::kPredicated;
@@ -666,7 +666,7 @@ TEST(NamedErrors, OfFrames) {
 
 TEST(GivenEdges, GiveWhatTheyGaveWhereTheyWereFound) {
   for (const Frame& frame : frames()) {
-    for (const auto& p : rules()) {
+    for (const auto& p : configuration()) {
       MorphologicalGolden found(p), given(p);
       found.process(frame.view());
       EXPECT_NE(found.pixels(), frame.pixels);
@@ -681,19 +681,19 @@ TEST(GivenEdges, GiveWhatTheyGaveWhereTheyWereFound) {
 }
 
 TEST(FollowingGeometric, KeepsADynamicThresholdAndItsEdges) {
-  const spec::morphological::FollowingRules rules;
+  const spec::morphological::FollowingRules configuration;
   spec::morphological::Parameters p = preset_parameters(Preset::kDeburrLine);
   const spec::morphological::Parameters fixed = golden::morphological::following_geometric(p);
-  EXPECT_EQ(fixed.leave, rules.leave);
-  EXPECT_EQ(fixed.edge_source, rules.edge_source);
-  EXPECT_EQ(fixed.threshold_on_depth_edge, rules.threshold_on_depth_edge);
-  EXPECT_EQ(fixed.threshold_off_depth_edge, rules.threshold_off_depth_edge);
+  EXPECT_EQ(fixed.leave, configuration.leave);
+  EXPECT_EQ(fixed.edge_source, configuration.edge_source);
+  EXPECT_EQ(fixed.threshold_on_depth_edge, configuration.threshold_on_depth_edge);
+  EXPECT_EQ(fixed.threshold_off_depth_edge, configuration.threshold_off_depth_edge);
   p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
-  p.threshold_on_depth_edge = rules.threshold_on_depth_edge + 1;
+  p.threshold_on_depth_edge = configuration.threshold_on_depth_edge + 1;
   const spec::morphological::Parameters dynamic = golden::morphological::following_geometric(p);
-  EXPECT_NE(p.leave, rules.leave);
-  EXPECT_EQ(dynamic.leave, rules.leave);
-  EXPECT_NE(p.edge_source, rules.edge_source);
+  EXPECT_NE(p.leave, configuration.leave);
+  EXPECT_EQ(dynamic.leave, configuration.leave);
+  EXPECT_NE(p.edge_source, configuration.edge_source);
   EXPECT_EQ(dynamic.edge_source, p.edge_source);
   EXPECT_EQ(dynamic.threshold_on_depth_edge, p.threshold_on_depth_edge);
 }

@@ -105,9 +105,9 @@ TEST(Runs, HaveTheShapeOfTheirCrossings) {
     if ((code & 4) != 0) edges.across.set(9, 2);
     if ((code & 8) != 0) edges.across.set(9, 3);
     edges.across.set(6, 2);  // a crossing in the middle does not end a run
-    const auto records = find_runs(preset_parameters(Preset::kMlaa), edges);
-    ASSERT_EQ(records.size(), 1u);
-    EXPECT_EQ(records[0], (spec::morphological::RunRecord{spec::morphological::Axis::kHorizontal,
+    const auto descriptors = find_runs(preset_parameters(Preset::kMlaa), edges);
+    ASSERT_EQ(descriptors.size(), 1u);
+    EXPECT_EQ(descriptors[0], (spec::morphological::RunDescriptor{spec::morphological::Axis::kHorizontal,
                                                           spec::morphological::RunPart::kWhole, 3,
                                                           4, 5, static_cast<std::uint8_t>(code)}));
   }
@@ -149,16 +149,16 @@ TEST(Runs, KnowWhichOfTheirCrossingsGoOn) {
     if ((far & 4) != 0) edges.across.set(9, 1);
     if ((far & 8) != 0) edges.across.set(9, 4);
     p.round_corners = true;
-    p.reach_columns = 256;
-    auto records = find_runs(p, edges);
-    ASSERT_EQ(records.size(), 1u);
-    EXPECT_EQ(records[0].far, far);
-    EXPECT_EQ(records[0].shape, 0);
-    p.reach_columns = 4;
-    records = find_runs(p, edges);
-    ASSERT_EQ(records.size(), 2u);
-    EXPECT_EQ(records[0].far, far & 3);
-    EXPECT_EQ(records[1].far, far & 12);
+    p.search_columns = 256;
+    auto descriptors = find_runs(p, edges);
+    ASSERT_EQ(descriptors.size(), 1u);
+    EXPECT_EQ(descriptors[0].far, far);
+    EXPECT_EQ(descriptors[0].shape, 0);
+    p.search_columns = 4;
+    descriptors = find_runs(p, edges);
+    ASSERT_EQ(descriptors.size(), 2u);
+    EXPECT_EQ(descriptors[0].far, far & 3);
+    EXPECT_EQ(descriptors[1].far, far & 12);
     p.round_corners = false;
     EXPECT_EQ(find_runs(p, edges)[0].far, 0);
   }
@@ -212,7 +212,7 @@ TEST(Runs, GoOnBeyondTheBorderOrRepeatItsCrossing) {
   EXPECT_EQ(start[0].endless, 1);
   EXPECT_EQ(both[0].endless, 3);
   EXPECT_EQ(runs(Border::kClamp, 3, 1, 10, 0)[0].endless, 0);
-  p.reach_columns = 8;
+  p.search_columns = 8;
   const auto parts = runs(Border::kClamp, 3, 0, 11, 0);
   ASSERT_EQ(parts.size(), 2u);
   EXPECT_EQ(parts[0].endless, 1);
@@ -221,24 +221,24 @@ TEST(Runs, GoOnBeyondTheBorderOrRepeatItsCrossing) {
 
 TEST(Runs, BeyondTheReachAreCutToTheirEnds) {
   spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
-  p.reach_columns = 9;
+  p.search_columns = 9;
   for (int length = 1; length <= 40; ++length) {
     AxisEdges edges{spec::morphological::Axis::kHorizontal, BitPlane(50, 4), BitPlane(50, 4)};
     for (int x = 3; x < 3 + length; ++x) edges.along.set(x, 2);
     edges.across.set(3, 1);           // start: N
     edges.across.set(3 + length, 2);  // end: S
-    const auto records = find_runs(p, edges);
+    const auto descriptors = find_runs(p, edges);
     if (length <= 9) {
-      ASSERT_EQ(records.size(), 1u);
-      EXPECT_EQ(records[0].shape, 1 + 4 * 2);
+      ASSERT_EQ(descriptors.size(), 1u);
+      EXPECT_EQ(descriptors[0].shape, 1 + 4 * 2);
       continue;
     }
-    ASSERT_EQ(records.size(), 2u);
-    EXPECT_EQ(records[0],
-              (spec::morphological::RunRecord{spec::morphological::Axis::kHorizontal,
+    ASSERT_EQ(descriptors.size(), 2u);
+    EXPECT_EQ(descriptors[0],
+              (spec::morphological::RunDescriptor{spec::morphological::Axis::kHorizontal,
                                               spec::morphological::RunPart::kHead, 2, 3, 4, 1}));
-    EXPECT_EQ(records[1],
-              (spec::morphological::RunRecord{spec::morphological::Axis::kHorizontal,
+    EXPECT_EQ(descriptors[1],
+              (spec::morphological::RunDescriptor{spec::morphological::Axis::kHorizontal,
                                               spec::morphological::RunPart::kTail, 2,
                                               static_cast<std::uint16_t>(3 + length - 4), 4, 8}));
   }
@@ -249,9 +249,9 @@ TEST(Runs, OfTheOtherAxisAreThoseOfTheTransposedFrame) {
   const EdgePlanes edges{random_plane(90, 70, 60, random), random_plane(90, 70, 60, random)};
   const EdgePlanes turned{edges.top.transposed(), edges.left.transposed()};
   auto p = preset_parameters(spec::morphological::Preset::kDeburrLine);
-  p.reach_columns = golden::morphological::reach_rows(p);
+  p.search_columns = golden::morphological::search_rows(p);
   auto vertical = find_runs(p, AxisEdges::vertical(edges));
-  for (spec::morphological::RunRecord& run : vertical)
+  for (spec::morphological::RunDescriptor& run : vertical)
     run.axis = spec::morphological::Axis::kHorizontal;
   EXPECT_EQ(vertical, find_runs(p, AxisEdges::horizontal(turned)));
   EXPECT_GT(vertical.size(), 100u);
@@ -360,7 +360,7 @@ std::vector<PredictedRun> complete_runs(const MorphologicalGolden& golden) {
 TEST(Extension, FollowsAPureLineForAllStepsOnBothSides) {
   Random random(5);
   spec::morphological::Parameters p = preset_parameters(Preset::kDeburrLine);
-  p.reach_columns = 2048;
+  p.search_columns = 2048;
   std::size_t inner = 0;
   for (int i = 0; i < 300; ++i) {
     const double slope = 1 / random.uniform(1.05, 12);
@@ -406,7 +406,7 @@ TEST(Extension, OutcomeNamesTheOtherStep) {
 TEST(Extension, ProbesDoNotGrowWithTheLengthOfRuns) {
   spec::morphological::Parameters p = preset_parameters(Preset::kMlaaSlope);
   p.steps = 8;
-  p.reach_columns = 2048;
+  p.search_columns = 2048;
   for (const int n : {2, 5, 10, 20, 40}) {
     MorphologicalGolden golden(p);
     const Frame frame = line_frame(1 / (n + 0.37), 0.2, 40 * n);
@@ -518,20 +518,20 @@ TEST(Trim, KeepsAllWhereTheStepsOrTheReachEnd) {
   EXPECT_EQ(kept(all), (Kept{8, 8}));
   EXPECT_EQ(all.left_end, SideEnd::kSteps);
   // From X = 9 on the steps of 3, 2 and 4 end at 12, 11 and 13.
-  for (const auto& [reach, steps, end] : {std::tuple{10, 2, SideEnd::kReach},
+  for (const auto& [search_range, steps, end] : {std::tuple{10, 2, SideEnd::kReach},
                                           {11, 2, SideEnd::kReach},
                                           {12, 3, SideEnd::kReach},
                                           {15, 4, SideEnd::kReach}}) {
-    p.reach_columns = reach;
+    p.search_columns = search_range;
     const PredictedRun run = run_at(frame, p, 36);
-    EXPECT_EQ(kept(run), (Kept{steps, steps})) << "reach " << reach;
+    EXPECT_EQ(kept(run), (Kept{steps, steps})) << "reach " << search_range;
     EXPECT_EQ(run.right_end, end);
   }
   // A step of 9 that could have been one of 4 within the reach is evidence.
-  p.reach_columns = 13;
+  p.search_columns = 13;
   const Frame bent = staircase({3, 3, 3, 3, 3, 3, 3, 9, 2});
   EXPECT_EQ(kept(run_at(bent, p, 12)).right, 1);
-  p.reach_columns = 12;
+  p.search_columns = 12;
   EXPECT_EQ(kept(run_at(bent, p, 12)).right, 2);
 }
 
@@ -568,7 +568,7 @@ TEST(Trim, LeavesWhatTheContractSays) {
     for (const auto preset : {Preset::kDeburrLine, Preset::kMlaaSlope}) {
       spec::morphological::Parameters p = trimmed(preset, false);
       p.window_rows = 20;
-      p.reach_columns = 30;
+      p.search_columns = 30;
       const std::vector<PredictedRun> whole = runs_of(frame, p);
       p.trim = true;
       const std::vector<PredictedRun> cut = runs_of(frame, p);
@@ -642,7 +642,7 @@ TEST(Theorem1, HoldsForMoreThanTwoHundredThousandRuns) {
   Random random(6);
   TheoremCheck check;
   spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
-  p.reach_columns = 2048;
+  p.search_columns = 2048;
   while (check.runs < 220000) {
     const double slope = 1 / random.uniform(1, 6);
     MorphologicalGolden golden(p);
@@ -660,7 +660,7 @@ TEST(Theorem1, HoldsForMoreThanTwoHundredThousandRuns) {
 TEST(Theorem1, ALineThatBendsIsCaught) {
   spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
   MorphologicalGolden golden(p);
-  // The planted violation: slope 1/3.3, then 1/5.4.
+  // The injected violation: slope 1/3.3, then 1/5.4.
   const Frame frame(200, 70, [](int x, int y) {
     const double t = x + 0.5;
     return grey(y + 0.5 < 3 + (t < 100 ? t / 3.3 : 100 / 3.3 + (t - 100) / 5.4) ? 255 : 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Does the golden give the numbers of docs/reference/morphological/vectors.md? Shares of
+// Does the golden give the numbers of docs/reference/morphological/vectors.md? Weights of
 // every edge of the patterns, the limit of the searches, and the tables; its frames are in
 // vectors_test.cpp.
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@
 namespace deburr::smaa_vectors_test {
 namespace {
 
-using golden::morphological::EdgeShares;
+using golden::morphological::EdgeWeights;
 using golden::morphological::MorphologicalGolden;
 using golden::morphological::preset_parameters;
 using spec::morphological::Preset;
@@ -31,25 +31,25 @@ using tb::morphological::Frame;
 
 // ---- patterns -----------------------------------------------------------------------------------
 
-std::ostream& put(std::ostream& out, EdgeShares s) {
+std::ostream& put(std::ostream& out, EdgeWeights s) {
   return out << int{s.first} << '/' << int{s.second};
 }
 
-// Every edge with shares: those above pixels first, then those left of them.
-std::string shares_of(const MorphologicalGolden& golden) {
+// Every edge with weights: those above pixels first, then those left of them.
+std::string weights_of(const MorphologicalGolden& golden) {
   std::ostringstream all;
   const char* comma = "";
   const auto list = [&](const char* name, auto&& of) {
     for (int y = 0; y < golden.height(); ++y) {
       for (int x = 0; x < golden.width(); ++x) {
-        if (of(x, y) == EdgeShares{}) continue;
+        if (of(x, y) == EdgeWeights{}) continue;
         put(all << comma << name << '(' << x << ',' << y << ") ", of(x, y));
         comma = ", ";
       }
     }
   };
-  list("t", [&](int x, int y) { return golden.top_shares(x, y); });
-  list("l", [&](int x, int y) { return golden.left_shares(x, y); });
+  list("t", [&](int x, int y) { return golden.top_weights(x, y); });
+  list("l", [&](int x, int y) { return golden.left_weights(x, y); });
   return all.str();
 }
 
@@ -60,7 +60,7 @@ TEST(SmaaPatterns, HaveTheContractsShares) {
     MorphologicalGolden golden(preset_parameters(Preset::kSmaa, v.quality));
     Frame output = input;
     output.pixels = golden.process(input.view());
-    EXPECT_EQ(shares_of(golden), v.shares);
+    EXPECT_EQ(weights_of(golden), v.weights);
     const spec::morphological::PatternResult got = {hash(output), golden.work().diagonal_pixels};
     EXPECT_EQ(differences(v.result, got), "");
     tb::expect_each_value_is_compared(v.result, got);
@@ -75,9 +75,9 @@ TEST(SmaaLimits, CutTheSearchesOfEachPixel) {
     const Frame frame = tb::morphological::vector_image(v);
     Frame output = frame;
     output.pixels = golden.process(frame.view());
-    std::ostringstream shares;
-    for (int x = 1; x <= v.length; ++x) put(shares << (x > 1 ? " " : ""), golden.top_shares(x, 2));
-    EXPECT_EQ(shares.str(), v.shares) << v.length;
+    std::ostringstream weights;
+    for (int x = 1; x <= v.length; ++x) put(weights << (x > 1 ? " " : ""), golden.top_weights(x, 2));
+    EXPECT_EQ(weights.str(), v.weights) << v.length;
     const spec::morphological::LimitResult got = {hash(output)};
     EXPECT_EQ(differences(v.result, got), "") << v.length;
     tb::expect_each_value_is_compared(v.result, got);
@@ -132,15 +132,15 @@ TEST(SmaaTables, GiveTheContractsShares) {
   for (const spec::morphological::TableVector& v : spec::morphological::kTableVectors) {
     SCOPED_TRACE(testing::Message() << v.l << ' ' << v.r);
     // L-first-none and U-first.
-    const EdgeShares half = golden::morphological::table_shares(1, v.l, v.r),
-                     dip = golden::morphological::table_shares(5, v.l, v.r);
+    const EdgeWeights half = golden::morphological::table_weights(1, v.l, v.r),
+                     dip = golden::morphological::table_weights(5, v.l, v.r);
     const spec::morphological::TableResult got = {half.first, dip.first};
     EXPECT_EQ(differences(v.result, got), "");
     tb::expect_each_value_is_compared(v.result, got);
     EXPECT_EQ(half.second, 0);
     EXPECT_EQ(dip.second, 0);
     // L-none-second: the mirror image on the other side.
-    EXPECT_EQ(golden::morphological::table_shares(8, v.r, v.l), (EdgeShares{0, half.first}));
+    EXPECT_EQ(golden::morphological::table_weights(8, v.r, v.l), (EdgeWeights{0, half.first}));
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tests and the benchmark of the morphological golden share: pictures from tb/stimuli as
+// What the tests and the benchmark of the morphological golden weight: pictures from tb/stimuli as
 // its frames.
 #pragma once
 

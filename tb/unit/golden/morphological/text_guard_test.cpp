@@ -31,8 +31,8 @@ using golden::morphological::GuardedPixel;
 using golden::morphological::MorphologicalGolden;
 using golden::morphological::preset_parameters;
 using golden::morphological::TextGuard;
-using spec::morphological::BlendTap;
-using spec::morphological::Leave;
+using spec::morphological::BlendProbe;
+using spec::morphological::Bypass;
 using spec::morphological::Parameters;
 using spec::morphological::Preset;
 using spec::morphological::Rgba8;
@@ -338,20 +338,20 @@ void expect_as_put_back(Parameters p, const Frame& frame) {
   for (int y = 0; y < frame.height; ++y)
     for (int x = 0; x < frame.width; ++x) {
       const auto i = static_cast<std::size_t>(y * frame.width + x);
-      const BlendTap before = plain.taps()[i];
-      BlendTap tap = before;
+      const BlendProbe before = plain.probes()[i];
+      BlendProbe probe = before;
       Rgba8 pixel = plain.pixels()[i];
       if (guard.at(x, y).guarded()) {
-        tap = {false, 0, 0, before.edges};
+        probe = {false, 0, 0, before.edges};
         pixel = frame.pixels[i];
-        if (p.leave != Leave::kNone) pixel[3] |= 1;
+        if (p.leave != Bypass::kNone) pixel[3] |= 1;
         if ((before.first | before.second) != 0) {
           --work.blended_pixels;
-          ++work.left_pixels;
+          ++work.bypassed_pixels;
         }
       }
       ASSERT_EQ(golden.pixels()[i], pixel) << x << ' ' << y;
-      ASSERT_EQ(golden.taps()[i], tap) << x << ' ' << y;
+      ASSERT_EQ(golden.probes()[i], probe) << x << ' ' << y;
     }
   EXPECT_EQ(golden.work(), work);
   EXPECT_EQ(golden.decisions(), plain.decisions());
@@ -374,7 +374,7 @@ TEST(TextGuard, PutsBackWhatIsGuarded) {
 // With marks: both rules leave a pixel, and count it once.
 TEST(TextGuard, GoesWithEveryRuleOfMarks) {
   Random random(22);
-  for (const Leave leave : {Leave::kMarked, Leave::kBeside, Leave::kHalf, Leave::kMasked}) {
+  for (const Bypass leave : {Bypass::kMarked, Bypass::kBeside, Bypass::kHalf, Bypass::kMasked}) {
     Parameters p = preset_parameters(Preset::kDeburrLine);
     p.leave = leave;
     Frame frame = tb::morphological::text_image();
@@ -386,9 +386,9 @@ TEST(TextGuard, GoesWithEveryRuleOfMarks) {
     p.text_guard = true;
     MorphologicalGolden golden(p);
     golden.process(frame.view());
-    EXPECT_GT(golden.work().left_pixels, plain.work().left_pixels + 100);
-    EXPECT_EQ(golden.work().left_pixels + golden.work().blended_pixels,
-              plain.work().left_pixels + plain.work().blended_pixels);
+    EXPECT_GT(golden.work().bypassed_pixels, plain.work().bypassed_pixels + 100);
+    EXPECT_EQ(golden.work().bypassed_pixels + golden.work().blended_pixels,
+              plain.work().bypassed_pixels + plain.work().blended_pixels);
     const TextGuard guard(frame.view());
     for (int y = 0; y < frame.height; ++y)
       for (int x = 0; x < frame.width; ++x) {
@@ -427,7 +427,7 @@ TEST(TextGuard, IsOfPixelsAsTheyCame) {
   golden.process(frame.view());
   whole.process(frame.view());
   EXPECT_EQ(golden.work(), whole.work());
-  EXPECT_EQ(golden.taps(), whole.taps());
+  EXPECT_EQ(golden.probes(), whole.probes());
   EXPECT_NE(golden.pixels(), whole.pixels());
 }
 
@@ -500,7 +500,7 @@ TEST(GuardCoverage, EveryBinCanBeReached) {
   Random random(31);
   Parameters p = preset_parameters(Preset::kDeburr);
   p.text_guard = true;
-  p.leave = Leave::kMarked;
+  p.leave = Bypass::kMarked;
   MorphologicalGolden golden(p);
   std::vector<Frame> frames = {tb::morphological::text_image()};
   for (int i = 0; i < 40; ++i) frames.push_back(patches(60, 50, random));

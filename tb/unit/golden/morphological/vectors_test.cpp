@@ -25,11 +25,11 @@
 namespace deburr::vectors_test {
 namespace {
 
-using golden::morphological::EdgeShares;
+using golden::morphological::EdgeWeights;
 using golden::morphological::MorphologicalGolden;
 using golden::morphological::Prediction;
 using golden::morphological::preset_parameters;
-using golden::morphological::shares;
+using golden::morphological::weights;
 using spec::morphological::FrameResult;
 using spec::morphological::FrameVector;
 using spec::morphological::Preset;
@@ -50,7 +50,7 @@ FrameResult result_of(const FrameVector& v, MorphologicalGolden::Detail detail) 
   return {hash(output),     w.edge_pixels, w.horizontal_runs + w.vertical_runs,
           w.long_runs,      w.z_runs,      w.extended_runs,
           w.steps,          w.probes,      w.diagonal_pixels,
-          w.blended_pixels, w.left_pixels};
+          w.blended_pixels, w.bypassed_pixels};
 }
 
 class TestVector : public testing::TestWithParam<FrameVector> {};
@@ -73,11 +73,11 @@ TEST(TestVectors, EachValueIsCompared) {
 TEST(TestVectorHash, ChangesWithOneCodeOfOnePixel) {
   Frame frame = tb::morphological::line_image();
   const std::uint64_t before = hash(frame);
-  frame.at(199, 149)[2] ^= 1;  // the planted fault
+  frame.at(199, 149)[2] ^= 1;  // the injected fault
   EXPECT_NE(hash(frame), before);
 }
 
-// ---- the table of shares ------------------------------------------------------------------------
+// ---- the table of weights ------------------------------------------------------------------------
 
 struct LineCase {
   std::vector<int> left, right;  // corners taken, outwards
@@ -97,10 +97,10 @@ Prediction prediction_of(const LineCase& c) {
 }
 
 // "b85 b11/a11 a85": of each pixel, before and after.
-std::string shares_of(const spec::morphological::LineRecord& line, int length) {
+std::string weights_of(const spec::morphological::LineDescriptor& line, int length) {
   std::string all;
   for (int k = 0; k < length; ++k) {
-    const EdgeShares s = shares(line, k);
+    const EdgeWeights s = weights(line, k);
     const std::string before = s.first != 0 ? fmt::format("b{}", s.first) : "",
                       after = s.second != 0 ? fmt::format("a{}", s.second) : "";
     all += fmt::format("{}{}{}{}", k > 0 ? " " : "", before,
@@ -116,27 +116,27 @@ TEST(LineAndArea, GiveTheContractsTable) {
     LineCase c{{}, {}, corner(v.start + 1)};
     for (int i = v.start - 1; i >= 0; --i) c.left.push_back(corner(i));
     for (int i = v.start + 2; i < v.count; ++i) c.right.push_back(corner(i));
-    spec::morphological::RunRecord run;
+    spec::morphological::RunDescriptor run;
     run.length = static_cast<std::uint16_t>(c.length);
     run.shape = 9;  // before: first, after: second
-    const spec::morphological::LineRecord line =
+    const spec::morphological::LineDescriptor line =
         line_through(preset_parameters(Preset::kDeburrLine), run, prediction_of(c));
     const spec::morphological::RunResult got = {line.scale,   line.offset, line.slope,
                                                 line.inverse, line.shift,  line.span};
     EXPECT_EQ(differences(v.result, got), "");
     tb::expect_each_value_is_compared(v.result, got);
-    EXPECT_EQ(shares_of(line, c.length), v.shares);
+    EXPECT_EQ(weights_of(line, c.length), v.weights);
   }
 }
 
 TEST(LineAndArea, ChordAndFitAgreeOnARunByItself) {
   for (int length = 1; length <= 2048; ++length) {
-    spec::morphological::RunRecord run;
+    spec::morphological::RunDescriptor run;
     run.length = static_cast<std::uint16_t>(length);
     run.shape = 6;
     Prediction p;
     p.right.end = length;
-    const spec::morphological::LineRecord fit =
+    const spec::morphological::LineDescriptor fit =
         line_through(preset_parameters(Preset::kDeburrLine), run, p);
     EXPECT_EQ(fit, line_through(preset_parameters(Preset::kMlaaSlope), run, p));
     EXPECT_EQ(fit.scale, 2);
@@ -147,7 +147,7 @@ TEST(LineAndArea, ChordAndFitAgreeOnARunByItself) {
 }
 
 // The rounded sums of the page at halves and one below, which side a pixel belongs to at 0, and the
-// limits of heights and shares.
+// limits of heights and weights.
 TEST(LineAndArea, IsRoundedToTheUnit) {
   using golden::morphological::areas;
   using golden::morphological::height_magnitude;
@@ -195,7 +195,7 @@ TEST(LineAndArea, InversesAreRoundedToTheUnit) {
     LineCase c{{}, {}, 100};
     for (int i = 1; i <= left; ++i) c.left.push_back(-20 * i);
     for (int i = 1; i <= right; ++i) c.right.push_back(100 + beyond * i / right);
-    spec::morphological::RunRecord run;
+    spec::morphological::RunDescriptor run;
     run.length = 100;
     run.shape = 9;
     return line_through(preset_parameters(Preset::kMlaaSlope), run, prediction_of(c)).inverse;
@@ -208,14 +208,14 @@ TEST(LineAndArea, InversesAreRoundedToTheUnit) {
 TEST(LineAndArea, EveryShapeGivesItsSharesToItsSides) {
   for (std::size_t shape = 0; shape < 16; ++shape) {
     const spec::morphological::RunShape& s = spec::morphological::kRunShapes[shape];
-    spec::morphological::RunRecord run;
+    spec::morphological::RunDescriptor run;
     run.length = 6;
     run.shape = static_cast<std::uint8_t>(shape);
     Prediction p;
     p.right.end = 6;
-    const spec::morphological::LineRecord line =
+    const spec::morphological::LineDescriptor line =
         line_through(preset_parameters(Preset::kMlaa), run, p);
-    const EdgeShares start = shares(line, 0), end = shares(line, 5);
+    const EdgeWeights start = weights(line, 0), end = weights(line, 5);
     EXPECT_EQ(start.first != 0, s.before == spec::morphological::Side::kFirst) << s.name;
     EXPECT_EQ(start.second != 0, s.before == spec::morphological::Side::kSecond) << s.name;
     EXPECT_EQ(end.first != 0, s.after == spec::morphological::Side::kFirst) << s.name;

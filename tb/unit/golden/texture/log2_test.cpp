@@ -14,7 +14,7 @@ namespace {
 using golden::texture::log2_fixed;
 using spec::texture::Log2Rule;
 
-constexpr Log2Rule kRules[] = {Log2Rule::kMitchell, Log2Rule::kCorrected, Log2Rule::kSegments,
+constexpr Log2Rule kConfiguration[] = {Log2Rule::kMitchell, Log2Rule::kCorrected, Log2Rule::kSegments,
                                Log2Rule::kExact};
 
 // Every d whose bits below the 16 after the leading one are all 0 or all 1.
@@ -44,7 +44,7 @@ double largest_residual(const std::function<std::int32_t(std::uint32_t)>& log2) 
 
 TEST(Log2, ResidualsAreThoseOfTheContract) {
   const double documented[] = {0.0864, 0.0228, 0.0057, 0.0006};
-  for (const Log2Rule rule : kRules) {
+  for (const Log2Rule rule : kConfiguration) {
     const double largest =
         largest_residual([rule](std::uint32_t d) { return log2_fixed(rule, d); });
     // The contract rounds upwards.

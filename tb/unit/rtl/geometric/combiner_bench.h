@@ -15,7 +15,7 @@ struct CombinerBench : Frame {
         in("in"),
         source("source", clock) {
     arbiter.connect(rtl::geometric::Client::kWeights, unit.memory);
-    unit.rules_in(rules);
+    unit.configuration_in(configuration);
     unit.weights_in(in);
     source.out(in);
     unit.phase_in(phase);

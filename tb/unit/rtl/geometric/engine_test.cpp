@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The geometric engine as a whole: refusals and registers, bad input, empty frames; the clocks of a
-// frame between the bounds of docs/reference/geometric/clocks.md, and near the one that is the
+// The geometric engine as a whole: refusals and registers, bad input, empty frames; the cycles of a
+// frame between the bounds of docs/reference/geometric/cycles.md, and near the one that is the
 // largest.
 #include <map>
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@
 namespace deburr::tb::geometric_rtl::engine_test {
 namespace {
 
-using spec::geometric::Refusal;
+using spec::geometric::Rejection;
 using spec::geometric::Vertex;
 using testing::HasSubstr;
 
@@ -54,7 +54,7 @@ Scene short_lines(int width, int height, int lines, int length) {
 
 struct RejectedStart {
   std::uint32_t offset, value;
-  Refusal why;
+  Rejection why;
 };
 class Rejected : public ::testing::TestWithParam<RejectedStart> {};
 TEST_P(Rejected, ReadsAndWritesNothing) {
@@ -66,8 +66,8 @@ TEST_P(Rejected, ReadsAndWritesNothing) {
   b.bus.write(GetParam().offset, GetParam().value);
   b.start();
   b.clock.run(1);
-  EXPECT_EQ(b.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusRefused);
-  EXPECT_EQ(b.bus.read(reg::kRefusal), static_cast<std::uint32_t>(GetParam().why));
+  EXPECT_EQ(b.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusRejected);
+  EXPECT_EQ(b.bus.read(reg::kRejection), static_cast<std::uint32_t>(GetParam().why));
   b.clock.run(200);
   EXPECT_EQ(b.memory.reads() + b.memory.writes(), 0u);
   EXPECT_EQ(b.engine.work(), spec::geometric::Work{});
@@ -75,24 +75,24 @@ TEST_P(Rejected, ReadsAndWritesNothing) {
 constexpr std::uint32_t size_of(std::uint32_t w, std::uint32_t h) { return w | h << 16; }
 INSTANTIATE_TEST_SUITE_P(
     Starts, Rejected,
-    ::testing::Values(RejectedStart{reg::kSize, size_of(0, 45), Refusal::kSize},
-                      RejectedStart{reg::kSize, size_of(61, 0), Refusal::kSize},
-                      RejectedStart{reg::kSize, size_of(8193, 9), Refusal::kSize},
-                      RejectedStart{reg::kSize, size_of(61, 8193), Refusal::kSize},
-                      RejectedStart{reg::kSize, size_of(513, 45), Refusal::kWidth},
-                      RejectedStart{reg::kSize, size_of(512, 401), Refusal::kTouchedWords},
-                      RejectedStart{reg::kEdgeCount, (1u << 24) + 1, Refusal::kEdgeCount},
-                      RejectedStart{reg::kVertexCount, (1u << 24) + 1, Refusal::kVertexCount},
-                      RejectedStart{reg::kFaceCount, 32769, Refusal::kFaceCount}));
+    ::testing::Values(RejectedStart{reg::kSize, size_of(0, 45), Rejection::kSize},
+                      RejectedStart{reg::kSize, size_of(61, 0), Rejection::kSize},
+                      RejectedStart{reg::kSize, size_of(8193, 9), Rejection::kSize},
+                      RejectedStart{reg::kSize, size_of(61, 8193), Rejection::kSize},
+                      RejectedStart{reg::kSize, size_of(513, 45), Rejection::kWidth},
+                      RejectedStart{reg::kSize, size_of(512, 401), Rejection::kTouchedWords},
+                      RejectedStart{reg::kEdgeCount, (1u << 24) + 1, Rejection::kEdgeCount},
+                      RejectedStart{reg::kVertexCount, (1u << 24) + 1, Rejection::kVertexCount},
+                      RejectedStart{reg::kFaceCount, 32769, Rejection::kFaceCount}));
 
 TEST(Registers, StartWithoutEnableIsRejected) {
   EngineBench b;
   b.load(contract_scene());
   b.bus.write(reg::kControl, reg::kControlStart);
   b.clock.run(1);
-  EXPECT_EQ(b.bus.read(reg::kRefusal), static_cast<std::uint32_t>(Refusal::kDisabled));
+  EXPECT_EQ(b.bus.read(reg::kRejection), static_cast<std::uint32_t>(Rejection::kDisabled));
   b.run();
-  EXPECT_EQ(b.bus.read(reg::kRefusal), 0u);
+  EXPECT_EQ(b.bus.read(reg::kRejection), 0u);
   EXPECT_EQ(b.pixel_hash(), configuration('a').pixels);
 }
 TEST(Registers, WritesOfAFrameUnderWayAreIgnored) {
@@ -120,8 +120,8 @@ TEST(Registers, WritesOfAFrameUnderWayAreIgnored) {
 TEST(Registers, FrameCyclesCountFromStartToIdle) {
   EngineBench b;
   b.load(contract_scene());
-  const Cycle clocks = b.run();
-  EXPECT_EQ(b.bus.read(reg::kFrameCycles), clocks);
+  const Cycle cycles = b.run();
+  EXPECT_EQ(b.bus.read(reg::kFrameCycles), cycles);
   b.load(contract_scene());
   const Cycle again = b.run();
   EXPECT_EQ(b.bus.read(reg::kFrameCycles), again) << "of the last frame alone";
@@ -131,8 +131,8 @@ TEST(Registers, CodesThatNoChoiceHasCountAsTheFirst) {
   EngineBench b(configuration('g').p);
   b.load(contract_scene());
   // crease 3, depth_test 3, depth_bias 0: off, off, 1.
-  const std::uint32_t others = b.bus.read(reg::kRules) & ~(3u << 2 | 3u << 4 | 31u << 8);
-  b.bus.write(reg::kRules, others | 3u << 2 | 3u << 4);
+  const std::uint32_t others = b.bus.read(reg::kConfiguration) & ~(3u << 2 | 3u << 4 | 31u << 8);
+  b.bus.write(reg::kConfiguration, others | 3u << 2 | 3u << 4);
   b.run();
   EXPECT_EQ(b.engine.work().crease_edges, 0u);
   EXPECT_EQ(b.engine.work().passed, b.engine.work().candidates);
@@ -141,17 +141,17 @@ TEST(Registers, CodesThatNoChoiceHasCountAsTheFirst) {
 // One engine, told the rules of each configuration between frames.
 TEST(Registers, RulesAreThoseOfTheNextFrame) {
   EngineBench b;
-  const std::uint32_t built = b.bus.read(reg::kRules);
+  const std::uint32_t built = b.bus.read(reg::kConfiguration);
   for (const char name : {'f', 'a', 'g', 'e', 'b', 'h', 'a'}) {
     const Configuration c = configuration(name);
-    b.driver.set_rules(c.p);
+    b.driver.set_configuration(c.p);
     b.load(contract_scene());
     b.run();
     EXPECT_EQ(b.pixel_hash(), c.pixels) << name;
     EXPECT_EQ(b.weight_hash(), c.weights) << name;
     EXPECT_EQ(b.writes(b.bases.copy).empty(), !c.p.frame_copy) << name;
   }
-  EXPECT_EQ(b.bus.read(reg::kRules), built) << "the reset value is that of the parameters";
+  EXPECT_EQ(b.bus.read(reg::kConfiguration), built) << "the reset value is that of the parameters";
 }
 TEST(Registers, CountersAddUpUntilCleared) {
   EngineBench b;
@@ -165,7 +165,7 @@ TEST(Registers, CountersAddUpUntilCleared) {
   EXPECT_EQ(b.bus.read(reg::kFrameCycles), 0u);
 }
 TEST(Parameters, ThatCannotBeBuiltAreRejected) {
-  const auto refusal = [](const auto& change) {
+  const auto rejection = [](const auto& change) {
     return in_child([&] {
       Parameters p;
       change(p);
@@ -173,25 +173,25 @@ TEST(Parameters, ThatCannotBeBuiltAreRejected) {
       return std::string("built");
     });
   };
-  EXPECT_THAT(refusal([](Parameters& p) { p.reciprocal_table = 8; }),
+  EXPECT_THAT(rejection([](Parameters& p) { p.reciprocal_table = 8; }),
               HasSubstr("reciprocal_table"));
-  EXPECT_THAT(refusal([](Parameters& p) { p.face_limit = 10000; }), HasSubstr("face_limit"));
-  EXPECT_THAT(refusal([](Parameters& p) { p.fills = 2 * (p.memory_outstanding = 16); }),
+  EXPECT_THAT(rejection([](Parameters& p) { p.face_limit = 10000; }), HasSubstr("face_limit"));
+  EXPECT_THAT(rejection([](Parameters& p) { p.fills = 2 * (p.memory_outstanding = 16); }),
               HasSubstr("fills"));
-  EXPECT_THAT(refusal([](Parameters& p) { p.line_pixels = 63; }), HasSubstr("line_pixels"));
-  EXPECT_EQ(refusal([](Parameters& p) { p.pipelined = false; }), "built");
-  EXPECT_EQ(refusal([](Parameters& p) {
+  EXPECT_THAT(rejection([](Parameters& p) { p.line_pixels = 63; }), HasSubstr("line_pixels"));
+  EXPECT_EQ(rejection([](Parameters& p) { p.pipelined = false; }), "built");
+  EXPECT_EQ(rejection([](Parameters& p) {
               p.pipelined = false;
               p.reciprocal_table = 8;
             }),
             "built");
-  EXPECT_EQ(refusal([](Parameters& p) { p.face_limit = 8192 + 512; }), "built");
-  EXPECT_EQ(refusal([](Parameters& p) { p.fills = p.memory_outstanding = 64; }), "built");
+  EXPECT_EQ(rejection([](Parameters& p) { p.face_limit = 8192 + 512; }), "built");
+  EXPECT_EQ(rejection([](Parameters& p) { p.fills = p.memory_outstanding = 64; }), "built");
 }
 
 // ---- what a default build is made of
 
-TEST(Memories, NoneIsIdealised) {
+TEST(Memories, NoneIsNotImplementable) {
   for (const bool largest : {false, true}) {
     const std::string got = in_child([largest] {
       Parameters p;
@@ -209,9 +209,9 @@ TEST(Memories, NoneIsIdealised) {
         p.face_limit = 1 << 20;
       }
       EngineBench b(p);
-      std::string idealised;
-      for (const rtl::MemoryBase* memory : b.engine.memories()) idealised += memory->idealised();
-      return idealised;
+      std::string not_implementable;
+      for (const rtl::MemoryBase* memory : b.engine.memories()) not_implementable += memory->not_implementable();
+      return not_implementable;
     });
     EXPECT_EQ(got, "") << largest;
   }
@@ -342,7 +342,7 @@ TEST(Memories, TheTableHasHalfItsLengthsInWords) {
 // ---- places that are sized from the latency of memory
 
 TEST(Sizes, AreThoseOfThePage) {
-  const auto text = [](const Parameters& p, const rtl::MemoryClocks& memory) {
+  const auto text = [](const Parameters& p, const rtl::MemoryCycles& memory) {
     const Parameters s = rtl::geometric::sized(p, memory);
     return std::to_string(s.fills) + " " + std::to_string(s.resolve_lines) + " " +
            std::to_string(s.copy_lines);
@@ -363,10 +363,10 @@ TEST(Sizes, AreThoseOfThePage) {
   EXPECT_EQ(text(p, {1000, 1}), "8 16 2");
 }
 
-// Clocks of a frame near its bounds at 100 clocks: more places save nothing to speak of, a quarter
+// Cycles of a frame near its bounds at 100 cycles: more places save nothing to speak of, a quarter
 // of either costs a tenth at least.
 TEST(Sizes, CoverTheLatency) {
-  const auto clocks = [](std::int32_t fills, std::int32_t resolve_lines) {
+  const auto cycles = [](std::int32_t fills, std::int32_t resolve_lines) {
     return std::stod(in_child([&] {
       Parameters p;
       p.fills = fills;
@@ -382,10 +382,10 @@ TEST(Sizes, CoverTheLatency) {
       return std::to_string(b.bus.read(reg::kFrameCycles));
     }));
   };
-  const double by_default = clocks(0, 0);
-  EXPECT_LE(by_default, 1.02 * clocks(216, 432));
-  EXPECT_GE(clocks(27, 216), 1.1 * by_default);
-  EXPECT_GE(clocks(108, 54), 1.1 * by_default);
+  const double by_default = cycles(0, 0);
+  EXPECT_LE(by_default, 1.02 * cycles(216, 432));
+  EXPECT_GE(cycles(27, 216), 1.1 * by_default);
+  EXPECT_GE(cycles(108, 54), 1.1 * by_default);
 }
 
 // ---- frames with little in them
@@ -465,16 +465,16 @@ std::map<std::string, std::string> accounts_of(const EngineBench& b) {
   const nlohmann::ordered_json units = statistics(b.clock, "engine")["units"];
   for (const auto& [name, unit] : units.items()) {
     std::string& text = accounts[name];
-    const auto add = [&](const std::string& what, std::uint64_t clocks) {
-      if (clocks != 0) text += (text.empty() ? "" : ", ") + what + " " + std::to_string(clocks);
+    const auto add = [&](const std::string& what, std::uint64_t cycles) {
+      if (cycles != 0) text += (text.empty() ? "" : ", ") + what + " " + std::to_string(cycles);
     };
     add("busy", unit["busy"]);
-    for (const auto& [cause, clocks] : unit["stalls"].items()) add(cause, clocks);
+    for (const auto& [cause, cycles] : unit["stalls"].items()) add(cause, cycles);
     add("idle", unit["idle"]);
   }
   return accounts;
 }
-// A line of eight pixels, M = 20; 303 clocks in all.
+// A line of eight pixels, M = 20; 303 cycles in all.
 TEST(Accounts, OfOneLine) {
   Parameters p;
   p.frame_copy = true;
@@ -588,7 +588,7 @@ TEST(Accounts, LatencyWithSplitRecordsIsThatOfTheSameLines) {
   const std::array<Cycle, 3> joined = latencies(RecordsLayout::kJoined);
   EXPECT_EQ(joined[0], 2u);
   // A unit more on their way, which waits for its line as that of the vertices does.
-  const Cycle more = rtl::geometric::PairFetch::datasheet().latency.clocks + 26;
+  const Cycle more = rtl::geometric::PairFetch::datasheet().latency.cycles + 26;
   EXPECT_EQ(latencies(RecordsLayout::kSplit),
             (std::array<Cycle, 3>{2, joined[1] + more, joined[2] + more}));
 }
@@ -631,21 +631,21 @@ TEST(Accounts, OfAFrameThatWaits) {
   EXPECT_EQ(b.engine.edge_latency.sum(), 20401u);
 }
 
-// ---- clocks
+// ---- cycles
 
 // Blocks that spill wait for the answers of their writes: no bound from above for their edges.
-class PageClocks : public ::testing::TestWithParam<char> {};
-TEST_P(PageClocks, LieAboveTheBounds) {
+class PageCycles : public ::testing::TestWithParam<char> {};
+TEST_P(PageCycles, LieAboveTheBounds) {
   EngineBench b(configuration(GetParam()).p);
   const Scene scene = contract_scene();
   b.load(scene);
   b.run();
   expect_bounds(b, scene, false);
 }
-INSTANTIATE_TEST_SUITE_P(Page, PageClocks, ::testing::Range('a', 'o'));
+INSTANTIATE_TEST_SUITE_P(Page, PageCycles, ::testing::Range('a', 'o'));
 
-class Clocks : public ::testing::TestWithParam<Lanes> {};
-TEST_P(Clocks, OfShortLinesAreNearTheBound) {
+class Cycles : public ::testing::TestWithParam<Lanes> {};
+TEST_P(Cycles, OfShortLinesAreNearTheBound) {
   Parameters p;
   p.walkers = GetParam();
   p.weight_blocks = CacheLines::k1024;
@@ -656,12 +656,12 @@ TEST_P(Clocks, OfShortLinesAreNearTheBound) {
   EXPECT_EQ(b.engine.weight_combiner.blocks_written.value(), 0u);
   expect_bounds(b, scene);
 }
-INSTANTIATE_TEST_SUITE_P(Walkers, Clocks,
+INSTANTIATE_TEST_SUITE_P(Walkers, Cycles,
                          ::testing::Values(Lanes::kOne, Lanes::kTwo, Lanes::kFour));
 
 // Any edges and builds; blocks that spill and few places for lines have no bound from above.
-class RandomClocks : public ::testing::TestWithParam<int> {};
-TEST_P(RandomClocks, LieBetweenTheBounds) {
+class RandomCycles : public ::testing::TestWithParam<int> {};
+TEST_P(RandomCycles, LieBetweenTheBounds) {
   std::uint32_t s = static_cast<std::uint32_t>(GetParam()) * 2654435761u + 1;
   const auto below = [&s](int bound) {
     s = 1664525u * s + 1013904223u;
@@ -694,9 +694,9 @@ TEST_P(RandomClocks, LieBetweenTheBounds) {
   EXPECT_GT(b.engine.work().lines, 10u);
   expect_bounds(b, scene, b.engine.weight_combiner.blocks_written.value() == 0);
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomClocks, ::testing::Range(0, 40));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomCycles, ::testing::Range(0, 40));
 
-TEST(ClocksOf, FlatEdges) {
+TEST(CyclesOf, FlatEdges) {
   for (const auto& [lanes, count] :
        {std::pair{Lanes::kOne, 1u}, {Lanes::kTwo, 2u}, {Lanes::kFour, 4u}}) {
     const std::string got = in_child([lanes = lanes, count = count] {
@@ -708,15 +708,15 @@ TEST(ClocksOf, FlatEdges) {
       scene.edges.assign(4000, Edge{0, 1, 0, 0, 0});
       b.load(scene);
       b.run();
-      // Beside the beats: 128 tags are cleared, and the end takes 50 clocks through all units.
+      // Beside the beats: 128 tags are cleared, and the end takes 50 cycles through all units.
       return std::to_string(b.bus.read(reg::kEdgeCycles) - 4000 / count);
     });
     EXPECT_EQ(got, "178") << count;
   }
 }
 // The begin clears a word of touched bits a clock, or waits for the last facing bits.
-TEST(ClocksOf, TheBegin) {
-  for (const auto& [height, faces, clocks] :
+TEST(CyclesOf, TheBegin) {
+  for (const auto& [height, faces, cycles] :
        {std::tuple{512, 1, 128}, {516, 1, 129}, {1200, 1, 300}, {64, 512 * 64, 128}}) {
     const std::string got = in_child([height = height, faces = faces] {
       Parameters p;
@@ -729,10 +729,10 @@ TEST(ClocksOf, TheBegin) {
       b.run();
       return std::to_string(b.bus.read(reg::kEdgeCycles));
     });
-    EXPECT_EQ(got, std::to_string(clocks + 50)) << height << " " << faces;
+    EXPECT_EQ(got, std::to_string(cycles + 50)) << height << " " << faces;
   }
 }
-TEST(ClocksOf, OneLongLine) {
+TEST(CyclesOf, OneLongLine) {
   Parameters p;
   p.line_pixels = 8192;
   p.walkers = Lanes::kOne;
@@ -748,7 +748,7 @@ TEST(ClocksOf, OneLongLine) {
   // 1024 tags; the end's way, a vertex, a line of depth and the answer of the last write.
   EXPECT_EQ(b.bus.read(reg::kEdgeCycles), 2000u + 1024 + 122);
 }
-TEST(ClocksOf, Dividers) {
+TEST(CyclesOf, Dividers) {
   for (const int dividers : {1, 3}) {
     const std::string got = in_child([dividers] {
       Parameters p;
@@ -766,17 +766,17 @@ TEST(ClocksOf, Dividers) {
     EXPECT_EQ(got, std::to_string(130 * dividers));
   }
 }
-TEST(ClocksOf, FramesInARowAreTheSame) {
+TEST(CyclesOf, FramesInARowAreTheSame) {
   EngineBench b;
   b.load(contract_scene());
-  std::vector<std::uint32_t> clocks;
+  std::vector<std::uint32_t> cycles;
   for (int i = 0; i < 3; ++i) {
     b.load_frame(contract_scene());
     b.run();
-    clocks.push_back(b.bus.read(reg::kFrameCycles));
+    cycles.push_back(b.bus.read(reg::kFrameCycles));
   }
-  EXPECT_EQ(clocks[0], clocks[1]);
-  EXPECT_EQ(clocks[0], clocks[2]);
+  EXPECT_EQ(cycles[0], cycles[1]);
+  EXPECT_EQ(cycles[0], cycles[2]);
   EXPECT_EQ(b.pixel_hash(), configuration('a').pixels);
 }
 

@@ -3,7 +3,7 @@
 // to: bits of their records that are ignored, records after the last one, what lies between rows
 // and tiles, room for weights and for the copy before a frame; bits of registers that no field has,
 // and registers that a build has no use for. Whatever is there, a frame is the same, in pixels,
-// accesses and clocks; and each of the other bits counts, or the noise would prove nothing.
+// accesses and cycles; and each of the other bits counts, or the noise would prove nothing.
 #include <bit>
 #include <functional>
 #include <ostream>
@@ -269,7 +269,7 @@ TEST_P(IgnoredBits, AreWholeRegistersOfWhatIsNotUsed) {
     if (of_no_use(info.offset)) {
       for (const std::uint32_t value : {0u, 1u, ~0u}) {
         EXPECT_EQ(frame_difference(fresh, run_with(info.offset, value)), "") << value;
-        EXPECT_EQ(b.driver.refusal(), spec::geometric::Refusal::kNone);
+        EXPECT_EQ(b.driver.rejection(), spec::geometric::Rejection::kNone);
       }
       continue;
     }

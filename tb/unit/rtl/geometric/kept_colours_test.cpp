@@ -283,12 +283,12 @@ TEST(KeptColours, StallsWithoutAnEntry) {
       for (int x = 1; x < 41; ++x) b.touch(x, 1, 1u << 4, true);
       b.run();
       if (b.resolved.size() != 40) return std::string("lost");
-      const Cycle clocks = b.at["writes"].back() - b.at["reads"].front();
+      const Cycle cycles = b.at["writes"].back() - b.at["reads"].front();
       return std::string(stalls(b.fetch, "colours") > 0 ? "stalls " : "never ") +
-             std::to_string(clocks / 100);
+             std::to_string(cycles / 100);
     });
   };
-  // Eight lines in a round trip of some 208 clocks: 80 of them, or 41 of 80.
+  // Eight lines in a round trip of some 208 cycles: 80 of them, or 41 of 80.
   EXPECT_EQ(waits(0), "stalls 20");
   EXPECT_EQ(waits(128), "stalls 18");
 }

@@ -2,7 +2,7 @@
 // The geometric engine for the suites of every engine (tb/harness/engine_kit.h).
 #pragma once
 
-#include "rtl_model/geometric/common/frame_rules.h"
+#include "rtl_model/geometric/common/frame_configuration.h"
 #include "rtl_model/geometric/common/tokens.h"
 #include "rtl_model/geometric/register_section.h"
 #include "tb/unit/rtl/geometric/trail.h"
@@ -51,7 +51,7 @@ class Kit : public EngineKit {
   bool done() const { return b_.engine.idle(); }
   Outcome outcome() {
     Outcome outcome = came_of(b_);
-    outcome.clocks.emplace_back("clocks", std::array{b_.clock.cycle() - begin_});
+    outcome.cycles.emplace_back("cycles", std::array{b_.clock.cycle() - begin_});
     return outcome;
   }
   void expect_enough(Job job) {
@@ -63,20 +63,20 @@ class Kit : public EngineKit {
     }
   }
   static constexpr bool kPrograms = true;
-  void reset(Cycle clocks) { b_.reset(clocks); }
+  void reset(Cycle cycles) { b_.reset(cycles); }
 
   // --- resets: a late write of before would spoil what is loaded next ---
   static constexpr Cycle kStep = 3;
   static constexpr Cycle short_reset() { return 40; }
   static constexpr Cycle long_reset() { return 40; }
   static constexpr int kRejected = 1;
-  void reject(int, Cycle clocks) {
+  void reject(int, Cycle cycles) {
     b_.load(broken_);
     b_.bus.write(reg::kSize, 0);
     b_.start();
-    b_.clock.run(clocks);
-    if (clocks > 0) {
-      EXPECT_EQ(b_.driver.refusal(), spec::geometric::Refusal::kSize);
+    b_.clock.run(cycles);
+    if (cycles > 0) {
+      EXPECT_EQ(b_.driver.rejection(), spec::geometric::Rejection::kSize);
     }
   }
   static constexpr std::array kKept = {reg::kControl};
@@ -93,7 +93,7 @@ class Kit : public EngineKit {
     b_.start();
     b_.clock.run(5);
     EXPECT_EQ(b_.bus.read(reg::kStatus),
-              reg::kStatusIdle | reg::kStatusFrameDone | reg::kStatusRefused |
+              reg::kStatusIdle | reg::kStatusFrameDone | reg::kStatusRejected |
                   reg::kStatusMemoryError | reg::kStatusWrittenWhileBusy | reg::kStatusInvalidEdge);
     for (const std::uint32_t counter : {reg::kEdges, reg::kLines, reg::kBlocks, reg::kMemoryErrors,
                                         reg::kInvalidEdges, reg::kFrameCycles})
@@ -103,7 +103,7 @@ class Kit : public EngineKit {
   }
 
   // --- register noise: starts with garbage among it ---
-  static constexpr std::uint32_t kMostOffset = 0x200, kClocks = 60;
+  static constexpr std::uint32_t kMostOffset = 0x200, kCycles = 60;
   static constexpr int kAccesses = 60;
   static constexpr std::uint64_t kNoiseSeeds = 60;
   void disturb(Random& random) {
@@ -118,7 +118,7 @@ class Kit : public EngineKit {
                 rtl::geometric::LineToken, rtl::geometric::GroupToken,
                 rtl::geometric::CandidateToken, rtl::geometric::WeightToken,
                 rtl::geometric::TouchedBlock, rtl::geometric::BlockToken,
-                rtl::geometric::FrameRules>;
+                rtl::geometric::FrameConfiguration>;
   static constexpr int kFormats = 58;
   static constexpr const char* kTables = "reference/geometric/memories.md";
   static constexpr const char* kHeader = "rtl_model/geometric/geometric_engine.h";

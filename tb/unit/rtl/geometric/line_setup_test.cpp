@@ -20,7 +20,7 @@ using spec::geometric::LineRecord;
 struct SetupBench : Frame {
   explicit SetupBench(const Parameters& p = {}, int width = 1280, int height = 720)
       : Frame(p), unit("unit", clock, p, edge_latency), ends(clock) {
-    unit.rules_in(rules);
+    unit.configuration_in(configuration);
     unit.ends_in(ends.in);
     unit.lines_out(ends.out);
     begin(width, height);
@@ -207,7 +207,7 @@ TEST(LineSetup, LatencyOfTheDatasheet) {
   }
 }
 
-// Clocks between the first and the last of so many lines.
+// Cycles between the first and the last of so many lines.
 std::string spread(const Parameters& p, const std::vector<EdgeEnds>& edges) {
   return in_child([&] {
     SetupBench b(p);
@@ -219,7 +219,7 @@ std::string spread(const Parameters& p, const std::vector<EdgeEnds>& edges) {
 
 // So many intervals of the datasheet.
 std::string after(std::uint64_t lines, const Parameters& p) {
-  return std::to_string(lines * rtl::geometric::LineSetup::datasheet(p).interval.clocks);
+  return std::to_string(lines * rtl::geometric::LineSetup::datasheet(p).interval.cycles);
 }
 
 TEST(LineSetup, IntervalIsOneIfPipelined) {
@@ -258,11 +258,11 @@ TEST(LineSetup, NoLengthOfATableWaitsForADivider) {
         edges.push_back(edge(true, {128, 1000, 1}, {128 + length, 1000, 7}));
       b.run(edges);
       const auto& taken = b.ends.sink.taken;
-      return std::to_string(taken[taken.size() - 2].cycle - taken.front().cycle) + " clocks, " +
+      return std::to_string(taken[taken.size() - 2].cycle - taken.front().cycle) + " cycles, " +
              std::to_string(b.unit.table_lines.value()) + " by the table, divider " +
-             std::to_string(b.unit.divider_clocks.value());
+             std::to_string(b.unit.divider_cycles.value());
     });
-    EXPECT_EQ(got, std::to_string(lengths) + " clocks, " + std::to_string(lengths) +
+    EXPECT_EQ(got, std::to_string(lengths) + " cycles, " + std::to_string(lengths) +
                        " by the table, divider 13")
         << bits;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // records = split: the EdgeClassifier that counts where the vertices of each edge are, the
-// PairFetch by itself, and the engine with both. Memory answers 20 clocks after a request.
+// PairFetch by itself, and the engine with both. Memory answers 20 cycles after a request.
 #include <algorithm>
 
 #include "rtl_model/geometric/common/sizing.h"
@@ -30,7 +30,7 @@ struct PairBench : Frame {
   explicit PairBench(const Parameters& p = split())
       : Frame(p), unit("unit", clock, sized(p, {20, 1}), edge_latency), ends(clock) {
     arbiter.connect(Client::kPairs, unit.memory);
-    unit.rules_in(rules);
+    unit.configuration_in(configuration);
     unit.phase_in(phase);
     unit.numbers_in(ends.in);
     unit.edges_out(ends.out);
@@ -73,7 +73,7 @@ struct PairBench : Frame {
 
 TEST(PairFetch, LatencyOfTheDatasheetOrWaitsForALine) {
   PairBench b;
-  // M + 6 clocks more.
+  // M + 6 cycles more.
   EXPECT_EQ(b.latency(b.ends, PairBench::number(3)), "29");
   b.clock.run(10);
   const std::string there = b.latency(b.ends, PairBench::number(9));
@@ -105,7 +105,7 @@ TEST(PairFetch, AnEdgeAClockHitOrMissed) {
       return std::to_string(spread(b.ends)) + " " + std::to_string(b.unit.lines_read.value());
     });
     const std::string lines = step == 1 ? "12" : step == 3 ? "36" : "60";
-    EXPECT_EQ(got, std::to_string(59 * PairFetch::datasheet().interval.clocks) + " " + lines);
+    EXPECT_EQ(got, std::to_string(59 * PairFetch::datasheet().interval.cycles) + " " + lines);
   }
 }
 TEST(PairFetch, PairsAreThoseOfTheirArrayInOrder) {
@@ -199,11 +199,11 @@ TEST(PairFetch, WhatIsDroppedNeedsNoOutput) {
   EXPECT_EQ(b.ends.sink.taken[3].cycle, from + 100 + 2);
   EXPECT_EQ(stalls(b.unit, "downstream"), 101u - 7);
 }
-// Clocks in which a line is waited for, and in which no place is free, are told apart.
+// Cycles in which a line is waited for, and in which no place is free, are told apart.
 TEST(PairFetch, StallsByCause) {
   PairBench b;
   b.latency(b.ends, PairBench::number(3));
-  // Stage 2 would have it in the clock after stage 1, and has it M + 6 clocks later.
+  // Stage 2 would have it in the clock after stage 1, and has it M + 6 cycles later.
   EXPECT_EQ(stalls(b.unit, "pairs"), 26u - 1) << "an answer is taken in one of them";
   EXPECT_EQ(stalls(b.unit, "fills"), 0u);
 }
@@ -245,8 +245,8 @@ struct NumberBench : Frame {
     unit.edges_in(ends.in);
     (*unit.numbers_out)(ends.out);
     unit.invalid_edge_out(invalid_edge);
-    facing.rules_in(rules);
-    unit.rules_in(rules);
+    facing.configuration_in(configuration);
+    unit.configuration_in(configuration);
     bus.write(reg::kEdgeCount, edges);
     bus.write(reg::kBoundaryCount, boundaries);
     begin(64, 64);
@@ -322,7 +322,7 @@ TEST(EdgeClassifier, CountsEdgesBeyondTheirPairs) {
 TEST(EdgeClassifier, DroppedEdgesHaveNumbers) {
   NumberBench b(split(Lanes::kTwo), 8, 2);
   b.bus.write(reg::kFaceCount, 4);
-  b.rules.drive(b.clock.cycle() - 1, decode(b.control));
+  b.configuration.drive(b.clock.cycle() - 1, decode(b.control));
   EdgeBeat beat{};
   const auto add = [&](std::uint32_t f0, unsigned flags) {
     beat.edge[beat.count++] = {0, 0, f0, 0, static_cast<std::uint8_t>(flags)};
@@ -390,13 +390,13 @@ TEST(SplitRecords, ABoundaryCountBeyondTheEdgesIsRejected) {
   b.bus.write(reg::kBoundaryCount, edges + 1);
   b.start();
   b.clock.run(50);
-  EXPECT_EQ(b.driver.refusal(), spec::geometric::Refusal::kBoundaryCount);
-  EXPECT_NE(b.bus.read(reg::kStatus) & reg::kStatusRefused, 0u);
+  EXPECT_EQ(b.driver.rejection(), spec::geometric::Rejection::kBoundaryCount);
+  EXPECT_NE(b.bus.read(reg::kStatus) & reg::kStatusRejected, 0u);
   EXPECT_TRUE(b.engine.idle());
   EXPECT_EQ(b.memory.reads(), 0u);
   b.bus.write(reg::kBoundaryCount, edges);
   b.run();
-  EXPECT_EQ(b.driver.refusal(), spec::geometric::Refusal::kNone);
+  EXPECT_EQ(b.driver.rejection(), spec::geometric::Rejection::kNone);
 }
 TEST(JoinedRecords, HaveNoBoundaryCountAndNoPairs) {
   EngineBench b(configuration('l').p);
@@ -404,7 +404,7 @@ TEST(JoinedRecords, HaveNoBoundaryCountAndNoPairs) {
   for (const std::uint32_t offset : {reg::kBoundaryCount, reg::kPairBase, reg::kOtherPairBase})
     b.bus.write(offset, 0xFFFFFFC0);
   b.run();
-  EXPECT_EQ(b.driver.refusal(), spec::geometric::Refusal::kNone);
+  EXPECT_EQ(b.driver.rejection(), spec::geometric::Rejection::kNone);
   EXPECT_EQ(b.pixel_hash(), configuration('l').pixels);
 }
 // BOUNDARY_COUNT and memory do not agree: what has no pair is dropped, of the rest each is drawn as

@@ -13,14 +13,14 @@ namespace deburr::tb::geometric_rtl::parameter_store_test {
 namespace {
 
 using rtl::geometric::decode;
-using rtl::geometric::FrameRules;
+using rtl::geometric::FrameConfiguration;
 using spec::geometric::Combine;
 using spec::geometric::CoverageRule;
 using spec::geometric::Crease;
 using spec::geometric::Cull;
 using spec::geometric::DepthTest;
 using spec::geometric::Layout;
-using spec::geometric::Refusal;
+using spec::geometric::Rejection;
 using spec::geometric::Select;
 
 constexpr std::uint32_t size_of(std::uint32_t w, std::uint32_t h) { return w | h << 16; }
@@ -29,7 +29,7 @@ constexpr std::uint32_t size_of(std::uint32_t w, std::uint32_t h) { return w | h
 
 // Every field of what is decoded, in the order of the contract's table: select, crease, depth test,
 // combine, bias, mark, layout, copy, areas, cull, crease depth, linear light.
-std::array<int, 12> fields_of(const FrameRules& f) {
+std::array<int, 12> fields_of(const FrameConfiguration& f) {
   const auto number = [](auto value) { return static_cast<int>(value); };
   return {number(f.select),  number(f.crease),       number(f.depth_test),
           number(f.combine), number(f.depth_bias),   f.mark,
@@ -39,7 +39,7 @@ std::array<int, 12> fields_of(const FrameRules& f) {
 constexpr std::array<int, 12> kNone = {0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0};
 
 // Every value of each field alone, where the contract's table has it.
-TEST(FrameRules, EachBitOfRulesIsItsFields) {
+TEST(FrameConfiguration, EachBitOfRulesIsItsFields) {
   Frame b({});
   const auto as_it_is = [](int v) { return v; };
   const auto choice = [](int v) { return v < 3 ? v : 0; };  // of three
@@ -54,18 +54,18 @@ TEST(FrameRules, EachBitOfRulesIsItsFields) {
                       {16, 1, as_it_is}, {17, 1, as_it_is}, {18, 5, depth},    {23, 1, as_it_is}};
   for (std::size_t field = 0; field < std::size(rows); ++field)
     for (std::uint32_t value = 0; value < 1u << rows[field].bits; ++value) {
-      const std::uint32_t rules = value << rows[field].low;
-      b.bus.write(reg::kRules, rules);
+      const std::uint32_t configuration = value << rows[field].low;
+      b.bus.write(reg::kConfiguration, configuration);
       std::array<int, 12> expected = kNone;
       expected[field] = rows[field].shown(static_cast<int>(value));
-      EXPECT_EQ(fields_of(decode(b.control)), expected) << rules;
+      EXPECT_EQ(fields_of(decode(b.control)), expected) << configuration;
     }
 }
 
 // Bits of no field count nowhere, whatever holds the registers.
-TEST(FrameRules, OtherBitsOfRulesAreNotLookedAt) {
+TEST(FrameConfiguration, OtherBitsOfRulesAreNotLookedAt) {
   rtl::ControlRegisters raw("raw", spec::geometric::kRegisters, rtl::geometric::control_layout());
-  raw.write(reg::kRules, 0xFF000000);
+  raw.write(reg::kConfiguration, 0xFF000000);
   EXPECT_EQ(fields_of(decode(raw)), kNone);
   raw.write(reg::kSize, 0xC000C000 | size_of(40, 30));
   EXPECT_EQ(decode(raw).width, 40u);
@@ -73,7 +73,7 @@ TEST(FrameRules, OtherBitsOfRulesAreNotLookedAt) {
 }
 
 // A build's parameters are the reset value: each of them alone against that of none.
-TEST(FrameRules, ResetValuesAreTheParameters) {
+TEST(FrameConfiguration, ResetValuesAreTheParameters) {
   struct Row {
     void (*set)(Parameters&);
     std::uint32_t value;
@@ -109,10 +109,10 @@ TEST(FrameRules, ResetValuesAreTheParameters) {
       p.depth_bias = 1;
       row.set(p);
       Frame b(p);
-      const std::uint32_t built = b.bus.read(reg::kRules);
-      b.bus.write(reg::kRules, ~built);
+      const std::uint32_t built = b.bus.read(reg::kConfiguration);
+      b.bus.write(reg::kConfiguration, ~built);
       b.control.reset();
-      return std::to_string(built) + " " + std::to_string(b.bus.read(reg::kRules) == built);
+      return std::to_string(built) + " " + std::to_string(b.bus.read(reg::kConfiguration) == built);
     });
     EXPECT_EQ(got, std::to_string(1u << 8 ^ row.value) + " 1");
   }
@@ -125,7 +125,7 @@ struct Size {
   bool tiled;
   std::uint32_t blocks_across, blocks_down, words_across, touched_words, lines_across, frame_lines;
 };
-TEST(FrameRules, SizesAreRoundedUp) {
+TEST(FrameConfiguration, SizesAreRoundedUp) {
   Frame b({});
   for (const Size& s :
        {Size{1, 1, true, 1, 1, 1, 1, 1, 4}, Size{4, 4, true, 1, 1, 1, 1, 1, 4},
@@ -138,8 +138,8 @@ TEST(FrameRules, SizesAreRoundedUp) {
         Size{8192, 8192, true, 2048, 2048, 16, 32768, 1024, 4u << 20},
         Size{8192, 8192, false, 2048, 2048, 16, 32768, 512, 4u << 20}}) {
     b.bus.write(reg::kSize, size_of(s.width, s.height));
-    b.bus.write(reg::kRules, s.tiled ? 1u << 14 : 0);
-    const FrameRules f = decode(b.control);
+    b.bus.write(reg::kConfiguration, s.tiled ? 1u << 14 : 0);
+    const FrameConfiguration f = decode(b.control);
     SCOPED_TRACE(std::to_string(s.width) + " x " + std::to_string(s.height));
     EXPECT_EQ(f.width, s.width);
     EXPECT_EQ(f.height, s.height);
@@ -151,13 +151,13 @@ TEST(FrameRules, SizesAreRoundedUp) {
     EXPECT_EQ(f.frame_lines(), s.frame_lines);
   }
 }
-TEST(FrameRules, LinesLieAsTheContractHasThem) {
+TEST(FrameConfiguration, LinesLieAsTheContractHasThem) {
   Frame b({});
   for (const std::uint32_t width : {61u, 64u, 129u})
     for (const bool tiled : {false, true}) {
       b.bus.write(reg::kSize, size_of(width, 40));
-      b.bus.write(reg::kRules, tiled ? 1u << 14 : 0);
-      const FrameRules f = decode(b.control);
+      b.bus.write(reg::kConfiguration, tiled ? 1u << 14 : 0);
+      const FrameConfiguration f = decode(b.control);
       for (int y = 0; y < 40; ++y)
         for (int x = 0; x < static_cast<int>(width); ++x) {
           const auto u = static_cast<std::uint32_t>(tiled ? x / 4 : x / 16),
@@ -168,151 +168,151 @@ TEST(FrameRules, LinesLieAsTheContractHasThem) {
         }
     }
 }
-TEST(FrameRules, CountsAndBasesAreThoseOfTheirRegisters) {
+TEST(FrameConfiguration, CountsAndBasesAreThoseOfTheirRegisters) {
   Frame b({});
-  const std::vector<std::pair<std::uint32_t, std::uint32_t FrameRules::*>> registers = {
-      {reg::kEdgeCount, &FrameRules::edge_count},
-      {reg::kVertexCount, &FrameRules::vertex_count},
-      {reg::kFaceCount, &FrameRules::face_count},
-      {reg::kEdgeBase, &FrameRules::edge_base},
-      {reg::kVertexBase, &FrameRules::vertex_base},
-      {reg::kFaceBase, &FrameRules::face_base},
-      {reg::kDepthBase, &FrameRules::depth_base},
-      {reg::kColourBase, &FrameRules::colour_base},
-      {reg::kWeightBase, &FrameRules::weight_base},
-      {reg::kCopyBase, &FrameRules::copy_base},
-      {reg::kBoundaryCount, &FrameRules::boundary_count},
-      {reg::kPairBase, &FrameRules::pair_base},
-      {reg::kOtherPairBase, &FrameRules::other_pair_base},
-      {reg::kCoarseBase, &FrameRules::coarse_base}};
+  const std::vector<std::pair<std::uint32_t, std::uint32_t FrameConfiguration::*>> registers = {
+      {reg::kEdgeCount, &FrameConfiguration::edge_count},
+      {reg::kVertexCount, &FrameConfiguration::vertex_count},
+      {reg::kFaceCount, &FrameConfiguration::face_count},
+      {reg::kEdgeBase, &FrameConfiguration::edge_base},
+      {reg::kVertexBase, &FrameConfiguration::vertex_base},
+      {reg::kFaceBase, &FrameConfiguration::face_base},
+      {reg::kDepthBase, &FrameConfiguration::depth_base},
+      {reg::kColourBase, &FrameConfiguration::colour_base},
+      {reg::kWeightBase, &FrameConfiguration::weight_base},
+      {reg::kCopyBase, &FrameConfiguration::copy_base},
+      {reg::kBoundaryCount, &FrameConfiguration::boundary_count},
+      {reg::kPairBase, &FrameConfiguration::pair_base},
+      {reg::kOtherPairBase, &FrameConfiguration::other_pair_base},
+      {reg::kCoarseBase, &FrameConfiguration::coarse_base}};
   std::uint32_t value = 0;
   for (const auto& [offset, field] : registers) b.bus.write(offset, value += 64);
-  const FrameRules f = decode(b.control);
+  const FrameConfiguration f = decode(b.control);
   value = 0;
   for (const auto& [offset, field] : registers) EXPECT_EQ(f.*field, value += 64) << offset;
 }
 
 // ---- refusals: at each limit, and one beyond
 
-TEST(Refusals, BeginBeyondTheLimit) {
+TEST(Rejections, BeginBeyondTheLimit) {
   Parameters p;
   p.line_pixels = 1000;
   p.touched_words = 40;
   p.face_limit = 8192;
-  FrameRules most;
+  FrameConfiguration most;
   most.width = 1000;
   most.height = 8192;
   most.touched_words = 40;
   most.edge_count = most.vertex_count = 1u << 24;
   most.face_count = 8192;
   most.select = Select::kEdges;
-  EXPECT_EQ(refusal(most, true, p), Refusal::kNone);
-  EXPECT_EQ(refusal(most, false, p), Refusal::kDisabled);
+  EXPECT_EQ(rejection(most, true, p), Rejection::kNone);
+  EXPECT_EQ(rejection(most, false, p), Rejection::kDisabled);
   const auto with = [&](const auto& change) {
-    FrameRules f = most;
+    FrameConfiguration f = most;
     change(f);
-    return refusal(f, true, p);
+    return rejection(f, true, p);
   };
-  EXPECT_EQ(with([](FrameRules& f) { f.width = f.height = 1; }), Refusal::kNone);
-  EXPECT_EQ(with([](FrameRules& f) { f.width = 0; }), Refusal::kSize);
-  EXPECT_EQ(with([](FrameRules& f) { f.height = 0; }), Refusal::kSize);
-  EXPECT_EQ(with([](FrameRules& f) { f.width = 8193; }), Refusal::kSize);
-  EXPECT_EQ(with([](FrameRules& f) { f.width = 8192; }), Refusal::kWidth);
-  EXPECT_EQ(with([](FrameRules& f) { f.height = 8193; }), Refusal::kSize);
-  EXPECT_EQ(with([](FrameRules& f) { ++f.width; }), Refusal::kWidth);
-  EXPECT_EQ(with([](FrameRules& f) { ++f.touched_words; }), Refusal::kTouchedWords);
-  EXPECT_EQ(with([](FrameRules& f) { ++f.edge_count; }), Refusal::kEdgeCount);
-  EXPECT_EQ(with([](FrameRules& f) { ++f.vertex_count; }), Refusal::kVertexCount);
-  EXPECT_EQ(with([](FrameRules& f) { ++f.face_count; }), Refusal::kFaceCount);
-  EXPECT_EQ(with([](FrameRules& f) {
+  EXPECT_EQ(with([](FrameConfiguration& f) { f.width = f.height = 1; }), Rejection::kNone);
+  EXPECT_EQ(with([](FrameConfiguration& f) { f.width = 0; }), Rejection::kSize);
+  EXPECT_EQ(with([](FrameConfiguration& f) { f.height = 0; }), Rejection::kSize);
+  EXPECT_EQ(with([](FrameConfiguration& f) { f.width = 8193; }), Rejection::kSize);
+  EXPECT_EQ(with([](FrameConfiguration& f) { f.width = 8192; }), Rejection::kWidth);
+  EXPECT_EQ(with([](FrameConfiguration& f) { f.height = 8193; }), Rejection::kSize);
+  EXPECT_EQ(with([](FrameConfiguration& f) { ++f.width; }), Rejection::kWidth);
+  EXPECT_EQ(with([](FrameConfiguration& f) { ++f.touched_words; }), Rejection::kTouchedWords);
+  EXPECT_EQ(with([](FrameConfiguration& f) { ++f.edge_count; }), Rejection::kEdgeCount);
+  EXPECT_EQ(with([](FrameConfiguration& f) { ++f.vertex_count; }), Rejection::kVertexCount);
+  EXPECT_EQ(with([](FrameConfiguration& f) { ++f.face_count; }), Rejection::kFaceCount);
+  EXPECT_EQ(with([](FrameConfiguration& f) {
               ++f.face_count;
               f.select = Select::kAll;
             }),
-            Refusal::kNone)
+            Rejection::kNone)
       << "no facing bits are read";
   p.line_pixels = 8192;
-  EXPECT_EQ(with([](FrameRules& f) { f.width = 8192; }), Refusal::kNone);
+  EXPECT_EQ(with([](FrameConfiguration& f) { f.width = 8192; }), Rejection::kNone);
 }
 // Of several reasons the first counts: each is the reason once those before it are mended.
-TEST(Refusals, GiveTheFirstReason) {
+TEST(Rejections, GiveTheFirstReason) {
   Parameters p;
   p.line_pixels = 1000;
   p.touched_words = 40;
   p.face_limit = 8192;
-  FrameRules f;
+  FrameConfiguration f;
   f.width = 8193;
   f.height = 8192;
   f.touched_words = 41;
   f.edge_count = f.vertex_count = (1u << 24) + 1;
   f.face_count = 8193;
   f.select = Select::kEdges;
-  EXPECT_EQ(refusal(f, false, p), Refusal::kDisabled);
-  const auto why = [&] { return refusal(f, true, p); };
-  EXPECT_EQ(why(), Refusal::kSize);
+  EXPECT_EQ(rejection(f, false, p), Rejection::kDisabled);
+  const auto why = [&] { return rejection(f, true, p); };
+  EXPECT_EQ(why(), Rejection::kSize);
   f.width = 1001;
-  EXPECT_EQ(why(), Refusal::kWidth);
+  EXPECT_EQ(why(), Rejection::kWidth);
   f.width = 1000;
-  EXPECT_EQ(why(), Refusal::kTouchedWords);
+  EXPECT_EQ(why(), Rejection::kTouchedWords);
   f.touched_words = 40;
-  EXPECT_EQ(why(), Refusal::kEdgeCount);
+  EXPECT_EQ(why(), Rejection::kEdgeCount);
   f.edge_count = 1u << 24;
-  EXPECT_EQ(why(), Refusal::kVertexCount);
+  EXPECT_EQ(why(), Rejection::kVertexCount);
   f.vertex_count = 1u << 24;
   f.boundary_count = ~0u;
-  EXPECT_EQ(why(), Refusal::kFaceCount);
+  EXPECT_EQ(why(), Rejection::kFaceCount);
   f.face_count = 8192;
-  EXPECT_EQ(why(), Refusal::kNone) << "joined records have no count of boundaries";
+  EXPECT_EQ(why(), Rejection::kNone) << "joined records have no count of boundaries";
   p.records = spec::geometric::RecordsLayout::kSplit;
-  EXPECT_EQ(why(), Refusal::kBoundaryCount);
+  EXPECT_EQ(why(), Rejection::kBoundaryCount);
   f.boundary_count = f.edge_count + 1;
-  EXPECT_EQ(why(), Refusal::kBoundaryCount);
+  EXPECT_EQ(why(), Rejection::kBoundaryCount);
   f.boundary_count = f.edge_count;
-  EXPECT_EQ(why(), Refusal::kNone);
+  EXPECT_EQ(why(), Rejection::kNone);
 }
 
 // What was rejected leaves the rules of the frame before; a START is taken in the clock after its
 // write, with the registers as they are then, and units read the rules a clock later.
-TEST(Refusals, LeaveTheRulesAsTheyWere) {
+TEST(Rejections, LeaveTheRulesAsTheyWere) {
   Frame b({});
   for (rtl::WireIn<bool>* const in :
        {&b.sequencer.drawn_in, &b.sequencer.copied_in, &b.sequencer.resolved_in})
     (*in)(b.high);  // a frame ends at once
   b.tie();
-  const auto width = [&] { return b.rules.read(b.clock.cycle()).width; };
+  const auto width = [&] { return b.configuration.read(b.clock.cycle()).width; };
   const auto start = [&](std::uint32_t w, std::uint32_t enable) {
     b.bus.write(reg::kSize, size_of(w, 30));
     b.bus.write(reg::kControl, reg::kControlStart | enable);
     EXPECT_TRUE(b.store.starting());
     b.clock.run(1);
     EXPECT_FALSE(b.store.starting());
-    return static_cast<Refusal>(b.bus.read(reg::kRefusal));
+    return static_cast<Rejection>(b.bus.read(reg::kRejection));
   };
-  const auto rejected = [&] { return (b.bus.read(reg::kStatus) & reg::kStatusRefused) != 0; };
-  EXPECT_EQ(start(40, reg::kControlEnable), Refusal::kNone);
+  const auto rejected = [&] { return (b.bus.read(reg::kStatus) & reg::kStatusRejected) != 0; };
+  EXPECT_EQ(start(40, reg::kControlEnable), Rejection::kNone);
   EXPECT_EQ(width(), 40u);
   EXPECT_FALSE(b.sequencer.idle());
   EXPECT_FALSE(rejected());
   b.clock.run(10);
   ASSERT_TRUE(b.sequencer.idle());
   EXPECT_NE(b.bus.read(reg::kStatus) & reg::kStatusFrameDone, 0u);
-  EXPECT_EQ(start(0, reg::kControlEnable), Refusal::kSize);
+  EXPECT_EQ(start(0, reg::kControlEnable), Rejection::kSize);
   EXPECT_TRUE(b.sequencer.idle());
   EXPECT_TRUE(rejected());
-  EXPECT_EQ(start(60, 0), Refusal::kDisabled);
+  EXPECT_EQ(start(60, 0), Rejection::kDisabled);
   EXPECT_EQ(width(), 40u);
   b.bus.write(reg::kSize, size_of(50, 30));
   EXPECT_EQ(width(), 40u) << "until the next frame begins";
-  EXPECT_EQ(start(50, reg::kControlEnable), Refusal::kNone);
+  EXPECT_EQ(start(50, reg::kControlEnable), Rejection::kNone);
   EXPECT_EQ(width(), 50u);
-  EXPECT_EQ(b.rules.changes(), 2u);
-  EXPECT_EQ(b.latch.high_clocks(b.clock.cycle()), 4u);
+  EXPECT_EQ(b.configuration.changes(), 2u);
+  EXPECT_EQ(b.latch.high_cycles(b.clock.cycle()), 4u);
   b.clock.run(10);
   ASSERT_TRUE(b.sequencer.idle());
-  EXPECT_EQ(start(60, 0), Refusal::kDisabled);
+  EXPECT_EQ(start(60, 0), Rejection::kDisabled);
   b.clock.set_reset_n(false);
   b.clock.run(1);
   b.clock.set_reset_n(true);
-  EXPECT_EQ(static_cast<Refusal>(b.bus.read(reg::kRefusal)), Refusal::kNone);
+  EXPECT_EQ(static_cast<Rejection>(b.bus.read(reg::kRejection)), Rejection::kNone);
 }
 
 // Each sticky bit is set in the clock of its event, which a write of one clears, and is set again
@@ -327,7 +327,7 @@ TEST(StickyBits, AreSetInTheClockOfTheirPulse) {
   struct Bit {
     std::uint32_t bit;
     const char* wire;
-    std::uint64_t clocks = 0;
+    std::uint64_t cycles = 0;
   };
   Bit bits[] = {{reg::kStatusInvalidEdge, "invalid_edge"},
                 {reg::kStatusMemoryError, "memory_error"},
@@ -342,15 +342,15 @@ TEST(StickyBits, AreSetInTheClockOfTheirPulse) {
         if (std::string(pulse.basename()) == bit.wire) raised = pulse.read(cycle);
       });
       EXPECT_EQ((status & bit.bit) != 0, raised) << bit.wire << " in clock " << cycle;
-      bit.clocks += raised;
+      bit.cycles += raised;
     }
     b.bus.write(reg::kStatus, status);
   }
   EXPECT_EQ(b.engine.edge_classifier.invalid_edges.value(), 12u + 3u);  // those of the contract
-  EXPECT_GE(bits[0].clocks, 2u);  // two lanes: the three came in two beats
-  EXPECT_EQ(bits[1].clocks, b.engine.memory_arbiter.memory_errors.value());
-  EXPECT_GE(bits[1].clocks, 2u);
-  EXPECT_EQ(bits[2].clocks, 1u);
+  EXPECT_GE(bits[0].cycles, 2u);  // two lanes: the three came in two beats
+  EXPECT_EQ(bits[1].cycles, b.engine.memory_arbiter.memory_errors.value());
+  EXPECT_GE(bits[1].cycles, 2u);
+  EXPECT_EQ(bits[2].cycles, 1u);
 }
 
 // ---- what registers show

@@ -23,7 +23,7 @@ namespace deburr::tb::geometric_rtl {
 
 // A latency as a simulation in a process of its own says it.
 inline void expect_latency_of(const rtl::Datasheet& sheet, const std::string& measured) {
-  EXPECT_EQ(measured, std::to_string(sheet.latency.clocks))
+  EXPECT_EQ(measured, std::to_string(sheet.latency.cycles))
       << "by the datasheet of " << title(sheet);
 }
 
@@ -40,14 +40,14 @@ using unit_bench::Ends, unit_bench::Source, unit_bench::spread, unit_bench::stal
 
 // All that a unit needs around it.
 struct Frame {
-  explicit Frame(const Parameters& parameters, std::uint32_t clocks = 20)
+  explicit Frame(const Parameters& parameters, std::uint32_t cycles = 20)
       : control("registers", spec::geometric::kRegisters, rtl::geometric::control_layout()),
         store("parameter_store", clock, control, parameters),
         sequencer("sequencer", clock),
         port_parameters{.outstanding = static_cast<std::uint32_t>(parameters.memory_outstanding)},
         arbiter("arbiter", clock, port_parameters, parameters),
         port("port", clock, port_parameters),
-        memory("memory", period(), EngineBench::memory_parameters({.latency = clocks})),
+        memory("memory", period(), EngineBench::memory_parameters({.latency = cycles})),
         requests("requests"),
         responses("responses") {
     bus.bus.bind(control.registers.bus);
@@ -57,13 +57,13 @@ struct Frame {
     arbiter.responses_in(responses);
     port.memory.bind(memory.ports);
     sequencer.phase_out(phase);
-    store.rules_out(rules);
+    store.configuration_out(configuration);
     store.start_out(start);
     sequencer.start_in(start);
     sequencer.latch_out(latch);
     store.latch_in(latch);
-    store.refusal_out(refusal);
-    sequencer.refusal_in(refusal);
+    store.rejection_out(rejection);
+    sequencer.rejection_in(rejection);
     sequencer.frame_done_out(frame_done);
     store.frame_done_in(frame_done);
     arbiter.memory_error_out(memory_error);
@@ -97,7 +97,7 @@ struct Frame {
                     100'000);
     clock.run(1);
   }
-  // Clocks from the unit's taking this token to the first clock in which the next one can take what
+  // Cycles from the unit's taking this token to the first clock in which the next one can take what
   // becomes of it: not ready a clock before.
   template <class From, class To>
   std::string latency(Ends<From, To>& ends, const From& token) {
@@ -121,9 +121,9 @@ struct Frame {
   rtl::Link<rtl::MemoryResponse> responses;
   rtl::Wire<rtl::geometric::Phase> phase{"phase", rtl::geometric::Phase::kIdle,
                                          rtl::geometric::phase_shape()};
-  rtl::Wire<rtl::geometric::FrameRules> rules{"rules", rtl::geometric::FrameRules{}};
-  rtl::CombinationalWire<spec::geometric::Refusal> refusal{"refusal",
-                                                           rtl::geometric::refusal_shape()};
+  rtl::Wire<rtl::geometric::FrameConfiguration> configuration{"rules", rtl::geometric::FrameConfiguration{}};
+  rtl::CombinationalWire<spec::geometric::Rejection> rejection{"rejection",
+                                                           rtl::geometric::rejection_shape()};
   rtl::Pulse start{"start"}, latch{"latch"}, frame_done{"frame_done"}, memory_error{"memory_error"},
       invalid_edge{"invalid_edge"}, invalid_pair{"invalid_pair"};
   rtl::Wire<bool> high{"high", true}, low{"low", false};

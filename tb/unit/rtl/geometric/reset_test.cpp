@@ -50,7 +50,7 @@ TEST_P(NoNeighbour, ABlockOfTheFrameBeforeIsNoNeighbour) {
   const Cycle resolve = b.bus.read(reg::kResolveCycles);
   ASSERT_LT(resolve, last);
   for (Cycle at = last - resolve; at < last; ++at) {
-    SCOPED_TRACE("reset " + std::to_string(at) + " clocks into a frame");
+    SCOPED_TRACE("reset " + std::to_string(at) + " cycles into a frame");
     b.reset();
     b.load(before);
     b.start();

@@ -36,10 +36,10 @@ struct ResolveBench : Frame {
     arbiter.connect(rtl::geometric::Client::kBlocks, fetch.memory);
     arbiter.connect(rtl::geometric::Client::kResolve, resolver.memory);
     source.out(weights);
-    combiner.rules_in(rules);
-    scanner.rules_in(rules);
-    fetch.rules_in(rules);
-    resolver.rules_in(rules);
+    combiner.configuration_in(configuration);
+    scanner.configuration_in(configuration);
+    fetch.configuration_in(configuration);
+    resolver.configuration_in(configuration);
     combiner.weights_in(weights);
     scanner.blocks_out(touched);
     fetch.blocks_in(touched);
@@ -112,7 +112,7 @@ struct ResolveBench : Frame {
   Source<rtl::geometric::WeightToken> source;
   Cycle resolve_from = 0;
   std::function<void()> before_resolve, before_clock;
-  std::map<std::string, std::vector<Cycle>> at;  // clocks of the beats
+  std::map<std::string, std::vector<Cycle>> at;  // cycles of the beats
   std::vector<spec::geometric::BlockRecord> resolved;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The resolve's units, and those that feed the edges' pipe: latency and initiation interval, as
-// docs/reference/geometric/hardware.md has them; memory answers 20 clocks after a request.
+// docs/reference/geometric/hardware.md has them; memory answers 20 cycles after a request.
 #include <map>
 
 #include "rtl_model/geometric/common/sizing.h"
@@ -38,10 +38,10 @@ TEST(Resolve, AWordTakesAClockForEachBlock) {
   b.touch(128, 0, 1);
   b.touch(511, 15, 1);
   b.run();
-  std::vector<Cycle> clocks;
-  for (const Cycle c : b.at["touched"]) clocks.push_back(c - b.at["touched"][0]);
+  std::vector<Cycle> cycles;
+  for (const Cycle c : b.at["touched"]) cycles.push_back(c - b.at["touched"][0]);
   // The end follows the last block of the last word.
-  EXPECT_THAT(clocks, testing::ElementsAre(0, 1, 2, 3, 65, 66));
+  EXPECT_THAT(cycles, testing::ElementsAre(0, 1, 2, 3, 65, 66));
   EXPECT_THAT(b.resolved, testing::SizeIs(5));
   EXPECT_EQ(b.resolved[4].x, 511);
   EXPECT_EQ(b.resolved[4].y, 15);
@@ -243,7 +243,7 @@ TEST(Resolve, OriginalsStandForWhatIsWrittenBeforeItIsRead) {
   }
 }
 
-// Clocks a block, of many: one is max(lines, beats, lines to write) in the Resolver, and lines +
+// Cycles a block, of many: one is max(lines, beats, lines to write) in the Resolver, and lines +
 // lines to write at the port. The first reads are ahead of the first write.
 Cycle per_block(const Parameters& p, std::uint16_t pixels, bool vertical) {
   constexpr int kBlocks = 160;
@@ -266,7 +266,7 @@ TEST(Resolve, IntervalOfABlock) {
       return std::to_string(per_block(p, pixels, vertical));
     });
   };
-  // Two pixels inside: one line, one write, one beat; the port takes two clocks.
+  // Two pixels inside: one line, one write, one beat; the port takes two cycles.
   EXPECT_EQ(of(Layout::kTiled, 0x0060, false), "2");
   // The upper row takes from the block above: two lines, two beats, one write.
   EXPECT_EQ(of(Layout::kTiled, 0x000F, false), "3");
@@ -281,7 +281,7 @@ TEST(Resolve, IntervalOfABlock) {
   EXPECT_EQ(of(Layout::kRaster, 0x2222, true), "8");
 }
 
-// What a block costs the Resolver: as many clocks are busy near a memory and far from one. The
+// What a block costs the Resolver: as many cycles are busy near a memory and far from one. The
 // others wait for lines.
 TEST(Resolve, WaitingIsNotBusy) {
   using spec::geometric::Lanes;
@@ -310,7 +310,7 @@ TEST(Resolve, WaitingIsNotBusy) {
         std::string wrong;
         if (busy > all + all / 10 || busy + all / 10 < all)
           wrong = "busy " + std::to_string(busy) + " of " + std::to_string(all);
-        // Eight lines in M + 8 clocks, of which a block takes so many.
+        // Eight lines in M + 8 cycles, of which a block takes so many.
         const std::uint64_t lines = b.fetch.lines_read.value();
         const std::uint64_t least = lines * (latency + 6) / 8;
         if (latency == 200 && waits + busy + 300 < least)
@@ -337,8 +337,8 @@ struct ReaderBench : Frame {
       ports.emplace_back(facing.words, "test");
     reader.edges_out(beats);
     taker.in(beats);
-    facing.rules_in(rules);
-    reader.rules_in(rules);
+    facing.configuration_in(configuration);
+    reader.configuration_in(configuration);
     facing.phase_in(phase);
     reader.phase_in(phase);
     wire(facing.loaded_out, &sequencer.facing_loaded_in);
@@ -365,8 +365,8 @@ TEST(EdgeReader, EdgeLanesAClock) {
       b.clock.run(1000);
       std::uint32_t edges = 0;
       for (const auto& taken : b.taker.taken) edges += taken.token.count;
-      const Cycle clocks = b.taker.taken.back().cycle - b.taker.taken.front().cycle;
-      return std::to_string(edges) + " " + std::to_string(clocks - (403 + lanes - 1) / lanes);
+      const Cycle cycles = b.taker.taken.back().cycle - b.taker.taken.front().cycle;
+      return std::to_string(edges) + " " + std::to_string(cycles - (403 + lanes - 1) / lanes);
     });
     EXPECT_EQ(got, "403 0") << code;
   }
@@ -413,7 +413,7 @@ TEST(EdgeReader, SplitRecordsAreReadBitByBit) {
   b.arbiter.connect(Client::kEdges, reader.memory);
   reader.edges_out(beats);
   taker.in(beats);
-  reader.rules_in(b.rules);
+  reader.configuration_in(b.configuration);
   reader.phase_in(b.phase);
   std::vector<std::uint8_t> bytes(320, 0xFF);
   for (std::size_t n = 0; n < 50; ++n) {
@@ -450,15 +450,15 @@ TEST(EdgeReader, LatencyOfTheDatasheetFromAnAnswer) {
 }
 
 // ---- FrameCopier
-Cycle copy_clocks(std::int32_t copy_lines, std::uint32_t latency, int width, int height) {
+Cycle copy_cycles(std::int32_t copy_lines, std::uint32_t latency, int width, int height) {
   Parameters p;
   p.frame_copy = true;
   p.copy_lines = copy_lines;
-  const rtl::MemoryClocks memory{static_cast<std::int32_t>(latency), 1};
+  const rtl::MemoryCycles memory{static_cast<std::int32_t>(latency), 1};
   Frame b(p, latency);
   FrameCopier copier("copier", b.clock, rtl::geometric::sized(p, memory));
   b.arbiter.connect(Client::kCopy, copier.memory);
-  copier.rules_in(b.rules);
+  copier.configuration_in(b.configuration);
   copier.phase_in(b.phase);
   const rtl::Wire<bool>& copied = b.wire(copier.copied_out);
   b.bus.write(reg::kCopyBase, 0x40000);
@@ -468,27 +468,27 @@ Cycle copy_clocks(std::int32_t copy_lines, std::uint32_t latency, int width, int
   return b.clock.cycle() - from;
 }
 // Of the copy once it runs, of 512 lines.
-Cycle copy_clocks_of_512(std::int32_t copy_lines, std::uint32_t latency) {
-  const Cycle few = forked<Cycle>([&] { return copy_clocks(copy_lines, latency, 64, 64); }),
-              many = forked<Cycle>([&] { return copy_clocks(copy_lines, latency, 64, 192); });
+Cycle copy_cycles_of_512(std::int32_t copy_lines, std::uint32_t latency) {
+  const Cycle few = forked<Cycle>([&] { return copy_cycles(copy_lines, latency, 64, 64); }),
+              many = forked<Cycle>([&] { return copy_cycles(copy_lines, latency, 64, 192); });
   return many - few;
 }
 TEST(FrameCopier, TwoClocksALineUntilItsLinesAreTooFew) {
-  const Cycle at_best = 512 * FrameCopier::datasheet().interval.clocks;
-  EXPECT_EQ(copy_clocks_of_512(16, 4), at_best);
-  EXPECT_EQ(copy_clocks_of_512(16, 24), at_best);
-  // Sixteen lines in M + 8 clocks.
-  EXPECT_EQ(copy_clocks_of_512(16, 25), 512u * 33 / 16);
-  EXPECT_EQ(copy_clocks_of_512(16, 40), 512u * 48 / 16);
+  const Cycle at_best = 512 * FrameCopier::datasheet().interval.cycles;
+  EXPECT_EQ(copy_cycles_of_512(16, 4), at_best);
+  EXPECT_EQ(copy_cycles_of_512(16, 24), at_best);
+  // Sixteen lines in M + 8 cycles.
+  EXPECT_EQ(copy_cycles_of_512(16, 25), 512u * 33 / 16);
+  EXPECT_EQ(copy_cycles_of_512(16, 40), 512u * 48 / 16);
 }
-// The default is the knee: a line fewer costs clocks.
+// The default is the knee: a line fewer costs cycles.
 TEST(FrameCopier, TheDefaultCoversTheLatency) {
   for (const std::uint32_t latency : {4u, 20u, 60u, 100u}) {
     const std::int32_t lines =
         rtl::geometric::sized({}, {static_cast<std::int32_t>(latency), 1}).copy_lines;
     EXPECT_EQ(lines, (static_cast<std::int32_t>(latency) + 9) / 2);
-    EXPECT_EQ(copy_clocks_of_512(0, latency), 1024u) << latency;
-    EXPECT_GT(copy_clocks_of_512(lines - 1, latency), 1024u) << latency;
+    EXPECT_EQ(copy_cycles_of_512(0, latency), 1024u) << latency;
+    EXPECT_GT(copy_cycles_of_512(lines - 1, latency), 1024u) << latency;
   }
 }
 TEST(FrameCopier, CopiesEveryLineOnceAndThenIsIdle) {
@@ -506,7 +506,7 @@ TEST(FrameCopier, CopiesEveryLineOnceAndThenIsIdle) {
       Frame b(p);
       FrameCopier copier("copier", b.clock, rtl::geometric::sized(p, {}));
       b.arbiter.connect(Client::kCopy, copier.memory);
-      copier.rules_in(b.rules);
+      copier.configuration_in(b.configuration);
       copier.phase_in(b.phase);
       const rtl::Wire<bool>& copied = b.wire(copier.copied_out);
       std::vector<std::uint8_t> bytes(kBytes);

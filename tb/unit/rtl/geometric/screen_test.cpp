@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // coarse_lines: the DepthScreen by itself, what DepthTest makes of what it drops, and the engine
-// with both. Memory answers 20 clocks after a request.
+// with both. Memory answers 20 cycles after a request.
 #include <algorithm>
 
 #include "rtl_model/geometric/common/sizing.h"
@@ -28,7 +28,7 @@ struct ScreenBench : Frame {
   explicit ScreenBench(const Parameters& p = coarse(), int width = 610)
       : Frame(p), unit("unit", clock, sized(p, {20, 1})), ends(clock) {
     arbiter.connect(Client::kCoarse, unit.memory);
-    unit.rules_in(rules);
+    unit.configuration_in(configuration);
     unit.phase_in(phase);
     unit.candidates_in(ends.in);
     unit.screened_out(ends.out);
@@ -96,7 +96,7 @@ TEST(DepthScreen, AGroupAClockWhereAtMostOneLookUpMisses) {
   for (std::uint32_t i = 0; i < 60; ++i) b.ends.source.add(ScreenBench::across(i % 9, i / 9));
   finish(b, b.ends, 60);
   // Of each row of lines the first group misses twice.
-  EXPECT_EQ(spread(b.ends), 59 * DepthScreen::datasheet().interval.clocks + 6);
+  EXPECT_EQ(spread(b.ends), 59 * DepthScreen::datasheet().interval.cycles + 6);
   EXPECT_EQ(b.unit.both_missed.value(), 7u);
 }
 // N = 4 = 2^2: index (U mod 2) + 2 (V mod 2). N = 8: (U mod 4) + 4 (V mod 2).
@@ -267,9 +267,9 @@ TEST(DepthScreen, TilesByTheRuleOfTheTest) {
     const std::string got = in_child([test = test] {
       Parameters p = coarse();
       ScreenBench b(p);
-      rtl::geometric::FrameRules rules = decode(b.control);
-      rules.depth_test = test;
-      b.rules.drive(b.clock.cycle() - 1, rules);
+      rtl::geometric::FrameConfiguration configuration = decode(b.control);
+      configuration.depth_test = test;
+      b.configuration.drive(b.clock.cycle() - 1, configuration);
       b.set(7, 1, 1000);
       b.ends.source.add(ScreenBench::pixel(63, 12, ScreenBench::kRight, 5));
       finish(b, b.ends, 1);
@@ -333,7 +333,7 @@ struct AfterScreen : Frame {
   AfterScreen()
       : Frame(coarse()), unit("unit", clock, sized(coarse(), {}), edge_latency), ends(clock) {
     arbiter.connect(Client::kDepth, unit.memory);
-    unit.rules_in(rules);
+    unit.configuration_in(configuration);
     unit.candidates_in(ends.in);
     unit.weights_out(ends.out);
     unit.phase_in(phase);

@@ -221,7 +221,7 @@ TEST(EdgeLatency, OfManyOnTheirWayEachIsItsOwn) {
   l.edges.end();
   EXPECT_THAT(l.all(), ElementsAre(19, 29, 45));
 }
-// What nobody announced, as planted faults send it, is not counted, and nothing waits for it.
+// What nobody announced, as injected faults send it, is not counted, and nothing waits for it.
 TEST(EdgeLatency, TokensThatWereNotAnnouncedCountNowhere) {
   Latencies l;
   l.edges.decided(true);

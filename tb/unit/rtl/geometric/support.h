@@ -144,11 +144,11 @@ class EngineBench {
                                             scene.vertices.size(),
                                             scene.facing.size(),
                                             platform::boundaries_of(scene.edges)};
-    const auto bytes = platform::GeometricRegions::needed(sizes, driver.rules());
+    const auto bytes = platform::GeometricRegions::needed(sizes, driver.configuration());
     const bool fits = std::all_of(bytes.begin(), bytes.end(),
                                   [](std::uint64_t size) { return size <= kRegionBytes; });
     place(fits ? contract_regions()
-               : platform::GeometricRegions::allocate({&sizes, 1}, driver.rules()));
+               : platform::GeometricRegions::allocate({&sizes, 1}, driver.configuration()));
     Pixels pixels(scene);
     const std::vector<std::uint8_t> facing = platform::facing_bits(scene.facing);
     driver.load({width, height, scene.edges, scene.vertices, scene.facing.size(), facing,
@@ -160,9 +160,9 @@ class EngineBench {
     driver.load_depths(pixels.depths);
     driver.load_colours(pixels.colours);
   }
-  bool tiled() const { return driver.rules().layout == spec::geometric::Layout::kTiled; }
+  bool tiled() const { return driver.configuration().layout == spec::geometric::Layout::kTiled; }
   void start() { driver.start(); }
-  // A whole frame; gives its clocks.
+  // A whole frame; gives its cycles.
   Cycle run(Cycle limit = 2'000'000) {
     return run([this] { start(); }, limit);
   }
@@ -183,7 +183,7 @@ class EngineBench {
     clock.set_reset_n(false);
     clock.run(cycles);
     clock.set_reset_n(true);
-    if (program) driver.set_rules(p);
+    if (program) driver.set_configuration(p);
   }
 
   // --- What the contract hashes ---

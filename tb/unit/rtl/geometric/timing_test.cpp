@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Latency and initiation interval of each unit of the edges' pipe by itself, as
-// their datasheets have them; memory answers 20 clocks after a request.
+// their datasheets have them; memory answers 20 cycles after a request.
 #include <algorithm>
 #include <deque>
 #include <numeric>
@@ -35,8 +35,8 @@ struct ClassifierBench : Frame {
     unit.edges_in(ends.in);
     (*unit.edges_out)(ends.out);
     unit.invalid_edge_out(invalid_edge);
-    facing.rules_in(rules);
-    unit.rules_in(rules);
+    facing.configuration_in(configuration);
+    unit.configuration_in(configuration);
     bus.write(reg::kVertexCount, 100);
     begin(64, 64);
   }
@@ -68,7 +68,7 @@ TEST(EdgeClassifier, ABeatAClockIfOneIsKept) {
   ClassifierBench b(ClassifierBench::all(Lanes::kFour));
   for (int i = 0; i < 100; ++i) b.ends.source.add(ClassifierBench::beat(4, 1u << i % 4));
   finish(b, b.ends, 100);
-  EXPECT_EQ(spread(b.ends), 99 * EdgeClassifier::datasheet().interval.clocks);
+  EXPECT_EQ(spread(b.ends), 99 * EdgeClassifier::datasheet().interval.cycles);
 }
 TEST(EdgeClassifier, ABeatWithoutAKeptEdgeTakesAClock) {
   ClassifierBench b(ClassifierBench::all(Lanes::kTwo));
@@ -93,7 +93,7 @@ TEST(EdgeClassifier, IndicesEndBeforeTheirCounts) {
   p.cull = spec::geometric::Cull::kBack;
   ClassifierBench b(p);
   b.bus.write(reg::kFaceCount, 40);
-  b.rules.drive(b.clock.cycle() - 1, decode(b.control));
+  b.configuration.drive(b.clock.cycle() - 1, decode(b.control));
   struct Row {
     EdgeFields edge;
     bool valid;
@@ -135,7 +135,7 @@ TEST(EdgeClassifier, EdgesOfFacesTurnedAwayAreCulledOrClassified) {
           p.crease = crease;
           ClassifierBench b(p);
           b.bus.write(reg::kFaceCount, 4);  // no facing bit is loaded: all of them turned away
-          b.rules.drive(b.clock.cycle() - 1, decode(b.control));
+          b.configuration.drive(b.clock.cycle() - 1, decode(b.control));
           EdgeBeat beat{};
           beat.count = 2;
           beat.edge[0] = {1, 2, 0, 1, static_cast<std::uint8_t>(flags)};
@@ -207,7 +207,7 @@ TEST(EdgeClassifier, MeshSelectsBoundariesAndCreasesWhereverTheyAreSeenFrom) {
 struct VertexBench : Frame {
   VertexBench() : Frame({}), unit("unit", clock, sized({}, {})), ends(clock) {
     arbiter.connect(Client::kVertices, unit.memory);
-    unit.rules_in(rules);
+    unit.configuration_in(configuration);
     unit.edges_in(ends.in);
     unit.ends_out(ends.out);
     unit.phase_in(phase);
@@ -238,7 +238,7 @@ TEST(VertexFetch, AnEdgeAClockWhereAtMostOneLookUpMisses) {
   VertexBench b;
   for (std::uint32_t i = 0; i < 60; ++i) b.ends.source.add({4 * i, 4 * i + 4, false, false});
   finish(b, b.ends, 60);
-  EXPECT_EQ(spread(b.ends), 59 * VertexFetch::datasheet().interval.clocks);
+  EXPECT_EQ(spread(b.ends), 59 * VertexFetch::datasheet().interval.cycles);
   EXPECT_EQ(b.unit.misses.value(), 61u);
 }
 // Both vertices of a line are one look-up; a frame's end is none, and reads nothing.
@@ -313,7 +313,7 @@ TEST(MemoryArbiter, LatencyOfTheDatasheetEachWay) {
   b.clock.run(60);
   // Arbiter, port, M + 1, port, arbiter.
   ASSERT_EQ(asker.answered.size(), 1u);
-  const Cycle each_way = MemoryArbiter::datasheet().latency.clocks;
+  const Cycle each_way = MemoryArbiter::datasheet().latency.cycles;
   EXPECT_EQ(asker.answered[0] - asker.asked[0], each_way + 1 + (20 + 1) + 1 + each_way);
   EXPECT_EQ(b.arbiter.read_latency(Client::kDepth).min(), asker.answered[0] - asker.asked[0] - 2);
 }
@@ -329,7 +329,7 @@ TEST(MemoryArbiter, AnAnswerWaitsForItsClient) {
   EXPECT_TRUE(asker.answered.empty());
   b.clock.run(20);
   EXPECT_THAT(asker.answered, ::testing::ElementsAre(100, 101, 102, 103, 104));
-  // Two came after 23 clocks, asked for in 0 and 1; those asked for in 2, 3 and 4 left the arbiter
+  // Two came after 23 cycles, asked for in 0 and 1; those asked for in 2, 3 and 4 left the arbiter
   // in 101, 102 and 103.
   EXPECT_THAT(asker.asked, ::testing::ElementsAre(0, 1, 2, 3, 4));
   EXPECT_EQ(text_of(b.arbiter.read_latency(Client::kDepth)), "23 x 2, 98 x 3");
@@ -511,7 +511,7 @@ TEST(LineWalker, GroupsEndAtBlocks) {
 struct CoverageBench : Frame {
   explicit CoverageBench(const Parameters& p = {})
       : Frame(p), unit("unit", clock, p, edge_latency), ends(clock) {
-    unit.rules_in(rules);
+    unit.configuration_in(configuration);
     unit.groups_in(ends.in);
     unit.candidates_out(ends.out);
     begin(64, 48);
@@ -555,7 +555,7 @@ TEST(CoverageUnit, AGroupAClock) {
   CoverageBench b;
   for (int i = 0; i < 50; ++i) b.ends.source.add(CoverageBench::group(false, 7, i));
   finish(b, b.ends, 50);
-  EXPECT_EQ(spread(b.ends), 49 * CoverageUnit::datasheet().interval.clocks);
+  EXPECT_EQ(spread(b.ends), 49 * CoverageUnit::datasheet().interval.cycles);
 }
 TEST(CoverageUnit, AGroupWithoutACandidateTakesAClockAndLeavesNothing) {
   CoverageBench b;
@@ -723,7 +723,7 @@ struct DepthBench : Frame {
   explicit DepthBench(const Parameters& p = {})
       : Frame(p), unit("unit", clock, sized(p, {}), edge_latency), ends(clock) {
     arbiter.connect(Client::kDepth, unit.memory);
-    unit.rules_in(rules);
+    unit.configuration_in(configuration);
     unit.candidates_in(ends.in);
     unit.weights_out(ends.out);
     unit.phase_in(phase);
@@ -1000,13 +1000,13 @@ TEST(WeightCombiner, AGroupAClockWhateverBlock) {
   for (int i = 0; i < 100; ++i) b.source.add(CombinerBench::token(5, 1));
   for (int i = 0; i < 500; ++i) b.source.add(CombinerBench::token(i, 2));
   b.source.add(CombinerBench::end());
-  const Cycle clocks = b.until_drawn();
+  const Cycle cycles = b.until_drawn();
   EXPECT_EQ(b.unit.misses.value(), 501u);
   // Of 128 blocks a row of the cache holds 16.
   EXPECT_GT(b.unit.blocks_written.value(), 400u);
   EXPECT_EQ(b.unit.stalled_cycles(), 0u);
   // The last write is answered a while after it was sent.
-  EXPECT_LE(clocks, 601u + 6 + 30);
+  EXPECT_LE(cycles, 601u + 6 + 30);
 }
 // Sends every block of the first rows to memory: others take their places.
 void push_out(CombinerBench& b) {

@@ -49,14 +49,14 @@ void load(EngineBench& b, DrawnFrame frame) {
 }
 
 // `rules`, if not 0, are written to RULES.
-FrameResult result_of(const FrameVector& v, std::uint32_t rules = 0) {
+FrameResult result_of(const FrameVector& v, std::uint32_t configuration = 0) {
   Parameters p = preset_parameters(v.preset);
   apply_settings(p, v.settings);
   EngineOptions options;
   options.bench.check_widths = true;
   EngineBench b(p, options);
   load(b, v.frame);
-  if (rules != 0) b.bus.write(reg::kRules, rules);
+  if (configuration != 0) b.bus.write(reg::kConfiguration, configuration);
   b.run();
   testing::Test::RecordProperty("edge_cycles", static_cast<int>(b.bus.read(reg::kEdgeCycles)));
   testing::Test::RecordProperty("resolve_cycles",
@@ -101,16 +101,16 @@ class Codes : public ::testing::TestWithParam<Code> {};
 TEST_P(Codes, ThatNoChoiceHasCountAsThePageSays) {
   const auto& [name, field, code] = GetParam();
   const FrameVector v = geometric::frame_vector(name);
-  const std::uint32_t rules = spec::geometric::rules_word(configuration(name).p);
-  EXPECT_EQ(differences(v.result, result_of(v, (rules & ~field.mask()) | field.in(code))), "");
+  const std::uint32_t configuration = spec::geometric::configuration_word(configuration(name).p);
+  EXPECT_EQ(differences(v.result, result_of(v, (configuration & ~field.mask()) | field.in(code))), "");
 }
 INSTANTIATE_TEST_SUITE_P(Page, Codes,
-                         ::testing::Values(Code{'p', reg::rules::kDepthBias, 31},
-                                           Code{'p', reg::rules::kCreaseDepth, 31},
-                                           Code{'q', reg::rules::kDepthBias, 0},
-                                           Code{'s', reg::rules::kCrease, 3},
-                                           Code{'h', reg::rules::kDepthTest, 3},
-                                           Code{'l', reg::rules::kCombine, 3}));
+                         ::testing::Values(Code{'p', reg::configuration::kDepthBias, 31},
+                                           Code{'p', reg::configuration::kCreaseDepth, 31},
+                                           Code{'q', reg::configuration::kDepthBias, 0},
+                                           Code{'s', reg::configuration::kCrease, 3},
+                                           Code{'h', reg::configuration::kDepthTest, 3},
+                                           Code{'l', reg::configuration::kCombine, 3}));
 
 }  // namespace
 }  // namespace deburr::tb::geometric_rtl::vectors_test

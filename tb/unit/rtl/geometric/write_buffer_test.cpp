@@ -34,7 +34,7 @@ void draw(CombinerBench& b, std::initializer_list<int> columns) {
   b.source.add(CombinerBench::end());
 }
 
-// The clocks in which the combiner sends something, and gets something.
+// The cycles in which the combiner sends something, and gets something.
 struct Port {
   explicit Port(CombinerBench& bench) : b(bench) {}
   void run() {
@@ -212,8 +212,8 @@ TEST(WriteBuffer, AHitAClock) {
       b.source.add(CombinerBench::end());
       const Cycle from = b.clock.cycle();
       b.clock.run_until([&] { return b.in.pops() == 202; }, 100'000);
-      const Cycle clocks = b.clock.cycle() - from;
-      if (!buffered) return std::string(clocks > 2000 ? "waits" : "does not wait");
+      const Cycle cycles = b.clock.cycle() - from;
+      if (!buffered) return std::string(cycles > 2000 ? "waits" : "does not wait");
       b.until_drawn();
       // The largest coverage of each pixel is its last one.
       for (int i = 84; i < 100; ++i)
@@ -223,7 +223,7 @@ TEST(WriteBuffer, AHitAClock) {
           if (weights_at(b, 4 * bx + i % 4, i % 16 / 4) != wanted) return std::string("weights");
         }
       // From the source, and into stage 1.
-      return std::to_string(clocks) + " " + std::to_string(b.unit.buffer_hits.value()) + " " +
+      return std::to_string(cycles) + " " + std::to_string(b.unit.buffer_hits.value()) + " " +
              std::to_string(stalls(b.unit, "spill"));
     });
     EXPECT_EQ(got, buffered ? "203 198 0" : "waits");
@@ -243,7 +243,7 @@ TEST(WriteBuffer, ABlockOnItsWayOutIsWaitedFor) {
   EXPECT_GT(stalls(b.unit, "spill"), 20u);
 }
 
-// The last token is in stage 5 five clocks after its push; then a read of a place in each clock,
+// The last token is in stage 5 five cycles after its push; then a read of a place in each clock,
 // and its request in the clock after that.
 TEST(WriteBuffer, IsWrittenABlockAClockAfterTheLastToken) {
   for (const int blocks : {1, 2, 5}) {
@@ -306,13 +306,13 @@ TEST(WriteBuffer, CostsNothingWhereNothingIsReplaced) {
     const std::string got = in_child([places] {
       CombinerBench b(with_buffer(places));
       draw(b, {0, 1, 2, 3, 0});
-      const Cycle clocks = b.until_drawn();
+      const Cycle cycles = b.until_drawn();
       int memories = 0;
       rtl::for_each<rtl::MemoryBase>(b.unit, [&](rtl::MemoryBase& memory) {
         memories += std::string_view(memory.basename()).starts_with("write_");
       });
       if (memories != (places == 0 ? 0 : 2)) return std::string("memories");
-      return std::to_string(clocks);
+      return std::to_string(cycles);
     });
     if (first.empty()) first = got;
     EXPECT_EQ(got, first);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// AreaUnit: latency and interval, where the shares of a record lie, when it is finished, and what
+// AreaUnit: latency and interval, where the weights of a record lie, when it is finished, and what
 // it waits for.
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "spec/morphological/learned_shares.h"
+#include "spec/morphological/learned_weights.h"
 #include "spec/morphological/tables.h"
 #include "tb/base/forked.h"
 #include "tb/unit/rtl/datasheets.h"
@@ -27,9 +27,9 @@ using spec::morphological::Axis;
 using spec::morphological::RunPart;
 using spec::morphological::Side;
 
-// slots, lines -> AreaUnit -> shares, finished records.
+// slots, lines -> AreaUnit -> weights, finished records.
 struct Area {
-  Area(const Parameters& p, int width_, int height_, Cycle shares_open = 0, Cycle finished_open = 0)
+  Area(const Parameters& p, int width_, int height_, Cycle weights_open = 0, Cycle finished_open = 0)
       : width(width_),
         height(height_),
         lanes(lanes_of(p)),
@@ -38,10 +38,10 @@ struct Area {
         unit("area", clock, p),
         lines_h("lines_h", lanes),
         lines_v("lines_v", lanes),
-        shares_gate("shares_gate", clock, shares_open),
+        weights_gate("weights_gate", clock, weights_open),
         finished_gate("finished_gate", clock, finished_open) {
     slot_driver.out(slots);
-    unit.rules_in(registers.rules);
+    unit.configuration_in(registers.configuration);
     unit.slots_in(slots);
     unit.lines_h_in.bind(lines_h);
     unit.lines_v_in.bind(lines_v);
@@ -54,8 +54,8 @@ struct Area {
     };
     add("driver_h", lines_h, drivers_h);
     add("driver_v", lines_v, drivers_v);
-    unit.shares_out(shares);
-    shares_gate.in(shares);
+    unit.weights_out(weights);
+    weights_gate.in(weights);
     unit.finished_out(finished);
     finished_gate.in(finished);
     if (!p.diagonals) return;
@@ -83,14 +83,14 @@ struct Area {
   AreaUnit unit;
   Link<AreaSlotToken> slots{"slots"};
   LaneLinks<LineToken> lines_h, lines_v;
-  Link<ShareToken> shares{"shares"};
+  Link<WeightToken> weights{"weights"};
   Link<FinishToken> finished{"finished"};
   unit_bench::Source<AreaSlotToken> slot_driver{"slot_driver", clock};
   std::vector<std::unique_ptr<unit_bench::Source<LineToken>>> drivers_h, drivers_v;
-  unit_bench::Sink<ShareToken> shares_gate;
+  unit_bench::Sink<WeightToken> weights_gate;
   unit_bench::Sink<FinishToken> finished_gate;
-  std::optional<Link<DiagonalSharesToken>> diagonals;
-  std::optional<unit_bench::Source<DiagonalSharesToken>> diagonal_driver;
+  std::optional<Link<DiagonalWeightsToken>> diagonals;
+  std::optional<unit_bench::Source<DiagonalWeightsToken>> diagonal_driver;
 };
 
 // The run of three of the contract's table, its first part on the first side.
@@ -114,37 +114,37 @@ class AreaLanes : public ::testing::TestWithParam<int> {};
 
 // The latency of slots is that of its parts, one behind the other: a part's datasheet that is a
 // clock off is noticed.
-void expect_sum_of_parts(const rtl::Datasheet& shares, Cycle measured) {
-  const std::vector<rtl::Datasheet> parts = {RecordWalk::datasheet(), shares,
-                                             ShareRows::datasheet()};
+void expect_sum_of_parts(const rtl::Datasheet& weights, Cycle measured) {
+  const std::vector<rtl::Datasheet> parts = {DescriptorWalk::datasheet(), weights,
+                                             WeightRows::datasheet()};
   for (std::size_t part = 0; part < parts.size(); ++part)
     expect_notices_a_clock(parts[part], &rtl::Datasheet::latency, [&](const rtl::Datasheet& sheet) {
       Cycle others = 0;
       for (std::size_t other = 0; other < parts.size(); ++other)
-        if (other != part) others += parts[other].latency.clocks;
+        if (other != part) others += parts[other].latency.cycles;
       expect_latency(sheet, measured - others);
     });
 }
 
-// A slot a clock goes in; of each that blends, shares come out nine clocks later.
+// A slot a clock goes in; of each that blends, weights come out nine cycles later.
 TEST_P(AreaLanes, LatencyAndIntervalOfTheDatasheet) {
   const rtl::Datasheet sheet = AreaUnit::datasheet(small(GetParam()));
   Area bench(small(GetParam()), 11, 7);
   bench.send_slots(0);
   const std::uint32_t first = bench.slots_before(kLag), last = bench.slots_before(kLag + 7);
   bench.clock.run(last + 20);
-  ASSERT_EQ(bench.shares_gate.taken.size(), last - first);
+  ASSERT_EQ(bench.weights_gate.taken.size(), last - first);
   for (std::uint32_t i = 0; i < last - first; ++i) {
     // Sent in k, popped in k + 1.
-    ASSERT_EQ(bench.shares_gate.taken[i].cycle,
-              first + 1 + i * sheet.interval.clocks + sheet.latency.clocks);
-    ASSERT_EQ(bench.shares_gate.taken[i].token.slot.number, first + i);
-    ASSERT_EQ(bench.shares_gate.taken[i].token.left, (first + i) & 1);
-    ASSERT_FALSE(bench.shares_gate.taken[i].token.any);
+    ASSERT_EQ(bench.weights_gate.taken[i].cycle,
+              first + 1 + i * sheet.interval.cycles + sheet.latency.cycles);
+    ASSERT_EQ(bench.weights_gate.taken[i].token.slot.number, first + i);
+    ASSERT_EQ(bench.weights_gate.taken[i].token.left, (first + i) & 1);
+    ASSERT_FALSE(bench.weights_gate.taken[i].token.any);
   }
   EXPECT_EQ(bench.unit.busy_cycles(), last + 8);
   EXPECT_EQ(bench.unit.stalled_cycles(), 0u);
-  expect_sum_of_parts(AnalyticShares::datasheet(), bench.shares_gate.taken[0].cycle - (first + 1));
+  expect_sum_of_parts(AnalyticWeights::datasheet(), bench.weights_gate.taken[0].cycle - (first + 1));
 }
 
 // A record of each axis, and one in the corner of the frame: 85, 11 | 11, 85, at its pixels and
@@ -165,15 +165,15 @@ TEST_P(AreaLanes, SharesLieWhereTheRecordLies) {
                bench.slots_before(5 + kReach + 2) + static_cast<std::uint32_t>(8 / lanes)));
   bench.clock.run(bench.slots_before(9 + kLag) + 20);
   std::map<std::string, int> found;
-  for (const ShareToken& token : tokens_of(bench.shares_gate)) {
+  for (const WeightToken& token : tokens_of(bench.weights_gate)) {
     if (!token.any) continue;
     for (int i = 0; i < lanes; ++i) {
       const int x = token.slot.beat * lanes + i, y = token.slot.row - kLag;
       if (x >= 11) continue;
-      const Shares& s = token.shares[static_cast<std::size_t>(i)];
-      const auto note = [&](const char* from, int share, int span) {
-        if (share == 0) return;
-        found[std::to_string(x) + ',' + std::to_string(y) + ' ' + from] = share;
+      const Weights& s = token.weights[static_cast<std::size_t>(i)];
+      const auto note = [&](const char* from, int weight, int span) {
+        if (weight == 0) return;
+        found[std::to_string(x) + ',' + std::to_string(y) + ' ' + from] = weight;
         EXPECT_EQ(span, 3);
       };
       note("up", s.up, s.span_up);
@@ -195,7 +195,7 @@ TEST_P(AreaLanes, SharesLieWhereTheRecordLies) {
 // A line is stored, and its record finished, in the clock after its pop, and it is popped when its
 // slot has passed two stages; one a bank, of both axes at once; counted by the parity of the slot
 // row.
-TEST_P(AreaLanes, ARecordIsFinishedAClockAfterItsPopPastItsSlot) {
+TEST_P(AreaLanes, ADescriptorIsFinishedAClockAfterItsPopPastItsSlot) {
   Area bench(small(GetParam()), 11, 7);
   bench.send_slots(0);
   const std::uint32_t even = bench.slots_before(6) + 1, odd = bench.slots_before(7);
@@ -209,14 +209,14 @@ TEST_P(AreaLanes, ARecordIsFinishedAClockAfterItsPopPastItsSlot) {
   bench.clock.run(odd + 40);
   const auto& done = bench.finished_gate;
   // Pairs of columns lie in half as many banks as there are lanes, so that lines wait there once.
-  const int banks = std::max(1, bench.lanes / 2), clocks = bench.lanes / banks;
-  ASSERT_EQ(done.taken.size(), static_cast<std::size_t>(2 * clocks));
-  expect_notices_a_clock(RecordStore::datasheet(small(GetParam())), &rtl::Datasheet::latency,
+  const int banks = std::max(1, bench.lanes / 2), cycles = bench.lanes / banks;
+  ASSERT_EQ(done.taken.size(), static_cast<std::size_t>(2 * cycles));
+  expect_notices_a_clock(DescriptorStore::datasheet(small(GetParam())), &rtl::Datasheet::latency,
                          [&](const rtl::Datasheet& sheet) {
                            expect_latency(sheet, done.taken[0].cycle - (even + 2));
                          });
-  for (int i = 0; i < clocks; ++i) {
-    const auto clock = static_cast<std::size_t>(i), later = static_cast<std::size_t>(clocks + i);
+  for (int i = 0; i < cycles; ++i) {
+    const auto clock = static_cast<std::size_t>(i), later = static_cast<std::size_t>(cycles + i);
     // Slot k is popped in k + 1 and in its second stage in k + 2, and so is the line popped. It is
     // stored in k + 3, the token taken a clock later.
     EXPECT_EQ(done.taken[clock].cycle, even + 4 + clock);
@@ -229,7 +229,7 @@ TEST_P(AreaLanes, ARecordIsFinishedAClockAfterItsPopPastItsSlot) {
   }
   EXPECT_EQ(bench.unit.bank_conflicts.value(),
             static_cast<std::uint64_t>(2 * (bench.lanes - banks)));
-  EXPECT_EQ(bench.unit.records.value(), static_cast<std::uint64_t>(3 * bench.lanes));
+  EXPECT_EQ(bench.unit.descriptors.value(), static_cast<std::uint64_t>(3 * bench.lanes));
 }
 INSTANTIATE_TEST_SUITE_P(Each, AreaLanes, ::testing::Values(0, 1, 2));
 
@@ -237,18 +237,18 @@ TEST(AreaUnitBlock, WaitsDownstreamWithItsSlotsAlone) {
   Area bench(small(), 5, 3, 200);
   bench.send_slots(0);
   const std::uint32_t first = bench.slots_before(kLag);
-  // Shares that nobody takes do not hold up a record.
+  // Weights that nobody takes do not hold up a record.
   bench.drivers_h[0]->add(150, three(Axis::kHorizontal, 0, 0, 1));
   bench.clock.run(260);
   // Two fit into the link, sent in first + 9 and first + 10; the third goes in 201. In between, two
-  // clocks are busy with the record.
+  // cycles are busy with the record.
   EXPECT_EQ(stalls(bench.unit, "downstream"), 201u - (first + 11) - 2);
   ASSERT_EQ(bench.finished_gate.taken.size(), 1u);
   EXPECT_EQ(bench.finished_gate.taken[0].cycle, 153u);
-  ASSERT_EQ(bench.shares_gate.taken.size(), 15u);
+  ASSERT_EQ(bench.weights_gate.taken.size(), 15u);
   for (std::uint32_t i = 0; i < 15; ++i) {
-    EXPECT_EQ(bench.shares_gate.taken[i].token.slot.number, first + i);
-    EXPECT_EQ(bench.shares_gate.taken[i].cycle, 200 + i);
+    EXPECT_EQ(bench.weights_gate.taken[i].token.slot.number, first + i);
+    EXPECT_EQ(bench.weights_gate.taken[i].cycle, 200 + i);
   }
 }
 
@@ -264,12 +264,12 @@ TEST(AreaUnitBlock, LinesWaitForRoomForTheirFinish) {
   bench.clock.run(35);
   ASSERT_EQ(bench.finished_gate.taken.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(bench.finished_gate.taken[i].cycle, 100 + i);
-  EXPECT_EQ(bench.unit.records.value(), 4u);
+  EXPECT_EQ(bench.unit.descriptors.value(), 4u);
 }
 
-// ---- with learned shares ------------------------------------------------------------------------
+// ---- with learned weights ------------------------------------------------------------------------
 
-Parameters with_shares(int lanes_code = 0) {
+Parameters with_weights(int lanes_code = 0) {
   Parameters p = small(lanes_code);
   p.area = AreaSource::kLearned;
   return p;
@@ -291,24 +291,24 @@ LineToken learned(Axis axis, int line, int start, int length, std::uint32_t slot
   return token;
 }
 
-// Shares by side of a query, from the tables as they are shipped.
-std::array<int, 2> shipped(const SharesRom::Query& query) {
-  std::array<int, 2> shares{};
+// Weights by side of a query, from the tables as they are shipped.
+std::array<int, 2> shipped(const WeightsRom::Query& query) {
+  std::array<int, 2> weights{};
   for (std::size_t side = 0; side < 2; ++side) {
-    const int z = spec::morphological::kSharesOfCodes[query.a[side]] +
-                  spec::morphological::kSharesOfNear[query.b[side]] +
-                  spec::morphological::kSharesOfFar[query.c[side]];
-    shares[side] =
-        spec::morphological::kShareOfSum[static_cast<std::size_t>(std::clamp(z, -128, 127) + 128)];
+    const int z = spec::morphological::kWeightsOfCodes[query.a[side]] +
+                  spec::morphological::kWeightsOfNear[query.b[side]] +
+                  spec::morphological::kWeightsOfFar[query.c[side]];
+    weights[side] =
+        spec::morphological::kWeightOfSum[static_cast<std::size_t>(std::clamp(z, -128, 127) + 128)];
   }
-  return shares;
+  return weights;
 }
 
-// Shares of a learned record of each axis and of edges without one, nine clocks behind their slots;
+// Weights of a learned record of each axis and of edges without one, nine cycles behind their slots;
 // none has a span.
 TEST_P(AreaLanes, LearnedSharesLieWhereTheirEdgesLie) {
-  const Cycle latency = AreaUnit::datasheet(with_shares(GetParam())).latency.clocks;
-  Area bench(with_shares(GetParam()), 11, 9);
+  const Cycle latency = AreaUnit::datasheet(with_weights(GetParam())).latency.cycles;
+  Area bench(with_weights(GetParam()), 11, 9);
   const int lanes = bench.lanes;
   const auto slot_of = [&](int row, int x) {
     return bench.slots_before(row + kReach + 2) + static_cast<std::uint32_t>(x / lanes);
@@ -317,10 +317,10 @@ TEST_P(AreaLanes, LearnedSharesLieWhereTheirEdgesLie) {
   // edge of none in row 1. Their edges come with the slots a row ahead of the row that is blended.
   std::map<std::pair<int, int>, std::array<int, 2>> top, left;
   for (int k = 0; k < 3; ++k) {
-    const auto shares = shipped(SharesRom::ask({1 + 4 * 2, 2, 6, RunPart::kWhole}, k, 2 - k));
-    top[{3 + k, 3}] = left[{7, 5 + k}] = shares;
+    const auto weights = shipped(WeightsRom::ask({1 + 4 * 2, 2, 6, RunPart::kWhole}, k, 2 - k));
+    top[{3 + k, 3}] = left[{7, 5 + k}] = weights;
   }
-  top[{8, 3}] = left[{10, 1}] = shipped(SharesRom::ask_gap());
+  top[{8, 3}] = left[{10, 1}] = shipped(WeightsRom::ask_gap());
   std::uint32_t number = 0;
   for (int row = 0; row < bench.height + kLag; ++row)
     for (int beat = 0; beat < bench.beats; ++beat) {
@@ -337,12 +337,12 @@ TEST_P(AreaLanes, LearnedSharesLieWhereTheirEdgesLie) {
   bench.drivers_h[0]->add(0, learned(Axis::kHorizontal, 3, 3, 3, slot_of(3, 6)));
   bench.drivers_v[0]->add(0, learned(Axis::kVertical, 7, 5, 3, slot_of(5, 7)));
   bench.clock.run(bench.slots_before(9 + kLag) + 20);
-  ASSERT_EQ(bench.shares_gate.taken.size(), static_cast<std::size_t>(9 * bench.beats));
+  ASSERT_EQ(bench.weights_gate.taken.size(), static_cast<std::size_t>(9 * bench.beats));
   const std::uint32_t first = bench.slots_before(kLag);
   int seen = 0;
-  for (std::size_t at = 0; at < bench.shares_gate.taken.size(); ++at) {
-    const ShareToken& token = bench.shares_gate.taken[at].token;
-    ASSERT_EQ(bench.shares_gate.taken[at].cycle, first + at + 1 + latency);
+  for (std::size_t at = 0; at < bench.weights_gate.taken.size(); ++at) {
+    const WeightToken& token = bench.weights_gate.taken[at].token;
+    ASSERT_EQ(bench.weights_gate.taken[at].cycle, first + at + 1 + latency);
     for (int i = 0; i < lanes && token.slot.beat * lanes + i < 11; ++i) {
       const int x = token.slot.beat * lanes + i, y = token.slot.row - kLag;
       const auto of = [](const auto& edges, int ex, int ey, std::size_t side) {
@@ -351,12 +351,12 @@ TEST_P(AreaLanes, LearnedSharesLieWhereTheirEdgesLie) {
       };
       const std::array<int, 4> expected = {of(top, x, y, 1), of(top, x, y + 1, 0),
                                            of(left, x, y, 1), of(left, x + 1, y, 0)};
-      const Shares s = token.any ? token.shares[static_cast<std::size_t>(i)] : Shares{};
+      const Weights s = token.any ? token.weights[static_cast<std::size_t>(i)] : Weights{};
       EXPECT_THAT((std::array<int, 4>{s.up, s.down, s.left, s.right}),
                   ::testing::ElementsAreArray(expected))
           << x << ',' << y;
       EXPECT_EQ(s.span_up + s.span_down + s.span_left + s.span_right, 0);
-      for (const int share : expected) seen += share != 0;
+      for (const int weight : expected) seen += weight != 0;
     }
   }
   EXPECT_GE(seen, 6);
@@ -371,11 +371,11 @@ TEST_P(AreaLanes, EdgesOfALearnedRecordAskByBothOfItsEnds) {
   for (const auto& [length, crossings] :
        {std::pair{1, false}, {5, false}, {9, false}, {2, true}, {9, true}}) {
     const std::string got = forked_text([&, length = length, crossings = crossings] {
-      Parameters p = with_shares(GetParam());
+      Parameters p = with_weights(GetParam());
       if (crossings) p.ends = spec::morphological::Ends::kCrossings;
       Area bench(p, 20, 16);
       std::multiset<std::array<std::array<std::uint16_t, 2>, 3>> asked, wanted;
-      bench.unit.shares_rom()->observer = [&](const SharesRom::Query& q) {
+      bench.unit.weights_rom()->observer = [&](const WeightsRom::Query& q) {
         asked.insert({q.a, q.b, q.c});
       };
       bench.send_slots(0);
@@ -385,8 +385,8 @@ TEST_P(AreaLanes, EdgesOfALearnedRecordAskByBothOfItsEnds) {
       bench.drivers_h[0]->add(0, learned(Axis::kHorizontal, 2, 3, length, slot_of(2, 3 + length)));
       bench.drivers_v[0]->add(0, learned(Axis::kVertical, 15, 4, length, slot_of(4, 15)));
       for (int k = 0; k < length; ++k) {
-        const SharesRom::Query q =
-            SharesRom::ask({1 + 4 * 2, 2, 6, RunPart::kWhole}, k, length - 1 - k);
+        const WeightsRom::Query q =
+            WeightsRom::ask({1 + 4 * 2, 2, 6, RunPart::kWhole}, k, length - 1 - k);
         for (int axis = 0; axis < 2; ++axis) wanted.insert({q.a, q.b, q.c});
       }
       bench.clock.run(bench.slots_before(16 + kLag) + 20);
@@ -398,7 +398,7 @@ TEST_P(AreaLanes, EdgesOfALearnedRecordAskByBothOfItsEnds) {
 
 // ---- after a reset ------------------------------------------------------------------------------
 
-// The shares of a row stay in their memory, where a narrower frame has none: beside its last column
+// The weights of a row stay in their memory, where a narrower frame has none: beside its last column
 // is nothing.
 TEST_P(AreaLanes, BesideANarrowerFrameIsNothing) {
   constexpr int kWide = 16, kNarrow = 8;
@@ -408,7 +408,7 @@ TEST_P(AreaLanes, BesideANarrowerFrameIsNothing) {
     bench.drivers_v[0]->add(
         0, three(Axis::kVertical, x, 0,
                  bench.slots_before(kReach + 2) + static_cast<std::uint32_t>(x / bench.lanes)));
-  // Both of the rows that are left have shares there.
+  // Both of the rows that are left have weights there.
   bench.clock.run(bench.slots_before(kLag + 1) + 12);
   EXPECT_GT(bench.unit.vertical_edges.value(), 7u);
   bench.clock.set_reset_n(false);
@@ -425,9 +425,9 @@ TEST_P(AreaLanes, BesideANarrowerFrameIsNothing) {
       bench.slot_driver.add(from + number, token);
     }
   bench.clock.run(number + 40);
-  ASSERT_EQ(bench.shares_gate.taken.size(), static_cast<std::size_t>(9 * beats));
-  // Above the first row of a frame are the shares of none.
-  for (const ShareToken& token : tokens_of(bench.shares_gate)) EXPECT_FALSE(token.any);
+  ASSERT_EQ(bench.weights_gate.taken.size(), static_cast<std::size_t>(9 * beats));
+  // Above the first row of a frame are the weights of none.
+  for (const WeightToken& token : tokens_of(bench.weights_gate)) EXPECT_FALSE(token.any);
 }
 
 // ---- with SMAA's blocks -------------------------------------------------------------------------
@@ -452,7 +452,7 @@ TEST(TableEnds, AResetForgetsALineThatIsMeasured) {
       bench.clock.run(1);
       bench.clock.set_reset_n(true);
       bench.clock.run(30);
-      return std::to_string(bench.unit.records.value()) + " stored, " +
+      return std::to_string(bench.unit.descriptors.value()) + " stored, " +
              std::to_string(bench.finished_gate.taken.size()) + " finished";
     });
   };
@@ -495,13 +495,13 @@ TEST(TableEnds, AreRoundedToPixelsOf13Bits) {
            {-kOne / 2, 3000 << 12, 1500, 4095},
            {2 * kOne, 4095 << 12, -4096, -4095},
            {-kOne, 4095 << 12, 4095, 4095}}) {
-    StoredRecord record;
-    record.t = row.height - kOne / 2;
-    record.inverse = row.inverse;
+    StoredDescriptor descriptor;
+    descriptor.t = row.height - kOne / 2;
+    descriptor.inverse = row.inverse;
     // An endless end is as far away as there is, whatever the line says.
     for (std::uint8_t endless = 0; endless < 4; ++endless) {
-      StoredRecord stored = record;
-      TableShares::set_ends(stored, endless);
+      StoredDescriptor stored = descriptor;
+      TableWeights::set_ends(stored, endless);
       EXPECT_EQ(stored.first_end(), endless & 1 ? -4096 : row.first)
           << row.height << ' ' << row.inverse;
       EXPECT_EQ(stored.last_end(), endless & 2 ? 4095 : row.last)
@@ -518,7 +518,7 @@ TEST(AreaUnitCorners, AreDecidedAfterTheCut) {
     int length;
     RunPart part;
     std::uint8_t shape, far, endless;
-    std::vector<int> first;  // shares of the upper pixel, in order
+    std::vector<int> first;  // weights of the upper pixel, in order
   };
   // Codes: 1 first side. Bits: 1 at the start, 4 at the end.
   for (const Row& row :
@@ -546,11 +546,11 @@ TEST(AreaUnitCorners, AreDecidedAfterTheCut) {
       bench.send_slots(0);
       LineToken token{};
       const auto length = static_cast<std::uint16_t>(row.length);
-      const int reach = 8, h = row.length;
+      const int search_range = 8, h = row.length;
       token.line.run = {Axis::kHorizontal, row.part, 2, 3, length, row.shape, row.far, row.endless};
       const bool whole = row.part == RunPart::kWhole;
-      const int run = whole ? h : reach;
-      token.line.offset = row.part == RunPart::kTail ? 2 * h - reach : run;
+      const int run = whole ? h : search_range;
+      token.line.offset = row.part == RunPart::kTail ? 2 * h - search_range : run;
       token.line.slope = static_cast<std::uint32_t>(((1 << 24) + run) / (2 * run));
       token.line.inverse = static_cast<std::uint32_t>(run) << 12;
       token.line.span = length;
@@ -559,10 +559,10 @@ TEST(AreaUnitCorners, AreDecidedAfterTheCut) {
       bench.clock.run(bench.slots_before(kLag + 7) + 40);
       std::string text;
       for (int k = 0; k < row.length; ++k) {
-        const Shares& pixel =
-            bench.shares_gate.taken[static_cast<std::size_t>(11 + 3 + k)].token.shares[0];
+        const Weights& pixel =
+            bench.weights_gate.taken[static_cast<std::size_t>(11 + 3 + k)].token.weights[0];
         text +=
-            std::to_string(bench.shares_gate.taken[static_cast<std::size_t>(11 + 3 + k)].token.any
+            std::to_string(bench.weights_gate.taken[static_cast<std::size_t>(11 + 3 + k)].token.any
                                ? pixel.down
                                : 0) +
             ' ';
@@ -570,14 +570,14 @@ TEST(AreaUnitCorners, AreDecidedAfterTheCut) {
       return text;
     });
     std::string wanted;
-    for (const int share : row.first) wanted += std::to_string(share) + ' ';
+    for (const int weight : row.first) wanted += std::to_string(weight) + ' ';
     EXPECT_EQ(got, wanted) << row.length << " shape " << int{row.shape} << " far " << int{row.far};
   }
 }
 
 // A mark stays in its column until another one takes its place; 4096 rows further down, where the
 // low twelve bits of the row are those of its own again, its record has no edge.
-TEST_P(AreaLanes, ARecordHasItsRowsOnceInAFrameOf4096AndMore) {
+TEST_P(AreaLanes, ADescriptorHasItsRowsOnceInAFrameOf4096AndMore) {
   for (const Parameters& p : {small(GetParam()), with_table(AreaSource::kTableFull, GetParam())})
     EXPECT_EQ(forked_text([&] {
                 Area bench(p, 11, 4096 + 8);
@@ -593,7 +593,7 @@ TEST_P(AreaLanes, ARecordHasItsRowsOnceInAFrameOf4096AndMore) {
 
 TEST_P(AreaLanes, LatencyOfTheDatasheetWithATableToo) {
   const Cycle latency =
-      AreaUnit::datasheet(with_table(AreaSource::kTableFull, GetParam())).latency.clocks;
+      AreaUnit::datasheet(with_table(AreaSource::kTableFull, GetParam())).latency.cycles;
   Area bench(with_table(AreaSource::kTableFull, GetParam()), 11, 7);
   bench.send_slots(0);
   // In each row a record, so that the table is read.
@@ -601,19 +601,19 @@ TEST_P(AreaLanes, LatencyOfTheDatasheetWithATableToo) {
     bench.drivers_h[0]->add(0, three(Axis::kHorizontal, y, 4, bench.slots_before(y + kReach + 2)));
   const std::uint32_t first = bench.slots_before(kLag), last = bench.slots_before(kLag + 7);
   bench.clock.run(last + 20);
-  ASSERT_EQ(bench.shares_gate.taken.size(), last - first);
+  ASSERT_EQ(bench.weights_gate.taken.size(), last - first);
   std::size_t any = 0;
   for (std::uint32_t i = 0; i < last - first; ++i) {
-    ASSERT_EQ(bench.shares_gate.taken[i].cycle, first + i + 1 + latency);
-    any += bench.shares_gate.taken[i].token.any;
+    ASSERT_EQ(bench.weights_gate.taken[i].cycle, first + i + 1 + latency);
+    any += bench.weights_gate.taken[i].token.any;
   }
   EXPECT_GE(any, 7u);
   EXPECT_EQ(bench.unit.stalled_cycles(), 0u);
-  expect_sum_of_parts(TableShares::datasheet(), bench.shares_gate.taken[0].cycle - (first + 1));
+  expect_sum_of_parts(TableWeights::datasheet(), bench.weights_gate.taken[0].cycle - (first + 1));
 }
 
 // With two records a column, too: the first slot row clears the marks of all of them.
-TEST_P(AreaLanes, AFrameHasNoRecordOfTheOneBefore) {
+TEST_P(AreaLanes, AFrameHasNoDescriptorOfTheOneBefore) {
   constexpr int kWidth = 16;
   Area bench(with_table(AreaSource::kTableFull, GetParam()), kWidth, 9);
   bench.send_slots(0);
@@ -622,7 +622,7 @@ TEST_P(AreaLanes, AFrameHasNoRecordOfTheOneBefore) {
         0, three(Axis::kVertical, x, 0,
                  bench.slots_before(kReach + 2) + static_cast<std::uint32_t>(x / bench.lanes)));
   bench.clock.run(bench.slots_before(9 + kLag) + 40);
-  EXPECT_EQ(bench.unit.records.value(), static_cast<std::uint64_t>(kWidth));
+  EXPECT_EQ(bench.unit.descriptors.value(), static_cast<std::uint64_t>(kWidth));
   EXPECT_GT(bench.unit.vertical_edges.value(), 0u);
   bench.clock.set_reset_n(false);
   bench.clock.run(1);
@@ -630,7 +630,7 @@ TEST_P(AreaLanes, AFrameHasNoRecordOfTheOneBefore) {
   bench.registers.frame(kWidth, 9, bench.clock.cycle());
   bench.send_slots(bench.clock.cycle() + 1);
   bench.clock.run(bench.slots_before(9 + kLag) + 40);
-  EXPECT_EQ(bench.shares_gate.taken.size(), static_cast<std::size_t>(9 * bench.beats));
+  EXPECT_EQ(bench.weights_gate.taken.size(), static_cast<std::size_t>(9 * bench.beats));
   EXPECT_EQ(bench.unit.vertical_edges.value(), 0u);
 }
 
@@ -666,7 +666,7 @@ TEST_P(AreaLanes, WithATableARecordIsFinishedAClockLater) {
   bench.clock.run(slot + 40);
   ASSERT_EQ(bench.finished_gate.taken.size(), 1u);
   // Popped in slot + 2.
-  expect_notices_a_clock(RecordStore::datasheet(with_table(AreaSource::kTableMerged, GetParam())),
+  expect_notices_a_clock(DescriptorStore::datasheet(with_table(AreaSource::kTableMerged, GetParam())),
                          &rtl::Datasheet::latency, [&](const rtl::Datasheet& sheet) {
                            expect_latency(sheet, bench.finished_gate.taken[0].cycle - (slot + 2));
                          });
@@ -676,7 +676,7 @@ TEST_P(AreaLanes, WithATableARecordIsFinishedAClockLater) {
 
 class DiagonalsOfABeat : public ::testing::TestWithParam<Cycle> {};
 
-// They are popped in stage 8, eight clocks after the slot was sent: there in time they cost
+// They are popped in stage 8, eight cycles after the slot was sent: there in time they cost
 // nothing, and each clock that they come late is a stall of that name.
 TEST_P(DiagonalsOfABeat, AreWaitedForAndTakeThePlaceOfItsShares) {
   Parameters p = with_table(AreaSource::kTableFull);
@@ -691,7 +691,7 @@ TEST_P(DiagonalsOfABeat, AreWaitedForAndTakeThePlaceOfItsShares) {
   bench.drivers_h[0]->add(0, three(Axis::kHorizontal, 2, 3, bench.slots_before(2 + kReach + 2)));
   bench.drivers_v[0]->add(0, three(Axis::kVertical, 4, 1, bench.slots_before(1 + kReach + 2)));
   for (std::uint32_t i = 0; i < 7u * 11u; ++i) {
-    DiagonalSharesToken token{};
+    DiagonalWeightsToken token{};
     if (i == 2 * 11 + 4) {
       token.taken = 1;
       token.first[0] = 77;
@@ -702,16 +702,16 @@ TEST_P(DiagonalsOfABeat, AreWaitedForAndTakeThePlaceOfItsShares) {
   }
   bench.clock.run(last + 40);
   EXPECT_EQ(stalls(bench.unit, "diagonals"), late);
-  ASSERT_EQ(bench.shares_gate.taken.size(), last - first);
+  ASSERT_EQ(bench.weights_gate.taken.size(), last - first);
   for (std::uint32_t i = 0; i < last - first; ++i)
-    ASSERT_EQ(bench.shares_gate.taken[i].cycle, first + i + 10 + late);
+    ASSERT_EQ(bench.weights_gate.taken[i].cycle, first + i + 10 + late);
   const auto at = [&](int x, int y) {
-    return bench.shares_gate.taken[static_cast<std::size_t>(y * 11 + x)].token.shares[0];
+    return bench.weights_gate.taken[static_cast<std::size_t>(y * 11 + x)].token.weights[0];
   };
   EXPECT_EQ(at(4, 1).down, 77);
   EXPECT_EQ(at(4, 1).span_down, 9);
   EXPECT_EQ(at(4, 2).up, 200);
-  EXPECT_EQ(at(4, 2).left, 0) << "the pixel is taken: its left edge has no shares";
+  EXPECT_EQ(at(4, 2).left, 0) << "the pixel is taken: its left edge has no weights";
   EXPECT_EQ(at(3, 2).right, 0);
   // Beside it the records stand.
   EXPECT_NE(at(3, 1).down, 0);
@@ -780,7 +780,7 @@ TEST_P(AreaLanes, HasTheColumnsOfTheLongestRow) {
   }
 }
 
-// Two lines for a bank need two clocks: with one port too few the memory would say so.
+// Two lines for a bank need two cycles: with one port too few the memory would say so.
 TEST(AreaUnitMemory, ABankTakesALineAClock) {
   Area bench(small(2), 32, 7);
   bench.send_slots(0);

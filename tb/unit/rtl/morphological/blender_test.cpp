@@ -17,10 +17,10 @@ using namespace rtl::morphological;  // NOLINT: a test of these
 struct Blending {
   explicit Blending(const Parameters& p, int width = 8, int height = 8)
       : registers(p, width, height), blender("blender", clock, p, probe) {
-    blender.rules_in(registers.rules);
-    shares_source.beats_out(shares);
+    blender.configuration_in(registers.configuration);
+    weights_source.beats_out(weights);
     pixel_source.beats_out(pixels);
-    blender.shares_in(shares);
+    blender.weights_in(weights);
     blender.pixels_in(pixels);
     blender.pixels_out(out);
     blender.frames_done_out(done);
@@ -28,12 +28,12 @@ struct Blending {
     done_sink.beats_in(done);
   }
   // A pixel of row 2, column 3, between four neighbours.
-  void send(const Shares& s, int centre, int up, int down, int left, int right) {
-    ShareToken token{};
+  void send(const Weights& s, int centre, int up, int down, int left, int right) {
+    WeightToken token{};
     token.slot.row = static_cast<std::uint16_t>(2 + 32 + 5);
     token.slot.beat = 3;
     token.any = true;
-    token.shares[0] = s;
+    token.weights[0] = s;
     token.left = 1;
     PixelToken around{};
     around.centre[0] = grey(centre);
@@ -44,19 +44,19 @@ struct Blending {
     around.after = grey(right);
     send(token, around);
   }
-  void send(const ShareToken& token, const PixelToken& around) {
+  void send(const WeightToken& token, const PixelToken& around) {
     probe.enters(clock.cycle());
-    shares_source.send(token);
+    weights_source.send(token);
     pixel_source.send(around);
   }
   ClockDomain clock{"clock", period()};
   Registers registers;
   rtl::LatencyProbe probe;
-  Link<ShareToken> shares{"shares"};
+  Link<WeightToken> weights{"weights"};
   Link<PixelToken> pixels{"pixels"};
   Link<spec::morphological::BlendedBeat> out{"out"};
   Link<FrameDoneToken> done{"done"};
-  Driver<ShareToken> shares_source{"shares_source", clock};
+  Driver<WeightToken> weights_source{"weights_source", clock};
   Driver<PixelToken> pixel_source{"pixel_source", clock};
   Blender blender;
   Sink<spec::morphological::BlendedBeat> sink{"sink", clock};
@@ -68,7 +68,7 @@ TEST(BlenderBlock, ChoosesTheAxisAndRoundsTheMagnitude) {
   p.linear_light = false;
   Blending bench(p);
   struct Row {
-    Shares s;
+    Weights s;
     bool horizontal;
     int first, second, result;
   };
@@ -81,7 +81,7 @@ TEST(BlenderBlock, ChoosesTheAxisAndRoundsTheMagnitude) {
       {{0, 0, 0, 64, 0, 0, 0, 3}, true, 0, 64, 139},    // 64 x 155 / 256 = 38.75: 39
       {{10, 0, 0, 90, 8, 0, 0, 7}, false, 10, 0, 96},   // the longer line, -3.9
       {{90, 0, 0, 10, 7, 0, 0, 8}, true, 0, 10, 106},   // 6.05
-      {{90, 0, 0, 10, 7, 99, 0, 8}, true, 0, 10, 106},  // a span without a share does not count
+      {{90, 0, 0, 10, 7, 99, 0, 8}, true, 0, 10, 106},  // a span without a weight does not count
       {{5, 6, 10, 0, 8, 8, 8, 0}, false, 5, 6, 100},    // equal spans: 11 >= 10; (-500 + 600) / 256
       {{5, 6, 12, 0, 8, 8, 8, 0}, true, 12, 0, 98},     // 11 < 12; -600 / 256 = -2.3
       {{5, 5, 10, 0, 8, 8, 8, 0}, false, 5, 5, 100},    // a tie goes to up and down
@@ -91,16 +91,16 @@ TEST(BlenderBlock, ChoosesTheAxisAndRoundsTheMagnitude) {
   ASSERT_EQ(bench.sink.beats().size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const spec::morphological::BlendedBeat& beat = bench.sink.beats()[i];
-    EXPECT_EQ(beat.tap[0].horizontal, rows[i].horizontal) << i;
-    EXPECT_EQ(beat.tap[0].first, rows[i].first) << i;
-    EXPECT_EQ(beat.tap[0].second, rows[i].second) << i;
-    EXPECT_EQ(beat.tap[0].edges, 1) << i;
+    EXPECT_EQ(beat.probe[0].horizontal, rows[i].horizontal) << i;
+    EXPECT_EQ(beat.probe[0].first, rows[i].first) << i;
+    EXPECT_EQ(beat.probe[0].second, rows[i].second) << i;
+    EXPECT_EQ(beat.probe[0].edges, 1) << i;
     EXPECT_EQ(beat.pixel[0][0], rows[i].result) << i;
     EXPECT_EQ(beat.pixel[0][2], rows[i].result) << i;
     EXPECT_EQ(beat.pixel[0][3], 77) << "alpha passes";
   }
   // Pushed in i, popped in i + 1.
-  expect_clocks(Blender::datasheet(), bench.sink.cycles(), 1);
+  expect_cycles(Blender::datasheet(), bench.sink.cycles(), 1);
   EXPECT_EQ(bench.blender.blended_pixels.value(), rows.size() - 1);
 }
 
@@ -114,14 +114,14 @@ TEST(BlenderBlock, BlendsInLinearLight) {
   EXPECT_EQ(bench.sink.beats()[1].pixel[0][0], 1);
 }
 
-// The axis of the largest share; squares of the shares over their sum.
+// The axis of the largest weight; squares of the weights over their sum.
 TEST(BlenderBlock, TheStrongestShareChoosesAndSquaresMix) {
   Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.linear_light = false;
   p.blend = spec::morphological::BlendRule::kStrongest;
   Blending bench(p);
   struct Row {
-    Shares s;
+    Weights s;
     bool horizontal;
     int first, second;
   };
@@ -138,10 +138,10 @@ TEST(BlenderBlock, TheStrongestShareChoosesAndSquaresMix) {
   bench.clock.run(40);
   ASSERT_EQ(bench.sink.beats().size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const spec::morphological::BlendTap& tap = bench.sink.beats()[i].tap[0];
-    EXPECT_EQ(tap.horizontal, rows[i].horizontal) << i;
-    EXPECT_EQ(tap.first, rows[i].first) << i;
-    EXPECT_EQ(tap.second, rows[i].second) << i;
+    const spec::morphological::BlendProbe& probe = bench.sink.beats()[i].probe[0];
+    EXPECT_EQ(probe.horizontal, rows[i].horizontal) << i;
+    EXPECT_EQ(probe.first, rows[i].first) << i;
+    EXPECT_EQ(probe.second, rows[i].second) << i;
     EXPECT_EQ(bench.sink.cycles()[i], i + 7);
   }
   // Squares of 64 and 32 over 96, in 1/4096: 682.7 and 170.7.
@@ -149,7 +149,7 @@ TEST(BlenderBlock, TheStrongestShareChoosesAndSquaresMix) {
   EXPECT_EQ(bench.blender.blended_pixels.value(), rows.size() - 1);
 }
 
-// By what they make of three contrasts; the shares that are shown are those before.
+// By what they make of three contrasts; the weights that are shown are those before.
 TEST(BlenderBlock, MixesAllPairsOfShares) {
   Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.blend = spec::morphological::BlendRule::kStrongest;
@@ -157,10 +157,10 @@ TEST(BlenderBlock, MixesAllPairsOfShares) {
   const Rgba8 above{255, 0, 0, 0}, centre{0, 0, 255, 0}, below{0, 255, 128, 0};
   for (std::uint32_t a = 0; a < 256; ++a)
     for (std::uint32_t b = 0; b < 256; ++b) {
-      ShareToken token{};
+      WeightToken token{};
       token.slot.row = static_cast<std::uint16_t>(2 + 32 + 5);
       token.any = true;
-      token.shares[0] = {
+      token.weights[0] = {
           static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b), 0, 0, 1, 1, 0, 0};
       PixelToken around{};
       around.above[0] = above;
@@ -189,12 +189,12 @@ TEST(BlenderBlock, MixesAllPairsOfShares) {
   for (std::uint32_t a = 0; a < 256; ++a)
     for (std::uint32_t b = 0; b < 256; ++b) {
       const spec::morphological::BlendedBeat& beat = bench.sink.beats()[a * 256 + b];
-      ASSERT_EQ(beat.tap[0].first, a);
-      ASSERT_EQ(beat.tap[0].second, b);
+      ASSERT_EQ(beat.probe[0].first, a);
+      ASSERT_EQ(beat.probe[0].second, b);
       if (a + b == 0) continue;
       const std::int32_t first = mixed(a, a + b), second = mixed(b, a + b);
       if (b == 0) {
-        ASSERT_EQ(first, 16 * a) << "a single share stays";
+        ASSERT_EQ(first, 16 * a) << "a single weight stays";
       }
       ASSERT_LE(first + second, 4096);
       for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -209,22 +209,22 @@ TEST(BlenderBlock, MixesAllPairsOfShares) {
 // ---- pixels that are left -----------------------------------------------------------------------
 
 using spec::morphological::BlendRule;
-using spec::morphological::Leave;
+using spec::morphological::Bypass;
 
-struct LeaveCase {
-  Leave leave;
+struct BypassCase {
+  Bypass leave;
   BlendRule blend;
   int lanes_code;
 };
-class LeaveRule : public ::testing::TestWithParam<LeaveCase> {};
+class BypassRule : public ::testing::TestWithParam<BypassCase> {};
 
-// Each pixel of a frame takes a share with one mark alone: its own, or that of a neighbour above,
+// Each pixel of a frame takes a weight with one mark alone: its own, or that of a neighbour above,
 // to the left, to the right, below; beyond the frame there are old bits, which may look like one.
-TEST_P(LeaveRule, LooksAtTheMarksOfTheFrame) {
+TEST_P(BypassRule, LooksAtTheMarksOfTheFrame) {
   constexpr int kWidth = 10, kHeight = 4;
   constexpr std::array<std::array<int, 2>, 6> kMarks = {
       {{0, 0}, {0, -1}, {-1, 0}, {1, 0}, {0, 1}, {9, 9}}};  // the last one: none
-  const LeaveCase& row = GetParam();
+  const BypassCase& row = GetParam();
   Parameters p = small(row.lanes_code);
   p.linear_light = false;
   p.leave = row.leave;
@@ -240,12 +240,12 @@ TEST_P(LeaveRule, LooksAtTheMarksOfTheFrame) {
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
       for (const std::array<int, 2>& mark : kMarks) {
-        ShareToken token{};
+        WeightToken token{};
         const int beat = x / lanes, from = beat * lanes;
         token.slot.row = static_cast<std::uint16_t>(y + kLag);
         token.slot.beat = static_cast<std::uint16_t>(beat);
         token.any = true;
-        token.shares[static_cast<std::size_t>(x - from)] = {64, 0, 0, 0, 3, 0, 0, 0};
+        token.weights[static_cast<std::size_t>(x - from)] = {64, 0, 0, 0, 3, 0, 0, 0};
         token.left = 0xF;
         PixelToken around{};
         for (int lane = 0; lane < lanes; ++lane) {
@@ -263,7 +263,7 @@ TEST_P(LeaveRule, LooksAtTheMarksOfTheFrame) {
   bench.clock.run(kBeats + 20);
   ASSERT_EQ(bench.sink.beats().size(), kBeats);
   std::size_t i = 0;
-  std::uint64_t left_pixels = 0;
+  std::uint64_t bypassed_pixels = 0;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
       for (const std::array<int, 2>& mark : kMarks) {
@@ -272,57 +272,57 @@ TEST_P(LeaveRule, LooksAtTheMarksOfTheFrame) {
         const bool inside = mark_x >= 0 && mark_x < kWidth && mark_y >= 0 && mark_y < kHeight,
                    own = mark[0] == 0 && mark[1] == 0;
         const bool left =
-            inside && (row.leave == Leave::kBeside || (row.leave != Leave::kNone && own));
-        const bool above = row.leave == Leave::kHalf && mark[0] == 0 && mark[1] == -1;
+            inside && (row.leave == Bypass::kBeside || (row.leave != Bypass::kNone && own));
+        const bool above = row.leave == Bypass::kHalf && mark[0] == 0 && mark[1] == -1;
         const auto lane = static_cast<std::size_t>(x % lanes);
-        const spec::morphological::BlendTap& tap = beat.tap[lane];
+        const spec::morphological::BlendProbe& probe = beat.probe[lane];
         const std::string where = std::to_string(x) + ", " + std::to_string(y) + " mark " +
                                   std::to_string(mark[0]) + ", " + std::to_string(mark[1]);
-        ASSERT_EQ(tap.first, left ? 0 : above ? 32 : 64) << where;
-        ASSERT_FALSE(tap.horizontal);
-        ASSERT_EQ(tap.edges, 1);
+        ASSERT_EQ(probe.first, left ? 0 : above ? 32 : 64) << where;
+        ASSERT_FALSE(probe.horizontal);
+        ASSERT_EQ(probe.edges, 1);
         ASSERT_EQ(beat.pixel[lane][0], left ? 100 : above ? 90 : 80) << where;
         for (int k = 0; k < beat.count; ++k) {
           const int alpha = at(x / lanes * lanes + k, y, mark, x, y)[3];
           ASSERT_EQ(beat.pixel[static_cast<std::size_t>(k)][3],
-                    row.leave == Leave::kNone ? alpha : alpha | 1);
+                    row.leave == Bypass::kNone ? alpha : alpha | 1);
         }
         for (std::size_t k = beat.count; k < beat.pixel.size(); ++k)
           ASSERT_EQ(beat.pixel[k], (spec::morphological::Rgba8{})) << "a lane that is not there";
         // Pushed in i, popped in i + 1, sent in i + 6, taken in i + 7, whatever is left.
         ASSERT_EQ(bench.sink.cycles()[i], i + 7);
-        left_pixels += left;
+        bypassed_pixels += left;
         ++i;
       }
-  EXPECT_EQ(bench.blender.left_pixels.value(), left_pixels);
-  EXPECT_EQ(bench.blender.blended_pixels.value(), kBeats - left_pixels);
+  EXPECT_EQ(bench.blender.bypassed_pixels.value(), bypassed_pixels);
+  EXPECT_EQ(bench.blender.blended_pixels.value(), kBeats - bypassed_pixels);
 }
 INSTANTIATE_TEST_SUITE_P(
-    EveryOne, LeaveRule, ::testing::ValuesIn([] {
-      std::vector<LeaveCase> cases;
-      for (const Leave leave : {Leave::kNone, Leave::kMarked, Leave::kBeside, Leave::kHalf})
+    EveryOne, BypassRule, ::testing::ValuesIn([] {
+      std::vector<BypassCase> cases;
+      for (const Bypass leave : {Bypass::kNone, Bypass::kMarked, Bypass::kBeside, Bypass::kHalf})
         for (const BlendRule blend : {BlendRule::kLongest, BlendRule::kStrongest})
           for (int lanes = 0; lanes < 3; ++lanes) cases.push_back({leave, blend, lanes});
       return cases;
     }()),
     [](const auto& row) {
       return std::string(
-                 spec::morphological::kLeaveNames[static_cast<std::size_t>(row.param.leave)]) +
+                 spec::morphological::kBypassNames[static_cast<std::size_t>(row.param.leave)]) +
              "_" +
              std::string(
                  spec::morphological::kBlendRuleNames[static_cast<std::size_t>(row.param.blend)]) +
              "_" + std::to_string(1 << row.param.lanes_code);
     });
 
-// Shares of the chosen axis alone, each by its own neighbour, before they are mixed.
-class HalfShares : public ::testing::TestWithParam<int> {};
-TEST_P(HalfShares, AreThoseOfMarkedNeighbours) {
+// Weights of the chosen axis alone, each by its own neighbour, before they are mixed.
+class HalfWeights : public ::testing::TestWithParam<int> {};
+TEST_P(HalfWeights, AreThoseOfMarkedNeighbours) {
   const int lanes_code = GetParam();
   Parameters p = small(lanes_code);
   p.linear_light = false;
-  p.leave = Leave::kHalf;
+  p.leave = Bypass::kHalf;
   struct Row {
-    Shares s;
+    Weights s;
     unsigned marks;  // up 1, down 2, left 4, right 8
     bool horizontal;
     int first, second;
@@ -335,7 +335,7 @@ TEST_P(HalfShares, AreThoseOfMarkedNeighbours) {
                                  {{0, 0, 65, 33, 0, 0, 9, 9}, 4, true, 32, 33},
                                  {{0, 0, 65, 33, 0, 0, 9, 9}, 8, true, 65, 16},
                                  {{0, 0, 65, 33, 0, 0, 9, 9}, 3, true, 65, 33},
-                                 // The axis is chosen by whole shares.
+                                 // The axis is chosen by whole weights.
                                  {{60, 0, 50, 0, 9, 0, 9, 0}, 1, false, 30, 0},
                                  {{1, 0, 0, 0, 9, 0, 0, 0}, 1, false, 0, 0},
                                  {{0, 0, 1, 0, 0, 0, 9, 0}, 4, false, 0, 0},
@@ -349,11 +349,11 @@ TEST_P(HalfShares, AreThoseOfMarkedNeighbours) {
       for (const Row& row : rows)
         for (int lane = 0; lane < lanes; ++lane) {
           const auto i = static_cast<std::size_t>(lane);
-          ShareToken token{};
+          WeightToken token{};
           token.slot.row = static_cast<std::uint16_t>(2 + kLag);
           token.slot.beat = 1;
           token.any = true;
-          token.shares[i] = row.s;
+          token.weights[i] = row.s;
           PixelToken around{};
           const auto alpha = [&](unsigned bit) {
             return static_cast<std::uint8_t>(row.marks & bit ? 254 : 1);
@@ -370,7 +370,7 @@ TEST_P(HalfShares, AreThoseOfMarkedNeighbours) {
       std::size_t beat = 0, blended = 0;
       for (const Row& row : rows)
         for (int lane = 0; lane < lanes; ++lane, ++beat) {
-          const auto& tap = bench.sink.beats().at(beat).tap[static_cast<std::size_t>(lane)];
+          const auto& probe = bench.sink.beats().at(beat).probe[static_cast<std::size_t>(lane)];
           int first = 16 * row.first, second = 16 * row.second;
           if (blend == BlendRule::kStrongest && first + second != 0) {
             const int s = row.first + row.second, r = ((2 << 20) + s) / (2 * s);
@@ -378,37 +378,37 @@ TEST_P(HalfShares, AreThoseOfMarkedNeighbours) {
             second = (row.second * row.second * r + 32768) >> 16;
           }
           blended += row.first + row.second != 0;
-          if (tap.horizontal != row.horizontal || tap.first != row.first ||
-              tap.second != row.second)
+          if (probe.horizontal != row.horizontal || probe.first != row.first ||
+              probe.second != row.second)
             wrong += std::to_string(beat) + " ";
           const int value = bench.sink.beats()[beat].pixel[static_cast<std::size_t>(lane)][1],
                     sum = first * 100 - second * 80, moved = ((sum < 0 ? -sum : sum) + 2048) / 4096;
           if (value != 100 + (sum < 0 ? -moved : moved)) wrong += std::to_string(beat) + "v ";
         }
       if (bench.blender.blended_pixels.value() != blended ||
-          bench.blender.left_pixels.value() != beat - blended)
+          bench.blender.bypassed_pixels.value() != beat - blended)
         wrong += "counts";
       return wrong;
     });
     EXPECT_EQ(got, "");
   }
 }
-INSTANTIATE_TEST_SUITE_P(Lanes, HalfShares, ::testing::Range(0, 3));
+INSTANTIATE_TEST_SUITE_P(Lanes, HalfWeights, ::testing::Range(0, 3));
 
-TEST(BlenderBlock, ALeftPixelWithoutAShareCountsNowhere) {
+TEST(BlenderBlock, ALeftPixelWithoutAWeightCountsNowhere) {
   Parameters p = small();
-  p.leave = Leave::kBeside;
+  p.leave = Bypass::kBeside;
   Blending bench(p);
-  for (const int share : {0, 9}) {
-    ShareToken token{};
+  for (const int weight : {0, 9}) {
+    WeightToken token{};
     token.slot.row = static_cast<std::uint16_t>(2 + kLag);
     token.slot.beat = 3;
-    token.any = share != 0;
-    token.shares[0].right = static_cast<std::uint8_t>(share);
+    token.any = weight != 0;
+    token.weights[0].right = static_cast<std::uint8_t>(weight);
     bench.send(token, {});  // all alphas are 0
   }
   bench.clock.run(20);
-  EXPECT_EQ(bench.blender.left_pixels.value(), 1u);
+  EXPECT_EQ(bench.blender.bypassed_pixels.value(), 1u);
   EXPECT_EQ(bench.blender.blended_pixels.value(), 0u);
 }
 
@@ -417,7 +417,7 @@ TEST(BlenderBlock, TheLastBeatOfAFrameAloneWaitsForFramesDone) {
   Blending bench(small());
   bench.done.hold_push(kOpens - 1);
   for (std::uint16_t beat = 0; beat < 8; ++beat) {
-    ShareToken token{};
+    WeightToken token{};
     token.slot.row = 7 + kLag;
     token.slot.beat = beat;
     bench.send(token, {});

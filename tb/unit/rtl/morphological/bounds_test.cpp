@@ -15,44 +15,44 @@ using spec::morphological::Preset;
 
 // What a row needs that has so many records of N steps side by side at its end, if they come every
 // second clock at most (one a clock: `one_a_clock`).
-int least_beats(const Parameters& p, int records, bool one_a_clock) {
-  const int apart = one_a_clock ? 1 : 2, trials = p.trial_clocks * p.steps;
+int least_beats(const Parameters& p, int descriptors, bool one_a_clock) {
+  const int apart = one_a_clock ? 1 : 2, trials = p.trial_cycles * p.steps;
   const int held =
-      p.steps == 0 ? 1 : trials + std::max(p.trial_clocks, p.trial_clocks == 2 ? 4 : 3);
-  // Clocks that a record costs, times the predictors; those of the last one's way.
+      p.steps == 0 ? 1 : trials + std::max(p.trial_cycles, p.trial_cycles == 2 ? 4 : 3);
+  // Cycles that a record costs, times the predictors; those of the last one's way.
   const int q = std::max({apart * p.predictor_units, held, p.divider_interval * p.predictor_units});
   const int way =
       (p.steps == 0 ? 10 : held + 12) + p.divider_latency + p.predictor_units * p.divider_interval;
   const int units = p.predictor_units;
-  return std::max((records * q + units - 1) / units,
-                  (records * (q - apart * units) + units - 1) / units + way);
+  return std::max((descriptors * q + units - 1) / units,
+                  (descriptors * (q - apart * units) + units - 1) / units + way);
 }
 
 std::uint64_t unstalled(const Frame& frame, const Parameters& p) {
-  return static_cast<std::uint64_t>((frame.height + reach_of(p) + 5) * beats_a_row(frame, p)) +
+  return static_cast<std::uint64_t>((frame.height + search_range_of(p) + 5) * beats_a_row(frame, p)) +
          kPipe;
 }
 
 // So many diagonals of one pixel side by side at the right border: a record every second clock,
 // each extended to the full N.
-Frame packed(int width, int height, int records) {
+Frame packed(int width, int height, int descriptors) {
   return draw(width, height, [=](int x, int y) {
-    return grey(x >= width - 2 * records && (x + y) / 2 % 2 != 0 ? 255 : 0);
+    return grey(x >= width - 2 * descriptors && (x + y) / 2 % 2 != 0 ? 255 : 0);
   });
 }
 
 // Combs at the right border: runs of a pixel that begin side by side, a record a clock.
-Frame combs(int width, int height, int records) {
+Frame combs(int width, int height, int descriptors) {
   return draw(width, height, [=](int x, int y) {
-    return grey(y % 8 == 7 && x >= width - records && x % 2 != 0 ? 255 : 0);
+    return grey(y % 8 == 7 && x >= width - descriptors && x % 2 != 0 ? 255 : 0);
   });
 }
 
 struct Build {
-  int lanes_code, steps, units, trial_clocks, interval, latency;
+  int lanes_code, steps, units, trial_cycles, interval, latency;
 };
 void PrintTo(const Build& b, std::ostream* out) {
-  *out << b.steps << " steps, " << b.units << " units, trials of " << b.trial_clocks
+  *out << b.steps << " steps, " << b.units << " units, trials of " << b.trial_cycles
        << ", interval " << b.interval;
 }
 Parameters build(const Build& b) {
@@ -60,7 +60,7 @@ Parameters build(const Build& b) {
   p.lanes = static_cast<spec::morphological::Lanes>(b.lanes_code);
   p.steps = b.steps;
   p.predictor_units = b.units;
-  p.trial_clocks = b.trial_clocks;
+  p.trial_cycles = b.trial_cycles;
   p.divider_interval = b.interval;
   p.divider_latency = b.latency;
   return p;
@@ -68,27 +68,27 @@ Parameters build(const Build& b) {
 
 class Bursts : public ::testing::TestWithParam<Build> {
  protected:
-  static constexpr int kRecords = 30;  // a lane
-  // Clocks that the slots wait for records in rows of so many beats.
+  static constexpr int kDescriptors = 30;  // a lane
+  // Cycles that the slots wait for records in rows of so many beats.
   static std::uint64_t stalls(int beats) {
     Parameters p = build(GetParam());
-    const int width = beats * lanes_of(p), records = kRecords * lanes_of(p);
+    const int width = beats * lanes_of(p), descriptors = kDescriptors * lanes_of(p);
     p.line_pixels = width;
-    p.record_fifo = kRecords + 8;
+    p.descriptor_fifo = kDescriptors + 8;
     EngineBench bench(p);
-    const Frame in = p.steps == 0 ? combs(width, 60, records) : packed(width, 60, records);
+    const Frame in = p.steps == 0 ? combs(width, 60, descriptors) : packed(width, 60, descriptors);
     bench.run(in);
     if (p.steps != 0) {
-      EXPECT_GT(bench.engine.work().extended_runs, 2u * 30u * static_cast<unsigned>(records));
+      EXPECT_GT(bench.engine.work().extended_runs, 2u * 30u * static_cast<unsigned>(descriptors));
     }
-    EXPECT_GT(bench.engine.extractor.records_sent.value(), 50u);
-    const std::uint64_t stalls = bench.engine.extractor.record_stalls.value();
+    EXPECT_GT(bench.engine.extractor.descriptors_sent.value(), 50u);
+    const std::uint64_t stalls = bench.engine.extractor.descriptor_stalls.value();
     EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), unstalled(in, p) + stalls);
     return stalls;
   }
   static int bound() {
     const Parameters p = build(GetParam());
-    return least_beats(p, kRecords, p.steps == 0);
+    return least_beats(p, kDescriptors, p.steps == 0);
   }
 };
 TEST_P(Bursts, PassWithoutAStallAtTheBound) { EXPECT_EQ(stalls(bound()), 0u); }
@@ -115,30 +115,30 @@ INSTANTIATE_TEST_SUITE_P(Builds, LongBursts,
 // a row.
 class Classes : public ::testing::TestWithParam<std::tuple<int, int, int>> {
  protected:
-  static constexpr int kRecords = 120;
+  static constexpr int kDescriptors = 120;
   static Parameters built(int beats) {
-    const auto [lanes_code, units, trial_clocks] = GetParam();
+    const auto [lanes_code, units, trial_cycles] = GetParam();
     Parameters p = preset(Preset::kDeburr);
     p.lanes = static_cast<spec::morphological::Lanes>(lanes_code);
     p.predictor_units = units;
-    p.trial_clocks = trial_clocks;
+    p.trial_cycles = trial_cycles;
     p.line_pixels = beats * lanes_of(p);
     return p;
   }
   static std::uint64_t stalls(int beats) {
     const Parameters p = built(beats);
     EngineBench bench(p);
-    const Frame in = combs(p.line_pixels, 60, kRecords * lanes_of(p));
+    const Frame in = combs(p.line_pixels, 60, kDescriptors * lanes_of(p));
     bench.run(in);
-    EXPECT_GT(bench.engine.extractor.records_sent.value(), 500u);
-    const std::uint64_t stalls = bench.engine.extractor.record_stalls.value();
+    EXPECT_GT(bench.engine.extractor.descriptors_sent.value(), 500u);
+    const std::uint64_t stalls = bench.engine.extractor.descriptor_stalls.value();
     EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), unstalled(in, p) + stalls);
     return stalls;
   }
   static int bound() {
-    const auto [lanes_code, units, clocks] = GetParam();
-    const int held = clocks >= 3 ? clocks : clocks == 2 ? 4 : 2;
-    return std::max(kRecords, kRecords * (held - units) / units + 2 * held + 12);
+    const auto [lanes_code, units, cycles] = GetParam();
+    const int held = cycles >= 3 ? cycles : cycles == 2 ? 4 : 2;
+    return std::max(kDescriptors, kDescriptors * (held - units) / units + 2 * held + 12);
   }
 };
 TEST_P(Classes, PassWithoutAStallAtTheBound) { EXPECT_EQ(stalls(bound()), 0u); }
@@ -166,30 +166,30 @@ TEST(Bursts, TheBoundsOfTheDefaults) {
 
 // A burst at the end of a row and one at the beginning of the next.
 struct Depth {
-  int beats, records, fifo;
+  int beats, descriptors, fifo;
   bool stalls;
 };
 void PrintTo(const Depth& d, std::ostream* out) {
-  *out << d.records << " records in rows of " << d.beats << ", FIFO of " << d.fifo;
+  *out << d.descriptors << " records in rows of " << d.beats << ", FIFO of " << d.fifo;
 }
-// Of both bursts: record_fifo >= n (1 - 2 / q) + 8 holds one.
-constexpr int depth_for(int records) {
-  constexpr int kClocks = 18;  // q of deburr
-  return 2 * ((records * (kClocks - 2) + kClocks - 1) / kClocks + 8);
+// Of both bursts: descriptor_fifo >= n (1 - 2 / q) + 8 holds one.
+constexpr int depth_for(int descriptors) {
+  constexpr int kCycles = 18;  // q of deburr
+  return 2 * ((descriptors * (kCycles - 2) + kCycles - 1) / kCycles + 8);
 }
 class FifoDepth : public ::testing::TestWithParam<Depth> {};
 TEST_P(FifoDepth, HoldsBothBursts) {
   Parameters p = preset(Preset::kDeburrLine);
-  const int width = GetParam().beats, records = GetParam().records;
+  const int width = GetParam().beats, descriptors = GetParam().descriptors;
   p.line_pixels = width;
-  p.record_fifo = GetParam().fifo;
+  p.descriptor_fifo = GetParam().fifo;
   EngineBench bench(p);
   const Frame in = draw(width, 120, [=](int x, int y) {
-    const bool burst = y % 40 < 20 ? x >= width - 2 * records : x < 2 * records;
+    const bool burst = y % 40 < 20 ? x >= width - 2 * descriptors : x < 2 * descriptors;
     return grey(burst && (x + y) / 2 % 2 != 0 ? 255 : 0);
   });
   bench.run(in);
-  const std::uint64_t stalls = bench.engine.extractor.record_stalls.value();
+  const std::uint64_t stalls = bench.engine.extractor.descriptor_stalls.value();
   EXPECT_EQ(stalls != 0, GetParam().stalls);
   EXPECT_EQ(bench.engine.extractor.interlock_stalls.value(), 0u);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), unstalled(in, p) + stalls);
@@ -219,7 +219,7 @@ TEST_P(NarrowRows, WaitForThePlaceOfTheirPixels) {
   const Frame in = draw(GetParam().width, 100, [](int, int) { return grey(128); });
   const Frame out = bench.run(in);
   EXPECT_EQ(out.pixel, in.pixel);
-  EXPECT_EQ(bench.engine.extractor.record_stalls.value(), 0u);
+  EXPECT_EQ(bench.engine.extractor.descriptor_stalls.value(), 0u);
   EXPECT_EQ(stalls(bench.engine.pixel_store, "rows") != 0, GetParam().rows != 0);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), unstalled(in, p) + GetParam().rows);
 }

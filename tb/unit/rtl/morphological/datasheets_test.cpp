@@ -30,13 +30,13 @@ TEST(MorphologicalDatasheets, AreTheContracts) {
                    {"LineUnit, lines", 24 + 1, 1},
                    {"LineUnit, learned records", 1, 1},
                    {"AreaUnit", 9, 1},
-                   {"RecordStore", 2, 1},
-                   {"RecordStore, with a table", 3, 1},
-                   {"RecordWalk", 3, 1},
-                   {"AnalyticShares", 5, 1},
-                   {"TableShares", 5, 1},
-                   {"LearnedShares", 4, 1},
-                   {"ShareRows", 1, 1},
+                   {"DescriptorStore", 2, 1},
+                   {"DescriptorStore, with a table", 3, 1},
+                   {"DescriptorWalk", 3, 1},
+                   {"AnalyticWeights", 5, 1},
+                   {"TableWeights", 5, 1},
+                   {"LearnedWeights", 4, 1},
+                   {"WeightRows", 1, 1},
                    {"DiagonalUnit", 9 + 5, 1},
                    {"PixelStore", 2, 1},
                    {"Blender", 6, 1}});
@@ -48,10 +48,10 @@ TEST(MorphologicalDatasheets, SayWhatTheirClocksAreMadeFor) {
     EXPECT_EQ(sheet.megahertz, fast.contains(sheet.unit) ? 300 : 250) << sheet.unit;
 }
 
-TEST(MorphologicalDatasheets, ARecordStoreHasAStageAClock) {
+TEST(MorphologicalDatasheets, ADescriptorStoreHasAStageAClock) {
   for (const Parameters& p : {preset(Preset::kDeburr), smaa(spec::morphological::Quality::kHigh)}) {
-    const rtl::Datasheet sheet = RecordStore::datasheet(p);
-    EXPECT_EQ(sheet.stages.size(), sheet.latency.clocks);
+    const rtl::Datasheet sheet = DescriptorStore::datasheet(p);
+    EXPECT_EQ(sheet.stages.size(), sheet.latency.cycles);
   }
 }
 
@@ -61,15 +61,15 @@ TEST(MorphologicalDatasheets, AddUpToThePipe) {
   for (const rtl::Datasheet& sheet :
        {SlotSequencer::datasheet(), LumaUnit::datasheet(), EdgeDetector::datasheet(),
         RunExtractor::slot_datasheet(), AreaUnit::datasheet({}), Blender::datasheet()})
-    sum += sheet.latency.clocks;
+    sum += sheet.latency.cycles;
   EXPECT_EQ(sum, spec::morphological::kPipelineLatency + 1u);
-  EXPECT_EQ(SlotSequencer::datasheet().latency.clocks, spec::morphological::kSequencerLatency);
-  EXPECT_EQ(LumaUnit::datasheet().latency.clocks, spec::morphological::kLumaLatency);
-  EXPECT_EQ(EdgeDetector::datasheet().latency.clocks, spec::morphological::kEdgeLatency);
-  EXPECT_EQ(RunExtractor::slot_datasheet().latency.clocks, spec::morphological::kExtractorLatency);
-  EXPECT_EQ(AreaUnit::datasheet({}).latency.clocks, spec::morphological::kAreaLatency);
-  EXPECT_EQ(PixelStore::datasheet().latency.clocks, spec::morphological::kPixelStoreLatency);
-  EXPECT_EQ(Blender::datasheet().latency.clocks, spec::morphological::kBlenderLatency + 1u);
+  EXPECT_EQ(SlotSequencer::datasheet().latency.cycles, spec::morphological::kSequencerLatency);
+  EXPECT_EQ(LumaUnit::datasheet().latency.cycles, spec::morphological::kLumaLatency);
+  EXPECT_EQ(EdgeDetector::datasheet().latency.cycles, spec::morphological::kEdgeLatency);
+  EXPECT_EQ(RunExtractor::slot_datasheet().latency.cycles, spec::morphological::kExtractorLatency);
+  EXPECT_EQ(AreaUnit::datasheet({}).latency.cycles, spec::morphological::kAreaLatency);
+  EXPECT_EQ(PixelStore::datasheet().latency.cycles, spec::morphological::kPixelStoreLatency);
+  EXPECT_EQ(Blender::datasheet().latency.cycles, spec::morphological::kBlenderLatency + 1u);
 }
 
 TEST(MorphologicalDatasheets, EveryUnitHasOne) {
@@ -110,19 +110,19 @@ void expect_parts(const AreaUnit& area, const Parameters& p,
 TEST(MorphologicalDatasheets, EveryPartOfTheAreaUnitHasOne) {
   const Parameters p = preset(Preset::kMlaa);
   const EngineBench b(p);
-  expect_parts(b.engine.area, p, {"RecordStore", "RecordWalk", "AnalyticShares", "ShareRows"});
+  expect_parts(b.engine.area, p, {"DescriptorStore", "DescriptorWalk", "AnalyticWeights", "WeightRows"});
 }
 TEST(MorphologicalDatasheets, EveryPartWithLearnedSharesHasOne) {
   const Parameters p = preset(Preset::kDeburr);
   const EngineBench b(p);
   expect_parts(b.engine.area, p,
-               {"RecordStore", "RecordWalk", "AnalyticShares", "LearnedShares", "ShareRows"});
+               {"DescriptorStore", "DescriptorWalk", "AnalyticWeights", "LearnedWeights", "WeightRows"});
 }
 TEST(MorphologicalDatasheets, EveryPartWithATableHasOne) {
   const Parameters p = smaa(spec::morphological::Quality::kHigh);
   const EngineBench b(p);
   expect_parts(b.engine.area, p,
-               {"RecordStore", "RecordWalk", "AnalyticShares", "TableShares", "ShareRows"});
+               {"DescriptorStore", "DescriptorWalk", "AnalyticWeights", "TableWeights", "WeightRows"});
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // DiagonalUnit against the golden model's function, to the bit: stairs of every length about the
 // limit of the searches, both ways, with every code at their ends, and random edges, in rows of any
-// number of beats; its clocks, its ports, and faults in what it reads.
+// number of beats; its cycles, its ports, and faults in what it reads.
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -19,9 +19,9 @@ namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
 using golden::morphological::BitPlane;
-using golden::morphological::diagonal_shares;
+using golden::morphological::diagonal_weights;
 using golden::morphological::DiagonalEnds;
-using golden::morphological::DiagonalShares;
+using golden::morphological::DiagonalWeights;
 using golden::morphological::EdgePlanes;
 using golden::morphological::falling_diagonal;
 using golden::morphological::rising_diagonal;
@@ -53,15 +53,15 @@ struct Diagonals {
   explicit Diagonals(const Parameters& p, Cycle opens = 0)
       : built(p.diagonal_steps),
         lanes(lanes_of(p)),
-        reach(reach_of(p)),
+        search_range(search_range_of(p)),
         registers(p),
         columns("columns", 2, diagonal_columns_shape(p, lanes)),
         unit("diagonals", clock, p),
         gate("gate", clock, opens) {
-    unit.rules_in(registers.rules);
+    unit.configuration_in(registers.configuration);
     driver.out(columns);
     unit.columns_in(columns);
-    gate.in(unit.shares());
+    gate.in(unit.weights());
   }
   // Bits [high:low] of a register, of the frames from now on.
   void tell(std::uint32_t offset, int high, int low, std::uint32_t value) {
@@ -77,8 +77,8 @@ struct Diagonals {
   // Columns of a beat about row y, as the RunExtractor hands them on.
   DiagonalColumnsToken token(const EdgePlanes& edges, int y, int beat) const {
     DiagonalColumnsToken t{};
-    t.slot = {static_cast<std::uint32_t>((y + reach + 3) * beats(edges) + beat),
-              static_cast<std::uint16_t>(y + reach + 3), static_cast<std::uint16_t>(beat)};
+    t.slot = {static_cast<std::uint32_t>((y + search_range + 3) * beats(edges) + beat),
+              static_cast<std::uint16_t>(y + search_range + 3), static_cast<std::uint16_t>(beat)};
     for (int lane = 0; lane < lanes; ++lane)
       for (int k = 0; k <= 2 * built; ++k) {
         const int x = beat * lanes + lane;
@@ -88,7 +88,7 @@ struct Diagonals {
       }
     return t;
   }
-  // A frame, a beat a clock from the next clock on, and `gap` clocks more between rows.
+  // A frame, a beat a clock from the next clock on, and `gap` cycles more between rows.
   void send(const EdgePlanes& edges, Cycle gap = 0) {
     registers.frame(edges.top.width(), edges.top.height(), clock.cycle());
     Cycle at = clock.cycle();
@@ -96,7 +96,7 @@ struct Diagonals {
       for (int beat = 0; beat < beats(edges); ++beat) driver.add(at++, token(edges, y, beat));
   }
   // The words of a frame. In rows of fewer beats than a diagonal takes the RunExtractor waits.
-  std::vector<DiagonalSharesToken> run(const EdgePlanes& edges) {
+  std::vector<DiagonalWeightsToken> run(const EdgePlanes& edges) {
     const std::size_t before = gate.taken.size(), wanted = before + words(edges);
     send(edges, static_cast<Cycle>(beats(edges)) < delay() ? delay() : 0);
     clock.run_until([&] { return gate.taken.size() >= wanted; }, 1'000'000);
@@ -105,18 +105,18 @@ struct Diagonals {
     return {tokens.begin() + static_cast<std::ptrdiff_t>(before), tokens.end()};
   }
 
-  const int built, lanes, reach;
+  const int built, lanes, search_range;
   ClockDomain clock{"clock", period()};
   Registers registers;
   Link<DiagonalColumnsToken> columns;
   unit_bench::Source<DiagonalColumnsToken> driver{"driver", clock};
   DiagonalUnit unit;
-  unit_bench::Sink<DiagonalSharesToken> gate;
+  unit_bench::Sink<DiagonalWeightsToken> gate;
 };
 
 // What golden says of a frame, and what it has read for that.
 struct Expected {
-  std::vector<DiagonalSharesToken> words;
+  std::vector<DiagonalWeightsToken> words;
   std::uint64_t taken = 0, reads = 0;
 };
 
@@ -127,21 +127,21 @@ Expected expected(const EdgePlanes& edges, int steps, int lanes, bool strongest 
   Expected all;
   for (int y = margin; y < edges.top.height() - margin; ++y)
     for (int x0 = 0; x0 < width; x0 += lanes) {
-      DiagonalSharesToken word{};
+      DiagonalWeightsToken word{};
       for (int lane = 0; lane < std::min(lanes, width - x0); ++lane) {
         const int x = margin + x0 + lane;
         if (steps == 0 || !edges.top.at(x, y)) continue;
         const DiagonalEnds rising = rising_diagonal(edges, steps, x, y),
                            falling = falling_diagonal(edges, steps, x, y);
         all.reads += std::uint64_t{rising.counts()} + std::uint64_t{falling.counts()};
-        const DiagonalShares shares = diagonal_shares(rising, falling);
-        if (!shares.taken()) continue;
+        const DiagonalWeights weights = diagonal_weights(rising, falling);
+        if (!weights.taken()) continue;
         ++all.taken;
         const auto i = static_cast<std::size_t>(lane);
         word.taken = static_cast<std::uint8_t>(word.taken | 1u << lane);
-        word.first[i] = static_cast<std::uint8_t>(std::min(most, shares.first));
-        word.second[i] = static_cast<std::uint8_t>(std::min(most, shares.second));
-        word.span[i] = static_cast<std::uint8_t>(shares.span);
+        word.first[i] = static_cast<std::uint8_t>(std::min(most, weights.first));
+        word.second[i] = static_cast<std::uint8_t>(std::min(most, weights.second));
+        word.span[i] = static_cast<std::uint8_t>(weights.span);
       }
       all.words.push_back(word);
     }
@@ -149,7 +149,7 @@ Expected expected(const EdgePlanes& edges, int steps, int lanes, bool strongest 
 }
 
 // Lanes that are not taken hold old bits.
-std::size_t differences(const std::vector<DiagonalSharesToken>& got, const Expected& want) {
+std::size_t differences(const std::vector<DiagonalWeightsToken>& got, const Expected& want) {
   if (got.size() != want.words.size()) return 1'000'000 + got.size();
   std::size_t count = 0;
   for (std::size_t i = 0; i < got.size(); ++i) {
@@ -344,13 +344,13 @@ TEST(DiagonalUnitBlock, TakesAsManyStepsAsTheRegisterSays) {
   }
 }
 
-// Both directions in one pixel add up to shares of a half and more.
+// Both directions in one pixel add up to weights of a half and more.
 TEST(DiagonalUnitBlock, LimitsSharesAsTheBlendRuleSays) {
   const Parameters p = built_as({8, 0});
   Diagonals bench(p);
   std::size_t limited = 0;
   for (const bool strongest : {true, false}) {
-    bench.tell(reg::kRules, 22, 22, strongest);
+    bench.tell(reg::kConfiguration, 22, 22, strongest);
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       const EdgePlanes edges = random_edges(80, 40, seed);
       const auto words = bench.run(edges);
@@ -361,16 +361,16 @@ TEST(DiagonalUnitBlock, LimitsSharesAsTheBlendRuleSays) {
   EXPECT_GT(limited, 50u) << "the limits differ nowhere";
 }
 
-// ---- clocks -------------------------------------------------------------------------------------
+// ---- cycles -------------------------------------------------------------------------------------
 
-class DiagonalClocks : public ::testing::TestWithParam<Build> {};
+class DiagonalCycles : public ::testing::TestWithParam<Build> {};
 
-// A beat a clock goes in and a word a clock comes out, each D + 5 clocks after its columns, whether
+// A beat a clock goes in and a word a clock comes out, each D + 5 cycles after its columns, whether
 // nothing is an edge or everything.
-TEST_P(DiagonalClocks, AWordHasTheLatencyOfTheDatasheet) {
+TEST_P(DiagonalCycles, AWordHasTheLatencyOfTheDatasheet) {
   const Parameters p = built_as(GetParam());
   Diagonals bench(p);
-  const Cycle latency = DiagonalUnit::datasheet(p).latency.clocks;
+  const Cycle latency = DiagonalUnit::datasheet(p).latency.cycles;
   const int width = 3 * (p.diagonal_steps + 1) + 1;
   Cycle idle = 0, cycles = 0;
   for (const bool all : {false, true}) {
@@ -384,7 +384,7 @@ TEST_P(DiagonalClocks, AWordHasTheLatencyOfTheDatasheet) {
     const std::size_t first = bench.gate.taken.size();
     ASSERT_EQ(bench.run(edges).size(), bench.words(edges));
     for (std::size_t i = 0; i < bench.words(edges); ++i)
-      // Sent in k, popped in k + 1, taken that many clocks later.
+      // Sent in k, popped in k + 1, taken that many cycles later.
       ASSERT_EQ(bench.gate.taken[first + i].cycle, begins + i + 1 + latency) << i;
     idle = bench.unit.idle_cycles();
     cycles = bench.clock.cycle();
@@ -398,7 +398,7 @@ TEST_P(DiagonalClocks, AWordHasTheLatencyOfTheDatasheet) {
 
 // Where no beat comes a row is finished all the same, by as many shifts; a word of the row's last D
 // beats does not wait for the next row.
-TEST_P(DiagonalClocks, ARowIsFinishedWithoutTheNext) {
+TEST_P(DiagonalCycles, ARowIsFinishedWithoutTheNext) {
   const Parameters p = built_as(GetParam());
   Diagonals bench(p);
   const EdgePlanes edges = random_edges(3 * p.diagonal_steps + 8, 6, 9);
@@ -413,7 +413,7 @@ TEST_P(DiagonalClocks, ARowIsFinishedWithoutTheNext) {
 }
 
 // A gap inside a row holds up what is behind the newest columns, and nothing is lost.
-TEST_P(DiagonalClocks, AGapInARowHoldsItUp) {
+TEST_P(DiagonalCycles, AGapInARowHoldsItUp) {
   const Parameters p = built_as(GetParam());
   Diagonals bench(p);
   const EdgePlanes edges = random_edges(4 * p.diagonal_steps + 9, 5, 2);
@@ -433,7 +433,7 @@ TEST_P(DiagonalClocks, AGapInARowHoldsItUp) {
     EXPECT_GE(bench.gate.taken[i].cycle, sent[i] + 1 + bench.delay() + kStages);
   }
 }
-INSTANTIATE_TEST_SUITE_P(Each, DiagonalClocks,
+INSTANTIATE_TEST_SUITE_P(Each, DiagonalCycles,
                          ::testing::Values(Build{1, 0}, Build{8, 0}, Build{8, 1}, Build{8, 2},
                                            Build{16, 0}, Build{16, 2}));
 
@@ -459,14 +459,14 @@ TEST(DiagonalUnitBlock, AResetLeavesNothing) {
   const Parameters p = built_as({8, 1});
   Diagonals bench(p);
   const EdgePlanes before = random_edges(60, 9, 1), after = random_edges(44, 9, 2);
-  for (Cycle clocks = 100; clocks < 130; ++clocks) {
+  for (Cycle cycles = 100; cycles < 130; ++cycles) {
     bench.send(before);
-    bench.clock.run(clocks);
+    bench.clock.run(cycles);
     bench.clock.set_reset_n(false);
     bench.clock.run(1);
     bench.clock.set_reset_n(true);
     const Cycle begins = bench.clock.cycle();
-    EXPECT_EQ(differences(bench.run(after), expected(after, 8, 2)), 0u) << clocks;
+    EXPECT_EQ(differences(bench.run(after), expected(after, 8, 2)), 0u) << cycles;
     EXPECT_EQ(bench.gate.taken.at(0).cycle, begins + 1 + bench.delay() + kStages);
   }
 }
@@ -485,7 +485,7 @@ Memory& memory_of(Diagonals& bench, const std::string& name) {
 using Rom = rtl::Memory<std::uint16_t>;
 
 // What the contract's table says, and no access more than a direction that counts asks for.
-TEST_P(DiagonalClocks, PortsAndAccessesAreTheContracts) {
+TEST_P(DiagonalCycles, PortsAndAccessesAreTheContracts) {
   const Parameters p = built_as(GetParam());
   Diagonals bench(p);
   const auto lanes = static_cast<std::uint64_t>(bench.lanes),
@@ -502,12 +502,12 @@ TEST_P(DiagonalClocks, PortsAndAccessesAreTheContracts) {
   EXPECT_EQ(window.shape().words, (d + 1) * lanes + m + 1);
   EXPECT_EQ(window.shape().word_bits, 4 * m + 2 + 7);
   EXPECT_EQ(window.shape().kind, rtl::MemoryKind::kFlops);
-  const rtl::MemoryBase& fifo = memory_of(bench, "diagonal_shares");
+  const rtl::MemoryBase& fifo = memory_of(bench, "diagonal_weights");
   EXPECT_EQ(fifo.shape().words, (128 + lanes - 1) / lanes + 16);
   EXPECT_EQ(fifo.shape().word_bits, 23 * lanes);
   for (const rtl::MemoryBase* memory : {static_cast<const rtl::MemoryBase*>(&rom),
                                         static_cast<const rtl::MemoryBase*>(&window), &fifo})
-    EXPECT_EQ(memory->idealised(), "") << memory->name();
+    EXPECT_EQ(memory->not_implementable(), "") << memory->name();
 
   const EdgePlanes edges = random_edges(70, 30, 8);
   bench.run(edges);
@@ -532,14 +532,14 @@ TEST(DiagonalUnitMemory, AWordOfTheRomIsNotThereInTheClockOfItsAddress) {
       ::testing::AllOf(::testing::HasSubstr("diagonal_rom"), ::testing::HasSubstr("is used")));
 }
 
-// ---- planted faults -----------------------------------------------------------------------------
+// ---- injected faults -----------------------------------------------------------------------------
 
-struct Planted {
+struct Injected {
   const char* name;
   void (*in_rom)(Rom&);
 };
-void PrintTo(const Planted& f, std::ostream* out) { *out << f.name; }
-class DiagonalFaults : public ::testing::TestWithParam<Planted> {};
+void PrintTo(const Injected& f, std::ostream* out) { *out << f.name; }
+class DiagonalFaults : public ::testing::TestWithParam<Injected> {};
 
 void for_all(Rom& rom, const std::function<std::uint16_t(int, int, int, int)>& word) {
   std::vector<std::uint16_t> words;
@@ -561,34 +561,34 @@ TEST_P(DiagonalFaults, AreSeen) {
 INSTANTIATE_TEST_SUITE_P(
     Rom, DiagonalFaults,
     ::testing::Values(
-        Planted{"a bit of a word",
+        Injected{"a bit of a word",
                 [](Rom& rom) { rom.backdoor(diagonal_address(0, 0, 2, 1)) ^= 1; }},
-        Planted{"rising for falling",
+        Injected{"rising for falling",
                 [](Rom& rom) {
                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
                     const std::uint16_t word = rom.backdoor(diagonal_address(e1, e2, d1, d2));
                     return static_cast<std::uint16_t>(word << 8 | word >> 8);
                   });
                 }},
-        Planted{"codes of the ends exchanged",
+        Injected{"codes of the ends exchanged",
                 [](Rom& rom) {
                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
                     return rom.backdoor(diagonal_address(e2, e1, d1, d2));
                   });
                 }},
-        Planted{"bits of a code exchanged",
+        Injected{"bits of a code exchanged",
                 [](Rom& rom) {
                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
                     return rom.backdoor(diagonal_address(e1 >> 1 | (e1 & 1) << 1, e2, d1, d2));
                   });
                 }},
-        Planted{"a pixel further from end 1",
+        Injected{"a pixel further from end 1",
                 [](Rom& rom) {
                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
                     return rom.backdoor(diagonal_address(e1, e2, std::min(19, d1 + 1), d2));
                   });
                 }},
-        Planted{"a pixel further from end 2", [](Rom& rom) {
+        Injected{"a pixel further from end 2", [](Rom& rom) {
                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
                     return rom.backdoor(diagonal_address(e1, e2, d1, std::min(19, d2 + 1)));
                   });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // EdgeDetector behind SlotSequencer and LumaUnit: thresholds by hand, the sources of an edge, local
-// contrast, and its clocks.
+// contrast, and its cycles.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -37,7 +37,7 @@ Frame transposed(const Frame& frame) {
   return other;
 }
 
-constexpr std::uint32_t kPlainRules = 0;  // luma, fixed, no local contrast
+constexpr std::uint32_t kPlainConfiguration = 0;  // luma, fixed, no local contrast
 
 TEST(EdgeDetectorBlock, FixedThresholdIsMetNotExceeded) {
   Front front(preset(spec::morphological::Preset::kMlaa));
@@ -61,7 +61,7 @@ TEST(EdgeDetectorBlock, TakesSevenClocksFromBeatToBits) {
   // beside luma and edges.
   const Cycle first = front.sink.cycles()[0];
   expect_latency(EdgeDetector::datasheet(),
-                 first - front.beat_sink.cycles()[0] - LumaUnit::datasheet().latency.clocks);
+                 first - front.beat_sink.cycles()[0] - LumaUnit::datasheet().latency.cycles);
   for (std::size_t i = 1; i < front.sink.cycles().size(); ++i)
     ASSERT_EQ(front.sink.cycles()[i], first + i) << "one slot a clock";
   EXPECT_EQ(front.sink.cycles().size(), (1u + 37u) * 3u);
@@ -72,9 +72,9 @@ TEST(EdgeDetectorBlock, DynamicThresholdIsStrictAndHasAFloor) {
   const std::uint32_t current = 1u << 2, larger = 1u << 2 | 1u << 3;
   const std::map<std::uint32_t, std::uint32_t> alpha = {{reg::kAlpha, 1677722},
                                                         {reg::kFloor, 131072}};
-  const auto with = [&](std::uint32_t rules) {
+  const auto with = [&](std::uint32_t configuration) {
     auto writes = alpha;
-    writes[reg::kRules] = rules;
+    writes[reg::kConfiguration] = configuration;
     return writes;
   };
   // 10 codes of 100, of which 1677722 / 2^24 is a little more: no. 11 codes: yes. With alpha a unit
@@ -82,7 +82,7 @@ TEST(EdgeDetectorBlock, DynamicThresholdIsStrictAndHasAFloor) {
   EXPECT_EQ(left_bits(front.detect(row({90, 100}), with(current))), "00");
   EXPECT_EQ(
       left_bits(front.detect(
-          row({90, 100}), {{reg::kRules, current}, {reg::kAlpha, 1677721}, {reg::kFloor, 131072}})),
+          row({90, 100}), {{reg::kConfiguration, current}, {reg::kAlpha, 1677721}, {reg::kFloor, 131072}})),
       "01");
   EXPECT_EQ(left_bits(front.detect(row({89, 100}), with(current))), "01");
   // The other way round the current pixel is the darker one.
@@ -109,7 +109,7 @@ TEST(EdgeDetectorBlock, EachLumaRuleIsStrictAtEquality) {
         Row{3, 60, 101, true, true}, Row{3, 60, 99, false, false}, Row{3, 61, 101, false, false},
         Row{3, 59, 99, true, true}}) {
     const std::map<std::uint32_t, std::uint32_t> writes = {
-        {reg::kRules, 1u << 2 | r.rule << 3}, {reg::kAlpha, 1 << 23}, {reg::kFloor, 1}};
+        {reg::kConfiguration, 1u << 2 | r.rule << 3}, {reg::kAlpha, 1 << 23}, {reg::kFloor, 1}};
     const std::string edge = r.edge ? "01" : "00", other = r.other_way ? "01" : "00";
     const Frame pair = row({r.before, r.here}), back = row({r.here, r.before});
     EXPECT_EQ(left_bits(front.detect(pair, writes)), edge) << r.rule << " " << r.before;
@@ -132,7 +132,7 @@ TEST(EdgeDetectorBlock, DepthAndPredicatedSources) {
   // Predicated: three codes on a depth edge (167025), thirteen elsewhere (835635).
   Frame steps = row({0, 2, 5, 17, 30});
   steps.depth = {1000, 500, 1000, 1000, 1000};
-  EXPECT_EQ(left_bits(front.detect(steps, {{reg::kRules, 2}})), "00101");
+  EXPECT_EQ(left_bits(front.detect(steps, {{reg::kConfiguration, 2}})), "00101");
 }
 
 // The largest of three steps; luma would not see the first two.
@@ -170,7 +170,7 @@ class Masked : public ::testing::TestWithParam<spec::morphological::EdgeSource> 
 TEST_P(Masked, PixelsMakeNoStep) {
   Parameters p = preset(spec::morphological::Preset::kDeburr);
   p.edge_source = GetParam();
-  p.leave = spec::morphological::Leave::kMasked;
+  p.leave = spec::morphological::Bypass::kMasked;
   Front front(p);
   Frame steps = row({0, 30, 30, 200, 0, 0, 80, 0});
   for (Rgba8& pixel : steps.pixel) pixel[3] = 1;
@@ -197,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(MaskedDepth, MakesNoStepEither) {
   Parameters p = preset(spec::morphological::Preset::kMlaa);
   p.edge_source = spec::morphological::EdgeSource::kDepth;
-  p.leave = spec::morphological::Leave::kMasked;
+  p.leave = spec::morphological::Bypass::kMasked;
   Front front(p);
   Frame frame = row({0, 0, 0, 0, 0});
   frame.depth = {1000, 950, 949, 1000, 0};
@@ -211,8 +211,8 @@ TEST(EdgeDetectorBlock, WithoutDepthLinesDepthReadsZero) {
   Front front(preset(spec::morphological::Preset::kMlaa));
   Frame frame = row({0, 255, 0});
   frame.depth = {1, 1000, 1};
-  EXPECT_EQ(left_bits(front.detect(frame, {{reg::kRules, 1}})), "000");
-  EXPECT_EQ(left_bits(front.detect(frame, {{reg::kRules, 2}})), "011");
+  EXPECT_EQ(left_bits(front.detect(frame, {{reg::kConfiguration, 1}})), "000");
+  EXPECT_EQ(left_bits(front.detect(frame, {{reg::kConfiguration, 2}})), "011");
 }
 
 // ---- every comparison at equality, and one on either side ---------------------------------------
@@ -254,7 +254,7 @@ TEST_P(AtEquality, AFixedThresholdIsMet) {
   for (const auto& [threshold, bits] : {std::pair{kBlueStep - 1, "011110101"},
                                         {kBlueStep, "011110101"},
                                         {kBlueStep + 1, "000000000"}})
-    expect(frame, {{reg::kRules, 0}, {reg::kThreshold, threshold}}, bits);
+    expect(frame, {{reg::kConfiguration, 0}, {reg::kThreshold, threshold}}, bits);
 }
 
 TEST_P(AtEquality, ADynamicThresholdIsExceeded) {
@@ -262,7 +262,7 @@ TEST_P(AtEquality, ADynamicThresholdIsExceeded) {
   for (const std::uint32_t larger : {0u, 1u << 3})
     for (const auto& [alpha, bits] :
          {std::pair{(1u << 23) - 1, "01"}, {1u << 23, "00"}, {(1u << 23) + 1, "00"}})
-      expect(row({1, 2}), {{reg::kRules, 1u << 2 | larger}, {reg::kAlpha, alpha}, {reg::kFloor, 1}},
+      expect(row({1, 2}), {{reg::kConfiguration, 1u << 2 | larger}, {reg::kAlpha, alpha}, {reg::kFloor, 1}},
              bits);
 }
 
@@ -271,7 +271,7 @@ TEST_P(AtEquality, AFloorIsMet) {
   for (const auto& [floor, bits] :
        {std::pair{kBlueStep - 1, "01"}, {kBlueStep, "01"}, {kBlueStep + 1, "00"}})
     expect(black_and_blue("b."),
-           {{reg::kRules, 1u << 2}, {reg::kAlpha, 0xFFFFFF}, {reg::kFloor, floor}}, bits);
+           {{reg::kConfiguration, 1u << 2}, {reg::kAlpha, 0xFFFFFF}, {reg::kFloor, floor}}, bits);
 }
 
 TEST_P(AtEquality, ADepthThresholdIsMet) {
@@ -279,16 +279,16 @@ TEST_P(AtEquality, ADepthThresholdIsMet) {
   Frame frame = row({0, 0, 0});
   frame.depth = {1024, 960, 1024};
   for (const auto& [threshold, bits] : {std::pair{4095u, "011"}, {4096u, "011"}, {4097u, "000"}})
-    expect(frame, {{reg::kRules, 1}, {reg::kDepthThreshold, threshold}}, bits);
+    expect(frame, {{reg::kConfiguration, 1}, {reg::kDepthThreshold, threshold}}, bits);
   // And a step of one code on either side.
   for (const auto& [depth, bits] : {std::pair{959u, "01"}, {960u, "01"}, {961u, "00"}}) {
     Frame pair = row({0, 0});
     pair.depth = {1024, depth};
-    expect(pair, {{reg::kRules, 1}, {reg::kDepthThreshold, 4096}}, bits);
+    expect(pair, {{reg::kConfiguration, 1}, {reg::kDepthThreshold, 4096}}, bits);
   }
   // Whatever the threshold: the same depth is no edge.
   frame.depth = {7, 7, 0};
-  expect(frame, {{reg::kRules, 1}, {reg::kDepthThreshold, 0}}, "001");
+  expect(frame, {{reg::kConfiguration, 1}, {reg::kDepthThreshold, 0}}, "001");
 }
 
 TEST_P(AtEquality, PredicatedThresholdsAreMet) {
@@ -299,7 +299,7 @@ TEST_P(AtEquality, PredicatedThresholdsAreMet) {
                                       {kBlueStep, kBlueStep + 1, "001"},
                                       {kBlueStep - 1, kBlueStep - 1, "011"},
                                       {kBlueStep + 1, kBlueStep + 1, "000"}})
-    expect(frame, {{reg::kRules, 2}, {reg::kThresholdOn, on}, {reg::kThresholdOff, off}}, bits);
+    expect(frame, {{reg::kConfiguration, 2}, {reg::kThresholdOn, on}, {reg::kThresholdOff, off}}, bits);
 }
 
 INSTANTIATE_TEST_SUITE_P(EdgeDetector, AtEquality,
@@ -309,17 +309,17 @@ INSTANTIATE_TEST_SUITE_P(EdgeDetector, AtEquality,
 TEST(EdgeDetectorBlock, LocalContrastIsStrictTwiceTheStep) {
   Front front(preset(spec::morphological::Preset::kMlaa));
   const std::uint32_t paper = 1u << 5, symmetric = 2u << 5;
-  for (const std::uint32_t rules : {paper, symmetric}) {
-    const std::map<std::uint32_t, std::uint32_t> writes = {{reg::kRules, rules}};
+  for (const std::uint32_t configuration : {paper, symmetric}) {
+    const std::map<std::uint32_t, std::uint32_t> writes = {{reg::kConfiguration, configuration}};
     // Steps 100 and 200: 2 x 100 > 200 is false. Steps 101 and 200: both stay.
-    EXPECT_EQ(left_bits(front.detect(row({0, 100, 255 - 0}), {{reg::kRules, rules}})), "011");
+    EXPECT_EQ(left_bits(front.detect(row({0, 100, 255 - 0}), {{reg::kConfiguration, configuration}})), "011");
     EXPECT_EQ(left_bits(front.detect(row({0, 85, 255}), writes)), "001");  // 85, 170
     EXPECT_EQ(left_bits(front.detect(row({0, 86, 255}), writes)), "011");  // 86, 169
     EXPECT_EQ(left_bits(front.detect(row({0, 170, 255}), writes)), "010");
     EXPECT_EQ(top_bits(front.detect(transposed(row({0, 85, 255})), writes)), "001");
   }
   // `smaa` keeps what is exactly half: 85 and 170.
-  const std::map<std::uint32_t, std::uint32_t> smaa = {{reg::kRules, 3u << 5}};
+  const std::map<std::uint32_t, std::uint32_t> smaa = {{reg::kConfiguration, 3u << 5}};
   EXPECT_EQ(left_bits(front.detect(row({0, 85, 255}), smaa)), "011");
   EXPECT_EQ(left_bits(front.detect(row({0, 84, 255}), smaa)), "001");
   EXPECT_EQ(left_bits(front.detect(row({0, 170, 255}), smaa)), "011");
@@ -329,10 +329,10 @@ TEST(EdgeDetectorBlock, LocalContrastIsStrictTwiceTheStep) {
   // symmetric form keeps it, since the other pixel of the pair sees none.
   const Frame corner = draw(
       4, 2, [](int x, int y) { return grey(y == 0 ? (x < 2 ? 100 : 140) : (x < 2 ? 100 : 255)); });
-  const auto bits = [&](std::uint32_t rules) {
-    return left_bits(front.detect(corner, {{reg::kRules, rules}}));
+  const auto bits = [&](std::uint32_t configuration) {
+    return left_bits(front.detect(corner, {{reg::kConfiguration, configuration}}));
   };
-  EXPECT_EQ(bits(kPlainRules), "00100010");
+  EXPECT_EQ(bits(kPlainConfiguration), "00100010");
   EXPECT_EQ(bits(paper), "00000010");      // 2 x 40 > 115 is false
   EXPECT_EQ(bits(symmetric), "00100010");  // min(115, 0) = 0
 }
@@ -349,7 +349,7 @@ struct Detecting {
         registers(p, 64, 8),
         ends(clock),
         edges("edges", clock, p) {
-    edges.rules_in(registers.rules);
+    edges.configuration_in(registers.configuration);
     edges.lumas_in(ends.in);
     edges.edges_out(ends.out);
   }

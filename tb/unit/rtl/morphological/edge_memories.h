@@ -14,31 +14,31 @@ struct EdgeMemories {
       : window("edge_window", p),
         rows(p),
         lanes_(rtl::morphological::built_lanes(p)),
-        reach_(rtl::morphological::reach_rows_of(p)) {}
+        search_range_(rtl::morphological::search_range_rows_of(p)) {}
 
   // When the runs of row y of a frame have been found. left(x, y), top(x, y): is there an edge?
   template <class Left, class Top>
-  void show(const rtl::morphological::FrameRules& rules, int y, Left&& left, Top&& top) {
-    const int newest = y + reach_ + 1;
+  void show(const rtl::morphological::FrameConfiguration& configuration, int y, Left&& left, Top&& top) {
+    const int newest = y + search_range_ + 1;
     const auto beat = [&](int row, int first) {
       rtl::morphological::EdgeBits bits;
-      if (row < 0 || row >= rules.height) return bits;
-      for (int x = first; x < std::min<int>(first + lanes_, rules.width); ++x) {
+      if (row < 0 || row >= configuration.height) return bits;
+      for (int x = first; x < std::min<int>(first + lanes_, configuration.width); ++x) {
         bits.left = static_cast<std::uint8_t>(bits.left | int{left(x, row)} << (x - first));
         bits.top = static_cast<std::uint8_t>(bits.top | int{top(x, row)} << (x - first));
       }
       return bits;
     };
     for (int row = -1; row <= newest; ++row)
-      for (int first = 0; first < rules.width; first += lanes_) {
-        window.read_beat(clock_++, rules, first);
-        window.write_beat(clock_++, rules, first, row + 1, beat(row, first));
+      for (int first = 0; first < configuration.width; first += lanes_) {
+        window.read_beat(clock_++, configuration, first);
+        window.write_beat(clock_++, configuration, first, row + 1, beat(row, first));
       }
     for (int row = std::max(0, y - rows.ahead());
-         row < std::min<int>(rules.height, y + rows.ahead()); ++row)
-      for (int first = 0; first < rules.width; first += lanes_) {
+         row < std::min<int>(configuration.height, y + rows.ahead()); ++row)
+      for (int first = 0; first < configuration.width; first += lanes_) {
         const rtl::morphological::EdgeBits bits = beat(row, first);
-        rows.write(clock_++, rules, row, first, bits.left, bits.top);
+        rows.write(clock_++, configuration, row, first, bits.left, bits.top);
       }
   }
 
@@ -46,7 +46,7 @@ struct EdgeMemories {
   rtl::morphological::EdgeRows rows;
 
  private:
-  const int lanes_, reach_;
+  const int lanes_, search_range_;
   rtl::Cycle clock_ = rtl::Cycle{1} << 40;  // outside of time
 };
 

@@ -22,8 +22,8 @@ using spec::morphological::Axis;
 using spec::morphological::Lanes;
 using spec::morphological::Preset;
 
-Parameters built(bool contiguous, int reach_rows = 32, int reach_columns = 256) {
-  Parameters p = preset(Preset::kDeburrLine, reach_rows, reach_columns);
+Parameters built(bool contiguous, int search_rows = 32, int search_columns = 256) {
+  Parameters p = preset(Preset::kDeburrLine, search_rows, search_columns);
   p.contiguous = contiguous;
   return p;
 }
@@ -34,12 +34,12 @@ struct Shown {
       : width(width_),
         height(height_),
         row(row_),
-        rules(Registers(p, width_, height_).rules.driven()),
+        configuration(Registers(p, width_, height_).configuration.driven()),
         memories(p) {
     Random random(permille);
     for (int i = 0; i < 2 * width * height; ++i) bits.push_back(random.chance(permille));
     memories.show(
-        rules, row, [&](int x, int y) { return edge(false, x, y); },
+        configuration, row, [&](int x, int y) { return edge(false, x, y); },
         [&](int x, int y) { return edge(true, x, y); });
   }
   bool edge(bool top, int x, int y) const {
@@ -49,7 +49,7 @@ struct Shown {
   }
   int width, height, row;
   std::vector<bool> bits;
-  const FrameRules rules;
+  const FrameConfiguration configuration;
   EdgeMemories memories;
 };
 
@@ -75,28 +75,28 @@ struct Planes {
 };
 
 struct Look {
-  int lanes_code, reach_rows, reach_columns;
+  int lanes_code, search_rows, search_columns;
   bool contiguous;
 };
-void PrintTo(const Look& l, std::ostream* out) { *out << l.reach_rows << ' ' << l.reach_columns; }
+void PrintTo(const Look& l, std::ostream* out) { *out << l.search_rows << ' ' << l.search_columns; }
 class EdgeMemoriesShow : public ::testing::TestWithParam<Look> {};
 
 // Any trial, also beyond the frame's border, shows what the planes hold.
 TEST_P(EdgeMemoriesShow, WhatHasBeenWritten) {
   const Look look = GetParam();
-  Parameters p = built(look.contiguous, look.reach_rows, look.reach_columns);
+  Parameters p = built(look.contiguous, look.search_rows, look.search_columns);
   p.lanes = static_cast<Lanes>(look.lanes_code);
   constexpr int kWidth = 150, kHeight = 70;
   Random random(look.contiguous ? 3 : 4);
   std::uint64_t found = 0;
   Shown shown(p, kWidth, kHeight, 30, 800);
   rtl::Cycle cycle = 0;
-  const int steps = std::min(16, look.reach_rows - 1);
+  const int steps = std::min(16, look.search_rows - 1);
   for (int i = 0; i < 40'000; ++i) {
     const bool vertical = random.chance(500);
-    const int reach = vertical ? look.reach_rows : look.reach_columns;
+    const int search_range = vertical ? look.search_rows : look.search_columns;
     const int length = 1 + static_cast<int>(random.below(static_cast<std::uint32_t>(
-                               std::min(reach, random.chance(700) ? 4 : 60))));
+                               std::min(search_range, random.chance(700) ? 4 : 60))));
     const int start = vertical ? 30 : static_cast<int>(random.below(kWidth));
     const int k = 1 + static_cast<int>(random.below(static_cast<std::uint32_t>(steps)));
     Trial trial{};
@@ -106,8 +106,8 @@ TEST_P(EdgeMemoriesShow, WhatHasBeenWritten) {
     trial.length = length;
     const int used =
         length +
-        static_cast<int>(random.below(static_cast<std::uint32_t>(std::max(1, reach - length))));
-    trial.room = reach - used;
+        static_cast<int>(random.below(static_cast<std::uint32_t>(std::max(1, search_range - length))));
+    trial.room = search_range - used;
     trial.from = start + (trial.to_the_right ? used : length - used);
     if (trial.room < std::max(1, length - 1)) continue;
     trial.corner = static_cast<std::uint8_t>(random.below(16));
@@ -120,11 +120,11 @@ TEST_P(EdgeMemoriesShow, WhatHasBeenWritten) {
     std::uint8_t hits = 0;
     ++cycle;
     if (vertical) {
-      shown.memories.window.read(cycle, shown.rules, 0, trial);
-      hits = shown.memories.window.hits(cycle + 1, shown.rules, 0, trial);
+      shown.memories.window.read(cycle, shown.configuration, 0, trial);
+      hits = shown.memories.window.hits(cycle + 1, shown.configuration, 0, trial);
     } else {
-      shown.memories.rows.read(cycle, shown.rules, 0, trial);
-      hits = shown.memories.rows.hits(cycle + 1, shown.rules, 0, trial);
+      shown.memories.rows.read(cycle, shown.configuration, 0, trial);
+      hits = shown.memories.rows.hits(cycle + 1, shown.configuration, 0, trial);
     }
     found += hits != 0;
     ASSERT_EQ(hits, hits_of(trial, planes, look.contiguous))
@@ -148,24 +148,24 @@ TEST(EdgeMemory, TheNextRowLeavesWhatTheRecordsOfThisOneLookAt) {
   for (const int row : {kRow, kRow + 1})
     for (int x = 0; x < kWidth; ++x) {
       const int y = row + rows.ahead();
-      rows.write(cycle++, shown.rules, y, x, shown.edge(false, x, y), shown.edge(true, x, y));
+      rows.write(cycle++, shown.configuration, y, x, shown.edge(false, x, y), shown.edge(true, x, y));
     }
   for (const int line : {kRow - kSteps, kRow + kSteps}) {
     const Planes planes{shown, false, line};
     for (int x = 0; x < kWidth - 4; ++x) {
       Trial trial{line, x, 3, 20, true, planes.code(x), planes.code(x + 3)};
-      rows.read(++cycle, shown.rules, 0, trial);
-      EXPECT_EQ(rows.hits(++cycle, shown.rules, 0, trial), hits_of(trial, planes, false))
+      rows.read(++cycle, shown.configuration, 0, trial);
+      EXPECT_EQ(rows.hits(++cycle, shown.configuration, 0, trial), hits_of(trial, planes, false))
           << line << ' ' << x;
     }
   }
 }
 
 struct Sharing {
-  int trial_clocks, units, lanes_code, ports;
+  int trial_cycles, units, lanes_code, ports;
 };
 void PrintTo(const Sharing& s, std::ostream* out) {
-  *out << s.trial_clocks << ' ' << s.units << ' ' << s.lanes_code;
+  *out << s.trial_cycles << ' ' << s.units << ' ' << s.lanes_code;
 }
 class Schedule : public ::testing::TestWithParam<Sharing> {};
 
@@ -174,26 +174,26 @@ class Schedule : public ::testing::TestWithParam<Sharing> {};
 TEST_P(Schedule, GivesEachReadAPlaceOfItsOwn) {
   const Sharing s = GetParam();
   Parameters p = built(true);
-  p.trial_clocks = s.trial_clocks;
+  p.trial_cycles = s.trial_cycles;
   p.predictor_units = s.units;
   p.lanes = static_cast<Lanes>(s.lanes_code);
   const PortSchedule schedule(p);
   const int predictors = s.units * lanes_of(p);
   EXPECT_EQ(schedule.ports(), s.ports);
-  EXPECT_LT((schedule.ports() - 1) * s.trial_clocks, 2 * predictors);
+  EXPECT_LT((schedule.ports() - 1) * s.trial_cycles, 2 * predictors);
   std::set<std::pair<int, int>> places;
   for (int i = 0; i < predictors; ++i)
     for (const int side : {0, 1}) {
       const int phase = schedule.phase(i, side), port = schedule.port(i, side);
-      EXPECT_LT(phase, s.trial_clocks);
+      EXPECT_LT(phase, s.trial_cycles);
       EXPECT_LT(port, s.ports);
       EXPECT_TRUE(places.emplace(phase, port).second) << i;
       const int after = phase - schedule.phase(i, 0);
       EXPECT_TRUE(after == 0 || (after == 1 && side == 1));
       for (const Cycle from : {Cycle{0}, Cycle{7}, Cycle{1'000'003}}) {
         const Cycle wait = schedule.wait(from, phase);
-        EXPECT_EQ((from + wait) % static_cast<Cycle>(s.trial_clocks), static_cast<Cycle>(phase));
-        EXPECT_LT(wait, static_cast<Cycle>(s.trial_clocks));
+        EXPECT_EQ((from + wait) % static_cast<Cycle>(s.trial_cycles), static_cast<Cycle>(phase));
+        EXPECT_LT(wait, static_cast<Cycle>(s.trial_cycles));
       }
     }
 }
@@ -241,12 +241,12 @@ TEST(EdgeMemory, OneAccessTooManyInAClockStops) {
   EdgeRows& rows = shown.memories.rows;
   Trial across{40, 30, 3, 20, true, 2, 1}, along{31, 40, 3, 20, true, 2, 1};
   for (const Cycle cycle : {Cycle{7}, Cycle{8}, Cycle{100}}) {
-    window.read(cycle, shown.rules, 0, across);
-    expect_stop([&] { window.read(cycle, shown.rules, 0, across); }, "edge_window");
-    rows.read(cycle, shown.rules, 0, along);
-    expect_stop([&] { rows.read(cycle, shown.rules, 0, along); }, "edge_rows");
-    window.read_beat(cycle, shown.rules, 5);
-    expect_stop([&] { window.read_beat(cycle, shown.rules, 6); }, "edge_window");
+    window.read(cycle, shown.configuration, 0, across);
+    expect_stop([&] { window.read(cycle, shown.configuration, 0, across); }, "edge_window");
+    rows.read(cycle, shown.configuration, 0, along);
+    expect_stop([&] { rows.read(cycle, shown.configuration, 0, along); }, "edge_rows");
+    window.read_beat(cycle, shown.configuration, 5);
+    expect_stop([&] { window.read_beat(cycle, shown.configuration, 6); }, "edge_window");
   }
 }
 
@@ -256,25 +256,25 @@ TEST(EdgeMemory, AWordIsThereAClockAfterItsReadAndNotBefore) {
   EdgeRows& rows = shown.memories.rows;
   Trial across{40, 30, 3, 20, true, 2, 1}, along{31, 40, 3, 20, true, 2, 1};
   // None has been read yet.
-  expect_stop([&] { window.hits(7, shown.rules, 0, across); }, "edge_window");
-  expect_stop([&] { rows.hits(7, shown.rules, 0, along); }, "edge_rows");
-  window.read(7, shown.rules, 0, across);
-  rows.read(7, shown.rules, 0, along);
-  expect_stop([&] { window.hits(7, shown.rules, 0, across); }, "edge_window");
-  expect_stop([&] { rows.hits(7, shown.rules, 0, along); }, "edge_rows");
-  EXPECT_NO_THROW(window.hits(8, shown.rules, 0, across));
-  EXPECT_NO_THROW(rows.hits(8, shown.rules, 0, along));
+  expect_stop([&] { window.hits(7, shown.configuration, 0, across); }, "edge_window");
+  expect_stop([&] { rows.hits(7, shown.configuration, 0, along); }, "edge_rows");
+  window.read(7, shown.configuration, 0, across);
+  rows.read(7, shown.configuration, 0, along);
+  expect_stop([&] { window.hits(7, shown.configuration, 0, across); }, "edge_window");
+  expect_stop([&] { rows.hits(7, shown.configuration, 0, along); }, "edge_rows");
+  EXPECT_NO_THROW(window.hits(8, shown.configuration, 0, across));
+  EXPECT_NO_THROW(rows.hits(8, shown.configuration, 0, along));
   // A read that is issued too late leaves the word of the one before.
   Trial next_across{60, 30, 3, 20, true, 2, 1}, next_along{33, 140, 3, 20, true, 2, 1};
-  window.read(9, shown.rules, 0, next_across);
-  rows.read(9, shown.rules, 0, next_along);
-  expect_stop([&] { window.hits(9, shown.rules, 0, next_across); }, "edge_window");
-  expect_stop([&] { rows.hits(9, shown.rules, 0, next_along); }, "edge_rows");
+  window.read(9, shown.configuration, 0, next_across);
+  rows.read(9, shown.configuration, 0, next_along);
+  expect_stop([&] { window.hits(9, shown.configuration, 0, next_across); }, "edge_window");
+  expect_stop([&] { rows.hits(9, shown.configuration, 0, next_along); }, "edge_rows");
   // The next one's word has taken the place of the old one.
-  expect_stop([&] { window.hits(10, shown.rules, 0, across); }, "edge_window");
-  expect_stop([&] { rows.hits(10, shown.rules, 0, along); }, "edge_rows");
-  EXPECT_NO_THROW(window.hits(10, shown.rules, 0, next_across));
-  EXPECT_NO_THROW(rows.hits(10, shown.rules, 0, next_along));
+  expect_stop([&] { window.hits(10, shown.configuration, 0, across); }, "edge_window");
+  expect_stop([&] { rows.hits(10, shown.configuration, 0, along); }, "edge_rows");
+  EXPECT_NO_THROW(window.hits(10, shown.configuration, 0, next_across));
+  EXPECT_NO_THROW(rows.hits(10, shown.configuration, 0, next_along));
 }
 
 // The window has the last window_rows + 1 rows of a column, of which one is a row ahead where the
@@ -287,8 +287,8 @@ TEST(EdgeMemory, TheWindowTracksWhichRowsItHolds) {
   const int newest = 30 + 8 + 1;
   Cycle cycle = Cycle{1} << 50;
   for (int x = 0; x < 40; ++x) {
-    window.read_beat(cycle++, shown.rules, x);
-    window.write_beat(cycle++, shown.rules, x, newest + 2, {});
+    window.read_beat(cycle++, shown.configuration, x);
+    window.write_beat(cycle++, shown.configuration, x, newest + 2, {});
   }
   // The corner of row y looks at rows y and y - 1. Both columns of line 39 have come, and of line
   // 40 the one before it.
@@ -300,8 +300,8 @@ TEST(EdgeMemory, TheWindowTracksWhichRowsItHolds) {
       trial.length = 2;
       trial.room = 1;
       trial.from = y - 1;
-      window.read(++cycle, shown.rules, 0, trial);
-      return window.hits(++cycle, shown.rules, 0, trial);
+      window.read(++cycle, shown.configuration, 0, trial);
+      return window.hits(++cycle, shown.configuration, 0, trial);
     };
     EXPECT_NO_THROW(ask(latest)) << line;
     EXPECT_NO_THROW(ask(latest - kRows + 2)) << line;
@@ -325,8 +325,8 @@ TEST(EdgeMemory, NoStepGoesAlongTheRightBorder) {
     for (const int length : {1, 2, 7}) {
       const auto hits = [&](int line, std::uint8_t corner) {
         Trial trial{line, 30, length, 20, right, corner, corner};
-        window.read(++cycle, shown.rules, 0, trial);
-        return window.hits(++cycle, shown.rules, 0, trial);
+        window.read(++cycle, shown.configuration, 0, trial);
+        return window.hits(++cycle, shown.configuration, 0, trial);
       };
       EXPECT_EQ(hits(kWidth - 1, kAll), kEqual | kLonger | (length > 1 ? kShorter : 0));
       EXPECT_EQ(hits(kWidth, kAll), 0);
@@ -339,25 +339,25 @@ TEST(EdgeMemory, NoStepGoesAlongTheRightBorder) {
 // no more; of 127 steps of 63 and 64.
 TEST(EdgeMemory, TheLongestStepLiesInTheWordsOfAPort) {
   struct Longest {
-    int reach;
+    int search_range;
     bool learned;
   };
-  for (const auto [reach, learned] :
+  for (const auto [search_range, learned] :
        {Longest{125, false}, Longest{126, false}, Longest{127, false}, Longest{127, true}})
     for (const bool right : {false, true}) {
-      Parameters p = learned ? preset(Preset::kDeburr, 32, reach) : built(true, 32, reach);
+      Parameters p = learned ? preset(Preset::kDeburr, 32, search_range) : built(true, 32, search_range);
       p.contiguous = !learned;
       p.line_pixels = 256;
       Shown shown(p, 256, 70, 30, 1000);
       EdgeRows& rows = shown.memories.rows;
-      const int length = reach / 2, room = reach - length;
+      const int length = search_range / 2, room = search_range - length;
       for (int from = 62 + 65; from < 62 + 65 + 64; ++from) {
         Trial trial{31, right ? from - 62 : from, length, room, right, 3, 3};
         trial.classes = learned;
         const Cycle cycle = (Cycle{1} << 50) + 2 * static_cast<Cycle>(from) + (right ? 1000 : 0);
-        EXPECT_NO_THROW(rows.read(cycle, shown.rules, 0, trial)) << reach << ' ' << from;
-        EXPECT_NO_THROW(rows.hits(cycle + 1, shown.rules, 0, trial)) << reach << ' ' << from;
-        EXPECT_LE(trial.last - trial.first + 1, (reach + 1) / 2 + 2);
+        EXPECT_NO_THROW(rows.read(cycle, shown.configuration, 0, trial)) << search_range << ' ' << from;
+        EXPECT_NO_THROW(rows.hits(cycle + 1, shown.configuration, 0, trial)) << search_range << ' ' << from;
+        EXPECT_LE(trial.last - trial.first + 1, (search_range + 1) / 2 + 2);
       }
     }
 }
@@ -370,7 +370,7 @@ TEST(EdgeMemory, AStepShowsTheFourColumnsAtItsEnd) {
   for (const bool right : {false, true})
     for (const int length : {1, 2, 3, 40}) {
       Trial trial{31, 75, length, 60, right, 3, 3};
-      shown.memories.rows.read(++cycle, shown.rules, 0, trial);
+      shown.memories.rows.read(++cycle, shown.configuration, 0, trial);
       const int from = right ? 75 + length - 2 : 75 - length - 2;
       EXPECT_EQ(trial.first, from) << length;
       EXPECT_EQ(trial.last, from + 3) << length;
@@ -384,13 +384,13 @@ TEST(EdgeMemory, AClassEndsWithTheFrame) {
   Shown shown(preset(Preset::kDeburr), kWidth, 70, 30, 0);
   EdgeRows& rows = shown.memories.rows;
   shown.memories.show(
-      shown.rules, 30, [](int, int) { return false; },
+      shown.configuration, 30, [](int, int) { return false; },
       [](int x, int y) { return y == 31 && (x == 64 || x >= kFrom); });
   Cycle cycle = 0;
   for (int i = 0; i < 8; ++i) {
     Trial both{31, 60, 3, 20, true, 3, 3};
     both.classes = true;
-    rows.read(++cycle, shown.rules, 0, both);  // words 0 and 1
+    rows.read(++cycle, shown.configuration, 0, both);  // words 0 and 1
     ASSERT_TRUE(both.first < 64 && both.last >= 64);
   }
   Trial last{31, kFrom, 3, 20, true, 3, 3};
@@ -398,8 +398,8 @@ TEST(EdgeMemory, AClassEndsWithTheFrame) {
   last.crossing = kFirstBit;
   last.classes = true;
   last.looks = kMostLooks;
-  rows.read(++cycle, shown.rules, 0, last);
-  EXPECT_EQ(rows.crossing_class(cycle + 1, shown.rules, 0, last), 2 + 3);
+  rows.read(++cycle, shown.configuration, 0, last);
+  EXPECT_EQ(rows.crossing_class(cycle + 1, shown.configuration, 0, last), 2 + 3);
 }
 
 // All edges of a step that ends in the newest row are in the rows above it.
@@ -409,17 +409,17 @@ TEST(EdgeMemory, AStepMayEndInTheNewestRow) {
   Shown shown(built(true, 8, 60), 150, 70, 30, 1000);
   // Steps of two and of three; one more is beyond the reach.
   Trial trial{40, kNewest - 3, 3, 3, true, kAll, kAll};
-  shown.memories.window.read(1, shown.rules, 0, trial);
-  EXPECT_EQ(shown.memories.window.hits(2, shown.rules, 0, trial), kShorter | kEqual);
+  shown.memories.window.read(1, shown.configuration, 0, trial);
+  EXPECT_EQ(shown.memories.window.hits(2, shown.configuration, 0, trial), kShorter | kEqual);
 }
 
 TEST(EdgeMemory, ABeatIsWrittenAClockAfterItWasReadAndNotBefore) {
   Shown shown(built(true), 150, 70, 30, 500);
   EdgeWindow& window = shown.memories.window;
-  window.read_beat(7, shown.rules, 5);
-  expect_stop([&] { window.write_beat(7, shown.rules, 5, 64, {}); }, "edge_window");
-  EXPECT_NO_THROW(window.write_beat(8, shown.rules, 5, 64, {}));
-  expect_stop([&] { window.write_beat(9, shown.rules, 6, 64, {}); }, "edge_window");
+  window.read_beat(7, shown.configuration, 5);
+  expect_stop([&] { window.write_beat(7, shown.configuration, 5, 64, {}); }, "edge_window");
+  EXPECT_NO_THROW(window.write_beat(8, shown.configuration, 5, 64, {}));
+  expect_stop([&] { window.write_beat(9, shown.configuration, 6, 64, {}); }, "edge_window");
 }
 
 // No step is longer than a port shows: half the reach, then one more, as odd reaches allow.
@@ -445,7 +445,7 @@ class LongestStep : public ::testing::TestWithParam<int> {
   // Steps to the right of the run in row 11.
   static int steps(EngineBench& bench, int length, int next) {
     int found = -1;
-    bench.engine.observe_lines([&](const spec::morphological::LineRecord& line) {
+    bench.engine.observe_lines([&](const spec::morphological::LineDescriptor& line) {
       if (line.run.axis != Axis::kHorizontal || line.run.line != 11) return;
       EXPECT_EQ(line.run.start, kFrom);
       EXPECT_EQ(line.run.length, length);
@@ -458,16 +458,16 @@ class LongestStep : public ::testing::TestWithParam<int> {
   }
 };
 TEST_P(LongestStep, FitsIntoAPort) {
-  const int reach = GetParam(), half = reach / 2, more = (reach + 1) / 2;
+  const int search_range = GetParam(), half = search_range / 2, more = (search_range + 1) / 2;
   EngineBench bench(parameters());
-  EXPECT_EQ(steps(bench, half, reach - half), 1) << "all of the reach is used";
-  EXPECT_EQ(steps(bench, more, reach + 1 - more), 0) << "a pixel beyond it";
+  EXPECT_EQ(steps(bench, half, search_range - half), 1) << "all of the reach is used";
+  EXPECT_EQ(steps(bench, more, search_range + 1 - more), 0) << "a pixel beyond it";
 }
 INSTANTIATE_TEST_SUITE_P(Reaches, LongestStep, ::testing::Values(4, 5, 8, 9, 16, 33, 64, 65, 129));
 
 // No more ports than are used: the busiest clock uses every one.
 struct Built {
-  int lanes_code, units, trial_clocks;
+  int lanes_code, units, trial_cycles;
   bool contiguous;
 };
 void PrintTo(const Built& b, std::ostream* out) { *out << b.lanes_code << ' ' << b.units; }
@@ -476,7 +476,7 @@ TEST_P(BusiestClock, UsesEveryPort) {
   Parameters p = built(GetParam().contiguous);
   p.lanes = static_cast<Lanes>(GetParam().lanes_code);
   p.predictor_units = GetParam().units;
-  p.trial_clocks = GetParam().trial_clocks;
+  p.trial_cycles = GetParam().trial_cycles;
   EngineBench bench(p);
   const Frame in = draw(96, 80, [](int x, int y) { return grey((x + y) / 2 % 2 != 0 ? 255 : 0); });
   bench.software.set_size(in.width, in.height);
@@ -516,7 +516,7 @@ TEST(Contiguous, IsOffInAnEngineBuiltWithoutIt) {
   EngineBench bench(built(false));
   const Frame without = bench.run(blocks());
   const std::uint64_t steps = bench.engine.work().steps;
-  bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) | kContiguous);
+  bench.bus.write(reg::kConfiguration, bench.bus.read(reg::kConfiguration) | kContiguous);
   EXPECT_EQ(hash(bench.run(blocks())), hash(without));
   EXPECT_EQ(bench.engine.work().steps, 2 * steps);
   EXPECT_NE(hash(without), with) << "the rule changes the frame";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EndpointPredictor: trials, `safe` and `trim` by hand from the contract, its clocks, its order,
+// EndpointPredictor: trials, `safe` and `trim` by hand from the contract, its cycles, its order,
 // and where it waits.
 #include <algorithm>
 #include <array>
@@ -35,8 +35,8 @@ struct Prediction {
                       ? EndpointPredictor("predictor", clock, p, edges.rows)
                       : EndpointPredictor("predictor", clock, p, edges.window)),
         ends(clock) {
-    predictor.rules_in(registers.rules);
-    predictor.records_in[0](ends.in);
+    predictor.configuration_in(registers.configuration);
+    predictor.descriptors_in[0](ends.in);
     predictor.sums_out[0](ends.out);
     frame(width, height, boundary);
   }
@@ -49,7 +49,7 @@ struct Prediction {
   // A run; the memories show what is around it.
   RunToken z(int line, int start, int length, bool down) {
     edges.show(
-        registers.rules.driven(), axis == Axis::kVertical ? start : line,
+        registers.configuration.driven(), axis == Axis::kVertical ? start : line,
         [&](int x, int y) { return x > 0 && dark(x, y) != dark(x - 1, y); },
         [&](int x, int y) { return y > 0 && dark(x, y) != dark(x, y - 1); });
     RunToken token{};
@@ -109,7 +109,7 @@ TEST_P(PredictorAxes, FollowsTheExampleOfTheContract) {
   EXPECT_EQ(bench.predictor.extended_runs.value(), 1u);
   // Pushed in 0, popped in 1; trials begin in 4, 8 and 12, the last one is decided in 16; joined in
   // 18, sent in 19, taken in 20.
-  EXPECT_THAT(clocks_of(bench.ends.sink), ::testing::ElementsAre(20));
+  EXPECT_THAT(cycles_of(bench.ends.sink), ::testing::ElementsAre(20));
 }
 
 TEST_P(PredictorAxes, GoesUpAsItGoesDown) {
@@ -151,7 +151,7 @@ TEST_P(PredictorAxes, RunsOfOnePixelHaveTwoCandidatesAndTheFrameEnds) {
   EXPECT_EQ(bench.ends.sink.taken[0].token.left, 2);   // (0, 0) and (1, 1): top(0, 0) is outside
   EXPECT_EQ(bench.predictor.probes.value(), 2u * 2u * 3u);
   // The frame's end is not the window's: with trim both sides are lost there.
-  bench.registers.bus.write(reg::kRules, bench.registers.bus.read(reg::kRules) | kTrimBit);
+  bench.registers.bus.write(reg::kConfiguration, bench.registers.bus.read(reg::kConfiguration) | kTrimBit);
   bench.frame(7, 7, diagonal);
   bench.ends.source.add(bench.z(3, 3, 1, true));
   bench.clock.run(80);
@@ -200,7 +200,7 @@ TEST_P(PredictorAxes, EdgesThatGoOnAreOfTheCorners) {
     };
     const auto across = [](int p, int line) { return p == 40 + 3 * (line - 25); };
     bench.edges.show(
-        bench.registers.rules.driven(), vertical ? 40 : 26,
+        bench.registers.configuration.driven(), vertical ? 40 : 26,
         [&](int x, int y) { return vertical ? along(y, x) : across(x, y); },
         [&](int x, int y) { return vertical ? across(y, x) : along(x, y); });
   };
@@ -247,15 +247,15 @@ TEST(EndpointPredictorBlock, NotSafeTakesIt) {
   EXPECT_EQ(sums.last, 20);
 }
 
-TEST(EndpointPredictorBlock, ARecordHoldsAPredictorForItsIterations) {
-  // No extension (predictor none): one clock each. Two predictors share the work, one result
+TEST(EndpointPredictorBlock, ADescriptorHoldsAPredictorForItsIterations) {
+  // No extension (predictor none): one clock each. Two predictors weight the work, one result
   // register a clock goes out: a record a clock.
   Parameters p = preset(spec::morphological::Preset::kMlaa);
   Prediction bench(p, Axis::kHorizontal, 60, 30, stair(20, {3}, 10));
   for (int i = 0; i < 20; ++i) bench.ends.source.add(bench.z(11, 20, 3, true));
   bench.clock.run(40);
   ASSERT_EQ(bench.ends.sink.taken.size(), 20u);
-  expect_clocks(EndpointPredictor::datasheet(), clocks_of(bench.ends.sink), 1);
+  expect_cycles(EndpointPredictor::datasheet(), cycles_of(bench.ends.sink), 1);
 }
 
 TEST(EndpointPredictorBlock, TrialsOfOneRecordAfterTheOther) {
@@ -267,8 +267,8 @@ TEST(EndpointPredictorBlock, TrialsOfOneRecordAfterTheOther) {
   ASSERT_EQ(bench.ends.sink.taken.size(), 12u);
   EXPECT_EQ(bench.ends.sink.taken[0].token.left, 8);
   EXPECT_EQ(bench.ends.sink.taken[0].token.right, 8);
-  // Popped in 1 and 2; first reads in 4 and 6, decided eight trials later, joined two clocks after
-  // that, which is when the next record is popped; taken two clocks later: T (N + 1) clocks each.
+  // Popped in 1 and 2; first reads in 4 and 6, decided eight trials later, joined two cycles after
+  // that, which is when the next record is popped; taken two cycles later: T (N + 1) cycles each.
   for (std::size_t i = 0; i < 12; ++i)
     EXPECT_EQ(bench.ends.sink.taken[i].cycle, 4 + 4 * 8 + 4 + i % 2 * 2 + i / 2 * 4 * 9) << i;
   // From the first pop to the last join.
@@ -295,7 +295,7 @@ struct Stair {
 };
 
 // The engine of these tests reaches 32 pixels along either axis.
-constexpr int kTrimReach = 32;
+constexpr int kTrimSearchRange = 32;
 
 const std::vector<Stair>& stairs_to_trim() {
   using enum Ended;
@@ -392,9 +392,9 @@ int kept_by_contract(int taken, Ended ended) {
 
 // Lets the predictor grow every stair, seen in all four ways.
 struct Trimming : Prediction {
-  static constexpr int kWidth = 2 * kTrimReach + 2, kHeight = 40, kLine = 20, kStart = 31;
+  static constexpr int kWidth = 2 * kTrimSearchRange + 2, kHeight = 40, kLine = 20, kStart = 31;
   static Parameters parameters(spec::morphological::Predictor line) {
-    Parameters p = preset(spec::morphological::Preset::kDeburrLine, kTrimReach, kTrimReach);
+    Parameters p = preset(spec::morphological::Preset::kDeburrLine, kTrimSearchRange, kTrimSearchRange);
     p.predictor = line;
     return p;
   }
@@ -412,10 +412,10 @@ struct Trimming : Prediction {
     lengths.push_back(s.length);
     lengths.insert(lengths.end(), s.right.steps.begin(), s.right.steps.end());
     const auto steps = stair(kStart - before, lengths, row);
-    std::uint32_t rules = registers.bus.read(reg::kRules);
-    rules &= ~(0x1Fu << 9 | 1u << 15 | kTrimBit);
-    rules |= static_cast<std::uint32_t>(s.n) << 9 | (s.safe ? 1u << 15 : 0) | (trim ? kTrimBit : 0);
-    registers.bus.write(reg::kRules, rules);
+    std::uint32_t configuration = registers.bus.read(reg::kConfiguration);
+    configuration &= ~(0x1Fu << 9 | 1u << 15 | kTrimBit);
+    configuration |= static_cast<std::uint32_t>(s.n) << 9 | (s.safe ? 1u << 15 : 0) | (trim ? kTrimBit : 0);
+    registers.bus.write(reg::kConfiguration, configuration);
     clock.run(1);
     frame(kWidth, kHeight, [&](int x) {
       const int y = steps(mirrored ? kWidth - 1 - x : x);
@@ -585,9 +585,9 @@ struct Predicting {
         edges(p),
         unit("predictor", clock, p, edges.rows),
         gate("gate", clock, opens) {
-    unit.rules_in(registers.rules);
-    driver.out(records);
-    unit.records_in[0](records);
+    unit.configuration_in(registers.configuration);
+    driver.out(descriptors);
+    unit.descriptors_in[0](descriptors);
     unit.sums_out[0](sums);
     gate.in(sums);
   }
@@ -596,7 +596,7 @@ struct Predicting {
   Registers registers;
   EdgeMemories edges;
   EndpointPredictor unit;
-  Link<RunToken> records{"records"};
+  Link<RunToken> descriptors{"records"};
   Link<SumsToken> sums{"sums"};
   unit_bench::Source<RunToken> driver{"driver", clock};
   unit_bench::Sink<SumsToken> gate;
@@ -614,8 +614,8 @@ TEST_P(PredictorUnits, WaitDownstream) {
   for (int i = 1; i <= 20; ++i) bench.driver.add(0, run_of(i, 2));
   bench.clock.run(kOpens);
   const auto held = static_cast<std::uint64_t>(2 + 2 * GetParam());
-  EXPECT_EQ(bench.records.pops(), held);
-  // A record is popped in each of the clocks 1 to `held`.
+  EXPECT_EQ(bench.descriptors.pops(), held);
+  // A record is popped in each of the cycles 1 to `held`.
   EXPECT_EQ(stalls(bench.unit, "downstream"), kOpens - held - 1);
   EXPECT_EQ(bench.unit.busy_cycles(), held);
   // A place is free from kOpens + 1 on.
@@ -637,13 +637,13 @@ TEST_P(PredictorUnits, WaitDownstream) {
 }
 INSTANTIATE_TEST_SUITE_P(Each, PredictorUnits, ::testing::Values(1, 2, 4));
 
-class TrialClocks : public ::testing::TestWithParam<int> {};
+class TrialCycles : public ::testing::TestWithParam<int> {};
 
 // A record that comes in any clock of the schedule: early for its phase, or late.
-TEST_P(TrialClocks, ARecordWaitsForItsPhaseAndTakesThatLong) {
+TEST_P(TrialCycles, ADescriptorWaitsForItsPhaseAndTakesThatLong) {
   Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.line_pixels = 64;
-  p.trial_clocks = GetParam();
+  p.trial_cycles = GetParam();
   Predicting bench(p);
   const auto trial = static_cast<Cycle>(GetParam());
   std::vector<Cycle> expected;
@@ -654,36 +654,36 @@ TEST_P(TrialClocks, ARecordWaitsForItsPhaseAndTakesThatLong) {
     const Cycle first = (sent + 2 + trial - 1) / trial * trial;
     // It has waited from the clock after its pop to the one of its first trial.
     const Cycle waited = first - (sent + 2);
-    expected.push_back(sent + 1 + EndpointPredictor::trial_datasheet(p).latency.clocks + waited);
+    expected.push_back(sent + 1 + EndpointPredictor::trial_datasheet(p).latency.cycles + waited);
   }
   bench.clock.run(expected.back() + 10);
-  EXPECT_EQ(clocks_of(bench.gate), expected);
+  EXPECT_EQ(cycles_of(bench.gate), expected);
   EXPECT_EQ(bench.unit.iterations.value(), 2 * trial);
   EXPECT_EQ(bench.unit.probes.value(), 2 * trial * 6);
 }
 
 // One predictor, whose next record is there in time: from one of one trial to the next.
-TEST_P(TrialClocks, OnePredictorTakesARecordAnIntervalOfTheDatasheet) {
+TEST_P(TrialCycles, OnePredictorTakesARecordAnIntervalOfTheDatasheet) {
   Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.line_pixels = 64;
-  p.trial_clocks = GetParam();
+  p.trial_cycles = GetParam();
   p.predictor_units = 1;
   Predicting bench(p);
   for (int i = 0; i < 6; ++i) bench.driver.add(20, run_of(3, 20));
   bench.clock.run(200);
-  const std::vector<Cycle> clocks = clocks_of(bench.gate);
-  ASSERT_EQ(clocks.size(), 6u);
+  const std::vector<Cycle> cycles = cycles_of(bench.gate);
+  ASSERT_EQ(cycles.size(), 6u);
   EXPECT_EQ(bench.unit.iterations.value(), 6u);
-  for (std::size_t i = 2; i < clocks.size(); ++i)
+  for (std::size_t i = 2; i < cycles.size(); ++i)
     expect_notices_a_clock(
         EndpointPredictor::trial_datasheet(p), &rtl::Datasheet::interval,
-        [&](const rtl::Datasheet& sheet) { expect_interval(sheet, clocks[i] - clocks[i - 1]); });
+        [&](const rtl::Datasheet& sheet) { expect_interval(sheet, cycles[i] - cycles[i - 1]); });
 }
 
 // A record that is not extended takes a clock, whatever a trial takes.
-TEST_P(TrialClocks, ARecordWithoutTrialsTakesNone) {
+TEST_P(TrialCycles, ADescriptorWithoutTrialsTakesNone) {
   Parameters p = small();
-  p.trial_clocks = GetParam();
+  p.trial_cycles = GetParam();
   p.predictor_units = 1;
   Predicting bench(p);
   for (int i = 1; i <= 10; ++i) bench.driver.add(20, run_of(i, 2));
@@ -692,14 +692,14 @@ TEST_P(TrialClocks, ARecordWithoutTrialsTakesNone) {
   for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(bench.gate.taken[i].cycle, 23 + i);
   EXPECT_EQ(bench.unit.occupancy.value(), 10u);
 }
-INSTANTIATE_TEST_SUITE_P(Each, TrialClocks, ::testing::Range(1, 9));
+INSTANTIATE_TEST_SUITE_P(Each, TrialCycles, ::testing::Range(1, 9));
 
 // Two results of the same clock go in the order of the predictors, the first one first after a
 // reset, whoever was last before it.
 TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {
   Parameters p = preset(spec::morphological::Preset::kMlaaSlope);
   p.line_pixels = 64;
-  p.trial_clocks = 1;  // no phases, so that results may come in one clock
+  p.trial_cycles = 1;  // no phases, so that results may come in one clock
   Predicting bench(p);
   // Two steps of three: row 12 from 20 to 23, row 13 from 23 to 26.
   const auto edges = [&] {
@@ -707,7 +707,7 @@ TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {
       return v >= (u < 20 ? 11 : u < 23 ? 12 : u < 26 ? 13 : 14);
     };
     bench.edges.show(
-        bench.registers.rules.driven(), 12,
+        bench.registers.configuration.driven(), 12,
         [&](int x, int y) { return x > 0 && dark(x, y) != dark(x - 1, y); },
         [&](int x, int y) { return y > 0 && dark(x, y) != dark(x, y - 1); });
   };
@@ -726,7 +726,7 @@ TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {
       ASSERT_EQ(bench.gate.taken.size(), 1u);
       reset();
     }
-    // The first has one step to the right and then a trial without a hit: two clocks. The second
+    // The first has one step to the right and then a trial without a hit: two cycles. The second
     // is popped a clock later and has no hit at once.
     bench.driver.add(0, run_of(3, 20));
     bench.driver.add(0, run_of(2, 2));
@@ -763,15 +763,15 @@ struct Looking {
                       ? EndpointPredictor("predictor", clock, p, edges.rows)
                       : EndpointPredictor("predictor", clock, p, edges.window)),
         ends(clock) {
-    predictor.rules_in(registers.rules);
-    predictor.records_in[0](ends.in);
+    predictor.configuration_in(registers.configuration);
+    predictor.descriptors_in[0](ends.in);
     predictor.sums_out[0](ends.out);
   }
-  RunToken record(const Crossings& shown, int line, int start, int length, int start_code,
+  RunToken descriptor(const Crossings& shown, int line, int start, int length, int start_code,
                   int end_code, RunPart part = RunPart::kWhole) {
     const bool vertical = axis == Axis::kVertical;
     edges.show(
-        registers.rules.driven(), vertical ? start : line,
+        registers.configuration.driven(), vertical ? start : line,
         [&](int x, int y) { return vertical ? shown.has_along(y, x) : shown.has_across(x, y); },
         [&](int x, int y) { return vertical ? shown.has_across(y, x) : shown.has_along(x, y); });
     RunToken token{};
@@ -807,13 +807,13 @@ TEST_P(CrossingClasses, FollowTheOrderOfTheContract) {
     more.along.insert(more.along.end(), run.along.begin(), run.along.end());
     more.across.insert(more.across.end(), run.across.begin(), run.across.end());
     // An L at each end, so that no trial is made.
-    const SumsToken start = bench.classes(bench.record(more, 30, 20, 5, 1, 0));
-    const SumsToken end = bench.classes(bench.record(more, 30, 20, 5, 0, 2));
+    const SumsToken start = bench.classes(bench.descriptor(more, 30, 20, 5, 1, 0));
+    const SumsToken end = bench.classes(bench.descriptor(more, 30, 20, 5, 0, 2));
     EXPECT_TRUE(start.learned && end.learned);
     EXPECT_EQ(start.end_class, 0);
     EXPECT_EQ(end.start_class, 0);
     // Both at once; it is a clean Z, whose trial finds nothing.
-    const SumsToken both = bench.classes(bench.record(more, 30, 20, 5, 1, 2));
+    const SumsToken both = bench.classes(bench.descriptor(more, 30, 20, 5, 1, 2));
     EXPECT_TRUE(both.learned);
     EXPECT_EQ(both.start_class, start.start_class);
     EXPECT_EQ(both.end_class, end.end_class);
@@ -842,12 +842,12 @@ TEST_P(CrossingClasses, LookOnTheSideOfTheCrossing) {
   Looking bench(deburr(), GetParam());
   const Crossings shown = {{{30, 20, 25}, {29, 18, 20}, {29, 25, 28}, {31, 14, 20}, {31, 25, 26}},
                            {{20, 29}, {20, 30}, {25, 29}, {25, 30}}};
-  EXPECT_EQ(bench.classes(bench.record(shown, 30, 20, 5, 1, 0)).start_class, 4);
-  EXPECT_EQ(bench.classes(bench.record(shown, 30, 20, 5, 2, 0)).start_class, 7);
-  EXPECT_EQ(bench.classes(bench.record(shown, 30, 20, 5, 0, 1)).end_class, 5);
-  EXPECT_EQ(bench.classes(bench.record(shown, 30, 20, 5, 0, 2)).end_class, 3);
+  EXPECT_EQ(bench.classes(bench.descriptor(shown, 30, 20, 5, 1, 0)).start_class, 4);
+  EXPECT_EQ(bench.classes(bench.descriptor(shown, 30, 20, 5, 2, 0)).start_class, 7);
+  EXPECT_EQ(bench.classes(bench.descriptor(shown, 30, 20, 5, 0, 1)).end_class, 5);
+  EXPECT_EQ(bench.classes(bench.descriptor(shown, 30, 20, 5, 0, 2)).end_class, 3);
   // Both edges, or none: no class.
-  const SumsToken t = bench.classes(bench.record(shown, 30, 20, 5, 3, 0));
+  const SumsToken t = bench.classes(bench.descriptor(shown, 30, 20, 5, 3, 0));
   EXPECT_TRUE(t.learned);
   EXPECT_EQ(t.start_class + t.end_class, 0);
 }
@@ -855,22 +855,22 @@ TEST_P(CrossingClasses, LookOnTheSideOfTheCrossing) {
 // No more than reach - L edges, of either end; none of a head or a tail.
 TEST_P(CrossingClasses, EndWithTheReach) {
   Parameters p = deburr();
-  p.reach_columns = 32;
+  p.search_columns = 32;
   Looking bench(p, GetParam());
   for (const int length : {22, 23, 28, 29, 30, 31, 32}) {
     const Crossings shown = {{{30, 12, 12 + length}, {29, 0, 12}, {31, 12 + length, 60}},
                              {{12, 29}, {12 + length, 30}}};
     const int room = 32 - length;
     const int expected = room == 0 ? 0 : room < 4 ? 2 + room : room < 6 ? 6 : room < 10 ? 7 : 8;
-    EXPECT_EQ(bench.classes(bench.record(shown, 30, 12, length, 1, 0)).start_class, expected)
+    EXPECT_EQ(bench.classes(bench.descriptor(shown, 30, 12, length, 1, 0)).start_class, expected)
         << length;
-    EXPECT_EQ(bench.classes(bench.record(shown, 30, 12, length, 0, 2)).end_class, expected)
+    EXPECT_EQ(bench.classes(bench.descriptor(shown, 30, 12, length, 0, 2)).end_class, expected)
         << length;
   }
   const Crossings shown = {{{30, 12, 50}, {29, 0, 12}}, {{12, 29}}};
-  EXPECT_EQ(bench.classes(bench.record(shown, 30, 12, 16, 1, 0, RunPart::kHead)).start_class, 0);
+  EXPECT_EQ(bench.classes(bench.descriptor(shown, 30, 12, 16, 1, 0, RunPart::kHead)).start_class, 0);
   const Crossings on = {{{30, 12, 50}, {29, 0, 13}}, {{12, 29}}};
-  EXPECT_EQ(bench.classes(bench.record(on, 30, 12, 16, 1, 0, RunPart::kHead)).start_class, 1);
+  EXPECT_EQ(bench.classes(bench.descriptor(on, 30, 12, 16, 1, 0, RunPart::kHead)).start_class, 1);
 }
 
 // A long clean Z keeps its line without a step; no other shape does.
@@ -879,12 +879,12 @@ TEST_P(CrossingClasses, ALongZHasNone) {
   for (const int length : {15, 16}) {
     const Crossings shown = {{{30, 12, 12 + length}, {29, 10, 12}, {31, 12 + length, 45}},
                              {{12, 29}, {12 + length, 30}}};
-    const SumsToken z = bench.classes(bench.record(shown, 30, 12, length, 1, 2));
+    const SumsToken z = bench.classes(bench.descriptor(shown, 30, 12, length, 1, 2));
     EXPECT_EQ(z.left + z.right, 0);
     EXPECT_EQ(z.learned, length < 16);
     EXPECT_EQ(z.start_class, length < 16 ? 4 : 0);
-    EXPECT_TRUE(bench.classes(bench.record(shown, 30, 12, length, 1, 0)).learned);
-    EXPECT_TRUE(bench.classes(bench.record(shown, 30, 12, length, 3, 2)).learned);
+    EXPECT_TRUE(bench.classes(bench.descriptor(shown, 30, 12, length, 1, 0)).learned);
+    EXPECT_TRUE(bench.classes(bench.descriptor(shown, 30, 12, length, 3, 2)).learned);
   }
 }
 
@@ -896,26 +896,26 @@ TEST_P(CrossingClasses, AreOfLearnedRecordsOnly) {
     stair.along.push_back({10 + k, 10 + 3 * k, 13 + 3 * k});
     stair.across.push_back({10 + 3 * k, 9 + k, 0});
   }
-  const RunToken z = bench.record(stair, 12, 16, 3, 1, 2);
+  const RunToken z = bench.descriptor(stair, 12, 16, 3, 1, 2);
   const SumsToken extended = bench.classes(z);
   EXPECT_FALSE(extended.learned);
   EXPECT_GT(extended.left + extended.right, 0);
   EXPECT_EQ(extended.start_class + extended.end_class, 0);
-  bench.registers.bus.write(reg::kRules, bench.registers.bus.read(reg::kRules) & ~(1u << 23));
+  bench.registers.bus.write(reg::kConfiguration, bench.registers.bus.read(reg::kConfiguration) & ~(1u << 23));
   bench.registers.frame(60, 60, bench.clock.cycle());
-  const RunToken l = bench.record(stair, 12, 16, 3, 1, 0);
+  const RunToken l = bench.descriptor(stair, 12, 16, 3, 1, 0);
   EXPECT_FALSE(bench.classes(l).learned);
   EXPECT_EQ(bench.classes(l).start_class, 0);
 }
 
 // Pushed in 0, popped in 1; reads in 4 and 5, let go in 7, sent in 8, taken in 9. One behind the
-// other: a predictor takes one each four clocks, the other two clocks later.
+// other: a predictor takes one each four cycles, the other two cycles later.
 TEST_P(CrossingClasses, TakeTheClocksOfATrialButOne) {
   Looking bench(deburr(), GetParam());
-  const RunToken token = bench.record({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
+  const RunToken token = bench.descriptor({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
   for (int i = 0; i < 9; ++i) bench.ends.source.add(token);
   bench.clock.run(60);
-  EXPECT_THAT(clocks_of(bench.ends.sink),
+  EXPECT_THAT(cycles_of(bench.ends.sink),
               ::testing::ElementsAre(9, 11, 13, 15, 17, 19, 21, 23, 25));
 }
 
@@ -923,9 +923,9 @@ TEST_P(CrossingClasses, TakeTheClocksOfATrialButOne) {
 TEST_P(CrossingClasses, HaveTheLatencyOfTheDatasheet) {
   const Parameters p = deburr();
   Looking bench(p, GetParam());
-  const RunToken token = bench.record({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
+  const RunToken token = bench.descriptor({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
   Cycle least = 1000;
-  for (int phase = 0; phase < 2 * p.trial_clocks; ++phase) {
+  for (int phase = 0; phase < 2 * p.trial_cycles; ++phase) {
     bench.clock.run(29);
     const std::size_t before = bench.ends.sink.taken.size();
     const Cycle pushed = bench.clock.cycle();
@@ -939,17 +939,17 @@ TEST_P(CrossingClasses, HaveTheLatencyOfTheDatasheet) {
 
 class CrossingClassesTrialClocks : public ::testing::TestWithParam<int> {};
 
-// T clocks a record with one predictor, if T is 3 or more.
+// T cycles a record with one predictor, if T is 3 or more.
 TEST_P(CrossingClassesTrialClocks, AreOneRecordEach) {
   Parameters p = deburr();
   p.predictor_units = 1;
-  p.trial_clocks = GetParam();
+  p.trial_cycles = GetParam();
   Looking bench(p, Axis::kHorizontal);
-  const RunToken token = bench.record({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
+  const RunToken token = bench.descriptor({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
   for (int i = 0; i < 4; ++i) bench.ends.source.add(token);
   bench.clock.run(80);
   ASSERT_EQ(bench.ends.sink.taken.size(), 4u);
-  const Cycle each = GetParam() >= 3   ? EndpointPredictor::class_datasheet(p).interval.clocks
+  const Cycle each = GetParam() >= 3   ? EndpointPredictor::class_datasheet(p).interval.cycles
                      : GetParam() == 2 ? 4
                                        : 2;
   for (std::size_t i = 1; i < 4; ++i)
@@ -960,16 +960,16 @@ TEST_P(CrossingClassesTrialClocks, AreOneRecordEach) {
 TEST(CrossingClassesOfTwoClocks, AreTwoWhereNoSideReadsLater) {
   Parameters p = deburr();
   p.predictor_units = 2;
-  p.trial_clocks = 2;
+  p.trial_cycles = 2;
   Looking bench(p, Axis::kHorizontal);
-  const RunToken token = bench.record({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
+  const RunToken token = bench.descriptor({{{30, 20, 25}}, {{20, 29}}}, 30, 20, 5, 1, 0);
   for (int i = 0; i < 8; ++i) bench.ends.source.add(token);
   bench.clock.run(80);
   ASSERT_EQ(bench.ends.sink.taken.size(), 8u);
   for (std::size_t i = 1; i < 8; ++i)
     EXPECT_EQ(bench.ends.sink.taken[i].cycle - bench.ends.sink.taken[i - 1].cycle, 1u);
 }
-INSTANTIATE_TEST_SUITE_P(Clocks, CrossingClassesTrialClocks, ::testing::Range(1, 9));
+INSTANTIATE_TEST_SUITE_P(Cycles, CrossingClassesTrialClocks, ::testing::Range(1, 9));
 
 INSTANTIATE_TEST_SUITE_P(Both, CrossingClasses,
                          ::testing::Values(Axis::kHorizontal, Axis::kVertical),

@@ -102,17 +102,17 @@ TEST(Pixels, AlphaPassesAndAnIsolatedStepBlendsAsTheContractsTableSays) {
     return p;
   });
   const Frame out = bench.run(frame);
-  // Shares of the run of three on top edges of row 6: b85 b11/a11 a85.
-  const auto tap = [&](int x, int y) {
-    return bench.sink.beats()[static_cast<std::size_t>(y * 13 + x)].tap[0];
+  // Weights of the run of three on top edges of row 6: b85 b11/a11 a85.
+  const auto probe = [&](int x, int y) {
+    return bench.sink.beats()[static_cast<std::size_t>(y * 13 + x)].probe[0];
   };
   // Before: the start's crossing is north, so the upper pixels (row 5) take from below.
-  EXPECT_EQ(tap(5, 5).second, 85);
-  EXPECT_EQ(tap(6, 5).second, 11);
-  EXPECT_EQ(tap(6, 6).first, 11);
-  EXPECT_EQ(tap(7, 6).first, 85);
-  EXPECT_EQ(tap(6, 6).edges, 2);
-  EXPECT_EQ(tap(6, 3), spec::morphological::BlendTap{});
+  EXPECT_EQ(probe(5, 5).second, 85);
+  EXPECT_EQ(probe(6, 5).second, 11);
+  EXPECT_EQ(probe(6, 6).first, 11);
+  EXPECT_EQ(probe(7, 6).first, 85);
+  EXPECT_EQ(probe(6, 6).edges, 2);
+  EXPECT_EQ(probe(6, 3), spec::morphological::BlendProbe{});
   for (int y = 0; y < 12; ++y)
     for (int x = 0; x < 13; ++x) EXPECT_EQ(out.at(x, y)[3], x + y);
 }
@@ -121,7 +121,7 @@ TEST(Pixels, AlphaPassesAndAnIsolatedStepBlendsAsTheContractsTableSays) {
 
 struct Leaving {
   const char* name;
-  Parameters (*rules)();
+  Parameters (*configuration)();
   int lanes_code;
   bool in_memory;
 };
@@ -131,7 +131,7 @@ class LeftPixels : public ::testing::TestWithParam<Leaving> {};
 // Of the frame that no rule leaves alone: what is left is as it came, everything else is the same.
 TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
   constexpr std::uint32_t kBeside = 2;
-  Parameters p = GetParam().rules();
+  Parameters p = GetParam().configuration();
   p.lanes = static_cast<spec::morphological::Lanes>(GetParam().lanes_code);
   if (GetParam().in_memory) p.storage = spec::morphological::Storage::kMemory;
   EngineBench bench(p);
@@ -142,7 +142,7 @@ TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
   for (std::size_t i = 0; i < frame.pixel.size(); ++i)
     if ((random.next() >> 16) % 12 == 0) frame.pixel[i][3] &= 0xFE;
   const auto run = [&](std::uint32_t leave) {
-    bench.bus.write(reg::kRules, (bench.bus.read(reg::kRules) & ~(7u << 24)) | leave << 24);
+    bench.bus.write(reg::kConfiguration, (bench.bus.read(reg::kConfiguration) & ~(7u << 24)) | leave << 24);
     bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
     const std::size_t before = bench.sink.beats().size();
     bench.run(frame);
@@ -152,7 +152,7 @@ TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
   const auto whole = run(0);
   const spec::morphological::Work work = bench.engine.work();
   ASSERT_GT(work.blended_pixels, 300u);
-  ASSERT_EQ(work.left_pixels, 0u);
+  ASSERT_EQ(work.bypassed_pixels, 0u);
   const auto marked = [&](int x, int y) {
     return x >= 0 && x < w && y >= 0 && y < h && frame.at(x, y)[3] % 2 == 0;
   };
@@ -168,42 +168,42 @@ TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
         const bool left =
             marked(x, y) || (leave == kBeside && (marked(x, y - 1) || marked(x - 1, y) ||
                                                   marked(x + 1, y) || marked(x, y + 1)));
-        spec::morphological::BlendTap tap = whole[beat].tap[lane];
+        spec::morphological::BlendProbe probe = whole[beat].probe[lane];
         Rgba8 pixel = whole[beat].pixel[lane];
         if (left) {
-          const bool took = tap.first != 0 || tap.second != 0;
-          expected.left_pixels += took;
+          const bool took = probe.first != 0 || probe.second != 0;
+          expected.bypassed_pixels += took;
           expected.blended_pixels -= took;
-          tap.first = tap.second = 0;
-          tap.horizontal = false;
+          probe.first = probe.second = 0;
+          probe.horizontal = false;
           pixel = frame.at(x, y);
         }
         pixel[3] = frame.at(x, y)[3] | 1;
-        // Halved shares are the Blender's test; here they leave the rest alone.
-        if (leave == 3 && !left && (tap.first != 0 || tap.second != 0)) {
-          const int dx = tap.horizontal, dy = !tap.horizontal;
-          const bool first = tap.first != 0 && marked(x - dx, y - dy),
-                     second = tap.second != 0 && marked(x + dx, y + dy);
+        // Halved weights are the Blender's test; here they leave the rest alone.
+        if (leave == 3 && !left && (probe.first != 0 || probe.second != 0)) {
+          const int dx = probe.horizontal, dy = !probe.horizontal;
+          const bool first = probe.first != 0 && marked(x - dx, y - dy),
+                     second = probe.second != 0 && marked(x + dx, y + dy);
           if (first || second) {
-            const spec::morphological::BlendTap& half = beats[beat].tap[lane];
+            const spec::morphological::BlendProbe& half = beats[beat].probe[lane];
             ASSERT_EQ(beats[beat].pixel[lane][3], pixel[3]);
             const bool takes = half.first != 0 || half.second != 0;
-            expected.left_pixels += !takes;
+            expected.bypassed_pixels += !takes;
             expected.blended_pixels -= !takes;
-            ASSERT_EQ(half.horizontal, tap.horizontal && takes);
+            ASSERT_EQ(half.horizontal, probe.horizontal && takes);
             if (p.blend == spec::morphological::BlendRule::kLongest) {
-              ASSERT_EQ(half.first, tap.first >> first);
-              ASSERT_EQ(half.second, tap.second >> second);
+              ASSERT_EQ(half.first, probe.first >> first);
+              ASSERT_EQ(half.second, probe.second >> second);
             }
             continue;
           }
         }
-        ASSERT_EQ(beats[beat].tap[lane], tap) << x << ' ' << y;
+        ASSERT_EQ(beats[beat].probe[lane], probe) << x << ' ' << y;
         ASSERT_EQ(beats[beat].pixel[lane], pixel) << x << ' ' << y;
       }
     EXPECT_EQ(bench.engine.work(), expected);
-    EXPECT_GT(expected.left_pixels, 10u);
-    EXPECT_EQ(bench.bus.read(reg::kLeftPixels), expected.left_pixels);
+    EXPECT_GT(expected.bypassed_pixels, 10u);
+    EXPECT_EQ(bench.bus.read(reg::kBypassedPixels), expected.bypassed_pixels);
   }
 }
 INSTANTIATE_TEST_SUITE_P(
@@ -270,9 +270,9 @@ TEST(SlotNumbers, WrapInTheWidestRows) {
                                  : grey(0);
   });
   const Frame out = bench.run(in);
-  EXPECT_EQ(bench.engine.area.records.value(), bench.engine.extractor.records_sent.value());
-  EXPECT_GT(bench.engine.area.records.value(), 400u);
-  EXPECT_EQ(bench.engine.extractor.record_stalls.value(), 0u);
+  EXPECT_EQ(bench.engine.area.descriptors.value(), bench.engine.extractor.descriptors_sent.value());
+  EXPECT_GT(bench.engine.area.descriptors.value(), 400u);
+  EXPECT_EQ(bench.engine.extractor.descriptor_stalls.value(), 0u);
   int blended = 0;
   // Extensions reach seven steps of at most a few pixels; the middle of the part sees no border.
   for (int y = 0; y < kHeight; ++y)
@@ -313,7 +313,7 @@ TEST(Accounts, MemoriesAreThoseOfTheContract) {
   for (const rtl::MemoryBase* memory : bench.engine.memories()) {
     bits[memory->basename()] = memory->logical_bits();
     ports[memory->basename()] = memory->ports();
-    EXPECT_EQ(memory->idealised(), "") << memory->name();
+    EXPECT_EQ(memory->not_implementable(), "") << memory->name();
   }
   EXPECT_EQ(bits["luma_lines"], 144'000u);
   EXPECT_EQ(ports["luma_lines"], "1R1W of 2 words");  // a beat's column and the one beside it
@@ -323,15 +323,15 @@ TEST(Accounts, MemoriesAreThoseOfTheContract) {
     EXPECT_EQ(bits[lines], 614'400u);
   EXPECT_EQ(bits["weight_lines"], 92'160u);
   EXPECT_EQ(bits["row_marks"], 1920u * 26u);
-  EXPECT_EQ(bits["row_records"], 1920u * 95u);
+  EXPECT_EQ(bits["row_descriptors"], 1920u * 95u);
   EXPECT_EQ(bits["column_marks"], 1920u * 21u);
-  EXPECT_EQ(bits["column_records"], 1920u * 95u);
+  EXPECT_EQ(bits["column_descriptors"], 1920u * 95u);
   EXPECT_EQ(bits["linear_rom"], 256u * 12u);
   EXPECT_EQ(bits["encode_rom"], 4096u * 8u);
   EXPECT_EQ(bits["inverse_rom"], 68u * 27u);
   EXPECT_EQ(bits["edge_window"], 257'280u);
   EXPECT_EQ(bits["edge_rows_even"] + bits["edge_rows_odd"], 138'240u);
-  EXPECT_EQ(bits["record_fifo_h0"], 256u * 60u);
+  EXPECT_EQ(bits["descriptor_fifo_h0"], 256u * 60u);
   EXPECT_EQ(bench.engine.window.memory.bits_at(960), 257'280u / 2);
 }
 
@@ -343,20 +343,20 @@ TEST(Accounts, LearnedSharesAddThreeTablesAndABitARecord) {
   std::map<std::string, const rtl::MemoryBase*> all;
   for (const rtl::MemoryBase* memory : bench.engine.memories()) {
     all[memory->basename()] = memory;
-    EXPECT_EQ(memory->idealised(), "") << memory->name();
+    EXPECT_EQ(memory->not_implementable(), "") << memory->name();
   }
   EXPECT_EQ(all.count("depth_lines"), 0u);
-  EXPECT_EQ(all["row_records"]->logical_bits(), 1920u * 96u);
-  EXPECT_EQ(all["column_records"]->logical_bits(), 1920u * 96u);
-  EXPECT_EQ(all["record_fifo_h0"]->logical_bits(), 256u * 60u);
+  EXPECT_EQ(all["row_descriptors"]->logical_bits(), 1920u * 96u);
+  EXPECT_EQ(all["column_descriptors"]->logical_bits(), 1920u * 96u);
+  EXPECT_EQ(all["descriptor_fifo_h0"]->logical_bits(), 256u * 60u);
   struct Table {
     const char* name;
     std::uint64_t words;
     const char* built_as;
   };
   for (const Table& table :
-       {Table{"shares_a", 1024, "4 copies of 2RW"}, Table{"shares_b", 640, "4 copies of 2RW"},
-        Table{"shares_c", 640, "4 copies of 2RW"}, Table{"share_rom", 256, "4 copies of 2R"}}) {
+       {Table{"weights_a", 1024, "4 copies of 2RW"}, Table{"weights_b", 640, "4 copies of 2RW"},
+        Table{"weights_c", 640, "4 copies of 2RW"}, Table{"weight_rom", 256, "4 copies of 2R"}}) {
     EXPECT_EQ(all[table.name]->logical_bits(), 8 * table.words) << table.name;
     EXPECT_EQ(all[table.name]->ports(), "8R");
     EXPECT_EQ(all[table.name]->built_as(), table.built_as);
@@ -372,7 +372,7 @@ TEST(Accounts, TheTextGuardAddsLinesOfHashesAndItsBits) {
   std::map<std::string, const rtl::MemoryBase*> all;
   for (const rtl::MemoryBase* memory : bench.engine.memories()) {
     all[memory->basename()] = memory;
-    EXPECT_EQ(memory->idealised(), "") << memory->name();
+    EXPECT_EQ(memory->not_implementable(), "") << memory->name();
   }
   EXPECT_EQ(all["guard_row"]->logical_bits(), 1920u * 6u);
   EXPECT_EQ(all["guard_columns"]->logical_bits(), 1920u * (10u * 6u + 13u + 10u));
@@ -409,7 +409,7 @@ TEST(Memories, OfStorageInMemoryAreAllReported) {
   Parameters p = in_memory();
   p.line_pixels = 1920;
   p.memory_outstanding = 32;
-  p.record_fifo = 256;
+  p.descriptor_fifo = 256;
   EngineBench bench(p);
   std::map<std::string, std::uint64_t> bits;
   for (const rtl::MemoryBase* memory : bench.engine.memories())
@@ -421,7 +421,7 @@ TEST(Memories, OfStorageInMemoryAreAllReported) {
   EXPECT_EQ(bits["reads_in_flight"], 32u);
   // A place for each line that may come back, read or written: its 512 bits and two of status.
   EXPECT_EQ(bits["response_buffer"], 2u * 32u * 514u);
-  EXPECT_EQ(bits["record_fifo_h0"], 256u * 60u);
+  EXPECT_EQ(bits["descriptor_fifo_h0"], 256u * 60u);
 }
 
 TEST(Waves, ShowTheLinksOfTheEngine) {
@@ -444,8 +444,8 @@ TEST(Waves, ShowTheLinksOfTheEngine) {
 TEST(Observers, SeeEveryRunAndEveryLine) {
   EngineBench bench(deburr_line());
   std::uint64_t runs = 0, lines = 0;
-  bench.engine.observe_runs([&](const spec::morphological::RunRecord&) { ++runs; });
-  bench.engine.observe_lines([&](const spec::morphological::LineRecord& line) {
+  bench.engine.observe_runs([&](const spec::morphological::RunDescriptor&) { ++runs; });
+  bench.engine.observe_lines([&](const spec::morphological::LineDescriptor& line) {
     ++lines;
     EXPECT_LE(line.slope, 1u << 23);
   });
@@ -479,7 +479,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadParameter{"window_rows", [](auto& p) { p.window_rows = 67; }},
         BadParameter{"window_rows", [](auto& p) { p.window_rows = 8; }},
         BadParameter{"steps = 8 with window_rows = 18", [](auto& p) { p.window_rows = 18; }},
-        BadParameter{"reach_columns", [](auto& p) { p.reach_columns = 3; }},
+        BadParameter{"search_columns", [](auto& p) { p.search_columns = 3; }},
         BadParameter{"predicated",
                      [](auto& p) {
                        p.edge_source = spec::morphological::EdgeSource::kPredicated;
@@ -583,11 +583,11 @@ TEST(BadFrames, AreNamed) {
 
 // ---- faults -------------------------------------------------------------------------------------
 
-struct Planted {
+struct Injected {
   const char* fault;
 };
-void PrintTo(const Planted& p, std::ostream* out) { *out << p.fault; }
-class Faults : public ::testing::TestWithParam<Planted> {};
+void PrintTo(const Injected& p, std::ostream* out) { *out << p.fault; }
+class Faults : public ::testing::TestWithParam<Injected> {};
 
 // Each of these must be noticed: by the hash, a check, or the watchdog.
 TEST_P(Faults, AreCaught) {
@@ -601,7 +601,7 @@ TEST_P(Faults, AreCaught) {
     caught = hash(bench.run(noise(), 100'000)) != vector_hash("noise_slope") ||
              bench.engine.work().probes != 9200u;
   } catch (const spec::SimulationError& error) {
-    // A planted fault that was never reached is no catch.
+    // A injected fault that was never reached is no catch.
     caught = std::string(error.what()).find("never") == std::string::npos;
   } catch (const std::exception&) {
     caught = true;
@@ -609,19 +609,19 @@ TEST_P(Faults, AreCaught) {
   EXPECT_TRUE(caught);
 }
 INSTANTIATE_TEST_SUITE_P(
-    Planted, Faults,
-    ::testing::Values(Planted{"flip:engine.slots:2000:pixel.0.g.7"},
-                      Planted{"flip:engine.lumas:3000:luma.0.23"},
-                      Planted{"flip:engine.edge_bits:2500:left"},
-                      Planted{"drop:engine.edge_bits:2500"},        // a slot is lost
-                      Planted{"duplicate:engine.area_slots:4500"},  // a slot comes twice
-                      Planted{"flip:engine.sums_h0:200:last.3"},    // position of the last corner
-                      Planted{"drop:engine.lines_v0:50"},           // a record is lost
-                      Planted{"drop:engine.finished:20"},           // a record never ends
-                      Planted{"flip:engine.pixels:3000:centre.0.g.7"},
-                      Planted{"drop:engine.shares:3000"},    // a slot is lost
-                      Planted{"drop:engine.frames_done:0"},  // the frame never ends
-                      Planted{"stuck_ready:engine.beats:3000"}));
+    Injected, Faults,
+    ::testing::Values(Injected{"flip:engine.slots:2000:pixel.0.g.7"},
+                      Injected{"flip:engine.lumas:3000:luma.0.23"},
+                      Injected{"flip:engine.edge_bits:2500:left"},
+                      Injected{"drop:engine.edge_bits:2500"},        // a slot is lost
+                      Injected{"duplicate:engine.area_slots:4500"},  // a slot comes twice
+                      Injected{"flip:engine.sums_h0:200:last.3"},    // position of the last corner
+                      Injected{"drop:engine.lines_v0:50"},           // a record is lost
+                      Injected{"drop:engine.finished:20"},           // a record never ends
+                      Injected{"flip:engine.pixels:3000:centre.0.g.7"},
+                      Injected{"drop:engine.weights:3000"},    // a slot is lost
+                      Injected{"drop:engine.frames_done:0"},  // the frame never ends
+                      Injected{"stuck_ready:engine.beats:3000"}));
 
 // ---- links of memory ----------------------------------------------------------------------------
 

@@ -23,8 +23,8 @@ struct Front {
         luma("luma", clock, p),
         edges("edges", clock, p) {
     registers.join(sequencer);
-    luma.rules_in(registers.rules);
-    edges.rules_in(registers.rules);
+    luma.configuration_in(registers.configuration);
+    edges.configuration_in(registers.configuration);
     driver.beats_out(in);
     sequencer.pixels_in(in);
     sequencer.frames_done_in(done);

@@ -2,7 +2,7 @@
 // What the morphological engine is given and has no use for: depths where edges need none, alphas
 // where nothing is marked, lanes behind the last pixel of a row, what lies between the rows of a
 // frame in memory, bits of registers that no field has. Whatever is there, pixels, taps, work and
-// clocks are the same; and what is not ignored counts, or the noise would prove nothing.
+// cycles are the same; and what is not ignored counts, or the noise would prove nothing.
 #include <algorithm>
 #include <bit>
 #include <functional>
@@ -18,7 +18,7 @@ namespace deburr::tb::morphological_rtl::ignored_bits_test {
 namespace {
 
 using spec::morphological::EdgeSource;
-using spec::morphological::Leave;
+using spec::morphological::Bypass;
 using spec::morphological::PixelBeat;
 namespace reg = spec::morphological::reg;
 
@@ -89,15 +89,15 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
     for (const spec::morphological::BlendedBeat& beat : bench.sink.beats())
       for (std::size_t i = 0; i < beat.count; ++i)
         trail.pixels.push_back({beat.pixel[i][0], beat.pixel[i][1], beat.pixel[i][2],
-                                beat.tap[i].horizontal, beat.tap[i].first, beat.tap[i].second,
-                                beat.tap[i].edges});
+                                beat.probe[i].horizontal, beat.probe[i].first, beat.probe[i].second,
+                                beat.probe[i].edges});
     for (const Cycle cycle : bench.sink.cycles()) trail.cycles.push_back(cycle - begin);
     trail.state = engine_state(bench.engine, bench.bus);
     return trail;
   }
   static std::string difference(const Trail& a, const Trail& b) {
     if (a.pixels != b.pixels) return "pixels";
-    if (a.cycles != b.cycles) return "clocks";
+    if (a.cycles != b.cycles) return "cycles";
     return state_difference(a.state, b.state);
   }
 
@@ -127,7 +127,7 @@ TEST_P(IgnoredBits, ChangeNothing) {
   };
   // The mark is bit 0, where one is looked for.
   EXPECT_EQ(difference(fresh, alphas(0xFE)), "");
-  EXPECT_EQ(!difference(fresh, alphas(0xFF)).empty(), p.leave != Leave::kNone);
+  EXPECT_EQ(!difference(fresh, alphas(0xFF)).empty(), p.leave != Bypass::kNone);
   // Lanes behind the last pixel of a row.
   const auto lanes = [&](bool used) {
     return run([&, used](PixelBeat& beat) {
@@ -156,7 +156,7 @@ TEST_P(IgnoredBits, OfRegistersChangeNothing) {
     const auto written = [&] {
       for (const spec::RegisterInfo& info : spec::morphological::kRegisters)
         if (info.writable() != 0) ignored += noisy(info);
-      bench.bus.write(reg::kSharesAddress, 0);  // the write of an entry has moved it on
+      bench.bus.write(reg::kWeightsAddress, 0);  // the write of an entry has moved it on
     };
     // CONTROL while a frame is inside, too; its many writes would hide that no other was written.
     const auto each_clock = [&] {

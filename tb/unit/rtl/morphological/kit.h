@@ -23,7 +23,7 @@ class Kit : public EngineKit {
     int width;  // of the whole job's frame
     std::uint32_t memory_latency;
     bool smaa = false;          // with all of its blocks
-    bool learned = false;       // shares
+    bool learned = false;       // weights
     const char* settings = "";  // beside that
   };
   static const std::array<Build, 28> kBuilds;
@@ -75,7 +75,7 @@ class Kit : public EngineKit {
            (bench_.bus.read(reg::kStatus) & reg::kStatusIdle) != 0;
   }
   Outcome outcome() {
-    NamedWords beats_out("beats"), cycles("clocks of beats"), work("work");
+    NamedWords beats_out("beats"), cycles("cycles of beats"), work("work");
     for (std::size_t i = bench_.sink.beats().size() - beats(); i < bench_.sink.beats().size();
          ++i) {
       beats_out.add(bench_.sink.beats()[i]);
@@ -94,23 +94,23 @@ class Kit : public EngineKit {
     }
     return outcome;
   }
-  // Steps that narrow keep no line where shares are learned.
+  // Steps that narrow keep no line where weights are learned.
   void expect_enough(Job job) {
     if (job == Job::kWhole) {
       EXPECT_FALSE(lines_.empty());
       EXPECT_EQ(bench_.engine.work().divides == 0, no_divides_);
       EXPECT_GT(bench_.engine.work().long_runs, 0u);
     } else {
-      EXPECT_GT(bench_.engine.extractor.record_stalls.value(), 0u);
+      EXPECT_GT(bench_.engine.extractor.descriptor_stalls.value(), 0u);
       EXPECT_EQ(bench_.engine.work().diagonal_pixels != 0, smaa_);
     }
   }
   static constexpr bool kPrograms = true;
-  void reset(Cycle clocks) {
+  void reset(Cycle cycles) {
     beats_.clear();
     queued_ = endless_ = false;
     bench_.wanted = 0;
-    bench_.reset(clocks);
+    bench_.reset(cycles);
   }
 
   // --- resets ---
@@ -121,15 +121,15 @@ class Kit : public EngineKit {
   }
   // A frame without a size, or one that is too wide: nothing is taken.
   static constexpr int kRejected = 2;
-  void reject(int kind, Cycle clocks) {
+  void reject(int kind, Cycle cycles) {
     start(Job::kBroken);
     bench_.bus.write(reg::kSize, kind == 0 ? 0 : 33u | 12u << 16);
-    bench_.clock.run(clocks);
+    bench_.clock.run(cycles);
     EXPECT_EQ(bench_.engine.work(), spec::morphological::Work{});
-    EXPECT_EQ((bench_.bus.read(reg::kStatus) & reg::kStatusFraming) != 0, clocks > 1);
+    EXPECT_EQ((bench_.bus.read(reg::kStatus) & reg::kStatusFraming) != 0, cycles > 1);
   }
-  // The tables that SHARES_DATA writes stay in a reset.
-  static constexpr std::array kKept = {reg::kControl, reg::kSharesData};
+  // The tables that WEIGHTS_DATA writes stay in a reset.
+  static constexpr std::array kKept = {reg::kControl, reg::kWeightsData};
   void spoil() {
     if (bench_.memory)
       bench_.memory->fail_request(bench_.memory->reads() + bench_.memory->writes() + 3);
@@ -151,25 +151,25 @@ class Kit : public EngineKit {
   }
 
   // --- register noise: while pixels come ---
-  static constexpr std::uint32_t kMostOffset = 0x200, kClocks = 80;
+  static constexpr std::uint32_t kMostOffset = 0x200, kCycles = 80;
   static constexpr int kAccesses = 60;
   static constexpr std::uint64_t kNoiseSeeds = 60;
   void noise_begins() {
     if (bench_.engine.parameters().area == spec::morphological::AreaSource::kLearned)
-      for (std::uint32_t entry = 0; entry < rtl::morphological::SharesRom::kEntries; ++entry) {
-        bench_.bus.write(reg::kSharesAddress, entry);
-        tables_.push_back(static_cast<std::int8_t>(bench_.bus.read(reg::kSharesData)));
+      for (std::uint32_t entry = 0; entry < rtl::morphological::WeightsRom::kEntries; ++entry) {
+        bench_.bus.write(reg::kWeightsAddress, entry);
+        tables_.push_back(static_cast<std::int8_t>(bench_.bus.read(reg::kWeightsData)));
       }
     reset(kNoiseReset);
     send(whole_);
     endless_ = true;
   }
   void disturb(Random&) {}
-  // Shares that were learned: the noise may have loaded others.
+  // Weights that were learned: the noise may have loaded others.
   void restore() {
     if (tables_.empty()) return;
-    bench_.software.load_shares(tables_);
-    bench_.bus.write(reg::kSharesAddress, 0);
+    bench_.software.load_weights(tables_);
+    bench_.bus.write(reg::kWeightsAddress, 0);
   }
 
   // --- tokens ---
@@ -179,22 +179,22 @@ class Kit : public EngineKit {
                 rtl::morphological::GuardSlotToken, rtl::morphological::GuardToken,
                 rtl::morphological::LumaToken, rtl::morphological::EdgeToken,
                 rtl::morphological::AreaSlotToken, rtl::morphological::FetchToken,
-                rtl::morphological::DiagonalColumnsToken, rtl::morphological::DiagonalSharesToken,
-                rtl::morphological::ShareToken, rtl::morphological::PixelToken,
+                rtl::morphological::DiagonalColumnsToken, rtl::morphological::DiagonalWeightsToken,
+                rtl::morphological::WeightToken, rtl::morphological::PixelToken,
                 rtl::morphological::RunToken, rtl::morphological::SumsToken,
                 rtl::morphological::LineToken, rtl::morphological::FinishToken,
-                rtl::morphological::FrameDoneToken, rtl::morphological::FrameRules>;
+                rtl::morphological::FrameDoneToken, rtl::morphological::FrameConfiguration>;
   static constexpr int kFormats = 57;
   static constexpr const char* kTables = "reference/morphological/memories.md";
   static constexpr const char* kHeader = "rtl_model/morphological/morphological_engine.h";
   static constexpr const char* kFigure = "reference/morphological/index.md";
-  // Figures have all that an engine can be built with: learned shares exclude diagonals.
+  // Figures have all that an engine can be built with: learned weights exclude diagonals.
   static std::vector<Drawn<Parameters>> drawn_builds() {
     Parameters memory = in_memory(), guarded = deburr(), learned = deburr(), diagonal = smaa();
     memory.lanes = spec::morphological::Lanes::kFour;
     learned.storage = diagonal.storage = spec::morphological::Storage::kMemory;
     guarded.text_guard = learned.text_guard = diagonal.text_guard = true;
-    const std::vector<std::string> units = {"DiagonalUnit", "SharesLoader", "TextGuard", "EdgeRows",
+    const std::vector<std::string> units = {"DiagonalUnit", "WeightsLoader", "TextGuard", "EdgeRows",
                                             "Blender",      "memory_error", "latched"};
     return {{"deburr-line", deburr_line()},
             {"deburr", deburr()},
@@ -210,9 +210,9 @@ class Kit : public EngineKit {
       const Frame& whole)
       : bench_(p, options(latency, disturbance)), whole_(marked(whole)) {
     bench_.engine.observe_runs(
-        [this](const spec::morphological::RunRecord& run) { runs_.push_back(run); });
+        [this](const spec::morphological::RunDescriptor& run) { runs_.push_back(run); });
     bench_.engine.observe_lines(
-        [this](const spec::morphological::LineRecord& line) { lines_.push_back(line); });
+        [this](const spec::morphological::LineDescriptor& line) { lines_.push_back(line); });
   }
   static EngineBench::Options options(std::uint32_t latency, const Disturbance& disturbance) {
     EngineBench::Options options;
@@ -231,7 +231,7 @@ class Kit : public EngineKit {
     p.divider_interval = build.divider_interval;
     p.divider_latency = 14;
     p.predictor_units = 1;
-    p.record_fifo = 2;
+    p.descriptor_fifo = 2;
     p.line_pixels = 32;
     if (build.learned) {
       p.edge_source = spec::morphological::EdgeSource::kColour;
@@ -260,7 +260,7 @@ class Kit : public EngineKit {
     p.line_pixels = 64;
     p.lanes = static_cast<spec::morphological::Lanes>(random.below(3));
     p.storage = static_cast<spec::morphological::Storage>(random.below(2));
-    p.record_fifo = random.between(2, 9);
+    p.descriptor_fifo = random.between(2, 9);
     p.text_guard = random.chance(500);
     return p;
   }
@@ -293,13 +293,13 @@ class Kit : public EngineKit {
   std::vector<spec::morphological::PixelBeat> beats_;
   bool queued_ = false, endless_ = false;
   Cycle begin_ = 0;
-  std::vector<spec::morphological::RunRecord> runs_;
-  std::vector<spec::morphological::LineRecord> lines_;  // in the order in which they are stored
+  std::vector<spec::morphological::RunDescriptor> runs_;
+  std::vector<spec::morphological::LineDescriptor> lines_;  // in the order in which they are stored
   std::vector<std::int8_t> tables_;
 };
 
 using spec::morphological::Storage;
-// The frame of one beat a row has its first record a few clocks after the reset. Where a line is
+// The frame of one beat a row has its first record a few cycles after the reset. Where a line is
 // answered in the clock in which another is written, its read waits. Then every rule of edges,
 // lines and areas in some build, and every time of a trial.
 inline constexpr std::array<Kit::Build, 28> Kit::kBuilds = {{
@@ -326,19 +326,19 @@ inline constexpr std::array<Kit::Build, 28> Kit::kBuilds = {{
     {2, Storage::kLineBuffers, 16, 4, 20, true, false, "text_guard=true"},
     {0, Storage::kLineBuffers, 16, 9, 20, false, false,
      "predictor=fit contiguous=true safe=true trim=true edges.local_contrast=symmetric "
-     "trial_clocks=1"},
+     "trial_cycles=1"},
     {1, Storage::kLineBuffers, 16, 31, 20, false, false,
-     "edges.source=predicated edges.local_contrast=smaa trial_clocks=2"},
+     "edges.source=predicated edges.local_contrast=smaa trial_cycles=2"},
     {2, Storage::kLineBuffers, 16, 9, 20, false, false,
-     "edges.source=depth leave=half trial_clocks=3 predictor_units=2"},
+     "edges.source=depth leave=half trial_cycles=3 predictor_units=2"},
     {0, Storage::kMemory, 16, 31, 20, false, false,
-     "edges.threshold_mode=dynamic edges.local_contrast=paper leave=beside trial_clocks=8 "
+     "edges.threshold_mode=dynamic edges.local_contrast=paper leave=beside trial_cycles=8 "
      "linear_light=false"},
     {1, Storage::kLineBuffers, 16, 9, 20, true, false,
      "area=table_full edges.threshold_mode=dynamic edges.dynamic_luma=current"},
     {2, Storage::kLineBuffers, 16, 31, 20, true, false, "area=table_minimal leave=marked"},
     {1, Storage::kLineBuffers, 16, 9, 20, false, true,
-     "predictor=fit trim=true leave=half trial_clocks=5"},
+     "predictor=fit trim=true leave=half trial_cycles=5"},
 }};
 
 }  // namespace deburr::tb::morphological_rtl

@@ -34,7 +34,7 @@ SumsToken sums_of(std::vector<int> corners, int left, int length) {
 struct Lines {
   explicit Lines(const Parameters& p, Axis axis = Axis::kHorizontal)
       : registers(p, 64, 64), unit("divider", clock, p, axis), ends(clock) {
-    unit.rules_in(registers.rules);
+    unit.configuration_in(registers.configuration);
     unit.sums_in[0](ends.in);
     unit.lines_out[0](ends.out);
   }
@@ -53,7 +53,7 @@ TEST(LineUnitBlock, FitOfTheContractsTable) {
   bench.clock.run(60);
   ASSERT_EQ(bench.ends.sink.taken.size(), vectors.size());
   for (std::size_t i = 0; i < vectors.size(); ++i) {
-    const spec::morphological::LineRecord& line = bench.ends.sink.taken[i].token.line;
+    const spec::morphological::LineDescriptor& line = bench.ends.sink.taken[i].token.line;
     const spec::morphological::RunResult got = {line.scale,   line.offset, line.slope,
                                                 line.inverse, line.shift,  line.span};
     EXPECT_EQ(differences(vectors[i].result, got), "") << i;
@@ -75,13 +75,13 @@ TEST(LineUnitBlock, ChordAndTheEndsOfALongRun) {
     bench.ends.source.add(token);
   bench.clock.run(60);
   ASSERT_EQ(bench.ends.sink.taken.size(), 4u);
-  const spec::morphological::LineRecord& chord = bench.ends.sink.taken[0].token.line;
+  const spec::morphological::LineDescriptor& chord = bench.ends.sink.taken[0].token.line;
   EXPECT_EQ(chord.scale, 2);
   EXPECT_EQ(chord.offset, 5);
   EXPECT_EQ(chord.slope, 3050403u);  // rdiv(4 x 2^24, 22) = 67108864 / 22 = 3050402.9
   EXPECT_EQ(chord.inverse, 11264u);  // 11 / 4 in U12.12
   for (const int i : {1, 2}) {
-    const spec::morphological::LineRecord& line =
+    const spec::morphological::LineDescriptor& line =
         bench.ends.sink.taken[static_cast<std::size_t>(i)].token.line;
     EXPECT_EQ(line.scale, 2);
     EXPECT_EQ(line.offset, i == 1 ? 21 : 2 * 10 - 21);
@@ -110,14 +110,14 @@ TEST_P(Divider, HasItsLatencyAndInterval) {
   for (int i = 0; i < 10; ++i) bench.ends.source.add(sums_of({0, i + 1}, 0, i + 1));
   // Pushed in 0, popped in 1, the quotient is sent in 1 + latency.
   const rtl::Datasheet sheet = LineUnit::datasheet(p);
-  const Cycle ready = 1 + sheet.latency.clocks;
+  const Cycle ready = 1 + sheet.latency.cycles;
   bench.clock.run(ready);
   EXPECT_FALSE(bench.ends.out.can_pop(ready - 1));
   EXPECT_TRUE(bench.ends.out.can_pop(ready));
   bench.clock.run(200);
   ASSERT_EQ(bench.ends.sink.taken.size(), 10u);
   for (std::size_t i = 0; i < 10; ++i) {
-    EXPECT_EQ(bench.ends.sink.taken[i].cycle, ready + i * sheet.interval.clocks) << i;
+    EXPECT_EQ(bench.ends.sink.taken[i].cycle, ready + i * sheet.interval.cycles) << i;
     EXPECT_EQ(bench.ends.sink.taken[i].token.line.span, i + 1);
   }
   EXPECT_EQ(bench.unit.occupancy.value(), 10u * static_cast<unsigned>(time.interval));
@@ -141,7 +141,7 @@ struct Dividing {
         registers(p, 40, 30),
         unit("divider", clock, p, Axis::kHorizontal),
         gate("gate", clock, opens) {
-    unit.rules_in(registers.rules);
+    unit.configuration_in(registers.configuration);
     driver.out(sums);
     unit.sums_in[0](sums);
     unit.lines_out[0](lines);
@@ -165,7 +165,7 @@ struct Dividing {
 
 // A record without a line passes the divider in the clock that pops it, also one that waits for its
 // interval; it gives way to a quotient.
-TEST(LineUnitBlock, ALearnedRecordPassesTheDivider) {
+TEST(LineUnitBlock, ALearnedDescriptorPassesTheDivider) {
   Dividing bench(14, 20);
   SumsToken learned = sums_of(1);
   learned.learned = true;
@@ -177,10 +177,10 @@ TEST(LineUnitBlock, ALearnedRecordPassesTheDivider) {
   bench.driver.add(15, learned);    // would be popped in 16: a quotient leaves
   bench.clock.run(60);
   ASSERT_EQ(bench.gate.taken.size(), 4u);
-  EXPECT_THAT(clocks_of(bench.gate), ::testing::ElementsAre(2, 4, 17, 18));
+  EXPECT_THAT(cycles_of(bench.gate), ::testing::ElementsAre(2, 4, 17, 18));
   expect_latency(LineUnit::learned_datasheet(), bench.gate.taken[0].cycle - 1);
   for (const std::size_t i : {0u, 1u, 3u}) {
-    const spec::morphological::LineRecord& line = bench.gate.taken[i].token.line;
+    const spec::morphological::LineDescriptor& line = bench.gate.taken[i].token.line;
     EXPECT_TRUE(line.learned);
     EXPECT_EQ(line.start_class, 7);
     EXPECT_EQ(line.end_class, 3);
@@ -202,7 +202,7 @@ TEST(LineUnitBlock, WaitsForTheIntervalOfTheDivider) {
   Dividing bench(14, 20);
   for (int i = 1; i <= 6; ++i) bench.driver.add(0, sums_of(i));
   bench.clock.run(140);
-  // One starts in 1, 21, .., 101; its quotient goes 14 clocks later; then five clocks of waiting,
+  // One starts in 1, 21, .., 101; its quotient goes 14 cycles later; then five cycles of waiting,
   // but for the last.
   ASSERT_EQ(bench.gate.taken.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(bench.gate.taken[i].cycle, 16 + 20 * i);

@@ -15,7 +15,7 @@ TEST(LumaUnitBlock, AddsTheWeightsExactlyTwoClocksLater) {
   Registers registers(p, 4, 4);
   Ends<SlotToken, LumaToken> ends(clock);
   LumaUnit luma("luma", clock, p);
-  luma.rules_in(registers.rules);
+  luma.configuration_in(registers.configuration);
   luma.slots_in(ends.in);
   luma.lumas_out(ends.out);
   SlotToken token{};
@@ -33,7 +33,7 @@ TEST(LumaUnitBlock, AddsTheWeightsExactlyTwoClocksLater) {
   ASSERT_EQ(ends.sink.taken.size(), 3u);
   // Pushed in 0, popped in 1; a datasheet that is a clock off is noticed.
   const auto check = [&](const rtl::Datasheet& sheet) {
-    expect_clocks(sheet, clocks_of(ends.sink), 1);
+    expect_cycles(sheet, cycles_of(ends.sink), 1);
   };
   expect_notices_a_clock(LumaUnit::datasheet(), &rtl::Datasheet::latency, check);
   expect_notices_a_clock(LumaUnit::datasheet(), &rtl::Datasheet::interval, check);

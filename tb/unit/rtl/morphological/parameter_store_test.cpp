@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "spec/morphological/learned_shares.h"
+#include "spec/morphological/learned_weights.h"
 #include "tb/unit/rtl/morphological/parts.h"
 #include "tb/unit/rtl/morphological/placed_engine.h"
 #include "tb/unit/rtl/morphological/vectors.h"
@@ -25,20 +25,20 @@ using P = Parameters;
 
 TEST(ParameterStoreBlock, TrimIsABitOfRulesLatchedWithTheFrame) {
   WiredRegisters on(preset(spec::morphological::Preset::kDeburrLine));
-  const std::uint32_t reset_value = on.bus.read(reg::kRules);
+  const std::uint32_t reset_value = on.bus.read(reg::kConfiguration);
   EXPECT_EQ(reset_value,
             1u << 3 | 2u << 5 | 2u << 7 | 8u << 9 | 1u << 14 | 1u << 15 | 1u << 16 | kTrimBit);
   EXPECT_TRUE(on.frame(8, 8).trim);
-  on.bus.write(reg::kRules, reset_value & ~kTrimBit);
-  EXPECT_EQ(on.bus.read(reg::kRules), reset_value & ~kTrimBit);
+  on.bus.write(reg::kConfiguration, reset_value & ~kTrimBit);
+  EXPECT_EQ(on.bus.read(reg::kConfiguration), reset_value & ~kTrimBit);
   EXPECT_TRUE(on.units_see().trim) << "until the next frame begins";
   ASSERT_TRUE(on.latch());
   EXPECT_FALSE(on.units_see().trim);
   EXPECT_TRUE(on.units_see().safe);
-  on.bus.write(reg::kRules, ~0u);
-  EXPECT_EQ(on.bus.read(reg::kRules), 0x1FFFFFFFu) << "no bits beyond";
+  on.bus.write(reg::kConfiguration, ~0u);
+  EXPECT_EQ(on.bus.read(reg::kConfiguration), 0x1FFFFFFFu) << "no bits beyond";
   on.control.reset();
-  EXPECT_EQ(on.bus.read(reg::kRules), reset_value);
+  EXPECT_EQ(on.bus.read(reg::kConfiguration), reset_value);
 }
 
 TEST(ParameterStoreBlock, LetsFramesInWhileEnabled) {
@@ -46,7 +46,7 @@ TEST(ParameterStoreBlock, LetsFramesInWhileEnabled) {
   EXPECT_TRUE(registers.lets_frames_in());
   registers.bus.write(reg::kControl, 0);
   EXPECT_FALSE(registers.lets_frames_in());
-  EXPECT_EQ(registers.units_see(), rtl::morphological::FrameRules{}) << "nothing is latched";
+  EXPECT_EQ(registers.units_see(), rtl::morphological::FrameConfiguration{}) << "nothing is latched";
   registers.bus.write(reg::kControl, reg::kControlEnable);
   EXPECT_TRUE(registers.lets_frames_in());
 }
@@ -67,7 +67,7 @@ TEST(ParameterStoreBlock, EachPulseSetsItsStatusBit) {
 
 TEST(ParameterStoreBlock, ResetValueOfTrimIsTheParameter) {
   WiredRegisters off(deburr_without_trim());
-  EXPECT_EQ(off.bus.read(reg::kRules) & kTrimBit, 0u);
+  EXPECT_EQ(off.bus.read(reg::kConfiguration) & kTrimBit, 0u);
   EXPECT_FALSE(off.frame(8, 8).trim);
 }
 
@@ -88,16 +88,16 @@ TEST(ParameterStoreBlock, SmaaIsLimitedToItsRangesAndToWhatIsBuilt) {
         Row{1u | 1u << 8 | 1u << 16, 1, 1, 255}, Row{112u | 7u << 8 | 256u << 16, 112, 6, 0},
         Row{127u | 31u << 8 | 511u << 16, 112, 6, 0}}) {
     store.bus.write(reg::kSmaa, row.value);
-    const rtl::morphological::FrameRules& rules = store.frame(8, 8);
-    EXPECT_TRUE(rules.table && rules.crossings && rules.strongest);
-    EXPECT_EQ(rules.search_steps, row.search) << row.value;
-    EXPECT_EQ(rules.diagonal_steps, row.diagonal) << row.value;
-    EXPECT_EQ(rules.corner_loss, row.loss) << row.value;
+    const rtl::morphological::FrameConfiguration& configuration = store.frame(8, 8);
+    EXPECT_TRUE(configuration.table && configuration.crossings && configuration.strongest);
+    EXPECT_EQ(configuration.search_steps, row.search) << row.value;
+    EXPECT_EQ(configuration.diagonal_steps, row.diagonal) << row.value;
+    EXPECT_EQ(configuration.corner_loss, row.loss) << row.value;
   }
   // Each block is switched by its own bit.
-  const std::uint32_t rules = store.bus.read(reg::kRules);
+  const std::uint32_t configuration = store.bus.read(reg::kConfiguration);
   for (int bit = 18; bit <= 22; ++bit) {
-    store.bus.write(reg::kRules, rules & ~(1u << bit));
+    store.bus.write(reg::kConfiguration, configuration & ~(1u << bit));
     store.bus.write(reg::kSmaa, 4u | 6u << 8);
     store.frame(8, 8);
     EXPECT_EQ(store.units_see().crossings, bit != 18);
@@ -124,7 +124,7 @@ TEST(ParameterStoreBlock, StepsAreAtMostWhatTheWindowAllows) {
     Parameters p = preset(Preset::kDeburrLine);
     p.window_rows = window_rows;
     WiredRegisters store(p);
-    store.bus.write(reg::kRules, 1u << 7 | 31u << 9);
+    store.bus.write(reg::kConfiguration, 1u << 7 | 31u << 9);
     store.frame(8, 8);
     EXPECT_EQ(store.units_see().steps, std::min(16, window_rows / 2 - 2)) << window_rows;
   }
@@ -134,7 +134,7 @@ TEST(ParameterStoreBlock, StepsAreAtMostWhatTheWindowAllows) {
 // ------------------------------------------------------------------
 
 // The fields of RULES that are not 0.
-std::string text_of(const rtl::morphological::FrameRules& f) {
+std::string text_of(const rtl::morphological::FrameConfiguration& f) {
   std::string text;
   const auto add = [&](const char* name, auto value) {
     if (const int number = static_cast<int>(value); number != 0)
@@ -161,23 +161,23 @@ std::string text_of(const rtl::morphological::FrameRules& f) {
   add("learned", f.learned);
   return text;
 }
-using RulesRow = std::pair<std::uint32_t, const char*>;
-void expect_rules(const Parameters& p, const std::vector<RulesRow>& rows) {
+using ConfigurationRow = std::pair<std::uint32_t, const char*>;
+void expect_configuration(const Parameters& p, const std::vector<ConfigurationRow>& rows) {
   WiredRegisters registers(p);
   registers.bus.write(reg::kSmaa, 5u << 8);
   for (const auto& [value, fields] : rows) {
-    registers.bus.write(reg::kRules, value);
+    registers.bus.write(reg::kConfiguration, value);
     registers.frame(8, 8);
     EXPECT_EQ(text_of(registers.units_see()), fields) << value;
   }
 }
 
-TEST(FrameRules, EachBitOfRulesIsItsFields) {
+TEST(FrameConfiguration, EachBitOfRulesIsItsFields) {
   Parameters p = smaa();
   p.window_rows = 42;
   p.diagonal_steps = 8;
   p.contiguous = true;
-  expect_rules(p, {{0, ""},
+  expect_configuration(p, {{0, ""},
                    {1, "source 1"},
                    {2, "source 2"},
                    {3, "source 3"},
@@ -220,37 +220,37 @@ TEST(FrameRules, EachBitOfRulesIsItsFields) {
                    {1u << 27 | 3u << 18, "crossings 1, table 1, clamp 1"},
                    {0xF0000000, ""}});
   p.border = spec::morphological::Border::kEnd;  // clamp is not built
-  expect_rules(p, {{1u << 27 | 3u << 18, "crossings 1, table 1"}});
+  expect_configuration(p, {{1u << 27 | 3u << 18, "crossings 1, table 1"}});
   p.text_guard = true;
-  expect_rules(p, {{1u << 28, "text_guard 1"}, {0xE0000000, ""}});
+  expect_configuration(p, {{1u << 28, "text_guard 1"}, {0xE0000000, ""}});
 }
 // Bits of no field count nowhere, whatever holds the registers.
-TEST(FrameRules, OtherBitsAreNotLookedAt) {
+TEST(FrameConfiguration, OtherBitsAreNotLookedAt) {
   rtl::ControlRegisters raw("raw", spec::morphological::kRegisters,
                             rtl::morphological::control_layout());
   const auto decoded = [&] { return rtl::morphological::decode(raw, smaa()); };
-  raw.write(reg::kRules, 0xF0000000);
-  EXPECT_EQ(text_of(decoded().rules), "");
-  raw.write(reg::kRules, 0xF0000000 | 1u << 24);
-  EXPECT_EQ(text_of(decoded().rules), "leave 1");
+  raw.write(reg::kConfiguration, 0xF0000000);
+  EXPECT_EQ(text_of(decoded().configuration), "");
+  raw.write(reg::kConfiguration, 0xF0000000 | 1u << 24);
+  EXPECT_EQ(text_of(decoded().configuration), "leave 1");
   raw.write(reg::kSize, 0xC000C000 | 40 | 30 << 16);
-  EXPECT_EQ(decoded().rules.width, 40);
-  EXPECT_EQ(decoded().rules.height, 30);
+  EXPECT_EQ(decoded().configuration.width, 40);
+  EXPECT_EQ(decoded().configuration.height, 30);
   raw.write(reg::kSmaa, 0xFE00E080);
-  raw.write(reg::kRules, 1u << 20);
-  EXPECT_EQ(decoded().rules.search_steps, 1);
-  EXPECT_EQ(decoded().rules.diagonal_steps, 0);
-  EXPECT_EQ(decoded().rules.corner_loss, 256);
+  raw.write(reg::kConfiguration, 1u << 20);
+  EXPECT_EQ(decoded().configuration.search_steps, 1);
+  EXPECT_EQ(decoded().configuration.diagonal_steps, 0);
+  EXPECT_EQ(decoded().configuration.corner_loss, 256);
 }
-TEST(FrameRules, OfAnEngineWithLearnedShares) {
+TEST(FrameConfiguration, OfAnEngineWithLearnedShares) {
   // All but what ends at bit 16, learned and the highest bit of leave.
-  expect_rules(deburr(), {{1u << 23, "learned 1"},
+  expect_configuration(deburr(), {{1u << 23, "learned 1"},
                           {0x7FE0000u & ~(1u << 23) & ~(1u << 26), "trim 1, strongest 1, leave 3"},
                           {2u << 3, "dynamic_luma 2"},
                           {1u << 14, "contiguous 1"}});
 }
 
-TEST(FrameRules, ThresholdsAreThoseOfTheirRegisters) {
+TEST(FrameConfiguration, ThresholdsAreThoseOfTheirRegisters) {
   WiredRegisters r(preset(Preset::kMlaa));
   std::uint32_t value = 100;
   std::vector<std::uint32_t> wanted;
@@ -261,7 +261,7 @@ TEST(FrameRules, ThresholdsAreThoseOfTheirRegisters) {
     wanted.push_back(value);
     EXPECT_EQ(r.bus.read(offset), value);
   }
-  const rtl::morphological::FrameRules& f = r.frame(8, 8);
+  const rtl::morphological::FrameConfiguration& f = r.frame(8, 8);
   EXPECT_EQ((std::vector<std::uint32_t>{f.threshold, f.threshold_on, f.threshold_off, f.floor,
                                         f.alpha, f.depth_threshold, f.pixel_base}),
             wanted);
@@ -274,7 +274,7 @@ TEST(FrameRules, ThresholdsAreThoseOfTheirRegisters) {
             (std::vector<std::uint32_t>{0xFFFFFF, 0xFFFFFF, 0xFFFFFF, 0xFFFFFF, 0xFFFFFF, 0xFFFF}));
 }
 
-TEST(FrameRules, SizesInBeatsAndRows) {
+TEST(FrameConfiguration, SizesInBeatsAndRows) {
   struct Row {
     int lanes_code, width, height;
     std::uint32_t beats, rows;
@@ -285,7 +285,7 @@ TEST(FrameRules, SizesInBeatsAndRows) {
                          Row{2, 8, 7, 2, 16, 4}, Row{2, 9, 7, 3, 16, 1}, Row{2, 11, 7, 3, 16, 3},
                          Row{2, 12, 7, 3, 16, 4}, Row{2, 13, 7, 4, 16, 1}}) {
     WiredRegisters r(small(row.lanes_code));
-    const rtl::morphological::FrameRules& f = r.frame(row.width, row.height);
+    const rtl::morphological::FrameConfiguration& f = r.frame(row.width, row.height);
     EXPECT_EQ(f.width, row.width);
     EXPECT_EQ(f.height, row.height);
     EXPECT_EQ(f.beats, row.beats) << row.width;
@@ -295,14 +295,14 @@ TEST(FrameRules, SizesInBeatsAndRows) {
 }
 
 // Out of them a frame is rejected, and says so; one that was inside before is not touched.
-TEST(FrameRules, LimitsOfASize) {
+TEST(FrameConfiguration, LimitsOfASize) {
   Parameters p = small();
   p.line_pixels = 100;
   WiredRegisters r(p);
   const auto takes = [&](std::uint32_t width, std::uint32_t height) {
     r.bus.write(reg::kSize, width | height << 16);
     r.bus.write(reg::kStatus, ~0u);
-    const rtl::morphological::FrameRules before = r.units_see();
+    const rtl::morphological::FrameConfiguration before = r.units_see();
     const bool taken = r.latch();
     EXPECT_EQ((r.bus.read(reg::kStatus) & reg::kStatusFraming) == 0, taken);
     EXPECT_EQ(r.units_see().width, taken ? width : before.width);
@@ -322,7 +322,7 @@ TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
   ASSERT_TRUE(bench.bus.debug_write(reg::kPixelBase, 0x12345));
   ASSERT_TRUE(bench.bus.debug_write(reg::kSize, 97u | 61u << 16 | 0xC000C000u));
   ASSERT_TRUE(bench.bus.debug_write(reg::kThreshold, 0xAB000000u | 1671270u));
-  ASSERT_TRUE(bench.bus.debug_write(reg::kRules, 0xFE000000u | 1u << 16));
+  ASSERT_TRUE(bench.bus.debug_write(reg::kConfiguration, 0xFE000000u | 1u << 16));
   const Frame in = noise();
   bench.driver.send(beats_of(in, 1));
   bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
@@ -330,7 +330,7 @@ TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
   EXPECT_EQ(bench.bus.read(reg::kPixelBase), 0x12340u);
   EXPECT_EQ(bench.bus.read(reg::kSize), 97u | 61u << 16);
   EXPECT_EQ(bench.bus.read(reg::kThreshold), 1671270u);
-  EXPECT_EQ(bench.bus.read(reg::kRules), 15u << 25 | 1u << 16);
+  EXPECT_EQ(bench.bus.read(reg::kConfiguration), 15u << 25 | 1u << 16);
   ASSERT_FALSE(bench.memory->lines_read().empty());
   EXPECT_EQ(bench.memory->lines_read()[0], 0x12340u);
   EXPECT_EQ(bench.bus.read(reg::kMemoryErrors), 0u);
@@ -345,7 +345,7 @@ TEST(ContiguousRegister, IsOffInAnEngineBuiltWithoutIt) {
   EngineBench bench(built);
   const Frame without = bench.run(blocks());
   const std::uint64_t steps = bench.engine.work().steps;
-  bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) | kContiguous);
+  bench.bus.write(reg::kConfiguration, bench.bus.read(reg::kConfiguration) | kContiguous);
   EXPECT_EQ(hash(bench.run(blocks())), hash(without));
   EXPECT_EQ(bench.engine.work().steps, 2 * steps);
   EXPECT_NE(hash(without), vector_hash("blocks_deburr_line_default"))
@@ -361,7 +361,7 @@ TEST(Registers, ResetValuesAreTheParameters) {
   EXPECT_EQ(bench.bus.read(reg::kId), reg::kIdValue);
   EXPECT_EQ(bench.bus.read(reg::kControl), reg::kControlEnable);
   // luma, fixed, max, symmetric, fit, 8 steps, contiguous, safe, linear light, trim
-  EXPECT_EQ(bench.bus.read(reg::kRules),
+  EXPECT_EQ(bench.bus.read(reg::kConfiguration),
             1u << 3 | 2u << 5 | 2u << 7 | 8u << 9 | 1u << 14 | 1u << 15 | 1u << 16 | 1u << 17);
   EXPECT_EQ(bench.bus.read(reg::kThreshold), 501330u);
   EXPECT_EQ(bench.bus.read(reg::kAlpha), 1234u);
@@ -384,7 +384,7 @@ TEST(Registers, ResetValuesOfSmaaAreThePresets) {
   struct Row {
     Preset preset;
     Quality quality;
-    std::uint32_t rules, threshold, smaa;
+    std::uint32_t configuration, threshold, smaa;
   };
   constexpr std::uint32_t kFixed = 1u << 3 | 3u << 5 | kLinear | kCrossings | kTable | kStrongest |
                                    kClamp,
@@ -404,13 +404,13 @@ TEST(Registers, ResetValuesOfSmaaAreThePresets) {
         Row{Preset::kSmaaDynamic, Quality::kHigh, kDynamic | kDiagonals | kCorners, 501330,
             16u | 8u << 8 | 64u << 16}}) {
     Owner owner("owner", smaa(row.quality, row.preset));
-    EXPECT_EQ(owner.store.bus.read(reg::kRules), row.rules);
+    EXPECT_EQ(owner.store.bus.read(reg::kConfiguration), row.configuration);
     EXPECT_EQ(owner.store.bus.read(reg::kThreshold), row.threshold);
     EXPECT_EQ(owner.store.bus.read(reg::kSmaa), row.smaa);
     owner.store.bus.write(reg::kSmaa, 0);
-    owner.store.bus.write(reg::kRules, 0);
+    owner.store.bus.write(reg::kConfiguration, 0);
     owner.store.control.reset();
-    EXPECT_EQ(owner.store.bus.read(reg::kRules), row.rules);
+    EXPECT_EQ(owner.store.bus.read(reg::kConfiguration), row.configuration);
     EXPECT_EQ(owner.store.bus.read(reg::kSmaa), row.smaa);
   }
 }
@@ -424,7 +424,7 @@ TEST(Registers, DiagonalsAreCountedShownAndCleared) {
   EXPECT_EQ(bench.bus.try_write(reg::kDiagonals, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
   EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 258u);
   // Switched off they are not looked for.
-  bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) & ~(1u << 20));
+  bench.bus.write(reg::kConfiguration, bench.bus.read(reg::kConfiguration) & ~(1u << 20));
   bench.run(noise());
   EXPECT_EQ(bench.bus.read(reg::kDiagonals), 2 * 258u);
   bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
@@ -460,19 +460,19 @@ TEST(Registers, RulesCountFromTheNextFrame) {
   EXPECT_EQ(hash(bench.run(blocks())), vector_hash("blocks_deburr_line_default"));
   // Without trim the same trials, but every step is kept.
   EXPECT_EQ(bench.bus.read(reg::kSteps), 660u);
-  bench.bus.write(reg::kRules, bench.bus.read(reg::kRules) & ~(1u << 17));
+  bench.bus.write(reg::kConfiguration, bench.bus.read(reg::kConfiguration) & ~(1u << 17));
   EXPECT_EQ(hash(bench.run(blocks())), vector_hash("blocks_not_trimmed"));
   EXPECT_EQ(bench.bus.read(reg::kSteps), 660u + 970u);
   EXPECT_EQ(bench.bus.read(reg::kProbes), 2u * 5382u);
   // mlaa: T = 0.1, no local contrast, no predictor.
-  bench.bus.write(reg::kRules, 1u << 16);
+  bench.bus.write(reg::kConfiguration, 1u << 16);
   bench.bus.write(reg::kThreshold, 1671270);
   EXPECT_EQ(hash(bench.run(line())), vector_hash("line_mlaa"));
   // mlaa-slope.
-  bench.bus.write(reg::kRules, 1u << 16 | 1u << 7 | 4u << 9);
+  bench.bus.write(reg::kConfiguration, 1u << 16 | 1u << 7 | 4u << 9);
   EXPECT_EQ(hash(bench.run(noise())), vector_hash("noise_slope"));
   // Codes that no choice has: luma, none.
-  bench.bus.write(reg::kRules, 1u << 16 | 3u | 3u << 7 | 31u << 9);
+  bench.bus.write(reg::kConfiguration, 1u << 16 | 3u | 3u << 7 | 31u << 9);
   EXPECT_EQ(hash(bench.run(line())), vector_hash("line_mlaa"));
 }
 
@@ -595,7 +595,7 @@ P plain() {
   p.steps = 4;
   p.contiguous = p.safe = p.trim = false;
   p.window_rows = 2 * 20 + 2;
-  p.reach_columns = 60;
+  p.search_columns = 60;
   p.line_pixels = 64;
   return p;
 }
@@ -642,17 +642,17 @@ void luma(P& p) { p.edge_source = spec::morphological::EdgeSource::kLuma; }
 void colour(P& p) { p.edge_source = spec::morphological::EdgeSource::kColour; }
 void learned(P& p) { p.area = spec::morphological::AreaSource::kLearned; }
 void as_analytic(P& p) { p.area = spec::morphological::AreaSource::kAnalytic; }
-void masked(P& p) { p.leave = spec::morphological::Leave::kMasked; }
+void masked(P& p) { p.leave = spec::morphological::Bypass::kMasked; }
 void dynamic(P& p) {
   p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
   p.alpha = 2304000;
   p.floor = 229500;
 }
 void fit(P& p) { p.predictor = spec::morphological::Predictor::kFit; }
-void marked(P& p) { p.leave = spec::morphological::Leave::kMarked; }
-void beside(P& p) { p.leave = spec::morphological::Leave::kBeside; }
-void half(P& p) { p.leave = spec::morphological::Leave::kHalf; }
-void as_before(P& p) { p.leave = spec::morphological::Leave::kNone; }
+void marked(P& p) { p.leave = spec::morphological::Bypass::kMarked; }
+void beside(P& p) { p.leave = spec::morphological::Bypass::kBeside; }
+void half(P& p) { p.leave = spec::morphological::Bypass::kHalf; }
+void as_before(P& p) { p.leave = spec::morphological::Bypass::kNone; }
 template <int kSteps>
 void steps(P& p) {
   p.steps = kSteps;
@@ -666,79 +666,79 @@ void highest(P& p) {  // R = 17: R - 1 is the largest N
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Rules, RegisterField,
+    Configuration, RegisterField,
     ::testing::Values(
-        Field{"source_luma", depth, reg::kRules, 0, 1, 0, luma},
-        Field{"source_depth", predicated, reg::kRules, 0, 1, 1, depth},
-        Field{"source_predicated", depth, reg::kRules, 0, 1, 2, predicated},
-        Field{"source_colour", depth, reg::kRules, 0, 1, 3, colour},
-        Field{"source_colour_where_no_depth_is", as_it_is, reg::kRules, 0, 1, 3, colour},
-        Field{"dynamic_does_not_go_with_colour", colour, reg::kRules, 2, 2, 1, as_it_is, false},
-        Field{"area_from_lines", learned, reg::kRules, 23, 23, 0, as_analytic},
-        Field{"learned_is_off_where_not_built", as_it_is, reg::kRules, 23, 23, 1, as_it_is, false},
-        Field{"tables_are_off_beside_learned", learned, reg::kRules, 19, 21, 7, as_it_is, false},
-        Field{"leave_masked", as_it_is, reg::kRules, 24, 26, 4, masked},
-        Field{"leave_5_is_none", marked, reg::kRules, 24, 26, 5, as_before},
-        Field{"leave_7_is_none", half, reg::kRules, 24, 26, 7, as_before},
-        Field{"mode_dynamic", as_it_is, reg::kRules, 2, 2, 1,
+        Field{"source_luma", depth, reg::kConfiguration, 0, 1, 0, luma},
+        Field{"source_depth", predicated, reg::kConfiguration, 0, 1, 1, depth},
+        Field{"source_predicated", depth, reg::kConfiguration, 0, 1, 2, predicated},
+        Field{"source_colour", depth, reg::kConfiguration, 0, 1, 3, colour},
+        Field{"source_colour_where_no_depth_is", as_it_is, reg::kConfiguration, 0, 1, 3, colour},
+        Field{"dynamic_does_not_go_with_colour", colour, reg::kConfiguration, 2, 2, 1, as_it_is, false},
+        Field{"area_from_lines", learned, reg::kConfiguration, 23, 23, 0, as_analytic},
+        Field{"learned_is_off_where_not_built", as_it_is, reg::kConfiguration, 23, 23, 1, as_it_is, false},
+        Field{"tables_are_off_beside_learned", learned, reg::kConfiguration, 19, 21, 7, as_it_is, false},
+        Field{"leave_masked", as_it_is, reg::kConfiguration, 24, 26, 4, masked},
+        Field{"leave_5_is_none", marked, reg::kConfiguration, 24, 26, 5, as_before},
+        Field{"leave_7_is_none", half, reg::kConfiguration, 24, 26, 7, as_before},
+        Field{"mode_dynamic", as_it_is, reg::kConfiguration, 2, 2, 1,
               [](P& p) { p.threshold_mode = spec::morphological::ThresholdMode::kDynamic; }},
-        Field{"mode_fixed", dynamic, reg::kRules, 2, 2, 0,
+        Field{"mode_fixed", dynamic, reg::kConfiguration, 2, 2, 0,
               [](P& p) { p.threshold_mode = spec::morphological::ThresholdMode::kFixed; }},
-        Field{"dynamic_does_not_go_with_predicated", predicated, reg::kRules, 2, 2, 1, as_it_is,
+        Field{"dynamic_does_not_go_with_predicated", predicated, reg::kConfiguration, 2, 2, 1, as_it_is,
               false},
-        Field{"dynamic_does_not_go_with_depth", depth, reg::kRules, 2, 2, 1, as_it_is, false},
-        Field{"dynamic_luma_max", dynamic, reg::kRules, 3, 4, 1,
+        Field{"dynamic_does_not_go_with_depth", depth, reg::kConfiguration, 2, 2, 1, as_it_is, false},
+        Field{"dynamic_luma_max", dynamic, reg::kConfiguration, 3, 4, 1,
               [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMax; }},
-        Field{"dynamic_luma_min", dynamic, reg::kRules, 3, 4, 2,
+        Field{"dynamic_luma_min", dynamic, reg::kConfiguration, 3, 4, 2,
               [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMin; }},
         Field{"dynamic_luma_mean",
               [](P& p) {
                 dynamic(p);
                 p.dynamic_luma = spec::morphological::DynamicLuma::kMax;
               },
-              reg::kRules, 3, 4, 3,
+              reg::kConfiguration, 3, 4, 3,
               [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMean; }},
-        Field{"blend_strongest", as_it_is, reg::kRules, 22, 22, 1,
+        Field{"blend_strongest", as_it_is, reg::kConfiguration, 22, 22, 1,
               [](P& p) { p.blend = spec::morphological::BlendRule::kStrongest; }},
-        Field{"leave_marked", as_it_is, reg::kRules, 24, 26, 1, marked},
-        Field{"leave_beside", as_it_is, reg::kRules, 24, 26, 2, beside},
-        Field{"leave_none", beside, reg::kRules, 24, 26, 0, as_before},
-        Field{"leave_half", as_it_is, reg::kRules, 24, 26, 3, half},
-        Field{"crossings_are_off_where_not_built", as_it_is, reg::kRules, 18, 18, 1, as_it_is,
+        Field{"leave_marked", as_it_is, reg::kConfiguration, 24, 26, 1, marked},
+        Field{"leave_beside", as_it_is, reg::kConfiguration, 24, 26, 2, beside},
+        Field{"leave_none", beside, reg::kConfiguration, 24, 26, 0, as_before},
+        Field{"leave_half", as_it_is, reg::kConfiguration, 24, 26, 3, half},
+        Field{"crossings_are_off_where_not_built", as_it_is, reg::kConfiguration, 18, 18, 1, as_it_is,
               false},
-        Field{"tables_are_off_where_not_built", as_it_is, reg::kRules, 19, 19, 1, as_it_is, false},
-        Field{"diagonals_are_off_where_not_built", as_it_is, reg::kRules, 20, 20, 1, as_it_is,
+        Field{"tables_are_off_where_not_built", as_it_is, reg::kConfiguration, 19, 19, 1, as_it_is, false},
+        Field{"diagonals_are_off_where_not_built", as_it_is, reg::kConfiguration, 20, 20, 1, as_it_is,
               false},
-        Field{"corners_are_off_where_not_built", as_it_is, reg::kRules, 21, 21, 1, as_it_is, false},
-        Field{"local_contrast_paper", as_it_is, reg::kRules, 5, 6, 1,
+        Field{"corners_are_off_where_not_built", as_it_is, reg::kConfiguration, 21, 21, 1, as_it_is, false},
+        Field{"local_contrast_paper", as_it_is, reg::kConfiguration, 5, 6, 1,
               [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kPaper; }},
-        Field{"local_contrast_symmetric", as_it_is, reg::kRules, 5, 6, 2,
+        Field{"local_contrast_symmetric", as_it_is, reg::kConfiguration, 5, 6, 2,
               [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kSymmetric; }},
-        Field{"local_contrast_smaa", as_it_is, reg::kRules, 5, 6, 3,
+        Field{"local_contrast_smaa", as_it_is, reg::kConfiguration, 5, 6, 3,
               [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kSmaa; }},
-        Field{"local_contrast_does_not_go_with_depth", depth, reg::kRules, 5, 6, 2, as_it_is,
+        Field{"local_contrast_does_not_go_with_depth", depth, reg::kConfiguration, 5, 6, 2, as_it_is,
               false},
-        Field{"predictor_none", as_it_is, reg::kRules, 7, 8, 0,
+        Field{"predictor_none", as_it_is, reg::kConfiguration, 7, 8, 0,
               [](P& p) { p.predictor = spec::morphological::Predictor::kNone; }},
-        Field{"predictor_chord", fit, reg::kRules, 7, 8, 1,
+        Field{"predictor_chord", fit, reg::kConfiguration, 7, 8, 1,
               [](P& p) { p.predictor = spec::morphological::Predictor::kChord; }},
-        Field{"predictor_fit", as_it_is, reg::kRules, 7, 8, 2, fit},
-        Field{"predictor_3_is_none", as_it_is, reg::kRules, 7, 8, 3,
+        Field{"predictor_fit", as_it_is, reg::kConfiguration, 7, 8, 2, fit},
+        Field{"predictor_3_is_none", as_it_is, reg::kConfiguration, 7, 8, 3,
               [](P& p) { p.predictor = spec::morphological::Predictor::kNone; }},
-        Field{"steps_0", as_it_is, reg::kRules, 9, 13, 0, steps<0>},
-        Field{"steps_1", fit, reg::kRules, 9, 13, 1, steps<1>},
-        Field{"steps_16", as_it_is, reg::kRules, 9, 13, 16, steps<16>},
-        Field{"steps_31_are_16", as_it_is, reg::kRules, 9, 13, 31, steps<16>},
-        Field{"steps_17_are_16", as_it_is, reg::kRules, 9, 13, 17, steps<16>},
-        Field{"steps_16_at_the_limit", highest, reg::kRules, 9, 13, 31, steps<16>},
-        Field{"steps_6_are_R_less_1", narrow, reg::kRules, 9, 13, 6, steps<5>},
-        Field{"steps_31_are_R_less_1", narrow, reg::kRules, 9, 13, 31, steps<5>},
-        Field{"contiguous_off", [](P& p) { p.contiguous = true; }, reg::kRules, 14, 14, 0,
+        Field{"steps_0", as_it_is, reg::kConfiguration, 9, 13, 0, steps<0>},
+        Field{"steps_1", fit, reg::kConfiguration, 9, 13, 1, steps<1>},
+        Field{"steps_16", as_it_is, reg::kConfiguration, 9, 13, 16, steps<16>},
+        Field{"steps_31_are_16", as_it_is, reg::kConfiguration, 9, 13, 31, steps<16>},
+        Field{"steps_17_are_16", as_it_is, reg::kConfiguration, 9, 13, 17, steps<16>},
+        Field{"steps_16_at_the_limit", highest, reg::kConfiguration, 9, 13, 31, steps<16>},
+        Field{"steps_6_are_R_less_1", narrow, reg::kConfiguration, 9, 13, 6, steps<5>},
+        Field{"steps_31_are_R_less_1", narrow, reg::kConfiguration, 9, 13, 31, steps<5>},
+        Field{"contiguous_off", [](P& p) { p.contiguous = true; }, reg::kConfiguration, 14, 14, 0,
               [](P& p) { p.contiguous = false; }},
-        Field{"safe", fit, reg::kRules, 15, 15, 1, [](P& p) { p.safe = true; }},
-        Field{"linear_light", as_it_is, reg::kRules, 16, 16, 0,
+        Field{"safe", fit, reg::kConfiguration, 15, 15, 1, [](P& p) { p.safe = true; }},
+        Field{"linear_light", as_it_is, reg::kConfiguration, 16, 16, 0,
               [](P& p) { p.linear_light = false; }},
-        Field{"trim", fit, reg::kRules, 17, 17, 1, [](P& p) { p.trim = true; }}),
+        Field{"trim", fit, reg::kConfiguration, 17, 17, 1, [](P& p) { p.trim = true; }}),
     [](const auto& field) { return field.param.name; });
 
 // All of SMAA's blocks, each of which a bit of RULES switches off and a field of SMAA moves.
@@ -762,9 +762,9 @@ template <int kSteps>
 void diagonal_steps(P& p) {
   p.diagonal_steps = kSteps;
 }
-template <int kShare>
+template <int kWeight>
 void corner_rounding(P& p) {
-  p.corner_rounding = kShare;
+  p.corner_rounding = kWeight;
 }
 void clamped(P& p) {
   with_smaa(p);
@@ -777,33 +777,33 @@ void no_corners(P& p) { p.round_corners = false; }
 INSTANTIATE_TEST_SUITE_P(
     Smaa, RegisterField,
     ::testing::Values(
-        Field{"ends_gaps", with_smaa, reg::kRules, 18, 18, 0,
+        Field{"ends_gaps", with_smaa, reg::kConfiguration, 18, 18, 0,
               [](P& p) { p.ends = spec::morphological::Ends::kGaps; }},
-        Field{"area_analytic", with_smaa, reg::kRules, 19, 19, 0,
+        Field{"area_analytic", with_smaa, reg::kConfiguration, 19, 19, 0,
               [](P& p) { p.area = spec::morphological::AreaSource::kAnalytic; }},
-        Field{"border_end", clamped, reg::kRules, 27, 27, 0, not_clamped},
-        Field{"border_is_end_with_gaps", clamped, reg::kRules, 18, 18, 0,
+        Field{"border_end", clamped, reg::kConfiguration, 27, 27, 0, not_clamped},
+        Field{"border_is_end_with_gaps", clamped, reg::kConfiguration, 18, 18, 0,
               [](P& p) {
                 not_clamped(p);
                 p.ends = spec::morphological::Ends::kGaps;
               }},
-        Field{"border_is_end_without_a_table", clamped, reg::kRules, 19, 19, 0,
+        Field{"border_is_end_without_a_table", clamped, reg::kConfiguration, 19, 19, 0,
               [](P& p) {
                 not_clamped(p);
                 p.area = spec::morphological::AreaSource::kAnalytic;
               }},
-        Field{"clamp_is_off_where_not_built", with_smaa, reg::kRules, 27, 27, 1, as_it_is, false},
-        Field{"clamp_does_not_go_with_gaps", as_it_is, reg::kRules, 27, 27, 1, as_it_is, false},
-        Field{"diagonals_off", with_smaa, reg::kRules, 20, 20, 0, no_diagonals},
-        Field{"corners_off", with_smaa, reg::kRules, 21, 21, 0, no_corners},
-        Field{"blend_longest", with_smaa, reg::kRules, 22, 22, 0,
+        Field{"clamp_is_off_where_not_built", with_smaa, reg::kConfiguration, 27, 27, 1, as_it_is, false},
+        Field{"clamp_does_not_go_with_gaps", as_it_is, reg::kConfiguration, 27, 27, 1, as_it_is, false},
+        Field{"diagonals_off", with_smaa, reg::kConfiguration, 20, 20, 0, no_diagonals},
+        Field{"corners_off", with_smaa, reg::kConfiguration, 21, 21, 0, no_corners},
+        Field{"blend_longest", with_smaa, reg::kConfiguration, 22, 22, 0,
               [](P& p) { p.blend = spec::morphological::BlendRule::kLongest; }},
         Field{"dynamic_luma_current",
               [](P& p) {
                 dynamic(p);
                 p.dynamic_luma = spec::morphological::DynamicLuma::kMin;
               },
-              reg::kRules, 3, 4, 0,
+              reg::kConfiguration, 3, 4, 0,
               [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kCurrent; }},
         Field{"search_steps_1", with_smaa, reg::kSmaa, 0, 6, 1, search_steps<1>},
         Field{"search_steps_5", with_smaa, reg::kSmaa, 0, 6, 5, search_steps<5>},
@@ -854,10 +854,10 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(RegisterBits, ThatDoNotExistReadAsZero) {
   EngineBench bench(plain());
   const std::map<std::uint32_t, std::uint32_t> bits = {
-      {reg::kSize, 0x3FFF3FFF},      {reg::kRules, 0x1FFFFFFF},      {reg::kThreshold, 0xFFFFFF},
+      {reg::kSize, 0x3FFF3FFF},      {reg::kConfiguration, 0x1FFFFFFF},      {reg::kThreshold, 0xFFFFFF},
       {reg::kThresholdOn, 0xFFFFFF}, {reg::kThresholdOff, 0xFFFFFF}, {reg::kAlpha, 0xFFFFFF},
       {reg::kFloor, 0xFFFFFF},       {reg::kDepthThreshold, 0xFFFF}, {reg::kPixelBase, 0xFFFFFFC0},
-      {reg::kSmaa, 0x01FF1F7F},      {reg::kSharesAddress, 0},       {reg::kSharesData, 0}};
+      {reg::kSmaa, 0x01FF1F7F},      {reg::kWeightsAddress, 0},       {reg::kWeightsData, 0}};
   for (const auto& [offset, mask] : bits) {
     bench.bus.write(offset, 0xFFFFFFFF);
     EXPECT_EQ(bench.bus.read(offset), mask) << offset;
@@ -869,94 +869,94 @@ TEST(RegisterBits, ThatDoNotExistReadAsZero) {
 // What always reads as 0 is not kept either.
 TEST(RegisterBits, OfLearnedSharesAreNotBuiltWithoutThem) {
   WiredRegisters without(plain());
-  for (const std::uint32_t offset : {reg::kSharesAddress, reg::kSharesData}) {
+  for (const std::uint32_t offset : {reg::kWeightsAddress, reg::kWeightsData}) {
     without.bus.write(offset, 0xFFFFFFFF);
     EXPECT_EQ(without.control.value(offset), 0u) << offset;
   }
 }
 
-// ---- the tables of learned shares ---------------------------------------------------------------
+// ---- the tables of learned weights ---------------------------------------------------------------
 
-TEST(SharesRegisters, LoadAnEntryAfterTheOther) {
+TEST(WeightsRegisters, LoadAnEntryAfterTheOther) {
   EngineBench bench(deburr());
-  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 0u);
-  EXPECT_EQ(bench.bus.read(reg::kSharesSum), spec::morphological::kSharesSum);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsAddress), 0u);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsSum), spec::morphological::kWeightsSum);
   const auto shipped = [](std::int8_t entry) {
     return std::uint32_t{static_cast<std::uint8_t>(entry)};
   };
-  EXPECT_EQ(bench.bus.read(reg::kSharesData), shipped(spec::morphological::kSharesOfCodes[0]));
-  for (const auto& [address, entry] : {std::pair{1023u, spec::morphological::kSharesOfCodes[1023]},
-                                       {1024u, spec::morphological::kSharesOfNear[0]},
-                                       {1664u, spec::morphological::kSharesOfFar[0]},
-                                       {2303u, spec::morphological::kSharesOfFar[639]}}) {
-    bench.bus.write(reg::kSharesAddress, address);
-    EXPECT_EQ(bench.bus.read(reg::kSharesData), shipped(entry)) << address;
+  EXPECT_EQ(bench.bus.read(reg::kWeightsData), shipped(spec::morphological::kWeightsOfCodes[0]));
+  for (const auto& [address, entry] : {std::pair{1023u, spec::morphological::kWeightsOfCodes[1023]},
+                                       {1024u, spec::morphological::kWeightsOfNear[0]},
+                                       {1664u, spec::morphological::kWeightsOfFar[0]},
+                                       {2303u, spec::morphological::kWeightsOfFar[639]}}) {
+    bench.bus.write(reg::kWeightsAddress, address);
+    EXPECT_EQ(bench.bus.read(reg::kWeightsData), shipped(entry)) << address;
   }
   // A read moves nothing, a write moves on.
-  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 2303u);
-  bench.bus.write(reg::kSharesAddress, 1023);
-  std::uint32_t sum = spec::morphological::kSharesSum;
-  sum += 1024 * (0x5Au - shipped(spec::morphological::kSharesOfCodes[1023]));
-  bench.bus.write(reg::kSharesData, 0xFFFFFF5A);
-  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 1024u);
-  EXPECT_EQ(bench.bus.read(reg::kSharesSum), sum);
-  sum += 1025 * (0xA5u - shipped(spec::morphological::kSharesOfNear[0]));
-  bench.bus.write(reg::kSharesData, 0xA5);
-  EXPECT_EQ(bench.bus.read(reg::kSharesSum), sum);
-  bench.bus.write(reg::kSharesAddress, 1023);
-  EXPECT_EQ(bench.bus.read(reg::kSharesData), 0x5Au);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsAddress), 2303u);
+  bench.bus.write(reg::kWeightsAddress, 1023);
+  std::uint32_t sum = spec::morphological::kWeightsSum;
+  sum += 1024 * (0x5Au - shipped(spec::morphological::kWeightsOfCodes[1023]));
+  bench.bus.write(reg::kWeightsData, 0xFFFFFF5A);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsAddress), 1024u);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsSum), sum);
+  sum += 1025 * (0xA5u - shipped(spec::morphological::kWeightsOfNear[0]));
+  bench.bus.write(reg::kWeightsData, 0xA5);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsSum), sum);
+  bench.bus.write(reg::kWeightsAddress, 1023);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsData), 0x5Au);
   // Beyond the tables nothing is kept; the address goes round.
-  bench.bus.write(reg::kSharesAddress, 0xFFFFFFFF);
-  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 4095u);
-  bench.bus.write(reg::kSharesData, 77);
-  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 0u);
-  bench.bus.write(reg::kSharesAddress, 2304);
-  bench.bus.write(reg::kSharesData, 77);
-  bench.bus.write(reg::kSharesAddress, 2304);
-  EXPECT_EQ(bench.bus.read(reg::kSharesData), 0u);
-  EXPECT_EQ(bench.bus.read(reg::kSharesSum), sum);
-  EXPECT_EQ(bench.bus.try_write(reg::kSharesSum, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
+  bench.bus.write(reg::kWeightsAddress, 0xFFFFFFFF);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsAddress), 4095u);
+  bench.bus.write(reg::kWeightsData, 77);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsAddress), 0u);
+  bench.bus.write(reg::kWeightsAddress, 2304);
+  bench.bus.write(reg::kWeightsData, 77);
+  bench.bus.write(reg::kWeightsAddress, 2304);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsData), 0u);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsSum), sum);
+  EXPECT_EQ(bench.bus.try_write(reg::kWeightsSum, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
 }
 
 // What is loaded counts, to the pixel, and a reset leaves it as it is.
-TEST(SharesRegisters, CountFromTheNextFrameAndStayInAReset) {
+TEST(WeightsRegisters, CountFromTheNextFrameAndStayInAReset) {
   EngineBench bench(deburr());
   const Frame frame = blocks();
   const Frame before = bench.run(frame);
-  bench.software.load_shares(std::vector<std::int8_t>(2304, -128));
-  const std::uint32_t sum = bench.bus.read(reg::kSharesSum);
+  bench.software.load_weights(std::vector<std::int8_t>(2304, -128));
+  const std::uint32_t sum = bench.bus.read(reg::kWeightsSum);
   EXPECT_EQ(sum, 0x80u * (2304u * 2305u / 2));
-  // All shares 0: only runs that extend are blended.
+  // All weights 0: only runs that extend are blended.
   const Frame after = bench.run(frame);
   EXPECT_NE(after.pixel, before.pixel);
   bench.clock.set_reset_n(false);
   bench.clock.run(2);
   bench.clock.set_reset_n(true);
-  EXPECT_EQ(bench.bus.read(reg::kSharesSum), sum);
-  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 0u);
-  EXPECT_EQ(bench.bus.read(reg::kSharesData), 0x80u);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsSum), sum);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsAddress), 0u);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsData), 0x80u);
 }
 
-TEST(SharesRegisters, AreIgnoredWhileAFrameIsInside) {
+TEST(WeightsRegisters, AreIgnoredWhileAFrameIsInside) {
   EngineBench bench(deburr());
-  bench.bus.write(reg::kSharesAddress, 7);
-  const std::uint32_t entry = bench.bus.read(reg::kSharesData);
+  bench.bus.write(reg::kWeightsAddress, 7);
+  const std::uint32_t entry = bench.bus.read(reg::kWeightsData);
   const Frame frame = noise(40, 30);
   bench.software.set_size(frame.width, frame.height);
   bench.driver.send(beats_of(frame, 1));
   bench.clock.run(100);
   ASSERT_FALSE(bench.engine.idle());
-  bench.bus.write(reg::kSharesData, entry ^ 1);
-  bench.bus.write(reg::kSharesAddress, 9);
-  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 7u);
-  EXPECT_EQ(bench.bus.read(reg::kSharesData), entry);
-  EXPECT_EQ(bench.bus.read(reg::kSharesSum), spec::morphological::kSharesSum);
+  bench.bus.write(reg::kWeightsData, entry ^ 1);
+  bench.bus.write(reg::kWeightsAddress, 9);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsAddress), 7u);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsData), entry);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsSum), spec::morphological::kWeightsSum);
   EXPECT_TRUE(bench.bus.read(reg::kStatus) & reg::kStatusWrittenWhileBusy);
   // A debug write is not rejected.
-  bench.bus.debug_write(reg::kSharesData, entry ^ 1);
-  EXPECT_EQ(bench.bus.read(reg::kSharesAddress), 8u);
-  EXPECT_EQ(bench.bus.read(reg::kSharesSum),
-            spec::morphological::kSharesSum + 8 * ((entry ^ 1) - entry));
+  bench.bus.debug_write(reg::kWeightsData, entry ^ 1);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsAddress), 8u);
+  EXPECT_EQ(bench.bus.read(reg::kWeightsSum),
+            spec::morphological::kWeightsSum + 8 * ((entry ^ 1) - entry));
 }
 
 // A beat's depth has 24 bits; what lies above them is not looked at.
@@ -981,10 +981,10 @@ TEST(CounterRegisters, ShowTheirCounters) {
   p.storage = spec::morphological::Storage::kMemory;
   p.predictor_units = 1;
   p.divider_interval = 16;
-  p.record_fifo = 2;
+  p.descriptor_fifo = 2;
   p.window_rows = 14;
-  p.reach_columns = 5;
-  p.leave = spec::morphological::Leave::kMarked;
+  p.search_columns = 5;
+  p.leave = spec::morphological::Bypass::kMarked;
   EngineBench bench(p);
   bench.memory->fail_range(64 * 5, 64 * 8);
   Frame frame = noise(64, 44);
@@ -1004,9 +1004,9 @@ TEST(CounterRegisters, ShowTheirCounters) {
       {reg::kProbes, e.predictor_h.probes.value() + e.predictor_v.probes.value()},
       {reg::kDivides, e.divider_h.divides.value() + e.divider_v.divides.value()},
       {reg::kBlendedPixels, e.blender.blended_pixels.value()},
-      {reg::kLeftPixels, e.blender.left_pixels.value()},
+      {reg::kBypassedPixels, e.blender.bypassed_pixels.value()},
       {reg::kFrameCycles, e.sequencer.frame_cycles.value()},
-      {reg::kRecordStalls, e.extractor.record_stalls.value()},
+      {reg::kDescriptorStalls, e.extractor.descriptor_stalls.value()},
       {reg::kMemoryErrors, e.pixel_store.memory_errors.value()}};
   std::map<std::uint64_t, std::uint32_t> met = {{0, 0}};
   for (const auto& [offset, value] : shown) {
@@ -1019,7 +1019,7 @@ TEST(CounterRegisters, ShowTheirCounters) {
     EXPECT_EQ(work.*each.count, bench.bus.read(each.offset)) << each.offset;
   // Two causes in one number.
   EXPECT_GT(e.extractor.interlock_stalls.value(), 0u);
-  EXPECT_GT(e.extractor.record_stalls.value(), e.extractor.interlock_stalls.value());
+  EXPECT_GT(e.extractor.descriptor_stalls.value(), e.extractor.interlock_stalls.value());
   EXPECT_EQ(e.pixel_store.memory_errors.value(), 2u * 3u);
 }
 

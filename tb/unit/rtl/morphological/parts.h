@@ -34,16 +34,16 @@ struct Registers : RegisterFile {
     software.set_size(width, height);
     const rtl::morphological::Decoded decoded = rtl::morphological::decode(control, parameters);
     EXPECT_TRUE(decoded.valid);
-    rules.drive(cycle, decoded.rules);
+    configuration.drive(cycle, decoded.configuration);
   }
-  rtl::Wire<rtl::morphological::FrameRules> rules{"rules", rtl::morphological::FrameRules{}};
+  rtl::Wire<rtl::morphological::FrameConfiguration> configuration{"rules", rtl::morphological::FrameConfiguration{}};
 };
 
 // With a ParameterStore, for a SlotSequencer; without one each call has a clock of its own.
 struct WiredRegisters : RegisterFile {
   explicit WiredRegisters(const Parameters& p)
       : RegisterFile(p), store("parameter_store", control, p) {
-    store.rules_out(rules);
+    store.configuration_out(configuration);
     store.first_beat_in(first_beat);
     store.enabled_out(enabled);
     store.latch_in(latch_pulse);
@@ -52,7 +52,7 @@ struct WiredRegisters : RegisterFile {
     store.framing_in(framing);
   }
   void join(rtl::morphological::SlotSequencer& sequencer) {
-    sequencer.rules_in(rules);
+    sequencer.configuration_in(configuration);
     sequencer.first_beat_out(first_beat);
     sequencer.enabled_in(enabled);
     sequencer.latch_out(latch_pulse);
@@ -70,17 +70,17 @@ struct WiredRegisters : RegisterFile {
     latch_pulse.raise(++now_);
     return latched.read(now_).valid;
   }
-  const rtl::morphological::FrameRules& frame(int width, int height) {
+  const rtl::morphological::FrameConfiguration& frame(int width, int height) {
     software.set_size(width, height);
     EXPECT_TRUE(latch());
-    EXPECT_EQ(latched.read(now_).rules, units_see());
+    EXPECT_EQ(latched.read(now_).configuration, units_see());
     return units_see();
   }
   // In the clock after.
-  const rtl::morphological::FrameRules& units_see() const { return rules.read(now_ + 1); }
+  const rtl::morphological::FrameConfiguration& units_see() const { return configuration.read(now_ + 1); }
 
   rtl::morphological::ParameterStore store;
-  rtl::Wire<rtl::morphological::FrameRules> rules{"rules", rtl::morphological::FrameRules{}};
+  rtl::Wire<rtl::morphological::FrameConfiguration> configuration{"rules", rtl::morphological::FrameConfiguration{}};
   rtl::Pulse first_beat{"first_beat"}, latch_pulse{"latch"}, frame_done{"frame_done"},
       framing{"framing"};
   rtl::CombinationalWire<bool> enabled{"enabled"};
@@ -90,7 +90,7 @@ struct WiredRegisters : RegisterFile {
   Cycle now_ = 0;
 };
 
-using unit_bench::clocks_of, unit_bench::Ends, unit_bench::of_a_stage_less, unit_bench::tokens_of;
+using unit_bench::cycles_of, unit_bench::Ends, unit_bench::of_a_stage_less, unit_bench::tokens_of;
 
 // An engine small enough for single blocks: four rows of reach, no predictor.
 inline constexpr int kReach = 4, kLag = kReach + spec::morphological::kRowLag;

@@ -35,7 +35,7 @@ struct Storing {
         registers(p, f.width, f.height),
         store("pixel_store", clock, p),
         pixel_gate("pixel_gate", clock, pixels_open) {
-    store.rules_in(registers.rules);
+    store.configuration_in(registers.configuration);
     if (store.memory_error_out) (*store.memory_error_out)(memory_error);
     beat_driver.out(beats);
     store.beats_in(beats);
@@ -124,14 +124,14 @@ Parameters built(spec::morphological::Storage storage, int lanes_code) {
 
 class PixelStoreLanes : public ::testing::TestWithParam<int> {};
 
-// While a beat a clock comes in, a beat a clock goes out, two clocks after it was asked for.
+// While a beat a clock comes in, a beat a clock goes out, two cycles after it was asked for.
 TEST_P(PixelStoreLanes, LatencyAndIntervalOfTheDatasheet) {
   Storing bench(built(spec::morphological::Storage::kLineBuffers, GetParam()), colours(9, 24));
   Cycle at = 0;
   for (int y = 0; y < 24 + kLag; ++y)
     for (int b = 0; b < bench.beats_a_row; ++b, ++at) {
       if (y < 24) bench.store_beat(at, y, b);
-      // Two clocks behind the beat of the same slot, as the extractor is.
+      // Two cycles behind the beat of the same slot, as the extractor is.
       if (y >= kLag) bench.fetch_beat(at + 2, y - kLag, b);
     }
   bench.clock.run(at + 5);
@@ -141,7 +141,7 @@ TEST_P(PixelStoreLanes, LatencyAndIntervalOfTheDatasheet) {
     // Pushed in i + before + 2, popped and read a clock later.
     const rtl::Datasheet sheet = PixelStore::datasheet();
     ASSERT_EQ(bench.pixel_gate.taken[i].cycle,
-              before + 3 + i * sheet.interval.clocks + sheet.latency.clocks);
+              before + 3 + i * sheet.interval.cycles + sheet.latency.cycles);
     const int row = static_cast<int>(i) / bench.beats_a_row;
     bench.expect_around(bench.pixel_gate.taken[i].token, row,
                         static_cast<int>(i) - row * bench.beats_a_row);
@@ -183,7 +183,7 @@ TEST(PixelStoreBlock, ABeatWaitsForItsPlaceAndSaysSo) {
   EXPECT_EQ(bench.beats.pops(), static_cast<std::uint64_t>(kRows * kWidth));
   EXPECT_EQ(bench.store.busy_cycles(), static_cast<std::uint64_t>(kRows * kWidth));
   EXPECT_EQ(stalls(bench.store, "rows"), kAsked - kRows * kWidth - 1);
-  // Row 0 is asked for in kWidth clocks from kAsked + 1 on, the first beat of row 1 after that.
+  // Row 0 is asked for in kWidth cycles from kAsked + 1 on, the first beat of row 1 after that.
   bench.clock.run(kWidth + 1);
   EXPECT_EQ(bench.beats.pops(), static_cast<std::uint64_t>(kRows * kWidth));
   bench.clock.run(1);
@@ -259,7 +259,7 @@ TEST(PixelStoreMemory, ALineIsReadAfterItsWriteAndAllBeforeItWereAnswered) {
   }
 }
 
-// Four lanes, 16 pixels: a line every four clocks. Whenever an answer comes, the write of that
+// Four lanes, 16 pixels: a line every four cycles. Whenever an answer comes, the write of that
 // clock goes first and the read follows.
 TEST(PixelStoreMemory, WritesGoBeforeReads) {
   Storing bench(built(spec::morphological::Storage::kMemory, 2), colours(16, 6));
@@ -362,7 +362,7 @@ TEST(PixelStoreMemory, ASlotWaitsForItsLine) {
     EXPECT_EQ(bench.pixel_gate.taken[b].cycle, 44 + b);
     bench.expect_around(bench.pixel_gate.taken[b].token, 0, static_cast<int>(b));
   }
-  // From 11 to 41, but for the clocks of the two answers.
+  // From 11 to 41, but for the cycles of the two answers.
   EXPECT_EQ(stalls(bench.store, "memory"), 31u - 2u);
 }
 
@@ -395,7 +395,7 @@ TEST(PixelStoreMemory, IsBusyInTheClocksOfItsLinesAndInNoOther) {
   bench.answer(60, 1, true);
   bench.answer(70, 0, true);
   bench.answer(80, 2, true);
-  // A line is stored in two clocks with one lane.
+  // A line is stored in two cycles with one lane.
   bench.answer(90, 1, false, bench.line(1));
   bench.answer(100, 0, false, bench.line(0));
   bench.answer(110, 2, false, bench.line(2));
@@ -556,7 +556,7 @@ TEST(Memory, OutstandingIsKept) {
   options.memory_latency = 200;
   EngineBench bench(p, options);
   bench.run(noise());
-  EXPECT_EQ(bench.memory->most_outstanding(), 6u);
+  EXPECT_EQ(bench.memory->max_outstanding(), 6u);
 }
 
 // ---- how large it is --------------------------------------------------------------------------
@@ -564,14 +564,14 @@ TEST(Memory, OutstandingIsKept) {
 // R + 7 rows, rounded up to fours, of whole lines of memory.
 TEST(PixelStoreLines, HoldTheRowsOfThePage) {
   struct Row {
-    int reach, line_pixels, lanes_code;
+    int search_range, line_pixels, lanes_code;
     std::uint64_t words;  // of each of the four
   };
   for (const Row& row : {Row{4, 64, 0, 3 * 64}, Row{5, 64, 0, 3 * 64}, Row{6, 64, 0, 4 * 64},
                          Row{9, 64, 0, 4 * 64}, Row{10, 64, 0, 5 * 64}, Row{4, 65, 0, 3 * 80},
                          Row{4, 80, 1, 3 * 40}, Row{4, 81, 2, 3 * 24}}) {
     const std::string got = forked_text([&] {
-      Parameters p = preset(spec::morphological::Preset::kMlaa, row.reach, 8);
+      Parameters p = preset(spec::morphological::Preset::kMlaa, row.search_range, 8);
       p.line_pixels = row.line_pixels;
       p.lanes = static_cast<spec::morphological::Lanes>(row.lanes_code);
       EngineBench bench(p);
@@ -582,7 +582,7 @@ TEST(PixelStoreLines, HoldTheRowsOfThePage) {
       return words;
     });
     const std::string each = std::to_string(row.words) + ' ';
-    EXPECT_EQ(got, each + each + each + each) << row.reach << ' ' << row.line_pixels;
+    EXPECT_EQ(got, each + each + each + each) << row.search_range << ' ' << row.line_pixels;
   }
 }
 

@@ -66,7 +66,7 @@ TEST_P(ResetAt, AnyClockLeavesNothing) {
   EXPECT_EQ(next_frame(bench), vector_hash("line_slope"));
   EXPECT_EQ(bench.engine.work().probes, 2560u);
 }
-INSTANTIATE_TEST_SUITE_P(Clocks, ResetAt,
+INSTANTIATE_TEST_SUITE_P(Cycles, ResetAt,
                          ::testing::Values(5, 100, 3301, 3402, 3777, 4500, 5002, 6001, 7500, 9300));
 
 }  // namespace

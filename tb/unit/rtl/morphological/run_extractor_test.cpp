@@ -19,16 +19,16 @@ using rtl::Activity;
 using spec::morphological::Axis;
 using spec::morphological::Preset;
 using spec::morphological::RunPart;
-using spec::morphological::RunRecord;
+using spec::morphological::RunDescriptor;
 
 namespace reg = spec::morphological::reg;
 
-// Takes every record and finishes it some clocks later, at random.
+// Takes every record and finishes it some cycles later, at random.
 class Finisher final : public rtl::Unit {
  public:
   LanePorts<rtl::In<RunToken>> h, v;
   rtl::Out<FinishToken> finished_out{"finished_out"};
-  rtl::WireIn<FrameRules> rules_in{"rules_in"};
+  rtl::WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   Finisher(const sc_core::sc_module_name& name, ClockDomain& clock, int lanes)
       : Unit(name, clock), h("h", lanes), v("v", lanes), lanes_(static_cast<std::size_t>(lanes)) {}
   Activity tick(Cycle cycle) override {
@@ -36,7 +36,7 @@ class Finisher final : public rtl::Unit {
       for (std::size_t lane = 0; lane < lanes_; ++lane) {
         rtl::In<RunToken>& in = (*ports)[lane];
         if (!in.can_pop(cycle) || random.chance(wait_permille)) continue;
-        ++pending_[in.front(cycle).slot / rules_in.read(cycle).beats & 1];
+        ++pending_[in.front(cycle).slot / configuration_in.read(cycle).beats & 1];
         tokens.push_back({cycle, in.take(cycle)});
       }
     if ((pending_[0] | pending_[1]) && !random.chance(wait_permille)) {
@@ -92,8 +92,8 @@ Planes clamped(const Planes& planes, int margin) {
 }
 
 // Word for word from the contract, on whole planes.
-std::vector<RunRecord> runs_by_definition(const Planes& planes, const Parameters& rules) {
-  const bool clamp = rules.border == spec::morphological::Border::kClamp;
+std::vector<RunDescriptor> runs_by_definition(const Planes& planes, const Parameters& configuration) {
+  const bool clamp = configuration.border == spec::morphological::Border::kClamp;
   constexpr int kMargin = 2;
   const Planes around = clamped(planes, kMargin);
   // Edges about a corner, which beyond the frame are nothing or those of the nearest pixel.
@@ -103,14 +103,14 @@ std::vector<RunRecord> runs_by_definition(const Planes& planes, const Parameters
   const auto top_at = [&](int x, int y) {
     return clamp ? around.top_at(x + kMargin, y + kMargin) : planes.top_at(x, y);
   };
-  const bool crossings = rules.ends == spec::morphological::Ends::kCrossings;
-  const int reach_rows = reach_of(rules), reach_columns = rules.reach_columns;
-  const bool corners = rules.round_corners;
-  std::vector<RunRecord> found;
+  const bool crossings = configuration.ends == spec::morphological::Ends::kCrossings;
+  const int search_rows = search_range_of(configuration), search_columns = configuration.search_columns;
+  const bool corners = configuration.round_corners;
+  std::vector<RunDescriptor> found;
   for (const bool vertical : {false, true}) {
     const int lines = vertical ? planes.width : planes.height;
     const int length = vertical ? planes.height : planes.width;
-    const int reach = vertical ? reach_rows : reach_columns;
+    const int search_range = vertical ? search_rows : search_columns;
     const auto along = [&](int p, int q) {
       return vertical ? planes.left_at(q, p) : planes.top_at(p, q);
     };
@@ -139,9 +139,9 @@ std::vector<RunRecord> runs_by_definition(const Planes& planes, const Parameters
                            static_cast<std::uint16_t>(size), static_cast<std::uint8_t>(shape),
                            static_cast<std::uint8_t>(sharp), static_cast<std::uint8_t>(endless)});
         };
-        if (end - p > reach) {
-          add(RunPart::kHead, p, reach / 2, code(p, q), far(p, q), endless_start);
-          add(RunPart::kTail, end - reach / 2, reach / 2, 4 * code(end, q), 4 * far(end, q),
+        if (end - p > search_range) {
+          add(RunPart::kHead, p, search_range / 2, code(p, q), far(p, q), endless_start);
+          add(RunPart::kTail, end - search_range / 2, search_range / 2, 4 * code(end, q), 4 * far(end, q),
               2 * endless_end);
         } else {
           add(RunPart::kWhole, p, end - p, code(p, q) + 4 * code(end, q),
@@ -152,7 +152,7 @@ std::vector<RunRecord> runs_by_definition(const Planes& planes, const Parameters
   return found;
 }
 
-auto key(const RunRecord& r) {
+auto key(const RunDescriptor& r) {
   return std::tuple(r.axis, r.line, r.start, r.part, r.length, r.shape);
 }
 
@@ -162,8 +162,8 @@ struct Extraction {
         memories(p),
         extractor("extractor", clock, p, memories.window, memories.rows),
         finisher("finisher", clock, lanes_of(p)) {
-    extractor.rules_in(registers.rules);
-    finisher.rules_in(registers.rules);
+    extractor.configuration_in(registers.configuration);
+    finisher.configuration_in(registers.configuration);
     driver.beats_out(edges);
     extractor.edges_in(edges);
     extractor.finished_in(finished);
@@ -173,18 +173,18 @@ struct Extraction {
     fetch_sink.beats_in(fetches);
     finisher.finished_out(finished);
     for (std::size_t lane = 0; lane < finisher.lanes(); ++lane) {
-      finisher.h[lane](extractor.records(Axis::kHorizontal, lane));
-      finisher.v[lane](extractor.records(Axis::kVertical, lane));
+      finisher.h[lane](extractor.descriptors(Axis::kHorizontal, lane));
+      finisher.v[lane](extractor.descriptors(Axis::kVertical, lane));
     }
-    extractor.observer = [this](const RunRecord& run) { runs.push_back(run); };
+    extractor.observer = [this](const RunDescriptor& run) { runs.push_back(run); };
   }
   void send(const Planes& planes) {
     registers.frame(planes.width, planes.height, clock.cycle());
-    const FrameRules rules = registers.rules.driven();
+    const FrameConfiguration configuration = registers.configuration.driven();
     const auto lanes = static_cast<int>(finisher.lanes());
     std::uint32_t number = 0;
-    for (std::uint32_t row = 0; row < rules.rows; ++row)
-      for (std::uint32_t beat = 0; beat < rules.beats; ++beat) {
+    for (std::uint32_t row = 0; row < configuration.rows; ++row)
+      for (std::uint32_t beat = 0; beat < configuration.beats; ++beat) {
         EdgeToken token{};
         token.slot = {number++, static_cast<std::uint16_t>(row), static_cast<std::uint16_t>(beat)};
         for (int i = 0; i < lanes; ++i) {
@@ -214,12 +214,12 @@ struct Extraction {
   Driver<EdgeToken> driver{"driver", clock};
   Sink<AreaSlotToken> area_sink{"area_sink", clock};
   Sink<FetchToken> fetch_sink{"fetch_sink", clock};
-  std::vector<RunRecord> runs;
+  std::vector<RunDescriptor> runs;
   std::uint64_t slots = 0;
 };
 
 struct Extract {
-  int width, height, lanes_code, reach_rows, reach_columns;
+  int width, height, lanes_code, search_rows, search_columns;
   std::uint32_t permille, wait_permille;
 };
 void PrintTo(const Extract& e, std::ostream* out) {
@@ -259,9 +259,9 @@ TEST_P(RunExtraction, RepeatsThemForSharpCorners) {
 
 void extract(const Extract& e, spec::morphological::Ends ends, bool corners, bool learned,
              bool clamp) {
-  Parameters p = preset(spec::morphological::Preset::kMlaa, e.reach_rows, e.reach_columns);
+  Parameters p = preset(spec::morphological::Preset::kMlaa, e.search_rows, e.search_columns);
   p.lanes = static_cast<spec::morphological::Lanes>(e.lanes_code);
-  p.record_fifo = 3;
+  p.descriptor_fifo = 3;
   p.ends = ends;
   p.round_corners = corners;
   if (learned) p.area = spec::morphological::AreaSource::kLearned;
@@ -282,28 +282,28 @@ void extract(const Extract& e, spec::morphological::Ends ends, bool corners, boo
       planes.top[at] = y > 0 && random.chance(thin && x % 16 < 4 ? 30 : e.permille);
     }
   bench.run(planes);
-  std::vector<RunRecord> expected = runs_by_definition(planes, p);
-  const auto order = [](const RunRecord& a, const RunRecord& b) { return key(a) < key(b); };
+  std::vector<RunDescriptor> expected = runs_by_definition(planes, p);
+  const auto order = [](const RunDescriptor& a, const RunDescriptor& b) { return key(a) < key(b); };
   std::sort(expected.begin(), expected.end(), order);
   std::sort(bench.runs.begin(), bench.runs.end(), order);
   ASSERT_EQ(bench.runs.size(), expected.size());
-  std::uint64_t horizontal = 0, heads = 0, records = 0;
+  std::uint64_t horizontal = 0, heads = 0, descriptors = 0;
   for (std::size_t i = 0; i < expected.size(); ++i) {
     ASSERT_EQ(bench.runs[i], expected[i]) << i;
     horizontal += expected[i].axis == Axis::kHorizontal && expected[i].part != RunPart::kTail;
     heads += expected[i].part == RunPart::kHead;
     const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[expected[i].shape];
-    records += learned || shape.before != spec::morphological::Side::kNone ||
+    descriptors += learned || shape.before != spec::morphological::Side::kNone ||
                shape.after != spec::morphological::Side::kNone;
   }
   EXPECT_EQ(bench.extractor.horizontal_runs.value(), horizontal);
   EXPECT_EQ(bench.extractor.long_runs.value(), heads);
-  EXPECT_EQ(bench.finisher.tokens.size(), records);  // those with a side, each once
+  EXPECT_EQ(bench.finisher.tokens.size(), descriptors);  // those with a side, each once
   // Runs of a column take its two entries in turn, those without a side as well.
   std::map<std::pair<int, int>, std::uint8_t> entry;
   std::uint8_t turn = 0;
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    const RunRecord& run = expected[i];
+    const RunDescriptor& run = expected[i];
     if (run.axis != Axis::kVertical) continue;
     if (i == 0 || expected[i - 1].axis != run.axis || expected[i - 1].line != run.line) turn = 0;
     if (run.part != RunPart::kTail) turn ^= 1;
@@ -314,7 +314,7 @@ void extract(const Extract& e, spec::morphological::Ends ends, bool corners, boo
     ASSERT_EQ(token.entry, vertical ? entry.at({token.run.line, token.run.start}) : 0);
     if (token.run.part != RunPart::kWhole) continue;
     // Edges go on before its start, after its end.
-    const RunRecord& run = token.run;
+    const RunDescriptor& run = token.run;
     const auto along = [&planes, &run, vertical](int at) {
       return vertical ? planes.left_at(run.line, at) : planes.top_at(at, run.line);
     };
@@ -323,7 +323,7 @@ void extract(const Extract& e, spec::morphological::Ends ends, bool corners, boo
   }
   // The row being blended comes out with its edges.
   for (const AreaSlotToken& token : bench.area_sink.beats()) {
-    const int y = token.slot.row - e.reach_rows - spec::morphological::kRowLag;
+    const int y = token.slot.row - e.search_rows - spec::morphological::kRowLag;
     for (int i = 0; i < lanes_of(p); ++i) {
       const int x = token.slot.beat * lanes_of(p) + i;
       ASSERT_EQ((token.left >> i & 1) != 0, planes.left_at(x, y));
@@ -347,7 +347,7 @@ TEST(RunExtractorBlock, SlotsAndRecordsHaveTheLatenciesOfTheDatasheet) {
   planes.left[static_cast<std::size_t>(3 * 30 + 9)] = true;  // S of the end
   bench.run(planes);
   ASSERT_EQ(bench.runs.size(), 3u);
-  const RunRecord expected{Axis::kHorizontal, RunPart::kWhole, 3, 5, 4, 1 + 4 * 2};
+  const RunDescriptor expected{Axis::kHorizontal, RunPart::kWhole, 3, 5, 4, 1 + 4 * 2};
   ASSERT_THAT(bench.runs, ::testing::Contains(expected));
   ASSERT_FALSE(bench.finisher.tokens.empty());
   for (const auto& [cycle, token] : bench.finisher.tokens) {
@@ -355,13 +355,13 @@ TEST(RunExtractorBlock, SlotsAndRecordsHaveTheLatenciesOfTheDatasheet) {
     // Row 3 in slot row 3 + 4 + 2, closed by column 9.
     EXPECT_EQ(token.slot, 9u * 30u + 9u);
     // Slot k is taken in clock k + 1.
-    expect_latency(RunExtractor::record_datasheet(), cycle - (token.slot + 1));
+    expect_latency(RunExtractor::descriptor_datasheet(), cycle - (token.slot + 1));
     expect_latency(RunExtractor::slot_datasheet(),
                    bench.area_sink.cycles()[token.slot] - (token.slot + 1));
   }
 }
 
-// A slot behind which none comes: taken, its words a clock later, its run known three clocks after
+// A slot behind which none comes: taken, its words a clock later, its run known three cycles after
 // that. Then there is nothing to do.
 TEST(RunExtractorBlock, IsBusyUntilARunIsKnownAndThenIdle) {
   Extraction bench(preset(spec::morphological::Preset::kMlaa, 4, 8));
@@ -381,20 +381,20 @@ TEST(RunExtractorBlock, IsBusyUntilARunIsKnownAndThenIdle) {
   EXPECT_EQ(busy, std::string(5, 'b') + std::string(15, '.'));
 }
 
-TEST(RunExtractorBlock, AHorizontalRunOfOneMoreThanTheReachGivesHeadAndTailWithoutAStall) {
+TEST(RunExtractorBlock, AHorizontalRunOfOneMoreThanTheSearchRangeGivesHeadAndTailWithoutAStall) {
   Extraction bench(preset(spec::morphological::Preset::kMlaa, 4, 8));
   Planes planes(20, 12);
   for (int x = 11; x < 20; ++x) planes.top[static_cast<std::size_t>(3 * 20 + x)] = true;
   planes.left[static_cast<std::size_t>(2 * 20 + 11)] = true;
   bench.run(planes);
   EXPECT_THAT(bench.runs,
-              ::testing::IsSupersetOf({RunRecord{Axis::kHorizontal, RunPart::kHead, 3, 11, 4, 1},
-                                       RunRecord{Axis::kHorizontal, RunPart::kTail, 3, 16, 4, 0}}));
-  EXPECT_EQ(bench.extractor.record_stalls.value(), 0u);
+              ::testing::IsSupersetOf({RunDescriptor{Axis::kHorizontal, RunPart::kHead, 3, 11, 4, 1},
+                                       RunDescriptor{Axis::kHorizontal, RunPart::kTail, 3, 16, 4, 0}}));
+  EXPECT_EQ(bench.extractor.descriptor_stalls.value(), 0u);
 }
 
 // A record a column, axis and clock, and one more where a row ends: nobody waits.
-TEST(RunExtractorBlock, ARecordInEveryColumnDoesNotStall) {
+TEST(RunExtractorBlock, ADescriptorInEveryColumnDoesNotStall) {
   Parameters p = preset(spec::morphological::Preset::kMlaa, 4, 8);
   p.ends = spec::morphological::Ends::kCrossings;
   p.round_corners = true;
@@ -407,7 +407,7 @@ TEST(RunExtractorBlock, ARecordInEveryColumnDoesNotStall) {
     }
   bench.run(planes);
   EXPECT_EQ(bench.runs.size(), runs_by_definition(planes, p).size());
-  EXPECT_EQ(bench.extractor.record_stalls.value(), 0u);
+  EXPECT_EQ(bench.extractor.descriptor_stalls.value(), 0u);
 }
 
 // ---- the border repeats its edges ---------------------------------------------------------------
@@ -436,15 +436,15 @@ TEST(ClampedBorder, RunsThatNoEdgeCrossesAreEndless) {
   left(11, 5);
   top(2, 12, 7);  // longer than the reach: the tail is endless, the head starts at a crossing
   left(2, 6);
-  const std::vector<RunRecord> wanted = {
+  const std::vector<RunDescriptor> wanted = {
       {Axis::kHorizontal, RunPart::kWhole, 1, 0, 3, 1 << 2, 1 << 2, 1},
       {Axis::kHorizontal, RunPart::kWhole, 9, 8, 4, 2, 2, 2},
       {Axis::kHorizontal, RunPart::kWhole, 5, 11, 1, 2 | 2 << 2, 0, 0},
       {Axis::kHorizontal, RunPart::kHead, 7, 2, 4, 1, 0, 0},
       {Axis::kHorizontal, RunPart::kTail, 7, 8, 4, 0, 0, 2}};
   Planes vertical(kHeight, kWidth);
-  std::vector<RunRecord> transposed = wanted;
-  for (RunRecord& run : transposed) run.axis = Axis::kVertical;
+  std::vector<RunDescriptor> transposed = wanted;
+  for (RunDescriptor& run : transposed) run.axis = Axis::kVertical;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
       vertical.left[static_cast<std::size_t>(x * kHeight + y)] = horizontal.top_at(x, y);
@@ -463,11 +463,11 @@ TEST(ClampedBorder, RunsThatNoEdgeCrossesAreEndless) {
   EXPECT_THAT(down.bench.runs, ::testing::IsSupersetOf(transposed));
 }
 
-// RECORD_STALLS: clocks in which a slot waits, not those in which none has come.
-TEST(RecordStalls, CountOnlyWhereASlotWaits) {
+// DESCRIPTOR_STALLS: cycles in which a slot waits, not those in which none has come.
+TEST(DescriptorStalls, CountOnlyWhereASlotWaits) {
   Parameters p = preset(Preset::kDeburrLine);
   p.lanes = spec::morphological::Lanes::kFour;
-  p.record_fifo = 2;
+  p.descriptor_fifo = 2;
   p.predictor_units = 1;
   p.divider_interval = 16;
   EngineBench::Options options;
@@ -480,15 +480,15 @@ TEST(RecordStalls, CountOnlyWhereASlotWaits) {
   const auto& extractor = bench.engine.extractor;
   std::uint64_t before = 0, waiting = 0, wrong = 0, due = 0, full = 0;
   bool arrives = false;
-  rtl::Activity records{};
+  rtl::Activity descriptors{};
   for (int code = 0; code < extractor.activities(); ++code)
     if (extractor.activity_name({static_cast<std::uint8_t>(code)}) == "records")
-      records = {static_cast<std::uint8_t>(code)};
+      descriptors = {static_cast<std::uint8_t>(code)};
   std::uint64_t lost = 0;
   bench.bench->run(
       [&] {
-        const std::uint64_t now = extractor.record_stalls.value();
-        const std::uint64_t lost_now = extractor.cycles_of(records);
+        const std::uint64_t now = extractor.descriptor_stalls.value();
+        const std::uint64_t lost_now = extractor.cycles_of(descriptors);
         if (now != before) ++(arrives ? waiting : wrong);
         if (lost_now != lost) ++(arrives ? due : full);
         before = now;
@@ -499,10 +499,10 @@ TEST(RecordStalls, CountOnlyWhereASlotWaits) {
       1'000'000);
   EXPECT_EQ(wrong, 0u);
   EXPECT_GT(waiting, 100u);
-  EXPECT_EQ(waiting, extractor.record_stalls.value());
-  EXPECT_EQ(waiting, due) << "a slot waited for records in so many clocks";
+  EXPECT_EQ(waiting, extractor.descriptor_stalls.value());
+  EXPECT_EQ(waiting, due) << "a slot waited for records in so many cycles";
   EXPECT_GT(full, 10u) << "records waited for their FIFO while no slot did";
-  EXPECT_EQ(bench.bus.read(reg::kRecordStalls), extractor.record_stalls.value());
+  EXPECT_EQ(bench.bus.read(reg::kDescriptorStalls), extractor.descriptor_stalls.value());
 }
 
 }  // namespace

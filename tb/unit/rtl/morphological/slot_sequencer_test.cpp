@@ -47,9 +47,9 @@ TEST(FirstBeat, TakesTheFrameInTheClockThatTakesIt) {
   EXPECT_EQ(bench.in.pops(), 0u);
   EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle);
   // A rule that is written now counts for this frame.
-  const std::uint32_t rules = bench.bus.read(reg::kRules);
-  bench.bus.write(reg::kRules, 1u << 16 | 1u << 7 | 4u << 9);
-  EXPECT_NE(bench.bus.read(reg::kRules), rules);
+  const std::uint32_t configuration = bench.bus.read(reg::kConfiguration);
+  bench.bus.write(reg::kConfiguration, 1u << 16 | 1u << 7 | 4u << 9);
+  EXPECT_NE(bench.bus.read(reg::kConfiguration), configuration);
   bench.bus.write(reg::kThreshold, 1671270);
   bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
                    1'000'000);

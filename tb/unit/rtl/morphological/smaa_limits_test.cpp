@@ -14,7 +14,7 @@ namespace {
 
 using golden::morphological::ImageView;
 using golden::morphological::MorphologicalGolden;
-using spec::morphological::BlendTap;
+using spec::morphological::BlendProbe;
 using spec::morphological::Quality;
 namespace reg = spec::morphological::reg;
 
@@ -70,11 +70,11 @@ class SmaaLimits : public ::testing::TestWithParam<Case> {
   }
 };
 
-std::vector<BlendTap> taps_of(const EngineBench& bench, const Frame& frame) {
-  std::vector<BlendTap> taps;
+std::vector<BlendProbe> probes_of(const EngineBench& bench, const Frame& frame) {
+  std::vector<BlendProbe> probes;
   const std::size_t pixels = frame.pixel.size(), from = bench.sink.beats().size() - pixels;
-  for (std::size_t i = 0; i < pixels; ++i) taps.push_back(bench.sink.beats()[from + i].tap[0]);
-  return taps;
+  for (std::size_t i = 0; i < pixels; ++i) probes.push_back(bench.sink.beats()[from + i].probe[0]);
+  return probes;
 }
 
 void tell_search_steps(EngineBench& bench, int steps) {
@@ -86,12 +86,12 @@ void tell_search_steps(EngineBench& bench, int steps) {
 TEST_P(SmaaLimits, AreThoseOfGoldenInEveryShape) {
   const Parameters p = parameters();
   EngineBench bench(p);
-  const int n = p.search_steps, reach = reach_of(p);
+  const int n = p.search_steps, search_range = search_range_of(p);
   std::vector<int> lengths;
   for (const int near : {2 * n, 4 * n + 1})
     for (int length = near - 2; length <= near + 2; ++length)
       // `ultra` has a reach of 4 N.
-      if (length >= 1 && length <= reach + 2) lengths.push_back(length);
+      if (length >= 1 && length <= search_range + 2) lengths.push_back(length);
   std::size_t caught = 0;
   for (const bool at_border : {true, false}) {
     std::vector<Strip> strips;
@@ -107,19 +107,19 @@ TEST_P(SmaaLimits, AreThoseOfGoldenInEveryShape) {
       golden.process(ImageView(frame.pixel, frame.width, frame.height));
       tell_search_steps(bench, steps);
       EXPECT_EQ(bench.run(frame).pixel, golden.pixels()) << steps;
-      EXPECT_EQ(taps_of(bench, frame), golden.taps()) << steps;
+      EXPECT_EQ(probes_of(bench, frame), golden.probes()) << steps;
       // With a step less or more the same frame gives something else.
       if (steps == n) continue;
       MorphologicalGolden ordered(p);
       ordered.process(ImageView(frame.pixel, frame.width, frame.height));
-      caught += ordered.taps() != golden.taps();
+      caught += ordered.probes() != golden.probes();
     }
   }
   EXPECT_EQ(caught, 4u);
 }
 
 // The Z of the contract's vectors, long enough that no pixel sees both ends: the last pixel that
-// sees an end has a share, and the next one has none.
+// sees an end has a weight, and the next one has none.
 TEST_P(SmaaLimits, TheLastPixelThatReachesAnEndHasAShareAndTheNextHasNone) {
   Parameters p = parameters();
   p.round_corners = false;
@@ -133,33 +133,33 @@ TEST_P(SmaaLimits, TheLastPixelThatReachesAnEndHasAShareAndTheNextHasNone) {
   for (const int steps : {n, n - 1}) {
     tell_search_steps(bench, steps);
     bench.run(frame);
-    const std::vector<BlendTap> taps = taps_of(bench, frame);
-    // Shares of the edge at pixel k of the run: of the pixel above it from below, and of the one
+    const std::vector<BlendProbe> probes = probes_of(bench, frame);
+    // Weights of the edge at pixel k of the run: of the pixel above it from below, and of the one
     // beneath it from above.
     const auto above = [&](int k) {
       const int x = k + 1, y = 1;
-      const BlendTap& tap = taps[static_cast<std::size_t>(
+      const BlendProbe& probe = probes[static_cast<std::size_t>(
           GetParam().vertical ? x * frame.width + y : y * frame.width + x)];
-      EXPECT_EQ(tap.horizontal, GetParam().vertical && (tap.first | tap.second) != 0);
-      return tap.second;
+      EXPECT_EQ(probe.horizontal, GetParam().vertical && (probe.first | probe.second) != 0);
+      return probe.second;
     };
     const auto beneath = [&](int k) {
       const int x = k + 1, y = 2;
-      const BlendTap& tap = taps[static_cast<std::size_t>(
+      const BlendProbe& probe = probes[static_cast<std::size_t>(
           GetParam().vertical ? x * frame.width + y : y * frame.width + x)];
-      return tap.first;
+      return probe.first;
     };
     const int left = 2 * steps - 1, right = 2 * steps;
-    const auto shares = [&](int k) { return above(k) + beneath(k); };
-    EXPECT_NE(shares(left - 1), 0) << steps;
-    EXPECT_NE(shares(left), 0) << steps;
-    EXPECT_EQ(shares(left + 1), 0) << steps;
+    const auto weights = [&](int k) { return above(k) + beneath(k); };
+    EXPECT_NE(weights(left - 1), 0) << steps;
+    EXPECT_NE(weights(left), 0) << steps;
+    EXPECT_EQ(weights(left + 1), 0) << steps;
     const int last = length - 1;
-    EXPECT_NE(shares(last - right + 1), 0) << steps;
+    EXPECT_NE(weights(last - right + 1), 0) << steps;
     // The start is cut a pixel nearer than this end, so that little is left of the nearer half:
-    // with 32 steps less than a share of 1.
-    EXPECT_EQ(shares(last - right) == 0, steps == 32) << steps;
-    EXPECT_EQ(shares(last - right - 1), 0) << steps;
+    // with 32 steps less than a weight of 1.
+    EXPECT_EQ(weights(last - right) == 0, steps == 32) << steps;
+    EXPECT_EQ(weights(last - right - 1), 0) << steps;
   }
 }
 

@@ -125,9 +125,9 @@ TEST_P(TableLayouts, GiveTheSameShares) {
                            static_cast<std::uint8_t>(shape)};
     table.address_roots(cycle, 0, query);
     table.address_entries(cycle + 1, 0, query);
-    const AreaTable::Shares shares = table.shares(cycle + 2, 0, query);
+    const AreaTable::Weights weights = table.weights(cycle + 2, 0, query);
     cycle += 3;
-    return std::pair<int, int>{shares.first, shares.second};
+    return std::pair<int, int>{weights.first, weights.second};
   };
   // Step of the first distance: every pair with a small one, and the last.
   for (int shape = 0; shape < 16; ++shape)
@@ -155,9 +155,9 @@ TEST_P(TableLayouts, GiveTheSameShares) {
 INSTANTIATE_TEST_SUITE_P(Each, TableLayouts,
                          ::testing::Values(AreaValues::kExact, AreaValues::kPublished));
 
-// ---- clocks -------------------------------------------------------------------------------------
+// ---- cycles -------------------------------------------------------------------------------------
 
-class TableClocks : public ::testing::TestWithParam<AreaSource> {
+class TableCycles : public ::testing::TestWithParam<AreaSource> {
  protected:
   struct Owner : sc_core::sc_module {
     Owner(const sc_core::sc_module_name& name, AreaSource layout)
@@ -179,17 +179,17 @@ class TableClocks : public ::testing::TestWithParam<AreaSource> {
 };
 
 // Roots come a clock after their addresses, entries a clock after theirs.
-TEST_P(TableClocks, WordsComeInTheirClock) {
+TEST_P(TableCycles, WordsComeInTheirClock) {
   EXPECT_EQ(said([](AreaTable& table, auto& query, auto&) {
               table.address_roots(1, 0, query);
               table.address_entries(2, 0, query);
-              const AreaTable::Shares shares = table.shares(3, 0, query);
-              EXPECT_NE(shares.first + shares.second, 0);
+              const AreaTable::Weights weights = table.weights(3, 0, query);
+              EXPECT_NE(weights.first + weights.second, 0);
             }),
             "nothing");
 }
 // A query a clock, each of three stages at work: no word of one is another's.
-TEST_P(TableClocks, TakeAQueryAClock) {
+TEST_P(TableCycles, TakeAQueryAClock) {
   Owner pipelined("pipelined", GetParam()), alone("alone", GetParam());
   std::vector<AreaTable::Query> queries;
   for (unsigned i = 0; i < 400; ++i)
@@ -199,11 +199,11 @@ TEST_P(TableClocks, TakeAQueryAClock) {
   std::vector<AreaTable::Query> one_by_one = queries;
   for (std::size_t c = 0; c < queries.size() + 2; ++c) {
     if (c >= 2) {
-      const AreaTable::Shares got = pipelined.table.shares(c, 0, queries[c - 2]);
+      const AreaTable::Weights got = pipelined.table.weights(c, 0, queries[c - 2]);
       AreaTable::Query& query = one_by_one[c - 2];
       alone.table.address_roots(4 * c, 0, query);
       alone.table.address_entries(4 * c + 1, 0, query);
-      const AreaTable::Shares want = alone.table.shares(4 * c + 2, 0, query);
+      const AreaTable::Weights want = alone.table.weights(4 * c + 2, 0, query);
       ASSERT_EQ(got.first, want.first) << c;
       ASSERT_EQ(got.second, want.second) << c;
     }
@@ -211,14 +211,14 @@ TEST_P(TableClocks, TakeAQueryAClock) {
     if (c < queries.size()) pipelined.table.address_roots(c, 0, queries[c]);
   }
 }
-TEST_P(TableClocks, ARootIsNotUsedAClockEarly) {
+TEST_P(TableCycles, ARootIsNotUsedAClockEarly) {
   EXPECT_THAT(said([](AreaTable& table, auto& query, auto&) {
                 table.address_roots(1, 0, query);
                 table.address_entries(1, 0, query);
               }),
               ::testing::AllOf(::testing::HasSubstr("sqrt_rom"), ::testing::HasSubstr("is used")));
 }
-TEST_P(TableClocks, ARootIsNotUsedAClockLate) {
+TEST_P(TableCycles, ARootIsNotUsedAClockLate) {
   EXPECT_THAT(said([](AreaTable& table, auto& query, auto& other) {
                 table.address_roots(1, 0, query);
                 table.address_roots(2, 0, other);
@@ -227,27 +227,27 @@ TEST_P(TableClocks, ARootIsNotUsedAClockLate) {
               ::testing::AllOf(::testing::HasSubstr("sqrt_rom"),
                                ::testing::HasSubstr("was there from cycle 2 on")));
 }
-TEST_P(TableClocks, AnEntryIsNotUsedAClockEarly) {
+TEST_P(TableCycles, AnEntryIsNotUsedAClockEarly) {
   EXPECT_THAT(said([](AreaTable& table, auto& query, auto&) {
                 table.address_roots(1, 0, query);
                 table.address_entries(2, 0, query);
-                table.shares(2, 0, query);
+                table.weights(2, 0, query);
               }),
               ::testing::AllOf(::testing::HasSubstr("area_rom"), ::testing::HasSubstr("is used")));
 }
-TEST_P(TableClocks, AnEntryIsNotUsedAClockLate) {
+TEST_P(TableCycles, AnEntryIsNotUsedAClockLate) {
   EXPECT_THAT(said([](AreaTable& table, auto& query, auto& other) {
                 table.address_roots(1, 0, query);
                 table.address_roots(2, 0, other);
                 table.address_entries(2, 0, query);
                 table.address_entries(3, 0, other);
-                table.shares(4, 0, query);
+                table.weights(4, 0, query);
               }),
               ::testing::AllOf(::testing::HasSubstr("area_rom"),
                                ::testing::HasSubstr("was there from cycle 3 on")));
 }
 // A port gives a word a clock: a second query of a reader in the same clock is rejected.
-TEST_P(TableClocks, AReaderAsksOnceAClock) {
+TEST_P(TableCycles, AReaderAsksOnceAClock) {
   EXPECT_THAT(said([](AreaTable& table, auto& query, auto& other) {
                 table.address_roots(1, 0, query);
                 table.address_roots(1, 0, other);
@@ -260,11 +260,11 @@ TEST_P(TableClocks, AReaderAsksOnceAClock) {
               "nothing")
       << "another reader has ports of its own";
 }
-INSTANTIATE_TEST_SUITE_P(Each, TableClocks,
+INSTANTIATE_TEST_SUITE_P(Each, TableCycles,
                          ::testing::Values(AreaSource::kTableFull, AreaSource::kTableMerged,
                                            AreaSource::kTableMinimal));
 
-// ---- planted faults -----------------------------------------------------------------------------
+// ---- injected faults -----------------------------------------------------------------------------
 
 // A falling stair of one pixel.
 const spec::morphological::PatternVector& stair() {
@@ -298,7 +298,7 @@ TEST_P(SmaaRomFault, IsCaught) {
   EXPECT_NE(hash(bench.run(noise())), vector_hash("smaa_noise_low"));
 }
 // Entries (0, 0) to (1, 0) of pattern 6, (1, 1) of 2; of the others what short runs ask for.
-INSTANTIATE_TEST_SUITE_P(Planted, SmaaRomFault,
+INSTANTIATE_TEST_SUITE_P(Injected, SmaaRomFault,
                          ::testing::Values(RomFault{"area_rom0", 6 * 64},
                                            RomFault{"area_rom1", 6 * 64},
                                            RomFault{"area_rom2", 6 * 64},
@@ -318,7 +318,7 @@ TEST_P(SmaaLinkFaults, AreCaught) {
     caught = hash(bench.run(noise(), 100'000)) != vector_hash("smaa_noise_high") ||
              bench.engine.work().diagonal_pixels != 258;
   } catch (const spec::SimulationError& error) {
-    // A planted fault that was never reached is no catch.
+    // A injected fault that was never reached is no catch.
     caught = std::string(error.what()).find("never") == std::string::npos;
     if (!caught) ADD_FAILURE() << error.what();
   } catch (const spec::ConfigError& error) {
@@ -329,11 +329,11 @@ TEST_P(SmaaLinkFaults, AreCaught) {
   EXPECT_TRUE(caught);
 }
 INSTANTIATE_TEST_SUITE_P(
-    Planted, SmaaLinkFaults,
+    Injected, SmaaLinkFaults,
     ::testing::Values("flip:engine.diagonal_columns:2000:top.0.8",
                       "drop:engine.diagonal_columns:2000", "duplicate:engine.diagonal_columns:2000",
-                      "drop:engine.diagonals.diagonal_shares_entries:2000",
-                      "duplicate:engine.diagonals.diagonal_shares_entries:2000",
+                      "drop:engine.diagonals.diagonal_weights_entries:2000",
+                      "duplicate:engine.diagonals.diagonal_weights_entries:2000",
                       "flip:engine.lines_h0:200:line.run.far.0",
                       "flip:engine.lines_v0:300:line.run.far.2",
                       "flip:engine.lines_h0:200:line.run.shape.0"));

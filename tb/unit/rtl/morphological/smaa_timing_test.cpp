@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Clocks of an engine with SMAA's blocks: the latency of every beat, when a record is finished, and
+// Cycles of an engine with SMAA's blocks: the latency of every beat, when a record is finished, and
 // words that are used before they are there.
 #include <string>
 
@@ -33,19 +33,19 @@ TEST_P(SmaaLatency, IsThatOfTheFormula) {
   });
   bench.run(in);
   const auto beats = static_cast<Cycle>(beats_a_row(in, p));
-  const Cycle latency = static_cast<Cycle>(reach_of(p) + 5) * beats + kPipe;
+  const Cycle latency = static_cast<Cycle>(search_range_of(p) + 5) * beats + kPipe;
   EXPECT_EQ(bench.engine.beat_latency.min(), latency);
   EXPECT_EQ(bench.engine.beat_latency.max(), latency);
-  EXPECT_EQ(bench.engine.extractor.record_stalls.value(), 0u);
+  EXPECT_EQ(bench.engine.extractor.descriptor_stalls.value(), 0u);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(),
-            static_cast<Cycle>(c.height + reach_of(p) + 5) * beats + kPipe);
+            static_cast<Cycle>(c.height + search_range_of(p) + 5) * beats + kPipe);
   if (bench.engine.diagonals) {
     EXPECT_EQ(stalls(bench.engine.area, "diagonals"), 0u);
     EXPECT_EQ(stalls(bench.engine.extractor, "diagonals"), 0u);
     EXPECT_EQ(stalls(*bench.engine.diagonals, "downstream"), 0u);
   }
   for (const rtl::MemoryBase* memory : bench.engine.memories())
-    EXPECT_EQ(memory->idealised(), "") << memory->name();
+    EXPECT_EQ(memory->not_implementable(), "") << memory->name();
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{Quality::kUltra, 400, 30, 2}, Case{Quality::kUltra, 1920, 6, 0}));
 
 // The line takes a stage more at the entrance of an AreaUnit with a table.
-TEST(SmaaInterlock, ARecordIsFinishedAClockLater) {
+TEST(SmaaInterlock, ADescriptorIsFinishedAClockLater) {
   Parameters p = preset(Preset::kMlaa);
   p.area = spec::morphological::AreaSource::kTableFull;
   EngineBench bench(p);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tests of the morphological engine's hardware model share: the images of the contract's
+// What the tests of the morphological engine's hardware model weight: the images of the contract's
 // test vectors, the whole engine between a driver and a sink, and single blocks between tokens.
 #pragma once
 
@@ -77,11 +77,11 @@ inline std::uint64_t hash(const Frame& frame) {
 }
 
 // A preset's rules with R and C; line_pixels small, so that tests are quick.
-inline Parameters preset(spec::morphological::Preset which, int reach_rows = 32,
-                         int reach_columns = 256) {
+inline Parameters preset(spec::morphological::Preset which, int search_rows = 32,
+                         int search_columns = 256) {
   Parameters p = preset_parameters(which);
-  p.window_rows = 2 * reach_rows + 2;
-  p.reach_columns = reach_columns;
+  p.window_rows = 2 * search_rows + 2;
+  p.search_columns = search_columns;
   p.line_pixels = 256;
   return p;
 }
@@ -104,8 +104,8 @@ inline Parameters in_memory() {
 
 using platform::lanes_of;
 using unit_bench::period, unit_bench::stalls;
-inline int reach_of(const Parameters& p) { return p.window_rows / 2 - 1; }
-// Clocks from a slot to its output beat.
+inline int search_range_of(const Parameters& p) { return p.window_rows / 2 - 1; }
+// Cycles from a slot to its output beat.
 inline constexpr unsigned kPipe = spec::morphological::kPipelineLatency;
 inline int beats_a_row(const Frame& frame, const Parameters& p) {
   return static_cast<int>(platform::beats_a_row(frame.width, lanes_of(p)));
@@ -132,7 +132,7 @@ struct EngineBench {
         engine("engine", clock, options.program ? unprogrammed(p) : p),
         sink("sink", clock, options.sink),
         software(bus, p),
-        rules(p),
+        configuration(p),
         program(options.program) {
     driver.beats_out(in);
     engine.pixels_in(in);
@@ -156,7 +156,7 @@ struct EngineBench {
     clock.set_reset_n(false);
     clock.run(cycles);
     clock.set_reset_n(true);
-    if (program) software.set_rules(rules);
+    if (program) software.set_configuration(configuration);
   }
 
   // Runs one frame after another that was added; the frames come back in order.
@@ -186,7 +186,7 @@ struct EngineBench {
   Sink<spec::morphological::BlendedBeat> sink;
   platform::RegisterHost bus{"bus"};
   platform::MorphologicalDriver software;
-  Parameters rules;
+  Parameters configuration;
   bool program;
   std::unique_ptr<platform::MemoryModel> memory;
   std::unique_ptr<Bench> bench;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TextGuard: small pictures by hand, any picture against the contract's sentences, its clocks; and
+// TextGuard: small pictures by hand, any picture against the contract's sentences, its cycles; and
 // in the engine: what is left, and that nothing waits for it.
 #include <algorithm>
 #include <string>
@@ -24,8 +24,8 @@ using namespace rtl::morphological;  // NOLINT: a test of these
 using spec::morphological::Preset;
 using Rows = std::vector<std::string>;
 
-Parameters guarded(int lanes_code = 0, int reach_rows = kReach) {
-  Parameters p = preset(Preset::kMlaa, reach_rows, 8);
+Parameters guarded(int lanes_code = 0, int search_rows = kReach) {
+  Parameters p = preset(Preset::kMlaa, search_rows, 8);
   p.lanes = static_cast<spec::morphological::Lanes>(lanes_code);
   p.text_guard = true;
   p.line_pixels = 64;
@@ -101,7 +101,7 @@ Rows by_contract(const Frame& frame) {
 struct GuardBench {
   explicit GuardBench(const Parameters& p, Cycle opens = 0)
       : lanes(lanes_of(p)), registers(p), guard("guard", clock, p), gate("gate", clock, opens) {
-    guard.rules_in(registers.rules);
+    guard.configuration_in(registers.configuration);
     source.out(slots);
     guard.slots_in(slots);
     gate.in(guard.guards());
@@ -277,7 +277,7 @@ TEST_P(ByHand, DrawingsOfTheContract) {
 // Stretches of two colours; at times a third one, or one that passes for the first.
 Frame text(int width, int height, std::uint64_t seed) {
   Random random(seed);
-  const std::uint32_t share = random.between(100, 900), other = random.below(3);
+  const std::uint32_t weight = random.between(100, 900), other = random.below(3);
   const auto any = [&] {
     const std::uint32_t word = random.word();
     return Rgba8{static_cast<std::uint8_t>(word), static_cast<std::uint8_t>(word >> 8),
@@ -288,7 +288,7 @@ Frame text(int width, int height, std::uint64_t seed) {
   while (other == 1 && hash_of(third) != hash_of(ink)) third = any();
   std::uint32_t word = 0;
   return draw(width, height, [&](int x, int) {
-    if (x == 0 || random.chance(share)) word = random.word();
+    if (x == 0 || random.chance(weight)) word = random.word();
     if (other != 2 && random.below(400) == 0) return third;
     return (word & 1) != 0 ? ink : paper;
   });
@@ -379,13 +379,13 @@ TEST(TextGuardBlock, AResetForgetsTheFrameInside) {
   }
 }
 
-// ---- clocks -------------------------------------------------------------------------------------
+// ---- cycles -------------------------------------------------------------------------------------
 
-class TextGuardClocks : public ::testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Lanes, TextGuardClocks, ::testing::Range(0, 3));
+class TextGuardCycles : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Lanes, TextGuardCycles, ::testing::Range(0, 3));
 
 // From the last beat of row 8 to the first beat of row 0, then a beat a clock.
-TEST_P(TextGuardClocks, ARowComesEightRowsLater) {
+TEST_P(TextGuardCycles, ARowComesEightRowsLater) {
   const Parameters p = guarded(GetParam());
   GuardBench bench(p);
   const Frame frame = text(40, 12, 1);
@@ -393,7 +393,7 @@ TEST_P(TextGuardClocks, ARowComesEightRowsLater) {
   const auto beats = static_cast<Cycle>(beats_a_row(frame, p));
   // Pushed from 0 on, popped from 1 on.
   const auto check = [&](const rtl::Datasheet& sheet) {
-    expect_clocks(sheet, clocks_of(bench.gate), 9 * beats);
+    expect_cycles(sheet, cycles_of(bench.gate), 9 * beats);
   };
   expect_notices_a_clock(TextGuard::datasheet(p), &rtl::Datasheet::latency, check);
   expect_notices_a_clock(TextGuard::datasheet(p), &rtl::Datasheet::interval, check);
@@ -402,11 +402,11 @@ TEST_P(TextGuardClocks, ARowComesEightRowsLater) {
 
 // A row whose last beat comes later is later by as much, and one that has begun is not: its last
 // beats need no beat of the next row.
-TEST_P(TextGuardClocks, ARowWaitsForItsLastBeatAndForNoneAfter) {
+TEST_P(TextGuardCycles, ARowWaitsForItsLastBeatAndForNoneAfter) {
   const Parameters p = guarded(GetParam());
   const Frame frame = text(40, 12, 1);
   const auto beats = static_cast<std::size_t>(beats_a_row(frame, p));
-  const auto latency = TextGuard::datasheet(p).latency.clocks;
+  const auto latency = TextGuard::datasheet(p).latency.cycles;
   GuardBench bench(p);
   for (const std::size_t held : {9 * beats - 1, 9 * beats, 9 * beats + 1}) {
     bench.reset();
@@ -425,7 +425,7 @@ TEST_P(TextGuardClocks, ARowWaitsForItsLastBeatAndForNoneAfter) {
 }
 
 // Nobody takes the bits: the unit stops when the FIFO is full, and nothing is lost.
-TEST_P(TextGuardClocks, WaitsDownstream) {
+TEST_P(TextGuardCycles, WaitsDownstream) {
   const Parameters p = guarded(GetParam());
   const Frame frame = text(60, 40, 2);
   GuardBench bench(p, 3000);
@@ -440,15 +440,15 @@ TEST_P(TextGuardClocks, WaitsDownstream) {
 
 struct Build {
   Preset preset;
-  int reach_rows;
+  int search_rows;
   const char* settings;
 };
 void PrintTo(const Build& b, std::ostream* out) {
   *out << spec::morphological::kPresetNames[static_cast<std::size_t>(b.preset)] << " R "
-       << b.reach_rows << ' ' << b.settings;
+       << b.search_rows << ' ' << b.settings;
 }
 Parameters of(const Build& b) {
-  Parameters p = preset(b.preset, b.reach_rows, 20);
+  Parameters p = preset(b.preset, b.search_rows, 20);
   p.steps = std::min(p.steps, 2);
   p.diagonal_steps = std::min(p.diagonal_steps, 4);
   p.line_pixels = 128;
@@ -475,8 +475,8 @@ struct Result {
   spec::morphological::Work work;
 };
 Result result_of(EngineBench& bench, const Frame& frame, bool on) {
-  const std::uint32_t rules = spec::morphological::rules_word(bench.engine.parameters());
-  bench.bus.write(spec::morphological::reg::kRules, on ? rules : rules & ~(1u << 28));
+  const std::uint32_t configuration = spec::morphological::configuration_word(bench.engine.parameters());
+  bench.bus.write(spec::morphological::reg::kConfiguration, on ? configuration : configuration & ~(1u << 28));
   Result result;
   const Cycle begin = bench.clock.cycle();
   const Monitor<spec::morphological::PixelBeat> in(
@@ -507,10 +507,10 @@ TEST_P(TextGuardEngine, LeavesWhatIsGuardedAndNothingElse) {
   EngineBench on_bench(p);
   for (const auto& [width, height] : {std::pair{97, 40}, {1, 1}, {3, 60}, {110, 3}, {4, 30}}) {
     const Frame frame = page(width, height);
-    const std::uint64_t left_before = on_bench.engine.work().left_pixels,
+    const std::uint64_t left_before = on_bench.engine.work().bypassed_pixels,
                         blended_before = on_bench.engine.work().blended_pixels;
     const Result off = result_of(on_bench, frame, false);
-    EXPECT_EQ(off.work.left_pixels, left_before) << "off by its bit";
+    EXPECT_EQ(off.work.bypassed_pixels, left_before) << "off by its bit";
     const Result on = result_of(on_bench, frame, true);
     const Rows guarded_pixels = by_contract(frame);
     const auto beats = static_cast<std::size_t>(beats_a_row(frame, p));
@@ -521,25 +521,25 @@ TEST_P(TextGuardEngine, LeavesWhatIsGuardedAndNothingElse) {
         const std::size_t at = static_cast<std::size_t>(y) * beats +
                                static_cast<std::size_t>(x) / lanes,
                           lane = static_cast<std::size_t>(x) % lanes;
-        auto tap = off.beats[at].tap[lane];
+        auto probe = off.beats[at].probe[lane];
         Rgba8 pixel = off.beats[at].pixel[lane];
-        const bool had_one = tap.first + tap.second != 0;
+        const bool had_one = probe.first + probe.second != 0;
         if (guarded_pixels[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] == '#') {
           left += had_one;
           pixel = frame.at(x, y);
-          tap.first = tap.second = 0;
-          tap.horizontal = false;
+          probe.first = probe.second = 0;
+          probe.horizontal = false;
         } else {
           blended += had_one;
         }
-        const auto& got = on.beats[at].tap[lane];
+        const auto& got = on.beats[at].probe[lane];
         ASSERT_EQ(on.beats[at].pixel[lane], pixel) << x << ", " << y;
-        ASSERT_EQ(got.first, tap.first) << x << ", " << y;
-        ASSERT_EQ(got.second, tap.second) << x << ", " << y;
-        ASSERT_EQ(got.horizontal, tap.horizontal) << x << ", " << y;
-        ASSERT_EQ(got.edges, tap.edges) << x << ", " << y;
+        ASSERT_EQ(got.first, probe.first) << x << ", " << y;
+        ASSERT_EQ(got.second, probe.second) << x << ", " << y;
+        ASSERT_EQ(got.horizontal, probe.horizontal) << x << ", " << y;
+        ASSERT_EQ(got.edges, probe.edges) << x << ", " << y;
       }
-    EXPECT_EQ(on.work.left_pixels, left_before + left);
+    EXPECT_EQ(on.work.bypassed_pixels, left_before + left);
     EXPECT_EQ(on.work.blended_pixels - off.work.blended_pixels, blended);
     EXPECT_EQ(off.work.blended_pixels - blended_before, left + blended);
     if (width == 97) {
@@ -570,7 +570,7 @@ TEST_P(TextGuardEngine, NothingWaitsForItAnyClock) {
         const Frame frame = page(width, height);
         const int line_pixels = width,
                   fewest = p.storage == spec::morphological::Storage::kMemory ? 17 : 1;
-        const auto clocks = [&](const Parameters& q) {
+        const auto cycles = [&](const Parameters& q) {
           return forked_text([&] {
             Parameters as_wide = q;  // so that the FIFO has no word more
             as_wide.line_pixels = std::max(line_pixels, fewest);
@@ -582,7 +582,7 @@ TEST_P(TextGuardEngine, NothingWaitsForItAnyClock) {
             return text_of(result.taken) + "| " + text_of(result.delivered);
           });
         };
-        ASSERT_EQ(clocks(p), clocks(without)) << width << "x" << height << " stalls of the source "
+        ASSERT_EQ(cycles(p), cycles(without)) << width << "x" << height << " stalls of the source "
                                               << source << ", of the sink " << sink;
       }
     }
@@ -596,7 +596,7 @@ TEST_P(TextGuardEngine, ASourceThatStopsHoldsNoOtherBeatAnyClock) {
   const Frame frame = page(32, 60);
   const auto row = static_cast<std::size_t>(beats_a_row(frame, p));
   // Slots before the first one that delivers.
-  const std::size_t before = static_cast<std::size_t>(GetParam().reach_rows + 5) * row;
+  const std::size_t before = static_cast<std::size_t>(GetParam().search_rows + 5) * row;
   for (const std::size_t more :
        {std::size_t{1}, row / 2, row - 1, row, row + 1, 3 * row + row / 2, 4 * row - 1}) {
     const std::size_t stop = before + more;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Clocks of the whole engine against the contract: latency by formula, throughput, back-pressure,
+// Cycles of the whole engine against the contract: latency by formula, throughput, back-pressure,
 // the interlock, and that time may change but data may not.
 #include <optional>
 #include <string>
@@ -42,7 +42,7 @@ Frame stairs(int width, int height, int run, int apart) {
 }
 
 struct Case {
-  int width, height, lanes_code, reach_rows;
+  int width, height, lanes_code, search_rows;
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.width << 'x' << c.height; }
 
@@ -53,8 +53,8 @@ class LatencyFormula : public ::testing::TestWithParam<Case> {};
 // (docs/reference/morphological/hardware.md).
 TEST_P(LatencyFormula, HoldsForEveryBeat) {
   const Case c = GetParam();
-  Parameters p = preset(Preset::kDeburrLine, c.reach_rows);
-  p.steps = std::min(8, c.reach_rows - 1);
+  Parameters p = preset(Preset::kDeburrLine, c.search_rows);
+  p.steps = std::min(8, c.search_rows - 1);
   p.lanes = static_cast<spec::morphological::Lanes>(c.lanes_code);
   p.line_pixels = c.width;
   EngineBench bench(p);
@@ -62,7 +62,7 @@ TEST_P(LatencyFormula, HoldsForEveryBeat) {
   const Frame in = line(c.width, c.height);
   bench.run(in);
   const auto beats = static_cast<Cycle>(beats_a_row(in, p));
-  const Cycle latency = static_cast<Cycle>(c.reach_rows + 5) * beats + kPipe;
+  const Cycle latency = static_cast<Cycle>(c.search_rows + 5) * beats + kPipe;
   ASSERT_EQ(times.popped.size(), beats * static_cast<Cycle>(c.height));
   ASSERT_EQ(times.pushed.size(), times.popped.size());
   for (std::size_t j = 0; j < times.popped.size(); ++j) {
@@ -72,8 +72,8 @@ TEST_P(LatencyFormula, HoldsForEveryBeat) {
   EXPECT_EQ(bench.engine.beat_latency.min(), latency);
   EXPECT_EQ(bench.engine.beat_latency.max(), latency);
   EXPECT_EQ(bench.engine.beat_latency.count(), times.popped.size());
-  EXPECT_EQ(bench.engine.extractor.record_stalls.value(), 0u);
-  const Cycle frame = static_cast<Cycle>(c.height + c.reach_rows + 5) * beats + kPipe;
+  EXPECT_EQ(bench.engine.extractor.descriptor_stalls.value(), 0u);
+  const Cycle frame = static_cast<Cycle>(c.height + c.search_rows + 5) * beats + kPipe;
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), frame);
   EXPECT_EQ(times.pushed.back() - times.popped.front() + 1, frame);
 }
@@ -90,8 +90,8 @@ INSTANTIATE_TEST_SUITE_P(
       name += 'x' + std::to_string(c.height) + "_lanes";
       name +=
           std::to_string(spec::morphological::kLaneCount[static_cast<std::size_t>(c.lanes_code)]) +
-          "_reach";
-      return name += std::to_string(c.reach_rows);
+          "_search_range";
+      return name += std::to_string(c.search_rows);
     });
 
 // The way of a record, from the clock that takes the slot in which its run is found.
@@ -99,7 +99,7 @@ constexpr int kFound = 6;  // until a predictor takes it
 constexpr int kFinished =
     5;  // and divider.latency: from there, if not extended, until it is finished
 
-// A row shorter than that waits for its records: the bound is not far from the truth.
+// A row shorter than that waits for its records: the bound is not far from the reference.
 TEST(Interlock, StallsWhereARowIsShorterThanThePathOfARecord) {
   Parameters p = preset(Preset::kMlaa);
   EngineBench bench(p);
@@ -170,8 +170,8 @@ void expect_a_beat_a_clock(Preset which, const Load& load) {
   const spec::morphological::Work work = bench.engine.work();
   EXPECT_LE(work.edge_pixels * 1000, work.pixels * static_cast<unsigned>(load.permille + 5));
   EXPECT_GE(work.edge_pixels * 1000, work.pixels * static_cast<unsigned>(load.permille - 5));
-  EXPECT_GT(bench.engine.extractor.records_sent.value(), 100u);
-  EXPECT_EQ(bench.engine.extractor.record_stalls.value(), 0u);
+  EXPECT_GT(bench.engine.extractor.descriptors_sent.value(), 100u);
+  EXPECT_EQ(bench.engine.extractor.descriptor_stalls.value(), 0u);
   const auto beats = static_cast<std::uint64_t>(beats_a_row(in, p));
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(),
             (static_cast<std::uint64_t>(in.height) + 37) * beats + kPipe);
@@ -199,7 +199,7 @@ TEST_P(FullWidth, TakesRandomEdgesAtAPixelAClock) {
   p.line_pixels = defaults.line_pixels;
   ASSERT_EQ(defaults.preset, Preset::kDeburr);
   ASSERT_EQ(defaults.window_rows, p.window_rows);
-  ASSERT_EQ(defaults.reach_columns, p.reach_columns);
+  ASSERT_EQ(defaults.search_columns, p.search_columns);
   EngineBench bench(p);
   Times times(bench);
   constexpr int kRows = kSanitized ? 50 : 150;  // a window has 37
@@ -214,7 +214,7 @@ TEST_P(FullWidth, TakesRandomEdgesAtAPixelAClock) {
   EXPECT_EQ(times.popped.back() - times.popped.front(), kPixels - 1);
   EXPECT_EQ(bench.engine.beat_latency.min(), kLatency);
   EXPECT_EQ(bench.engine.beat_latency.max(), kLatency);
-  EXPECT_EQ(bench.engine.extractor.record_stalls.value(), 0u);
+  EXPECT_EQ(bench.engine.extractor.descriptor_stalls.value(), 0u);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), kPixels + kLatency);
 }
 INSTANTIATE_TEST_SUITE_P(EdgePermille, FullWidth,
@@ -222,22 +222,22 @@ INSTANTIATE_TEST_SUITE_P(EdgePermille, FullWidth,
                                             ::testing::Values(Preset::kDeburrLine,
                                                               Preset::kDeburr)),
                          [](const auto& each) {
-                           const char* const shares =
+                           const char* const weights =
                                std::get<1>(each.param) == Preset::kDeburr ? "_learned" : "_line";
-                           return std::to_string(std::get<0>(each.param)) + shares;
+                           return std::to_string(std::get<0>(each.param)) + weights;
                          });
 
 // Beyond that the slots wait, are counted, and nothing else changes.
 TEST(BackPressure, StallsAreCountedAndNothingIsLost) {
   Parameters p = preset(Preset::kDeburrLine);
   p.predictor_units = 1;
-  p.record_fifo = 2;
+  p.descriptor_fifo = 2;
   p.divider_interval = 4;
   EngineBench bench(p);
   const Frame in = noise();
   const Frame out = bench.run(in);
   EXPECT_EQ(hash(out), vector_hash("noise_deburr_line"));
-  const std::uint64_t stalls = bench.engine.extractor.record_stalls.value();
+  const std::uint64_t stalls = bench.engine.extractor.descriptor_stalls.value();
   EXPECT_GT(stalls, 200u);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (61u + 37u) * 97u + kPipe + stalls);
   // A beat is inside for 37 rows of slots, and for the stalls that come while it is.
@@ -263,7 +263,7 @@ TEST_P(UnderStress, NothingIsDroppedAtAHundredPercentEdges) {
   p.lanes = static_cast<spec::morphological::Lanes>(s.lanes_code);
   p.storage =
       s.memory ? spec::morphological::Storage::kMemory : spec::morphological::Storage::kLineBuffers;
-  p.record_fifo = 2 + static_cast<std::int32_t>(s.seed % 3);
+  p.descriptor_fifo = 2 + static_cast<std::int32_t>(s.seed % 3);
   p.predictor_units = 1 + static_cast<std::int32_t>(s.seed % 4);
   p.divider_latency = 14 + static_cast<std::int32_t>(s.seed * 7 % 51);
   p.divider_interval = 1 + static_cast<std::int32_t>(s.seed * 5 % 16);
@@ -301,7 +301,7 @@ TEST(EvaluationOrder, DoesNotMatter) {
     options.bench.stall_permille = 80;
     Parameters p = preset(Preset::kDeburrLine);
     p.lanes = spec::morphological::Lanes::kTwo;
-    p.record_fifo = 4;
+    p.descriptor_fifo = 4;
     EngineBench bench(p, options);
     const std::uint64_t pixels = hash(bench.run(blocks()));
     std::uint64_t h = pixels;
@@ -389,11 +389,11 @@ struct Path {
         predictor("predictor", clock, p, edges.rows),
         divider("divider", clock, p, Axis::kHorizontal),
         area("area", clock, p) {
-    predictor.rules_in(registers.rules);
-    divider.rules_in(registers.rules);
-    area.rules_in(registers.rules);
-    driver.out(records);
-    predictor.records_in[0](records);
+    predictor.configuration_in(registers.configuration);
+    divider.configuration_in(registers.configuration);
+    area.configuration_in(registers.configuration);
+    driver.out(descriptors);
+    predictor.descriptors_in[0](descriptors);
     predictor.sums_out[0](sums);
     divider.sums_in[0](sums);
     divider.lines_out[0](lines);
@@ -401,8 +401,8 @@ struct Path {
     area.lines_v_in[0](no_lines);
     slot_driver.out(slots);
     area.slots_in(slots);
-    area.shares_out(shares);
-    shares_gate.in(shares);
+    area.weights_out(weights);
+    weights_gate.in(weights);
     area.finished_out(finished);
     finished_gate.in(finished);
     clock.add(no_lines);
@@ -413,21 +413,21 @@ struct Path {
   EndpointPredictor predictor;
   LineUnit divider;
   AreaUnit area;
-  Link<RunToken> records{"records"};
+  Link<RunToken> descriptors{"records"};
   Link<SumsToken> sums{"sums"};
   Link<LineToken> lines{"lines"}, no_lines{"no_lines"};
   Link<AreaSlotToken> slots{"slots"};
-  Link<ShareToken> shares{"shares"};
+  Link<WeightToken> weights{"weights"};
   Link<FinishToken> finished{"finished"};
   unit_bench::Source<RunToken> driver{"driver", clock};
   unit_bench::Source<AreaSlotToken> slot_driver{"slot_driver", clock};
-  unit_bench::Sink<ShareToken> shares_gate{"shares_gate", clock};
+  unit_bench::Sink<WeightToken> weights_gate{"weights_gate", clock};
   unit_bench::Sink<FinishToken> finished_gate{"finished_gate", clock};
 };
 
 class WayOfARecord : public ::testing::TestWithParam<int> {};
 
-// The extractor takes its finish divider.latency + 5 clocks after the predictor let it go; the
+// The extractor takes its finish divider.latency + 5 cycles after the predictor let it go; the
 // contract allows divider.latency + 8.
 TEST_P(WayOfARecord, TakesTheLatencyOfTheDividerAndFive) {
   Parameters p = small();
@@ -442,7 +442,7 @@ TEST_P(WayOfARecord, TakesTheLatencyOfTheDividerAndFive) {
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_EQ(bench.finished_gate.taken[i].cycle, kLetGo + i + static_cast<Cycle>(GetParam()) + 5);
 }
-// A learned record passes the divider: 5 clocks, whatever the divider takes.
+// A learned record passes the divider: 5 cycles, whatever the divider takes.
 TEST_P(WayOfARecord, OfALearnedOneTakesFive) {
   Parameters p = small();
   p.area = spec::morphological::AreaSource::kLearned;

@@ -34,7 +34,7 @@ FrameResult result_of(const FrameVector& v, const Parameters& p, EngineBench::Op
   return {hash(out),        w.edge_pixels, w.horizontal_runs + w.vertical_runs,
           w.long_runs,      w.z_runs,      w.extended_runs,
           w.steps,          w.probes,      w.diagonal_pixels,
-          w.blended_pixels, w.left_pixels};
+          w.blended_pixels, w.bypassed_pixels};
 }
 
 class Vectors : public ::testing::TestWithParam<FrameVector> {

@@ -22,12 +22,12 @@ TEST(TextureRtlAddressUnit, LatencyByRule) {
     FootprintRule footprint;
     Log2Rule log2;
     Axes axes;
-    std::int32_t axis_clocks;
+    std::int32_t axis_cycles;
     CountRule count;
     Cycle latency;
   };
   // 3 + 2 + 1 + 3 + 3 + 5; the root takes 17 more than a shift and an addition, a correction two;
-  // directions 8 in place of 2, or 22 in place of 19, and axis_clocks - 1; any count one.
+  // directions 8 in place of 2, or 22 in place of 19, and axis_cycles - 1; any count one.
   const auto kHalf = FootprintRule::kHalf, kExact = FootprintRule::kExact;
   const std::vector<Row> rows = {
       // the earliest first
@@ -56,7 +56,7 @@ TEST(TextureRtlAddressUnit, LatencyByRule) {
       p.footprint = row.footprint;
       p.log2 = row.log2;
       p.axes = row.axes;
-      p.axis_clocks = row.axis_clocks;
+      p.axis_cycles = row.axis_cycles;
       p.count = row.count;
       return p;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The AxisUnit alone: ties by hand, from docs/reference/texture/formats.md, and its clocks. Other
+// The AxisUnit alone: ties by hand, from docs/reference/texture/formats.md, and its cycles. Other
 // values are compared in equivalence_test.cpp.
 #include "rtl_model/texture/axis_unit.h"
 
@@ -17,8 +17,8 @@ using spec::texture::FootprintRule;
 
 struct AxisBench {
   AxisBench(ClockDomain& clock, const std::string& name, Axes axes, FootprintRule rule,
-            std::int32_t clocks = 1)
-      : unit((name + "unit").c_str(), clock, axes, rule, clocks), ends(clock, name) {
+            std::int32_t cycles = 1)
+      : unit((name + "unit").c_str(), clock, axes, rule, cycles), ends(clock, name) {
     unit.derivatives_in(ends.in);
     unit.footprints_out(ends.out);
   }
@@ -66,13 +66,13 @@ struct Timed {
   const char* name;
   Axes axes;
   FootprintRule rule;
-  std::int32_t clocks;
+  std::int32_t cycles;
 
   rtl::Datasheet sheet() const {
     spec::texture::Parameters p;
     p.axes = axes;
     p.footprint = rule;
-    p.axis_clocks = clocks;
+    p.axis_cycles = cycles;
     return AxisUnit::datasheet(p);
   }
 };
@@ -90,7 +90,7 @@ TEST(TextureRtlAxis, LatencyByRuleAndClocks) {
   ClockDomain clock("clock", period());
   std::vector<std::unique_ptr<AxisBench>> benches;
   for (const Timed& row : kTimed) {
-    benches.push_back(std::make_unique<AxisBench>(clock, row.name, row.axes, row.rule, row.clocks));
+    benches.push_back(std::make_unique<AxisBench>(clock, row.name, row.axes, row.rule, row.cycles));
     benches.back()->ends.in.push(0, token(1, 2, 3, 4));
     benches.back()->ends.sink.hold_to = 1000;
   }
@@ -99,19 +99,19 @@ TEST(TextureRtlAxis, LatencyByRuleAndClocks) {
   while (clock.cycle() < taken + 30) {
     for (std::size_t i = 0; i < benches.size(); ++i)
       EXPECT_EQ(benches[i]->ends.out.can_pop(clock.cycle()),
-                clock.cycle() >= taken + kTimed[i].sheet().latency.clocks)
+                clock.cycle() >= taken + kTimed[i].sheet().latency.cycles)
           << kTimed[i].name << clock.cycle();
     clock.run(1);
   }
 }
 
-// A fragment every so many clocks, through a stall as well.
+// A fragment every so many cycles, through a stall as well.
 TEST(TextureRtlAxis, IntervalIsAxisClocks) {
   constexpr Cycle kHeld = 30, kStall = 13;  // every row is in the middle of its tokens then
   ClockDomain clock("clock", period());
   std::vector<std::unique_ptr<AxisBench>> benches;
   for (const Timed& row : kTimed) {
-    benches.push_back(std::make_unique<AxisBench>(clock, row.name, row.axes, row.rule, row.clocks));
+    benches.push_back(std::make_unique<AxisBench>(clock, row.name, row.axes, row.rule, row.cycles));
     for (std::uint32_t i = 0; i < 40; ++i)
       benches.back()->ends.source.add(token(10 * i, 2, 3, 400, i));
     benches.back()->ends.sink.hold_from = kHeld;
@@ -123,8 +123,8 @@ TEST(TextureRtlAxis, IntervalIsAxisClocks) {
     const auto& got = benches[i]->ends.sink.taken;
     ASSERT_EQ(got.size(), 40u);
     const rtl::Datasheet sheet = kTimed[i].sheet();
-    const Cycle clocks = sheet.interval.clocks;
-    const auto alone = [&](Cycle n) { return 1 + n * clocks + sheet.latency.clocks; };
+    const Cycle cycles = sheet.interval.cycles;
+    const auto alone = [&](Cycle n) { return 1 + n * cycles + sheet.latency.cycles; };
     for (std::size_t n = 0; n < 40; ++n) {
       if (alone(n) < kHeld) {
         EXPECT_EQ(got[n].cycle, alone(n));
@@ -134,7 +134,7 @@ TEST(TextureRtlAxis, IntervalIsAxisClocks) {
     // The link's two places are used up meanwhile; the unit is late by the rest of the stall.
     const Cycle late = got.back().cycle - alone(39);
     EXPECT_LE(late, kStall);
-    EXPECT_GE(late + 3 * (clocks - 1), kStall);
+    EXPECT_GE(late + 3 * (cycles - 1), kStall);
   }
 }
 
@@ -142,7 +142,7 @@ TEST(TextureRtlAxis, ResetForgetsTheFragmentInHand) {
   ClockDomain clock("clock", period());
   AxisBench b(clock, "", Axes::kEight, FootprintRule::kHalf, 4);
   b.ends.source.add(token(1, 2, 3, 4, 1));
-  clock.run(3);  // taken in 1, three more clocks of directions
+  clock.run(3);  // taken in 1, three more cycles of directions
   clock.set_reset_n(false);
   clock.run(1);
   clock.set_reset_n(true);

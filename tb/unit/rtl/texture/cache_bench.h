@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A TextureCache between a queue of requests and a sink, with a memory whose words hold their own
-// addresses. Clocks are counted from the push of a request by its producer: pushed in c, taken in
+// addresses. Cycles are counted from the push of a request by its producer: pushed in c, taken in
 // c + 1.
 #pragma once
 

@@ -64,7 +64,7 @@ TEST(TextureRtlDataStage, BankPasses) {
   EXPECT_EQ(b.time_of(three), kHit + 2);
   EXPECT_EQ(b.time_of(four), kHit + 3);
   EXPECT_EQ(b.time_of(words), kHit + 2);  // two bytes of one word are one read
-  // One after the other: 1, 2, 1, 2, 4 and 1 clocks.
+  // One after the other: 1, 2, 1, 2, 4 and 1 cycles.
   const std::size_t first = b.ends.sink.taken.size();
   const Cycle start = b.clock.cycle() + 1;
   for (const auto& t : {plain, columns, plain, rows, four, plain}) b.ends.source.add(t);
@@ -166,19 +166,19 @@ TEST(TextureRtlDataStage, LatencyOfTheDatasheet) {
   expect_latency(DataStage::datasheet(), ready_at(b.clock, b.texels) - 1);
 }
 
-// ---- clocks of passes and fills -----------------------------------------------------------------
+// ---- cycles of passes and fills -----------------------------------------------------------------
 
 // The data stage alone with a request of so many passes, and lines to write that have all come.
-struct Clocks {
+struct Cycles {
   Cycle taken;  // of the request, from the clock that takes it to the one that lets it go
   std::uint64_t wait_fill, write_fill, bank_conflict;
-  friend bool operator==(const Clocks&, const Clocks&) = default;
-  friend void PrintTo(const Clocks& c, std::ostream* out) {
-    *out << c.taken << " clocks, wait_fill " << c.wait_fill << ", write_fill " << c.write_fill
+  friend bool operator==(const Cycles&, const Cycles&) = default;
+  friend void PrintTo(const Cycles& c, std::ostream* out) {
+    *out << c.taken << " cycles, wait_fill " << c.wait_fill << ", write_fill " << c.write_fill
          << ", bank_conflict " << c.bank_conflict;
   }
 };
-Clocks clocks_of(const CacheToken& token) {
+Cycles cycles_of(const CacheToken& token) {
   ClockDomain clock("clock", period());
   FillBuffer fills("fills", 4, 64);
   rtl::Link<CacheToken> requests("requests");
@@ -199,8 +199,8 @@ Clocks clocks_of(const CacheToken& token) {
   const Cycle ready = ready_at(clock, texels, 40);
   // Taken a clock after the push; the last clock of stage 1 is one before the push of the texels.
   const auto stalls = stage.stalls();
-  // Lines are written one a clock at the end of a request: the wire is high for so many clocks.
-  EXPECT_EQ(line_used.high_clocks(clock.cycle()), token.fills);
+  // Lines are written one a clock at the end of a request: the wire is high for so many cycles.
+  EXPECT_EQ(line_used.high_cycles(clock.cycle()), token.fills);
   EXPECT_EQ(line_used.changes(), token.fills == 0 ? 0u : 2u);
   rtl::for_each<rtl::PortedMemory>(
       stage, [&](const rtl::PortedMemory& banks) { EXPECT_EQ(banks.writes(), token.fills); });
@@ -227,21 +227,21 @@ CacheToken request_of(std::uint32_t hits, std::uint32_t passes, std::uint8_t lin
 struct PassesAndFills {
   std::uint32_t hits, passes;
   std::uint8_t lines;
-  Clocks expected;
+  Cycles expected;
 };
 void PrintTo(const PassesAndFills& c, std::ostream* out) {
   *out << c.passes << " passes, " << int{c.lines} << " lines";
 }
-class DataStageClocks : public testing::TestWithParam<std::tuple<bool, PassesAndFills>> {};
+class DataStageCycles : public testing::TestWithParam<std::tuple<bool, PassesAndFills>> {};
 
 // The first line is written in the clock of the last pass, then one a clock.
-TEST_P(DataStageClocks, FillsBeginInTheClockOfTheLastPass) {
+TEST_P(DataStageCycles, FillsBeginInTheClockOfTheLastPass) {
   const auto& [misses_first, c] = GetParam();
-  EXPECT_EQ(clocks_of(request_of(c.hits, c.passes, c.lines, misses_first)), c.expected);
+  EXPECT_EQ(cycles_of(request_of(c.hits, c.passes, c.lines, misses_first)), c.expected);
 }
-// Behind texels that wait it takes neither a pass nor a fill, and as many clocks as ever from the
+// Behind texels that wait it takes neither a pass nor a fill, and as many cycles as ever from the
 // one in which they move on.
-TEST_P(DataStageClocks, BeginWhenTheTexelsBeforeMoveOn) {
+TEST_P(DataStageCycles, BeginWhenTheTexelsBeforeMoveOn) {
   const auto& [misses_first, c] = GetParam();
   const CacheToken before = StageBench::hit({0, 4, 16, 20});
   StageBench b(before);
@@ -259,7 +259,7 @@ TEST_P(DataStageClocks, BeginWhenTheTexelsBeforeMoveOn) {
   ASSERT_EQ(b.texels.occupancy(), 2u);
   ASSERT_EQ(b.requests.occupancy(), 1u);
   EXPECT_EQ(b.stage.stalls()[3].cycles, 0u) << "passes while texels wait";
-  EXPECT_EQ(b.line_used.high_clocks(b.clock.cycle()), 0u) << "fills while texels wait";
+  EXPECT_EQ(b.line_used.high_cycles(b.clock.cycle()), 0u) << "fills while texels wait";
   const Cycle from = b.clock.cycle();
   Cycle popped = 0;
   for (int texels = 0; texels < 4 && b.clock.cycle() < from + 40; b.clock.run(1)) {
@@ -271,7 +271,7 @@ TEST_P(DataStageClocks, BeginWhenTheTexelsBeforeMoveOn) {
   // A place of the link is free a clock after the pop; its last clock, the push, the pop.
   EXPECT_EQ(popped - from, c.expected.taken + 2);
 }
-INSTANTIATE_TEST_SUITE_P(TextureRtl, DataStageClocks,
+INSTANTIATE_TEST_SUITE_P(TextureRtl, DataStageCycles,
                          testing::Combine(testing::Bool(),
                                           testing::Values(PassesAndFills{4, 1, 0, {1, 0, 0, 0}},
                                                           PassesAndFills{4, 2, 0, {2, 0, 0, 1}},
@@ -294,7 +294,7 @@ TEST_P(TwoTexels, MeetUnlessTheyShareAWord) {
   const auto [first, second] = pair;
   CacheToken token = StageBench::hit({4, 8, 12, 16});
   token.place[second] = token.place[first] + (share ? 1 : 64);
-  EXPECT_EQ(clocks_of(token), share ? (Clocks{1, 0, 0, 0}) : (Clocks{2, 0, 0, 1}));
+  EXPECT_EQ(cycles_of(token), share ? (Cycles{1, 0, 0, 0}) : (Cycles{2, 0, 0, 1}));
 }
 INSTANTIATE_TEST_SUITE_P(TextureRtl, TwoTexels,
                          testing::Combine(testing::Values(TexelPair{0, 1}, TexelPair{0, 2},
@@ -304,7 +304,7 @@ INSTANTIATE_TEST_SUITE_P(TextureRtl, TwoTexels,
 
 // Two words, each of two texels.
 TEST(TextureRtlDataStage, TwoWordsOfABankTakeTwoPasses) {
-  EXPECT_EQ(clocks_of(StageBench::hit({0, 64, 1, 65})), (Clocks{2, 0, 0, 1}));
+  EXPECT_EQ(cycles_of(StageBench::hit({0, 64, 1, 65})), (Cycles{2, 0, 0, 1}));
 }
 
 // A line that has come waits for its own request, while those before it take their passes.

@@ -37,7 +37,7 @@ TEST(TextureRtlDatasheets, AreTheContracts) {
 
 TEST(TextureRtlDatasheets, EveryUnitOfThePaperHasOne) {
   const UnitBench b;
-  expect_datasheets(b.unit, rtl::texture::datasheets(stimuli::paper_rules()));
+  expect_datasheets(b.unit, rtl::texture::datasheets(stimuli::paper_configuration()));
 }
 TEST(TextureRtlDatasheets, EveryUnitOfThePresetDeburrHasOne) {
   const UnitBench b(spec::texture::Parameters{});

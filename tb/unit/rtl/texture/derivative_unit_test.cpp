@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The DerivativeUnit alone: rounding, saturation, clocks and counters. Other values are compared in
+// The DerivativeUnit alone: rounding, saturation, cycles and counters. Other values are compared in
 // equivalence_test.cpp.
 #include "rtl_model/texture/derivative_unit.h"
 
@@ -60,10 +60,10 @@ TEST(TextureRtlDerivative, OneClockACoveredLane) {
     b.ends.source.add(q);
   }
   b.clock.run(20);
-  // Quads take 4, 2, 1, 1, 1 and 4 clocks; the first is pushed in 0, taken in 1.
-  std::vector<Cycle> when = clocks_of(b.ends.sink);
+  // Quads take 4, 2, 1, 1, 1 and 4 cycles; the first is pushed in 0, taken in 1.
+  std::vector<Cycle> when = cycles_of(b.ends.sink);
   expect_latency(DerivativeUnit::datasheet(), when.front() - 1);
-  for (Cycle& clock : when) clock -= DerivativeUnit::datasheet().latency.clocks;
+  for (Cycle& clock : when) clock -= DerivativeUnit::datasheet().latency.cycles;
   EXPECT_THAT(when, testing::ElementsAre(1, 2, 3, 4, 5, 6, 9, 10, 11, 12, 13));
   EXPECT_EQ(b.unit.quads.value(), 6u);
   EXPECT_EQ(b.unit.fragments.value(), 11u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Block by block: what comes out of each unit of the texture pipeline is what the golden model's
-// function says for what went in. Values only; clocks are the business of each unit's own test.
+// function says for what went in. Values only; cycles are the business of each unit's own test.
 //
 // Where two implementations of one rule can be compared without a clock the inputs are exhaustive
 // or cover every combination of leading one, mantissa and kind of low bits. Units are fed through
@@ -35,7 +35,7 @@ inline void expect_equal(const Verdict& v, std::uint64_t at_least) {
   EXPECT_EQ(v.mismatches, 0u) << "the first at answer " << v.first;
   EXPECT_GE(v.compared, at_least);
 }
-// The planted fault touches one token, so it may spoil no more answers than that token gives.
+// The injected fault touches one token, so it may spoil no more answers than that token gives.
 inline void expect_noticed(const Verdict& v, std::uint64_t answers_a_token = 1) {
   EXPECT_GE(v.mismatches, 1u);
   EXPECT_LE(v.mismatches, answers_a_token);

@@ -208,7 +208,7 @@ Verdict compare_footprint(const Parameters& p, bool fault) {
 
 Verdict compare_axis(const Parameters& p, bool fault) {
   Pair<hw::DerivativeToken, hw::FootprintToken> bench;
-  hw::AxisUnit unit("unit", bench.clock, p.axes, p.footprint, p.axis_clocks);
+  hw::AxisUnit unit("unit", bench.clock, p.axes, p.footprint, p.axis_cycles);
   unit.derivatives_in(bench.in);
   unit.footprints_out(bench.out);
   std::vector<hw::DerivativeToken> tokens;
@@ -602,8 +602,8 @@ const std::vector<Row>& rows() {
   static const std::vector<Row> all = [&] {
     std::vector<std::string> axes = every({{"axes=four", "axes=eight"}, footprints});
     for (const char* const slow :
-         {"axes=four footprint=max axis_clocks=2", "axes=eight footprint=exact axis_clocks=2",
-          "axes=eight footprint=half axis_clocks=4"})
+         {"axes=four footprint=max axis_cycles=2", "axes=eight footprint=exact axis_cycles=2",
+          "axes=eight footprint=half axis_cycles=4"})
       axes.emplace_back(slow);
     return std::vector<Row>{
         {"Derivative", compare_derivative, 80'000, 4, {""}},

@@ -15,10 +15,10 @@ constexpr std::array<std::uint8_t, 64> kBeat = {11, 22};
 
 // What comes in t is read in t + 1 and there in t + 2; the next line a clock after the first was
 // used.
-TEST(TextureRtlFillBuffer, ALineIsThereTwoClocksAfterItsBeat) {
+TEST(TextureRtlFillBuffer, ALineIsThereTwoCyclesAfterItsBeat) {
   FillBuffer buffer("buffer", 4, 64);
   FillBuffer::Reader lines = buffer.reader();
-  const Cycle there = 10 + FillBuffer::datasheet().latency.clocks;
+  const Cycle there = 10 + FillBuffer::datasheet().latency.cycles;
   for (int i = 0; i < 3; ++i) buffer.reserve(1);
   buffer.fill(10, 0, 0, kBeat, true);
   lines.read_ahead(10);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The FilterPipeline alone: clocks, stalls, resets and ports, and fragments without a texture.
+// The FilterPipeline alone: cycles, stalls, resets and ports, and fragments without a texture.
 // Other colours are compared in equivalence_test.cpp.
 #include "rtl_model/texture/filter_pipeline.h"
 
@@ -13,10 +13,10 @@ using namespace rtl::texture;
 using spec::texture::Format;
 using testing::ElementsAre;
 
-spec::texture::Rules rules(spec::texture::Kernel kernel = spec::texture::Kernel::kBox,
+spec::texture::Configuration configuration(spec::texture::Kernel kernel = spec::texture::Kernel::kBox,
                            spec::texture::CountRule count = spec::texture::CountRule::kFloor,
                            spec::texture::SrgbOutput output = spec::texture::SrgbOutput::kLinear) {
-  spec::texture::Rules r;
+  spec::texture::Configuration r;
   r.kernel = kernel;
   r.count = count;
   r.srgb_output = output;
@@ -24,7 +24,7 @@ spec::texture::Rules rules(spec::texture::Kernel kernel = spec::texture::Kernel:
 }
 
 struct FilterBench {
-  explicit FilterBench(const spec::texture::Rules& built = rules())
+  explicit FilterBench(const spec::texture::Configuration& built = configuration())
       : unit("unit", clock, built, probe) {
     unit.texels_in(ends.in);
     unit.colours_out(ends.out);
@@ -56,19 +56,19 @@ std::array<std::uint32_t, 4> grey(std::uint32_t a, std::uint32_t b, std::uint32_
 
 // The builds whose stages differ: codes are written in a ninth stage, and weights of any count come
 // from a ROM.
-class FilterBuild : public testing::TestWithParam<spec::texture::Rules> {
+class FilterBuild : public testing::TestWithParam<spec::texture::Configuration> {
  protected:
   FilterBench b{GetParam()};
   const Cycle latency = [] {
     spec::texture::Parameters p;
-    static_cast<spec::texture::Rules&>(p) = GetParam();
-    return FilterPipeline::datasheet(p).latency.clocks;
+    static_cast<spec::texture::Configuration&>(p) = GetParam();
+    return FilterPipeline::datasheet(p).latency.cycles;
   }();
 };
 INSTANTIATE_TEST_SUITE_P(
     TextureRtl, FilterBuild,
-    testing::Values(rules(), rules(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny),
-                    rules(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
+    testing::Values(configuration(), configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny),
+                    configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
                           spec::texture::SrgbOutput::kEncoded)));
 
 // Weight 0 for each sample, whatever its texels are.
@@ -140,15 +140,15 @@ TEST(TextureRtlFilter, ResetForgetsPartialSums) {
 
 // A single request in whichever stage it is.
 TEST_P(FilterBuild, ResetForgetsEveryStage) {
-  for (Cycle clocks = 1; clocks <= latency; ++clocks) {
+  for (Cycle cycles = 1; cycles <= latency; ++cycles) {
     b.add(request(Format::kSrgb8A8, grey(200, 0, 0, 0)));
-    b.clock.run(clocks);
+    b.clock.run(cycles);
     b.clock.set_reset_n(false);
     b.clock.run(1);
     b.clock.set_reset_n(true);
     b.probe.reset();
     b.clock.run(20);
-    EXPECT_TRUE(b.ends.sink.taken.empty()) << clocks;
+    EXPECT_TRUE(b.ends.sink.taken.empty()) << cycles;
   }
 }
 
@@ -203,7 +203,7 @@ TEST(TextureRtlFilterSrgb, IsReadForCodedTexelsOnly) {
 // The other tables: as many ports as are used, and none before its clock.
 struct WeightBench : FilterBench {
   WeightBench()
-      : FilterBench(rules(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
+      : FilterBench(configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
                           spec::texture::SrgbOutput::kEncoded)) {
     add(token);
     clock.run(2);

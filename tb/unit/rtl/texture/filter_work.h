@@ -28,7 +28,7 @@ struct FilterWork {
   std::vector<spec::texture::Colour> colours;
 
   using Requests = std::vector<std::array<std::uint32_t, 4>>;  // texels as stored
-  const spec::texture::Rules rules;
+  const spec::texture::Configuration configuration;
   // N samples of one or, with a level fraction, two requests each.
   void fragment(spec::texture::Format format, int samples, std::uint32_t fraction,
                 const std::function<hw::TexelQuadToken()>& request) {
@@ -38,7 +38,7 @@ struct FilterWork {
     colour.last = (colour.tag & 5) != 0;
     std::array<std::uint32_t, 4> sum{};
     for (int sample = 0; sample < samples; ++sample) {
-      const std::uint32_t weight = golden::texture::sample_weight(rules.kernel, sample, samples);
+      const std::uint32_t weight = golden::texture::sample_weight(configuration.kernel, sample, samples);
       std::array<std::array<std::uint32_t, 4>, 2> level{};
       for (std::uint32_t k = 0; k < (fraction ? 2u : 1u); ++k) {
         hw::TexelQuadToken token = request();
@@ -66,7 +66,7 @@ struct FilterWork {
                                : level[0][c]);
     }
     const bool codes = format == spec::texture::Format::kSrgb8A8 &&
-                       rules.srgb_output == spec::texture::SrgbOutput::kEncoded;
+                       configuration.srgb_output == spec::texture::SrgbOutput::kEncoded;
     for (std::size_t c = 0; c < 4; ++c)
       colour.rgba[c] = codes && c < 3 ? golden::texture::encode_result(sum[c])
                                       : golden::texture::round_result(sum[c]);
@@ -74,8 +74,8 @@ struct FilterWork {
   }
 };
 
-inline FilterWork filter_work(const spec::texture::Rules& rules) {
-  FilterWork work{.tokens = {}, .colours = {}, .rules = rules};
+inline FilterWork filter_work(const spec::texture::Configuration& configuration) {
+  FilterWork work{.tokens = {}, .colours = {}, .configuration = configuration};
   // Every value of every format, unfiltered.
   const auto plain = [&](spec::texture::Format format, std::uint32_t word) {
     work.fragment(format, 1, 0, [word] {
@@ -119,7 +119,7 @@ inline FilterWork filter_work(const spec::texture::Rules& rules) {
       return extreme ? stimuli::any_of(random, kFractions)
                      : static_cast<std::uint8_t>(random.below(256));
     };
-    const int samples = rules.count == spec::texture::CountRule::kAny
+    const int samples = configuration.count == spec::texture::CountRule::kAny
                             ? 1 + static_cast<int>(random.below(16))
                             : 1 << random.below(5);
     work.fragment(format, samples, fraction(), [&] {

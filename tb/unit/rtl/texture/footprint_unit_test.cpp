@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The FootprintUnit alone: clocks, and which of two sides with equal roots is longer. Other values
+// The FootprintUnit alone: cycles, and which of two sides with equal roots is longer. Other values
 // are compared in equivalence_test.cpp.
 #include "rtl_model/texture/footprint_unit.h"
 
@@ -37,14 +37,14 @@ TEST(TextureRtlFootprint, LatencyAndIntervalOfTheDatasheet) {
   clock.run(100);
   for (const auto& [bench, rule] :
        {std::pair{&half, FootprintRule::kHalf}, std::pair{&exact, FootprintRule::kExact}}) {
-    const std::vector<Cycle> seen = clocks_of(bench->ends.sink);
+    const std::vector<Cycle> seen = cycles_of(bench->ends.sink);
     ASSERT_EQ(seen.size(), 40u);
     // Pushed in i, taken in i + 1; a datasheet that is a clock off is noticed.
-    const auto check = [&](const rtl::Datasheet& sheet) { expect_clocks(sheet, seen, 1); };
+    const auto check = [&](const rtl::Datasheet& sheet) { expect_cycles(sheet, seen, 1); };
     expect_notices_a_clock(sheet_of(rule), &rtl::Datasheet::latency, check);
     expect_notices_a_clock(sheet_of(rule), &rtl::Datasheet::interval, check);
     // From the first token's clock to that of the last one's last stage, and not beyond.
-    const Cycle busy = 39 + sheet_of(rule).latency.clocks;
+    const Cycle busy = 39 + sheet_of(rule).latency.cycles;
     EXPECT_EQ(bench->unit.busy_cycles(), busy);
     EXPECT_EQ(bench->unit.idle_cycles(), 100 - busy);
   }
@@ -55,7 +55,7 @@ TEST(TextureRtlFootprint, DatasheetsHaveStagesFormatsAndCost) {
   for (const FootprintRule rule : {FootprintRule::kHalf, FootprintRule::kExact}) {
     const rtl::Datasheet sheet = sheet_of(rule);
     ASSERT_FALSE(sheet.stages.empty()) << title(sheet);
-    EXPECT_EQ(sheet.stages.back().clock, std::to_string(sheet.latency.clocks)) << title(sheet);
+    EXPECT_EQ(sheet.stages.back().clock, std::to_string(sheet.latency.cycles)) << title(sheet);
     EXPECT_NE(sheet.formats, "") << title(sheet);
     EXPECT_NE(sheet.cost, "") << title(sheet);
   }

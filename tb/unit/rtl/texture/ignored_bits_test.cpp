@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the texture unit is given and has no use for: bits of registers that have no field,
 // bases of levels that are not there, descriptors that nobody names, bytes of memory that are no
-// texel, and of a quad what is for the testbench. Whatever is there, colours, clocks and accesses
+// texel, and of a quad what is for the testbench. Whatever is there, colours, cycles and accesses
 // of memory are the same; and what has a meaning counts, or the noise would prove nothing.
 #include <functional>
 

@@ -58,7 +58,7 @@ class Kit : public EngineKit {
   }
   bool done() const { return bench_.source.done() && bench_.unit.idle() && bench_.colours.empty(); }
   Outcome outcome() {
-    NamedWords colours("colours"), cycles("clocks of colours");
+    NamedWords colours("colours"), cycles("cycles of colours");
     for (std::size_t i = before_; i < bench_.sink.taken.size(); ++i) {
       colours.add(bench_.sink.taken[i].token);
       cycles.add(bench_.sink.taken[i].cycle - begin_);
@@ -66,7 +66,7 @@ class Kit : public EngineKit {
     return {{colours}, {{"lines read", bench_.memory.lines_read()}}, {cycles}};
   }
   void expect_enough(Job) { EXPECT_GT(bench_.bus.read(reg::kLineFills), 20u); }
-  void reset(Cycle clocks) { bench_.reset(clocks); }
+  void reset(Cycle cycles) { bench_.reset(cycles); }
 
   // --- resets ---
   static constexpr Cycle kStep = 3;
@@ -114,7 +114,7 @@ class Kit : public EngineKit {
   }
 
   // --- register noise: garbage descriptors among it, and quads of any handle ---
-  static constexpr std::uint32_t kMostOffset = 0x1000, kClocks = 60;
+  static constexpr std::uint32_t kMostOffset = 0x1000, kCycles = 60;
   static constexpr Cycle kNoiseReset = 400;
   static constexpr int kAccesses = 200;
   static constexpr std::uint64_t kNoiseSeeds = 40;
@@ -150,7 +150,7 @@ class Kit : public EngineKit {
   }
   // An AxisUnit stands in the place of the FootprintUnit but for the axes of the paper.
   static std::vector<Drawn<Parameters>> drawn_builds() {
-    Parameters paper = stimuli::paper_rules(), deburr, largest, stored, two;
+    Parameters paper = stimuli::paper_configuration(), deburr, largest, stored, two;
     for (Parameters* p : {&paper, &deburr, &largest, &stored, &two}) p->cache_fifo_depth = 107;
     largest.cache_line_bytes = 128;
     largest.cache_bytes = rtl::texture::TagStore::kMostLines * largest.cache_line_bytes;
@@ -207,17 +207,17 @@ inline constexpr std::array<Kit::Build, 10> Kit::kBuilds = {{
     {spec::texture::Preset::kPaper, "cache.replacement=fifo"},
     {spec::texture::Preset::kPaper, "cache.replacement=random"},
     {spec::texture::Preset::kDeburr,
-     "cache.replacement=lru axes=eight axis_clocks=4 srgb_output=encoded"},
+     "cache.replacement=lru axes=eight axis_cycles=4 srgb_output=encoded"},
     {spec::texture::Preset::kDeburr,
-     "cache.replacement=fifo axes=eight axis_clocks=4 srgb_output=encoded"},
+     "cache.replacement=fifo axes=eight axis_cycles=4 srgb_output=encoded"},
     {spec::texture::Preset::kDeburr,
-     "cache.replacement=random axes=eight axis_clocks=4 srgb_output=encoded"},
+     "cache.replacement=random axes=eight axis_cycles=4 srgb_output=encoded"},
     {spec::texture::Preset::kPaper,
      "footprint=exact log2=exact count=ceil kernel=tent cache.ways=1"},
     {spec::texture::Preset::kPaper,
      "footprint=two_segment log2=corrected cache.line_bytes=32 cache.ways=8"},
     {spec::texture::Preset::kDeburr,
-     "footprint=max count=ceil count_cap=texel axis_clocks=2 cache.line_bytes=128"},
+     "footprint=max count=ceil count_cap=texel axis_cycles=2 cache.line_bytes=128"},
     {spec::texture::Preset::kDeburr,
      "footprint=quarter log2=mitchell kernel=tent spread=80 cache.line_bytes=32 cache.ways=4 "
      "cache.replacement=random"},

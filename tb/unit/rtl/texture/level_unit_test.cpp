@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The LevelUnit alone: clocks and counters. Values are compared in equivalence_test.cpp.
+// The LevelUnit alone: cycles and counters. Values are compared in equivalence_test.cpp.
 #include "rtl_model/texture/level_unit.h"
 
 #include "tb/unit/rtl/datasheets.h"
@@ -34,9 +34,9 @@ TEST(TextureRtlLevel, CountsWhatItDecides) {
   for (const int lb : {0, 6144}) ends.source.add({without, 0, 0, 0, 0, lb, lb - 8192});
   clock.run(20);
   ASSERT_EQ(ends.sink.taken.size(), 10u);
-  expect_clocks(LevelUnit::datasheet(), clocks_of(ends.sink), 1);
+  expect_cycles(LevelUnit::datasheet(), cycles_of(ends.sink), 1);
   // From the first fragment's clock to that of the last one's last stage, and not beyond.
-  const Cycle busy = 9 + LevelUnit::datasheet().latency.clocks;
+  const Cycle busy = 9 + LevelUnit::datasheet().latency.cycles;
   EXPECT_EQ(unit.busy_cycles(), busy);
   EXPECT_EQ(unit.idle_cycles(), 20 - busy);
   EXPECT_EQ(unit.two_levels.value(), 3u);

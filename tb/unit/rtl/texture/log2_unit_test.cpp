@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Log2Unit alone: clocks and ports. Values are compared in equivalence_test.cpp.
+// The Log2Unit alone: cycles and ports. Values are compared in equivalence_test.cpp.
 #include "rtl_model/texture/log2_unit.h"
 
 #include "tb/unit/rtl/datasheets.h"
@@ -46,7 +46,7 @@ TEST(TextureRtlLog2, LatencyAndIntervalOfTheDatasheet) {
     } else {
       expect_interval(sheet, taken[1].cycle - taken[0].cycle);
       // From the first fragment's clock to that of the last one's last stage, and not beyond.
-      const Cycle busy = 2 + sheet.latency.clocks;
+      const Cycle busy = 2 + sheet.latency.cycles;
       EXPECT_EQ(benches[rule]->unit.busy_cycles(), busy);
       EXPECT_EQ(benches[rule]->unit.idle_cycles(), 20 - busy);
     }

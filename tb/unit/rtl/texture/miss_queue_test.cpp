@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The MissQueue in the cache: what a line takes of its clocks, and a full queue.
+// The MissQueue in the cache: what a line takes of its cycles, and a full queue.
 #include "tb/unit/rtl/texture/cache_bench.h"
 
 namespace deburr::tb::texture_rtl::miss_queue_test {
@@ -31,8 +31,8 @@ TEST(TextureRtlMissQueue, FullQueueStallsTheTagStageAndLosesNothing) {
   EXPECT_EQ(stalls(b.cache.tag_stage, "fifo_full"), 0u);
   EXPECT_GT(stalls(b.cache.miss_queue, "fill_buffer_full"), 500u);
   // Never more lines outstanding than entries: each group of four waits for the group before it.
-  EXPECT_EQ(b.cache.memory_port.most_outstanding.value(), 4u);
-  EXPECT_EQ(b.cache.miss_queue.most_waiting.value(), 4u);
+  EXPECT_EQ(b.cache.memory_port.max_outstanding.value(), 4u);
+  EXPECT_EQ(b.cache.miss_queue.max_waiting.value(), 4u);
 }
 
 // The queue alone, with the test at both ends.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The SampleWalker alone: clocks, stalls and ports. Values are compared in equivalence_test.cpp.
+// The SampleWalker alone: cycles, stalls and ports. Values are compared in equivalence_test.cpp.
 #include "rtl_model/texture/sample_walker.h"
 
 #include "tb/unit/rtl/datasheets.h"
@@ -50,7 +50,7 @@ TEST(TextureRtlWalker, AnyCountKeepsAFragmentAClock) {
   clock.run(100);
   ASSERT_EQ(b.ends.sink.taken.size(), 60u);
   for (std::size_t i = 0; i < 60; ++i) {
-    const Cycle alone = i + 1 + sheet_of(spec::texture::CountRule::kAny).latency.clocks;
+    const Cycle alone = i + 1 + sheet_of(spec::texture::CountRule::kAny).latency.cycles;
     EXPECT_EQ(b.ends.sink.taken[i].cycle, alone < 30 ? alone : alone + 11);
     EXPECT_EQ(b.ends.sink.taken[i].token.ticket.tag, i);
   }

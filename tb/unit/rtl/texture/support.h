@@ -75,11 +75,11 @@ std::string of_one_port_more(sc_core::sc_object& root, const std::string& name) 
   return rejection([&] { Port(*found, "somebody"); });
 }
 
-using unit_bench::clocks_of, unit_bench::Ends, unit_bench::Sink, unit_bench::Source,
+using unit_bench::cycles_of, unit_bench::Ends, unit_bench::Sink, unit_bench::Source,
     unit_bench::stalls;
 
 // The clock in which the consumer of `link` can take its oldest token for the first time; kNever if
-// that does not happen within `limit` clocks. Proves "not ready at n - 1, ready at n".
+// that does not happen within `limit` cycles. Proves "not ready at n - 1, ready at n".
 template <class T>
 Cycle ready_at(ClockDomain& clock, const Link<T>& link, Cycle limit = 1000) {
   const Cycle end = clock.cycle() + limit;
@@ -99,7 +99,7 @@ inline void write_descriptor(platform::RegisterHost& bus, std::uint32_t handle,
 
 inline constexpr std::uint32_t kMemoryLatency = 10;
 
-// With `scatter`, answers come up to that many clocks later, at random, and overtake each other.
+// With `scatter`, answers come up to that many cycles later, at random, and overtake each other.
 inline platform::MemoryModelParameters memory_parameters(std::uint32_t latency,
                                                          std::uint32_t scatter) {
   platform::MemoryModelParameters p;
@@ -131,7 +131,7 @@ struct Store {
 
 // The whole unit between source and sink, by the paper's rules unless others are given.
 struct UnitBench {
-  explicit UnitBench(const spec::texture::Parameters& parameters = stimuli::paper_rules(),
+  explicit UnitBench(const spec::texture::Parameters& parameters = stimuli::paper_configuration(),
                      std::uint32_t latency = kMemoryLatency, std::uint32_t scatter = 0,
                      const sc_core::sc_time& clock_period = period())
       : clock("clock", clock_period),

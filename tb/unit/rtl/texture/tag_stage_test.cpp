@@ -52,11 +52,11 @@ TEST(TextureRtlTagStage, LatencyAndIntervalOfTheDatasheet) {
   for (int i = 0; i < 9; ++i) b.ends.source.add(in_line(0));
   b.clock.run(20);
   ASSERT_EQ(b.ends.sink.taken.size(), 9u);
-  expect_clocks(TagStage::datasheet(), clocks_of(b.ends.sink), 1);
+  expect_cycles(TagStage::datasheet(), cycles_of(b.ends.sink), 1);
 }
 
 // A line is a hit from the clock on that comes after its use; a reset forgets lines and uses.
-constexpr Cycle kFirstLookUp = 2;  // of the first request, which misses
+constexpr Cycle kFirstLookup = 2;  // of the first request, which misses
 class LineUsed : public testing::TestWithParam<Cycle> {};
 TEST_P(LineUsed, ALineIsUnderWayUntilTheWireSaysThatItIsUsed) {
   const Cycle used = GetParam();
@@ -72,10 +72,10 @@ TEST_P(LineUsed, ALineIsUnderWayUntilTheWireSaysThatItIsUsed) {
   b.line_used.drive(used + 1, false);
   b.clock.run(10);
   ASSERT_EQ(seen.size(), 4u);
-  EXPECT_EQ(seen[0], std::pair(kFirstLookUp, LookUp::kMiss));
+  EXPECT_EQ(seen[0], std::pair(kFirstLookup, LookUp::kMiss));
   for (Cycle i = 1; i < 4; ++i)
-    EXPECT_EQ(seen[i], std::pair(kFirstLookUp + i,
-                                 kFirstLookUp + i <= used ? LookUp::kMerged : LookUp::kHit));
+    EXPECT_EQ(seen[i], std::pair(kFirstLookup + i,
+                                 kFirstLookup + i <= used ? LookUp::kMerged : LookUp::kHit));
   b.clock.set_reset_n(false);
   b.clock.run(1);
   b.clock.set_reset_n(true);
@@ -87,7 +87,7 @@ TEST_P(LineUsed, ALineIsUnderWayUntilTheWireSaysThatItIsUsed) {
   EXPECT_EQ(seen[1].second, LookUp::kMerged);
 }
 INSTANTIATE_TEST_SUITE_P(TextureRtlTagStage, LineUsed,
-                         testing::Values(kFirstLookUp, kFirstLookUp + 1, kFirstLookUp + 2));
+                         testing::Values(kFirstLookup, kFirstLookup + 1, kFirstLookup + 2));
 
 // The observer sees each line once a request, in the clock of its look-up.
 TEST(TextureRtlTagStage, ShowsWhatBecameOfEachLine) {

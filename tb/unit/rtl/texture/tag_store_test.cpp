@@ -8,7 +8,7 @@ namespace {
 
 using namespace rtl::texture;
 
-TEST(TextureRtlTagStore, ReplacementRules) {
+TEST(TextureRtlTagStore, ReplacementConfiguration) {
   struct Row {
     spec::texture::Replacement rule;
     std::vector<std::uint64_t> fills;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The TexelAddresser alone: its clocks. Values are compared in equivalence_test.cpp.
+// The TexelAddresser alone: its cycles. Values are compared in equivalence_test.cpp.
 #include "rtl_model/texture/texel_addresser.h"
 
 #include "tb/unit/rtl/datasheets.h"
@@ -21,8 +21,8 @@ TEST(TextureRtlAddresser, LatencyOfTheDatasheetAndOneAClock) {
   ends.sink.hold_from = 9;
   ends.sink.hold_to = 12;
   clock.run(20);
-  const Cycle first = 1 + TexelAddresser::datasheet().latency.clocks;  // pushed in 0, taken in 1
-  EXPECT_THAT(clocks_of(ends.sink), testing::ElementsAre(first, first + 1, first + 2, 12, 13));
+  const Cycle first = 1 + TexelAddresser::datasheet().latency.cycles;  // pushed in 0, taken in 1
+  EXPECT_THAT(cycles_of(ends.sink), testing::ElementsAre(first, first + 1, first + 2, 12, 13));
   EXPECT_EQ(unit.bilinears.value(), 0u);  // their tickets are not valid
 }
 

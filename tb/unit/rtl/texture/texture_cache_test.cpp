@@ -94,9 +94,9 @@ TEST(TextureRtlCache, MissesWhileTheOutputIsHeld) {
   EXPECT_EQ(b.ends.sink.taken.size(), 1u);
   b.clock.run(20);
   b.check_data(asked);
-  std::vector<Cycle> clocks = clocks_of(b.ends.sink);
-  clocks.erase(clocks.begin());
-  EXPECT_THAT(clocks, ElementsAre(held_to, held_to + 1, held_to + 2, held_to + 3, held_to + 4));
+  std::vector<Cycle> cycles = cycles_of(b.ends.sink);
+  cycles.erase(cycles.begin());
+  EXPECT_THAT(cycles, ElementsAre(held_to, held_to + 1, held_to + 2, held_to + 3, held_to + 4));
 }
 
 // A line that is evicted before its own fill has arrived: the older request must still get it, and

@@ -81,15 +81,15 @@ void check_latency(const spec::texture::Parameters& p, Cycle expected) {
   EXPECT_EQ(b.unit.fragment_latency.count(), 8u);
   EXPECT_EQ(b.unit.fragment_latency.min(), expected);
 }
-TEST(TextureRtlUnit, LatencyOfANearestFragment) { check_latency(stimuli::paper_rules(), 30); }
+TEST(TextureRtlUnit, LatencyOfANearestFragment) { check_latency(stimuli::paper_configuration(), 30); }
 TEST(TextureRtlUnit, LatencyWithExactFootprint) {
-  spec::texture::Parameters p = stimuli::paper_rules();
+  spec::texture::Parameters p = stimuli::paper_configuration();
   p.footprint = spec::texture::FootprintRule::kExact;
   check_latency(p, 47);
 }
 TEST(TextureRtlUnit, LatencyOfThePresetDeburr) { check_latency({}, 53); }
 TEST(TextureRtlUnit, LatencyEncoded) {
-  spec::texture::Parameters p = stimuli::paper_rules();
+  spec::texture::Parameters p = stimuli::paper_configuration();
   p.srgb_output = spec::texture::SrgbOutput::kEncoded;
   check_latency(p, 31);
 }
@@ -129,18 +129,18 @@ TEST(TextureRtlUnit, WarmCacheGivesOneBilinearAClock) {
   EXPECT_EQ(b.unit.cache.miss_queue.line_fills.value(), fills);
   ASSERT_EQ(b.sink.taken.size(), warm + 200);
   EXPECT_EQ(b.bus.read(reg::kBilinears), 51u * 4 * 8);
-  // N x 2 = 8 clocks a fragment, each of them, exactly: a bilinear a clock.
+  // N x 2 = 8 cycles a fragment, each of them, exactly: a bilinear a clock.
   for (std::size_t i = warm + 1; i < b.sink.taken.size(); ++i)
     EXPECT_EQ(b.sink.taken[i].cycle - b.sink.taken[i - 1].cycle, 8u);
 }
 
 // By the project's own rules: ratio 12 : 3 is 5 samples when it is a bit above 4, each of two
-// levels; the rate is a bilinear a clock just the same. Directions measured in several clocks end
+// levels; the rate is a bilinear a clock just the same. Directions measured in several cycles end
 // at a fragment in so many.
-void check_warm(std::int32_t axis_clocks, std::int32_t long_side, Cycle clocks) {
+void check_warm(std::int32_t axis_cycles, std::int32_t long_side, Cycle cycles) {
   spec::texture::Parameters p;
   p.axes = spec::texture::Axes::kEight;
-  p.axis_clocks = axis_clocks;
+  p.axis_cycles = axis_cycles;
   UnitBench b(p);
   spec::texture::Descriptor d = linear_texture(b.memory, 64);
   d.max_anisotropy_log2 = long_side > 3 ? 4 : 0;
@@ -155,7 +155,7 @@ void check_warm(std::int32_t axis_clocks, std::int32_t long_side, Cycle clocks) 
   ASSERT_TRUE(b.finish());
   ASSERT_EQ(b.sink.taken.size(), warm + 200);
   for (std::size_t i = warm + 1; i < b.sink.taken.size(); ++i)
-    EXPECT_EQ(b.sink.taken[i].cycle - b.sink.taken[i - 1].cycle, clocks);
+    EXPECT_EQ(b.sink.taken[i].cycle - b.sink.taken[i - 1].cycle, cycles);
 }
 TEST(TextureRtlUnit, WarmCacheOfThePresetDeburr) { check_warm(1, 13, 10); }
 TEST(TextureRtlUnit, WarmCacheWithDirectionsInTime) { check_warm(4, 13, 10); }
@@ -192,7 +192,7 @@ TEST(TextureRtlUnit, FragmentCostsNTimesLevels) {
   EXPECT_EQ(b.unit.cache.tag_stage.requests.value(), b.bus.read(reg::kBilinears));
 }
 
-// A planted fault for the two tests above: when the consumer stops, the distances are not the
+// A injected fault for the two tests above: when the consumer stops, the distances are not the
 // costs.
 TEST(TextureRtlUnit, StallDelaysByItsLengthAndLosesNothing) {
   UnitBench b;
@@ -227,7 +227,7 @@ TEST(TextureRtlUnit, RulesRegisterNamesTheBuild) {
   p.axes = spec::texture::Axes::kFour;
   p.srgb_output = spec::texture::SrgbOutput::kEncoded;
   UnitBench b(p);
-  EXPECT_EQ(b.bus.read(reg::kRules),
+  EXPECT_EQ(b.bus.read(reg::kConfiguration),
             4u | 2u << 4 | 1u << 6 | 1u << 8 | 1u << 10 | 1u << 11 | 1u << 12 | 102u << 16);
 }
 
@@ -348,11 +348,11 @@ TEST(TextureRtlUnit, MemoriesCanBeBuilt) {
   ClockDomain clock("clock", period());
   spec::texture::Parameters encoded;
   encoded.srgb_output = spec::texture::SrgbOutput::kEncoded;
-  for (const auto& p : {stimuli::paper_rules(), encoded}) {
+  for (const auto& p : {stimuli::paper_configuration(), encoded}) {
     const rtl::texture::TextureUnit unit(sc_core::sc_gen_unique_name("unit"), clock, p);
     for (const rtl::MemoryBase* memory : unit.memories()) {
       EXPECT_FALSE(memory->content().empty()) << memory->name();
-      EXPECT_EQ(memory->idealised(), "") << memory->name();
+      EXPECT_EQ(memory->not_implementable(), "") << memory->name();
       if (memory->memory_kind() == rtl::MemoryKind::kFlops) {
         EXPECT_LE(memory->logical_bits(), rtl::MemoryBase::kMostFlopBits) << memory->name();
       }
@@ -360,7 +360,7 @@ TEST(TextureRtlUnit, MemoriesCanBeBuilt) {
   }
 }
 
-// Ordered as 0, the FIFO is as deep as the memory asks for; who does not know it gets 100 clocks.
+// Ordered as 0, the FIFO is as deep as the memory asks for; who does not know it gets 100 cycles.
 TEST(TextureRtlUnit, SizesTheLatencyFifo) {
   ClockDomain clock("clock", period());
   spec::texture::Parameters ordered;
@@ -405,17 +405,17 @@ TEST(TextureRtlUnit, RejectsImpossibleParameters) {
   EXPECT_THAT(error("h", [](auto& p) { p.cache_bytes = 65536; }), HasSubstr("at most 32768"));
   EXPECT_THAT(error("i", [](auto& p) { p.cache_fifo_depth = 1; }), HasSubstr("at least 2 places"));
   EXPECT_EQ(error("j", [](auto& p) { p.cache_fifo_depth = 0; }), "none");
-  EXPECT_THAT(error("k", [](auto& p) { p.axis_clocks = 3; }), HasSubstr("power of two"));
+  EXPECT_THAT(error("k", [](auto& p) { p.axis_cycles = 3; }), HasSubstr("power of two"));
   EXPECT_THAT(error("l",
                     [](auto& p) {
                       p.axes = spec::texture::Axes::kFour;
-                      p.axis_clocks = 4;
+                      p.axis_cycles = 4;
                     }),
               HasSubstr("4 directions"));
   EXPECT_THAT(error("m",
                     [](auto& p) {
                       p.axes = spec::texture::Axes::kTwo;
-                      p.axis_clocks = 2;
+                      p.axis_cycles = 2;
                     }),
               HasSubstr("at most 1 for 2 directions"));
   EXPECT_EQ(error("f",
@@ -431,7 +431,7 @@ TEST(TextureRtlUnit, RejectsImpossibleParameters) {
                     p.cache_ways = 8;
                     p.cache_fifo_depth = 2;
                     p.axes = spec::texture::Axes::kEight;
-                    p.axis_clocks = 4;
+                    p.axis_cycles = 4;
                   }),
             "none");
 }

@@ -22,7 +22,7 @@ using namespace spec::morphological;  // NOLINT: a test of these
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 // "mlaa", "smaa high".
-std::string rules_of(const FrameVector& v) {
+std::string configuration_of(const FrameVector& v) {
   const auto preset = static_cast<std::size_t>(v.preset);
   return kPresets[preset].has_qualities
              ? fmt::format("{} {}", kPresetNames[preset],
@@ -38,7 +38,7 @@ std::string frames(std::span<const FrameVector> vectors) {
   for (const FrameVector& v : vectors) {
     std::vector<std::string> row = {
         std::string(v.name), std::string(kVectorImageNames[static_cast<std::size_t>(v.image)]),
-        rules_of(v), v.settings.empty() ? "" : fmt::format("`{}`", v.settings)};
+        configuration_of(v), v.settings.empty() ? "" : fmt::format("`{}`", v.settings)};
     FrameResult::fields(v.result, [&](std::string_view title, std::uint64_t value) {
       row.push_back(title == "hash" ? hash_text(value) : std::to_string(value));
     });
@@ -49,7 +49,7 @@ std::string frames(std::span<const FrameVector> vectors) {
 
 std::string runs(std::span<const RunVector> vectors) {
   MarkdownTable table({"corners", "scale", "offset", "slope", "inverse", "shift", "span",
-                       "shares (b before, a after)"});
+                       "weights (b before, a after)"});
   for (const RunVector& v : vectors) {
     std::string corners;
     for (int i = 0; i < v.count; ++i)
@@ -60,7 +60,7 @@ std::string runs(std::span<const RunVector> vectors) {
     RunResult::fields(v.result, [&](std::string_view, std::int64_t value) {
       row.push_back(std::to_string(value));
     });
-    row.emplace_back(v.shares);
+    row.emplace_back(v.weights);
     table.row(row);
   }
   return table.text();
@@ -74,10 +74,10 @@ std::string in_rows(std::string_view drawing) {
 }
 
 std::string patterns(std::span<const PatternVector> vectors) {
-  MarkdownTable table({"frame", "quality", "rows", "shares", "taken", "hash"});
+  MarkdownTable table({"frame", "quality", "rows", "weights", "taken", "hash"});
   for (const PatternVector& v : vectors) {
     table.row({std::string(v.name), std::string(kQualityNames[static_cast<std::size_t>(v.quality)]),
-               in_rows(v.rows), std::string(v.shares), std::to_string(v.result.diagonal_pixels),
+               in_rows(v.rows), std::string(v.weights), std::to_string(v.result.diagonal_pixels),
                hash_text(v.result.hash)});
   }
   return table.text();
@@ -86,7 +86,7 @@ std::string patterns(std::span<const PatternVector> vectors) {
 std::string limits(std::span<const LimitVector> vectors) {
   MarkdownTable table({"L", "first/second of each pixel", "hash"});
   for (const LimitVector& v : vectors)
-    table.row({std::to_string(v.length), std::string(v.shares), hash_text(v.result.hash)});
+    table.row({std::to_string(v.length), std::string(v.weights), hash_text(v.result.hash)});
   return table.text();
 }
 
@@ -106,7 +106,7 @@ std::string hashes(const TableHashes& all) {
   return table.text();
 }
 
-std::string shares(std::span<const TableVector> vectors) {
+std::string weights(std::span<const TableVector> vectors) {
   MarkdownTable table({"l, r", "T(l, r)", "U(l, r)"});
   for (const TableVector& v : vectors)
     table.row({fmt::format("{}, {}", v.l, v.r), std::to_string(v.result.half),
@@ -134,7 +134,7 @@ TEST(MorphologicalVectorsPage, HasTheDrawingsOfTheGuard) {
   expect_generated(kPage, "MorphologicalVectorsPage.HasTheDrawingsOfTheGuard",
                    drawings(kGuardVectors));
   auto changed = kGuardVectors;
-  changed.back().guarded = "--- --g ---";  // the planted fault
+  changed.back().guarded = "--- --g ---";  // the injected fault
   EXPECT_NE(drawings(changed), drawings(kGuardVectors));
 }
 
@@ -157,14 +157,14 @@ TEST(MorphologicalVectorsPage, HasTheLimits) {
 TEST(MorphologicalVectorsPage, HasTheTables) {
   expect_generated(kPage, "MorphologicalVectorsPage.HasTheTables", hashes(kTableHashes));
   TableHashes changed = kTableHashes;
-  changed.mix ^= 1;  // the planted fault
+  changed.mix ^= 1;  // the injected fault
   EXPECT_NE(hashes(changed), hashes(kTableHashes));
 }
 
 TEST(MorphologicalVectorsPage, HasTheSharesOfTheTables) {
   expect_generated(kPage, "MorphologicalVectorsPage.HasTheSharesOfTheTables",
-                   shares(kTableVectors));
-  expect_table_has_each_value(kTableVectors, shares);
+                   weights(kTableVectors));
+  expect_table_has_each_value(kTableVectors, weights);
 }
 
 TEST(MorphologicalVectors, HaveNamesOfTheirOwn) {

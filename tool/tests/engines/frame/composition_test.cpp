@@ -113,8 +113,8 @@ Outcome run(const tb::SimulationOptions& options, const Given& given) {
                    frame.drawing().environment().amount().delivered,
                    counter(result, "_resolver_blended_pixels"),
                    counter(result, "_left_pixels"),
-                   counter(result, "drawing_clocks"),
-                   counter(result, "engine_clocks_bound"),
+                   counter(result, "drawing_cycles"),
+                   counter(result, "engine_cycles_bound"),
                    memory_errors};
   });
 }
@@ -165,11 +165,11 @@ tb::Json figures_of(const Given& given) {
     frame.check();
     tb::Json json = json_of(simulation);
     json["fragments"] = scene->stream().counts.fragments;
-    json["bound_of_colours"] = frame.drawing().clocks_bound();
+    json["bound_of_colours"] = frame.drawing().cycles_bound();
     const MeshStage* const mesh = std::as_const(frame).mesh();
     const RowStage* const rows = std::as_const(frame).rows();
-    json["bound_of_edges"] = mesh ? mesh->clocks_bound(48, 32) : 0;
-    json["bound_of_rows"] = rows ? rows->clocks_bound(48, 32) : 0;
+    json["bound_of_edges"] = mesh ? mesh->cycles_bound(48, 32) : 0;
+    json["bound_of_rows"] = rows ? rows->cycles_bound(48, 32) : 0;
     json["doing"] = resolved.roles.drawer().words().doing;
     return json.dump();
   }));
@@ -188,25 +188,25 @@ TEST(FrameComposition, FiguresAreOfTheWholeFrame) {
     EXPECT_EQ(work(r, "frame_buffer_bytes_read"), rows ? 4 * kPixels : 0);
     EXPECT_DOUBLE_EQ(number_at(r, "/throughput/value"), kPixels / cycles);
     const double bound = mesh ? colours + edges + smooth : std::max(colours, smooth);
-    EXPECT_EQ(work(r, mesh ? "engine_clocks_bound" : "slower_engine_clocks"), bound);
+    EXPECT_EQ(work(r, mesh ? "engine_cycles_bound" : "slower_engine_cycles"), bound);
     EXPECT_DOUBLE_EQ(number_at(r, "/throughput/bound"), kPixels / bound);
     EXPECT_LE(bound, cycles);
-    const double drawn = work(r, r["doing"].get<std::string>() + "_clocks");
+    const double drawn = work(r, r["doing"].get<std::string>() + "_cycles");
     EXPECT_GE(drawn, colours);
     double all = drawn;
     if (mesh) {
-      EXPECT_GE(work(r, "drawing_clocks"), edges);
-      all += work(r, "drawing_clocks");
+      EXPECT_GE(work(r, "drawing_cycles"), edges);
+      all += work(r, "drawing_cycles");
     }
     if (rows) {
-      EXPECT_EQ(work(r, "smoothing_clocks_by_formula"), smooth);
-      EXPECT_GE(work(r, "smoothing_clocks"), smooth);
-      all += work(r, "smoothing_clocks");
+      EXPECT_EQ(work(r, "smoothing_cycles_by_formula"), smooth);
+      EXPECT_GE(work(r, "smoothing_cycles"), smooth);
+      all += work(r, "smoothing_cycles");
     }
     if (mesh)
       EXPECT_NEAR(all, cycles, 20) << "one after the other";
     else
-      EXPECT_EQ(work(r, "overlapped_clocks"), all - cycles);
+      EXPECT_EQ(work(r, "overlapped_cycles"), all - cycles);
   }
 }
 

@@ -20,12 +20,12 @@ namespace {
 
 using testing::ElementsAre;
 
-struct Rules {
+struct Configuration {
   std::int32_t told = 0;
 };
 
 template <class Visitor>
-void describe(Rules& p, Visitor& v) {
+void describe(Configuration& p, Visitor& v) {
   v.integer("told", p.told, 0, 9, "", "What it was told.");
 }
 
@@ -40,7 +40,7 @@ class Plain : public Role {
   HandedOn needs() const override { return needs_; }
   HandedOn hands_on() const override { return hands_on_; }
   void add_parameters(ParameterSet& set) override {
-    set.add(name_, tb::ParameterKind::kRule, rules_);
+    set.add(name_, tb::ParameterKind::kRule, configuration_);
   }
   std::vector<std::string> prefixes() const override { return {name_ + "."}; }
   void apply_preset(ParameterSet&) override {}
@@ -55,7 +55,7 @@ class Plain : public Role {
     set.imply(name_ + ".told", what, why);
   }
   std::string name_;
-  Rules rules_;
+  Configuration configuration_;
 
  private:
   HandedOn needs_, hands_on_;
@@ -73,10 +73,10 @@ class Drawer final : public Plain<PictureDrawer> {
     return nullptr;
   }
   std::shared_ptr<const DrawnScene> smallest() const override { return nullptr; }
-  std::string truth_caption() const override { return ""; }
-  void prepare_truth(const DrawnScene&, const tb::RenderOptions&,
+  std::string reference_caption() const override { return ""; }
+  void prepare_reference(const DrawnScene&, const tb::RenderOptions&,
                      const RunContext&) const override {}
-  tb::Image compare_with_truth(const DrawnScene&, const tb::RenderOptions&, const tb::Image&,
+  tb::Image compare_with_reference(const DrawnScene&, const tb::RenderOptions&, const tb::Image&,
                                const tb::Image&, tb::Result&, const RunContext&) const override {
     return {};
   }

@@ -13,21 +13,21 @@ int code_of_level(int level, int bits) {
   return (2 * 255 * level + steps) / (2 * steps);
 }
 
-int level_of(const spec::posteriser::Rules& rules, int code) {
-  if (rules.rounding == Rounding::kTruncate) return code * (1 << rules.bits) / 256;
+int level_of(const spec::posteriser::Configuration& configuration, int code) {
+  if (configuration.rounding == Rounding::kTruncate) return code * (1 << configuration.bits) / 256;
   int best = 0;
-  for (int level = 1; level < 1 << rules.bits; ++level)
-    if (std::abs(code_of_level(level, rules.bits) - code) <=
-        std::abs(code_of_level(best, rules.bits) - code))
+  for (int level = 1; level < 1 << configuration.bits; ++level)
+    if (std::abs(code_of_level(level, configuration.bits) - code) <=
+        std::abs(code_of_level(best, configuration.bits) - code))
       best = level;
   return best;
 }
 
-std::vector<Tone> posterised(const spec::posteriser::Rules& rules, std::span<const Tone> picture) {
+std::vector<Tone> posterised(const spec::posteriser::Configuration& configuration, std::span<const Tone> picture) {
   std::vector<Tone> out(picture.begin(), picture.end());
   for (Tone& tone : out)
     for (std::uint8_t& code : tone.colour)
-      code = static_cast<std::uint8_t>(code_of_level(level_of(rules, code), rules.bits));
+      code = static_cast<std::uint8_t>(code_of_level(level_of(configuration, code), configuration.bits));
   return out;
 }
 

@@ -14,9 +14,9 @@ namespace deburr::golden::posteriser {
 // The code of a level.
 int code_of_level(int level, int bits);
 // The level that a code goes to.
-int level_of(const spec::posteriser::Rules& rules, int code);
+int level_of(const spec::posteriser::Configuration& configuration, int code);
 
-std::vector<spec::posteriser::Tone> posterised(const spec::posteriser::Rules& rules,
+std::vector<spec::posteriser::Tone> posterised(const spec::posteriser::Configuration& configuration,
                                                std::span<const spec::posteriser::Tone> picture);
 
 }  // namespace deburr::golden::posteriser

@@ -29,13 +29,13 @@ std::uint32_t nearest(std::uint32_t value, std::uint32_t steps) {
 Activity LevelUnit::tick(Cycle cycle) {
   if (!tones_in.can_pop(cycle)) return kIdle;
   if (!tones_out.can_push(cycle)) return kStalledDownstream;
-  const std::uint32_t rules = control_.value(reg::kRules),
-                      bits = std::clamp(reg::rules::kBits.of(rules), 1u, 8u);
+  const std::uint32_t configuration = control_.value(reg::kConfiguration),
+                      bits = std::clamp(reg::configuration::kBits.of(configuration), 1u, 8u);
   const std::uint32_t steps = (1u << bits) - 1;
   spec::posteriser::Tone tone = tones_in.take(cycle);
   const spec::posteriser::Tone before = tone;
   for (std::uint8_t& colour : tone.colour)
-    colour = static_cast<std::uint8_t>(reg::rules::kRounding.of(rules) != 0
+    colour = static_cast<std::uint8_t>(reg::configuration::kRounding.of(configuration) != 0
                                            ? nearest(colour, steps)
                                            : code(std::uint32_t{colour} >> (8 - bits), steps));
   ++pixels;

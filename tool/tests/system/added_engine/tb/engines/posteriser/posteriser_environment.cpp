@@ -84,7 +84,7 @@ PosteriserEnvironment::PosteriserEnvironment(Simulation& simulation, const Image
 
 spec::posteriser::Parameters PosteriserEnvironment::as_built() const {
   spec::posteriser::Parameters p = parameters_;
-  if (planted("wrong-rule")) p.bits = std::max(1, p.bits - 1);
+  if (injected("wrong-rule")) p.bits = std::max(1, p.bits - 1);
   return p;
 }
 

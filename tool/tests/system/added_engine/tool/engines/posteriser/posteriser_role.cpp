@@ -40,7 +40,7 @@ class PosteriserStage final : public RowStage {
   Image expected_frame() const override { return environment_.golden_frame(); }
   tb::Latency latency() const override { return {}; }
   std::string_view last_unit() const override { return "posteriser_levels"; }
-  std::uint64_t clocks_bound(int width, int height) const override {
+  std::uint64_t cycles_bound(int width, int height) const override {
     return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   }
   std::vector<tb::Figure> work_figures() const override { return {}; }

@@ -14,7 +14,7 @@ using spec::posteriser::Tone;
 
 class Kit : public EngineKit {
  public:
-  using Build = spec::posteriser::Rules;
+  using Build = spec::posteriser::Configuration;
   static constexpr std::array<Build, 3> kBuilds = {{{1, spec::posteriser::Rounding::kTruncate},
                                                     {3, spec::posteriser::Rounding::kNearest},
                                                     {8, spec::posteriser::Rounding::kNearest}}};
@@ -40,17 +40,17 @@ class Kit : public EngineKit {
   }
   bool done() const { return ends_.source.done() && engine_.idle() && ends_.out.empty(); }
   Outcome outcome() {
-    NamedWords tones("tones"), clocks("clocks of tones");
+    NamedWords tones("tones"), cycles("cycles of tones");
     for (std::size_t i = before_; i < ends_.sink.taken.size(); ++i) {
       tones.add(ends_.sink.taken[i].token);
-      clocks.add(ends_.sink.taken[i].cycle - begin_);
+      cycles.add(ends_.sink.taken[i].cycle - begin_);
     }
-    return {{tones}, {}, {clocks}};
+    return {{tones}, {}, {cycles}};
   }
   void expect_enough(Job) { EXPECT_GE(bus_.read(reg::kPixels), 40u); }
-  void reset(rtl::Cycle clocks) {
+  void reset(rtl::Cycle cycles) {
     clock_.set_reset_n(false);
-    clock_.run(clocks);
+    clock_.run(cycles);
     clock_.set_reset_n(true);
   }
 
@@ -59,7 +59,7 @@ class Kit : public EngineKit {
   void spoil() {
     start(Job::kBroken);
     clock_.run(5);
-    bus_.write(reg::kRules, 0);  // while it is busy
+    bus_.write(reg::kConfiguration, 0);  // while it is busy
     EXPECT_TRUE(clock_.run_until([this] { return done(); }, 200));
     EXPECT_EQ(bus_.read(reg::kStatus),
               reg::status::kIdle.mask() | reg::status::kWrittenWhileBusy.mask());
@@ -68,7 +68,7 @@ class Kit : public EngineKit {
   }
 
   // --- register noise ---
-  static constexpr std::uint32_t kMostOffset = 0x20, kClocks = 20;
+  static constexpr std::uint32_t kMostOffset = 0x20, kCycles = 20;
   static constexpr rtl::Cycle kNoiseReset = 1;
   static constexpr int kAccesses = 60;
   static constexpr std::uint64_t kNoiseSeeds = 20;

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/morphological/blend/descriptor_store.h"
+
+#include <algorithm>
+
+#include "rtl_model/morphological/blend/table_weights.h"
+
+namespace deburr::rtl::morphological {
+namespace {
+
+constexpr std::uint32_t kSpanBits = 12, kCoordinateBits = 13, kLengthBits = 12;
+// t S4.24 and growth U2.24, inverse, span, two sides.
+constexpr std::uint32_t kDescriptorBits = 29 + 26 + 24 + kSpanBits + 4;
+constexpr std::uint32_t kCornerBits = 4 + 2;  // far bits, part
+constexpr std::uint32_t kLearnedBits = 1;     // has no line: part, shape, classes in its place
+// Row, odd column, length.
+constexpr std::uint32_t kRowMarkBits = kCoordinateBits + 1 + kLengthBits;
+// Start, length up to R.
+constexpr std::uint32_t kColumnMarkBits = kCoordinateBits + 8;
+
+// Is slot a before slot b? Low bits of both, at most 2^14 apart.
+bool before(std::uint32_t a, std::uint32_t b) { return (a - b) & ((kSlotMask + 1) / 2); }
+
+bool has_crossings(const spec::morphological::Parameters& p) {
+  return p.ends == spec::morphological::Ends::kCrossings;
+}
+
+std::uint32_t descriptor_bits(const spec::morphological::Parameters& p) {
+  return kDescriptorBits + (p.round_corners ? kCornerBits : 0) +
+         (p.area == spec::morphological::AreaSource::kLearned ? kLearnedBits : 0);
+}
+
+MemoryShape axis_shape(std::size_t words, std::size_t columns, std::size_t banks,
+                       const char* content) {
+  return {.words = words,
+          .write_ports = static_cast<std::uint32_t>(banks),
+          // A record may end in the clock in which the walk comes by: it is too late for that beat.
+          .read_during_write = ReadDuringWrite::kOldWord,
+          .banks = static_cast<std::uint32_t>(banks),
+          .separate_banks = banks > 1,
+          .content = content,
+          .columns = columns};
+}
+
+// A read of a beat.
+MemoryShape marks_shape(MemoryShape shape, std::uint32_t bits) {
+  shape.word_bits = bits;
+  shape.span = shape.banks;
+  return shape;
+}
+
+// A read a bank.
+MemoryShape descriptors_shape(MemoryShape shape, std::uint32_t bits) {
+  shape.word_bits = bits;
+  shape.read_ports = shape.banks;
+  return shape;
+}
+
+}  // namespace
+
+AxisDescriptors::AxisDescriptors(const std::string& axis, const MemoryShape& shape, std::uint32_t mark_bits,
+                         std::uint32_t descriptor_bits)
+    : banks_(shape.banks),
+      marks_((axis + "_marks").c_str(), marks_shape(shape, mark_bits)),
+      descriptors_((axis + "_descriptors").c_str(), descriptors_shape(shape, descriptor_bits)),
+      mark_(shape.words + std::size_t{2} * spec::morphological::kMaxLanes) {
+  for (std::size_t bank = 0; bank < banks_; ++bank) {
+    const std::string user = "bank " + std::to_string(bank);
+    read_.emplace_back(descriptors_, user);
+    write_marks_.emplace_back(marks_, user);
+    write_.emplace_back(descriptors_, user);
+  }
+}
+
+void AxisDescriptors::write(Cycle cycle, std::size_t place, const Mark& mark,
+                        const StoredDescriptor& descriptor) {
+  const std::size_t bank = bank_of(place);
+  write_marks_[bank].write(cycle, place);
+  mark_[place] = mark;
+  write_[bank].write(cycle, place, descriptor);
+}
+
+void AxisDescriptors::clear_marks(Cycle cycle, std::size_t place) {
+  for (std::size_t bank = 0; bank < banks_; ++bank) {
+    write_marks_[bank].write(cycle, place + bank);
+    mark_[place + bank] = {};
+  }
+}
+
+DescriptorStore::DescriptorStore(const sc_core::sc_module_name& name,
+                         const spec::morphological::Parameters& p, std::size_t columns,
+                         Counters counters)
+    : sc_module(name),
+      lanes_(static_cast<std::size_t>(built_lanes(p))),
+      ends_(has_table(p)),
+      shapes_(ends_ || p.round_corners),
+      pair_bits_(has_crossings(p) ? 0 : 1),
+      entry_bits_(has_crossings(p) ? 1 : 0),
+      pairs_(columns >> pair_bits_),
+      row_("row",
+           axis_shape(2 * pairs_, static_cast<std::size_t>(p.line_pixels),
+                      std::max<std::size_t>(1, lanes_ >> pair_bits_),
+                      has_crossings(p) ? "a horizontal record a column, two rows"
+                                       : "a horizontal record a pair of columns, two rows"),
+           kRowMarkBits, descriptor_bits(p)),
+      column_("column",
+              axis_shape(columns << entry_bits_, static_cast<std::size_t>(p.line_pixels),
+                         lanes_ << entry_bits_,
+                         has_crossings(p) ? "two vertical records a column"
+                                          : "a vertical record a column"),
+              kColumnMarkBits, descriptor_bits(p)),
+      counters_(counters) {}
+
+std::size_t DescriptorStore::place(const AxisDescriptors& axis, const LineToken& token) const {
+  const spec::morphological::RunDescriptor& run = token.line.run;
+  if (&axis == &row_) return row_place<false>(run.line, run.start);
+  return (std::size_t{run.line} << entry_bits_) + token.entry;
+}
+
+// At the entrance: behind their slots, one a bank.
+bool DescriptorStore::enter(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisDescriptors& axis,
+                        Lines& under_way) {
+  std::uint32_t taken = 0;  // banks
+  for (std::size_t lane = 0; lane < lanes_; ++lane) {
+    In<LineToken>& in = lines[lane];
+    if (!in.can_pop(cycle)) continue;
+    const LineToken& token = in.front(cycle);
+    // What the slot has still to read here may be in the same place.
+    if (!before(token.slot, passed_)) continue;
+    const std::uint32_t bank = 1u << axis.bank_of(place(axis, token));
+    if (taken & bank) {
+      ++counters_.bank_conflicts;
+      continue;
+    }
+    taken |= bank;
+    under_way.entered[under_way.entered_count++] = token;
+    in.pop(cycle);
+  }
+  return taken != 0;
+}
+
+// With a table: t(0) is there, the ends follow.
+void DescriptorStore::measure_lines() {
+  for (Lines* lines : {&row_lines_, &column_lines_}) {
+    std::copy_n(lines->entered.begin(), lines->entered_count, lines->measured.begin());
+    lines->measured_count = lines->entered_count;
+    lines->entered_count = 0;
+  }
+}
+
+// The last of their stages.
+bool DescriptorStore::store_lines(Cycle cycle, const FrameConfiguration& configuration, Out<FinishToken>& finished) {
+  if (!finished.can_push(cycle)) return false;
+  FinishToken token{};
+  const auto store_all = [&](AxisDescriptors& axis, Lines& under_way) {
+    const auto& lines = ends_ ? under_way.measured : under_way.entered;
+    std::size_t& count = ends_ ? under_way.measured_count : under_way.entered_count;
+    for (std::size_t i = 0; i < count; ++i) {
+      store(cycle, configuration, axis, lines[i]);
+      // Its slot row is the one that passes here, or the one before that.
+      ++token.count[odd_row_ != before(lines[i].slot, row_begin_)];
+    }
+    count = 0;
+  };
+  store_all(row_, row_lines_);
+  store_all(column_, column_lines_);
+  finished.push(cycle, token);
+  return true;
+}
+
+void DescriptorStore::store(Cycle cycle, const FrameConfiguration& configuration, AxisDescriptors& axis,
+                        const LineToken& token) {
+  const spec::morphological::LineDescriptor& line = token.line;
+  if (observer) observer(line);
+  ++counters_.descriptors;
+  StoredDescriptor descriptor;
+  descriptor.t = (std::int64_t{line.shift} << (spec::morphological::kRecipFractionBits - 1)) -
+             std::int64_t{line.offset} * line.slope;
+  descriptor.growth = static_cast<std::uint32_t>(line.scale) * line.slope;
+  descriptor.inverse = line.inverse;
+  if (configuration.table) TableWeights::set_ends(descriptor, line.run.endless);
+  if (shapes_ || line.learned) {
+    descriptor.shape = line.run.shape;
+    descriptor.far = line.run.far;
+    descriptor.part = line.run.part;
+  }
+  descriptor.learned = line.learned;
+  descriptor.start_class = line.start_class;
+  descriptor.end_class = line.end_class;
+  descriptor.span = line.span;
+  descriptor.before = line.before;
+  descriptor.after = line.after;
+  axis.write(cycle, place(axis, token), {line.run.start, line.run.length, line.run.line}, descriptor);
+}
+
+void DescriptorStore::clear_marks(Cycle cycle, const Slot& slot) {
+  const std::size_t x = slot.beat * lanes_;
+  row_.clear_marks(cycle, row_place<false>(slot.row, x));
+  if (slot.row == 0) column_.clear_marks(cycle, x << entry_bits_);
+}
+
+void DescriptorStore::reset() {
+  for (Lines* lines : {&row_lines_, &column_lines_})
+    lines->entered_count = lines->measured_count = 0;
+  passed_ = row_begin_ = 0;
+  odd_row_ = false;
+}
+
+Datasheet DescriptorStore::datasheet(const spec::morphological::Parameters& p) {
+  Datasheet sheet = {
+      .unit = "DescriptorStore",
+      .does = "Keeps the records of both axes where the raster finds them.",
+      .latency = {2},
+      .interval = {1, "1 a bank"},
+      .stages = {{"1", "choice of a line a bank, two products", "24 x 24 multiply"},
+                 {"2", "t at the first edge, store"}},
+      .formats = "t S4.24, growth U2.24, inverse U12.12; with a table a, b S13 in place of both.",
+      .cost =
+          "an axis and lane: two multipliers 24 x 24, with a table two 18 x 24 more. row_marks and "
+          "row_descriptors, two rows of pairs of columns (with crossings of columns); column_marks and "
+          "column_descriptors, a word a column (with crossings two). Each bank 1R1W: marks are read a "
+          "beat at a time, records one a bank."};
+  if (!has_table(p)) return sheet;
+  sheet.variant = "with a table";
+  sheet.latency = {3};
+  sheet.stages = {{"1", "choice of a line a bank, two products", "24 x 24 multiply"},
+                  {"2", "t at the first edge"},
+                  {"3", "a and b, store", "two 18 x 24 multiplies"}};
+  return sheet;
+}
+
+}  // namespace deburr::rtl::morphological

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/morphological/blend/table_weights.h"
+
+#include <algorithm>
+
+namespace deburr::rtl::morphological {
+
+TableWeights::TableWeights(const sc_core::sc_module_name& name,
+                         const spec::morphological::Parameters& p)
+    : sc_module(name), table_(p.area, p.area_values, built_lanes(p)) {}
+
+void TableWeights::set_ends(StoredDescriptor& descriptor, std::uint8_t endless) {
+  constexpr std::int64_t kHalf = std::int64_t{1} << (spec::morphological::kRecipFractionBits - 1);
+  // S5.12, above the line's lower end.
+  const std::int64_t height = (descriptor.t + kHalf + 2048) >> 12;
+  constexpr std::int32_t kFirst = -4096, kLast = 4095;  // S13
+  const auto limited = [](std::int64_t pixel) {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(pixel, kFirst, kLast));
+  };
+  const std::int64_t inverse = descriptor.inverse;
+  descriptor.set_ends(endless & 1 ? kFirst : limited(-((height * inverse + kHalf) >> 24)),
+                  endless & 2 ? kLast : limited(((4096 - height) * inverse + kHalf) >> 24));
+}
+
+void TableWeights::ask(std::size_t edge, const StoredDescriptor& descriptor, std::int32_t k) {
+  Beat* beat = pipe_.at(1);
+  if (!beat) {
+    beat = &pipe_.enter();
+    beat->asks = 0;
+  }
+  beat->asks = static_cast<std::uint8_t>(beat->asks | 1u << edge);
+  Search& search = beat->search[edge];
+  search.left = std::max(0, k - descriptor.first_end());
+  search.right = std::max(0, descriptor.last_end() - 1 - k);
+  search.query.shape = descriptor.shape;
+  search.far = descriptor.far;
+  search.span = descriptor.span;
+}
+
+// Stage 1: searches end at their limit, and an end beyond it is not seen.
+void TableWeights::cut(Cycle cycle, std::int32_t search_steps, Beat& beat) {
+  const std::int32_t most_left = 2 * search_steps - 1, most_right = most_left + 1;
+  for_each(beat, [&](std::size_t edge, Search& search) {
+    AreaTable::Query& query = search.query;
+    if (search.left > most_left) {
+      query.shape &= 0b1100;
+      search.far &= 0b1100;
+    }
+    if (search.right > most_right) {
+      query.shape &= 0b0011;
+      search.far &= 0b0011;
+    }
+    query.left = static_cast<std::uint8_t>(std::min(search.left, most_left));
+    query.right = static_cast<std::uint8_t>(std::min(search.right, most_right));
+    search.near = nearer_end(query.left, query.right);
+    table_.address_roots(cycle, edge, query);
+  });
+}
+
+// Stages 3 to 1, and the arithmetic behind them.
+void TableWeights::move_on(Cycle cycle, const FrameConfiguration& configuration, BeatWeights* weights) {
+  pipe_.move();
+  if (Beat* beat = pipe_.at(4))
+    for_each(*beat, [&](std::size_t edge, const Search& search) {
+      const AreaTable::Weights found = table_.weights(cycle, edge, search.query);
+      weights_of(*weights, edge) =
+          at_corners(configuration, {found.first, found.second, search.span}, search.far, search.near);
+    });
+  if (Beat* beat = pipe_.at(3))
+    for_each(*beat, [&](std::size_t edge, Search& search) {
+      table_.address_entries(cycle, edge, search.query);
+    });
+  if (Beat* beat = pipe_.at(2)) cut(cycle, configuration.search_steps, *beat);
+}
+
+Datasheet TableWeights::datasheet() {
+  return {
+      .unit = "TableWeights",
+      .does = "Weights of an edge by SMAA's table, by its distances to both ends of its line.",
+      .latency = {5},
+      .stages = {{"1", "k - a, b - 1 - k; limits, cut shape and far bits, addresses of `sqrt_rom`",
+                  "two 13-bit subtracts, one after the other, + choice"},
+                 {"2", "roots, addresses of `area_rom`; which end is nearer",
+                  "ROM read + 5-bit add"},
+                 {"3", "entries, differences of neighbours in l", "ROM read + 9-bit subtract"},
+                 {"4", "first interpolation", "9 x 8 multiply + 17-bit add"},
+                 {"5", "second, rounding; sides", "18 x 8 multiply + 25-bit add"}},
+      .formats = "a, b S13, distances S14, roots U4.8, entries U0.9 in eight bits, weights U0.8.",
+      .cost =
+          "an axis and lane: two reads of sqrt_rom (225 x 12), one of each area_rom (minimal: "
+          "two); three multipliers 9 x 8 and 18 x 8 for each of two values."};
+}
+
+}  // namespace deburr::rtl::morphological

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// A whole texture unit with units of hdl/ in their places: colours, line fills and registers are
+// the golden model's, and every link between the units moves in the same cycles as with SystemC
+// units.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "spec/error.h"
+#include "tb/base/forked.h"
+#include "tb/harness/stall_injector.h"
+#include "tb/system/texture_runs.h"
+
+namespace deburr::tb::counterpart_in_engine_test {
+namespace {
+
+const std::vector<std::string> kAll = {"address", "cache", "filter"};
+
+constexpr std::size_t kLinks = 6;
+// What stands outside of every unit that is replaced: only these are held, since those inside are
+// not there in both.
+constexpr std::array<const char*, kLinks> kOutside = {"quads",
+                                                      "texture.texels",
+                                                      "texture.cache.memory_requests",
+                                                      "texture.cache.memory_responses",
+                                                      "texture.texel_quads",
+                                                      "colours"};
+
+// Hashes of the cycles in which links were pushed and popped.
+class Cycles final : public rtl::Clocked {
+ public:
+  explicit Cycles(rtl::ClockDomain& clock) {
+    for (const char* name : kOutside)
+      links_.push_back({dynamic_cast<rtl::LinkBase*>(sc_core::sc_find_object(name))});
+    clock.add_after(*this);
+  }
+  std::uint64_t hash(std::size_t link) const { return links_[link].hash.value(); }
+  std::uint64_t beats(std::size_t link) const { return links_[link].link->pops(); }
+
+  rtl::Activity tick(rtl::Cycle cycle) override {
+    for (Watched& w : links_) {
+      if (w.link->pushes() != w.pushes) w.hash.add(2 * cycle);
+      if (w.link->pops() != w.pops) w.hash.add(2 * cycle + 1);
+      w.pushes = w.link->pushes();
+      w.pops = w.link->pops();
+    }
+    return rtl::kIdle;
+  }
+  void reset() override {
+    for (Watched& w : links_) w = {w.link};
+  }
+
+ private:
+  struct Watched {
+    rtl::LinkBase* link = nullptr;
+    std::uint64_t pushes = 0, pops = 0;
+    OutputHash hash{};
+  };
+  std::vector<Watched> links_;
+};
+
+struct Outcome {
+  std::uint64_t seed = 0;
+  std::uint64_t cycles = 0, colour_hash = 0, colours = 0, fills = 0, comparisons = 0,
+                mismatches = 0, stand_ins = 0;  // that have moved a beat
+  std::array<std::uint64_t, kLinks> cycles{}, beats{};
+  std::uint64_t latencies = 0;
+};
+
+// Checked by the golden model, which throws what differs.
+Outcome run(const TextureRunOptions& options, const SamplerParameters& sampler, int side,
+            const std::vector<std::string>& units, std::uint32_t stall_permille) {
+  return forked<Outcome>([&] {
+    TextureRunOptions mine = options;
+    mine.stand_ins = texture_counterparts(units, as_built(mine.texture, memory_cycles(mine)), mine.seed);
+    const TextureScene scene(picture("plane", side), sampler, 1);
+    Simulation simulation(mine);
+    TextureEnvironment environment(simulation, scene, mine);
+    simulation.elaborate(environment);
+    std::vector<std::unique_ptr<StallInjector>> stalls;
+    if (stall_permille != 0)
+      for (const char* link : kOutside)
+        stalls.push_back(std::make_unique<StallInjector>(
+            simulation.clock(),
+            StallInjector::Options{stall_permille, stall_permille, mine.seed, link}));
+    Cycles cycles(simulation.clock());
+    simulation.run();
+    environment.check();
+    Result result;
+    simulation.collect(result);
+    Outcome outcome;
+    outcome.seed = mine.seed;
+    outcome.cycles = simulation.cycles();
+    outcome.colour_hash = environment.colour_hash();
+    outcome.colours = environment.delivered();
+    outcome.fills = result.traffic_comparisons;
+    outcome.comparisons = result.comparisons;
+    outcome.mismatches = result.mismatches + result.traffic_mismatches;
+    outcome.latencies = environment.unit().fragment_latency.sum();
+    outcome.stand_ins = kAll.size() - idle_counterparts(environment.unit()).size();
+    for (std::size_t i = 0; i < kLinks; ++i)
+      outcome.cycles[i] = cycles.hash(i), outcome.beats[i] = cycles.beats(i);
+    return outcome;
+  });
+}
+
+TextureRunOptions calm(bool paper) {
+  TextureRunOptions options;
+  if (paper) options.texture = stimuli::paper_configuration();
+  return options;
+}
+TextureRunOptions storm(bool paper) {
+  TextureRunOptions options = calm(paper);
+  options.memory.latency = 20;
+  options.memory.latency_max = 300;
+  options.texture.cache_fifo_depth = 107;
+  options.seed = 3;
+  return options;
+}
+
+void expect_equal(const Outcome& model, const Outcome& counterpart, std::size_t units) {
+  const testing::ScopedTrace trace(__FILE__, __LINE__, fmt::format("seed {}", counterpart.seed));
+  EXPECT_EQ(model.stand_ins, 0u);
+  EXPECT_EQ(counterpart.stand_ins, units);
+  EXPECT_EQ(counterpart.mismatches, 0u);
+  EXPECT_GE(counterpart.comparisons, counterpart.colours);
+  EXPECT_EQ(model.colours, counterpart.colours);
+  EXPECT_EQ(model.colour_hash, counterpart.colour_hash);
+  EXPECT_EQ(model.fills, counterpart.fills);
+  EXPECT_EQ(model.cycles, counterpart.cycles);
+  EXPECT_EQ(model.latencies, counterpart.latencies);
+  for (std::size_t i = 0; i < kLinks; ++i) {
+    EXPECT_EQ(model.beats[i], counterpart.beats[i]) << kOutside[i];
+    EXPECT_EQ(model.cycles[i], counterpart.cycles[i]) << kOutside[i];
+    EXPECT_GT(model.beats[i], 0u) << kOutside[i];
+  }
+}
+
+// Each mode by both presets, one of them calm, the other one in a storm: stalls of all links
+// outside of the units, and memory that answers at random.
+class CounterpartsInEngine : public testing::TestWithParam<std::tuple<int, bool>> {};
+
+TEST_P(CounterpartsInEngine, GiveTheSameInTheSameClocks) {
+  const auto [mode, paper] = GetParam();
+  SamplerParameters sampler;
+  sampler.mode = static_cast<spec::texture::MinFilter>(mode);
+  const bool stormy = (mode % 2 == 0) == paper;
+  const TextureRunOptions options = stormy ? storm(paper) : calm(paper);
+  const std::uint32_t stalls = stormy ? 100 : 0;
+  const Outcome counterpart = run(options, sampler, 512, kAll, stalls);
+  expect_equal(run(options, sampler, 512, {}, stalls), counterpart, kAll.size());
+  EXPECT_GT(counterpart.colours, 100'000u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Texture, CounterpartsInEngine,
+                         testing::Combine(testing::Range(0, 6), testing::Bool()),
+                         [](const auto& p) {
+                           const auto mode = static_cast<std::size_t>(std::get<0>(p.param));
+                           return fmt::format("{}_{}", spec::texture::kMinFilterNames[mode],
+                                              std::get<1>(p.param) ? "paper" : "deburr");
+                         });
+
+// One unit among SystemC ones, and two.
+class SomeTwinsInEngine : public testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(SomeTwinsInEngine, GiveTheSameInTheSameClocks) {
+  const TextureRunOptions options = storm(false);
+  expect_equal(run(options, {}, 96, {}, 200), run(options, {}, 96, GetParam(), 200),
+               GetParam().size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Texture, SomeTwinsInEngine,
+                         testing::Values(std::vector<std::string>{"address"},
+                                         std::vector<std::string>{"cache"},
+                                         std::vector<std::string>{"filter"},
+                                         std::vector<std::string>{"address", "filter"}),
+                         [](const auto& p) { return fmt::format("{}", fmt::join(p.param, "_")); });
+
+// The comparison of cycles sees a memory that takes one clock more.
+TEST(TwinsInEngineFaults, AnotherClockIsSeen) {
+  TextureRunOptions later = calm(false);
+  later.memory.latency += 1;
+  later.texture.cache_fifo_depth = 107;
+  const Outcome a = run(calm(false), {}, 64, {}, 0), b = run(later, {}, 64, kAll, 0);
+  EXPECT_EQ(a.colour_hash, b.colour_hash);
+  for (const std::size_t link : {3, 4, 5}) EXPECT_NE(a.cycles[link], b.cycles[link]);
+}
+
+// ---- choosing
+
+TEST(ChooseCounterparts, AllOrSomeInTheirOrder) {
+  EXPECT_EQ(counterpart_units(""), std::vector<std::string>{});
+  EXPECT_EQ(counterpart_units("all"), kAll);
+  EXPECT_EQ(counterpart_units("filter,address"), (std::vector<std::string>{"address", "filter"}));
+  EXPECT_EQ(counterpart_units("cache,all"), kAll);
+  EXPECT_THROW(counterpart_units("address;cache"), spec::ConfigError);
+  EXPECT_THROW(counterpart_units("adress"), spec::ConfigError);
+}
+
+TEST(ChooseCounterparts, RejectsWhatTheBuildDoesNotHaveAndSaysWhatItHas) {
+  spec::texture::Parameters p;
+  p.cache_ways = 4;
+  p.cache_fifo_depth = 107;
+  EXPECT_NO_THROW(texture_counterparts({"address", "filter"}, p, 1));
+  try {
+    texture_counterparts({"address", "cache"}, p, 1);
+    FAIL();
+  } catch (const spec::ConfigError& error) {
+    const std::string text = error.what();
+    for (const char* part : {"unit cache", "cache.ways=4", "cache.ways=2", "configurations.txt"})
+      EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace deburr::tb::counterpart_in_engine_test

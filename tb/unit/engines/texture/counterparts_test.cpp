@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Choosing units in SystemVerilog, in a program that has none.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "spec/error.h"
+#include "tb/engines/texture/texture_counterparts.h"
+
+namespace deburr::tb::counterparts_test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string rejection(const std::string& units) {
+  try {
+    return std::to_string(counterpart_units(units).size());
+  } catch (const spec::ConfigError& error) {
+    return error.what();
+  }
+}
+
+TEST(TextureCounterparts, SayHowToBuildThem) {
+  EXPECT_EQ(rejection(""), "0");
+  for (const char* units : {"all", "cache", "address,filter"})
+    EXPECT_THAT(rejection(units), AllOf(HasSubstr("run.hdl"), HasSubstr("DEBURR_HDL=ON"),
+                                        HasSubstr("cmake --preset hdl")));
+}
+
+TEST(TextureCounterparts, RejectUnknownUnits) {
+  for (const char* units : {"rasteriser", "address;cache", "address,,cache", "All"})
+    EXPECT_THAT(rejection(units), HasSubstr("address, cache or filter")) << units;
+}
+
+TEST(TextureCounterparts, AreNotThereWhereTheProgramHasNone) {
+  EXPECT_FALSE(texture_counterparts({}, {}, 1));
+  EXPECT_FALSE(texture_counterparts_there_are({}, 1));
+  EXPECT_THROW(texture_counterparts({"cache"}, {}, 1), spec::ConfigError);
+}
+
+}  // namespace
+}  // namespace deburr::tb::counterparts_test

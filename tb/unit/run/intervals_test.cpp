@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Windows that do not add up are noticed, whatever is wrong with them.
+#include "tb/run/intervals.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "spec/error.h"
+
+namespace deburr::tb::intervals_test {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+Json intervals() {
+  return Json::parse(R"({"cycles": [10, 10, 5], "series": {
+    "units": {"filter": {"busy": [4, 3, 5], "idle": [6, 0, 0], "stalls": {"full": [0, 7, 0]}}},
+    "work": {"misses": [1, 2, 3]},
+    "links": {"texels": {"beats": [4, 4, 4], "occupancy": [5, 6, 7], "most": [1, 2, 2]}},
+    "ports": {"port": {"outstanding": [1, 1, 1], "most": [1, 1, 1]}}}})");
+}
+
+Json result() {
+  return Json::parse(R"({
+    "units": {"filter": {"busy": 12, "idle": 6, "stalls": {"full": 7}}},
+    "work": {"misses": 6}, "links": {"texels": {"beats": 12, "occupancy": 18, "most": 2}}})");
+}
+
+std::string complaint(const Json& of_intervals, const Json& of_run) {
+  try {
+    check_intervals(of_intervals, of_run);
+  } catch (const spec::CheckFailed& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Intervals, ThatAddUpPass) { EXPECT_EQ(complaint(intervals(), result()), ""); }
+
+TEST(Intervals, ALostCycleIsNoticed) {
+  Json wrong = intervals();
+  wrong["series"]["units"]["filter"]["idle"][1] = 1;
+  EXPECT_THAT(complaint(wrong, result()),
+              HasSubstr("units.filter accounts for 11 of the 10 cycles of window 1"));
+  Json last = intervals();
+  last["cycles"][2] = 6;
+  EXPECT_THAT(complaint(last, result()),
+              HasSubstr("units.filter accounts for 5 of the 6 cycles of window 2"));
+}
+
+TEST(Intervals, ASumThatIsNotTheRunsIsNoticed) {
+  for (const char* key : {"/series/work/misses/2", "/series/links/texels/beats/0",
+                          "/series/links/texels/occupancy/1"}) {
+    Json wrong = intervals();
+    wrong[Json::json_pointer(key)] = 100;
+    EXPECT_THAT(complaint(wrong, result()), HasSubstr("over all windows, but the run counted"));
+  }
+  // From one cause to another: each window is still whole.
+  Json wrong = intervals();
+  wrong["series"]["units"]["filter"]["busy"] = {4, 10, 5};
+  wrong["series"]["units"]["filter"]["stalls"]["full"] = {0, 0, 0};
+  EXPECT_THAT(complaint(wrong, result()), HasSubstr("units.filter.busy sums up to 19"));
+}
+
+// Whichever series, window and unit it is in: every value counts, but for those of windows alone.
+TEST(Intervals, EveryValueOfEverySeriesCounts) {
+  Json two = intervals(), run = result();
+  two["series"]["units"]["address"] = {
+      {"busy", {10, 0, 5}}, {"idle", {0, 9, 0}}, {"stalls", {{"wait", {0, 1, 0}}}}};
+  run["units"]["address"] = {{"busy", 15}, {"idle", 9}, {"stalls", {{"wait", 1}}}};
+  two["series"]["work"]["fills"] = {0, 0, 2};
+  run["work"]["fills"] = 2;
+  ASSERT_EQ(complaint(two, run), "");
+  const Json flat = two["series"].flatten();
+  int alone = 0;
+  for (const auto& [key, value] : flat.items()) {
+    Json wrong = two;
+    Json& changed = wrong["series"][Json::json_pointer(key)];
+    changed = value.get<int>() + 1;
+    if (key.starts_with("/ports/") || key.find("/most/") != std::string::npos) {
+      EXPECT_EQ(complaint(wrong, run), "") << key;
+      ++alone;
+    } else {
+      EXPECT_NE(complaint(wrong, run), "") << key;
+    }
+  }
+  EXPECT_EQ(alone, 3 + 6);
+  // Totals count as well: of each kind one that is one off.
+  for (const char* const key : {"/units/filter/idle", "/units/address/stalls/wait", "/work/fills",
+                                "/links/texels/beats", "/links/texels/occupancy"}) {
+    Json wrong = run;
+    Json& total = wrong[Json::json_pointer(key)];
+    total = total.get<int>() + 1;
+    EXPECT_THAT(complaint(two, wrong), HasSubstr("over all windows, but the run counted")) << key;
+  }
+}
+
+TEST(Intervals, AMissingIntervalIsNoticed) {
+  Json wrong = intervals();
+  wrong["series"]["work"]["misses"] = {1, 5};
+  EXPECT_THAT(complaint(wrong, result()), HasSubstr("work.misses has 2 of 3 windows"));
+}
+
+TEST(Intervals, WhatTheResultDoesNotHaveIsNoticed) {
+  Json without = result();
+  without["work"].erase("misses");
+  EXPECT_THAT(complaint(intervals(), without), HasSubstr("result.json has no work.misses"));
+}
+
+}  // namespace
+}  // namespace deburr::tb::intervals_test

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "tool/engines/texture/texture_configuration.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <string_view>
+
+#include "spec/check_build.h"
+#include "spec/error.h"
+#include "tool/run/input_configuration.h"
+
+namespace deburr::tool {
+namespace {
+
+constexpr std::string_view kTexturePrefix = "texture.";
+
+std::string source_of(const spec::texture::Parameters& values) {
+  return fmt::format("preset {}",
+                     spec::texture::kPresetNames[static_cast<std::size_t>(values.preset)]);
+}
+
+}  // namespace
+
+void apply_preset(tb::ParameterSet& set, const spec::texture::Parameters& values) {
+  const spec::texture::Parameters configuration = preset_parameters(values.preset);
+  for_each_of(values.preset, [&](std::string_view name, auto, auto) {
+    set.imply(fmt::format("{}{}", kTexturePrefix, name), spec::value_text(configuration, name),
+              source_of(values));
+  });
+}
+
+std::string preset_label(const tb::ParameterSet& set, const spec::texture::Parameters& values) {
+  return with_changes(source_of(values), set, kTexturePrefix);
+}
+
+void reject_nothing_drawn(const tb::TextureScene& scene) {
+  if (scene.stream().counts.fragments > 0) return;
+  reject_empty_picture(scene.scene(), scene.stream().width, scene.stream().height);
+}
+
+void reject_empty_lod_range(const tb::SamplerParameters& sampler) {
+  if (sampler.min_lod > sampler.max_lod)
+    throw spec::ConfigError(fmt::format(
+        "sampler.min_lod = {} is above sampler.max_lod = {}: no level of detail lies between them",
+        sampler.min_lod, sampler.max_lod));
+}
+
+void reject_unused_lookups(const tb::ParameterSet& set) {
+  if (set.find("run.line_trace")->text() == "none")
+    set.reject("run.line_trace_lookups",
+               "there is no trace without run.line_trace (--line-trace text)");
+}
+
+void reject_unused_scene(const tb::ParameterSet& set) {
+  for (const char* name :
+       {"scene.width", "scene.height", "scene.traversal", "scene.visibility", "scene.eye",
+        "scene.target", "scene.fov", "scene.roll", "sequence.frames", "sequence.motion"})
+    set.reject(name, "the fragments come from the file scene.fragments (--fragments)");
+  if (set.find("run.reference")->text() == "true")
+    throw spec::ConfigError("run.reference: the scene of a file's fragments is unknown: leave it out");
+}
+
+std::vector<Shorthand> scene_shorthands(const std::string& default_scene) {
+  std::string scenes = default_scene + " (default)";
+  for (const char* scene : {"plane", "quad", "tunnel", "object", "road", "cylinders"})
+    if (scene != default_scene) scenes += std::string(", ") + scene;
+  return {
+      {"--scene", "scene.source", scenes},
+      {"--in", "scene.source", "Mesh file instead of a scene: .obj, .gltf, .glb"},
+      {"--texture", "scene.texture", "checker, road, brick, zone_plate, ..., or an image file"},
+      {"--size", "scene.width", "Size of the picture, WxH (512x512)", "scene.height"},
+      {"--mode", "sampler.mode",
+       "Minification filter, one of GL's six, or trilinear (linear_mipmap_linear)"},
+      {"--aniso", "sampler.anisotropy", "Largest number of samples: 1, 2, 4, 8 or 16 (default)"}};
+}
+
+}  // namespace deburr::tool
